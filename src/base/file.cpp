@@ -1,0 +1,52 @@
+#include "base/file.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+#include <unistd.h>
+
+namespace panache {
+
+Result<std::string> read_file(const std::string& path) {
+  std::error_code status;
+  if (std::filesystem::is_directory(path, status)) {
+    return Error{path + ": is a folder; expected a file"};
+  }
+  std::FILE* file = std::fopen(path.c_str(), "rb");
+  if (!file) return Error{path + ": cannot be read: " + std::strerror(errno)};
+  std::string bytes;
+  char block[1 << 16];
+  size_t n;
+  while ((n = std::fread(block, 1, sizeof block, file)) > 0) bytes.append(block, n);
+  const bool failed = std::ferror(file) != 0;
+  std::fclose(file);
+  if (failed) return Error{path + ": cannot be read: " + std::strerror(errno)};
+  return bytes;
+}
+
+Result<void> write_file(const std::string& path, std::string_view bytes, bool force) {
+  namespace fs = std::filesystem;
+  std::error_code status;
+  if (fs::is_directory(path, status)) return Error{path + ": is a folder; expected a file name"};
+  if (!force && fs::exists(path, status)) {
+    return Error{path + ": exists already; --force overwrites it"};
+  }
+  const fs::path parent = fs::path(path).parent_path();
+  if (!parent.empty()) fs::create_directories(parent, status);
+
+  const std::string part = path + ".part" + std::to_string(::getpid());
+  std::FILE* file = std::fopen(part.c_str(), "wb");
+  if (!file) return Error{path + ": cannot be written: " + std::strerror(errno)};
+  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  const bool closed = std::fclose(file) == 0;
+  if (!written || !closed || std::rename(part.c_str(), path.c_str()) != 0) {
+    const std::string cause = std::strerror(errno);
+    std::remove(part.c_str());
+    return Error{path + ": cannot be written: " + cause};
+  }
+  return {};
+}
+
+}  // namespace panache

@@ -1,0 +1,59 @@
+#pragma once
+// A skeleton and its motion, as a file gave them: in the file's own units and axes.
+// What is up, how long a metre is and which joint is a left forearm is the rig's to find out.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/quat.h"
+#include "base/vec.h"
+
+namespace panache {
+
+struct Joint {
+  std::string name;            // As in the file, prefixes and blanks included.
+  int parent = -1;             // Index of the parent, smaller than the joint's own; -1 for a root.
+  Vec3 offset;                 // Rest translation from the parent, file units.
+  Quat rest;                   // Rest rotation relative to the parent; the identity in BVH.
+  bool can_rotate = false;     // The file animates its rotation.
+  bool can_translate = false;  // The file animates its translation.
+  std::vector<Vec3> ends;      // End Sites: points fixed to the joint, file units.
+};
+
+struct Skeleton {
+  std::vector<Joint> joints;  // Parents before children.
+};
+
+// One instant: per joint, the transform relative to its parent. Views; the arrays are someone else's.
+struct ConstPose {
+  std::span<const Quat> rotations;     // [joints], unit
+  std::span<const Vec3> translations;  // [joints], file units
+};
+struct Pose {
+  std::span<Quat> rotations;
+  std::span<Vec3> translations;
+  operator ConstPose() const { return {rotations, translations}; }
+};
+
+// Poses at a constant rate.
+struct Clip {
+  Skeleton skeleton;
+  double frame_time = 1.0 / 30;    // Seconds between frames, above zero.
+  int frames = 0;
+  std::vector<Quat> rotations;     // [frames][joints]
+  std::vector<Vec3> translations;  // [frames][joints]
+
+  size_t joints() const { return skeleton.joints.size(); }
+  double duration() const { return frames * frame_time; }  // Seconds.
+  ConstPose pose(int frame) const;
+  Pose pose(int frame);
+  // Makes room for `count` frames; new ones are undefined.
+  void resize(int count);
+};
+
+// The pose at `frame` (fractional, clamped to the clip): rotations along the shorter arc,
+// translations straight. Whole frames come back bit for bit. `out` has the clip's joints.
+void sample(const Clip& clip, double frame, Pose out);
+
+}  // namespace panache

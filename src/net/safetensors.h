@@ -1,0 +1,35 @@
+#pragma once
+// The safetensors container: named arrays of numbers and a table of texts.
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+
+namespace panache {
+
+struct Tensor {
+  std::vector<int64_t> shape;  // Row-major, last index fastest.
+  std::vector<float> values;   // Product of the shape.
+  bool half = false;           // Stored as 16-bit floats (F16) in the file; always float here.
+};
+
+struct TensorFile {
+  std::map<std::string, std::string> metadata;
+  std::map<std::string, Tensor> tensors;
+};
+
+// Reads a safetensors file (types F32 and F16). Every count is bounded by the bytes that are there;
+// `name` stands in front of the sentence of a failure.
+Result<TensorFile> parse_safetensors(std::string_view bytes, const std::string& name);
+
+std::string format_safetensors(const TensorFile& file);
+
+// IEEE half precision, rounded to nearest even.
+uint16_t to_half(float value);
+float from_half(uint16_t bits);
+
+}  // namespace panache
