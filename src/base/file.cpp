@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 
 #include <unistd.h>
 
@@ -14,15 +15,17 @@ Result<std::string> read_file(const std::string& path) {
   if (std::filesystem::is_directory(path, status)) {
     return Error{path + ": is a folder; expected a file"};
   }
-  std::FILE* file = std::fopen(path.c_str(), "rb");
+  // Closes the file also where the memory for its bytes runs out.
+  const auto close = [](std::FILE* open_file) { std::fclose(open_file); };
+  const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
   if (!file) return Error{path + ": cannot be read: " + std::strerror(errno)};
   std::string bytes;
+  const auto size = std::filesystem::file_size(path, status);
+  if (!status) bytes.reserve(size);
   char block[1 << 16];
   size_t n;
-  while ((n = std::fread(block, 1, sizeof block, file)) > 0) bytes.append(block, n);
-  const bool failed = std::ferror(file) != 0;
-  std::fclose(file);
-  if (failed) return Error{path + ": cannot be read: " + std::strerror(errno)};
+  while ((n = std::fread(block, 1, sizeof block, file.get())) > 0) bytes.append(block, n);
+  if (std::ferror(file.get())) return Error{path + ": cannot be read: " + std::strerror(errno)};
   return bytes;
 }
 

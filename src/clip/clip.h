@@ -25,7 +25,8 @@ struct Skeleton {
   std::vector<Joint> joints;  // Parents before children.
 };
 
-// One instant: per joint, the transform relative to its parent. Views; the arrays are someone else's.
+// One instant: per joint, the transform relative to its parent. Views; the arrays are someone
+// else's.
 struct ConstPose {
   std::span<const Quat> rotations;     // [joints], unit
   std::span<const Vec3> translations;  // [joints], file units
@@ -39,7 +40,7 @@ struct Pose {
 // Poses at a constant rate.
 struct Clip {
   Skeleton skeleton;
-  double frame_time = 1.0 / 30;    // Seconds between frames, above zero.
+  double frame_time = 1.0 / 30;  // Seconds between frames, above zero.
   int frames = 0;
   std::vector<Quat> rotations;     // [frames][joints]
   std::vector<Vec3> translations;  // [frames][joints]
@@ -53,7 +54,9 @@ struct Clip {
 };
 
 // The pose at `frame` (fractional, clamped to the clip): rotations along the shorter arc,
-// translations straight. Whole frames come back bit for bit. `out` has the clip's joints.
+// translations straight. Whole frames come back bit for bit, and so does a joint that is the same
+// in the frames on both sides. The clip has a frame at least; `out` has the clip's joints.
+// Allocates nothing.
 void sample(const Clip& clip, double frame, Pose out);
 
 }  // namespace panache

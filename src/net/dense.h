@@ -11,12 +11,13 @@ namespace panache {
 // out = y.size() = bias.size(). No argument may overlap y.
 void dense(std::span<const float> x, std::span<const float> weights, std::span<const float> bias,
            std::span<float> y) noexcept;
-// y[i] = y[i] > 0 ? y[i] : exp(y[i]) - 1, in place (ELU, Clevert et al. 2016).
+// y[i] = y[i] > 0 ? y[i] : exp(y[i]) - 1, in place (ELU, Clevert et al. 2016), to within one unit
+// in the last place. NaN stays NaN.
 void elu(std::span<float> y) noexcept;
 // y[i] += a * x[i].
 void add_scaled(float a, std::span<const float> x, std::span<float> y) noexcept;
 
-// The plain loops that the above equal bit for bit.
+// The plain loops that the above equal bit for bit (a NaN is a NaN; which one is not promised).
 namespace scalar {
 void dense(std::span<const float> x, std::span<const float> weights, std::span<const float> bias,
            std::span<float> y) noexcept;

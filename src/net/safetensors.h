@@ -26,9 +26,13 @@ struct TensorFile {
 // `name` stands in front of the sentence of a failure.
 Result<TensorFile> parse_safetensors(std::string_view bytes, const std::string& name);
 
+// The bytes of a safetensors file: tensors and metadata sorted by name (full floats before halves),
+// numbers aligned, so that the same contents always give the same bytes. Every tensor must have as
+// many values as its shape says, a shape of at most 8 sizes, and a name other than "__metadata__".
 std::string format_safetensors(const TensorFile& file);
 
-// IEEE half precision, rounded to nearest even.
+// IEEE half precision, rounded to nearest even. Finite numbers beyond the largest half become that
+// (65504) instead of infinity; infinities and NaN stay what they are.
 uint16_t to_half(float value);
 float from_half(uint16_t bits);
 

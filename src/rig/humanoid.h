@@ -1,6 +1,6 @@
 #pragma once
 // The canonical humanoid: 21 joints with the names of VRM 1.0 and glTF humanoids, and the
-// proportions of a person of 1.7 m. Metres, right-handed, Y up, facing +z, +x to its left.
+// proportions of a person of about 1.6 m. Metres, right-handed, Y up, facing +z, +x to its left.
 
 #include <array>
 #include <optional>
@@ -12,11 +12,27 @@ namespace panache {
 
 // Parents before children. The numbers are the order in model files: do not change them.
 enum class HumanJoint : int {
-  hips, spine, chest, neck, head,
-  left_shoulder, left_upper_arm, left_lower_arm, left_hand,
-  right_shoulder, right_upper_arm, right_lower_arm, right_hand,
-  left_upper_leg, left_lower_leg, left_foot, left_toes,
-  right_upper_leg, right_lower_leg, right_foot, right_toes,
+  hips,
+  spine,
+  chest,
+  neck,
+  head,
+  left_shoulder,
+  left_upper_arm,
+  left_lower_arm,
+  left_hand,
+  right_shoulder,
+  right_upper_arm,
+  right_lower_arm,
+  right_hand,
+  left_upper_leg,
+  left_lower_leg,
+  left_foot,
+  left_toes,
+  right_upper_leg,
+  right_lower_leg,
+  right_foot,
+  right_toes,
 };
 inline constexpr int kHumanJoints = 21;
 
@@ -38,17 +54,21 @@ std::optional<int> find_human_joint(std::string_view vrm_name);
 // frame, as the holder says.
 using HumanPositions = std::array<Vec3, kHumanJoints>;
 
+// The same instant with left and right exchanged: its reflection in the plane x = 0.
+HumanPositions mirrored(const HumanPositions& positions);
+
 // Proportions of the canonical body, metres.
 struct Proportions {
-  std::array<float, kHumanJoints> length;  // Distance from parent, for the limb joints and the head.
-  float leg;                               // Upper plus lower leg.
-  float torso;                             // Mid-hip to spine to chest to mid-shoulder.
-  float spine_fraction, chest_fraction;    // Where spine and chest sit on the torso, 0 to 1.
-  float half_hips, half_shoulders;         // Middle to one hip joint; middle to one shoulder joint.
-  Vec3 hips_to_mid_hip;                    // In the frame of the hips.
-  Vec3 mid_shoulder_to_neck;               // In the frame of the chest.
-  Vec3 mid_shoulder_to_left_shoulder, mid_shoulder_to_right_shoulder;
-  float toe_pitch;                         // Downward slope of ankle to toe when standing, radians.
+  // Distance from parent; used for the limb joints and the head.
+  std::array<float, kHumanJoints> length;
+  float leg;                             // Upper plus lower leg.
+  float torso;                           // Mid-hip to spine to chest to mid-shoulder.
+  float spine_fraction, chest_fraction;  // Where spine and chest sit on the torso, 0 to 1.
+  float half_hips, half_shoulders;       // Middle to one hip joint; middle to one shoulder joint.
+  Vec3 hips_to_mid_hip;                  // In the frame of the hips: x left, y up, z ahead.
+  Vec3 mid_shoulder_to_neck;             // In the frame of the chest, likewise.
+  Vec3 mid_shoulder_to_left_shoulder, mid_shoulder_to_right_shoulder;  // In the frame of the chest.
+  float toe_pitch;  // Downward slope of ankle to toe when standing, radians.
 };
 extern const Proportions kProportions;
 

@@ -8,20 +8,24 @@
 #include "base/quat.h"
 #include "base/result.h"
 #include "clip/clip.h"
+#include "rig/calibration.h"
 #include "rig/humanoid.h"
 
 namespace panache {
 
 // One instant of the user's character brought to the canonical body.
 struct BodyPose {
-  HumanPositions positions;                 // World, Y up, metres, canonical proportions, floor at 0.
-  std::array<Quat, kHumanJoints> rotations; // World rotations of the user's joints turned Y up, in
-                                            // their raw local axes: only their changes mean anything.
-                                            // A missing joint carries its nearest mapped ancestor's.
-  HumanPositions joints;                    // World positions of the user's own joints, Y up, metres
-                                            // (own proportions, scaled), floor at 0; a missing joint
-                                            // carries its nearest mapped ancestor's.
-  float facing = 0;                         // Heading about +y, radians; 0 faces +z. Not unwrapped.
+  // World, Y up, metres, canonical proportions, floor at 0.
+  HumanPositions positions;
+  // World rotations of the user's joints turned Y up, in their raw local axes: only their changes
+  // mean anything. A missing joint carries its nearest mapped ancestor's.
+  std::array<Quat, kHumanJoints> rotations;
+  // World positions of the user's own joints, Y up, metres (own proportions, scaled), above the
+  // same floor; mid-hip is that of `positions`. A missing joint carries its nearest mapped
+  // ancestor's.
+  HumanPositions joints;
+  // Heading about +y, radians; 0 faces +z. Not unwrapped.
+  float facing = 0;
 };
 
 // What a style does to one instant.
@@ -33,6 +37,13 @@ struct BodyChange {
   Vec3 translation;  // And moves by this, world, Y up, canonical metres.
 };
 
+// One line of how a skeleton was understood.
+struct JointMatch {
+  std::string human_joint;  // "leftLowerArm"
+  std::string joint;        // The skeleton's name for it; empty where it has none.
+  std::string reason;       // "next joint above leftHand", "missing", ...
+};
+
 class Rig {
  public:
   // Finds the humanoid in the skeleton of `clip`, and units, up axis, floor, first usable frame and
@@ -41,21 +52,46 @@ class Rig {
   static Result<Rig> create(const Clip& clip);
 
   // skeleton joint of each human joint, -1 where the skeleton has none.
-  const std::array<int, kHumanJoints>& joints() const { return joint_of_; }
-  // How each was found, for people ("name", "parent of leftHand", "missing", ...).
-  const std::array<std::string, kHumanJoints>& reasons() const { return reasons_; }
-  const std::string& up_axis() const { return up_axis_; }  // "+Y", "-Z", ...
-  float scale() const { return scale_; }                   // Canonical metres per file unit.
-  int first_frame() const { return first_frame_; }         // 1 where the first is a calibration pose.
+  const std::array<int, kHumanJoints>& joints() const { return mapping_.joint_of; }
+  size_t joint_count() const { return human_of_.size(); }  // Joints of the skeleton.
+  // How each was found, for people ("by its name", "next joint above leftHand", "missing", ...).
+  const std::array<std::string, kHumanJoints>& reasons() const { return mapping_.reasons; }
+  // All of the above in the order of the human joints, for showing.
+  std::vector<JointMatch> matches() const;
+  const std::string& up_axis() const { return calibration_.up_axis; }  // "+Y", "-Z", ...
+  float scale() const { return calibration_.scale; }                   // Metres per file unit.
+  float floor() const { return calibration_.floor; }                   // Its height, Y up, metres.
+  int first_frame() const { return calibration_.first_frame; }  // 1: the first is for calibration.
   const std::vector<std::string>& notes() const { return notes_; }
 
-  // The user's pose on the canonical body. Allocates nothing, never fails: finite in, finite out.
+  // The user's pose on the canonical body. Allocates nothing, never fails. A heading that the pose
+  // does not show is the last one; a pose that is not finite is read as the last one.
   void read(ConstPose pose, BodyPose& out) noexcept;
 
-  // The user's pose with `change` on it. `in` and `body` are those of the last read(), whose forward
-  // kinematics it reuses. Where the change is the identity, `out` is `in` bit for bit. Joints that are
-  // not part of the humanoid keep their local rotation. Allocates nothing, never fails.
+  // The user's pose with `change` on it. `in` and `body` are those of the last read(), whose
+  // forward kinematics it reuses. Where the change is the identity, `out` is `in` bit for bit.
+  // Joints that are not part of the humanoid, or that the file does not rotate, keep their local
+  // rotation and follow their parent. The middle between the upper legs turns in place and moves by
+  // the translation, if the hips or a joint above them can. Allocates nothing, never fails.
   void write(ConstPose in, const BodyPose& body, const BodyChange& change, Pose out) noexcept;
+
+ private:
+  Rig() = default;
+  void write_rotations(ConstPose in, Pose out) noexcept;
+  void write_translation(ConstPose in, const BodyChange& change, Pose out) noexcept;
+
+  Skeleton skeleton_;
+  Mapping mapping_;
+  Calibration calibration_;
+  std::vector<std::string> notes_;
+  std::vector<int> human_of_;  // Human joint of each skeleton joint that write() may rotate, or -1.
+  int moved_joint_ = -1;       // The skeleton joint that carries the translation, or -1.
+  BodyPose last_;              // The last finite one.
+
+  std::vector<Quat> world_rotations_;      // [joints], of the last read(), file axes.
+  std::vector<Vec3> world_translations_;   // [joints], likewise, file units.
+  std::array<Quat, kHumanJoints> deltas_;  // What write() puts on each human joint, file axes.
+  std::vector<Quat> effective_;            // [joints]: the delta that each joint has or inherits.
 };
 
 }  // namespace panache

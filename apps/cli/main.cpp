@@ -1,0 +1,76 @@
+// panache: the program. Each verb is a file of its own.
+
+#include <new>
+#include <string>
+#include <vector>
+
+#include "report.h"
+#include "style/names.h"
+#include "verbs.h"
+
+namespace panache::cli {
+namespace {
+
+// The library's own sentence for a verb that does not exist names no verb that does.
+Result<void> check_verb(const CLI::App& app, const std::string& verb) {
+  std::vector<std::string> verbs;
+  for (const CLI::App* known : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (known->get_name() == verb) return {};
+    verbs.push_back(known->get_name());
+  }
+  return Error{"there is no verb '" + verb + "'; expected " +
+               list_nearest(verb, verbs, static_cast<int>(verbs.size()))};
+}
+
+std::string one_line(std::string text) {
+  while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
+  for (char& c : text) {
+    if (c == '\n') c = ' ';
+  }
+  return text;
+}
+
+int run(int argc, char** argv) {
+  int exit_code = kDone;
+  CLI::App app(
+      "Panache gives motion a style: neutral motion in, the same motion angry, old or "
+      "proud out.",
+      "panache");
+  app.set_version_flag("--version", "panache " PANACHE_VERSION);
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(32);
+  app.footer(
+      "'panache VERB --help' tells more, with an example.\n\nExample:\n"
+      "  panache stylize walk.bvh --style old=1 -o old.bvh");
+  for (const auto add :
+       {add_stylize, add_styles, add_info, add_walker, add_strip, add_train, add_eval}) {
+    add(app, exit_code);
+  }
+  if (argc < 2) {
+    std::fputs(app.help().c_str(), stderr);
+    return kBadUsage;
+  }
+  if (argv[1][0] != '-') {
+    if (auto known = check_verb(app, argv[1]); !known) return refuse(known.error(), kBadUsage);
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help and --version.
+    const std::string verb = argv[1][0] == '-' ? "" : std::string(" ") + argv[1];
+    return refuse({one_line(error.what()) + "; see panache" + verb + " --help"}, kBadUsage);
+  }
+  return exit_code;
+}
+
+}  // namespace
+}  // namespace panache::cli
+
+int main(int argc, char** argv) {
+  try {
+    return panache::cli::run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    panache::cli::say("there is not enough memory");
+    return panache::cli::kBadInput;
+  }
+}

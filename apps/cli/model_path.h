@@ -1,0 +1,21 @@
+#pragma once
+// Where the models are that come with the program.
+
+#include <string>
+
+#include "base/result.h"
+
+namespace panache::cli {
+
+inline constexpr const char* kDefaultModel = "panache.safetensors";
+
+// The path of the shipped model called `file_name`: in share/panache/models beside an installed
+// program's folder, in models/ beside the program, or in models/ of the checkout that it was built
+// in. The sentence of a failure lists where it was looked for.
+Result<std::string> find_shipped(const std::string& file_name);
+
+// The path of the model to use: `given` (--model) if not empty, else the one that the environment
+// variable PANACHE_MODEL names, else the shipped default. Nothing is read yet.
+Result<std::string> find_model(const std::string& given);
+
+}  // namespace panache::cli

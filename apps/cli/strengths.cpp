@@ -1,0 +1,162 @@
+#include "strengths.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include <fast_float/fast_float.h>
+
+#include "base/csv.h"
+#include "clip/text_cursor.h"
+
+namespace panache::cli {
+namespace {
+
+const std::string kExpectedStrength = "expected a strength from -4 to 4";
+
+// The finite number that `text` is, whole.
+std::optional<double> parse_number(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, failure] = fast_float::from_chars(text.data(), end, value);
+  if (failure != std::errc() || stop != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::optional<float> parse_strength(std::string_view text) {
+  const std::optional<double> value = parse_number(text);
+  if (!value || *value < kLowestStrength || *value > kHighestStrength) return std::nullopt;
+  return static_cast<float>(*value);
+}
+
+// "NAME=STRENGTH" or "NAME=STRENGTH..STRENGTH".
+Result<StrengthWish> parse_style(const std::string& text, const Model& model) {
+  const size_t equals = text.find('=');
+  if (equals == std::string::npos) {
+    return Error{"--style " + text + ": expected a name and a strength, as in '" + text + "=1'"};
+  }
+  Result<int> style = model.find_style(text.substr(0, equals));
+  if (!style) return style.error();
+  const std::string value = text.substr(equals + 1);
+  const size_t dots = value.find("..");
+  const std::string begin = value.substr(0, dots);
+  const std::string end = dots == std::string::npos ? begin : value.substr(dots + 2);
+  const std::optional<float> from = parse_strength(begin), to = parse_strength(end);
+  if (!from || !to) {
+    return Error{"--style " + text + ": " + kExpectedStrength +
+                 " or a change such as '1..0', found " + panache::quoted(value)};
+  }
+  if (dots == std::string::npos) return StrengthWish{{*style, {{0, *from}}}, false};
+  return StrengthWish{{*style, {{0, *from}, {1, *to}}}, true};
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
+  return text;
+}
+
+// The styles of a table's columns, and which column holds the seconds.
+struct StrengthColumns {
+  size_t seconds = 0;
+  std::vector<int> styles;  // [columns], -1 for the seconds.
+};
+Result<StrengthColumns> read_columns(const CsvTable& table, const std::string& where,
+                                     const Model& model) {
+  StrengthColumns out;
+  out.seconds = table.columns.size();
+  for (size_t c = 0; c < table.columns.size(); ++c) {
+    const std::string name(trimmed(table.columns[c]));
+    if (std::find(table.columns.begin(), table.columns.begin() + static_cast<ptrdiff_t>(c),
+                  table.columns[c]) != table.columns.begin() + static_cast<ptrdiff_t>(c)) {
+      return Error{where + "column " + panache::quoted(name) + " stands there twice"};
+    }
+    if (name == "seconds") {
+      out.seconds = c;
+      out.styles.push_back(-1);
+      continue;
+    }
+    Result<int> style = model.find_style(name);
+    if (!style) return Error{where + style.error().message};
+    out.styles.push_back(*style);
+  }
+  if (out.seconds == table.columns.size() || out.styles.size() < 2) {
+    return Error{where + "expected the columns 'seconds' and one or more styles"};
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<std::vector<StrengthWish>> parse_styles(const std::vector<std::string>& texts,
+                                               const Model& model) {
+  std::vector<StrengthWish> wishes;
+  for (const std::string& text : texts) {
+    Result<StrengthWish> wish = parse_style(text, model);
+    if (!wish) return wish.error();
+    for (const StrengthWish& other : wishes) {
+      if (other.track.style == wish->track.style) {
+        return Error{"--style " + text +
+                     ": this style has a strength already; expected each "
+                     "style once"};
+      }
+    }
+    wishes.push_back(*std::move(wish));
+  }
+  return wishes;
+}
+
+Result<std::vector<StrengthWish>> read_strengths(const std::string& path, const Model& model) {
+  Result<CsvTable> table = read_csv(path);
+  if (!table) return table.error();
+  Result<StrengthColumns> columns = read_columns(*table, path + ":1: ", model);
+  if (!columns) return columns.error();
+  if (table->rows.empty()) return Error{path + ": expected a line of strengths, found none"};
+  std::vector<StrengthWish> wishes;
+  for (const int style : columns->styles) {
+    if (style >= 0) wishes.push_back({{style, {}}, false});
+  }
+  double before = -INFINITY;
+  for (const CsvRow& row : table->rows) {
+    const std::string where = path + ":" + std::to_string(row.line) + ": ";
+    const std::string_view time = trimmed(row.values[columns->seconds]);
+    const std::optional<double> seconds = parse_number(time);
+    if (!seconds)
+      return Error{where + "expected a number of seconds, found " + panache::quoted(time)};
+    if (*seconds < before) {
+      return Error{where + "expected seconds that rise from line to line, found " +
+                   panache::quoted(time) + " after a later time"};
+    }
+    before = *seconds;
+    size_t next = 0;
+    for (size_t c = 0; c < row.values.size(); ++c) {
+      if (columns->styles[c] < 0) continue;
+      const std::string_view cell = trimmed(row.values[c]);
+      const std::optional<float> strength = parse_strength(cell);
+      if (!strength) {
+        return Error{where + kExpectedStrength + " in column " +
+                     panache::quoted(trimmed(table->columns[c])) + ", found " +
+                     panache::quoted(cell)};
+      }
+      wishes[next++].track.points.push_back({*seconds, *strength});
+    }
+  }
+  return wishes;
+}
+
+std::vector<StrengthTrack> tracks_for(const std::vector<StrengthWish>& wishes, double first,
+                                      double last) {
+  std::vector<StrengthTrack> tracks;
+  for (const StrengthWish& wish : wishes) {
+    tracks.push_back(wish.track);
+    if (!wish.over_clip) continue;
+    for (StrengthTrack::Point& point : tracks.back().points) {
+      point.seconds = first + point.seconds * (last - first);
+    }
+  }
+  return tracks;
+}
+
+}  // namespace panache::cli

@@ -1,0 +1,24 @@
+#pragma once
+// Comma-separated tables with a header row, as spreadsheets write them.
+
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+
+namespace panache {
+
+struct CsvRow {
+  int line = 0;  // In the file, from 1.
+  std::vector<std::string> values;
+};
+struct CsvTable {
+  std::vector<std::string> columns;
+  std::vector<CsvRow> rows;
+};
+
+// Reads the table in the file at `path`. With `columns` given, rows hold just these, in this order,
+// and a missing one is an error; without, all columns of the file. Cells may be quoted.
+Result<CsvTable> read_csv(const std::string& path, const std::vector<std::string>& columns = {});
+
+}  // namespace panache

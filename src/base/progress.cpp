@@ -1,0 +1,47 @@
+#include "base/progress.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <unistd.h>
+
+namespace panache {
+namespace {
+
+std::string clock_text(double seconds) {
+  char text[32];
+  const int whole = static_cast<int>(seconds + 0.5);
+  std::snprintf(text, sizeof text, "%d:%02d", whole / 60, whole % 60);
+  return text;
+}
+
+}  // namespace
+
+Progress::Progress(std::string title)
+    : title_(std::move(title)), shown_(::isatty(STDERR_FILENO)), begin_(Clock::now()) {}
+
+Progress::~Progress() {
+  if (any_) std::fputc('\n', stderr);
+}
+
+void Progress::update(double share, const std::string& text) {
+  if (!shown_) return;
+  const std::lock_guard lock(mutex_);
+  const Clock::time_point now = Clock::now();
+  const double spent = std::chrono::duration<double>(now - begin_).count();
+  share = std::clamp(share, 0.0, 1.0);
+  // Work of under a second needs no bar, and ten pictures a second are enough.
+  if (!any_ && (spent < 1 || share == 1)) return;
+  if (any_ && share < 1 && now - drawn_ < std::chrono::milliseconds(100)) return;
+  any_ = true;
+  drawn_ = now;
+  constexpr int kWidth = 30;
+  const int full = static_cast<int>(share * kWidth);
+  const double left = share > 0 ? spent * (1 - share) / share : 0;
+  std::fprintf(stderr, "\r\033[K%s [%s%s] %3.0f %%  %s left  %s", title_.c_str(),
+               std::string(full, '#').c_str(), std::string(kWidth - full, '.').c_str(), share * 100,
+               clock_text(left).c_str(), text.c_str());
+  std::fflush(stderr);
+}
+
+}  // namespace panache

@@ -1,0 +1,38 @@
+#pragma once
+// The BVH format (Biovision Hierarchy): a tree of joints and a table of numbers.
+//
+// Conventions: a joint's rotation is the product of its rotation channels in the order in which
+// they stand, R = R(c1) R(c2) R(c3) on column vectors, degrees. Position channels take the place of
+// the OFFSET; an axis without a channel keeps the OFFSET's.
+//
+// Read is what Blender reads, and a little more: any subset of the six channels in any order on any
+// joint, any line ends, tabs, a byte order mark, exponents, names with blanks, several End Sites,
+// End Sites with names, several roots, keywords in any case, empty lines, and frames beyond the
+// announced count. A line is a frame, as in Blender; where Blender drops the surplus of a long line
+// and stops at a short one, both are refused here with their place.
+
+#include <memory>
+#include <string>
+
+#include "base/result.h"
+#include "clip/clip.h"
+#include "clip/motion_file.h"
+
+namespace panache {
+
+// What a file may not exceed, so that no file can exhaust the machine or its stack.
+inline constexpr int kBvhMaxJoints = 10'000;
+inline constexpr int kBvhMaxDepth = 1'000;
+inline constexpr double kBvhMinFrameTime = 1e-6;  // Seconds.
+
+// Reads a BVH file from its bytes; `name` stands in front of the sentence of a failure, followed by
+// line and column (bytes, both from 1).
+Result<std::unique_ptr<MotionFile>> parse_bvh(std::string text, const std::string& name);
+
+// A new BVH file for a clip that came from no BVH file: positions then Z, X, Y rotations for roots
+// and joints that translate, Z, X, Y rotations for all others, six decimals, joints depth first.
+// Angles go on from frame to frame without wraps. The translation of a joint with can_translate
+// false is its offset in the file, whatever the poses say.
+std::string format_bvh(const Clip& clip);
+
+}  // namespace panache

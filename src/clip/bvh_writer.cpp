@@ -1,0 +1,181 @@
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <string_view>
+
+#include "clip/bvh_document.h"
+#include "clip/decimal.h"
+#include "clip/text_cursor.h"
+
+namespace panache {
+namespace {
+
+// Writes frames in the manner of the file's own: its blanks, its line ends and, where nothing
+// changed, its digits.
+class BvhEncoder {
+ public:
+  explicit BvhEncoder(const BvhDocument& document)
+      : document_(document),
+        words_(numbers()),
+        source_(numbers()),
+        previous_source_(numbers()),
+        written_(numbers()),
+        changed_(numbers()) {
+    decimals_ = find_decimals();
+  }
+
+  std::string encode(const Clip& changed, std::span<const double> source_frames) {
+    const std::string_view text = document_.text;
+    const Clip& clip = document_.clip;
+    std::string out;
+    out.reserve(text.size() / static_cast<size_t>(clip.frames) *
+                    (static_cast<size_t>(changed.frames) + 1) +
+                document_.lines[0]);
+    append_head(out, changed.frames);
+    for (int i = 0; i < changed.frames; ++i) {
+      const int nearest = nearest_frame(source_frames[static_cast<size_t>(i)]);
+      split_line(nearest);
+      choose_numbers(changed.pose(i), clip.pose(nearest), i == 0);
+      append_line(out, nearest);
+      if (i + 1 < changed.frames) append_gap(out, nearest);
+    }
+    split_line(clip.frames - 1);
+    return out += text.substr(line_end_);
+  }
+
+ private:
+  size_t numbers() const { return static_cast<size_t>(document_.numbers); }
+
+  int nearest_frame(double source_frame) const {
+    const double last = document_.clip.frames - 1;
+    return source_frame > 0 ? static_cast<int>(std::lround(std::min(source_frame, last))) : 0;
+  }
+
+  // As many as the file uses. The first frame may be a rest pose of whole numbers, so a few are
+  // looked at; a float holds nothing beyond nine.
+  int find_decimals() {
+    int most = 4;
+    for (int frame = 0; frame < std::min(document_.clip.frames, 16); ++frame) {
+      split_line(frame);
+      for (const std::string_view word : words_) most = std::max(most, decimals_of(word));
+    }
+    return std::min(most, 9);
+  }
+
+  // The words and numbers of a frame of the file, and where its line ends.
+  void split_line(int frame) {
+    const size_t begin = document_.lines[static_cast<size_t>(frame)];
+    TextCursor cursor(std::string_view(document_.text).substr(begin), "");
+    for (size_t i = 0; i < numbers(); ++i) {
+      cursor.skip_blanks();
+      const size_t word = cursor.offset();
+      [[maybe_unused]] const bool number = cursor.take_number(source_[i]);
+      assert(number);  // It was read before.
+      words_[i] = std::string_view(document_.text).substr(begin + word, cursor.offset() - word);
+    }
+    cursor.skip_blanks();
+    line_end_ = begin + cursor.offset();
+  }
+
+  // Everything before the first frame, with the new count. A count that the file got wrong stays as
+  // it is while the frames do.
+  void append_head(std::string& out, int frames) const {
+    const std::string_view text = document_.text;
+    const size_t first_line = document_.lines[0];
+    if (frames == document_.clip.frames) {
+      out += text.substr(0, first_line);
+      return;
+    }
+    out += text.substr(0, document_.count_begin);
+    out += std::to_string(frames);
+    out += text.substr(document_.count_end, first_line - document_.count_end);
+  }
+
+  // Decides the numbers of a frame: the file's, in source_, or new ones.
+  void choose_numbers(ConstPose pose, ConstPose source_pose, bool first) {
+    if (first) {
+      previous_source_ = source_;
+      written_ = source_;
+    }
+    for (size_t j = 0; j < document_.channels.size(); ++j) {
+      const BvhChannels& channels = document_.channels[j];
+      const Vec3 t = pose.translations[j], s = source_pose.translations[j];
+      choose(channels.position[0], t.x == s.x, static_cast<double>(t.x));
+      choose(channels.position[1], t.y == s.y, static_cast<double>(t.y));
+      choose(channels.position[2], t.z == s.z, static_cast<double>(t.z));
+      const bool same = pose.rotations[j] == source_pose.rotations[j];
+      const EulerAngles angles =
+          same ? EulerAngles{} : near_angles(channels, pose.rotations[j].as<double>());
+      for (size_t i = 0; i < static_cast<size_t>(channels.order.count); ++i) {
+        choose(channels.rotation[i], same, angles[i]);
+      }
+    }
+    previous_source_ = source_;
+  }
+  void choose(int place, bool same, double value) {
+    if (place < 0) return;
+    const size_t i = static_cast<size_t>(place);
+    changed_[i] = !same;
+    written_[i] = same ? source_[i] : value;
+  }
+
+  // Angles for a new rotation. They are to follow the file's: they start near its numbers and from
+  // frame to frame do what these do, jumps of a whole turn included. So a wrap is where the file
+  // has one and nowhere else, even where the new rotation is half a turn from the old.
+  EulerAngles near_angles(const BvhChannels& channels, Quatd rotation) const {
+    EulerAngles near = {0, 0, 0};
+    for (size_t k = 0; k < static_cast<size_t>(channels.order.count); ++k) {
+      const size_t i = static_cast<size_t>(channels.rotation[k]);
+      near[k] = written_[i] + (source_[i] - previous_source_[i]);
+    }
+    return quat_to_euler(channels.order, rotation, near);
+  }
+
+  void append_line(std::string& out, int nearest) const {
+    size_t at = document_.lines[static_cast<size_t>(nearest)];
+    const char* const text = document_.text.data();
+    for (size_t i = 0; i < numbers(); ++i) {
+      if (!changed_[i]) continue;  // Goes with the piece that ends at the next changed number.
+      const size_t word = static_cast<size_t>(words_[i].data() - text);
+      out.append(text + at, word - at);
+      append_fixed(out, written_[i], decimals_);
+      at = word + words_[i].size();
+    }
+    out.append(text + at, line_end_ - at);
+  }
+
+  // What parts this line from the next: the file's own line end, empty lines included.
+  void append_gap(std::string& out, int nearest) const {
+    const std::string_view text = document_.text;
+    if (nearest + 1 < document_.clip.frames) {
+      const size_t next = document_.lines[static_cast<size_t>(nearest) + 1];
+      out += text.substr(line_end_, next - line_end_);
+      return;
+    }
+    // The last line may end the file; the line before the first frame cannot.
+    size_t begin = document_.lines[0];
+    const size_t end = begin--;
+    if (text[begin] == '\n' && text[begin - 1] == '\r') --begin;
+    out += text.substr(begin, end - begin);
+  }
+
+  const BvhDocument& document_;
+  std::vector<std::string_view> words_;  // [numbers] of the line in hand
+  std::vector<double> source_;           // [numbers] of the line in hand
+  std::vector<double> previous_source_;  // [numbers] of the source line of the frame before
+  std::vector<double> written_;          // [numbers] of the frame before, then of this one
+  std::vector<char> changed_;            // [numbers] 1 where written_ differs from the file's
+  size_t line_end_ = 0;                  // Of the line in hand, before its line end.
+  int decimals_ = 4;
+};
+
+}  // namespace
+
+std::string encode_bvh(const BvhDocument& document, const Clip& changed,
+                       std::span<const double> source_frames) {
+  assert(changed.joints() == document.clip.joints());
+  assert(source_frames.size() == static_cast<size_t>(changed.frames));
+  return BvhEncoder(document).encode(changed, source_frames);
+}
+
+}  // namespace panache

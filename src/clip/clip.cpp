@@ -1,0 +1,54 @@
+#include "clip/clip.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace panache {
+
+ConstPose Clip::pose(int frame) const {
+  assert(frame >= 0 && frame < frames);
+  const size_t first = static_cast<size_t>(frame) * joints();
+  return {{rotations.data() + first, joints()}, {translations.data() + first, joints()}};
+}
+
+Pose Clip::pose(int frame) {
+  assert(frame >= 0 && frame < frames);
+  const size_t first = static_cast<size_t>(frame) * joints();
+  return {{rotations.data() + first, joints()}, {translations.data() + first, joints()}};
+}
+
+void Clip::resize(int count) {
+  assert(count >= 0);
+  const size_t size = static_cast<size_t>(count) * joints();
+  rotations.resize(size);
+  translations.resize(size);
+  frames = count;
+}
+
+void sample(const Clip& clip, double frame, Pose out) {
+  assert(clip.frames > 0);
+  assert(out.rotations.size() == clip.joints() && out.translations.size() == clip.joints());
+  const double last = clip.frames - 1;
+  const double place = frame > 0 ? std::min(frame, last) : 0.0;  // Not a number counts as 0.
+  const int before = static_cast<int>(place);
+  const float t = static_cast<float>(place - before);
+  const ConstPose a = clip.pose(before);
+  if (t == 0) {
+    std::copy(a.rotations.begin(), a.rotations.end(), out.rotations.begin());
+    std::copy(a.translations.begin(), a.translations.end(), out.translations.begin());
+    return;
+  }
+  const ConstPose b = clip.pose(std::min(before + 1, clip.frames - 1));
+  for (size_t j = 0; j < clip.joints(); ++j) {
+    // a (1 - t) + a t is not always a: a joint that holds still must not tremble by a last bit, or
+    // it would lose the file's own numbers on the way out.
+    out.rotations[j] = a.rotations[j] == b.rotations[j] ? a.rotations[j]
+                                                        : nlerp(a.rotations[j], b.rotations[j], t);
+    out.translations[j] = a.translations[j] == b.translations[j]
+                              ? a.translations[j]
+                              : lerp(a.translations[j], b.translations[j], t);
+  }
+}
+
+}  // namespace panache

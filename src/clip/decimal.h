@@ -1,0 +1,20 @@
+#pragma once
+// Numbers as people write them, the same on every machine and in every locale.
+
+#include <string>
+#include <string_view>
+
+namespace panache {
+
+// Numbers in files stay within this size: it holds the solar system in neither metres nor
+// millimetres, and no sum or square of such numbers overflows a float.
+inline constexpr double kLargestNumber = 1e9;
+
+// Appends `value` with exactly `decimals` (0 to 9) digits after the point, never with an exponent
+// nor as a negative zero. What is beyond kLargestNumber is written as that, what is no number as 0.
+void append_fixed(std::string& out, double value, int decimals);
+
+// Digits after the point of `number`; 0 where it has an exponent, which says nothing about them.
+int decimals_of(std::string_view number);
+
+}  // namespace panache

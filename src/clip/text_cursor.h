@@ -1,0 +1,70 @@
+#pragma once
+// Reading words and numbers off a text, and saying where one of them is wrong.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "base/result.h"
+
+namespace panache {
+
+// A place in a text. Words are parted by blanks (space, tab, vertical tab, form feed) and line ends
+// (\n, \r\n, lone \r). Nothing but skip_space() leaves the line.
+class TextCursor {
+ public:
+  // `text` outlives the cursor; `name` stands in front of every sentence. A UTF-8 byte order mark
+  // at the start is passed over.
+  TextCursor(std::string_view text, std::string name);
+
+  size_t offset() const { return offset_; }                    // Bytes from the start.
+  size_t line_begin() const { return line_begin_; }            // Of the line of offset().
+  size_t remaining() const { return text_.size() - offset_; }  // Bytes to the end.
+  bool at_end() const { return offset_ == text_.size(); }
+  bool at_line_end() const { return at_end() || is_line_end(text_[offset_]); }
+
+  void skip_blanks() {
+    while (offset_ < text_.size() && is_blank(text_[offset_])) ++offset_;
+  }
+  // Passes blanks and line ends.
+  void skip_space();
+
+  // The word here; empty at a blank, a line end and the end.
+  std::string_view word() const;
+  // Whether the word here is `keyword`, in any case.
+  bool is_at(std::string_view keyword) const;
+  // Passes the word here if it is `keyword`, in any case.
+  bool take(std::string_view keyword);
+  // Passes `label` and the colon after it, in any case and with any blanks between the words and
+  // before the colon ("Frame Time:"); if something else is here, stays and returns false.
+  bool take_label(std::string_view label);
+  // The rest of the line without blanks around it and without a "{" as its last word.
+  std::string_view take_name();
+  // Passes the word here if it is a whole number, zero or above; saturates at 2^64 - 1.
+  bool take_count(uint64_t& value);
+  // Passes the word here if it is a finite number within kLargestNumber.
+  bool take_number(double& value);
+
+  // "NAME:LINE:COLUMN: expected EXPECTED, found ...": the word here, the end of the line or of the
+  // file.
+  Error error(const std::string& expected) const;
+  // The same where a number was expected, with the cure where there is one.
+  Error number_error(const std::string& of_what) const;
+
+  static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+  static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+
+ private:
+  std::string found() const;
+
+  std::string_view text_;
+  std::string name_;
+  size_t start_ = 0;  // 3 with a byte order mark.
+  size_t offset_ = 0;
+  size_t line_begin_ = 0;
+};
+
+// `text` in single quotes for a sentence: cut when long, bytes that are no text as \xNN.
+std::string quoted(std::string_view text);
+
+}  // namespace panache

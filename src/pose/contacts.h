@@ -1,0 +1,27 @@
+#pragma once
+// Which foot is planted, told from motion.
+
+#include <array>
+#include <vector>
+
+#include "rig/humanoid.h"
+
+namespace panache {
+
+inline constexpr int kFeet = 2;  // Left, right.
+inline constexpr std::array<HumanJoint, kFeet> kUpperLegs = {HumanJoint::left_upper_leg,
+                                                             HumanJoint::right_upper_leg};
+inline constexpr std::array<HumanJoint, kFeet> kLowerLegs = {HumanJoint::left_lower_leg,
+                                                             HumanJoint::right_lower_leg};
+inline constexpr std::array<HumanJoint, kFeet> kAnkles = {HumanJoint::left_foot,
+                                                          HumanJoint::right_foot};
+inline constexpr std::array<HumanJoint, kFeet> kToes = {HumanJoint::left_toes,
+                                                        HumanJoint::right_toes};
+
+using FootContacts = std::array<bool, kFeet>;
+
+// Contacts of a whole motion: world positions (Y up, metres, floor at 0) at `fps` frames a second.
+// A foot is planted while its toe is low and nearly at rest.
+std::vector<FootContacts> detect_contacts(const std::vector<HumanPositions>& world, double fps);
+
+}  // namespace panache

@@ -1,0 +1,55 @@
+#include "pose/features.h"
+
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "base/quat.h"
+#include "rig/canonical_skeleton.h"
+
+namespace panache {
+
+void to_body_frame(const HumanPositions& world, const Ground& ground,
+                   HumanPositions& body) noexcept {
+  const Quat to_heading = rotation_y(-ground.facing);
+  for (int j = 0; j < kHumanJoints; ++j) body[j] = rotate(to_heading, world[j] - ground.position);
+}
+
+void write_pose_numbers(PoseLayout layout, const HumanPositions& body,
+                        std::span<float> out) noexcept {
+  assert(out.size() == size_t(pose_numbers(layout) - kRootNumbers));
+  float* number = out.data();
+  if (layout == PoseLayout::positions) {
+    for (const Vec3& p : body) {
+      *number++ = p.x;
+      *number++ = p.y;
+      *number++ = p.z;
+    }
+    return;
+  }
+  std::array<Quat, kHumanJoints> frames;
+  canonical_frames(body, 0, frames);
+  for (int j = 0; j < kHumanJoints; ++j) {
+    const int parent = kHumanParent[j];
+    const Quat local = parent < 0 ? frames[j] : conjugate(frames[parent]) * frames[j];
+    const Vec3 x = rotate(local, Vec3{1, 0, 0}), y = rotate(local, Vec3{0, 1, 0});
+    for (const float v : {x.x, x.y, x.z, y.x, y.y, y.z}) *number++ = v;
+  }
+  *number = body[index(HumanJoint::hips)].y;
+}
+
+void write_root_numbers(const Ground& before, const Ground& now, double seconds,
+                        std::span<float, kRootNumbers> out) noexcept {
+  const float rate = static_cast<float>(1 / seconds);
+  const Vec3 velocity = rotate(rotation_y(-now.facing), now.position - before.position) * rate;
+  out[0] = velocity.x;
+  out[1] = velocity.z;
+  out[2] = (now.facing - before.facing) * rate;
+}
+
+float unwrap_angle(float angle, float reference) noexcept {
+  constexpr float turn = 2 * std::numbers::pi_v<float>;
+  return angle - turn * std::round((angle - reference) / turn);
+}
+
+}  // namespace panache

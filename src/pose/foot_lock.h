@@ -1,0 +1,51 @@
+#pragma once
+// Holds planted feet where they landed, with two-bone inverse kinematics. Causal: no look-ahead.
+
+#include <array>
+#include <span>
+
+#include "base/quat.h"
+#include "pose/contacts.h"
+#include "rig/humanoid.h"
+#include "rig/rig.h"
+
+namespace panache {
+
+// Turns a two-bone chain so that its end reaches for `target`.
+struct TwoBoneTurn {
+  Quat upper, lower;  // To be applied on top of the upper and the lower joint's world rotation.
+};
+// `root`, `middle`, `end`: where hip, knee and ankle (or shoulder, elbow, wrist) are; any one space.
+// A target beyond reach is approached as far as the chain's length allows; the bend stays in the
+// plane it has, or towards `bend_hint` where the chain is straight.
+TwoBoneTurn two_bone_ik(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 bend_hint) noexcept;
+
+// Positions of the user's joints with the rotations of `change` on them, in the heading frame of the
+// input: origin midway between the hip joints, axes turned so that the body faces +z. Turn and
+// translation are left out.
+Vec3 mid_hip(const BodyPose& body) noexcept;  // World.
+void changed_joints(const BodyPose& body, const BodyChange& change, HumanPositions& out) noexcept;
+
+class FootLock {
+ public:
+  void reset() noexcept { feet_ = {}; }
+  // Adjusts the legs of `change`. `contacts`: probability that each foot is planted, 0 to 1;
+  // `amount`: how much of the correction to apply, 0 (none at all) to 1; `seconds` since the last
+  // step.
+  void step(const BodyPose& body, std::span<const float, kFeet> contacts, float amount,
+            float seconds, BodyChange& change) noexcept;
+
+ private:
+  enum class State { free, planted, let_go };  // Let go: pulled too far, free until it lifts.
+  struct Foot {
+    State state = State::free;
+    Vec3 anchor;  // World position of the planted toe, metres.
+    Vec3 offset;  // World correction in force, metres; fades after release.
+  };
+  // Follows one foot whose toe, uncorrected, is at `toe` (world).
+  static void follow(Foot& foot, Vec3 toe, float contact, float seconds) noexcept;
+
+  std::array<Foot, kFeet> feet_;
+};
+
+}  // namespace panache

@@ -1,0 +1,333 @@
+#include "rig/calibration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "clip/fk.h"
+
+namespace panache {
+namespace {
+
+using enum HumanJoint;
+
+constexpr int kMostFrames = 2000;
+// A toe joint or End Site that is nearer to the ankle than this says nothing of the foot, metres.
+constexpr float kShortestToe = 0.03f;
+// Nor does one straight below the ankle: its direction's mean y in stance would be near -1.
+constexpr float kSteepestToe = -0.95f;
+// A foot counts as standing in the frames of this share in which it is lowest.
+constexpr float kStanceShare = 0.3f;
+constexpr float kFloorShare = 0.02f;
+
+// The value that a share of the numbers does not exceed, linear between neighbours.
+float quantile(std::vector<float> values, float share) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const float at = share * static_cast<float>(values.size() - 1);
+  const size_t low = static_cast<size_t>(at);
+  const size_t high = std::min(low + 1, values.size() - 1);
+  return values[low] + (values[high] - values[low]) * (at - static_cast<float>(low));
+}
+
+// The rotation that turns axis k (0 x, 1 y, 2 z) of that sign to +y.
+Quat turn_up(int k, bool negative) {
+  const float half = std::sqrt(0.5f);
+  if (k == 0) return {0, 0, negative ? -half : half, half};
+  if (k == 2) return {negative ? half : -half, 0, 0, half};
+  return negative ? Quat{1, 0, 0, 0} : Quat{};
+}
+
+float component(Vec3 v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
+
+// Some joints in some frames of the clip, in world space, file axes and units.
+class Frames {
+ public:
+  // Takes every `step`-th frame from `first` to before `end`, and of it the joints `of`, -1
+  // standing for none. A frame in which one of them is nowhere says nothing and is left out.
+  Frames(const Clip& clip, int first, int end, int step, std::span<const int> of)
+      : joints_(of.size()) {
+    std::vector<Quat> rotations(clip.joints());
+    std::vector<Vec3> translations(clip.joints());
+    for (int f = first; f < end; f += step) {
+      world_pose(clip.skeleton, clip.pose(f), {rotations, translations});
+      if (!std::all_of(of.begin(), of.end(),
+                       [&](int j) { return j < 0 || is_finite(translations[j]); })) {
+        continue;
+      }
+      for (int j : of) {
+        rotations_.push_back(j < 0 ? Quat{} : rotations[j]);
+        translations_.push_back(j < 0 ? Vec3{} : translations[j]);
+      }
+      ++count_;
+    }
+  }
+  int count() const { return count_; }
+  ConstPose world(int i) const {
+    const size_t at = static_cast<size_t>(i) * joints_;
+    return {std::span(rotations_).subspan(at, joints_),
+            std::span(translations_).subspan(at, joints_)};
+  }
+
+ private:
+  size_t joints_;
+  int count_ = 0;
+  std::vector<Quat> rotations_;
+  std::vector<Vec3> translations_;
+};
+
+bool is_rest(const Clip& clip, int frame) {
+  const ConstPose pose = clip.pose(frame);
+  for (size_t j = 0; j < clip.joints(); ++j) {
+    const Joint& joint = clip.skeleton.joints[j];
+    // The root's rotation places the character and says nothing about its pose.
+    if (joint.parent < 0) continue;
+    if (length((conjugate(joint.rest) * pose.rotations[j]).xyz()) > 1e-6f) return false;
+  }
+  return true;
+}
+
+float size_of(ConstPose world) {
+  Vec3 low = world.translations[0], high = low;
+  for (Vec3 p : world.translations) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return length(high - low);
+}
+
+// How far the root, and the joint that moves most against the root, go between two frames.
+struct Step {
+  float root = 0, pose = 0;
+};
+Step step_between(ConstPose a, ConstPose b) {
+  const Vec3 root = b.translations[0] - a.translations[0];
+  Step out{length(root), 0};
+  for (size_t j = 1; j < a.translations.size(); ++j) {
+    out.pose = std::max(out.pose, length(b.translations[j] - a.translations[j] - root));
+  }
+  return out;
+}
+
+// Whether frame 0 is no part of the motion, and the note that says so.
+int find_first_frame(const Clip& clip, std::vector<std::string>& notes) {
+  if (clip.frames >= 2 && is_rest(clip, 0) && !is_rest(clip, 1)) {
+    notes.push_back("the first frame is the rest pose and left out");
+    return 1;
+  }
+  constexpr int kLooked = 41;
+  std::vector<int> all(clip.joints());
+  std::iota(all.begin(), all.end(), 0);
+  const Frames frames(clip, 0, std::min(clip.frames, kLooked), 1, all);
+  if (frames.count() < 3) return 0;
+  std::vector<float> roots, poses;
+  for (int i = 1; i + 1 < frames.count(); ++i) {
+    const Step step = step_between(frames.world(i), frames.world(i + 1));
+    roots.push_back(step.root);
+    poses.push_back(step.pose);
+  }
+  const Step first = step_between(frames.world(0), frames.world(1));
+  const float size = size_of(frames.world(0));
+  // The next step tells a jump into the motion from a motion that is fast from its first frame.
+  const auto jumps = [&](float step, const std::vector<float>& others) {
+    return step > 0.1f * size && step > 8 * quantile(others, 0.5f) + 1e-6f * size &&
+           step > 1.5f * others.front();
+  };
+  if (!jumps(first.pose, poses) && !jumps(first.root, roots)) return 0;
+  const float jump = std::max(first.pose, first.root) / size;
+  notes.push_back("the first frame jumps by " + std::to_string(std::lround(100 * jump)) +
+                  " % of the body and is left out");
+  return 1;
+}
+
+class Calibrator {
+ public:
+  Calibrator(const Clip& clip, const Mapping& mapping, Calibration& out)
+      : clip_(clip),
+        joint_of_(mapping.joint_of),
+        out_(out),
+        frames_(clip, out.first_frame, clip.frames, step(clip), joint_of_) {
+    for (int j = 0; j < kHumanJoints; ++j) out_.shape.has[j] = joint_of_[j] >= 0;
+  }
+
+  Result<void> run() {
+    if (frames_.count() == 0) return Error{"no frame of the motion has finite numbers only"};
+    find_up();
+    if (const auto done = find_scale(); !done) return done;
+    find_toes(0);
+    find_toes(1);
+    find_trunk();
+    find_facing();
+    find_floor();
+    return {};
+  }
+
+ private:
+  static int step(const Clip& clip) { return (clip.frames + kMostFrames - 1) / kMostFrames; }
+  bool has(HumanJoint joint) const { return out_.shape.has[index(joint)]; }
+  Vec3 file(int frame, HumanJoint joint) const {
+    return frames_.world(frame).translations[index(joint)];
+  }
+  // The frames hold one joint per human joint, in their order.
+  MappedJoints mapped(int frame) const {
+    std::array<int, kHumanJoints> of;
+    for (int j = 0; j < kHumanJoints; ++j) of[j] = out_.shape.has[j] ? j : -1;
+    return mapped_joints(frames_.world(frame), of, out_);
+  }
+
+  // The axis along which the head is farthest above the feet, on the average.
+  void find_up() {
+    const HumanJoint top = has(head) ? head : has(neck) ? neck : left_upper_arm;
+    Vec3d sum;
+    for (int f = 0; f < frames_.count(); ++f) {
+      sum += (file(f, top) - (file(f, left_foot) + file(f, right_foot)) * 0.5f).as<double>();
+    }
+    const Vec3 mean = (sum / static_cast<double>(frames_.count())).as<float>();
+    int k = 0;
+    for (int i : {1, 2}) {
+      if (std::abs(component(mean, i)) > std::abs(component(mean, k))) k = i;
+    }
+    const bool negative = component(mean, k) < 0;
+    out_.up_axis = {negative ? '-' : '+', "XYZ"[k]};
+    out_.y_up = turn_up(k, negative);
+    if (out_.up_axis != "+Y") out_.notes.push_back("up is " + out_.up_axis);
+  }
+
+  Result<void> find_scale() {
+    float leg = 0;
+    for (auto [upper, lower, foot] : {std::array{left_upper_leg, left_lower_leg, left_foot},
+                                      std::array{right_upper_leg, right_lower_leg, right_foot}}) {
+      leg += length(file(0, upper) - file(0, lower)) + length(file(0, lower) - file(0, foot));
+    }
+    out_.scale = 2 * kProportions.leg / leg;
+    if (!std::isfinite(out_.scale)) return Error{"the legs of the humanoid have no length"};
+    return {};
+  }
+
+  // Fills the direction of one foot: its toe joint, its End Site, or where it must point in stance.
+  void find_toes(int side) {
+    const HumanJoint foot = side ? right_foot : left_foot, toe = side ? right_toes : left_toes;
+    ToeSource& out = out_.toes[side];
+    find_stance(foot);
+    const Vec3 estimate = estimate_toe(foot);
+    out = {has(toe) && mean_distance(foot, toe) > kShortestToe, estimate};
+    if (out.from_joint && says_direction(side)) return;
+    Vec3 longest;
+    for (Vec3 end : clip_.skeleton.joints[joint_of_[index(foot)]].ends) {
+      if (length(end) > length(longest)) longest = end;
+    }
+    if (length(longest) * out_.scale > kShortestToe) {
+      out = {false, normalized(longest)};
+      if (says_direction(side)) return note_toe(side, "taken from the End Site");
+    }
+    out = {false, estimate};
+    note_toe(side, "estimated from the standing foot");
+  }
+  // Metres, on the average.
+  double mean_distance(HumanJoint a, HumanJoint b) const {
+    double sum = 0;
+    for (int f = 0; f < frames_.count(); ++f) sum += length(file(f, a) - file(f, b));
+    return sum / frames_.count() * out_.scale;
+  }
+  void note_toe(int side, const std::string& how) {
+    out_.notes.push_back(
+        (side ? "the right foot's direction is " : "the left foot's direction is ") + how);
+  }
+  // The frames in which the foot is lowest.
+  void find_stance(HumanJoint foot) {
+    std::vector<float> heights(frames_.count());
+    for (int f = 0; f < frames_.count(); ++f) heights[f] = rotate(out_.y_up, file(f, foot)).y;
+    const float low = quantile(heights, kStanceShare);
+    stance_.clear();
+    for (int f = 0; f < frames_.count(); ++f) {
+      if (heights[f] <= low) stance_.push_back(f);
+    }
+  }
+  bool says_direction(int side) const {
+    double y = 0;
+    for (int f : stance_) y += mapped(f).toes[side].y;
+    return y / static_cast<double>(stance_.size()) > kSteepestToe;
+  }
+  // Standing, the foot points where the body faces, down by the canonical slope.
+  Vec3 estimate_toe(HumanJoint foot) const {
+    const float slope = kProportions.toe_pitch;
+    const Vec3 sloping = {0, -std::sin(slope), std::cos(slope)};
+    const auto local = [&](int f, Vec3 world) {
+      return rotate(conjugate(out_.y_up * frames_.world(f).rotations[index(foot)]), world);
+    };
+    Vec3d sum;
+    for (int f : stance_) {
+      const std::optional<float> facing = facing_of(mapped(f).positions);
+      if (facing) sum += local(f, rotate(rotation_y(*facing), sloping)).as<double>();
+    }
+    return normalized(sum.as<float>(), local(0, sloping));
+  }
+
+  void find_trunk() {
+    if (!has(chest)) return;
+    double apart = 0;
+    for (int f = 0; f < frames_.count(); ++f) {
+      const Vec3 middle = (file(f, left_upper_arm) + file(f, right_upper_arm)) * 0.5f;
+      apart += length(file(f, chest) - middle);
+    }
+    out_.shape.chest_at_shoulders = apart / frames_.count() * out_.scale < 0.02;
+  }
+
+  void find_facing() {
+    for (int f = 0; f < frames_.count(); ++f) {
+      const std::optional<float> facing = facing_of(mapped(f).positions);
+      if (!facing) continue;
+      out_.facing = *facing;
+      return;
+    }
+  }
+
+  void find_floor() {
+    std::vector<float> heights(frames_.count());
+    for (int f = 0; f < frames_.count(); ++f) {
+      const MappedJoints joints = mapped(f);
+      const HumanPositions body = canonical_positions(joints.positions, out_.shape, joints.toes);
+      heights[f] = std::min(body[index(left_toes)].y, body[index(right_toes)].y);
+    }
+    out_.floor = quantile(heights, kFloorShare);
+  }
+
+  const Clip& clip_;
+  const std::array<int, kHumanJoints>& joint_of_;
+  Calibration& out_;
+  Frames frames_;
+  std::vector<int> stance_;
+};
+
+}  // namespace
+
+Result<Calibration> calibrate(const Clip& clip, const Mapping& mapping) {
+  Calibration out;
+  out.first_frame = find_first_frame(clip, out.notes);
+  if (const auto done = Calibrator(clip, mapping, out).run(); !done) return done.error();
+  return out;
+}
+
+MappedJoints mapped_joints(ConstPose world, const std::array<int, kHumanJoints>& joint_of,
+                           const Calibration& calibration) noexcept {
+  MappedJoints out;
+  for (int j = 0; j < kHumanJoints; ++j) {
+    if (joint_of[j] < 0) {
+      out.positions[j] = out.positions[kHumanParent[j]];
+      continue;
+    }
+    const Vec3 p = rotate(calibration.y_up, world.translations[joint_of[j]] * calibration.scale);
+    out.positions[j] = {p.x, p.y - calibration.floor, p.z};
+  }
+  for (int side : {0, 1}) {
+    const int foot = index(side ? right_foot : left_foot);
+    const ToeSource& toe = calibration.toes[side];
+    const Quat turned = calibration.y_up * world.rotations[joint_of[foot]];
+    const Vec3 local = rotate(turned, toe.local);
+    out.toes[side] =
+        toe.from_joint ? normalized(out.positions[foot + 1] - out.positions[foot], local) : local;
+  }
+  return out;
+}
+
+}  // namespace panache

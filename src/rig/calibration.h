@@ -1,0 +1,46 @@
+#pragma once
+// What a clip tells about a rig that its skeleton does not: which way is up, how long a metre is,
+// where the floor is, where the toes point and from which frame on the motion can be used.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "clip/clip.h"
+#include "rig/canonical_body.h"
+#include "rig/mapping.h"
+
+namespace panache {
+
+// How the direction of one foot is known.
+struct ToeSource {
+  bool from_joint = false;  // From the foot to the toe joint; otherwise `local`.
+  Vec3 local;               // A unit direction in the foot's own axes.
+};
+
+struct Calibration {
+  int first_frame = 0;  // 1 where frame 0 is a calibration pose or does not belong to the motion.
+  std::string up_axis;  // In the file: "+Y", "-Z", ...
+  Quat y_up;            // Turns the file's axes Y up.
+  float scale = 1;      // Metres per file unit, for canonical legs.
+  float floor = 0;      // Height of the floor, Y up, in scaled metres.
+  float facing = 0;     // Heading of the first usable frame that has one, radians.
+  BodyShape shape;
+  std::array<ToeSource, 2> toes;  // [left, right]
+  std::vector<std::string> notes;
+};
+
+// Looks at 2,000 frames of the clip at most. Fails where the legs have no length.
+Result<Calibration> calibrate(const Clip& clip, const Mapping& mapping);
+
+// One instant of the mapped joints, Y up, in scaled metres above the floor.
+struct MappedJoints {
+  HumanPositions positions;  // A missing joint carries its nearest mapped ancestor's.
+  std::array<Vec3, 2> toes;  // Unit directions from foot to toes, [left, right].
+};
+// world[joints]: the skeleton's joints in the file's axes and units.
+MappedJoints mapped_joints(ConstPose world, const std::array<int, kHumanJoints>& joint_of,
+                           const Calibration& calibration) noexcept;
+
+}  // namespace panache

@@ -1,0 +1,36 @@
+#pragma once
+// The canonical body in the pose of another: canonical lengths along the other's joint directions.
+
+#include <array>
+#include <optional>
+
+#include "base/quat.h"
+#include "rig/humanoid.h"
+
+namespace panache {
+
+// What a skeleton has of a humanoid; constant over its motion. Always there: the hips, and upper
+// and lower parts and ends of all four limbs.
+struct BodyShape {
+  std::array<bool, kHumanJoints> has{};
+  bool chest_at_shoulders = false;  // The chest sits between the shoulders and bends nothing.
+};
+
+// joints: the user's own, Y up, metres of a body with canonical legs. toes[left, right]: unit
+// directions from foot to toes. Mid-hip stays where it is; limbs keep their directions exactly; the
+// trunk's bend is resampled at the canonical fractions.
+HumanPositions canonical_positions(const HumanPositions& joints, const BodyShape& shape,
+                                   const std::array<Vec3, 2>& toes) noexcept;
+
+// The heading about +y of a body, in radians, 0 facing +z; nothing where hips and shoulders have no
+// horizontal axis, as in a body that lies on its side. joints as above.
+std::optional<float> facing_of(const HumanPositions& joints) noexcept;
+
+// The orthonormal frame (columns) with x along `left`, and y as near to `up` as that allows.
+struct Frame {
+  Vec3 x, y, z;
+  Vec3 operator()(Vec3 v) const { return x * v.x + y * v.y + z * v.z; }
+};
+Frame frame_of(Vec3 left, Vec3 up) noexcept;
+
+}  // namespace panache

@@ -1,0 +1,27 @@
+#pragma once
+// What a joint's name says, whoever wrote it: "mixamorig:LeftHand", "Bip01 L Hand", "hand.L",
+// "lHand".
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace panache {
+
+enum class Side { none, left, right };
+
+struct JointName {
+  Side side = Side::none;
+  std::vector<std::string> words;  // Lower case, in order, without the side; numbers are words too.
+
+  bool has(std::string_view word) const;
+};
+
+// Splits `name` at its last colon or bar (what precedes is a namespace), then at everything that is
+// not a letter or digit, between lower and upper case and between letters and digits.
+JointName parse_joint_name(std::string_view name);
+
+// The words without a number at their end, which counts the pieces of one limb ("forearm", "001").
+std::vector<std::string> without_number(const std::vector<std::string>& words);
+
+}  // namespace panache

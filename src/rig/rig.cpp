@@ -1,0 +1,166 @@
+#include "rig/rig.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "clip/fk.h"
+
+namespace panache {
+namespace {
+
+using enum HumanJoint;
+
+bool is_identity(Quat q) { return q.x == 0 && q.y == 0 && q.z == 0; }
+
+// The rotation that does in other axes what `q` does in its own: `axes` turns its axes to those.
+// The scalar part stays as it is, so that the identity stays the identity to the bit.
+Quat in_axes(Quat axes, Quat q) {
+  const Vec3 v = rotate(axes, q.xyz());
+  return {v.x, v.y, v.z, q.w};
+}
+
+// rotate(q, v) - v, which is exactly zero where q is the identity.
+Vec3 shift(Quat q, Vec3 v) {
+  const Vec3 t = cross(q.xyz(), v) * 2.0f;
+  return t * q.w + cross(q.xyz(), t);
+}
+
+bool is_finite_body(const BodyPose& body) {
+  if (!std::isfinite(body.facing)) return false;
+  for (int j = 0; j < kHumanJoints; ++j) {
+    if (!is_finite(body.positions[j]) || !is_finite(body.rotations[j]) ||
+        !is_finite(body.joints[j])) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+Result<Rig> Rig::create(const Clip& clip) {
+  if (clip.joints() == 0) return Error{"no humanoid found: the skeleton has no joints"};
+  if (clip.frames < 1) return Error{"expected at least one frame of motion, found none"};
+  Rig rig;
+  rig.skeleton_ = clip.skeleton;
+  const size_t joints = clip.joints();
+  rig.world_rotations_.resize(joints);
+  rig.world_translations_.resize(joints);
+  rig.effective_.resize(joints);
+
+  world_pose(clip.skeleton, clip.pose(clip.frames / 2),
+             {rig.world_rotations_, rig.world_translations_});
+  Result<Mapping> mapping = map_by_names(clip.skeleton, rig.world_translations_);
+  if (!mapping) return mapping.error();
+  rig.mapping_ = *std::move(mapping);
+  Result<Calibration> calibration = calibrate(clip, rig.mapping_);
+  if (!calibration) return calibration.error();
+  rig.calibration_ = *std::move(calibration);
+  rig.notes_ = rig.mapping_.notes;
+  rig.notes_.insert(rig.notes_.end(), rig.calibration_.notes.begin(), rig.calibration_.notes.end());
+
+  rig.human_of_.assign(joints, -1);
+  for (int j = 0; j < kHumanJoints; ++j) {
+    const int joint = rig.mapping_.joint_of[j];
+    if (joint < 0) continue;
+    if (clip.skeleton.joints[joint].can_rotate) {
+      rig.human_of_[joint] = j;
+    } else {
+      rig.notes_.push_back(std::string(human_joint_name(j)) + " cannot rotate in this file");
+    }
+  }
+  rig.moved_joint_ = rig.mapping_.joint_of[index(hips)];
+  while (rig.moved_joint_ >= 0 && !clip.skeleton.joints[rig.moved_joint_].can_translate) {
+    rig.moved_joint_ = clip.skeleton.joints[rig.moved_joint_].parent;
+  }
+  if (rig.moved_joint_ < 0)
+    rig.notes_.push_back("neither the hips nor a joint above them can move");
+
+  // The pose that stands in for one that is not finite, until one was.
+  rig.last_.facing = rig.calibration_.facing;
+  for (int f = rig.first_frame(); f < clip.frames; ++f) {
+    BodyPose body;
+    rig.read(clip.pose(f), body);
+    if (is_finite_body(body)) break;
+  }
+  return rig;
+}
+
+std::vector<JointMatch> Rig::matches() const {
+  std::vector<JointMatch> out;
+  for (int j = 0; j < kHumanJoints; ++j) {
+    const int joint = mapping_.joint_of[j];
+    out.push_back({std::string(human_joint_name(j)),
+                   joint < 0 ? std::string{} : skeleton_.joints[joint].name, mapping_.reasons[j]});
+  }
+  return out;
+}
+
+void Rig::read(ConstPose pose, BodyPose& out) noexcept {
+  world_pose(skeleton_, pose, {world_rotations_, world_translations_});
+  const ConstPose world = {world_rotations_, world_translations_};
+  const MappedJoints mapped = mapped_joints(world, mapping_.joint_of, calibration_);
+  out.joints = mapped.positions;
+  out.positions = canonical_positions(mapped.positions, calibration_.shape, mapped.toes);
+  out.facing = facing_of(mapped.positions).value_or(last_.facing);
+  for (int j = 0; j < kHumanJoints; ++j) {
+    const int joint = mapping_.joint_of[j];
+    out.rotations[j] =
+        joint < 0 ? out.rotations[kHumanParent[j]] : calibration_.y_up * world_rotations_[joint];
+  }
+  if (is_finite_body(out)) {
+    last_ = out;
+  } else {
+    out = last_;
+  }
+}
+
+void Rig::write(ConstPose in, const BodyPose& body, const BodyChange& change, Pose out) noexcept {
+  const Quat file_axes = conjugate(calibration_.y_up);
+  const Quat from_heading = file_axes * rotation_y(body.facing);
+  const Quat turn = in_axes(file_axes, rotation_y(change.turn));
+  for (int j = 0; j < kHumanJoints; ++j) {
+    deltas_[j] = turn * in_axes(from_heading, change.rotations[j]);
+  }
+  write_rotations(in, out);
+  write_translation(in, change, out);
+}
+
+// With E the world delta of a joint, E_p that of its parent and P its parent's world rotation in
+// the input, the joint's new world rotation E P q and its parent's E_p P give the local rotation
+// P^-1 E_p^-1 E P q. At E = E_p = 1 the factor before q is exactly 1.
+void Rig::write_rotations(ConstPose in, Pose out) noexcept {
+  for (size_t j = 0; j < skeleton_.joints.size(); ++j) {
+    const int parent = skeleton_.joints[j].parent;
+    const Quat inherited = parent < 0 ? Quat{} : effective_[parent];
+    const Quat q = in.rotations[j];
+    out.rotations[j] = q;
+    effective_[j] = inherited;
+    if (human_of_[j] < 0) continue;
+    effective_[j] = deltas_[human_of_[j]];
+    const Quat world = parent < 0 ? Quat{} : world_rotations_[parent];
+    const Quat local = in_axes(conjugate(world), conjugate(inherited) * effective_[j]);
+    // Even a product with 1 could change the sign of a zero, and making it unit the last bit.
+    if (is_identity(local) || !is_finite(local)) continue;
+    out.rotations[j] = normalized(local * q);
+  }
+}
+
+void Rig::write_translation(ConstPose in, const BodyChange& change, Pose out) noexcept {
+  std::copy(in.translations.begin(), in.translations.end(), out.translations.begin());
+  if (moved_joint_ < 0) return;
+  const auto at = [&](HumanJoint joint) {
+    return world_translations_[mapping_.joint_of[index(joint)]];
+  };
+  const int hips_joint = mapping_.joint_of[index(hips)];
+  const Vec3 mid_hip = (at(left_upper_leg) + at(right_upper_leg)) * 0.5f;
+  const Vec3 wanted = rotate(conjugate(calibration_.y_up), change.translation) / calibration_.scale;
+  // The new rotation carries mid-hip about the hips; the hips give way so that it stays.
+  const Vec3 move = wanted - shift(effective_[hips_joint], mid_hip - at(hips));
+  if (move == Vec3{} || !is_finite(move)) return;
+  const int parent = skeleton_.joints[moved_joint_].parent;
+  const Quat world = parent < 0 ? Quat{} : world_rotations_[parent];
+  out.translations[moved_joint_] += rotate(conjugate(world), move);
+}
+
+}  // namespace panache

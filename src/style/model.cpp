@@ -1,0 +1,187 @@
+#include "style/model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "base/file.h"
+#include "style/names.h"
+
+namespace panache {
+namespace {
+
+constexpr const char* kFormatVersion = "1";
+
+std::vector<std::string> split_lines(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+// Looks up a metadata entry that every model has.
+Result<std::string> require(const TensorFile& file, const std::string& key,
+                            const std::string& name) {
+  const auto found = file.metadata.find(key);
+  if (found == file.metadata.end()) {
+    return Error{name + ": metadata '" + key + "' is missing; expected a model written by panache"};
+  }
+  return found->second;
+}
+
+Result<std::vector<float>> read_vector(const TensorFile& file, const std::string& key, int size,
+                                       const std::string& name) {
+  const auto found = file.tensors.find(key);
+  if (found == file.tensors.end()) return Error{name + ": tensor '" + key + "' is missing"};
+  const Tensor& tensor = found->second;
+  if (tensor.shape != std::vector<int64_t>{size}) {
+    return Error{name + ": tensor '" + key + "' has " + std::to_string(tensor.values.size()) +
+                 " numbers; expected shape [" + std::to_string(size) + "]"};
+  }
+  for (const float v : tensor.values) {
+    if (!std::isfinite(v)) {
+      return Error{name + ": tensor '" + key + "' holds a number that is not finite"};
+    }
+  }
+  return tensor.values;
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const Model>> Model::load(const std::string& path) {
+  Result<std::string> bytes = read_file(path);
+  if (!bytes) return bytes.error();
+  return parse(*bytes, path);
+}
+
+Result<std::shared_ptr<const Model>> Model::parse(std::string_view bytes, const std::string& name) {
+  Result<TensorFile> file = parse_safetensors(bytes, name);
+  if (!file) return file.error();
+  auto model = std::make_shared<Model>();
+  if (Result<void> read = model->read_metadata(*file, name); !read) return read.error();
+  if (Result<void> read = model->read_numbers(*file, name); !read) return read.error();
+  for (const auto& [key, tensor] : file->tensors) model->parameter_count_ += tensor.values.size();
+  return std::shared_ptr<const Model>(std::move(model));
+}
+
+Result<void> Model::read_metadata(const TensorFile& file, const std::string& name) {
+  const auto format = file.metadata.find("format");
+  if (format == file.metadata.end() || format->second != "panache") {
+    return Error{name + ": is a safetensors file, but not a panache model; expected metadata "
+                        "'format' to be 'panache'"};
+  }
+  Result<std::string> version = require(file, "format_version", name);
+  if (!version) return version.error();
+  if (*version != kFormatVersion) {
+    return Error{name + ": is a model of format version " + *version +
+                 "; this program reads version " + kFormatVersion +
+                 "; train it again or use the program it came with"};
+  }
+  Result<std::string> recipe = require(file, "recipe", name);
+  if (!recipe) return recipe.error();
+  if (*recipe == "panache") {
+    recipe_ = Recipe::panache;
+    layout_ = PoseLayout::positions;
+  } else if (*recipe == "smith2019") {
+    recipe_ = Recipe::smith2019;
+    layout_ = PoseLayout::rotations;
+  } else {
+    return Error{name + ": has recipe '" + *recipe + "'; expected panache or smith2019"};
+  }
+  Result<std::string> joints = require(file, "joints", name);
+  if (!joints) return joints.error();
+  if (*joints != canonical_joint_list()) {
+    return Error{name + ": was trained on other joints than this program's 21; train it again"};
+  }
+  Result<std::string> window = require(file, "window", name);
+  if (!window) return window.error();
+  if (*window != window_description()) {
+    return Error{name + ": sees a window of " + *window + "; expected " + window_description()};
+  }
+  Result<std::string> names = require(file, "styles", name);
+  if (!names) return names.error();
+  Result<std::string> descriptions = require(file, "style_descriptions", name);
+  if (!descriptions) return descriptions.error();
+  const std::vector<std::string> texts = split_lines(*descriptions);
+  for (const std::string& style : split_lines(*names)) {
+    const size_t i = styles_.size();
+    styles_.push_back({style, i < texts.size() ? texts[i] : ""});
+  }
+  if (styles_.empty()) return Error{name + ": has no styles"};
+  metadata_ = file.metadata;
+  return {};
+}
+
+Result<Model::Network> Model::read_network(const TensorFile& file, const std::string& prefix,
+                                           int outputs, int heads,
+                                           const std::string& name) const {
+  const int extra = recipe_ == Recipe::smith2019 ? static_cast<int>(styles_.size()) + 1 : 0;
+  const int inputs = kWindowPoses * pose_numbers(layout_) + extra;
+  Result<Trunk> trunk = Trunk::read(file, prefix + ".trunk", inputs, name);
+  if (!trunk) return trunk.error();
+  Network network{*std::move(trunk), {}};
+  const int hidden = network.trunk.outputs();
+  for (int h = 0; h < heads; ++h) {
+    Result<DenseLayer> head =
+        read_layer(file, prefix + ".head." + std::to_string(h), hidden, outputs, name);
+    if (!head) return head.error();
+    network.heads.push_back(*std::move(head));
+  }
+  return network;
+}
+
+Result<void> Model::read_numbers(const TensorFile& file, const std::string& name) {
+  const int numbers = pose_numbers(layout_), styles = static_cast<int>(styles_.size());
+  const bool heads = recipe_ == Recipe::panache;
+  const int outputs = heads ? kChangeNumbers : numbers;
+  const struct {
+    const char* key;
+    int size;
+    std::vector<float>* to;
+  } vectors[] = {{"input.mean", numbers, &input_mean_},
+                 {"input.scale", numbers, &input_scale_},
+                 {"output.scale", outputs, &output_scale_}};
+  for (const auto& [key, size, to] : vectors) {
+    Result<std::vector<float>> read = read_vector(file, key, size, name);
+    if (!read) return read.error();
+    *to = *std::move(read);
+  }
+  output_mean_.assign(outputs, 0.0f);
+  if (!heads) {
+    Result<std::vector<float>> mean = read_vector(file, "output.mean", outputs, name);
+    if (!mean) return mean.error();
+    output_mean_ = *std::move(mean);
+  }
+  Result<std::vector<float>> clip = read_vector(file, "input.clip", 1, name);
+  if (!clip) return clip.error();
+  input_clip_ = clip->front();
+  for (const float scale : input_scale_) {
+    if (scale <= 0) return Error{name + ": tensor 'input.scale' must be above zero throughout"};
+  }
+  const struct {
+    const char* prefix;
+    int outputs, heads;
+    Network* to;
+  } networks[] = {{"pose", outputs, heads ? styles : 1, &pose_},
+                  {"timing", 1, heads ? styles : 1, &timing_},
+                  {"contact", 2, heads ? styles + 1 : 1, &contact_}};
+  for (const auto& [prefix, size, count, to] : networks) {
+    Result<Network> read = read_network(file, prefix, size, count, name);
+    if (!read) return read.error();
+    *to = *std::move(read);
+  }
+  return {};
+}
+
+Result<int> Model::find_style(std::string_view style) const {
+  std::vector<std::string> names;
+  for (size_t i = 0; i < styles_.size(); ++i) {
+    if (styles_[i].name == style) return static_cast<int>(i);
+    names.push_back(styles_[i].name);
+  }
+  return Error{"unknown style '" + std::string(style) + "'; the nearest are " +
+               list_nearest(style, names, 3) + " (panache styles lists all " +
+               std::to_string(names.size()) + ")"};
+}
+
+}  // namespace panache

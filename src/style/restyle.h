@@ -1,0 +1,46 @@
+#pragma once
+// A whole clip restyled, with the tempo of the style: the play head runs through the input as fast or
+// as slowly as the style asks.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "clip/clip.h"
+#include "style/stylizer.h"
+
+namespace panache {
+
+// The strength of one style along the input: straight lines between points, held before the first and
+// after the last.
+struct StrengthTrack {
+  struct Point {
+    double seconds;  // Of the input.
+    float strength;
+  };
+  int style = 0;
+  std::vector<Point> points;  // In order of time, at least one.
+
+  float at(double seconds) const;
+};
+
+struct RestyleOptions {
+  StylizerOptions stylizer;
+  bool timing = true;  // Change the tempo too; off, the result has the input's frames.
+};
+
+struct Restyled {
+  Clip clip;                           // At the input's rate.
+  std::vector<double> source_frames;   // Per frame of it, the input's frame (fractional).
+  std::vector<FootContacts> contacts;  // Per frame of it.
+};
+
+// `progress` is called with 0 to 1 now and then; may be empty. With all strengths at 0, model and
+// recipe permitting, the result is the input. Fails where `rig` or the options do not suit.
+Result<Restyled> restyle(const Clip& clip, const Rig& rig, std::shared_ptr<const Model> model,
+                         const std::vector<StrengthTrack>& tracks,
+                         const RestyleOptions& options = {},
+                         const std::function<void(double)>& progress = {});
+
+}  // namespace panache

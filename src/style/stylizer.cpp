@@ -1,0 +1,187 @@
+#include "style/stylizer.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "style/pose_change.h"
+
+namespace panache {
+namespace {
+
+constexpr float kMaxStrength = 4;
+// A step over a longer gap, or a leap over the ground this fast, is a cut: the past says nothing.
+constexpr double kMaxGap = 0.5;        // Seconds.
+constexpr float kMaxGroundSpeed = 15;  // m/s; a sprinter reaches 12.
+constexpr float kRateSeconds = 0.15f;  // Time constant of the tempo.
+constexpr float kMaxLogRate = 0.7f;    // Half to double tempo.
+// A style may sway and turn within a step, but not leave the input's course: what it adds sideways and
+// to the heading fades with this time constant.
+constexpr float kCourseSeconds = 1.5f;
+// Below this speed a character stands, or walks in place: the style may not carry it away.
+constexpr float kStandingSpeed = 0.3f;  // m/s
+
+// Share of the way to a target that a one-pole filter goes in `seconds`.
+float filter_gain(float seconds, float time_constant) {
+  return time_constant > 0 ? 1 - std::exp(-seconds / time_constant) : 1.0f;
+}
+
+}  // namespace
+
+Result<Stylizer> Stylizer::create(std::shared_ptr<const Model> model, Rig rig,
+                                  const StylizerOptions& options) {
+  for (const float seconds : {options.ease_seconds, options.smoothing_seconds}) {
+    if (!(seconds >= 0 && seconds <= 10)) {
+      return Error{"stylizer option of " + std::to_string(seconds) +
+                   " seconds; expected 0 to 10 seconds"};
+    }
+  }
+  return Stylizer(std::move(model), std::move(rig), options);
+}
+
+Stylizer::Stylizer(std::shared_ptr<const Model> model, Rig rig, const StylizerOptions& options)
+    : rig_(std::move(rig)),
+      networks_(model),
+      options_(options),
+      rotations_(rig_.joint_count()),
+      translations_(rig_.joint_count()),
+      window_(size_t(kWindowPoses) * pose_numbers(model->layout())),
+      strengths_(model->styles().size()),
+      history_(model->layout()) {
+  reset();
+}
+
+void Stylizer::reset() noexcept {
+  started_ = false;
+  time_ = 0;
+  history_.clear();
+  numbers_ = {};
+  log_rate_ = 0;
+  drift_ = {};
+  sway_ = 0;
+  turn_ = 0;
+  foot_lock_.reset();
+}
+
+void Stylizer::take_input(ConstPose in) noexcept {
+  assert(in.rotations.size() == rotations_.size());
+  for (size_t j = 0; j < rotations_.size(); ++j) {
+    const Quat q = in.rotations[j];
+    const Vec3 t = in.translations[j];
+    // Also guards against numbers so large that products overflow.
+    if (is_finite(q) && std::abs(dot(q, q) - 1) < 0.1f) rotations_[j] = q;
+    if (is_finite(t) && std::max({std::abs(t.x), std::abs(t.y), std::abs(t.z)}) < 1e9f) {
+      translations_[j] = t;
+    }
+  }
+}
+
+void Stylizer::ease_strengths(std::span<const float> strengths, float seconds) noexcept {
+  assert(strengths.size() == strengths_.size());
+  const float gain = started_ ? filter_gain(seconds, options_.ease_seconds) : 1.0f;
+  float total = 0;
+  for (size_t i = 0; i < strengths_.size(); ++i) {
+    const float wanted =
+        std::isfinite(strengths[i]) ? std::clamp(strengths[i], -kMaxStrength, kMaxStrength) : 0.0f;
+    strengths_[i] += gain * (wanted - strengths_[i]);
+    if (std::abs(wanted - strengths_[i]) < 1e-4f) strengths_[i] = wanted;
+    total += std::abs(strengths_[i]);
+  }
+  amount_ = std::min(1.0f, 4 * total);
+}
+
+void Stylizer::predict(float seconds) noexcept {
+  networks_.set_strengths(strengths_);
+  history_.window(window_);
+  networks_.forward(window_);
+  ChangeNumbers wanted;
+  if (networks_.model().recipe() == Recipe::panache) {
+    std::copy_n(networks_.pose().begin(), kChangeNumbers, wanted.begin());
+  } else {
+    const size_t root = window_.size() / kWindowPoses - kRootNumbers;
+    wanted = change_to_pose(networks_.pose(), seen_,
+                            std::span(window_).subspan(root).first<kRootNumbers>());
+  }
+  const float gain = started_ ? filter_gain(seconds, options_.smoothing_seconds) : 1.0f;
+  for (int i = 0; i < kChangeNumbers; ++i) {
+    if (!std::isfinite(wanted[i])) wanted[i] = 0;
+    numbers_[i] += gain * (wanted[i] - numbers_[i]);
+    if (std::abs(wanted[i] - numbers_[i]) < 1e-7f) numbers_[i] = wanted[i];
+  }
+  const float rate = std::isfinite(networks_.log_rate())
+                         ? std::clamp(networks_.log_rate(), -kMaxLogRate, kMaxLogRate)
+                         : 0.0f;
+  log_rate_ += (started_ ? filter_gain(seconds, kRateSeconds) : 1.0f) * (rate - log_rate_);
+  if (std::abs(rate - log_rate_) < 1e-6f) log_rate_ = rate;
+}
+
+void Stylizer::move_root(double input_seconds) noexcept {
+  if (!started_ || !options_.root) return;
+  // The way of the input, turned as the style turned the character so far, plus the style's own, which
+  // is held back while the character stands. Each term is exactly zero without a style.
+  const float dt = static_cast<float>(input_seconds);
+  const float moving = std::min(1.0f, history_.ground_speed() / kStandingSpeed);
+  const float back = std::exp(-dt / kCourseSeconds);
+  turn_ = turn_ * back + numbers_[66] * moving * dt;
+  sway_ = sway_ * back + numbers_[64] * moving * dt;
+  const Vec3 way = ground_.position - last_ground_.position;
+  drift_ += rotate(rotation_y(turn_), way) - way;
+  drift_ += rotate(rotation_y(ground_.facing + turn_), Vec3{0, 0, numbers_[65] * moving * dt});
+}
+
+// A style trained on one body may put another's feet through the ground: lifts the body by as much as
+// its lowest toe is deeper than both the floor and the input's own lowest toe.
+void Stylizer::keep_above_floor() noexcept {
+  if (amount_ <= 0) return;
+  HumanPositions joints;
+  changed_joints(body_, change_, joints);
+  const float origin = mid_hip(body_).y + change_.translation.y;
+  float before = 0, after = 0;
+  for (int f = 0; f < kFeet; ++f) {
+    const int toe = index(kToes[f]);
+    before = std::min(before, body_.joints[toe].y);
+    after = f == 0 ? origin + joints[toe].y : std::min(after, origin + joints[toe].y);
+  }
+  change_.translation.y += amount_ * std::max(0.0f, before - after);
+}
+
+void Stylizer::step(ConstPose in, std::span<const float> strengths, double input_seconds,
+                    double output_seconds, Pose out) noexcept {
+  if (!(input_seconds >= 0)) input_seconds = 0;
+  if (!(output_seconds >= 0)) output_seconds = 0;
+  if (input_seconds > kMaxGap || output_seconds > kMaxGap) reset();
+  take_input(in);
+  const ConstPose pose{rotations_, translations_};
+  rig_.read(pose, body_);
+
+  last_ground_ = ground_;
+  const Vec3 hips = body_.positions[0];
+  ground_ = {{hips.x, 0, hips.z}, unwrap_angle(body_.facing, started_ ? ground_.facing : 0)};
+  if (started_ && length(ground_.position - last_ground_.position) >
+                      kMaxGroundSpeed * static_cast<float>(std::max(input_seconds, 1e-3))) {
+    reset();
+  }
+  time_ += input_seconds;
+  to_body_frame(body_.positions, ground_, seen_);
+  history_.push(time_, seen_, ground_);
+
+  const float seconds = static_cast<float>(output_seconds);
+  ease_strengths(strengths, seconds);
+  predict(seconds);
+  move_root(input_seconds);
+
+  for (int j = 0; j < kHumanJoints; ++j) {
+    change_.rotations[j] = joint_rotation(numbers_, j);
+  }
+  change_.turn = turn_;
+  const Vec3 side = rotate(rotation_y(ground_.facing + turn_), Vec3{sway_, 0, 0});
+  change_.translation = drift_ + side + Vec3{0, numbers_[63], 0};
+  keep_above_floor();
+  if (options_.foot_lock) {
+    foot_lock_.step(body_, networks_.contact().first<kFeet>(), amount_, seconds, change_);
+  }
+  rig_.write(pose, body_, change_, out);
+  started_ = true;
+}
+
+}  // namespace panache

@@ -1,0 +1,109 @@
+#include "train/batches.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace panache {
+
+BatchMaker::BatchMaker(const SampleSet& set, std::vector<int> choice, int styles, bool style_input,
+                       BatchSettings settings)
+    : set_(set),
+      choice_(std::move(choice)),
+      styles_(styles),
+      style_input_(style_input),
+      settings_(std::move(settings)),
+      by_style_(styles) {
+  if (!settings_.by_style) return;
+  for (const int i : choice_) {
+    const Sample& sample = set.samples()[i];
+    if (sample.has_next && sample.style >= 0) by_style_[sample.style].push_back(i);
+  }
+  float total = 0;
+  for (const std::vector<int>& members : by_style_) {
+    total += std::sqrt(static_cast<float>(members.size()));
+    style_share_.push_back(total);
+  }
+  for (float& share : style_share_) share /= total;
+}
+
+Batch BatchMaker::make(Random& random) const {
+  std::vector<Row> rows;
+  std::vector<Disturbed> draws;
+  std::vector<int64_t> groups;
+  const auto mirrored = [&] { return settings_.mirrored && (random.bits() & 1); };
+  if (!settings_.by_style) {
+    for (int i = 0; i < settings_.size; ++i) {
+      rows.push_back({choice_[random.below(static_cast<uint32_t>(choice_.size()))], mirrored(), -1});
+    }
+    return fill(rows, draws, nullptr);
+  }
+  const int pairs = settings_.size / 2;
+  std::vector<int> count(styles_);
+  for (int p = 0; p < pairs; ++p) {
+    const auto at = std::upper_bound(style_share_.begin(), style_share_.end(), random.uniform());
+    ++count[std::min<size_t>(at - style_share_.begin(), styles_ - 1)];
+  }
+  for (int s = 0; s < styles_; ++s) {
+    if (by_style_[s].empty()) count[s] = 0;
+    groups.push_back(2 * count[s]);
+    for (int p = 0; p < count[s]; ++p) {
+      const int sample = by_style_[s][random.below(static_cast<uint32_t>(by_style_[s].size()))];
+      const bool flip = mirrored();
+      int draw = -1;
+      if (settings_.disturbed) {
+        draw = static_cast<int>(draws.size());
+        draws.push_back(set_.draw(settings_.disturbance, random));
+      }
+      rows.push_back({sample, flip, draw});
+      rows.push_back({sample + 1, flip, draw});
+    }
+  }
+  Batch batch = fill(rows, draws, &random);
+  batch.group_sizes = std::move(groups);
+  return batch;
+}
+
+Batch BatchMaker::plain(const std::vector<int>& samples) const {
+  std::vector<Row> rows;
+  for (const int i : samples) rows.push_back({i, false, -1});
+  return fill(rows, {}, nullptr);
+}
+
+Batch BatchMaker::fill(const std::vector<Row>& rows, const std::vector<Disturbed>& draws,
+                       Random* random) const {
+  const int64_t count = static_cast<int64_t>(rows.size());
+  const int window = set_.inputs(), numbers = set_.numbers(), outputs = set_.outputs();
+  const int inputs = window + (style_input_ ? styles_ + 1 : 0);
+  Batch batch{torch::zeros({count, inputs}), torch::empty({count, outputs}),
+              torch::empty({count, 1}), torch::empty({count, kFeet}), {}};
+  const float clip = settings_.input_clip > 0 ? settings_.input_clip : INFINITY;
+  for (int64_t r = 0; r < count; ++r) {
+    const Row& row = rows[r];
+    const Sample& sample = set_.samples()[row.sample];
+    float* input = batch.inputs.data_ptr<float>() + r * inputs;
+    const std::span<float> seen(input, window);
+    set_.window(row.sample, seen);
+    if (row.mirrored) set_.mirror_window(seen);
+    if (row.disturbed >= 0) {
+      set_.disturb(draws[row.disturbed], settings_.disturbance, *random, seen);
+    }
+    for (int i = 0; i < window; ++i) {
+      const int n = i % numbers;
+      input[i] = std::clamp((input[i] - set_.mean()[n]) / set_.scale()[n], -clip, clip);
+    }
+    if (style_input_) input[window + 1 + sample.style] = 1;
+
+    float* pose = batch.pose.data_ptr<float>() + r * outputs;
+    std::copy_n(set_.target(row.sample).begin(), outputs, pose);
+    if (row.mirrored) set_.mirror_target({pose, static_cast<size_t>(outputs)});
+    for (int i = 0; i < outputs; ++i) {
+      pose[i] = (pose[i] - settings_.output_mean[i]) / settings_.output_scale[i];
+    }
+    batch.log_rate.data_ptr<float>()[r] = sample.log_rate;
+    float* contacts = batch.contacts.data_ptr<float>() + r * kFeet;
+    for (int f = 0; f < kFeet; ++f) contacts[f] = sample.contacts[row.mirrored ? 1 - f : f];
+  }
+  return batch;
+}
+
+}  // namespace panache

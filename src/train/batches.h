@@ -1,0 +1,63 @@
+#pragma once
+// Batches: which samples a network sees at a step, disturbed, mirrored and normalised. Everything
+// follows from the seed and the step, so that interrupted training goes on as if it had not been.
+
+#include <vector>
+
+#include <torch/torch.h>
+
+#include "train/samples.h"
+
+namespace panache {
+
+struct BatchSettings {
+  int size = 256;
+  bool by_style = false;    // Rows grouped by style, styles drawn by the square root of their share,
+                            // rows in pairs of neighbouring frames; else drawn one by one from all.
+  bool mirrored = false;    // Half of the rows left for right.
+  bool disturbed = false;
+  Disturbance disturbance;
+  float input_clip = 0;     // Normalised inputs are held within this many deviations; 0: not.
+  std::vector<float> output_mean, output_scale;  // [outputs]
+};
+
+struct Batch {
+  torch::Tensor inputs;              // [rows][inputs (+ styles + 1 where styles are an input)]
+  torch::Tensor pose;                // [rows][outputs], normalised
+  torch::Tensor log_rate;            // [rows][1]
+  torch::Tensor contacts;            // [rows][2]
+  std::vector<int64_t> group_sizes;  // Rows of each style, where grouped.
+};
+
+class BatchMaker {
+ public:
+  // `choice`: the samples to draw from. `styles`: how many the model has; `style_input`: whether the
+  // style vector is appended to the window, neutral first.
+  BatchMaker(const SampleSet& set, std::vector<int> choice, int styles, bool style_input,
+             BatchSettings settings);
+
+  Batch make(Random& random) const;
+  // The samples themselves, undisturbed, in order: for validation.
+  Batch plain(const std::vector<int>& samples) const;
+
+  const std::vector<int>& choice() const { return choice_; }
+
+ private:
+  struct Row {
+    int sample;
+    bool mirrored;
+    int disturbed;  // Index of the draw, -1 for none.
+  };
+  Batch fill(const std::vector<Row>& rows, const std::vector<Disturbed>& draws,
+             Random* random) const;
+
+  const SampleSet& set_;
+  std::vector<int> choice_;
+  int styles_;
+  bool style_input_;
+  BatchSettings settings_;
+  std::vector<std::vector<int>> by_style_;  // Of choice_, those with a next one.
+  std::vector<float> style_share_;          // Cumulative.
+};
+
+}  // namespace panache

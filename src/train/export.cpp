@@ -1,0 +1,105 @@
+#include "train/export.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "style/names.h"
+
+namespace panache {
+namespace {
+
+Tensor vector_tensor(const std::vector<float>& values) {
+  return {{static_cast<int64_t>(values.size())}, values, false};
+}
+
+}  // namespace
+
+std::vector<NetworkShape> network_shapes(Recipe recipe, const SampleSet& set, int styles) {
+  const bool heads = recipe == Recipe::panache;
+  const int inputs = set.inputs() + (heads ? 0 : styles + 1);
+  const int per_style = heads ? styles : 1;
+  return {{"pose", inputs, 128, 3, set.outputs(), per_style, false, heads},
+          {"timing", inputs, 64, 3, 1, per_style, false, false},
+          {"contact", inputs, 32, 3, kFeet, heads ? styles + 1 : 1, heads, false}};
+}
+
+TensorFile export_model(const RecipeSettings& settings, const SampleSet& set,
+                        const std::vector<StyleName>& styles,
+                        const std::vector<NetworkTrainer>& networks, const TrainOptions& options) {
+  TensorFile file;
+  std::string names, descriptions;
+  for (const StyleName& style : styles) {
+    names += style.name + "\n";
+    descriptions += style.description + "\n";
+  }
+  const bool heads = settings.recipe == Recipe::panache;
+  file.metadata = {
+      {"format", "panache"},
+      {"format_version", "1"},
+      {"recipe", heads ? "panache" : "smith2019"},
+      {"joints", canonical_joint_list()},
+      {"window", window_description()},
+      {"layout", heads ? "positions[63] ground_velocity_xz[2] turn_rate[1]"
+                       : "rotations_6d[126] hips_height[1] ground_velocity_xz[2] turn_rate[1]"},
+      {"styles", names},
+      {"style_descriptions", descriptions},
+      {"licence", options.licence},
+      {"seed", std::to_string(options.seed)},
+      {"steps", std::to_string(settings.steps)},
+      {"samples", std::to_string(set.samples().size())},
+  };
+  file.tensors["input.mean"] = vector_tensor(set.mean());
+  file.tensors["input.scale"] = vector_tensor(set.scale());
+  file.tensors["input.clip"] = vector_tensor({settings.batch.input_clip});
+  file.tensors["output.scale"] = vector_tensor(settings.batch.output_scale);
+  if (!heads) file.tensors["output.mean"] = vector_tensor(settings.batch.output_mean);
+  for (const NetworkTrainer& network : networks) network.write(file);
+  return file;
+}
+
+Result<float> export_error(const TensorFile& model, const SampleSet& set, const BatchMaker& batches,
+                           const std::vector<NetworkTrainer>& networks,
+                           const std::vector<int>& samples) {
+  Result<std::shared_ptr<const Model>> read =
+      Model::parse(format_safetensors(model), "the exported model");
+  if (!read) return read.error();
+  StyleNetworks exported(*read);
+  const int styles = static_cast<int>((*read)->styles().size());
+  torch::NoGradGuard no_gradients;
+  std::vector<float> strengths(styles), window(set.inputs());
+  const size_t stride = std::max<size_t>(1, samples.size() / 200);
+  float largest = 0;
+  for (size_t i = 0; i < samples.size(); i += stride) {
+    const Sample& sample = set.samples()[samples[i]];
+    if (sample.style < 0) continue;
+    std::fill(strengths.begin(), strengths.end(), 0.0f);
+    strengths[sample.style] = 1;
+    exported.set_strengths(strengths);
+    set.window(samples[i], window);
+    exported.forward(window);
+
+    Batch batch = batches.plain({samples[i]});
+    batch.group_sizes.assign(styles, 0);
+    batch.group_sizes[sample.style] = 1;
+    const auto expected = [&](int n) {
+      return networks[n].forward(batch.inputs, batch.group_sizes, nullptr).contiguous();
+    };
+    const torch::Tensor pose = expected(0), timing = expected(1);
+    const torch::Tensor contact = torch::sigmoid(expected(2));
+    const std::vector<float>& scale = model.tensors.at("output.scale").values;
+    for (int o = 0; o < set.outputs(); ++o) {
+      const float mean = (*read)->recipe() == Recipe::smith2019
+                             ? model.tensors.at("output.mean").values[o]
+                             : 0.0f;
+      const float ours = (exported.pose()[o] - mean) / scale[o];
+      largest = std::max(largest, std::abs(ours - pose.data_ptr<float>()[o]));
+    }
+    largest = std::max(largest, std::abs(exported.log_rate() - timing.item<float>()));
+    for (int f = 0; f < kFeet; ++f) {
+      largest = std::max(largest, std::abs(exported.contact()[f] - contact.data_ptr<float>()[f]));
+    }
+  }
+  return largest;
+}
+
+}  // namespace panache

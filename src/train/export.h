@@ -1,0 +1,23 @@
+#pragma once
+// What was trained, as the file that the program reads, and the proof that both compute the same.
+
+#include <vector>
+
+#include "train/trainer.h"
+
+namespace panache {
+
+// The three networks of a recipe: hidden layers of 128, 64 and 32 units, as in the slides.
+std::vector<NetworkShape> network_shapes(Recipe recipe, const SampleSet& set, int styles);
+
+TensorFile export_model(const RecipeSettings& settings, const SampleSet& set,
+                        const std::vector<StyleName>& styles,
+                        const std::vector<NetworkTrainer>& networks, const TrainOptions& options);
+
+// Reads `model` back as a file and runs it beside the trained networks on up to 200 of `samples`:
+// the largest difference of any output, relative to that output's scale.
+Result<float> export_error(const TensorFile& model, const SampleSet& set, const BatchMaker& batches,
+                           const std::vector<NetworkTrainer>& networks,
+                           const std::vector<int>& samples);
+
+}  // namespace panache

@@ -1,0 +1,73 @@
+#pragma once
+// One of the three networks while it learns: its numbers, its forward pass, its optimiser.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <torch/torch.h>
+
+#include "base/random.h"
+#include "net/safetensors.h"
+
+namespace panache {
+
+// How one network is built.
+struct NetworkShape {
+  std::string name;    // "pose", "timing", "contact": the prefix of its tensors in the model file.
+  int inputs = 0;
+  int hidden = 0;      // Units of each hidden layer.
+  int layers = 3;
+  int outputs = 0;
+  int heads = 1;
+  bool base = false;   // Head 0 is added to every other.
+  bool half = false;   // Heads are stored as 16-bit floats.
+};
+
+// How it learns.
+struct OptimizerSettings {
+  float learning_rate = 0.01f;
+  bool one_cycle = false;      // Rises to the learning rate, then falls to nothing (Smith 2018).
+  float weight_decay = 0;      // Decoupled (AdamW, Loshchilov and Hutter 2019); biases have none.
+  float dropout = 0;           // Share of hidden units left out.
+};
+
+class NetworkTrainer {
+ public:
+  NetworkTrainer(const NetworkShape& shape, const OptimizerSettings& settings, int64_t steps,
+                 uint64_t seed);
+
+  // Output of rows grouped by head: the first group_sizes[0] rows of `x` go through head 0 (or, with a
+  // base, head 1 plus the base), and so on. x[rows][inputs] -> [rows][outputs]. Units are dropped
+  // where `random` is given.
+  torch::Tensor forward(const torch::Tensor& x, const std::vector<int64_t>& group_sizes,
+                        Random* random) const;
+
+  // One step of Adam (Kingma and Ba 2015) down the gradient of `loss`.
+  void learn(const torch::Tensor& loss);
+
+  int64_t step() const { return step_; }
+  const NetworkShape& shape() const { return shape_; }
+
+  // All that is needed to go on later, and back again; restore() fails where shapes differ.
+  std::vector<torch::Tensor> save() const;
+  bool restore(const std::vector<torch::Tensor>& saved);
+
+  // Rounds what is stored as 16-bit floats, so that the numbers here are those of the file.
+  void round_halves();
+
+  // Adds the tensors that a model reads: NAME.trunk.K.weight, NAME.head.K.weight, ... and biases.
+  void write(TensorFile& file) const;
+
+ private:
+  float learning_rate() const;
+
+  NetworkShape shape_;
+  OptimizerSettings settings_;
+  int64_t steps_, step_ = 0;
+  torch::Tensor numbers_, gradient_, mean_, square_, decay_;  // [all numbers of the network]
+  std::vector<torch::Tensor> weights_, biases_;  // Views of numbers_; trunk [in][out], [out].
+  torch::Tensor heads_, head_biases_;            // [heads][hidden][outputs], [heads][outputs]
+};
+
+}  // namespace panache

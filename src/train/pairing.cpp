@@ -1,0 +1,262 @@
+#include "train/pairing.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+
+#include <torch/torch.h>
+
+#include "base/parallel.h"
+
+namespace panache {
+namespace {
+
+constexpr std::array kKeyJoints = {
+    HumanJoint::chest,          HumanJoint::head,           HumanJoint::left_lower_arm,
+    HumanJoint::left_hand,      HumanJoint::right_lower_arm, HumanJoint::right_hand,
+    HumanJoint::left_lower_leg, HumanJoint::left_foot,      HumanJoint::left_toes,
+    HumanJoint::right_lower_leg, HumanJoint::right_foot,    HumanJoint::right_toes};
+constexpr int kNumbers = 6 * static_cast<int>(kKeyJoints.size()) + 1;
+
+// Per styled frame the neutral side advances 0 to 3 frames; each costs this much of the distance.
+constexpr float kPenalty[4] = {1.15f, 1.0f, 1.1f, 1.3f};
+constexpr int kSmoothFrames = 7;
+constexpr float kFar = 1e30f;
+
+// Features of a take for the comparison: positions and velocities of the key joints in the body frame,
+// and the height of the hips. [frames][kNumbers]
+std::vector<float> comparison_numbers(const Take& take) {
+  const int frames = take.frames();
+  std::vector<float> numbers;
+  numbers.reserve(size_t(frames) * kNumbers);
+  for (int f = 0; f < frames; ++f) {
+    const int a = std::max(f - 1, 0), b = std::min(f + 1, frames - 1);
+    for (const HumanJoint joint : kKeyJoints) {
+      const int j = index(joint);
+      const Vec3 p = take.body[f][j];
+      const Vec3 v = b > a ? (take.body[b][j] - take.body[a][j]) / static_cast<float>(b - a) : Vec3{};
+      for (const float n : {p.x, p.y, p.z, v.x, v.y, v.z}) numbers.push_back(n);
+    }
+    numbers.push_back(take.body[f][0].y);
+  }
+  return numbers;
+}
+
+// All takes of one action in one style: their features, standardised together, so that the style's
+// own posture does not spoil the comparison.
+struct Group {
+  std::vector<int> takes;
+  torch::Tensor numbers;   // [frames][kNumbers]
+  torch::Tensor squares;   // [frames]
+  std::vector<int> begin;  // First frame of each take; one more at the end.
+};
+
+Group make_group(const std::vector<Take>& takes, std::vector<int> members) {
+  Group group;
+  group.takes = std::move(members);
+  std::vector<float> all;
+  group.begin.push_back(0);
+  for (const int t : group.takes) {
+    const std::vector<float> numbers = comparison_numbers(takes[t]);
+    all.insert(all.end(), numbers.begin(), numbers.end());
+    group.begin.push_back(static_cast<int>(all.size()) / kNumbers);
+  }
+  const torch::Tensor raw =
+      torch::from_blob(all.data(), {static_cast<int64_t>(all.size()) / kNumbers, kNumbers});
+  const torch::Tensor mean = raw.mean(0, true);
+  torch::Tensor deviation = raw.std(0, false, true);
+  // A number that hardly moves must not drown the others in its noise.
+  deviation = torch::maximum(deviation, deviation.mean() * 0.2);
+  group.numbers = ((raw - mean) / deviation).contiguous();
+  group.squares = group.numbers.square().sum(1);
+  return group;
+}
+
+// The neutral side of the warping: which frames may follow which.
+struct Track {
+  int frames = 0;
+  std::vector<float> barrier[4];  // barrier[k][j]: 0 where frame j - k is of the same take, else far.
+};
+
+Track make_track(const Group& group) {
+  Track track;
+  track.frames = group.begin.back();
+  for (int k = 0; k < 4; ++k) {
+    track.barrier[k].assign(track.frames, 0.0f);
+    for (size_t t = 0; t + 1 < group.begin.size(); ++t) {
+      const int end = std::min(group.begin[t] + k, group.begin[t + 1]);
+      for (int j = group.begin[t]; j < end; ++j) track.barrier[k][j] = kFar;
+    }
+  }
+  return track;
+}
+
+// Warps `rows` styled frames, whose distances to all neutral frames are distance[rows][track.frames].
+// Returns the neutral frame of each and the mean cost; no path where every neutral take is too short.
+struct Warp {
+  std::vector<int> path;
+  float cost = 0;
+};
+Warp warp(const float* distance, int rows, const Track& track, std::vector<float>& before,
+          std::vector<float>& after, std::vector<int8_t>& steps) {
+  const int m = track.frames;
+  constexpr int pad = 4;  // So that j - k needs no check.
+  before.assign(m + pad, kFar);
+  after.assign(m + pad, kFar);
+  steps.assign(size_t(rows) * m, 1);
+  std::vector<float> waited(m, 0.0f);  // Far where the last step was a wait: never two in a row.
+  for (int j = 0; j < m; ++j) before[j + pad] = distance[j];
+  for (int i = 1; i < rows; ++i) {
+    const float* d = distance + size_t(i) * m;
+    const float* b = before.data() + pad;
+    float* a = after.data() + pad;
+    int8_t* step = steps.data() + size_t(i) * m;
+    for (int j = 0; j < m; ++j) {
+      float best = b[j] + kPenalty[0] * d[j] + waited[j];
+      int8_t by = 0;
+      for (int k = 1; k < 4; ++k) {
+        const float cost = b[j - k] + kPenalty[k] * d[j] + track.barrier[k][j];
+        by = cost < best ? static_cast<int8_t>(k) : by;
+        best = cost < best ? cost : best;
+      }
+      a[j] = best;
+      step[j] = by;
+      waited[j] = by == 0 ? kFar : 0.0f;
+    }
+    std::swap(before, after);
+  }
+  Warp result;
+  const auto end = std::min_element(before.begin() + pad, before.end());
+  if (*end >= kFar) return result;
+  result.cost = *end / static_cast<float>(rows);
+  result.path.resize(rows);
+  int j = static_cast<int>(end - before.begin()) - pad;
+  for (int i = rows - 1; i >= 0; --i) {
+    result.path[i] = j;
+    if (i > 0) j -= steps[size_t(i) * m + j];
+  }
+  return result;
+}
+
+// Moving average that keeps the ends' slope: beyond an end the path is continued point-symmetrically.
+std::vector<float> smooth_path(const std::vector<int>& path, int offset) {
+  const int n = static_cast<int>(path.size()), half = std::min(kSmoothFrames / 2, n - 1);
+  const auto at = [&](int i) {
+    if (i < 0) return 2 * path[0] - path[-i];
+    if (i >= n) return 2 * path[n - 1] - path[2 * (n - 1) - i];
+    return path[i];
+  };
+  std::vector<float> smooth(n);
+  for (int i = 0; i < n; ++i) {
+    int sum = 0;
+    for (int k = -half; k <= half; ++k) sum += at(i + k) - offset;
+    smooth[i] = static_cast<float>(sum) / static_cast<float>(2 * half + 1);
+  }
+  return smooth;
+}
+
+std::vector<float> slopes(const std::vector<float>& path) {
+  const int n = static_cast<int>(path.size());
+  std::vector<float> rates(n, 1.0f);
+  for (int i = 0; i < n && n > 1; ++i) {
+    const int a = std::max(i - 1, 0), b = std::min(i + 1, n - 1);
+    rates[i] = (path[b] - path[a]) / static_cast<float>(b - a);
+  }
+  return rates;
+}
+
+// Pairs one styled take, number `which` of its group.
+std::vector<Pairing> pair_take(const Group& styled, int which, const Group& neutral,
+                               const Track& track, const PairingOptions& options) {
+  const int begin = styled.begin[which], frames = styled.begin[which + 1] - begin;
+  const torch::Tensor rows = styled.numbers.slice(0, begin, begin + frames);
+  // |a - b|^2 = |a|^2 + |b|^2 - 2 a b, all frames of the take against all neutral ones.
+  torch::Tensor distance = torch::mm(rows, neutral.numbers.t()).mul_(-2);
+  distance.add_(styled.squares.slice(0, begin, begin + frames).unsqueeze(1));
+  distance.add_(neutral.squares.unsqueeze(0)).clamp_min_(0).div_(kNumbers);
+
+  const int window = std::min(static_cast<int>(options.window_seconds * kTakeRate), frames);
+  const int hop = static_cast<int>(options.hop_seconds * kTakeRate);
+  std::vector<Pairing> pairings;
+  std::vector<float> before, after;
+  std::vector<int8_t> steps;
+  for (int first = 0;; first += hop) {
+    first = std::min(first, frames - window);
+    const Warp warped =
+        warp(distance.data_ptr<float>() + size_t(first) * track.frames, window, track, before, after,
+             steps);
+    if (warped.path.empty()) return pairings;
+    const int take = static_cast<int>(std::upper_bound(neutral.begin.begin(), neutral.begin.end(),
+                                                       warped.path.front()) -
+                                      neutral.begin.begin()) - 1;
+    Pairing pairing;
+    pairing.styled = styled.takes[which];
+    pairing.neutral = neutral.takes[take];
+    pairing.first = first;
+    pairing.neutral_frames = smooth_path(warped.path, neutral.begin[take]);
+    pairing.rates = slopes(pairing.neutral_frames);
+    pairing.cost = warped.cost;
+    pairings.push_back(std::move(pairing));
+    if (first == frames - window) return pairings;
+  }
+}
+
+}  // namespace
+
+std::vector<Pairing> pair_takes(const std::vector<Take>& takes, const std::vector<int>& styled,
+                                const std::vector<int>& neutral, const PairingOptions& options,
+                                const std::function<void(double)>& progress) {
+  torch::NoGradGuard no_gradients;
+  using Cell = std::tuple<int, std::string, std::string>;  // Set, content, style.
+  std::map<Cell, std::vector<int>> cells, references;
+  for (const int t : styled) {
+    const ManifestRow& row = takes[t].row;
+    cells[{row.set, row.content, row.style}].push_back(t);
+  }
+  for (const int t : neutral) {
+    const ManifestRow& row = takes[t].row;
+    references[{row.set, row.content, ""}].push_back(t);
+  }
+  struct Job {
+    Group styled;
+    int reference;
+    int which;
+  };
+  std::vector<Group> neutral_groups;
+  std::vector<Track> tracks;
+  std::map<Cell, int> reference_index;
+  for (auto& [cell, members] : references) {
+    reference_index[cell] = static_cast<int>(tracks.size());
+    neutral_groups.push_back(make_group(takes, members));
+    tracks.push_back(make_track(neutral_groups.back()));
+  }
+  std::vector<Job> jobs;
+  for (auto& [cell, members] : cells) {
+    const auto found = reference_index.find({std::get<0>(cell), std::get<1>(cell), ""});
+    if (found == reference_index.end()) continue;
+    const Group group = make_group(takes, members);  // Its tensors are shared by the jobs.
+    for (size_t i = 0; i < group.takes.size(); ++i) {
+      jobs.push_back({group, found->second, static_cast<int>(i)});
+    }
+  }
+  std::vector<std::vector<Pairing>> found(jobs.size());
+  std::atomic<int> done = 0;
+  parallel_for(static_cast<int>(jobs.size()), [&](int i) {
+    torch::NoGradGuard guard;
+    const Job& job = jobs[i];
+    found[i] = pair_take(job.styled, job.which, neutral_groups[job.reference],
+                         tracks[job.reference], options);
+    const int count = ++done;
+    if (progress) progress(static_cast<double>(count) / static_cast<double>(jobs.size()));
+  });
+  std::vector<Pairing> pairings;
+  for (std::vector<Pairing>& some : found) {
+    std::move(some.begin(), some.end(), std::back_inserter(pairings));
+  }
+  return pairings;
+}
+
+}  // namespace panache

@@ -1,0 +1,275 @@
+#include "train/samples.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "rig/canonical_skeleton.h"
+
+namespace panache {
+namespace {
+
+constexpr float kSpacingFrames = static_cast<float>(kWindowSpacing * kTakeRate);
+// The ends of a warped window are pulled about by what lies beyond them: they are left out.
+constexpr int kTrimFrames = 4;
+
+struct Between {
+  int a, b;
+  float t;
+};
+Between between(float frame, int frames) {
+  frame = std::clamp(frame, 0.0f, static_cast<float>(frames - 1));
+  const int a = static_cast<int>(frame), b = std::min(a + 1, frames - 1);
+  return {a, b, frame - static_cast<float>(a)};
+}
+
+// Left for right of a rotation: reflecting x keeps the turn about x and reverses the others.
+void mirror_rotation_vector(float* r) {
+  r[1] = -r[1];
+  r[2] = -r[2];
+}
+// The same of the first two columns of a rotation matrix: M R M with M = diag(-1, 1, 1).
+void mirror_columns(float* c) {
+  c[1] = -c[1];
+  c[2] = -c[2];
+  c[3] = -c[3];
+}
+void swap_sides(float* joints, int per_joint) {
+  for (int j = 0; j < kHumanJoints; ++j) {
+    if (kHumanMirror[j] > j) {
+      std::swap_ranges(joints + j * per_joint, joints + (j + 1) * per_joint,
+                       joints + kHumanMirror[j] * per_joint);
+    }
+  }
+}
+void mirror_root(float* root) {
+  root[0] = -root[0];
+  root[2] = -root[2];
+}
+void mirror_pose(PoseLayout layout, float* pose) {
+  if (layout == PoseLayout::positions) {
+    swap_sides(pose, 3);
+    for (int j = 0; j < kHumanJoints; ++j) pose[3 * j] = -pose[3 * j];
+    mirror_root(pose + 63);
+  } else {
+    swap_sides(pose, 6);
+    for (int j = 0; j < kHumanJoints; ++j) mirror_columns(pose + 6 * j);
+    mirror_root(pose + 127);
+  }
+}
+
+// The hips' x and z are constant in the body frame, and others nearly so: divided by their true
+// deviation, any disturbance would explode. So 3 cm (0.1 m/s, 0.2 rad/s) are mixed in. Rotations are
+// normalised as they are, but for those that never move.
+float floored_deviation(PoseLayout layout, int number, double variance) {
+  double floor = 1e-3;
+  if (layout == PoseLayout::positions) floor = number < 63 ? 0.03 : number < 65 ? 0.1 : 0.2;
+  return static_cast<float>(std::sqrt(variance + floor * floor));
+}
+
+}  // namespace
+
+HumanPositions body_at(const Take& take, float frame) {
+  const auto [a, b, t] = between(frame, take.frames());
+  HumanPositions body;
+  for (int j = 0; j < kHumanJoints; ++j) body[j] = lerp(take.body[a][j], take.body[b][j], t);
+  return body;
+}
+
+void take_window(const Take& take, float frame, int numbers, std::span<float> out) {
+  for (int k = 0; k < kWindowPoses; ++k) {
+    const auto [a, b, t] = between(frame - static_cast<float>(k) * kSpacingFrames, take.frames());
+    const float* before = &take.numbers[size_t(a) * numbers];
+    const float* after = &take.numbers[size_t(b) * numbers];
+    float* pose = &out[size_t(k) * numbers];
+    for (int i = 0; i < numbers; ++i) pose[i] = before[i] * (1 - t) + after[i] * t;
+  }
+}
+
+ChangeNumbers change_between(const Take& styled, int frame, const Take& neutral, float at,
+                             float rate) {
+  const auto [a, b, t] = between(at, neutral.frames());
+  ChangeNumbers change;
+  for (int j = 0; j < kHumanJoints; ++j) {
+    const Quat from = nlerp(neutral.turned[a][j], neutral.turned[b][j], t);
+    const Vec3 turn = log_rotation(styled.turned[frame][j] * conjugate(from));
+    change[3 * j] = turn.x;
+    change[3 * j + 1] = turn.y;
+    change[3 * j + 2] = turn.z;
+  }
+  const float height = lerp(neutral.body[a][0], neutral.body[b][0], t).y;
+  change[63] = styled.body[frame][0].y - height;
+  const int numbers = static_cast<int>(neutral.numbers.size()) / neutral.frames();
+  for (int k = 0; k < kRootNumbers; ++k) {
+    const size_t n = numbers - kRootNumbers + k;
+    const float slow = neutral.numbers[size_t(a) * numbers + n] * (1 - t) +
+                       neutral.numbers[size_t(b) * numbers + n] * t;
+    change[64 + k] = styled.numbers[size_t(frame) * numbers + n] / rate - slow;
+  }
+  return change;
+}
+
+SampleSet::SampleSet(const std::vector<Take>& takes, const std::vector<Pairing>& pairings,
+                     const std::vector<std::string>& styles, Recipe recipe, bool with_neutral)
+    : takes_(takes),
+      recipe_(recipe),
+      layout_(recipe == Recipe::panache ? PoseLayout::positions : PoseLayout::rotations),
+      outputs_(recipe == Recipe::panache ? kChangeNumbers : pose_numbers(layout_)) {
+  for (const Pairing& pairing : pairings) {
+    const auto style = std::find(styles.begin(), styles.end(), takes[pairing.styled].row.style);
+    if (style == styles.end()) continue;
+    add_pairing(pairing, static_cast<int>(style - styles.begin()));
+  }
+  std::vector<int> neutral_takes;
+  for (const Pairing& pairing : pairings) neutral_takes.push_back(pairing.neutral);
+  std::sort(neutral_takes.begin(), neutral_takes.end());
+  neutral_takes.erase(std::unique(neutral_takes.begin(), neutral_takes.end()),
+                      neutral_takes.end());
+  if (with_neutral) {
+    for (const int t : neutral_takes) add_neutral(t);
+  }
+  measure_inputs(neutral_takes);
+}
+
+void SampleSet::add_target(const Take& styled, int frame, const Take& neutral, float at,
+                           float rate) {
+  const ChangeNumbers change = change_between(styled, frame, neutral, at, rate);
+  if (recipe_ == Recipe::panache) {
+    targets_.insert(targets_.end(), change.begin(), change.end());
+    return;
+  }
+  // The absolute pose: the input's, changed.
+  const HumanPositions body = body_at(neutral, at);
+  std::array<Quat, kHumanJoints> frames;
+  canonical_frames(body, 0, frames);
+  for (int j = 0; j < kHumanJoints; ++j) {
+    frames[j] = exp_rotation(Vec3{change[3 * j], change[3 * j + 1], change[3 * j + 2]}) * frames[j];
+    const int parent = kHumanParent[j];
+    const Quat local = parent < 0 ? frames[j] : conjugate(frames[parent]) * frames[j];
+    const Vec3 x = rotate(local, Vec3{1, 0, 0}), y = rotate(local, Vec3{0, 1, 0});
+    for (const float v : {x.x, x.y, x.z, y.x, y.y, y.z}) targets_.push_back(v);
+  }
+  targets_.push_back(body[0].y + change[63]);
+  const auto [a, b, t] = between(at, neutral.frames());
+  for (int k = 0; k < kRootNumbers; ++k) {
+    const size_t n = numbers() - kRootNumbers + k;
+    targets_.push_back(neutral.numbers[size_t(a) * numbers() + n] * (1 - t) +
+                       neutral.numbers[size_t(b) * numbers() + n] * t + change[64 + k]);
+  }
+}
+
+void SampleSet::add_pairing(const Pairing& pairing, int style) {
+  const Take& styled = takes_[pairing.styled];
+  const Take& neutral = takes_[pairing.neutral];
+  const int window = static_cast<int>(pairing.neutral_frames.size());
+  for (int i = kTrimFrames; i < window - kTrimFrames; ++i) {
+    Sample sample;
+    sample.take = pairing.neutral;
+    sample.frame = pairing.neutral_frames[i];
+    sample.style = style;
+    sample.styled = pairing.styled;
+    const float rate = std::clamp(pairing.rates[i], 0.33f, 3.0f);
+    sample.log_rate = std::log(rate);
+    const FootContacts& planted = styled.contacts[pairing.first + i];
+    for (int f = 0; f < kFeet; ++f) sample.contacts[f] = planted[f] ? 1.0f : 0.0f;
+    sample.has_next = i + 1 < window - kTrimFrames;
+    samples_.push_back(sample);
+    add_target(styled, pairing.first + i, neutral, sample.frame, rate);
+  }
+}
+
+void SampleSet::add_neutral(int take) {
+  const Take& neutral = takes_[take];
+  for (int f = 0; f < neutral.frames(); ++f) {
+    Sample sample;
+    sample.take = take;
+    sample.frame = static_cast<float>(f);
+    sample.style = -1;
+    for (int k = 0; k < kFeet; ++k) sample.contacts[k] = neutral.contacts[f][k] ? 1.0f : 0.0f;
+    sample.has_next = f + 1 < neutral.frames();
+    samples_.push_back(sample);
+    add_target(neutral, f, neutral, sample.frame, 1);
+  }
+}
+
+void SampleSet::measure_inputs(const std::vector<int>& neutral_takes) {
+  const int count = numbers();
+  std::vector<double> sum(count), squares(count);
+  double poses = 0;
+  std::vector<float> pose(count);
+  for (const int t : neutral_takes) {
+    const Take& take = takes_[t];
+    for (int f = 0; f < take.frames(); ++f) {
+      std::copy_n(&take.numbers[size_t(f) * count], count, pose.begin());
+      for (const bool mirrored : {false, true}) {
+        if (mirrored) mirror_pose(layout_, pose.data());
+        for (int i = 0; i < count; ++i) {
+          sum[i] += pose[i];
+          squares[i] += double(pose[i]) * pose[i];
+        }
+        ++poses;
+      }
+    }
+  }
+  for (int i = 0; i < count; ++i) {
+    const double mean = poses > 0 ? sum[i] / poses : 0;
+    mean_.push_back(static_cast<float>(mean));
+    const double variance = poses > 0 ? squares[i] / poses - mean * mean : 1;
+    scale_.push_back(floored_deviation(layout_, i, std::max(variance, 0.0)));
+  }
+}
+
+void SampleSet::window(size_t i, std::span<float> out) const {
+  take_window(takes_[samples_[i].take], samples_[i].frame, numbers(), out);
+}
+
+void SampleSet::mirror_window(std::span<float> window) const {
+  for (size_t at = 0; at < window.size(); at += numbers()) mirror_pose(layout_, &window[at]);
+}
+
+void SampleSet::mirror_target(std::span<float> target) const {
+  if (recipe_ == Recipe::smith2019) {
+    mirror_pose(layout_, target.data());
+    return;
+  }
+  swap_sides(target.data(), 3);
+  for (int j = 0; j < kHumanJoints; ++j) mirror_rotation_vector(&target[3 * j]);
+  mirror_root(&target[64]);
+}
+
+Disturbed SampleSet::draw(const Disturbance& how, Random& random) const {
+  Disturbed draw;
+  draw.scale = 1 + how.scale * random.normal();
+  draw.floor = how.floor * random.normal();
+  const float angle = how.heading * random.normal();
+  draw.cos = std::cos(angle);
+  draw.sin = std::sin(angle);
+  draw.posture.resize(3 * kHumanJoints);
+  for (int i = 0; i < 3 * kHumanJoints; ++i) {
+    draw.posture[i] = how.posture * scale_[i] * random.normal();
+  }
+  return draw;
+}
+
+void SampleSet::disturb(const Disturbed& draw, const Disturbance& how, Random& random,
+                        std::span<float> window) const {
+  for (size_t at = 0; at < window.size(); at += numbers()) {
+    float* pose = &window[at];
+    for (int j = 0; j < kHumanJoints; ++j) {
+      float* p = pose + 3 * j;
+      const float x = p[0] * draw.scale, z = p[2] * draw.scale;
+      p[0] = draw.cos * x + draw.sin * z + draw.posture[3 * j] + how.jitter * random.normal();
+      p[1] = p[1] * draw.scale + draw.floor + draw.posture[3 * j + 1] + how.jitter * random.normal();
+      p[2] = draw.cos * z - draw.sin * x + draw.posture[3 * j + 2] + how.jitter * random.normal();
+    }
+    float* v = pose + 3 * kHumanJoints;
+    const float x = v[0] * draw.scale, z = v[1] * draw.scale;
+    v[0] = draw.cos * x + draw.sin * z;
+    v[1] = draw.cos * z - draw.sin * x;
+    v[0] += how.velocity * random.normal();
+    v[1] += how.velocity * random.normal();
+    v[2] += how.turn_rate * random.normal();
+  }
+}
+
+}  // namespace panache

@@ -1,0 +1,104 @@
+#pragma once
+// What a network is shown: windows of neutral motion, and what the style makes of them.
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/random.h"
+#include "style/model.h"
+#include "train/pairing.h"
+#include "train/take.h"
+
+namespace panache {
+
+// One training sample. The window is cut from the neutral take when it is needed.
+struct Sample {
+  int take = 0;                       // The neutral take,
+  float frame = 0;                    // and where in it the window ends.
+  int style = 0;                      // Index in the model; -1 is neutral itself.
+  int styled = -1;                    // The styled take it was paired with; -1 for neutral itself.
+  float log_rate = 0;                 // Logarithm of neutral seconds per styled second.
+  std::array<float, kFeet> contacts;  // Of the styled frame: 0 or 1.
+  bool has_next = false;              // The next sample is the next frame of the same window.
+};
+
+// How a window is disturbed in training, so that the networks hold on bodies and captures they never
+// saw. Each a standard deviation; all but the jitter are the same for the six poses of a window.
+struct Disturbance {
+  float scale = 0.08f;    // Of body size.
+  float floor = 0.015f;   // Height of the floor, metres.
+  float heading = 0.12f;  // Radians.
+  float posture = 0.5f;   // Constant offset of each number, in deviations.
+  float jitter = 0.007f;  // Per pose and joint, metres.
+  float velocity = 0.03f;   // Per pose, m/s.
+  float turn_rate = 0.27f;  // Per pose, rad/s.
+};
+
+// The draw of one disturbance: shared by two neighbouring samples whose difference is compared.
+struct Disturbed {
+  float scale = 1, floor = 0, cos = 1, sin = 0;
+  std::vector<float> posture;  // [numbers], in the numbers' units
+};
+
+class SampleSet {
+ public:
+  // Samples of the pairings, and of the neutral takes themselves where `with_neutral`. `styles`: names
+  // in the order of the model.
+  SampleSet(const std::vector<Take>& takes, const std::vector<Pairing>& pairings,
+            const std::vector<std::string>& styles, Recipe recipe, bool with_neutral);
+
+  PoseLayout layout() const { return layout_; }
+  int numbers() const { return pose_numbers(layout_); }  // Per pose.
+  int inputs() const { return kWindowPoses * numbers(); }
+  int outputs() const { return outputs_; }
+  const std::vector<Sample>& samples() const { return samples_; }
+  // What the pose network should answer for sample i, in the model's units. [outputs]
+  std::span<const float> target(size_t i) const {
+    return {&targets_[i * outputs_], static_cast<size_t>(outputs_)};
+  }
+  // Mean of each pose number over the neutral takes, both sides mirrored, and the scale that it is
+  // divided by: its deviation, with a floor under it.
+  const std::vector<float>& mean() const { return mean_; }
+  const std::vector<float>& scale() const { return scale_; }
+
+  // Writes the undisturbed window of sample i. [inputs]
+  void window(size_t i, std::span<float> out) const;
+
+  // Left for right, in place. Windows of any number of poses; targets of either recipe.
+  void mirror_window(std::span<float> window) const;
+  void mirror_target(std::span<float> target) const;
+
+  // Disturbs a window in place (layout positions only).
+  Disturbed draw(const Disturbance& how, Random& random) const;
+  void disturb(const Disturbed& draw, const Disturbance& how, Random& random,
+               std::span<float> window) const;
+
+ private:
+  void add_pairing(const Pairing& pairing, int style);
+  void add_neutral(int take);
+  void add_target(const Take& styled, int frame, const Take& neutral, float at, float rate);
+  void measure_inputs(const std::vector<int>& neutral_takes);
+
+  const std::vector<Take>& takes_;
+  Recipe recipe_;
+  PoseLayout layout_;
+  int outputs_;
+  std::vector<Sample> samples_;
+  std::vector<float> targets_;
+  std::vector<float> mean_, scale_;
+};
+
+// The change that turns the neutral take at frame `at` into frame `frame` of the styled one, `rate`
+// neutral seconds passing per styled second.
+ChangeNumbers change_between(const Take& styled, int frame, const Take& neutral, float at,
+                             float rate);
+
+// The body of a take at a fractional frame, straight between its frames.
+HumanPositions body_at(const Take& take, float frame);
+
+// Writes the window of a take that ends at `frame`. [kWindowPoses * numbers]
+void take_window(const Take& take, float frame, int numbers, std::span<float> out);
+
+}  // namespace panache

@@ -1,0 +1,93 @@
+#include "train/take.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <optional>
+
+#include "base/parallel.h"
+#include "clip/motion_file.h"
+#include "rig/rig.h"
+
+namespace panache {
+// The way of the root is measured over one window spacing, as it is live.
+void write_numbers(PoseLayout layout, Take& take) {
+  const int count = pose_numbers(layout), frames = take.frames();
+  take.numbers.resize(size_t(frames) * count);
+  const double back = kWindowSpacing * kTakeRate;
+  for (int f = 0; f < frames; ++f) {
+    const std::span<float> numbers(&take.numbers[size_t(f) * count], count);
+    write_pose_numbers(layout, take.body[f], numbers.first(count - kRootNumbers));
+    const double before = std::max(0.0, f - back);
+    const int a = static_cast<int>(before), b = std::min(a + 1, frames - 1);
+    const float t = static_cast<float>(before - a);
+    const Ground ground{lerp(take.ground[a].position, take.ground[b].position, t),
+                        take.ground[a].facing * (1 - t) + take.ground[b].facing * t};
+    write_root_numbers(ground, take.ground[f], kWindowSpacing, numbers.last<kRootNumbers>());
+  }
+}
+
+Result<Take> load_take(const ManifestRow& row, PoseLayout layout) {
+  Result<std::unique_ptr<MotionFile>> file = read_motion(row.path);
+  if (!file) return file.error();
+  const Clip& clip = (*file)->clip();
+  Result<Rig> rig = Rig::create(clip);
+  if (!rig) return Error{row.path + ": " + rig.error().message};
+
+  Take take;
+  take.row = row;
+  const double step = 1 / (kTakeRate * clip.frame_time);  // File frames per frame of the take.
+  const int frames = 1 + static_cast<int>((clip.frames - 1 - rig->first_frame()) / step + 1e-6);
+  std::vector<Quat> rotations(clip.joints());
+  std::vector<Vec3> translations(clip.joints());
+  std::vector<HumanPositions> world(frames);
+  BodyPose body;
+  for (int f = 0; f < frames; ++f) {
+    // Rates that are 30 but for the digits of the file (0.0333333) are not resampled.
+    double at = rig->first_frame() + f * step;
+    if (std::abs(at - std::round(at)) < 0.02) at = std::round(at);
+    sample(clip, at, {rotations, translations});
+    rig->read({rotations, translations}, body);
+    const Vec3 hips = body.positions[0];
+    const float last = f > 0 ? take.ground.back().facing : 0;
+    take.ground.push_back({{hips.x, 0, hips.z}, unwrap_angle(body.facing, last)});
+    take.body.emplace_back();
+    to_body_frame(body.positions, take.ground.back(), take.body.back());
+    const Quat to_heading = rotation_y(-body.facing);
+    take.turned.emplace_back();
+    for (int j = 0; j < kHumanJoints; ++j) take.turned.back()[j] = to_heading * body.rotations[j];
+    world[f] = body.positions;
+  }
+  take.contacts = detect_contacts(world, kTakeRate);
+  write_numbers(layout, take);
+  return take;
+}
+
+Result<std::vector<Take>> load_takes(const std::vector<ManifestRow>& rows, PoseLayout layout,
+                                     const std::function<void(int)>& progress) {
+  std::vector<std::optional<Result<Take>>> read(rows.size());
+  std::atomic<int> done = 0;
+  parallel_for(static_cast<int>(rows.size()), [&](int i) {
+    read[i] = load_take(rows[i], layout);
+    const int count = ++done;
+    if (progress) progress(count);
+  });
+  std::vector<Take> takes;
+  for (std::optional<Result<Take>>& take : read) {
+    if (!*take) return take->error();
+    takes.push_back(std::move(*take).value());
+  }
+  return takes;
+}
+
+HumanPositions world_positions(const Take& take, int frame) {
+  HumanPositions world;
+  const Ground& ground = take.ground[frame];
+  const Quat heading = rotation_y(ground.facing);
+  for (int j = 0; j < kHumanJoints; ++j) {
+    world[j] = rotate(heading, take.body[frame][j]) + ground.position;
+  }
+  return world;
+}
+
+}  // namespace panache

@@ -1,0 +1,46 @@
+#pragma once
+// Takes: motion brought to the canonical body at one rate, ready to be paired and learnt from.
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/quat.h"
+#include "base/result.h"
+#include "pose/contacts.h"
+#include "pose/features.h"
+#include "train/manifest.h"
+
+namespace panache {
+
+inline constexpr double kTakeRate = 30;  // Frames a second of all takes, whatever the file's rate.
+
+struct Take {
+  ManifestRow row;
+  std::vector<HumanPositions> body;                     // [frames], body frame, metres
+  std::vector<Ground> ground;                           // [frames], facing unwrapped
+  std::vector<std::array<Quat, kHumanJoints>> turned;   // [frames], world rotations in the heading
+                                                        // frame; only changes between takes of one
+                                                        // rig mean anything
+  std::vector<FootContacts> contacts;                   // [frames]
+  std::vector<float> numbers;                           // [frames][pose_numbers(layout)]
+
+  int frames() const { return static_cast<int>(body.size()); }
+};
+
+// Reads one take.
+Result<Take> load_take(const ManifestRow& row, PoseLayout layout);
+
+// Reads all takes over all cores; `progress` gets the number done. Fails with the sentence of the first
+// file, in order of the rows, that cannot be read.
+Result<std::vector<Take>> load_takes(const std::vector<ManifestRow>& rows, PoseLayout layout,
+                                     const std::function<void(int)>& progress = {});
+
+// Fills `numbers` of a take in this layout.
+void write_numbers(PoseLayout layout, Take& take);
+
+// World positions of a frame of a take (Y up, metres).
+HumanPositions world_positions(const Take& take, int frame);
+
+}  // namespace panache

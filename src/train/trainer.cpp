@@ -1,0 +1,335 @@
+#include "train/trainer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+#include "base/progress.h"
+#include "train/checkpoint.h"
+#include "train/export.h"
+
+namespace panache {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+// Units in which the pose network's changes weigh the same: 0.25 rad, 5 cm, 0.15 m/s, 0.6 rad/s.
+std::vector<float> change_scale() {
+  std::vector<float> scale(kChangeNumbers, 0.25f);
+  scale[63] = 0.05f;
+  scale[64] = scale[65] = 0.15f;
+  scale[66] = 0.6f;
+  return scale;
+}
+
+// Mean and deviation of the targets of `choice`, for absolute poses.
+void measure_targets(const SampleSet& set, const std::vector<int>& choice, BatchSettings& batch) {
+  const int outputs = set.outputs();
+  std::vector<double> sum(outputs), squares(outputs);
+  for (const int i : choice) {
+    const std::span<const float> target = set.target(i);
+    for (int o = 0; o < outputs; ++o) {
+      sum[o] += target[o];
+      squares[o] += double(target[o]) * target[o];
+    }
+  }
+  const double count = std::max<double>(1, static_cast<double>(choice.size()));
+  for (int o = 0; o < outputs; ++o) {
+    const double mean = sum[o] / count;
+    const double variance = std::max(squares[o] / count - mean * mean, 0.0);
+    batch.output_mean.push_back(static_cast<float>(mean));
+    batch.output_scale.push_back(static_cast<float>(std::max(std::sqrt(variance), 1e-3)));
+  }
+}
+
+// A twentieth of the styled takes is kept for validation. Whole takes: neighbouring frames are nearly
+// copies of each other.
+bool is_validation_take(const std::string& path) {
+  uint32_t hash = 2166136261u;  // FNV-1a of the file's name.
+  for (const char c : path.substr(path.find_last_of('/') + 1)) {
+    hash = (hash ^ static_cast<uint8_t>(c)) * 16777619u;
+  }
+  return hash % 20 == 0;
+}
+
+// Training goes on only from a checkpoint of the same training.
+uint64_t fingerprint(const TrainOptions& options, const RecipeSettings& settings, size_t samples) {
+  return Random(options.seed * 2654435761u + static_cast<uint64_t>(settings.steps) * 40503u +
+                samples * 9176u + (options.recipe == Recipe::panache))
+             .bits() >> 1;
+}
+
+// Networks that share their batches, trained one step after the other on one thread.
+struct Job {
+  std::vector<NetworkTrainer*> networks;
+  uint64_t seed;
+};
+
+torch::Tensor loss_of(const std::string& network, const torch::Tensor& out, const Batch& batch,
+                      float smoothness) {
+  if (network == "contact") {
+    return torch::binary_cross_entropy_with_logits(out, batch.contacts);
+  }
+  const torch::Tensor& target = network == "pose" ? batch.pose : batch.log_rate;
+  const torch::Tensor error = out - target;
+  torch::Tensor loss = error.square().mean();
+  if (smoothness > 0 && !batch.group_sizes.empty()) {
+    // Rows come in pairs of neighbouring frames: the change may not jump between them.
+    const torch::Tensor step = out.slice(0, 1, c10::nullopt, 2) - out.slice(0, 0, c10::nullopt, 2);
+    loss = loss + smoothness * step.square().mean();
+  }
+  return loss;
+}
+
+class Training {
+ public:
+  Training(const RecipeSettings& settings, const BatchMaker& batches, std::vector<int> validation,
+           const TrainOptions& options)
+      : settings_(settings),
+        batches_(batches),
+        validation_(std::move(validation)),
+        options_(options),
+        progress_("training") {}
+
+  void run(std::vector<Job> jobs, std::vector<LossPoint>& losses) {
+    total_ = settings_.steps * static_cast<int64_t>(jobs.size());
+    for (const Job& job : jobs) done_ += job.networks.front()->step();
+    std::vector<std::thread> threads;
+    for (Job& job : jobs) threads.emplace_back([this, &job, &losses] { run_job(job, losses); });
+    for (std::thread& thread : threads) thread.join();
+    std::stable_sort(losses.begin(), losses.end(), [](const LossPoint& a, const LossPoint& b) {
+      return a.network < b.network;
+    });
+  }
+
+ private:
+  void run_job(Job& job, std::vector<LossPoint>& losses) {
+    const int64_t report = std::max<int64_t>(1, settings_.steps / 50);
+    const int64_t keep = std::max<int64_t>(1, settings_.steps / 20);
+    std::vector<double> sums(job.networks.size());
+    for (int64_t step = job.networks.front()->step(); step < settings_.steps; ++step) {
+      Random random(options_.seed * 1000003 + job.seed * 7919 + static_cast<uint64_t>(step) * 2);
+      const Batch batch = batches_.make(random);
+      for (size_t n = 0; n < job.networks.size(); ++n) {
+        NetworkTrainer& network = *job.networks[n];
+        const torch::Tensor out = network.forward(batch.inputs, batch.group_sizes, &random);
+        const torch::Tensor loss =
+            loss_of(network.shape().name, out, batch, settings_.smoothness);
+        sums[n] += loss.item<float>();
+        network.learn(loss);
+      }
+      const int64_t done = ++done_;
+      progress_.update(static_cast<double>(done) / static_cast<double>(total_), status_text());
+      if ((step + 1) % report == 0) report_losses(job, step + 1, report, sums, losses);
+      if (!options_.checkpoint.empty() && (step + 1) % keep == 0) {
+        for (const NetworkTrainer* network : job.networks) {
+          save_checkpoint(options_.checkpoint,
+                          fingerprint(options_, settings_, batches_.choice().size()), *network,
+                          losses_for_checkpoint(losses, *network));
+        }
+      }
+    }
+  }
+
+  std::string status_text() {
+    const std::lock_guard lock(mutex_);
+    return status_;
+  }
+
+  std::vector<LossPoint> losses_for_checkpoint(const std::vector<LossPoint>& losses,
+                                               const NetworkTrainer& network) {
+    const std::lock_guard lock(mutex_);
+    std::vector<LossPoint> own;
+    for (const LossPoint& point : losses) {
+      if (point.network == network.shape().name) own.push_back(point);
+    }
+    return own;
+  }
+
+  void report_losses(const Job& job, int64_t step, int64_t since, std::vector<double>& sums,
+                     std::vector<LossPoint>& losses) {
+    for (size_t n = 0; n < job.networks.size(); ++n) {
+      const NetworkTrainer& network = *job.networks[n];
+      LossPoint point{network.shape().name, step,
+                      static_cast<float>(sums[n] / static_cast<double>(since)),
+                      validation_loss(network)};
+      sums[n] = 0;
+      const std::lock_guard lock(mutex_);
+      if (point.network == "pose") {
+        char text[64];
+        std::snprintf(text, sizeof text, "pose loss %.4f, validation %.4f", point.train,
+                      point.validation);
+        status_ = text;
+      }
+      losses.push_back(std::move(point));
+    }
+  }
+
+  float validation_loss(const NetworkTrainer& network) const {
+    if (validation_.empty()) return 0;
+    torch::NoGradGuard no_gradients;
+    Batch batch = batches_.plain(validation_);
+    batch.group_sizes = validation_groups_;
+    const torch::Tensor out = network.forward(batch.inputs, batch.group_sizes, nullptr);
+    return loss_of(network.shape().name, out, batch, 0).item<float>();
+  }
+
+ public:
+  void group_validation(std::vector<int64_t> groups) { validation_groups_ = std::move(groups); }
+
+ private:
+  const RecipeSettings& settings_;
+  const BatchMaker& batches_;
+  std::vector<int> validation_;
+  std::vector<int64_t> validation_groups_;
+  const TrainOptions& options_;
+  Progress progress_;
+  std::mutex mutex_;
+  std::string status_;
+  std::atomic<int64_t> done_ = 0;
+  int64_t total_ = 1;
+};
+
+// Up to 4,000 validation samples in order of their style, and how many each style has.
+std::vector<int> pick_validation(const SampleSet& set, const std::vector<int>& samples, int styles,
+                                 std::vector<int64_t>& groups) {
+  const size_t stride = std::max<size_t>(1, samples.size() / 4000);
+  std::vector<int> picked;
+  for (size_t i = 0; i < samples.size(); i += stride) {
+    if (set.samples()[samples[i]].style >= 0) picked.push_back(samples[i]);
+  }
+  std::stable_sort(picked.begin(), picked.end(), [&](int a, int b) {
+    return set.samples()[a].style < set.samples()[b].style;
+  });
+  groups.assign(styles, 0);
+  for (const int i : picked) ++groups[set.samples()[i].style];
+  return picked;
+}
+
+}  // namespace
+
+RecipeSettings recipe_settings(Recipe recipe) {
+  RecipeSettings settings;
+  settings.recipe = recipe;
+  if (recipe == Recipe::smith2019) {
+    // The slides: Adam, learning rate 0.01, 20 epochs of 550,000 samples in batches of 64.
+    settings.steps = 20 * 550000 / 64;
+    settings.batch.size = 64;
+    settings.optimizer.learning_rate = 0.01f;
+    return settings;
+  }
+  settings.steps = 8000;
+  settings.batch.size = 256;
+  settings.batch.by_style = true;
+  settings.batch.mirrored = true;
+  settings.batch.disturbed = true;
+  settings.batch.input_clip = 3;
+  settings.optimizer.learning_rate = 0.004f;
+  settings.optimizer.one_cycle = true;
+  settings.optimizer.weight_decay = 1.0f;
+  settings.optimizer.dropout = 0.1f;
+  settings.smoothness = 0.5f;
+  return settings;
+}
+
+Result<TrainingData> prepare_training(const std::vector<ManifestRow>& rows, PoseLayout layout) {
+  TrainingData data;
+  std::vector<ManifestRow> used;
+  for (const ManifestRow& row : rows) {
+    if (!row.test) used.push_back(row);
+  }
+  const Clock::time_point begin = Clock::now();
+  {
+    Progress progress("reading");
+    Result<std::vector<Take>> takes = load_takes(used, layout, [&](int done) {
+      progress.update(static_cast<double>(done) / static_cast<double>(used.size()));
+    });
+    if (!takes) return takes.error();
+    data.takes = *std::move(takes);
+  }
+  data.read_seconds = seconds_since(begin);
+  std::vector<int> styled, neutral;
+  for (size_t i = 0; i < data.takes.size(); ++i) {
+    (data.takes[i].row.neutral ? neutral : styled).push_back(static_cast<int>(i));
+  }
+  if (neutral.empty()) return Error{"no neutral take to learn from; expected rows with neutral 1"};
+  if (styled.empty()) return Error{"no styled take to learn from; expected rows with neutral 0"};
+  const Clock::time_point paired = Clock::now();
+  Progress progress("pairing");
+  data.pairings = pair_takes(data.takes, styled, neutral, {},
+                             [&](double share) { progress.update(share); });
+  data.pair_seconds = seconds_since(paired);
+  if (data.pairings.empty()) {
+    return Error{"no styled take has a neutral take of the same content in its manifest"};
+  }
+  return data;
+}
+
+Result<Trained> train(const std::vector<ManifestRow>& rows, const std::vector<StyleName>& styles,
+                      const TrainOptions& options) {
+  RecipeSettings settings = recipe_settings(options.recipe);
+  if (options.steps) settings.steps = *options.steps;
+  const bool heads = options.recipe == Recipe::panache;
+  const PoseLayout layout = heads ? PoseLayout::positions : PoseLayout::rotations;
+  Result<TrainingData> data = prepare_training(rows, layout);
+  if (!data) return data.error();
+
+  std::vector<std::string> names;
+  for (const StyleName& style : styles) names.push_back(style.name);
+  const int count = static_cast<int>(names.size());
+  const SampleSet set(data->takes, data->pairings, names, options.recipe, !heads);
+  std::vector<int> choice, held;
+  for (size_t i = 0; i < set.samples().size(); ++i) {
+    const int styled = set.samples()[i].styled;
+    const bool validates = styled >= 0 && is_validation_take(data->takes[styled].row.path);
+    (validates ? held : choice).push_back(static_cast<int>(i));
+  }
+
+  if (heads) {
+    settings.batch.output_mean.assign(kChangeNumbers, 0.0f);
+    settings.batch.output_scale = change_scale();
+  } else {
+    measure_targets(set, choice, settings.batch);
+  }
+  const BatchMaker batches(set, choice, count, !heads, settings.batch);
+  std::vector<NetworkTrainer> networks;
+  for (const NetworkShape& shape : network_shapes(options.recipe, set, count)) {
+    networks.emplace_back(shape, settings.optimizer, settings.steps,
+                          options.seed * 31 + networks.size());
+  }
+  Trained trained;
+  trained.samples = choice.size();
+  trained.read_seconds = data->read_seconds;
+  trained.pair_seconds = data->pair_seconds;
+  if (!options.checkpoint.empty()) {
+    for (NetworkTrainer& network : networks) {
+      Result<void> loaded =
+          load_checkpoint(options.checkpoint, fingerprint(options, settings, choice.size()), network,
+                          trained.losses);
+      if (!loaded) return loaded.error();
+    }
+  }
+  const Clock::time_point begin = Clock::now();
+  {
+    std::vector<int64_t> groups;
+    Training training(settings, batches, pick_validation(set, held, count, groups), options);
+    training.group_validation(groups);
+    // The pose network costs as much as the other two together: one thread each.
+    training.run({{{&networks[0]}, 1}, {{&networks[1], &networks[2]}, 2}}, trained.losses);
+  }
+  trained.train_seconds = seconds_since(begin);
+  for (NetworkTrainer& network : networks) network.round_halves();
+  trained.model = export_model(settings, set, styles, networks, options);
+  Result<float> error = export_error(trained.model, set, batches, networks, choice);
+  if (!error) return error.error();
+  trained.export_error = *error;
+  return trained;
+}
+
+}  // namespace panache

@@ -1,0 +1,68 @@
+#pragma once
+// From manifests to a model: pairs, samples, three networks, a file.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "net/safetensors.h"
+#include "train/batches.h"
+#include "train/manifest.h"
+#include "train/network.h"
+#include "train/samples.h"
+
+namespace panache {
+
+// What a recipe fixes. recipe_settings() gives each recipe's own.
+struct RecipeSettings {
+  Recipe recipe = Recipe::panache;
+  int64_t steps = 0;
+  BatchSettings batch;
+  OptimizerSettings optimizer;
+  float smoothness = 0;  // Weight of the loss on the change from one frame to the next.
+};
+RecipeSettings recipe_settings(Recipe recipe);
+
+struct TrainOptions {
+  Recipe recipe = Recipe::panache;
+  std::optional<int64_t> steps;   // Instead of the recipe's own.
+  uint64_t seed = 1;
+  std::string licence;            // Of the data, for the model's metadata.
+  std::string checkpoint;         // File to resume from and to save to now and then; empty: none.
+};
+
+// One line of the loss table.
+struct LossPoint {
+  std::string network;
+  int64_t step = 0;
+  float train = 0;       // Mean since the last line.
+  float validation = 0;  // On takes left out of training.
+};
+
+struct Trained {
+  TensorFile model;
+  std::vector<LossPoint> losses;
+  size_t samples = 0;
+  double read_seconds = 0, pair_seconds = 0, train_seconds = 0;
+  float export_error = 0;  // Largest difference between the exported model's outputs and libtorch's.
+};
+
+// Takes of the training split, read and paired: what both recipes learn from.
+struct TrainingData {
+  std::vector<Take> takes;
+  std::vector<Pairing> pairings;
+  double read_seconds = 0, pair_seconds = 0;
+};
+Result<TrainingData> prepare_training(const std::vector<ManifestRow>& rows, PoseLayout layout);
+
+// Trains on the training split of `rows`, whose styles are already renamed to those of `styles`.
+Result<Trained> train(const std::vector<ManifestRow>& rows, const std::vector<StyleName>& styles,
+                      const TrainOptions& options);
+
+// "step,network,train,validation" lines, and the same as a picture.
+std::string losses_csv(const std::vector<LossPoint>& losses);
+std::string losses_svg(const std::vector<LossPoint>& losses);
+
+}  // namespace panache

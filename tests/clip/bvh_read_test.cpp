@@ -1,0 +1,134 @@
+#include "clip/bvh.h"
+
+#include "clip/euler.h"
+#include "fixtures.h"
+
+namespace panache {
+namespace {
+
+void expect_same_clip(const Clip& a, const Clip& b) {
+  ASSERT_EQ(a.joints(), b.joints());
+  for (size_t j = 0; j < a.joints(); ++j) {
+    const Joint &x = a.skeleton.joints[j], &y = b.skeleton.joints[j];
+    EXPECT_EQ(x.name, y.name);
+    EXPECT_EQ(x.parent, y.parent);
+    EXPECT_EQ(x.offset, y.offset);
+    EXPECT_EQ(x.ends, y.ends);
+    EXPECT_EQ(x.can_rotate, y.can_rotate);
+    EXPECT_EQ(x.can_translate, y.can_translate);
+  }
+  EXPECT_EQ(a.frame_time, b.frame_time);
+  EXPECT_EQ(a.frames, b.frames);
+  EXPECT_EQ(a.rotations, b.rotations);
+  EXPECT_EQ(a.translations, b.translations);
+}
+
+TEST(BvhReading, HierarchyRateAndPosesAreTheFiles) {
+  const auto file = must_parse(read_fixture("plain.bvh"));
+  ASSERT_TRUE(file);
+  const Clip& clip = file->clip();
+  ASSERT_EQ(clip.joints(), 3u);
+  EXPECT_EQ(clip.skeleton.joints[0].name, "Hips");
+  EXPECT_EQ(clip.skeleton.joints[1].name, "LeftUpLeg");
+  EXPECT_EQ(clip.skeleton.joints[2].parent, 0);
+  EXPECT_EQ(clip.skeleton.joints[2].offset, (Vec3{0, 12, -1.5f}));
+  EXPECT_EQ(clip.skeleton.joints[2].ends, (std::vector<Vec3>{{0, 20, 0}}));
+  EXPECT_TRUE(clip.skeleton.joints[0].can_translate);
+  EXPECT_FALSE(clip.skeleton.joints[1].can_translate);
+  EXPECT_EQ(clip.frame_time, 0.033333);
+  EXPECT_EQ(clip.frames, 3);
+  EXPECT_EQ(clip.pose(1).translations[0], (Vec3{0.2f, 93.1f, -4.1f}));
+  EXPECT_EQ(clip.pose(1).translations[1], (Vec3{9.1f, -10, 0}));
+  EXPECT_EQ(clip.pose(1).rotations[2], euler_to_quat({3, {2, 1, 0}}, {5, 89, 7.5}).as<float>());
+  EXPECT_EQ(broken_promise(clip), "");
+}
+
+TEST(BvhReading, OddButHonestFilesAreRead) {
+  const auto file = must_parse(read_fixture("odd.bvh"));
+  ASSERT_TRUE(file);
+  const Clip& clip = file->clip();
+  const auto& joints = clip.skeleton.joints;
+  ASSERT_EQ(joints.size(), 4u);
+  EXPECT_EQ(joints[0].name, "My Rig:Hips");
+  EXPECT_EQ(joints[1].name, "left: upper arm");
+  EXPECT_EQ(joints[2].name, "Hand");
+  EXPECT_EQ(joints[3].name, "Hand");
+  EXPECT_EQ(joints[1].ends, (std::vector<Vec3>{{1, 1, 1}, {2, 2, 2}}));
+  EXPECT_EQ(joints[1].offset, (Vec3{-1, 2, 0.3f}));
+  EXPECT_FALSE(joints[1].can_rotate || joints[1].can_translate);
+  EXPECT_EQ(joints[2].parent, 1);
+  EXPECT_EQ(joints[3].parent, 0);
+  EXPECT_EQ(clip.frame_time, 0.04);
+  ASSERT_EQ(clip.frames, 2);
+  // Yrotation 1.5, Zposition -2: the other axes of the position stay at the OFFSET.
+  EXPECT_EQ(clip.pose(0).translations[0], (Vec3{1, 2, -2}));
+  EXPECT_EQ(clip.pose(0).rotations[0], euler_to_quat({1, {1, 0, 0}}, {1.5}).as<float>());
+  EXPECT_EQ(clip.pose(0).translations[1], joints[1].offset);
+  EXPECT_EQ(clip.pose(0).rotations[1], Quat{});
+  EXPECT_EQ(clip.pose(0).translations[2], (Vec3{10, 20, -9.23872e-7f}));
+  EXPECT_EQ(clip.pose(0).rotations[2], euler_to_quat({2, {0, 2, 0}}, {10, 20}).as<float>());
+  EXPECT_EQ(clip.pose(1).rotations[3], euler_to_quat({3, {1, 0, 2}}, {30, 90, 50}).as<float>());
+  EXPECT_EQ(broken_promise(clip), "");
+}
+
+TEST(BvhReading, SeveralRootsAreSeveralTrees) {
+  const auto file = must_parse(read_fixture("two_roots.bvh"));
+  ASSERT_TRUE(file);
+  const auto& joints = file->clip().skeleton.joints;
+  ASSERT_EQ(joints.size(), 2u);
+  EXPECT_EQ(joints[0].parent, -1);
+  EXPECT_EQ(joints[1].parent, -1);
+  EXPECT_EQ(file->clip().pose(1).translations[0], (Vec3{2, 3, 1.01f}));
+  EXPECT_EQ(file->clip().pose(1).translations[1], (Vec3{0, 0.5f, 0}));
+}
+
+TEST(BvhReading, LineEndsBlanksAndByteOrderMarksChangeNothing) {
+  for (const char* fixture : kBvhFixtures) {
+    const std::string text = read_fixture(fixture);
+    const auto plain = must_parse(text);
+    ASSERT_TRUE(plain);
+    const std::string variants[] = {replaced_all(text, '\n', "\r\n"),
+                                    replaced_all(text, '\n', "\r"),
+                                    replaced_all(text, '\n', " \t\n\n"),
+                                    replaced_all(text, '\n', "\r\r\n"),
+                                    "\xef\xbb\xbf" + text,
+                                    text.substr(0, text.find_last_not_of("\r\n ") + 1),
+                                    "\n \n" + text + "\n \n"};
+    for (const std::string& variant : variants) {
+      const auto same = must_parse(variant);
+      ASSERT_TRUE(same);
+      expect_same_clip(same->clip(), plain->clip());
+    }
+  }
+}
+
+TEST(BvhReading, FramesBeyondTheAnnouncedCountAreReadAsInBlender) {
+  for (const char* count : {"0", "1", "2"}) {
+    const auto file = must_parse(
+        replaced(read_fixture("plain.bvh"), "Frames: 3", std::string("Frames: ") + count));
+    ASSERT_TRUE(file);
+    EXPECT_EQ(file->clip().frames, 3);
+    EXPECT_EQ(broken_promise(file->clip()), "");
+  }
+}
+
+TEST(BvhReading, DepthAndJointCountMayReachTheirLimits) {
+  for (const bool deep : {true, false}) {
+    const int count = deep ? kBvhMaxDepth : kBvhMaxJoints;
+    std::string text = "HIERARCHY\n", numbers;
+    for (int i = 0; i < count; ++i) {
+      text += "ROOT a\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n";
+      if (!deep) text += "}\n";
+      numbers += "1 ";
+    }
+    for (int i = 0; deep && i < count; ++i) text += "}\n";
+    text += "MOTION\nFrames: 1\nFrame Time: 1\n" + numbers;
+    const auto file = must_parse(text);
+    ASSERT_TRUE(file);
+    EXPECT_EQ(file->clip().joints(), static_cast<size_t>(count));
+    EXPECT_EQ(broken_promise(file->clip()), "");
+  }
+}
+
+}  // namespace
+}  // namespace panache

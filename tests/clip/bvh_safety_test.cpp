@@ -1,0 +1,151 @@
+// No file can hurt us: whatever is done to a good file, the answer is a sentence or a clip that
+// keeps its promises.
+
+#include <cstdlib>
+#include <new>
+
+#include "clip/fk.h"
+#include "fixtures.h"
+
+namespace {
+
+// Allocations of this thread that may still succeed; -1 for any number.
+thread_local long allocations_left = -1;
+thread_local long allocations_made = 0;
+
+}  // namespace
+
+// Counts, and fails when told to. The other forms of new call this one. Not inlined, or the
+// compiler sees free() meet new and warns.
+[[gnu::noinline]] void* operator new(size_t size) {
+  ++allocations_made;
+  if (allocations_left == 0) throw std::bad_alloc();
+  if (allocations_left > 0) --allocations_left;
+  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, size_t) noexcept { std::free(memory); }
+
+namespace panache {
+namespace {
+
+// Reads `text`; if it is accepted, the clip keeps its promises and the file comes back byte for
+// byte. Returns whether it was accepted.
+bool check_harmless(const std::string& text) {
+  auto file = parse_bvh(text, "walk.bvh");
+  if (!file) {
+    const std::string& sentence = file.error().message;
+    EXPECT_EQ(sentence.substr(0, 9), "walk.bvh:");
+    EXPECT_NE(sentence.find(": expected "), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find(", found "), std::string::npos) << sentence;
+    EXPECT_EQ(sentence.find('\n'), std::string::npos) << sentence;
+    return false;
+  }
+  const Clip& clip = (*file)->clip();
+  EXPECT_EQ(broken_promise(clip), "") << text;
+  EXPECT_EQ((*file)->encode(clip, same_frames(clip.frames)), text);
+
+  std::vector<Quat> rotations(clip.joints());
+  std::vector<Vec3> translations(clip.joints());
+  for (int i = 0; i < clip.frames; ++i) {
+    world_pose(clip.skeleton, clip.pose(i), {rotations, translations});
+    for (size_t j = 0; j < clip.joints(); ++j) {
+      EXPECT_TRUE(is_finite(rotations[j]) && is_finite(translations[j])) << text;
+    }
+  }
+  return true;
+}
+
+TEST(BvhSafety, EveryTruncationIsHarmless) {
+  for (const char* fixture : kBvhFixtures) {
+    const std::string text = read_fixture(fixture);
+    for (size_t size = 0; size < text.size(); ++size) check_harmless(text.substr(0, size));
+  }
+}
+
+TEST(BvhSafety, EveryChangedByteIsHarmless) {
+  constexpr unsigned char kValues[] = {0,   ' ', '\n', '\r', '0', '9',  '-',
+                                       '.', 'e', '{',  '}',  'X', 0x7f, 0xff};
+  int accepted = 0, refused = 0;
+  for (const char* fixture : kBvhFixtures) {
+    const std::string text = read_fixture(fixture);
+    for (size_t i = 0; i < text.size(); ++i) {
+      std::string spoilt = text;
+      for (const unsigned char value : kValues) {
+        spoilt[i] = static_cast<char>(value);
+        ++(check_harmless(spoilt) ? accepted : refused);
+      }
+      spoilt[i] = static_cast<char>(text[i] ^ 1);
+      ++(check_harmless(spoilt) ? accepted : refused);
+    }
+  }
+  // Both ways were taken, or this test says nothing.
+  EXPECT_GT(accepted, 1000);
+  EXPECT_GT(refused, 1000);
+}
+
+TEST(BvhSafety, EveryMissingLineIsHarmless) {
+  for (const char* fixture : kBvhFixtures) {
+    const std::string text = read_fixture(fixture);
+    for (size_t begin = 0; begin < text.size();) {
+      const size_t end = std::min(text.find('\n', begin), text.size() - 1) + 1;
+      check_harmless(text.substr(0, begin) + text.substr(end));
+      check_harmless(text.substr(0, end) + text.substr(begin));
+      begin = end;
+    }
+  }
+}
+
+TEST(BvhSafety, EveryFailedAllocationComesOutAsBadAlloc) {
+  std::string texts[] = {read_fixture(kBvhFixtures[0]), read_fixture(kBvhFixtures[1]),
+                         read_fixture(kBvhFixtures[2]),
+                         replaced(read_fixture(kBvhFixtures[0]), "89.000000", "eighty")};
+  const std::string name = "a name that is too long to be kept without memory.bvh";
+  for (const std::string& text : texts) {
+    bool done = false;
+    long allowed = 0;
+    for (; !done; ++allowed) {
+      ASSERT_LT(allowed, 10000);
+      std::string copy = text;
+      allocations_left = allowed;
+      try {
+        auto file = parse_bvh(std::move(copy), name);
+        if (file) {
+          const auto frames = same_frames((*file)->clip().frames);
+          done = (*file)->encode((*file)->clip(), frames).size() == text.size();
+        } else {
+          done = true;
+        }
+      } catch (const std::bad_alloc&) {
+      }
+      allocations_left = -1;
+    }
+    EXPECT_GT(allowed, 10);
+  }
+}
+
+TEST(BvhSafety, AnAnnouncedFloodTakesNoMemory) {
+  const std::string text =
+      replaced(read_fixture("plain.bvh"), "Frames: 3", "Frames: 1000000000000");
+  const long before = allocations_made;
+  EXPECT_FALSE(parse_bvh(text, "walk.bvh").ok());
+  EXPECT_LT(allocations_made - before, 100);
+}
+
+TEST(BvhSafety, SamplingAndForwardKinematicsAllocateNothing) {
+  const auto file = must_parse(read_fixture("plain.bvh"));
+  const Clip& clip = file->clip();
+  std::vector<Quat> rotations(clip.joints());
+  std::vector<Vec3> translations(clip.joints());
+  const Pose pose = {rotations, translations};
+  const long before = allocations_made;
+  for (int i = 0; i < 1000; ++i) {
+    sample(clip, i * 0.002, pose);
+    world_pose(clip.skeleton, pose, pose);
+  }
+  EXPECT_EQ(allocations_made, before);
+}
+
+}  // namespace
+}  // namespace panache

@@ -1,0 +1,36 @@
+#include "clip/motion_file.h"
+
+#include "fixtures.h"
+
+namespace panache {
+namespace {
+
+std::string read_refusal(const std::string& path) {
+  auto file = read_motion(path);
+  return file.ok() ? "(accepted)" : file.error().message;
+}
+
+TEST(MotionFile, TheEndingDecidesTheFormatInAnyCase) {
+  const std::string folder = testing::TempDir() + "panache_motion_file";
+  for (const char* name : {"/walk.bvh", "/walk.BVH", "/walk.neutral.Bvh"}) {
+    ASSERT_TRUE(write_file(folder + name, read_fixture("plain.bvh"), true).ok());
+    auto file = read_motion(folder + name);
+    ASSERT_TRUE(file.ok()) << file.error().message;
+    EXPECT_EQ((*file)->clip().frames, 3);
+  }
+  std::filesystem::remove_all(folder);
+}
+
+TEST(MotionFile, AnUnknownEndingIsAnsweredWithTheKnownOnes) {
+  EXPECT_EQ(read_refusal("a/walk.fbx"),
+            "a/walk.fbx: expected a motion file (.bvh), found the ending '.fbx'");
+  EXPECT_EQ(read_refusal("a.b/walk"), "a.b/walk: expected a motion file (.bvh), found no ending");
+}
+
+TEST(MotionFile, AFileThatCannotBeReadSaysWhy) {
+  EXPECT_EQ(read_refusal("nowhere/walk.bvh"),
+            "nowhere/walk.bvh: cannot be read: No such file or directory");
+}
+
+}  // namespace
+}  // namespace panache

@@ -1,0 +1,137 @@
+#include "net/mlp.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "net/dense.h"
+
+namespace panache {
+namespace {
+
+const char* const kName = "model.safetensors";
+
+Tensor ramp(std::vector<int64_t> shape) {
+  Tensor tensor{std::move(shape), {}, false};
+  int64_t count = 1;
+  for (const int64_t size : tensor.shape) count *= size;
+  for (int64_t i = 0; i < count; ++i) {
+    tensor.values.push_back(std::sin(static_cast<float>(i) * 0.7f));
+  }
+  return tensor;
+}
+
+// A trunk of three layers, 5 -> 4 -> 6 -> 3, called "pose".
+TensorFile small_file() {
+  TensorFile file;
+  const int64_t sizes[] = {5, 4, 6, 3};
+  for (int layer = 0; layer < 3; ++layer) {
+    const std::string key = "pose." + std::to_string(layer);
+    file.tensors[key + ".weight"] = ramp({sizes[layer], sizes[layer + 1]});
+    file.tensors[key + ".bias"] = ramp({sizes[layer + 1]});
+  }
+  return file;
+}
+
+std::string failure(const TensorFile& file, int inputs = 5) {
+  const Result<Trunk> trunk = Trunk::read(file, "pose", inputs, kName);
+  return trunk.ok() ? "" : trunk.error().message;
+}
+
+TEST(Trunk, runs_its_layers_one_after_another_with_elu_behind_each) {
+  const TensorFile file = small_file();
+  const Result<Trunk> trunk = Trunk::read(file, "pose", 5, kName);
+  ASSERT_TRUE(trunk.ok()) << trunk.error().message;
+  EXPECT_EQ(trunk->inputs(), 5);
+  EXPECT_EQ(trunk->outputs(), 3);
+
+  std::vector<float> expected = {0.5f, -1, 2, 0, 0.25f};
+  const std::vector<float> x = expected;
+  for (int layer = 0; layer < 3; ++layer) {
+    const std::string key = "pose." + std::to_string(layer);
+    const Tensor& bias = file.tensors.at(key + ".bias");
+    std::vector<float> y(bias.values.size());
+    scalar::dense(expected, file.tensors.at(key + ".weight").values, bias.values, y);
+    scalar::elu(y);
+    expected = y;
+  }
+  std::vector<float> scratch(trunk->scratch_size());
+  const std::span<const float> y = trunk->forward(x, scratch);
+  EXPECT_EQ(std::vector<float>(y.begin(), y.end()), expected);
+  EXPECT_GE(y.data(), scratch.data());
+  EXPECT_LE(y.data() + y.size(), scratch.data() + scratch.size());
+}
+
+TEST(Trunk, takes_any_number_of_inputs_when_told_so) {
+  const Result<Trunk> trunk = Trunk::read(small_file(), "pose", -1, kName);
+  ASSERT_TRUE(trunk.ok());
+  EXPECT_EQ(trunk->inputs(), 5);
+}
+
+TEST(Trunk, a_wrong_shape_is_refused_with_both_shapes) {
+  EXPECT_EQ(failure(small_file(), 7),
+            "model.safetensors: tensor 'pose.0.weight' has shape [5, 4]; expected [7, any]");
+  TensorFile file = small_file();
+  file.tensors["pose.1.weight"] = ramp({3, 6});
+  EXPECT_EQ(failure(file),
+            "model.safetensors: tensor 'pose.1.weight' has shape [3, 6]; expected [4, any]");
+  file = small_file();
+  file.tensors["pose.2.weight"] = ramp({18});
+  EXPECT_EQ(failure(file),
+            "model.safetensors: tensor 'pose.2.weight' has shape [18]; expected [6, any]");
+  file = small_file();
+  file.tensors["pose.2.bias"] = ramp({2});
+  EXPECT_EQ(failure(file), "model.safetensors: tensor 'pose.2.bias' has shape [2]; expected [3]");
+}
+
+TEST(Trunk, a_layer_without_outputs_is_refused) {
+  TensorFile file = small_file();
+  file.tensors["pose.0.weight"] = ramp({5, 0});
+  EXPECT_EQ(failure(file),
+            "model.safetensors: tensor 'pose.0.weight' has shape [5, 0]; expected [5, any]");
+}
+
+TEST(Trunk, a_missing_tensor_is_named) {
+  TensorFile file = small_file();
+  file.tensors.erase("pose.2.bias");
+  EXPECT_EQ(failure(file), "model.safetensors: tensor 'pose.2.bias' is missing");
+  EXPECT_EQ(failure(TensorFile{}), "model.safetensors: tensor 'pose.0.weight' is missing");
+}
+
+TEST(Trunk, a_layer_behind_a_gap_is_refused) {
+  TensorFile file = small_file();
+  file.tensors.erase("pose.1.weight");
+  EXPECT_EQ(failure(file),
+            "model.safetensors: has 5 tensors 'pose.*'; expected 2, a weight and a bias for each "
+            "of the layers from pose.0 to pose.0");
+}
+
+TEST(Trunk, a_number_that_is_not_finite_is_refused_with_its_place) {
+  TensorFile file = small_file();
+  file.tensors["pose.1.weight"].values[5] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(failure(file),
+            "model.safetensors: tensor 'pose.1.weight' holds a number that is not finite (number "
+            "5)");
+  file = small_file();
+  file.tensors["pose.1.bias"].values[0] = -std::numeric_limits<float>::infinity();
+  EXPECT_EQ(failure(file),
+            "model.safetensors: tensor 'pose.1.bias' holds a number that is not finite (number "
+            "0)");
+}
+
+TEST(ReadLayer, gives_the_numbers_of_the_file) {
+  const TensorFile file = small_file();
+  const Result<DenseLayer> layer = read_layer(file, "pose.1", 4, 6, kName);
+  ASSERT_TRUE(layer.ok());
+  EXPECT_EQ(layer->inputs, 4);
+  EXPECT_EQ(layer->outputs, 6);
+  EXPECT_EQ(layer->weights, file.tensors.at("pose.1.weight").values);
+  EXPECT_EQ(layer->bias, file.tensors.at("pose.1.bias").values);
+  EXPECT_EQ(read_layer(file, "pose.1", 4, 7, kName).error().message,
+            "model.safetensors: tensor 'pose.1.weight' has shape [4, 6]; expected [4, 7]");
+}
+
+}  // namespace
+}  // namespace panache

@@ -1,0 +1,287 @@
+#include "rig/calibration.h"
+
+#include <gtest/gtest.h>
+
+#include "rig/made_up.h"
+#include "rig/rig.h"
+
+namespace panache {
+namespace {
+
+using namespace test;
+using enum HumanJoint;
+
+// Moves a clip into other axes and units: `axes` turns its axes to the new ones.
+Clip in_axes(Clip clip, Quat axes, float scale, Vec3 shift) {
+  const size_t joints = clip.joints();
+  for (size_t i = 0; i < clip.rotations.size(); ++i) {
+    clip.translations[i] *= scale;
+    if (i % joints != 0) continue;
+    clip.rotations[i] = axes * clip.rotations[i];
+    clip.translations[i] = rotate(axes, clip.translations[i]) + shift;
+  }
+  for (Joint& joint : clip.skeleton.joints) {
+    joint.offset *= scale;
+    for (Vec3& end : joint.ends) end *= scale;
+  }
+  return clip;
+}
+
+Rig rig_of(const Clip& clip) {
+  Result<Rig> rig = Rig::create(clip);
+  if (!rig) ADD_FAILURE() << rig.error().message;
+  return *std::move(rig);
+}
+
+bool has_note(const std::vector<std::string>& notes, const std::string& part) {
+  for (const std::string& note : notes) {
+    if (note.find(part) != std::string::npos) return true;
+  }
+  return false;
+}
+
+TEST(Calibration, any_axis_may_be_up_and_any_unit_a_metre) {
+  const Clip clip = random_clip(canonical_skeleton(), 60, 0.4f, 2);
+  const float h = std::sqrt(0.5f);
+  const std::pair<const char*, Quat> axes[] = {{"+Y", {}},
+                                               {"-Y", {1, 0, 0, 0}},
+                                               {"+Z", {h, 0, 0, h}},
+                                               {"-Z", {-h, 0, 0, h}},
+                                               {"+X", {0, 0, -h, h}},
+                                               {"-X", {0, 0, h, h}}};
+  Rig plain = rig_of(clip);
+  EXPECT_EQ(plain.up_axis(), "+Y");
+  EXPECT_NEAR(plain.scale(), 1, 1e-5f);
+  for (const auto& [name, turn] : axes) {
+    for (float unit : {1.0f, 0.01f, 39.37f}) {
+      const Clip turned = in_axes(clip, turn, unit, rotate(turn, Vec3{0, 0.5f * unit, 0}));
+      Rig rig = rig_of(turned);
+      EXPECT_EQ(rig.up_axis(), name);
+      EXPECT_NEAR(rig.scale() * unit, 1, 1e-5f);
+      for (int f = 0; f < clip.frames; ++f) {
+        BodyPose want, got;
+        plain.read(clip.pose(f), want);
+        rig.read(turned.pose(f), got);
+        EXPECT_NEAR(want.facing, got.facing, 1e-4f);
+        for (int j = 0; j < kHumanJoints; ++j) {
+          EXPECT_LT(length(want.positions[j] - got.positions[j]), 2e-5f) << name << unit;
+          EXPECT_LT(length(want.joints[j] - got.joints[j]), 2e-5f) << name << unit;
+        }
+      }
+    }
+  }
+}
+
+// A body that stands at y = 1 and rises by 1 cm a frame.
+Clip standing(int frames) {
+  const MadeUp rig = make_up({{"Hips", "", hips},
+                              {"Chest", "Hips", chest},
+                              {"Head", "Chest", head},
+                              {"Arm_*", "Chest", left_upper_arm},
+                              {"Elbow_*", "Arm_*", left_lower_arm},
+                              {"Hand_*", "Elbow_*", left_hand},
+                              {"Thigh_*", "Hips", left_upper_leg},
+                              {"Knee_*", "Thigh_*", left_lower_leg},
+                              {"Foot_*", "Knee_*", left_foot},
+                              {"Toes_*", "Foot_*", left_toes}},
+                             "L", "R");
+  Clip out = rig.clip();
+  const size_t joints = out.joints();
+  out.resize(frames);
+  for (int f = frames - 1; f >= 0; --f) {
+    for (size_t j = 0; j < joints; ++j) {
+      out.rotations[f * joints + j] = {};
+      out.translations[f * joints + j] = out.translations[j];
+    }
+    // A hand moves, or the first frame would be the rest pose.
+    const float wave = 0.01f * static_cast<float>(f % 7 + 1);
+    out.rotations[f * joints + rig.joint.at("Hand_L")] = exp_rotation(Vec3{wave, 0, 0});
+    out.translations[f * joints].y += 1 + 0.01f * static_cast<float>(f);
+  }
+  return out;
+}
+
+TEST(Calibration, the_floor_is_where_the_lower_toe_is_lowest) {
+  const Rig rig = rig_of(standing(101));
+  // Heights 1.00, 1.01, ... 2.00: a fiftieth of the way up is 1.02.
+  EXPECT_NEAR(rig.floor(), 1.02f, 1e-4f);
+  EXPECT_EQ(rig.first_frame(), 0);
+}
+
+TEST(Calibration, long_clips_are_sampled) {
+  const Rig rig = rig_of(standing(6001));
+  EXPECT_NEAR(rig.floor(), 1 + 60 * 0.02f, 0.01f);
+}
+
+TEST(Calibration, one_frame_is_enough) {
+  const Rig rig = rig_of(standing(1));
+  EXPECT_NEAR(rig.floor(), 1, 1e-5f);
+  EXPECT_EQ(rig.first_frame(), 0);
+}
+
+TEST(Calibration, a_first_frame_in_rest_pose_is_left_out) {
+  Clip clip = random_clip(canonical_skeleton(), 20, 0.05f, 3);
+  for (size_t j = 1; j < clip.joints(); ++j) clip.rotations[j] = clip.skeleton.joints[j].rest;
+  const Rig rig = rig_of(clip);
+  EXPECT_EQ(rig.first_frame(), 1);
+  EXPECT_TRUE(has_note(rig.notes(), "rest pose"));
+  for (size_t j = 1; j < clip.joints(); ++j) {
+    clip.rotations[clip.joints() + j] = clip.skeleton.joints[j].rest;
+  }
+  EXPECT_EQ(rig_of(clip).first_frame(), 0);
+}
+
+// Motion that hardly moves: a quarter of a degree from frame to frame.
+Clip calm(int frames) {
+  Clip clip = random_clip(canonical_skeleton(), 1, 0.3f, 4);
+  std::mt19937 random(4);
+  clip.frames = frames;
+  for (int f = 1; f < frames; ++f) {
+    for (size_t j = 0; j < clip.joints(); ++j) {
+      clip.rotations.push_back(clip.rotations[j] * random_rotation(random, 0.004f));
+      clip.translations.push_back(clip.translations[j]);
+    }
+  }
+  return clip;
+}
+
+TEST(Calibration, a_first_frame_far_from_the_second_is_left_out) {
+  Clip clip = calm(30);
+  EXPECT_EQ(rig_of(clip).first_frame(), 0);
+  Clip raised = clip;
+  raised.rotations[index(left_upper_arm)] = exp_rotation(Vec3{0, 0, 1.2f});
+  EXPECT_EQ(rig_of(raised).first_frame(), 1);
+  EXPECT_TRUE(has_note(rig_of(raised).notes(), "jumps by"));
+  Clip moved = clip;
+  moved.translations[0].x += 1;
+  EXPECT_EQ(rig_of(moved).first_frame(), 1);
+  Clip nudged = clip;
+  nudged.translations[0].x += 0.1f;
+  EXPECT_EQ(rig_of(nudged).first_frame(), 0);
+}
+
+TEST(Calibration, fast_motion_keeps_its_first_frame) {
+  Clip clip = calm(30);
+  for (int f = 0; f < clip.frames; ++f) {
+    clip.translations[f * clip.joints()].x += 0.4f * static_cast<float>(f);
+  }
+  EXPECT_EQ(rig_of(clip).first_frame(), 0);
+}
+
+TEST(Calibration, a_fast_motion_that_then_rests_keeps_its_first_frame) {
+  Clip clip = calm(40);
+  for (int f = 0; f < 5; ++f) {
+    const float raised = 0.7f * static_cast<float>(5 - f);
+    Quat& arm = clip.rotations[f * clip.joints() + index(left_upper_arm)];
+    arm = arm * exp_rotation(Vec3{0, 0, raised});
+  }
+  EXPECT_EQ(rig_of(clip).first_frame(), 0);
+}
+
+TEST(Calibration, among_large_steps_a_larger_one_is_no_jump) {
+  Clip clip = calm(40);
+  for (int f = 0; f < clip.frames; ++f) {
+    Quat& arm = clip.rotations[f * clip.joints() + index(left_upper_arm)];
+    const float to_and_fro = f == 0 ? -1.2f : f % 2 ? 0.3f : -0.3f;
+    arm = arm * exp_rotation(Vec3{0, 0, to_and_fro});
+  }
+  EXPECT_EQ(rig_of(clip).first_frame(), 0);
+}
+
+// The canonical skeleton without toes, each foot turned in its own axes by `twist`.
+Clip toeless(Quat twist, bool ends) {
+  Clip clip = calm(30);
+  Clip out{clip.skeleton, clip.frame_time, clip.frames, {}, {}};
+  const auto is_toes = [](size_t j) {
+    return j == static_cast<size_t>(index(left_toes)) ||
+           j == static_cast<size_t>(index(right_toes));
+  };
+  const auto is_foot = [](size_t j) {
+    return j == static_cast<size_t>(index(left_foot)) ||
+           j == static_cast<size_t>(index(right_foot));
+  };
+  for (size_t i = 0; i < clip.rotations.size(); ++i) {
+    const size_t j = i % clip.joints();
+    if (is_toes(j)) continue;
+    out.rotations.push_back(is_foot(j) ? clip.rotations[i] * twist : clip.rotations[i]);
+    out.translations.push_back(clip.translations[i]);
+  }
+  out.skeleton.joints.clear();
+  for (size_t j = 0; j < clip.joints(); ++j) {
+    Joint joint = clip.skeleton.joints[j];
+    if (is_toes(j)) continue;
+    if (joint.parent > index(left_toes)) --joint.parent;
+    if (is_foot(j) && ends) {
+      const Vec3 toe = clip.skeleton.joints[j + 1].offset;
+      joint.ends = {{0, 0, 0}, rotate(conjugate(twist), toe)};
+    }
+    out.skeleton.joints.push_back(joint);
+  }
+  return out;
+}
+
+TEST(Calibration, missing_toes_are_taken_from_end_sites) {
+  const Quat twist = exp_rotation(Vec3{1, 2, -0.5f});
+  const Clip clip = calm(30), other = toeless(twist, true);
+  Rig whole = rig_of(clip), rig = rig_of(other);
+  EXPECT_EQ(rig.joints()[index(left_toes)], -1);
+  EXPECT_TRUE(has_note(rig.notes(), "the left foot's direction is taken from the End Site"));
+  for (int f = 0; f < clip.frames; ++f) {
+    BodyPose want, got;
+    whole.read(clip.pose(f), want);
+    rig.read(other.pose(f), got);
+    for (int j = 0; j < kHumanJoints; ++j) {
+      EXPECT_LT(length(want.positions[j] - got.positions[j]), 1e-5f) << human_joint_name(j);
+    }
+    // What is missing carries its nearest mapped ancestor's.
+    EXPECT_EQ(got.joints[index(left_toes)], got.joints[index(left_foot)]);
+    EXPECT_EQ(got.rotations[index(right_toes)], got.rotations[index(right_foot)]);
+  }
+}
+
+TEST(Calibration, missing_toes_are_estimated_from_the_standing_foot) {
+  const Clip other = toeless(exp_rotation(Vec3{1, 2, -0.5f}), false);
+  Rig rig = rig_of(other);
+  EXPECT_TRUE(has_note(rig.notes(), "estimated from the standing foot"));
+  for (int f = 0; f < other.frames; ++f) {
+    BodyPose body;
+    rig.read(other.pose(f), body);
+    const float slope = kProportions.toe_pitch;
+    const Vec3 ahead = rotate(rotation_y(body.facing), Vec3{0, -std::sin(slope), std::cos(slope)});
+    for (HumanJoint foot : {left_foot, right_foot}) {
+      const Vec3 toes = body.positions[index(foot) + 1] - body.positions[index(foot)];
+      EXPECT_LT(angle_deg(toes, ahead), 2);
+    }
+  }
+}
+
+TEST(Calibration, a_toe_joint_straight_below_the_ankle_says_nothing) {
+  Clip clip = calm(30);
+  for (int f = 0; f < clip.frames; ++f) {
+    for (HumanJoint toes : {left_toes, right_toes}) {
+      // Straight below in the world, whatever the foot does.
+      std::vector<Quat> world(clip.joints());
+      std::vector<Vec3> at(clip.joints());
+      world_pose(clip.skeleton, clip.pose(f), {world, at});
+      clip.translations[f * clip.joints() + index(toes)] =
+          rotate(conjugate(world[index(toes) - 1]), Vec3{0, -0.08f, 0});
+    }
+  }
+  EXPECT_TRUE(has_note(rig_of(clip).notes(), "estimated from the standing foot"));
+}
+
+TEST(Calibration, legs_of_no_length_are_refused) {
+  Clip clip = calm(1);
+  for (size_t i = 0; i < clip.translations.size(); ++i) clip.translations[i] = {NAN, 0, 0};
+  const Result<Rig> rig = Rig::create(clip);
+  ASSERT_FALSE(rig.ok());
+  EXPECT_FALSE(Rig::create(Clip{}).ok());
+  Clip none = calm(1);
+  none.resize(0);
+  const Result<Rig> empty = Rig::create(none);
+  ASSERT_FALSE(empty.ok());
+  EXPECT_EQ(empty.error().message, "expected at least one frame of motion, found none");
+}
+
+}  // namespace
+}  // namespace panache

@@ -1,0 +1,118 @@
+#pragma once
+// Skeletons as other makers name and build them, in the canonical body's T-pose, and motion on
+// them.
+
+#include <cstring>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "clip/clip.h"
+#include "clip/fk.h"
+#include "rig/canonical_skeleton.h"
+#include "rig/humanoid.h"
+
+namespace panache::test {
+
+inline HumanPositions t_pose() {
+  const Skeleton body = canonical_skeleton();
+  HumanPositions out;
+  for (int j = 0; j < kHumanJoints; ++j) {
+    out[j] = body.joints[j].offset + (j ? out[kHumanParent[j]] : Vec3{});
+  }
+  return out;
+}
+
+inline bool same_bits(Quat a, Quat b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+inline bool same_bits(Vec3 a, Vec3 b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+// One joint: its name, its parent's, and where it stands: `along` the way to `place` from that
+// joint's canonical parent. A '*' in the names makes two joints, one for either side; `place` is
+// then the left one's.
+struct Line {
+  std::string name, parent;
+  HumanJoint place;
+  float along = 1;
+};
+
+struct MadeUp {
+  Skeleton skeleton;
+  std::map<std::string, int> joint;
+  std::vector<Vec3> positions;  // [joints], metres
+
+  // One frame of T-pose.
+  Clip clip() const {
+    Clip out{skeleton, 1.0 / 30, 1, {}, {}};
+    for (const Joint& j : skeleton.joints) {
+      out.rotations.push_back({});
+      out.translations.push_back(j.offset);
+    }
+    return out;
+  }
+};
+
+inline std::string with_side(std::string text, const std::string& side) {
+  const size_t star = text.find('*');
+  return star == std::string::npos ? text : text.replace(star, 1, side);
+}
+
+inline MadeUp make_up(const std::vector<Line>& lines, const std::string& left,
+                      const std::string& right) {
+  const HumanPositions body = t_pose();
+  MadeUp out;
+  const auto add = [&](const std::string& name, const std::string& parent, int place, float along) {
+    const int above = kHumanParent[place];
+    const Vec3 at = above < 0 ? body[place] * along : lerp(body[above], body[place], along);
+    Joint joint;
+    joint.name = name;
+    joint.parent = parent.empty() ? -1 : out.joint.at(parent);
+    joint.offset = joint.parent < 0 ? at : at - out.positions[joint.parent];
+    joint.can_rotate = true;
+    joint.can_translate = joint.parent < 0;
+    out.joint[name] = static_cast<int>(out.positions.size());
+    out.positions.push_back(at);
+    out.skeleton.joints.push_back(joint);
+  };
+  for (const Line& line : lines) {
+    const int place = index(line.place);
+    if (line.name.find('*') == std::string::npos) {
+      add(line.name, line.parent, place, line.along);
+      continue;
+    }
+    add(with_side(line.name, left), with_side(line.parent, left), place, line.along);
+    add(with_side(line.name, right), with_side(line.parent, right), kHumanMirror[place],
+        line.along);
+  }
+  return out;
+}
+
+inline Quat random_rotation(std::mt19937& random, float largest) {
+  std::uniform_real_distribution<float> any(-1, 1);
+  return exp_rotation(Vec3{any(random), any(random), any(random)} * (largest / std::sqrt(3.0f)));
+}
+
+// Frames of `skeleton` with every joint turned by up to `largest` radians about its rest, and the
+// joints that move displaced by up to a tenth of a metre.
+inline Clip random_clip(const Skeleton& skeleton, int frames, float largest, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> any(-0.1f, 0.1f);
+  Clip out{skeleton, 1.0 / 30, frames, {}, {}};
+  for (int f = 0; f < frames; ++f) {
+    for (const Joint& joint : skeleton.joints) {
+      const Quat q = joint.can_rotate ? random_rotation(random, largest) : Quat{};
+      out.rotations.push_back(normalized(joint.rest * q));
+      const Vec3 move = {any(random), any(random), any(random)};
+      out.translations.push_back(joint.can_translate ? joint.offset + move : joint.offset);
+    }
+  }
+  return out;
+}
+
+// The angle between two directions in degrees, exact near zero.
+inline double angle_deg(Vec3 a, Vec3 b) {
+  const Vec3d p = a.as<double>(), q = b.as<double>();
+  return std::atan2(length(cross(p, q)), dot(p, q)) * 180 / 3.14159265358979323846;
+}
+
+}  // namespace panache::test

@@ -1,0 +1,367 @@
+#include "rig/mapping.h"
+
+#include <gtest/gtest.h>
+
+#include "rig/made_up.h"
+
+namespace panache {
+namespace {
+
+using namespace test;
+using enum HumanJoint;
+
+// Compares with the names a person would give, in the order of the human joints; "" is none.
+// Side names carry a '*', and stand for both.
+struct Expected {
+  std::string hips, spine, chest, neck, head, shoulder, upper_arm, lower_arm, hand, upper_leg,
+      lower_leg, foot, toes;
+};
+
+void expect_mapping(const std::vector<Line>& lines, const std::string& left,
+                    const std::string& right, const Expected& want) {
+  const MadeUp rig = make_up(lines, left, right);
+  const Result<Mapping> got = map_by_names(rig.skeleton, rig.positions);
+  ASSERT_TRUE(got.ok()) << got.error().message;
+  const auto name = [&](HumanJoint joint) {
+    const int found = got->joint_of[index(joint)];
+    return found < 0 ? std::string() : rig.skeleton.joints[found].name;
+  };
+  EXPECT_EQ(name(hips), want.hips);
+  EXPECT_EQ(name(spine), want.spine);
+  EXPECT_EQ(name(chest), want.chest);
+  EXPECT_EQ(name(neck), want.neck);
+  EXPECT_EQ(name(head), want.head);
+  const std::string* sided[] = {&want.shoulder,  &want.upper_arm, &want.lower_arm, &want.hand,
+                                &want.upper_leg, &want.lower_leg, &want.foot,      &want.toes};
+  const HumanJoint lefts[] = {left_shoulder,  left_upper_arm, left_lower_arm, left_hand,
+                              left_upper_leg, left_lower_leg, left_foot,      left_toes};
+  for (int i = 0; i < 8; ++i) {
+    EXPECT_EQ(name(lefts[i]), with_side(*sided[i], left));
+    EXPECT_EQ(name(HumanJoint{kHumanMirror[index(lefts[i])]}), with_side(*sided[i], right));
+  }
+}
+
+TEST(Mapping, our_own_skeleton_maps_to_itself) {
+  const Skeleton body = canonical_skeleton();
+  const HumanPositions rest = t_pose();
+  const Result<Mapping> got = map_by_names(body, rest);
+  ASSERT_TRUE(got.ok()) << got.error().message;
+  for (int j = 0; j < kHumanJoints; ++j) EXPECT_EQ(got->joint_of[j], j) << human_joint_name(j);
+  EXPECT_TRUE(got->notes.empty());
+}
+
+const std::vector<Line> kMixamo = {
+    {"m:Hips", "", hips},
+    {"m:Spine", "m:Hips", spine, 0.5f},
+    {"m:Spine1", "m:Spine", spine},
+    {"m:Spine2", "m:Spine1", chest},
+    {"m:Neck", "m:Spine2", neck},
+    {"m:Head", "m:Neck", head},
+    {"m:HeadTop_End", "m:Head", head, 3},
+    {"m:*Shoulder", "m:Spine2", left_shoulder},
+    {"m:*Arm", "m:*Shoulder", left_upper_arm},
+    {"m:*ForeArm", "m:*Arm", left_lower_arm},
+    {"m:*Hand", "m:*ForeArm", left_hand},
+    {"m:*HandThumb1", "m:*Hand", left_hand, 1.1f},
+    {"m:*HandIndex1", "m:*Hand", left_hand, 1.2f},
+    {"m:*UpLeg", "m:Hips", left_upper_leg},
+    {"m:*Leg", "m:*UpLeg", left_lower_leg},
+    {"m:*Foot", "m:*Leg", left_foot},
+    {"m:*ToeBase", "m:*Foot", left_toes},
+    {"m:*Toe_End", "m:*ToeBase", left_toes, 1.5f},
+};
+const Expected kMixamoJoints = {"m:Hips",      "m:Spine1", "m:Spine2",   "m:Neck",  "m:Head",
+                                "m:*Shoulder", "m:*Arm",   "m:*ForeArm", "m:*Hand", "m:*UpLeg",
+                                "m:*Leg",      "m:*Foot",  "m:*ToeBase"};
+
+TEST(Mapping, mixamo) { expect_mapping(kMixamo, "Left", "Right", kMixamoJoints); }
+
+TEST(Mapping, case_does_not_matter) {
+  std::vector<Line> lines = kMixamo;
+  const auto upper = [](std::string& text) {
+    for (char& c : text) c = static_cast<char>(std::toupper(c));
+  };
+  for (Line& line : lines) upper(line.name), upper(line.parent);
+  // Capitals leave the finger names without a seam: they must still not be taken for the hand.
+  expect_mapping(lines, "LEFT", "RIGHT",
+                 {"M:HIPS", "M:SPINE1", "M:SPINE2", "M:NECK", "M:HEAD", "M:*SHOULDER", "M:*ARM",
+                  "M:*FOREARM", "M:*HAND", "M:*UPLEG", "M:*LEG", "M:*FOOT", "M:*TOEBASE"});
+}
+
+TEST(Mapping, unreal_mannequin_with_twist_and_ik_joints) {
+  expect_mapping({{"root", "", hips, 0},
+                  {"pelvis", "root", hips},
+                  {"spine_01", "pelvis", spine, 0.4f},
+                  {"spine_02", "spine_01", spine},
+                  {"spine_03", "spine_02", chest},
+                  {"neck_01", "spine_03", neck},
+                  {"head", "neck_01", head},
+                  {"clavicle_*", "spine_03", left_shoulder},
+                  {"upperarm_*", "clavicle_*", left_upper_arm},
+                  {"upperarm_twist_01_*", "upperarm_*", left_lower_arm, 0.5f},
+                  {"lowerarm_*", "upperarm_*", left_lower_arm},
+                  {"lowerarm_twist_01_*", "lowerarm_*", left_hand, 0.5f},
+                  {"hand_*", "lowerarm_*", left_hand},
+                  {"index_01_*", "hand_*", left_hand, 1.2f},
+                  {"thigh_*", "pelvis", left_upper_leg},
+                  {"calf_*", "thigh_*", left_lower_leg},
+                  {"foot_*", "calf_*", left_foot},
+                  {"ball_*", "foot_*", left_toes},
+                  {"ik_foot_root", "root", hips, 0},
+                  {"ik_foot_*", "ik_foot_root", left_foot},
+                  {"ik_hand_root", "root", hips, 0},
+                  {"ik_hand_gun", "ik_hand_root", right_hand},
+                  {"ik_hand_*", "ik_hand_gun", left_hand}},
+                 "l", "r",
+                 {"pelvis", "spine_02", "spine_03", "neck_01", "head", "clavicle_*", "upperarm_*",
+                  "lowerarm_*", "hand_*", "thigh_*", "calf_*", "foot_*", "ball_*"});
+}
+
+TEST(Mapping, twist_joints_inside_the_limbs_are_passed_over) {
+  std::vector<Line> lines = kMixamo;
+  lines.insert(lines.begin() + 9, {"m:*ArmTwist", "m:*Arm", left_lower_arm, 0.5f});
+  lines[10].parent = "m:*ArmTwist";
+  lines.insert(lines.begin() + 11, {"m:*ForeArmRoll", "m:*ForeArm", left_hand, 0.5f});
+  lines[12].parent = "m:*ForeArmRoll";
+  expect_mapping(lines, "Left", "Right", kMixamoJoints);
+}
+
+TEST(Mapping, cmu_with_joints_of_no_length) {
+  expect_mapping({{"Hips", "", hips},
+                  {"*HipJoint", "Hips", hips},
+                  {"*UpLeg", "*HipJoint", left_upper_leg},
+                  {"*Leg", "*UpLeg", left_lower_leg},
+                  {"*Foot", "*Leg", left_foot},
+                  {"*ToeBase", "*Foot", left_toes},
+                  {"LowerBack", "Hips", hips},
+                  {"Spine", "LowerBack", spine},
+                  {"Spine1", "Spine", chest},
+                  {"Neck", "Spine1", chest},
+                  {"Neck1", "Neck", neck},
+                  {"Head", "Neck1", head},
+                  {"*Shoulder", "Spine1", left_shoulder, 0},
+                  {"*Arm", "*Shoulder", left_upper_arm},
+                  {"*ForeArm", "*Arm", left_lower_arm},
+                  {"*Hand", "*ForeArm", left_hand},
+                  {"*FingerBase", "*Hand", left_hand},
+                  {"*HandIndex1", "*FingerBase", left_hand, 1.3f},
+                  {"*Thumb", "*Hand", left_hand}},
+                 "Left", "Right",
+                 {"Hips", "Spine", "Spine1", "Neck1", "Head", "*Shoulder", "*Arm", "*ForeArm",
+                  "*Hand", "*UpLeg", "*Leg", "*Foot", "*ToeBase"});
+}
+
+TEST(Mapping, vroid) {
+  expect_mapping(
+      {{"Root", "", hips, 0},
+       {"J_Bip_C_Hips", "Root", hips},
+       {"J_Bip_C_Spine", "J_Bip_C_Hips", spine},
+       {"J_Bip_C_Chest", "J_Bip_C_Spine", chest, 0.6f},
+       {"J_Bip_C_UpperChest", "J_Bip_C_Chest", chest},
+       {"J_Bip_C_Neck", "J_Bip_C_UpperChest", neck},
+       {"J_Bip_C_Head", "J_Bip_C_Neck", head},
+       {"J_Sec_Hair1_01", "J_Bip_C_Head", head, 2},
+       {"J_Bip_*_Shoulder", "J_Bip_C_UpperChest", left_shoulder},
+       {"J_Bip_*_UpperArm", "J_Bip_*_Shoulder", left_upper_arm},
+       {"J_Bip_*_LowerArm", "J_Bip_*_UpperArm", left_lower_arm},
+       {"J_Bip_*_Hand", "J_Bip_*_LowerArm", left_hand},
+       {"J_Bip_*_Index1", "J_Bip_*_Hand", left_hand, 1.2f},
+       {"J_Bip_*_UpperLeg", "J_Bip_C_Hips", left_upper_leg},
+       {"J_Bip_*_LowerLeg", "J_Bip_*_UpperLeg", left_lower_leg},
+       {"J_Bip_*_Foot", "J_Bip_*_LowerLeg", left_foot},
+       {"J_Bip_*_ToeBase", "J_Bip_*_Foot", left_toes}},
+      "L", "R",
+      {"J_Bip_C_Hips", "J_Bip_C_Spine", "J_Bip_C_UpperChest", "J_Bip_C_Neck", "J_Bip_C_Head",
+       "J_Bip_*_Shoulder", "J_Bip_*_UpperArm", "J_Bip_*_LowerArm", "J_Bip_*_Hand",
+       "J_Bip_*_UpperLeg", "J_Bip_*_LowerLeg", "J_Bip_*_Foot", "J_Bip_*_ToeBase"});
+}
+
+TEST(Mapping, rigify_with_limbs_in_two_pieces_and_a_head_called_spine) {
+  expect_mapping({{"DEF-spine", "", hips},
+                  {"DEF-spine.001", "DEF-spine", spine, 0.5f},
+                  {"DEF-spine.002", "DEF-spine.001", spine},
+                  {"DEF-spine.003", "DEF-spine.002", chest},
+                  {"DEF-spine.004", "DEF-spine.003", neck, 0.7f},
+                  {"DEF-spine.005", "DEF-spine.004", neck},
+                  {"DEF-spine.006", "DEF-spine.005", head},
+                  {"DEF-nose", "DEF-spine.006", head, 1.4f},
+                  {"DEF-jaw", "DEF-spine.006", head, 1.1f},
+                  {"DEF-breast.*", "DEF-spine.003", left_shoulder},
+                  {"DEF-shoulder.*", "DEF-spine.003", left_shoulder},
+                  {"DEF-upper_arm.*", "DEF-shoulder.*", left_upper_arm},
+                  {"DEF-upper_arm.*.001", "DEF-upper_arm.*", left_lower_arm, 0.5f},
+                  {"DEF-forearm.*", "DEF-upper_arm.*.001", left_lower_arm},
+                  {"DEF-forearm.*.001", "DEF-forearm.*", left_hand, 0.5f},
+                  {"DEF-hand.*", "DEF-forearm.*.001", left_hand},
+                  {"DEF-thigh.*", "DEF-spine", left_upper_leg},
+                  {"DEF-thigh.*.001", "DEF-thigh.*", left_lower_leg, 0.5f},
+                  {"DEF-shin.*", "DEF-thigh.*.001", left_lower_leg},
+                  {"DEF-shin.*.001", "DEF-shin.*", left_foot, 0.5f},
+                  {"DEF-foot.*", "DEF-shin.*.001", left_foot},
+                  {"DEF-toe.*", "DEF-foot.*", left_toes}},
+                 "L", "R",
+                 {"DEF-spine", "DEF-spine.002", "DEF-spine.003", "DEF-spine.005", "DEF-spine.006",
+                  "DEF-shoulder.*", "DEF-upper_arm.*", "DEF-forearm.*", "DEF-hand.*", "DEF-thigh.*",
+                  "DEF-shin.*", "DEF-foot.*", "DEF-toe.*"});
+}
+
+TEST(Mapping, biped_with_arms_on_the_neck) {
+  expect_mapping({{"Bip01", "", hips},
+                  {"Bip01 Pelvis", "Bip01", hips},
+                  {"Bip01 Spine", "Bip01 Pelvis", spine, 0.3f},
+                  {"Bip01 Spine1", "Bip01 Spine", spine},
+                  {"Bip01 Spine2", "Bip01 Spine1", chest},
+                  {"Bip01 Neck", "Bip01 Spine2", neck},
+                  {"Bip01 Head", "Bip01 Neck", head},
+                  {"Bip01 HeadNub", "Bip01 Head", head, 3},
+                  {"Bip01 * Clavicle", "Bip01 Neck", left_shoulder},
+                  {"Bip01 * UpperArm", "Bip01 * Clavicle", left_upper_arm},
+                  {"Bip01 * Forearm", "Bip01 * UpperArm", left_lower_arm},
+                  {"Bip01 * Hand", "Bip01 * Forearm", left_hand},
+                  {"Bip01 * Finger0", "Bip01 * Hand", left_hand, 1.1f},
+                  {"Bip01 * Thigh", "Bip01 Pelvis", left_upper_leg},
+                  {"Bip01 * Calf", "Bip01 * Thigh", left_lower_leg},
+                  {"Bip01 * Foot", "Bip01 * Calf", left_foot},
+                  {"Bip01 * Toe0", "Bip01 * Foot", left_toes},
+                  {"Bip01 * Toe0Nub", "Bip01 * Toe0", left_toes, 1.2f}},
+                 "L", "R",
+                 {"Bip01 Pelvis", "Bip01 Spine1", "Bip01 Spine2", "Bip01 Neck", "Bip01 Head",
+                  "Bip01 * Clavicle", "Bip01 * UpperArm", "Bip01 * Forearm", "Bip01 * Hand",
+                  "Bip01 * Thigh", "Bip01 * Calf", "Bip01 * Foot", "Bip01 * Toe0"});
+}
+
+TEST(Mapping, a_body_without_clavicles_spine_neck_or_toes) {
+  expect_mapping({{"Base", "", hips},
+                  {"Body", "Base", chest},
+                  {"Head", "Body", head},
+                  {"Arm1*", "Body", left_upper_arm},
+                  {"Arm2*", "Arm1*", left_lower_arm},
+                  {"Wrist*", "Arm2*", left_hand},
+                  {"Leg1*", "Base", left_upper_leg},
+                  {"Leg2*", "Leg1*", left_lower_leg},
+                  {"Ankle*", "Leg2*", left_foot}},
+                 "_l", "_r",
+                 {"Base", "", "Body", "", "Head", "", "Arm1*", "Arm2*", "Wrist*", "Leg1*", "Leg2*",
+                  "Ankle*", ""});
+}
+
+TEST(Mapping, numbers_may_count_the_joints_of_an_arm) {
+  expect_mapping({{"Hips", "", hips},
+                  {"Spine", "Hips", spine},
+                  {"Chest", "Spine", chest},
+                  {"Neck", "Chest", neck},
+                  {"Head", "Neck", head},
+                  {"Collar_*", "Chest", left_shoulder},
+                  {"Arm_*_1", "Collar_*", left_upper_arm},
+                  {"Arm_*_2", "Arm_*_1", left_lower_arm},
+                  {"Hand_*", "Arm_*_2", left_hand},
+                  {"Leg_*_1", "Hips", left_upper_leg},
+                  {"Leg_*_2", "Leg_*_1", left_lower_leg},
+                  {"Foot_*", "Leg_*_2", left_foot},
+                  {"Toe_*", "Foot_*", left_toes}},
+                 "L", "R",
+                 {"Hips", "Spine", "Chest", "Neck", "Head", "Collar_*", "Arm_*_1", "Arm_*_2",
+                  "Hand_*", "Leg_*_1", "Leg_*_2", "Foot_*", "Toe_*"});
+}
+
+TEST(Mapping, a_head_by_another_name_is_the_end_of_the_chain_above_the_chest) {
+  std::vector<Line> lines = kMixamo;
+  lines[5].name = "m:Kopf";
+  lines[6] = {"m:KopfEnd", "m:Kopf", head, 3};
+  lines[6].name = "m:Kopf_End";
+  Expected want = kMixamoJoints;
+  want.head = "m:Kopf";
+  expect_mapping(lines, "Left", "Right", want);
+}
+
+TEST(Mapping, no_two_human_joints_share_a_joint) {
+  // Arms and legs meet in one joint: it is the hips, and the chest is missing.
+  const MadeUp rig = make_up({{"Body", "", hips},
+                              {"Head", "Body", head},
+                              {"*Arm", "Body", left_upper_arm},
+                              {"*Elbow", "*Arm", left_lower_arm},
+                              {"*Hand", "*Elbow", left_hand},
+                              {"*Thigh", "Body", left_upper_leg},
+                              {"*Knee", "*Thigh", left_lower_leg},
+                              {"*Foot", "*Knee", left_foot}},
+                             "Left", "Right");
+  const Result<Mapping> got = map_by_names(rig.skeleton, rig.positions);
+  ASSERT_TRUE(got.ok()) << got.error().message;
+  EXPECT_EQ(got->joint_of[index(hips)], 0);
+  EXPECT_EQ(got->joint_of[index(chest)], -1);
+  std::vector<int> seen(rig.skeleton.joints.size());
+  for (int joint : got->joint_of) {
+    if (joint < 0) continue;
+    EXPECT_EQ(seen[joint]++, 0);
+  }
+}
+
+TEST(Mapping, every_joint_has_a_reason) {
+  const MadeUp rig = make_up(kMixamo, "Left", "Right");
+  const Result<Mapping> got = map_by_names(rig.skeleton, rig.positions);
+  ASSERT_TRUE(got.ok()) << got.error().message;
+  for (const std::string& reason : got->reasons) EXPECT_FALSE(reason.empty());
+  EXPECT_EQ(got->reasons[index(left_hand)], "by its name");
+  EXPECT_EQ(got->reasons[index(left_lower_arm)], "next joint above leftHand");
+  ASSERT_EQ(got->notes.size(), 1u);
+  EXPECT_EQ(got->notes[0], "2 joints between hips and chest");
+}
+
+std::string refusal(const std::vector<Line>& lines) {
+  const MadeUp rig = make_up(lines, "Left", "Right");
+  const Result<Mapping> got = map_by_names(rig.skeleton, rig.positions);
+  return got.ok() ? "mapped" : got.error().message;
+}
+
+TEST(Mapping, a_robot_arm_is_refused_by_name) {
+  EXPECT_EQ(refusal({{"Base", "", hips}, {"Arm1", "Base", chest}, {"Arm2", "Arm1", head}}),
+            "no humanoid found: leftHand, rightHand, leftFoot, rightFoot, head are missing among "
+            "'Base', 'Arm1', 'Arm2' (3 joints); expected names such as LeftHand or hand_L");
+}
+
+TEST(Mapping, a_hand_without_an_arm_is_refused) {
+  std::vector<Line> lines = kMixamo;
+  std::erase_if(lines, [](const Line& l) { return l.name == "m:*ForeArm" || l.name == "m:*Arm"; });
+  for (Line& line : lines) {
+    if (line.name == "m:*Hand") line.parent = "m:*Shoulder";
+  }
+  EXPECT_EQ(refusal(lines),
+            "no humanoid found: leftUpperArm, rightUpperArm are missing among 'm:Hips', 'm:Spine', "
+            "'m:Spine1', 'm:Spine2', 'm:Neck', 'm:Head', 'm:HeadTop_End', 'm:LeftShoulder', "
+            "'m:RightShoulder', 'm:LeftHand', 'm:RightHand', 'm:LeftHandThumb1', ... (25 joints); "
+            "expected names such as LeftHand or hand_L");
+}
+
+TEST(Mapping, a_finger_is_not_taken_for_the_hand) {
+  std::vector<Line> lines = kMixamo;
+  std::erase_if(lines, [](const Line& l) { return l.name == "m:*Hand"; });
+  for (Line& line : lines) {
+    if (line.parent == "m:*Hand") line.parent = "m:*ForeArm";
+  }
+  EXPECT_TRUE(refusal(lines).starts_with("no humanoid found: leftHand, rightHand are missing"));
+}
+
+TEST(Mapping, one_missing_foot_is_named_alone) {
+  std::vector<Line> lines = kMixamo;
+  lines[15].name = "m:*Hoof";
+  lines[16].parent = "m:*Hoof";
+  lines[16].name = "m:*Nail";
+  lines[17].parent = "m:*Nail";
+  EXPECT_TRUE(refusal(lines).starts_with(
+      "no humanoid found: leftFoot, rightFoot are missing among 'm:Hips'"));
+}
+
+TEST(Mapping, bodies_in_pieces_and_poses_without_numbers_are_refused) {
+  std::vector<Line> lines = kMixamo;
+  for (Line& line : lines) {
+    if (line.name == "m:*UpLeg") line.parent = "";
+  }
+  EXPECT_TRUE(refusal(lines).starts_with("no humanoid found: hips is missing among"));
+  MadeUp rig = make_up(kMixamo, "Left", "Right");
+  rig.positions.assign(rig.positions.size(), Vec3{NAN, NAN, NAN});
+  EXPECT_FALSE(map_by_names(rig.skeleton, rig.positions).ok());
+  EXPECT_FALSE(map_by_names(Skeleton{}, {}).ok());
+}
+
+}  // namespace
+}  // namespace panache
