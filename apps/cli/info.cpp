@@ -65,28 +65,27 @@ std::string draw_tree(const Skeleton& skeleton) {
 
 std::string describe_mapping(const Rig& rig) {
   const std::vector<JointMatch> matches = rig.matches();
-  size_t human = 0, own = 0;
+  const std::string column = "joint of the file";
+  size_t human = 0, own = column.size();
   for (const JointMatch& match : matches) {
     human = std::max(human, match.human_joint.size());
     own = std::max(own, match.joint.size());
   }
-  const std::string unit = likely_unit(static_cast<double>(rig.scale()));
-  std::string text;
-  text += "  unit    " + brief(static_cast<double>(rig.scale())) +
-          " m for legs of ordinary length" + (unit.empty() ? "" : ": " + unit + ", most likely") +
-          "\n";
+  const auto scale = static_cast<double>(rig.scale());
+  const std::string unit = likely_unit(scale);
+  std::string text = "  unit    " + brief(scale, 3) + " m" +
+                     (unit.empty() ? "" : " (" + unit + ", most likely)") +
+                     ", judged by the legs\n";
   text += "  up      " + rig.up_axis() + "\n";
   text += std::string("  start   ") +
           (rig.first_frame() ? "the first frame is a calibration pose, not motion: stylize leaves "
                                "it as it is"
                              : "the first frame is motion") +
           "\n";
-  text += "\n  " + padded("humanoid", human + 2) + padded("joint of the file", own + 2) +
-          "how it was found\n";
+  text += "\n  " + padded("humanoid", human + 2) + padded(column, own + 2) + "how it was found\n";
   for (const JointMatch& match : matches) {
     text += "  " + padded(match.human_joint, human + 2) +
-            padded(match.joint.empty() ? "-" : match.joint, std::max<size_t>(own, 17) + 2) +
-            match.reason + "\n";
+            padded(match.joint.empty() ? "-" : match.joint, own + 2) + match.reason + "\n";
   }
   if (!rig.notes().empty()) text += "\nNotes:\n";
   for (const std::string& note : rig.notes()) text += "  " + note + "\n";
@@ -188,7 +187,9 @@ void add_info(CLI::App& app, int& exit_code) {
     bool json = false;
   };
   auto options = std::make_shared<Options>();
-  verb->add_option("FILE", options->file, "Motion file (.bvh) or model (.safetensors)")->required();
+  verb->add_option("FILE", options->file, "Motion file (.bvh) or model (.safetensors)")
+      ->required()
+      ->type_name("");
   verb->add_flag("--tree", options->tree, "Draw the skeleton too");
   verb->add_flag("--json", options->json, "Print JSON");
   verb->footer("Examples:\n  panache info walk.bvh\n  panache info models/panache.safetensors");

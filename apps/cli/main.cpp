@@ -1,11 +1,10 @@
 // panache: the program. Each verb is a file of its own.
 
+#include <cstdio>
 #include <new>
 #include <string>
-#include <vector>
 
 #include "report.h"
-#include "style/names.h"
 #include "verbs.h"
 
 namespace panache::cli {
@@ -13,13 +12,14 @@ namespace {
 
 // The library's own sentence for a verb that does not exist names no verb that does.
 Result<void> check_verb(const CLI::App& app, const std::string& verb) {
-  std::vector<std::string> verbs;
-  for (const CLI::App* known : app.get_subcommands([](const CLI::App*) { return true; })) {
-    if (known->get_name() == verb) return {};
-    verbs.push_back(known->get_name());
+  std::string list;
+  const auto known = app.get_subcommands([](const CLI::App*) { return true; });
+  for (size_t i = 0; i < known.size(); ++i) {
+    if (known[i]->get_name() == verb) return {};
+    if (i) list += i + 1 == known.size() ? " or " : ", ";
+    list += known[i]->get_name();
   }
-  return Error{"there is no verb '" + verb + "'; expected " +
-               list_nearest(verb, verbs, static_cast<int>(verbs.size()))};
+  return Error{"there is no verb '" + verb + "'; expected " + list};
 }
 
 std::string one_line(std::string text) {
@@ -42,10 +42,15 @@ int run(int argc, char** argv) {
   app.footer(
       "'panache VERB --help' tells more, with an example.\n\nExample:\n"
       "  panache stylize walk.bvh --style old=1 -o old.bvh");
-  for (const auto add :
-       {add_stylize, add_styles, add_info, add_walker, add_strip, add_train, add_eval}) {
-    add(app, exit_code);
-  }
+  add_stylize(app, exit_code);
+  add_styles(app, exit_code);
+  add_info(app, exit_code);
+#ifdef PANACHE_WALKER
+  add_walker(app, exit_code);
+#endif
+  add_strip(app, exit_code);
+  add_train(app, exit_code);
+  add_eval(app, exit_code);
   if (argc < 2) {
     std::fputs(app.help().c_str(), stderr);
     return kBadUsage;

@@ -30,6 +30,8 @@ std::string describe(const LoadedModel& loaded) {
   text += "  recipe       " + entry(model, "recipe") + "\n";
   text += "  size         " + fixed(static_cast<double>(loaded.bytes) / 1000, 0) + " KB, " +
           std::to_string(model.parameter_count()) + " numbers\n";
+  const std::string data = entry(model, "data");
+  text += "  trained on   " + (data.empty() ? "not stated" : data) + "\n";
   text += "  data licence " + (licence.empty() ? "not stated" : licence) + "\n\n";
   size_t width = 0;
   for (const StyleInfo& style : model.styles()) width = std::max(width, style.name.size());
@@ -49,6 +51,7 @@ Json to_json(const LoadedModel& loaded) {
   }
   return {{"model", loaded.path},
           {"recipe", entry(model, "recipe")},
+          {"data", entry(model, "data")},
           {"licence", entry(model, "licence")},
           {"bytes", loaded.bytes},
           {"parameters", model.parameter_count()},

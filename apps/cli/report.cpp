@@ -24,9 +24,9 @@ std::string fixed(double value, int decimals) {
   return text;
 }
 
-std::string brief(double value) {
+std::string brief(double value, int digits) {
   char text[64];
-  std::snprintf(text, sizeof text, "%.6g", value);
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
   return text;
 }
 

@@ -26,8 +26,8 @@ void print(const Json& json);
 
 // `value` with `decimals` digits after the point.
 std::string fixed(double value, int decimals);
-// `value` with no more digits than it needs, six at most: "120", "0.0564".
-std::string brief(double value);
+// `value` with no more digits than it needs, and at most `digits` that count: "120", "0.0564".
+std::string brief(double value, int digits = 6);
 // "1 file", "2 files".
 std::string plural(size_t count, const std::string& noun);
 // `text` followed by blanks up to `width` letters (UTF-8), and one blank at least.

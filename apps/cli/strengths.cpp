@@ -65,25 +65,27 @@ struct StrengthColumns {
 };
 Result<StrengthColumns> read_columns(const CsvTable& table, const std::string& where,
                                      const Model& model) {
+  std::vector<std::string> names;
+  std::string list;
+  for (const std::string& column : table.columns) {
+    names.emplace_back(trimmed(column));
+    if (names.size() > 1) list += ',';
+    list += names.back();
+  }
   StrengthColumns out;
-  out.seconds = table.columns.size();
-  for (size_t c = 0; c < table.columns.size(); ++c) {
-    const std::string name(trimmed(table.columns[c]));
-    if (std::find(table.columns.begin(), table.columns.begin() + static_cast<ptrdiff_t>(c),
-                  table.columns[c]) != table.columns.begin() + static_cast<ptrdiff_t>(c)) {
-      return Error{where + "column " + panache::quoted(name) + " stands there twice"};
+  out.seconds =
+      static_cast<size_t>(std::find(names.begin(), names.end(), "seconds") - names.begin());
+  if (out.seconds == names.size() || names.size() < 2) {
+    return Error{where + "expected the columns 'seconds' and one or more styles, found " +
+                 panache::quoted(list)};
+  }
+  for (size_t c = 0; c < names.size(); ++c) {
+    if (std::count(names.begin(), names.end(), names[c]) > 1) {
+      return Error{where + "column " + panache::quoted(names[c]) + " stands there twice"};
     }
-    if (name == "seconds") {
-      out.seconds = c;
-      out.styles.push_back(-1);
-      continue;
-    }
-    Result<int> style = model.find_style(name);
+    Result<int> style = c == out.seconds ? Result<int>(-1) : model.find_style(names[c]);
     if (!style) return Error{where + style.error().message};
     out.styles.push_back(*style);
-  }
-  if (out.seconds == table.columns.size() || out.styles.size() < 2) {
-    return Error{where + "expected the columns 'seconds' and one or more styles"};
   }
   return out;
 }

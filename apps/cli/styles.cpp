@@ -33,7 +33,8 @@ void add_styles(CLI::App& app, int& exit_code) {
     bool json = false;
   };
   auto options = std::make_shared<Options>();
-  verb->add_option("MODEL", options->model, "Model file; default: the one that is shipped");
+  verb->add_option("MODEL", options->model, "Model; default: $PANACHE_MODEL, else the one shipped")
+      ->type_name("");
   verb->add_flag("--json", options->json, "Print JSON");
   verb->footer("Example:\n  panache styles");
   verb->callback([options, &exit_code] { exit_code = styles(options->model, options->json); });

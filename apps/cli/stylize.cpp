@@ -223,22 +223,29 @@ int stylize(const StylizeOptions& options) {
 void add_stylize(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("stylize", "Restyle motion files");
   auto options = std::make_shared<StylizeOptions>();
-  verb->add_option("IN", options->inputs, "Motion files (.bvh)")->required();
+  verb->add_option("IN", options->inputs, "Motion files (.bvh)")->required()->type_name("");
   verb->add_option("-o,--output", options->output,
-                   "File to write; a folder for several files or with a '/' at its end")
-      ->required();
+                   "File to write; for several files, or with a '/' at\n"
+                   "its end, a folder")
+      ->required()
+      ->type_name("OUT");
   // One value each, so that files may follow.
   verb->add_option("--style", options->styles,
-                   "NAME=STRENGTH: 0 neutral, 1 as captured, beyond it exaggerated (-4 to 4); "
-                   "NAME=1..0 changes evenly along the clip; may be repeated")
-      ->allow_extra_args(false);
+                   "NAME=STRENGTH: 0 is neutral, 1 the style as captured,\n"
+                   "more exaggerates it (-4 to 4). NAME=1..0 changes evenly\n"
+                   "from the first frame to the last. One --style per style")
+      ->allow_extra_args(false)
+      ->type_name("STYLE");
   verb->add_option("--strengths", options->strengths,
-                   "CSV with a column 'seconds' and one column of strengths per style");
-  verb->add_option("--model", options->model, "Model file; default: the one that is shipped");
+                   "CSV with a column 'seconds' and a column per style")
+      ->type_name("FILE");
+  verb->add_option("--model", options->model,
+                   "Model; default: $PANACHE_MODEL, else the one shipped")
+      ->type_name("FILE");
   verb->add_flag("--force", options->force, "Overwrite files");
   verb->add_flag("--no-timing", options->no_timing, "Keep the tempo, and so the number of frames");
   verb->add_flag("--no-feet", options->no_feet, "Do not hold planted feet in place");
-  verb->add_option("--jobs", options->jobs, "Files at once; default: one per core");
+  verb->add_option("--jobs", options->jobs, "Files at once; default: one per core")->type_name("N");
   verb->add_flag("--json", options->json, "Print what was done with each file as JSON");
   verb->footer(
       "Rig, joint names, channel order and frame rate stay as they are.\n\n"

@@ -37,8 +37,8 @@ class PoseHistory {
   Ground ground_at(double time) const noexcept;
   const Entry& newest(int age) const noexcept { return ring_[(head_ + kCapacity - age) % kCapacity]; }
 
-  // Poses closer together than this share an entry, so that any rate fits: the window and one more
-  // spacing for the oldest velocity need 0.3 s.
+  // A pose closer than this to the one before it gives way to the next, so that any rate fits: the
+  // window and one more spacing for the oldest velocity need 0.3 s.
   static constexpr double kMinGap = 0.0078;
   static constexpr int kCapacity = 42;
 

@@ -20,6 +20,9 @@ constexpr float kMaxLogRate = 0.7f;    // Half to double tempo.
 constexpr float kCourseSeconds = 1.5f;
 // Below this speed a character stands, or walks in place: the style may not carry it away.
 constexpr float kStandingSpeed = 0.3f;  // m/s
+// Well above this speed the way over the ground changes by the style's full share, below it by less.
+constexpr float kSlowSpeed = 0.4f;  // m/s
+constexpr float kMostShortened = 0.8f, kMostStretched = 1.5f;
 
 // Share of the way to a target that a one-pole filter goes in `seconds`.
 float filter_gain(float seconds, float time_constant) {
@@ -115,18 +118,30 @@ void Stylizer::predict(float seconds) noexcept {
   if (std::abs(rate - log_rate_) < 1e-6f) log_rate_ = rate;
 }
 
+float Stylizer::forward_speed() const noexcept {
+  const size_t numbers = window_.size() / kWindowPoses;
+  float sum = 0;
+  for (int k = 0; k < kWindowPoses; ++k) sum += window_[(k + 1) * numbers - kRootNumbers + 1];
+  return sum / kWindowPoses;
+}
+
 void Stylizer::move_root(double input_seconds) noexcept {
   if (!started_ || !options_.root) return;
-  // The way of the input, turned as the style turned the character so far, plus the style's own, which
-  // is held back while the character stands. Each term is exactly zero without a style.
   const float dt = static_cast<float>(input_seconds);
   const float moving = std::min(1.0f, history_.ground_speed() / kStandingSpeed);
   const float back = std::exp(-dt / kCourseSeconds);
   turn_ = turn_ * back + numbers_[66] * moving * dt;
   sway_ = sway_ * back + numbers_[64] * moving * dt;
+
+  // Forward the style stretches or shortens the input's own way, by the share that its velocity is of
+  // the input's: what comes back in the input comes back in the output, and what stands stays. Each
+  // term is exactly zero without a style.
+  const float speed = forward_speed();
+  const float share = numbers_[65] * speed / (speed * speed + kSlowSpeed * kSlowSpeed);
   const Vec3 way = ground_.position - last_ground_.position;
   drift_ += rotate(rotation_y(turn_), way) - way;
-  drift_ += rotate(rotation_y(ground_.facing + turn_), Vec3{0, 0, numbers_[65] * moving * dt});
+  const float most = speed > 0 ? kMostStretched : 0.0f;  // Backwards, or the way would not close.
+  drift_ += rotate(rotation_y(turn_), way) * std::clamp(share, -kMostShortened, most);
 }
 
 // A style trained on one body may put another's feet through the ground: lifts the body by as much as

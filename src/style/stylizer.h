@@ -59,6 +59,7 @@ class Stylizer {
   void take_input(ConstPose in) noexcept;
   void ease_strengths(std::span<const float> strengths, float seconds) noexcept;
   void predict(float seconds) noexcept;
+  float forward_speed() const noexcept;  // Mean of the window, m/s; below zero backwards.
   void move_root(double input_seconds) noexcept;
   void keep_above_floor() noexcept;
 

@@ -1,5 +1,4 @@
 #include <cstdio>
-#include <map>
 
 #include "base/plot.h"
 #include "train/trainer.h"
@@ -18,12 +17,17 @@ std::string losses_csv(const std::vector<LossPoint>& losses) {
 }
 
 std::string losses_svg(const std::vector<LossPoint>& losses) {
-  const std::map<std::string, std::string> colours = {
-      {"pose", "#c2410c"}, {"timing", "#1d4ed8"}, {"contact", "#15803d"}};
+  struct Look {
+    const char *network, *training, *validation;
+  };
+  constexpr Look looks[] = {{"pose", "#c2410c", "#fdba74"},
+                            {"timing", "#1d4ed8", "#93c5fd"},
+                            {"contact", "#15803d", "#86efac"}};
   std::vector<PlotSeries> series;
-  for (const auto& [network, colour] : colours) {
-    PlotSeries train{network + ", training", {}, {}, colour};
-    PlotSeries validation{network + ", validation", {}, {}, colour + "80"};
+  for (const Look& look : looks) {
+    const std::string network = look.network;
+    PlotSeries train{network + ", training", {}, {}, look.training};
+    PlotSeries validation{network + ", validation", {}, {}, look.validation};
     for (const LossPoint& point : losses) {
       if (point.network != network) continue;
       train.x.push_back(static_cast<double>(point.step));

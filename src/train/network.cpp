@@ -8,7 +8,7 @@ namespace panache {
 namespace {
 
 // Adam's usual constants.
-constexpr float kBeta1 = 0.9f, kBeta2 = 0.999f, kEpsilon = 1e-8f;
+constexpr float kBeta1 = 0.9f, kBeta2 = 0.999f;
 // Shape of the one-cycle schedule: warm-up share, first and last rate as shares of the highest.
 constexpr double kWarmUp = 0.3, kFirst = 1.0 / 25, kLast = 1.0 / 25e4;
 
@@ -126,7 +126,7 @@ void NetworkTrainer::learn(const torch::Tensor& loss) {
   square_.mul_(kBeta2).addcmul_(gradient_, gradient_, 1 - kBeta2);
   const double correct1 = 1 - std::pow(double{kBeta1}, static_cast<double>(step_));
   const double correct2 = 1 - std::pow(double{kBeta2}, static_cast<double>(step_));
-  const torch::Tensor root = (square_ / correct2).sqrt_().add_(kEpsilon);
+  const torch::Tensor root = (square_ / correct2).sqrt_().add_(settings_.epsilon);
   numbers_.addcdiv_(mean_, root, -rate / correct1);
 }
 

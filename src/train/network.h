@@ -27,6 +27,7 @@ struct NetworkShape {
 // How it learns.
 struct OptimizerSettings {
   float learning_rate = 0.01f;
+  float epsilon = 1e-8f;       // Added to the root of the mean square in Adam.
   bool one_cycle = false;      // Rises to the learning rate, then falls to nothing (Smith 2018).
   float weight_decay = 0;      // Decoupled (AdamW, Loshchilov and Hutter 2019); biases have none.
   float dropout = 0;           // Share of hidden units left out.

@@ -60,9 +60,9 @@ void mirror_pose(PoseLayout layout, float* pose) {
 
 // The hips' x and z are constant in the body frame, and others nearly so: divided by their true
 // deviation, any disturbance would explode. So 3 cm (0.1 m/s, 0.2 rad/s) are mixed in. Rotations are
-// normalised as they are, but for those that never move.
+// normalised as they are, but for those that hardly move: 0.02 of a matrix entry is about a degree.
 float floored_deviation(PoseLayout layout, int number, double variance) {
-  double floor = 1e-3;
+  double floor = 0.02;
   if (layout == PoseLayout::positions) floor = number < 63 ? 0.03 : number < 65 ? 0.1 : 0.2;
   return static_cast<float>(std::sqrt(variance + floor * floor));
 }

@@ -29,7 +29,7 @@ struct TrainOptions {
   Recipe recipe = Recipe::panache;
   std::optional<int64_t> steps;   // Instead of the recipe's own.
   uint64_t seed = 1;
-  std::string licence;            // Of the data, for the model's metadata.
+  std::string data, licence;      // What the data is and its terms, for the model's metadata.
   std::string checkpoint;         // File to resume from and to save to now and then; empty: none.
 };
 

@@ -1,0 +1,40 @@
+#include "manifests.h"
+
+#include <filesystem>
+
+namespace panache::cli {
+
+void add_manifest_options(CLI::App& verb, ManifestOptions& options) {
+  verb.add_option("manifests", options.paths,
+                  "CSV files with the columns path, style, content, take, neutral, split")
+      ->required();
+  verb.add_option("--styles", options.styles,
+                  "CSV with the columns name, from, description: which styles of the manifests to "
+                  "use, under which names");
+}
+
+Result<Manifests> read_manifests(const ManifestOptions& options) {
+  Manifests data;
+  for (size_t i = 0; i < options.paths.size(); ++i) {
+    Result<std::vector<ManifestRow>> rows = read_manifest(options.paths[i], static_cast<int>(i));
+    if (!rows) return rows.error();
+    data.rows.insert(data.rows.end(), rows->begin(), rows->end());
+  }
+  if (!options.styles.empty()) {
+    Result<std::vector<StyleName>> styles = read_style_names(options.styles);
+    if (!styles) return styles.error();
+    data.styles = *std::move(styles);
+  }
+  if (Result<void> named = apply_style_names(data.styles, data.rows); !named) return named.error();
+  return data;
+}
+
+Result<void> check_free(const std::string& output, bool force) {
+  std::error_code status;
+  if (!force && std::filesystem::exists(output, status)) {
+    return Error{output + ": exists already; --force overwrites it"};
+  }
+  return {};
+}
+
+}  // namespace panache::cli

@@ -1,0 +1,29 @@
+#pragma once
+// Manifests on the command line: shared by train and eval.
+
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "base/result.h"
+#include "train/manifest.h"
+
+namespace panache::cli {
+
+struct ManifestOptions {
+  std::vector<std::string> paths;
+  std::string styles;  // CSV of style names, or empty.
+};
+void add_manifest_options(CLI::App& verb, ManifestOptions& options);
+
+struct Manifests {
+  std::vector<ManifestRow> rows;  // Styles renamed.
+  std::vector<StyleName> styles;
+};
+Result<Manifests> read_manifests(const ManifestOptions& options);
+
+// Refuses an output that exists, unless `force`.
+Result<void> check_free(const std::string& output, bool force);
+
+}  // namespace panache::cli

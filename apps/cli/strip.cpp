@@ -1,0 +1,140 @@
+// panache strip: motion files as a picture, one row of stick figures each.
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/file.h"
+#include "clip/motion_file.h"
+#include "outputs.h"
+#include "pose/strip.h"
+#include "report.h"
+#include "rig/rig.h"
+#include "verbs.h"
+
+namespace panache::cli {
+namespace {
+
+// What fits a page beside others, unless one asks for more.
+constexpr double kDefaultLength = 4;  // Seconds.
+constexpr double kLongestTime = 86400;
+constexpr int kMostFigures = 1000;  // In a row.
+
+struct StripVerb {
+  std::vector<std::string> inputs, labels;
+  std::string output;
+  double every = 0.25;
+  double from = 0;
+  double to = std::numeric_limits<double>::quiet_NaN();  // Not given.
+  bool travel = false;
+  bool force = false;
+};
+
+Result<void> check(StripVerb& verb) {
+  const bool has_end = !std::isnan(verb.to);
+  for (const Result<void>& checked :
+       {check_range("--every", verb.every, 0.01, 60),
+        check_range("--from", verb.from, 0, kLongestTime),
+        has_end ? check_range("--to", verb.to, 0, kLongestTime) : Result<void>()}) {
+    if (!checked) return checked;
+  }
+  if (!has_end) verb.to = verb.from + kDefaultLength;
+  if (verb.to < verb.from) {
+    return Error{"--to " + brief(verb.to) + ": expected a time after --from " + brief(verb.from)};
+  }
+  if ((verb.to - verb.from) / verb.every > kMostFigures) {
+    return Error{"--every " + brief(verb.every) + ": expected at most " +
+                 std::to_string(kMostFigures) + " figures from " + brief(verb.from) + " to " +
+                 brief(verb.to) + " s"};
+  }
+  if (!verb.labels.empty() && verb.labels.size() != verb.inputs.size()) {
+    return Error{"--label: expected one for each of the " + plural(verb.inputs.size(), "file") +
+                 ", found " + std::to_string(verb.labels.size())};
+  }
+  if (!verb.output.ends_with(".svg")) {
+    return Error{verb.output + ": expected a name that ends in .svg"};
+  }
+  return {};
+}
+
+Result<StripRow> read_row(const std::string& path, const StripVerb& verb) {
+  Result<std::unique_ptr<MotionFile>> file = read_motion(path);
+  if (!file) return file.error();
+  const Clip& clip = (*file)->clip();
+  Result<Rig> rig = Rig::create(clip);
+  if (!rig) return Error{path + ": " + rig.error().message};
+  const double end = (clip.frames - 1) * clip.frame_time;
+  if (verb.from > end) {
+    return Error{path + ": ends at " + fixed(end, 2) + " s; expected motion from " +
+                 brief(verb.from) + " s on"};
+  }
+  // A calibration pose is no part of the motion.
+  const double begin = std::max(verb.from, rig->first_frame() * clip.frame_time);
+  StripRow row;
+  row.label = std::filesystem::path(path).stem().string();
+  std::vector<Quat> rotations(clip.joints());
+  std::vector<Vec3> translations(clip.joints());
+  for (int i = 0;; ++i) {
+    const double seconds = begin + i * verb.every;
+    // Half a microsecond: what frame times in files are rounded to adds up to less.
+    if (i > 0 && seconds > std::min(verb.to, end) + 5e-7) break;
+    sample(clip, seconds / clip.frame_time, {rotations, translations});
+    BodyPose body;
+    rig->read({rotations, translations}, body);
+    row.frames.push_back(body.joints);
+  }
+  return row;
+}
+
+int strip(StripVerb verb) {
+  if (auto good = check(verb); !good) return refuse(good.error(), kBadUsage);
+  std::vector<StripRow> rows;
+  for (size_t i = 0; i < verb.inputs.size(); ++i) {
+    auto free = check_output(verb.inputs[i], verb.output, verb.force);
+    if (!free) return refuse(free.error(), kBadInput);
+    Result<StripRow> row = read_row(verb.inputs[i], verb);
+    if (!row) return refuse(row.error(), kBadInput);
+    if (!verb.labels.empty()) row->label = verb.labels[i];
+    rows.push_back(*std::move(row));
+  }
+  StripOptions options;
+  options.seconds_between = verb.every;
+  options.travel = verb.travel;
+  auto written = write_file(verb.output, draw_strip(rows, options), verb.force);
+  if (!written) return refuse(written.error(), kBadInput);
+  print("drew " + plural(rows.size(), "row") + " into " + verb.output + "\n");
+  return kDone;
+}
+
+}  // namespace
+
+void add_strip(CLI::App& app, int& exit_code) {
+  CLI::App* verb = app.add_subcommand("strip", "Draw motion files as a film strip");
+  auto options = std::make_shared<StripVerb>();
+  verb->add_option("IN", options->inputs, "Motion files (.bvh), one row each")
+      ->required()
+      ->type_name("");
+  verb->add_option("-o,--output", options->output, "Picture to write (.svg)")
+      ->required()
+      ->type_name("OUT");
+  verb->add_option("--every", options->every, "From one figure to the next; default: 0.25")
+      ->type_name("SECONDS");
+  verb->add_option("--from", options->from, "First figure; default: the start")
+      ->type_name("SECONDS");
+  verb->add_option("--to", options->to, "Last figure; default: 4 s after the first")
+      ->type_name("SECONDS");
+  verb->add_option("--label", options->labels, "Names of the rows; default: those of the files")
+      ->type_name("TEXT");
+  verb->add_flag("--travel", options->travel, "Figures stand where they are on the way");
+  verb->add_flag("--force", options->force, "Overwrite the picture");
+  verb->footer(
+      "Example:\n"
+      "  panache strip walk.bvh old.bvh -o strip.svg --label 'as captured' 'old = 1'");
+  verb->callback([options, &exit_code] { exit_code = strip(*options); });
+}
+
+}  // namespace panache::cli

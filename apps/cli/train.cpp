@@ -1,0 +1,98 @@
+// panache train: from manifests to a model.
+
+#include <cstdio>
+#include <cstdlib>
+
+#include <torch/torch.h>
+
+#include "base/file.h"
+#include "manifests.h"
+#include "report.h"
+#include "train/checkpoint.h"
+#include "train/trainer.h"
+#include "verbs.h"
+
+namespace panache::cli {
+namespace {
+
+struct Options {
+  ManifestOptions data;
+  std::string output, recipe = "panache", data_name, licence;
+  int64_t steps = 0;
+  uint64_t seed = 1;
+  bool force = false, json = false;
+};
+
+int run(const Options& options) {
+  Result<Manifests> data = read_manifests(options.data);
+  if (!data) return refuse(data.error(), kBadInput);
+  // Training takes minutes: what stands in the way of its result is said before.
+  if (Result<void> free = check_free(options.output, options.force); !free) {
+    return refuse(free.error(), kBadInput);
+  }
+  TrainOptions train_options;
+  train_options.recipe = options.recipe == "panache" ? Recipe::panache : Recipe::smith2019;
+  if (options.steps > 0) train_options.steps = options.steps;
+  train_options.seed = options.seed;
+  train_options.data = options.data_name;
+  train_options.licence = options.licence;
+  train_options.checkpoint = options.output;
+  Result<Trained> trained = train(data->rows, data->styles, train_options);
+  if (!trained) return refuse(trained.error(), kBadInput);
+
+  const std::string bytes = format_safetensors(trained->model);
+  const std::pair<std::string, std::string> files[] = {
+      {options.output, bytes},
+      {options.output + ".losses.csv", losses_csv(trained->losses)},
+      {options.output + ".losses.svg", losses_svg(trained->losses)}};
+  for (const auto& [path, text] : files) {
+    if (Result<void> written = write_file(path, text, true); !written) {
+      return refuse(written.error(), kBadInput);
+    }
+  }
+  remove_checkpoints(options.output);
+  if (options.json) {
+    print(Json{{"model", options.output},
+               {"bytes", bytes.size()},
+               {"samples", trained->samples},
+               {"read_seconds", trained->read_seconds},
+               {"pair_seconds", trained->pair_seconds},
+               {"train_seconds", trained->train_seconds},
+               {"export_error", trained->export_error}});
+    return kDone;
+  }
+  print("trained " + options.output + " (" + std::to_string(bytes.size()) + " bytes, " +
+        plural(data->styles.size(), "style") + ") on " + std::to_string(trained->samples) +
+        " samples: reading " + fixed(trained->read_seconds, 1) + " s, pairing " +
+        fixed(trained->pair_seconds, 1) + " s, training " + fixed(trained->train_seconds, 1) +
+        " s\nlosses: " + options.output + ".losses.csv and .losses.svg; the export differs from " +
+        "libtorch's forward pass by at most " + brief(trained->export_error) + "\n");
+  return kDone;
+}
+
+}  // namespace
+
+void add_train(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App* verb = app.add_subcommand("train", "Train a model on motion of your own");
+  add_manifest_options(*verb, options->data);
+  verb->add_option("-o,--output", options->output, "The model file to write")->required();
+  verb->add_option("--recipe", options->recipe,
+                   "panache: style heads and differences; smith2019: as in the paper's slides")
+      ->check(CLI::IsMember({"panache", "smith2019"}))
+      ->capture_default_str();
+  verb->add_option("--data", options->data_name, "What the data is, kept in the model's metadata");
+  verb->add_option("--licence", options->licence,
+                   "Terms of the data, kept in the model's metadata");
+  verb->add_option("--steps", options->steps, "Steps of training instead of the recipe's own")
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--seed", options->seed, "Seed of all random numbers")->capture_default_str();
+  verb->add_flag("--force", options->force, "Overwrite the model if it exists");
+  verb->add_flag("--json", options->json, "Print the result as JSON");
+  verb->footer(
+      "Interrupted training goes on from its last checkpoint when it is called again.\n\n"
+      "Example:\n  panache train mine.csv -o mine.safetensors");
+  verb->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace panache::cli

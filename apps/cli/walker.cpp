@@ -1,0 +1,142 @@
+// panache walker: a neutral walk of our own making, for machines without motion data; in builds
+// with training also the fit of its model.
+
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "base/file.h"
+#include "clip/bvh.h"
+#include "model_path.h"
+#include "outputs.h"
+#include "report.h"
+#include "verbs.h"
+#include "walker/walker.h"
+
+#ifdef PANACHE_TRAIN
+#include "manifests.h"
+#include "train/fit_walker.h"
+#endif
+
+namespace panache::cli {
+namespace {
+
+constexpr const char* kWalkerModel = "walker.safetensors";
+constexpr double kLongestWalk = 600;  // Seconds.
+
+struct WalkerVerb {
+  std::string output, model;
+  double seconds = 8, speed = 1.4, turn_deg = 0, fps = 60;
+  bool start = false, stop = false, force = false;
+  std::vector<std::string> fit;  // Manifests.
+  std::string data, licence;     // What the fitted model says of them.
+};
+
+Result<void> check(const WalkerVerb& verb) {
+  const double sharpest =
+      static_cast<double>(max_walker_turn(static_cast<float>(verb.speed))) * 180 / std::numbers::pi;
+  for (const Result<void>& checked :
+       {check_range("--seconds", verb.seconds, 0.1, kLongestWalk),
+        check_range("--speed", verb.speed, 0, static_cast<double>(kMaxWalkerSpeed)),
+        check_range("--fps", verb.fps, 10, 240)}) {
+    if (!checked) return checked;
+  }
+  if (auto turn = check_range("--turn", verb.turn_deg, -sharpest, sharpest); !turn) {
+    return Error{turn.error().message + " at --speed " + brief(verb.speed)};
+  }
+  if (!verb.output.ends_with(".bvh")) {
+    return Error{verb.output + ": expected a name that ends in .bvh"};
+  }
+  return {};
+}
+
+int walk(const WalkerVerb& verb) {
+  if (auto good = check(verb); !good) return refuse(good.error(), kBadUsage);
+  if (auto free = check_output("", verb.output, verb.force); !free) {
+    return refuse(free.error(), kBadInput);
+  }
+  Result<std::string> path =
+      verb.model.empty() ? find_shipped(kWalkerModel) : Result<std::string>(verb.model);
+  if (!path) return refuse(path.error(), kBadInput);
+  Result<std::shared_ptr<const WalkerModel>> model = WalkerModel::load(*path);
+  if (!model) return refuse(model.error(), kBadInput);
+  WalkClipOptions options;
+  options.seconds = verb.seconds;
+  options.fps = verb.fps;
+  options.speed = static_cast<float>(verb.speed);
+  options.turn = static_cast<float>(verb.turn_deg * std::numbers::pi / 180);
+  options.start = verb.start;
+  options.stop = verb.stop;
+  const Clip clip = walk_clip(*model, options);
+  auto written = write_file(verb.output, format_bvh(clip), verb.force);
+  if (!written) return refuse(written.error(), kBadInput);
+  print("walked " + fixed(clip.duration(), 1) + " s (" +
+        plural(static_cast<size_t>(clip.frames), "frame") + ") into " + verb.output + "\n");
+  return kDone;
+}
+
+#ifdef PANACHE_TRAIN
+int fit(const WalkerVerb& verb) {
+  if (auto free = check_free(verb.output, verb.force); !free) {
+    return refuse(free.error(), kBadInput);
+  }
+  Result<Manifests> data = read_manifests({verb.fit, ""});
+  if (!data) return refuse(data.error(), kBadInput);
+  Result<FittedWalker> fitted = fit_walker(data->rows, verb.data, verb.licence);
+  if (!fitted) return refuse(fitted.error(), kBadInput);
+  auto written = write_file(verb.output, fitted->model.format(), verb.force);
+  if (!written) return refuse(written.error(), kBadInput);
+  print("fitted " + verb.output + " to " + std::to_string(fitted->walk_frames) +
+        " frames of walk, " + std::to_string(fitted->run_frames) + " of run and " +
+        std::to_string(fitted->stand_frames) + " of standing in " +
+        plural(static_cast<size_t>(fitted->takes), "take") + "; residual " +
+        brief(fitted->walk_residual, 3) + " rad walking, " + brief(fitted->run_residual, 3) +
+        " running\n");
+  return kDone;
+}
+#endif
+
+}  // namespace
+
+void add_walker(CLI::App& app, int& exit_code) {
+  CLI::App* verb = app.add_subcommand("walker", "Make a neutral walk, as sample input");
+  auto options = std::make_shared<WalkerVerb>();
+  verb->add_option("-o,--output", options->output, "File to write (.bvh)")
+      ->required()
+      ->type_name("OUT");
+  verb->add_option("--seconds", options->seconds, "How long; default: 8")->type_name("SECONDS");
+  verb->add_option("--speed", options->speed, "0 stands, 1.4 walks, 3 runs (m/s); default: 1.4")
+      ->type_name("SPEED");
+  verb->add_option("--turn", options->turn_deg, "To the left (degrees a second); default: 0")
+      ->type_name("DEGREES");
+  verb->add_option("--fps", options->fps, "Frames a second; default: 60")->type_name("N");
+  verb->add_flag("--start", options->start, "Begin standing");
+  verb->add_flag("--stop", options->stop, "End standing");
+  verb->add_option("--model", options->model, "Model of the walker; default: the one shipped")
+      ->type_name("FILE");
+  verb->add_flag("--force", options->force, "Overwrite the file");
+#ifdef PANACHE_TRAIN
+  verb->add_option("--fit", options->fit,
+                   "Instead of walking, fit the walker's model to the\n"
+                   "neutral takes of these manifests and write that")
+      ->type_name("MANIFEST");
+  verb->add_option("--data", options->data,
+                   "With --fit: what the data are, for the model's metadata")
+      ->type_name("TEXT");
+  verb->add_option("--licence", options->licence, "With --fit: terms of the data, likewise")
+      ->type_name("TEXT");
+#endif
+  verb->footer("Example:\n  panache walker -o walk.bvh --seconds 8 --speed 1.4 --turn 20");
+  verb->callback([options, &exit_code] {
+#ifdef PANACHE_TRAIN
+    if (!options->fit.empty()) {
+      exit_code = fit(*options);
+      return;
+    }
+#endif
+    exit_code = walk(*options);
+  });
+}
+
+}  // namespace panache::cli

@@ -1,0 +1,27 @@
+#pragma once
+// Fits the walker to neutral walks, runs and turns.
+
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "train/manifest.h"
+#include "walker/model.h"
+
+namespace panache {
+
+struct FittedWalker {
+  WalkerModel model;
+  // What it was fitted to: takes and frames (mirrored ones not counted).
+  int takes = 0, walk_frames = 0, run_frames = 0, stand_frames = 0;
+  // Root mean square of what is left of the rotation vectors, radians.
+  double walk_residual = 0, run_residual = 0;
+};
+
+// Uses the neutral takes of `rows` that are not held out: contents walk, walk-turn-left and
+// walk-turn-right for the walk; run and dash for the run; the standing ends of gestures (raise-*,
+// wave-*) for the stand. Each counts twice, the second time mirrored.
+Result<FittedWalker> fit_walker(const std::vector<ManifestRow>& rows, const std::string& data,
+                                const std::string& licence);
+
+}  // namespace panache

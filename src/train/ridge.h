@@ -1,0 +1,27 @@
+#pragma once
+// Linear least squares with a penalty on each unknown.
+
+#include <span>
+#include <vector>
+
+namespace panache {
+
+// Finds the weights[unknowns][outputs] that bring row * weights near to what is given for each row.
+class Ridge {
+ public:
+  Ridge(int unknowns, int outputs);
+
+  void add(std::span<const double> row, std::span<const double> outputs, double weight = 1);
+  // penalties[unknowns], not negative: what a weight's square costs. With `prior`
+  // ([unknowns][outputs], or empty for zero) it is the distance from the prior that costs. The
+  // rows and penalties together must determine every unknown.
+  std::vector<double> solve(std::span<const double> penalties,
+                            std::span<const double> prior = {}) const;
+
+ private:
+  const size_t unknowns_, outputs_;
+  std::vector<double> gram_;    // [unknowns][unknowns]
+  std::vector<double> target_;  // [unknowns][outputs]
+};
+
+}  // namespace panache

@@ -1,0 +1,61 @@
+#pragma once
+// How the walker goes: eases what is wanted, follows the path, chooses between walk and run, and
+// keeps the phase of the steps.
+
+#include "walker/model.h"
+
+namespace panache {
+
+inline constexpr float kMaxWalkerSpeed = 4.5f;  // m/s
+// The sharpest turn at `speed`, rad/s: two rounds in six seconds on the spot, and less where it
+// would need more than a third of gravity to the side.
+float max_walker_turn(float speed) noexcept;
+
+// What the feet have to know about a moment of the steps.
+struct Steps {
+  // Of each foot: how firmly it stands (0 to 1), how far through its swing it is (0 to 1; 0 while
+  // it stands), and how far through its stance (likewise).
+  std::array<float, 2> stands{}, swing{}, stance{};
+  float stance_seconds = 0;  // How long a foot stands.
+};
+
+class Drive {
+ public:
+  void reset() noexcept { *this = Drive(); }
+  // Goes on by `dt` seconds towards these; `feet_settled`: neither foot has to step before the body
+  // can stand.
+  void tick(const WalkerModel& model, float wanted_speed, float wanted_turn, bool feet_settled,
+            float dt) noexcept;
+
+  // The body over the path at this moment, before the feet.
+  void channels(const WalkerModel& model, Channels& out) const noexcept;
+  Steps steps(const WalkerModel& model) const noexcept;
+
+  bool is_stepping() const noexcept { return stepping_; }
+  float amount() const noexcept { return amount_; }  // 0 standing to 1 at the slowest learnt walk.
+  float stepping() const noexcept { return stepping_amount_; }  // Eased, 0 to 1.
+  float phase() const noexcept { return static_cast<float>(phase_); }
+  const Going& going() const noexcept { return going_; }
+  float running() const noexcept { return running_; }  // 0 walking to 1 running.
+  double x() const noexcept { return x_; }             // Metres.
+  double z() const noexcept { return z_; }
+  double heading() const noexcept { return heading_; }  // Radians, unwrapped.
+
+ private:
+  void ease(float wanted_speed, float wanted_turn, float dt) noexcept;
+  void choose_gait(float dt) noexcept;
+  void keep_stepping(const WalkerModel& model, bool wanted, bool feet_settled, float dt) noexcept;
+  // Landing and lift of the left foot; the latter is the later one.
+  std::array<float, 2> contact(const WalkerModel& model) const noexcept;
+
+  Going going_;
+  float speed_change_ = 0;  // m/s^2; `going_` has it smoothed.
+  float turn_change_ = 0;   // rad/s^2
+  double x_ = 0, z_ = 0, heading_ = 0;
+  double phase_ = 0, seconds_ = 0;
+  float frequency_ = 0;  // Cycles of two steps a second.
+  bool wants_run_ = false, stepping_ = false;
+  float running_ = 0, amount_ = 0, stepping_amount_ = 0;
+};
+
+}  // namespace panache

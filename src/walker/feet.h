@@ -1,0 +1,50 @@
+#pragma once
+// Keeps the walker's standing feet where they are, and brings the others back under the body.
+
+#include <array>
+
+#include "base/quat.h"
+#include "base/vec.h"
+#include "walker/drive.h"
+
+namespace panache {
+
+// A leg in the world, metres.
+struct Leg {
+  Vec3 hip, knee, ankle, toe;
+  Quat upper, lower, foot;  // World rotations.
+  float height = 0;         // Of the toe over a ground that leans with the body.
+};
+using Legs = std::array<Leg, 2>;  // Left, right.
+
+class Feet {
+ public:
+  void reset() noexcept { *this = Feet(); }
+  // Moves the legs of this moment, as the gait has them, to where the feet stand. `lead`: how far
+  // the body turns while a foot stands, radians, as far as the gait itself does not show it.
+  void tick(const Drive& drive, const Steps& steps, float lead, float dt, Legs& legs) noexcept;
+  // Whether both feet stand, and under the body.
+  bool are_settled() const noexcept { return settled_; }
+  // How much lower the hips have to be for the legs to reach the ground, metres; eased.
+  float drop() const noexcept { return drop_; }
+
+ private:
+  struct Foot {
+    bool lifted = false;
+    bool known = false;    // `toe` and `yaw` are of the last tick.
+    Vec3 toe;              // World, as the gait had it.
+    float yaw = 0;         // Likewise.
+    Vec3 offset;           // What stands between that and where the foot is; level.
+    float twist = 0;       // Likewise of the yaw.
+    float lift = 0;        // How much higher this swing goes than the gait, metres.
+  };
+  void hold(Foot& foot, float stands, float swing, float amount, float lead, Vec3 toe,
+            float yaw) noexcept;
+
+  std::array<Foot, 2> feet_;
+  std::array<float, 2> swing_{};
+  bool settled_ = true;
+  float drop_ = 0;
+};
+
+}  // namespace panache

@@ -1,0 +1,133 @@
+#include "walker/walker.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "pose/contacts.h"
+#include "rig/canonical_skeleton.h"
+#include "walker/idle.h"
+
+namespace panache {
+namespace {
+
+// The walker thinks at a rate of its own, so that the caller's makes no difference.
+constexpr double kTick = 1.0 / 120;
+constexpr double kLongestStep = 0.25;
+constexpr float kGravity = 9.81f;
+// The lean that the gaits learnt with their turns is that of this speed.
+constexpr float kLearntLeanSpeed = 1.05f;
+
+// Mixed gaits may ask a knee to bend the wrong way; it comes near to straight at most.
+float bent_knee(float bend) {
+  constexpr float kLeast = 0.08f;  // Radians; down to here it does as asked.
+  return bend > kLeast ? bend : kLeast * std::exp((bend - kLeast) / kLeast);
+}
+
+float finite_or_zero(float x) { return std::isfinite(x) ? x : 0.0f; }
+
+}  // namespace
+
+Walker::Walker(std::shared_ptr<const WalkerModel> model) : model_(std::move(model)) {
+  const Skeleton skeleton = canonical_skeleton();
+  for (int j = 0; j < kHumanJoints; ++j) offsets_[j] = skeleton.joints[j].offset;
+  reset();
+}
+
+void Walker::reset() noexcept {
+  drive_.reset();
+  feet_.reset();
+  seconds_ = 0;
+  ticks_ = 0;
+  pose_body();
+  pose_legs(static_cast<float>(kTick));
+  before_ = now_;
+}
+
+Ground Walker::ground() const noexcept {
+  return {{static_cast<float>(drive_.x()), 0, static_cast<float>(drive_.z())},
+          static_cast<float>(drive_.heading())};
+}
+
+void Walker::step(float speed, float turn, double seconds, Pose out) noexcept {
+  assert(out.rotations.size() == kHumanJoints && out.translations.size() == kHumanJoints);
+  speed = std::clamp(finite_or_zero(speed), 0.0f, kMaxWalkerSpeed);
+  turn = finite_or_zero(turn);
+  seconds_ += std::isfinite(seconds) ? std::clamp(seconds, 0.0, kLongestStep) : 0.0;
+  // A hair's breadth less, for the rounding of sums of 1/60 and the like.
+  while (static_cast<double>(ticks_) * kTick < seconds_ - 1e-9) tick(speed, turn);
+  const double behind = static_cast<double>(ticks_) - seconds_ / kTick;
+  const float t = static_cast<float>(std::clamp(1 - behind, 0.0, 1.0));
+  for (int j = 0; j < kHumanJoints; ++j) {
+    out.rotations[j] = nlerp(before_.rotations[j], now_.rotations[j], t);
+    out.translations[j] = offsets_[j];
+  }
+  out.translations[0] = lerp(before_.hips, now_.hips, t);
+}
+
+void Walker::tick(float speed, float turn) noexcept {
+  before_ = now_;
+  ++ticks_;
+  drive_.tick(*model_, speed, turn, feet_.are_settled(), static_cast<float>(kTick));
+  pose_body();
+  pose_legs(static_cast<float>(kTick));
+}
+
+void Walker::pose_body() noexcept {
+  Channels channels;
+  drive_.channels(*model_, channels);
+  const float standing = 1 - drive_.stepping();
+  add_idle(static_cast<double>(ticks_) * kTick, standing * (1 - drive_.amount()), channels);
+  // Small steps need the weight over the standing foot as much as large ones.
+  const float shift = 0.025f * drive_.stepping() * (1 - drive_.amount());
+  channels[0] += shift * std::cos(drive_.phase() - 1.66f);
+
+  now_.rotations = {};
+  for (size_t i = 0; i < kDriven.size(); ++i) {
+    const float* r = &channels[3 + 3 * i];
+    const bool is_knee = kDriven[i] == HumanJoint::left_lower_leg ||
+                         kDriven[i] == HumanJoint::right_lower_leg;
+    now_.rotations[index(kDriven[i])] =
+        exp_rotation(Vec3{is_knee ? bent_knee(r[0]) : r[0], r[1], r[2]});
+  }
+
+  // The faster the turn, the further into it the whole body leans, about its path on the ground.
+  const Going& going = drive_.going();
+  const float lean = std::atan((going.speed - kLearntLeanSpeed * drive_.amount()) * going.turn /
+                               kGravity);
+  const Quat heading = rotation_y(static_cast<float>(drive_.heading()));
+  const Quat frame = heading * axis_angle(Vec3{0, 0, 1}, -lean);
+  up_ = rotate(frame, Vec3{0, 1, 0});
+  now_.rotations[0] = normalized(frame * now_.rotations[0]);
+  now_.hips = ground().position + rotate(frame, Vec3{channels[0], channels[1], channels[2]});
+  now_.hips.y -= feet_.drop();
+}
+
+void Walker::pose_legs(float dt) noexcept {
+  Legs legs;
+  const Quat hips = now_.rotations[0];
+  for (int f = 0; f < kFeet; ++f) {
+    const int upper = index(kUpperLegs[f]), lower = index(kLowerLegs[f]);
+    const int foot = index(kAnkles[f]), toe = index(kToes[f]);
+    Leg& leg = legs[f];
+    leg.upper = hips * now_.rotations[upper];
+    leg.lower = leg.upper * now_.rotations[lower];
+    leg.foot = leg.lower * now_.rotations[foot];
+    leg.hip = now_.hips + rotate(hips, offsets_[upper]);
+    leg.knee = leg.hip + rotate(leg.upper, offsets_[lower]);
+    leg.ankle = leg.knee + rotate(leg.lower, offsets_[foot]);
+    leg.toe = leg.ankle + rotate(leg.foot, offsets_[toe]);
+    leg.height = dot(leg.toe - ground().position, up_);
+  }
+  const Steps steps = drive_.steps(*model_);
+  const float lead = drive_.going().turn * steps.stance_seconds * (1 - drive_.amount());
+  feet_.tick(drive_, steps, lead, dt, legs);
+  for (int f = 0; f < kFeet; ++f) {
+    const Leg& leg = legs[f];
+    now_.rotations[index(kUpperLegs[f])] = normalized(conjugate(hips) * leg.upper);
+    now_.rotations[index(kLowerLegs[f])] = normalized(conjugate(leg.upper) * leg.lower);
+    now_.rotations[index(kAnkles[f])] = normalized(conjugate(leg.lower) * leg.foot);
+  }
+}
+
+}  // namespace panache

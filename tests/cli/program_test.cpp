@@ -1,0 +1,131 @@
+// The program's other verbs, and what all of them share.
+
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+
+namespace panache::test {
+namespace {
+
+using Program = ProgramTest;
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST_F(Program, every_verb_has_help_with_an_example) {
+  for (const std::string verb : {"stylize", "styles", "info", "walker", "strip", "train", "eval"}) {
+    const Ran ran = run({verb, "--help"});
+    EXPECT_EQ(ran.exit, 0) << verb;
+    EXPECT_TRUE(contains(ran.out, "Example")) << verb << "\n" << ran.out;
+    EXPECT_EQ(ran.err, "");
+    EXPECT_TRUE(contains(run({"--help"}).out, "\n  " + verb)) << verb;
+  }
+}
+
+TEST_F(Program, it_tells_its_version) {
+  const Ran ran = run({"--version"});
+  EXPECT_EQ(ran.exit, 0);
+  EXPECT_TRUE(ran.out.starts_with("panache 0.")) << ran.out;
+}
+
+TEST_F(Program, styles_lists_names_and_what_they_look_like) {
+  const Ran ran = run({"styles"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_TRUE(contains(ran.out, "  angry  looks angry\n  old    looks old\n")) << ran.out;
+  EXPECT_TRUE(contains(ran.out, "data licence CC0\n")) << ran.out;
+}
+
+TEST_F(Program, styles_tells_machines) {
+  const auto model = nlohmann::json::parse(run({"styles", "model.safetensors", "--json"}).out);
+  EXPECT_EQ(model["recipe"], "panache");
+  EXPECT_EQ(model["licence"], "CC0");
+  EXPECT_EQ(model["bytes"], read("model.safetensors").size());
+  ASSERT_EQ(model["styles"].size(), 4u);
+  EXPECT_EQ(model["styles"][3]["name"], "sad");
+  EXPECT_EQ(model["styles"][3]["description"], "looks sad");
+  size_t numbers = 0;
+  for (const auto& [name, tensor] : make_model({"angry", "old", "proud", "sad"}).tensors) {
+    numbers += tensor.values.size();
+  }
+  EXPECT_EQ(model["parameters"], numbers);
+}
+
+TEST_F(Program, info_shows_how_the_rig_was_mapped) {
+  write_walk("walk.bvh");
+  const Ran ran = run({"info", "walk.bvh", "--tree"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_TRUE(contains(ran.out, "  joints  21, of which 21 rotate and 1 move\n")) << ran.out;
+  EXPECT_TRUE(contains(ran.out, "  frames  40 at 30 a second: 1.33 s\n")) << ran.out;
+  EXPECT_TRUE(contains(ran.out, "  unit    1 m (metres, most likely), judged by the legs\n"))
+      << ran.out;
+  EXPECT_TRUE(contains(ran.out, "  up      +Y\n")) << ran.out;
+  EXPECT_TRUE(contains(ran.out, "\n  hips (moves)\n    spine\n      chest\n")) << ran.out;
+  const auto info = nlohmann::json::parse(run({"info", "walk.bvh", "--json"}).out);
+  EXPECT_EQ(info["frames"], 40);
+  EXPECT_EQ(info["skeleton"].size(), 21u);
+  ASSERT_EQ(info["mapping"]["joints"].size(), 21u);
+  EXPECT_EQ(info["mapping"]["joints"][8]["humanoid"], "leftHand");
+  EXPECT_EQ(info["mapping"]["joints"][8]["joint"], "leftHand");
+  EXPECT_EQ(info["mapping"]["likely_unit"], "metres");
+}
+
+TEST_F(Program, info_shows_a_file_that_is_no_humanoid_too) {
+  Skeleton box;
+  box.joints.push_back({"Box", -1, {}, {}, true, true, {{0, 1, 0}}});
+  write("box.bvh", format_bvh({box, 1.0 / 30, 2, std::vector<Quat>(2), std::vector<Vec3>(2)}));
+  const Ran ran = run({"info", "box.bvh"});
+  EXPECT_EQ(ran.exit, 1);
+  EXPECT_TRUE(contains(ran.out, "  joints  1, of which 1 rotate and 1 move\n")) << ran.out;
+  EXPECT_TRUE(ran.err.starts_with("panache: box.bvh: no humanoid found")) << ran.err;
+  const auto info = nlohmann::json::parse(run({"info", "box.bvh", "--json"}).out);
+  EXPECT_TRUE(info["mapping"].is_null());
+  EXPECT_EQ(info["error"], ran.err.substr(18, ran.err.size() - 19));
+}
+
+TEST_F(Program, info_shows_all_that_a_model_says_of_itself) {
+  const Ran ran = run({"info", "model.safetensors"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_TRUE(contains(ran.out, "4 styles:\n")) << ran.out;
+  EXPECT_TRUE(contains(ran.out, "  window          6 poses 0.05 s apart\n")) << ran.out;
+  const auto model = nlohmann::json::parse(run({"info", "model.safetensors", "--json"}).out);
+  EXPECT_EQ(model["metadata"]["format_version"], "1");
+}
+
+TEST_F(Program, the_shipped_model_is_found_where_the_program_is) {
+  std::filesystem::create_directories(path("prefix/bin"));
+  std::filesystem::copy_file(PANACHE_PROGRAM, path("prefix/bin/panache"));
+  const auto styles = [&] { return run({"styles"}, "", path("prefix/bin/panache")); };
+  const Ran none = styles();
+  EXPECT_EQ(none.exit, 1);
+  EXPECT_EQ(none.out, "");
+  std::string looked;
+  for (const std::string folder :
+       {"prefix/share/panache/models/", "prefix/bin/models/", "models/"}) {
+    if (!looked.empty()) looked += ", ";
+    looked += path(folder) + "panache.safetensors";
+  }
+  EXPECT_EQ(none.err, "panache: the model panache.safetensors was not found; looked for " + looked +
+                          "; --model FILE or the environment variable PANACHE_MODEL names "
+                          "another\n");
+  // From the last place to look to the first.
+  for (const std::string folder :
+       {"models/", "prefix/bin/models/", "prefix/share/panache/models/"}) {
+    write(folder + "panache.safetensors", read("model.safetensors"));
+    const Ran found = styles();
+    EXPECT_EQ(found.exit, 0) << found.err;
+    EXPECT_TRUE(found.out.starts_with(path(folder) + "panache.safetensors\n")) << found.out;
+  }
+}
+
+TEST_F(Program, names_that_are_no_utf8_do_not_stop_the_machine_output) {
+  const std::string name = "w\xe4lk.bvh";
+  write_walk(name);
+  const Ran ran = run({"stylize", name, "--style", "old=1", "--json", "-o", "out/"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_EQ(nlohmann::json::parse(ran.out)[0]["ok"], true);
+  EXPECT_TRUE(exists("out/" + name));
+}
+
+}  // namespace
+}  // namespace panache::test

@@ -1,0 +1,233 @@
+// What the program says to a wrong file or a wrong command, word for word, and its exit code: 1
+// where a file is at fault, 2 where the command is.
+
+#include <unistd.h>
+
+#include "cli/program.h"
+
+namespace panache::test {
+namespace {
+
+class Refusal : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write_walk("walk.bvh");
+  }
+  void expect_refused(const std::vector<std::string>& arguments, int exit,
+                      const std::string& sentence, const std::string& model = "model.safetensors") {
+    const Ran ran = run(arguments, model);
+    EXPECT_EQ(ran.err, "panache: " + sentence + "\n");
+    EXPECT_EQ(ran.exit, exit);
+    EXPECT_EQ(ran.out, "");
+  }
+  // stylize walk.bvh with `style`, which is refused before anything is written.
+  void expect_style_refused(const std::string& style, const std::string& sentence) {
+    expect_refused({"stylize", "walk.bvh", "--style", style, "-o", "out.bvh"}, 2, sentence);
+    EXPECT_FALSE(exists("out.bvh"));
+  }
+  // stylize FILE, whose contents are `bytes`.
+  void expect_file_refused(const std::string& bytes, const std::string& sentence) {
+    write("bad.bvh", bytes);
+    expect_refused({"stylize", "bad.bvh", "--style", "old=1", "-o", "out.bvh"}, 1, sentence);
+    EXPECT_FALSE(exists("out.bvh"));
+  }
+  void expect_table_refused(const std::string& table, const std::string& sentence) {
+    write("table.csv", table);
+    expect_refused({"stylize", "walk.bvh", "--strengths", "table.csv", "-o", "out.bvh"}, 1,
+                   sentence);
+  }
+  void expect_model_refused(const TensorFile& model, const std::string& sentence) {
+    write("other.safetensors", format_safetensors(model));
+    for (const std::string from : {"argument", "environment"}) {
+      std::vector<std::string> arguments = {"stylize", "walk.bvh", "--style",
+                                            "old=1",   "-o",       "out.bvh"};
+      if (from == "argument") arguments.insert(arguments.end(), {"--model", "other.safetensors"});
+      expect_refused(arguments, 1, sentence,
+                     from == "argument" ? "model.safetensors" : "other.safetensors");
+    }
+  }
+};
+
+TEST_F(Refusal, an_unknown_style_gets_the_nearest_names) {
+  expect_style_refused("olld=1",
+                       "unknown style 'olld'; the nearest are old, sad and proud (panache styles "
+                       "lists all 4)");
+}
+
+TEST_F(Refusal, a_strength_is_a_finite_number_in_range) {
+  for (const std::string strength : {"nan", "NaN", "inf", "-inf", "much", "", "4.1", "-5", "1e40",
+                                     "0x1", "1 ", "1,5", "..", "0..", "..1", "0..nan", "1..5"}) {
+    expect_style_refused("old=" + strength, "--style old=" + strength +
+                                                ": expected a strength from -4 to 4 or a change "
+                                                "such as '1..0', found '" +
+                                                strength + "'");
+  }
+}
+
+TEST_F(Refusal, a_style_needs_a_strength) {
+  expect_style_refused("old", "--style old: expected a name and a strength, as in 'old=1'");
+}
+
+TEST_F(Refusal, a_style_has_one_strength) {
+  expect_refused({"stylize", "walk.bvh", "--style", "old=1", "--style", "old=2", "-o", "out.bvh"},
+                 2, "--style old=2: this style has a strength already; expected each style once");
+  write("table.csv", "seconds,old\n0,1\n");
+  expect_refused(
+      {"stylize", "walk.bvh", "--style", "old=1", "--strengths", "table.csv", "-o", "out.bvh"}, 2,
+      "style 'old' has strengths both from --style and from table.csv; expected one of "
+      "them");
+}
+
+TEST_F(Refusal, a_style_is_needed) {
+  expect_refused({"stylize", "walk.bvh", "-o", "out.bvh"}, 2,
+                 "expected a style, as in --style angry=1, or a table of strengths (--strengths)");
+}
+
+TEST_F(Refusal, a_wrong_table_is_explained_with_its_line) {
+  expect_table_refused("",
+                       "table.csv:1: expected the columns 'seconds' and one or more styles, "
+                       "found ''");
+  expect_table_refused("seconds\n1\n",
+                       "table.csv:1: expected the columns 'seconds' and one or more styles, found "
+                       "'seconds'");
+  expect_table_refused("seconds,olld\n0,1\n",
+                       "table.csv:1: unknown style 'olld'; the nearest are old, sad and proud "
+                       "(panache styles lists all 4)");
+  expect_table_refused("seconds,old,old\n0,1,1\n", "table.csv:1: column 'old' stands there twice");
+  expect_table_refused("seconds,old\n", "table.csv: expected a line of strengths, found none");
+  expect_table_refused("seconds,old\n0,1\n1\n",
+                       "table.csv:3: has 1 cells; expected 2 as in the first line");
+  expect_table_refused("seconds,old\nnow,1\n",
+                       "table.csv:2: expected a number of seconds, found 'now'");
+  expect_table_refused("seconds,old\n0,1\n2,1\n1,1\n",
+                       "table.csv:4: expected seconds that rise from line to line, found '1' after "
+                       "a later time");
+  expect_table_refused(
+      "seconds,old\n0,nan\n",
+      "table.csv:2: expected a strength from -4 to 4 in column 'old', found 'nan'");
+}
+
+TEST_F(Refusal, an_empty_file) {
+  expect_file_refused("", "bad.bvh:1:1: expected 'HIERARCHY', found the end of the file");
+}
+
+TEST_F(Refusal, a_binary_file) {
+  expect_file_refused(std::string("\x7f"
+                                  "ELF\x02\x01\0\0",
+                                  8),
+                      "bad.bvh:1:1: expected 'HIERARCHY', found '\\x7fELF\\x02\\x01\\x00\\x00'");
+}
+
+TEST_F(Refusal, an_unreadable_path) {
+  expect_refused({"stylize", "none.bvh", "--style", "old=1", "-o", "out.bvh"}, 1,
+                 "none.bvh: cannot be read: No such file or directory");
+  std::filesystem::create_directory(path("folder.bvh"));
+  expect_refused({"stylize", "folder.bvh", "--style", "old=1", "-o", "out.bvh"}, 1,
+                 "folder.bvh: is a folder; expected a file");
+  expect_refused({"info", "none.bvh"}, 1, "none.bvh: cannot be read: No such file or directory");
+}
+
+TEST_F(Refusal, an_unknown_ending) {
+  write("walk.fbx", "");
+  expect_refused({"stylize", "walk.fbx", "--style", "old=1", "-o", "out.bvh"}, 1,
+                 "walk.fbx: expected a motion file (.bvh), found the ending '.fbx'");
+  expect_refused({"stylize", "walk.bvh", "--style", "old=1", "-o", "out.glb"}, 1,
+                 "out.glb: expected a name with the input's ending '.bvh', or a folder (with a '/' "
+                 "at its end)");
+}
+
+TEST_F(Refusal, an_unmapped_rig) {
+  Skeleton box;
+  box.joints.push_back({"Box", -1, {}, {}, true, true, {}});
+  box.joints.push_back({"Lid", 0, {0, 1, 0}, {}, true, false, {{0, 1, 0}}});
+  Clip clip{box, 1.0 / 30, 2, std::vector<Quat>(4), std::vector<Vec3>(4)};
+  write("box.bvh", format_bvh(clip));
+  const std::string sentence =
+      "box.bvh: no humanoid found: leftHand, rightHand, leftFoot, rightFoot, head are missing "
+      "among 'Box', 'Lid' (2 joints); expected names such as LeftHand or hand_L";
+  expect_refused({"stylize", "box.bvh", "--style", "old=1", "-o", "out.bvh"}, 1, sentence);
+}
+
+TEST_F(Refusal, an_existing_output_without_force) {
+  write("out.bvh", "mine");
+  const std::vector<std::string> arguments = {"stylize", "walk.bvh", "--style",
+                                              "old=1",   "-o",       "out.bvh"};
+  expect_refused(arguments, 1, "out.bvh: exists already; --force overwrites it");
+  EXPECT_EQ(read("out.bvh"), "mine");
+  std::vector<std::string> forced = arguments;
+  forced.push_back("--force");
+  EXPECT_EQ(run(forced).exit, 0);
+  EXPECT_TRUE(read("out.bvh") != "mine");
+}
+
+TEST_F(Refusal, the_input_as_output_without_force) {
+  const std::string before = read("walk.bvh");
+  expect_refused({"stylize", "walk.bvh", "--style", "old=1", "-o", "./walk.bvh"}, 1,
+                 "./walk.bvh: is the input itself; --force overwrites it");
+  EXPECT_TRUE(read("walk.bvh") == before);
+  EXPECT_EQ(run({"stylize", "walk.bvh", "--style", "old=1", "-o", "walk.bvh", "--force"}).exit, 0);
+  EXPECT_TRUE(read("walk.bvh") != before);
+}
+
+TEST_F(Refusal, one_output_for_several_inputs) {
+  write_walk("more/walk.bvh");
+  expect_refused({"stylize", "walk.bvh", "more/walk.bvh", "--style", "old=1", "-o", "out"}, 2,
+                 "out/walk.bvh: is where the results of both 'walk.bvh' and 'more/walk.bvh' would "
+                 "go; expected inputs of different names");
+  expect_refused({"stylize", "walk.bvh", "more/walk.bvh", "--style", "old=1", "-o", "out.bvh"}, 2,
+                 "out.bvh: expected a folder for the results of 2 files; call it 'out.bvh/' if it "
+                 "is to be one");
+  expect_refused({"stylize", "walk.bvh", "other.bvh", "--style", "old=1", "-o", "walk.bvh"}, 2,
+                 "walk.bvh: is a file; expected a folder for the results of 2 files");
+}
+
+TEST_F(Refusal, an_output_that_cannot_be_written) {
+  write("file", "");
+  expect_refused({"stylize", "walk.bvh", "--style", "old=1", "-o", "file/out.bvh"}, 1,
+                 "file/out.bvh: cannot be written: Not a directory");
+}
+
+TEST_F(Refusal, a_model_of_another_version) {
+  TensorFile model = make_model({"old"});
+  model.metadata["format_version"] = "2";
+  expect_model_refused(model,
+                       "other.safetensors: is a model of format version 2; this program reads "
+                       "version 1; train it again or use the program it came with");
+}
+
+TEST_F(Refusal, a_model_with_a_wrong_shape) {
+  TensorFile model = make_model({"old"});
+  model.tensors["pose.head.0.weight"] = constant_tensor(3, 0);
+  expect_model_refused(model,
+                       "other.safetensors: tensor 'pose.head.0.weight' has shape [3]; expected "
+                       "[16, 67]");
+}
+
+TEST_F(Refusal, a_model_that_is_none) {
+  expect_refused({"styles", "walk.bvh"}, 1,
+                 "walk.bvh: does not start with the length of a header (at most 4194304 bytes); "
+                 "expected a safetensors file");
+  expect_refused({"styles", "none.safetensors"}, 1,
+                 "none.safetensors: cannot be read: No such file or directory");
+}
+
+TEST_F(Refusal, a_verb_that_does_not_exist) {
+  expect_refused({"stylise", "walk.bvh"}, 2,
+                 "there is no verb 'stylise'; expected stylize, styles, info, walker, strip, train "
+                 "or eval");
+}
+
+TEST_F(Refusal, a_command_that_is_incomplete) {
+  expect_refused({"stylize", "walk.bvh", "--style", "old=1"}, 2,
+                 "--output is required; see panache stylize --help");
+  expect_refused({"stylize", "--style", "old=1", "-o", "out.bvh"}, 2,
+                 "IN is required; see panache stylize --help");
+  expect_refused({"info"}, 2, "FILE is required; see panache info --help");
+  expect_refused({"stylize", "walk.bvh", "-o", "out.bvh", "--style", "old=1", "--jobs", "-1"}, 2,
+                 "--jobs: expected a number from 0 to 1024, found -1");
+  EXPECT_EQ(run({}).exit, 2);
+}
+
+}  // namespace
+}  // namespace panache::test

@@ -1,0 +1,86 @@
+// panache strip: motion as a picture.
+
+#include "cli/program.h"
+
+namespace panache::test {
+namespace {
+
+class Strip : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write_walk("walk.bvh", 100);
+  }
+  void expect_refused(std::vector<std::string> arguments, int exit, const std::string& sentence) {
+    arguments.insert(arguments.begin(), {"strip", "walk.bvh"});
+    const Ran ran = run(arguments);
+    EXPECT_EQ(ran.err, "panache: " + sentence + "\n");
+    EXPECT_EQ(ran.exit, exit);
+    EXPECT_FALSE(exists("out.svg"));
+  }
+  // How often the picture holds `part`.
+  size_t count(const std::string& part) const {
+    const std::string svg = read("out.svg");
+    size_t found = 0;
+    for (size_t at = 0; (at = svg.find(part, at)) != std::string::npos; ++at) ++found;
+    return found;
+  }
+};
+
+TEST_F(Strip, draws_a_row_for_each_file_under_its_name) {
+  write_walk("more/run & jump.bvh", 100);
+  const Ran ran = run({"strip", "walk.bvh", "more/run & jump.bvh", "-o", "out.svg"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_EQ(ran.out, "drew 2 rows into out.svg\n");
+  EXPECT_EQ(count("<svg "), 1u);
+  EXPECT_EQ(count(">walk<"), 1u);
+  EXPECT_EQ(count(">run &amp; jump<"), 1u);
+}
+
+TEST_F(Strip, draws_a_head_for_each_moment_asked_for) {
+  EXPECT_EQ(run({"strip", "walk.bvh", "-o", "out.svg", "--from", "1", "--to", "2", "--every", "0.2",
+                 "--label", "mine"})
+                .exit,
+            0);
+  EXPECT_EQ(count(">mine<"), 1u);
+  const size_t marks = count("<circle");
+  // 1, 1.2, ... 2 s.
+  EXPECT_EQ(marks % 6, 0u);
+  run({"strip", "walk.bvh", "-o", "out.svg", "--from", "1", "--to", "2", "--every", "0.5",
+       "--force"});
+  EXPECT_EQ(count("<circle"), marks / 2);
+  // To the end of the clip, 3.3 s, as it has no 4 s more.
+  run({"strip", "walk.bvh", "-o", "out.svg", "--from", "2.3", "--every", "0.5", "--force"});
+  EXPECT_EQ(count("<circle"), marks / 2);
+}
+
+TEST_F(Strip, refuses_what_makes_no_picture) {
+  expect_refused({"-o", "out.png"}, 2, "out.png: expected a name that ends in .svg");
+  expect_refused({"-o", "out.svg", "--every", "0"}, 2,
+                 "--every: expected a number from 0.01 to 60, found 0");
+  expect_refused({"-o", "out.svg", "--every", "nan"}, 2,
+                 "--every: expected a number from 0.01 to 60, found nan");
+  expect_refused({"-o", "out.svg", "--from", "-1"}, 2,
+                 "--from: expected a number from 0 to 86400, found -1");
+  expect_refused({"-o", "out.svg", "--from", "2", "--to", "1"}, 2,
+                 "--to 1: expected a time after --from 2");
+  expect_refused({"-o", "out.svg", "--every", "0.01", "--to", "11"}, 2,
+                 "--every 0.01: expected at most 1000 figures from 0 to 11 s");
+  expect_refused({"-o", "out.svg", "--label", "a", "b"}, 2,
+                 "--label: expected one for each of the 1 file, found 2");
+  expect_refused({"-o", "out.svg", "--from", "3.5"}, 1,
+                 "walk.bvh: ends at 3.30 s; expected motion from 3.5 s on");
+  expect_refused({"none.bvh", "-o", "out.svg"}, 1,
+                 "none.bvh: cannot be read: No such file or directory");
+}
+
+TEST_F(Strip, keeps_an_existing_picture_without_force) {
+  write("out.svg", "mine");
+  const Ran ran = run({"strip", "walk.bvh", "-o", "out.svg"});
+  EXPECT_EQ(ran.exit, 1);
+  EXPECT_EQ(ran.err, "panache: out.svg: exists already; --force overwrites it\n");
+  EXPECT_EQ(read("out.svg"), "mine");
+}
+
+}  // namespace
+}  // namespace panache::test

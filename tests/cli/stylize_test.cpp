@@ -1,0 +1,173 @@
+// panache stylize: what it makes, and where it puts it.
+
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+
+namespace panache::test {
+namespace {
+
+using Stylize = ProgramTest;
+
+std::string motion_block(const std::string& bvh) {
+  const size_t at = bvh.find("MOTION");
+  return at == std::string::npos ? "" : bvh.substr(at);
+}
+
+std::string hierarchy(const std::string& bvh) { return bvh.substr(0, bvh.find("MOTION")); }
+
+std::string line_with(const std::string& text, const std::string& word) {
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    if (line.find(word) != std::string::npos) return line;
+  }
+  return "";
+}
+
+int frames_of(const std::string& bvh) { return std::stoi(line_with(bvh, "Frames:").substr(7)); }
+
+TEST_F(Stylize, writes_the_input_again_at_strength_zero) {
+  write_walk("walk.bvh");
+  const Ran ran = run({"stylize", "walk.bvh", "--style", "old=0", "-o", "same.bvh"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_TRUE(read("same.bvh") == read("walk.bvh"));
+}
+
+TEST_F(Stylize, changes_the_motion_and_nothing_else) {
+  write_walk("walk.bvh");
+  const Ran ran = run({"stylize", "walk.bvh", "--style", "old=1", "-o", "old.bvh"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_EQ(ran.err, "");
+  EXPECT_TRUE(ran.out.starts_with("restyled walk.bvh into old.bvh (")) << ran.out;
+  const std::string before = read("walk.bvh"), after = read("old.bvh");
+  EXPECT_TRUE(hierarchy(after) == hierarchy(before));
+  EXPECT_EQ(line_with(after, "Frame Time"), line_with(before, "Frame Time"));
+  EXPECT_TRUE(motion_block(after) != motion_block(before));
+}
+
+TEST_F(Stylize, keeps_the_number_of_frames_without_timing) {
+  write_walk("walk.bvh");
+  const Ran timed = run({"stylize", "walk.bvh", "--style", "old=3", "-o", "timed.bvh"});
+  const Ran ran =
+      run({"stylize", "walk.bvh", "--style", "old=3", "--no-timing", "-o", "untimed.bvh"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_EQ(frames_of(read("untimed.bvh")), 40);
+  EXPECT_NE(frames_of(read("timed.bvh")), 40) << "the model does change the tempo";
+}
+
+TEST_F(Stylize, leaves_the_feet_alone_when_asked) {
+  write_walk("walk.bvh");
+  TensorFile model = make_model({"old"});
+  // Both feet are planted, as this model sees it.
+  model.tensors["contact.head.0.bias"] = constant_tensor(kFeet, 5);
+  write("model.safetensors", format_safetensors(model));
+  run({"stylize", "walk.bvh", "--style", "old=1", "-o", "locked.bvh"});
+  const Ran ran = run({"stylize", "walk.bvh", "--style", "old=1", "--no-feet", "-o", "free.bvh"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_TRUE(read("free.bvh") != read("locked.bvh"));
+}
+
+TEST_F(Stylize, changes_strength_along_the_clip) {
+  write_walk("walk.bvh");
+  const Ran ran = run({"stylize", "walk.bvh", "--style", "old=0..1", "--style", "sad=2..-1",
+                       "--no-timing", "--json", "-o", "out.bvh"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  const auto styles = nlohmann::json::parse(ran.out)[0]["styles"];
+  ASSERT_EQ(styles.size(), 2u);
+  EXPECT_EQ(styles[0]["name"], "old");
+  EXPECT_EQ(styles[0]["points"][0]["seconds"], 0.0);
+  EXPECT_EQ(styles[0]["points"][0]["strength"], 0.0);
+  // The last of 40 frames. The file has its frame time to nine digits.
+  EXPECT_NEAR(styles[0]["points"][1]["seconds"].get<double>(), 39 / 30.0, 39e-9);
+  EXPECT_EQ(styles[0]["points"][1]["strength"], 1.0);
+  EXPECT_EQ(styles[1]["points"][1]["strength"], -1.0);
+}
+
+TEST_F(Stylize, reads_strengths_from_a_table_like_the_command_line) {
+  write_walk("walk.bvh");
+  write("table.csv", "seconds, old,proud\r\n0,1,0.5\r\n\r\n1.3, 1 ,0.5\r\n");
+  const Ran ran = run({"stylize", "walk.bvh", "--strengths", "table.csv", "-o", "a.bvh"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  run({"stylize", "walk.bvh", "--style", "old=1", "--style", "proud=.5", "-o", "b.bvh"});
+  EXPECT_TRUE(read("a.bvh") == read("b.bvh"));
+}
+
+TEST_F(Stylize, keeps_names_in_a_folder_that_it_makes) {
+  write_walk("a.bvh");
+  write_walk("b.bvh");
+  const Ran ran = run({"stylize", "a.bvh", "b.bvh", "--style", "sad=1", "-o", "made/here"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_TRUE(ran.out.starts_with("restyled 2 of 2 files in ")) << ran.out;
+  EXPECT_EQ(entries("made/here"), (std::vector<std::string>{"a.bvh", "b.bvh"}));
+}
+
+TEST_F(Stylize, takes_files_after_a_style_and_one_file_into_a_folder) {
+  write_walk("a.bvh");
+  const Ran ran = run({"stylize", "-o", "out/", "--style", "sad=1", "a.bvh"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_EQ(entries("out"), std::vector<std::string>{"a.bvh"});
+}
+
+TEST_F(Stylize, gives_the_same_files_however_many_at_once) {
+  std::vector<std::string> arguments = {"stylize", "--style", "proud=1", "--jobs"};
+  std::vector<std::string> one = arguments, many = arguments;
+  one.insert(one.end(), {"1", "-o", "one/"});
+  many.insert(many.end(), {"7", "-o", "many/"});
+  for (int i = 0; i < 9; ++i) {
+    const std::string name = std::to_string(i) + ".bvh";
+    write_walk(name, 10 + i);
+    one.push_back(name);
+    many.push_back(name);
+  }
+  EXPECT_EQ(run(one).exit, 0);
+  EXPECT_EQ(run(many).exit, 0);
+  for (int i = 0; i < 9; ++i) {
+    const std::string name = std::to_string(i) + ".bvh";
+    EXPECT_TRUE(read("one/" + name) == read("many/" + name));
+  }
+}
+
+TEST_F(Stylize, reports_a_damaged_file_and_goes_on_with_the_rest) {
+  write_walk("a.bvh");
+  write_walk("c.bvh");
+  write("b.bvh", read("a.bvh").substr(0, 600));
+  const Ran ran = run({"stylize", "a.bvh", "b.bvh", "c.bvh", "--style", "old=1", "-o", "out/"});
+  EXPECT_EQ(ran.exit, 1);
+  EXPECT_TRUE(ran.err.starts_with("panache: b.bvh:")) << ran.err;
+  EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+  EXPECT_TRUE(ran.out.starts_with("restyled 2 of 3 files in ")) << ran.out;
+  EXPECT_EQ(entries("out"), (std::vector<std::string>{"a.bvh", "c.bvh"}));
+}
+
+TEST_F(Stylize, tells_machines_about_each_file) {
+  write_walk("a.bvh");
+  write("b.bvh", "");
+  const Ran ran =
+      run({"stylize", "a.bvh", "b.bvh", "--style", "old=1", "--no-timing", "--json", "-o", "out"});
+  EXPECT_EQ(ran.exit, 1);
+  const auto files = nlohmann::json::parse(ran.out);
+  ASSERT_EQ(files.size(), 2u);
+  EXPECT_EQ(files[0]["in"], "a.bvh");
+  EXPECT_EQ(files[0]["out"], "out/a.bvh");
+  EXPECT_EQ(files[0]["ok"], true);
+  EXPECT_TRUE(files[0]["error"].is_null());
+  EXPECT_EQ(files[0]["frames_in"], 40);
+  EXPECT_EQ(files[0]["frames_out"], 40);
+  EXPECT_NEAR(files[0]["seconds"].get<double>(), 40 / 30.0, 40e-9);
+  EXPECT_EQ(files[0]["joints_mapped"], 21);
+  EXPECT_EQ(files[1]["ok"], false);
+  EXPECT_EQ("panache: " + files[1]["error"].get<std::string>() + "\n", ran.err);
+}
+
+TEST_F(Stylize, leaves_nothing_half_written) {
+  write_walk("walk.bvh");
+  const Ran ran = run({"stylize", "walk.bvh", "--style", "old=1", "-o", "out/a.bvh"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_EQ(entries("out"), std::vector<std::string>{"a.bvh"});
+  EXPECT_EQ(entries(), (std::vector<std::string>{"model.safetensors", "out", "walk.bvh"}));
+}
+
+}  // namespace
+}  // namespace panache::test

@@ -1,0 +1,23 @@
+#pragma once
+// Counts every allocation of the test program. Include it in one source file of a program only.
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+// GCC takes the replaced pair for a mismatched one where it sees only half of it inlined.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
+#endif
+
+namespace panache::test {
+inline std::atomic<long> allocations = 0;
+}
+
+void* operator new(std::size_t size) {
+  ++panache::test::allocations;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }

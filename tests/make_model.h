@@ -1,0 +1,79 @@
+#pragma once
+// A small model of random numbers, for tests that need a model and no particular one.
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/random.h"
+#include "net/safetensors.h"
+#include "pose/contacts.h"
+#include "pose/features.h"
+#include "style/model.h"
+#include "style/names.h"
+
+namespace panache::test {
+
+inline Tensor random_tensor(const std::vector<int64_t>& shape, float deviation, Random& random) {
+  Tensor tensor{shape, {}, false};
+  size_t count = 1;
+  for (const int64_t size : shape) count *= static_cast<size_t>(size);
+  for (size_t i = 0; i < count; ++i) tensor.values.push_back(deviation * random.normal());
+  return tensor;
+}
+
+inline Tensor constant_tensor(int size, float value) {
+  return {{size}, std::vector<float>(static_cast<size_t>(size), value), false};
+}
+
+// Tensors of one network: two hidden layers of `hidden`, then `heads` heads.
+inline void add_network(TensorFile& file, const std::string& name, int inputs, int hidden,
+                        int outputs, int heads, Random& random) {
+  const auto add_layer = [&](const std::string& layer, int in, int out) {
+    const float deviation = 1 / std::sqrt(static_cast<float>(in));
+    file.tensors[layer + ".weight"] = random_tensor({in, out}, deviation, random);
+    file.tensors[layer + ".bias"] = random_tensor({out}, 0.1f, random);
+  };
+  add_layer(name + ".trunk.0", inputs, hidden);
+  add_layer(name + ".trunk.1", hidden, hidden);
+  for (int h = 0; h < heads; ++h) {
+    add_layer(name + ".head." + std::to_string(h), hidden, outputs);
+  }
+}
+
+// A valid model of recipe panache (or smith2019) with these styles. Its changes are visible and
+// small: joints turn by about a tenth of a radian.
+inline TensorFile make_model(const std::vector<std::string>& styles, uint64_t seed = 1,
+                             Recipe recipe = Recipe::panache) {
+  const bool heads = recipe == Recipe::panache;
+  const PoseLayout layout = heads ? PoseLayout::positions : PoseLayout::rotations;
+  const int numbers = pose_numbers(layout), count = static_cast<int>(styles.size());
+  const int outputs = heads ? kChangeNumbers : numbers;
+  std::string names, descriptions;
+  for (const std::string& style : styles) {
+    names += style + "\n";
+    descriptions += "looks " + style + "\n";
+  }
+  TensorFile file;
+  file.metadata = {{"format", "panache"},
+                   {"format_version", "1"},
+                   {"recipe", heads ? "panache" : "smith2019"},
+                   {"joints", canonical_joint_list()},
+                   {"window", window_description()},
+                   {"styles", names},
+                   {"style_descriptions", descriptions},
+                   {"licence", "CC0"}};
+  file.tensors["input.mean"] = constant_tensor(numbers, 0);
+  file.tensors["input.scale"] = constant_tensor(numbers, 1);
+  file.tensors["input.clip"] = constant_tensor(1, 4);
+  file.tensors["output.scale"] = constant_tensor(outputs, 0.1f);
+  if (!heads) file.tensors["output.mean"] = constant_tensor(outputs, 0);
+  Random random(seed);
+  const int inputs = kWindowPoses * numbers + (heads ? 0 : count + 1);
+  add_network(file, "pose", inputs, 16, outputs, heads ? count : 1, random);
+  add_network(file, "timing", inputs, 8, 1, heads ? count : 1, random);
+  add_network(file, "contact", inputs, 8, kFeet, heads ? count + 1 : 1, random);
+  return file;
+}
+
+}  // namespace panache::test

@@ -1,0 +1,189 @@
+#include "style/stylizer.h"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "count_allocations.h"
+#include "make_clip.h"
+#include "make_model.h"
+
+namespace panache {
+namespace {
+
+std::shared_ptr<const Model> random_model(Recipe recipe = Recipe::panache) {
+  const TensorFile file = test::make_model({"old", "proud"}, 3, recipe);
+  return *Model::parse(format_safetensors(file), "test model");
+}
+
+class StylizerTest : public testing::Test {
+ protected:
+  explicit StylizerTest(double fps = 30) : clip_(test::walking_clip(int(fps * 4), fps)) {}
+
+  Stylizer stylizer(const StylizerOptions& options = {}, Recipe recipe = Recipe::panache) const {
+    return *Stylizer::create(random_model(recipe), *Rig::create(clip_), options);
+  }
+  // All frames restyled live.
+  Clip run(Stylizer& stylizer, std::vector<float> strengths) const {
+    Clip out = clip_;
+    for (int f = 0; f < clip_.frames; ++f) {
+      stylizer.step(clip_.pose(f), strengths, clip_.frame_time, out.pose(f));
+    }
+    return out;
+  }
+
+  Clip clip_;
+};
+
+bool same_bits(const Clip& a, const Clip& b) {
+  return std::memcmp(a.rotations.data(), b.rotations.data(), a.rotations.size() * sizeof(Quat)) ==
+             0 &&
+         std::memcmp(a.translations.data(), b.translations.data(),
+                     a.translations.size() * sizeof(Vec3)) == 0;
+}
+
+void expect_finite(const Clip& clip) {
+  for (const Quat q : clip.rotations) {
+    ASSERT_TRUE(is_finite(q));
+    ASSERT_NEAR(dot(q, q), 1, 1e-3);
+  }
+  for (const Vec3 t : clip.translations) ASSERT_TRUE(is_finite(t));
+}
+
+TEST_F(StylizerTest, strength_zero_gives_the_input_back_bit_for_bit) {
+  Stylizer character = stylizer();
+  EXPECT_TRUE(same_bits(run(character, {0, 0}), clip_));
+  EXPECT_EQ(character.rate(), 1);
+}
+
+TEST_F(StylizerTest, a_style_changes_the_pose_and_keeps_it_whole) {
+  Stylizer character = stylizer();
+  const Clip styled = run(character, {1, 0});
+  EXPECT_FALSE(same_bits(styled, clip_));
+  expect_finite(styled);
+}
+
+TEST_F(StylizerTest, back_at_strength_zero_the_pose_is_the_input_again) {
+  Stylizer character = stylizer();
+  run(character, {1, 0});
+  const Clip after = run(character, {0, 0});
+  const size_t joints = clip_.joints(), last = (clip_.frames - 1) * joints;
+  for (size_t j = 0; j < joints; ++j) {
+    EXPECT_EQ(after.rotations[last + j], clip_.rotations[last + j]) << "joint " << j;
+  }
+}
+
+TEST_F(StylizerTest, a_step_allocates_nothing) {
+  for (const Recipe recipe : {Recipe::panache, Recipe::smith2019}) {
+    Stylizer character = stylizer({}, recipe);
+    Clip out = clip_;
+    std::vector<float> strengths = {0.5f, 0.5f};
+    const long before = test::allocations;
+    for (int i = 0; i < 1000; ++i) {
+      strengths[0] = static_cast<float>(i % 7) * 0.2f;
+      const int f = i % clip_.frames;
+      character.step(clip_.pose(f), strengths, 1 / 30.0, out.pose(f));
+    }
+    EXPECT_EQ(test::allocations - before, 0);
+  }
+}
+
+TEST_F(StylizerTest, the_same_input_gives_the_same_bits_and_a_reset_one_starts_anew) {
+  Stylizer first = stylizer(), second = stylizer();
+  EXPECT_TRUE(same_bits(run(first, {1, 0.5f}), run(second, {1, 0.5f})));
+  Stylizer third = stylizer();
+  first.reset();
+  EXPECT_TRUE(same_bits(run(first, {1, 0.5f}), run(third, {1, 0.5f})));
+}
+
+TEST_F(StylizerTest, garbage_in_gives_finite_poses_out) {
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  for (const Recipe recipe : {Recipe::panache, Recipe::smith2019}) {
+    Stylizer character = stylizer({}, recipe);
+    Clip in = clip_, out = clip_;
+    Random random(11);
+    for (int f = 0; f < in.frames; ++f) {
+      const Pose pose = in.pose(f);
+      const size_t j = random.below(static_cast<uint32_t>(in.joints()));
+      switch (f % 8) {
+        case 0: pose.rotations[j] = {nan, 0, 0, 1}; break;
+        case 1: pose.translations[0] = {infinity, 0, 0}; break;
+        case 2: pose.translations[0] = {0, 0, 1e8f}; break;   // A teleport.
+        case 3: pose.rotations[j] = {0, 0, 0, 0}; break;
+        case 4: pose.translations[j] = {nan, nan, nan}; break;
+        case 5: pose.rotations[0] = {1e30f, 0, 0, 0}; break;
+        default: break;
+      }
+      const double seconds[] = {0, 1e9, -1, 1e-9, 1 / 30.0, nan, infinity};
+      const float strengths[] = {f % 3 ? 1.5f : nan, f % 5 ? 0.5f : infinity};
+      character.step(pose, strengths, seconds[f % 7], out.pose(f));
+    }
+    expect_finite(out);
+  }
+}
+
+TEST_F(StylizerTest, a_sudden_style_arrives_gradually) {
+  Stylizer character = stylizer();
+  Clip out = clip_;
+  for (int f = 0; f < 30; ++f) {
+    character.step(clip_.pose(f), std::vector<float>{0, 0}, 1 / 30.0, out.pose(f));
+  }
+  float largest = 0;
+  for (int f = 30; f < 60; ++f) {
+    character.step(clip_.pose(f), std::vector<float>{1, 0}, 1 / 30.0, out.pose(f));
+    for (size_t j = 0; j < clip_.joints(); ++j) {
+      const auto change = [&](int frame) {
+        return conjugate(clip_.pose(frame).rotations[j]) * out.pose(frame).rotations[j];
+      };
+      largest = std::max(largest, length(log_rotation(conjugate(change(f - 1)) * change(f))));
+    }
+  }
+  // The random style turns joints by up to half a radian; none of it comes at once.
+  EXPECT_LT(largest, 0.2f);
+  EXPECT_GT(largest, 0.001f);
+}
+
+TEST_F(StylizerTest, a_character_that_stands_is_not_carried_away) {
+  Stylizer character = stylizer();
+  Clip out = clip_;
+  for (int i = 0; i < 600; ++i) {
+    character.step(clip_.pose(5), std::vector<float>{1, 0}, 1 / 30.0, out.pose(5));
+  }
+  const Vec3 drift = out.pose(5).translations[0] - clip_.pose(5).translations[0];
+  EXPECT_LT(std::hypot(drift.x, drift.z), 0.15f);
+}
+
+TEST(Stylizer, every_rate_looks_alike) {
+  // The hips' rotation after two seconds of the same walk, seen at different rates.
+  std::vector<Quat> seen;
+  for (const double fps : {30.0, 60.0, 120.0}) {
+    const Clip clip = test::walking_clip(int(fps * 2) + 1, fps);
+    Stylizer character = *Stylizer::create(random_model(), *Rig::create(clip));
+    Clip out = clip;
+    for (int f = 0; f < clip.frames; ++f) {
+      character.step(clip.pose(f), std::vector<float>{1, 0}, clip.frame_time, out.pose(f));
+    }
+    seen.push_back(out.pose(out.frames - 1).rotations[0]);
+  }
+  for (const Quat q : seen) {
+    // The filter of 40 ms lags by half a frame more at 30 fps than at 120; the random style moves by
+    // up to 1 rad/s.
+    EXPECT_LT(length(log_rotation(conjugate(seen.back()) * q)), 0.03f);
+  }
+}
+
+TEST(Stylizer, options_out_of_range_are_refused_with_a_sentence) {
+  const Clip clip = test::walking_clip(10);
+  StylizerOptions options;
+  options.ease_seconds = -1;
+  const auto created = Stylizer::create(random_model(), *Rig::create(clip), options);
+  ASSERT_FALSE(created.ok());
+  EXPECT_EQ(created.error().message,
+            "stylizer option of -1.000000 seconds; expected 0 to 10 seconds");
+}
+
+}  // namespace
+}  // namespace panache

@@ -1,0 +1,80 @@
+#include "train/manifest.h"
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "base/file.h"
+
+namespace panache {
+namespace {
+
+class ManifestTest : public testing::Test {
+ protected:
+  std::string put(const std::string& text) {
+    EXPECT_TRUE(write_file(path_, text, true).ok());
+    return path_;
+  }
+  ~ManifestTest() override { std::filesystem::remove(path_); }
+
+  const std::string path_ = testing::TempDir() + "panache_manifest_test.csv";
+};
+
+constexpr const char* kHeader = "path,style,content,take,neutral,split\n";
+
+TEST_F(ManifestTest, rows_are_read_in_any_order_of_columns) {
+  const auto rows = read_manifest(
+      put("split,neutral,path,style,content,take\r\ntest,0,a/b.bvh,old,walk,001\r\n"
+          "train,1,/c.bvh,normal,walk,002\r\n"),
+      3);
+  ASSERT_TRUE(rows.ok()) << rows.error().message;
+  EXPECT_EQ((*rows)[0].path, testing::TempDir() + "a/b.bvh");
+  EXPECT_TRUE((*rows)[0].test);
+  EXPECT_EQ((*rows)[0].style, "old");
+  EXPECT_EQ((*rows)[1].path, "/c.bvh");
+  EXPECT_EQ((*rows)[1].style, "neutral");
+  EXPECT_EQ((*rows)[1].set, 3);
+}
+
+TEST_F(ManifestTest, a_wrong_table_is_explained_with_its_line) {
+  EXPECT_EQ(read_manifest(put("path,style\n"), 0).error().message,
+            path_ + ":1: column 'content' is missing; the first line must name the columns");
+  EXPECT_EQ(read_manifest(put(std::string(kHeader) + "a.bvh,old,walk,001,0,train\nb.bvh,old\n"), 0)
+                .error()
+                .message,
+            path_ + ":3: has 2 cells; expected 6 as in the first line");
+  EXPECT_EQ(read_manifest(put(std::string(kHeader) + "a.bvh,old,walk,001,no,train\n"), 0)
+                .error()
+                .message,
+            path_ + ":2: column neutral is 'no'; expected 0 or 1");
+  EXPECT_EQ(read_manifest(put(std::string(kHeader) + "a.bvh,old,walk,001,0,dev\n"), 0)
+                .error()
+                .message,
+            path_ + ":2: column split is 'dev'; expected train or test");
+  EXPECT_EQ(read_manifest(put(kHeader), 0).error().message, path_ + ": lists no takes");
+}
+
+TEST_F(ManifestTest, styles_are_renamed_merged_and_left_out) {
+  auto names = read_style_names(
+      put("name,from,description\nold,elderly aged,\"bent, slow\"\nproud,proud,tall\n"));
+  ASSERT_TRUE(names.ok());
+  EXPECT_EQ((*names)[0].description, "bent, slow");
+  std::vector<ManifestRow> rows(5);
+  rows[0].style = "elderly";
+  rows[1].style = "aged";
+  rows[2].style = "sad";
+  rows[3].style = "proud";
+  rows[4].style = "neutral";
+  rows[4].neutral = true;
+  std::vector<ManifestRow> original = rows;
+  ASSERT_TRUE(apply_style_names(*names, rows).ok());
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[0].style, "old");
+  EXPECT_EQ(rows[1].style, "old");
+  names->push_back({"angry", {"angry"}, ""});
+  EXPECT_EQ(apply_style_names(*names, original).error().message,
+            "style 'angry' has no take in any manifest");
+}
+
+}  // namespace
+}  // namespace panache

@@ -1,0 +1,114 @@
+#include "train/samples.h"
+
+#include <gtest/gtest.h>
+
+#include "make_takes.h"
+#include "style/pose_change.h"
+
+namespace panache {
+namespace {
+
+class SamplesTest : public testing::TestWithParam<Recipe> {
+ protected:
+  SamplesTest()
+      : layout_(GetParam() == Recipe::panache ? PoseLayout::positions : PoseLayout::rotations),
+        takes_{test::make_take("neutral", 200, 0, 1, 0, layout_),
+               test::make_take("old", 90, 1.7f, 1.3f, 0.4f, layout_)},
+        set_(takes_, pair_takes(takes_, {1}, {0}), {"old"}, GetParam(), false) {}
+
+  PoseLayout layout_;
+  std::vector<Take> takes_;
+  SampleSet set_;
+};
+
+TEST_P(SamplesTest, mirroring_twice_gives_the_same_numbers) {
+  std::vector<float> window(set_.inputs());
+  set_.window(7, window);
+  std::vector<float> twice = window;
+  set_.mirror_window(twice);
+  EXPECT_NE(twice, window);
+  set_.mirror_window(twice);
+  EXPECT_EQ(twice, window);
+  std::vector<float> target(set_.target(7).begin(), set_.target(7).end()), back = target;
+  set_.mirror_target(back);
+  EXPECT_NE(back, target);
+  set_.mirror_target(back);
+  EXPECT_EQ(back, target);
+}
+
+TEST_P(SamplesTest, the_mirrored_numbers_are_those_of_the_mirrored_body) {
+  const HumanPositions body = body_at(takes_[0], 33);
+  HumanPositions other;
+  for (int j = 0; j < kHumanJoints; ++j) {
+    other[kHumanMirror[j]] = {-body[j].x, body[j].y, body[j].z};
+  }
+  const int numbers = set_.numbers();
+  std::vector<float> a(numbers), b(numbers);
+  write_pose_numbers(layout_, body, std::span(a).first(numbers - kRootNumbers));
+  write_pose_numbers(layout_, other, std::span(b).first(numbers - kRootNumbers));
+  set_.mirror_window(a);
+  for (int i = 0; i < numbers - kRootNumbers; ++i) EXPECT_NEAR(a[i], b[i], 1e-4) << i;
+}
+
+TEST_P(SamplesTest, every_sample_has_its_style_rate_and_contacts) {
+  ASSERT_FALSE(set_.samples().empty());
+  for (const Sample& sample : set_.samples()) {
+    EXPECT_EQ(sample.style, 0);
+    EXPECT_EQ(sample.take, 0);
+    EXPECT_EQ(sample.contacts[0] + sample.contacts[1], 1);
+    EXPECT_LT(std::abs(sample.log_rate), 0.7f);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, SamplesTest, testing::Values(Recipe::panache, Recipe::smith2019),
+                         [](const auto& info) {
+                           return info.param == Recipe::panache ? "panache" : "smith2019";
+                         });
+
+TEST(Samples, a_change_put_on_the_neutral_rotations_gives_the_styled_ones) {
+  const Take neutral = test::make_take("neutral", 100, 0, 1, 0);
+  const Take styled = test::make_take("old", 100, 0.3f, 1, 0.4f);
+  const ChangeNumbers change = change_between(styled, 20, neutral, 31, 1);
+  for (int j = 0; j < kHumanJoints; ++j) {
+    const Quat reached = joint_rotation(change, j) * neutral.turned[31][j];
+    EXPECT_NEAR(std::abs(dot(reached, styled.turned[20][j])), 1, 1e-5);
+  }
+}
+
+TEST(Samples, an_absolute_pose_is_the_change_that_made_it) {
+  const std::vector<Take> takes = {
+      test::make_take("neutral", 200, 0, 1, 0, PoseLayout::rotations),
+      test::make_take("old", 90, 1.7f, 1.3f, 0.4f, PoseLayout::rotations)};
+  const std::vector<Pairing> pairings = pair_takes(takes, {1}, {0});
+  const SampleSet absolute(takes, pairings, {"old"}, Recipe::smith2019, false);
+  const SampleSet changes(takes, pairings, {"old"}, Recipe::panache, false);
+  std::vector<float> window(absolute.inputs());
+  for (const size_t i : {size_t{0}, size_t{20}, absolute.samples().size() - 1}) {
+    absolute.window(i, window);
+    const Sample& sample = absolute.samples()[i];
+    const std::span<const float> root(&window[127], kRootNumbers);
+    const ChangeNumbers back = change_to_pose(
+        absolute.target(i), body_at(takes[0], sample.frame), root.first<kRootNumbers>());
+    for (int n = 0; n < kChangeNumbers; ++n) {
+      EXPECT_NEAR(back[n], changes.target(i)[n], 2e-3) << "number " << n;
+    }
+  }
+}
+
+TEST(Samples, an_undisturbing_disturbance_leaves_the_window_alone) {
+  const std::vector<Take> takes = {test::make_take("neutral", 200, 0, 1, 0),
+                                   test::make_take("old", 90, 1.7f, 1.3f, 0.4f)};
+  const SampleSet set(takes, pair_takes(takes, {1}, {0}), {"old"}, Recipe::panache, false);
+  const Disturbance none{0, 0, 0, 0, 0, 0, 0};
+  Random random(3);
+  std::vector<float> window(set.inputs());
+  set.window(5, window);
+  std::vector<float> same = window;
+  set.disturb(set.draw(none, random), none, random, same);
+  EXPECT_EQ(same, window);
+  set.disturb(set.draw({}, random), {}, random, same);
+  EXPECT_NE(same, window);
+}
+
+}  // namespace
+}  // namespace panache

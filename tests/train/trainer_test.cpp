@@ -1,0 +1,132 @@
+#include "train/trainer.h"
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "base/file.h"
+#include "clip/bvh.h"
+#include "make_clip.h"
+#include "train/checkpoint.h"
+
+namespace panache {
+namespace {
+
+// Two takes made by a formula, written as files: a neutral walk and one that leans forward.
+class TrainerTest : public testing::Test {
+ protected:
+  TrainerTest() {
+    const Clip neutral = test::walking_clip(150);
+    Clip styled = test::walking_clip(120);
+    for (int f = 0; f < styled.frames; ++f) {
+      styled.pose(f).rotations[index(HumanJoint::spine)] = axis_angle(Vec3{1, 0, 0}, 0.4f);
+    }
+    write("neutral.bvh", neutral);
+    write("old.bvh", styled);
+    EXPECT_TRUE(write_file(folder_ + "manifest.csv",
+                           "path,style,content,take,neutral,split\n"
+                           "neutral.bvh,normal,walk,001,1,train\n"
+                           "old.bvh,old,walk,001,0,train\n",
+                           true)
+                    .ok());
+    rows_ = *read_manifest(folder_ + "manifest.csv", 0);
+    EXPECT_TRUE(apply_style_names(styles_, rows_).ok());
+  }
+  ~TrainerTest() override { std::filesystem::remove_all(folder_); }
+
+  void write(const std::string& name, const Clip& clip) {
+    EXPECT_TRUE(write_file(folder_ + name, format_bvh(clip), true).ok());
+  }
+  TrainOptions options(Recipe recipe, int64_t steps) const {
+    TrainOptions options;
+    options.recipe = recipe;
+    options.steps = steps;
+    return options;
+  }
+
+  const std::string folder_ = testing::TempDir() + "panache_trainer_test/";
+  std::vector<ManifestRow> rows_;
+  std::vector<StyleName> styles_;
+};
+
+TEST_F(TrainerTest, both_recipes_learn_and_the_export_is_libtorchs_forward_pass) {
+  for (const Recipe recipe : {Recipe::panache, Recipe::smith2019}) {
+    const auto trained = train(rows_, styles_, options(recipe, 200));
+    ASSERT_TRUE(trained.ok()) << trained.error().message;
+    // Sums of a few hundred products in another order: single precision's share of 1e-7 each.
+    EXPECT_LT(trained->export_error, 1e-4f);
+    float first = -1, last = -1;
+    for (const LossPoint& point : trained->losses) {
+      if (point.network != "pose") continue;
+      if (first < 0) first = point.train;
+      last = point.train;
+    }
+    EXPECT_LT(last, 0.5f * first);
+  }
+}
+
+TEST_F(TrainerTest, the_same_seed_gives_the_same_model_and_another_another) {
+  TrainOptions same = options(Recipe::panache, 40), other = same;
+  other.seed = 2;
+  const std::string a = format_safetensors(train(rows_, styles_, same)->model);
+  EXPECT_EQ(a, format_safetensors(train(rows_, styles_, same)->model));
+  EXPECT_NE(a, format_safetensors(train(rows_, styles_, other)->model));
+}
+
+TEST_F(TrainerTest, interrupted_training_goes_on_as_if_it_had_not_been) {
+  TrainOptions whole = options(Recipe::panache, 40);
+  const auto uninterrupted = train(rows_, styles_, whole);
+  TrainOptions with_checkpoints = whole;
+  with_checkpoints.checkpoint = folder_ + "model.safetensors";
+  ASSERT_TRUE(train(rows_, styles_, with_checkpoints).ok());
+  // The last checkpoint is of the last step: going on from it does nothing but export.
+  const auto resumed = train(rows_, styles_, with_checkpoints);
+  ASSERT_TRUE(resumed.ok()) << resumed.error().message;
+  EXPECT_EQ(format_safetensors(uninterrupted->model), format_safetensors(resumed->model));
+  EXPECT_EQ(resumed->losses.size(), uninterrupted->losses.size());
+
+  TrainOptions stranger = with_checkpoints;
+  stranger.seed = 9;
+  const auto refused = train(rows_, styles_, stranger);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().message,
+            folder_ + "model.safetensors.pose.checkpoint: was begun with other data or settings; "
+                      "delete it to train from the start");
+  remove_checkpoints(with_checkpoints.checkpoint);
+  EXPECT_FALSE(std::filesystem::exists(with_checkpoints.checkpoint + ".pose.checkpoint"));
+}
+
+TEST_F(TrainerTest, what_cannot_be_learnt_from_is_said) {
+  std::vector<ManifestRow> rows = rows_;
+  rows[0].neutral = false;
+  rows[0].style = "old";
+  EXPECT_EQ(train(rows, styles_, options(Recipe::panache, 1)).error().message,
+            "no neutral take to learn from; expected rows with neutral 1");
+  rows = rows_;
+  rows[1].content = "run";
+  EXPECT_EQ(train(rows, styles_, options(Recipe::panache, 1)).error().message,
+            "no styled take has a neutral take of the same content in its manifest");
+  rows = rows_;
+  rows[1].path = folder_ + "none.bvh";
+  EXPECT_EQ(train(rows, styles_, options(Recipe::panache, 1)).error().message,
+            folder_ + "none.bvh: cannot be read: No such file or directory");
+}
+
+TEST_F(TrainerTest, takes_of_the_test_split_are_not_trained_on) {
+  std::vector<ManifestRow> rows = rows_;
+  rows.push_back(rows[1]);
+  rows.back().path = folder_ + "none.bvh";  // Would be missed if it were read.
+  rows.back().test = true;
+  EXPECT_TRUE(train(rows, styles_, options(Recipe::panache, 1)).ok());
+}
+
+TEST(Losses, the_table_and_the_plot_hold_every_point) {
+  const std::vector<LossPoint> losses = {{"pose", 100, 0.5f, 0.6f}, {"pose", 200, 0.25f, 0.5f}};
+  EXPECT_EQ(losses_csv(losses),
+            "network,step,train,validation\npose,100,0.500000,0.600000\n"
+            "pose,200,0.250000,0.500000\n");
+  EXPECT_NE(losses_svg(losses).find("pose, validation"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace panache
