@@ -45,9 +45,7 @@ int run(int argc, char** argv) {
   add_stylize(app, exit_code);
   add_styles(app, exit_code);
   add_info(app, exit_code);
-#ifdef PANACHE_WALKER
   add_walker(app, exit_code);
-#endif
   add_strip(app, exit_code);
   add_train(app, exit_code);
   add_eval(app, exit_code);

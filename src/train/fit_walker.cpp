@@ -30,8 +30,8 @@ Use use_of(const ManifestRow& row) {
 // Which frames show a gait going on, and what may be believed of its coefficients.
 struct GaitRules {
   float reference, slowest, fastest;  // m/s
-  // Penalties of the terms 1, u, u^2, turn, turn^2, acceleration: the squared change per term counts as
-  // that many frames' squared error.
+  // Penalties of the terms 1, u, u^2, turn, turn^2, acceleration: the squared change per term
+  // counts as that many frames' squared error.
   std::array<double, kTerms> penalties;
 };
 // The walks lie so close together in speed that their curvature would be noise; the runs do not
@@ -49,7 +49,8 @@ struct GaitTake {
   std::vector<GaitFrame> frames;
 };
 
-// Whether a frame tells how fast a gait goes: in a turn the hips are on a shorter way than the feet.
+// Whether a frame tells how fast a gait goes: in a turn the hips are on a shorter way than the
+// feet.
 bool is_straight(const GaitFrame& frame) { return std::abs(frame.going.turn) < 0.25f; }
 
 bool is_usable(const GaitTake& take, int f, const GaitRules& rules) {
@@ -79,8 +80,8 @@ void add_frame(Ridge& fit, const Gait& gait, double phase, const Going& going,
 
 // `prior`: a gait whose coefficients are the best guess where the data say nothing; only its turn
 // and acceleration are taken over, the rest starts at zero.
-void fit_coefficients(const std::vector<GaitTake>& takes, const GaitRules& rules,
-                      const Gait* prior, Gait& gait) {
+void fit_coefficients(const std::vector<GaitTake>& takes, const GaitRules& rules, const Gait* prior,
+                      Gait& gait) {
   Ridge fit(kUnknowns, kChannels);
   for (const GaitTake& take : takes) {
     for (int f = 0; f < take.take->frames(); ++f) {
@@ -146,6 +147,17 @@ void fit_gaze(const std::vector<GaitTake>& takes, const GaitRules& rules, float 
   gait.gaze_lead = static_cast<float>(weights[0]);
 }
 
+// Whether a foot carries weight: its toe is low and slow beside the body's speed. The contacts of
+// the take are stricter, and hardly know the foot of a fast runner.
+bool is_down(const Take& take, int f, int foot, float speed) {
+  constexpr float kMaxHeight = 0.05f;  // Metres.
+  const Vec3 before = world_positions(take, f - 1)[index(kToes[foot])];
+  const Vec3 after = world_positions(take, f + 1)[index(kToes[foot])];
+  const float toe_speed = length(after - before) * static_cast<float>(kTakeRate) / 2;
+  return take.body[f][index(kToes[foot])].y < kMaxHeight &&
+         toe_speed < std::max(0.45f, 0.25f * speed);
+}
+
 // The phases at which feet land and lift, as lines over the speed.
 void fit_contacts(const std::vector<GaitTake>& takes, const GaitRules& rules, Gait& gait) {
   Ridge lands(2, 1), lifts(2, 1);
@@ -159,7 +171,9 @@ void fit_contacts(const std::vector<GaitTake>& takes, const GaitRules& rules, Ga
     for (int f = 1; f < take.take->frames(); ++f) {
       if (!is_usable(take, f, rules) || !is_straight(take.frames[f])) continue;
       for (int foot = 0; foot < kFeet; ++foot) {
-        const bool now = take.take->contacts[f][foot], before = take.take->contacts[f - 1][foot];
+        const float body = take.frames[f].going.speed;
+        const bool now = is_down(*take.take, f, foot, body);
+        const bool before = is_down(*take.take, f - 1, foot, body);
         if (now && !before) add(lands, take, f, foot, 0.0);
         if (before && !now) add(lifts, take, f, foot, kTurn / 2);
       }
@@ -177,8 +191,7 @@ struct FittedGait {
   double residual = 0;
 };
 
-FittedGait fit_gait(const std::vector<GaitTake>& takes, const GaitRules& rules,
-                    const Gait* prior) {
+FittedGait fit_gait(const std::vector<GaitTake>& takes, const GaitRules& rules, const Gait* prior) {
   FittedGait out;
   out.gait.reference = rules.reference;
   // Speeds that a tenth of a percent of the frames goes beyond.
@@ -224,7 +237,8 @@ bool is_standing(const Take& take, int f) {
     if (take.body[f][index(hand)].y > take.body[f][0].y) return false;
   }
   for (int j = 0; j < kHumanJoints; ++j) {
-    if (length(take.body[f + 1][j] - take.body[f][j]) > 0.5f / static_cast<float>(kTakeRate)) return false;
+    if (length(take.body[f + 1][j] - take.body[f][j]) > 0.5f / static_cast<float>(kTakeRate))
+      return false;
   }
   return take.contacts[f][0] && take.contacts[f][1];
 }
@@ -239,7 +253,8 @@ int fit_stand(const std::vector<const Take*>& takes, Channels& stand) {
       const HumanPositions& body = take->body[f];
       // Over the middle of the feet, with which the hips need not be in line.
       const Vec3 feet = (body[index(kToes[0])] + body[index(kToes[1])] + body[index(kAnkles[0])] +
-                         body[index(kAnkles[1])]) * 0.25f;
+                         body[index(kAnkles[1])]) *
+                        0.25f;
       const Ground& ground = take->ground[f];
       const Vec3 origin =
           ground.position + rotate(rotation_y(ground.facing), Vec3{feet.x, 0, feet.z});
@@ -290,8 +305,9 @@ Result<FittedWalker> fit_walker(const std::vector<ManifestRow>& rows, const std:
   Channels stand{};
   const int stand_frames = fit_stand(stands, stand);
   if (stand_frames == 0) {
-    return Error{"the manifests hold no neutral gesture (raise-*, wave-*) that starts or ends "
-                 "standing still with hanging arms"};
+    return Error{
+        "the manifests hold no neutral gesture (raise-*, wave-*) that starts or ends "
+        "standing still with hanging arms"};
   }
   std::map<std::string, std::string> metadata;
   metadata["data"] = data;

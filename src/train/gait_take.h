@@ -9,7 +9,7 @@
 namespace panache {
 
 struct GaitFrame {
-  double phase;  // Radians, growing; at a multiple of a turn the left ankle is furthest ahead.
+  double phase;    // Radians, growing; at a multiple of a turn the left ankle is furthest ahead.
   double cadence;  // Cycles of two steps a second.
   Going going;
   double sideways;  // Speed to the left of where the body looks, m/s.

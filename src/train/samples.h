@@ -30,7 +30,7 @@ struct Disturbance {
   float scale = 0.08f;    // Of body size.
   float floor = 0.015f;   // Height of the floor, metres.
   float heading = 0.12f;  // Radians.
-  float posture = 0.5f;   // Constant offset of each number, in deviations.
+  float posture = 0.3f;   // Constant offset of each number, in deviations.
   float jitter = 0.007f;  // Per pose and joint, metres.
   float velocity = 0.03f;   // Per pose, m/s.
   float turn_rate = 0.27f;  // Per pose, rad/s.

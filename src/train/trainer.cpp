@@ -239,7 +239,7 @@ RecipeSettings recipe_settings(Recipe recipe) {
     settings.optimizer.epsilon = 0.01f;
     return settings;
   }
-  settings.steps = 8000;
+  settings.steps = 20000;
   settings.batch.size = 256;
   settings.batch.by_style = true;
   settings.batch.mirrored = true;
@@ -247,9 +247,9 @@ RecipeSettings recipe_settings(Recipe recipe) {
   settings.batch.input_clip = 3;
   settings.optimizer.learning_rate = 0.004f;
   settings.optimizer.one_cycle = true;
-  settings.optimizer.weight_decay = 1.0f;
-  settings.optimizer.dropout = 0.1f;
-  settings.smoothness = 0.5f;
+  settings.optimizer.weight_decay = 0.3f;
+  settings.optimizer.dropout = 0.05f;
+  settings.smoothness = 0.3f;
   return settings;
 }
 

@@ -8,8 +8,8 @@ namespace panache {
 namespace {
 
 constexpr float kTurn = 2 * std::numbers::pi_v<float>;
-constexpr float kMaxSideways = 3.5f;             // m/s^2
-constexpr float kMaxTurnOnTheSpot = kTurn / 3;   // rad/s
+constexpr float kMaxSideways = 3.5f;            // m/s^2
+constexpr float kMaxTurnOnTheSpot = kTurn / 3;  // rad/s
 
 // Easing: the rate at which a difference closes, and the time that the change itself takes.
 constexpr float kSpeedRate = 2.5f, kSpeedLag = 0.12f;
@@ -92,8 +92,8 @@ void Drive::keep_stepping(const WalkerModel& model, bool wanted, bool feet_settl
   stepping_amount_ = approach(stepping_amount_, stepping_ ? 1.0f : 0.0f, dt, 0.15f);
   if (!stepping_) return;
   const float run = smooth_step(running_);
-  float wanted_frequency = (1 - run) * cadence(model.walk(), going_.speed) +
-                           run * cadence(model.run(), going_.speed);
+  float wanted_frequency =
+      (1 - run) * cadence(model.walk(), going_.speed) + run * cadence(model.run(), going_.speed);
   // On the spot, steps come often enough for a foot not to be turned far under the body, and at the
   // end of a way often enough to come to rest.
   wanted_frequency = std::max(wanted_frequency, kSlowestCadence + 0.35f * std::abs(going_.turn));
@@ -102,12 +102,12 @@ void Drive::keep_stepping(const WalkerModel& model, bool wanted, bool feet_settl
   const auto t = static_cast<float>(std::fmod(seconds_, 1e4));
   wanted_frequency *= 1 + 0.007f * std::sin(1.9f * t) + 0.006f * std::sin(0.83f * t + 1);
   frequency_ = approach(frequency_, wanted_frequency, dt, 0.1f);
-  phase_ = std::fmod(phase_ + static_cast<double>(kTurn * frequency_ * dt),
-                     static_cast<double>(kTurn));
+  phase_ =
+      std::fmod(phase_ + static_cast<double>(kTurn * frequency_ * dt), static_cast<double>(kTurn));
 }
 
-void Drive::tick(const WalkerModel& model, float wanted_speed, float wanted_turn,
-                 bool feet_settled, float dt) noexcept {
+void Drive::tick(const WalkerModel& model, float wanted_speed, float wanted_turn, bool feet_settled,
+                 float dt) noexcept {
   seconds_ += static_cast<double>(dt);
   ease(wanted_speed, wanted_turn, dt);
   choose_gait(dt);

@@ -31,20 +31,26 @@ class Feet {
  private:
   struct Foot {
     bool lifted = false;
-    bool known = false;    // `toe` and `yaw` are of the last tick.
-    Vec3 toe;              // World, as the gait had it.
-    float yaw = 0;         // Likewise.
-    Vec3 offset;           // What stands between that and where the foot is; level.
-    float twist = 0;       // Likewise of the yaw.
-    float lift = 0;        // How much higher this swing goes than the gait, metres.
+    bool known = false;  // `toe` and `yaw` are of the last tick.
+    Vec3 toe;            // World, as the gait had it.
+    float yaw = 0;       // Likewise.
+    Vec3 offset;         // What stands between that and where the foot is; level.
+    float twist = 0;     // Likewise of the yaw.
+    float swing = 0;     // As in Steps, at the last tick.
+    float lift = 0;      // How much higher this swing goes than the gait, metres.
   };
-  void hold(Foot& foot, float stands, float swing, float amount, float lead, Vec3 toe,
-            float yaw) noexcept;
+  // What the steps are for one foot.
+  struct Stepping {
+    Vec3 middle;                                          // Of the path, on the ground.
+    float lead = 0;                                       // As in tick().
+    float amount = 0, swing = 0, stands = 0, stance = 0;  // As in Drive and Steps.
+  };
+  void step(int f, Leg& leg, const Stepping& now) noexcept;
+  static void hold(Foot& foot, const Stepping& now, Vec3 toe, float yaw) noexcept;
 
   std::array<Foot, 2> feet_;
-  std::array<float, 2> swing_{};
   bool settled_ = true;
-  float drop_ = 0;
+  float drop_ = 0, needed_drop_ = 0;
 };
 
 }  // namespace panache

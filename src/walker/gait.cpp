@@ -12,9 +12,9 @@ namespace {
 
 constexpr float kTurn = 2 * std::numbers::pi_v<float>;
 
-// The data turns by up to 60 degrees and gains or loses up to 1 m/s in a second.
+// Beyond this the data, which turn by up to 60 degrees a second, have too little to say.
 constexpr float kMaxTurn = 1.3f;
-constexpr float kMaxAcceleration = 1.0f;
+constexpr float kMaxAcceleration = 0.7f;
 
 // Beyond the speeds that a gait was learnt at, cadence follows this power of the speed, as it does
 // in people who walk freely (Grieve 1968), and the steps take up the rest.

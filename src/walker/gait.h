@@ -15,13 +15,22 @@ inline constexpr int kWaves = 1 + 2 * kHarmonics;  // 1, then cosine and sine of
 inline constexpr int kTerms = 6;  // 1, u, u^2, turn, turn^2, acceleration; see gait_terms.
 
 // The joints that a gait turns; the others of the canonical skeleton keep their parent's frame.
-inline constexpr std::array<HumanJoint, 16> kDriven = {
-    HumanJoint::hips,           HumanJoint::spine,           HumanJoint::chest,
-    HumanJoint::neck,           HumanJoint::left_shoulder,   HumanJoint::left_upper_arm,
-    HumanJoint::left_lower_arm, HumanJoint::right_shoulder,  HumanJoint::right_upper_arm,
-    HumanJoint::right_lower_arm, HumanJoint::left_upper_leg, HumanJoint::left_lower_leg,
-    HumanJoint::left_foot,      HumanJoint::right_upper_leg, HumanJoint::right_lower_leg,
-    HumanJoint::right_foot};
+inline constexpr std::array<HumanJoint, 16> kDriven = {HumanJoint::hips,
+                                                       HumanJoint::spine,
+                                                       HumanJoint::chest,
+                                                       HumanJoint::neck,
+                                                       HumanJoint::left_shoulder,
+                                                       HumanJoint::left_upper_arm,
+                                                       HumanJoint::left_lower_arm,
+                                                       HumanJoint::right_shoulder,
+                                                       HumanJoint::right_upper_arm,
+                                                       HumanJoint::right_lower_arm,
+                                                       HumanJoint::left_upper_leg,
+                                                       HumanJoint::left_lower_leg,
+                                                       HumanJoint::left_foot,
+                                                       HumanJoint::right_upper_leg,
+                                                       HumanJoint::right_lower_leg,
+                                                       HumanJoint::right_foot};
 
 // One instant of a gait: the hips' position from the ground point of the path (left, up, ahead;
 // metres), then the rotation vectors of kDriven, radians: the hips in the frame of the path's
@@ -57,8 +66,8 @@ void gait_waves(float phase, std::span<float, kWaves> waves) noexcept;
 void evaluate(const Gait& gait, float phase, const Going& going, Channels& out) noexcept;
 // Cycles of two steps a second, at any speed above zero.
 float cadence(const Gait& gait, float speed) noexcept;
-// How far the body goes over its standing foot in a cycle, metres, if all of it were like the middle
-// of the stance; evaluated at `speed`, without turning.
+// How far the body goes over its standing foot in a cycle, metres, if all of it were like the
+// middle of the stance; evaluated at `speed`, without turning.
 float way_over_foot(const Gait& gait, float speed) noexcept;
 
 }  // namespace panache

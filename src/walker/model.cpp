@@ -17,7 +17,7 @@ constexpr const char* kFormatVersion = "1";
 // The single numbers of a gait, in the order of the tensor that holds them.
 constexpr int kGaitNumbers = 10;
 std::vector<float> pack(const Gait& gait) {
-  return {gait.reference, gait.slowest,  gait.fastest,  gait.cadence, gait.exponent,
+  return {gait.reference, gait.slowest,  gait.fastest,  gait.cadence,  gait.exponent,
           gait.lands[0],  gait.lands[1], gait.lifts[0], gait.lifts[1], gait.gaze_lead};
 }
 void unpack(const std::vector<float>& numbers, Gait& gait) {
@@ -38,8 +38,7 @@ std::string describe(const std::vector<int64_t>& shape) {
 }
 
 Result<std::vector<float>> read_tensor(const TensorFile& file, const std::string& key,
-                                       const std::vector<int64_t>& shape,
-                                       const std::string& name) {
+                                       const std::vector<int64_t>& shape, const std::string& name) {
   const auto found = file.tensors.find(key);
   if (found == file.tensors.end()) return Error{name + ": tensor '" + key + "' is missing"};
   const Tensor& tensor = found->second;
@@ -55,6 +54,18 @@ Result<std::vector<float>> read_tensor(const TensorFile& file, const std::string
   return tensor.values;
 }
 
+// Whether the steps come out at sensible times: what every later division counts on.
+bool is_gait(const Gait& gait) {
+  if (!(gait.slowest > 0.1f && gait.fastest > gait.slowest && gait.fastest < 20)) return false;
+  if (!(gait.cadence > 0.01f && gait.cadence < 10 && std::abs(gait.exponent) < 3)) return false;
+  for (const float speed : {gait.slowest, gait.reference, gait.fastest}) {
+    const float u = speed - gait.reference;
+    const float stance = gait.lifts[0] + gait.lifts[1] * u - (gait.lands[0] + gait.lands[1] * u);
+    if (!(stance > 0.3f && stance < 6)) return false;
+  }
+  return std::abs(gait.gaze_lead) < 1;
+}
+
 Result<Gait> read_gait(const TensorFile& file, const std::string& key, const std::string& name) {
   Result<std::vector<float>> numbers = read_tensor(file, key + ".numbers", {kGaitNumbers}, name);
   if (!numbers) return numbers.error();
@@ -64,9 +75,8 @@ Result<Gait> read_gait(const TensorFile& file, const std::string& key, const std
   Gait gait;
   unpack(*numbers, gait);
   gait.coefficients = *std::move(coefficients);
-  if (!(gait.slowest > 0.1f && gait.fastest > gait.slowest && gait.cadence > 0)) {
-    return Error{name + ": tensor '" + key +
-                 ".numbers' holds speeds or a cadence that no gait has"};
+  if (!is_gait(gait)) {
+    return Error{name + ": tensor '" + key + ".numbers' holds numbers that no gait has"};
   }
   return gait;
 }
@@ -74,13 +84,16 @@ Result<Gait> read_gait(const TensorFile& file, const std::string& key, const std
 Result<void> check_metadata(const TensorFile& file, const std::string& name) {
   const auto format = file.metadata.find("format");
   if (format == file.metadata.end() || format->second != kFormat) {
-    return Error{name + ": is a safetensors file, but not a walker; expected metadata 'format' to "
-                        "be '" + kFormat + "'"};
+    return Error{name +
+                 ": is a safetensors file, but not a walker; expected metadata 'format' to "
+                 "be '" +
+                 kFormat + "'"};
   }
   const auto version = file.metadata.find("format_version");
   if (version == file.metadata.end()) {
-    return Error{name + ": metadata 'format_version' is missing; expected a walker written by "
-                        "panache"};
+    return Error{name +
+                 ": metadata 'format_version' is missing; expected a walker written by "
+                 "panache"};
   }
   if (version->second != kFormatVersion) {
     return Error{name + ": is a walker of format version " + version->second +

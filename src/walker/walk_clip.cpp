@@ -35,8 +35,8 @@ Clip walk_clip(std::shared_ptr<const WalkerModel> model, const WalkClipOptions& 
       options.seconds - kSecondsToStand - static_cast<double>(options.speed) / 2.5;
   for (int f = 0; f < clip.frames; ++f) {
     const double seconds = f * clip.frame_time;
-    const bool goes = (!options.start || seconds >= kStandSeconds) &&
-                      (!options.stop || seconds < stop_at);
+    const bool goes =
+        (!options.start || seconds >= kStandSeconds) && (!options.stop || seconds < stop_at);
     const Pose pose = clip.pose(f);
     walker.step(goes ? options.speed : 0, goes ? options.turn : 0, f ? clip.frame_time : 0, pose);
     pose.translations[0] = rotate(back, pose.translations[0] - begin.position);

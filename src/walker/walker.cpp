@@ -18,10 +18,11 @@ constexpr float kGravity = 9.81f;
 // The lean that the gaits learnt with their turns is that of this speed.
 constexpr float kLearntLeanSpeed = 1.05f;
 
-// Mixed gaits may ask a knee to bend the wrong way; it comes near to straight at most.
+// A gait faster than the learnt ones, or a mixture, may ask a knee to bend the wrong way; it comes
+// near to straight at most, and slowly there.
 float bent_knee(float bend) {
-  constexpr float kLeast = 0.08f;  // Radians; down to here it does as asked.
-  return bend > kLeast ? bend : kLeast * std::exp((bend - kLeast) / kLeast);
+  constexpr float kSoft = 0.15f;  // Radians.
+  return (bend + std::sqrt(bend * bend + kSoft * kSoft)) / 2;
 }
 
 float finite_or_zero(float x) { return std::isfinite(x) ? x : 0.0f; }
@@ -85,16 +86,16 @@ void Walker::pose_body() noexcept {
   now_.rotations = {};
   for (size_t i = 0; i < kDriven.size(); ++i) {
     const float* r = &channels[3 + 3 * i];
-    const bool is_knee = kDriven[i] == HumanJoint::left_lower_leg ||
-                         kDriven[i] == HumanJoint::right_lower_leg;
+    const bool is_knee =
+        kDriven[i] == HumanJoint::left_lower_leg || kDriven[i] == HumanJoint::right_lower_leg;
     now_.rotations[index(kDriven[i])] =
         exp_rotation(Vec3{is_knee ? bent_knee(r[0]) : r[0], r[1], r[2]});
   }
 
   // The faster the turn, the further into it the whole body leans, about its path on the ground.
   const Going& going = drive_.going();
-  const float lean = std::atan((going.speed - kLearntLeanSpeed * drive_.amount()) * going.turn /
-                               kGravity);
+  const float lean =
+      std::atan((going.speed - kLearntLeanSpeed * drive_.amount()) * going.turn / kGravity);
   const Quat heading = rotation_y(static_cast<float>(drive_.heading()));
   const Quat frame = heading * axis_angle(Vec3{0, 0, 1}, -lean);
   up_ = rotate(frame, Vec3{0, 1, 0});

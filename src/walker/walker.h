@@ -45,7 +45,7 @@ class Walker {
   Feet feet_;
   double seconds_ = 0;  // Since reset().
   int64_t ticks_ = 0;
-  Vec3 up_;  // Of the leaning body.
+  Vec3 up_;               // Of the leaning body.
   Instant before_, now_;  // At the last two ticks: the pose shown lies between them.
 };
 

@@ -4,9 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/file.h"
-#include "clip/bvh.h"
-#include "make_clip.h"
+#include "make_manifest.h"
 #include "train/checkpoint.h"
 
 namespace panache {
@@ -16,27 +14,12 @@ namespace {
 class TrainerTest : public testing::Test {
  protected:
   TrainerTest() {
-    const Clip neutral = test::walking_clip(150);
-    Clip styled = test::walking_clip(120);
-    for (int f = 0; f < styled.frames; ++f) {
-      styled.pose(f).rotations[index(HumanJoint::spine)] = axis_angle(Vec3{1, 0, 0}, 0.4f);
-    }
-    write("neutral.bvh", neutral);
-    write("old.bvh", styled);
-    EXPECT_TRUE(write_file(folder_ + "manifest.csv",
-                           "path,style,content,take,neutral,split\n"
-                           "neutral.bvh,normal,walk,001,1,train\n"
-                           "old.bvh,old,walk,001,0,train\n",
-                           true)
-                    .ok());
+    test::write_manifest(folder_);
     rows_ = *read_manifest(folder_ + "manifest.csv", 0);
     EXPECT_TRUE(apply_style_names(styles_, rows_).ok());
   }
   ~TrainerTest() override { std::filesystem::remove_all(folder_); }
 
-  void write(const std::string& name, const Clip& clip) {
-    EXPECT_TRUE(write_file(folder_ + name, format_bvh(clip), true).ok());
-  }
   TrainOptions options(Recipe recipe, int64_t steps) const {
     TrainOptions options;
     options.recipe = recipe;

@@ -1,0 +1,342 @@
+#include "walker/walker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "clip/fk.h"
+#include "count_allocations.h"
+#include "pose/contacts.h"
+#include "rig/canonical_skeleton.h"
+#include "rig/rig.h"
+#include "walker/made_up_gait.h"
+
+namespace panache {
+namespace {
+
+constexpr float kDegree = std::numbers::pi_v<float> / 180;
+
+std::shared_ptr<const WalkerModel> shipped() {
+  static const auto model =
+      WalkerModel::load(std::string(PANACHE_SOURCE_DIR) + "/models/walker.safetensors");
+  EXPECT_TRUE(model.ok()) << (model.ok() ? "" : model.error().message);
+  return *model;
+}
+
+struct Joints {
+  std::array<Quat, kHumanJoints> rotations;
+  std::array<Vec3, kHumanJoints> translations;
+  operator Pose() { return {rotations, translations}; }
+};
+
+HumanPositions positions_of(Joints& local) {
+  static const Skeleton skeleton = canonical_skeleton();
+  Joints world;
+  world_pose(skeleton, Pose(local), world);
+  return world.translations;
+}
+
+// Someone who is steered, and what was seen of her.
+struct Seen {
+  std::vector<HumanPositions> frames;
+  double fps;
+};
+template <class Steer>
+Seen watch(Walker& walker, double seconds, double fps, Steer steer) {
+  Seen seen{{}, fps};
+  Joints joints;
+  for (int f = 0; f < seconds * fps; ++f) {
+    const auto [speed, turn] = steer(f / fps);
+    walker.step(speed, turn, 1 / fps, joints);
+    seen.frames.push_back(positions_of(joints));
+  }
+  return seen;
+}
+Seen watch_steady(float speed, float turn_deg, double seconds = 6, double fps = 120) {
+  Walker walker(shipped());
+  const auto steady = [&](double) { return std::pair{speed, turn_deg * kDegree}; };
+  watch(walker, 5, 60, steady);
+  return watch(walker, seconds, fps, steady);
+}
+
+// Mean horizontal speed of the toes that are on the ground, m/s.
+float skate(const Seen& seen) {
+  double way = 0;
+  int moves = 0;
+  for (size_t f = 1; f < seen.frames.size(); ++f) {
+    for (const HumanJoint toe : kToes) {
+      const Vec3 a = seen.frames[f - 1][index(toe)], b = seen.frames[f][index(toe)];
+      if (a.y > 0.002f || b.y > 0.002f) continue;
+      way += static_cast<double>(std::hypot(b.x - a.x, b.z - a.z));
+      ++moves;
+    }
+  }
+  return static_cast<float>(way * seen.fps / std::max(moves, 1));
+}
+
+// Largest third difference of a joint's positions at 30 frames a second, m/s^3.
+float largest_jerk(const Seen& seen) {
+  const size_t h = static_cast<size_t>(seen.fps / 30);
+  float most = 0;
+  for (size_t f = 0; f + 3 * h < seen.frames.size(); ++f) {
+    for (int j = 0; j < kHumanJoints; ++j) {
+      const auto at = [&](size_t k) { return seen.frames[f + k * h][j]; };
+      const Vec3 third = at(3) - at(2) * 3.0f + at(1) * 3.0f - at(0);
+      most = std::max(most, length(third) * 27000);
+    }
+  }
+  return most;
+}
+
+TEST(Walker, goes_as_far_as_its_speed_says) {
+  for (const float speed : {0.3f, 0.8f, 1.4f, 1.9f, 3.0f, 4.5f}) {
+    const Seen seen = watch_steady(speed, 0);
+    const Vec3 way = seen.frames.back()[0] - seen.frames.front()[0];
+    const float seconds = static_cast<float>((seen.frames.size() - 1) / seen.fps);
+    EXPECT_NEAR(std::hypot(way.x, way.z), speed * seconds, 0.05f * speed * seconds) << speed;
+  }
+}
+
+TEST(Walker, turns_as_fast_as_asked) {
+  for (const auto& [speed, turn] : {std::pair{0.0f, 60.0f}, std::pair{1.1f, 60.0f},
+                                    std::pair{1.1f, -90.0f}, std::pair{3.0f, -40.0f}}) {
+    Walker walker(shipped());
+    const auto steady = [&, s = speed, t = turn](double) { return std::pair{s, t * kDegree}; };
+    watch(walker, 5, 60, steady);
+    const float begin = walker.ground().facing;
+    const Seen seen = watch(walker, 4, 60, steady);
+    EXPECT_NEAR(walker.ground().facing - begin, 4 * turn * kDegree,
+                0.05f * 4 * std::abs(turn) * kDegree);
+    // The body turns with its path.
+    const HumanPositions& last = seen.frames.back();
+    const Vec3 left =
+        last[index(HumanJoint::left_upper_leg)] - last[index(HumanJoint::right_upper_leg)];
+    EXPECT_GT(dot(normalized(left), rotate(rotation_y(walker.ground().facing), Vec3{1, 0, 0})),
+              0.9f);
+  }
+}
+
+TEST(Walker, plants_its_feet) {
+  for (const auto& [speed, turn] :
+       {std::pair{0.0f, 60.0f}, std::pair{0.3f, 0.0f}, std::pair{0.8f, 0.0f}, std::pair{1.4f, 0.0f},
+        std::pair{1.1f, 60.0f}, std::pair{1.9f, 0.0f}, std::pair{3.0f, 0.0f},
+        std::pair{3.0f, 40.0f}, std::pair{4.3f, 0.0f}}) {
+    const Seen seen = watch_steady(speed, turn);
+    EXPECT_LT(skate(seen), 0.1f) << speed << " m/s, " << turn << " degrees/s";
+    float lowest = 1, ankles = 1;
+    for (const HumanPositions& frame : seen.frames) {
+      for (const HumanJoint toe : kToes) lowest = std::min(lowest, frame[index(toe)].y);
+      for (const HumanJoint ankle : kAnkles) ankles = std::min(ankles, frame[index(ankle)].y);
+    }
+    EXPECT_NEAR(lowest, 0, 0.002f) << speed;  // Neither sinks nor floats.
+    EXPECT_GT(ankles, 0.03f) << speed;
+  }
+}
+
+TEST(Walker, walks_with_a_foot_down_and_runs_with_flights) {
+  const auto air = [](const Seen& seen) {
+    int flying = 0;
+    for (const HumanPositions& frame : seen.frames) {
+      flying += std::min(frame[index(kToes[0])].y, frame[index(kToes[1])].y) > 0.03f;
+    }
+    return static_cast<double>(flying) / static_cast<double>(seen.frames.size());
+  };
+  EXPECT_LT(air(watch_steady(1.2f, 0)), 0.02);
+  EXPECT_GT(air(watch_steady(3.0f, 0)), 0.25);
+}
+
+TEST(Walker, swings_its_arms_against_its_legs) {
+  const Seen seen = watch_steady(1.2f, 0);
+  double sum = 0;
+  for (const HumanPositions& frame : seen.frames) {
+    const auto ahead = [&](HumanJoint left, HumanJoint right) {
+      return static_cast<double>(frame[index(left)].z - frame[index(right)].z);
+    };
+    sum += ahead(HumanJoint::left_hand, HumanJoint::right_hand) *
+           ahead(HumanJoint::left_foot, HumanJoint::right_foot);
+  }
+  // Amplitudes of hands and feet are about 0.4 and 0.6 m: opposite sines would give -0.12.
+  EXPECT_LT(sum / static_cast<double>(seen.frames.size()), -0.05);
+}
+
+TEST(Walker, moves_the_same_at_any_rate) {
+  const auto steer = [](double t) {
+    return t < 4 ? std::pair{1.3f, 0.3f} : t < 8 ? std::pair{3.2f, -0.5f} : std::pair{0.0f, 0.0f};
+  };
+  const auto at = [&](double fps) {
+    Walker walker(shipped());
+    return watch(walker, 12, fps, steer).frames;
+  };
+  const auto fine = at(120), middle = at(60), coarse = at(24);
+  // Frame i of any rate ends at (i + 1) / fps. The changes of the wish come at whole seconds, one
+  // step later at a lower rate: up to 1/24 s of easing apart.
+  for (size_t f = 0; f < coarse.size(); ++f) {
+    for (int j = 0; j < kHumanJoints; ++j) {
+      const double seconds = static_cast<double>(f + 1) / 24;
+      if (seconds < 4) {  // Before the first change only rounding differs.
+        EXPECT_LT(length(coarse[f][j] - fine[5 * f + 4][j]), 1e-3f) << seconds;
+      }
+      EXPECT_LT(length(coarse[f][j] - fine[5 * f + 4][j]), 0.25f) << seconds;
+    }
+  }
+  // At 50 a second poses fall between those of 120.
+  const auto between = at(50);
+  for (size_t f = 0; f < 4 * 50 - 1; ++f) {
+    const double frame = static_cast<double>(f + 1) * 2.4 - 1;
+    const size_t a = static_cast<size_t>(frame);
+    for (int j = 0; j < kHumanJoints; ++j) {
+      const Vec3 expected =
+          lerp(fine[a][j], fine[a + 1][j], static_cast<float>(frame - static_cast<double>(a)));
+      EXPECT_LT(length(between[f][j] - expected), 1e-3f) << f;
+    }
+  }
+  for (size_t f = 0; f < 4 * 60 - 1; ++f) {
+    for (int j = 0; j < kHumanJoints; ++j) {
+      EXPECT_LT(length(middle[f][j] - fine[2 * f + 1][j]), 1e-3f) << f;
+    }
+  }
+}
+
+TEST(Walker, stands_still_and_breathes) {
+  Walker walker(shipped());
+  const Seen seen = watch(walker, 20, 60, [](double) { return std::pair{0.0f, 0.0f}; });
+  float least = 1, most = -1;
+  for (const HumanPositions& frame : seen.frames) {
+    for (const HumanJoint toe : kToes) {
+      EXPECT_LT(length(frame[index(toe)] - seen.frames[0][index(toe)]), 0.001f);
+    }
+    least = std::min(least, frame[index(HumanJoint::hips)].x);
+    most = std::max(most, frame[index(HumanJoint::hips)].x);
+  }
+  EXPECT_GT(most - least, 0.005f);  // Alive,
+  EXPECT_LT(most - least, 0.06f);   // and calm.
+}
+
+TEST(Walker, starts_and_comes_to_stand_under_its_body) {
+  for (const float speed : {0.4f, 1.2f, 3.0f, 4.5f}) {
+    Walker walker(shipped());
+    const Seen start = watch(walker, 5, 120, [&](double t) {
+      return std::pair{t < 0.5 ? 0.0f : speed, 0.0f};
+    });
+    const Seen stop = watch(walker, 6, 120, [](double) { return std::pair{0.0f, 0.0f}; });
+    // Real takes have up to 2,200 m/s^3 in walks and 4,900 in runs.
+    EXPECT_LT(largest_jerk(start), speed < 2 ? 2200 : 4900) << speed;
+    EXPECT_LT(largest_jerk(stop), speed < 2 ? 2200 : 4900) << speed;
+    const HumanPositions& last = stop.frames.back();
+    const HumanPositions& before = stop.frames[stop.frames.size() - 60];
+    const Vec3 hips = last[index(HumanJoint::hips)];
+    for (const HumanJoint toe : kToes) {
+      EXPECT_LT(length(last[index(toe)] - before[index(toe)]), 0.001f) << speed;
+      EXPECT_LT(std::hypot(last[index(toe)].x - hips.x, last[index(toe)].z - hips.z), 0.25f);
+    }
+  }
+}
+
+TEST(Walker, never_pops_when_steered_wildly) {
+  Walker walker(shipped());
+  unsigned seed = 1;
+  const auto random = [&] {
+    seed = seed * 1664525u + 1013904223u;
+    return static_cast<float>(seed >> 8) / 16777216.0f;
+  };
+  float speed = 0, turn = 0;
+  int last = -1;
+  const Seen seen = watch(walker, 60, 120, [&](double t) {
+    if (const int now = static_cast<int>(t / 0.75); now != last) {
+      last = now;
+      speed = random() < 0.3f ? 0 : random() * kMaxWalkerSpeed;
+      turn = random() < 0.3f ? 0 : (random() - 0.5f) * 4;
+    }
+    return std::pair{speed, turn};
+  });
+  float fastest = 0;
+  for (size_t f = 1; f < seen.frames.size(); ++f) {
+    for (int j = 0; j < kHumanJoints; ++j) {
+      fastest = std::max(fastest, length(seen.frames[f][j] - seen.frames[f - 1][j]) * 120);
+    }
+  }
+  // A real dash has 10 m/s and 4,900 m/s^3; nobody real was steered like this.
+  EXPECT_LT(fastest, 13) << "seed 1";
+  EXPECT_LT(largest_jerk(seen), 6500) << "seed 1";
+}
+
+TEST(Walker, allocates_nothing) {
+  Walker walker(shipped());
+  Joints joints;
+  const long before = test::allocations;
+  for (int f = 0; f < 1000; ++f) {
+    walker.step(f < 700 ? 0.005f * static_cast<float>(f) : 0.0f, f % 300 < 150 ? 0.5f : -0.5f,
+                1.0 / 60, joints);
+    if (f == 900) walker.reset();
+  }
+  EXPECT_EQ(test::allocations, before);
+}
+
+TEST(Walker, stays_finite_whatever_it_is_told) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (const std::shared_ptr<const WalkerModel>& model :
+       {shipped(), std::make_shared<const WalkerModel>(test::made_up_walker())}) {
+    Walker walker(model);
+    Joints joints;
+    for (const float speed : {1.2f, nan, infinity, -infinity, -3.0f, 1e30f, 2.0f}) {
+      for (const float turn : {0.0f, nan, infinity, -1e30f, 0.3f}) {
+        for (const double seconds : {1.0 / 30, 0.0, -1.0, 1e9, double(nan), double(infinity)}) {
+          walker.step(speed, turn, seconds, joints);
+          for (int j = 0; j < kHumanJoints; ++j) {
+            ASSERT_TRUE(is_finite(joints.rotations[j]) && is_finite(joints.translations[j]));
+            ASSERT_NEAR(dot(joints.rotations[j], joints.rotations[j]), 1, 1e-4f);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Walker, begins_anew_after_reset) {
+  Walker walker(shipped());
+  Joints first, again;
+  walker.step(1, 0, 0, first);
+  watch(walker, 3, 60, [](double) { return std::pair{1.0f, 0.5f}; });
+  walker.reset();
+  walker.step(1, 0, 0, again);
+  EXPECT_EQ(first.rotations, again.rotations);
+  EXPECT_EQ(first.translations, again.translations);
+}
+
+TEST(WalkClip, maps_onto_the_canonical_body_with_all_joints) {
+  WalkClipOptions options;
+  options.seconds = 3;
+  const Clip clip = walk_clip(shipped(), options);
+  EXPECT_EQ(clip.frames, 180);
+  EXPECT_NEAR(clip.pose(0).translations[0].z, 0, 0.1f);
+  Result<Rig> rig = Rig::create(clip);
+  ASSERT_TRUE(rig.ok()) << rig.error().message;
+  for (int j = 0; j < kHumanJoints; ++j) EXPECT_EQ(rig->joints()[j], j);
+  EXPECT_NEAR(rig->scale(), 1, 0.02f);
+  EXPECT_EQ(rig->first_frame(), 0);
+}
+
+TEST(WalkClip, starts_and_ends_standing_if_asked) {
+  for (const float speed : {1.4f, 4.5f}) {
+    WalkClipOptions options;
+    options.seconds = 10;
+    options.speed = speed;
+    options.start = options.stop = true;
+    const Clip clip = walk_clip(shipped(), options);
+    const auto moved = [&](int a, int b) {
+      return length(clip.pose(b).translations[0] - clip.pose(a).translations[0]);
+    };
+    EXPECT_LT(moved(0, 20), 0.01f);
+    EXPECT_GT(moved(60, clip.frames - 1), 3 * speed);
+    EXPECT_LT(moved(clip.frames - 10, clip.frames - 1), 0.01f) << speed;
+  }
+}
+
+}  // namespace
+}  // namespace panache
