@@ -13,8 +13,8 @@ namespace panache::test {
 
 inline constexpr float kLean = 0.4f;  // Radians, at the spine.
 
-// Writes neutral.bvh, old.bvh and manifest.csv into `folder`, which ends in '/'. `splits`: the splits
-// that each take is listed in.
+// Writes neutral.bvh, old.bvh and manifest.csv into `folder`, which ends in '/'. `splits`: the
+// splits that each take is listed in.
 inline void write_manifest(const std::string& folder,
                            const std::vector<std::string>& splits = {"train"}) {
   const Clip neutral = walking_clip(150);

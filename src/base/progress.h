@@ -14,8 +14,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // Shows that `share` (0 to 1) of the work is done, with the time left and `text` behind it. May be
-  // called from any thread as often as one likes.
+  // Shows that `share` (0 to 1) of the work is done, with the time left and `text` behind it. May
+  // be called from any thread as often as one likes.
   void update(double share, const std::string& text = "");
 
  private:

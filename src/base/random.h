@@ -26,8 +26,8 @@ class Random {
   // Close to the standard normal distribution: the sum of four uniform numbers, within 3.5 sigma.
   float normal() {
     const uint64_t b = bits();
-    const int sum = static_cast<int>((b & 0xffff) + ((b >> 16) & 0xffff) + ((b >> 32) & 0xffff) +
-                                     (b >> 48));
+    const int sum =
+        static_cast<int>((b & 0xffff) + ((b >> 16) & 0xffff) + ((b >> 32) & 0xffff) + (b >> 48));
     // Four uniform numbers of 16 bits: mean 2 * 65535, deviation 65536 / sqrt(3).
     return static_cast<float>(sum - 131070) * static_cast<float>(1.7320508 / 65536);
   }

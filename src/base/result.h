@@ -9,7 +9,8 @@
 
 namespace panache {
 
-// One sentence for a person: where, what was expected, what was found and, if there is one, the cure.
+// One sentence for a person: where, what was expected, what was found and, if there is one, the
+// cure.
 struct Error {
   std::string message;
 };

@@ -160,7 +160,8 @@ Result<PoseErrorTable> measure_pose_error(const std::vector<ManifestRow>& rows,
       sum.errors[s].cm += error.cm;
     }
     ++sum.frames;
-    if (i % 256 == 0) progress.update(static_cast<double>(i) / static_cast<double>(instants.size()));
+    if (i % 256 == 0)
+      progress.update(static_cast<double>(i) / static_cast<double>(instants.size()));
   }
   PoseErrorRow mean{"mean", 0, std::vector<PoseError>(table.systems.size())};
   for (auto& [style, sum] : sums) {

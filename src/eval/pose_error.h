@@ -33,9 +33,9 @@ struct NamedModel {
   std::shared_ptr<const Model> model;
 };
 
-// Judges on the test takes of `rows`, styled ones aligned to neutral test takes of the same content.
-// The mean posture of a style is measured on the training takes. Styles that a model does not know
-// are left out of the table.
+// Judges on the test takes of `rows`, styled ones aligned to neutral test takes of the same
+// content. The mean posture of a style is measured on the training takes. Styles that a model does
+// not know are left out of the table.
 Result<PoseErrorTable> measure_pose_error(const std::vector<ManifestRow>& rows,
                                           const std::vector<NamedModel>& models);
 

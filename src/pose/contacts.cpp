@@ -24,8 +24,8 @@ std::vector<FootContacts> detect_contacts(const std::vector<HumanPositions>& wor
     const float floor = heights[frames / 10];
     for (int f = 0; f < frames; ++f) {
       const int a = std::max(f - 1, 0), b = std::min(f + 1, frames - 1);
-      const float speed =
-          length(world[b][toe] - world[a][toe]) * static_cast<float>(fps) / static_cast<float>(b - a);
+      const float speed = length(world[b][toe] - world[a][toe]) * static_cast<float>(fps) /
+                          static_cast<float>(b - a);
       contacts[f][foot] = speed < kMaxSpeed && world[f][toe].y - floor < kMaxHeight;
     }
   }

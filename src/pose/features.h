@@ -8,18 +8,21 @@
 
 namespace panache {
 
-inline constexpr int kWindowPoses = 6;            // The current pose and the five before it,
-inline constexpr double kWindowSpacing = 0.05;    // this many seconds apart.
-inline constexpr int kRootNumbers = 3;            // Ground velocity x and z, turn rate.
-inline constexpr int kMaxPoseNumbers = 130;       // Of the larger layout, root numbers included.
+inline constexpr int kWindowPoses = 6;          // The current pose and the five before it,
+inline constexpr double kWindowSpacing = 0.05;  // this many seconds apart.
+inline constexpr int kRootNumbers = 3;          // Ground velocity x and z, turn rate.
+inline constexpr int kMaxPoseNumbers = 130;     // Of the larger layout, root numbers included.
 
 // How a pose is laid out in numbers. Root numbers come last in both.
 enum class PoseLayout {
-  // 21 joint positions in the body frame, metres [63]; then ground velocity left and forward, m/s, and
+  // 21 joint positions in the body frame, metres [63]; then ground velocity left and forward, m/s,
+  // and
   // turn rate, rad/s.
   positions,
-  // 21 rotations of the canonical skeleton, each as the first two columns of its matrix: the hips in
-  // the body frame, the others relative to their parents [126]; height of the hips, metres; then the
+  // 21 rotations of the canonical skeleton, each as the first two columns of its matrix: the hips
+  // in
+  // the body frame, the others relative to their parents [126]; height of the hips, metres; then
+  // the
   // root numbers as above.
   rotations,
 };
@@ -32,7 +35,8 @@ struct Ground {
 };
 
 // `world` (Y up, metres) seen from the ground point under the hips, facing +z.
-void to_body_frame(const HumanPositions& world, const Ground& ground, HumanPositions& body) noexcept;
+void to_body_frame(const HumanPositions& world, const Ground& ground,
+                   HumanPositions& body) noexcept;
 
 // Writes the pose_numbers(layout) - kRootNumbers first numbers of a pose given in the body frame.
 void write_pose_numbers(PoseLayout layout, const HumanPositions& body,

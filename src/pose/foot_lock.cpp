@@ -10,8 +10,8 @@ constexpr float kPlant = 0.6f, kRelease = 0.4f;  // Hysteresis on the contact pr
 constexpr float kMaxOffset = 0.12f;              // Metres; a foot pulled further is let go.
 constexpr float kFadeSeconds = 0.08f;            // Time constant of the release.
 
-// Straightening the last degrees of a knee takes no distance but much angle: a leg is never asked for
-// more than this share of its length unless the style itself stretches it further.
+// Straightening the last degrees of a knee takes no distance but much angle: a leg is never asked
+// for more than this share of its length unless the style itself stretches it further.
 constexpr float kMaxReach = 0.995f;
 
 }  // namespace
@@ -90,8 +90,8 @@ void FootLock::step(const BodyPose& body, std::span<const float, kFeet> contacts
 
     const Vec3 shift = rotate(conjugate(to_world), foot.offset) * amount;
     const int hip = index(kUpperLegs[f]), knee = index(kLowerLegs[f]), ankle = index(kAnkles[f]);
-    const TwoBoneTurn turn = two_bone_ik(joints[hip], joints[knee], joints[ankle],
-                                         joints[ankle] + shift, Vec3{0, 0, 1});
+    const TwoBoneTurn turn =
+        two_bone_ik(joints[hip], joints[knee], joints[ankle], joints[ankle] + shift, Vec3{0, 0, 1});
     change.rotations[hip] = turn.upper * change.rotations[hip];
     change.rotations[knee] = turn.lower * change.rotations[knee];
   }

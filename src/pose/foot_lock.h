@@ -15,13 +15,13 @@ namespace panache {
 struct TwoBoneTurn {
   Quat upper, lower;  // To be applied on top of the upper and the lower joint's world rotation.
 };
-// `root`, `middle`, `end`: where hip, knee and ankle (or shoulder, elbow, wrist) are; any one space.
-// A target beyond reach is approached as far as the chain's length allows; the bend stays in the
-// plane it has, or towards `bend_hint` where the chain is straight.
+// `root`, `middle`, `end`: where hip, knee and ankle (or shoulder, elbow, wrist) are; any one
+// space. A target beyond reach is approached as far as the chain's length allows; the bend stays in
+// the plane it has, or towards `bend_hint` where the chain is straight.
 TwoBoneTurn two_bone_ik(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 bend_hint) noexcept;
 
-// Positions of the user's joints with the rotations of `change` on them, in the heading frame of the
-// input: origin midway between the hip joints, axes turned so that the body faces +z. Turn and
+// Positions of the user's joints with the rotations of `change` on them, in the heading frame of
+// the input: origin midway between the hip joints, axes turned so that the body faces +z. Turn and
 // translation are left out.
 Vec3 mid_hip(const BodyPose& body) noexcept;  // World.
 void changed_joints(const BodyPose& body, const BodyChange& change, HumanPositions& out) noexcept;

@@ -6,9 +6,8 @@
 namespace panache {
 
 void PoseHistory::push(double time, const HumanPositions& body, const Ground& ground) noexcept {
-  const bool replaces =
-      count_ > 0 && (time <= newest(0).time ||
-                     (count_ > 1 && newest(0).time - newest(1).time < kMinGap));
+  const bool replaces = count_ > 0 && (time <= newest(0).time ||
+                                       (count_ > 1 && newest(0).time - newest(1).time < kMinGap));
   if (!replaces) {
     head_ = (head_ + 1) % kCapacity;
     count_ = std::min(count_ + 1, kCapacity);

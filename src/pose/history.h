@@ -35,7 +35,9 @@ class PoseHistory {
   };
   Between find(double time) const noexcept;
   Ground ground_at(double time) const noexcept;
-  const Entry& newest(int age) const noexcept { return ring_[(head_ + kCapacity - age) % kCapacity]; }
+  const Entry& newest(int age) const noexcept {
+    return ring_[(head_ + kCapacity - age) % kCapacity];
+  }
 
   // A pose closer than this to the one before it gives way to the next, so that any rate fits: the
   // window and one more spacing for the oldest velocity need 0.3 s.

@@ -67,8 +67,9 @@ Result<std::shared_ptr<const Model>> Model::parse(std::string_view bytes, const 
 Result<void> Model::read_metadata(const TensorFile& file, const std::string& name) {
   const auto format = file.metadata.find("format");
   if (format == file.metadata.end() || format->second != "panache") {
-    return Error{name + ": is a safetensors file, but not a panache model; expected metadata "
-                        "'format' to be 'panache'"};
+    return Error{name +
+                 ": is a safetensors file, but not a panache model; expected metadata "
+                 "'format' to be 'panache'"};
   }
   Result<std::string> version = require(file, "format_version", name);
   if (!version) return version.error();
@@ -113,8 +114,7 @@ Result<void> Model::read_metadata(const TensorFile& file, const std::string& nam
 }
 
 Result<Model::Network> Model::read_network(const TensorFile& file, const std::string& prefix,
-                                           int outputs, int heads,
-                                           const std::string& name) const {
+                                           int outputs, int heads, const std::string& name) const {
   const int extra = recipe_ == Recipe::smith2019 ? static_cast<int>(styles_.size()) + 1 : 0;
   const int inputs = kWindowPoses * pose_numbers(layout_) + extra;
   Result<Trunk> trunk = Trunk::read(file, prefix + ".trunk", inputs, name);

@@ -16,10 +16,10 @@
 
 namespace panache {
 
-// What the pose network's numbers mean once they are a change of the body: 21 rotation vectors in the
-// heading frame [0..62], height of the hips [63], ground velocity left and forward [64..65], turn
-// rate [66]; radians, metres, and seconds of the input (so that the way over the ground is the same
-// at any tempo).
+// What the pose network's numbers mean once they are a change of the body: 21 rotation vectors in
+// the heading frame [0..62], height of the hips [63], ground velocity left and forward [64..65],
+// turn rate [66]; radians, metres, and seconds of the input (so that the way over the ground is the
+// same at any tempo).
 inline constexpr int kChangeNumbers = 67;
 using ChangeNumbers = std::array<float, kChangeNumbers>;
 
@@ -66,10 +66,10 @@ class Model {
   PoseLayout layout_ = PoseLayout::positions;
   std::vector<StyleInfo> styles_;
   std::map<std::string, std::string> metadata_;
-  std::vector<float> input_mean_, input_scale_;    // [pose_numbers]; one for all six poses.
-  std::vector<float> output_scale_;                // [pose outputs]
-  std::vector<float> output_mean_;                 // The same; smith2019 only, else zero.
-  float input_clip_ = 0;                           // In deviations; 0 clips nothing.
+  std::vector<float> input_mean_, input_scale_;  // [pose_numbers]; one for all six poses.
+  std::vector<float> output_scale_;              // [pose outputs]
+  std::vector<float> output_mean_;               // The same; smith2019 only, else zero.
+  float input_clip_ = 0;                         // In deviations; 0 clips nothing.
   Network pose_, timing_, contact_;
   size_t parameter_count_ = 0;
 };
@@ -84,8 +84,8 @@ class StyleNetworks {
 
   // Evaluates a window as PoseHistory::window() gives it. The results stay until the next call.
   void forward(std::span<const float> window) noexcept;
-  // The pose network's numbers, in the model's own units undone: a change of kChangeNumbers (panache)
-  // or a pose of 130 numbers (smith2019).
+  // The pose network's numbers, in the model's own units undone: a change of kChangeNumbers
+  // (panache) or a pose of 130 numbers (smith2019).
   std::span<const float> pose() const { return pose_out_; }
   float log_rate() const { return timing_out_[0]; }  // log of input seconds per output second.
   std::span<const float> contact() const { return contact_out_; }  // Probability per foot [2].

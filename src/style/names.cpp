@@ -9,8 +9,8 @@
 namespace panache {
 namespace {
 
-// Levenshtein's distance: the fewest letters to add, drop or replace. Ten times as dear when neither
-// name begins with the other's first two letters, so that "ang" finds "angry" before "old".
+// Levenshtein's distance: the fewest letters to add, drop or replace. Ten times as dear when
+// neither name begins with the other's first two letters, so that "ang" finds "angry" before "old".
 int edit_distance(std::string_view a, std::string_view b) {
   std::vector<int> row(b.size() + 1);
   std::iota(row.begin(), row.end(), 0);

@@ -1,6 +1,6 @@
 #pragma once
-// A whole clip restyled, with the tempo of the style: the play head runs through the input as fast or
-// as slowly as the style asks.
+// A whole clip restyled, with the tempo of the style: the play head runs through the input as fast
+// or as slowly as the style asks.
 
 #include <functional>
 #include <string>
@@ -12,8 +12,8 @@
 
 namespace panache {
 
-// The strength of one style along the input: straight lines between points, held before the first and
-// after the last.
+// The strength of one style along the input: straight lines between points, held before the first
+// and after the last.
 struct StrengthTrack {
   struct Point {
     double seconds;  // Of the input.

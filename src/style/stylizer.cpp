@@ -15,12 +15,13 @@ constexpr double kMaxGap = 0.5;        // Seconds.
 constexpr float kMaxGroundSpeed = 15;  // m/s; a sprinter reaches 12.
 constexpr float kRateSeconds = 0.15f;  // Time constant of the tempo.
 constexpr float kMaxLogRate = 0.7f;    // Half to double tempo.
-// A style may sway and turn within a step, but not leave the input's course: what it adds sideways and
-// to the heading fades with this time constant.
+// A style may sway and turn within a step, but not leave the input's course: what it adds sideways
+// and to the heading fades with this time constant.
 constexpr float kCourseSeconds = 1.5f;
 // Below this speed a character stands, or walks in place: the style may not carry it away.
 constexpr float kStandingSpeed = 0.3f;  // m/s
-// Well above this speed the way over the ground changes by the style's full share, below it by less.
+// Well above this speed the way over the ground changes by the style's full share, below it by
+// less.
 constexpr float kSlowSpeed = 0.4f;  // m/s
 constexpr float kMostShortened = 0.8f, kMostStretched = 1.5f;
 
@@ -133,9 +134,9 @@ void Stylizer::move_root(double input_seconds) noexcept {
   turn_ = turn_ * back + numbers_[66] * moving * dt;
   sway_ = sway_ * back + numbers_[64] * moving * dt;
 
-  // Forward the style stretches or shortens the input's own way, by the share that its velocity is of
-  // the input's: what comes back in the input comes back in the output, and what stands stays. Each
-  // term is exactly zero without a style.
+  // Forward the style stretches or shortens the input's own way, by the share that its velocity is
+  // of the input's: what comes back in the input comes back in the output, and what stands stays.
+  // Each term is exactly zero without a style.
   const float speed = forward_speed();
   const float share = numbers_[65] * speed / (speed * speed + kSlowSpeed * kSlowSpeed);
   const Vec3 way = ground_.position - last_ground_.position;
@@ -144,8 +145,8 @@ void Stylizer::move_root(double input_seconds) noexcept {
   drift_ += rotate(rotation_y(turn_), way) * std::clamp(share, -kMostShortened, most);
 }
 
-// A style trained on one body may put another's feet through the ground: lifts the body by as much as
-// its lowest toe is deeper than both the floor and the input's own lowest toe.
+// A style trained on one body may put another's feet through the ground: lifts the body by as much
+// as its lowest toe is deeper than both the floor and the input's own lowest toe.
 void Stylizer::keep_above_floor() noexcept {
   if (amount_ <= 0) return;
   HumanPositions joints;

@@ -14,8 +14,9 @@
 namespace panache {
 
 struct StylizerOptions {
-  float ease_seconds = 0.15f;       // A change of strength takes about this long to arrive.
-  float smoothing_seconds = 0.04f;  // Time constant of the filter on the change, never on the input.
+  float ease_seconds = 0.15f;  // A change of strength takes about this long to arrive.
+  float smoothing_seconds =
+      0.04f;  // Time constant of the filter on the change, never on the input.
   bool foot_lock = true;
   bool root = true;  // Style the way over the ground, not only the pose.
 };
@@ -23,8 +24,8 @@ struct StylizerOptions {
 // One character's memory. create() allocates everything and may fail; step() does neither.
 class Stylizer {
  public:
-  // `rig` maps the character's skeleton; the stylizer keeps its own copy. Fails with a sentence where
-  // an option is out of its range.
+  // `rig` maps the character's skeleton; the stylizer keeps its own copy. Fails with a sentence
+  // where an option is out of its range.
   static Result<Stylizer> create(std::shared_ptr<const Model> model, Rig rig,
                                  const StylizerOptions& options = {});
 
@@ -32,10 +33,10 @@ class Stylizer {
   void reset() noexcept;
 
   // Styles one pose of the character. `strengths`: one per style of the model; numbers that are not
-  // finite count as 0, all are held within -4 to 4. `input_seconds`: how much of the input's own time
-  // passed since the last step; `output_seconds`: how much of the viewer's. They are the same unless
-  // a play head runs through the input at another rate. Poses that are not finite are replaced by the
-  // last good one. `in` and `out` may be the same arrays.
+  // finite count as 0, all are held within -4 to 4. `input_seconds`: how much of the input's own
+  // time passed since the last step; `output_seconds`: how much of the viewer's. They are the same
+  // unless a play head runs through the input at another rate. Poses that are not finite are
+  // replaced by the last good one. `in` and `out` may be the same arrays.
   void step(ConstPose in, std::span<const float> strengths, double input_seconds,
             double output_seconds, Pose out) noexcept;
   // Live: input and output share the clock.

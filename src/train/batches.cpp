@@ -33,7 +33,8 @@ Batch BatchMaker::make(Random& random) const {
   const auto mirrored = [&] { return settings_.mirrored && (random.bits() & 1); };
   if (!settings_.by_style) {
     for (int i = 0; i < settings_.size; ++i) {
-      rows.push_back({choice_[random.below(static_cast<uint32_t>(choice_.size()))], mirrored(), -1});
+      rows.push_back(
+          {choice_[random.below(static_cast<uint32_t>(choice_.size()))], mirrored(), -1});
     }
     return fill(rows, draws, nullptr);
   }
@@ -74,8 +75,11 @@ Batch BatchMaker::fill(const std::vector<Row>& rows, const std::vector<Disturbed
   const int64_t count = static_cast<int64_t>(rows.size());
   const int window = set_.inputs(), numbers = set_.numbers(), outputs = set_.outputs();
   const int inputs = window + (style_input_ ? styles_ + 1 : 0);
-  Batch batch{torch::zeros({count, inputs}), torch::empty({count, outputs}),
-              torch::empty({count, 1}), torch::empty({count, kFeet}), {}};
+  Batch batch{torch::zeros({count, inputs}),
+              torch::empty({count, outputs}),
+              torch::empty({count, 1}),
+              torch::empty({count, kFeet}),
+              {}};
   const float clip = settings_.input_clip > 0 ? settings_.input_clip : INFINITY;
   for (int64_t r = 0; r < count; ++r) {
     const Row& row = rows[r];

@@ -12,12 +12,12 @@ namespace panache {
 
 struct BatchSettings {
   int size = 256;
-  bool by_style = false;    // Rows grouped by style, styles drawn by the square root of their share,
-                            // rows in pairs of neighbouring frames; else drawn one by one from all.
-  bool mirrored = false;    // Half of the rows left for right.
+  bool by_style = false;  // Rows grouped by style, styles drawn by the square root of their share,
+                          // rows in pairs of neighbouring frames; else drawn one by one from all.
+  bool mirrored = false;  // Half of the rows left for right.
   bool disturbed = false;
   Disturbance disturbance;
-  float input_clip = 0;     // Normalised inputs are held within this many deviations; 0: not.
+  float input_clip = 0;  // Normalised inputs are held within this many deviations; 0: not.
   std::vector<float> output_mean, output_scale;  // [outputs]
 };
 
@@ -31,8 +31,8 @@ struct Batch {
 
 class BatchMaker {
  public:
-  // `choice`: the samples to draw from. `styles`: how many the model has; `style_input`: whether the
-  // style vector is appended to the window, neutral first.
+  // `choice`: the samples to draw from. `styles`: how many the model has; `style_input`: whether
+  // the style vector is appended to the window, neutral first.
   BatchMaker(const SampleSet& set, std::vector<int> choice, int styles, bool style_input,
              BatchSettings settings);
 

@@ -40,7 +40,8 @@ Result<void> load_checkpoint(const std::string& path, uint64_t fingerprint, Netw
   }
   if (saved.size() != 6 || saved[5].item<int64_t>() != static_cast<int64_t>(fingerprint) ||
       !network.restore({saved.begin(), saved.begin() + 4})) {
-    return Error{file + ": was begun with other data or settings; delete it to train from the start"};
+    return Error{file +
+                 ": was begun with other data or settings; delete it to train from the start"};
   }
   const auto rows = saved[4].accessor<double, 2>();
   for (int64_t i = 0; i < rows.size(0); ++i) {

@@ -89,9 +89,8 @@ Result<float> export_error(const TensorFile& model, const SampleSet& set, const 
     const torch::Tensor contact = torch::sigmoid(expected(2));
     const std::vector<float>& scale = model.tensors.at("output.scale").values;
     for (int o = 0; o < set.outputs(); ++o) {
-      const float mean = (*read)->recipe() == Recipe::smith2019
-                             ? model.tensors.at("output.mean").values[o]
-                             : 0.0f;
+      const float mean =
+          (*read)->recipe() == Recipe::smith2019 ? model.tensors.at("output.mean").values[o] : 0.0f;
       const float ours = (exported.pose()[o] - mean) / scale[o];
       largest = std::max(largest, std::abs(ours - pose.data_ptr<float>()[o]));
     }

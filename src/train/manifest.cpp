@@ -10,8 +10,7 @@
 namespace panache {
 
 Result<std::vector<ManifestRow>> read_manifest(const std::string& path, int set) {
-  Result<CsvTable> table =
-      read_csv(path, {"path", "style", "content", "take", "neutral", "split"});
+  Result<CsvTable> table = read_csv(path, {"path", "style", "content", "take", "neutral", "split"});
   if (!table) return table.error();
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   std::vector<ManifestRow> rows;

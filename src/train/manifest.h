@@ -14,8 +14,8 @@ struct ManifestRow {
   std::string content;  // "walk", "raise-left-hand", ...
   std::string take;
   bool neutral = false;
-  bool test = false;    // Held out: no model may be trained on it.
-  int set = 0;          // Which manifest it came from: styles are compared with their own neutral.
+  bool test = false;  // Held out: no model may be trained on it.
+  int set = 0;        // Which manifest it came from: styles are compared with their own neutral.
 };
 
 // The styles to learn, in the order of the model, and what the manifests call them.
@@ -25,15 +25,16 @@ struct StyleName {
   std::string description;
 };
 
-// Reads a CSV with the columns path, style, content, take, neutral, split, in any order. `set` marks
-// its rows.
+// Reads a CSV with the columns path, style, content, take, neutral, split, in any order. `set`
+// marks its rows.
 Result<std::vector<ManifestRow>> read_manifest(const std::string& path, int set);
 
 // Reads a CSV with the columns name, from, description; several `from` are divided by blanks.
 Result<std::vector<StyleName>> read_style_names(const std::string& path);
 
-// Renames the styles of `rows`; rows of styles that `names` does not list are dropped. With no names
-// given, `names` becomes all styles of the rows, in order of the alphabet, called what they are.
+// Renames the styles of `rows`; rows of styles that `names` does not list are dropped. With no
+// names given, `names` becomes all styles of the rows, in order of the alphabet, called what they
+// are.
 Result<void> apply_style_names(std::vector<StyleName>& names, std::vector<ManifestRow>& rows);
 
 }  // namespace panache

@@ -107,7 +107,8 @@ torch::Tensor NetworkTrainer::forward(const torch::Tensor& x,
 
 float NetworkTrainer::learning_rate() const {
   if (!settings_.one_cycle) return settings_.learning_rate;
-  const double share = static_cast<double>(step_) / static_cast<double>(std::max<int64_t>(steps_, 1));
+  const double share =
+      static_cast<double>(step_) / static_cast<double>(std::max<int64_t>(steps_, 1));
   const double factor = share < kWarmUp ? cosine(kFirst, 1, share / kWarmUp)
                                         : cosine(1, kLast, (share - kWarmUp) / (1 - kWarmUp));
   return settings_.learning_rate * static_cast<float>(factor);

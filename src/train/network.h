@@ -14,23 +14,23 @@ namespace panache {
 
 // How one network is built.
 struct NetworkShape {
-  std::string name;    // "pose", "timing", "contact": the prefix of its tensors in the model file.
+  std::string name;  // "pose", "timing", "contact": the prefix of its tensors in the model file.
   int inputs = 0;
-  int hidden = 0;      // Units of each hidden layer.
+  int hidden = 0;  // Units of each hidden layer.
   int layers = 3;
   int outputs = 0;
   int heads = 1;
-  bool base = false;   // Head 0 is added to every other.
-  bool half = false;   // Heads are stored as 16-bit floats.
+  bool base = false;  // Head 0 is added to every other.
+  bool half = false;  // Heads are stored as 16-bit floats.
 };
 
 // How it learns.
 struct OptimizerSettings {
   float learning_rate = 0.01f;
-  float epsilon = 1e-8f;       // Added to the root of the mean square in Adam.
-  bool one_cycle = false;      // Rises to the learning rate, then falls to nothing (Smith 2018).
-  float weight_decay = 0;      // Decoupled (AdamW, Loshchilov and Hutter 2019); biases have none.
-  float dropout = 0;           // Share of hidden units left out.
+  float epsilon = 1e-8f;   // Added to the root of the mean square in Adam.
+  bool one_cycle = false;  // Rises to the learning rate, then falls to nothing (Smith 2018).
+  float weight_decay = 0;  // Decoupled (AdamW, Loshchilov and Hutter 2019); biases have none.
+  float dropout = 0;       // Share of hidden units left out.
 };
 
 class NetworkTrainer {
@@ -38,9 +38,9 @@ class NetworkTrainer {
   NetworkTrainer(const NetworkShape& shape, const OptimizerSettings& settings, int64_t steps,
                  uint64_t seed);
 
-  // Output of rows grouped by head: the first group_sizes[0] rows of `x` go through head 0 (or, with a
-  // base, head 1 plus the base), and so on. x[rows][inputs] -> [rows][outputs]. Units are dropped
-  // where `random` is given.
+  // Output of rows grouped by head: the first group_sizes[0] rows of `x` go through head 0 (or,
+  // with a base, head 1 plus the base), and so on. x[rows][inputs] -> [rows][outputs]. Units are
+  // dropped where `random` is given.
   torch::Tensor forward(const torch::Tensor& x, const std::vector<int64_t>& group_sizes,
                         Random* random) const;
 

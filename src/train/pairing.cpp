@@ -14,11 +14,12 @@
 namespace panache {
 namespace {
 
-constexpr std::array kKeyJoints = {
-    HumanJoint::chest,          HumanJoint::head,           HumanJoint::left_lower_arm,
-    HumanJoint::left_hand,      HumanJoint::right_lower_arm, HumanJoint::right_hand,
-    HumanJoint::left_lower_leg, HumanJoint::left_foot,      HumanJoint::left_toes,
-    HumanJoint::right_lower_leg, HumanJoint::right_foot,    HumanJoint::right_toes};
+constexpr std::array kKeyJoints = {HumanJoint::chest,           HumanJoint::head,
+                                   HumanJoint::left_lower_arm,  HumanJoint::left_hand,
+                                   HumanJoint::right_lower_arm, HumanJoint::right_hand,
+                                   HumanJoint::left_lower_leg,  HumanJoint::left_foot,
+                                   HumanJoint::left_toes,       HumanJoint::right_lower_leg,
+                                   HumanJoint::right_foot,      HumanJoint::right_toes};
 constexpr int kNumbers = 6 * static_cast<int>(kKeyJoints.size()) + 1;
 
 // Per styled frame the neutral side advances 0 to 3 frames; each costs this much of the distance.
@@ -26,8 +27,8 @@ constexpr float kPenalty[4] = {1.15f, 1.0f, 1.1f, 1.3f};
 constexpr int kSmoothFrames = 7;
 constexpr float kFar = 1e30f;
 
-// Features of a take for the comparison: positions and velocities of the key joints in the body frame,
-// and the height of the hips. [frames][kNumbers]
+// Features of a take for the comparison: positions and velocities of the key joints in the body
+// frame, and the height of the hips. [frames][kNumbers]
 std::vector<float> comparison_numbers(const Take& take) {
   const int frames = take.frames();
   std::vector<float> numbers;
@@ -37,7 +38,8 @@ std::vector<float> comparison_numbers(const Take& take) {
     for (const HumanJoint joint : kKeyJoints) {
       const int j = index(joint);
       const Vec3 p = take.body[f][j];
-      const Vec3 v = b > a ? (take.body[b][j] - take.body[a][j]) / static_cast<float>(b - a) : Vec3{};
+      const Vec3 v =
+          b > a ? (take.body[b][j] - take.body[a][j]) / static_cast<float>(b - a) : Vec3{};
       for (const float n : {p.x, p.y, p.z, v.x, v.y, v.z}) numbers.push_back(n);
     }
     numbers.push_back(take.body[f][0].y);
@@ -78,7 +80,8 @@ Group make_group(const std::vector<Take>& takes, std::vector<int> members) {
 // The neutral side of the warping: which frames may follow which.
 struct Track {
   int frames = 0;
-  std::vector<float> barrier[4];  // barrier[k][j]: 0 where frame j - k is of the same take, else far.
+  std::vector<float>
+      barrier[4];  // barrier[k][j]: 0 where frame j - k is of the same take, else far.
 };
 
 Track make_track(const Group& group) {
@@ -94,8 +97,9 @@ Track make_track(const Group& group) {
   return track;
 }
 
-// Warps `rows` styled frames, whose distances to all neutral frames are distance[rows][track.frames].
-// Returns the neutral frame of each and the mean cost; no path where every neutral take is too short.
+// Warps `rows` styled frames, whose distances to all neutral frames are
+// distance[rows][track.frames]. Returns the neutral frame of each and the mean cost; no path where
+// every neutral take is too short.
 struct Warp {
   std::vector<int> path;
   float cost = 0;
@@ -141,7 +145,8 @@ Warp warp(const float* distance, int rows, const Track& track, std::vector<float
   return result;
 }
 
-// Moving average that keeps the ends' slope: beyond an end the path is continued point-symmetrically.
+// Moving average that keeps the ends' slope: beyond an end the path is continued
+// point-symmetrically.
 std::vector<float> smooth_path(const std::vector<int>& path, int offset) {
   const int n = static_cast<int>(path.size()), half = std::min(kSmoothFrames / 2, n - 1);
   const auto at = [&](int i) {
@@ -185,13 +190,13 @@ std::vector<Pairing> pair_take(const Group& styled, int which, const Group& neut
   std::vector<int8_t> steps;
   for (int first = 0;; first += hop) {
     first = std::min(first, frames - window);
-    const Warp warped =
-        warp(distance.data_ptr<float>() + size_t(first) * track.frames, window, track, before, after,
-             steps);
+    const Warp warped = warp(distance.data_ptr<float>() + size_t(first) * track.frames, window,
+                             track, before, after, steps);
     if (warped.path.empty()) return pairings;
     const int take = static_cast<int>(std::upper_bound(neutral.begin.begin(), neutral.begin.end(),
                                                        warped.path.front()) -
-                                      neutral.begin.begin()) - 1;
+                                      neutral.begin.begin()) -
+                     1;
     Pairing pairing;
     pairing.styled = styled.takes[which];
     pairing.neutral = neutral.takes[take];

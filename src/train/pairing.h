@@ -1,7 +1,7 @@
 #pragma once
-// Which neutral instant each styled instant corresponds to. Styled and neutral takes are not recorded
-// in step: each window of a styled take is laid over the neutral takes of the same action by
-// subsequence dynamic time warping, start and end free on the neutral side.
+// Which neutral instant each styled instant corresponds to. Styled and neutral takes are not
+// recorded in step: each window of a styled take is laid over the neutral takes of the same action
+// by subsequence dynamic time warping, start and end free on the neutral side.
 
 #include <functional>
 #include <vector>
@@ -24,9 +24,9 @@ struct PairingOptions {
   double hop_seconds = 0.5;
 };
 
-// Pairs the styled takes among `styled` with the neutral takes among `neutral` (indices into `takes`)
-// of the same set and content. Contents without a neutral take are left out. Over all cores;
-// `progress` gets the share done.
+// Pairs the styled takes among `styled` with the neutral takes among `neutral` (indices into
+// `takes`) of the same set and content. Contents without a neutral take are left out. Over all
+// cores; `progress` gets the share done.
 std::vector<Pairing> pair_takes(const std::vector<Take>& takes, const std::vector<int>& styled,
                                 const std::vector<int>& neutral, const PairingOptions& options = {},
                                 const std::function<void(double)>& progress = {});

@@ -59,8 +59,9 @@ void mirror_pose(PoseLayout layout, float* pose) {
 }
 
 // The hips' x and z are constant in the body frame, and others nearly so: divided by their true
-// deviation, any disturbance would explode. So 3 cm (0.1 m/s, 0.2 rad/s) are mixed in. Rotations are
-// normalised as they are, but for those that hardly move: 0.02 of a matrix entry is about a degree.
+// deviation, any disturbance would explode. So 3 cm (0.1 m/s, 0.2 rad/s) are mixed in. Rotations
+// are normalised as they are, but for those that hardly move: 0.02 of a matrix entry is about a
+// degree.
 float floored_deviation(PoseLayout layout, int number, double variance) {
   double floor = 0.02;
   if (layout == PoseLayout::positions) floor = number < 63 ? 0.03 : number < 65 ? 0.1 : 0.2;
@@ -123,8 +124,7 @@ SampleSet::SampleSet(const std::vector<Take>& takes, const std::vector<Pairing>&
   std::vector<int> neutral_takes;
   for (const Pairing& pairing : pairings) neutral_takes.push_back(pairing.neutral);
   std::sort(neutral_takes.begin(), neutral_takes.end());
-  neutral_takes.erase(std::unique(neutral_takes.begin(), neutral_takes.end()),
-                      neutral_takes.end());
+  neutral_takes.erase(std::unique(neutral_takes.begin(), neutral_takes.end()), neutral_takes.end());
   if (with_neutral) {
     for (const int t : neutral_takes) add_neutral(t);
   }
@@ -259,7 +259,8 @@ void SampleSet::disturb(const Disturbed& draw, const Disturbance& how, Random& r
       float* p = pose + 3 * j;
       const float x = p[0] * draw.scale, z = p[2] * draw.scale;
       p[0] = draw.cos * x + draw.sin * z + draw.posture[3 * j] + how.jitter * random.normal();
-      p[1] = p[1] * draw.scale + draw.floor + draw.posture[3 * j + 1] + how.jitter * random.normal();
+      p[1] =
+          p[1] * draw.scale + draw.floor + draw.posture[3 * j + 1] + how.jitter * random.normal();
       p[2] = draw.cos * z - draw.sin * x + draw.posture[3 * j + 2] + how.jitter * random.normal();
     }
     float* v = pose + 3 * kHumanJoints;

@@ -24,14 +24,15 @@ struct Sample {
   bool has_next = false;              // The next sample is the next frame of the same window.
 };
 
-// How a window is disturbed in training, so that the networks hold on bodies and captures they never
-// saw. Each a standard deviation; all but the jitter are the same for the six poses of a window.
+// How a window is disturbed in training, so that the networks hold on bodies and captures they
+// never saw. Each a standard deviation; all but the jitter are the same for the six poses of a
+// window.
 struct Disturbance {
-  float scale = 0.08f;    // Of body size.
-  float floor = 0.015f;   // Height of the floor, metres.
-  float heading = 0.12f;  // Radians.
-  float posture = 0.3f;   // Constant offset of each number, in deviations.
-  float jitter = 0.007f;  // Per pose and joint, metres.
+  float scale = 0.08f;      // Of body size.
+  float floor = 0.015f;     // Height of the floor, metres.
+  float heading = 0.12f;    // Radians.
+  float posture = 0.3f;     // Constant offset of each number, in deviations.
+  float jitter = 0.007f;    // Per pose and joint, metres.
   float velocity = 0.03f;   // Per pose, m/s.
   float turn_rate = 0.27f;  // Per pose, rad/s.
 };
@@ -44,8 +45,8 @@ struct Disturbed {
 
 class SampleSet {
  public:
-  // Samples of the pairings, and of the neutral takes themselves where `with_neutral`. `styles`: names
-  // in the order of the model.
+  // Samples of the pairings, and of the neutral takes themselves where `with_neutral`. `styles`:
+  // names in the order of the model.
   SampleSet(const std::vector<Take>& takes, const std::vector<Pairing>& pairings,
             const std::vector<std::string>& styles, Recipe recipe, bool with_neutral);
 

@@ -18,13 +18,13 @@ inline constexpr double kTakeRate = 30;  // Frames a second of all takes, whatev
 
 struct Take {
   ManifestRow row;
-  std::vector<HumanPositions> body;                     // [frames], body frame, metres
-  std::vector<Ground> ground;                           // [frames], facing unwrapped
-  std::vector<std::array<Quat, kHumanJoints>> turned;   // [frames], world rotations in the heading
-                                                        // frame; only changes between takes of one
-                                                        // rig mean anything
-  std::vector<FootContacts> contacts;                   // [frames]
-  std::vector<float> numbers;                           // [frames][pose_numbers(layout)]
+  std::vector<HumanPositions> body;                    // [frames], body frame, metres
+  std::vector<Ground> ground;                          // [frames], facing unwrapped
+  std::vector<std::array<Quat, kHumanJoints>> turned;  // [frames], world rotations in the heading
+                                                       // frame; only changes between takes of one
+                                                       // rig mean anything
+  std::vector<FootContacts> contacts;                  // [frames]
+  std::vector<float> numbers;                          // [frames][pose_numbers(layout)]
 
   int frames() const { return static_cast<int>(body.size()); }
 };
@@ -32,8 +32,8 @@ struct Take {
 // Reads one take.
 Result<Take> load_take(const ManifestRow& row, PoseLayout layout);
 
-// Reads all takes over all cores; `progress` gets the number done. Fails with the sentence of the first
-// file, in order of the rows, that cannot be read.
+// Reads all takes over all cores; `progress` gets the number done. Fails with the sentence of the
+// first file, in order of the rows, that cannot be read.
 Result<std::vector<Take>> load_takes(const std::vector<ManifestRow>& rows, PoseLayout layout,
                                      const std::function<void(int)>& progress = {});
 

@@ -60,8 +60,8 @@ void measure_targets(const SampleSet& set, const std::vector<int>& choice, Batch
   }
 }
 
-// A twentieth of the styled takes is kept for validation. Whole takes: neighbouring frames are nearly
-// copies of each other.
+// A twentieth of the styled takes is kept for validation. Whole takes: neighbouring frames are
+// nearly copies of each other.
 bool is_validation_take(const std::string& path) {
   uint32_t hash = 2166136261u;  // FNV-1a of the file's name.
   for (const char c : path.substr(path.find_last_of('/') + 1)) {
@@ -74,7 +74,8 @@ bool is_validation_take(const std::string& path) {
 uint64_t fingerprint(const TrainOptions& options, const RecipeSettings& settings, size_t samples) {
   return Random(options.seed * 2654435761u + static_cast<uint64_t>(settings.steps) * 40503u +
                 samples * 9176u + (options.recipe == Recipe::panache))
-             .bits() >> 1;
+             .bits() >>
+         1;
 }
 
 // Networks that share their batches, trained one step after the other on one thread.
@@ -115,9 +116,8 @@ class Training {
     std::vector<std::thread> threads;
     for (Job& job : jobs) threads.emplace_back([this, &job, &losses] { run_job(job, losses); });
     for (std::thread& thread : threads) thread.join();
-    std::stable_sort(losses.begin(), losses.end(), [](const LossPoint& a, const LossPoint& b) {
-      return a.network < b.network;
-    });
+    std::stable_sort(losses.begin(), losses.end(),
+                     [](const LossPoint& a, const LossPoint& b) { return a.network < b.network; });
   }
 
  private:
@@ -131,8 +131,7 @@ class Training {
       for (size_t n = 0; n < job.networks.size(); ++n) {
         NetworkTrainer& network = *job.networks[n];
         const torch::Tensor out = network.forward(batch.inputs, batch.group_sizes, &random);
-        const torch::Tensor loss =
-            loss_of(network.shape().name, out, batch, settings_.smoothness);
+        const torch::Tensor loss = loss_of(network.shape().name, out, batch, settings_.smoothness);
         sums[n] += loss.item<float>();
         network.learn(loss);
       }
@@ -216,9 +215,8 @@ std::vector<int> pick_validation(const SampleSet& set, const std::vector<int>& s
   for (size_t i = 0; i < samples.size(); i += stride) {
     if (set.samples()[samples[i]].style >= 0) picked.push_back(samples[i]);
   }
-  std::stable_sort(picked.begin(), picked.end(), [&](int a, int b) {
-    return set.samples()[a].style < set.samples()[b].style;
-  });
+  std::stable_sort(picked.begin(), picked.end(),
+                   [&](int a, int b) { return set.samples()[a].style < set.samples()[b].style; });
   groups.assign(styles, 0);
   for (const int i : picked) ++groups[set.samples()[i].style];
   return picked;
@@ -235,7 +233,8 @@ RecipeSettings recipe_settings(Recipe recipe) {
     settings.batch.size = 64;
     settings.optimizer.learning_rate = 0.01f;
     // The slides do not tell Adam's epsilon. With the usual 1e-8 this learning rate makes all three
-    // networks collapse to the mean within 2,000 steps, whatever the activation; with 0.01 they learn.
+    // networks collapse to the mean within 2,000 steps, whatever the activation; with 0.01 they
+    // learn.
     settings.optimizer.epsilon = 0.01f;
     return settings;
   }
@@ -278,8 +277,8 @@ Result<TrainingData> prepare_training(const std::vector<ManifestRow>& rows, Pose
   if (styled.empty()) return Error{"no styled take to learn from; expected rows with neutral 0"};
   const Clock::time_point paired = Clock::now();
   Progress progress("pairing");
-  data.pairings = pair_takes(data.takes, styled, neutral, {},
-                             [&](double share) { progress.update(share); });
+  data.pairings =
+      pair_takes(data.takes, styled, neutral, {}, [&](double share) { progress.update(share); });
   data.pair_seconds = seconds_since(paired);
   if (data.pairings.empty()) {
     return Error{"no styled take has a neutral take of the same content in its manifest"};
@@ -326,8 +325,8 @@ Result<Trained> train(const std::vector<ManifestRow>& rows, const std::vector<St
   if (!options.checkpoint.empty()) {
     for (NetworkTrainer& network : networks) {
       Result<void> loaded =
-          load_checkpoint(options.checkpoint, fingerprint(options, settings, choice.size()), network,
-                          trained.losses);
+          load_checkpoint(options.checkpoint, fingerprint(options, settings, choice.size()),
+                          network, trained.losses);
       if (!loaded) return loaded.error();
     }
   }

@@ -27,10 +27,10 @@ RecipeSettings recipe_settings(Recipe recipe);
 
 struct TrainOptions {
   Recipe recipe = Recipe::panache;
-  std::optional<int64_t> steps;   // Instead of the recipe's own.
+  std::optional<int64_t> steps;  // Instead of the recipe's own.
   uint64_t seed = 1;
-  std::string data, licence;      // What the data is and its terms, for the model's metadata.
-  std::string checkpoint;         // File to resume from and to save to now and then; empty: none.
+  std::string data, licence;  // What the data is and its terms, for the model's metadata.
+  std::string checkpoint;     // File to resume from and to save to now and then; empty: none.
 };
 
 // One line of the loss table.
@@ -46,7 +46,8 @@ struct Trained {
   std::vector<LossPoint> losses;
   size_t samples = 0;
   double read_seconds = 0, pair_seconds = 0, train_seconds = 0;
-  float export_error = 0;  // Largest difference between the exported model's outputs and libtorch's.
+  float export_error =
+      0;  // Largest difference between the exported model's outputs and libtorch's.
 };
 
 // Takes of the training split, read and paired: what both recipes learn from.

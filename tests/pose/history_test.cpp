@@ -48,7 +48,8 @@ TEST(History, every_rate_shows_the_same_window) {
     for (size_t i = 0; i < window.size(); ++i) {
       // Straight lines between frames miss a curve of acceleration a by a dt^2 / 8: here 0.4 mm at
       // 24 fps in positions, and twice that over 0.05 s in velocities.
-      EXPECT_NEAR(window[i], reference[i], i % 66 < 63 ? 5e-4 : 2e-2) << fps << " fps, number " << i;
+      EXPECT_NEAR(window[i], reference[i], i % 66 < 63 ? 5e-4 : 2e-2)
+          << fps << " fps, number " << i;
     }
   }
 }

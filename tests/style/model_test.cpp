@@ -61,8 +61,9 @@ TEST(Model, an_unknown_style_gets_the_nearest_names) {
   const auto model = *Model::parse(
       format_safetensors(test::make_model({"angry", "old", "proud", "sad"})), "m.safetensors");
   EXPECT_EQ(*model->find_style("proud"), 2);
-  EXPECT_EQ(model->find_style("prod").error().message,
-            "unknown style 'prod'; the nearest are proud, old and sad (panache styles lists all 4)");
+  EXPECT_EQ(
+      model->find_style("prod").error().message,
+      "unknown style 'prod'; the nearest are proud, old and sad (panache styles lists all 4)");
 }
 
 TEST(Networks, strength_acts_linearly_and_styles_add_up) {

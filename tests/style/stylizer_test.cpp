@@ -109,13 +109,26 @@ TEST_F(StylizerTest, garbage_in_gives_finite_poses_out) {
       const Pose pose = in.pose(f);
       const size_t j = random.below(static_cast<uint32_t>(in.joints()));
       switch (f % 8) {
-        case 0: pose.rotations[j] = {nan, 0, 0, 1}; break;
-        case 1: pose.translations[0] = {infinity, 0, 0}; break;
-        case 2: pose.translations[0] = {0, 0, 1e8f}; break;   // A teleport.
-        case 3: pose.rotations[j] = {0, 0, 0, 0}; break;
-        case 4: pose.translations[j] = {nan, nan, nan}; break;
-        case 5: pose.rotations[0] = {1e30f, 0, 0, 0}; break;
-        default: break;
+        case 0:
+          pose.rotations[j] = {nan, 0, 0, 1};
+          break;
+        case 1:
+          pose.translations[0] = {infinity, 0, 0};
+          break;
+        case 2:
+          pose.translations[0] = {0, 0, 1e8f};
+          break;  // A teleport.
+        case 3:
+          pose.rotations[j] = {0, 0, 0, 0};
+          break;
+        case 4:
+          pose.translations[j] = {nan, nan, nan};
+          break;
+        case 5:
+          pose.rotations[0] = {1e30f, 0, 0, 0};
+          break;
+        default:
+          break;
       }
       const double seconds[] = {0, 1e9, -1, 1e-9, 1 / 30.0, nan, infinity};
       const float strengths[] = {f % 3 ? 1.5f : nan, f % 5 ? 0.5f : infinity};
@@ -169,8 +182,8 @@ TEST(Stylizer, every_rate_looks_alike) {
     seen.push_back(out.pose(out.frames - 1).rotations[0]);
   }
   for (const Quat q : seen) {
-    // The filter of 40 ms lags by half a frame more at 30 fps than at 120; the random style moves by
-    // up to 1 rad/s.
+    // The filter of 40 ms lags by half a frame more at 30 fps than at 120; the random style moves
+    // by up to 1 rad/s.
     EXPECT_LT(length(log_rotation(conjugate(seen.back()) * q)), 0.03f);
   }
 }

@@ -23,10 +23,10 @@ class ManifestTest : public testing::Test {
 constexpr const char* kHeader = "path,style,content,take,neutral,split\n";
 
 TEST_F(ManifestTest, rows_are_read_in_any_order_of_columns) {
-  const auto rows = read_manifest(
-      put("split,neutral,path,style,content,take\r\ntest,0,a/b.bvh,old,walk,001\r\n"
-          "train,1,/c.bvh,normal,walk,002\r\n"),
-      3);
+  const auto rows =
+      read_manifest(put("split,neutral,path,style,content,take\r\ntest,0,a/b.bvh,old,walk,001\r\n"
+                        "train,1,/c.bvh,normal,walk,002\r\n"),
+                    3);
   ASSERT_TRUE(rows.ok()) << rows.error().message;
   EXPECT_EQ((*rows)[0].path, testing::TempDir() + "a/b.bvh");
   EXPECT_TRUE((*rows)[0].test);
@@ -43,14 +43,12 @@ TEST_F(ManifestTest, a_wrong_table_is_explained_with_its_line) {
                 .error()
                 .message,
             path_ + ":3: has 2 cells; expected 6 as in the first line");
-  EXPECT_EQ(read_manifest(put(std::string(kHeader) + "a.bvh,old,walk,001,no,train\n"), 0)
-                .error()
-                .message,
-            path_ + ":2: column neutral is 'no'; expected 0 or 1");
-  EXPECT_EQ(read_manifest(put(std::string(kHeader) + "a.bvh,old,walk,001,0,dev\n"), 0)
-                .error()
-                .message,
-            path_ + ":2: column split is 'dev'; expected train or test");
+  EXPECT_EQ(
+      read_manifest(put(std::string(kHeader) + "a.bvh,old,walk,001,no,train\n"), 0).error().message,
+      path_ + ":2: column neutral is 'no'; expected 0 or 1");
+  EXPECT_EQ(
+      read_manifest(put(std::string(kHeader) + "a.bvh,old,walk,001,0,dev\n"), 0).error().message,
+      path_ + ":2: column split is 'dev'; expected train or test");
   EXPECT_EQ(read_manifest(put(kHeader), 0).error().message, path_ + ": lists no takes");
 }
 

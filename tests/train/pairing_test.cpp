@@ -21,8 +21,8 @@ TEST(Pairing, a_faster_styled_take_finds_its_phase_and_its_rate) {
     double mean_rate = 0;
     for (int i = 4; i < frames - 4; ++i) {
       const float styled_phase = 1.7f + kRate * 0.2f * static_cast<float>(p.first + i);
-      const float off = std::remainder(0.2f * p.neutral_frames[i] - styled_phase,
-                                       2 * std::numbers::pi_v<float>);
+      const float off =
+          std::remainder(0.2f * p.neutral_frames[i] - styled_phase, 2 * std::numbers::pi_v<float>);
       // A neutral frame is 0.2 rad of phase, and the path is made of whole frames before smoothing.
       EXPECT_LT(std::abs(off), 0.2f) << "window at " << p.first << ", frame " << i;
       mean_rate += p.rates[i] / (frames - 8);

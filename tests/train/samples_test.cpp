@@ -61,8 +61,8 @@ TEST_P(SamplesTest, every_sample_has_its_style_rate_and_contacts) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, SamplesTest, testing::Values(Recipe::panache, Recipe::smith2019),
-                         [](const auto& info) {
-                           return info.param == Recipe::panache ? "panache" : "smith2019";
+                         [](const auto& tested) {
+                           return tested.param == Recipe::panache ? "panache" : "smith2019";
                          });
 
 TEST(Samples, a_change_put_on_the_neutral_rotations_gives_the_styled_ones) {
@@ -87,8 +87,8 @@ TEST(Samples, an_absolute_pose_is_the_change_that_made_it) {
     absolute.window(i, window);
     const Sample& sample = absolute.samples()[i];
     const std::span<const float> root(&window[127], kRootNumbers);
-    const ChangeNumbers back = change_to_pose(
-        absolute.target(i), body_at(takes[0], sample.frame), root.first<kRootNumbers>());
+    const ChangeNumbers back = change_to_pose(absolute.target(i), body_at(takes[0], sample.frame),
+                                              root.first<kRootNumbers>());
     for (int n = 0; n < kChangeNumbers; ++n) {
       EXPECT_NEAR(back[n], changes.target(i)[n], 2e-3) << "number " << n;
     }

@@ -73,8 +73,9 @@ TEST_F(TrainerTest, interrupted_training_goes_on_as_if_it_had_not_been) {
   const auto refused = train(rows_, styles_, stranger);
   ASSERT_FALSE(refused.ok());
   EXPECT_EQ(refused.error().message,
-            folder_ + "model.safetensors.pose.checkpoint: was begun with other data or settings; "
-                      "delete it to train from the start");
+            folder_ +
+                "model.safetensors.pose.checkpoint: was begun with other data or settings; "
+                "delete it to train from the start");
   remove_checkpoints(with_checkpoints.checkpoint);
   EXPECT_FALSE(std::filesystem::exists(with_checkpoints.checkpoint + ".pose.checkpoint"));
 }

@@ -1,0 +1,79 @@
+// The models that the repository ships, on a walk made by a formula.
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "make_clip.h"
+#include "style/restyle.h"
+
+namespace panache {
+namespace {
+
+const std::string kModels = PANACHE_SOURCE_DIR "/models/";
+
+std::shared_ptr<const Model> shipped(const std::string& file) {
+  const auto model = Model::load(kModels + file);
+  EXPECT_TRUE(model.ok()) << model.error().message;
+  return *model;
+}
+
+// Mean height and forward place of the head, relative to the hips.
+Vec3 mean_head(const Clip& clip) {
+  Rig rig = *Rig::create(clip);
+  BodyPose body;
+  Vec3 sum;
+  for (int f = 0; f < clip.frames; ++f) {
+    rig.read(clip.pose(f), body);
+    sum += rotate(rotation_y(-body.facing),
+                  body.joints[index(HumanJoint::head)] - body.joints[index(HumanJoint::hips)]);
+  }
+  return sum / static_cast<float>(clip.frames);
+}
+
+TEST(ShippedModels, the_default_is_smaller_than_the_papers) {
+  EXPECT_LT(std::filesystem::file_size(kModels + "panache.safetensors"), 931000u);
+}
+
+TEST(ShippedModels, both_name_their_data_and_its_licence) {
+  for (const char* file : {"panache.safetensors", "smith2019.safetensors"}) {
+    const auto model = shipped(file);
+    EXPECT_EQ(model->metadata().at("licence"), "CC BY-NC 4.0");
+    EXPECT_NE(model->metadata().at("data").find("Bandai"), std::string::npos);
+    for (const StyleInfo& style : model->styles()) EXPECT_FALSE(style.description.empty());
+  }
+}
+
+TEST(ShippedModels, an_old_walk_is_bent_forward_and_ours_twice_as_old_more_so) {
+  const Clip walk = test::walking_clip(180);
+  for (const char* file : {"panache.safetensors", "smith2019.safetensors"}) {
+    const auto model = shipped(file);
+    const int old = *model->find_style("old");
+    const auto head = [&](float strength) {
+      return mean_head(restyle(walk, *Rig::create(walk), model, {{old, {{0, strength}}}})->clip);
+    };
+    EXPECT_GT(head(1).z, head(0).z + 0.05f) << file;
+    if (model->recipe() == Recipe::panache) EXPECT_GT(head(2).z, head(1).z + 0.03f);
+  }
+}
+
+TEST(ShippedModels, every_style_keeps_the_feet_on_the_ground_and_the_body_whole) {
+  const Clip walk = test::walking_clip(180);
+  const auto model = shipped("panache.safetensors");
+  for (size_t s = 0; s < model->styles().size(); ++s) {
+    const auto styled =
+        restyle(walk, *Rig::create(walk), model, {{static_cast<int>(s), {{0, 1.5f}}}});
+    Rig rig = *Rig::create(walk);
+    BodyPose body;
+    for (int f = 0; f < styled->clip.frames; ++f) {
+      rig.read(styled->clip.pose(f), body);
+      for (const HumanJoint toe : kToes) {
+        ASSERT_GT(body.joints[index(toe)].y, -0.02f) << model->styles()[s].name << ", frame " << f;
+      }
+      ASSERT_GT(body.joints[index(HumanJoint::head)].y, 0.9f) << model->styles()[s].name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace panache
