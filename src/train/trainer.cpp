@@ -82,6 +82,14 @@ uint64_t fingerprint(const TrainOptions& options, const RecipeSettings& settings
 struct Job {
   std::vector<NetworkTrainer*> networks;
   uint64_t seed;
+
+  // Where to go on. Training may have been interrupted between the checkpoints of two networks: the
+  // one ahead waits for the other.
+  int64_t step() const {
+    int64_t first = networks.front()->step();
+    for (const NetworkTrainer* network : networks) first = std::min(first, network->step());
+    return first;
+  }
 };
 
 torch::Tensor loss_of(const std::string& network, const torch::Tensor& out, const Batch& batch,
@@ -102,17 +110,19 @@ torch::Tensor loss_of(const std::string& network, const torch::Tensor& out, cons
 
 class Training {
  public:
+  // `validation`: samples in order of their style; `groups`: how many of them each style has.
   Training(const RecipeSettings& settings, const BatchMaker& batches, std::vector<int> validation,
-           const TrainOptions& options)
+           std::vector<int64_t> groups, const TrainOptions& options)
       : settings_(settings),
         batches_(batches),
         validation_(std::move(validation)),
+        validation_groups_(std::move(groups)),
         options_(options),
         progress_("training") {}
 
   void run(std::vector<Job> jobs, std::vector<LossPoint>& losses) {
     total_ = settings_.steps * static_cast<int64_t>(jobs.size());
-    for (const Job& job : jobs) done_ += job.networks.front()->step();
+    for (const Job& job : jobs) done_ += job.step();
     std::vector<std::thread> threads;
     for (Job& job : jobs) threads.emplace_back([this, &job, &losses] { run_job(job, losses); });
     for (std::thread& thread : threads) thread.join();
@@ -123,14 +133,15 @@ class Training {
  private:
   void run_job(Job& job, std::vector<LossPoint>& losses) {
     const int64_t report = std::max<int64_t>(1, settings_.steps / 50);
-    const int64_t keep = std::max<int64_t>(1, settings_.steps / 20);
+    const int64_t keep = 5 * report;
     std::vector<double> sums(job.networks.size());
-    for (int64_t step = job.networks.front()->step(); step < settings_.steps; ++step) {
+    for (int64_t step = job.step(); step < settings_.steps; ++step) {
       Random random(options_.seed * 1000003 + job.seed * 7919 + static_cast<uint64_t>(step) * 2);
       const Batch batch = batches_.make(random);
       for (size_t n = 0; n < job.networks.size(); ++n) {
         NetworkTrainer& network = *job.networks[n];
         const torch::Tensor out = network.forward(batch.inputs, batch.group_sizes, &random);
+        if (network.step() > step) continue;  // Its units were drawn, so the others' are as ever.
         const torch::Tensor loss = loss_of(network.shape().name, out, batch, settings_.smoothness);
         sums[n] += loss.item<float>();
         network.learn(loss);
@@ -146,6 +157,15 @@ class Training {
         }
       }
     }
+  }
+
+  // Whether a checkpoint brought this line of the table along.
+  bool is_reported(const NetworkTrainer& network, int64_t step,
+                   const std::vector<LossPoint>& losses) {
+    const std::lock_guard lock(mutex_);
+    return std::any_of(losses.begin(), losses.end(), [&](const LossPoint& point) {
+      return point.network == network.shape().name && point.step >= step;
+    });
   }
 
   std::string status_text() {
@@ -167,6 +187,7 @@ class Training {
                      std::vector<LossPoint>& losses) {
     for (size_t n = 0; n < job.networks.size(); ++n) {
       const NetworkTrainer& network = *job.networks[n];
+      if (is_reported(network, step, losses)) continue;
       LossPoint point{network.shape().name, step,
                       static_cast<float>(sums[n] / static_cast<double>(since)),
                       validation_loss(network)};
@@ -191,10 +212,6 @@ class Training {
     return loss_of(network.shape().name, out, batch, 0).item<float>();
   }
 
- public:
-  void group_validation(std::vector<int64_t> groups) { validation_groups_ = std::move(groups); }
-
- private:
   const RecipeSettings& settings_;
   const BatchMaker& batches_;
   std::vector<int> validation_;
@@ -333,8 +350,8 @@ Result<Trained> train(const std::vector<ManifestRow>& rows, const std::vector<St
   const Clock::time_point begin = Clock::now();
   {
     std::vector<int64_t> groups;
-    Training training(settings, batches, pick_validation(set, held, count, groups), options);
-    training.group_validation(groups);
+    std::vector<int> validation = pick_validation(set, held, count, groups);
+    Training training(settings, batches, std::move(validation), std::move(groups), options);
     // The pose network costs as much as the other two together: one thread each.
     training.run({{{&networks[0]}, 1}, {{&networks[1], &networks[2]}, 2}}, trained.losses);
   }
