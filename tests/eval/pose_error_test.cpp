@@ -1,11 +1,10 @@
 #include "eval/pose_error.h"
 
-#include <filesystem>
-
 #include <gtest/gtest.h>
 
 #include "make_manifest.h"
 #include "make_model.h"
+#include "temporary_folder.h"
 
 namespace panache {
 namespace {
@@ -18,9 +17,9 @@ class PoseErrorTest : public testing::Test {
     std::vector<StyleName> styles;
     EXPECT_TRUE(apply_style_names(styles, rows_).ok());
   }
-  ~PoseErrorTest() override { std::filesystem::remove_all(folder_); }
 
-  const std::string folder_ = testing::TempDir() + "panache_pose_error_test/";
+  const test::TemporaryFolder temporary_;
+  const std::string folder_ = temporary_.path();
   std::vector<ManifestRow> rows_;
 };
 

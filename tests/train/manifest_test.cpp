@@ -1,10 +1,9 @@
 #include "train/manifest.h"
 
-#include <filesystem>
-
 #include <gtest/gtest.h>
 
 #include "base/file.h"
+#include "temporary_folder.h"
 
 namespace panache {
 namespace {
@@ -15,9 +14,9 @@ class ManifestTest : public testing::Test {
     EXPECT_TRUE(write_file(path_, text, true).ok());
     return path_;
   }
-  ~ManifestTest() override { std::filesystem::remove(path_); }
 
-  const std::string path_ = testing::TempDir() + "panache_manifest_test.csv";
+  const test::TemporaryFolder temporary_;
+  const std::string path_ = temporary_.path() + "manifest.csv";
 };
 
 constexpr const char* kHeader = "path,style,content,take,neutral,split\n";
@@ -28,7 +27,7 @@ TEST_F(ManifestTest, rows_are_read_in_any_order_of_columns) {
                         "train,1,/c.bvh,normal,walk,002\r\n"),
                     3);
   ASSERT_TRUE(rows.ok()) << rows.error().message;
-  EXPECT_EQ((*rows)[0].path, testing::TempDir() + "a/b.bvh");
+  EXPECT_EQ((*rows)[0].path, temporary_.path() + "a/b.bvh");
   EXPECT_TRUE((*rows)[0].test);
   EXPECT_EQ((*rows)[0].style, "old");
   EXPECT_EQ((*rows)[1].path, "/c.bvh");

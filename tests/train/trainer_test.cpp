@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "make_manifest.h"
+#include "temporary_folder.h"
 #include "train/checkpoint.h"
 
 namespace panache {
@@ -18,7 +19,6 @@ class TrainerTest : public testing::Test {
     rows_ = *read_manifest(folder_ + "manifest.csv", 0);
     EXPECT_TRUE(apply_style_names(styles_, rows_).ok());
   }
-  ~TrainerTest() override { std::filesystem::remove_all(folder_); }
 
   TrainOptions options(Recipe recipe, int64_t steps) const {
     TrainOptions options;
@@ -27,7 +27,8 @@ class TrainerTest : public testing::Test {
     return options;
   }
 
-  const std::string folder_ = testing::TempDir() + "panache_trainer_test/";
+  const test::TemporaryFolder temporary_;
+  const std::string folder_ = temporary_.path();
   std::vector<ManifestRow> rows_;
   std::vector<StyleName> styles_;
 };
