@@ -69,8 +69,9 @@ TEST_F(TrainerTest, interrupted_training_goes_on_as_if_it_had_not_been) {
   EXPECT_EQ(format_safetensors(uninterrupted->model), format_safetensors(resumed->model));
   EXPECT_EQ(resumed->losses.size(), uninterrupted->losses.size());
 
-  // Interrupted between the checkpoints of two networks that share their batches: the timing network
-  // is there whole, the contact network starts anew, and both end as if nothing had happened.
+  // Interrupted between the checkpoints of two networks that share their batches: the timing
+  // network is there whole, the contact network starts anew, and both end as if nothing had
+  // happened.
   std::filesystem::remove(with_checkpoints.checkpoint + ".contact.checkpoint");
   const auto half = train(rows_, styles_, with_checkpoints);
   ASSERT_TRUE(half.ok()) << half.error().message;
