@@ -76,4 +76,16 @@ inline TensorFile make_model(const std::vector<std::string>& styles, uint64_t se
   return file;
 }
 
+// Gives a model of make_model() a gate: features of the pose trunk within `limit` of their mean,
+// which is `mean` throughout, are known. Distances are as they are, without whitening.
+inline void add_gate(TensorFile& file, float limit, float mean = 0) {
+  const int hidden = static_cast<int>(file.tensors.at("pose.trunk.1.bias").values.size());
+  Tensor identity{{hidden, hidden}, std::vector<float>(size_t(hidden) * hidden), false};
+  for (int i = 0; i < hidden; ++i) identity.values[size_t(i) * hidden + i] = 1;
+  file.tensors["gate.mean"] = constant_tensor(hidden, mean);
+  file.tensors["gate.whitening.weight"] = identity;
+  file.tensors["gate.whitening.bias"] = constant_tensor(hidden, 0);
+  file.tensors["gate.limit"] = constant_tensor(1, limit);
+}
+
 }  // namespace panache::test

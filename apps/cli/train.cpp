@@ -31,8 +31,9 @@ int run(const Options& options) {
     return refuse(free.error(), kBadInput);
   }
   TrainOptions train_options;
-  train_options.recipe = options.recipe == "panache" ? Recipe::panache : Recipe::smith2019;
-  if (options.steps > 0) train_options.steps = options.steps;
+  train_options.settings =
+      recipe_settings(options.recipe == "panache" ? Recipe::panache : Recipe::smith2019);
+  if (options.steps > 0) train_options.settings.steps = options.steps;
   train_options.seed = options.seed;
   train_options.data = options.data_name;
   train_options.licence = options.licence;
@@ -85,7 +86,7 @@ void add_train(CLI::App& app, int& exit_code) {
   verb->add_option("--licence", options->licence,
                    "Terms of the data, kept in the model's metadata");
   verb->add_option("--steps", options->steps, "Steps of training instead of the recipe's own")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, 1000000000));
   verb->add_option("--seed", options->seed, "Seed of all random numbers")->capture_default_str();
   verb->add_flag("--force", options->force, "Overwrite the model if it exists");
   verb->add_flag("--json", options->json, "Print the result as JSON");

@@ -8,7 +8,11 @@ namespace {
 
 constexpr float kPlant = 0.6f, kRelease = 0.4f;  // Hysteresis on the contact probability.
 constexpr float kMaxOffset = 0.12f;              // Metres; a foot pulled further is let go.
-constexpr float kFadeSeconds = 0.08f;            // Time constant of the release.
+// A foot comes to rest and leaves without a jerk: its speed at the plant dies away with this time
+// constant, and the correction of a released foot as a critically damped spring of this rate.
+constexpr float kRestSeconds = 0.03f;
+constexpr float kFadeRate = 20;    // 1/s
+constexpr float kMaxGlide = 1.5f;  // m/s; a faster foot was no foot about to stand.
 
 // Straightening the last degrees of a knee takes no distance but much angle: a leg is never asked
 // for more than this share of its length unless the style itself stretches it further.
@@ -62,19 +66,32 @@ void changed_joints(const BodyPose& body, const BodyChange& change, HumanPositio
 }
 
 void FootLock::follow(Foot& foot, Vec3 toe, float contact, float seconds) noexcept {
+  const Vec3 last_offset = foot.offset, last_toe = foot.seen ? foot.toe : toe;
+  foot.toe = toe;
+  foot.seen = true;
   if (contact < kRelease) foot.state = State::free;
   if (foot.state == State::free && contact > kPlant) {
     foot.state = State::planted;
-    foot.anchor = toe + foot.offset;
+    foot.anchor = last_toe + last_offset;
+    foot.glide = seconds > 0 ? (toe - last_toe) / seconds + foot.speed : Vec3{};
+    const float fast = length(foot.glide);
+    if (fast > kMaxGlide) foot.glide *= kMaxGlide / fast;
   }
   if (foot.state == State::planted) {
+    foot.anchor += foot.glide * seconds;
+    foot.glide *= std::exp(-seconds / kRestSeconds);
     foot.offset = foot.anchor - toe;
     const float pull = length(foot.offset);
+    foot.speed = seconds > 0 ? (foot.offset - last_offset) / seconds : Vec3{};
     if (pull <= kMaxOffset) return;
     foot.state = State::let_go;
     foot.offset = std::isfinite(pull) ? foot.offset * (kMaxOffset / pull) : Vec3{};
+    foot.speed = {};
   }
-  foot.offset *= std::exp(-seconds / kFadeSeconds);
+  const Vec3 pace = foot.speed + foot.offset * kFadeRate;
+  const float fade = std::exp(-seconds * kFadeRate);
+  foot.offset = (foot.offset + pace * seconds) * fade;
+  foot.speed = (foot.speed - pace * (kFadeRate * seconds)) * fade;
 }
 
 void FootLock::step(const BodyPose& body, std::span<const float, kFeet> contacts, float amount,

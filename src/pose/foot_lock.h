@@ -39,8 +39,12 @@ class FootLock {
   enum class State { free, planted, let_go };  // Let go: pulled too far, free until it lifts.
   struct Foot {
     State state = State::free;
-    Vec3 anchor;  // World position of the planted toe, metres.
-    Vec3 offset;  // World correction in force, metres; fades after release.
+    Vec3 toe;     // World position of the toe, uncorrected, at the last step.
+    Vec3 anchor;  // World position of the planted toe, metres,
+    Vec3 glide;   // and its velocity while it comes to rest, m/s.
+    Vec3 offset;  // World correction in force, metres; fades after release,
+    Vec3 speed;   // m/s, without a jump in its velocity.
+    bool seen = false;
   };
   // Follows one foot whose toe, uncorrected, is at `toe` (world).
   static void follow(Foot& foot, Vec3 toe, float contact, float seconds) noexcept;

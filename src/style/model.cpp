@@ -170,6 +170,27 @@ Result<void> Model::read_numbers(const TensorFile& file, const std::string& name
     if (!read) return read.error();
     *to = *std::move(read);
   }
+  return read_gate(file, name);
+}
+
+Result<void> Model::read_gate(const TensorFile& file, const std::string& name) {
+  const int hidden = pose_.trunk.outputs();
+  gate_.mean.assign(hidden, 0.0f);
+  const bool gated = std::any_of(file.tensors.begin(), file.tensors.end(), [](const auto& tensor) {
+    return tensor.first.starts_with("gate.");
+  });
+  if (gated) {
+    Result<std::vector<float>> mean = read_vector(file, "gate.mean", hidden, name);
+    if (!mean) return mean.error();
+    gate_.mean = *std::move(mean);
+    Result<DenseLayer> whitening = read_layer(file, "gate.whitening", hidden, hidden, name);
+    if (!whitening) return whitening.error();
+    gate_.whitening = *std::move(whitening);
+    Result<std::vector<float>> limit = read_vector(file, "gate.limit", 1, name);
+    if (!limit) return limit.error();
+    gate_.limit = limit->front();
+    if (gate_.limit <= 0) return Error{name + ": tensor 'gate.limit' must be above zero"};
+  }
   return {};
 }
 

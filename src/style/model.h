@@ -57,8 +57,18 @@ class Model {
     Trunk trunk;
     std::vector<DenseLayer> heads;
   };
+  // How far a window is from those that the model was trained on: the length of the whitened
+  // difference of the pose trunk's features from their mean. Absent (no whitening) in models of
+  // recipe smith2019.
+  struct Gate {
+    std::vector<float> mean;  // [hidden]
+    DenseLayer whitening;     // [hidden][directions], bias zero
+    float limit = 0;          // Distance up to which everything is trusted.
+    bool present() const { return limit > 0; }
+  };
   Result<void> read_metadata(const TensorFile& file, const std::string& name);
   Result<void> read_numbers(const TensorFile& file, const std::string& name);
+  Result<void> read_gate(const TensorFile& file, const std::string& name);
   Result<Network> read_network(const TensorFile& file, const std::string& prefix, int outputs,
                                int heads, const std::string& name) const;
 
@@ -71,6 +81,7 @@ class Model {
   std::vector<float> output_mean_;               // The same; smith2019 only, else zero.
   float input_clip_ = 0;                         // In deviations; 0 clips nothing.
   Network pose_, timing_, contact_;
+  Gate gate_;
   size_t parameter_count_ = 0;
 };
 
@@ -79,11 +90,16 @@ class StyleNetworks {
  public:
   explicit StyleNetworks(std::shared_ptr<const Model> model);
 
-  // Mixes the heads for these strengths, one per style of the model. Free while they stay the same.
+  // Mixes the heads for these strengths, one per style of the model; above 1 a strength
+  // counts less. Free while they stay the same.
   void set_strengths(std::span<const float> strengths) noexcept;
 
   // Evaluates a window as PoseHistory::window() gives it. The results stay until the next call.
-  void forward(std::span<const float> window) noexcept;
+  // The gate goes this share of the way from where it was to where the window wants it.
+  void forward(std::span<const float> window, float gate_share = 1) noexcept;
+  // How much of each style's answer to this very motion is given, beside its mean answer: 1 on most
+  // motion like the training's, towards 0 on motion unlike it.
+  float gate() const { return gate_; }
   // The pose network's numbers, in the model's own units undone: a change of kChangeNumbers
   // (panache) or a pose of 130 numbers (smith2019).
   std::span<const float> pose() const { return pose_out_; }
@@ -98,6 +114,8 @@ class StyleNetworks {
   };
   void mix(const Model::Network& network, bool has_base, Mixed& mixed) noexcept;
   void run(const Model::Network& network, const Mixed& mixed, std::span<float> out) noexcept;
+  // Pulls the pose trunk's features towards their mean as far as the gate is closed.
+  void shrink(std::span<const float> hidden, float gate_share) noexcept;
 
   std::shared_ptr<const Model> model_;
   std::vector<float> strengths_;
@@ -105,6 +123,8 @@ class StyleNetworks {
   std::vector<float> input_, scratch_;
   Mixed pose_, timing_, contact_;
   std::vector<float> pose_out_, timing_out_, contact_out_;
+  float gate_ = 1;
+  std::vector<float> features_, centred_, white_, no_bias_;
 };
 
 }  // namespace panache

@@ -6,6 +6,18 @@
 #include "style/model.h"
 
 namespace panache {
+namespace {
+
+// Beyond strength 1 the heads are driven this share as fast: at twice its size a style's change
+// tears the motion apart, and the upper half of the slider would be of no use.
+constexpr float kExaggeration = 0.3f;
+
+float head_strength(float strength) {
+  const float size = std::abs(strength);
+  return size <= 1 ? strength : std::copysign(1 + kExaggeration * (size - 1), strength);
+}
+
+}  // namespace
 
 StyleNetworks::StyleNetworks(std::shared_ptr<const Model> model) : model_(std::move(model)) {
   const Model& m = *model_;
@@ -26,6 +38,10 @@ StyleNetworks::StyleNetworks(std::shared_ptr<const Model> model) : model_(std::m
     mixed->bias = head.bias;
     out->assign(head.outputs, 0.0f);
   }
+  features_.resize(m.pose_.trunk.outputs());
+  centred_.resize(features_.size());
+  white_.resize(m.gate_.whitening.outputs);
+  no_bias_.assign(white_.size(), 0.0f);
 }
 
 void StyleNetworks::mix(const Model::Network& network, bool has_base, Mixed& mixed) noexcept {
@@ -33,7 +49,7 @@ void StyleNetworks::mix(const Model::Network& network, bool has_base, Mixed& mix
   std::fill(mixed.bias.begin(), mixed.bias.end(), 0.0f);
   for (size_t h = 0; h < network.heads.size(); ++h) {
     const bool base = has_base && h == 0;
-    const float strength = base ? 1.0f : strengths_[has_base ? h - 1 : h];
+    const float strength = base ? 1.0f : head_strength(strengths_[has_base ? h - 1 : h]);
     if (strength == 0) continue;
     add_scaled(strength, network.heads[h].weights, mixed.weights);
     add_scaled(strength, network.heads[h].bias, mixed.bias);
@@ -65,7 +81,23 @@ void StyleNetworks::run(const Model::Network& network, const Mixed& mixed,
   dense(hidden, mixed.weights, mixed.bias, out);
 }
 
-void StyleNetworks::forward(std::span<const float> window) noexcept {
+void StyleNetworks::shrink(std::span<const float> hidden, float gate_share) noexcept {
+  const Model::Gate& gate = model_->gate_;
+  std::copy(hidden.begin(), hidden.end(), features_.begin());
+  if (!gate.present()) return;
+  for (size_t i = 0; i < centred_.size(); ++i) centred_[i] = features_[i] - gate.mean[i];
+  dense(centred_, gate.whitening.weights, no_bias_, white_);
+  float square = 0;
+  for (const float w : white_) square += w * w;
+  const float limit = gate.limit * gate.limit;
+  const float near = square > limit ? limit / square : 1.0f;
+  const float wanted = near * near;  // Falls with the fourth power of the distance.
+  if (std::isfinite(wanted)) gate_ += gate_share * (wanted - gate_);
+  if (gate_ == 1) return;
+  for (size_t i = 0; i < centred_.size(); ++i) features_[i] = gate.mean[i] + gate_ * centred_[i];
+}
+
+void StyleNetworks::forward(std::span<const float> window, float gate_share) noexcept {
   const Model& m = *model_;
   const size_t numbers = m.input_mean_.size();
   assert(window.size() == numbers * kWindowPoses);
@@ -74,7 +106,8 @@ void StyleNetworks::forward(std::span<const float> window) noexcept {
     const size_t n = i % numbers;
     input_[i] = std::clamp((window[i] - m.input_mean_[n]) / m.input_scale_[n], -clip, clip);
   }
-  run(m.pose_, pose_, pose_out_);
+  shrink(m.pose_.trunk.forward(input_, scratch_), gate_share);
+  dense(features_, pose_.weights, pose_.bias, pose_out_);
   run(m.timing_, timing_, timing_out_);
   run(m.contact_, contact_, contact_out_);
   for (size_t i = 0; i < pose_out_.size(); ++i) {

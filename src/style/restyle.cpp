@@ -38,6 +38,7 @@ Result<Restyled> restyle(const Clip& clip, const Rig& rig, std::shared_ptr<const
     append(result.clip, clip.pose(f).rotations, clip.pose(f).translations);
     result.source_frames.push_back(f);
     result.contacts.push_back({});
+    result.gates.push_back(1);
   }
 
   std::vector<Quat> rotations(clip.joints());
@@ -57,6 +58,7 @@ Result<Restyled> restyle(const Clip& clip, const Rig& rig, std::shared_ptr<const
     result.source_frames.push_back(frame);
     const std::span<const float> planted = stylizer->contacts();
     result.contacts.push_back({planted[0] > 0.5f, planted[1] > 0.5f});
+    result.gates.push_back(stylizer->gate());
     advance = options.timing ? stylizer->rate() : 1.0;
     frame += advance;
     if (progress && result.clip.frames % 64 == 0) progress(frame / clip.frames);

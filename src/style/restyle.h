@@ -34,6 +34,7 @@ struct Restyled {
   Clip clip;                           // At the input's rate.
   std::vector<double> source_frames;   // Per frame of it, the input's frame (fractional).
   std::vector<FootContacts> contacts;  // Per frame of it.
+  std::vector<float> gates;            // Per frame of it, see Stylizer::gate().
 };
 
 // `progress` is called with 0 to 1 now and then; may be empty. With all strengths at 0, model and

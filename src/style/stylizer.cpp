@@ -13,7 +13,8 @@ constexpr float kMaxStrength = 4;
 // A step over a longer gap, or a leap over the ground this fast, is a cut: the past says nothing.
 constexpr double kMaxGap = 0.5;        // Seconds.
 constexpr float kMaxGroundSpeed = 15;  // m/s; a sprinter reaches 12.
-constexpr float kRateSeconds = 0.15f;  // Time constant of the tempo.
+constexpr float kRateSeconds = 0.05f;  // Time constant of the tempo.
+constexpr float kGateSeconds = 0.15f;  // Time constant of the gate.
 constexpr float kMaxLogRate = 0.7f;    // Half to double tempo.
 // A style may sway and turn within a step, but not leave the input's course: what it adds sideways
 // and to the heading fades with this time constant.
@@ -97,7 +98,7 @@ void Stylizer::ease_strengths(std::span<const float> strengths, float seconds) n
 void Stylizer::predict(float seconds) noexcept {
   networks_.set_strengths(strengths_);
   history_.window(window_);
-  networks_.forward(window_);
+  networks_.forward(window_, started_ ? filter_gain(seconds, kGateSeconds) : 1.0f);
   ChangeNumbers wanted;
   if (networks_.model().recipe() == Recipe::panache) {
     std::copy_n(networks_.pose().begin(), kChangeNumbers, wanted.begin());

@@ -46,6 +46,8 @@ class Stylizer {
 
   // Input seconds per output second that the style asks for at the last step; 1 without a style.
   double rate() const noexcept { return std::exp(static_cast<double>(log_rate_)); }
+  // See StyleNetworks::gate(); smoothed, at the last step.
+  float gate() const noexcept { return networks_.gate(); }
   // Probability that each foot is planted, at the last step.
   std::span<const float> contacts() const noexcept { return networks_.contact(); }
   // The canonical body as it was read, and what was done to it, at the last step.

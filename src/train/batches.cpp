@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 
 namespace panache {
 
@@ -11,19 +13,21 @@ BatchMaker::BatchMaker(const SampleSet& set, std::vector<int> choice, int styles
       choice_(std::move(choice)),
       styles_(styles),
       style_input_(style_input),
-      settings_(std::move(settings)),
-      by_style_(styles) {
+      settings_(std::move(settings)) {
   if (!settings_.by_style) return;
+  std::map<std::pair<int, std::string>, std::vector<int>> cells;
   for (const int i : choice_) {
     const Sample& sample = set.samples()[i];
-    if (sample.has_next && sample.style >= 0) by_style_[sample.style].push_back(i);
+    if (sample.has_next && sample.style >= 0) {
+      cells[{sample.style, set.content(sample)}].push_back(i);
+    }
   }
   float total = 0;
-  for (const std::vector<int>& members : by_style_) {
-    total += std::sqrt(static_cast<float>(members.size()));
-    style_share_.push_back(total);
+  for (auto& [cell, samples] : cells) {
+    total += std::sqrt(static_cast<float>(samples.size()));
+    cells_.push_back({cell.first, std::move(samples), total});
   }
-  for (float& share : style_share_) share /= total;
+  for (Cell& cell : cells_) cell.share /= total;
 }
 
 Batch BatchMaker::make(Random& random) const {
@@ -39,16 +43,17 @@ Batch BatchMaker::make(Random& random) const {
     return fill(rows, draws, nullptr);
   }
   const int pairs = settings_.size / 2;
-  std::vector<int> count(styles_);
+  std::vector<std::vector<const Cell*>> drawn(styles_);
   for (int p = 0; p < pairs; ++p) {
-    const auto at = std::upper_bound(style_share_.begin(), style_share_.end(), random.uniform());
-    ++count[std::min<size_t>(at - style_share_.begin(), styles_ - 1)];
+    const float at = random.uniform();
+    auto cell =
+        std::find_if(cells_.begin(), cells_.end() - 1, [&](const Cell& c) { return at < c.share; });
+    drawn[cell->style].push_back(&*cell);
   }
-  for (int s = 0; s < styles_; ++s) {
-    if (by_style_[s].empty()) count[s] = 0;
-    groups.push_back(2 * count[s]);
-    for (int p = 0; p < count[s]; ++p) {
-      const int sample = by_style_[s][random.below(static_cast<uint32_t>(by_style_[s].size()))];
+  for (const std::vector<const Cell*>& of_style : drawn) {
+    groups.push_back(2 * static_cast<int64_t>(of_style.size()));
+    for (const Cell* cell : of_style) {
+      const int sample = cell->samples[random.below(static_cast<uint32_t>(cell->samples.size()))];
       const bool flip = mirrored();
       int draw = -1;
       if (settings_.disturbed) {
@@ -86,7 +91,7 @@ Batch BatchMaker::fill(const std::vector<Row>& rows, const std::vector<Disturbed
     const Sample& sample = set_.samples()[row.sample];
     float* input = batch.inputs.data_ptr<float>() + r * inputs;
     const std::span<float> seen(input, window);
-    set_.window(row.sample, seen);
+    set_.window(row.sample, seen, row.disturbed >= 0 ? draws[row.disturbed].tempo : 1);
     if (row.mirrored) set_.mirror_window(seen);
     if (row.disturbed >= 0) {
       set_.disturb(draws[row.disturbed], settings_.disturbance, *random, seen);

@@ -12,8 +12,9 @@ namespace panache {
 
 struct BatchSettings {
   int size = 256;
-  bool by_style = false;  // Rows grouped by style, styles drawn by the square root of their share,
-                          // rows in pairs of neighbouring frames; else drawn one by one from all.
+  // Rows grouped by style and in pairs of neighbouring frames, drawn by the square root of the
+  // share that each action in each style has; else one by one from all.
+  bool by_style = false;
   bool mirrored = false;  // Half of the rows left for right.
   bool disturbed = false;
   Disturbance disturbance;
@@ -56,8 +57,12 @@ class BatchMaker {
   int styles_;
   bool style_input_;
   BatchSettings settings_;
-  std::vector<std::vector<int>> by_style_;  // Of choice_, those with a next one.
-  std::vector<float> style_share_;          // Cumulative.
+  struct Cell {
+    int style;
+    std::vector<int> samples;  // Of choice_, those with a next one.
+    float share;               // Of this cell and those before it.
+  };
+  std::vector<Cell> cells_;  // One for each action in each style.
 };
 
 }  // namespace panache

@@ -23,17 +23,15 @@ std::vector<NetworkShape> network_shapes(Recipe recipe, const SampleSet& set, in
           {"contact", inputs, 32, 3, kFeet, heads ? styles + 1 : 1, heads, false}};
 }
 
-TensorFile export_model(const RecipeSettings& settings, const SampleSet& set,
-                        const std::vector<StyleName>& styles,
-                        const std::vector<NetworkTrainer>& networks, const TrainOptions& options) {
-  TensorFile file;
+std::map<std::string, std::string> model_metadata(Recipe recipe,
+                                                  const std::vector<StyleName>& styles) {
   std::string names, descriptions;
   for (const StyleName& style : styles) {
     names += style.name + "\n";
     descriptions += style.description + "\n";
   }
-  const bool heads = settings.recipe == Recipe::panache;
-  file.metadata = {
+  const bool heads = recipe == Recipe::panache;
+  return {
       {"format", "panache"},
       {"format_version", "1"},
       {"recipe", heads ? "panache" : "smith2019"},
@@ -43,17 +41,25 @@ TensorFile export_model(const RecipeSettings& settings, const SampleSet& set,
                        : "rotations_6d[126] hips_height[1] ground_velocity_xz[2] turn_rate[1]"},
       {"styles", names},
       {"style_descriptions", descriptions},
-      {"data", options.data},
-      {"licence", options.licence},
-      {"seed", std::to_string(options.seed)},
-      {"steps", std::to_string(settings.steps)},
-      {"samples", std::to_string(set.samples().size())},
   };
+}
+
+TensorFile export_model(const RecipeSettings& settings, const SampleSet& set,
+                        const std::vector<StyleName>& styles,
+                        const std::vector<NetworkTrainer>& networks, const TrainOptions& options) {
+  TensorFile file;
+  file.metadata = model_metadata(settings.recipe, styles);
+  file.metadata["data"] = options.data;
+  file.metadata["licence"] = options.licence;
+  file.metadata["seed"] = std::to_string(options.seed);
+  file.metadata["steps"] = std::to_string(settings.steps);
+  file.metadata["samples"] = std::to_string(set.samples().size());
   file.tensors["input.mean"] = vector_tensor(set.mean());
   file.tensors["input.scale"] = vector_tensor(set.scale());
   file.tensors["input.clip"] = vector_tensor({settings.batch.input_clip});
   file.tensors["output.scale"] = vector_tensor(settings.batch.output_scale);
-  if (!heads) file.tensors["output.mean"] = vector_tensor(settings.batch.output_mean);
+  if (settings.recipe == Recipe::smith2019)
+    file.tensors["output.mean"] = vector_tensor(settings.batch.output_mean);
   for (const NetworkTrainer& network : networks) network.write(file);
   return file;
 }

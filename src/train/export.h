@@ -1,6 +1,8 @@
 #pragma once
 // What was trained, as the file that the program reads, and the proof that both compute the same.
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "train/trainer.h"
@@ -9,6 +11,10 @@ namespace panache {
 
 // The three networks of a recipe: hidden layers of 128, 64 and 32 units, as in the slides.
 std::vector<NetworkShape> network_shapes(Recipe recipe, const SampleSet& set, int styles);
+
+// What every model file of these styles says about itself.
+std::map<std::string, std::string> model_metadata(Recipe recipe,
+                                                  const std::vector<StyleName>& styles);
 
 TensorFile export_model(const RecipeSettings& settings, const SampleSet& set,
                         const std::vector<StyleName>& styles,

@@ -57,14 +57,8 @@ Result<std::vector<StyleName>> read_style_names(const std::string& path) {
   return names;
 }
 
-Result<void> apply_style_names(std::vector<StyleName>& names, std::vector<ManifestRow>& rows) {
-  if (names.empty()) {
-    std::set<std::string> seen;
-    for (const ManifestRow& row : rows) {
-      if (!row.neutral) seen.insert(row.style);
-    }
-    for (const std::string& style : seen) names.push_back({style, {style}, ""});
-  }
+std::vector<ManifestRow> rename_styles(const std::vector<StyleName>& names,
+                                       std::vector<ManifestRow> rows) {
   std::map<std::string, std::string> renamed;
   for (const StyleName& style : names) {
     for (const std::string& from : style.from) renamed[from] = style.name;
@@ -78,7 +72,18 @@ Result<void> apply_style_names(std::vector<StyleName>& names, std::vector<Manife
     }
     kept.push_back(std::move(row));
   }
-  rows = std::move(kept);
+  return kept;
+}
+
+Result<void> apply_style_names(std::vector<StyleName>& names, std::vector<ManifestRow>& rows) {
+  if (names.empty()) {
+    std::set<std::string> seen;
+    for (const ManifestRow& row : rows) {
+      if (!row.neutral) seen.insert(row.style);
+    }
+    for (const std::string& style : seen) names.push_back({style, {style}, ""});
+  }
+  rows = rename_styles(names, std::move(rows));
   for (const StyleName& style : names) {
     const bool used = std::any_of(rows.begin(), rows.end(),
                                   [&](const ManifestRow& r) { return r.style == style.name; });

@@ -32,7 +32,11 @@ Result<std::vector<ManifestRow>> read_manifest(const std::string& path, int set)
 // Reads a CSV with the columns name, from, description; several `from` are divided by blanks.
 Result<std::vector<StyleName>> read_style_names(const std::string& path);
 
-// Renames the styles of `rows`; rows of styles that `names` does not list are dropped. With no
+// Renames the styles of `rows`; rows of styles that `names` does not list are dropped.
+std::vector<ManifestRow> rename_styles(const std::vector<StyleName>& names,
+                                       std::vector<ManifestRow> rows);
+
+// The same, and every style of `names` must have a take. With no
 // names given, `names` becomes all styles of the rows, in order of the alphabet, called what they
 // are.
 Result<void> apply_style_names(std::vector<StyleName>& names, std::vector<ManifestRow>& rows);

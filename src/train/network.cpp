@@ -76,9 +76,7 @@ NetworkTrainer::NetworkTrainer(const NetworkShape& shape, const OptimizerSetting
   head_biases_ = views[2 * shape.layers + 1];
 }
 
-torch::Tensor NetworkTrainer::forward(const torch::Tensor& x,
-                                      const std::vector<int64_t>& group_sizes,
-                                      Random* random) const {
+torch::Tensor NetworkTrainer::hidden(const torch::Tensor& x, Random* random) const {
   torch::Tensor h = x;
   const float keep = 1 - settings_.dropout;
   for (int l = 0; l < shape_.layers; ++l) {
@@ -89,6 +87,13 @@ torch::Tensor NetworkTrainer::forward(const torch::Tensor& x,
     for (int64_t i = 0; i < mask.numel(); ++i) m[i] = random->uniform() < keep ? 1 / keep : 0.0f;
     h = h * mask;
   }
+  return h;
+}
+
+torch::Tensor NetworkTrainer::forward(const torch::Tensor& x,
+                                      const std::vector<int64_t>& group_sizes,
+                                      Random* random) const {
+  const torch::Tensor h = hidden(x, random);
   if (shape_.heads == 1) return torch::addmm(head_biases_[0], h, heads_[0]);
   const std::vector<torch::Tensor> rows = h.split_with_sizes(group_sizes);
   std::vector<torch::Tensor> out;

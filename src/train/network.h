@@ -44,6 +44,9 @@ class NetworkTrainer {
   torch::Tensor forward(const torch::Tensor& x, const std::vector<int64_t>& group_sizes,
                         Random* random) const;
 
+  // Output of the last hidden layer. [rows][hidden]
+  torch::Tensor hidden(const torch::Tensor& x, Random* random) const;
+
   // One step of Adam (Kingma and Ba 2015) down the gradient of `loss`.
   void learn(const torch::Tensor& loss);
 

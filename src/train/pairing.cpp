@@ -24,7 +24,11 @@ constexpr int kNumbers = 6 * static_cast<int>(kKeyJoints.size()) + 1;
 
 // Per styled frame the neutral side advances 0 to 3 frames; each costs this much of the distance.
 constexpr float kPenalty[4] = {1.15f, 1.0f, 1.1f, 1.3f};
+// It may wait this many frames in a row: a styled action may dwell where the neutral one does not.
+constexpr int kMaxWaits = 2;
 constexpr int kSmoothFrames = 7;
+// What moves less than this tells nothing: 5 cm, 0.15 m/s.
+constexpr float kStillWay = 0.05f, kStillSpeed = 0.15f;
 constexpr float kFar = 1e30f;
 
 // Features of a take for the comparison: positions and velocities of the key joints in the body
@@ -69,9 +73,13 @@ Group make_group(const std::vector<Take>& takes, std::vector<int> members) {
   const torch::Tensor raw =
       torch::from_blob(all.data(), {static_cast<int64_t>(all.size()) / kNumbers, kNumbers});
   const torch::Tensor mean = raw.mean(0, true);
-  torch::Tensor deviation = raw.std(0, false, true);
-  // A number that hardly moves must not drown the others in its noise.
-  deviation = torch::maximum(deviation, deviation.mean() * 0.2);
+  // A number that hardly moves must not drown the others in its noise: while a hand is raised, only
+  // that arm tells where in the action one is.
+  torch::Tensor floor = torch::full({1, kNumbers}, kStillWay);
+  for (int i = 0; i + 1 < kNumbers; ++i) {
+    if (i % 6 >= 3) floor[0][i] = kStillSpeed / kTakeRate;
+  }
+  const torch::Tensor deviation = (raw.var(0, false, true) + floor.square()).sqrt();
   group.numbers = ((raw - mean) / deviation).contiguous();
   group.squares = group.numbers.square().sum(1);
   return group;
@@ -111,7 +119,7 @@ Warp warp(const float* distance, int rows, const Track& track, std::vector<float
   before.assign(m + pad, kFar);
   after.assign(m + pad, kFar);
   steps.assign(size_t(rows) * m, 1);
-  std::vector<float> waited(m, 0.0f);  // Far where the last step was a wait: never two in a row.
+  std::vector<int8_t> waits(m, 0);  // How many of the last steps were waits.
   for (int j = 0; j < m; ++j) before[j + pad] = distance[j];
   for (int i = 1; i < rows; ++i) {
     const float* d = distance + size_t(i) * m;
@@ -119,7 +127,7 @@ Warp warp(const float* distance, int rows, const Track& track, std::vector<float
     float* a = after.data() + pad;
     int8_t* step = steps.data() + size_t(i) * m;
     for (int j = 0; j < m; ++j) {
-      float best = b[j] + kPenalty[0] * d[j] + waited[j];
+      float best = waits[j] < kMaxWaits ? b[j] + kPenalty[0] * d[j] : kFar;
       int8_t by = 0;
       for (int k = 1; k < 4; ++k) {
         const float cost = b[j - k] + kPenalty[k] * d[j] + track.barrier[k][j];
@@ -128,7 +136,7 @@ Warp warp(const float* distance, int rows, const Track& track, std::vector<float
       }
       a[j] = best;
       step[j] = by;
-      waited[j] = by == 0 ? kFar : 0.0f;
+      waits[j] = by == 0 ? static_cast<int8_t>(waits[j] + 1) : int8_t{0};
     }
     std::swap(before, after);
   }

@@ -9,10 +9,6 @@
 namespace panache {
 namespace {
 
-constexpr float kSpacingFrames = static_cast<float>(kWindowSpacing * kTakeRate);
-// The ends of a warped window are pulled about by what lies beyond them: they are left out.
-constexpr int kTrimFrames = 4;
-
 struct Between {
   int a, b;
   float t;
@@ -21,6 +17,18 @@ Between between(float frame, int frames) {
   frame = std::clamp(frame, 0.0f, static_cast<float>(frames - 1));
   const int a = static_cast<int>(frame), b = std::min(a + 1, frames - 1);
   return {a, b, frame - static_cast<float>(a)};
+}
+
+// The root numbers of a take, in whichever layout, straight between its frames.
+std::array<float, kRootNumbers> root_at(const Take& take, float frame) {
+  const auto [a, b, t] = between(frame, take.frames());
+  const size_t numbers = take.numbers.size() / take.body.size();
+  std::array<float, kRootNumbers> root;
+  for (size_t k = 0; k < root.size(); ++k) {
+    const size_t n = numbers - root.size() + k;
+    root[k] = take.numbers[a * numbers + n] * (1 - t) + take.numbers[b * numbers + n] * t;
+  }
+  return root;
 }
 
 // Left for right of a rotation: reflecting x keeps the turn about x and reverses the others.
@@ -77,9 +85,9 @@ HumanPositions body_at(const Take& take, float frame) {
   return body;
 }
 
-void take_window(const Take& take, float frame, int numbers, std::span<float> out) {
+void take_window(const Take& take, float frame, int numbers, std::span<float> out, float spacing) {
   for (int k = 0; k < kWindowPoses; ++k) {
-    const auto [a, b, t] = between(frame - static_cast<float>(k) * kSpacingFrames, take.frames());
+    const auto [a, b, t] = between(frame - static_cast<float>(k) * spacing, take.frames());
     const float* before = &take.numbers[size_t(a) * numbers];
     const float* after = &take.numbers[size_t(b) * numbers];
     float* pose = &out[size_t(k) * numbers];
@@ -100,13 +108,8 @@ ChangeNumbers change_between(const Take& styled, int frame, const Take& neutral,
   }
   const float height = lerp(neutral.body[a][0], neutral.body[b][0], t).y;
   change[63] = styled.body[frame][0].y - height;
-  const int numbers = static_cast<int>(neutral.numbers.size()) / neutral.frames();
-  for (int k = 0; k < kRootNumbers; ++k) {
-    const size_t n = numbers - kRootNumbers + k;
-    const float slow = neutral.numbers[size_t(a) * numbers + n] * (1 - t) +
-                       neutral.numbers[size_t(b) * numbers + n] * t;
-    change[64 + k] = styled.numbers[size_t(frame) * numbers + n] / rate - slow;
-  }
+  const auto now = root_at(styled, static_cast<float>(frame)), slow = root_at(neutral, at);
+  for (int k = 0; k < kRootNumbers; ++k) change[64 + k] = now[k] / rate - slow[k];
   return change;
 }
 
@@ -150,12 +153,8 @@ void SampleSet::add_target(const Take& styled, int frame, const Take& neutral, f
     for (const float v : {x.x, x.y, x.z, y.x, y.y, y.z}) targets_.push_back(v);
   }
   targets_.push_back(body[0].y + change[63]);
-  const auto [a, b, t] = between(at, neutral.frames());
-  for (int k = 0; k < kRootNumbers; ++k) {
-    const size_t n = numbers() - kRootNumbers + k;
-    targets_.push_back(neutral.numbers[size_t(a) * numbers() + n] * (1 - t) +
-                       neutral.numbers[size_t(b) * numbers() + n] * t + change[64 + k]);
-  }
+  const auto root = root_at(neutral, at);
+  for (int k = 0; k < kRootNumbers; ++k) targets_.push_back(root[k] + change[64 + k]);
 }
 
 void SampleSet::add_pairing(const Pairing& pairing, int style) {
@@ -168,7 +167,7 @@ void SampleSet::add_pairing(const Pairing& pairing, int style) {
     sample.frame = pairing.neutral_frames[i];
     sample.style = style;
     sample.styled = pairing.styled;
-    const float rate = std::clamp(pairing.rates[i], 0.33f, 3.0f);
+    const float rate = believable_rate(pairing.rates[i]);
     sample.log_rate = std::log(rate);
     const FootContacts& planted = styled.contacts[pairing.first + i];
     for (int f = 0; f < kFeet; ++f) sample.contacts[f] = planted[f] ? 1.0f : 0.0f;
@@ -219,8 +218,14 @@ void SampleSet::measure_inputs(const std::vector<int>& neutral_takes) {
   }
 }
 
-void SampleSet::window(size_t i, std::span<float> out) const {
-  take_window(takes_[samples_[i].take], samples_[i].frame, numbers(), out);
+void SampleSet::window(size_t i, std::span<float> out, float tempo) const {
+  const Sample& sample = samples_[i];
+  take_window(takes_[sample.take], sample.frame, numbers(), out,
+              static_cast<float>(kWindowSpacing * kTakeRate) * tempo);
+  if (tempo == 1) return;
+  for (int k = 1; k <= kWindowPoses; ++k) {
+    for (int r = 1; r <= kRootNumbers; ++r) out[size_t(k) * numbers() - r] *= tempo;
+  }
 }
 
 void SampleSet::mirror_window(std::span<float> window) const {
@@ -241,6 +246,7 @@ Disturbed SampleSet::draw(const Disturbance& how, Random& random) const {
   Disturbed draw;
   draw.scale = 1 + how.scale * random.normal();
   draw.floor = how.floor * random.normal();
+  draw.tempo = std::exp(how.tempo * random.normal());
   const float angle = how.heading * random.normal();
   draw.cos = std::cos(angle);
   draw.sin = std::sin(angle);

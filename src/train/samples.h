@@ -1,6 +1,7 @@
 #pragma once
 // What a network is shown: windows of neutral motion, and what the style makes of them.
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <string>
@@ -12,6 +13,13 @@
 #include "train/take.h"
 
 namespace panache {
+
+// The ends of a warped window are pulled about by what lies beyond them: so many frames of each are
+// left out.
+inline constexpr int kTrimFrames = 4;
+
+// The tempo of a pairing, neutral seconds per styled second, held within what is believable.
+constexpr float believable_rate(float rate) { return std::clamp(rate, 0.33f, 3.0f); }
 
 // One training sample. The window is cut from the neutral take when it is needed.
 struct Sample {
@@ -31,15 +39,16 @@ struct Disturbance {
   float scale = 0.08f;      // Of body size.
   float floor = 0.015f;     // Height of the floor, metres.
   float heading = 0.12f;    // Radians.
-  float posture = 0.3f;     // Constant offset of each number, in deviations.
-  float jitter = 0.007f;    // Per pose and joint, metres.
+  float posture = 0.25f;    // Constant offset of each number, in deviations.
+  float jitter = 0.005f;    // Per pose and joint, metres.
   float velocity = 0.03f;   // Per pose, m/s.
   float turn_rate = 0.27f;  // Per pose, rad/s.
+  float tempo = 0.1f;       // Logarithm of how fast the window is played.
 };
 
 // The draw of one disturbance: shared by two neighbouring samples whose difference is compared.
 struct Disturbed {
-  float scale = 1, floor = 0, cos = 1, sin = 0;
+  float scale = 1, floor = 0, cos = 1, sin = 0, tempo = 1;
   std::vector<float> posture;  // [numbers], in the numbers' units
 };
 
@@ -64,8 +73,11 @@ class SampleSet {
   const std::vector<float>& mean() const { return mean_; }
   const std::vector<float>& scale() const { return scale_; }
 
-  // Writes the undisturbed window of sample i. [inputs]
-  void window(size_t i, std::span<float> out) const;
+  // The action that a sample shows.
+  const std::string& content(const Sample& sample) const { return takes_[sample.take].row.content; }
+
+  // Writes the window of sample i as it is, or played `tempo` times as fast. [inputs]
+  void window(size_t i, std::span<float> out, float tempo = 1) const;
 
   // Left for right, in place. Windows of any number of poses; targets of either recipe.
   void mirror_window(std::span<float> window) const;
@@ -99,7 +111,9 @@ ChangeNumbers change_between(const Take& styled, int frame, const Take& neutral,
 // The body of a take at a fractional frame, straight between its frames.
 HumanPositions body_at(const Take& take, float frame);
 
-// Writes the window of a take that ends at `frame`. [kWindowPoses * numbers]
-void take_window(const Take& take, float frame, int numbers, std::span<float> out);
+// Writes the window of a take that ends at `frame`, its poses `spacing` frames apart.
+// [kWindowPoses * numbers]
+void take_window(const Take& take, float frame, int numbers, std::span<float> out,
+                 float spacing = static_cast<float>(kWindowSpacing * kTakeRate));
 
 }  // namespace panache

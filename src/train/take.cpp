@@ -7,9 +7,9 @@
 
 #include "base/parallel.h"
 #include "clip/motion_file.h"
-#include "rig/rig.h"
 
 namespace panache {
+
 // The way of the root is measured over one window spacing, as it is live.
 void write_numbers(PoseLayout layout, Take& take) {
   const int count = pose_numbers(layout), frames = take.frames();
@@ -27,27 +27,20 @@ void write_numbers(PoseLayout layout, Take& take) {
   }
 }
 
-Result<Take> load_take(const ManifestRow& row, PoseLayout layout) {
-  Result<std::unique_ptr<MotionFile>> file = read_motion(row.path);
-  if (!file) return file.error();
-  const Clip& clip = (*file)->clip();
-  Result<Rig> rig = Rig::create(clip);
-  if (!rig) return Error{row.path + ": " + rig.error().message};
-
+Take make_take(const Clip& clip, Rig rig, PoseLayout layout) {
   Take take;
-  take.row = row;
   const double step = 1 / (kTakeRate * clip.frame_time);  // File frames per frame of the take.
-  const int frames = 1 + static_cast<int>((clip.frames - 1 - rig->first_frame()) / step + 1e-6);
+  const int frames = 1 + static_cast<int>((clip.frames - 1 - rig.first_frame()) / step + 1e-6);
   std::vector<Quat> rotations(clip.joints());
   std::vector<Vec3> translations(clip.joints());
   std::vector<HumanPositions> world(frames);
   BodyPose body;
   for (int f = 0; f < frames; ++f) {
     // Rates that are 30 but for the digits of the file (0.0333333) are not resampled.
-    double at = rig->first_frame() + f * step;
+    double at = rig.first_frame() + f * step;
     if (std::abs(at - std::round(at)) < 0.02) at = std::round(at);
     sample(clip, at, {rotations, translations});
-    rig->read({rotations, translations}, body);
+    rig.read({rotations, translations}, body);
     const Vec3 hips = body.positions[0];
     const float last = f > 0 ? take.ground.back().facing : 0;
     take.ground.push_back({{hips.x, 0, hips.z}, unwrap_angle(body.facing, last)});
@@ -60,6 +53,17 @@ Result<Take> load_take(const ManifestRow& row, PoseLayout layout) {
   }
   take.contacts = detect_contacts(world, kTakeRate);
   write_numbers(layout, take);
+  return take;
+}
+
+Result<Take> load_take(const ManifestRow& row, PoseLayout layout) {
+  Result<std::unique_ptr<MotionFile>> file = read_motion(row.path);
+  if (!file) return file.error();
+  const Clip& clip = (*file)->clip();
+  Result<Rig> rig = Rig::create(clip);
+  if (!rig) return Error{row.path + ": " + rig.error().message};
+  Take take = make_take(clip, *rig, layout);
+  take.row = row;
   return take;
 }
 

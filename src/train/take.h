@@ -8,8 +8,10 @@
 
 #include "base/quat.h"
 #include "base/result.h"
+#include "clip/clip.h"
 #include "pose/contacts.h"
 #include "pose/features.h"
+#include "rig/rig.h"
 #include "train/manifest.h"
 
 namespace panache {
@@ -28,6 +30,9 @@ struct Take {
 
   int frames() const { return static_cast<int>(body.size()); }
 };
+
+// The take of a clip on a character, from the first frame that is motion; its row stays empty.
+Take make_take(const Clip& clip, Rig rig, PoseLayout layout);
 
 // Reads one take.
 Result<Take> load_take(const ManifestRow& row, PoseLayout layout);

@@ -12,6 +12,7 @@
 #include "base/progress.h"
 #include "train/checkpoint.h"
 #include "train/export.h"
+#include "train/gate.h"
 
 namespace panache {
 namespace {
@@ -73,7 +74,7 @@ bool is_validation_take(const std::string& path) {
 // Training goes on only from a checkpoint of the same training.
 uint64_t fingerprint(const TrainOptions& options, const RecipeSettings& settings, size_t samples) {
   return Random(options.seed * 2654435761u + static_cast<uint64_t>(settings.steps) * 40503u +
-                samples * 9176u + (options.recipe == Recipe::panache))
+                samples * 9176u + (settings.recipe == Recipe::panache))
              .bits() >>
          1;
 }
@@ -97,9 +98,15 @@ torch::Tensor loss_of(const std::string& network, const torch::Tensor& out, cons
   if (network == "contact") {
     return torch::binary_cross_entropy_with_logits(out, batch.contacts);
   }
-  const torch::Tensor& target = network == "pose" ? batch.pose : batch.log_rate;
-  const torch::Tensor error = out - target;
-  torch::Tensor loss = error.square().mean();
+  torch::Tensor loss;
+  if (network == "pose") {
+    loss = (out - batch.pose).square().mean();
+  } else {
+    // The network answers with the logarithm of the rate, but what must be right is the mean of the
+    // rate itself: a styled take of n frames covers the sum of its n rates, whatever their
+    // logarithms. This loss (Poisson's) has its minimum where exp(out) is that mean.
+    loss = (out.exp() - batch.log_rate.exp() * (out - batch.log_rate + 1)).mean();
+  }
   if (smoothness > 0 && !batch.group_sizes.empty()) {
     // Rows come in pairs of neighbouring frames: the change may not jump between them.
     const torch::Tensor step = out.slice(0, 1, c10::nullopt, 2) - out.slice(0, 0, c10::nullopt, 2);
@@ -239,6 +246,21 @@ std::vector<int> pick_validation(const SampleSet& set, const std::vector<int>& s
   return picked;
 }
 
+// What the pose network makes of training windows as they are, both sides mirrored.
+torch::Tensor clean_features(const SampleSet& set, const std::vector<int>& choice, int styles,
+                             BatchSettings batch, const NetworkTrainer& pose, uint64_t seed) {
+  constexpr int kBatches = 100;
+  torch::NoGradGuard no_gradients;
+  batch.disturbed = false;
+  const BatchMaker batches(set, choice, styles, false, batch);
+  Random random(seed);
+  std::vector<torch::Tensor> rows;
+  for (int b = 0; b < kBatches; ++b) {
+    rows.push_back(pose.hidden(batches.make(random).inputs, nullptr));
+  }
+  return torch::cat(rows);
+}
+
 }  // namespace
 
 RecipeSettings recipe_settings(Recipe recipe) {
@@ -263,8 +285,8 @@ RecipeSettings recipe_settings(Recipe recipe) {
   settings.batch.input_clip = 3;
   settings.optimizer.learning_rate = 0.004f;
   settings.optimizer.one_cycle = true;
-  settings.optimizer.weight_decay = 0.3f;
-  settings.optimizer.dropout = 0.05f;
+  settings.optimizer.weight_decay = 0.2f;
+  settings.optimizer.dropout = 0.02f;
   settings.smoothness = 0.3f;
   return settings;
 }
@@ -305,21 +327,26 @@ Result<TrainingData> prepare_training(const std::vector<ManifestRow>& rows, Pose
 
 Result<Trained> train(const std::vector<ManifestRow>& rows, const std::vector<StyleName>& styles,
                       const TrainOptions& options) {
-  RecipeSettings settings = recipe_settings(options.recipe);
-  if (options.steps) settings.steps = *options.steps;
-  const bool heads = options.recipe == Recipe::panache;
-  const PoseLayout layout = heads ? PoseLayout::positions : PoseLayout::rotations;
-  Result<TrainingData> data = prepare_training(rows, layout);
+  Result<TrainingData> data = prepare_training(rows, PoseLayout::positions);
   if (!data) return data.error();
+  return train(*std::move(data), styles, options);
+}
+
+Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
+                      const TrainOptions& options) {
+  RecipeSettings settings = options.settings;
+  const bool heads = settings.recipe == Recipe::panache;
+  const PoseLayout layout = heads ? PoseLayout::positions : PoseLayout::rotations;
+  for (Take& take : data.takes) write_numbers(layout, take);
 
   std::vector<std::string> names;
   for (const StyleName& style : styles) names.push_back(style.name);
   const int count = static_cast<int>(names.size());
-  const SampleSet set(data->takes, data->pairings, names, options.recipe, !heads);
+  const SampleSet set(data.takes, data.pairings, names, settings.recipe, !heads);
   std::vector<int> choice, held;
   for (size_t i = 0; i < set.samples().size(); ++i) {
     const int styled = set.samples()[i].styled;
-    const bool validates = styled >= 0 && is_validation_take(data->takes[styled].row.path);
+    const bool validates = styled >= 0 && is_validation_take(data.takes[styled].row.path);
     (validates ? held : choice).push_back(static_cast<int>(i));
   }
 
@@ -331,14 +358,14 @@ Result<Trained> train(const std::vector<ManifestRow>& rows, const std::vector<St
   }
   const BatchMaker batches(set, choice, count, !heads, settings.batch);
   std::vector<NetworkTrainer> networks;
-  for (const NetworkShape& shape : network_shapes(options.recipe, set, count)) {
+  for (const NetworkShape& shape : network_shapes(settings.recipe, set, count)) {
     networks.emplace_back(shape, settings.optimizer, settings.steps,
                           options.seed * 31 + networks.size());
   }
   Trained trained;
   trained.samples = choice.size();
-  trained.read_seconds = data->read_seconds;
-  trained.pair_seconds = data->pair_seconds;
+  trained.read_seconds = data.read_seconds;
+  trained.pair_seconds = data.pair_seconds;
   if (!options.checkpoint.empty()) {
     for (NetworkTrainer& network : networks) {
       Result<void> loaded =
@@ -361,6 +388,11 @@ Result<Trained> train(const std::vector<ManifestRow>& rows, const std::vector<St
   Result<float> error = export_error(trained.model, set, batches, networks, choice);
   if (!error) return error.error();
   trained.export_error = *error;
+  // After the comparison, because libtorch's forward pass has no gate.
+  if (heads) {
+    fit_gate(clean_features(set, choice, count, settings.batch, networks[0], options.seed),
+             trained.model);
+  }
   return trained;
 }
 

@@ -2,7 +2,6 @@
 // From manifests to a model: pairs, samples, three networks, a file.
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,8 +25,7 @@ struct RecipeSettings {
 RecipeSettings recipe_settings(Recipe recipe);
 
 struct TrainOptions {
-  Recipe recipe = Recipe::panache;
-  std::optional<int64_t> steps;  // Instead of the recipe's own.
+  RecipeSettings settings = recipe_settings(Recipe::panache);
   uint64_t seed = 1;
   std::string data, licence;  // What the data is and its terms, for the model's metadata.
   std::string checkpoint;     // File to resume from and to save to now and then; empty: none.
@@ -57,6 +55,10 @@ struct TrainingData {
   double read_seconds = 0, pair_seconds = 0;
 };
 Result<TrainingData> prepare_training(const std::vector<ManifestRow>& rows, PoseLayout layout);
+
+// Trains on prepared takes, in whatever layout.
+Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
+                      const TrainOptions& options);
 
 // Trains on the training split of `rows`, whose styles are already renamed to those of `styles`.
 Result<Trained> train(const std::vector<ManifestRow>& rows, const std::vector<StyleName>& styles,

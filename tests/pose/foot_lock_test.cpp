@@ -1,5 +1,7 @@
 #include "pose/foot_lock.h"
 
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "base/random.h"
@@ -89,6 +91,19 @@ TEST(FootLock, a_released_foot_comes_back_without_a_jump) {
     EXPECT_LT(length(toe - last), 0.04f * 0.4f);
     last = toe;
   }
+}
+
+TEST(FootLock, a_foot_that_lands_moving_comes_to_rest_without_a_jerk) {
+  // The foot slides 1 cm a frame; it is free for 10 frames, then planted for 20.
+  Sliding body;
+  std::vector<Vec3> toes;
+  for (int f = 0; f < 30; ++f) toes.push_back(body.step(5 * f, f < 10 ? 0.0f : 1.0f, 1));
+  const auto way = [&](int f) { return length(toes[f] - toes[f - 1]); };
+  EXPECT_NEAR(way(9), 0.01f, 1e-4);
+  // A hard stop would take all of its speed within a frame.
+  EXPECT_GT(way(10), 0.003f);
+  for (int f = 11; f < 21; ++f) EXPECT_LE(way(f), way(f - 1) + 1e-4f) << f;
+  EXPECT_LT(way(16), 0.001f) << "and it stands within a fifth of a second";
 }
 
 TEST(FootLock, a_foot_pulled_too_far_is_let_go) {

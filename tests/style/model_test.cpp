@@ -1,5 +1,7 @@
 #include "style/model.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "make_model.h"
@@ -57,6 +59,39 @@ TEST(Model, wrong_or_missing_tensors_are_named) {
   EXPECT_NE(refusal(file), "accepted");
 }
 
+TEST(Model, a_damaged_gate_is_refused) {
+  const auto damaged = [](const auto& damage) {
+    TensorFile file = test::make_model({"old"});
+    test::add_gate(file, 2);
+    damage(file.tensors);
+    return refusal(file);
+  };
+  EXPECT_EQ(damaged([](auto&) {}), "accepted");
+  EXPECT_EQ(damaged([](auto& tensors) { tensors["gate.limit"].values = {0}; }),
+            "m.safetensors: tensor 'gate.limit' must be above zero");
+  EXPECT_EQ(damaged([](auto& tensors) { tensors["gate.limit"].values = {NAN}; }),
+            "m.safetensors: tensor 'gate.limit' holds a number that is not finite");
+  EXPECT_EQ(damaged([](auto& tensors) { tensors["gate.mean"].values[3] = INFINITY; }),
+            "m.safetensors: tensor 'gate.mean' holds a number that is not finite");
+  EXPECT_EQ(damaged([](auto& tensors) { tensors["gate.mean"] = test::constant_tensor(9, 0); }),
+            "m.safetensors: tensor 'gate.mean' has 9 numbers; expected shape [16]");
+  EXPECT_EQ(damaged([](auto& tensors) { tensors.erase("gate.limit"); }),
+            "m.safetensors: tensor 'gate.limit' is missing");
+  EXPECT_EQ(damaged([](auto& tensors) { tensors.erase("gate.whitening.weight"); }),
+            "m.safetensors: tensor 'gate.whitening.weight' is missing");
+  EXPECT_EQ(damaged([](auto& tensors) {
+              tensors["gate.whitening.weight"] = test::constant_tensor(16, 1);
+            }),
+            "m.safetensors: tensor 'gate.whitening.weight' has shape [16]; expected [16, 16]");
+}
+
+TEST(Model, a_gate_that_lacks_its_mean_is_refused) {
+  TensorFile file = test::make_model({"old"});
+  test::add_gate(file, 2);
+  file.tensors.erase("gate.mean");
+  EXPECT_EQ(refusal(file), "m.safetensors: tensor 'gate.mean' is missing");
+}
+
 TEST(Model, an_unknown_style_gets_the_nearest_names) {
   const auto model = *Model::parse(
       format_safetensors(test::make_model({"angry", "old", "proud", "sad"})), "m.safetensors");
@@ -64,26 +99,6 @@ TEST(Model, an_unknown_style_gets_the_nearest_names) {
   EXPECT_EQ(
       model->find_style("prod").error().message,
       "unknown style 'prod'; the nearest are proud, old and sad (panache styles lists all 4)");
-}
-
-TEST(Networks, strength_acts_linearly_and_styles_add_up) {
-  const auto model =
-      *Model::parse(format_safetensors(test::make_model({"old", "proud"})), "m.safetensors");
-  StyleNetworks networks(model);
-  std::vector<float> window(size_t(kWindowPoses) * 66);
-  Random random(5);
-  for (float& w : window) w = random.normal();
-  const auto answer = [&](float old, float proud) {
-    networks.set_strengths(std::vector<float>{old, proud});
-    networks.forward(window);
-    return std::vector<float>(networks.pose().begin(), networks.pose().end());
-  };
-  const std::vector<float> none = answer(0, 0), a = answer(1, 0), b = answer(0, 1);
-  const std::vector<float> both = answer(0.5f, 2);
-  for (size_t i = 0; i < none.size(); ++i) {
-    EXPECT_EQ(none[i], 0);
-    EXPECT_NEAR(both[i], 0.5f * a[i] + 2 * b[i], 1e-5);  // Sums of 16 products below 1.
-  }
 }
 
 }  // namespace

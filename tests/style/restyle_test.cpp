@@ -45,6 +45,20 @@ TEST(Restyle, strength_zero_is_the_input_frame_by_frame) {
   for (int f = 0; f < clip.frames; ++f) EXPECT_EQ(same.source_frames[f], f);
 }
 
+TEST(Restyle, every_frame_tells_how_far_its_motion_was_trusted) {
+  const Clip clip = test::walking_clip(60);
+  TensorFile file = test::make_model({"old"});
+  const auto gates = [&] {
+    const auto model = *Model::parse(format_safetensors(file), "test model");
+    const Restyled result = *restyle(clip, *Rig::create(clip), model, {{0, {{0, 1.0f}}}});
+    EXPECT_EQ(result.gates.size(), static_cast<size_t>(result.clip.frames));
+    return result.gates;
+  };
+  for (const float gate : gates()) EXPECT_EQ(gate, 1);
+  test::add_gate(file, 1e-3f);
+  for (const float gate : gates()) EXPECT_LT(gate, 0.01f);
+}
+
 TEST(Restyle, a_track_is_straight_between_points_and_held_beyond) {
   const StrengthTrack track{0, {{1, 0}, {3, 1}, {4, 0.5f}}};
   EXPECT_EQ(track.at(0), 0);

@@ -1,5 +1,6 @@
 #include "style/stylizer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -15,6 +16,12 @@ namespace {
 
 std::shared_ptr<const Model> random_model(Recipe recipe = Recipe::panache) {
   const TensorFile file = test::make_model({"old", "proud"}, 3, recipe);
+  return *Model::parse(format_safetensors(file), "test model");
+}
+
+std::shared_ptr<const Model> gated_model(float limit) {
+  TensorFile file = test::make_model({"old", "proud"}, 3);
+  test::add_gate(file, limit);
   return *Model::parse(format_safetensors(file), "test model");
 }
 
@@ -88,6 +95,52 @@ TEST_F(StylizerTest, a_step_allocates_nothing) {
     }
     EXPECT_EQ(test::allocations - before, 0);
   }
+}
+
+TEST_F(StylizerTest, a_step_through_a_gate_allocates_nothing_and_closes_it_gradually) {
+  Stylizer character = *Stylizer::create(gated_model(1e-3f), *Rig::create(clip_));
+  Clip out = clip_;
+  const std::vector<float> strengths = {1, 0};
+  const long before = test::allocations;
+  for (int f = 0; f < clip_.frames; ++f) {
+    character.step(clip_.pose(f), strengths, 1 / 30.0, out.pose(f));
+  }
+  EXPECT_EQ(test::allocations - before, 0);
+  EXPECT_LT(character.gate(), 0.01f);
+}
+
+TEST_F(StylizerTest, the_gate_takes_its_time_but_not_at_the_start) {
+  // How far the gate moves in a walk whose viewer's clock goes on by `seconds` a frame.
+  const auto moved = [&](double seconds) {
+    Stylizer character = *Stylizer::create(gated_model(1.5f), *Rig::create(clip_));
+    Clip out = clip_;
+    float first = 0, most = 0;
+    for (int f = 0; f < clip_.frames; ++f) {
+      character.step(clip_.pose(f), std::vector<float>{1, 0}, 1 / 30.0, seconds, out.pose(f));
+      if (f == 0) first = character.gate();
+      most = std::max(most, std::abs(character.gate() - first));
+    }
+    EXPECT_LT(first, 1) << "the first step need not wait";
+    return most;
+  };
+  EXPECT_GT(moved(1 / 30.0), 0.02f);
+  // 120 frames of a millionth of the time constant.
+  EXPECT_LT(moved(1.5e-7), 2e-4f);
+}
+
+TEST_F(StylizerTest, a_reset_character_remembers_no_gate) {
+  for (const float limit : {1e-3f, 1.0f, 1.5f, 2.0f}) {
+    const auto model = gated_model(limit);
+    Stylizer first = *Stylizer::create(model, *Rig::create(clip_)), second = first;
+    run(first, {1, 0.5f});
+    first.reset();
+    EXPECT_TRUE(same_bits(run(first, {1, 0.5f}), run(second, {1, 0.5f}))) << limit;
+  }
+}
+
+TEST_F(StylizerTest, behind_a_closed_gate_strength_zero_is_still_the_input) {
+  Stylizer character = *Stylizer::create(gated_model(1e-3f), *Rig::create(clip_));
+  EXPECT_TRUE(same_bits(run(character, {0, 0}), clip_));
 }
 
 TEST_F(StylizerTest, the_same_input_gives_the_same_bits_and_a_reset_one_starts_anew) {

@@ -73,5 +73,19 @@ TEST_F(ManifestTest, styles_are_renamed_merged_and_left_out) {
             "style 'angry' has no take in any manifest");
 }
 
+TEST(RenameStyles, takes_of_other_styles_are_dropped_without_complaint) {
+  std::vector<ManifestRow> rows(4);
+  rows[0].style = "elderly";
+  rows[1].style = "sad";
+  rows[2].style = rows[2].content = "neutral";
+  rows[2].neutral = true;
+  rows[3].style = "old";  // Called so already, which is not what the list renames.
+  const std::vector<ManifestRow> kept =
+      rename_styles({{"old", {"elderly"}, ""}, {"proud", {"proud"}, ""}}, rows);
+  ASSERT_EQ(kept.size(), 2u);
+  EXPECT_EQ(kept[0].style, "old");
+  EXPECT_TRUE(kept[1].neutral);
+}
+
 }  // namespace
 }  // namespace panache

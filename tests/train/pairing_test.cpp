@@ -1,5 +1,6 @@
 #include "train/pairing.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -62,6 +63,79 @@ TEST(Pairing, styles_are_compared_within_their_own_set_only) {
                              test::make_take("old", 90, 1, 1, 0.4f)};
   takes[1].row.set = 1;
   EXPECT_TRUE(pair_takes(takes, {1}, {0}).empty());
+}
+
+// A body that stands, its joints where make_take() has them, and shakes by `shake` metres; its
+// right hand goes up and down once, as the share 0 to 1 of `course` says.
+Take raising(const std::string& style, const std::vector<float>& course, float shake,
+             uint64_t seed) {
+  Take take = test::make_take(style, static_cast<int>(course.size()), 0, 0, 0);
+  Random random(seed);
+  HumanPositions sway{};
+  for (size_t f = 0; f < course.size(); ++f) {
+    for (int j = 1; j < kHumanJoints; ++j) {
+      // Slow wandering, as of someone who stands and waits.
+      sway[j] = sway[j] * 0.95f + Vec3{random.normal(), random.normal(), random.normal()} * 0.31f;
+      take.body[f][j] += sway[j] * shake;
+    }
+    take.body[f][index(HumanJoint::right_hand)].y +=
+        0.6f * std::sin(std::numbers::pi_v<float> * course[f]);
+  }
+  write_numbers(PoseLayout::positions, take);
+  return take;
+}
+
+// `frames` frames from 0 to 1, with `still` frames of rest at either end.
+std::vector<float> evenly(int frames, int still = 30) {
+  std::vector<float> course(still, 0.0f);
+  for (int f = 0; f < frames; ++f) {
+    course.push_back(static_cast<float>(f) / static_cast<float>(frames - 1));
+  }
+  course.insert(course.end(), still, 1.0f);
+  return course;
+}
+
+TEST(Pairing, an_action_of_one_arm_is_aligned_by_it_although_the_body_shakes) {
+  // The styled hand begins 20 frames later. Everything else moves by a centimetre.
+  std::vector<float> later = evenly(60);
+  later.insert(later.begin(), 20, 0.0f);
+  const std::vector<float> course = evenly(60);
+  double off = 0, count = 0;
+  for (const uint64_t seed : {1, 2, 3}) {
+    const std::vector<Take> takes = {raising("neutral", course, 0.01f, seed),
+                                     raising("old", later, 0.01f, seed + 100)};
+    for (const Pairing& p : pair_takes(takes, {1}, {0})) {
+      for (size_t i = 4; i + 4 < p.neutral_frames.size(); ++i) {
+        const float wanted = later[p.first + i];
+        // Where the hand moves clearly; at the top and at rest no frame is like its neighbours.
+        if (wanted < 0.1f || wanted > 0.9f || std::abs(wanted - 0.5f) < 0.15f) continue;
+        const float at = std::clamp(p.neutral_frames[i], 0.0f, course.size() - 1.0f);
+        off += std::abs(course[static_cast<size_t>(at + 0.5f)] - wanted) * 59;
+        ++count;
+      }
+    }
+  }
+  ASSERT_GT(count, 100);
+  EXPECT_LT(off / count, 4) << "frames";
+}
+
+TEST(Pairing, a_styled_take_that_dwells_is_followed) {
+  // Half as fast all the way: one wait for every frame.
+  const std::vector<float> course = evenly(40, 15), slow = evenly(80, 15);
+  const std::vector<Take> takes = {raising("neutral", course, 0, 1), raising("old", slow, 0, 1)};
+  double rate = 0, count = 0;
+  for (const Pairing& p : pair_takes(takes, {1}, {0})) {
+    for (size_t i = 4; i + 4 < p.neutral_frames.size(); ++i) {
+      const float wanted = slow[p.first + i];
+      if (wanted < 0.05f || wanted > 0.95f) continue;
+      const float at = std::clamp(p.neutral_frames[i], 0.0f, course.size() - 1.0f);
+      EXPECT_NEAR(course[static_cast<size_t>(at + 0.5f)], wanted, 0.1) << p.first + i;
+      rate += p.rates[i];
+      ++count;
+    }
+  }
+  ASSERT_GT(count, 80);
+  EXPECT_NEAR(rate / count, 0.5, 0.1);
 }
 
 }  // namespace

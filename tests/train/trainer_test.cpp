@@ -1,5 +1,6 @@
 #include "train/trainer.h"
 
+#include <cmath>
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -22,8 +23,8 @@ class TrainerTest : public testing::Test {
 
   TrainOptions options(Recipe recipe, int64_t steps) const {
     TrainOptions options;
-    options.recipe = recipe;
-    options.steps = steps;
+    options.settings = recipe_settings(recipe);
+    options.settings.steps = steps;
     return options;
   }
 
@@ -112,6 +113,70 @@ TEST_F(TrainerTest, takes_of_the_test_split_are_not_trained_on) {
   rows.back().path = folder_ + "none.bvh";  // Would be missed if it were read.
   rows.back().test = true;
   EXPECT_TRUE(train(rows, styles_, options(Recipe::panache, 1)).ok());
+}
+
+TEST_F(TrainerTest, the_timing_network_answers_with_the_mean_of_the_rates) {
+  // The same windows twice, paired with two tempos: the best answer to each is the logarithm of
+  // the mean rate, not the mean of the logarithms.
+  Result<TrainingData> prepared = prepare_training(rows_, PoseLayout::positions);
+  ASSERT_TRUE(prepared.ok()) << prepared.error().message;
+  TrainingData& data = *prepared;
+  data.pairings.resize(1);
+  data.pairings[0].rates.assign(data.pairings[0].rates.size(), 0.5f);
+  data.pairings.push_back(data.pairings[0]);
+  data.pairings[1].rates.assign(data.pairings[1].rates.size(), 2.0f);
+  const Pairing pairing = data.pairings[0];
+  const Take neutral = data.takes[pairing.neutral];
+  TrainOptions slow = options(Recipe::panache, 400);
+  slow.settings.batch.disturbed = slow.settings.batch.mirrored = false;
+  slow.settings.optimizer.dropout = 0;
+  const auto trained = train(data, styles_, slow);
+  ASSERT_TRUE(trained.ok()) << trained.error().message;
+  const auto model = Model::parse(format_safetensors(trained->model), "model");
+  ASSERT_TRUE(model.ok()) << model.error().message;
+  StyleNetworks networks(*model);
+  networks.set_strengths(std::vector<float>{1});
+  const int numbers = pose_numbers(PoseLayout::positions);
+  std::vector<float> window(size_t(kWindowPoses) * numbers);
+  double rate = 0;
+  for (int i = 10; i < 30; ++i) {
+    take_window(neutral, pairing.neutral_frames[i], numbers, window);
+    networks.forward(window);
+    rate += std::exp(networks.log_rate()) / 20;
+  }
+  // The mean of the rates is 1.25, that of their logarithms belongs to 1. Each batch has its own
+  // shares of both: 128 pairs, a deviation of 0.07, averaged over the last steps.
+  EXPECT_NEAR(rate, 1.25, 0.08);
+}
+
+TEST_F(TrainerTest, the_gate_is_open_on_the_middle_of_what_was_trained_on_and_shut_far_away) {
+  const auto trained = train(rows_, styles_, options(Recipe::panache, 200));
+  ASSERT_TRUE(trained.ok()) << trained.error().message;
+  const auto model = Model::parse(format_safetensors(trained->model), "model");
+  ASSERT_TRUE(model.ok()) << model.error().message;
+  StyleNetworks networks(*model);
+  networks.set_strengths(std::vector<float>{1});
+  const TrainingData data = *prepare_training(rows_, PoseLayout::positions);
+  const Take& neutral = data.takes[data.pairings.front().neutral];
+  std::vector<float> window(size_t(kWindowPoses) * pose_numbers(PoseLayout::positions));
+  double gates = 0;
+  for (int f = 40; f < 100; ++f) {
+    take_window(neutral, static_cast<float>(f), pose_numbers(PoseLayout::positions), window);
+    networks.forward(window);
+    gates += networks.gate() / 60;
+  }
+  EXPECT_GT(gates, 0.8);
+  Random random(1);
+  for (float& w : window) w = 5 * random.normal();
+  networks.forward(window);
+  EXPECT_LT(networks.gate(), 0.5 * gates);
+}
+
+TEST_F(TrainerTest, only_our_own_recipe_gets_a_gate) {
+  const auto ours = train(rows_, styles_, options(Recipe::panache, 2));
+  const auto theirs = train(rows_, styles_, options(Recipe::smith2019, 2));
+  EXPECT_TRUE(ours->model.tensors.contains("gate.limit"));
+  EXPECT_FALSE(theirs->model.tensors.contains("gate.limit"));
 }
 
 TEST(Losses, the_table_and_the_plot_hold_every_point) {

@@ -1,0 +1,45 @@
+#include "train/gate.h"
+
+#include <algorithm>
+
+namespace panache {
+namespace {
+
+// Directions in which the features hardly vary are not trusted to tell what is unknown.
+constexpr double kRidge = 0.02;  // Of the mean variance.
+// Windows are trusted up to this share of the distance that 99 % of the training windows keep: the
+// rest of them are transitions and odd moments, and foreign motion begins among those.
+constexpr double kQuantile = 0.99, kTrusted = 0.61;
+
+Tensor plain_tensor(const torch::Tensor& values, bool half) {
+  const torch::Tensor flat = values.to(torch::kFloat32).contiguous();
+  Tensor tensor;
+  tensor.shape.assign(flat.sizes().begin(), flat.sizes().end());
+  tensor.values.assign(flat.data_ptr<float>(), flat.data_ptr<float>() + flat.numel());
+  tensor.half = half;
+  return tensor;
+}
+
+}  // namespace
+
+void fit_gate(const torch::Tensor& rows, TensorFile& file) {
+  torch::NoGradGuard no_gradients;
+  const torch::Tensor features = rows.to(torch::kFloat64);
+  const torch::Tensor mean = features.mean(0);
+  const torch::Tensor centred = features - mean;
+  const torch::Tensor covariance =
+      torch::mm(centred.t(), centred) / static_cast<double>(features.size(0) - 1);
+  const auto [values, vectors] = torch::linalg_eigh(covariance);
+  // Features that do not vary at all, as those of a single pose, still make a gate.
+  const torch::Tensor ridge = values.clamp_min(0) + (values.mean() * kRidge).clamp_min(1e-6);
+  const torch::Tensor whitening = vectors / ridge.sqrt().unsqueeze(0);
+  const torch::Tensor distance = torch::mm(centred, whitening).square().sum(1).sqrt();
+  const double limit = std::max(1.0, kTrusted * distance.quantile(kQuantile).item<double>());
+
+  file.tensors["gate.mean"] = plain_tensor(mean, false);
+  file.tensors["gate.whitening.weight"] = plain_tensor(whitening, true);
+  file.tensors["gate.whitening.bias"] = plain_tensor(torch::zeros({mean.size(0)}), false);
+  file.tensors["gate.limit"] = plain_tensor(torch::full({1}, limit), false);
+}
+
+}  // namespace panache

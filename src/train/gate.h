@@ -1,0 +1,15 @@
+#pragma once
+// What motion a trained pose network knows: the ellipsoid that its features fill in training.
+
+#include <torch/torch.h>
+
+#include "net/safetensors.h"
+
+namespace panache {
+
+// Adds gate.mean, gate.whitening and gate.limit to a model: mean and covariance of the pose trunk's
+// features over training windows, and the distance beyond which windows are trusted less and less.
+// features[rows][hidden].
+void fit_gate(const torch::Tensor& features, TensorFile& file);
+
+}  // namespace panache
