@@ -1,9 +1,14 @@
 // panache eval: models beside real motion.
 
+#include <algorithm>
 #include <filesystem>
+#include <set>
 
-#include "eval/pose_error.h"
+#include "eval/evaluate.h"
+#include "eval/foreign.h"
+#include "eval/report.h"
 #include "manifests.h"
+#include "outputs.h"
 #include "report.h"
 #include "verbs.h"
 
@@ -12,55 +17,123 @@ namespace {
 
 struct Options {
   ManifestOptions data;
+  std::vector<std::string> tests;
   std::vector<std::string> models;
+  std::vector<std::string> unseen, splits;
+  std::vector<std::string> foreign;
+  std::string report;
+  int64_t steps = 0;
+  uint64_t seed = 1;
+  bool force = false;
   bool json = false;
 };
 
-Json table_json(const PoseErrorTable& table) {
-  Json rows = Json::array();
-  for (const PoseErrorRow& row : table.rows) {
-    Json errors;
-    for (size_t s = 0; s < table.systems.size(); ++s) {
-      errors[table.systems[s]] = {{"pose_error_deg", row.errors[s].degrees},
-                                  {"pose_error_cm", row.errors[s].cm}};
-    }
-    rows.push_back({{"style", row.style}, {"frames", row.frames}, {"systems", errors}});
+// The takes of `tests` that may judge: those marked test, all of a manifest that marks none. Takes
+// that are trained on never judge, and neither do styles that nothing trained on shows.
+Result<std::vector<ManifestRow>> read_tests(const std::vector<std::string>& tests,
+                                            const Manifests& training) {
+  std::set<std::string> learnt;
+  for (const ManifestRow& row : training.rows) {
+    if (!row.test) learnt.insert(std::filesystem::path(row.path).lexically_normal().string());
   }
-  return rows;
+  std::vector<ManifestRow> judged;
+  int set = 0;
+  for (const std::string& path : tests) {
+    Result<std::vector<ManifestRow>> rows = read_manifest(path, set++);
+    if (!rows) return rows.error();
+    const bool marked =
+        std::any_of(rows->begin(), rows->end(), [](const ManifestRow& row) { return row.test; });
+    for (ManifestRow& row : *rows) {
+      if (marked && !row.test) continue;
+      if (learnt.contains(std::filesystem::path(row.path).lexically_normal().string())) continue;
+      row.test = true;
+      judged.push_back(std::move(row));
+    }
+  }
+  return rename_styles(training.styles, std::move(judged));
 }
 
-std::string table_text(const PoseErrorTable& table) {
-  constexpr size_t kColumn = 22;
-  std::string text = padded("style", 14) + padded("frames", 8);
-  for (const std::string& system : table.systems) text += padded(system, kColumn);
-  text += "\n";
-  for (const PoseErrorRow& row : table.rows) {
-    text += padded(row.style, 14) + padded(std::to_string(row.frames), 8);
-    for (const PoseError& error : row.errors) {
-      text += padded(fixed(error.degrees, 2) + " deg " + fixed(error.cm, 2) + " cm", kColumn);
+Result<EvaluateOptions> read_options(const Options& options) {
+  EvaluateOptions evaluation;
+  Result<Manifests> data = read_manifests(options.data);
+  if (!data) return data.error();
+  evaluation.styles = data->styles;
+  if (options.tests.empty()) {
+    for (const ManifestRow& row : data->rows) {
+      if (row.test) evaluation.test.push_back(row);
     }
-    text += "\n";
+    if (evaluation.test.empty()) {
+      return Error{options.data.paths.front() +
+                   ": marks no take as test; mark some in its column split, or name a manifest of "
+                   "takes to judge by with --test"};
+    }
+  } else {
+    Result<std::vector<ManifestRow>> rows = read_tests(options.tests, *data);
+    if (!rows) return rows.error();
+    if (rows->empty()) {
+      return Error{options.tests.front() +
+                   ": has no take to judge by: all of them are trained on, or of styles that the "
+                   "training manifests do not have"};
+    }
+    evaluation.test = *std::move(rows);
   }
-  return text;
+  evaluation.training = std::move(data->rows);
+  for (const std::string& path : options.models) {
+    Result<std::shared_ptr<const Model>> model = Model::load(path);
+    if (!model) return model.error();
+    evaluation.models.push_back({std::filesystem::path(path).stem().string(), *model});
+  }
+  for (size_t a = 0; a < evaluation.models.size(); ++a) {
+    for (size_t b = 0; b < a; ++b) {
+      if (evaluation.models[a].name == evaluation.models[b].name) {
+        return Error{options.models[a] + ": has the name of " + options.models[b] +
+                     "; the report names models by their files, so give one another name"};
+      }
+    }
+  }
+  if (!options.unseen.empty()) {
+    std::string name;
+    for (const std::string& content : options.unseen) name += (name.empty() ? "" : "+") + content;
+    evaluation.unseen.push_back({name, options.unseen});
+  }
+  for (const std::string& name : options.splits) {
+    Result<UnseenSplit> split = named_split(name);
+    if (!split) return split.error();
+    evaluation.unseen.push_back(*split);
+  }
+  for (const std::string& path : options.foreign) {
+    Result<std::vector<std::string>> files = list_foreign(path);
+    if (!files) return files.error();
+    evaluation.foreign.insert(evaluation.foreign.end(), files->begin(), files->end());
+  }
+  if (options.steps > 0) evaluation.steps = options.steps;
+  evaluation.seed = options.seed;
+  return evaluation;
 }
 
 int run(const Options& options) {
-  Result<Manifests> data = read_manifests(options.data);
-  if (!data) return refuse(data.error(), kBadInput);
-  std::vector<NamedModel> models;
-  for (const std::string& path : options.models) {
-    Result<std::shared_ptr<const Model>> model = Model::load(path);
-    if (!model) return refuse(model.error(), kBadInput);
-    models.push_back({std::filesystem::path(path).stem().string(), *model});
+  if (!options.report.empty()) {
+    const std::string file = (std::filesystem::path(options.report) / "report.json").string();
+    if (Result<void> free = check_free(file, options.force); !free) {
+      return refuse(free.error(), kBadInput);
+    }
   }
-  Result<PoseErrorTable> table = measure_pose_error(data->rows, models);
-  if (!table) return refuse(table.error(), kBadInput);
-  if (options.json) {
-    print(table_json(*table));
-  } else {
-    print("Pose error against the time-aligned real styled take, test takes only:\n" +
-          table_text(*table));
+  Result<EvaluateOptions> evaluation = read_options(options);
+  if (!evaluation) return refuse(evaluation.error(), kBadInput);
+  Result<Report> report = evaluate(*evaluation);
+  if (!report) return refuse(report.error(), kBadInput);
+  report->trained_on = options.data.paths;
+  report->tested_on = options.tests.empty() ? options.data.paths : options.tests;
+  for (size_t m = 0; m < options.models.size(); ++m) {
+    std::error_code status;
+    report->systems[m].model_bytes = std::filesystem::file_size(options.models[m], status);
   }
+  if (!options.report.empty()) {
+    if (Result<void> written = write_report(*report, options.report); !written) {
+      return refuse(written.error(), kBadInput);
+    }
+  }
+  print(options.json ? report_json(*report) : report_text(*report));
   return kDone;
 }
 
@@ -68,11 +141,36 @@ int run(const Options& options) {
 
 void add_eval(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* verb = app.add_subcommand("eval", "Compare models with real motion");
+  CLI::App* verb = app.add_subcommand("eval", "Judge models beside real motion");
   add_manifest_options(*verb, options->data);
-  verb->add_option("--model", options->models, "A model to judge; may be given several times");
-  verb->add_flag("--json", options->json, "Print the result as JSON");
-  verb->footer("Example:\n  panache eval mine.csv --model mine.safetensors");
+  verb->add_option("--test", options->tests,
+                   "A manifest of takes to judge by, instead of the test takes of the manifests; "
+                   "may be given several times")
+      ->allow_extra_args(false);
+  verb->add_option("--model", options->models,
+                   "A model to judge; may be given several times; without any, both recipes are "
+                   "trained first")
+      ->allow_extra_args(false);
+  verb->add_option("--unseen", options->unseen,
+                   "A content that models are trained without and then judged on; may be given "
+                   "several times")
+      ->allow_extra_args(false);
+  verb->add_option("--unseen-split", options->splits,
+                   "The same for a split of docs/evaluation.md: A, B or C")
+      ->allow_extra_args(false);
+  verb->add_option("--foreign", options->foreign,
+                   "A motion file, a folder of them or a manifest (of which the contents without "
+                   "a style count): motion to try every style on")
+      ->allow_extra_args(false);
+  verb->add_option("--report", options->report, "A folder for report.json and the page index.html");
+  verb->add_option("--steps", options->steps, "Train this many steps instead of the recipes' own")
+      ->check(CLI::Range(1, 1000000000));
+  verb->add_option("--seed", options->seed, "Of classifiers and trainings");
+  verb->add_flag("--force", options->force, "Overwrite a report that exists");
+  verb->add_flag("--json", options->json, "Print the report as JSON");
+  verb->footer(
+      "Example:\n  panache eval takes.csv --test others.csv --model mine.safetensors --report "
+      "report");
   verb->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

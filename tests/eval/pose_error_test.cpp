@@ -2,56 +2,47 @@
 
 #include <gtest/gtest.h>
 
-#include "make_manifest.h"
-#include "make_model.h"
-#include "temporary_folder.h"
+#include "make_aligned.h"
+#include "train/samples.h"
 
 namespace panache {
 namespace {
 
-class PoseErrorTest : public testing::Test {
- protected:
-  PoseErrorTest() {
-    test::write_manifest(folder_, {"train", "test"});
-    rows_ = *read_manifest(folder_ + "manifest.csv", 0);
-    std::vector<StyleName> styles;
-    EXPECT_TRUE(apply_style_names(styles, rows_).ok());
-  }
-
-  const test::TemporaryFolder temporary_;
-  const std::string folder_ = temporary_.path();
-  std::vector<ManifestRow> rows_;
-};
-
-TEST_F(PoseErrorTest, a_constant_lean_is_all_posture) {
-  const auto table = measure_pose_error(rows_, {});
-  ASSERT_TRUE(table.ok()) << table.error().message;
-  ASSERT_EQ(table->rows.size(), 2u);
-  const PoseErrorRow& old = table->rows[0];
-  EXPECT_EQ(old.style, "old");
-  EXPECT_GT(old.frames, 50u);
-  // Left alone, one of 21 joints is off by the lean, and everything above it by centimetres.
-  EXPECT_NEAR(old.errors[0].degrees, test::kLean * 180 / M_PI / kHumanJoints, 0.3);
-  EXPECT_GT(old.errors[0].cm, 3);
-  // With the mean posture hardly anything is left: the alignment is good to a frame.
-  EXPECT_LT(old.errors[1].degrees, 0.35 * old.errors[0].degrees);
-  EXPECT_LT(old.errors[1].cm, 0.35 * old.errors[0].cm);
+TEST(PoseError, the_true_change_leaves_no_error) {
+  const Take neutral = test::walk_take("neutral", "walk", 60, 0);
+  const Take styled = test::walk_take("old", "walk", 60, test::kBend);
+  const ChangeNumbers truth = change_between(styled, 20, neutral, 20, 1);
+  const PoseError error = pose_error(styled, 20, neutral, 20, truth);
+  // Rotation vectors in single precision; the trunk is resampled along its bend.
+  EXPECT_LT(error.degrees, 0.05);
+  EXPECT_LT(error.cm, 0.5);
 }
 
-TEST_F(PoseErrorTest, a_model_has_its_own_column_and_a_random_one_is_no_good) {
-  for (const Recipe recipe : {Recipe::panache, Recipe::smith2019}) {
-    const auto model = *Model::parse(format_safetensors(test::make_model({"old"}, 1, recipe)), "m");
-    const auto table = measure_pose_error(rows_, {{"random", model}});
-    ASSERT_TRUE(table.ok()) << table.error().message;
-    EXPECT_EQ(table->systems.back(), "random");
-    EXPECT_GT(table->rows[0].errors[2].cm, table->rows[0].errors[1].cm);
-  }
+TEST(PoseError, a_turn_of_one_joint_is_shared_among_all_joints) {
+  const Take neutral = test::walk_take("neutral", "walk", 60, 0);
+  ChangeNumbers change{};
+  change[3 * index(HumanJoint::head)] = 0.5f;
+  const PoseError error = pose_error(neutral, 20, neutral, 20, change);
+  EXPECT_NEAR(error.degrees, 0.5 * 180 / M_PI / kHumanJoints, 1e-3);
+  EXPECT_NEAR(error.cm, 0, 1e-6);  // Nothing hangs on the head.
 }
 
-TEST_F(PoseErrorTest, without_test_takes_there_is_nothing_to_judge) {
-  for (ManifestRow& row : rows_) row.test = false;
-  EXPECT_EQ(measure_pose_error(rows_, {}).error().message,
-            "no styled test take has a neutral test take of its content");
+TEST(PoseError, a_body_that_is_too_low_is_off_by_that_much_everywhere) {
+  const Take neutral = test::walk_take("neutral", "walk", 60, 0);
+  ChangeNumbers change{};
+  change[63] = -0.07f;
+  const PoseError error = pose_error(neutral, 20, neutral, 20, change);
+  EXPECT_NEAR(error.cm, 7, 1e-4);
+  EXPECT_NEAR(error.degrees, 0, 1e-3);
+}
+
+TEST(PoseError, between_frames_the_neutral_body_is_between_them) {
+  const Take neutral = test::walk_take("neutral", "walk", 60, 0);
+  const double before = pose_error(neutral, 20, neutral, 20, {}).cm;
+  const double half = pose_error(neutral, 20, neutral, 20.5f, {}).cm;
+  const double whole = pose_error(neutral, 20, neutral, 21, {}).cm;
+  EXPECT_EQ(before, 0);
+  EXPECT_NEAR(half, whole / 2, 0.02 * whole);
 }
 
 }  // namespace

@@ -1,0 +1,29 @@
+#pragma once
+// How much a model's answer suffers when only its input is disturbed: what other bodies, captures
+// and files do to it.
+
+#include <string>
+#include <vector>
+
+#include "eval/aligned.h"
+
+namespace panache {
+
+struct DisturbanceRow {
+  std::string name;  // "none", "body scale x 0.8", ...
+  double cm = 0;     // Mean pose error over styles and contents, see PoseError.
+};
+
+// The error of a model on `test` when the windows that it sees are disturbed and nothing else is;
+// "none" first. Its answer is put on the undisturbed body: changes as they are (recipe panache),
+// poses in place of it (smith2019). Nothing where the model knows no style of the test.
+std::vector<DisturbanceRow> measure_disturbances(const AlignedTest& test, const Model& model);
+
+// The same takes as seen under one disturbance, numbers in `layout`. Exposed for tests.
+struct Disturbing {
+  std::string name;
+  SeenTakes (*see)(const std::vector<Take>& takes, PoseLayout layout);
+};
+const std::vector<Disturbing>& disturbing_inputs();
+
+}  // namespace panache

@@ -1,0 +1,148 @@
+#include "eval/evaluate.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <set>
+
+#include "base/progress.h"
+#include "eval/disturbances.h"
+#include "eval/foreign.h"
+#include "eval/mean_posture.h"
+#include "eval/motion_metrics.h"
+#include "net/safetensors.h"
+
+namespace panache {
+namespace {
+
+// Test takes whose style and content a training take shows: nothing can be said of the others.
+std::vector<ManifestRow> judgeable(const EvaluateOptions& options) {
+  std::set<std::string> styles, contents;
+  for (const ManifestRow& row : options.training) {
+    if (row.test) continue;
+    styles.insert(row.style);
+    contents.insert(row.content);
+  }
+  std::vector<ManifestRow> rows;
+  for (const ManifestRow& row : options.test) {
+    if (styles.contains(row.style) && contents.contains(row.content)) rows.push_back(row);
+  }
+  return rows;
+}
+
+Result<Bench> prepare(const EvaluateOptions& options) {
+  Result<TrainingData> training = prepare_training(options.training, PoseLayout::positions);
+  if (!training) return training.error();
+  std::vector<ManifestRow> neutral, styled;
+  for (const ManifestRow& row : judgeable(options)) (row.neutral ? neutral : styled).push_back(row);
+  if (neutral.empty())
+    return Error{
+        "no neutral test take of a content that is trained on; expected rows with neutral 1"};
+  if (styled.empty())
+    return Error{
+        "no styled test take of a style and content that are trained on; expected rows with "
+        "neutral 0"};
+  Progress progress("reading test takes");
+  Result<std::vector<TestInput>> inputs = load_inputs(neutral);
+  if (!inputs) return inputs.error();
+  Result<std::vector<TestInput>> styled_inputs = load_inputs(styled);
+  if (!styled_inputs) return styled_inputs.error();
+  std::vector<Take> test;
+  std::set<std::string> styles;
+  for (const std::vector<TestInput>* part : {&*inputs, &*styled_inputs}) {
+    for (const TestInput& input : *part) test.push_back(input.take);
+  }
+  for (const ManifestRow& row : styled) styles.insert(row.style);
+  progress.update(0.5, "training the classifiers");
+  Result<Judge> judge = Judge::create(training->takes, test, options.floor, options.seed);
+  if (!judge) return judge.error();
+  const double units = 1 / styled_inputs->front().rig.scale();
+  return Bench{*std::move(training),
+               *std::move(inputs),
+               *std::move(styled_inputs),
+               AlignedTest(std::move(test)),
+               *std::move(judge),
+               {styles.begin(), styles.end()},
+               units};
+}
+
+Result<std::vector<NamedModel>> find_models(const EvaluateOptions& options, const Bench& bench) {
+  if (!options.models.empty()) return options.models;
+  std::vector<NamedModel> models;
+  for (const auto& [recipe, name] :
+       {std::pair{Recipe::panache, "panache"}, std::pair{Recipe::smith2019, "smith2019"}}) {
+    TrainOptions training;
+    training.settings = recipe_settings(recipe);
+    if (options.steps) training.settings.steps = *options.steps;
+    training.seed = options.seed;
+    Result<Trained> trained = train(bench.training, options.styles, training);
+    if (!trained) return trained.error();
+    Result<std::shared_ptr<const Model>> model =
+        Model::parse(format_safetensors(trained->model), name);
+    if (!model) return model.error();
+    models.push_back({name, *model});
+  }
+  return models;
+}
+
+}  // namespace
+
+Result<Report> evaluate(const EvaluateOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  Result<Bench> bench = prepare(options);
+  if (!bench) return bench.error();
+  Result<std::vector<NamedModel>> models = find_models(options, *bench);
+  if (!models) return models.error();
+  Result<std::shared_ptr<const Model>> posture =
+      mean_posture_model(bench->training, options.styles, {});
+  if (!posture) return posture.error();
+
+  Report report;
+  report.styles = bench->styles;
+  report.contents = bench->judge.contents().classes();
+  report.style_floor = options.floor.style;
+  report.content_floor = options.floor.content;
+  const CellTable& real = bench->judge.real();
+  report.real = mean_quality(real);
+  report.real_by_content = by_content(real);
+  report.real_by_style = by_style(real);
+  std::vector<Take> takes;
+  for (const TestInput& input : bench->inputs) takes.push_back(input.take);
+  CellTable input = bench->judge.judge(untouched(bench->inputs, bench->styles), takes);
+  for (const auto& [cell, error] : bench->aligned.untouched_errors()) {
+    if (!input.contains(cell)) continue;
+    input[cell].pose_error_deg = error.degrees;
+    input[cell].pose_error_cm = error.cm;
+  }
+  report.input = mean_quality(input);
+  report.input_by_content = by_content(input);
+  report.sc_floor = report.cc_floor =
+      distance_to_real(bench->judge.test(), bench->training.takes, bench->judge.test()) *
+      bench->units_per_metre;
+
+  std::vector<NamedModel> systems = *models;
+  systems.push_back({"mean posture", *posture});
+  for (const NamedModel& system : systems) {
+    Result<SystemReport> judged = judge_system(system, *bench);
+    if (!judged) return judged.error();
+    judged->disturbances = measure_disturbances(bench->aligned, *system.model);
+    if (!options.foreign.empty()) {
+      Progress progress("foreign motion, " + system.name);
+      Result<std::vector<ForeignRow>> foreign = measure_foreign(
+          options.foreign, system.model, [&](double share) { progress.update(share); });
+      if (!foreign) return foreign.error();
+      judged->foreign = *std::move(foreign);
+    }
+    report.systems.push_back(*std::move(judged));
+  }
+  for (const UnseenSplit& split : options.unseen) {
+    if (Result<void> done = judge_unseen(split, options, *bench, *models, report.systems); !done) {
+      return done.error();
+    }
+  }
+  if (Result<void> done = add_pictures(*models, *bench, report); !done) return done.error();
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return report;
+}
+
+}  // namespace panache

@@ -1,0 +1,74 @@
+#pragma once
+// The whole evaluation: classifiers are trained, systems are run, their motion is judged.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "eval/aligned.h"
+#include "eval/judge.h"
+#include "eval/report.h"
+#include "eval/systems.h"
+#include "train/trainer.h"
+
+namespace panache {
+
+// Contents that are left out of training, to be judged apart.
+struct UnseenSplit {
+  std::string name;
+  std::vector<std::string> contents;
+};
+// The splits A, B and C of docs/evaluation.md; fails where there is none of that name.
+Result<UnseenSplit> named_split(const std::string& name);
+
+struct NamedModel {
+  std::string name;
+  std::shared_ptr<const Model> model;
+};
+
+struct EvaluateOptions {
+  std::vector<ManifestRow> training;  // Styles renamed; rows marked test are not learnt from.
+  std::vector<ManifestRow> test;      // Real held-out takes, neutral and styled.
+  std::vector<StyleName> styles;      // Of `training`.
+  std::vector<NamedModel> models;     // Where there are none, both recipes are trained.
+  std::vector<UnseenSplit> unseen;
+  std::vector<std::string> foreign;  // Motion files.
+  JudgeFloor floor;
+  std::optional<int64_t> steps;  // Of every training, instead of its recipe's own.
+  uint64_t seed = 1;
+};
+
+// Fails where takes cannot be read, where the test takes lack what is judged, or where the
+// classifiers are no judges (see Judge::create). Shows its progress on a terminal.
+Result<Report> evaluate(const EvaluateOptions& options);
+
+// The test takes and everything that judges motion made from them.
+struct Bench {
+  TrainingData training;          // Takes and pairs of the training split.
+  std::vector<TestInput> inputs;  // Neutral test takes,
+  std::vector<TestInput> styled;  // and styled ones.
+  AlignedTest aligned;
+  Judge judge;
+  std::vector<std::string> styles;  // That have real test takes, in order.
+  double units_per_metre = 1;       // Of the first test file: the unit of CC and SC++.
+};
+
+// What one model makes of the neutral test takes in every way: seen contents, strengths, mixes.
+Result<SystemReport> judge_system(const NamedModel& system, const Bench& bench);
+
+// The same of these contents only, at strength 1.
+Result<CellTable> judge_contents(const NamedModel& system, const Bench& bench,
+                                 const std::vector<std::string>& contents);
+
+// Trains the recipes of `systems` without the contents of `split`, judges them, and adds what was
+// found to the reports of the same order.
+Result<void> judge_unseen(const UnseenSplit& split, const EvaluateOptions& options,
+                          const Bench& bench, const std::vector<NamedModel>& systems,
+                          std::vector<SystemReport>& reports);
+
+// Skeletons and planted feet of some takes: input, systems, real take.
+Result<void> add_pictures(const std::vector<NamedModel>& systems, const Bench& bench,
+                          Report& report);
+
+}  // namespace panache

@@ -1,0 +1,95 @@
+#pragma once
+// Everything that one evaluation found, and its forms: a file for machines, a page and a table for
+// people.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/result.h"
+#include "eval/disturbances.h"
+#include "eval/foreign.h"
+#include "eval/quality.h"
+#include "pose/contacts.h"
+#include "pose/strip.h"
+
+namespace panache {
+
+// What a system makes of contents that it never saw in a style.
+struct UnseenReport {
+  std::string name;                      // "A", or the contents joined with "+".
+  Quality mean;                          // Over the unseen contents.
+  QualityTable by_content;               // The unseen contents only.
+  QualityTable seen_by_content;          // The same contents by the model that saw them.
+  QualityTable blind_by_content;         // Real takes, judged by classifiers that never saw them.
+  QualityTable mean_posture_by_content;  // The style's mean posture, for comparison.
+};
+
+// Half of one style, half of another.
+struct MixReport {
+  std::string first, second;
+  double either = 0;       // Share of windows recognised as one of the two.
+  double content = 0;      // Share whose content is kept.
+  double correlation = 0;  // Of the share of the second, 0 to 1, with P(second) - P(first).
+};
+
+struct SystemReport {
+  std::string name;    // "panache", "smith2019", "mean posture", ...; no two systems alike.
+  std::string recipe;  // Of the model; empty where there is none.
+  Quality seen;
+  QualityTable by_content, by_style;
+  std::vector<std::pair<std::string, Quality>> strength;  // "0" to "2", in order.
+  double slider_style = kNotMeasured;     // Rank correlation of strength 0..1 with P(style).
+  double slider_distance = kNotMeasured;  // Of strength 0..2 with the distance from the input.
+  std::vector<MixReport> mixes;
+  std::vector<UnseenReport> unseen;
+  std::vector<ForeignRow> foreign;
+  std::vector<DisturbanceRow> disturbances;
+  double cc = kNotMeasured, sc = kNotMeasured;  // CC and SC++ in file units.
+  double bone_length_error_cm = kNotMeasured;   // Largest change of a bone's length.
+  double step_us = kNotMeasured;                // Processor time of one step.
+  size_t model_bytes = 0, parameters = 0;
+};
+
+// Input, systems and real take beside each other, for the page.
+struct StripReport {
+  std::string title;  // "walk, old"
+  std::vector<StripRow> rows;
+  double seconds_between = 0.25;
+};
+// When the feet are planted, for the page.
+struct ContactRow {
+  std::string label;
+  double fps = 30;
+  std::vector<FootContacts> contacts;  // [frames]
+};
+struct ContactReport {
+  std::string title;
+  std::vector<ContactRow> rows;
+};
+
+struct Report {
+  std::vector<std::string> trained_on, tested_on;  // Manifests, as they were given.
+  std::vector<std::string> styles, contents;
+  double style_floor = 0, content_floor = 0;  // Real held-out accuracy below which nothing counts.
+  Quality real;                               // Real held-out takes of the styles.
+  Quality input;  // The neutral takes themselves, as if they were the output.
+  QualityTable real_by_content, real_by_style;
+  QualityTable input_by_content;
+  double cc_floor = kNotMeasured, sc_floor = kNotMeasured;  // Real takes against real takes.
+  std::vector<SystemReport> systems;
+  std::vector<StripReport> strips;
+  std::vector<ContactReport> contacts;
+  double seconds = 0;  // What the evaluation took.
+};
+
+// report.json: numbers that were not measured are null.
+std::string report_json(const Report& report);
+// One HTML page that needs nothing but itself.
+std::string report_page(const Report& report);
+// The tables for a terminal.
+std::string report_text(const Report& report);
+// Writes report.json and index.html into `folder`, which is made where it does not exist.
+Result<void> write_report(const Report& report, const std::string& folder);
+
+}  // namespace panache

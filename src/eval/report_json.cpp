@@ -1,0 +1,182 @@
+// The report for machines.
+
+#include "eval/report.h"
+
+#include <cassert>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "eval/report_foreign.h"
+
+namespace panache {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+// What nobody has measured, a size of 0, is null as well.
+Json size(size_t value) { return value > 0 ? Json(value) : Json(nullptr); }
+
+Json quality_json(const Quality& quality) {
+  Json out = {{"takes", quality.takes}, {"windows", quality.windows}};
+  for (const QualityField& field : kQualityFields) out[field.key] = number(quality.*field.value);
+  return out;
+}
+
+Json table_json(const QualityTable& table) {
+  Json out = Json::object();
+  for (const auto& [name, quality] : table) out[name] = quality_json(quality);
+  return out;
+}
+
+Json strength_json(const SystemReport& system) {
+  Json out = Json::object();
+  for (const auto& [strength, quality] : system.strength) out[strength] = quality_json(quality);
+  return out;
+}
+
+Json mixes_json(const std::vector<MixReport>& mixes) {
+  Json out = Json::array();
+  for (const MixReport& mix : mixes) {
+    out.push_back({{"first", mix.first},
+                   {"second", mix.second},
+                   {"either", number(mix.either)},
+                   {"content", number(mix.content)},
+                   {"correlation", number(mix.correlation)}});
+  }
+  return out;
+}
+
+// Each unseen content once, from the first split that has it.
+Json unseen_json(const std::vector<UnseenReport>& splits) {
+  Json out = Json::object();
+  for (const UnseenReport& split : splits) {
+    for (const auto& [content, quality] : split.by_content) {
+      if (!out.contains(content)) out[content] = quality_json(quality);
+    }
+  }
+  return out;
+}
+
+Json unseen_splits_json(const std::vector<UnseenReport>& splits) {
+  Json out = Json::object();
+  for (const UnseenReport& split : splits) {
+    // The keys of our own come last: they win over a content of the same name.
+    Json entry = table_json(split.by_content);
+    entry["mean"] = quality_json(split.mean);
+    entry["seen"] = table_json(split.seen_by_content);
+    entry["blind"] = table_json(split.blind_by_content);
+    entry["mean_posture"] = table_json(split.mean_posture_by_content);
+    out[split.name] = std::move(entry);
+  }
+  return out;
+}
+
+Json foreign_summary_json(const ForeignSummary& summary) {
+  return {
+      {"rows", summary.rows},
+      {"clips", summary.clips},
+      {"jerk_ratio",
+       {{"median", number(summary.jerk_ratio_median)},
+        {"p90", number(summary.jerk_ratio_p90)},
+        {"max", number(summary.jerk_ratio_max)}}},
+      {"velocity_correlation",
+       {{"median", number(summary.velocity_correlation_median)},
+        {"p10", number(summary.velocity_correlation_p10)}}},
+      {"distance_cm", {{"mean", number(summary.distance_cm_mean)}}},
+      {"beyond_limits",
+       {{"mean", number(summary.beyond_limits_mean)},
+        {"max", number(summary.beyond_limits_max)},
+        {"rows", summary.beyond_limits_rows}}},
+      {"under_floor",
+       {{"mean", number(summary.under_floor_mean)},
+        {"max", number(summary.under_floor_max)},
+        {"rows", summary.under_floor_rows}}},
+      {"skating_ratio", {{"mean", number(summary.skating_ratio_mean)}}},
+      {"input_skating_ratio", {{"mean", number(summary.input_skating_ratio_mean)}}},
+      {"drift_m", {{"max", number(summary.drift_m_max)}}},
+      {"gate", {{"mean", number(summary.gate_mean)}}},
+  };
+}
+
+Json foreign_json(const std::vector<ForeignRow>& rows) {
+  Json list = Json::array();
+  for (const ForeignRow& row : rows) {
+    list.push_back({{"clip", row.clip},
+                    {"style", row.style},
+                    {"jerk_ratio", number(row.jerk_ratio)},
+                    {"velocity_correlation", number(row.velocity_correlation)},
+                    {"distance_cm", number(row.distance_cm)},
+                    {"beyond_limits", number(row.beyond_limits)},
+                    {"under_floor", number(row.under_floor)},
+                    {"skating_ratio", number(row.skating_ratio)},
+                    {"input_skating_ratio", number(row.input_skating_ratio)},
+                    {"drift_m", number(row.drift_m)},
+                    {"gate", number(row.gate)}});
+  }
+  Json out;
+  out["summary"] = foreign_summary_json(summarize_foreign(rows));
+  out["rows"] = std::move(list);
+  return out;
+}
+
+Json disturbances_json(const std::vector<DisturbanceRow>& rows) {
+  Json out = Json::object();
+  for (const DisturbanceRow& row : rows) out[row.name]["cm"] = number(row.cm);
+  return out;
+}
+
+Json system_json(const SystemReport& system) {
+  Json out;
+  out["recipe"] = system.recipe.empty() ? Json(nullptr) : Json(system.recipe);
+  out["seen"] = quality_json(system.seen);
+  out["seen_by_content"] = table_json(system.by_content);
+  out["seen_by_style"] = table_json(system.by_style);
+  out["strength"] = strength_json(system);
+  out["slider"] = {{"style", number(system.slider_style)},
+                   {"distance", number(system.slider_distance)}};
+  out["mixes"] = mixes_json(system.mixes);
+  out["unseen"] = unseen_json(system.unseen);
+  out["unseen_splits"] = unseen_splits_json(system.unseen);
+  out["foreign"] = foreign_json(system.foreign);
+  out["disturbances"] = disturbances_json(system.disturbances);
+  out["cc"] = number(system.cc);
+  out["sc"] = number(system.sc);
+  out["bone_length_error_cm"] = number(system.bone_length_error_cm);
+  out["step_us"] = number(system.step_us);
+  out["model_bytes"] = size(system.model_bytes);
+  out["parameters"] = size(system.parameters);
+  return out;
+}
+
+}  // namespace
+
+std::string report_json(const Report& report) {
+  Json out;
+  out["format"] = "panache report 1";
+  out["trained_on"] = report.trained_on;
+  out["tested_on"] = report.tested_on;
+  out["styles"] = report.styles;
+  out["contents"] = report.contents;
+  out["seconds"] = number(report.seconds);
+  out["style_floor"] = number(report.style_floor);
+  out["content_floor"] = number(report.content_floor);
+  out["real"] = quality_json(report.real);
+  out["input"] = quality_json(report.input);
+  out["real_by_content"] = table_json(report.real_by_content);
+  out["real_by_style"] = table_json(report.real_by_style);
+  out["input_by_content"] = table_json(report.input_by_content);
+  out["cc_floor"] = number(report.cc_floor);
+  out["sc_floor"] = number(report.sc_floor);
+  out["systems"] = Json::object();
+  for (const SystemReport& system : report.systems) {
+    assert(!out["systems"].contains(system.name));
+    out["systems"][system.name] = system_json(system);
+  }
+  // Names come from files; bytes that are not UTF-8 are no reason to lose a report.
+  return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace panache

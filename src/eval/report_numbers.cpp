@@ -1,0 +1,148 @@
+#include "eval/report_numbers.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace panache {
+namespace {
+
+// How far `value` is from the best that there could be.
+double shortfall(double value, Better better) {
+  switch (better) {
+    case Better::higher:
+      return -value;
+    case Better::lower:
+      return value;
+    case Better::nearest_one:
+      return std::abs(value - 1);
+    case Better::neither:
+      break;
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::string number_text(double value, int digits) {
+  // A double has up to 309 digits before the point.
+  char text[400];
+  if (!std::isfinite(value)) return kDash;
+  const auto [end, error] =
+      std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, digits);
+  if (error != std::errc()) return kDash;
+  const std::string_view written(text, end);
+  // What rounds to zero has no sign.
+  const bool zero = written.find_first_not_of("-0.") == written.npos;
+  return std::string(zero && written.starts_with('-') ? written.substr(1) : written);
+}
+
+std::string duration_text(double seconds) {
+  if (!std::isfinite(seconds) || seconds > 1e9) return kDash;
+  const long long whole = std::llround(seconds);
+  if (whole < 60) return std::to_string(whole) + " s";
+  return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
+}
+
+std::string bytes_text(size_t bytes) {
+  return bytes == 0 ? kDash : count_text((bytes + 512) / 1024) + " KB";
+}
+
+std::string count_text(size_t count) {
+  if (count == 0) return kDash;
+  std::string text = std::to_string(count);
+  for (size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, ",");
+  return text;
+}
+
+Better better_of(const QualityField& field) {
+  // How far the body is moved says which style was asked for, not how well it was done.
+  if (field.value == &Quality::distance_cm) return Better::neither;
+  for (const auto value : {&Quality::jerk_ratio, &Quality::cadence_ratio}) {
+    if (field.value == value) return Better::nearest_one;
+  }
+  for (const auto value :
+       {&Quality::style_accuracy, &Quality::content_accuracy, &Quality::style_probability}) {
+    if (field.value == value) return Better::higher;
+  }
+  return Better::lower;
+}
+
+std::vector<bool> best_of(const std::vector<double>& values, Better better, int digits) {
+  std::vector<bool> best(values.size());
+  size_t measured = 0, least = 0;
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i])) continue;
+    if (measured++ == 0 || shortfall(values[i], better) < shortfall(values[least], better)) {
+      least = i;
+    }
+  }
+  if (measured < 2 || better == Better::neither) return best;
+  const std::string text = number_text(values[least], digits);
+  for (size_t i = 0; i < values.size(); ++i) best[i] = number_text(values[i], digits) == text;
+  return best;
+}
+
+double quantile(std::vector<double> values, double at) {
+  std::erase_if(values, [](double v) { return !std::isfinite(v); });
+  if (values.empty()) return kNotMeasured;
+  std::sort(values.begin(), values.end());
+  const double place = std::clamp(at, 0.0, 1.0) * static_cast<double>(values.size() - 1);
+  const size_t below = static_cast<size_t>(place);
+  const size_t above = std::min(below + 1, values.size() - 1);
+  return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
+}
+
+double finite_mean(const std::vector<double>& values) {
+  double sum = 0;
+  size_t count = 0;
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    sum += value;
+    ++count;
+  }
+  return count > 0 ? sum / static_cast<double>(count) : kNotMeasured;
+}
+
+Quality mean_quality(const QualityTable& table) {
+  Quality mean;
+  for (const auto& [name, quality] : table) {
+    mean.takes += quality.takes;
+    mean.windows += quality.windows;
+  }
+  for (const QualityField& field : kQualityFields) {
+    std::vector<double> values;
+    for (const auto& [name, quality] : table) values.push_back(quality.*field.value);
+    mean.*field.value = finite_mean(values);
+  }
+  return mean;
+}
+
+std::vector<std::string> names_of(const std::vector<const QualityTable*>& tables,
+                                  const std::vector<std::string>& order) {
+  std::vector<std::string> names, rest;
+  const auto has = [&](const std::string& name) {
+    return std::any_of(tables.begin(), tables.end(),
+                       [&](const QualityTable* table) { return table->contains(name); });
+  };
+  for (const std::string& name : order) {
+    if (has(name)) names.push_back(name);
+  }
+  for (const QualityTable* table : tables) {
+    for (const auto& [name, quality] : *table) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) rest.push_back(name);
+    }
+  }
+  std::sort(rest.begin(), rest.end());
+  rest.erase(std::unique(rest.begin(), rest.end()), rest.end());
+  names.insert(names.end(), rest.begin(), rest.end());
+  return names;
+}
+
+size_t column_count(std::string_view text) {
+  return static_cast<size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+  }));
+}
+
+}  // namespace panache

@@ -1,0 +1,93 @@
+// The report as one page that needs nothing but itself.
+
+#include "eval/report.h"
+
+#include "eval/report_numbers.h"
+#include "eval/report_page_html.h"
+#include "eval/report_page_sections.h"
+
+namespace panache {
+namespace {
+
+struct Section {
+  const char* id;
+  const char* title;
+  const char* introduction;
+  std::string body;
+};
+
+std::vector<Section> sections_of(const Report& report) {
+  return {
+      {"judged", "What was judged on what",
+       "All numbers are of takes that no system was trained on, and come from the same code. "
+       "Accuracies count only if the classifiers recognise real held-out takes well enough.",
+       page_judged(report)},
+      {"overall", "Overall",
+       "Means over styles and contents that the systems were trained on. The best system of each "
+       "column is in bold, with a dot.",
+       page_overall(report)},
+      {"content", "By content",
+       "Means over the styles; the best system of each row is in bold, with a dot.",
+       page_by_content(report)},
+      {"style", "By style",
+       "Means over the contents; the best system of each row is in bold, with a dot.",
+       page_by_style(report)},
+      {"strength", "Strength",
+       "What the slider does: 0 is the input, 1 the style as captured, above 1 exaggeration.",
+       page_strength(report)},
+      {"mixes", "Mixes", "Half of one style and half of another at once.", page_mixes(report)},
+      {"unseen", "Contents that were never seen in a style",
+       "Their styled takes were left out of the training. Beside them: the same contents when "
+       "they were not left out, real takes judged by classifiers that never saw these contents, "
+       "and the style's mean posture.",
+       page_unseen(report)},
+      {"foreign", "Foreign motion",
+       "Clips of other makers and other actions, each in every style at strength 1. No real "
+       "styled takes of them exist: the question is whether they stay the motion that they were.",
+       page_foreign(report)},
+      {"disturbances", "Disturbances",
+       "Pose error when the windows that a system sees are disturbed and nothing else is.",
+       page_disturbances(report)},
+      {"strips", "Strips", "The same stretch of time, row by row. The body's left is lighter.",
+       page_strips(report)},
+      {"contacts", "Foot contacts", "A bar is a foot on the ground.", page_contacts(report)},
+      {"literature", "CC and SC++",
+       "As papers after 2020 compute them on the data of Xia et al. 2015. Published: CC 8.5, SC++ "
+       "63.0 (MoST 2024, on another split).",
+       page_literature(report)},
+      {"cost", "Cost", "Of one character on one core.", page_cost(report)},
+      {"definitions", "What the numbers mean",
+       "Shares lie between 0 and 1. A dash stands where nothing was measured.", page_definitions()},
+  };
+}
+
+// "3 systems, 4 styles, 10 contents".
+std::string subtitle(const Report& report) {
+  const auto count = [](size_t n, const std::string& what) {
+    return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+  };
+  return count(report.systems.size(), "system") + ", " + count(report.styles.size(), "style") +
+         ", " + count(report.contents.size(), "content") + ".";
+}
+
+}  // namespace
+
+std::string report_page(const Report& report) {
+  std::string links, body;
+  for (const Section& section : sections_of(report)) {
+    if (section.body.empty()) continue;
+    const std::string id = section.id, title = html_escaped(section.title);
+    links += "<a href=\"#" + id + "\">" + title + "</a>\n";
+    body += "<section id=\"" + id + "\">\n<h2>" + title + "</h2>\n" +
+            html_paragraph(section.introduction) + section.body + "</section>\n";
+  }
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+         "<title>Panache: evaluation</title>\n<style>" +
+         page_look() +
+         "</style>\n</head>\n<body>\n<header>\n<h1>Motion style transfer, judged</h1>\n" +
+         html_paragraph(subtitle(report)) + "<nav>\n" + links + "</nav>\n</header>\n<main>\n" +
+         body + "</main>\n</body>\n</html>\n";
+}
+
+}  // namespace panache

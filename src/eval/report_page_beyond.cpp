@@ -1,0 +1,248 @@
+// Sections of the page: how the systems do on what they were not trained for.
+
+#include <algorithm>
+#include <functional>
+
+#include "eval/report_foreign.h"
+#include "eval/report_numbers.h"
+#include "eval/report_page_html.h"
+#include "eval/report_page_sections.h"
+
+namespace panache {
+namespace {
+
+std::string heading(const std::string& text) { return "<h3>" + html_escaped(text) + "</h3>\n"; }
+
+std::vector<std::string> names_of_systems(const std::vector<const SystemReport*>& systems) {
+  std::vector<std::string> names;
+  for (const SystemReport* system : systems) names.push_back(system->name);
+  return names;
+}
+
+// Systems of which `has` is true.
+std::vector<const SystemReport*> systems_with(const Report& report,
+                                              const std::function<bool(const SystemReport&)>& has) {
+  std::vector<const SystemReport*> systems;
+  for (const SystemReport& system : report.systems) {
+    if (has(system)) systems.push_back(&system);
+  }
+  return systems;
+}
+
+std::string unseen_table(const Report& report, const UnseenReport& split) {
+  // The last row stands in the tables under a name that no content has.
+  const std::string kMean = "mean of these";
+  QualityTable unseen = split.by_content, seen = split.seen_by_content;
+  QualityTable blind = split.blind_by_content, posture = split.mean_posture_by_content;
+  for (QualityTable* table : {&seen, &blind, &posture}) {
+    if (!table->empty()) (*table)[kMean] = mean_quality(*table);
+  }
+  unseen[kMean] = split.mean;
+  const std::vector<std::string> contents = names_of({&split.by_content}, report.contents);
+  const std::vector<QualitySource> sources = {
+      {"unseen", &unseen}, {"seen", &seen}, {"real, blind", &blind}, {"mean posture", &posture}};
+  const std::vector<double Quality::*> kFirst = {&Quality::style_accuracy,
+                                                 &Quality::content_accuracy, &Quality::jerk_ratio,
+                                                 &Quality::pose_error_deg};
+  std::vector<double Quality::*> others;
+  for (const QualityField& field : kQualityFields) {
+    if (std::find(kFirst.begin(), kFirst.end(), field.value) == kFirst.end()) {
+      others.push_back(field.value);
+    }
+  }
+  return quality_matrix("content", contents, sources, kFirst, kMean) +
+         html_details("All other numbers of split " + split.name,
+                      quality_matrix("content", contents, sources, others, kMean));
+}
+
+std::string foreign_table(const std::vector<const SystemReport*>& systems) {
+  HtmlTable table("");
+  table.add_columns("", {"clips", "pairs"});
+  table.add_columns("jerk / input", {"median", "90%", "largest"});
+  table.add_columns("velocity correlation", {"median", "lowest 10%"});
+  table.add_columns("moved cm", {"mean"});
+  table.add_columns("beyond limits", {"frames", "worst pair", "pairs"});
+  table.add_columns("under the floor", {"frames", "worst pair", "pairs"});
+  table.add_columns("skating", {"output", "input"});
+  table.add_columns("drift m", {"largest"});
+  table.add_columns("gate", {"mean"});
+  for (const SystemReport* system : systems) {
+    const ForeignSummary of = summarize_foreign(system->foreign);
+    table.add_row(system->name, {{count_text(of.clips)},
+                                 {count_text(of.rows)},
+                                 {number_text(of.jerk_ratio_median, 2)},
+                                 {number_text(of.jerk_ratio_p90, 2)},
+                                 {number_text(of.jerk_ratio_max, 2)},
+                                 {number_text(of.velocity_correlation_median, 3)},
+                                 {number_text(of.velocity_correlation_p10, 3)},
+                                 {number_text(of.distance_cm_mean, 2)},
+                                 {number_text(of.beyond_limits_mean, 4)},
+                                 {number_text(of.beyond_limits_max, 4)},
+                                 {std::to_string(of.beyond_limits_rows)},
+                                 {number_text(of.under_floor_mean, 4)},
+                                 {number_text(of.under_floor_max, 4)},
+                                 {std::to_string(of.under_floor_rows)},
+                                 {number_text(of.skating_ratio_mean, 3)},
+                                 {number_text(of.input_skating_ratio_mean, 3)},
+                                 {number_text(of.drift_m_max, 2)},
+                                 {number_text(of.gate_mean, 3)}});
+  }
+  return table.str();
+}
+
+// The first rows by `worse`.
+std::string worst_rows(std::vector<ForeignRow> rows,
+                       const std::function<bool(const ForeignRow&, const ForeignRow&)>& worse,
+                       const std::string& caption) {
+  constexpr size_t kShown = 8;
+  std::stable_sort(rows.begin(), rows.end(), worse);
+  if (rows.size() > kShown) rows.resize(kShown);
+  HtmlTable table("clip, style");
+  table.add_columns("", {"jerk / input", "velocity correlation", "moved cm", "beyond limits",
+                         "under the floor", "skating", "of the input", "drift m", "gate"});
+  for (const ForeignRow& row : rows) {
+    table.add_row(row.clip + ", " + row.style, {{number_text(row.jerk_ratio, 2)},
+                                                {number_text(row.velocity_correlation, 3)},
+                                                {number_text(row.distance_cm, 2)},
+                                                {number_text(row.beyond_limits, 3)},
+                                                {number_text(row.under_floor, 3)},
+                                                {number_text(row.skating_ratio, 3)},
+                                                {number_text(row.input_skating_ratio, 3)},
+                                                {number_text(row.drift_m, 2)},
+                                                {number_text(row.gate, 3)}});
+  }
+  return table.str(caption);
+}
+
+// Means over the styles, clip by clip.
+std::string clips_table(const std::vector<const SystemReport*>& systems) {
+  const struct {
+    const char* label;
+    double ForeignRow::*value;
+    int digits;
+  } kColumns[] = {{"jerk / input", &ForeignRow::jerk_ratio, 2},
+                  {"velocity correlation", &ForeignRow::velocity_correlation, 3},
+                  {"moved cm", &ForeignRow::distance_cm, 2},
+                  {"under the floor", &ForeignRow::under_floor, 3},
+                  {"gate", &ForeignRow::gate, 3}};
+  HtmlTable table("clip");
+  for (const auto& column : kColumns) table.add_columns(column.label, names_of_systems(systems));
+  std::vector<std::string> clips;
+  for (const SystemReport* system : systems) {
+    for (const auto& [clip, rows] : foreign_by_clip(system->foreign)) {
+      if (std::find(clips.begin(), clips.end(), clip) == clips.end()) clips.push_back(clip);
+    }
+  }
+  for (const std::string& clip : clips) {
+    std::vector<HtmlCell> cells;
+    for (const auto& column : kColumns) {
+      for (const SystemReport* system : systems) {
+        std::vector<double> values;
+        for (const ForeignRow& row : system->foreign) {
+          if (row.clip == clip) values.push_back(row.*column.value);
+        }
+        cells.push_back({number_text(finite_mean(values), column.digits)});
+      }
+    }
+    table.add_row(clip, std::move(cells));
+  }
+  return table.str();
+}
+
+}  // namespace
+
+std::string page_unseen(const Report& report) {
+  std::string out;
+  for (const SystemReport& system : report.systems) {
+    for (const UnseenReport& split : system.unseen) {
+      const std::string table = unseen_table(report, split);
+      if (table.empty()) continue;
+      out += heading(system.name + ", split " + split.name) + table;
+    }
+  }
+  return out;
+}
+
+std::string page_foreign(const Report& report) {
+  const auto systems =
+      systems_with(report, [](const SystemReport& system) { return !system.foreign.empty(); });
+  if (systems.empty()) return "";
+  std::string out = foreign_table(systems);
+  for (const SystemReport* system : systems) {
+    out += heading("Worst of " + system->name);
+    out += worst_rows(
+        system->foreign,
+        [](const ForeignRow& a, const ForeignRow& b) { return a.jerk_ratio > b.jerk_ratio; },
+        "Most jerk against the input");
+    out += worst_rows(
+        system->foreign,
+        [](const ForeignRow& a, const ForeignRow& b) {
+          return a.velocity_correlation < b.velocity_correlation;
+        },
+        "Least like the input in how hands and feet move");
+  }
+  return out + html_details("Clip by clip, means over the styles", clips_table(systems));
+}
+
+std::string page_disturbances(const Report& report) {
+  const auto systems =
+      systems_with(report, [](const SystemReport& system) { return !system.disturbances.empty(); });
+  HtmlTable table("disturbance");
+  table.add_columns("pose error cm", names_of_systems(systems));
+  std::vector<std::string> names;
+  for (const SystemReport* system : systems) {
+    for (const DisturbanceRow& row : system->disturbances) {
+      if (std::find(names.begin(), names.end(), row.name) == names.end()) names.push_back(row.name);
+    }
+  }
+  for (const std::string& name : names) {
+    std::vector<double> values;
+    for (const SystemReport* system : systems) {
+      const auto row =
+          std::find_if(system->disturbances.begin(), system->disturbances.end(),
+                       [&](const DisturbanceRow& candidate) { return candidate.name == name; });
+      values.push_back(row == system->disturbances.end() ? kNotMeasured : row->cm);
+    }
+    const std::vector<bool> best = best_of(values, Better::lower, 2);
+    std::vector<HtmlCell> cells;
+    for (size_t s = 0; s < values.size(); ++s) {
+      cells.push_back({number_text(values[s], 2), best[s]});
+    }
+    table.add_row(name, std::move(cells));
+  }
+  return table.str();
+}
+
+std::string page_mixes(const Report& report) {
+  const auto systems =
+      systems_with(report, [](const SystemReport& system) { return !system.mixes.empty(); });
+  HtmlTable table("half and half");
+  for (const SystemReport* system : systems) {
+    table.add_columns(system->name, {"either style", "content", "correlation"});
+  }
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (const SystemReport* system : systems) {
+    for (const MixReport& mix : system->mixes) {
+      const std::pair pair(mix.first, mix.second);
+      if (std::find(pairs.begin(), pairs.end(), pair) == pairs.end()) pairs.push_back(pair);
+    }
+  }
+  for (const auto& [first, second] : pairs) {
+    std::vector<HtmlCell> cells;
+    for (const SystemReport* system : systems) {
+      const auto mix = std::find_if(
+          system->mixes.begin(), system->mixes.end(),
+          [&](const MixReport& other) { return other.first == first && other.second == second; });
+      const bool has = mix != system->mixes.end();
+      const double either = has ? mix->either : kNotMeasured;
+      const double content = has ? mix->content : kNotMeasured;
+      cells.push_back({number_text(either, 3), false, either});
+      cells.push_back({number_text(content, 3), false, content});
+      cells.push_back({number_text(has ? mix->correlation : kNotMeasured, 3)});
+    }
+    table.add_row(first + " + " + second, std::move(cells));
+  }
+  return table.str();
+}
+
+}  // namespace panache

@@ -1,0 +1,142 @@
+// Sections of the page: measures of the literature, cost, and what every number means.
+
+#include <cmath>
+
+#include "eval/report_numbers.h"
+#include "eval/report_page_html.h"
+#include "eval/report_page_sections.h"
+
+namespace panache {
+namespace {
+
+struct Definition {
+  const char* term;
+  const char* meaning;
+};
+
+constexpr Definition kDefinitions[] = {
+    {"style",
+     "Share of windows of about one second that a classifier, trained on real motion, "
+     "recognises as the asked style."},
+    {"content", "Share of windows that a second classifier recognises as the input's content."},
+    {"style probability", "Mean probability that the style classifier gives to the asked style."},
+    {"jerk / real",
+     "Mean magnitude of the third difference of the joints' positions, as a ratio "
+     "to real takes of the same style and content; 1 is as smooth as real motion."},
+    {"skating",
+     "Share of frames in which a toe is below 5 cm in two neighbouring frames and "
+     "slides faster than 0.5 m/s, at 20 frames a second."},
+    {"slide cm/s",
+     "Mean horizontal speed of ankles and toes, weighted from 1 at the floor to 0 at "
+     "2.5 cm above it."},
+    {"error deg",
+     "Mean angle between the local rotations of the joints and those of the "
+     "time-aligned real styled take."},
+    {"error cm",
+     "Mean distance of the joints from those of the time-aligned real styled take, on "
+     "the canonical body."},
+    {"FMD",
+     "Fr\xc3\xa9"
+     "chet distance of the content classifier's features, output against real takes of the "
+     "asked style and content; comparable only within this page."},
+    {"cadence / real", "Steps a second of walks and runs, as a ratio to real takes of the style."},
+    {"moved cm",
+     "Mean distance of the joints from the input's: how much was changed, not how "
+     "well."},
+    {"takes, windows", "How many takes were judged, and into how many windows they were cut."},
+    {"unseen, seen",
+     "What a system makes of contents whose styled takes were left out of its "
+     "training, and what the same system makes of them when they were not."},
+    {"real, blind",
+     "Real styled takes of the unseen contents, judged by classifiers that never "
+     "saw these contents: what the data allow at all."},
+    {"mean posture",
+     "The style's mean change of posture and tempo over its training pairs, whatever the motion: "
+     "the simplest transfer there is."},
+    {"jerk / input",
+     "Mean jerk of the joints against that of the input; 1 is as smooth as the "
+     "input."},
+    {"velocity correlation",
+     "Correlation of the velocities of hands and feet, in the body frame, "
+     "with the input's; 1 is the same motion."},
+    {"beyond limits", "Share of frames with a joint outside human limits, less the input's own."},
+    {"under the floor",
+     "Share of frames with a toe 3 cm lower than both the floor and the "
+     "input."},
+    {"pairs", "A pair is a foreign clip in a style."},
+    {"drift", "How far the hips end from where the input's end, along the ground."},
+    {"gate", "How much of its dynamic change the system dared to apply: 1 all, 0 posture only."},
+    {"pose error under a disturbance",
+     "The error in cm above, when only the windows that the "
+     "system sees are disturbed."},
+    {"rank correlation",
+     "Spearman's correlation of the strengths up to 1 with the style's probability, and up to 2 "
+     "with the distance from the input; 1 if more strength always does more."},
+    {"either style, correlation",
+     "Of a mix of two styles: share of windows recognised as one of "
+     "the two, and correlation of the share of the second with how "
+     "much more probable it is than the first."},
+    {"CC",
+     "Distance of the output from the input when the asked style is the input's own: every "
+     "second frame, 21 joints, file units, summed over joints, mean over frames."},
+    {"SC++",
+     "Mean distance between the output and every real clip of the asked style and content, "
+     "cut to the shorter and unaligned, in the same units."},
+    {"bone length error", "Largest change of the length of any bone."},
+    {"step", "Processor time of one step of one character on one core."},
+};
+
+}  // namespace
+
+std::string page_literature(const Report& report) {
+  HtmlTable table("");
+  table.add_columns("", {"CC", "SC++"});
+  if (std::isfinite(report.cc_floor) || std::isfinite(report.sc_floor)) {
+    table.add_row("real takes against real takes",
+                  {{number_text(report.cc_floor, 2)}, {number_text(report.sc_floor, 2)}});
+  }
+  bool first = true;
+  std::vector<double> cc, sc;
+  for (const SystemReport& system : report.systems) {
+    cc.push_back(system.cc);
+    sc.push_back(system.sc);
+  }
+  const std::vector<bool> best_cc = best_of(cc, Better::lower, 2);
+  const std::vector<bool> best_sc = best_of(sc, Better::lower, 2);
+  for (size_t s = 0; s < cc.size(); ++s) {
+    if (!std::isfinite(cc[s]) && !std::isfinite(sc[s])) continue;
+    table.add_row(report.systems[s].name,
+                  {{number_text(cc[s], 2), best_cc[s]}, {number_text(sc[s], 2), best_sc[s]}},
+                  first);
+    first = false;
+  }
+  return first ? "" : table.str();
+}
+
+std::string page_cost(const Report& report) {
+  HtmlTable table("");
+  table.add_columns("",
+                    {"recipe", "step \xc2\xb5s", "model", "parameters", "bone length error cm"});
+  bool any = false;
+  for (const SystemReport& system : report.systems) {
+    any |= std::isfinite(system.step_us) || std::isfinite(system.bone_length_error_cm) ||
+           system.model_bytes > 0 || system.parameters > 0;
+    table.add_row(system.name, {{system.recipe.empty() ? kDash : system.recipe},
+                                {number_text(system.step_us, 2)},
+                                {bytes_text(system.model_bytes)},
+                                {count_text(system.parameters)},
+                                {number_text(system.bone_length_error_cm, 4)}});
+  }
+  return any ? table.str() : "";
+}
+
+std::string page_definitions() {
+  std::string out = "<dl class=\"definitions\">\n";
+  for (const Definition& definition : kDefinitions) {
+    out += "<dt>" + html_escaped(definition.term) + "</dt><dd>" + html_escaped(definition.meaning) +
+           "</dd>\n";
+  }
+  return out + "</dl>\n";
+}
+
+}  // namespace panache

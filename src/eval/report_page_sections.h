@@ -1,0 +1,47 @@
+#pragma once
+// The sections of the page, each as HTML; empty where the report has nothing for it.
+
+#include <string>
+
+#include "eval/report.h"
+
+namespace panache {
+
+// One table of the numbers of several sources side by side: a row per name, a group of columns per
+// field, in it a column per source that has any number of it.
+struct QualitySource {
+  std::string name;
+  const QualityTable* table = nullptr;
+  bool competes = false;  // For the best of its row.
+};
+std::string quality_matrix(const std::string& rows_are, const std::vector<std::string>& rows,
+                           const std::vector<QualitySource>& sources,
+                           const std::vector<double Quality::*>& fields,
+                           const std::string& last_row = "");
+
+// report_page_quality.cpp: actions that the systems were trained on.
+std::string page_judged(const Report& report);
+std::string page_overall(const Report& report);
+std::string page_by_content(const Report& report);
+std::string page_by_style(const Report& report);
+std::string page_strength(const Report& report);
+
+// report_page_beyond.cpp: what they were not trained on.
+std::string page_unseen(const Report& report);
+std::string page_foreign(const Report& report);
+std::string page_disturbances(const Report& report);
+std::string page_mixes(const Report& report);
+
+// report_page_pictures.cpp
+std::string page_strips(const Report& report);
+std::string page_contacts(const Report& report);
+
+// report_page_notes.cpp
+std::string page_literature(const Report& report);
+std::string page_cost(const Report& report);
+std::string page_definitions();
+
+// report_page_look.cpp: the style sheet.
+std::string page_look();
+
+}  // namespace panache

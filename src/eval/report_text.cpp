@@ -1,0 +1,193 @@
+// The report for a terminal.
+
+#include "eval/report.h"
+
+#include <algorithm>
+
+#include "eval/report_foreign.h"
+#include "eval/report_numbers.h"
+#include "eval/report_text_table.h"
+
+namespace panache {
+namespace {
+
+const Quality& line_of(const QualityTable& table, const std::string& name) {
+  static const Quality kNothing;
+  const auto line = table.find(name);
+  return line == table.end() ? kNothing : line->second;
+}
+
+// A title and what stands under it; nothing without a body.
+std::string titled(const std::string& title, const std::string& body) {
+  return body.empty() ? "" : title + "\n" + body + "\n";
+}
+
+std::string overall(const Report& report) {
+  TextTable table("");
+  std::vector<std::string> labels;
+  for (const QualityField& field : kQualityFields) labels.emplace_back(field.label);
+  table.add_columns("", labels);
+  const auto add = [&](const std::string& name, const Quality& quality) {
+    std::vector<std::string> cells;
+    for (const QualityField& field : kQualityFields) {
+      cells.push_back(number_text(quality.*field.value, field.digits));
+    }
+    table.add_row(name, std::move(cells));
+  };
+  add("real takes", report.real);
+  add("input", report.input);
+  for (const SystemReport& system : report.systems) add(system.name, system.seen);
+  return table.str();
+}
+
+std::vector<std::string> four_numbers(const Quality& quality) {
+  return {number_text(quality.style_accuracy, 3), number_text(quality.content_accuracy, 3),
+          number_text(quality.jerk_ratio, 2), number_text(quality.pose_error_deg, 2)};
+}
+
+std::string by_content(const Report& report) {
+  TextTable table("content");
+  std::vector<const QualityTable*> tables;
+  for (const SystemReport& system : report.systems) {
+    table.add_columns(system.name, {"style", "content", "jerk", "deg"});
+    tables.push_back(&system.by_content);
+  }
+  for (const std::string& content : names_of(tables, report.contents)) {
+    std::vector<std::string> cells;
+    for (const QualityTable* of : tables) {
+      for (const std::string& cell : four_numbers(line_of(*of, content))) cells.push_back(cell);
+    }
+    table.add_row(content, std::move(cells));
+  }
+  return table.str();
+}
+
+// One number of each system, strengths from left to right.
+std::string strengths(const Report& report, double Quality::*value, int digits) {
+  std::vector<std::string> keys;
+  for (const SystemReport& system : report.systems) {
+    for (const auto& [key, quality] : system.strength) {
+      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+    }
+  }
+  TextTable table("");
+  table.add_columns("", keys);
+  for (const SystemReport& system : report.systems) {
+    if (system.strength.empty()) continue;
+    std::vector<std::string> cells;
+    for (const std::string& key : keys) {
+      const auto at = std::find_if(system.strength.begin(), system.strength.end(),
+                                   [&](const auto& entry) { return entry.first == key; });
+      cells.push_back(at == system.strength.end() ? kDash : number_text(at->second.*value, digits));
+    }
+    table.add_row(system.name, std::move(cells));
+  }
+  return table.str();
+}
+
+std::string unseen(const Report& report, const UnseenReport& split) {
+  const std::vector<std::pair<std::string, const QualityTable*>> kSources = {
+      {"unseen", &split.by_content},
+      {"seen", &split.seen_by_content},
+      {"real, blind", &split.blind_by_content},
+      {"mean posture", &split.mean_posture_by_content}};
+  TextTable table("content");
+  for (const auto& [name, source] : kSources) {
+    table.add_columns(name, {"style", "content", "jerk"});
+  }
+  const auto add = [&](const std::string& row, const std::vector<Quality>& of) {
+    std::vector<std::string> cells;
+    for (const Quality& quality : of) {
+      cells.push_back(number_text(quality.style_accuracy, 3));
+      cells.push_back(number_text(quality.content_accuracy, 3));
+      cells.push_back(number_text(quality.jerk_ratio, 2));
+    }
+    table.add_row(row, std::move(cells));
+  };
+  for (const std::string& content : names_of({&split.by_content}, report.contents)) {
+    std::vector<Quality> of;
+    for (const auto& [name, source] : kSources) of.push_back(line_of(*source, content));
+    add(content, of);
+  }
+  add("mean", {split.mean, mean_quality(split.seen_by_content),
+               mean_quality(split.blind_by_content), mean_quality(split.mean_posture_by_content)});
+  return table.str();
+}
+
+std::string foreign(const Report& report) {
+  TextTable table("");
+  table.add_columns("", {"clips"});
+  table.add_columns("jerk / input", {"median", "90%", "largest"});
+  table.add_columns("correlation", {"median", "lowest 10%"});
+  table.add_columns("", {"moved cm", "beyond limits", "under floor", "drift m", "gate"});
+  for (const SystemReport& system : report.systems) {
+    if (system.foreign.empty()) continue;
+    const ForeignSummary of = summarize_foreign(system.foreign);
+    table.add_row(system.name,
+                  {count_text(of.clips), number_text(of.jerk_ratio_median, 2),
+                   number_text(of.jerk_ratio_p90, 2), number_text(of.jerk_ratio_max, 2),
+                   number_text(of.velocity_correlation_median, 3),
+                   number_text(of.velocity_correlation_p10, 3), number_text(of.distance_cm_mean, 2),
+                   number_text(of.beyond_limits_mean, 4), number_text(of.under_floor_mean, 4),
+                   number_text(of.drift_m_max, 2), number_text(of.gate_mean, 3)});
+  }
+  return table.str();
+}
+
+std::string disturbances(const Report& report) {
+  TextTable table("disturbance");
+  std::vector<const SystemReport*> systems;
+  std::vector<std::string> names, labels;
+  for (const SystemReport& system : report.systems) {
+    if (system.disturbances.empty()) continue;
+    systems.push_back(&system);
+    labels.push_back(system.name);
+    for (const DisturbanceRow& row : system.disturbances) {
+      if (std::find(names.begin(), names.end(), row.name) == names.end()) names.push_back(row.name);
+    }
+  }
+  table.add_columns("", labels);
+  for (const std::string& name : names) {
+    std::vector<std::string> cells;
+    for (const SystemReport* system : systems) {
+      const auto row = std::find_if(system->disturbances.begin(), system->disturbances.end(),
+                                    [&](const DisturbanceRow& of) { return of.name == name; });
+      cells.push_back(row == system->disturbances.end() ? kDash : number_text(row->cm, 2));
+    }
+    table.add_row(name, std::move(cells));
+  }
+  return table.str();
+}
+
+}  // namespace
+
+std::string report_text(const Report& report) {
+  std::string text =
+      titled("Overall: held-out takes, means over styles and contents", overall(report));
+  if (!(report.real.style_accuracy >= report.style_floor)) {
+    text += "The style classifier is below " + number_text(report.style_floor, 3) +
+            " on real takes: no style accuracy counts.\n\n";
+  }
+  if (!(report.real.content_accuracy >= report.content_floor)) {
+    text += "The content classifier is below " + number_text(report.content_floor, 3) +
+            " on real takes: no content accuracy counts.\n\n";
+  }
+  text += titled("By content: style, content, jerk against real takes, pose error in degrees",
+                 by_content(report));
+  text += titled("Style recognised by strength", strengths(report, &Quality::style_accuracy, 3));
+  text += titled("Content kept by strength", strengths(report, &Quality::content_accuracy, 3));
+  text += titled("Jerk against real takes by strength", strengths(report, &Quality::jerk_ratio, 2));
+  for (const SystemReport& system : report.systems) {
+    for (const UnseenReport& split : system.unseen) {
+      text += titled(
+          cut_text("Contents never seen in a style: " + system.name + ", split " + split.name,
+                   kTextWidth),
+          unseen(report, split));
+    }
+  }
+  text += titled("Foreign motion: every clip in every style", foreign(report));
+  text += titled("Disturbed windows: pose error in cm", disturbances(report));
+  return text;
+}
+
+}  // namespace panache

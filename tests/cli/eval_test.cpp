@@ -1,0 +1,193 @@
+// panache eval: what it reports and what it refuses.
+
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+#include "make_styles.h"
+
+namespace panache::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class Eval : public ProgramTest {
+ protected:
+  // Takes 0 and 1 of each style and content to learn from, 2 and 3 held out.
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write_styles(path(""), {"neutral", "old", "proud"}, 2);
+  }
+  std::string table(const std::string& rows) const {
+    return "path,style,content,take,neutral,split\n" + rows;
+  }
+  void expect_refused(const std::vector<std::string>& arguments, const std::string& sentence,
+                      int exit = 1) const {
+    const Ran ran = run(arguments);
+    EXPECT_EQ(ran.err, "panache: " + sentence + "\n");
+    EXPECT_EQ(ran.exit, exit);
+    EXPECT_EQ(ran.out, "");
+  }
+};
+
+void expect_quality(const Json& quality) {
+  for (const char* key : {"takes", "windows", "style_accuracy", "content_accuracy", "jerk_ratio",
+                          "skating_ratio", "skating_cm_s", "fmd"}) {
+    ASSERT_TRUE(quality.contains(key)) << key;
+    EXPECT_TRUE(quality[key].is_number()) << key;
+  }
+  EXPECT_GT(quality["takes"], 0);
+}
+
+void expect_system(const Json& system) {
+  expect_quality(system["seen"]);
+  EXPECT_TRUE(system["seen"]["pose_error_cm"].is_number());
+  for (const char* strength : {"0", "0.25", "0.5", "0.75", "1", "1.25", "1.5", "1.75", "2"}) {
+    ASSERT_TRUE(system["strength"].contains(strength)) << strength;
+    expect_quality(system["strength"][strength]);
+  }
+  EXPECT_EQ(system["strength"].size(), 9u);
+  for (const char* content : kContents) expect_quality(system["seen_by_content"][content]);
+  for (const char* style : {"old", "proud"}) expect_quality(system["seen_by_style"][style]);
+  // At strength 1, it is the same number by both names.
+  EXPECT_EQ(system["strength"]["1"], system["seen"]);
+  ASSERT_EQ(system["mixes"].size(), 1u);
+  EXPECT_EQ(system["mixes"][0]["first"], "old");
+  // No joint is ever drawn out: the clip's positions are single precision.
+  EXPECT_LT(system["bone_length_error_cm"], 1e-2);
+}
+
+// One run answers all questions: to train the judges takes long.
+TEST_F(Eval, judges_models_by_real_takes_it_holds_out_and_says_so_in_a_report) {
+  const Ran ran = run({"eval", "takes.csv", "--model", "model.safetensors", "--unseen", "wave",
+                       "--steps", "20", "--report", "report", "--json"});
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_EQ(ran.err, "");
+  EXPECT_EQ(entries("report"), (std::vector<std::string>{"index.html", "report.json"}));
+  EXPECT_EQ(read("report/report.json"), ran.out);
+  EXPECT_NE(read("report/index.html").find("<html"), std::string::npos);
+
+  const Json report = Json::parse(ran.out);
+  EXPECT_EQ(report["styles"], Json({"old", "proud"}));
+  EXPECT_EQ(report["contents"], Json({"walk", "wave"}));
+  EXPECT_EQ(report["trained_on"], Json({"takes.csv"}));
+  expect_quality(report["real"]);
+  EXPECT_EQ(report["real"]["takes"], 8);
+  EXPECT_GT(report["real"]["style_accuracy"], 0.95);
+  EXPECT_GT(report["real"]["content_accuracy"], 0.9);
+  EXPECT_EQ(report["real"]["jerk_ratio"], 1.0);
+  for (const char* content : kContents) expect_quality(report["real_by_content"][content]);
+  // Neutral takes are not of the styles, and have moved nowhere.
+  expect_quality(report["input"]);
+  EXPECT_LT(report["input"]["style_accuracy"], 0.1);
+  EXPECT_EQ(report["input"]["distance_cm"], 0.0);
+
+  ASSERT_EQ(report["systems"].size(), 2u);
+  for (const char* name : {"model", "mean posture"}) {
+    ASSERT_TRUE(report["systems"].contains(name)) << name;
+    expect_system(report["systems"][name]);
+  }
+  const Json& model = report["systems"]["model"];
+  // Strength 0 is the input.
+  EXPECT_EQ(model["strength"]["0"]["style_accuracy"], report["input"]["style_accuracy"]);
+  EXPECT_NEAR(model["strength"]["0"]["distance_cm"].get<double>(), 0, 1e-3);
+  EXPECT_GT(model["strength"]["1"]["distance_cm"], 0.5);
+  EXPECT_EQ(model["model_bytes"], read("model.safetensors").size());
+  // What bends all that it sees like its style is recognised as such.
+  const Json& posture = report["systems"]["mean posture"];
+  EXPECT_GT(posture["seen"]["style_accuracy"], 0.9);
+  EXPECT_LT(posture["seen"]["pose_error_cm"], report["input"]["pose_error_cm"]);
+  EXPECT_GT(posture["slider"]["distance"], 0.9);
+
+  expect_quality(model["unseen"]["wave"]);
+  EXPECT_FALSE(model["unseen"].contains("walk"));
+  const Json& split = model["unseen_splits"]["wave"];
+  expect_quality(split["mean"]);
+  expect_quality(split["seen"]["wave"]);
+  EXPECT_TRUE(split["blind"]["wave"]["style_accuracy"].is_number());
+  expect_quality(split["mean_posture"]["wave"]);
+}
+
+TEST_F(Eval, takes_that_differ_in_name_only_make_no_judge) {
+  // Who is called old in training is called proud in the test.
+  std::string rows;
+  for (const std::string content : kContents) {
+    rows += "neutral-" + content + "-0.bvh,neutral," + content + ",0,1,train\n";
+    rows += "neutral-" + content + "-2.bvh,neutral," + content + ",2,1,test\n";
+    rows += "old-" + content + "-0.bvh,old," + content + ",0,0,train\n";
+    rows += "proud-" + content + "-0.bvh,proud," + content + ",0,0,train\n";
+    rows += "proud-" + content + "-2.bvh,old," + content + ",2,0,test\n";
+    rows += "old-" + content + "-2.bvh,proud," + content + ",2,0,test\n";
+  }
+  write("crossed.csv", table(rows));
+  expect_refused({"eval", "crossed.csv", "--model", "model.safetensors", "--report", "report"},
+                 "the style classifier recognises 0.000 of the windows of real test takes; "
+                 "expected at least 0.950, so its word on other motion would mean nothing; give "
+                 "more training takes of the test takes' styles and contents");
+  EXPECT_FALSE(exists("report"));
+}
+
+TEST_F(Eval, without_test_takes_there_is_nothing_to_judge_by) {
+  write("all.csv", table("neutral-walk-0.bvh,neutral,walk,0,1,train\n"
+                         "old-walk-0.bvh,old,walk,0,0,train\n"));
+  expect_refused({"eval", "all.csv", "--model", "model.safetensors"},
+                 "all.csv: marks no take as test; mark some in its column split, or name a "
+                 "manifest of takes to judge by with --test");
+}
+
+TEST_F(Eval, test_takes_of_one_kind_only_are_refused) {
+  const std::string train =
+      "neutral-walk-0.bvh,neutral,walk,0,1,train\n"
+      "old-walk-0.bvh,old,walk,0,0,train\n";
+  write("styled.csv", table(train + "old-walk-2.bvh,old,walk,2,0,test\n"));
+  expect_refused(
+      {"eval", "styled.csv", "--model", "model.safetensors"},
+      "no neutral test take of a content that is trained on; expected rows with neutral 1");
+  write("neutral.csv", table(train + "neutral-walk-2.bvh,neutral,walk,2,1,test\n"));
+  expect_refused({"eval", "neutral.csv", "--model", "model.safetensors"},
+                 "no styled test take of a style and content that are trained on; expected rows "
+                 "with neutral 0");
+}
+
+TEST_F(Eval, takes_that_were_trained_on_or_are_of_other_styles_do_not_judge) {
+  const std::string sentence =
+      "others.csv: has no take to judge by: all of them are trained on, or of styles that the "
+      "training manifests do not have";
+  const std::vector<std::string> arguments = {"eval",       "takes.csv", "--test",
+                                              "others.csv", "--model",   "model.safetensors"};
+  // The same file by another way there.
+  write("others.csv", table("./old-walk-0.bvh,old,walk,0,0,train\n"));
+  expect_refused(arguments, sentence);
+  write("others.csv", table("old-walk-2.bvh,jolly,walk,2,0,test\n"));
+  expect_refused(arguments, sentence);
+}
+
+TEST_F(Eval, an_unknown_split_is_refused) {
+  expect_refused({"eval", "takes.csv", "--model", "model.safetensors", "--unseen-split", "D"},
+                 "no split 'D'; expected A, B or C");
+}
+
+TEST_F(Eval, a_report_that_exists_is_kept) {
+  write("report/report.json", "mine");
+  expect_refused({"eval", "takes.csv", "--model", "model.safetensors", "--report", "report"},
+                 "report/report.json: exists already; --force overwrites it");
+  EXPECT_EQ(read("report/report.json"), "mine");
+}
+
+TEST_F(Eval, two_models_of_one_name_are_refused) {
+  write("other/model.safetensors", read("model.safetensors"));
+  expect_refused(
+      {"eval", "takes.csv", "--model", "model.safetensors", "--model", "other/model.safetensors"},
+      "other/model.safetensors: has the name of model.safetensors; the report names "
+      "models by their files, so give one another name");
+}
+
+TEST_F(Eval, a_manifest_or_model_that_is_none_is_explained) {
+  expect_refused({"eval", "none.csv"}, "none.csv: cannot be read: No such file or directory");
+  expect_refused({"eval", "takes.csv", "--model", "takes.csv"},
+                 "takes.csv: does not start with the length of a header (at most 4194304 bytes); "
+                 "expected a safetensors file");
+  EXPECT_EQ(run({"eval", "takes.csv", "--steps", "0"}).exit, 2);
+}
+
+}  // namespace
+}  // namespace panache::test

@@ -1,0 +1,110 @@
+#include "eval/mean_posture.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "train/make_takes.h"
+#include "train/samples.h"
+
+namespace panache {
+namespace {
+
+Take take_of(const std::string& style, const std::string& content, float rate, float lean) {
+  Take take = test::make_take(style, style == "neutral" ? 240 : 110, 0.3f, rate, lean);
+  take.row.content = content;
+  return take;
+}
+
+// A neutral walk and wave; old ones that lean by 0.4 in the walk and by 0.8 in the wave, which is
+// 1.25 times as fast; and a sad walk.
+TrainingData made_data(float wave_lean = 0.8f) {
+  TrainingData data;
+  data.takes = {take_of("neutral", "walk", 1, 0), take_of("neutral", "wave", 1, 0),
+                take_of("old", "walk", 1, 0.4f), take_of("old", "wave", 1.25f, wave_lean),
+                take_of("sad", "walk", 1, -0.3f)};
+  data.pairings = pair_takes(data.takes, {2, 3, 4}, {0, 1});
+  return data;
+}
+const std::vector<StyleName> kStyles = {{"old", {"old"}, "bent"}, {"sad", {"sad"}, ""}};
+
+struct Answer {
+  std::vector<float> pose;
+  float log_rate;
+};
+Answer answer(const std::shared_ptr<const Model>& model, std::vector<float> strengths,
+              uint64_t seed = 1) {
+  StyleNetworks networks(model);
+  std::vector<float> window(size_t(kWindowPoses) * pose_numbers(PoseLayout::positions));
+  Random random(seed);
+  for (float& w : window) w = random.normal();
+  networks.set_strengths(strengths);
+  networks.forward(window);
+  return {{networks.pose().begin(), networks.pose().end()}, networks.log_rate()};
+}
+
+// The mean that the model should answer with, over the samples of a style and content; "" for any.
+Answer expected(const TrainingData& data, int style, const std::string& content) {
+  const SampleSet set(data.takes, data.pairings, {"old", "sad"}, Recipe::panache, false);
+  std::vector<double> sum(kChangeNumbers);
+  double rate = 0, count = 0;
+  for (size_t i = 0; i < set.samples().size(); ++i) {
+    const Sample& sample = set.samples()[i];
+    if (sample.style != style || (!content.empty() && set.content(sample) != content)) continue;
+    for (int n = 0; n < kChangeNumbers; ++n) sum[n] += set.target(i)[n];
+    rate += sample.log_rate;
+    ++count;
+  }
+  Answer mean{{}, static_cast<float>(rate / count)};
+  for (const double s : sum) mean.pose.push_back(static_cast<float>(s / count));
+  return mean;
+}
+
+void expect_same(const Answer& a, const Answer& b) {
+  // Means of some hundred numbers below 1, rounded to single precision.
+  for (int n = 0; n < kChangeNumbers; ++n) EXPECT_NEAR(a.pose[n], b.pose[n], 1e-5) << n;
+  EXPECT_NEAR(a.log_rate, b.log_rate, 1e-5);
+}
+
+TEST(MeanPosture, answers_with_the_mean_change_of_the_style_whatever_the_window) {
+  const TrainingData data = made_data();
+  const auto model = mean_posture_model(data, kStyles, {});
+  ASSERT_TRUE(model.ok()) << model.error().message;
+  EXPECT_EQ((*model)->recipe(), Recipe::panache);
+  EXPECT_EQ((*model)->styles()[0].description, "bent");
+  for (const uint64_t seed : {1, 2}) {
+    expect_same(answer(*model, {1, 0}, seed), expected(data, 0, ""));
+    expect_same(answer(*model, {0, 1}, seed), expected(data, 1, ""));
+  }
+  // Joint 2 leans by 0.4 in about half of the pairs and by 0.8 in the others, about x.
+  EXPECT_NEAR(answer(*model, {1, 0}).pose[6], 0.6, 0.1);
+  EXPECT_NEAR(answer(*model, {0, 1}).pose[6], -0.3, 0.02);
+  EXPECT_NEAR(answer(*model, {1, 0}).log_rate, std::log(1.25) / 2, 0.06);
+}
+
+TEST(MeanPosture, half_a_style_is_half_its_posture_and_none_is_none) {
+  const auto model = *mean_posture_model(made_data(), kStyles, {});
+  const Answer whole = answer(model, {1, 0}), half = answer(model, {0.5f, 0});
+  EXPECT_NEAR(half.pose[6], 0.5f * whole.pose[6], 1e-6);
+  for (const float none : answer(model, {0, 0}).pose) EXPECT_EQ(none, 0);
+}
+
+TEST(MeanPosture, contents_that_are_left_out_have_no_influence) {
+  const TrainingData data = made_data(0.8f), other = made_data(-0.5f);
+  const Answer without = answer(*mean_posture_model(data, kStyles, {"wave"}), {1, 0});
+  expect_same(without, expected(data, 0, "walk"));
+  EXPECT_EQ(without.pose, answer(*mean_posture_model(other, kStyles, {"wave"}), {1, 0}).pose);
+  EXPECT_NE(answer(*mean_posture_model(data, kStyles, {}), {1, 0}).pose,
+            answer(*mean_posture_model(other, kStyles, {}), {1, 0}).pose);
+}
+
+TEST(MeanPosture, no_foot_is_ever_planted) {
+  const auto model = *mean_posture_model(made_data(), kStyles, {});
+  StyleNetworks networks(model);
+  networks.set_strengths(std::vector<float>{1, 0});
+  networks.forward(std::vector<float>(size_t(kWindowPoses) * 66, 0.5f));
+  for (const float planted : networks.contact()) EXPECT_LT(planted, 1e-6f);
+}
+
+}  // namespace
+}  // namespace panache

@@ -1,0 +1,161 @@
+#include "eval/report.h"
+
+#include <fstream>
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "base/file.h"
+#include "eval/make_report.h"
+#include "temporary_folder.h"
+
+namespace panache {
+namespace {
+
+using Json = nlohmann::json;
+using test::kRude;
+using test::made_up_report;
+using test::numbers;
+
+std::string bytes_of(const std::string& path) {
+  const Result<std::string> bytes = read_file(path);
+  return bytes.ok() ? *bytes : bytes.error().message;
+}
+
+TEST(ReportJson, every_number_stands_under_its_key) {
+  Json json = Json::parse(report_json(made_up_report()));
+  EXPECT_EQ(json["format"], "panache report 1");
+  EXPECT_EQ(json["trained_on"], Json({"one.csv"}));
+  EXPECT_EQ(json["styles"], Json({"old", "proud"}));
+  EXPECT_EQ(json["seconds"], 427);
+  EXPECT_EQ(json["style_floor"], 0.95);
+  EXPECT_EQ(json["cc_floor"], 4.25);
+  Json& system = json["systems"]["panache"];
+  struct {
+    Json found;
+    double seed;
+  } places[] = {
+      {json["real"], 0.97},
+      {json["input"], 0.02},
+      {json["real_by_content"]["run"], 0.96},
+      {json["real_by_style"]["old"], 0.95},
+      {json["input_by_content"]["walk"], 0.03},
+      {system["seen"], 0.8},
+      {system["seen_by_content"]["run"], 0.8 + 0.02},
+      {system["seen_by_style"]["old"], 0.8 + 0.03},
+      {system["strength"]["0.25"], 0.04},
+      {system["strength"]["2"], 0.8 + 0.05},
+      {system["unseen_splits"]["A"]["mean"], 0.61},
+      {system["unseen_splits"]["A"]["run"], 0.62},
+      {system["unseen_splits"]["A"]["seen"]["run"], 0.63},
+      {system["unseen_splits"]["A"]["blind"]["run"], 0.64},
+      {system["unseen_splits"]["A"]["mean_posture"]["run"], 0.65},
+      {system["unseen_splits"]["B"]["walk"], 0.68},
+  };
+  for (auto& [found, seed] : places) {
+    const Quality expected = numbers(seed);
+    EXPECT_EQ(found["takes"], expected.takes);
+    EXPECT_EQ(found["windows"], expected.windows);
+    for (const QualityField& field : kQualityFields) {
+      ASSERT_TRUE(found.contains(field.key)) << seed << " " << field.key;
+      EXPECT_EQ(found[field.key].get<double>(), expected.*field.value) << seed << " " << field.key;
+    }
+  }
+  EXPECT_EQ(system["recipe"], "panache");
+  EXPECT_EQ(system["slider"]["style"], 0.97);
+  EXPECT_EQ(system["slider"]["distance"], 0.99);
+  EXPECT_EQ(system["mixes"][0]["either"], 0.81);
+  EXPECT_EQ(system["mixes"][0]["second"], "proud");
+  EXPECT_EQ(system["disturbances"]["floor -5 cm"]["cm"], 2.75);
+  EXPECT_EQ(system["cc"], 8.5);
+  EXPECT_EQ(system["sc"], 63);
+  EXPECT_EQ(system["bone_length_error_cm"], 0.002);
+  EXPECT_EQ(system["step_us"], 6.5);
+  EXPECT_EQ(system["model_bytes"], 868352);
+  EXPECT_EQ(system["parameters"], 216412);
+  EXPECT_TRUE(json["systems"].contains(kRude));
+}
+
+TEST(ReportJson, an_unseen_content_is_that_of_the_first_split_that_has_it) {
+  Json json = Json::parse(report_json(made_up_report()));
+  Json& unseen = json["systems"]["panache"]["unseen"];
+  EXPECT_EQ(unseen["run"]["style_accuracy"].get<double>(), numbers(0.62).style_accuracy);
+  EXPECT_EQ(unseen["walk"]["style_accuracy"].get<double>(), numbers(0.68).style_accuracy);
+}
+
+TEST(ReportJson, foreign_rows_are_kept_and_summed_up) {
+  Json json = Json::parse(report_json(made_up_report()));
+  Json& foreign = json["systems"]["panache"]["foreign"];
+  ASSERT_EQ(foreign["rows"].size(), 11u);
+  EXPECT_EQ(foreign["rows"][3]["clip"], "dance");
+  EXPECT_EQ(foreign["rows"][3]["beyond_limits"], 0.11);
+  Json& summary = foreign["summary"];
+  EXPECT_EQ(summary["clips"], 2);
+  EXPECT_EQ(summary["rows"], 11);
+  // Eleven rows in equal steps: median, 90 % and 10 % are the sixth, tenth and second.
+  EXPECT_DOUBLE_EQ(summary["jerk_ratio"]["median"], 1.5);
+  EXPECT_DOUBLE_EQ(summary["jerk_ratio"]["p90"], 1.9);
+  EXPECT_DOUBLE_EQ(summary["jerk_ratio"]["max"], 2.0);
+  EXPECT_DOUBLE_EQ(summary["velocity_correlation"]["median"], 0.7);
+  EXPECT_DOUBLE_EQ(summary["velocity_correlation"]["p10"], 0.54);
+  EXPECT_DOUBLE_EQ(summary["distance_cm"]["mean"], 5);
+  EXPECT_DOUBLE_EQ(summary["beyond_limits"]["mean"], 0.01);
+  EXPECT_DOUBLE_EQ(summary["beyond_limits"]["max"], 0.11);
+  EXPECT_EQ(summary["beyond_limits"]["rows"], 1);
+  EXPECT_DOUBLE_EQ(summary["under_floor"]["mean"], 0.04);
+  EXPECT_EQ(summary["under_floor"]["rows"], 2);
+  EXPECT_DOUBLE_EQ(summary["drift_m"]["max"], 3.0);
+  EXPECT_DOUBLE_EQ(summary["gate"]["mean"], 0.5);
+}
+
+TEST(ReportJson, what_was_not_measured_is_null) {
+  Report report = made_up_report();
+  report.real.fmd = kNotMeasured;
+  report.real.jerk_ratio = std::numeric_limits<double>::infinity();
+  report.systems[0].slider_style = kNotMeasured;
+  report.systems[0].foreign.clear();
+  report.systems[0].model_bytes = 0;
+  report.systems[0].recipe.clear();
+  Json json = Json::parse(report_json(report));
+  EXPECT_TRUE(json["real"].at("fmd").is_null());
+  EXPECT_TRUE(json["real"].at("jerk_ratio").is_null());
+  Json& system = json["systems"]["panache"];
+  EXPECT_TRUE(system["slider"].at("style").is_null());
+  EXPECT_TRUE(system["foreign"]["summary"]["jerk_ratio"].at("median").is_null());
+  EXPECT_TRUE(system.at("model_bytes").is_null());
+  EXPECT_TRUE(system.at("recipe").is_null());
+}
+
+TEST(ReportJson, a_name_that_is_no_text_does_not_lose_the_report) {
+  Report report = made_up_report();
+  report.systems[0].name = "caf\xe9";
+  EXPECT_TRUE(Json::accept(report_json(report)));
+}
+
+TEST(WriteReport, both_files_are_written_into_a_folder_that_is_made) {
+  const test::TemporaryFolder temporary;
+  const std::string folder = temporary.path() + "new/report";
+  const Report report = made_up_report();
+  // Twice: an old report is replaced.
+  for (int i = 0; i < 2; ++i) {
+    const Result<void> written = write_report(report, folder);
+    ASSERT_TRUE(written.ok()) << written.error().message;
+  }
+  EXPECT_EQ(bytes_of(folder + "/report.json"), report_json(report));
+  EXPECT_EQ(bytes_of(folder + "/index.html"), report_page(report));
+}
+
+TEST(WriteReport, a_file_in_the_place_of_the_folder_is_refused) {
+  const test::TemporaryFolder temporary;
+  const std::string path = temporary.path() + "taken";
+  std::ofstream(path) << "mine";
+  EXPECT_EQ(write_report(Report(), path).error().message,
+            path + ": is a file; expected a folder to write the report into");
+  EXPECT_EQ(write_report(Report(), path + "/deeper").error().message,
+            path + "/deeper: cannot be made; expected a place where a folder may be written");
+  EXPECT_EQ(bytes_of(path), "mine");
+}
+
+}  // namespace
+}  // namespace panache

@@ -1,0 +1,71 @@
+#include "eval/report.h"
+
+#include <sstream>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "base/xml_check.h"
+#include "eval/make_report.h"
+#include "eval/report_numbers.h"
+
+namespace panache {
+namespace {
+
+using test::kRude;
+using test::made_up_report;
+using test::made_up_system;
+using test::numbers;
+
+// The lines of a text that are wider than a terminal of ours, as its reader counts.
+std::string too_wide(const std::string& text) {
+  std::istringstream lines(text);
+  std::string wide;
+  for (std::string line; std::getline(lines, line);) {
+    if (column_count(line) > 110) wide += line + "\n";
+  }
+  return wide;
+}
+
+TEST(ReportText, no_line_is_wider_than_110_columns) {
+  Report report = made_up_report();
+  EXPECT_EQ(too_wide(report_text(report)), "");
+  // Many systems with long names, many long contents, numbers as large as they may become.
+  const std::string long_name = "a system with a name that does not end \xc3\xa9\xc3\xa9 " + kRude;
+  for (int i = 0; i < 7; ++i) {
+    report.systems.push_back(made_up_system(long_name + std::to_string(i), 0.7));
+    report.systems.back().by_content[long_name + long_name] = numbers(1e15);
+    report.systems.back().seen = numbers(-1e15);
+    report.systems.back().disturbances[0].name = long_name + long_name + long_name;
+    report.systems.back().unseen[0].name = long_name + long_name + long_name;
+  }
+  EXPECT_EQ(too_wide(report_text(report)), "");
+}
+
+TEST(ReportText, columns_are_aligned) {
+  const std::string text = report_text(made_up_report());
+  std::istringstream lines(text);
+  std::vector<std::string> table;
+  for (std::string line; std::getline(lines, line) && !line.empty();) table.push_back(line);
+  // A title, two lines of headings, real takes, input, two systems.
+  ASSERT_EQ(table.size(), 7u);
+  EXPECT_TRUE(table[3].starts_with("real takes")) << table[3];
+  EXPECT_TRUE(table[5].starts_with("panache")) << table[5];
+  for (size_t line = 3; line < table.size(); ++line) {
+    EXPECT_EQ(column_count(table[line]), column_count(table[2])) << table[line];
+  }
+  EXPECT_NE(table[5].find("0.801"), std::string::npos);
+}
+
+TEST(ReportText, all_its_parts_are_there) {
+  const std::string text = report_text(made_up_report());
+  for (const char* part :
+       {"Overall", "By content", "Style recognised by strength", "Content kept by strength",
+        "split A", "split B", "Foreign motion", "Disturbed windows", "floor -5 cm"}) {
+    EXPECT_NE(text.find(part), std::string::npos) << part;
+  }
+  EXPECT_EQ(occurrences(report_text(Report()), "Foreign"), 0u);
+}
+
+}  // namespace
+}  // namespace panache
