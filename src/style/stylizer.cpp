@@ -130,7 +130,9 @@ float Stylizer::forward_speed() const noexcept {
 void Stylizer::move_root(double input_seconds) noexcept {
   if (!started_ || !options_.root) return;
   const float dt = static_cast<float>(input_seconds);
-  const float moving = std::min(1.0f, history_.ground_speed() / kStandingSpeed);
+  // On unknown motion a style has no say in the way: its mean way is that of its walks.
+  const float known = networks_.gate();
+  const float moving = known * std::min(1.0f, history_.ground_speed() / kStandingSpeed);
   const float back = std::exp(-dt / kCourseSeconds);
   turn_ = turn_ * back + numbers_[66] * moving * dt;
   sway_ = sway_ * back + numbers_[64] * moving * dt;
@@ -139,7 +141,7 @@ void Stylizer::move_root(double input_seconds) noexcept {
   // of the input's: what comes back in the input comes back in the output, and what stands stays.
   // Each term is exactly zero without a style.
   const float speed = forward_speed();
-  const float share = numbers_[65] * speed / (speed * speed + kSlowSpeed * kSlowSpeed);
+  const float share = known * numbers_[65] * speed / (speed * speed + kSlowSpeed * kSlowSpeed);
   const Vec3 way = ground_.position - last_ground_.position;
   drift_ += rotate(rotation_y(turn_), way) - way;
   const float most = speed > 0 ? kMostStretched : 0.0f;  // Backwards, or the way would not close.

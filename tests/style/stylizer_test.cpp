@@ -109,6 +109,17 @@ TEST_F(StylizerTest, a_step_through_a_gate_allocates_nothing_and_closes_it_gradu
   EXPECT_LT(character.gate(), 0.01f);
 }
 
+TEST_F(StylizerTest, behind_a_closed_gate_the_way_over_the_ground_is_the_inputs) {
+  const auto drift = [&](std::shared_ptr<const Model> model) {
+    Stylizer character = *Stylizer::create(model, *Rig::create(clip_));
+    run(character, {1, 0});
+    const Vec3 moved = character.change().translation;
+    return std::hypot(moved.x, moved.z);
+  };
+  EXPECT_GT(drift(gated_model(1e6f)), 0.05f) << "an open gate leaves the style its way";
+  EXPECT_LT(drift(gated_model(1e-3f)), 1e-3f);
+}
+
 TEST_F(StylizerTest, the_gate_takes_its_time_but_not_at_the_start) {
   // How far the gate moves in a walk whose viewer's clock goes on by `seconds` a frame.
   const auto moved = [&](double seconds) {
