@@ -71,26 +71,39 @@ Result<std::vector<NamedModel>> find_models(const EvaluateOptions& options, cons
   std::vector<NamedModel> models;
   for (const auto& [recipe, name] :
        {std::pair{Recipe::panache, "panache"}, std::pair{Recipe::smith2019, "smith2019"}}) {
-    TrainOptions training;
-    training.settings = recipe_settings(recipe);
-    if (options.steps) training.settings.steps = *options.steps;
-    training.seed = options.seed;
-    Result<Trained> trained = train(bench.training, options.styles, training);
-    if (!trained) return trained.error();
-    Result<std::shared_ptr<const Model>> model =
-        Model::parse(format_safetensors(trained->model), name);
+    Result<NamedModel> model = train_system(recipe, name, bench.training, options);
     if (!model) return model.error();
-    models.push_back({name, *model});
+    models.push_back(*std::move(model));
   }
   return models;
 }
 
 }  // namespace
 
+Result<NamedModel> train_system(Recipe recipe, const std::string& name, const TrainingData& data,
+                                const EvaluateOptions& options) {
+  TrainOptions training;
+  training.settings = recipe_settings(recipe);
+  if (options.steps) training.settings.steps = *options.steps;
+  training.seed = options.seed;
+  Result<Trained> trained = train(data, options.styles, training);
+  if (!trained) return trained.error();
+  Result<std::shared_ptr<const Model>> model =
+      Model::parse(format_safetensors(trained->model), name);
+  if (!model) return model.error();
+  return NamedModel{name, *model};
+}
+
 Result<Report> evaluate(const EvaluateOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   Result<Bench> bench = prepare(options);
   if (!bench) return bench.error();
+  for (const UnseenSplit& split : options.unseen) {
+    for (const std::string& content : split.contents) {
+      if (bench->judge.contents().find(content) >= 0) continue;
+      return Error{"unseen content '" + content + "' has no test take"};
+    }
+  }
   Result<std::vector<NamedModel>> models = find_models(options, *bench);
   if (!models) return models.error();
   Result<std::shared_ptr<const Model>> posture =
@@ -106,14 +119,9 @@ Result<Report> evaluate(const EvaluateOptions& options) {
   report.real = mean_quality(real);
   report.real_by_content = by_content(real);
   report.real_by_style = by_style(real);
-  std::vector<Take> takes;
-  for (const TestInput& input : bench->inputs) takes.push_back(input.take);
-  CellTable input = bench->judge.judge(untouched(bench->inputs, bench->styles), takes);
-  for (const auto& [cell, error] : bench->aligned.untouched_errors()) {
-    if (!input.contains(cell)) continue;
-    input[cell].pose_error_deg = error.degrees;
-    input[cell].pose_error_cm = error.cm;
-  }
+  CellTable input =
+      bench->judge.judge(untouched(bench->inputs, bench->styles), takes_of(bench->inputs));
+  add_pose_errors(bench->aligned.untouched_errors(), input);
   report.input = mean_quality(input);
   report.input_by_content = by_content(input);
   report.sc_floor = report.cc_floor =

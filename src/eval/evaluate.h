@@ -54,6 +54,13 @@ struct Bench {
   double units_per_metre = 1;       // Of the first test file: the unit of CC and SC++.
 };
 
+// A recipe's networks, trained on `data` with the steps and seed of `options`.
+Result<NamedModel> train_system(Recipe recipe, const std::string& name, const TrainingData& data,
+                                const EvaluateOptions& options);
+
+// Fills the pose errors into the cells that there are.
+void add_pose_errors(const PoseErrors& errors, CellTable& cells);
+
 // What one model makes of the neutral test takes in every way: seen contents, strengths, mixes.
 Result<SystemReport> judge_system(const NamedModel& system, const Bench& bench);
 
@@ -61,8 +68,8 @@ Result<SystemReport> judge_system(const NamedModel& system, const Bench& bench);
 Result<CellTable> judge_contents(const NamedModel& system, const Bench& bench,
                                  const std::vector<std::string>& contents);
 
-// Trains the recipes of `systems` without the contents of `split`, judges them, and adds what was
-// found to the reports of the same order.
+// Trains the recipes of `systems` without the contents of `split`, which have test takes, judges
+// them, and adds what was found to the reports of the same order.
 Result<void> judge_unseen(const UnseenSplit& split, const EvaluateOptions& options,
                           const Bench& bench, const std::vector<NamedModel>& systems,
                           std::vector<SystemReport>& reports);

@@ -4,15 +4,15 @@
 #include <atomic>
 #include <cmath>
 #include <filesystem>
-#include <optional>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include "base/parallel.h"
-#include "clip/motion_file.h"
 #include "eval/joint_limits.h"
 #include "eval/motion_metrics.h"
 #include "eval/quality.h"
+#include "eval/systems.h"
 #include "style/restyle.h"
 #include "train/manifest.h"
 #include "train/take.h"
@@ -27,44 +27,16 @@ constexpr float kLimitTolerance_deg = 5;  // A joint this little beyond its limi
 constexpr float kFloorTolerance = 0.03f;  // Metres.
 constexpr double kStill = 0.01;           // m/s: a coordinate that deviates less does not move.
 
-// A clip as it is, read once for all styles.
-struct Input {
-  std::string path;
-  Clip clip;
-  Rig rig;
-  Take take;
-};
-
-Result<Input> read_input(const std::string& path) {
-  Result<std::unique_ptr<MotionFile>> file = read_motion(path);
-  if (!file) return file.error();
-  const Clip& clip = (*file)->clip();
-  Result<Rig> rig = Rig::create(clip);
-  if (!rig) return Error{path + ": " + rig.error().message};
-  Take take = make_take(clip, *rig, PoseLayout::positions);
-  return Input{path, clip, *std::move(rig), std::move(take)};
-}
-
-Result<std::vector<Input>> read_inputs(const std::vector<std::string>& files) {
-  std::vector<std::optional<Result<Input>>> read(files.size());
-  parallel_for(static_cast<int>(files.size()), [&](int i) { read[i] = read_input(files[i]); });
-  std::vector<Input> inputs;
-  for (std::optional<Result<Input>>& input : read) {
-    if (!*input) return input->error();
-    inputs.push_back(std::move(*input).value());
-  }
-  return inputs;
-}
-
-Result<ForeignRow> style_input(const Input& input, std::shared_ptr<const Model> model, int style) {
+Result<ForeignRow> style_input(const TestInput& input, std::shared_ptr<const Model> model,
+                               int style) {
   RestyleOptions options;
   options.timing = false;
   const StrengthTrack full = {style, {{0, 1}}};
   Result<Restyled> restyled = restyle(input.clip, input.rig, model, {full}, options);
-  if (!restyled) return Error{input.path + ": " + restyled.error().message};
+  if (!restyled) return Error{input.take.row.path + ": " + restyled.error().message};
   const Take output = make_take(restyled->clip, input.rig, PoseLayout::positions);
   ForeignRow row = compare_foreign(input.take, output);
-  row.clip = fs::path(input.path).stem().string();
+  row.clip = fs::path(input.take.row.path).stem().string();
   row.style = model->styles()[style].name;
   row.gate = std::accumulate(restyled->gates.begin(), restyled->gates.end(), 0.0) /
              static_cast<double>(restyled->gates.size());
@@ -175,7 +147,9 @@ ForeignRow compare_foreign(const Take& input, const Take& output) {
 Result<std::vector<ForeignRow>> measure_foreign(const std::vector<std::string>& files,
                                                 std::shared_ptr<const Model> model,
                                                 const std::function<void(double)>& progress) {
-  Result<std::vector<Input>> inputs = read_inputs(files);
+  std::vector<ManifestRow> named;
+  for (const std::string& file : files) named.emplace_back().path = file;
+  Result<std::vector<TestInput>> inputs = load_inputs(named);
   if (!inputs) return inputs.error();
   const int styles = static_cast<int>(model->styles().size());
   const int jobs = static_cast<int>(inputs->size()) * styles;

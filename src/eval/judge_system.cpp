@@ -13,7 +13,7 @@ namespace panache {
 namespace {
 
 constexpr double kStrengths[] = {0, 0.25, 0.5, 0.75, 1, 1.25, 1.5, 1.75, 2};
-constexpr double kMixShares[] = {0, 0.25, 0.5, 0.75, 1};
+constexpr double kHalf = 0.5, kMixShares[] = {0, 0.25, kHalf, 0.75, 1};
 
 std::string number(double value) {
   char text[16];
@@ -80,42 +80,21 @@ std::vector<Job> jobs_at(const std::vector<std::string>& styles, double strength
   return jobs;
 }
 
-std::vector<Take> takes_of(const std::vector<TestInput>& inputs) {
-  std::vector<Take> takes;
-  for (const TestInput& input : inputs) takes.push_back(input.take);
-  return takes;
-}
-
 // Judges outputs and adds the pose errors, which come from the networks alone.
 CellTable judge_outputs(const NamedModel& system, const Bench& bench,
                         const std::vector<Output>& outputs, const std::vector<Take>& takes,
                         double strength) {
   CellTable cells = bench.judge.judge(outputs, takes);
-  for (const auto& [cell, error] : bench.aligned.errors(*system.model, strength)) {
-    const auto found = cells.find(cell);
-    if (found == cells.end()) continue;
-    found->second.pose_error_deg = error.degrees;
-    found->second.pose_error_cm = error.cm;
-  }
+  add_pose_errors(bench.aligned.errors(*system.model, strength), cells);
   return cells;
-}
-
-// Mean probability of a style over the windows of outputs.
-double mean_probability(const Judge& judge, const std::vector<Output>& outputs,
-                        const std::string& style) {
-  const int wanted = judge.styles().find(style);
-  double sum = 0, windows = 0;
-  for (const Output& output : outputs) {
-    const torch::Tensor p = judge.styles().judge(output.take).probabilities;
-    sum += p.select(1, wanted).sum().item<double>();
-    windows += static_cast<double>(p.size(0));
-  }
-  return sum / std::max(1.0, windows);
 }
 
 Result<MixReport> judge_mix(const NamedModel& system, const Bench& bench, const std::string& first,
                             const std::string& second) {
   MixReport mix{first, second, 0, 0, 0};
+  const Classifier& styles = bench.judge.styles();
+  const Classifier& contents = bench.judge.contents();
+  const int from = styles.find(first), to = styles.find(second);
   std::vector<double> shares, leans;
   for (const double share : kMixShares) {
     std::vector<Job> jobs;
@@ -126,23 +105,22 @@ Result<MixReport> judge_mix(const NamedModel& system, const Bench& bench, const 
     }
     Result<Run> run = run_jobs(system.model, bench.inputs, jobs);
     if (!run) return run.error();
-    shares.push_back(share);
-    leans.push_back(mean_probability(bench.judge, run->outputs, second) -
-                    mean_probability(bench.judge, run->outputs, first));
-    if (share != 0.5) continue;
-    const Classifier& styles = bench.judge.styles();
-    const Classifier& contents = bench.judge.contents();
-    double windows = 0;
+    double windows = 0, lean = 0, either = 0, kept = 0;
     for (const Output& output : run->outputs) {
-      const torch::Tensor best = styles.judge(output.take).probabilities.argmax(1);
+      const torch::Tensor p = styles.judge(output.take).probabilities;
+      const torch::Tensor best = p.argmax(1);
+      windows += static_cast<double>(p.size(0));
+      lean += (p.select(1, to) - p.select(1, from)).sum().item<double>();
+      either += (best.eq(from) | best.eq(to)).sum().item<double>();
+      if (share != kHalf) continue;
       const torch::Tensor content = contents.judge(output.take).probabilities.argmax(1);
-      mix.either += best.eq(styles.find(first)).sum().item<double>() +
-                    best.eq(styles.find(second)).sum().item<double>();
-      mix.content += content.eq(contents.find(output.take.row.content)).sum().item<double>();
-      windows += static_cast<double>(best.size(0));
+      kept += content.eq(contents.find(output.take.row.content)).sum().item<double>();
     }
-    mix.either /= windows;
-    mix.content /= windows;
+    shares.push_back(share);
+    leans.push_back(lean / windows);
+    if (share != kHalf) continue;
+    mix.either = either / windows;
+    mix.content = kept / windows;
   }
   mix.correlation = rank_correlation(shares, leans);
   return mix;
@@ -184,6 +162,15 @@ Result<double> own_style_distance(const NamedModel& system, const Bench& bench) 
 }
 
 }  // namespace
+
+void add_pose_errors(const PoseErrors& errors, CellTable& cells) {
+  for (const auto& [cell, error] : errors) {
+    const auto found = cells.find(cell);
+    if (found == cells.end()) continue;
+    found->second.pose_error_deg = error.degrees;
+    found->second.pose_error_cm = error.cm;
+  }
+}
 
 Result<CellTable> judge_contents(const NamedModel& system, const Bench& bench,
                                  const std::vector<std::string>& contents) {

@@ -13,7 +13,7 @@
 
 namespace panache {
 
-// A neutral take as the file it comes from.
+// A take as the file it comes from.
 struct TestInput {
   Clip clip;
   Rig rig;
@@ -21,7 +21,10 @@ struct TestInput {
 
   double take_frame(double clip_frame) const;  // The take's frame at a frame of the clip.
 };
+// Over all cores; of a row only the path is read, and fails with the sentence of the first file, in
+// order, that cannot be read or mapped.
 Result<std::vector<TestInput>> load_inputs(const std::vector<ManifestRow>& rows);
+std::vector<Take> takes_of(const std::vector<TestInput>& inputs);
 
 // One thing to ask for: strengths of styles of a model, and the style it is judged as.
 struct Request {

@@ -2,7 +2,6 @@
 
 #include "eval/evaluate.h"
 #include "eval/mean_posture.h"
-#include "net/safetensors.h"
 
 namespace panache {
 namespace {
@@ -57,11 +56,6 @@ Result<UnseenSplit> named_split(const std::string& name) {
 Result<void> judge_unseen(const UnseenSplit& split, const EvaluateOptions& options,
                           const Bench& bench, const std::vector<NamedModel>& systems,
                           std::vector<SystemReport>& reports) {
-  for (const std::string& content : split.contents) {
-    if (!is_among(bench.judge.contents().classes(), content)) {
-      return Error{"unseen content '" + content + "' has no test take"};
-    }
-  }
   // Inputs are normalised by the takes of the pairs alone, so these contents leave no trace.
   TrainingData training_data = bench.training;
   std::erase_if(training_data.pairings, [&](const Pairing& pairing) {
@@ -79,16 +73,9 @@ Result<void> judge_unseen(const UnseenSplit& split, const EvaluateOptions& optio
   for (size_t s = 0; s < systems.size(); ++s) {
     const Recipe recipe = systems[s].model->recipe();
     if (!judged.contains(recipe)) {
-      TrainOptions training;
-      training.settings = recipe_settings(recipe);
-      if (options.steps) training.settings.steps = *options.steps;
-      training.seed = options.seed;
-      Result<Trained> trained = train(training_data, options.styles, training);
-      if (!trained) return Error{"unseen " + split.name + ": " + trained.error().message};
-      Result<std::shared_ptr<const Model>> model =
-          Model::parse(format_safetensors(trained->model), systems[s].name);
-      if (!model) return model.error();
-      Result<CellTable> cells = judge_contents({systems[s].name, *model}, bench, split.contents);
+      Result<NamedModel> model = train_system(recipe, systems[s].name, training_data, options);
+      if (!model) return Error{"unseen " + split.name + ": " + model.error().message};
+      Result<CellTable> cells = judge_contents(*model, bench, split.contents);
       if (!cells) return cells.error();
       judged[recipe] = *std::move(cells);
     }
