@@ -1,5 +1,6 @@
 #include "clip/bvh.h"
 
+#include <cassert>
 #include <utility>
 
 #include "clip/bvh_document.h"
@@ -11,9 +12,11 @@ class BvhFile final : public MotionFile {
  public:
   explicit BvhFile(BvhDocument document) : document_(std::move(document)) {}
 
-  const Clip& clip() const override { return document_.clip; }
-  std::string encode(const Clip& changed, std::span<const double> source_frames) const override {
-    return encode_bvh(document_, changed, source_frames);
+  std::vector<std::string> clip_names() const override { return {""}; }
+  const Clip& clip(int) const override { return document_.clip; }
+  std::string encode(std::span<const ClipEdit> edits, EditMode) const override {
+    assert(edits.size() == 1);
+    return encode_bvh(document_, *edits.front().changed, edits.front().source_frames);
   }
 
  private:

@@ -19,6 +19,7 @@ struct Joint {
   bool can_rotate = false;     // The file animates its rotation.
   bool can_translate = false;  // The file animates its translation.
   std::vector<Vec3> ends;      // End Sites: points fixed to the joint, file units.
+  std::string role;            // What the file itself says the joint is ("leftHand"), or empty.
 };
 
 struct Skeleton {

@@ -1,27 +1,51 @@
 #pragma once
-// A motion file as a whole: the clip in it, and all else that must survive a round trip.
+// A motion file as a whole: the clips in it, and all else that must survive a round trip.
 
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/result.h"
 #include "clip/clip.h"
 
 namespace panache {
 
+// New frames for one clip of a file.
+struct ClipEdit {
+  int clip = 0;  // Which of the file's clips.
+  // With that clip's skeleton and frame time, and any number of frames above zero.
+  const Clip* changed = nullptr;
+  // [frames]: which frame of the file's clip (fractional) each one came from.
+  std::span<const double> source_frames;
+  // Of the clip that results, in formats whose clips have names; made unique where it is taken.
+  std::string name;
+};
+
+// What becomes of the clip that an edit came from.
+enum class EditMode { replace, add_beside };
+
 class MotionFile {
  public:
   virtual ~MotionFile() = default;
 
-  // The motion, with the file's own joints, order, units and rate.
-  virtual const Clip& clip() const = 0;
+  // The names of the motions in the file, "" where the format has none (BVH). Empty where the file
+  // has a skeleton and no motion; clip(0) is then its rest pose in one frame.
+  virtual std::vector<std::string> clip_names() const = 0;
+  // A motion, with the file's own joints, order, units and rate. The clips of one file have the
+  // same joints; what the file animates of them may differ.
+  virtual const Clip& clip(int which = 0) const = 0;
 
-  // The bytes of the same file with the frames of `changed` in place of its own. `changed` has this
-  // file's skeleton and frame time, and any number of frames; source_frames[i] tells which frame of
-  // clip() (fractional) its frame i came from. A joint that equals the pose of that frame keeps the
-  // very numbers of the file; everything else is written with as many decimals as the file uses.
-  virtual std::string encode(const Clip& changed, std::span<const double> source_frames) const = 0;
+  // The bytes of the same file with the edited clips in it; those of different edits differ. A
+  // joint that equals the pose of the frame that it came from keeps the very numbers of the file;
+  // everything else is written as exactly as the file's own numbers are. A format that holds a
+  // single clip replaces it in either mode.
+  virtual std::string encode(std::span<const ClipEdit> edits, EditMode mode) const = 0;
+  // The same for a single clip that takes the place of the file's first.
+  std::string encode(const Clip& changed, std::span<const double> source_frames) const {
+    const ClipEdit edit = {0, &changed, source_frames, ""};
+    return encode({&edit, 1}, EditMode::replace);
+  }
 };
 
 // Reads the motion file at `path`; the ending decides the format (.bvh).

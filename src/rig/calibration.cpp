@@ -140,6 +140,27 @@ int find_first_frame(const Clip& clip, std::vector<std::string>& notes) {
   return 1;
 }
 
+void set_up(int k, bool negative, Calibration& out) {
+  out.up_axis = {negative ? '-' : '+', "XYZ"[k]};
+  out.y_up = turn_up(k, negative);
+}
+
+Result<void> believe(std::optional<float> metres_per_unit,
+                     const std::optional<std::string>& up_axis, Calibration& out) {
+  out.scale = metres_per_unit.value_or(0);
+  if (metres_per_unit && !(*metres_per_unit > 0 && std::isfinite(*metres_per_unit))) {
+    return Error{"expected metres per unit above 0, found " + std::to_string(*metres_per_unit)};
+  }
+  if (!up_axis) return {};
+  static constexpr std::string_view kAxes[] = {"+X", "+Y", "+Z", "-X", "-Y", "-Z"};
+  const auto at = std::find(std::begin(kAxes), std::end(kAxes), *up_axis) - std::begin(kAxes);
+  if (at == std::size(kAxes)) {
+    return Error{"expected an up axis from +X to -Z, found '" + *up_axis + "'"};
+  }
+  set_up(static_cast<int>(at % 3), at > 2, out);
+  return {};
+}
+
 class Calibrator {
  public:
   Calibrator(const Clip& clip, const Mapping& mapping, Calibration& out)
@@ -152,8 +173,10 @@ class Calibrator {
 
   Result<void> run() {
     if (frames_.count() == 0) return Error{"no frame of the motion has finite numbers only"};
-    find_up();
-    if (const auto done = find_scale(); !done) return done;
+    if (out_.up_axis.empty()) find_up();
+    if (out_.scale == 0) {
+      if (const auto done = find_scale(); !done) return done;
+    }
     find_toes(0);
     find_toes(1);
     find_trunk();
@@ -188,8 +211,7 @@ class Calibrator {
       if (std::abs(component(mean, i)) > std::abs(component(mean, k))) k = i;
     }
     const bool negative = component(mean, k) < 0;
-    out_.up_axis = {negative ? '-' : '+', "XYZ"[k]};
-    out_.y_up = turn_up(k, negative);
+    set_up(k, negative, out_);
     if (out_.up_axis != "+Y") out_.notes.push_back("up is " + out_.up_axis);
   }
 
@@ -301,8 +323,11 @@ class Calibrator {
 
 }  // namespace
 
-Result<Calibration> calibrate(const Clip& clip, const Mapping& mapping) {
+Result<Calibration> calibrate(const Clip& clip, const Mapping& mapping,
+                              std::optional<float> metres_per_unit,
+                              const std::optional<std::string>& up_axis) {
   Calibration out;
+  if (const auto done = believe(metres_per_unit, up_axis, out); !done) return done.error();
   out.first_frame = find_first_frame(clip, out.notes);
   if (const auto done = Calibrator(clip, mapping, out).run(); !done) return done.error();
   return out;

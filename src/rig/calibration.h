@@ -3,6 +3,7 @@
 // where the floor is, where the toes point and from which frame on the motion can be used.
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,11 @@ struct Calibration {
   std::vector<std::string> notes;
 };
 
-// Looks at 2,000 frames of the clip at most. Fails where the legs have no length.
-Result<Calibration> calibrate(const Clip& clip, const Mapping& mapping);
+// Looks at 2,000 frames of the clip at most. Unit and up axis are found unless they are given.
+// Fails where the legs have no length, and where what is given is no unit or axis.
+Result<Calibration> calibrate(const Clip& clip, const Mapping& mapping,
+                              std::optional<float> metres_per_unit = {},
+                              const std::optional<std::string>& up_axis = {});
 
 // One instant of the mapped joints, Y up, in scaled metres above the floor.
 struct MappedJoints {

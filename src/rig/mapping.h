@@ -17,6 +17,7 @@ namespace panache {
 struct Mapping {
   std::array<int, kHumanJoints> joint_of;         // Skeleton joint, or -1. No two are the same.
   std::array<std::string, kHumanJoints> reasons;  // How it was found, for people.
+  std::array<float, kHumanJoints> confidence{};   // 0 (a guess, or missing) to 1 (certain).
   std::vector<std::string> notes;                 // What a careful user would want to know.
 };
 

@@ -38,7 +38,7 @@ bool is_finite_body(const BodyPose& body) {
 
 }  // namespace
 
-Result<Rig> Rig::create(const Clip& clip) {
+Result<Rig> Rig::create(const Clip& clip, const RigOptions& options) {
   if (clip.joints() == 0) return Error{"no humanoid found: the skeleton has no joints"};
   if (clip.frames < 1) return Error{"expected at least one frame of motion, found none"};
   Rig rig;
@@ -53,7 +53,8 @@ Result<Rig> Rig::create(const Clip& clip) {
   Result<Mapping> mapping = map_by_names(clip.skeleton, rig.world_translations_);
   if (!mapping) return mapping.error();
   rig.mapping_ = *std::move(mapping);
-  Result<Calibration> calibration = calibrate(clip, rig.mapping_);
+  Result<Calibration> calibration =
+      calibrate(clip, rig.mapping_, options.metres_per_unit, options.up_axis);
   if (!calibration) return calibration.error();
   rig.calibration_ = *std::move(calibration);
   rig.notes_ = rig.mapping_.notes;
@@ -91,7 +92,8 @@ std::vector<JointMatch> Rig::matches() const {
   for (int j = 0; j < kHumanJoints; ++j) {
     const int joint = mapping_.joint_of[j];
     out.push_back({std::string(human_joint_name(j)),
-                   joint < 0 ? std::string{} : skeleton_.joints[joint].name, mapping_.reasons[j]});
+                   joint < 0 ? std::string{} : skeleton_.joints[joint].name, mapping_.reasons[j],
+                   mapping_.confidence[j]});
   }
   return out;
 }

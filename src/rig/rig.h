@@ -2,6 +2,8 @@
 // How one skeleton is a humanoid, and how poses travel between it and the canonical body.
 
 #include <array>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,14 +44,25 @@ struct JointMatch {
   std::string human_joint;  // "leftLowerArm"
   std::string joint;        // The skeleton's name for it; empty where it has none.
   std::string reason;       // "next joint above leftHand", "missing", ...
+  float confidence;         // 0 (a guess) to 1 (certain); 0 where the joint is missing.
+};
+
+// What a user says of a rig instead of having it found.
+struct RigOptions {
+  std::optional<float> metres_per_unit;
+  std::optional<std::string> up_axis;  // "+Y", "-Z", ...
+  // The name of the skeleton's joint for a human joint; empty says that the skeleton has none. All
+  // others are found as ever.
+  std::map<int, std::string> joints;
 };
 
 class Rig {
  public:
   // Finds the humanoid in the skeleton of `clip`, and units, up axis, floor, first usable frame and
   // toes from its poses. The sentence of a failure says which joints were not found and names those
-  // that were seen. A clip needs at least one frame.
-  static Result<Rig> create(const Clip& clip);
+  // that were seen. A clip needs at least one frame. What `options` say is believed; a joint that
+  // they name and the skeleton has not, or more than once, is refused, as is an axis that is none.
+  static Result<Rig> create(const Clip& clip, const RigOptions& options = {});
 
   // skeleton joint of each human joint, -1 where the skeleton has none.
   const std::array<int, kHumanJoints>& joints() const { return mapping_.joint_of; }
