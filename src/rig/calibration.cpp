@@ -153,11 +153,12 @@ Result<void> believe(std::optional<float> metres_per_unit,
   }
   if (!up_axis) return {};
   static constexpr std::string_view kAxes[] = {"+X", "+Y", "+Z", "-X", "-Y", "-Z"};
-  const auto at = std::find(std::begin(kAxes), std::end(kAxes), *up_axis) - std::begin(kAxes);
-  if (at == std::size(kAxes)) {
+  const auto found = std::find(std::begin(kAxes), std::end(kAxes), *up_axis);
+  if (found == std::end(kAxes)) {
     return Error{"expected an up axis from +X to -Z, found '" + *up_axis + "'"};
   }
-  set_up(static_cast<int>(at % 3), at > 2, out);
+  const int at = static_cast<int>(found - std::begin(kAxes));
+  set_up(at % 3, at > 2, out);
   return {};
 }
 
@@ -177,6 +178,8 @@ class Calibrator {
     if (out_.scale == 0) {
       if (const auto done = find_scale(); !done) return done;
     }
+    find_wrist(0);
+    find_wrist(1);
     find_toes(0);
     find_toes(1);
     find_trunk();
@@ -224,6 +227,25 @@ class Calibrator {
     out_.scale = 2 * kProportions.leg / leg;
     if (!std::isfinite(out_.scale)) return Error{"the legs of the humanoid have no length"};
     return {};
+  }
+
+  // Fills where one wrist is if there is no hand: at the End Site of the lower arm, else straight
+  // on from the upper arm as at rest.
+  void find_wrist(int side) {
+    if (has(side ? right_hand : left_hand)) return;
+    const int lower = index(side ? right_lower_arm : left_lower_arm);
+    const Joint& joint = clip_.skeleton.joints[joint_of_[lower]];
+    Vec3& wrist = out_.wrists[side];
+    for (Vec3 end : joint.ends) {
+      if (length(end) > length(wrist)) wrist = end;
+    }
+    const bool shown = length(wrist) * out_.scale > kShortestToe;
+    if (!shown) {
+      const Vec3 along = normalized(rotate(conjugate(joint.rest), joint.offset), {0, -1, 0});
+      wrist = along * (kProportions.length[lower + 1] / out_.scale);
+    }
+    out_.notes.push_back(std::string(side ? "the right" : "the left") + " wrist is " +
+                         (shown ? "the lower arm's End Site" : "guessed from the upper arm"));
   }
 
   // Fills the direction of one foot: its toe joint, its End Site, or where it must point in stance.
@@ -337,11 +359,18 @@ MappedJoints mapped_joints(ConstPose world, const std::array<int, kHumanJoints>&
                            const Calibration& calibration) noexcept {
   MappedJoints out;
   for (int j = 0; j < kHumanJoints; ++j) {
-    if (joint_of[j] < 0) {
+    Vec3 at;
+    if (joint_of[j] >= 0) {
+      at = world.translations[joint_of[j]];
+    } else if (j == index(left_hand) || j == index(right_hand)) {
+      const int lower = joint_of[kHumanParent[j]];
+      at = world.translations[lower] +
+           rotate(world.rotations[lower], calibration.wrists[j == index(right_hand)]);
+    } else {
       out.positions[j] = out.positions[kHumanParent[j]];
       continue;
     }
-    const Vec3 p = rotate(calibration.y_up, world.translations[joint_of[j]] * calibration.scale);
+    const Vec3 p = rotate(calibration.y_up, at * calibration.scale);
     out.positions[j] = {p.x, p.y - calibration.floor, p.z};
   }
   for (int side : {0, 1}) {

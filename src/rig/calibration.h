@@ -29,6 +29,9 @@ struct Calibration {
   float facing = 0;     // Heading of the first usable frame that has one, radians.
   BodyShape shape;
   std::array<ToeSource, 2> toes;  // [left, right]
+  // [left, right]: where the wrist is in the lower arm's own axes, file units, where there is no
+  // hand.
+  std::array<Vec3, 2> wrists;
   std::vector<std::string> notes;
 };
 
@@ -40,7 +43,9 @@ Result<Calibration> calibrate(const Clip& clip, const Mapping& mapping,
 
 // One instant of the mapped joints, Y up, in scaled metres above the floor.
 struct MappedJoints {
-  HumanPositions positions;  // A missing joint carries its nearest mapped ancestor's.
+  // A missing hand stands at the wrist; any other missing joint carries its nearest mapped
+  // ancestor's position.
+  HumanPositions positions;
   std::array<Vec3, 2> toes;  // Unit directions from foot to toes, [left, right].
 };
 // world[joints]: the skeleton's joints in the file's axes and units.

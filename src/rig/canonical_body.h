@@ -9,8 +9,8 @@
 
 namespace panache {
 
-// What a skeleton has of a humanoid; constant over its motion. Always there: the hips, and upper
-// and lower parts and ends of all four limbs.
+// What a skeleton has of a humanoid; constant over its motion. Always there: the hips, upper and
+// lower parts of all four limbs, and the feet. Positions of hands are there in any case.
 struct BodyShape {
   std::array<bool, kHumanJoints> has{};
   bool chest_at_shoulders = false;  // The chest sits between the shoulders and bends nothing.

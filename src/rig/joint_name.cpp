@@ -38,16 +38,31 @@ std::vector<std::string> split(std::string_view name) {
 }
 
 Side side_of(std::string_view word) {
-  if (word == "left" || word == "l" || word == "lft") return Side::left;
-  if (word == "right" || word == "r" || word == "rgt") return Side::right;
+  constexpr std::array<std::string_view, 9> kLeft = {
+      "left", "l", "lf", "lft", "izq", "links", "gauche", "izquierda", "sinistra"};
+  constexpr std::array<std::string_view, 9> kRight = {"right",  "r",      "rt",      "rgt",   "der",
+                                                      "rechts", "droite", "derecha", "destra"};
+  if (std::find(kLeft.begin(), kLeft.end(), word) != kLeft.end()) return Side::left;
+  if (std::find(kRight.begin(), kRight.end(), word) != kRight.end()) return Side::right;
+  return Side::none;
+}
+
+// Japanese names begin with their side.
+Side take_first_letter(std::string& word) {
+  for (const auto& [letter, side] : {std::pair<std::string_view, Side>{"左", Side::left},
+                                     std::pair<std::string_view, Side>{"右", Side::right}}) {
+    if (!word.starts_with(letter)) continue;
+    word.erase(0, letter.size());
+    return side;
+  }
   return Side::none;
 }
 
 // "lhand", "handleft": a side that nothing separates is believed only beside a word of which the
 // mapping depends, or every "leg" would be a left "eg".
 Side split_run_on(std::string& word) {
-  constexpr std::array<std::string_view, 8> kWords = {"hand", "wrist", "foot",    "ankle",
-                                                      "toe",  "toes",  "toebase", "ball"};
+  constexpr std::string_view kWords[] = {"hand", "wrist",   "foot", "ankle",   "toe",
+                                         "toes", "toebase", "ball", "forearm", "elbow"};
   for (std::string_view side : {"left", "right", "l", "r"}) {
     for (std::string_view known : kWords) {
       if (word.size() != side.size() + known.size()) continue;
@@ -75,7 +90,8 @@ JointName parse_joint_name(std::string_view name) {
   for (std::string& word : split(name)) {
     Side side = side_of(word);
     const bool is_side = side != Side::none;
-    if (!is_side) side = split_run_on(word);
+    if (!is_side) side = take_first_letter(word);
+    if (side == Side::none) side = split_run_on(word);
     left |= side == Side::left;
     right |= side == Side::right;
     if (!is_side) out.words.push_back(std::move(word));

@@ -2,98 +2,87 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
-#include <string_view>
+#include <optional>
 
-#include "rig/joint_name.h"
+#include "rig/ends_by_shape.h"
+#include "rig/joint_words.h"
+#include "rig/limb_shape.h"
 
 namespace panache {
 namespace {
 
-// Words that make a joint something near a hand, a foot or a head, but not it.
-constexpr std::string_view kNear[] = {
-    "thumb",  "index", "middle", "mid",      "ring",       "pinky", "little", "finger", "fingers",
-    "carpal", "meta",  "end",    "nub",      "tip",        "top",   "site",   "ik",     "target",
-    "pole",   "twist", "roll",   "effector", "metacarpal", "heel",  "weapon", "prop"};
+using enum HumanJoint;
 
-bool is_near(const JointName& name) {
-  return std::any_of(std::begin(kNear), std::end(kNear),
-                     [&](std::string_view word) { return name.has(word); });
-}
+constexpr float kByName = 1, kByTree = 0.95f, kByPlace = 0.7f, kByShape = 0.8f;
 
-bool is_hand(const JointName& name) { return name.has("hand") || name.has("wrist"); }
-bool is_toe(const JointName& name) {
-  return name.has("toe") || name.has("toes") || name.has("toebase") || name.has("ball") ||
-         name.has("forefoot") || (name.has("fore") && name.has("foot"));
-}
-bool is_foot(const JointName& name) {
-  return (name.has("foot") || name.has("ankle")) && !is_toe(name);
-}
-bool is_head(const JointName& name) { return name.has("head"); }
-bool is_neck(const JointName& name) { return name.has("neck"); }
-bool is_twist(const JointName& name) { return name.has("twist") || name.has("roll"); }
-
-// A limb between its end (hand, foot) and the trunk.
-struct Limb {
-  int lower = -1, upper = -1;
+// The human joints of a limb, from the trunk down.
+struct LimbNames {
+  LimbKind kind;
+  HumanJoint upper, lower, end;
 };
+constexpr std::array<std::array<LimbNames, 2>, 2> kLimbNames = {
+    {{{{LimbKind::arm, left_upper_arm, left_lower_arm, left_hand},
+       {LimbKind::arm, right_upper_arm, right_lower_arm, right_hand}}},
+     {{{LimbKind::leg, left_upper_leg, left_lower_leg, left_foot},
+       {LimbKind::leg, right_upper_leg, right_lower_leg, right_foot}}}}};
+constexpr Side kSides[] = {Side::left, Side::right};
 
-class NameMapper {
+std::string name_of(HumanJoint joint) { return std::string(human_joint_name(index(joint))); }
+
+class Mapper {
  public:
-  NameMapper(const Skeleton& skeleton, std::span<const Vec3> positions)
-      : joints_(skeleton.joints), positions_(positions) {
-    for (const Joint& joint : joints_) names_.push_back(parse_joint_name(joint.name));
-    // Joints that are nearer than this sit on one another: half a percent of the body's size.
-    Vec3 low = positions.empty() ? Vec3{} : positions[0], high = low;
-    for (const Vec3& p : positions) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-    nearness_ = 0.005f * length(high - low);
+  Mapper(const Skeleton& skeleton, const JointTree& tree, const std::vector<JointName>& names,
+         const KnownJoints& known)
+      : joints_(skeleton.joints), tree_(tree), names_(names), known_(known) {
     map_.joint_of.fill(-1);
     map_.reasons.fill("missing");
   }
 
-  Result<Mapping> run() {
+  Result<Mapping> by_names() {
     find_ends();
-    find_limbs();
-    if (!missing_.empty()) return refusal();
-    find_trunk();
-    find_head();
-    find_spine();
-    find_shoulders();
-    find_toes();
-    for (int j = 0; j < kHumanJoints; ++j) {
-      if (map_.joint_of[j] < 0) {
-        map_.notes.push_back(std::string(human_joint_name(j)) + " is missing");
+    if (missing_.empty()) {
+      for (const auto& limbs : kLimbNames) {
+        for (size_t side : {0, 1}) find_limb(limbs[side], limbs[1 - side]);
       }
     }
-    return std::move(map_);
+    return finish();
+  }
+
+  Result<Mapping> by_shape() {
+    const std::optional<Limbs> limbs = find_limbs_by_shape(tree_, names_);
+    if (!limbs) return Error{"no two pairs of limbs look like arms and legs"};
+    const float sure = limbs->confidence * std::min(1.0f, 0.3f + limbs->side_confidence);
+    for (size_t kind : {0, 1}) {
+      for (size_t side : {0, 1}) {
+        const Limb& limb = kind ? limbs->legs[side] : limbs->arms[side];
+        const LimbNames& names = kLimbNames[kind][side];
+        const std::string reason = "by the skeleton's shape, its side " + limbs->side_reason;
+        put(names.upper, limb.upper, reason, sure);
+        put(names.lower, limb.lower, reason, sure);
+        put(names.end, limb.end, reason, sure);
+        if (!kind) arm_tips_[side] = limb.end < 0 ? limb.lower : limb.end;
+      }
+    }
+    by_shape_ = true;
+    map_.notes.push_back("the joints' names do not say which is which: judged by their shape");
+    if (limbs->side_confidence < 0.3f) {
+      map_.notes.push_back("left and right are a guess: nothing of the body shows where it faces");
+    }
+    return finish();
   }
 
  private:
-  int parent(int joint) const { return joints_[joint].parent; }
+  int parent(int joint) const { return tree_.parent(joint); }
   int at(HumanJoint joint) const { return map_.joint_of[index(joint)]; }
-  void put(HumanJoint joint, int found, std::string reason) {
+  void put(HumanJoint joint, int found, std::string reason, float confidence) {
     if (found < 0) return;
     map_.joint_of[index(joint)] = found;
     map_.reasons[index(joint)] = std::move(reason);
+    map_.confidence[index(joint)] = confidence;
   }
-  float distance(int a, int b) const { return length(positions_[a] - positions_[b]); }
-  bool apart(int a, int b) const { return distance(a, b) >= nearness_; }
-  // Whether `above` is `joint` or one of its ancestors.
-  bool is_above(int above, int joint) const {
-    while (joint > above) joint = parent(joint);
-    return joint == above && joint >= 0;
-  }
-  int depth(int joint) const {
-    int n = 0;
-    while (joint >= 0) joint = parent(joint), ++n;
-    return n;
-  }
-  int meeting(int a, int b) const {
-    while (a != b && a >= 0 && b >= 0) (a > b ? a : b) = parent(a > b ? a : b);
-    return a == b ? a : -1;
+  std::optional<int> known(HumanJoint joint) const {
+    const auto found = known_.find(index(joint));
+    return found == known_.end() ? std::nullopt : std::optional(found->second);
   }
 
   // The plainest name that `is` accepts: fewest words besides, then nearest to the root, then
@@ -102,9 +91,9 @@ class NameMapper {
   int find(Side side, Is is, Where where) const {
     int best = -1;
     std::pair<size_t, int> best_rank;
-    for (int j = 0; j < static_cast<int>(joints_.size()); ++j) {
+    for (int j = 0; j < tree_.count(); ++j) {
       if (names_[j].side != side || !is(names_[j]) || is_near(names_[j]) || !where(j)) continue;
-      const std::pair<size_t, int> rank = {names_[j].words.size(), depth(j)};
+      const std::pair<size_t, int> rank = {word_count(names_[j]), tree_.depth(j)};
       if (best < 0 || rank < best_rank) best = j, best_rank = rank;
     }
     return best;
@@ -114,17 +103,29 @@ class NameMapper {
     return find(side, is, [](int) { return true; });
   }
 
+  // Hands and feet. Where a hand is missing, a forearm stands for the arm.
   void find_ends() {
-    const auto end = [&](HumanJoint joint, Side side, auto is) {
-      const int found = find(side, is);
-      put(joint, found, "by its name");
-      if (found < 0) missing_.push_back(joint);
-    };
-    end(HumanJoint::left_hand, Side::left, is_hand);
-    end(HumanJoint::right_hand, Side::right, is_hand);
-    end(HumanJoint::left_foot, Side::left, is_foot);
-    end(HumanJoint::right_foot, Side::right, is_foot);
-    if (!missing_.empty() && find(Side::none, is_head) < 0) missing_.push_back(HumanJoint::head);
+    for (size_t side : {0, 1}) {
+      const LimbNames& arm = kLimbNames[0][side];
+      const int hand = known(arm.end).value_or(find(kSides[side], is_hand));
+      put(arm.end, hand, "by its name", kByName);
+      arm_tips_[side] = hand;
+      if (hand >= 0) continue;
+      const auto is_plain = [](const JointName& name) {
+        return is_forearm(name) && !is_twist(name);
+      };
+      const int forearm = known(arm.lower).value_or(find(kSides[side], is_plain));
+      put(arm.lower, forearm, "by its name", kByName);
+      arm_tips_[side] = forearm;
+      if (forearm < 0) missing_.push_back(arm.end);
+    }
+    for (size_t side : {0, 1}) {
+      const LimbNames& leg = kLimbNames[1][side];
+      const int foot = known(leg.end).value_or(find(kSides[side], is_foot));
+      put(leg.end, foot, "by its name", kByName);
+      if (foot < 0) missing_.push_back(leg.end);
+    }
+    if (!missing_.empty() && find(Side::none, is_head) < 0) missing_.push_back(head);
   }
 
   // Whether `joint` is a later piece of its parent's limb: "forearm.001" below "forearm".
@@ -134,171 +135,263 @@ class NameMapper {
     const auto stem = without_number(names_[joint].words);
     return stem.size() < names_[joint].words.size() && stem == without_number(names_[above].words);
   }
-  // The next joint above that stands elsewhere and is no twist joint (nor a piece of a limb).
-  int above(int joint, bool skip_pieces) const {
+  // The next joint above that stands elsewhere and is no twist joint (nor a piece of a limb); -1
+  // where it belongs to the other limb too.
+  int above(int joint, int other_tip, bool skip_pieces) const {
     int q = joint < 0 ? -1 : parent(joint);
-    while (q >= 0 && (!apart(q, joint) || is_twist(names_[q]) || (skip_pieces && is_piece(q)))) {
+    while (q >= 0 &&
+           (!tree_.apart(q, joint) || is_twist(names_[q]) || (skip_pieces && is_piece(q)))) {
       q = parent(q);
     }
-    return q;
+    return q >= 0 && tree_.is_above(q, other_tip) ? -1 : q;
   }
-  Limb limb(int end, int other_end, bool skip_pieces) const {
-    Limb out;
-    out.lower = above(end, skip_pieces);
-    if (out.lower >= 0 && is_above(out.lower, other_end)) out.lower = -1;
-    out.upper = above(out.lower, skip_pieces);
-    if (out.upper >= 0 && is_above(out.upper, other_end)) out.upper = -1;
-    return out;
-  }
-  void find_limb(HumanJoint end, HumanJoint other, HumanJoint lower, HumanJoint upper) {
-    if (at(end) < 0 || at(other) < 0) return;
-    Limb found = limb(at(end), at(other), true);
-    // Numbers may also count the joints of an arm (arm1, arm2): then "upper" would be no limb's
-    // half.
-    bool plausible = found.lower >= 0 && found.upper >= 0;
-    if (plausible) {
-      const float ratio =
-          distance(found.upper, found.lower) / std::max(distance(found.lower, at(end)), 1e-9f);
-      plausible = ratio > 0.5f && ratio < 2.0f;
-    }
-    if (!plausible) {
-      const Limb all = limb(at(end), at(other), false);
-      if (all.lower >= 0 && all.upper >= 0) found = all;
-    }
-    const auto reason = [&](HumanJoint below) {
-      return "next joint above " + std::string(human_joint_name(index(below)));
+  int tip(const LimbNames& limb) const { return at(limb.end) >= 0 ? at(limb.end) : at(limb.lower); }
+  // Of the ways to read the joints above the end, the one that looks most like a limb; names and
+  // the plain order of the joints count as much as rather odd lengths.
+  void find_limb(const LimbNames& names, const LimbNames& others) {
+    const int end = at(names.end), other = tip(others);
+    const int branch = tree_.meeting(tip(names), other);
+    Limb best;
+    float least = INFINITY;
+    const auto consider = [&](const Limb& limb, float trust) {
+      if (limb.upper < 0 || limb.lower < 0) return;
+      const JointName& lower = names_[limb.lower];
+      const bool named = names.kind == LimbKind::arm ? is_forearm(lower) : is_shin(lower);
+      const float odd =
+          limb_oddity(tree_, names.kind, std::max(branch, 0), limb) - trust - (named ? 20 : 0);
+      if (odd < least) least = odd, best = limb;
     };
-    put(lower, found.lower, reason(end));
-    put(upper, found.upper, reason(lower));
-    if (found.lower < 0) missing_.push_back(lower);
-    if (found.upper < 0) missing_.push_back(upper);
+    for (const bool skip_pieces : {true, false}) {
+      const int lower = end < 0 ? at(names.lower) : above(end, other, skip_pieces);
+      consider({above(lower, other, skip_pieces), lower, end}, skip_pieces ? 12.0f : 8.0f);
+    }
+    if (end >= 0 && branch >= 0) {
+      const std::vector<int> chain = limb_chain(tree_, branch, end);
+      consider(most_usual_limb(tree_, names.kind, branch, chain, end), 0);
+    }
+    const std::string of_end = end < 0 ? "by its name" : "next joint above " + name_of(names.end);
+    put(names.lower, best.lower, of_end, kByTree);
+    put(names.upper, best.upper, "next joint above " + name_of(names.lower), kByTree);
+    if (best.lower < 0) missing_.push_back(names.lower);
+    if (best.upper < 0) missing_.push_back(names.upper);
   }
-  void find_limbs() {
-    using enum HumanJoint;
-    find_limb(left_hand, right_hand, left_lower_arm, left_upper_arm);
-    find_limb(right_hand, left_hand, right_lower_arm, right_upper_arm);
-    find_limb(left_foot, right_foot, left_lower_leg, left_upper_leg);
-    find_limb(right_foot, left_foot, right_lower_leg, right_upper_leg);
-    if (!missing_.empty()) return;
-    if (meeting(at(left_hand), at(right_hand)) < 0) missing_.push_back(chest);
-    if (meeting(meeting(at(left_foot), at(right_foot)), at(left_hand)) < 0)
-      missing_.push_back(hips);
+
+  Result<Mapping> finish() {
+    if (missing_.empty()) find_trunk();
+    if (!missing_.empty()) return refusal();
+    find_head();
+    find_spine();
+    for (size_t side : {0, 1}) {
+      find_shoulder(side ? right_shoulder : left_shoulder, side);
+      find_toes(side ? right_toes : left_toes, kLimbNames[1][side].end);
+    }
+    if (const auto done = believe(); !done) return done.error();
+    for (int j = 0; j < kHumanJoints; ++j) {
+      if (map_.joint_of[j] < 0) {
+        map_.notes.push_back(std::string(human_joint_name(j)) + " is missing");
+      }
+    }
+    return std::move(map_);
   }
 
   void find_trunk() {
-    int chest = meeting(at(HumanJoint::left_hand), at(HumanJoint::right_hand));
-    int hips = meeting(at(HumanJoint::left_foot), at(HumanJoint::right_foot));
+    const int feet = tree_.meeting(at(left_foot), at(right_foot));
+    const int arms = tree_.meeting(arm_tips_[0], arm_tips_[1]);
+    int low = feet;
     std::string reason = "where the legs meet";
-    if (!is_above(hips, chest)) {
-      hips = meeting(hips, chest);
+    if (!tree_.is_above(low, arms)) {
+      low = tree_.meeting(low, arms);
       reason = "where legs and arms meet";
     }
-    put(HumanJoint::hips, hips, reason);
+    if (arms < 0) missing_.push_back(chest);
+    if (low < 0) missing_.push_back(hips);
+    if (!missing_.empty()) return;
+    // Some rigs hang the legs on the first joint of the spine, which sits in the pelvis.
+    const int over = parent(low);
+    if (is_spine(names_[low]) && over >= 0 && is_pelvis(names_[over])) {
+      low = over;
+      reason = "above where the legs meet, and named so";
+    }
+    put(hips, low, reason, kByTree);
     // Some rigs hang the arms on the neck: then the chest is the joint below it.
-    int below_neck = chest;
-    while (below_neck != hips && is_neck(names_[below_neck])) below_neck = parent(below_neck);
-    if (below_neck != hips && below_neck != chest) {
-      put(HumanJoint::neck, chest, "where the arms meet, and named so");
-      put(HumanJoint::chest, below_neck, "below the neck");
-    } else if (chest != hips) {
-      put(HumanJoint::chest, chest, "where the arms meet");
+    int below_neck = arms;
+    while (below_neck != low && is_neck(names_[below_neck])) below_neck = parent(below_neck);
+    if (below_neck != low && below_neck != arms) {
+      put(neck, arms, "where the arms meet, and named so", kByTree);
+      put(chest, below_neck, "below the neck", kByTree);
+    } else if (arms != low) {
+      put(chest, arms, "where the arms meet", kByTree);
     }
   }
   // The trunk's highest joint, below which a head may hang.
-  int trunk_top() const {
-    if (at(HumanJoint::neck) >= 0) return at(HumanJoint::neck);
-    return at(HumanJoint::chest) >= 0 ? at(HumanJoint::chest) : at(HumanJoint::hips);
-  }
+  int trunk_top() const { return at(neck) >= 0 ? at(neck) : at(chest) >= 0 ? at(chest) : at(hips); }
 
   void find_head() {
-    const int top = trunk_top(), hips = at(HumanJoint::hips);
+    const int top = trunk_top();
     const auto below = [&](int root) {
-      return [this, root](int j) { return j != root && is_above(root, j); };
+      return [this, root](int j) { return j != root && tree_.is_above(root, j); };
     };
-    int head = find(Side::none, is_head, below(top));
-    if (head < 0) head = find(Side::none, is_head, below(hips));
-    put(HumanJoint::head, head, "by its name");
-    if (head < 0) find_head_by_place(top);
-    if (at(HumanJoint::head) >= 0 && at(HumanJoint::neck) < 0) find_neck();
+    int found = find(Side::none, is_head, below(top));
+    if (found < 0) found = find(Side::none, is_head, below(at(hips)));
+    put(head, found, "by its name", kByName);
+    if (found < 0) find_head_by_place(top);
+    if (at(head) >= 0 && at(neck) < 0) find_neck();
   }
-  // The head is the end of the one unsided chain that leaves the chest upwards.
-  void find_head_by_place(int top) {
-    int head = top;
+  // What leaves the top of the trunk besides the arms, in the middle between them.
+  std::vector<int> chain_above(int top) const {
+    std::vector<int> chain;
     for (int next = top; next >= 0;) {
-      int only = -1, count = 0;
-      for (int j = next + 1; j < static_cast<int>(joints_.size()); ++j) {
-        if (parent(j) != next || names_[j].side != Side::none || is_near(names_[j])) continue;
-        if (is_above(j, at(HumanJoint::left_hand)) || is_above(j, at(HumanJoint::left_foot)))
-          continue;
-        only = j, ++count;
+      int middle = -1;
+      float most = 0;
+      for (const int j : tree_.children(next)) {
+        if (names_[j].side != Side::none || is_near(names_[j]) || is_on_head(names_[j])) continue;
+        if (!is_central(j)) continue;
+        if (tree_.is_above(j, arm_tips_[0]) || tree_.is_above(j, arm_tips_[1])) continue;
+        if (tree_.is_above(j, at(left_foot)) || tree_.is_above(j, at(right_foot))) continue;
+        const float reach = tree_.distance(next, j) + tree_.reach(j);
+        if (reach > most) most = reach, middle = j;
       }
-      next = count == 1 ? only : -1;
-      if (next >= 0 && apart(next, head)) head = next;
+      next = middle;
+      if (next >= 0 && tree_.apart(next, chain.empty() ? top : chain.back())) chain.push_back(next);
     }
-    if (head == top) return;
-    const bool neck = is_neck(names_[head]);
-    put(neck ? HumanJoint::neck : HumanJoint::head, head, "end of the chain above the chest");
+    return chain;
+  }
+  // Whether a joint is about as far from one shoulder as from the other.
+  bool is_central(int joint) const {
+    const float left = tree_.distance(joint, at(left_upper_arm));
+    const float right = tree_.distance(joint, at(right_upper_arm));
+    return std::abs(left - right) < 0.2f * tree_.distance(at(left_upper_arm), at(right_upper_arm));
+  }
+  // The joint of a chain whose distance from a place is nearest to what it is in a body with legs
+  // as long as these; -1 where there is none.
+  template <class Distance>
+  int most_usual(const std::vector<int>& chain, float usual, Distance distance) const {
+    const float leg = tree_.distance(at(left_upper_leg), at(left_lower_leg)) +
+                      tree_.distance(at(left_lower_leg), at(left_foot));
+    int best = -1;
+    float least = INFINITY;
+    for (const int joint : chain) {
+      const float off = std::abs(distance(joint) / leg - usual / kProportions.leg);
+      if (off < least) least = off, best = joint;
+    }
+    return best;
+  }
+  void find_head_by_place(int top) {
+    // Most makers put it a little higher than the canonical body has it, metres.
+    constexpr float kUsual = 0.15f;
+    const auto above_shoulders = [&](int joint) {
+      float sum = 0;
+      for (const JointPositions& pose : tree_.poses()) {
+        const Vec3 arms = pose[at(left_upper_arm)] + pose[at(right_upper_arm)];
+        sum += length(pose[joint] - arms * 0.5f);
+      }
+      return sum / static_cast<float>(tree_.poses().size());
+    };
+    const int found = most_usual(chain_above(top), kUsual, above_shoulders);
+    if (found < 0) return;
+    put(is_neck(names_[found]) ? neck : head, found, "in the chain above the chest", kByPlace);
   }
   void find_neck() {
-    const int head = at(HumanJoint::head), top = trunk_top();
-    if (!is_above(top, head)) return;
-    int neck = -1, count = 0;
-    for (int q = parent(head); q != top; q = parent(q), ++count) {
-      if (neck < 0 && apart(q, head)) neck = q;
+    const int top = trunk_top();
+    if (!tree_.is_above(top, at(head))) return;
+    int found = -1, count = 0;
+    for (int q = parent(at(head)); q != top; q = parent(q), ++count) {
+      if (found < 0 && tree_.apart(q, at(head))) found = q;
     }
-    put(HumanJoint::neck, neck, "next joint below the head");
+    put(neck, found, "next joint below the head", map_.confidence[index(head)] * kByTree);
     if (count > 1) map_.notes.push_back(std::to_string(count) + " joints between chest and head");
   }
 
   // Of the joints between hips and chest the one nearest to 64 % of the way, where the canonical
   // spine is.
   void find_spine() {
-    const int hips = at(HumanJoint::hips), chest = at(HumanJoint::chest);
-    if (chest < 0) return;
+    if (at(chest) < 0) return;
     float total = 0;
     int count = -1;
-    for (int q = chest; q != hips; q = parent(q), ++count) total += distance(q, parent(q));
+    for (int q = at(chest); q != at(hips); q = parent(q), ++count) {
+      total += tree_.distance(q, parent(q));
+    }
     float walked = 0, best = 2;
-    int spine = -1;
-    for (int q = chest; parent(q) != hips;) {
-      walked += distance(q, parent(q));
+    int found = -1;
+    for (int q = at(chest); parent(q) != at(hips);) {
+      walked += tree_.distance(q, parent(q));
       q = parent(q);
       const float off = std::abs(1 - walked / std::max(total, 1e-9f) - 0.64f);
-      if (apart(q, chest) && off < best) spine = q, best = off;
+      if (tree_.apart(q, at(chest)) && off < best) found = q, best = off;
     }
-    put(HumanJoint::spine, spine, "nearest to 64 % of the way from hips to chest");
+    put(spine, found, "nearest to 64 % of the way from hips to chest", count > 1 ? 0.9f : kByTree);
     if (count > 1) map_.notes.push_back(std::to_string(count) + " joints between hips and chest");
   }
 
-  void find_shoulders() {
-    const auto shoulder = [&](HumanJoint joint, HumanJoint arm, HumanJoint other_hand) {
-      int q = parent(at(arm));
-      while (q >= 0 && is_twist(names_[q])) q = parent(q);
-      if (q < 0 || is_above(q, at(other_hand))) return;
-      put(joint, q, "parent of " + std::string(human_joint_name(index(arm))));
-    };
-    using enum HumanJoint;
-    shoulder(left_shoulder, left_upper_arm, right_hand);
-    shoulder(right_shoulder, right_upper_arm, left_hand);
+  void find_shoulder(HumanJoint joint, size_t side) {
+    const HumanJoint arm = kLimbNames[0][side].upper;
+    int q = parent(at(arm));
+    while (q >= 0 && is_twist(names_[q])) q = parent(q);
+    if (q < 0 || tree_.is_above(q, arm_tips_[1 - side])) return;
+    put(joint, q, "parent of " + name_of(arm), by_shape_ ? kByShape : kByTree);
   }
 
-  void find_toes() {
-    const auto toes = [&](HumanJoint joint, HumanJoint foot) {
-      const auto below = [&, f = at(foot)](int j) { return j != f && is_above(f, j); };
-      int found = find(Side::left, is_toe, below);
-      if (const int right = find(Side::right, is_toe, below); found < 0) found = right;
-      if (const int unsided = find(Side::none, is_toe, below); found < 0) found = unsided;
-      put(joint, found, "by its name");
-    };
-    toes(HumanJoint::left_toes, HumanJoint::left_foot);
-    toes(HumanJoint::right_toes, HumanJoint::right_foot);
+  void find_toes(HumanJoint joint, HumanJoint foot_joint) {
+    const int foot = at(foot_joint);
+    const auto below = [&](int j) { return j != foot && tree_.is_above(foot, j); };
+    for (const Side side : {Side::left, Side::right, Side::none}) {
+      const int found = find(side, is_toe, below);
+      put(joint, found, "by its name", kByName);
+      if (found >= 0) return;
+    }
+    // Where the foot is called ankle, what is called foot is the front of it.
+    const Side side = names_[foot].side;
+    const int front = !is_ankle(names_[foot]) ? -1 : find(side, is_foot, below);
+    put(joint, front, "next joint below an ankle", kByTree);
+    if (front >= 0 || !by_shape_) return;
+    const std::vector<int> chain = limb_chain(tree_, foot, farthest_below(tree_, foot));
+    const int found = most_usual(chain, kProportions.length[index(left_toes)],
+                                 [&](int below_it) { return tree_.distance(foot, below_it); });
+    put(joint, found, "in the chain below " + name_of(foot_joint), kByPlace);
+  }
+
+  // Puts what is known in place of what was found.
+  Result<void> believe() {
+    for (const auto& [human, joint] : known_) {
+      for (int j = 0; j < kHumanJoints; ++j) {
+        if (joint >= 0 && map_.joint_of[j] == joint) clear(j);
+      }
+      clear(human);
+      if (joint >= 0) put(HumanJoint{human}, joint, "as you say", 1);
+    }
+    for (const auto& limbs : kLimbNames) {
+      for (const LimbNames& limb : limbs) {
+        for (const HumanJoint joint : {limb.upper, limb.lower, limb.end}) {
+          if (at(joint) < 0 && (joint != limb.end || limb.kind == LimbKind::leg)) {
+            missing_.push_back(joint);
+          }
+        }
+      }
+    }
+    if (at(hips) < 0) missing_.push_back(hips);
+    if (!missing_.empty()) return refusal();
+    for (const auto& [human, joint] : known_) {
+      int above = kHumanParent[human];
+      while (above >= 0 && map_.joint_of[above] < 0) above = kHumanParent[above];
+      if (joint < 0 || above < 0 || tree_.is_above(map_.joint_of[above], joint)) continue;
+      return Error{"'" + joints_[joint].name + "' cannot be " +
+                   std::string(human_joint_name(human)) + ": expected a joint below " +
+                   std::string(human_joint_name(above)) + " '" +
+                   joints_[map_.joint_of[above]].name + "'"};
+    }
+    return {};
+  }
+  void clear(int human) {
+    map_.joint_of[human] = -1;
+    map_.reasons[human] = "missing";
+    map_.confidence[human] = 0;
   }
 
   Error refusal() const {
     constexpr size_t kNamed = 12;
     std::string text = "no humanoid found: ";
     for (size_t i = 0; i < missing_.size(); ++i) {
-      text += (i ? ", " : "") + std::string(human_joint_name(index(missing_[i])));
+      text += (i ? ", " : "") + name_of(missing_[i]);
     }
     text += missing_.size() == 1 ? " is missing" : " are missing";
     for (size_t i = 0; i < std::min(joints_.size(), kNamed); ++i) {
@@ -306,21 +399,65 @@ class NameMapper {
     }
     if (joints_.size() > kNamed) text += ", ...";
     text += " (" + std::to_string(joints_.size()) + (joints_.size() == 1 ? " joint)" : " joints)");
-    return {text + "; expected names such as LeftHand or hand_L"};
+    return {text +
+            "; expected names such as LeftHand or hand_L, the shape of a person, or a map "
+            "that says which joint is which"};
   }
 
   const std::vector<Joint>& joints_;
-  std::span<const Vec3> positions_;
-  std::vector<JointName> names_;
-  float nearness_ = 0;
+  const JointTree& tree_;
+  const std::vector<JointName>& names_;
+  const KnownJoints& known_;
+  std::array<int, 2> arm_tips_ = {-1, -1};  // The lowest known joint of each arm.
+  bool by_shape_ = false;
   std::vector<HumanJoint> missing_;
   Mapping map_;
 };
 
+// What the file says of its joints goes before their names.
+std::vector<JointName> read_names(const Skeleton& skeleton) {
+  const bool roles = std::any_of(skeleton.joints.begin(), skeleton.joints.end(),
+                                 [](const Joint& joint) { return !joint.role.empty(); });
+  std::vector<JointName> names;
+  for (const Joint& joint : skeleton.joints) {
+    names.push_back(parse_joint_name(roles ? joint.role : joint.name));
+  }
+  return names;
+}
+
+// Whether arms and legs look like a person's: not folded the wrong way, left about as long as
+// right, upper and lower part in some proportion.
+bool is_plausible(const JointTree& tree, const Mapping& map) {
+  std::array<std::array<Limb, 2>, 2> limbs;
+  for (size_t kind : {0, 1}) {
+    std::array<float, 2> lengths;
+    for (size_t side : {0, 1}) {
+      const LimbNames& names = kLimbNames[kind][side];
+      const Limb limb = {map.joint_of[index(names.upper)], map.joint_of[index(names.lower)],
+                         map.joint_of[index(names.end)]};
+      limbs[kind][side] = limb;
+      const float upper = tree.distance(limb.upper, limb.lower);
+      const float lower = limb.end < 0 ? upper : tree.distance(limb.lower, limb.end);
+      if (!(upper > 0.3f * lower && lower > 0.3f * upper)) return false;
+      lengths[side] = upper + lower;
+    }
+    if (lengths[0] > 1.5f * lengths[1] || lengths[1] > 1.5f * lengths[0]) return false;
+  }
+  return uprightness(tree, limbs[0], limbs[1]) > -0.3f;
+}
+
 }  // namespace
 
-Result<Mapping> map_by_names(const Skeleton& skeleton, std::span<const Vec3> positions) {
-  return NameMapper(skeleton, positions).run();
+Result<Mapping> map_humanoid(const Skeleton& skeleton, std::span<const JointPositions> poses,
+                             const KnownJoints& known) {
+  const JointTree tree(skeleton, poses);
+  const std::vector<JointName> names = read_names(skeleton);
+  Result<Mapping> named = Mapper(skeleton, tree, names, known).by_names();
+  if (named && is_plausible(tree, *named)) return named;
+  Result<Mapping> shaped = Mapper(skeleton, tree, names, known).by_shape();
+  if (shaped) return shaped;
+  if (named) named->notes.push_back("the limbs that the names tell have unusual lengths");
+  return named;
 }
 
 }  // namespace panache

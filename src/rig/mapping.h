@@ -1,9 +1,9 @@
 #pragma once
-// Which joint of a skeleton is which of the humanoid: names find hands, feet, toes and head, the
-// tree between them finds the rest. Another way to find them (by shape, say) is another function
-// with the same result.
+// Which joint of a skeleton is which of the humanoid. Names find hands, feet, toes and head, the
+// tree between them finds the rest; where names do not decide, the shape of the skeleton does.
 
 #include <array>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,6 +11,7 @@
 #include "base/result.h"
 #include "clip/clip.h"
 #include "rig/humanoid.h"
+#include "rig/joint_tree.h"
 
 namespace panache {
 
@@ -21,8 +22,14 @@ struct Mapping {
   std::vector<std::string> notes;                 // What a careful user would want to know.
 };
 
-// positions[joints]: where the joints are in some ordinary pose of the motion, in any axes and
-// units. Fails with a sentence that names the joints that were not found and those that were seen.
-Result<Mapping> map_by_names(const Skeleton& skeleton, std::span<const Vec3> positions);
+// Skeleton joints that are known beforehand for human joints; -1 where the skeleton has none.
+using KnownJoints = std::map<int, int>;
+
+// poses: the skeleton in a few poses of its motion or at rest, at least one, in any axes and units.
+// The mapping has hips, upper and lower parts of all limbs, and feet. Fails with a sentence that
+// names the joints that were not found and those that were seen, or that says why what is known
+// cannot be.
+Result<Mapping> map_humanoid(const Skeleton& skeleton, std::span<const JointPositions> poses,
+                             const KnownJoints& known = {});
 
 }  // namespace panache

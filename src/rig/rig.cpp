@@ -36,6 +36,49 @@ bool is_finite_body(const BodyPose& body) {
   return true;
 }
 
+// The rest pose and a few of the motion's, as far as they are finite.
+std::vector<JointPositions> some_poses(const Clip& clip) {
+  constexpr int kMost = 15;
+  std::vector<Quat> rotations;
+  std::vector<Vec3> translations;
+  for (const Joint& joint : clip.skeleton.joints) {
+    rotations.push_back(joint.rest);
+    translations.push_back(joint.offset);
+  }
+  std::vector<JointPositions> poses;
+  const auto add = [&](ConstPose pose) {
+    world_pose(clip.skeleton, pose, {rotations, translations});
+    if (std::all_of(translations.begin(), translations.end(), [](Vec3 p) { return is_finite(p); }))
+      poses.push_back(translations);
+  };
+  add({rotations, translations});
+  const int count = std::min(kMost, clip.frames);
+  for (int i = 0; i < count; ++i) add(clip.pose((2 * i + 1) * clip.frames / (2 * count)));
+  return poses;
+}
+
+// The skeleton's joints of those names.
+Result<KnownJoints> find_joints(const Skeleton& skeleton, const std::map<int, std::string>& names) {
+  KnownJoints known;
+  for (const auto& [human, name] : names) {
+    int& found = known[human] = -1;
+    if (name.empty()) continue;
+    for (size_t j = 0; j < skeleton.joints.size(); ++j) {
+      if (skeleton.joints[j].name != name) continue;
+      if (found >= 0) {
+        return Error{"more than one joint is called '" + name + "', so it cannot be named as " +
+                     std::string(human_joint_name(human))};
+      }
+      found = static_cast<int>(j);
+    }
+    if (found < 0) {
+      return Error{"there is no joint '" + name + "' that could be " +
+                   std::string(human_joint_name(human))};
+    }
+  }
+  return known;
+}
+
 }  // namespace
 
 Result<Rig> Rig::create(const Clip& clip, const RigOptions& options) {
@@ -48,9 +91,11 @@ Result<Rig> Rig::create(const Clip& clip, const RigOptions& options) {
   rig.world_translations_.resize(joints);
   rig.effective_.resize(joints);
 
-  world_pose(clip.skeleton, clip.pose(clip.frames / 2),
-             {rig.world_rotations_, rig.world_translations_});
-  Result<Mapping> mapping = map_by_names(clip.skeleton, rig.world_translations_);
+  Result<KnownJoints> known = find_joints(clip.skeleton, options.joints);
+  if (!known) return known.error();
+  const std::vector<JointPositions> poses = some_poses(clip);
+  if (poses.empty()) return Error{"no frame of the motion has finite numbers only"};
+  Result<Mapping> mapping = map_humanoid(clip.skeleton, poses, *known);
   if (!mapping) return mapping.error();
   rig.mapping_ = *std::move(mapping);
   Result<Calibration> calibration =

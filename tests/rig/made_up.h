@@ -87,6 +87,43 @@ inline MadeUp make_up(const std::vector<Line>& lines, const std::string& left,
   return out;
 }
 
+// The same clip with its joints in another order and names that say nothing. order[joint of the
+// result]: joint of `clip`.
+struct Anonymous {
+  Clip clip;
+  std::vector<int> order;
+};
+inline Anonymous anonymous(const Clip& clip, unsigned seed) {
+  std::mt19937 random(seed);
+  const size_t joints = clip.joints();
+  Anonymous out{{{}, clip.frame_time, clip.frames, {}, {}}, {}};
+  std::vector<int> place(joints, -1), waiting;
+  for (size_t j = 0; j < joints; ++j) {
+    if (clip.skeleton.joints[j].parent < 0) waiting.push_back(static_cast<int>(j));
+  }
+  while (!waiting.empty()) {
+    const size_t pick = random() % waiting.size();
+    const int joint = waiting[pick];
+    waiting.erase(waiting.begin() + static_cast<long>(pick));
+    place[joint] = static_cast<int>(out.order.size());
+    out.order.push_back(joint);
+    Joint copy = clip.skeleton.joints[joint];
+    copy.name = "q" + std::to_string(random() % 100000);
+    if (copy.parent >= 0) copy.parent = place[copy.parent];
+    out.clip.skeleton.joints.push_back(copy);
+    for (size_t j = 0; j < joints; ++j) {
+      if (clip.skeleton.joints[j].parent == joint) waiting.push_back(static_cast<int>(j));
+    }
+  }
+  for (int f = 0; f < clip.frames; ++f) {
+    for (const int joint : out.order) {
+      out.clip.rotations.push_back(clip.pose(f).rotations[joint]);
+      out.clip.translations.push_back(clip.pose(f).translations[joint]);
+    }
+  }
+  return out;
+}
+
 inline Quat random_rotation(std::mt19937& random, float largest) {
   std::uniform_real_distribution<float> any(-1, 1);
   return exp_rotation(Vec3{any(random), any(random), any(random)} * (largest / std::sqrt(3.0f)));

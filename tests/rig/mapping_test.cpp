@@ -10,6 +10,10 @@ namespace {
 using namespace test;
 using enum HumanJoint;
 
+Result<Mapping> map_made_up(const MadeUp& rig) {
+  return map_humanoid(rig.skeleton, std::vector<JointPositions>{rig.positions});
+}
+
 // Compares with the names a person would give, in the order of the human joints; "" is none.
 // Side names carry a '*', and stand for both.
 struct Expected {
@@ -20,7 +24,7 @@ struct Expected {
 void expect_mapping(const std::vector<Line>& lines, const std::string& left,
                     const std::string& right, const Expected& want) {
   const MadeUp rig = make_up(lines, left, right);
-  const Result<Mapping> got = map_by_names(rig.skeleton, rig.positions);
+  const Result<Mapping> got = map_made_up(rig);
   ASSERT_TRUE(got.ok()) << got.error().message;
   const auto name = [&](HumanJoint joint) {
     const int found = got->joint_of[index(joint)];
@@ -44,7 +48,8 @@ void expect_mapping(const std::vector<Line>& lines, const std::string& left,
 TEST(Mapping, our_own_skeleton_maps_to_itself) {
   const Skeleton body = canonical_skeleton();
   const HumanPositions rest = t_pose();
-  const Result<Mapping> got = map_by_names(body, rest);
+  const Result<Mapping> got =
+      map_humanoid(body, std::vector<JointPositions>{{rest.begin(), rest.end()}});
   ASSERT_TRUE(got.ok()) << got.error().message;
   for (int j = 0; j < kHumanJoints; ++j) EXPECT_EQ(got->joint_of[j], j) << human_joint_name(j);
   EXPECT_TRUE(got->notes.empty());
@@ -285,7 +290,7 @@ TEST(Mapping, no_two_human_joints_share_a_joint) {
                               {"*Knee", "*Thigh", left_lower_leg},
                               {"*Foot", "*Knee", left_foot}},
                              "Left", "Right");
-  const Result<Mapping> got = map_by_names(rig.skeleton, rig.positions);
+  const Result<Mapping> got = map_made_up(rig);
   ASSERT_TRUE(got.ok()) << got.error().message;
   EXPECT_EQ(got->joint_of[index(hips)], 0);
   EXPECT_EQ(got->joint_of[index(chest)], -1);
@@ -298,7 +303,7 @@ TEST(Mapping, no_two_human_joints_share_a_joint) {
 
 TEST(Mapping, every_joint_has_a_reason) {
   const MadeUp rig = make_up(kMixamo, "Left", "Right");
-  const Result<Mapping> got = map_by_names(rig.skeleton, rig.positions);
+  const Result<Mapping> got = map_made_up(rig);
   ASSERT_TRUE(got.ok()) << got.error().message;
   for (const std::string& reason : got->reasons) EXPECT_FALSE(reason.empty());
   EXPECT_EQ(got->reasons[index(left_hand)], "by its name");
@@ -309,14 +314,15 @@ TEST(Mapping, every_joint_has_a_reason) {
 
 std::string refusal(const std::vector<Line>& lines) {
   const MadeUp rig = make_up(lines, "Left", "Right");
-  const Result<Mapping> got = map_by_names(rig.skeleton, rig.positions);
+  const Result<Mapping> got = map_made_up(rig);
   return got.ok() ? "mapped" : got.error().message;
 }
 
 TEST(Mapping, a_robot_arm_is_refused_by_name) {
   EXPECT_EQ(refusal({{"Base", "", hips}, {"Arm1", "Base", chest}, {"Arm2", "Arm1", head}}),
             "no humanoid found: leftHand, rightHand, leftFoot, rightFoot, head are missing among "
-            "'Base', 'Arm1', 'Arm2' (3 joints); expected names such as LeftHand or hand_L");
+            "'Base', 'Arm1', 'Arm2' (3 joints); expected names such as LeftHand or hand_L, the "
+            "shape of a person, or a map that says which joint is which");
 }
 
 TEST(Mapping, a_hand_without_an_arm_is_refused) {
@@ -326,29 +332,71 @@ TEST(Mapping, a_hand_without_an_arm_is_refused) {
     if (line.name == "m:*Hand") line.parent = "m:*Shoulder";
   }
   EXPECT_EQ(refusal(lines),
-            "no humanoid found: leftUpperArm, rightUpperArm are missing among 'm:Hips', 'm:Spine', "
+            "no humanoid found: leftLowerArm, leftUpperArm, rightLowerArm, rightUpperArm are "
+            "missing among 'm:Hips', 'm:Spine', "
             "'m:Spine1', 'm:Spine2', 'm:Neck', 'm:Head', 'm:HeadTop_End', 'm:LeftShoulder', "
             "'m:RightShoulder', 'm:LeftHand', 'm:RightHand', 'm:LeftHandThumb1', ... (25 joints); "
-            "expected names such as LeftHand or hand_L");
+            "expected names such as LeftHand or hand_L, the shape of a person, or a map that says "
+            "which joint is which");
 }
 
-TEST(Mapping, a_finger_is_not_taken_for_the_hand) {
+TEST(Mapping, a_finger_is_not_taken_for_a_hand_that_is_missing) {
   std::vector<Line> lines = kMixamo;
   std::erase_if(lines, [](const Line& l) { return l.name == "m:*Hand"; });
   for (Line& line : lines) {
     if (line.parent == "m:*Hand") line.parent = "m:*ForeArm";
   }
-  EXPECT_TRUE(refusal(lines).starts_with("no humanoid found: leftHand, rightHand are missing"));
+  Expected want = kMixamoJoints;
+  want.hand = "";
+  expect_mapping(lines, "Left", "Right", want);
 }
 
-TEST(Mapping, one_missing_foot_is_named_alone) {
+TEST(Mapping, where_feet_have_other_names_the_shape_of_the_legs_tells_them) {
   std::vector<Line> lines = kMixamo;
   lines[15].name = "m:*Hoof";
   lines[16].parent = "m:*Hoof";
   lines[16].name = "m:*Nail";
   lines[17].parent = "m:*Nail";
+  Expected want = kMixamoJoints;
+  want.foot = "m:*Hoof";
+  want.toes = "m:*Nail";
+  expect_mapping(lines, "Left", "Right", want);
+}
+
+TEST(Mapping, missing_feet_are_named_alone) {
+  std::vector<Line> lines = kMixamo;
+  std::erase_if(lines, [](const Line& l) {
+    return l.name == "m:*Foot" || l.name == "m:*ToeBase" || l.name == "m:*Toe_End";
+  });
   EXPECT_TRUE(refusal(lines).starts_with(
       "no humanoid found: leftFoot, rightFoot are missing among 'm:Hips'"));
+}
+
+TEST(Mapping, what_is_known_goes_before_what_is_found) {
+  const MadeUp rig = make_up(kMixamo, "Left", "Right");
+  const std::vector<JointPositions> poses = {rig.positions};
+  const int spine1 = rig.joint.at("m:Spine1"), below = rig.joint.at("m:Spine");
+  const Result<Mapping> got =
+      map_humanoid(rig.skeleton, poses, {{index(spine), below}, {index(neck), -1}});
+  ASSERT_TRUE(got.ok()) << got.error().message;
+  EXPECT_EQ(got->joint_of[index(spine)], below);
+  EXPECT_EQ(got->reasons[index(spine)], "as you say");
+  EXPECT_EQ(got->joint_of[index(neck)], -1);
+  EXPECT_EQ(got->joint_of[index(head)], rig.joint.at("m:Head"));
+  EXPECT_EQ(std::count(got->joint_of.begin(), got->joint_of.end(), spine1), 0);
+}
+
+TEST(Mapping, what_is_known_but_cannot_be_is_refused) {
+  const MadeUp rig = make_up(kMixamo, "Left", "Right");
+  const std::vector<JointPositions> poses = {rig.positions};
+  const auto sentence = [&](const KnownJoints& known) {
+    const Result<Mapping> got = map_humanoid(rig.skeleton, poses, known);
+    return got.ok() ? "mapped" : got.error().message;
+  };
+  EXPECT_EQ(sentence({{index(left_toes), rig.joint.at("m:RightToeBase")}}),
+            "'m:RightToeBase' cannot be leftToes: expected a joint below leftFoot 'm:LeftFoot'");
+  EXPECT_TRUE(sentence({{index(left_upper_arm), -1}})
+                  .starts_with("no humanoid found: leftUpperArm is missing among 'm:Hips'"));
 }
 
 TEST(Mapping, bodies_in_pieces_and_poses_without_numbers_are_refused) {
@@ -359,8 +407,8 @@ TEST(Mapping, bodies_in_pieces_and_poses_without_numbers_are_refused) {
   EXPECT_TRUE(refusal(lines).starts_with("no humanoid found: hips is missing among"));
   MadeUp rig = make_up(kMixamo, "Left", "Right");
   rig.positions.assign(rig.positions.size(), Vec3{NAN, NAN, NAN});
-  EXPECT_FALSE(map_by_names(rig.skeleton, rig.positions).ok());
-  EXPECT_FALSE(map_by_names(Skeleton{}, {}).ok());
+  EXPECT_FALSE(map_made_up(rig).ok());
+  EXPECT_FALSE(map_humanoid(Skeleton{}, std::vector<JointPositions>(1)).ok());
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "clip/fk.h"
 #include "clip/motion_file.h"
 #include "rig/rig_checks.h"
 
@@ -122,6 +123,40 @@ TEST(RealMotion, every_file_maps_as_a_person_would_map_it) {
   if (seen == 0) GTEST_SKIP() << "PANACHE_DATA names no folder with real motion.";
   EXPECT_EQ(seen, motion_files("bandai-1").size() + motion_files("xia").size() +
                       motion_files("formats").size());
+}
+
+// Joints that only the name tells from others at the same place, or beyond the end of a limb.
+bool same_place(const Clip& clip, int a, int b) {
+  if (a == b) return true;
+  if (a < 0 || b < 0) return false;
+  std::vector<Quat> rotations(clip.joints());
+  std::vector<Vec3> at(clip.joints());
+  world_pose(clip.skeleton, clip.pose(clip.frames / 2), {rotations, at});
+  return length(at[a] - at[b]) < 1e-4f * length(at[0] - at[a]);
+}
+
+TEST(RealMotion, every_file_maps_the_same_when_its_joints_have_no_names) {
+  size_t seen = 0;
+  for (const char* folder : {"bandai-1", "xia", "formats"}) {
+    for (const fs::path& path : motion_files(folder)) {
+      const auto loaded = load(path);
+      if (!loaded) continue;
+      const Clip& clip = loaded->file->clip();
+      const Anonymous nameless = anonymous(clip, static_cast<unsigned>(++seen));
+      const auto rig = Rig::create(nameless.clip);
+      EXPECT_TRUE(rig.ok()) << path << ": " << rig.error().message;
+      for (int j = 0; rig && j < kHumanJoints; ++j) {
+        const int got = rig->joints()[j] < 0 ? -1 : nameless.order[rig->joints()[j]];
+        const int want = loaded->rig.joints()[j];
+        const auto name = [&](int joint) {
+          return joint < 0 ? std::string("-") : clip.skeleton.joints[joint].name;
+        };
+        EXPECT_TRUE(same_place(clip, want, got))
+            << path << " " << human_joint_name(j) << ": " << name(want) << " but " << name(got);
+      }
+    }
+  }
+  if (seen == 0) GTEST_SKIP() << "PANACHE_DATA names no folder with real motion.";
 }
 
 TEST(RealMotion, every_frame_of_every_file_survives_reading_and_writing) {

@@ -1,0 +1,32 @@
+#pragma once
+// Arms and legs of a skeleton whose names say nothing, found by branching, symmetry, lengths and
+// heights. Private to the folder.
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "rig/joint_name.h"
+#include "rig/limb_shape.h"
+
+namespace panache {
+
+// The four limbs, [left, right].
+struct Limbs {
+  std::array<Limb, 2> arms, legs;
+  std::string side_reason;    // How left and right were told apart, for people.
+  float confidence = 0;       // In what is which limb, 0 to 1.
+  float side_confidence = 0;  // In left and right.
+};
+
+// names[joints]: only their sides are used. Nothing where no two pairs of limbs look like arms and
+// legs of a body that stands in some of the poses.
+std::optional<Limbs> find_limbs_by_shape(const JointTree& tree, std::span<const JointName> names);
+
+// How upright the body stands with these limbs: the cosine between legs and trunk, 1 for a body
+// that stands straight, below 0 where arms and legs are exchanged. The largest over the poses.
+float uprightness(const JointTree& tree, const std::array<Limb, 2>& arms,
+                  const std::array<Limb, 2>& legs);
+
+}  // namespace panache

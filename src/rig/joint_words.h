@@ -1,0 +1,27 @@
+#pragma once
+// What the words of a joint's name say it is. Private to the folder.
+
+#include "rig/joint_name.h"
+
+namespace panache {
+
+bool is_hand(const JointName& name);  // Or wrist.
+bool is_foot(const JointName& name);  // Or ankle; no toe.
+bool is_toe(const JointName& name);
+bool is_head(const JointName& name);
+bool is_neck(const JointName& name);
+bool is_pelvis(const JointName& name);
+bool is_spine(const JointName& name);
+bool is_forearm(const JointName& name);  // Or elbow.
+bool is_shin(const JointName& name);     // Or knee.
+bool is_ankle(const JointName& name);
+// A joint that only spreads another's twist or bend over the skin.
+bool is_twist(const JointName& name);
+// Something near a hand, a foot or a head, but not it: a finger, a target, a tip, a prop.
+bool is_near(const JointName& name);
+// Something that sits on a head: a jaw, an eye, a strand of hair.
+bool is_on_head(const JointName& name);
+// How many words of the name say more than that it is a joint.
+size_t word_count(const JointName& name);
+
+}  // namespace panache

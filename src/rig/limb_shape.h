@@ -1,0 +1,36 @@
+#pragma once
+// Which joints of a chain are the hip, knee and ankle, or shoulder, elbow and wrist, judged by the
+// lengths between them. Private to the folder.
+
+#include <vector>
+
+#include "rig/joint_tree.h"
+
+namespace panache {
+
+enum class LimbKind { arm, leg };
+
+// The three joints of a limb; -1 where there is none.
+struct Limb {
+  int upper = -1, lower = -1;
+  int end = -1;  // Hand or foot; -1 also where only an End Site of `lower` marks it.
+};
+
+// How unlike a person's limb it is: the sum of squared deviations from usual proportions, 0 for a
+// usual limb, a few units for an unusual one. branch: the joint where it leaves the trunk. `limb`
+// has its upper and lower joint.
+float limb_oddity(const JointTree& tree, LimbKind kind, int branch, const Limb& limb);
+
+// The lowest joint on the longest way down from `joint`.
+int farthest_below(const JointTree& tree, int joint);
+
+// The joints from below `branch` down to `tip`, those left out that sit on one another or on the
+// branch.
+std::vector<int> limb_chain(const JointTree& tree, int branch, int tip);
+
+// The limb of least oddity among the joints of a chain (from the trunk down); with `end` that
+// joint, which is the last of the chain, is its end. All -1 where the chain is too short.
+Limb most_usual_limb(const JointTree& tree, LimbKind kind, int branch,
+                     const std::vector<int>& chain, int end = -1);
+
+}  // namespace panache
