@@ -170,6 +170,12 @@ class Calibrator {
         out_(out),
         frames_(clip, out.first_frame, clip.frames, step(clip), joint_of_) {
     for (int j = 0; j < kHumanJoints; ++j) out_.shape.has[j] = joint_of_[j] >= 0;
+    for (const Joint& joint : clip.skeleton.joints) {
+      rest_rotations_.push_back(joint.rest);
+      rest_translations_.push_back(joint.offset);
+    }
+    const Pose rest = {rest_rotations_, rest_translations_};
+    world_pose(clip.skeleton, rest, rest);
   }
 
   Result<void> run() {
@@ -292,19 +298,47 @@ class Calibrator {
     for (int f : stance_) y += mapped(f).toes[side].y;
     return y / static_cast<double>(stance_.size()) > kSteepestToe;
   }
-  // Standing, the foot points where the body faces, down by the canonical slope.
+  // Standing, the foot points where the body faces, down by the canonical slope: in the mean of
+  // the frames in which the foot is lowest, or more exactly in the rest pose, if the body stands in
+  // that and the frames roughly agree.
   Vec3 estimate_toe(HumanJoint foot) const {
     const float slope = kProportions.toe_pitch;
     const Vec3 sloping = {0, -std::sin(slope), std::cos(slope)};
-    const auto local = [&](int f, Vec3 world) {
-      return rotate(conjugate(out_.y_up * frames_.world(f).rotations[index(foot)]), world);
+    const auto local_in = [&](ConstPose world, int joint, Vec3 direction) {
+      return rotate(conjugate(out_.y_up * world.rotations[joint]), direction);
+    };
+    const auto local = [&](int f, Vec3 direction) {
+      return local_in(frames_.world(f), index(foot), direction);
     };
     Vec3d sum;
     for (int f : stance_) {
       const std::optional<float> facing = facing_of(mapped(f).positions);
       if (facing) sum += local(f, rotate(rotation_y(*facing), sloping)).as<double>();
     }
-    return normalized(sum.as<float>(), local(0, sloping));
+    const Vec3 mean = normalized(sum.as<float>(), local(0, sloping));
+    const std::optional<float> facing = standing_at_rest();
+    if (!facing) return mean;
+    const Vec3 at_rest =
+        local_in(rest_world(), joint_of_[index(foot)], rotate(rotation_y(*facing), sloping));
+    return dot(at_rest, mean) > 0.5f ? at_rest : mean;
+  }
+
+  ConstPose rest_world() const { return {rest_rotations_, rest_translations_}; }
+  // Where the body faces in its rest pose, if it stands upright on straight legs in that.
+  std::optional<float> standing_at_rest() const {
+    constexpr float kStraight = 0.96f;  // Within 16 degrees.
+    const MappedJoints joints = mapped_joints(rest_world(), joint_of_, out_);
+    const auto at = [&](HumanJoint joint) { return joints.positions[index(joint)]; };
+    const auto is_upright = [&](Vec3 v) { return normalized(v).y > kStraight; };
+    const Vec3 trunk =
+        (at(left_upper_arm) + at(right_upper_arm)) - (at(left_upper_leg) + at(right_upper_leg));
+    if (!is_upright(trunk) || !is_upright(at(left_upper_leg) - at(left_lower_leg)) ||
+        !is_upright(at(left_lower_leg) - at(left_foot)) ||
+        !is_upright(at(right_upper_leg) - at(right_lower_leg)) ||
+        !is_upright(at(right_lower_leg) - at(right_foot))) {
+      return std::nullopt;
+    }
+    return facing_of(joints.positions);
   }
 
   void find_trunk() {
@@ -341,6 +375,8 @@ class Calibrator {
   Calibration& out_;
   Frames frames_;
   std::vector<int> stance_;
+  std::vector<Quat> rest_rotations_;     // [joints of the skeleton], world.
+  std::vector<Vec3> rest_translations_;  // Likewise.
 };
 
 }  // namespace
@@ -380,6 +416,9 @@ MappedJoints mapped_joints(ConstPose world, const std::array<int, kHumanJoints>&
     const Vec3 local = rotate(turned, toe.local);
     out.toes[side] =
         toe.from_joint ? normalized(out.positions[foot + 1] - out.positions[foot], local) : local;
+    if (joint_of[foot + 1] < 0) {
+      out.positions[foot + 1] = out.positions[foot] + local * kProportions.length[foot + 1];
+    }
   }
   return out;
 }

@@ -43,8 +43,8 @@ Result<Calibration> calibrate(const Clip& clip, const Mapping& mapping,
 
 // One instant of the mapped joints, Y up, in scaled metres above the floor.
 struct MappedJoints {
-  // A missing hand stands at the wrist; any other missing joint carries its nearest mapped
-  // ancestor's position.
+  // A missing hand stands at the wrist and missing toes at the canonical length from the foot; any
+  // other missing joint carries its nearest mapped ancestor's position.
   HumanPositions positions;
   std::array<Vec3, 2> toes;  // Unit directions from foot to toes, [left, right].
 };

@@ -10,7 +10,7 @@
 namespace panache {
 
 // What a skeleton has of a humanoid; constant over its motion. Always there: the hips, upper and
-// lower parts of all four limbs, and the feet. Positions of hands are there in any case.
+// lower parts of all four limbs, and the feet. Positions of hands and toes are there in any case.
 struct BodyShape {
   std::array<bool, kHumanJoints> has{};
   bool chest_at_shoulders = false;  // The chest sits between the shoulders and bends nothing.

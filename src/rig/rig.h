@@ -23,8 +23,8 @@ struct BodyPose {
   // mean anything. A missing joint carries its nearest mapped ancestor's.
   std::array<Quat, kHumanJoints> rotations;
   // World positions of the user's own joints, Y up, metres (own proportions, scaled), above the
-  // same floor; mid-hip is that of `positions`. A missing joint carries its nearest mapped
-  // ancestor's.
+  // same floor; mid-hip is that of `positions`. Missing hands and toes are where they would be; any
+  // other missing joint carries its nearest mapped ancestor's.
   HumanPositions joints;
   // Heading about +y, radians; 0 faces +z. Not unwrapped.
   float facing = 0;

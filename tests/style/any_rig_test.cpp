@@ -1,0 +1,239 @@
+// One motion on the rigs of twelve makers: styled there, it is the motion styled on our own body.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+
+#include "clip/motion_file.h"
+#include "rig/put_on.h"
+#include "rig/rig_checks.h"
+#include "style/restyle.h"
+#include "walker/walker.h"
+
+namespace panache {
+namespace {
+
+using namespace test;
+namespace fs = std::filesystem;
+
+std::string models() { return std::string(PANACHE_SOURCE_DIR) + "/models/"; }
+
+std::shared_ptr<const Model> shipped_model() {
+  static const std::shared_ptr<const Model> model = *Model::load(models() + "panache.safetensors");
+  return model;
+}
+
+Clip walk() {
+  WalkClipOptions options;
+  options.seconds = 4;
+  options.fps = 30;
+  options.turn = 0.3f;
+  return walk_clip(*WalkerModel::load(models() + "walker.safetensors"), options);
+}
+
+// A clip's motion on the canonical skeleton.
+Clip on_canonical_body(const Clip& clip, int most_frames) {
+  Rig rig = *Rig::create(clip);
+  Clip out{canonical_skeleton(), clip.frame_time, 0, {}, {}};
+  for (int f = rig.first_frame(); f < std::min(clip.frames, most_frames); ++f) {
+    BodyPose body;
+    rig.read(clip.pose(f), body);
+    std::array<Quat, kHumanJoints> world;
+    canonical_frames(body.positions, body.facing, world);
+    out.resize(out.frames + 1);
+    const Pose pose = out.pose(out.frames - 1);
+    for (int j = 0; j < kHumanJoints; ++j) {
+      const int parent = kHumanParent[j];
+      pose.rotations[j] = parent < 0 ? world[j] : normalized(conjugate(world[parent]) * world[j]);
+      pose.translations[j] = parent < 0 ? body.positions[0] : out.skeleton.joints[j].offset;
+    }
+  }
+  return out;
+}
+
+std::vector<HumanPositions> styled(const Clip& clip, const std::string& style, float strength,
+                                   bool timing = false) {
+  const auto model = shipped_model();
+  const Result<Rig> rig = Rig::create(clip);
+  EXPECT_TRUE(rig.ok()) << rig.error().message;
+  RestyleOptions options;
+  options.timing = timing;
+  const StrengthTrack track = {*model->find_style(style), {{0, strength}}};
+  const Result<Restyled> restyled = restyle(clip, *rig, model, {track}, options);
+  EXPECT_TRUE(restyled.ok());
+  std::vector<HumanPositions> out;
+  Rig reader = *rig;
+  for (int f = rig->first_frame(); f < restyled->clip.frames; ++f) {
+    BodyPose body;
+    reader.read(restyled->clip.pose(f), body);
+    // Facing +z at the start is all that a heading of the whole changes.
+    out.push_back(body.positions);
+  }
+  return out;
+}
+
+struct Difference {
+  double mean_deg = 0, most_deg = 0;
+  int joint = 0;
+};
+
+// Between the directions from parent to joint, over all joints and frames.
+Difference difference(const std::vector<HumanPositions>& a, const std::vector<HumanPositions>& b,
+                      float turn = 0) {
+  EXPECT_EQ(a.size(), b.size());
+  Difference out;
+  double sum = 0;
+  int count = 0;
+  for (size_t f = 0; f < std::min(a.size(), b.size()); ++f) {
+    for (int j = 1; j < kHumanJoints; ++j) {
+      const Vec3 p = rotate(rotation_y(turn), a[f][j] - a[f][kHumanParent[j]]);
+      const double off = angle_deg(p, b[f][j] - b[f][kHumanParent[j]]);
+      sum += off;
+      ++count;
+      if (off > out.most_deg) out.most_deg = off, out.joint = j;
+    }
+  }
+  out.mean_deg = sum / count;
+  return out;
+}
+
+void expect_same_style_on_all_rigs(const Clip& motion, const std::string& style, float strength) {
+  const std::vector<HumanPositions> want = styled(motion, style, strength);
+  for (const Maker& maker : makers()) {
+    const Clip character = put_on(maker, motion).clip;
+    const Difference plain = difference(styled(motion, style, 0), styled(character, style, 0));
+    const Difference off = difference(want, styled(character, style, strength));
+    std::printf("%-18s %-10s mean %.2f, most %.2f deg (%s); unstyled %.2f, %.2f (%s)\n", maker.name,
+                style.c_str(), off.mean_deg, off.most_deg,
+                std::string(human_joint_name(off.joint)).c_str(), plain.mean_deg, plain.most_deg,
+                std::string(human_joint_name(plain.joint)).c_str());
+    EXPECT_LE(off.mean_deg, 2) << maker.name;
+    EXPECT_LE(off.most_deg, 8) << maker.name << " " << human_joint_name(off.joint);
+  }
+}
+
+TEST(AnyRig, a_walk_gets_the_same_style_on_every_makers_rig) {
+  for (const char* style : {"old", "proud", "angry"}) {
+    expect_same_style_on_all_rigs(walk(), style, 1);
+  }
+}
+
+TEST(AnyRig, real_motion_gets_the_same_style_on_every_makers_rig) {
+  const char* data = std::getenv("PANACHE_DATA");
+  if (!data) GTEST_SKIP() << "PANACHE_DATA is not set: no real motion to read";
+  for (const char* name : {"bandai-1/dataset-1_run_normal_001.bvh", "formats/cmu21/kick.bvh",
+                           "bandai-1/dataset-1_bow_normal_001.bvh"}) {
+    const auto file = read_motion((fs::path(data) / name).string());
+    ASSERT_TRUE(file.ok()) << file.error().message;
+    std::printf("%s\n", name);
+    expect_same_style_on_all_rigs(on_canonical_body((*file)->clip(), 150), "old", 1);
+  }
+}
+
+TEST(AnyRig, units_axes_and_facing_make_no_difference) {
+  const Clip motion = walk();
+  const Maker& maker = makers().front();
+  const std::vector<HumanPositions> want = styled(put_on(maker, motion).clip, "old", 1);
+  double worst = 0;
+  for (const double units : {1.0, 100.0, 39.37, 0.01, 17.73}) {
+    for (const bool z_up : {false, true}) {
+      for (const int quarter : {0, 1, 2, 3}) {
+        const float turn = static_cast<float>(quarter) * 1.5707963f;
+        const Clip clip = put_on(maker, motion, turn, units, z_up).clip;
+        const Difference off = difference(want, styled(clip, "old", 1), turn);
+        worst = std::max(worst, off.most_deg);
+        EXPECT_LT(off.most_deg, 0.1) << units << (z_up ? " z up " : " y up ") << quarter;
+      }
+    }
+  }
+  std::printf("largest difference %.4f deg\n", worst);
+}
+
+TEST(AnyRig, strength_zero_is_the_input_bit_for_bit) {
+  const auto model = shipped_model();
+  for (const Maker& maker : makers()) {
+    const Clip clip = put_on(maker, walk()).clip;
+    const Result<Restyled> same = restyle(clip, *Rig::create(clip), model, {{0, {{0, 0}}}});
+    ASSERT_TRUE(same.ok());
+    EXPECT_EQ(same->clip.frames, clip.frames) << maker.name;
+    for (size_t i = 0; i < clip.rotations.size(); ++i) {
+      ASSERT_TRUE(same_bits(same->clip.rotations[i], clip.rotations[i])) << maker.name;
+      ASSERT_TRUE(same_bits(same->clip.translations[i], clip.translations[i])) << maker.name;
+    }
+  }
+}
+
+// `clip` without the joints whose names hold one of `words`; their children hang on their parents.
+Clip without(const Clip& clip, const std::vector<std::string>& words) {
+  Clip out{{}, clip.frame_time, clip.frames, {}, {}};
+  std::vector<int> place(clip.joints(), -1), kept_above(clip.joints(), -1);
+  for (size_t j = 0; j < clip.joints(); ++j) {
+    const Joint& joint = clip.skeleton.joints[j];
+    const bool drop = std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+      return joint.name.find(word) != std::string::npos;
+    });
+    const int above = joint.parent < 0 ? -1 : kept_above[joint.parent];
+    kept_above[j] = drop ? above : static_cast<int>(j);
+    if (drop) continue;
+    place[j] = static_cast<int>(out.joints());
+    Joint copy = joint;
+    copy.parent = above < 0 ? -1 : place[above];
+    out.skeleton.joints.push_back(copy);
+  }
+  out.resize(clip.frames);
+  std::vector<Quat> rotations(clip.joints());
+  std::vector<Vec3> at(clip.joints());
+  for (int f = -1; f < clip.frames; ++f) {
+    for (size_t j = 0; j < clip.joints(); ++j) {
+      const Joint& joint = clip.skeleton.joints[j];
+      rotations[j] = f < 0 ? joint.rest : clip.pose(f).rotations[j];
+      at[j] = f < 0 ? joint.offset : clip.pose(f).translations[j];
+    }
+    world_pose(clip.skeleton, {rotations, at}, {rotations, at});
+    for (size_t j = 0; j < clip.joints(); ++j) {
+      if (place[j] < 0) continue;
+      const int parent = clip.skeleton.joints[j].parent;
+      const int above = parent < 0 ? -1 : kept_above[parent];
+      const Quat q = above < 0 ? rotations[j] : conjugate(rotations[above]) * rotations[j];
+      const Vec3 t = above < 0 ? at[j] : rotate(conjugate(rotations[above]), at[j] - at[above]);
+      Joint& joint = out.skeleton.joints[place[j]];
+      if (f < 0) {
+        joint.rest = normalized(q);
+        joint.offset = t;
+      } else {
+        out.pose(f).rotations[place[j]] = normalized(q);
+        out.pose(f).translations[place[j]] = t;
+      }
+    }
+  }
+  return out;
+}
+
+TEST(AnyRig, missing_joints_are_lived_with) {
+  const Clip motion = walk();
+  const std::vector<HumanPositions> want = styled(motion, "old", 1);
+  const Maker& maker = makers().front();
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"Toe"},
+        {"Neck"},
+        {"Shoulder"},
+        {"Hand"},
+        {"Head"},
+        {"Spine1", "Spine2"},
+        {"Toe", "Neck", "Head", "Shoulder", "Spine", "Hand"}}) {
+    const Clip clip = without(put_on(maker, motion).clip, words);
+    const Difference plain = difference(styled(motion, "old", 0), styled(clip, "old", 0));
+    const Difference off = difference(want, styled(clip, "old", 1));
+    std::printf("without %-8s mean %.2f, most %.2f deg (%s); unstyled %.2f, %.2f (%s)\n",
+                words[0].c_str(), off.mean_deg, off.most_deg,
+                std::string(human_joint_name(off.joint)).c_str(), plain.mean_deg, plain.most_deg,
+                std::string(human_joint_name(plain.joint)).c_str());
+    EXPECT_LE(off.mean_deg, 5) << words[0];
+  }
+}
+
+}  // namespace
+}  // namespace panache
