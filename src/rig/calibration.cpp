@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "clip/fk.h"
+#include "rig/first_frame.h"
+#include "rig/frames.h"
 
 namespace panache {
 namespace {
@@ -20,16 +21,6 @@ constexpr float kSteepestToe = -0.95f;
 constexpr float kStanceShare = 0.3f;
 constexpr float kFloorShare = 0.02f;
 
-// The value that a share of the numbers does not exceed, linear between neighbours.
-float quantile(std::vector<float> values, float share) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  const float at = share * static_cast<float>(values.size() - 1);
-  const size_t low = static_cast<size_t>(at);
-  const size_t high = std::min(low + 1, values.size() - 1);
-  return values[low] + (values[high] - values[low]) * (at - static_cast<float>(low));
-}
-
 // The rotation that turns axis k (0 x, 1 y, 2 z) of that sign to +y.
 Quat turn_up(int k, bool negative) {
   const float half = std::sqrt(0.5f);
@@ -39,106 +30,6 @@ Quat turn_up(int k, bool negative) {
 }
 
 float component(Vec3 v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
-
-// Some joints in some frames of the clip, in world space, file axes and units.
-class Frames {
- public:
-  // Takes every `step`-th frame from `first` to before `end`, and of it the joints `of`, -1
-  // standing for none. A frame in which one of them is nowhere says nothing and is left out.
-  Frames(const Clip& clip, int first, int end, int step, std::span<const int> of)
-      : joints_(of.size()) {
-    std::vector<Quat> rotations(clip.joints());
-    std::vector<Vec3> translations(clip.joints());
-    for (int f = first; f < end; f += step) {
-      world_pose(clip.skeleton, clip.pose(f), {rotations, translations});
-      if (!std::all_of(of.begin(), of.end(),
-                       [&](int j) { return j < 0 || is_finite(translations[j]); })) {
-        continue;
-      }
-      for (int j : of) {
-        rotations_.push_back(j < 0 ? Quat{} : rotations[j]);
-        translations_.push_back(j < 0 ? Vec3{} : translations[j]);
-      }
-      ++count_;
-    }
-  }
-  int count() const { return count_; }
-  ConstPose world(int i) const {
-    const size_t at = static_cast<size_t>(i) * joints_;
-    return {std::span(rotations_).subspan(at, joints_),
-            std::span(translations_).subspan(at, joints_)};
-  }
-
- private:
-  size_t joints_;
-  int count_ = 0;
-  std::vector<Quat> rotations_;
-  std::vector<Vec3> translations_;
-};
-
-bool is_rest(const Clip& clip, int frame) {
-  const ConstPose pose = clip.pose(frame);
-  for (size_t j = 0; j < clip.joints(); ++j) {
-    const Joint& joint = clip.skeleton.joints[j];
-    // The root's rotation places the character and says nothing about its pose.
-    if (joint.parent < 0) continue;
-    if (length((conjugate(joint.rest) * pose.rotations[j]).xyz()) > 1e-6f) return false;
-  }
-  return true;
-}
-
-float size_of(ConstPose world) {
-  Vec3 low = world.translations[0], high = low;
-  for (Vec3 p : world.translations) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return length(high - low);
-}
-
-// How far the root, and the joint that moves most against the root, go between two frames.
-struct Step {
-  float root = 0, pose = 0;
-};
-Step step_between(ConstPose a, ConstPose b) {
-  const Vec3 root = b.translations[0] - a.translations[0];
-  Step out{length(root), 0};
-  for (size_t j = 1; j < a.translations.size(); ++j) {
-    out.pose = std::max(out.pose, length(b.translations[j] - a.translations[j] - root));
-  }
-  return out;
-}
-
-// Whether frame 0 is no part of the motion, and the note that says so.
-int find_first_frame(const Clip& clip, std::vector<std::string>& notes) {
-  if (clip.frames >= 2 && is_rest(clip, 0) && !is_rest(clip, 1)) {
-    notes.push_back("the first frame is the rest pose and left out");
-    return 1;
-  }
-  constexpr int kLooked = 41;
-  std::vector<int> all(clip.joints());
-  std::iota(all.begin(), all.end(), 0);
-  const Frames frames(clip, 0, std::min(clip.frames, kLooked), 1, all);
-  if (frames.count() < 3) return 0;
-  std::vector<float> roots, poses;
-  for (int i = 1; i + 1 < frames.count(); ++i) {
-    const Step step = step_between(frames.world(i), frames.world(i + 1));
-    roots.push_back(step.root);
-    poses.push_back(step.pose);
-  }
-  const Step first = step_between(frames.world(0), frames.world(1));
-  const float size = size_of(frames.world(0));
-  // The next step tells a jump into the motion from a motion that is fast from its first frame.
-  const auto jumps = [&](float step, const std::vector<float>& others) {
-    return step > 0.1f * size && step > 8 * quantile(others, 0.5f) + 1e-6f * size &&
-           step > 1.5f * others.front();
-  };
-  if (!jumps(first.pose, poses) && !jumps(first.root, roots)) return 0;
-  const float jump = std::max(first.pose, first.root) / size;
-  notes.push_back("the first frame jumps by " + std::to_string(std::lround(100 * jump)) +
-                  " % of the body and is left out");
-  return 1;
-}
 
 void set_up(int k, bool negative, Calibration& out) {
   out.up_axis = {negative ? '-' : '+', "XYZ"[k]};

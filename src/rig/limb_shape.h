@@ -2,6 +2,8 @@
 // Which joints of a chain are the hip, knee and ankle, or shoulder, elbow and wrist, judged by the
 // lengths between them. Private to the folder.
 
+#include <array>
+#include <string>
 #include <vector>
 
 #include "rig/joint_tree.h"
@@ -15,6 +17,16 @@ struct Limb {
   int upper = -1, lower = -1;
   int end = -1;  // Hand or foot; -1 also where only an End Site of `lower` marks it.
 };
+
+// The four limbs, [left, right].
+struct Limbs {
+  std::array<Limb, 2> arms, legs;
+  std::string side_reason;    // How left and right were told apart, for people.
+  float confidence = 0;       // In what is which limb, 0 to 1.
+  float side_confidence = 0;  // In left and right.
+};
+// The lowest of a limb's joints that there is.
+inline int lowest_joint(const Limb& limb) { return limb.end >= 0 ? limb.end : limb.lower; }
 
 // How unlike a person's limb it is: the sum of squared deviations from usual proportions, 0 for a
 // usual limb, a few units for an unusual one. branch: the joint where it leaves the trunk. `limb`

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "rig/ends_by_shape.h"
+#include "rig/limbs_by_name.h"
+#include "rig/limbs_by_shape.h"
 #include "rig/joint_words.h"
 #include "rig/limb_shape.h"
 
@@ -15,19 +16,25 @@ using enum HumanJoint;
 
 constexpr float kByName = 1, kByTree = 0.95f, kByPlace = 0.7f, kByShape = 0.8f;
 
-// The human joints of a limb, from the trunk down.
-struct LimbNames {
-  LimbKind kind;
-  HumanJoint upper, lower, end;
-};
-constexpr std::array<std::array<LimbNames, 2>, 2> kLimbNames = {
-    {{{{LimbKind::arm, left_upper_arm, left_lower_arm, left_hand},
-       {LimbKind::arm, right_upper_arm, right_lower_arm, right_hand}}},
-     {{{LimbKind::leg, left_upper_leg, left_lower_leg, left_foot},
-       {LimbKind::leg, right_upper_leg, right_lower_leg, right_foot}}}}};
-constexpr Side kSides[] = {Side::left, Side::right};
-
 std::string name_of(HumanJoint joint) { return std::string(human_joint_name(index(joint))); }
+
+// The sentence for a skeleton that lacks these.
+Error refusal(const std::vector<Joint>& joints, const std::vector<HumanJoint>& missing) {
+  constexpr size_t kNamed = 12;
+  std::string text = "no humanoid found: ";
+  for (size_t i = 0; i < missing.size(); ++i) {
+    text += (i ? ", " : "") + name_of(missing[i]);
+  }
+  text += missing.size() == 1 ? " is missing" : " are missing";
+  for (size_t i = 0; i < std::min(joints.size(), kNamed); ++i) {
+    text += (i ? ", '" : " among '") + joints[i].name + "'";
+  }
+  if (joints.size() > kNamed) text += ", ...";
+  text += " (" + std::to_string(joints.size()) + (joints.size() == 1 ? " joint)" : " joints)");
+  return {text +
+          "; expected names such as LeftHand or hand_L, the shape of a person, or a map "
+          "that says which joint is which"};
+}
 
 class Mapper {
  public:
@@ -38,37 +45,35 @@ class Mapper {
     map_.reasons.fill("missing");
   }
 
-  Result<Mapping> by_names() {
-    find_ends();
-    if (missing_.empty()) {
-      for (const auto& limbs : kLimbNames) {
-        for (size_t side : {0, 1}) find_limb(limbs[side], limbs[1 - side]);
-      }
+  // limbs: all that there are.
+  Result<Mapping> run(const Limbs& limbs, bool by_shape) {
+    by_shape_ = by_shape;
+    for (size_t side : {0, 1}) {
+      take(limbs.arms[side], kLimbNames[0][side], limbs);
+      take(limbs.legs[side], kLimbNames[1][side], limbs);
+      arm_tips_[side] = lowest_joint(limbs.arms[side]);
     }
-    return finish();
-  }
-
-  Result<Mapping> by_shape() {
-    const std::optional<Limbs> limbs = find_limbs_by_shape(tree_, names_);
-    if (!limbs) return Error{"no two pairs of limbs look like arms and legs"};
-    const float sure = limbs->confidence * std::min(1.0f, 0.3f + limbs->side_confidence);
-    for (size_t kind : {0, 1}) {
-      for (size_t side : {0, 1}) {
-        const Limb& limb = kind ? limbs->legs[side] : limbs->arms[side];
-        const LimbNames& names = kLimbNames[kind][side];
-        const std::string reason = "by the skeleton's shape, its side " + limbs->side_reason;
-        put(names.upper, limb.upper, reason, sure);
-        put(names.lower, limb.lower, reason, sure);
-        put(names.end, limb.end, reason, sure);
-        if (!kind) arm_tips_[side] = limb.end < 0 ? limb.lower : limb.end;
-      }
+    if (by_shape) {
+      map_.notes.push_back("the joints' names do not say which is which: judged by their shape");
     }
-    by_shape_ = true;
-    map_.notes.push_back("the joints' names do not say which is which: judged by their shape");
-    if (limbs->side_confidence < 0.3f) {
+    if (by_shape && limbs.side_confidence < 0.3f) {
       map_.notes.push_back("left and right are a guess: nothing of the body shows where it faces");
     }
-    return finish();
+    find_trunk();
+    if (!missing_.empty()) return refusal(joints_, missing_);
+    find_head();
+    find_spine();
+    for (size_t side : {0, 1}) {
+      find_shoulder(side ? right_shoulder : left_shoulder, side);
+      find_toes(side ? right_toes : left_toes, kLimbNames[1][side].end);
+    }
+    if (const auto done = believe(); !done) return done.error();
+    for (int j = 0; j < kHumanJoints; ++j) {
+      if (map_.joint_of[j] < 0) {
+        map_.notes.push_back(std::string(human_joint_name(j)) + " is missing");
+      }
+    }
+    return std::move(map_);
   }
 
  private:
@@ -85,113 +90,23 @@ class Mapper {
     return found == known_.end() ? std::nullopt : std::optional(found->second);
   }
 
-  // The plainest name that `is` accepts: fewest words besides, then nearest to the root, then
-  // first.
-  template <class Is, class Where>
-  int find(Side side, Is is, Where where) const {
-    int best = -1;
-    std::pair<size_t, int> best_rank;
-    for (int j = 0; j < tree_.count(); ++j) {
-      if (names_[j].side != side || !is(names_[j]) || is_near(names_[j]) || !where(j)) continue;
-      const std::pair<size_t, int> rank = {word_count(names_[j]), tree_.depth(j)};
-      if (best < 0 || rank < best_rank) best = j, best_rank = rank;
+  void take(const Limb& limb, const LimbNames& names, const Limbs& limbs) {
+    const float sure = limbs.confidence * std::min(1.0f, 0.3f + limbs.side_confidence);
+    if (by_shape_) {
+      const std::string reason = "by the skeleton's shape, its side " + limbs.side_reason;
+      put(names.upper, limb.upper, reason, sure);
+      put(names.lower, limb.lower, reason, sure);
+      put(names.end, limb.end, reason, sure);
+      return;
     }
-    return best;
+    const auto above = [](HumanJoint joint) { return "next joint above " + name_of(joint); };
+    put(names.end, limb.end, "by its name", sure);
+    put(names.lower, limb.lower, limb.end < 0 ? "by its name" : above(names.end), kByTree);
+    put(names.upper, limb.upper, above(names.lower), kByTree);
   }
-  template <class Is>
-  int find(Side side, Is is) const {
-    return find(side, is, [](int) { return true; });
-  }
-
-  // Hands and feet. Where a hand is missing, a forearm stands for the arm.
-  void find_ends() {
-    for (size_t side : {0, 1}) {
-      const LimbNames& arm = kLimbNames[0][side];
-      const int hand = known(arm.end).value_or(find(kSides[side], is_hand));
-      put(arm.end, hand, "by its name", kByName);
-      arm_tips_[side] = hand;
-      if (hand >= 0) continue;
-      const auto is_plain = [](const JointName& name) {
-        return is_forearm(name) && !is_twist(name);
-      };
-      const int forearm = known(arm.lower).value_or(find(kSides[side], is_plain));
-      put(arm.lower, forearm, "by its name", kByName);
-      arm_tips_[side] = forearm;
-      if (forearm < 0) missing_.push_back(arm.end);
-    }
-    for (size_t side : {0, 1}) {
-      const LimbNames& leg = kLimbNames[1][side];
-      const int foot = known(leg.end).value_or(find(kSides[side], is_foot));
-      put(leg.end, foot, "by its name", kByName);
-      if (foot < 0) missing_.push_back(leg.end);
-    }
-    if (!missing_.empty() && find(Side::none, is_head) < 0) missing_.push_back(head);
-  }
-
-  // Whether `joint` is a later piece of its parent's limb: "forearm.001" below "forearm".
-  bool is_piece(int joint) const {
-    const int above = parent(joint);
-    if (above < 0 || names_[joint].side != names_[above].side) return false;
-    const auto stem = without_number(names_[joint].words);
-    return stem.size() < names_[joint].words.size() && stem == without_number(names_[above].words);
-  }
-  // The next joint above that stands elsewhere and is no twist joint (nor a piece of a limb); -1
-  // where it belongs to the other limb too.
-  int above(int joint, int other_tip, bool skip_pieces) const {
-    int q = joint < 0 ? -1 : parent(joint);
-    while (q >= 0 &&
-           (!tree_.apart(q, joint) || is_twist(names_[q]) || (skip_pieces && is_piece(q)))) {
-      q = parent(q);
-    }
-    return q >= 0 && tree_.is_above(q, other_tip) ? -1 : q;
-  }
-  int tip(const LimbNames& limb) const { return at(limb.end) >= 0 ? at(limb.end) : at(limb.lower); }
-  // Of the ways to read the joints above the end, the one that looks most like a limb; names and
-  // the plain order of the joints count as much as rather odd lengths.
-  void find_limb(const LimbNames& names, const LimbNames& others) {
-    const int end = at(names.end), other = tip(others);
-    const int branch = tree_.meeting(tip(names), other);
-    Limb best;
-    float least = INFINITY;
-    const auto consider = [&](const Limb& limb, float trust) {
-      if (limb.upper < 0 || limb.lower < 0) return;
-      const JointName& lower = names_[limb.lower];
-      const bool named = names.kind == LimbKind::arm ? is_forearm(lower) : is_shin(lower);
-      const float odd =
-          limb_oddity(tree_, names.kind, std::max(branch, 0), limb) - trust - (named ? 20 : 0);
-      if (odd < least) least = odd, best = limb;
-    };
-    for (const bool skip_pieces : {true, false}) {
-      const int lower = end < 0 ? at(names.lower) : above(end, other, skip_pieces);
-      consider({above(lower, other, skip_pieces), lower, end}, skip_pieces ? 12.0f : 8.0f);
-    }
-    if (end >= 0 && branch >= 0) {
-      const std::vector<int> chain = limb_chain(tree_, branch, end);
-      consider(most_usual_limb(tree_, names.kind, branch, chain, end), 0);
-    }
-    const std::string of_end = end < 0 ? "by its name" : "next joint above " + name_of(names.end);
-    put(names.lower, best.lower, of_end, kByTree);
-    put(names.upper, best.upper, "next joint above " + name_of(names.lower), kByTree);
-    if (best.lower < 0) missing_.push_back(names.lower);
-    if (best.upper < 0) missing_.push_back(names.upper);
-  }
-
-  Result<Mapping> finish() {
-    if (missing_.empty()) find_trunk();
-    if (!missing_.empty()) return refusal();
-    find_head();
-    find_spine();
-    for (size_t side : {0, 1}) {
-      find_shoulder(side ? right_shoulder : left_shoulder, side);
-      find_toes(side ? right_toes : left_toes, kLimbNames[1][side].end);
-    }
-    if (const auto done = believe(); !done) return done.error();
-    for (int j = 0; j < kHumanJoints; ++j) {
-      if (map_.joint_of[j] < 0) {
-        map_.notes.push_back(std::string(human_joint_name(j)) + " is missing");
-      }
-    }
-    return std::move(map_);
+  template <class Where>
+  int find(Side side, bool (*is)(const JointName&), Where where) const {
+    return find_named(tree_, names_, side, is, where);
   }
 
   void find_trunk() {
@@ -369,7 +284,7 @@ class Mapper {
       }
     }
     if (at(hips) < 0) missing_.push_back(hips);
-    if (!missing_.empty()) return refusal();
+    if (!missing_.empty()) return refusal(joints_, missing_);
     for (const auto& [human, joint] : known_) {
       int above = kHumanParent[human];
       while (above >= 0 && map_.joint_of[above] < 0) above = kHumanParent[above];
@@ -385,23 +300,6 @@ class Mapper {
     map_.joint_of[human] = -1;
     map_.reasons[human] = "missing";
     map_.confidence[human] = 0;
-  }
-
-  Error refusal() const {
-    constexpr size_t kNamed = 12;
-    std::string text = "no humanoid found: ";
-    for (size_t i = 0; i < missing_.size(); ++i) {
-      text += (i ? ", " : "") + name_of(missing_[i]);
-    }
-    text += missing_.size() == 1 ? " is missing" : " are missing";
-    for (size_t i = 0; i < std::min(joints_.size(), kNamed); ++i) {
-      text += (i ? ", '" : " among '") + joints_[i].name + "'";
-    }
-    if (joints_.size() > kNamed) text += ", ...";
-    text += " (" + std::to_string(joints_.size()) + (joints_.size() == 1 ? " joint)" : " joints)");
-    return {text +
-            "; expected names such as LeftHand or hand_L, the shape of a person, or a map "
-            "that says which joint is which"};
   }
 
   const std::vector<Joint>& joints_;
@@ -427,15 +325,11 @@ std::vector<JointName> read_names(const Skeleton& skeleton) {
 
 // Whether arms and legs look like a person's: not folded the wrong way, left about as long as
 // right, upper and lower part in some proportion.
-bool is_plausible(const JointTree& tree, const Mapping& map) {
-  std::array<std::array<Limb, 2>, 2> limbs;
-  for (size_t kind : {0, 1}) {
+bool is_plausible(const JointTree& tree, const Limbs& limbs) {
+  for (const auto& pair : {limbs.arms, limbs.legs}) {
     std::array<float, 2> lengths;
     for (size_t side : {0, 1}) {
-      const LimbNames& names = kLimbNames[kind][side];
-      const Limb limb = {map.joint_of[index(names.upper)], map.joint_of[index(names.lower)],
-                         map.joint_of[index(names.end)]};
-      limbs[kind][side] = limb;
+      const Limb& limb = pair[side];
       const float upper = tree.distance(limb.upper, limb.lower);
       const float lower = limb.end < 0 ? upper : tree.distance(limb.lower, limb.end);
       if (!(upper > 0.3f * lower && lower > 0.3f * upper)) return false;
@@ -443,7 +337,7 @@ bool is_plausible(const JointTree& tree, const Mapping& map) {
     }
     if (lengths[0] > 1.5f * lengths[1] || lengths[1] > 1.5f * lengths[0]) return false;
   }
-  return uprightness(tree, limbs[0], limbs[1]) > -0.3f;
+  return uprightness(tree, limbs.arms, limbs.legs) > -0.3f;
 }
 
 }  // namespace
@@ -452,10 +346,14 @@ Result<Mapping> map_humanoid(const Skeleton& skeleton, std::span<const JointPosi
                              const KnownJoints& known) {
   const JointTree tree(skeleton, poses);
   const std::vector<JointName> names = read_names(skeleton);
-  Result<Mapping> named = Mapper(skeleton, tree, names, known).by_names();
-  if (named && is_plausible(tree, *named)) return named;
-  Result<Mapping> shaped = Mapper(skeleton, tree, names, known).by_shape();
-  if (shaped) return shaped;
+  std::vector<HumanJoint> missing;
+  const Limbs limbs = find_limbs_by_name(tree, names, known, missing);
+  Result<Mapping> named = missing.empty() ? Mapper(skeleton, tree, names, known).run(limbs, false)
+                                          : Result<Mapping>(refusal(skeleton.joints, missing));
+  if (named && is_plausible(tree, limbs)) return named;
+  if (const std::optional<Limbs> shaped = find_limbs_by_shape(tree, names)) {
+    return Mapper(skeleton, tree, names, known).run(*shaped, true);
+  }
   if (named) named->notes.push_back("the limbs that the names tell have unusual lengths");
   return named;
 }

@@ -1,4 +1,4 @@
-#include "rig/ends_by_shape.h"
+#include "rig/limbs_by_shape.h"
 
 #include <algorithm>
 #include <cmath>

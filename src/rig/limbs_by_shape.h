@@ -12,14 +12,6 @@
 
 namespace panache {
 
-// The four limbs, [left, right].
-struct Limbs {
-  std::array<Limb, 2> arms, legs;
-  std::string side_reason;    // How left and right were told apart, for people.
-  float confidence = 0;       // In what is which limb, 0 to 1.
-  float side_confidence = 0;  // In left and right.
-};
-
 // names[joints]: only their sides are used. Nothing where no two pairs of limbs look like arms and
 // legs of a body that stands in some of the poses.
 std::optional<Limbs> find_limbs_by_shape(const JointTree& tree, std::span<const JointName> names);

@@ -1,0 +1,126 @@
+#include "rig/limbs_by_name.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rig/joint_words.h"
+
+namespace panache {
+namespace {
+
+constexpr Side kSides[] = {Side::left, Side::right};
+// How much the plain order of the joints, the same with numbered pieces counted as joints, and a
+// name such as "knee" weigh against odd lengths, in the units of limb_oddity().
+constexpr float kPlainOrder = 12, kAllPieces = 8, kNamed = 20;
+
+bool is_plain_forearm(const JointName& name) { return is_forearm(name) && !is_twist(name); }
+
+class LimbFinder {
+ public:
+  LimbFinder(const JointTree& tree, std::span<const JointName> names)
+      : tree_(tree), names_(names) {}
+
+  // Of the ways to read the joints above the end, the one that looks most like a limb.
+  Limb find(LimbKind kind, const Limb& known, int other_tip) const {
+    const int branch = tree_.meeting(lowest_joint(known), other_tip);
+    Limb best{-1, -1, known.end};
+    float least = INFINITY;
+    const auto consider = [&](const Limb& limb, float trust) {
+      if (limb.upper < 0 || limb.lower < 0) return;
+      const JointName& lower = names_[limb.lower];
+      const bool named = kind == LimbKind::arm ? is_forearm(lower) : is_shin(lower);
+      const float odd =
+          limb_oddity(tree_, kind, std::max(branch, 0), limb) - trust - (named ? kNamed : 0);
+      if (odd < least) least = odd, best = limb;
+    };
+    for (const bool skip_pieces : {true, false}) {
+      const int lower = known.end < 0 ? known.lower : above(known.end, other_tip, skip_pieces);
+      consider({above(lower, other_tip, skip_pieces), lower, known.end},
+               skip_pieces ? kPlainOrder : kAllPieces);
+    }
+    if (known.end >= 0 && branch >= 0) {
+      const std::vector<int> chain = limb_chain(tree_, branch, known.end);
+      consider(most_usual_limb(tree_, kind, branch, chain, known.end), 0);
+    }
+    return best;
+  }
+
+ private:
+  // Whether `joint` is a later piece of its parent's limb: "forearm.001" below "forearm".
+  bool is_piece(int joint) const {
+    const int above = tree_.parent(joint);
+    if (above < 0 || names_[joint].side != names_[above].side) return false;
+    const auto stem = without_number(names_[joint].words);
+    return stem.size() < names_[joint].words.size() && stem == without_number(names_[above].words);
+  }
+  // The next joint above that stands elsewhere and is no twist joint (nor a piece of a limb); -1
+  // where it belongs to the other limb too.
+  int above(int joint, int other_tip, bool skip_pieces) const {
+    int q = joint < 0 ? -1 : tree_.parent(joint);
+    while (q >= 0 &&
+           (!tree_.apart(q, joint) || is_twist(names_[q]) || (skip_pieces && is_piece(q)))) {
+      q = tree_.parent(q);
+    }
+    return q >= 0 && tree_.is_above(q, other_tip) ? -1 : q;
+  }
+
+  const JointTree& tree_;
+  std::span<const JointName> names_;
+};
+
+}  // namespace
+
+int find_named(const JointTree& tree, std::span<const JointName> names, Side side,
+               bool (*is)(const JointName&), const std::function<bool(int)>& where) {
+  int best = -1;
+  std::pair<size_t, int> best_rank;
+  for (int j = 0; j < tree.count(); ++j) {
+    if (names[j].side != side || !is(names[j]) || is_near(names[j]) || !where(j)) continue;
+    const std::pair<size_t, int> rank = {word_count(names[j]), tree.depth(j)};
+    if (best < 0 || rank < best_rank) best = j, best_rank = rank;
+  }
+  return best;
+}
+
+Limbs find_limbs_by_name(const JointTree& tree, std::span<const JointName> names,
+                         const std::map<int, int>& known, std::vector<HumanJoint>& missing) {
+  const auto find = [&](HumanJoint joint, size_t side, bool (*is)(const JointName&)) {
+    const auto found = known.find(index(joint));
+    if (found != known.end()) return found->second;
+    return find_named(tree, names, kSides[side], is, [](int) { return true; });
+  };
+  Limbs out;
+  out.confidence = out.side_confidence = 1;
+  for (size_t side : {0, 1}) {
+    const LimbNames& arm = kLimbNames[0][side];
+    out.arms[side].end = find(arm.end, side, is_hand);
+    if (out.arms[side].end >= 0) continue;
+    out.arms[side].lower = find(arm.lower, side, is_plain_forearm);
+    if (out.arms[side].lower < 0) missing.push_back(arm.end);
+  }
+  for (size_t side : {0, 1}) {
+    const LimbNames& leg = kLimbNames[1][side];
+    out.legs[side].end = find(leg.end, side, is_foot);
+    if (out.legs[side].end < 0) missing.push_back(leg.end);
+  }
+  if (!missing.empty()) {
+    const auto anywhere = [](int) { return true; };
+    const bool has_head = find_named(tree, names, Side::none, is_head, anywhere) >= 0;
+    if (!has_head) missing.push_back(HumanJoint::head);
+    return out;
+  }
+  const LimbFinder finder(tree, names);
+  for (size_t kind : {0, 1}) {
+    std::array<Limb, 2>& limbs = kind ? out.legs : out.arms;
+    const std::array<int, 2> tips = {lowest_joint(limbs[0]), lowest_joint(limbs[1])};
+    for (size_t side : {0, 1}) {
+      const LimbNames& limb = kLimbNames[kind][side];
+      limbs[side] = finder.find(limb.kind, limbs[side], tips[1 - side]);
+      if (limbs[side].lower < 0) missing.push_back(limb.lower);
+      if (limbs[side].upper < 0) missing.push_back(limb.upper);
+    }
+  }
+  return out;
+}
+
+}  // namespace panache
