@@ -12,10 +12,12 @@
 
 namespace panache::test {
 inline std::atomic<long> allocations = 0;
+inline std::atomic<size_t> allocated_bytes = 0;  // All that was ever asked for.
 }
 
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   ++panache::test::allocations;
+  panache::test::allocated_bytes += size;
   return std::malloc(size);
 }
 void* operator new(std::size_t size) {

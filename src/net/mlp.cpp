@@ -99,7 +99,8 @@ size_t Trunk::scratch_size() const {
 
 std::span<const float> Trunk::forward(std::span<const float> x,
                                       std::span<float> scratch) const noexcept {
-  assert(x.size() == static_cast<size_t>(inputs()) && scratch.size() >= scratch_size());
+  assert(layers_.empty() || x.size() == static_cast<size_t>(inputs()));
+  assert(scratch.size() >= scratch_size());
   // The layers take turns between the two halves, as none may write where it reads.
   std::span<float> half = scratch.first(scratch_size() / 2);
   std::span<float> other = scratch.subspan(scratch_size() / 2);
@@ -111,6 +112,49 @@ std::span<const float> Trunk::forward(std::span<const float> x,
     std::swap(half, other);
   }
   return x;
+}
+
+TrunkTrio::TrunkTrio(std::array<Trunk, kTrunks> trunks) : rest_(std::move(trunks)) {
+  first_.inputs = rest_[0].inputs();
+  for (size_t t = 0; t < kTrunks; ++t) {
+    assert(rest_[t].inputs() == first_.inputs);
+    outputs_[t] = rest_[t].outputs();
+    widths_[t] = rest_[t].layers_.front().outputs;
+    first_.outputs += widths_[t];
+    const std::vector<float>& bias = rest_[t].layers_.front().bias;
+    first_.bias.insert(first_.bias.end(), bias.begin(), bias.end());
+  }
+  first_.weights.reserve(static_cast<size_t>(first_.inputs) * first_.outputs);
+  for (int i = 0; i < first_.inputs; ++i) {
+    for (const Trunk& trunk : rest_) {
+      const DenseLayer& layer = trunk.layers_.front();
+      const auto row = layer.weights.begin() + static_cast<ptrdiff_t>(i) * layer.outputs;
+      first_.weights.insert(first_.weights.end(), row, row + layer.outputs);
+    }
+  }
+  for (Trunk& trunk : rest_) trunk.layers_.erase(trunk.layers_.begin());
+}
+
+size_t TrunkTrio::scratch_size() const {
+  size_t size = static_cast<size_t>(first_.outputs);
+  for (const Trunk& trunk : rest_) size += trunk.scratch_size();
+  return size;
+}
+
+std::array<std::span<const float>, TrunkTrio::kTrunks> TrunkTrio::forward(
+    std::span<const float> x, std::span<float> scratch) const noexcept {
+  assert(x.size() == static_cast<size_t>(inputs()) && scratch.size() >= scratch_size());
+  std::span<float> hidden = scratch.first(first_.outputs);
+  scratch = scratch.subspan(hidden.size());
+  dense(x, first_.weights, first_.bias, hidden);
+  elu(hidden);
+  std::array<std::span<const float>, kTrunks> out;
+  for (size_t t = 0; t < kTrunks; ++t) {
+    out[t] = rest_[t].forward(hidden.first(widths_[t]), scratch);
+    hidden = hidden.subspan(widths_[t]);
+    scratch = scratch.subspan(rest_[t].scratch_size());
+  }
+  return out;
 }
 
 }  // namespace panache

@@ -1,6 +1,7 @@
 #pragma once
-// A trunk of dense layers with ELU between, as read from a model file.
+// Trunks of dense layers with ELU between, as read from a model file.
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,7 +36,32 @@ class Trunk {
   std::span<const float> forward(std::span<const float> x, std::span<float> scratch) const noexcept;
 
  private:
+  friend class TrunkTrio;
   std::vector<DenseLayer> layers_;
+};
+
+// Three trunks that read the same input: their first layers stand in one matrix, so that the input
+// is gone through once. Bit for bit what each trunk gives by itself.
+class TrunkTrio {
+ public:
+  static constexpr size_t kTrunks = 3;
+
+  TrunkTrio() = default;
+  // All trunks take the same number of inputs.
+  explicit TrunkTrio(std::array<Trunk, kTrunks> trunks);
+
+  int inputs() const { return first_.inputs; }
+  int outputs(size_t trunk) const { return outputs_[trunk]; }
+  size_t scratch_size() const;  // Numbers that forward() needs to work in.
+  // Returns the last activations of each trunk, parts of `scratch`. x.size() = inputs().
+  std::array<std::span<const float>, kTrunks> forward(std::span<const float> x,
+                                                      std::span<float> scratch) const noexcept;
+
+ private:
+  DenseLayer first_;                    // The columns of trunk 0, then of 1, then of 2.
+  std::array<int, kTrunks> widths_{};   // Of each trunk's first layer,
+  std::array<int, kTrunks> outputs_{};  // and of its last.
+  std::array<Trunk, kTrunks> rest_;     // The other layers; may have none.
 };
 
 }  // namespace panache

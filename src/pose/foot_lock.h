@@ -35,6 +35,12 @@ class FootLock {
   void step(const BodyPose& body, std::span<const float, kFeet> contacts, float amount,
             float seconds, BodyChange& change) noexcept;
 
+  // Calls visit(member) for everything that tells one foot lock from another.
+  template <class Self, class Visit>
+  static void visit_state(Self& self, Visit&& visit) {
+    visit(self.feet_);
+  }
+
  private:
   enum class State { free, planted, let_go };  // Let go: pulled too far, free until it lifts.
   struct Foot {

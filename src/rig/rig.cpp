@@ -84,46 +84,47 @@ Result<KnownJoints> find_joints(const Skeleton& skeleton, const std::map<int, st
 Result<Rig> Rig::create(const Clip& clip, const RigOptions& options) {
   if (clip.joints() == 0) return Error{"no humanoid found: the skeleton has no joints"};
   if (clip.frames < 1) return Error{"expected at least one frame of motion, found none"};
-  Rig rig;
-  rig.skeleton_ = clip.skeleton;
-  const size_t joints = clip.joints();
-  rig.world_rotations_.resize(joints);
-  rig.world_translations_.resize(joints);
-  rig.effective_.resize(joints);
-
   Result<KnownJoints> known = find_joints(clip.skeleton, options.joints);
   if (!known) return known.error();
   const std::vector<JointPositions> poses = some_poses(clip);
   if (poses.empty()) return Error{"no frame of the motion has finite numbers only"};
   Result<Mapping> mapping = map_humanoid(clip.skeleton, poses, *known);
   if (!mapping) return mapping.error();
-  rig.mapping_ = *std::move(mapping);
   Result<Calibration> calibration =
-      calibrate(clip, rig.mapping_, options.metres_per_unit, options.up_axis);
+      calibrate(clip, *mapping, options.metres_per_unit, options.up_axis);
   if (!calibration) return calibration.error();
-  rig.calibration_ = *std::move(calibration);
-  rig.notes_ = rig.mapping_.notes;
-  rig.notes_.insert(rig.notes_.end(), rig.calibration_.notes.begin(), rig.calibration_.notes.end());
 
-  rig.human_of_.assign(joints, -1);
+  auto shared = std::make_shared<Shared>();
+  shared->skeleton = clip.skeleton;
+  shared->mapping = *std::move(mapping);
+  shared->calibration = *std::move(calibration);
+  shared->notes = shared->mapping.notes;
+  shared->notes.insert(shared->notes.end(), shared->calibration.notes.begin(),
+                       shared->calibration.notes.end());
+  const std::array<int, kHumanJoints>& joint_of = shared->mapping.joint_of;
+  shared->human_of.assign(clip.joints(), -1);
   for (int j = 0; j < kHumanJoints; ++j) {
-    const int joint = rig.mapping_.joint_of[j];
-    if (joint < 0) continue;
-    if (clip.skeleton.joints[joint].can_rotate) {
-      rig.human_of_[joint] = j;
+    if (joint_of[j] < 0) continue;
+    if (clip.skeleton.joints[joint_of[j]].can_rotate) {
+      shared->human_of[joint_of[j]] = j;
     } else {
-      rig.notes_.push_back(std::string(human_joint_name(j)) + " cannot rotate in this file");
+      shared->notes.push_back(std::string(human_joint_name(j)) + " cannot rotate in this file");
     }
   }
-  rig.moved_joint_ = rig.mapping_.joint_of[index(hips)];
-  while (rig.moved_joint_ >= 0 && !clip.skeleton.joints[rig.moved_joint_].can_translate) {
-    rig.moved_joint_ = clip.skeleton.joints[rig.moved_joint_].parent;
+  int moved = joint_of[index(hips)];
+  while (moved >= 0 && !clip.skeleton.joints[moved].can_translate) {
+    moved = clip.skeleton.joints[moved].parent;
   }
-  if (rig.moved_joint_ < 0)
-    rig.notes_.push_back("neither the hips nor a joint above them can move");
+  shared->moved_joint = moved;
+  if (moved < 0) shared->notes.push_back("neither the hips nor a joint above them can move");
 
+  Rig rig;
+  rig.shared_ = std::move(shared);
+  rig.world_rotations_.resize(clip.joints());
+  rig.world_translations_.resize(clip.joints());
+  rig.effective_.resize(clip.joints());
   // The pose that stands in for one that is not finite, until one was.
-  rig.last_.facing = rig.calibration_.facing;
+  rig.last_.facing = rig.shared_->calibration.facing;
   for (int f = rig.first_frame(); f < clip.frames; ++f) {
     BodyPose body;
     rig.read(clip.pose(f), body);
@@ -135,25 +136,25 @@ Result<Rig> Rig::create(const Clip& clip, const RigOptions& options) {
 std::vector<JointMatch> Rig::matches() const {
   std::vector<JointMatch> out;
   for (int j = 0; j < kHumanJoints; ++j) {
-    const int joint = mapping_.joint_of[j];
+    const int joint = shared_->mapping.joint_of[j];
     out.push_back({std::string(human_joint_name(j)),
-                   joint < 0 ? std::string{} : skeleton_.joints[joint].name, mapping_.reasons[j],
-                   mapping_.confidence[j]});
+                   joint < 0 ? std::string{} : shared_->skeleton.joints[joint].name,
+                   shared_->mapping.reasons[j], shared_->mapping.confidence[j]});
   }
   return out;
 }
 
 void Rig::read(ConstPose pose, BodyPose& out) noexcept {
-  world_pose(skeleton_, pose, {world_rotations_, world_translations_});
+  world_pose(shared_->skeleton, pose, {world_rotations_, world_translations_});
   const ConstPose world = {world_rotations_, world_translations_};
-  const MappedJoints mapped = mapped_joints(world, mapping_.joint_of, calibration_);
+  const MappedJoints mapped = mapped_joints(world, shared_->mapping.joint_of, shared_->calibration);
   out.joints = mapped.positions;
-  out.positions = canonical_positions(mapped.positions, calibration_.shape, mapped.toes);
+  out.positions = canonical_positions(mapped.positions, shared_->calibration.shape, mapped.toes);
   out.facing = facing_of(mapped.positions).value_or(last_.facing);
   for (int j = 0; j < kHumanJoints; ++j) {
-    const int joint = mapping_.joint_of[j];
-    out.rotations[j] =
-        joint < 0 ? out.rotations[kHumanParent[j]] : calibration_.y_up * world_rotations_[joint];
+    const int joint = shared_->mapping.joint_of[j];
+    out.rotations[j] = joint < 0 ? out.rotations[kHumanParent[j]]
+                                 : shared_->calibration.y_up * world_rotations_[joint];
   }
   if (is_finite_body(out)) {
     last_ = out;
@@ -163,7 +164,7 @@ void Rig::read(ConstPose pose, BodyPose& out) noexcept {
 }
 
 void Rig::write(ConstPose in, const BodyPose& body, const BodyChange& change, Pose out) noexcept {
-  const Quat file_axes = conjugate(calibration_.y_up);
+  const Quat file_axes = conjugate(shared_->calibration.y_up);
   const Quat from_heading = file_axes * rotation_y(body.facing);
   const Quat turn = in_axes(file_axes, rotation_y(change.turn));
   for (int j = 0; j < kHumanJoints; ++j) {
@@ -177,14 +178,14 @@ void Rig::write(ConstPose in, const BodyPose& body, const BodyChange& change, Po
 // the input, the joint's new world rotation E P q and its parent's E_p P give the local rotation
 // P^-1 E_p^-1 E P q. At E = E_p = 1 the factor before q is exactly 1.
 void Rig::write_rotations(ConstPose in, Pose out) noexcept {
-  for (size_t j = 0; j < skeleton_.joints.size(); ++j) {
-    const int parent = skeleton_.joints[j].parent;
+  for (size_t j = 0; j < shared_->skeleton.joints.size(); ++j) {
+    const int parent = shared_->skeleton.joints[j].parent;
     const Quat inherited = parent < 0 ? Quat{} : effective_[parent];
     const Quat q = in.rotations[j];
     out.rotations[j] = q;
     effective_[j] = inherited;
-    if (human_of_[j] < 0) continue;
-    effective_[j] = deltas_[human_of_[j]];
+    if (shared_->human_of[j] < 0) continue;
+    effective_[j] = deltas_[shared_->human_of[j]];
     const Quat world = parent < 0 ? Quat{} : world_rotations_[parent];
     const Quat local = in_axes(conjugate(world), conjugate(inherited) * effective_[j]);
     // Even a product with 1 could change the sign of a zero, and making it unit the last bit.
@@ -195,19 +196,20 @@ void Rig::write_rotations(ConstPose in, Pose out) noexcept {
 
 void Rig::write_translation(ConstPose in, const BodyChange& change, Pose out) noexcept {
   std::copy(in.translations.begin(), in.translations.end(), out.translations.begin());
-  if (moved_joint_ < 0) return;
+  if (shared_->moved_joint < 0) return;
   const auto at = [&](HumanJoint joint) {
-    return world_translations_[mapping_.joint_of[index(joint)]];
+    return world_translations_[shared_->mapping.joint_of[index(joint)]];
   };
-  const int hips_joint = mapping_.joint_of[index(hips)];
+  const int hips_joint = shared_->mapping.joint_of[index(hips)];
   const Vec3 mid_hip = (at(left_upper_leg) + at(right_upper_leg)) * 0.5f;
-  const Vec3 wanted = rotate(conjugate(calibration_.y_up), change.translation) / calibration_.scale;
+  const Vec3 wanted =
+      rotate(conjugate(shared_->calibration.y_up), change.translation) / shared_->calibration.scale;
   // The new rotation carries mid-hip about the hips; the hips give way so that it stays.
   const Vec3 move = wanted - shift(effective_[hips_joint], mid_hip - at(hips));
   if (move == Vec3{} || !is_finite(move)) return;
-  const int parent = skeleton_.joints[moved_joint_].parent;
+  const int parent = shared_->skeleton.joints[shared_->moved_joint].parent;
   const Quat world = parent < 0 ? Quat{} : world_rotations_[parent];
-  out.translations[moved_joint_] += rotate(conjugate(world), move);
+  out.translations[shared_->moved_joint] += rotate(conjugate(world), move);
 }
 
 }  // namespace panache

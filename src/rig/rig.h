@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,6 +57,8 @@ struct RigOptions {
   std::map<int, std::string> joints;
 };
 
+// What was understood of the skeleton is shared by all copies of a rig; each has its own memory of
+// the last pose.
 class Rig {
  public:
   // Finds the humanoid in the skeleton of `clip`, and units, up axis, floor, first usable frame and
@@ -65,17 +68,19 @@ class Rig {
   static Result<Rig> create(const Clip& clip, const RigOptions& options = {});
 
   // skeleton joint of each human joint, -1 where the skeleton has none.
-  const std::array<int, kHumanJoints>& joints() const { return mapping_.joint_of; }
-  size_t joint_count() const { return human_of_.size(); }  // Joints of the skeleton.
+  const std::array<int, kHumanJoints>& joints() const { return shared_->mapping.joint_of; }
+  size_t joint_count() const { return shared_->human_of.size(); }  // Joints of the skeleton.
   // How each was found, for people ("by its name", "next joint above leftHand", "missing", ...).
-  const std::array<std::string, kHumanJoints>& reasons() const { return mapping_.reasons; }
+  const std::array<std::string, kHumanJoints>& reasons() const { return shared_->mapping.reasons; }
   // All of the above in the order of the human joints, for showing.
   std::vector<JointMatch> matches() const;
-  const std::string& up_axis() const { return calibration_.up_axis; }  // "+Y", "-Z", ...
-  float scale() const { return calibration_.scale; }                   // Metres per file unit.
-  float floor() const { return calibration_.floor; }                   // Its height, Y up, metres.
-  int first_frame() const { return calibration_.first_frame; }  // 1: the first is for calibration.
-  const std::vector<std::string>& notes() const { return notes_; }
+  const std::string& up_axis() const { return shared_->calibration.up_axis; }  // "+Y", "-Z", ...
+  float scale() const { return shared_->calibration.scale; }  // Metres per file unit.
+  float floor() const { return shared_->calibration.floor; }  // Its height, Y up, metres.
+  int first_frame() const {
+    return shared_->calibration.first_frame;
+  }  // 1: the first is for calibration.
+  const std::vector<std::string>& notes() const { return shared_->notes; }
 
   // The user's pose on the canonical body. Allocates nothing, never fails. A heading that the pose
   // does not show is the last one; a pose that is not finite is read as the last one.
@@ -88,18 +93,29 @@ class Rig {
   // the translation, if the hips or a joint above them can. Allocates nothing, never fails.
   void write(ConstPose in, const BodyPose& body, const BodyChange& change, Pose out) noexcept;
 
+  // Calls visit(member) for what a rig remembers from one read() to the next.
+  template <class Self, class Visit>
+  static void visit_state(Self& self, Visit&& visit) {
+    visit(self.last_);
+  }
+
  private:
   Rig() = default;
   void write_rotations(ConstPose in, Pose out) noexcept;
   void write_translation(ConstPose in, const BodyChange& change, Pose out) noexcept;
 
-  Skeleton skeleton_;
-  Mapping mapping_;
-  Calibration calibration_;
-  std::vector<std::string> notes_;
-  std::vector<int> human_of_;  // Human joint of each skeleton joint that write() may rotate, or -1.
-  int moved_joint_ = -1;       // The skeleton joint that carries the translation, or -1.
-  BodyPose last_;              // The last finite one.
+  struct Shared {
+    Skeleton skeleton;
+    Mapping mapping;
+    Calibration calibration;
+    std::vector<std::string> notes;
+    std::vector<int>
+        human_of;          // Human joint of each skeleton joint that write() may rotate, or -1.
+    int moved_joint = -1;  // The skeleton joint that carries the translation, or -1.
+  };
+
+  std::shared_ptr<const Shared> shared_;
+  BodyPose last_;  // The last finite one.
 
   std::vector<Quat> world_rotations_;      // [joints], of the last read(), file axes.
   std::vector<Vec3> world_translations_;   // [joints], likewise, file units.

@@ -113,25 +113,46 @@ Result<void> Model::read_metadata(const TensorFile& file, const std::string& nam
   return {};
 }
 
-Result<Model::Network> Model::read_network(const TensorFile& file, const std::string& prefix,
-                                           int outputs, int heads, const std::string& name) const {
-  const int extra = recipe_ == Recipe::smith2019 ? static_cast<int>(styles_.size()) + 1 : 0;
-  const int inputs = kWindowPoses * pose_numbers(layout_) + extra;
-  Result<Trunk> trunk = Trunk::read(file, prefix + ".trunk", inputs, name);
-  if (!trunk) return trunk.error();
-  Network network{*std::move(trunk), {}};
-  const int hidden = network.trunk.outputs();
-  for (int h = 0; h < heads; ++h) {
-    Result<DenseLayer> head =
-        read_layer(file, prefix + ".head." + std::to_string(h), hidden, outputs, name);
-    if (!head) return head.error();
-    network.heads.push_back(*std::move(head));
+Result<void> Model::read_networks(const TensorFile& file, const std::string& name) {
+  const bool per_style = recipe_ == Recipe::panache;
+  const int styles = static_cast<int>(styles_.size());
+  int inputs = kWindowPoses * pose_numbers(layout_);
+  if (!per_style) inputs += styles + 1;  // Neutral has a number of its own.
+  const struct {
+    const char* prefix;
+    int outputs, heads;
+  } networks[kNetworks] = {
+      {"pose", per_style ? kChangeNumbers : pose_numbers(layout_), per_style ? styles : 1},
+      {"timing", 1, per_style ? styles : 1},
+      {"contact", 2, per_style ? styles + 1 : 1}};
+  std::array<Trunk, kNetworks> trunks;
+  for (size_t n = 0; n < kNetworks; ++n) {
+    const std::string prefix = networks[n].prefix;
+    Result<Trunk> trunk = Trunk::read(file, prefix + ".trunk", inputs, name);
+    if (!trunk) return trunk.error();
+    if (trunk->scratch_size() > 2 * kMaxUnits) {
+      return Error{name + ": the layers of '" + prefix + ".trunk' have up to " +
+                   std::to_string(trunk->scratch_size() / 2) + " units; expected at most " +
+                   std::to_string(kMaxUnits)};
+    }
+    for (int h = 0; h < networks[n].heads; ++h) {
+      Result<DenseLayer> head = read_layer(file, prefix + ".head." + std::to_string(h),
+                                           trunk->outputs(), networks[n].outputs, name);
+      if (!head) return head.error();
+      heads_[n].push_back(*std::move(head));
+    }
+    trunks[n] = *std::move(trunk);
   }
-  return network;
+  if (static_cast<size_t>(inputs) > kMaxInputs) {
+    return Error{name + ": has " + std::to_string(styles) + " styles; expected at most " +
+                 std::to_string(kMaxInputs - 800) + " with this recipe"};
+  }
+  trunks_ = TrunkTrio(std::move(trunks));
+  return {};
 }
 
 Result<void> Model::read_numbers(const TensorFile& file, const std::string& name) {
-  const int numbers = pose_numbers(layout_), styles = static_cast<int>(styles_.size());
+  const int numbers = pose_numbers(layout_);
   const bool heads = recipe_ == Recipe::panache;
   const int outputs = heads ? kChangeNumbers : numbers;
   const struct {
@@ -158,23 +179,12 @@ Result<void> Model::read_numbers(const TensorFile& file, const std::string& name
   for (const float scale : input_scale_) {
     if (scale <= 0) return Error{name + ": tensor 'input.scale' must be above zero throughout"};
   }
-  const struct {
-    const char* prefix;
-    int outputs, heads;
-    Network* to;
-  } networks[] = {{"pose", outputs, heads ? styles : 1, &pose_},
-                  {"timing", 1, heads ? styles : 1, &timing_},
-                  {"contact", 2, heads ? styles + 1 : 1, &contact_}};
-  for (const auto& [prefix, size, count, to] : networks) {
-    Result<Network> read = read_network(file, prefix, size, count, name);
-    if (!read) return read.error();
-    *to = *std::move(read);
-  }
+  if (auto read = read_networks(file, name); !read) return read.error();
   return read_gate(file, name);
 }
 
 Result<void> Model::read_gate(const TensorFile& file, const std::string& name) {
-  const int hidden = pose_.trunk.outputs();
+  const int hidden = trunks_.outputs(kPose);
   gate_.mean.assign(hidden, 0.0f);
   const bool gated = std::any_of(file.tensors.begin(), file.tensors.end(), [](const auto& tensor) {
     return tensor.first.starts_with("gate.");

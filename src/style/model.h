@@ -51,12 +51,15 @@ class Model {
  private:
   friend class StyleNetworks;
 
-  // One network: a trunk, and on it one head per style (recipe panache; heads[0] is for no style at
-  // all where the network has one) or one output layer (smith2019: heads[0]).
-  struct Network {
-    Trunk trunk;
-    std::vector<DenseLayer> heads;
-  };
+  // A file may not exceed these, so that a step finds room for its work on the stack.
+  static constexpr size_t kMaxInputs = 2048, kMaxUnits = 512, kMaxOutputs = 256;
+  static constexpr size_t kMaxScratch = 9 * kMaxUnits;  // Of all three trunks.
+
+  // The networks, by their place in trunks_ and heads_.
+  enum { kPose, kTiming, kContact, kNetworks };
+  // On each trunk one head per style (recipe panache; the contact network has one for no style at
+  // all before them) or one output layer (smith2019).
+  using Heads = std::vector<DenseLayer>;
   // How far a window is from those that the model was trained on: the length of the whitened
   // difference of the pose trunk's features from their mean. Absent (no whitening) in models of
   // recipe smith2019.
@@ -69,8 +72,7 @@ class Model {
   Result<void> read_metadata(const TensorFile& file, const std::string& name);
   Result<void> read_numbers(const TensorFile& file, const std::string& name);
   Result<void> read_gate(const TensorFile& file, const std::string& name);
-  Result<Network> read_network(const TensorFile& file, const std::string& prefix, int outputs,
-                               int heads, const std::string& name) const;
+  Result<void> read_networks(const TensorFile& file, const std::string& name);
 
   Recipe recipe_ = Recipe::panache;
   PoseLayout layout_ = PoseLayout::positions;
@@ -80,18 +82,20 @@ class Model {
   std::vector<float> output_scale_;              // [pose outputs]
   std::vector<float> output_mean_;               // The same; smith2019 only, else zero.
   float input_clip_ = 0;                         // In deviations; 0 clips nothing.
-  Network pose_, timing_, contact_;
+  TrunkTrio trunks_;
+  std::array<Heads, kNetworks> heads_;
   Gate gate_;
   size_t parameter_count_ = 0;
 };
 
-// The evaluation of a model for one character: its heads as mixed for the strengths in force.
+// The evaluation of a model for one character. It holds little more than its results: what it works
+// in is on the stack, so that a thousand characters share the caches with the one model.
 class StyleNetworks {
  public:
   explicit StyleNetworks(std::shared_ptr<const Model> model);
 
-  // Mixes the heads for these strengths, one per style of the model; above 1 a strength
-  // counts less. Free while they stay the same.
+  // Strengths in force from now on, one per style of the model; above 1 a strength counts less. A
+  // forward pass goes through the heads of the styles that are not 0, and through no other.
   void set_strengths(std::span<const float> strengths) noexcept;
 
   // Evaluates a window as PoseHistory::window() gives it. The results stay until the next call.
@@ -108,23 +112,25 @@ class StyleNetworks {
 
   const Model& model() const { return *model_; }
 
+  // Calls visit(member) for everything that tells one character from another of this model.
+  template <class Self, class Visit>
+  static void visit_state(Self& self, Visit&& visit) {
+    visit(self.strengths_), visit(self.pose_out_), visit(self.timing_out_);
+    visit(self.contact_out_), visit(self.gate_);
+  }
+
  private:
-  struct Mixed {
-    std::vector<float> weights, bias;
-  };
-  void mix(const Model::Network& network, bool has_base, Mixed& mixed) noexcept;
-  void run(const Model::Network& network, const Mixed& mixed, std::span<float> out) noexcept;
+  // The sum of a network's heads in force, each times its strength, on `hidden`.
+  void add_heads(int network, std::span<const float> hidden, std::span<float> out) const noexcept;
   // Pulls the pose trunk's features towards their mean as far as the gate is closed.
-  void shrink(std::span<const float> hidden, float gate_share) noexcept;
+  void shrink(std::span<const float> hidden, float gate_share, std::span<float> features) noexcept;
 
   std::shared_ptr<const Model> model_;
   std::vector<float> strengths_;
-  bool mixed_ = false;
-  std::vector<float> input_, scratch_;
-  Mixed pose_, timing_, contact_;
-  std::vector<float> pose_out_, timing_out_, contact_out_;
+  std::vector<float> pose_out_;
+  std::array<float, 1> timing_out_{};
+  std::array<float, 2> contact_out_{};
   float gate_ = 1;
-  std::vector<float> features_, centred_, white_, no_bias_;
 };
 
 }  // namespace panache

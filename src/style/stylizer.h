@@ -44,6 +44,15 @@ class Stylizer {
     step(in, strengths, seconds, seconds, out);
   }
 
+  // The character's memory as bytes, to go back to a moment (rollback, rewind): after restore() the
+  // next step gives what it gave after save(), bit for bit, on a stylizer of the same model,
+  // skeleton and options, and on the same kind of machine. Neither allocates.
+  size_t state_size() const noexcept;
+  // out.size() = state_size().
+  void save(std::span<std::byte> out) const noexcept;
+  // Returns false, and leaves the stylizer alone, where `in` is no whole state of such a stylizer.
+  bool restore(std::span<const std::byte> in) noexcept;
+
   // Input seconds per output second that the style asks for at the last step; 1 without a style.
   double rate() const noexcept { return std::exp(static_cast<double>(log_rate_)); }
   // See StyleNetworks::gate(); smoothed, at the last step.
@@ -57,6 +66,9 @@ class Stylizer {
   const Model& model() const noexcept { return networks_.model(); }
 
  private:
+  template <class Self, class Visit>
+  static void visit_state(Self& self, Visit&& visit);
+
   Stylizer(std::shared_ptr<const Model> model, Rig rig, const StylizerOptions& options);
 
   void take_input(ConstPose in) noexcept;

@@ -64,6 +64,32 @@ TEST(Trunk, runs_its_layers_one_after_another_with_elu_behind_each) {
   EXPECT_LE(y.data() + y.size(), scratch.data() + scratch.size());
 }
 
+TEST(TrunkTrio, gives_bit_for_bit_what_each_of_its_trunks_gives) {
+  // Widths that are no multiple of any vector, and a trunk of a single layer.
+  const std::vector<std::vector<int64_t>> sizes = {{37, 19, 6, 23}, {37, 5}, {37, 33, 7}};
+  std::array<Trunk, 3> trunks;
+  for (size_t t = 0; t < 3; ++t) {
+    TensorFile file;
+    for (size_t layer = 0; layer + 1 < sizes[t].size(); ++layer) {
+      const std::string key = "pose." + std::to_string(layer);
+      file.tensors[key + ".weight"] = ramp({sizes[t][layer], sizes[t][layer + 1]});
+      file.tensors[key + ".bias"] = ramp({sizes[t][layer + 1]});
+    }
+    trunks[t] = *Trunk::read(file, "pose", 37, kName);
+  }
+  const TrunkTrio trio(trunks);
+  const std::vector<float> x = ramp({37}).values;
+  std::vector<float> together(trio.scratch_size());
+  const auto outputs = trio.forward(x, together);
+  for (size_t t = 0; t < 3; ++t) {
+    std::vector<float> alone(trunks[t].scratch_size());
+    const std::span<const float> expected = trunks[t].forward(x, alone);
+    EXPECT_EQ(trio.outputs(t), trunks[t].outputs());
+    EXPECT_EQ(std::vector<float>(outputs[t].begin(), outputs[t].end()),
+              std::vector<float>(expected.begin(), expected.end()));
+  }
+}
+
 TEST(Trunk, takes_any_number_of_inputs_when_told_so) {
   const Result<Trunk> trunk = Trunk::read(small_file(), "pose", -1, kName);
   ASSERT_TRUE(trunk.ok());

@@ -262,5 +262,63 @@ TEST(Stylizer, options_out_of_range_are_refused_with_a_sentence) {
             "stylizer option of -1.000000 seconds; expected 0 to 10 seconds");
 }
 
+TEST_F(StylizerTest, a_restored_state_goes_on_bit_for_bit) {
+  const auto model = gated_model(1);
+  const Rig rig = *Rig::create(clip_);
+  Stylizer one = *Stylizer::create(model, rig), other = *Stylizer::create(model, rig);
+  const std::vector<float> strengths = {0.7f, 0.4f};
+  Clip out = clip_, again = clip_;
+  const auto go = [&](Stylizer& stylizer, int from, int to, Clip& result) {
+    for (int f = from; f < to; ++f) {
+      stylizer.step(clip_.pose(f), strengths, clip_.frame_time, result.pose(f));
+    }
+  };
+  go(one, 0, 50, out);
+  std::vector<std::byte> state(one.state_size());
+  const long before = test::allocations;
+  one.save(state);
+  EXPECT_EQ(test::allocations, before);
+  go(one, 50, 100, out);
+  // Rewound by the same character, and taken over by one that was somewhere else.
+  go(other, 20, 40, again);
+  for (Stylizer* stylizer : {&one, &other}) {
+    ASSERT_TRUE(stylizer->restore(state));
+    go(*stylizer, 50, 100, again);
+    for (size_t i = 50 * clip_.joints(); i < 100 * clip_.joints(); ++i) {
+      ASSERT_EQ(std::memcmp(&out.rotations[i], &again.rotations[i], sizeof(Quat)), 0);
+      ASSERT_EQ(std::memcmp(&out.translations[i], &again.translations[i], sizeof(Vec3)), 0);
+    }
+  }
+}
+
+TEST_F(StylizerTest, a_state_that_is_damaged_or_of_another_model_is_refused) {
+  Stylizer character = stylizer();
+  run(character, {1, 0});
+  std::vector<std::byte> state(character.state_size()), kept(state.size());
+  character.save(state);
+  EXPECT_FALSE(character.restore(std::span(state).first(state.size() - 1)));
+  EXPECT_FALSE(character.restore({}));
+  for (size_t i = 0; i < state.size(); i += 97) {
+    std::vector<std::byte> damaged = state;
+    damaged[i] ^= std::byte{1};
+    EXPECT_FALSE(character.restore(damaged)) << "byte " << i;
+  }
+  character.save(kept);
+  EXPECT_EQ(kept, state);
+  EXPECT_FALSE(stylizer({}, Recipe::smith2019).restore(state));
+}
+
+TEST_F(StylizerTest, a_character_takes_at_most_16_kilobytes_beside_model_and_rig) {
+  const auto model = Model::load(std::string(PANACHE_SOURCE_DIR) + "/models/panache.safetensors");
+  const Rig rig = *Rig::create(clip_);
+  const size_t before = test::allocated_bytes;
+  const Stylizer character = *Stylizer::create(*model, rig);
+  const size_t heap = test::allocated_bytes - before;
+  // What is asked for while creating is an upper bound of what is kept.
+  std::printf("%zu bytes, of which %zu on the heap while creating\n", sizeof character + heap,
+              heap);
+  EXPECT_LE(sizeof character + heap, 16 * 1024u);
+}
+
 }  // namespace
 }  // namespace panache
