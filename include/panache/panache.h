@@ -1,0 +1,199 @@
+/* Panache: gives the motion of a character a style, live. The whole interface of the library.
+ *
+ *     panache_model *model = NULL;           (shared by all characters)
+ *     panache_skeleton *skeleton = NULL;     (shared by all characters with the same rig)
+ *     panache_character *character = NULL;   (one for each)
+ *     panache_model_create(bytes, size, &model);
+ *     panache_skeleton_create(joints, joint_count, NULL, &skeleton);
+ *     panache_character_create(model, skeleton, NULL, &character);
+ *     panache_character_set_strength(character, panache_model_find_style(model, "old"), 1.0f);
+ *     each frame: panache_character_step(character, in, 1.0 / 60, out);
+ *
+ * Conventions. Rotations are unit quaternions x, y, z, w and translations three numbers, both of a
+ * joint relative to its parent, in the units and axes of the skeleton itself (any; they are found,
+ * or told). Joints stand in the order in which the skeleton was given, parents before children.
+ * Seconds are double. Strings are UTF-8 and end with a zero.
+ *
+ * Errors. Functions that can fail return a panache_status; panache_last_error() then says in one
+ * sentence what was wrong. Whatever they were to create is NULL then. Functions that cannot fail
+ * return what they are asked for, or nothing. Arguments are not checked for NULL unless it says so.
+ *
+ * Memory. What a _create function gives is the caller's, to be given back to the _destroy function
+ * of its kind, in any order: characters keep the model and skeleton that they need. The library
+ * keeps no pointer that it was given. Stepping allocates nothing, locks nothing, and cannot fail.
+ *
+ * Threads. Models and skeletons may be used by any number of threads at once, a character by one at
+ * a time. Equal inputs give the same bits on every instruction set.
+ */
+#ifndef PANACHE_PANACHE_H_
+#define PANACHE_PANACHE_H_
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(_WIN32)
+#if defined(PANACHE_BUILDS_SHARED)
+#define PANACHE_API __declspec(dllexport)
+#elif defined(PANACHE_USES_SHARED)
+#define PANACHE_API __declspec(dllimport)
+#else
+#define PANACHE_API
+#endif
+#else
+#define PANACHE_API __attribute__((visibility("default")))
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Versions and errors -------------------------------------------------------------------- */
+
+/* The version of this header. Programs run with any library of the same major version (of the same
+ * minor version while the major one is 0) that is no older. */
+#define PANACHE_VERSION_MAJOR 0
+#define PANACHE_VERSION_MINOR 1
+#define PANACHE_VERSION_PATCH 0
+
+/* The library's own version: 10000 major + 100 minor + patch. */
+PANACHE_API int32_t panache_version(void);
+
+typedef enum panache_status {
+  PANACHE_OK = 0,
+  PANACHE_BAD_MODEL = 1,    /* The bytes are no model that this library can use. */
+  PANACHE_BAD_SKELETON = 2, /* The joints are no skeleton, or no humanoid. */
+  PANACHE_BAD_ARGUMENT = 3, /* An option is out of its range. */
+  PANACHE_BAD_STATE = 4,    /* The bytes are no state of such a character. */
+  PANACHE_NO_MEMORY = 5
+} panache_status;
+
+/* What was wrong when a function of this thread last failed, as one sentence; "" if none has. Valid
+ * until the next failure in the same thread. */
+PANACHE_API const char *panache_last_error(void);
+
+/* ---- Models --------------------------------------------------------------------------------- */
+
+/* A trained model: its styles and networks. Never changes. */
+typedef struct panache_model panache_model;
+
+/* Reads a model from the bytes of its file (.safetensors), which may go afterwards. */
+PANACHE_API panache_status panache_model_create(const void *bytes, size_t size,
+                                                panache_model **out);
+/* Does nothing with NULL. */
+PANACHE_API void panache_model_destroy(panache_model *model);
+
+/* Number of styles; they are told apart by their places, from 0. */
+PANACHE_API int32_t panache_model_style_count(const panache_model *model);
+/* The name of a style ("old"), valid as long as the model; NULL where none is at that place. */
+PANACHE_API const char *panache_model_style_name(const panache_model *model, int32_t style);
+/* The place of the style of that name, or -1. */
+PANACHE_API int32_t panache_model_find_style(const panache_model *model, const char *name);
+
+/* ---- Skeletons ------------------------------------------------------------------------------ */
+
+/* A rig, and which of its joints are a humanoid's. Never changes. */
+typedef struct panache_skeleton panache_skeleton;
+
+/* One joint as the caller has it. */
+typedef struct panache_joint {
+  const char *name;     /* "LeftHand", "mixamorig:LeftHand", "hand_l", ...; may be "". */
+  int32_t parent;       /* Place of the parent, smaller than the joint's own; -1 for a root. */
+  float rotation[4];    /* At rest, relative to the parent. */
+  float translation[3]; /* Likewise. */
+} panache_joint;
+
+/* What may be told about a rig instead of having it found. Start with all zero. */
+typedef struct panache_skeleton_options {
+  float metres_per_unit; /* 0: judged by the length of the legs. */
+  const char *up_axis;   /* "+Y", "-Z", ...; NULL: found. */
+  /* A few poses of the rig's ordinary motion; they tell the axes, the floor and the sides of joints
+   * without names better than the rest pose alone, which stands in where there are none. */
+  const float *rotations;    /* [pose_count][joint_count][4] */
+  const float *translations; /* [pose_count][joint_count][3] */
+  int32_t pose_count;
+} panache_skeleton_options;
+
+/* Finds the humanoid among the joints, by their names and their shape. `options` may be NULL. */
+PANACHE_API panache_status panache_skeleton_create(const panache_joint *joints, int32_t joint_count,
+                                                   const panache_skeleton_options *options,
+                                                   panache_skeleton **out);
+/* Does nothing with NULL. */
+PANACHE_API void panache_skeleton_destroy(panache_skeleton *skeleton);
+
+PANACHE_API int32_t panache_skeleton_joint_count(const panache_skeleton *skeleton);
+/* The place of the joint that a VRM humanoid joint was found to be ("leftHand", "hips", ...), or -1
+ * where the rig has none or there is no such name. */
+PANACHE_API int32_t panache_skeleton_find(const panache_skeleton *skeleton, const char *vrm_name);
+
+/* ---- Characters ----------------------------------------------------------------------------- */
+
+/* One character in motion: its memory of the last third of a second. */
+typedef struct panache_character panache_character;
+
+/* How a character is styled. Start with PANACHE_CHARACTER_OPTIONS. */
+typedef struct panache_character_options {
+  float ease_seconds;      /* A change of strength takes about this long; 0 to 10. */
+  float smoothing_seconds; /* Time constant of the filter on what a style adds; 0 to 10. */
+  int32_t hold_feet;       /* 1: planted feet are held in place. */
+  int32_t style_root;      /* 1: the way over the ground is styled too. */
+} panache_character_options;
+#define PANACHE_CHARACTER_OPTIONS {0.15f, 0.04f, 1, 1}
+
+/* `options` may be NULL. */
+PANACHE_API panache_status panache_character_create(const panache_model *model,
+                                                    const panache_skeleton *skeleton,
+                                                    const panache_character_options *options,
+                                                    panache_character **out);
+/* Does nothing with NULL. */
+PANACHE_API void panache_character_destroy(panache_character *character);
+
+/* Sets how strongly a style acts from now on: 0 not at all, 1 as captured, more exaggerates; held
+ * within -4 to 4, and eased over a few frames. Styles add up. A place without a style and numbers
+ * that are not finite are ignored. */
+PANACHE_API void panache_character_set_strength(panache_character *character, int32_t style,
+                                                float strength);
+
+/* An instant of a rig, to be read and to be written. */
+typedef struct panache_input_pose {
+  const float *rotations;    /* [joint_count][4] */
+  const float *translations; /* [joint_count][3] */
+} panache_input_pose;
+typedef struct panache_output_pose {
+  float *rotations;    /* [joint_count][4] */
+  float *translations; /* [joint_count][3] */
+} panache_output_pose;
+
+/* Styles the next pose of a character; `seconds` have gone by since the last. Both poses may be the
+ * same arrays. With all strengths at 0, `out` is `in` bit for bit (models of recipe panache).
+ * Poses that are not finite are replaced by the last good one; after half a second without a step,
+ * or a leap, the past is forgotten. */
+PANACHE_API void panache_character_step(panache_character *character, panache_input_pose in,
+                                        double seconds, panache_output_pose out);
+/* Does the same for many characters, one after another: in[i] becomes out[i]. */
+PANACHE_API void panache_step_many(panache_character *const *characters, int32_t count,
+                                   const panache_input_pose *in, double seconds,
+                                   const panache_output_pose *out);
+/* Forgets the motion so far; strengths stay. */
+PANACHE_API void panache_character_reset(panache_character *character);
+
+/* What went on at the last step. */
+typedef struct panache_report {
+  double rate;       /* Seconds of input that the style would take per second: 0.5 to 2. */
+  float gate;        /* 1: motion like what the model knows; 0: unlike, the style's mean is used. */
+  float contacts[2]; /* Probability that the left and the right foot are planted. */
+} panache_report;
+PANACHE_API panache_report panache_character_report(const panache_character *character);
+
+/* A character's memory, to return to a moment (rollback, rewind): bytes for memory, not for files.
+ * save() writes panache_character_state_size() bytes. restore() takes them into any character of
+ * the same model, skeleton and options, which then goes on bit for bit; strengths as they were set
+ * are not part of it. On failure the character is as before. */
+PANACHE_API size_t panache_character_state_size(const panache_character *character);
+PANACHE_API void panache_character_save(const panache_character *character, void *out);
+PANACHE_API panache_status panache_character_restore(panache_character *character,
+                                                     const void *bytes, size_t size);
+
+#ifdef __cplusplus
+}
+#endif
+#endif /* PANACHE_PANACHE_H_ */

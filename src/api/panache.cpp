@@ -1,0 +1,276 @@
+// The C interface: checks what comes in, and hands it on.
+#include "panache/panache.h"
+
+#include <cmath>
+#include <memory>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "rig/rig.h"
+#include "style/model.h"
+#include "style/stylizer.h"
+
+struct panache_model {
+  std::shared_ptr<const panache::Model> model;
+};
+struct panache_skeleton {
+  panache::Rig rig;
+};
+struct panache_character {
+  panache::Stylizer stylizer;
+  std::vector<float> strengths;  // As set.
+};
+
+namespace {
+
+using namespace panache;
+
+static_assert(sizeof(Quat) == 4 * sizeof(float) && sizeof(Vec3) == 3 * sizeof(float));
+
+constexpr int32_t kMaxJoints = 10'000, kMaxPoses = 10'000;
+
+// Kept per thread; its room stays, so that a short sentence needs no memory.
+std::string& last_error() {
+  thread_local std::string sentence;
+  return sentence;
+}
+
+panache_status fail(panache_status status, const std::string& sentence) {
+  last_error() = sentence;
+  return status;
+}
+
+// Runs `work`, which may allocate; C knows no exceptions.
+template <class Work>
+panache_status guarded(Work&& work) noexcept {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    try {
+      return fail(PANACHE_NO_MEMORY, "there is not enough memory");
+    } catch (...) {
+      return PANACHE_NO_MEMORY;
+    }
+  } catch (...) {
+    return PANACHE_NO_MEMORY;  // Containers throw nothing else but for sizes beyond any memory.
+  }
+}
+
+template <class T>
+void start(T** out) {
+  *out = nullptr;
+}
+
+Quat quat(const float* q) { return {q[0], q[1], q[2], q[3]}; }
+Vec3 vec(const float* v) { return {v[0], v[1], v[2]}; }
+
+// A rotation that is nearly of unit length, made so; nothing where it is not.
+bool make_unit(Quat& q) {
+  const float square = dot(q, q);
+  if (!is_finite(q) || std::abs(square - 1) > 0.1f) return false;
+  q = normalized(q);
+  return true;
+}
+
+Result<Skeleton> read_skeleton(const panache_joint* joints, int32_t count) {
+  if (count < 1 || count > kMaxJoints) {
+    return Error{std::to_string(count) + " joints; expected 1 to " + std::to_string(kMaxJoints)};
+  }
+  Skeleton out;
+  for (int32_t j = 0; j < count; ++j) {
+    Joint joint;
+    joint.name = joints[j].name ? joints[j].name : "";
+    joint.parent = joints[j].parent;
+    joint.rest = quat(joints[j].rotation);
+    joint.offset = vec(joints[j].translation);
+    joint.can_rotate = joint.can_translate = true;
+    const std::string place = "joint " + std::to_string(j) + " '" + joint.name + "': ";
+    if (joint.parent < -1 || joint.parent >= j) {
+      return Error{place + "parent is " + std::to_string(joint.parent) +
+                   "; expected a joint before it, or -1"};
+    }
+    if (!make_unit(joint.rest)) {
+      return Error{place + "its rest rotation is no unit quaternion (x, y, z, w)"};
+    }
+    if (!is_finite(joint.offset)) return Error{place + "its rest translation is not finite"};
+    out.joints.push_back(std::move(joint));
+  }
+  return out;
+}
+
+Result<Clip> read_poses(Skeleton skeleton, const panache_skeleton_options& options) {
+  const size_t joints = skeleton.joints.size();
+  Clip clip{std::move(skeleton), 1.0 / 30, 0, {}, {}};
+  const int32_t count = options.pose_count;
+  if (count < 0 || count > kMaxPoses) {
+    return Error{std::to_string(count) + " poses; expected 0 to " + std::to_string(kMaxPoses)};
+  }
+  if (count > 0 && (!options.rotations || !options.translations)) {
+    return Error{"poses need both rotations and translations"};
+  }
+  for (size_t i = 0; i < static_cast<size_t>(count) * joints; ++i) {
+    Quat q = quat(options.rotations + 4 * i);
+    if (!make_unit(q)) {
+      return Error{"pose " + std::to_string(i / joints) + ", joint " + std::to_string(i % joints) +
+                   ": its rotation is no unit quaternion (x, y, z, w)"};
+    }
+    clip.rotations.push_back(q);
+    clip.translations.push_back(vec(options.translations + 3 * i));
+  }
+  clip.frames = count;
+  if (count == 0) {
+    for (const Joint& joint : clip.skeleton.joints) {
+      clip.rotations.push_back(joint.rest);
+      clip.translations.push_back(joint.offset);
+    }
+    clip.frames = 1;
+  }
+  return clip;
+}
+
+ConstPose view(const panache_input_pose& pose, size_t joints) {
+  return {{reinterpret_cast<const Quat*>(pose.rotations), joints},
+          {reinterpret_cast<const Vec3*>(pose.translations), joints}};
+}
+Pose view(const panache_output_pose& pose, size_t joints) {
+  return {{reinterpret_cast<Quat*>(pose.rotations), joints},
+          {reinterpret_cast<Vec3*>(pose.translations), joints}};
+}
+
+}  // namespace
+
+int32_t panache_version(void) {
+  return 10000 * PANACHE_VERSION_MAJOR + 100 * PANACHE_VERSION_MINOR + PANACHE_VERSION_PATCH;
+}
+
+const char* panache_last_error(void) { return last_error().c_str(); }
+
+panache_status panache_model_create(const void* bytes, size_t size, panache_model** out) {
+  start(out);
+  return guarded([&] {
+    auto model = Model::parse({static_cast<const char*>(bytes), size}, "model");
+    if (!model) return fail(PANACHE_BAD_MODEL, model.error().message);
+    *out = new panache_model{*std::move(model)};
+    return PANACHE_OK;
+  });
+}
+
+void panache_model_destroy(panache_model* model) { delete model; }
+
+int32_t panache_model_style_count(const panache_model* model) {
+  return static_cast<int32_t>(model->model->styles().size());
+}
+
+const char* panache_model_style_name(const panache_model* model, int32_t style) {
+  if (style < 0 || style >= panache_model_style_count(model)) return nullptr;
+  return model->model->styles()[static_cast<size_t>(style)].name.c_str();
+}
+
+int32_t panache_model_find_style(const panache_model* model, const char* name) {
+  for (int32_t i = 0; i < panache_model_style_count(model); ++i) {
+    if (model->model->styles()[static_cast<size_t>(i)].name == name) return i;
+  }
+  return -1;
+}
+
+panache_status panache_skeleton_create(const panache_joint* joints, int32_t joint_count,
+                                       const panache_skeleton_options* options,
+                                       panache_skeleton** out) {
+  start(out);
+  return guarded([&] {
+    const panache_skeleton_options told = options ? *options : panache_skeleton_options{};
+    Result<Skeleton> skeleton = read_skeleton(joints, joint_count);
+    if (!skeleton) return fail(PANACHE_BAD_SKELETON, skeleton.error().message);
+    Result<Clip> clip = read_poses(*std::move(skeleton), told);
+    if (!clip) return fail(PANACHE_BAD_ARGUMENT, clip.error().message);
+    RigOptions how;
+    if (told.metres_per_unit != 0) how.metres_per_unit = told.metres_per_unit;
+    if (told.up_axis) how.up_axis = told.up_axis;
+    Result<Rig> rig = Rig::create(*clip, how);
+    if (!rig) return fail(PANACHE_BAD_SKELETON, rig.error().message);
+    *out = new panache_skeleton{*std::move(rig)};
+    return PANACHE_OK;
+  });
+}
+
+void panache_skeleton_destroy(panache_skeleton* skeleton) { delete skeleton; }
+
+int32_t panache_skeleton_joint_count(const panache_skeleton* skeleton) {
+  return static_cast<int32_t>(skeleton->rig.joint_count());
+}
+
+int32_t panache_skeleton_find(const panache_skeleton* skeleton, const char* vrm_name) {
+  const std::optional<int> joint = find_human_joint(vrm_name);
+  return joint ? skeleton->rig.joints()[static_cast<size_t>(*joint)] : -1;
+}
+
+panache_status panache_character_create(const panache_model* model,
+                                        const panache_skeleton* skeleton,
+                                        const panache_character_options* options,
+                                        panache_character** out) {
+  start(out);
+  return guarded([&] {
+    StylizerOptions how;
+    if (options) {
+      how.ease_seconds = options->ease_seconds;
+      how.smoothing_seconds = options->smoothing_seconds;
+      how.foot_lock = options->hold_feet != 0;
+      how.root = options->style_root != 0;
+    }
+    Result<Stylizer> stylizer = Stylizer::create(model->model, skeleton->rig, how);
+    if (!stylizer) return fail(PANACHE_BAD_ARGUMENT, stylizer.error().message);
+    *out = new panache_character{*std::move(stylizer),
+                                 std::vector<float>(model->model->styles().size())};
+    return PANACHE_OK;
+  });
+}
+
+void panache_character_destroy(panache_character* character) { delete character; }
+
+void panache_character_set_strength(panache_character* character, int32_t style, float strength) {
+  const auto place = static_cast<size_t>(style);
+  if (style < 0 || place >= character->strengths.size() || !std::isfinite(strength)) return;
+  character->strengths[place] = strength;
+}
+
+void panache_character_step(panache_character* character, panache_input_pose in, double seconds,
+                            panache_output_pose out) {
+  const size_t joints = character->stylizer.rig().joint_count();
+  character->stylizer.step(view(in, joints), character->strengths, seconds, view(out, joints));
+}
+
+void panache_step_many(panache_character* const* characters, int32_t count,
+                       const panache_input_pose* in, double seconds,
+                       const panache_output_pose* out) {
+  for (int32_t i = 0; i < count; ++i) panache_character_step(characters[i], in[i], seconds, out[i]);
+}
+
+void panache_character_reset(panache_character* character) { character->stylizer.reset(); }
+
+panache_report panache_character_report(const panache_character* character) {
+  const Stylizer& stylizer = character->stylizer;
+  const std::span<const float> contacts = stylizer.contacts();
+  return {stylizer.rate(), stylizer.gate(), {contacts[0], contacts[1]}};
+}
+
+size_t panache_character_state_size(const panache_character* character) {
+  return character->stylizer.state_size();
+}
+
+void panache_character_save(const panache_character* character, void* out) {
+  const size_t size = character->stylizer.state_size();
+  character->stylizer.save({static_cast<std::byte*>(out), size});
+}
+
+panache_status panache_character_restore(panache_character* character, const void* bytes,
+                                         size_t size) {
+  if (character->stylizer.restore({static_cast<const std::byte*>(bytes), size})) return PANACHE_OK;
+  return guarded([&] {
+    return fail(PANACHE_BAD_STATE, "expected the " +
+                                       std::to_string(character->stylizer.state_size()) +
+                                       " bytes of a state saved by a character of the same model, "
+                                       "skeleton and options; found " +
+                                       std::to_string(size) + " bytes that are none");
+  });
+}

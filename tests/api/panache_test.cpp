@@ -1,0 +1,254 @@
+// The C interface: what it promises in panache.h, through the shared library.
+#include "panache/panache.h"
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "../../samples/common/stick_figure.h"
+
+namespace {
+
+std::string model_bytes() {
+  std::ifstream file(PANACHE_SOURCE_DIR "/models/panache.safetensors", std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class Api : public testing::Test {
+ protected:
+  void SetUp() override {
+    const std::string bytes = model_bytes();
+    ASSERT_EQ(panache_model_create(bytes.data(), bytes.size(), &model_), PANACHE_OK)
+        << panache_last_error();
+    ASSERT_EQ(panache_skeleton_create(stick_figure, STICK_JOINTS, nullptr, &skeleton_), PANACHE_OK)
+        << panache_last_error();
+  }
+  void TearDown() override {
+    panache_skeleton_destroy(skeleton_);
+    panache_model_destroy(model_);
+  }
+  panache_character* character(const char* style = nullptr, float strength = 1) const {
+    panache_character* out = nullptr;
+    EXPECT_EQ(panache_character_create(model_, skeleton_, nullptr, &out), PANACHE_OK);
+    if (style) {
+      panache_character_set_strength(out, panache_model_find_style(model_, style), strength);
+    }
+    return out;
+  }
+  static std::vector<stick_pose> walk(panache_character* character, int frames, double phase = 0) {
+    std::vector<stick_pose> out(static_cast<size_t>(frames));
+    for (int f = 0; f < frames; ++f) {
+      stick_pose in;
+      stick_walk(f / 60.0, phase, &in);
+      panache_character_step(character, stick_input(&in), 1 / 60.0, stick_output(&out[f]));
+    }
+    return out;
+  }
+  static bool same(const std::vector<stick_pose>& a, const std::vector<stick_pose>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
+  }
+
+  panache_model* model_ = nullptr;
+  panache_skeleton* skeleton_ = nullptr;
+};
+
+TEST_F(Api, knows_its_styles_by_name_and_place) {
+  const int count = panache_model_style_count(model_);
+  ASSERT_GT(count, 1);
+  for (int i = 0; i < count; ++i) {
+    EXPECT_EQ(panache_model_find_style(model_, panache_model_style_name(model_, i)), i);
+  }
+  EXPECT_EQ(panache_model_find_style(model_, "no such style"), -1);
+  EXPECT_EQ(panache_model_style_name(model_, -1), nullptr);
+  EXPECT_EQ(panache_model_style_name(model_, count), nullptr);
+  EXPECT_EQ(panache_version(), 100);
+}
+
+TEST_F(Api, finds_the_humanoid_in_the_skeleton) {
+  EXPECT_EQ(panache_skeleton_joint_count(skeleton_), STICK_JOINTS);
+  EXPECT_EQ(panache_skeleton_find(skeleton_, "hips"), 0);
+  EXPECT_EQ(panache_skeleton_find(skeleton_, "leftHand"), 7);
+  EXPECT_EQ(panache_skeleton_find(skeleton_, "rightToes"), 18);
+  EXPECT_EQ(panache_skeleton_find(skeleton_, "leftShoulder"), -1);
+  EXPECT_EQ(panache_skeleton_find(skeleton_, "tail"), -1);
+}
+
+TEST_F(Api, strength_zero_is_the_input_bit_for_bit_and_one_is_not) {
+  panache_character* plain = character();
+  panache_character* old = character("old");
+  std::vector<stick_pose> input(60);
+  for (int f = 0; f < 60; ++f) stick_walk(f / 60.0, 0, &input[f]);
+  EXPECT_TRUE(same(walk(plain, 60), input));
+  EXPECT_FALSE(same(walk(old, 60), input));
+  const panache_report report = panache_character_report(old);
+  EXPECT_GT(report.rate, 0.5);
+  EXPECT_LT(report.rate, 2);
+  EXPECT_GE(report.gate, 0);
+  EXPECT_LE(report.gate, 1);
+  panache_character_destroy(plain);
+  panache_character_destroy(old);
+}
+
+TEST_F(Api, many_at_once_are_the_same_as_one_after_another) {
+  std::vector<panache_character*> one, all;
+  for (int i = 0; i < 5; ++i) {
+    const char* style = panache_model_style_name(model_, i);
+    one.push_back(character(style));
+    all.push_back(character(style));
+  }
+  for (int f = 0; f < 60; ++f) {
+    std::vector<stick_pose> poses(5), expected(5);
+    std::vector<panache_input_pose> in;
+    std::vector<panache_output_pose> out;
+    for (int i = 0; i < 5; ++i) {
+      stick_walk(f / 60.0, i * 0.2, &poses[i]);
+      panache_character_step(one[i], stick_input(&poses[i]), 1 / 60.0, stick_output(&expected[i]));
+      in.push_back(stick_input(&poses[i]));
+      out.push_back(stick_output(&poses[i]));
+    }
+    panache_step_many(all.data(), 5, in.data(), 1 / 60.0, out.data());
+    ASSERT_TRUE(same(poses, expected)) << "frame " << f;
+  }
+  for (panache_character* c : one) panache_character_destroy(c);
+  for (panache_character* c : all) panache_character_destroy(c);
+}
+
+TEST_F(Api, characters_outlive_model_and_skeleton_handles) {
+  panache_character* old = character("old");
+  panache_model_destroy(model_);
+  panache_skeleton_destroy(skeleton_);
+  model_ = nullptr;
+  skeleton_ = nullptr;
+  EXPECT_EQ(walk(old, 30).size(), 30u);
+  panache_character_destroy(old);
+}
+
+TEST_F(Api, a_reset_character_starts_afresh) {
+  panache_character* old = character("old");
+  // So short a walk that its beginning again is no leap, which would be forgotten anyway.
+  const std::vector<stick_pose> first = walk(old, 3);
+  EXPECT_FALSE(same(walk(old, 3), first));
+  panache_character_reset(old);
+  EXPECT_TRUE(same(walk(old, 3), first));
+  panache_character_destroy(old);
+}
+
+TEST_F(Api, a_saved_state_goes_back_and_a_damaged_one_is_refused) {
+  panache_character* old = character("old");
+  walk(old, 40);
+  std::vector<char> state(panache_character_state_size(old));
+  panache_character_save(old, state.data());
+  const std::vector<stick_pose> first = walk(old, 40, 0.5);
+  ASSERT_EQ(panache_character_restore(old, state.data(), state.size()), PANACHE_OK);
+  EXPECT_TRUE(same(walk(old, 40, 0.5), first));
+  state[20] ^= 1;
+  EXPECT_EQ(panache_character_restore(old, state.data(), state.size()), PANACHE_BAD_STATE);
+  EXPECT_NE(std::string(panache_last_error()).find("of a state saved by a character"),
+            std::string::npos);
+  panache_character_destroy(old);
+}
+
+TEST_F(Api, bad_poses_and_clocks_never_give_bad_poses) {
+  panache_character* old = character("old");
+  panache_character_set_strength(old, 0, NAN);
+  panache_character_set_strength(old, -1, 1);
+  panache_character_set_strength(old, 1000, 1);
+  const float bad[] = {NAN, INFINITY, -INFINITY, 1e30f, std::numeric_limits<float>::denorm_min()};
+  const double clocks[] = {0, -1, 1e-9, 1e9, NAN, INFINITY, 1 / 60.0};
+  for (int f = 0; f < 700; ++f) {
+    stick_pose in, out;
+    stick_walk(f / 60.0, 0, &in);
+    if (f % 3) in.rotations[f % STICK_JOINTS][f % 4] = bad[f % 5];
+    if (f % 5) in.translations[f % STICK_JOINTS][f % 3] = bad[(f + 1) % 5];
+    panache_character_step(old, stick_input(&in), clocks[f % 7], stick_output(&out));
+    for (const auto& q : out.rotations) {
+      const double square =
+          double(q[0]) * q[0] + double(q[1]) * q[1] + double(q[2]) * q[2] + double(q[3]) * q[3];
+      ASSERT_NEAR(square, 1, 0.25) << "frame " << f;
+    }
+    for (const auto& t : out.translations) {
+      for (const float v : t) ASSERT_TRUE(std::isfinite(v)) << "frame " << f;
+    }
+  }
+  panache_character_destroy(old);
+}
+
+TEST_F(Api, what_is_wrong_is_said_in_a_sentence_and_nothing_is_created) {
+  panache_model* model = model_;
+  EXPECT_EQ(panache_model_create("no model", 8, &model), PANACHE_BAD_MODEL);
+  EXPECT_EQ(model, nullptr);
+  EXPECT_TRUE(std::string(panache_last_error()).starts_with("model: ")) << panache_last_error();
+
+  panache_skeleton* skeleton = skeleton_;
+  std::vector<panache_joint> joints(stick_figure, stick_figure + STICK_JOINTS);
+  const auto refusal = [&](panache_status status) {
+    EXPECT_EQ(
+        panache_skeleton_create(joints.data(), static_cast<int>(joints.size()), nullptr, &skeleton),
+        status);
+    EXPECT_EQ(skeleton, nullptr);
+    joints.assign(stick_figure, stick_figure + STICK_JOINTS);
+    return std::string(panache_last_error());
+  };
+  joints[3].parent = 5;
+  EXPECT_EQ(refusal(PANACHE_BAD_SKELETON),
+            "joint 3 'Neck': parent is 5; expected a joint before it, or -1");
+  joints[3].rotation[3] = 0;
+  EXPECT_EQ(refusal(PANACHE_BAD_SKELETON),
+            "joint 3 'Neck': its rest rotation is no unit quaternion (x, y, z, w)");
+  joints[3].translation[1] = NAN;
+  EXPECT_EQ(refusal(PANACHE_BAD_SKELETON), "joint 3 'Neck': its rest translation is not finite");
+  joints.resize(5);
+  EXPECT_TRUE(refusal(PANACHE_BAD_SKELETON).starts_with("no humanoid found: leftHand, rightHand"));
+  EXPECT_EQ(panache_skeleton_create(joints.data(), 0, nullptr, &skeleton), PANACHE_BAD_SKELETON);
+  EXPECT_STREQ(panache_last_error(), "0 joints; expected 1 to 10000");
+
+  panache_skeleton_options told = {};
+  told.up_axis = "up";
+  EXPECT_EQ(panache_skeleton_create(joints.data(), STICK_JOINTS, &told, &skeleton),
+            PANACHE_BAD_SKELETON);
+  EXPECT_STREQ(panache_last_error(), "expected an up axis from +X to -Z, found 'up'");
+  told = {};
+  told.pose_count = -1;
+  EXPECT_EQ(panache_skeleton_create(joints.data(), STICK_JOINTS, &told, &skeleton),
+            PANACHE_BAD_ARGUMENT);
+  EXPECT_STREQ(panache_last_error(), "-1 poses; expected 0 to 10000");
+
+  panache_character* none = nullptr;
+  panache_character_options options = PANACHE_CHARACTER_OPTIONS;
+  options.ease_seconds = -1;
+  EXPECT_EQ(panache_character_create(model_, skeleton_, &options, &none), PANACHE_BAD_ARGUMENT);
+  EXPECT_EQ(none, nullptr);
+  panache_character_destroy(none);
+}
+
+TEST_F(Api, every_prefix_of_a_model_is_refused) {
+  const std::string bytes = model_bytes();
+  for (size_t size = 0; size < bytes.size(); size += 1 + size / 2) {
+    panache_model* model = nullptr;
+    EXPECT_EQ(panache_model_create(bytes.data(), size, &model), PANACHE_BAD_MODEL) << size;
+  }
+}
+
+TEST_F(Api, two_threads_style_two_characters_of_one_model) {
+  panache_character* one = character("old");
+  panache_character* other = character("proud");
+  std::vector<stick_pose> first, second;
+  std::thread a([&] { first = walk(one, 200); }), b([&] { second = walk(other, 200); });
+  a.join();
+  b.join();
+  panache_character_reset(one);
+  panache_character_reset(other);
+  EXPECT_TRUE(same(walk(one, 200), first));
+  EXPECT_TRUE(same(walk(other, 200), second));
+  panache_character_destroy(one);
+  panache_character_destroy(other);
+}
+
+}  // namespace
