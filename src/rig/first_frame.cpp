@@ -45,10 +45,7 @@ Step step_between(ConstPose a, ConstPose b) {
 }  // namespace
 
 int find_first_frame(const Clip& clip, std::vector<std::string>& notes) {
-  if (clip.frames >= 2 && is_rest(clip, 0) && !is_rest(clip, 1)) {
-    notes.push_back("the first frame is the rest pose and left out");
-    return 1;
-  }
+  const bool rests = clip.frames >= 2 && is_rest(clip, 0) && !is_rest(clip, 1);
   constexpr int kLooked = 41;
   std::vector<int> all(clip.joints());
   std::iota(all.begin(), all.end(), 0);
@@ -62,15 +59,19 @@ int find_first_frame(const Clip& clip, std::vector<std::string>& notes) {
   }
   const Step first = step_between(frames.world(0), frames.world(1));
   const float size = size_of(frames.world(0));
-  // The next step tells a jump into the motion from a motion that is fast from its first frame.
+  // The next step tells a jump into the motion from a motion that is fast from its first frame. In
+  // many files joints rest as the motion begins, so a rest pose alone does not tell it either, but
+  // it takes less of a jump.
+  const float share = rests ? 0.02f : 0.1f, times = rests ? 3.0f : 8.0f;
   const auto jumps = [&](float step, const std::vector<float>& others) {
-    return step > 0.1f * size && step > 8 * quantile(others, 0.5f) + 1e-6f * size &&
+    return step > share * size && step > times * quantile(others, 0.5f) + 1e-6f * size &&
            step > 1.5f * others.front();
   };
   if (!jumps(first.pose, poses) && !jumps(first.root, roots)) return 0;
   const float jump = std::max(first.pose, first.root) / size;
-  notes.push_back("the first frame jumps by " + std::to_string(std::lround(100 * jump)) +
-                  " % of the body and is left out");
+  notes.push_back(rests ? "the first frame is the rest pose and left out"
+                        : "the first frame jumps by " + std::to_string(std::lround(100 * jump)) +
+                              " % of the body and is left out");
   return 1;
 }
 
