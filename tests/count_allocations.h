@@ -13,7 +13,7 @@
 namespace panache::test {
 inline std::atomic<long> allocations = 0;
 inline std::atomic<size_t> allocated_bytes = 0;  // All that was ever asked for.
-}
+}  // namespace panache::test
 
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   ++panache::test::allocations;

@@ -1,41 +1,19 @@
 // panache info: what a file is, and how its rig was understood.
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "clip/motion_file.h"
+#include "input.h"
 #include "model_report.h"
 #include "report.h"
-#include "rig/rig.h"
+#include "rig_options.h"
+#include "rig_report.h"
 #include "verbs.h"
 
 namespace panache::cli {
 namespace {
-
-// What the file's unit may be, judged by the length of the legs; empty where nothing comes close.
-std::string likely_unit(double metres) {
-  struct Unit {
-    const char* name;
-    double metres;
-  };
-  static constexpr std::array<Unit, 6> kUnits = {{{"metres", 1},
-                                                  {"feet", 0.3048},
-                                                  {"CMU units", 0.0564},
-                                                  {"inches", 0.0254},
-                                                  {"centimetres", 0.01},
-                                                  {"millimetres", 0.001}}};
-  // The scale is that of canonical legs, and people differ: 1.35 lies half-way between the
-  // neighbours in this list that are nearest to each other.
-  for (const Unit& unit : kUnits) {
-    if (std::abs(std::log(metres / unit.metres)) < std::log(1.35)) return unit.name;
-  }
-  return "";
-}
 
 // Each joint on a line, below and to the right of its parent.
 std::string draw_tree(const Skeleton& skeleton) {
@@ -63,37 +41,15 @@ std::string draw_tree(const Skeleton& skeleton) {
   return text;
 }
 
-std::string describe_mapping(const Rig& rig) {
-  const std::vector<JointMatch> matches = rig.matches();
-  const std::string column = "joint of the file";
-  size_t human = 0, own = column.size();
-  for (const JointMatch& match : matches) {
-    human = std::max(human, match.human_joint.size());
-    own = std::max(own, match.joint.size());
-  }
-  const auto scale = static_cast<double>(rig.scale());
-  const std::string unit = likely_unit(scale);
-  std::string text = "  unit    " + brief(scale, 3) + " m" +
-                     (unit.empty() ? "" : " (" + unit + ", most likely)") +
-                     ", judged by the legs\n";
-  text += "  up      " + rig.up_axis() + "\n";
-  text += std::string("  start   ") +
-          (rig.first_frame() ? "the first frame is a calibration pose, not motion: stylize leaves "
-                               "it as it is"
-                             : "the first frame is motion") +
-          "\n";
-  text += "\n  " + padded("humanoid", human + 2) + padded(column, own + 2) + "how it was found\n";
-  for (const JointMatch& match : matches) {
-    text += "  " + padded(match.human_joint, human + 2) +
-            padded(match.joint.empty() ? "-" : match.joint, own + 2) + match.reason + "\n";
-  }
-  if (!rig.notes().empty()) text += "\nNotes:\n";
-  for (const std::string& note : rig.notes()) text += "  " + note + "\n";
-  return text;
+std::string describe_length(const Clip& clip) {
+  return plural(static_cast<size_t>(clip.frames), "frame") + " at " + brief(1 / clip.frame_time) +
+         " a second: " + fixed(clip.duration(), 2) + " s";
 }
 
-std::string describe(const std::string& path, const Clip& clip) {
-  const std::vector<Joint>& joints = clip.skeleton.joints;
+// `shown` is the motion that the rest of the report is about.
+std::string describe(const std::string& path, const MotionFile& file, size_t shown) {
+  const std::vector<std::string> names = file.clip_names();
+  const std::vector<Joint>& joints = file.clip(static_cast<int>(shown)).skeleton.joints;
   const auto rotating = std::count_if(joints.begin(), joints.end(),
                                       [](const Joint& joint) { return joint.can_rotate; });
   const auto moving = std::count_if(joints.begin(), joints.end(),
@@ -101,23 +57,28 @@ std::string describe(const std::string& path, const Clip& clip) {
   std::string text = path + "\n";
   text += "  joints  " + std::to_string(joints.size()) + ", of which " + std::to_string(rotating) +
           " rotate and " + std::to_string(moving) + " move\n";
-  text += "  frames  " + std::to_string(clip.frames) + " at " + brief(1 / clip.frame_time) +
-          " a second: " + fixed(clip.duration(), 2) + " s\n";
+  if (names.empty()) text += "  motion  none: what follows is of the rest pose\n";
+  size_t width = 0;
+  for (const std::string& name : names) width = std::max(width, name.size());
+  for (size_t i = 0; i < names.size(); ++i) {
+    text += "  motion  " + (width ? padded(names[i], width + 2) : "") +
+            describe_length(file.clip(static_cast<int>(i))) +
+            (names.size() > 1 && i == shown ? " (shown below)\n" : "\n");
+  }
   return text;
 }
 
-Json mapping_json(const Rig& rig) {
-  Json joints = Json::array();
-  for (const JointMatch& match : rig.matches()) {
-    joints.push_back({{"humanoid", match.human_joint},
-                      {"joint", match.joint.empty() ? Json() : Json(match.joint)},
-                      {"reason", match.reason}});
+Json clips_json(const MotionFile& file) {
+  Json clips = Json::array();
+  const std::vector<std::string> names = file.clip_names();
+  for (size_t i = 0; i < names.size(); ++i) {
+    const Clip& clip = file.clip(static_cast<int>(i));
+    clips.push_back({{"name", names[i]},
+                     {"frames", clip.frames},
+                     {"frame_time", clip.frame_time},
+                     {"seconds", clip.duration()}});
   }
-  const auto scale = static_cast<double>(rig.scale());
-  const std::string unit = likely_unit(scale);
-  return {{"metres_per_unit", scale}, {"likely_unit", unit.empty() ? Json() : Json(unit)},
-          {"up_axis", rig.up_axis()}, {"first_frame", rig.first_frame()},
-          {"joints", joints},         {"notes", rig.notes()}};
+  return clips;
 }
 
 Json skeleton_json(const Skeleton& skeleton) {
@@ -132,26 +93,40 @@ Json skeleton_json(const Skeleton& skeleton) {
   return joints;
 }
 
-int motion_info(const std::string& path, bool tree, bool json) {
-  Result<std::unique_ptr<MotionFile>> file = read_motion(path);
+struct InfoVerb {
+  std::string file, clip;
+  RigFlags rig;
+  bool tree = false;
+  bool json = false;
+};
+
+int motion_info(const InfoVerb& verb) {
+  if (auto flags = check_rig_flags(verb.rig); !flags) return refuse(flags.error(), kBadUsage);
+  Result<RigOptions> options = read_rig_options(verb.rig);
+  if (!options) return refuse(options.error(), kBadInput);
+  Result<std::unique_ptr<MotionFile>> file = open_motion(verb.file);
   if (!file) return refuse(file.error(), kBadInput);
-  const Clip& clip = (*file)->clip();
+  size_t shown = 0;
+  if (!verb.clip.empty() || !(*file)->clip_names().empty()) {
+    Result<std::vector<int>> picked = pick_clips(**file, verb.clip, verb.file);
+    if (!picked) return refuse(picked.error(), kBadInput);
+    shown = static_cast<size_t>(picked->front());
+  }
+  const Clip& clip = (*file)->clip(static_cast<int>(shown));
   // A file that is no humanoid is still a file that one may want to look at.
-  const Result<Rig> rig = Rig::create(clip);
-  if (json) {
-    print(Json{{"file", path},
-               {"frames", clip.frames},
-               {"frame_time", clip.frame_time},
-               {"seconds", clip.duration()},
+  const Result<Rig> rig = make_rig(clip, *options, verb.file);
+  if (verb.json) {
+    print(Json{{"file", verb.file},
+               {"clips", clips_json(**file)},
                {"skeleton", skeleton_json(clip.skeleton)},
                {"mapping", rig ? mapping_json(*rig) : Json()},
                {"error", rig ? Json() : Json(rig.error().message)}});
   } else {
-    print(describe(path, clip));
-    if (rig) print(describe_mapping(*rig));
-    if (tree) print("\nSkeleton:\n" + draw_tree(clip.skeleton));
+    print(describe(verb.file, **file, shown));
+    if (rig) print(describe_mapping(*rig, *options));
+    if (verb.tree) print("\nSkeleton:\n" + draw_tree(clip.skeleton));
   }
-  return rig ? kDone : refuse({path + ": " + rig.error().message}, kBadInput);
+  return rig ? kDone : refuse(rig.error(), kBadInput);
 }
 
 // As styles, and all else that the file says of itself.
@@ -181,22 +156,25 @@ void add_info(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("info",
                                       "Show a motion file, how its rig was mapped, or a "
                                       "model");
-  struct Options {
-    std::string file;
-    bool tree = false;
-    bool json = false;
-  };
-  auto options = std::make_shared<Options>();
-  verb->add_option("FILE", options->file, "Motion file (.bvh) or model (.safetensors)")
+  auto options = std::make_shared<InfoVerb>();
+  verb->add_option("FILE", options->file,
+                   "Motion file (" + motion_endings() + ")\nor model (.safetensors)")
       ->required()
       ->type_name("");
+  verb->add_option("--clip", options->clip,
+                   "The motion to judge the rig by, of a file with\nseveral; default: the first")
+      ->type_name("NAME");
+  add_rig_options(*verb, options->rig);
   verb->add_flag("--tree", options->tree, "Draw the skeleton too");
   verb->add_flag("--json", options->json, "Print JSON");
-  verb->footer("Examples:\n  panache info walk.bvh\n  panache info models/panache.safetensors");
+  verb->footer(
+      "Examples:\n"
+      "  panache info walk.bvh\n"
+      "  panache info hero.glb --json > hero.json   (edit it, then: --map hero.json)\n"
+      "  panache info models/panache.safetensors");
   verb->callback([options, &exit_code] {
-    exit_code = options->file.ends_with(".safetensors")
-                    ? model_info(options->file, options->json)
-                    : motion_info(options->file, options->tree, options->json);
+    exit_code = options->file.ends_with(".safetensors") ? model_info(options->file, options->json)
+                                                        : motion_info(*options);
   });
 }
 

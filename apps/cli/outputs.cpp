@@ -3,21 +3,36 @@
 #include <filesystem>
 #include <map>
 
+#include "input.h"
 #include "report.h"
 
 namespace panache::cli {
 
 namespace fs = std::filesystem;
 
-Result<std::vector<std::string>> name_outputs(const std::vector<std::string>& inputs,
-                                              const std::string& output) {
+namespace {
+
+// Existing files that a sentence names before it says how many more there are.
+constexpr size_t kNamed = 3;
+
+fs::path with_ending(fs::path name, const std::string& ending) {
+  const std::string own = ending_of(name.string());
+  if (!ending.empty() && ending != own) return name.replace_extension(ending);
+  return ending.empty() && own == ".fbx" ? name.replace_extension(".glb") : name;
+}
+
+}  // namespace
+
+Result<std::vector<FilePair>> name_outputs(const FoundFiles& inputs, const std::string& output,
+                                           const std::string& ending) {
   if (output.empty()) return Error{"--output: expected the name of a file or folder, found ''"};
   std::error_code status;
   const bool is_folder = fs::is_directory(output, status);
   const bool slash = output.ends_with('/');
-  if (inputs.size() == 1 && !slash && !is_folder) return std::vector{output};
-
-  const std::string many = plural(inputs.size(), "file");
+  if (!inputs.is_batch && !slash && !is_folder) {
+    return std::vector{FilePair{inputs.files[0].path, output}};
+  }
+  const std::string many = plural(inputs.files.size(), "file");
   if (!is_folder && fs::exists(output, status)) {
     return Error{output + ": is a file; expected a folder for the results of " + many};
   }
@@ -26,27 +41,44 @@ Result<std::vector<std::string>> name_outputs(const std::vector<std::string>& in
     return Error{output + ": expected a folder for the results of " + many + "; call it '" +
                  output + "/' if it is to be one"};
   }
-  std::vector<std::string> outputs;
+  std::vector<FilePair> files;
   std::map<std::string, std::string> input_of;
-  for (const std::string& input : inputs) {
-    const std::string path = (fs::path(output) / fs::path(input).filename()).string();
-    const auto [other, is_new] = input_of.emplace(path, input);
+  for (const FoundFile& input : inputs.files) {
+    const std::string path = (fs::path(output) / with_ending(input.name, ending)).string();
+    const auto [other, is_new] = input_of.emplace(path, input.path);
     if (!is_new) {
-      return Error{path + ": is where the results of both '" + other->second + "'" + " and " + "'" +
-                   input + "'" + " would go; expected inputs of different names"};
+      return Error{path + ": is where the results of both '" + other->second + "' and '" +
+                   input.path + "' would go; expected inputs of different names"};
     }
-    outputs.push_back(path);
+    files.push_back({input.path, path});
   }
-  return outputs;
+  return files;
+}
+
+Result<void> check_outputs(const std::vector<FilePair>& files, bool force) {
+  if (force) return {};
+  std::error_code status;
+  std::vector<const FilePair*> taken;
+  for (const FilePair& file : files) {
+    if (fs::exists(file.output, status)) taken.push_back(&file);
+  }
+  if (taken.empty()) return {};
+  if (taken.size() == 1) {
+    const bool is_input = fs::equivalent(taken[0]->input, taken[0]->output, status);
+    return Error{taken[0]->output + (is_input ? ": is the input itself" : ": exists already") +
+                 "; --force overwrites it"};
+  }
+  std::string list;
+  for (size_t i = 0; i < taken.size() && i < kNamed; ++i) {
+    list += (i == 0 ? "" : ", ") + taken[i]->output;
+  }
+  if (taken.size() > kNamed) list += " and " + std::to_string(taken.size() - kNamed) + " more";
+  return Error{std::to_string(taken.size()) + " of " + plural(files.size(), "output") +
+               " exist already (" + list + "); --force overwrites them"};
 }
 
 Result<void> check_output(const std::string& input, const std::string& output, bool force) {
-  std::error_code status;
-  if (force || !fs::exists(output, status)) return {};
-  if (fs::equivalent(input, output, status)) {
-    return Error{output + ": is the input itself; --force overwrites it"};
-  }
-  return Error{output + ": exists already; --force overwrites it"};
+  return check_outputs({{input, output}}, force);
 }
 
 }  // namespace panache::cli

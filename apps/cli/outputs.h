@@ -5,17 +5,26 @@
 #include <vector>
 
 #include "base/result.h"
+#include "find_inputs.h"
 
 namespace panache::cli {
 
-// The output file of each input. `output` is a folder where there are several inputs, where it ends
-// in '/' and where it is one; files in it are called as the inputs. Two inputs with one output are
-// refused.
-Result<std::vector<std::string>> name_outputs(const std::vector<std::string>& inputs,
-                                              const std::string& output);
+// A file to be made, and the one that it is made of.
+struct FilePair {
+  std::string input, output;
+};
 
-// Refuses an output that exists, or is the very input, unless `force`: before any work is done for
-// it.
+// The output file of each input. `output` is a folder where the inputs are a batch, where it ends
+// in '/' and where it is one; files in it are called as the inputs, with `ending` for their own
+// where that is not empty and with .glb for .fbx, which nobody writes here. Two inputs with one
+// output are refused.
+Result<std::vector<FilePair>> name_outputs(const FoundFiles& inputs, const std::string& output,
+                                           const std::string& ending = "");
+
+// Refuses all outputs that exist, in one sentence, unless `force`: before any work is done. The
+// sentence says where one of them is its very input.
+Result<void> check_outputs(const std::vector<FilePair>& files, bool force);
+// The same for a single file.
 Result<void> check_output(const std::string& input, const std::string& output, bool force);
 
 }  // namespace panache::cli

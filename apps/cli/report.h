@@ -18,11 +18,13 @@ void say(const std::string& sentence);
 // The same, handing `exit_code` back.
 int refuse(const Error& error, int exit_code);
 
-// Results for people and for machines, on stdout. Bytes that are no UTF-8, as file names may hold,
-// are replaced in the latter.
+// Results for people and for machines, on stdout.
 void print(const std::string& text);
 using Json = nlohmann::ordered_json;
 void print(const Json& json);
+// JSON as it is printed: indented, with a line end. Bytes that are no UTF-8, as file names may
+// hold, are replaced.
+std::string dump(const Json& json);
 
 // `value` with `decimals` digits after the point.
 std::string fixed(double value, int decimals);

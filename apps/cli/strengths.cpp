@@ -9,6 +9,7 @@
 
 #include "base/csv.h"
 #include "clip/text_cursor.h"
+#include "report.h"
 
 namespace panache::cli {
 namespace {
@@ -159,6 +160,18 @@ std::vector<StrengthTrack> tracks_for(const std::vector<StrengthWish>& wishes, d
     }
   }
   return tracks;
+}
+
+std::string describe(const StrengthWish& wish) {
+  const std::vector<StrengthTrack::Point>& points = wish.track.points;
+  const auto text = [](const StrengthTrack::Point& point) {
+    return brief(static_cast<double>(point.strength));
+  };
+  const bool constant = std::all_of(points.begin(), points.end(), [&](const auto& point) {
+    return point.strength == points.front().strength;
+  });
+  if (constant) return text(points.front());
+  return wish.over_clip ? text(points.front()) + ".." + text(points.back()) : "varies";
 }
 
 }  // namespace panache::cli

@@ -30,4 +30,7 @@ Result<std::vector<StrengthWish>> read_strengths(const std::string& path, const 
 std::vector<StrengthTrack> tracks_for(const std::vector<StrengthWish>& wishes, double first,
                                       double last);
 
+// A wish in a few letters, for names: "1", "1..0", "varies" (a table that changes it).
+std::string describe(const StrengthWish& wish);
+
 }  // namespace panache::cli

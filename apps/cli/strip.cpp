@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "base/file.h"
-#include "clip/motion_file.h"
+#include "input.h"
 #include "outputs.h"
 #include "pose/strip.h"
 #include "report.h"
-#include "rig/rig.h"
+#include "rig_options.h"
 #include "verbs.h"
 
 namespace panache::cli {
@@ -26,7 +26,8 @@ constexpr int kMostFigures = 1000;  // In a row.
 
 struct StripVerb {
   std::vector<std::string> inputs, labels;
-  std::string output;
+  std::string output, clip;
+  RigFlags rig;
   double every = 0.25;
   double from = 0;
   double to = std::numeric_limits<double>::quiet_NaN();  // Not given.
@@ -39,7 +40,8 @@ Result<void> check(StripVerb& verb) {
   for (const Result<void>& checked :
        {check_range("--every", verb.every, 0.01, 60),
         check_range("--from", verb.from, 0, kLongestTime),
-        has_end ? check_range("--to", verb.to, 0, kLongestTime) : Result<void>()}) {
+        has_end ? check_range("--to", verb.to, 0, kLongestTime) : Result<void>(),
+        check_rig_flags(verb.rig)}) {
     if (!checked) return checked;
   }
   if (!has_end) verb.to = verb.from + kDefaultLength;
@@ -61,12 +63,15 @@ Result<void> check(StripVerb& verb) {
   return {};
 }
 
-Result<StripRow> read_row(const std::string& path, const StripVerb& verb) {
-  Result<std::unique_ptr<MotionFile>> file = read_motion(path);
+Result<StripRow> read_row(const std::string& path, const StripVerb& verb,
+                          const RigOptions& options) {
+  Result<std::unique_ptr<MotionFile>> file = open_motion(path);
   if (!file) return file.error();
-  const Clip& clip = (*file)->clip();
-  Result<Rig> rig = Rig::create(clip);
-  if (!rig) return Error{path + ": " + rig.error().message};
+  Result<std::vector<int>> picked = pick_clips(**file, verb.clip, path);
+  if (!picked) return picked.error();
+  const Clip& clip = (*file)->clip(picked->front());
+  Result<Rig> rig = make_rig(clip, options, path);
+  if (!rig) return rig.error();
   const double end = (clip.frames - 1) * clip.frame_time;
   if (verb.from > end) {
     return Error{path + ": ends at " + fixed(end, 2) + " s; expected motion from " +
@@ -92,11 +97,13 @@ Result<StripRow> read_row(const std::string& path, const StripVerb& verb) {
 
 int strip(StripVerb verb) {
   if (auto good = check(verb); !good) return refuse(good.error(), kBadUsage);
+  Result<RigOptions> rig = read_rig_options(verb.rig);
+  if (!rig) return refuse(rig.error(), kBadInput);
   std::vector<StripRow> rows;
   for (size_t i = 0; i < verb.inputs.size(); ++i) {
     auto free = check_output(verb.inputs[i], verb.output, verb.force);
     if (!free) return refuse(free.error(), kBadInput);
-    Result<StripRow> row = read_row(verb.inputs[i], verb);
+    Result<StripRow> row = read_row(verb.inputs[i], verb, *rig);
     if (!row) return refuse(row.error(), kBadInput);
     if (!verb.labels.empty()) row->label = verb.labels[i];
     rows.push_back(*std::move(row));
@@ -115,7 +122,7 @@ int strip(StripVerb verb) {
 void add_strip(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("strip", "Draw motion files as a film strip");
   auto options = std::make_shared<StripVerb>();
-  verb->add_option("IN", options->inputs, "Motion files (.bvh), one row each")
+  verb->add_option("IN", options->inputs, "Motion files (" + motion_endings() + "),\none row each")
       ->required()
       ->type_name("");
   verb->add_option("-o,--output", options->output, "Picture to write (.svg)")
@@ -129,6 +136,10 @@ void add_strip(CLI::App& app, int& exit_code) {
       ->type_name("SECONDS");
   verb->add_option("--label", options->labels, "Names of the rows; default: those of the files")
       ->type_name("TEXT");
+  verb->add_option("--clip", options->clip,
+                   "The motion to draw, of files with several;\ndefault: the first")
+      ->type_name("NAME");
+  add_rig_options(*verb, options->rig);
   verb->add_flag("--travel", options->travel, "Figures stand where they are on the way");
   verb->add_flag("--force", options->force, "Overwrite the picture");
   verb->footer(

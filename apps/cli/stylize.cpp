@@ -1,23 +1,19 @@
 // panache stylize: motion files in, the same motion in another style out.
 
 #include <algorithm>
-#include <atomic>
-#include <chrono>
-#include <filesystem>
+#include <functional>
 #include <memory>
-#include <mutex>
-#include <new>
 #include <string>
 #include <vector>
 
 #include "base/file.h"
-#include "base/parallel.h"
-#include "base/progress.h"
-#include "clip/motion_file.h"
+#include "batch.h"
+#include "formats.h"
+#include "input.h"
 #include "model_path.h"
-#include "outputs.h"
 #include "report.h"
-#include "rig/rig.h"
+#include "rig_options.h"
+#include "rig_report.h"
 #include "strengths.h"
 #include "style/restyle.h"
 #include "verbs.h"
@@ -26,89 +22,36 @@ namespace panache::cli {
 namespace {
 
 struct StylizeOptions {
-  std::vector<std::string> inputs;
-  std::string output;
+  BatchFlags batch;
+  RigFlags rig;
   std::vector<std::string> styles;
   std::string strengths;  // A CSV, or empty.
   std::string model;
-  bool force = false;
-  bool json = false;
+  std::string clip;  // The motion to restyle, or empty for all.
+  bool replace = false;
   bool no_timing = false;
   bool no_feet = false;
-  int jobs = 0;
 };
 
-// One file on its way.
-struct Job {
-  std::string input, output;
-  std::string error;  // Empty where all went well.
-  int frames_in = 0, frames_out = 0;
-  double seconds = 0;  // Of the result.
-  int joints_mapped = 0;
-  std::vector<StrengthTrack> tracks;
-};
-
-// One bar for all files.
-class JointProgress {
- public:
-  explicit JointProgress(size_t files) : bar_("restyling"), shares_(files) {}
-  void update(size_t file, double share) {
-    const std::lock_guard lock(mutex_);
-    total_ += share - shares_[file];
-    shares_[file] = share;
-    done_ += share == 1;
-    const double files = static_cast<double>(shares_.size());
-    bar_.update(total_ / files, std::to_string(done_) + " of " + std::to_string(shares_.size()));
-  }
-
- private:
-  Progress bar_;
-  std::mutex mutex_;
-  std::vector<double> shares_;
-  double total_ = 0;
-  int done_ = 0;
-};
-
-std::string ending(const std::string& path) {
-  std::string text = std::filesystem::path(path).extension().string();
-  for (char& c : text) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return text;
-}
-
-Result<void> stylize_file(Job& job, const std::shared_ptr<const Model>& model,
-                          const std::vector<StrengthWish>& wishes, const StylizeOptions& options,
-                          const std::function<void(double)>& progress) {
-  if (auto free = check_output(job.input, job.output, options.force); !free) return free.error();
-  Result<std::unique_ptr<MotionFile>> file = read_motion(job.input);
-  if (!file) return file.error();
-  if (ending(job.output) != ending(job.input)) {
-    return Error{job.output + ": expected a name with the input's ending '" + ending(job.input) +
-                 "', or a folder (with a '/' at its end)"};
-  }
-  const Clip& clip = (*file)->clip();
-  job.frames_in = clip.frames;
-  Result<Rig> rig = Rig::create(clip);
-  if (!rig) return Error{job.input + ": " + rig.error().message};
-  for (const int joint : rig->joints()) job.joints_mapped += joint >= 0;
-
-  job.tracks =
-      tracks_for(wishes, rig->first_frame() * clip.frame_time, (clip.frames - 1) * clip.frame_time);
+// What all files have in common.
+struct Wanted {
+  std::shared_ptr<const Model> model;
+  std::vector<StrengthWish> wishes;
+  RigOptions rig;
   RestyleOptions how;
-  how.timing = !options.no_timing;
-  how.stylizer.foot_lock = !options.no_feet;
-  Result<Restyled> restyled = restyle(clip, *rig, model, job.tracks, how, progress);
-  if (!restyled) return Error{job.input + ": " + restyled.error().message};
-  job.frames_out = restyled->clip.frames;
-  job.seconds = restyled->clip.duration();
-  return write_file(job.output, (*file)->encode(restyled->clip, restyled->source_frames),
-                    options.force);
-}
+};
 
-Json to_json(const Job& job, const Model& model) {
+// A motion of a file, and what became of it.
+struct RestyledClip {
+  int clip = 0;
+  std::string name;
+  Rig rig;
+  Restyled result;
+};
+
+Json to_json(const std::vector<StrengthTrack>& tracks, const Model& model) {
   Json styles = Json::array();
-  for (const StrengthTrack& track : job.tracks) {
+  for (const StrengthTrack& track : tracks) {
     Json points = Json::array();
     for (const StrengthTrack::Point& point : track.points) {
       points.push_back({{"seconds", point.seconds}, {"strength", point.strength}});
@@ -116,38 +59,87 @@ Json to_json(const Job& job, const Model& model) {
     const std::string& name = model.styles()[static_cast<size_t>(track.style)].name;
     styles.push_back({{"name", name}, {"points", points}});
   }
-  const bool ok = job.error.empty();
-  return {{"in", job.input},
-          {"out", job.output},
-          {"ok", ok},
-          {"error", ok ? Json() : Json(job.error)},
-          {"frames_in", job.frames_in},
-          {"frames_out", job.frames_out},
-          {"seconds", job.seconds},
-          {"styles", styles},
-          {"joints_mapped", job.joints_mapped}};
+  return styles;
 }
 
-// Restyles all jobs and returns how many went well.
-size_t run_jobs(std::vector<Job>& jobs, const std::shared_ptr<const Model>& model,
-                const std::vector<StrengthWish>& wishes, const StylizeOptions& options) {
-  JointProgress progress(jobs.size());
-  std::atomic<size_t> good = 0;
-  const auto work = [&](int i) {
-    const auto n = static_cast<size_t>(i);
-    Job& job = jobs[n];
-    try {
-      const auto share = [&](double done) { progress.update(n, std::min(done, 0.99)); };
-      Result<void> done = stylize_file(job, model, wishes, options, share);
-      if (!done) job.error = done.error().message;
-    } catch (const std::bad_alloc&) {
-      job.error = job.input + ": there is not enough memory for it";
+// "walk (old 1)".
+std::string result_name(const std::string& title, const Wanted& wanted) {
+  std::string styles;
+  for (const StrengthWish& wish : wanted.wishes) {
+    const std::string& style = wanted.model->styles()[static_cast<size_t>(wish.track.style)].name;
+    styles += (styles.empty() ? "" : ", ") + style + " " + describe(wish);
+  }
+  return title + " (" + styles + ")";
+}
+
+Result<RestyledClip> restyle_clip(const MotionFile& motion, int which, const Wanted& wanted,
+                                  FileJob& file, const std::function<void(double)>& progress) {
+  const Clip& clip = motion.clip(which);
+  const std::string name = motion.clip_names()[static_cast<size_t>(which)];
+  const std::string place = name.empty() ? file.input : file.input + ": " + name;
+  Result<Rig> rig = make_rig(clip, wanted.rig, place);
+  if (!rig) return rig.error();
+  const std::vector<StrengthTrack> tracks = tracks_for(
+      wanted.wishes, rig->first_frame() * clip.frame_time, (clip.frames - 1) * clip.frame_time);
+  Result<Restyled> restyled = restyle(clip, *rig, wanted.model, tracks, wanted.how, progress);
+  if (!restyled) return Error{place + ": " + restyled.error().message};
+  RestyledClip out{which, result_name(title_of(name, file.input), wanted), *std::move(rig),
+                   *std::move(restyled)};
+  file.clips.push_back({{"name", name},
+                        {"result", out.name},
+                        {"frames_in", clip.frames},
+                        {"frames_out", out.result.clip.frames},
+                        {"seconds", out.result.clip.duration()},
+                        {"styles", to_json(tracks, *wanted.model)}});
+  file.frames += out.result.clip.frames;
+  file.seconds += out.result.clip.duration();
+  if (file.mapping.is_null()) file.mapping = mapping_json(out.rig);
+  return out;
+}
+
+// The bytes of the result: the file with its new motions, or a new file of another format that
+// holds the only one.
+Result<std::string> encode(const MotionFile& motion, const std::vector<RestyledClip>& clips,
+                           const FileJob& file, bool replace) {
+  if (keeps_format(ending_of(file.input), ending_of(file.output))) {
+    std::vector<ClipEdit> edits;
+    for (const RestyledClip& clip : clips) {
+      edits.push_back({clip.clip, &clip.result.clip, clip.result.source_frames, clip.name});
     }
-    good += job.error.empty();
-    progress.update(n, 1);
-  };
-  parallel_for(static_cast<int>(jobs.size()), work, options.jobs);
-  return good;
+    return in_container(motion.encode(edits, replace ? EditMode::replace : EditMode::add_beside),
+                        file.input, file.output);
+  }
+  const RestyledClip& only = clips.front();
+  return format_clip(only.result.clip, only.name, placement_of(only.rig), ending_of(file.output));
+}
+
+Result<void> stylize_file(FileJob& file, const Wanted& wanted, const StylizeOptions& options,
+                          const std::function<void(double)>& progress) {
+  Result<std::unique_ptr<MotionFile>> motion = open_motion(file.input);
+  if (!motion) return motion.error();
+  Result<std::vector<int>> picked = pick_clips(**motion, options.clip, file.input);
+  if (!picked) return picked.error();
+  if (auto fits = check_fits(**motion, *picked, file.input, file.output); !fits) return fits;
+  std::vector<RestyledClip> clips;
+  std::vector<Error> failures;
+  for (size_t i = 0; i < picked->size(); ++i) {
+    const auto part = [&](double done) {
+      progress((static_cast<double>(i) + done) / static_cast<double>(picked->size()));
+    };
+    Result<RestyledClip> clip = restyle_clip(**motion, (*picked)[i], wanted, file, part);
+    if (clip) {
+      clips.push_back(*std::move(clip));
+    } else {
+      failures.push_back(clip.error());
+    }
+  }
+  if (clips.empty()) return failures.front();
+  for (const Error& failure : failures) {
+    file.notes.push_back(failure.message + "; this motion stays as it is");
+  }
+  Result<std::string> bytes = encode(**motion, clips, file, options.replace);
+  if (!bytes) return bytes.error();
+  return write_file(file.output, *bytes, options.batch.force);
 }
 
 // What the user wants of which style, from both sources. A failure sets `exit_code`.
@@ -178,44 +170,30 @@ Result<std::vector<StrengthWish>> collect_wishes(const StylizeOptions& options, 
 }
 
 int stylize(const StylizeOptions& options) {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point begin = Clock::now();
-  if (auto jobs = check_range("--jobs", options.jobs, 0, 1024); !jobs) {
-    return refuse(jobs.error(), kBadUsage);
+  if (auto rig = check_rig_flags(options.rig); !rig) return refuse(rig.error(), kBadUsage);
+  int exit_code = kDone;
+  Result<std::vector<FileJob>> files = plan_batch(options.batch, "", exit_code);
+  if (!files) return refuse(files.error(), exit_code);
+  for (const FileJob& file : *files) {
+    auto format = check_format(file.input, file.output);
+    if (!format) return refuse(format.error(), kBadUsage);
   }
-  Result<std::vector<std::string>> outputs = name_outputs(options.inputs, options.output);
-  if (!outputs) return refuse(outputs.error(), kBadUsage);
   Result<std::string> path = find_model(options.model);
   if (!path) return refuse(path.error(), kBadInput);
   Result<std::shared_ptr<const Model>> model = Model::load(*path);
   if (!model) return refuse(model.error(), kBadInput);
-  int exit_code = kDone;
   Result<std::vector<StrengthWish>> wishes = collect_wishes(options, **model, exit_code);
   if (!wishes) return refuse(wishes.error(), exit_code);
+  Result<RigOptions> rig = read_rig_options(options.rig);
+  if (!rig) return refuse(rig.error(), kBadInput);
 
-  std::vector<Job> jobs(options.inputs.size());
-  for (size_t i = 0; i < jobs.size(); ++i) {
-    jobs[i].input = options.inputs[i];
-    jobs[i].output = (*outputs)[i];
-  }
-  const size_t good = run_jobs(jobs, *model, *wishes, options);
-  const double spent = std::chrono::duration<double>(Clock::now() - begin).count();
-  Json results = Json::array();
-  for (const Job& job : jobs) {
-    if (!job.error.empty()) say(job.error);
-    if (options.json) results.push_back(to_json(job, **model));
-  }
-  if (options.json) {
-    print(results);
-  } else if (jobs.size() > 1) {
-    print("restyled " + std::to_string(good) + " of " + plural(jobs.size(), "file") + " in " +
-          fixed(spent, 1) + " s\n");
-  } else if (good) {
-    print("restyled " + jobs[0].input + " into " + jobs[0].output + " (" +
-          plural(static_cast<size_t>(jobs[0].frames_out), "frame") + ", " +
-          fixed(jobs[0].seconds, 1) + " s) in " + fixed(spent, 1) + " s\n");
-  }
-  return good == jobs.size() ? kDone : kBadInput;
+  Wanted wanted{*std::move(model), *std::move(wishes), *std::move(rig), {}};
+  wanted.how.timing = !options.no_timing;
+  wanted.how.stylizer.foot_lock = !options.no_feet;
+  return run_batch(*std::move(files), options.batch, "restyling", "restyled",
+                   [&](FileJob& file, const std::function<void(double)>& progress) {
+                     return stylize_file(file, wanted, options, progress);
+                   });
 }
 
 }  // namespace
@@ -223,12 +201,7 @@ int stylize(const StylizeOptions& options) {
 void add_stylize(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("stylize", "Restyle motion files");
   auto options = std::make_shared<StylizeOptions>();
-  verb->add_option("IN", options->inputs, "Motion files (.bvh)")->required()->type_name("");
-  verb->add_option("-o,--output", options->output,
-                   "File to write; for several files, or with a '/' at\n"
-                   "its end, a folder")
-      ->required()
-      ->type_name("OUT");
+  add_batch_options(*verb, options->batch);
   // One value each, so that files may follow.
   verb->add_option("--style", options->styles,
                    "NAME=STRENGTH: 0 is neutral, 1 the style as captured,\n"
@@ -242,16 +215,21 @@ void add_stylize(CLI::App& app, int& exit_code) {
   verb->add_option("--model", options->model,
                    "Model; default: $PANACHE_MODEL, else the one shipped")
       ->type_name("FILE");
-  verb->add_flag("--force", options->force, "Overwrite files");
+  verb->add_option("--clip", options->clip,
+                   "The motion to restyle, of a file with several;\ndefault: all of them")
+      ->type_name("NAME");
+  verb->add_flag("--replace", options->replace,
+                 "Put new motions in the place of the old, not beside\nthem (BVH holds but one)");
   verb->add_flag("--no-timing", options->no_timing, "Keep the tempo, and so the number of frames");
   verb->add_flag("--no-feet", options->no_feet, "Do not hold planted feet in place");
-  verb->add_option("--jobs", options->jobs, "Files at once; default: one per core")->type_name("N");
-  verb->add_flag("--json", options->json, "Print what was done with each file as JSON");
+  add_rig_options(*verb, options->rig);
   verb->footer(
-      "Rig, joint names, channel order and frame rate stay as they are.\n\n"
+      "Rig, joint names, channel order and frame rate stay as they are. An FBX file comes\n"
+      "back as GLB. An output that ends in .bvh or .glb may have an input that does not.\n\n"
       "Examples:\n"
       "  panache stylize walk.bvh --style old=1 -o old.bvh\n"
-      "  panache stylize takes/*.bvh --style proud=0.7 --style angry=0..1 -o restyled/");
+      "  panache stylize takes/ --style proud=0.7 --style angry=0..1 -o restyled/\n"
+      "  panache stylize hero.glb --clip walk --style sad=1 -o sad-hero.glb");
   verb->callback([options, &exit_code] { exit_code = stylize(*options); });
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/file.h"
 #include "clip/bvh.h"
+#include "clip/gltf.h"
 
 namespace panache {
 namespace {
@@ -16,7 +17,8 @@ struct Format {
   const char* ending;  // Lower case, with the point.
   Parser parse;
 };
-constexpr Format kFormats[] = {{".bvh", parse_bvh}};
+constexpr Format kFormats[] = {
+    {".bvh", parse_bvh}, {".glb", parse_gltf}, {".gltf", parse_gltf}, {".vrm", parse_gltf}};
 
 std::string lower_case(std::string text) {
   for (char& c : text) {

@@ -48,7 +48,8 @@ class MotionFile {
   }
 };
 
-// Reads the motion file at `path`; the ending decides the format (.bvh).
+// Reads the motion file at `path`; the ending decides the format (.bvh, .glb,
+// .gltf, .vrm). A .gltf may have its data in files beside and below it.
 Result<std::unique_ptr<MotionFile>> read_motion(const std::string& path);
 
 }  // namespace panache

@@ -14,7 +14,8 @@ bool contains(const std::string& text, const std::string& part) {
 }
 
 TEST_F(Program, every_verb_has_help_with_an_example) {
-  for (const std::string verb : {"stylize", "styles", "info", "walker", "strip", "train", "eval"}) {
+  for (const std::string verb :
+       {"stylize", "convert", "styles", "info", "walker", "strip", "train", "eval"}) {
     const Ran ran = run({verb, "--help"});
     EXPECT_EQ(ran.exit, 0) << verb;
     EXPECT_TRUE(contains(ran.out, "Example")) << verb << "\n" << ran.out;
@@ -49,38 +50,6 @@ TEST_F(Program, styles_tells_machines) {
     numbers += tensor.values.size();
   }
   EXPECT_EQ(model["parameters"], numbers);
-}
-
-TEST_F(Program, info_shows_how_the_rig_was_mapped) {
-  write_walk("walk.bvh");
-  const Ran ran = run({"info", "walk.bvh", "--tree"});
-  EXPECT_EQ(ran.exit, 0) << ran.err;
-  EXPECT_TRUE(contains(ran.out, "  joints  21, of which 21 rotate and 1 move\n")) << ran.out;
-  EXPECT_TRUE(contains(ran.out, "  frames  40 at 30 a second: 1.33 s\n")) << ran.out;
-  EXPECT_TRUE(contains(ran.out, "  unit    1 m (metres, most likely), judged by the legs\n"))
-      << ran.out;
-  EXPECT_TRUE(contains(ran.out, "  up      +Y\n")) << ran.out;
-  EXPECT_TRUE(contains(ran.out, "\n  hips (moves)\n    spine\n      chest\n")) << ran.out;
-  const auto info = nlohmann::json::parse(run({"info", "walk.bvh", "--json"}).out);
-  EXPECT_EQ(info["frames"], 40);
-  EXPECT_EQ(info["skeleton"].size(), 21u);
-  ASSERT_EQ(info["mapping"]["joints"].size(), 21u);
-  EXPECT_EQ(info["mapping"]["joints"][8]["humanoid"], "leftHand");
-  EXPECT_EQ(info["mapping"]["joints"][8]["joint"], "leftHand");
-  EXPECT_EQ(info["mapping"]["likely_unit"], "metres");
-}
-
-TEST_F(Program, info_shows_a_file_that_is_no_humanoid_too) {
-  Skeleton box;
-  box.joints.push_back({"Box", -1, {}, {}, true, true, {{0, 1, 0}}});
-  write("box.bvh", format_bvh({box, 1.0 / 30, 2, std::vector<Quat>(2), std::vector<Vec3>(2)}));
-  const Ran ran = run({"info", "box.bvh"});
-  EXPECT_EQ(ran.exit, 1);
-  EXPECT_TRUE(contains(ran.out, "  joints  1, of which 1 rotate and 1 move\n")) << ran.out;
-  EXPECT_TRUE(ran.err.starts_with("panache: box.bvh: no humanoid found")) << ran.err;
-  const auto info = nlohmann::json::parse(run({"info", "box.bvh", "--json"}).out);
-  EXPECT_TRUE(info["mapping"].is_null());
-  EXPECT_EQ(info["error"], ran.err.substr(18, ran.err.size() - 19));
 }
 
 TEST_F(Program, info_shows_all_that_a_model_says_of_itself) {

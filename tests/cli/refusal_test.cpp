@@ -124,28 +124,41 @@ TEST_F(Refusal, an_unreadable_path) {
                  "none.bvh: cannot be read: No such file or directory");
   std::filesystem::create_directory(path("folder.bvh"));
   expect_refused({"stylize", "folder.bvh", "--style", "old=1", "-o", "out.bvh"}, 1,
-                 "folder.bvh: is a folder; expected a file");
+                 "folder.bvh: holds no motion file, and neither do its folders (.bvh, .glb, .gltf, "
+                 ".vrm, .fbx)");
+  expect_refused({"info", "folder.bvh"}, 1, "folder.bvh: is a folder; expected a file");
   expect_refused({"info", "none.bvh"}, 1, "none.bvh: cannot be read: No such file or directory");
 }
 
 TEST_F(Refusal, an_unknown_ending) {
-  write("walk.fbx", "");
-  expect_refused({"stylize", "walk.fbx", "--style", "old=1", "-o", "out.bvh"}, 1,
-                 "walk.fbx: expected a motion file (.bvh), found the ending '.fbx'");
-  expect_refused({"stylize", "walk.bvh", "--style", "old=1", "-o", "out.glb"}, 1,
-                 "out.glb: expected a name with the input's ending '.bvh', or a folder (with a '/' "
-                 "at its end)");
+  write("walk.c3d", "");
+  expect_refused(
+      {"stylize", "walk.c3d", "--style", "old=1", "-o", "out.bvh"}, 1,
+      "walk.c3d: expected a motion file (.bvh, .glb, .gltf, .vrm, .fbx), found the ending "
+      "'.c3d'");
+  expect_refused({"stylize", "walk", "--style", "old=1", "-o", "out.bvh"}, 1,
+                 "walk: expected a motion file (.bvh, .glb, .gltf, .vrm, .fbx), found no ending");
+  expect_refused(
+      {"stylize", "walk.bvh", "--style", "old=1", "-o", "out.fbx"}, 2,
+      "out.fbx: expected a name that ends in .bvh or .glb, or a folder (with a '/' at its "
+      "end)");
+  expect_refused(
+      {"stylize", "walk.vrm", "--style", "old=1", "-o", "out.gltf"}, 2,
+      "out.gltf: expected a name that ends in .vrm, .bvh or .glb, or a folder (with a '/' "
+      "at its end)");
 }
 
 TEST_F(Refusal, an_unmapped_rig) {
   Skeleton box;
-  box.joints.push_back({"Box", -1, {}, {}, true, true, {}});
-  box.joints.push_back({"Lid", 0, {0, 1, 0}, {}, true, false, {{0, 1, 0}}});
+  box.joints.push_back({"Box", -1, {}, {}, true, true, {}, ""});
+  box.joints.push_back({"Lid", 0, {0, 1, 0}, {}, true, false, {{0, 1, 0}}, ""});
   Clip clip{box, 1.0 / 30, 2, std::vector<Quat>(4), std::vector<Vec3>(4)};
   write("box.bvh", format_bvh(clip));
   const std::string sentence =
       "box.bvh: no humanoid found: leftHand, rightHand, leftFoot, rightFoot, head are missing "
-      "among 'Box', 'Lid' (2 joints); expected names such as LeftHand or hand_L";
+      "among 'Box', 'Lid' (2 joints); expected names such as LeftHand or hand_L, the shape of a "
+      "person, "
+      "or a map that says which joint is which";
   expect_refused({"stylize", "box.bvh", "--style", "old=1", "-o", "out.bvh"}, 1, sentence);
 }
 
@@ -213,9 +226,10 @@ TEST_F(Refusal, a_model_that_is_none) {
 }
 
 TEST_F(Refusal, a_verb_that_does_not_exist) {
-  expect_refused({"stylise", "walk.bvh"}, 2,
-                 "there is no verb 'stylise'; expected stylize, styles, info, walker, strip, train "
-                 "or eval");
+  expect_refused(
+      {"stylise", "walk.bvh"}, 2,
+      "there is no verb 'stylise'; expected stylize, convert, styles, info, walker, strip, "
+      "train or eval");
 }
 
 TEST_F(Refusal, a_command_that_is_incomplete) {

@@ -54,6 +54,18 @@ TEST_F(Strip, draws_a_head_for_each_moment_asked_for) {
   EXPECT_EQ(count("<circle"), marks / 2);
 }
 
+TEST_F(Strip, draws_any_format_and_believes_what_is_said_of_the_rig) {
+  EXPECT_EQ(run({"convert", "walk.bvh", "-o", "walk.glb"}).exit, 0);
+  EXPECT_EQ(run({"strip", "walk.glb", "--clip", "walk", "-o", "out.svg"}).exit, 0);
+  const size_t marks = count("<circle");
+  EXPECT_EQ(
+      run({"strip", "walk.bvh", "--up", "y", "--scale", "1", "-o", "out.svg", "--force"}).exit, 0);
+  EXPECT_EQ(count("<circle"), marks);
+  std::filesystem::remove(path("out.svg"));
+  expect_refused({"--clip", "run", "-o", "out.svg"}, 1,
+                 "walk.bvh: holds one motion, which has no name; expected no --clip, found 'run'");
+}
+
 TEST_F(Strip, refuses_what_makes_no_picture) {
   expect_refused({"-o", "out.png"}, 2, "out.png: expected a name that ends in .svg");
   expect_refused({"-o", "out.svg", "--every", "0"}, 2,

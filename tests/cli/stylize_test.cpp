@@ -74,7 +74,7 @@ TEST_F(Stylize, changes_strength_along_the_clip) {
   const Ran ran = run({"stylize", "walk.bvh", "--style", "old=0..1", "--style", "sad=2..-1",
                        "--no-timing", "--json", "-o", "out.bvh"});
   EXPECT_EQ(ran.exit, 0) << ran.err;
-  const auto styles = nlohmann::json::parse(ran.out)[0]["styles"];
+  const auto styles = nlohmann::json::parse(ran.out)[0]["clips"][0]["styles"];
   ASSERT_EQ(styles.size(), 2u);
   EXPECT_EQ(styles[0]["name"], "old");
   EXPECT_EQ(styles[0]["points"][0]["seconds"], 0.0);
@@ -137,7 +137,7 @@ TEST_F(Stylize, reports_a_damaged_file_and_goes_on_with_the_rest) {
   EXPECT_EQ(ran.exit, 1);
   EXPECT_TRUE(ran.err.starts_with("panache: b.bvh:")) << ran.err;
   EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
-  EXPECT_TRUE(ran.out.starts_with("restyled 2 of 3 files in ")) << ran.out;
+  EXPECT_TRUE(ran.out.starts_with("restyled 2 of 3 files, 1 failed, in ")) << ran.out;
   EXPECT_EQ(entries("out"), (std::vector<std::string>{"a.bvh", "c.bvh"}));
 }
 
@@ -153,10 +153,13 @@ TEST_F(Stylize, tells_machines_about_each_file) {
   EXPECT_EQ(files[0]["out"], "out/a.bvh");
   EXPECT_EQ(files[0]["ok"], true);
   EXPECT_TRUE(files[0]["error"].is_null());
-  EXPECT_EQ(files[0]["frames_in"], 40);
-  EXPECT_EQ(files[0]["frames_out"], 40);
+  ASSERT_EQ(files[0]["clips"].size(), 1u);
+  EXPECT_EQ(files[0]["clips"][0]["frames_in"], 40);
+  EXPECT_EQ(files[0]["clips"][0]["frames_out"], 40);
+  EXPECT_EQ(files[0]["frames"], 40);
   EXPECT_NEAR(files[0]["seconds"].get<double>(), 40 / 30.0, 40e-9);
-  EXPECT_EQ(files[0]["joints_mapped"], 21);
+  EXPECT_EQ(files[0]["mapping"]["joints"].size(), 21u);
+  EXPECT_TRUE(files[1]["mapping"].is_null());
   EXPECT_EQ(files[1]["ok"], false);
   EXPECT_EQ("panache: " + files[1]["error"].get<std::string>() + "\n", ran.err);
 }

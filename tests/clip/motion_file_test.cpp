@@ -22,9 +22,11 @@ TEST(MotionFile, TheEndingDecidesTheFormatInAnyCase) {
 }
 
 TEST(MotionFile, AnUnknownEndingIsAnsweredWithTheKnownOnes) {
-  EXPECT_EQ(read_refusal("a/walk.fbx"),
-            "a/walk.fbx: expected a motion file (.bvh), found the ending '.fbx'");
-  EXPECT_EQ(read_refusal("a.b/walk"), "a.b/walk: expected a motion file (.bvh), found no ending");
+  EXPECT_EQ(
+      read_refusal("a/walk.fbx"),
+      "a/walk.fbx: expected a motion file (.bvh, .glb, .gltf, .vrm), found the ending '.fbx'");
+  EXPECT_EQ(read_refusal("a.b/walk"),
+            "a.b/walk: expected a motion file (.bvh, .glb, .gltf, .vrm), found no ending");
 }
 
 TEST(MotionFile, AFileThatCannotBeReadSaysWhy) {

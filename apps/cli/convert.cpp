@@ -1,0 +1,146 @@
+// panache convert: motion files from one format to another.
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/file.h"
+#include "batch.h"
+#include "clip/text_cursor.h"
+#include "formats.h"
+#include "input.h"
+#include "report.h"
+#include "rig_options.h"
+#include "rig_report.h"
+#include "verbs.h"
+
+namespace panache::cli {
+namespace {
+
+struct ConvertVerb {
+  BatchFlags batch;
+  RigFlags rig;
+  std::string to;    // "glb" or "bvh", or empty.
+  std::string clip;  // The motion to take, or empty.
+};
+
+void account(FileJob& file, const std::string& name, const Clip& clip) {
+  file.clips.push_back({{"name", name}, {"frames", clip.frames}, {"seconds", clip.duration()}});
+  file.frames += clip.frames;
+  file.seconds += clip.duration();
+}
+
+// All of a file that keeps its format.
+Result<std::string> whole_file(const MotionFile& motion, const FileJob& file) {
+  const std::string ending = ending_of(file.input);
+  // A .gltf file takes the files that it points to into itself, and an FBX file is a GLB by now.
+  if (ending == ".gltf" || ending == ".fbx") {
+    return in_container(motion.encode({}, EditMode::replace), file.input, file.output);
+  }
+  return read_file(file.input);
+}
+
+Result<std::string> convert_whole(const MotionFile& motion, FileJob& file,
+                                  const ConvertVerb& verb) {
+  if (!verb.clip.empty()) {
+    return Error{file.input + ": all its motions go into " + file.output +
+                 "; expected no --clip, which is for formats that hold one motion"};
+  }
+  const std::vector<std::string> names = motion.clip_names();
+  for (size_t i = 0; i < names.size(); ++i) {
+    account(file, names[i], motion.clip(static_cast<int>(i)));
+  }
+  return whole_file(motion, file);
+}
+
+Result<std::string> convert_motion(const MotionFile& motion, FileJob& file, const ConvertVerb& verb,
+                                   const RigOptions& options) {
+  Result<std::vector<int>> picked = pick_clips(motion, verb.clip, file.input);
+  if (!picked) return picked.error();
+  if (auto fits = check_fits(motion, *picked, file.input, file.output); !fits) return fits.error();
+  const Clip& clip = motion.clip(picked->front());
+  const std::string name = motion.clip_names()[static_cast<size_t>(picked->front())];
+  account(file, name, clip);
+  const std::string title = title_of(name, file.input);
+  const std::string ending = ending_of(file.output);
+  const Result<Rig> rig = make_rig(clip, options, file.input);
+  if (rig) {
+    file.mapping = mapping_json(*rig);
+    return format_clip(clip, title, placement_of(*rig), ending);
+  }
+  // What the user says of joints is meant for a humanoid.
+  if (!options.joints.empty()) return rig.error();
+  if (ending == ".glb" && !(options.metres_per_unit && options.up_axis)) {
+    file.notes.push_back(file.input +
+                         ": is no humanoid that would tell its unit and up axis; taken as metres "
+                         "and +Y where --scale and --up do not say otherwise");
+  }
+  return format_clip(clip, title, placement_of(options), ending);
+}
+
+Result<void> convert_file(FileJob& file, const ConvertVerb& verb, const RigOptions& options) {
+  Result<std::unique_ptr<MotionFile>> motion = open_motion(file.input);
+  if (!motion) return motion.error();
+  Result<std::string> bytes = keeps_format(ending_of(file.input), ending_of(file.output))
+                                  ? convert_whole(**motion, file, verb)
+                                  : convert_motion(**motion, file, verb, options);
+  if (!bytes) return bytes.error();
+  return write_file(file.output, *bytes, verb.batch.force);
+}
+
+// The ending of files in an output folder. A single output file says its format itself.
+Result<std::string> wanted_ending(const ConvertVerb& verb) {
+  if (verb.to.empty()) return std::string();
+  if (verb.to == "bvh" || verb.to == "glb") return "." + verb.to;
+  return Error{"--to: expected bvh or glb, found " + panache::quoted(verb.to)};
+}
+
+int convert(const ConvertVerb& verb) {
+  if (auto rig = check_rig_flags(verb.rig); !rig) return refuse(rig.error(), kBadUsage);
+  Result<std::string> ending = wanted_ending(verb);
+  if (!ending) return refuse(ending.error(), kBadUsage);
+  int exit_code = kDone;
+  Result<std::vector<FileJob>> files = plan_batch(verb.batch, *ending, exit_code);
+  if (!files) return refuse(files.error(), exit_code);
+  for (const FileJob& file : *files) {
+    auto format = check_format(file.input, file.output);
+    if (!format) return refuse(format.error(), kBadUsage);
+  }
+  if (ending->empty() && files->front().output != verb.batch.output) {
+    return refuse(
+        {"--output " + verb.batch.output + ": is a folder; expected --to bvh or --to glb with it"},
+        kBadUsage);
+  }
+  if (!ending->empty() && ending_of(files->front().output) != *ending) {
+    return refuse({"--to " + verb.to + ": " + files->front().output + " says otherwise"},
+                  kBadUsage);
+  }
+  Result<RigOptions> rig = read_rig_options(verb.rig);
+  if (!rig) return refuse(rig.error(), kBadInput);
+  return run_batch(*std::move(files), verb.batch, "converting", "converted",
+                   [&](FileJob& file, const std::function<void(double)>&) {
+                     return convert_file(file, verb, *rig);
+                   });
+}
+
+}  // namespace
+
+void add_convert(CLI::App& app, int& exit_code) {
+  CLI::App* verb = app.add_subcommand("convert", "Bring motion files to another format");
+  auto options = std::make_shared<ConvertVerb>();
+  add_batch_options(*verb, options->batch);
+  verb->add_option("--to", options->to, "bvh or glb: what to make where OUT is a folder")
+      ->type_name("FORMAT");
+  verb->add_option("--clip", options->clip, "The motion to take, of a file with several")
+      ->type_name("NAME");
+  add_rig_options(*verb, options->rig);
+  verb->footer(
+      "docs/formats.md tells what each way keeps and what it loses.\n\n"
+      "Examples:\n"
+      "  panache convert walk.fbx -o walk.bvh\n"
+      "  panache convert takes/ --to glb -o converted/");
+  verb->callback([options, &exit_code] { exit_code = convert(*options); });
+}
+
+}  // namespace panache::cli

@@ -1,0 +1,65 @@
+#include "fbx.h"
+
+#include <memory>
+
+#include <assimp/Exporter.hpp>
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/scene.h>
+
+#include "base/file.h"
+#include "child_process.h"
+#include "fbx_scene.h"
+#include "glb.h"
+
+namespace panache::cli {
+namespace {
+
+constexpr size_t kLargestFile = size_t{1} << 30;  // Bytes.
+constexpr int kLongestRead = 600;                 // Seconds of the processor.
+
+bool is_fbx(const std::string& bytes) {
+  // Text files begin with a comment or with their first section.
+  const std::string start = bytes.substr(0, 4096);
+  return start.starts_with("Kaydara FBX Binary") ||
+         (start.find("FBX") != std::string::npos && start.find('\0') == std::string::npos);
+}
+
+Result<std::string> convert(const std::string& bytes, const std::string& path) {
+  Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_CAMERAS, false);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_LIGHTS, false);
+  if (!importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "fbx")) {
+    return Error{path + ": cannot be read as FBX: " + importer.GetErrorString()};
+  }
+  const std::unique_ptr<aiScene> scene(importer.GetOrphanedScene());
+  mend_scene(*scene);
+  Assimp::Exporter exporter;
+  Assimp::ExportProperties properties;
+  // An animated node may have no matrix.
+  properties.SetPropertyBool("GLTF2_NODE_IN_TRS", true);
+  const aiExportDataBlob* glb = exporter.ExportToBlob(scene.get(), "glb2", 0, &properties);
+  if (!glb) return Error{path + ": cannot be turned into GLB: " + exporter.GetErrorString()};
+  return std::string(static_cast<const char*>(glb->data), glb->size);
+}
+
+}  // namespace
+
+Result<std::string> fbx_to_glb(const std::string& path) {
+  Result<std::string> bytes = read_file(path);
+  if (!bytes) return bytes.error();
+  if (bytes->size() > kLargestFile) {
+    return Error{path + ": is larger than 1 GB; expected a smaller FBX file, or the same as GLB"};
+  }
+  if (!is_fbx(*bytes)) return Error{path + ": does not begin as FBX files do; is it damaged?"};
+  Result<std::string> glb =
+      run_in_child([&] { return convert(*bytes, path); }, kLongestRead,
+                   path +
+                       ": the FBX reader broke down over it; the file may be damaged; exporting "
+                       "it again, or as GLB, may help");
+  if (!glb) return glb.error();
+  return with_pictures(*std::move(glb), path);
+}
+
+}  // namespace panache::cli

@@ -1,0 +1,19 @@
+#pragma once
+// FBX files, which come in through Assimp (Open Asset Import Library) and go on as GLB.
+
+#include <string>
+
+#include "base/result.h"
+
+namespace panache::cli {
+
+// The GLB that holds what Assimp understands of the FBX file at `path`: the tree of nodes, meshes,
+// skins, materials and animations, in metres with +Y up. Pictures that are neither in the file nor
+// where it says, nor beside it, become white.
+//
+// Assimp's readers have a history of memory errors, so they run in a process of their own with
+// bounds on memory and time: whatever a damaged file does to it ends as a sentence. A build without
+// Assimp has only a sentence too.
+Result<std::string> fbx_to_glb(const std::string& path);
+
+}  // namespace panache::cli

@@ -1,0 +1,157 @@
+#include "find_inputs.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include <fnmatch.h>
+
+#include "input.h"
+
+namespace panache::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Where no user's folders are as deep, and no stack is in danger.
+constexpr size_t kDeepest = 256;
+
+bool has_wildcard(const std::string& text) {
+  return text.find_first_of("*?[") != std::string::npos;
+}
+
+// The entries of a folder in order of name, without hidden ones.
+Result<std::vector<fs::path>> entries_of(const fs::path& folder) {
+  std::vector<fs::path> entries;
+  std::error_code failure;
+  const fs::path listed = folder.empty() ? fs::path(".") : folder;
+  for (fs::directory_iterator at(listed, failure), end; !failure && at != end;
+       at.increment(failure)) {
+    const std::string name = at->path().filename().string();
+    if (!name.starts_with('.')) entries.push_back(folder / name);
+  }
+  if (failure) return Error{listed.string() + ": cannot be read: " + failure.message()};
+  std::sort(entries.begin(), entries.end());
+  return entries;
+}
+
+// A folder that a link brings in again would be walked for ever.
+bool is_real_folder(const fs::path& path) {
+  std::error_code status;
+  return fs::is_directory(path, status) && !fs::is_symlink(path, status);
+}
+
+class Finder {
+ public:
+  explicit Finder(const std::string& output) {
+    std::error_code status;
+    if (fs::is_directory(output, status)) output_ = output;
+  }
+
+  // All motion files below `base`.
+  Result<void> walk(const fs::path& base) {
+    base_ = base;
+    pattern_ = {"**", "*"};
+    return match(base, 0, 0);
+  }
+
+  // All motion files whose paths match.
+  Result<void> glob(const std::string& pattern) {
+    base_.clear();
+    pattern_.clear();
+    for (const fs::path& part : fs::path(pattern)) {
+      if (pattern_.empty() && !has_wildcard(part.string())) {
+        base_ /= part;
+      } else if (pattern_.empty() || part != "**" || pattern_.back() != "**") {
+        pattern_.push_back(part.string());
+      }
+    }
+    if (pattern_.back() == "**") pattern_.push_back("*");
+    return match(base_, 0, 0);
+  }
+
+  void add(const fs::path& path, const fs::path& name) {
+    ++matched;
+    const fs::path normal = path.lexically_normal();
+    if (!seen_.emplace(normal, name).second) return;
+    found.files.push_back({path.string(), name.string()});
+  }
+
+  FoundFiles found;
+  size_t matched = 0;  // With those that were found before.
+
+ private:
+  // Adds the files below `folder` that match the pattern from `part` on.
+  Result<void> match(const fs::path& folder, size_t part, size_t depth) {
+    if (depth > kDeepest) return Error{folder.string() + ": lies too deep for a batch"};
+    // "**" is no folder at all, or any folder and then "**" again.
+    if (pattern_[part] == "**") {
+      if (auto here = match(folder, part + 1, depth); !here) return here;
+    }
+    Result<std::vector<fs::path>> entries = entries_of(folder);
+    if (!entries) return entries.error();
+    for (const fs::path& entry : *entries) {
+      if (auto good = match_entry(entry, part, depth); !good) return good;
+    }
+    return {};
+  }
+
+  Result<void> match_entry(const fs::path& entry, size_t part, size_t depth) {
+    const bool is_folder = is_real_folder(entry);
+    if (is_folder && is_output(entry)) return {};
+    if (pattern_[part] == "**") {
+      return is_folder ? match(entry, part, depth + 1) : Result<void>();
+    }
+    const std::string name = entry.filename().string();
+    if (::fnmatch(pattern_[part].c_str(), name.c_str(), FNM_PERIOD) != 0) return {};
+    if (part + 1 < pattern_.size()) {
+      return is_folder ? match(entry, part + 1, depth + 1) : Result<void>();
+    }
+    std::error_code status;
+    if (is_motion_ending(ending_of(name)) && fs::is_regular_file(entry, status)) {
+      add(entry, base_.empty() ? entry : entry.lexically_relative(base_));
+    }
+    return {};
+  }
+
+  bool is_output(const fs::path& folder) const {
+    std::error_code status;
+    return output_ && fs::equivalent(folder, *output_, status);
+  }
+
+  std::optional<fs::path> output_;
+  fs::path base_;                     // Before the first wildcard.
+  std::vector<std::string> pattern_;  // The rest, folder by folder.
+  std::set<std::pair<fs::path, fs::path>> seen_;
+};
+
+}  // namespace
+
+Result<FoundFiles> find_inputs(const std::vector<std::string>& arguments,
+                               const std::string& output) {
+  Finder finder(output);
+  for (const std::string& argument : arguments) {
+    std::error_code status;
+    const bool is_folder = fs::is_directory(argument, status);
+    if (!is_folder && (!has_wildcard(argument) || fs::exists(argument, status))) {
+      finder.add(argument, fs::path(argument).filename());
+      continue;
+    }
+    finder.found.is_batch = true;
+    finder.matched = 0;
+    auto searched = is_folder ? finder.walk(argument) : finder.glob(argument);
+    if (!searched) return searched.error();
+    if (finder.matched == 0) {
+      return Error{argument +
+                   (is_folder ? ": holds no motion file, and neither do its folders"
+                              : ": no motion file has a name that matches this") +
+                   " (" + motion_endings() + ")"};
+    }
+  }
+  finder.found.is_batch |= finder.found.files.size() > 1;
+  return finder.found;
+}
+
+}  // namespace panache::cli

@@ -1,0 +1,131 @@
+#include "glb.h"
+
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "clip/gltf_uri.h"
+
+namespace panache::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using OrderedJson = nlohmann::ordered_json;
+
+// A PNG of one white pixel.
+constexpr const char* kWhite =
+    "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR42mP4DwABAQEAHLCM"
+    "mQAAAABJRU5ErkJggg==";
+
+// The header of 12 bytes (magic, version, length of all), then chunks: length, type, bytes. The
+// first holds the JSON, the second, which may be absent, the binary data.
+constexpr size_t kHeader = 12, kChunkHeader = 8;
+
+uint32_t number_at(const std::string& glb, size_t place) {
+  uint32_t value = 0;
+  std::memcpy(&value, glb.data() + place, sizeof value);  // GLB and this machine: little-endian.
+  return value;
+}
+
+void append_number(std::string& out, size_t value) {
+  const auto small = static_cast<uint32_t>(value);
+  out.append(reinterpret_cast<const char*>(&small), sizeof small);
+}
+
+void append_chunk(std::string& out, const std::string& type, std::string bytes, char padding) {
+  bytes.resize((bytes.size() + 3) / 4 * 4, padding);
+  append_number(out, bytes.size());
+  out += type + bytes;
+}
+
+std::string format_glb_file(const OrderedJson& json, const std::string& bin) {
+  std::string chunks;
+  append_chunk(chunks, "JSON", json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace),
+               ' ');
+  if (!bin.empty()) append_chunk(chunks, std::string("BIN\0", 4), bin, '\0');
+  std::string out = "glTF";
+  append_number(out, 2);
+  append_number(out, kHeader + chunks.size());
+  return out += chunks;
+}
+
+std::string find_picture(std::string uri, const fs::path& folder) {
+  for (char& c : uri) {
+    if (c == '\\') c = '/';
+  }
+  std::error_code status;
+  for (const fs::path& place : {fs::path(uri), fs::path(uri).filename()}) {
+    if (place.is_relative() && fs::is_regular_file(folder / place, status)) return place.string();
+  }
+  return "";
+}
+
+// As an address, which has its own way to write all but plain letters.
+std::string percent_encoded(const std::string& path) {
+  static constexpr char kDigits[] = "0123456789ABCDEF";
+  std::string out;
+  for (const char c : path) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       std::strchr("-._~/", c);
+    if (plain) {
+      out += c;
+    } else {
+      out += {'%', kDigits[byte >> 4], kDigits[byte & 15]};
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string with_pictures(std::string glb, const std::string& path) {
+  if (glb.size() < kHeader + kChunkHeader) return glb;
+  const size_t begin = kHeader + kChunkHeader, length = number_at(glb, kHeader);
+  if (length > glb.size() - begin) return glb;
+  const auto text = glb.begin() + static_cast<ptrdiff_t>(begin);
+  OrderedJson json =
+      OrderedJson::parse(text, text + static_cast<ptrdiff_t>(length), nullptr, false);
+  if (!json.is_object() || !json.contains("images")) return glb;
+  for (OrderedJson& image : json["images"]) {
+    if (!image.contains("uri") || !image["uri"].is_string()) continue;
+    const std::string uri = image["uri"];
+    if (uri.starts_with("data:")) continue;
+    const std::string found = find_picture(uri, fs::path(path).parent_path());
+    image["uri"] = found.empty() ? kWhite : percent_encoded(found);
+  }
+  const size_t bin = begin + length + kChunkHeader;
+  return format_glb_file(json, bin < glb.size() ? glb.substr(bin) : "");
+}
+
+Result<std::string> gltf_to_glb(const std::string& gltf, const std::string& path) {
+  OrderedJson json = OrderedJson::parse(gltf, nullptr, false);
+  if (!json.is_object()) return Error{path + ": is no JSON"};
+  if (!json.contains("buffers")) return format_glb_file(json, "");
+  std::string bin;
+  std::vector<size_t> begins;  // Of each buffer in `bin`.
+  for (const OrderedJson& buffer : json["buffers"]) {
+    if (!buffer.contains("uri")) {
+      return Error{path + ": buffers[" + std::to_string(begins.size()) +
+                   "]: holds no data of its own; expected a file that needs no extension for it"};
+    }
+    Result<std::string> bytes = decode_data_uri(buffer["uri"].get<std::string>());
+    if (!bytes) return Error{path + ": " + bytes.error().message};
+    bin.resize((bin.size() + 3) / 4 * 4);
+    begins.push_back(bin.size());
+    bin += *bytes;
+  }
+  for (OrderedJson& view : json["bufferViews"]) {
+    const size_t begin = begins.at(view["buffer"].get<size_t>());
+    if (begin > 0) view["byteOffset"] = begin + view.value("byteOffset", size_t{0});
+    view["buffer"] = 0;
+  }
+  json["buffers"] = {{{"byteLength", bin.size()}}};
+  return format_glb_file(json, bin);
+}
+
+}  // namespace panache::cli

@@ -1,0 +1,86 @@
+#include "input.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "clip/gltf.h"
+#include "clip/text_cursor.h"
+#include "fbx.h"
+
+namespace panache::cli {
+namespace {
+
+constexpr std::array kMotionEndings = {".bvh", ".glb", ".gltf", ".vrm", ".fbx"};
+
+}  // namespace
+
+std::string ending_of(const std::string& path) {
+  std::string text = std::filesystem::path(path).extension().string();
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return text;
+}
+
+bool is_motion_ending(const std::string& ending) {
+  return std::find(kMotionEndings.begin(), kMotionEndings.end(), ending) != kMotionEndings.end();
+}
+
+std::string motion_endings() {
+  std::string list;
+  for (const char* ending : kMotionEndings)
+    list += (list.empty() ? "" : ", ") + std::string(ending);
+  return list;
+}
+
+Result<std::unique_ptr<MotionFile>> open_motion(const std::string& path) {
+  const std::string ending = ending_of(path);
+  if (!is_motion_ending(ending)) {
+    return Error{path + ": expected a motion file (" + motion_endings() + "), found " +
+                 (ending.empty() ? "no ending" : "the ending " + panache::quoted(ending))};
+  }
+  if (ending != ".fbx") return read_motion(path);
+  Result<std::string> glb = fbx_to_glb(path);
+  if (!glb) return glb.error();
+  return parse_gltf(*std::move(glb), path);
+}
+
+std::string list_clips(const MotionFile& file) {
+  std::string list;
+  for (const std::string& name : file.clip_names()) {
+    list += (list.empty() ? "" : ", ") + panache::quoted(name);
+  }
+  return list;
+}
+
+Result<std::vector<int>> pick_clips(const MotionFile& file, const std::string& wanted,
+                                    const std::string& path) {
+  const std::vector<std::string> names = file.clip_names();
+  if (names.empty()) {
+    return Error{path + ": holds a skeleton and no motion; expected a file with an animation"};
+  }
+  std::vector<int> picked;
+  for (size_t i = 0; i < names.size(); ++i) {
+    if (wanted.empty() || names[i] == wanted) picked.push_back(static_cast<int>(i));
+  }
+  if (!picked.empty()) return picked;
+  if (names.size() == 1 && names[0].empty()) {
+    return Error{path + ": holds one motion, which has no name; expected no --clip, found " +
+                 panache::quoted(wanted)};
+  }
+  return Error{path + ": holds no motion " + panache::quoted(wanted) + "; expected one of " +
+               list_clips(file)};
+}
+
+std::string title_of(const std::string& clip_name, const std::string& path) {
+  return clip_name.empty() ? std::filesystem::path(path).stem().string() : clip_name;
+}
+
+Result<Rig> make_rig(const Clip& clip, const RigOptions& options, const std::string& path) {
+  Result<Rig> rig = Rig::create(clip, options);
+  if (!rig) return Error{path + ": " + rig.error().message};
+  return rig;
+}
+
+}  // namespace panache::cli

@@ -1,0 +1,41 @@
+#pragma once
+// A motion file as the verbs take it: opened, its motions picked, its rig found.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "clip/motion_file.h"
+#include "rig/rig.h"
+
+namespace panache::cli {
+
+// The ending of a file's name in lower case, with its point: ".bvh"; empty where it has none.
+std::string ending_of(const std::string& path);
+
+// Whether the program reads files with this ending.
+bool is_motion_ending(const std::string& ending);
+// ".bvh, .glb, ...", for sentences and help.
+std::string motion_endings();
+
+// Reads a motion file of any kind that the program knows. An FBX file comes as the GLB that it is
+// turned into.
+Result<std::unique_ptr<MotionFile>> open_motion(const std::string& path);
+
+// Which motions of a file are meant: the one called `wanted`, or all of them where that is empty.
+// Never empty: a file without motion is refused, as is a name that it does not hold. `path` stands
+// in front of the sentence of a failure.
+Result<std::vector<int>> pick_clips(const MotionFile& file, const std::string& wanted,
+                                    const std::string& path);
+
+// "'walk', 'wave'": the names, for sentences.
+std::string list_clips(const MotionFile& file);
+
+// What to call a motion: its name in the file, or the file's where it has none.
+std::string title_of(const std::string& clip_name, const std::string& path);
+
+// Rig::create with `path` in front of the sentence of a failure.
+Result<Rig> make_rig(const Clip& clip, const RigOptions& options, const std::string& path);
+
+}  // namespace panache::cli

@@ -1,0 +1,164 @@
+#include "rig_options.h"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "base/file.h"
+#include "clip/text_cursor.h"
+#include "report.h"
+#include "rig/humanoid.h"
+
+namespace panache::cli {
+namespace {
+
+// From nanometres to kilometres.
+constexpr double kSmallestUnit = 1e-9, kLargestUnit = 1e3;
+
+// "z" and "+Z" mean the same; empty where `text` is no axis.
+std::string axis_name(std::string text) {
+  for (char& c : text) {
+    if (c >= 'x' && c <= 'z') c = static_cast<char>(c - 'x' + 'X');
+  }
+  if (text.size() == 1) text.insert(text.begin(), '+');
+  const bool good =
+      text.size() == 2 && (text[0] == '+' || text[0] == '-') && text[1] >= 'X' && text[1] <= 'Z';
+  return good ? text : "";
+}
+
+// How many letters must be put in, taken out or exchanged to turn `a` into `b`.
+size_t letters_apart(std::string_view a, std::string_view b) {
+  std::vector<size_t> row(b.size() + 1);
+  for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (size_t i = 1; i <= a.size(); ++i) {
+    size_t diagonal = row[0]++;
+    for (size_t j = 1; j <= b.size(); ++j) {
+      const size_t exchanged = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, exchanged});
+    }
+  }
+  return row[b.size()];
+}
+
+Result<int> parse_human_joint(const std::string& joint, const std::string& name) {
+  if (const std::optional<int> known = find_human_joint(joint)) return *known;
+  int nearest = 0;
+  for (int j = 1; j < kHumanJoints; ++j) {
+    // A name of any length may stand in a file; what is beyond a joint's own length is not read.
+    const std::string_view start = std::string_view(joint).substr(0, 64);
+    if (letters_apart(start, human_joint_name(j)) <
+        letters_apart(start, human_joint_name(nearest))) {
+      nearest = j;
+    }
+  }
+  return Error{name + ": unknown human joint " + panache::quoted(joint) + "; the nearest is " +
+               std::string(human_joint_name(nearest)) + " (panache info lists all " +
+               std::to_string(kHumanJoints) + ")"};
+}
+
+Result<void> put(const std::string& human_joint, const Json& joint, const std::string& name,
+                 std::map<int, std::string>& out) {
+  Result<int> human = parse_human_joint(human_joint, name);
+  if (!human) return human.error();
+  if (!joint.is_null() && (!joint.is_string() || joint.get_ref<const std::string&>().empty())) {
+    return Error{name + ": " + human_joint + ": expected the name of a joint or null, found " +
+                 joint.dump(-1, ' ', false, Json::error_handler_t::replace).substr(0, 40)};
+  }
+  const auto [other, is_new] = out.emplace(*human, joint.is_null() ? "" : joint.get<std::string>());
+  if (!is_new) return Error{name + ": " + human_joint + " stands there twice"};
+  return {};
+}
+
+// The list that panache info --json prints, without what is only for reading.
+Result<void> put_list(const Json& list, const std::string& name, std::map<int, std::string>& out) {
+  for (size_t i = 0; i < list.size(); ++i) {
+    const Json& entry = list[i];
+    if (!entry.is_object() || !entry.contains("humanoid") || !entry["humanoid"].is_string() ||
+        !entry.contains("joint")) {
+      return Error{name + ": mapping.joints[" + std::to_string(i) +
+                   "]: expected an object with 'humanoid' and 'joint', as panache info --json "
+                   "prints them"};
+    }
+    auto good = put(entry["humanoid"].get<std::string>(), entry["joint"], name, out);
+    if (!good) return good;
+  }
+  return {};
+}
+
+std::string place_in(const std::string& text, size_t byte) {
+  const std::string_view before = std::string_view(text).substr(0, byte > 0 ? byte - 1 : 0);
+  const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+  const size_t line_begin = before.rfind('\n') + 1;  // npos + 1 is 0.
+  return std::to_string(line) + ":" + std::to_string(before.size() - line_begin + 1);
+}
+
+}  // namespace
+
+void add_rig_options(CLI::App& verb, RigFlags& flags) {
+  verb.add_option("--scale", flags.scale,
+                  "Metres per unit of the file (0.01: centimetres);\ndefault: judged by the legs")
+      ->type_name("METRES");
+  verb.add_option("--up", flags.up, "Axis that points up: x, y, z, -x ...; default: found")
+      ->type_name("AXIS");
+  verb.add_option("--map", flags.map,
+                  "JSON that says which joint is which, as in\n{\"leftHand\": \"Hand_L\", "
+                  "\"neck\": null}, or an edited\n'panache info --json'; all others are found")
+      ->type_name("FILE");
+}
+
+Result<void> check_rig_flags(const RigFlags& flags) {
+  if (!flags.up.empty() && axis_name(flags.up).empty()) {
+    return Error{"--up: expected an axis (x, y, z, -x, -y or -z), found " +
+                 panache::quoted(flags.up)};
+  }
+  return flags.scale ? check_range("--scale", *flags.scale, kSmallestUnit, kLargestUnit)
+                     : Result<void>();
+}
+
+Result<RigOptions> read_rig_options(const RigFlags& flags) {
+  RigOptions options;
+  if (flags.scale) options.metres_per_unit = static_cast<float>(*flags.scale);
+  if (!flags.up.empty()) options.up_axis = axis_name(flags.up);
+  if (flags.map.empty()) return options;
+  Result<std::string> text = read_file(flags.map);
+  if (!text) return text.error();
+  Result<std::map<int, std::string>> joints = parse_joint_map(*text, flags.map);
+  if (!joints) return joints.error();
+  options.joints = *std::move(joints);
+  return options;
+}
+
+Result<std::map<int, std::string>> parse_joint_map(const std::string& text,
+                                                   const std::string& name) {
+  Json map;
+  try {
+    map = Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    return Error{name + ":" + place_in(text, error.byte) +
+                 ": expected JSON such as {\"leftHand\": \"Hand_L\", \"neck\": null}"};
+  }
+  std::map<int, std::string> joints;
+  const bool from_info = map.is_object() && map.contains("mapping");
+  if (from_info) {
+    const Json& mapping = map["mapping"];
+    if (!mapping.is_object() || !mapping.contains("joints") || !mapping["joints"].is_array()) {
+      return Error{name +
+                   ": holds no mapping; that file was no humanoid; expected JSON such as "
+                   "{\"leftHand\": \"Hand_L\", \"neck\": null}"};
+    }
+    if (auto good = put_list(mapping["joints"], name, joints); !good) return good.error();
+    return joints;
+  }
+  if (!map.is_object() || map.empty()) {
+    return Error{name +
+                 ": expected JSON such as {\"leftHand\": \"Hand_L\", \"neck\": null}, found " +
+                 (map.is_object() ? "nothing in it" : std::string("a JSON ") + map.type_name())};
+  }
+  for (const auto& [human_joint, joint] : map.items()) {
+    if (auto good = put(human_joint, joint, name, joints); !good) return good.error();
+  }
+  return joints;
+}
+
+}  // namespace panache::cli

@@ -1,0 +1,46 @@
+#pragma once
+// The formats glTF 2.0, GLB and VRM: a tree of nodes, animations of them, and a scene around it.
+//
+// Conventions: metres and Y up are what glTF wants, but the numbers of a clip are those of the
+// file's nodes, so a scale or a turn of a node above the body is the parent joints' and counts as
+// in the file. Only scale is not a joint's to have: the resting scale of the nodes above a joint
+// (one number, the cube root of the product where the axes differ) multiplies its translations on
+// the way in and divides them on the way out; animated scale stays in the file and does not count.
+//
+// Joints are the nodes that are in a skin, animated or named by a VRM humanoid, and all above them.
+// Read are LINEAR, STEP and CUBICSPLINE keys of floats and of normalised whole numbers, sparse or
+// not, at the rate at which the keys of the densest channel lie. Keys at less than 20 a second get
+// frames between them, keys that lie on no rate are read at 24 to 120 frames a second.
+//
+// Everything else in a file stays: the JSON is edited in place, and new data goes to its end.
+
+#include <memory>
+#include <string>
+
+#include "base/quat.h"
+#include "base/result.h"
+#include "clip/clip.h"
+#include "clip/motion_file.h"
+
+namespace panache {
+
+// Reads a GLB (and so a VRM) or the text of a .gltf. `name` is the file's path and stands in front
+// of the sentence of a failure, followed by the place in the JSON. What the file points to is read
+// from beside or below it, and is inside of what encode() gives.
+//
+// encode() keeps in EditMode::replace an animation's index and name, and the bytes that are no
+// longer used; in add_beside the new animation goes to the end of the list. A channel whose joint
+// is as it was keeps its keys, of whatever kind they are; others get linear keys at the frames, and
+// a value that is as it was on a key has that key's bits. Where frames come from other times than
+// their own, all channels but those of unknown extensions follow, scale and morph weights too.
+Result<std::unique_ptr<MotionFile>> parse_gltf(std::string bytes, const std::string& name);
+
+// A new GLB for a clip that came from no glTF file, with a figure of sticks that any viewer shows.
+// Above the clip's roots stands a node named `clip_name`, which is also the animation's name, with
+// the scale `metres_per_unit` (above zero) and the rotation `to_y_up`; so the numbers of the joints
+// stay the clip's own. The translation of a joint with can_translate false is its offset in the
+// file, whatever the poses say. End Sites become nodes without children.
+std::string format_glb(const Clip& clip, const std::string& clip_name, double metres_per_unit,
+                       Quat to_y_up);
+
+}  // namespace panache

@@ -1,0 +1,23 @@
+#pragma once
+// Numbers in the binary data of a glTF file. Private to the folder.
+
+#include <string>
+#include <vector>
+
+#include "clip/gltf_container.h"
+
+namespace panache {
+
+struct GltfValues {
+  size_t count = 0;            // Elements.
+  size_t components = 0;       // Numbers in an element, 1 to 4.
+  std::vector<float> numbers;  // [count][components], finite and within kLargestNumber.
+};
+
+// Reads accessor `which` of a file, which exists; `path` is where it is asked for, and a failure's
+// place. Whole numbers come as the fractions that they stand for where the accessor is normalised.
+// What is read takes no more memory than a few times the bytes of the file.
+bool read_gltf_accessor(const GltfContainer& container, int which, const std::string& path,
+                        GltfChecker& checker, GltfValues& out);
+
+}  // namespace panache

@@ -1,0 +1,338 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "clip/decimal.h"
+#include "clip/gltf_accessor.h"
+#include "clip/gltf_document.h"
+
+namespace panache {
+namespace {
+
+std::string animation_path(size_t which) { return item_path("animations", which); }
+
+GltfPath path_named(const std::string& name) {
+  if (name == "rotation") return GltfPath::rotation;
+  if (name == "translation") return GltfPath::translation;
+  if (name == "scale") return GltfPath::scale;
+  if (name == "weights") return GltfPath::weights;
+  return GltfPath::other;
+}
+
+// Numbers in a value of `path`; 0 for weights, which are as many as the mesh has targets.
+size_t components_of(GltfPath path) {
+  return path == GltfPath::rotation ? 4 : path == GltfPath::weights ? 0 : 3;
+}
+
+class ChannelReader {
+ public:
+  ChannelReader(GltfDocument& document, GltfChecker& checker)
+      : document_(document), checker_(checker) {}
+
+  bool read() {
+    const GltfJson* list = nullptr;
+    if (!checker_.list(document_.container.json, "", "animations", list)) return false;
+    document_.animations.resize(list->size());
+    for (size_t a = 0; a < list->size(); ++a) {
+      if (!read_animation((*list)[a], a)) return false;
+    }
+    return true;
+  }
+
+ private:
+  bool read_animation(const GltfJson& json, size_t which) {
+    const std::string path = animation_path(which);
+    GltfAnimation& animation = document_.animations[which];
+    std::string name;
+    const GltfJson *channels = nullptr, *samplers = nullptr;
+    if (!checker_.is_object(json, path) || !checker_.text(json, path, "name", name) ||
+        !checker_.list(json, path, "channels", channels) ||
+        !checker_.list(json, path, "samplers", samplers)) {
+      return false;
+    }
+    animation.name =
+        unique_name(name.empty() ? "animation " + std::to_string(which + 1) : name, names_);
+    std::set<std::pair<int, GltfPath>> targets;
+    for (size_t c = 0; c < channels->size(); ++c) {
+      const std::string channel_path = item_path(member_path(path, "channels"), c);
+      GltfChannel channel;
+      if (!read_channel((*channels)[c], channel_path, samplers->size(), channel)) return false;
+      if (channel.path != GltfPath::other && !targets.insert({channel.node, channel.path}).second) {
+        return checker_.fail(channel_path,
+                             "expected a target of its own, found that of a channel "
+                             "before it");
+      }
+      animation.channels.push_back(channel);
+    }
+    return true;
+  }
+
+  bool read_channel(const GltfJson& json, const std::string& path, size_t samplers,
+                    GltfChannel& channel) {
+    const GltfJson* target = nullptr;
+    if (!checker_.is_object(json, path) ||
+        !checker_.index(json, path, "sampler", samplers, channel.sampler) ||
+        !checker_.object(json, path, "target", target)) {
+      return false;
+    }
+    if (channel.sampler < 0 || !target) {
+      return checker_.fail(path, "expected a sampler and a target, found a part");
+    }
+    const std::string target_path = member_path(path, "target");
+    std::string moved;
+    if (!checker_.index(*target, target_path, "node", document_.nodes.size(), channel.node) ||
+        !checker_.text(*target, target_path, "path", moved)) {
+      return false;
+    }
+    if (channel.node < 0) return true;
+    GltfNode& node = document_.nodes[static_cast<size_t>(channel.node)];
+    channel.path = path_named(moved);
+    // glTF has no animation of a node that a matrix places.
+    if (node.matrix && channel.path != GltfPath::weights) channel.path = GltfPath::other;
+    if (channel.path != GltfPath::weights && channel.path != GltfPath::other) node.moves = true;
+    return true;
+  }
+
+  GltfDocument& document_;
+  GltfChecker& checker_;
+  GltfNames names_;
+};
+
+class ClipReader {
+ public:
+  ClipReader(GltfDocument& document, GltfChecker& checker)
+      : document_(document), checker_(checker) {}
+
+  bool read() {
+    const size_t skeletons = document_.animations.size() * document_.joint_nodes.size();
+    if (skeletons > kGltfMaxSkeletons) {
+      return checker_.fail("animations", "expected at most " + std::to_string(kGltfMaxSkeletons) +
+                                             " joints in all of them, found " +
+                                             std::to_string(skeletons));
+    }
+    for (size_t a = 0; a < document_.animations.size(); ++a) {
+      if (!read_tracks(a) || !make_room(a) || !fill(a)) return false;
+    }
+    return true;
+  }
+
+ private:
+  // The keys of all channels that are ours to understand.
+  bool read_tracks(size_t which) {
+    const std::vector<GltfChannel>& channels = document_.animations[which].channels;
+    tracks_.assign(channels.size(), {});
+    for (size_t c = 0; c < channels.size(); ++c) {
+      if (channels[c].path == GltfPath::other) continue;
+      if (!read_gltf_track(document_, which, channels[c], checker_, tracks_[c])) return false;
+      values_ += tracks_[c].times.size() + tracks_[c].numbers.size();
+      if (values_ > kGltfMaxValues) {
+        return checker_.fail(animation_path(which), "expected at most " +
+                                                        std::to_string(kGltfMaxValues) +
+                                                        " numbers in all animations, found more");
+      }
+    }
+    return true;
+  }
+
+  // The channel whose keys say when the frames are: the one with most of those that turn or move
+  // nodes. One or two equal keys only hold a pose.
+  const GltfTrack* deciding_track(const GltfAnimation& animation) const {
+    const GltfTrack* most = nullptr;
+    for (size_t c = 0; c < tracks_.size(); ++c) {
+      const GltfPath path = animation.channels[c].path;
+      if (path != GltfPath::rotation && path != GltfPath::translation) continue;
+      const GltfTrack& track = tracks_[c];
+      if (track.times.size() <= 2 && track.is_constant()) continue;
+      if (!most || track.times.size() > most->times.size()) most = &track;
+    }
+    return most;
+  }
+
+  bool make_room(size_t which) {
+    GltfAnimation& animation = document_.animations[which];
+    bool any = false;
+    double first = 0, last = 0;
+    for (const GltfTrack& track : tracks_) {
+      if (track.times.empty()) continue;
+      const double begin = static_cast<double>(track.times.front());
+      const double end = static_cast<double>(track.times.back());
+      first = any ? std::min(first, begin) : begin;
+      last = any ? std::max(last, end) : end;
+      any = true;
+    }
+    const FrameGrid grid = find_grid(deciding_track(animation), first, last);
+    const double joints = static_cast<double>(document_.joint_nodes.size());
+    poses_ += grid.frames * joints;
+    if (!(grid.frames <= static_cast<double>(kGltfMaxFrames)) ||
+        !(poses_ <= static_cast<double>(kGltfMaxPoses))) {
+      return checker_.fail(animation_path(which),
+                           "expected at most " + std::to_string(kGltfMaxFrames) +
+                               " frames, and frames times joints in all animations at most " +
+                               std::to_string(kGltfMaxPoses) + ", found more");
+    }
+    animation.start = grid.start;
+    animation.clip.skeleton = document_.skeleton;
+    animation.clip.frame_time = grid.frame_time;
+    animation.clip.resize(static_cast<int>(grid.frames));
+    return true;
+  }
+
+  bool fill(size_t which) {
+    GltfAnimation& animation = document_.animations[which];
+    Clip& clip = animation.clip;
+    for (int f = 0; f < clip.frames; ++f) {
+      std::ranges::copy(document_.rest.rotations, clip.pose(f).rotations.begin());
+      std::ranges::copy(document_.rest.translations, clip.pose(f).translations.begin());
+    }
+    for (size_t c = 0; c < tracks_.size(); ++c) {
+      const GltfChannel& channel = animation.channels[c];
+      if (channel.path == GltfPath::rotation) fill_rotations(animation, channel, tracks_[c]);
+      if (channel.path != GltfPath::translation) continue;
+      if (!fill_translations(animation, channel, tracks_[c])) {
+        return checker_.fail(item_path(member_path(animation_path(which), "channels"), c),
+                             "expected places within a thousand million, found one beyond");
+      }
+    }
+    return true;
+  }
+
+  size_t joint_of(const GltfChannel& channel) const {
+    return static_cast<size_t>(document_.nodes[static_cast<size_t>(channel.node)].joint);
+  }
+
+  void fill_rotations(GltfAnimation& animation, const GltfChannel& channel,
+                      const GltfTrack& track) const {
+    Clip& clip = animation.clip;
+    const size_t joint = joint_of(channel);
+    for (int f = 0; f < clip.frames; ++f) {
+      const double seconds = animation.start + f * clip.frame_time;
+      float v[4];
+      track.evaluate(seconds, key_tolerance(seconds, clip.frame_time), v);
+      clip.pose(f).rotations[joint] = clip_rotation({v[0], v[1], v[2], v[3]});
+    }
+  }
+
+  bool fill_translations(GltfAnimation& animation, const GltfChannel& channel,
+                         const GltfTrack& track) const {
+    Clip& clip = animation.clip;
+    const size_t joint = joint_of(channel);
+    clip.skeleton.joints[joint].can_translate = true;
+    for (int f = 0; f < clip.frames; ++f) {
+      const double seconds = animation.start + f * clip.frame_time;
+      float v[3];
+      track.evaluate(seconds, key_tolerance(seconds, clip.frame_time), v);
+      const Vec3 place = clip_translation({v[0], v[1], v[2]}, document_.scales[joint]);
+      for (const float x : {place.x, place.y, place.z}) {
+        if (!(std::abs(static_cast<double>(x)) <= kLargestNumber)) return false;
+      }
+      clip.pose(f).translations[joint] = place;
+    }
+    return true;
+  }
+
+  GltfDocument& document_;
+  GltfChecker& checker_;
+  std::vector<GltfTrack> tracks_;  // [channels] of the animation in hand.
+  size_t values_ = 0;
+  double poses_ = 0;
+};
+
+}  // namespace
+
+std::string unique_name(const std::string& name, GltfNames& taken) {
+  int& asked = taken[name];  // Insertions move nothing in a map.
+  std::string result = name;
+  while (++asked > 1) {
+    result = name + " (" + std::to_string(asked) + ")";
+    if (taken.emplace(result, 1).second) break;
+  }
+  return result;
+}
+
+bool read_gltf_track(const GltfDocument& document, size_t which, const GltfChannel& channel,
+                     GltfChecker& checker, GltfTrack& out) {
+  const GltfJson& json = document.container.json;
+  const std::string path = item_path(member_path(animation_path(which), "samplers"),
+                                     static_cast<size_t>(channel.sampler));
+  const GltfJson& sampler =
+      json["animations"][which]["samplers"][static_cast<size_t>(channel.sampler)];
+  const GltfJson* accessors = nullptr;
+  int input = -1, output = -1;
+  std::string interpolation = "LINEAR";
+  if (!checker.list(json, "", "accessors", accessors) || !checker.is_object(sampler, path) ||
+      !checker.index(sampler, path, "input", accessors->size(), input) ||
+      !checker.index(sampler, path, "output", accessors->size(), output) ||
+      !checker.text(sampler, path, "interpolation", interpolation)) {
+    return false;
+  }
+  if (input < 0 || output < 0) {
+    return checker.fail(path, "expected an input and an output, found a part");
+  }
+  using enum GltfTrack::Interpolation;
+  if (interpolation == "STEP") {
+    out.interpolation = step;
+  } else if (interpolation == "CUBICSPLINE") {
+    out.interpolation = cubic;
+  } else if (interpolation != "LINEAR") {
+    return checker.fail(
+        member_path(path, "interpolation"),
+        "expected LINEAR, STEP or CUBICSPLINE, found '" + interpolation.substr(0, 20) + "'");
+  }
+  GltfValues times, values;
+  const std::string input_path = member_path(path, "input");
+  const std::string output_path = member_path(path, "output");
+  if (!read_gltf_accessor(document.container, input, input_path, checker, times) ||
+      !read_gltf_accessor(document.container, output, output_path, checker, values)) {
+    return false;
+  }
+  if (times.components != 1) return checker.fail(input_path, "expected numbers, found vectors");
+  for (size_t i = 1; i < times.count; ++i) {
+    if (times.numbers[i] > times.numbers[i - 1]) continue;
+    return checker.fail(input_path, "expected times that increase, found time " +
+                                        std::to_string(i) + " not after the one before it");
+  }
+  const size_t expected = components_of(channel.path);
+  const size_t elements = times.count * (out.interpolation == cubic ? 3 : 1);
+  const bool weights = expected == 0;
+  if (weights ? values.components != 1 || values.count % elements != 0
+              : values.components != expected || values.count != elements) {
+    const std::string what =
+        weights ? "a number of weights that is a multiple of "
+                : "vectors of " + std::to_string(expected) + " numbers, in number ";
+    return checker.fail(output_path, "expected " + what + std::to_string(elements) + " for " +
+                                         std::to_string(times.count) + " times, found " +
+                                         std::to_string(values.count) + " of " +
+                                         std::to_string(values.components));
+  }
+  out.rotates = channel.path == GltfPath::rotation;
+  out.components = weights ? values.count / elements : expected;
+  out.times = std::move(times.numbers);
+  out.numbers = std::move(values.numbers);
+  return true;
+}
+
+GltfTrack rest_gltf_track(const GltfNode& node, GltfPath path) {
+  GltfTrack track;
+  track.rotates = path == GltfPath::rotation;
+  track.components = components_of(path);
+  track.times = {0};
+  const Quat q = node.rotation;
+  const Vec3 t = node.translation;
+  if (track.rotates) {
+    track.numbers = {q.x, q.y, q.z, q.w};
+  } else {
+    track.numbers = {t.x, t.y, t.z};
+  }
+  return track;
+}
+
+bool read_gltf_channels(GltfDocument& document, GltfChecker& checker) {
+  return ChannelReader(document, checker).read();
+}
+
+bool read_gltf_clips(GltfDocument& document, GltfChecker& checker) {
+  return ClipReader(document, checker).read();
+}
+
+}  // namespace panache

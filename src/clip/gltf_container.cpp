@@ -1,0 +1,260 @@
+#include "clip/gltf_container.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+#include "base/file.h"
+#include "clip/gltf_uri.h"
+
+namespace panache {
+namespace {
+
+constexpr uint32_t kMagic = 0x46546c67;      // "glTF"
+constexpr uint32_t kJsonChunk = 0x4e4f534a;  // "JSON"
+constexpr uint32_t kBinChunk = 0x004e4942;   // "BIN\0"
+constexpr size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
+// Half of what the 32-bit lengths of a GLB can say, so that there is room for new motion.
+constexpr size_t kMaxFileBytes = size_t{1} << 31;
+// Of all other files together: a small file can point to the same large one again and again.
+constexpr size_t kMaxFetchedBytes = size_t{1} << 30;
+
+uint32_t read_uint32(std::string_view bytes, size_t at) {
+  uint32_t value = 0;
+  for (size_t i = 4; i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+  return value;
+}
+
+void append_uint32(std::string& out, size_t value) {
+  assert(value <= std::numeric_limits<uint32_t>::max());
+  for (size_t i = 0; i < 4; ++i) out += static_cast<char>(value >> (8 * i) & 0xff);
+}
+
+size_t padded(size_t size) { return (size + 3) / 4 * 4; }
+
+void append_chunk(std::string& out, uint32_t type, std::string_view bytes, char padding) {
+  append_uint32(out, padded(bytes.size()));
+  append_uint32(out, type);
+  out += bytes;
+  out.append(padded(bytes.size()) - bytes.size(), padding);
+}
+
+class ContainerReader {
+ public:
+  ContainerReader(const std::string& name, GltfChecker& checker, GltfContainer& out)
+      : name_(name), checker_(checker), out_(out) {}
+
+  bool read(std::string_view bytes) {
+    if (bytes.size() > kMaxFileBytes) {
+      return checker_.fail(
+          "", "expected at most 2 GB, found " + std::to_string(bytes.size()) + " bytes");
+    }
+    out_.binary = bytes.size() >= 4 && read_uint32(bytes, 0) == kMagic;
+    if (!(out_.binary ? read_chunks(bytes) : read_text(bytes))) return false;
+    return check_version() && read_buffers() && embed_images();
+  }
+
+ private:
+  bool read_text(std::string_view text) {
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    const size_t line_end = text.find('\n');
+    if (line_end != std::string_view::npos && line_end + 1 < text.size()) {
+      const size_t first = std::min(text.find_first_not_of(" \t", line_end + 1), text.size());
+      out_.indent = static_cast<int>(std::min<size_t>(first - line_end - 1, 8));
+      if (text[line_end + 1] == '\t') out_.indent_char = '\t';
+    }
+    return checker_.parse(text, out_.json);
+  }
+
+  bool read_chunks(std::string_view bytes) {
+    if (bytes.size() < kHeaderBytes) return incomplete(kHeaderBytes, bytes.size());
+    if (const uint32_t version = read_uint32(bytes, 4); version != 2) {
+      return checker_.fail("", "expected GLB version 2, found version " + std::to_string(version));
+    }
+    const size_t length = read_uint32(bytes, 8);
+    if (length > bytes.size()) return incomplete(length, bytes.size());
+    bool has_json = false;
+    for (size_t at = kHeaderBytes; at < length;) {
+      if (length - at < kChunkHeaderBytes) return incomplete(at + kChunkHeaderBytes, length);
+      const size_t size = read_uint32(bytes, at);
+      const uint32_t type = read_uint32(bytes, at + 4);
+      at += kChunkHeaderBytes;
+      if (size > length - at) return incomplete(at + size, length);
+      const std::string_view chunk = bytes.substr(at, size);
+      at += size;
+      if (!has_json) {
+        if (type != kJsonChunk) {
+          return checker_.fail("", "expected JSON as the first chunk of the GLB, found another");
+        }
+        has_json = true;
+        if (!checker_.parse(chunk, out_.json)) return false;
+      } else if (type == kBinChunk && !out_.has_bin) {
+        out_.has_bin = true;
+        bin_ = chunk;
+      } else {
+        out_.other_chunks.emplace_back(type, chunk);
+      }
+    }
+    return has_json || checker_.fail("", "expected a GLB with a JSON chunk, found none");
+  }
+
+  bool incomplete(size_t expected, size_t found) {
+    return checker_.fail("", "expected a GLB of " + std::to_string(expected) +
+                                 " bytes at least, found " + std::to_string(found) +
+                                 "; is the file complete?");
+  }
+
+  bool check_version() {
+    const GltfJson* asset = nullptr;
+    std::string version, needed;
+    if (!checker_.object(out_.json, "", "asset", asset)) return false;
+    if (!asset) return checker_.fail("asset", "expected glTF's version in it, found nothing");
+    if (!checker_.text(*asset, "asset", "version", version)) return false;
+    if (!checker_.text(*asset, "asset", "minVersion", needed)) return false;
+    if (!version.starts_with("2.") || (!needed.empty() && needed != "2.0")) {
+      return checker_.fail("asset", "expected glTF version 2.0, found '" +
+                                        (needed.empty() ? version : needed).substr(0, 20) + "'");
+    }
+    return true;
+  }
+
+  // The bytes at `uri`, which stands at `path`; one in another file becomes a data URI of `type`,
+  // or of what the bytes look like.
+  bool fetch(GltfJson& object, const std::string& path, std::string type, std::string& bytes) {
+    std::string& uri = object["uri"].get_ref<std::string&>();
+    if (is_data_uri(uri)) {
+      auto decoded = decode_data_uri(uri);
+      if (!decoded) return checker_.fail(member_path(path, "uri"), decoded.error().message);
+      bytes = std::move(*decoded);
+      return true;
+    }
+    auto file = resolve_uri(uri, name_);
+    if (!file) return checker_.fail(member_path(path, "uri"), file.error().message);
+    auto content = read_file(*file);
+    if (!content) return checker_.fail(member_path(path, "uri"), content.error().message);
+    bytes = std::move(*content);
+    fetched_ += bytes.size();
+    if (fetched_ > kMaxFetchedBytes) {
+      return checker_.fail(member_path(path, "uri"),
+                           "expected at most 1 GB in other files in all, found more");
+    }
+    uri = make_data_uri(type.empty() ? image_type(bytes) : type, bytes);
+    return true;
+  }
+
+  static std::string image_type(std::string_view bytes) {
+    if (bytes.starts_with("\x89PNG")) return "image/png";
+    if (bytes.starts_with("\xff\xd8")) return "image/jpeg";
+    if (bytes.starts_with("RIFF")) return "image/webp";
+    if (bytes.starts_with("\xabKTX")) return "image/ktx2";
+    return "application/octet-stream";
+  }
+
+  bool read_buffers() {
+    const GltfJson* list = nullptr;
+    if (!checker_.list(out_.json, "", "buffers", list)) return false;
+    if (list->empty()) out_.has_bin = false;
+    for (size_t i = 0; i < list->size(); ++i) {
+      if (!read_buffer(out_.json["buffers"][i], item_path("buffers", i), i == 0)) return false;
+    }
+    return true;
+  }
+
+  bool read_buffer(GltfJson& buffer, const std::string& path, bool first) {
+    uint64_t length = 0;
+    std::string uri;
+    if (!checker_.is_object(buffer, path)) return false;
+    if (!buffer.contains("byteLength"))
+      return checker_.fail(path, "expected a byteLength, found none");
+    if (!checker_.count(buffer, path, "byteLength", length)) return false;
+    if (!checker_.text(buffer, path, "uri", uri)) return false;
+    std::string bytes;
+    if (!uri.empty()) {
+      if (first) out_.has_bin = false;
+      if (!fetch(buffer, path, "application/octet-stream", bytes)) return false;
+    } else if (first && out_.has_bin) {
+      bytes = bin_;
+    } else {
+      if (first) out_.has_bin = false;
+      out_.buffers.emplace_back();
+      return true;
+    }
+    if (bytes.size() < length) {
+      return checker_.fail(path, "expected " + std::to_string(length) + " bytes, found " +
+                                     std::to_string(bytes.size()));
+    }
+    bytes.resize(length);
+    out_.buffers.emplace_back(std::move(bytes));
+    return true;
+  }
+
+  bool embed_images() {
+    const GltfJson* list = nullptr;
+    if (!checker_.list(out_.json, "", "images", list)) return false;
+    for (size_t i = 0; i < list->size(); ++i) {
+      const std::string path = item_path("images", i);
+      GltfJson& image = out_.json["images"][i];
+      std::string uri, type, bytes;
+      if (!checker_.is_object(image, path)) return false;
+      if (!checker_.text(image, path, "uri", uri)) return false;
+      if (!checker_.text(image, path, "mimeType", type)) return false;
+      if (uri.empty() || is_data_uri(uri)) continue;  // A picture is not ours to look into.
+      if (!fetch(image, path, type, bytes)) return false;
+    }
+    return true;
+  }
+
+  const std::string& name_;
+  GltfChecker& checker_;
+  GltfContainer& out_;
+  std::string_view bin_;
+  size_t fetched_ = 0;  // Bytes of other files.
+};
+
+}  // namespace
+
+bool read_gltf_container(std::string bytes, const std::string& name, GltfChecker& checker,
+                         GltfContainer& out) {
+  return ContainerReader(name, checker, out).read(bytes);
+}
+
+GltfPlace gltf_added_at(const GltfContainer& container) {
+  if (container.has_bin) return {0, padded(container.buffers[0]->size())};
+  return {container.buffers.size(), 0};
+}
+
+std::string write_gltf_container(const GltfContainer& container, GltfJson json,
+                                 const std::string& added) {
+  std::string bin;
+  bool has_bin = container.has_bin;
+  if (has_bin) bin = *container.buffers[0];
+  if (!added.empty()) {
+    const GltfPlace place = gltf_added_at(container);
+    // In a GLB the first buffer is the chunk; where there are others already, it cannot be first.
+    if (container.binary && place.buffer == 0) {
+      has_bin = true;
+      bin.resize(place.offset);
+      bin += added;
+      json["buffers"][0]["byteLength"] = bin.size();
+    } else {
+      json["buffers"].push_back({{"byteLength", added.size()},
+                                 {"uri", make_data_uri("application/octet-stream", added)}});
+    }
+  }
+  constexpr auto kReplace = GltfJson::error_handler_t::replace;
+  if (!container.binary) return json.dump(container.indent, container.indent_char, false, kReplace);
+
+  std::string body;
+  append_chunk(body, kJsonChunk, json.dump(-1, ' ', false, kReplace), ' ');
+  if (has_bin) append_chunk(body, kBinChunk, bin, '\0');
+  for (const auto& [type, bytes] : container.other_chunks) append_chunk(body, type, bytes, '\0');
+  std::string out;
+  out.reserve(kHeaderBytes + body.size());
+  append_uint32(out, kMagic);
+  append_uint32(out, 2);
+  append_uint32(out, kHeaderBytes + body.size());
+  return out += body;
+}
+
+}  // namespace panache

@@ -1,0 +1,92 @@
+#pragma once
+// What is kept of a glTF file: its JSON and data, untouched, and what they mean for motion. Private
+// to the folder.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "clip/clip.h"
+#include "clip/gltf_container.h"
+#include "clip/gltf_track.h"
+
+namespace panache {
+
+struct GltfNode {
+  std::string name;  // "node 7" where the file has none.
+  int parent = -1;
+  std::vector<int> children;
+  Vec3 translation;      // As in the file.
+  Quat rotation;         // As in the file, perhaps not unit.
+  double scale = 1;      // Of its children, as one number.
+  bool matrix = false;   // Placed by a matrix, so that nothing may animate it.
+  bool skinned = false;  // A joint of a skin.
+  bool moves = false;    // In a skin, named in a humanoid, animated, or above such a node.
+  int joint = -1;        // In the clips' skeleton; -1 for one that does not move.
+  std::string role;      // As in Joint.
+};
+
+// What a channel of an animation moves.
+enum class GltfPath { rotation, translation, scale, weights, other };
+
+struct GltfChannel {
+  int sampler = -1;
+  int node = -1;
+  // `other` where it is not ours to understand: such a channel stays as it is, whatever becomes of
+  // the rest.
+  GltfPath path = GltfPath::other;
+};
+
+struct GltfAnimation {
+  std::string name;  // As MotionFile::clip_names() says it.
+  double start = 0;  // Seconds in the file, of the clip's first frame.
+  Clip clip;
+  std::vector<GltfChannel> channels;  // [channels of the file]
+};
+
+struct GltfDocument {
+  GltfContainer container;
+  std::vector<GltfNode> nodes;
+  std::vector<int> joint_nodes;  // [joints]
+  std::vector<double> scales;    // [joints] by which what is above multiplies translations.
+  Skeleton skeleton;             // Of the rest pose.
+  std::vector<GltfAnimation> animations;
+  Clip rest;  // One frame; the clip of a file without animations.
+};
+
+// What a file may not exceed, so that no small file makes a large motion.
+inline constexpr size_t kGltfMaxNodes = 10'000;
+inline constexpr int kGltfMaxDepth = 1'000;
+inline constexpr size_t kGltfMaxNameBytes = 1'000;
+inline constexpr size_t kGltfMaxFrames = 500'000;       // Of an animation.
+inline constexpr size_t kGltfMaxPoses = 50'000'000;     // Joints times frames, all animations.
+inline constexpr size_t kGltfMaxSkeletons = 1'000'000;  // Joints times animations.
+inline constexpr size_t kGltfMaxValues = 100'000'000;   // Numbers read, all channels.
+
+// gltf_nodes.cpp: the tree of nodes, with what skins and humanoids say of them.
+bool read_gltf_nodes(GltfDocument& document, GltfChecker& checker);
+// gltf_animation.cpp: what the animations move.
+bool read_gltf_channels(GltfDocument& document, GltfChecker& checker);
+// gltf_nodes.cpp: the joints and the rest pose, once it is known which nodes move.
+bool build_gltf_skeleton(GltfDocument& document, GltfChecker& checker);
+// gltf_animation.cpp: the clips.
+bool read_gltf_clips(GltfDocument& document, GltfChecker& checker);
+
+// The keys of a channel of animation `which`. Fails only while the file is being read: what was
+// read once can be read again.
+bool read_gltf_track(const GltfDocument& document, size_t which, const GltfChannel& channel,
+                     GltfChecker& checker, GltfTrack& out);
+// The same for a joint that no channel moves: where it rests.
+GltfTrack rest_gltf_track(const GltfNode& node, GltfPath path);
+
+// Names that are taken, each with the number of times that it was asked for.
+using GltfNames = std::map<std::string, int>;
+// `name`, or where it is taken the same with the next free " (2)", " (3)", ...; then taken too.
+std::string unique_name(const std::string& name, GltfNames& taken);
+
+// A number of the file as the clip has it: unit rotations, translations that the scale of the nodes
+// above multiplies.
+Quat clip_rotation(Quat in_file);
+Vec3 clip_translation(Vec3 in_file, double scale);
+
+}  // namespace panache

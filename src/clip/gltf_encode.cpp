@@ -1,0 +1,262 @@
+#include "clip/gltf_encode.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <vector>
+
+namespace panache {
+namespace {
+
+constexpr int kFloat = 5126;
+
+const char* path_name(GltfPath path) {
+  return path == GltfPath::rotation ? "rotation" : "translation";
+}
+
+// Writes the animation of one edit.
+class AnimationWriter {
+ public:
+  AnimationWriter(const GltfDocument& document, const ClipEdit& edit, GltfDataWriter data)
+      : document_(document),
+        changed_(*edit.changed),
+        source_frames_(edit.source_frames),
+        data_(data),
+        animation_(static_cast<size_t>(edit.clip)),
+        clip_(document.animations.empty() ? document.rest : document.animations[animation_].clip) {
+    assert(changed_.joints() == clip_.joints() && changed_.frames > 0);
+    assert(source_frames_.size() == static_cast<size_t>(changed_.frames));
+    if (!document.animations.empty()) start_ = document.animations[animation_].start;
+    keeps_time_ = changed_.frames == clip_.frames;
+    for (int i = 0; i < changed_.frames; ++i) {
+      keeps_time_ = keeps_time_ && source_frames_[static_cast<size_t>(i)] == i;
+    }
+    if (!keeps_time_) sample_source();
+  }
+
+  // The animation's JSON; no channels in it where the file has no animation and nothing moves.
+  GltfJson write() {
+    GltfJson result = GltfJson::object();
+    if (!document_.animations.empty()) {
+      result = document_.container.json["animations"][animation_];
+      const std::vector<GltfChannel>& channels = document_.animations[animation_].channels;
+      kept_samplers_.assign(result["samplers"].size(), -1);
+      for (size_t c = 0; c < channels.size(); ++c) write_channel(result, c, channels[c]);
+    }
+    for (size_t j = 0; j < clip_.joints(); ++j) {
+      const int node = document_.joint_nodes[j];
+      for (const GltfPath path : {GltfPath::rotation, GltfPath::translation}) {
+        if (!has_channel(node, path)) add_channel(node, j, path);
+      }
+    }
+    result["channels"] = std::move(channels_);
+    result["samplers"] = std::move(samplers_);
+    return result;
+  }
+
+ private:
+  // The file's poses at the times that the new frames came from.
+  void sample_source() {
+    sampled_.skeleton = clip_.skeleton;
+    sampled_.resize(changed_.frames);
+    for (int i = 0; i < changed_.frames; ++i) {
+      sample(clip_, source_frames_[static_cast<size_t>(i)], sampled_.pose(i));
+    }
+  }
+
+  // Whether the joint of a channel is at `frame` what it was in the file; scale and weights are
+  // nobody's to change.
+  bool is_same(int frame, size_t joint, GltfPath path) const {
+    const ConstPose now = changed_.pose(frame);
+    const ConstPose then = keeps_time_ ? clip_.pose(frame) : sampled_.pose(frame);
+    if (path == GltfPath::rotation) return now.rotations[joint] == then.rotations[joint];
+    if (path == GltfPath::translation) return now.translations[joint] == then.translations[joint];
+    return true;
+  }
+  bool is_same(size_t joint, GltfPath path) const {
+    if (path != GltfPath::rotation && path != GltfPath::translation) return true;
+    for (int i = 0; i < changed_.frames; ++i) {
+      if (!is_same(i, joint, path)) return false;
+    }
+    return true;
+  }
+
+  double seconds(double frame) const { return start_ + frame * clip_.frame_time; }
+
+  bool has_channel(int node, GltfPath path) const {
+    if (document_.animations.empty()) return false;
+    const std::vector<GltfChannel>& channels = document_.animations[animation_].channels;
+    return std::ranges::any_of(channels, [&](const GltfChannel& channel) {
+      return channel.node == node && channel.path == path;
+    });
+  }
+
+  void write_channel(const GltfJson& animation, size_t which, const GltfChannel& channel) {
+    GltfJson json = animation["channels"][which];
+    const GltfJson& sampler = animation["samplers"][static_cast<size_t>(channel.sampler)];
+    if (channel.path == GltfPath::other) return keep(std::move(json), channel, sampler);
+    // A node whose mesh has weights need not be a joint.
+    const int joint = document_.nodes[static_cast<size_t>(channel.node)].joint;
+    const bool same = is_same(static_cast<size_t>(std::max(joint, 0)), channel.path);
+    if (same && keeps_time_) return keep(std::move(json), channel, sampler);
+
+    GltfChecker checker("");
+    GltfTrack track;
+    [[maybe_unused]] const bool read =
+        read_gltf_track(document_, animation_, channel, checker, track);
+    assert(read);  // It was read before.
+    // A single key holds at all times, unless it is beyond the new end.
+    const bool holds = track.times.size() == 1 &&
+                       static_cast<double>(track.times[0]) <= seconds(changed_.frames - 1);
+    if (same && holds) return keep(std::move(json), channel, sampler);
+    json["sampler"] =
+        add_sampler(sampler, track, static_cast<size_t>(std::max(joint, 0)), channel.path, same);
+    channels_.push_back(std::move(json));
+  }
+
+  // The channel with the file's own sampler, which other channels may share.
+  void keep(GltfJson channel, const GltfChannel& read, const GltfJson& sampler) {
+    int& kept = kept_samplers_[static_cast<size_t>(read.sampler)];
+    if (kept < 0) {
+      kept = static_cast<int>(samplers_.size());
+      samplers_.push_back(sampler);
+    }
+    channel["sampler"] = kept;
+    channels_.push_back(std::move(channel));
+  }
+
+  void add_channel(int node, size_t joint, GltfPath path) {
+    const GltfNode& placed = document_.nodes[static_cast<size_t>(node)];
+    if (placed.matrix || is_same(joint, path)) return;
+    const size_t sampler =
+        add_sampler(GltfJson::object(), rest_gltf_track(placed, path), joint, path, false);
+    channels_.push_back(
+        {{"sampler", sampler}, {"target", {{"node", node}, {"path", path_name(path)}}}});
+  }
+
+  // A sampler with a key per frame, in other things like `like`; its index in the animation.
+  size_t add_sampler(GltfJson like, const GltfTrack& track, size_t joint, GltfPath path,
+                     bool same) {
+    const std::vector<float> numbers = new_numbers(track, joint, path);
+    const bool vectors = path == GltfPath::translation || path == GltfPath::scale;
+    like["input"] = times_accessor();
+    const bool stays_step = same && track.interpolation == GltfTrack::Interpolation::step;
+    like["interpolation"] = stays_step ? "STEP" : "LINEAR";
+    if (path == GltfPath::weights) {
+      like["output"] = data_.add(numbers, "SCALAR", 1);
+    } else {
+      like["output"] = data_.add(numbers, vectors ? "VEC3" : "VEC4", track.components);
+    }
+    samplers_.push_back(std::move(like));
+    return samplers_.size() - 1;
+  }
+
+  // A value per frame: where nothing changed the file's own at that time, and so a key's own bits.
+  std::vector<float> new_numbers(const GltfTrack& track, size_t joint, GltfPath path) const {
+    const size_t n = track.components;
+    std::vector<float> numbers(static_cast<size_t>(changed_.frames) * n);
+    for (int i = 0; i < changed_.frames; ++i) {
+      const std::span<float> out = std::span(numbers).subspan(static_cast<size_t>(i) * n, n);
+      if (is_same(i, joint, path)) {
+        const double frame = source_frames_[static_cast<size_t>(i)];
+        const double last = clip_.frames - 1;
+        const double at = seconds(frame > 0 ? std::min(frame, last) : 0.0);
+        track.evaluate(at, key_tolerance(at, clip_.frame_time), out);
+      } else if (path == GltfPath::translation) {
+        const Vec3d place = changed_.pose(i).translations[joint].as<double>();
+        const Vec3 v = (place / document_.scales[joint]).as<float>();
+        out[0] = v.x, out[1] = v.y, out[2] = v.z;
+      } else {
+        Quat q = changed_.pose(i).rotations[joint];
+        // Of the two quaternions of a rotation the one on the side of the frame before.
+        const float* p = out.data() - 4;
+        if (i > 0 && dot(q, Quat{p[0], p[1], p[2], p[3]}) < 0) q = {-q.x, -q.y, -q.z, -q.w};
+        out[0] = q.x, out[1] = q.y, out[2] = q.z, out[3] = q.w;
+      }
+    }
+    return numbers;
+  }
+
+  // The times of the frames, which all new samplers share.
+  size_t times_accessor() {
+    if (times_ >= 0) return static_cast<size_t>(times_);
+    std::vector<float> times;
+    for (int i = 0; i < changed_.frames; ++i) {
+      float time = static_cast<float>(seconds(i));
+      // Far from zero, floats are further apart than frames; times have to increase all the same.
+      if (i > 0) time = std::max(time, std::nextafter(times.back(), HUGE_VALF));
+      times.push_back(time);
+    }
+    times_ = static_cast<int>(data_.add(times, "SCALAR", 1, true));
+    return static_cast<size_t>(times_);
+  }
+
+  const GltfDocument& document_;
+  const Clip& changed_;
+  std::span<const double> source_frames_;
+  GltfDataWriter data_;
+  size_t animation_;
+  const Clip& clip_;  // As it was read.
+  double start_ = 0;
+  bool keeps_time_ = false;
+  Clip sampled_;                    // Empty where the time is kept.
+  std::vector<int> kept_samplers_;  // [samplers of the file] where each went; -1 for nowhere yet.
+  GltfJson channels_ = GltfJson::array();
+  GltfJson samplers_ = GltfJson::array();
+  int times_ = -1;  // Accessor of the frames' times; -1 where none was needed yet.
+};
+
+}  // namespace
+
+size_t GltfDataWriter::add(std::span<const float> numbers, std::string_view type, size_t components,
+                           bool bounds) {
+  const size_t begin = bytes_.size();
+  if (view_ < 0) {
+    view_ = static_cast<int>(json_["bufferViews"].size());
+    first_ = begin;
+    json_["bufferViews"].push_back(
+        {{"buffer", place_.buffer}, {"byteOffset", place_.offset + begin}, {"byteLength", 0}});
+  }
+  for (const float number : numbers) {
+    const uint32_t bits = std::bit_cast<uint32_t>(number);
+    for (size_t i = 0; i < 4; ++i) bytes_ += static_cast<char>(bits >> (8 * i) & 0xff);
+  }
+  json_["bufferViews"][static_cast<size_t>(view_)]["byteLength"] = bytes_.size() - first_;
+  GltfJson accessor = {{"bufferView", view_},
+                       {"byteOffset", begin - first_},
+                       {"componentType", kFloat},
+                       {"count", numbers.size() / components},
+                       {"type", type}};
+  if (bounds) {
+    const auto [least, most] = std::ranges::minmax(numbers);
+    accessor["min"].push_back(least);
+    accessor["max"].push_back(most);
+  }
+  json_["accessors"].push_back(std::move(accessor));
+  return json_["accessors"].size() - 1;
+}
+
+std::string encode_gltf(const GltfDocument& document, std::span<const ClipEdit> edits,
+                        EditMode mode) {
+  GltfJson json = document.container.json;
+  std::string added;
+  GltfNames names;
+  for (const GltfAnimation& animation : document.animations) unique_name(animation.name, names);
+  for (const ClipEdit& edit : edits) {
+    const GltfDataWriter data(gltf_added_at(document.container), json, added);
+    GltfJson animation = AnimationWriter(document, edit, data).write();
+    if (animation["channels"].empty()) continue;  // glTF has no animation that moves nothing.
+    if (mode == EditMode::replace && !document.animations.empty()) {
+      json["animations"][static_cast<size_t>(edit.clip)] = std::move(animation);
+      continue;
+    }
+    const size_t number = json["animations"].size() + 1;
+    animation["name"] =
+        unique_name(edit.name.empty() ? "animation " + std::to_string(number) : edit.name, names);
+    json["animations"].push_back(std::move(animation));
+  }
+  return write_gltf_container(document.container, std::move(json), added);
+}
+
+}  // namespace panache

@@ -1,0 +1,38 @@
+#pragma once
+// MotionFile::encode for a glTF file, and the pieces of JSON that describe new data. Private to the
+// folder.
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "clip/gltf_document.h"
+#include "clip/motion_file.h"
+
+namespace panache {
+
+std::string encode_gltf(const GltfDocument& document, std::span<const ClipEdit> edits,
+                        EditMode mode);
+
+// New numbers at the end of a file's binary data, and their accessors in its JSON. All numbers of
+// one writer share a buffer view.
+class GltfDataWriter {
+ public:
+  // Appends to `bytes`, which begin at `place` of the file; both outlive the writer.
+  GltfDataWriter(GltfPlace place, GltfJson& json, std::string& bytes)
+      : place_(place), json_(json), bytes_(bytes) {}
+
+  // An accessor of floats of `type` ("SCALAR", "VEC3", ...), its index in the file; with their
+  // bounds where `bounds`.
+  size_t add(std::span<const float> numbers, std::string_view type, size_t components,
+             bool bounds = false);
+
+ private:
+  GltfPlace place_;
+  GltfJson& json_;
+  std::string& bytes_;
+  int view_ = -1;     // Made with the first numbers.
+  size_t first_ = 0;  // Where in `bytes` the view begins.
+};
+
+}  // namespace panache

@@ -1,0 +1,142 @@
+// Many files at once: folders, patterns, and the account at the end.
+
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+
+namespace panache::test {
+namespace {
+
+class Batch : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write_walk("takes/b.bvh");
+    write_walk("takes/a.bvh");
+    write_walk("takes/day 2/a.bvh");
+    write_walk("takes/day 2/deep/C.BVH");
+    write("takes/notes.txt", "not a motion");
+    write("takes/.hidden.bvh", "not a motion");
+    write("takes/.git/x.bvh", "not a motion");
+  }
+  Ran stylize(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"stylize", "--style", "old=1"});
+    return run(arguments);
+  }
+  // What the report says each input became.
+  std::vector<std::string> pairs(std::vector<std::string> arguments) {
+    arguments.emplace_back("--json");
+    const Ran ran = stylize(std::move(arguments));
+    EXPECT_EQ(ran.exit, 0) << ran.err;
+    std::vector<std::string> out;
+    for (const auto& file : nlohmann::json::parse(ran.out)) {
+      EXPECT_TRUE(exists(file["out"].get<std::string>()));
+      out.push_back(file["in"].get<std::string>() + " > " + file["out"].get<std::string>());
+    }
+    return out;
+  }
+  using Lines = std::vector<std::string>;
+};
+
+TEST_F(Batch, a_folder_means_all_motion_in_it_and_keeps_its_folders) {
+  EXPECT_EQ(pairs({"takes", "-o", "out"}),
+            (Lines{"takes/a.bvh > out/a.bvh", "takes/b.bvh > out/b.bvh",
+                   "takes/day 2/a.bvh > out/day 2/a.bvh",
+                   "takes/day 2/deep/C.BVH > out/day 2/deep/C.BVH"}));
+}
+
+TEST_F(Batch, a_folder_with_one_file_gives_a_folder) {
+  EXPECT_EQ(pairs({"takes/day 2/deep/", "-o", "out"}), Lines{"takes/day 2/deep/C.BVH > out/C.BVH"});
+}
+
+TEST_F(Batch, a_pattern_means_what_matches_it) {
+  EXPECT_EQ(pairs({"takes/*.bvh", "-o", "one"}),
+            (Lines{"takes/a.bvh > one/a.bvh", "takes/b.bvh > one/b.bvh"}));
+  EXPECT_EQ(pairs({"takes/**/[ac].*", "-o", "any"}),
+            (Lines{"takes/a.bvh > any/a.bvh", "takes/day 2/a.bvh > any/day 2/a.bvh"}));
+  EXPECT_EQ(pairs({"takes/day?2/**", "-o", "below"}),
+            (Lines{"takes/day 2/a.bvh > below/day 2/a.bvh",
+                   "takes/day 2/deep/C.BVH > below/day 2/deep/C.BVH"}));
+}
+
+TEST_F(Batch, a_file_whose_name_looks_like_a_pattern_is_a_file) {
+  write_walk("a[1].bvh");
+  EXPECT_EQ(pairs({"a[1].bvh", "-o", "out/"}), Lines{"a[1].bvh > out/a[1].bvh"});
+}
+
+TEST_F(Batch, a_file_named_twice_comes_once) {
+  EXPECT_EQ(pairs({"takes/*.bvh", "takes/a.bvh", "./takes/b.bvh", "-o", "out"}),
+            (Lines{"takes/a.bvh > out/a.bvh", "takes/b.bvh > out/b.bvh"}));
+}
+
+TEST_F(Batch, results_are_no_inputs) {
+  EXPECT_EQ(pairs({"takes", "-o", "takes/old"}).size(), 4u);
+  EXPECT_EQ(pairs({"takes", "-o", "takes/old", "--force"}).size(), 4u);
+}
+
+TEST_F(Batch, a_link_to_a_folder_is_not_followed) {
+  std::filesystem::create_directory_symlink("..", path("takes/up"));
+  EXPECT_EQ(pairs({"takes", "-o", "out"}).size(), 4u);
+}
+
+TEST_F(Batch, existing_outputs_are_refused_together_before_any_work) {
+  EXPECT_EQ(stylize({"takes", "-o", "out"}).exit, 0);
+  const Ran all = stylize({"takes", "-o", "out"});
+  EXPECT_EQ(all.exit, 1);
+  EXPECT_EQ(all.err,
+            "panache: 4 of 4 outputs exist already (out/a.bvh, out/b.bvh, out/day 2/a.bvh and 1 "
+            "more); --force overwrites them\n");
+  std::filesystem::remove(path("out/a.bvh"));
+  std::filesystem::remove(path("out/b.bvh"));
+  EXPECT_EQ(
+      stylize({"takes", "-o", "out"}).err,
+      "panache: 2 of 4 outputs exist already (out/day 2/a.bvh, out/day 2/deep/C.BVH); --force "
+      "overwrites them\n");
+  EXPECT_FALSE(exists("out/a.bvh"));
+  EXPECT_EQ(stylize({"takes", "-o", "out", "--force"}).exit, 0);
+}
+
+TEST_F(Batch, a_file_that_fails_stops_no_other) {
+  write("takes/day 2/bad.bvh", "HIERARCHY\n");
+  const Ran ran = stylize({"takes", "-o", "out"});
+  EXPECT_EQ(ran.exit, 1);
+  EXPECT_TRUE(ran.err.starts_with("panache: takes/day 2/bad.bvh:")) << ran.err;
+  EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+  EXPECT_TRUE(ran.out.starts_with("restyled 4 of 5 files, 1 failed, in ")) << ran.out;
+  EXPECT_EQ(entries("out/day 2"), (Lines{"a.bvh", "deep"}));
+}
+
+TEST_F(Batch, a_report_tells_of_each_file) {
+  write("takes/bad.bvh", "");
+  const Ran ran = stylize({"takes/*.bvh", "-o", "out", "--report", "report.json", "--json"});
+  EXPECT_EQ(ran.exit, 1);
+  EXPECT_TRUE(read("report.json") == ran.out);
+  const auto report = nlohmann::json::parse(read("report.json"));
+  ASSERT_EQ(report.size(), 3u);
+  EXPECT_EQ(report[0]["in"], "takes/a.bvh");
+  EXPECT_EQ(report[0]["out"], "out/a.bvh");
+  EXPECT_EQ(report[0]["ok"], true);
+  EXPECT_EQ(report[0]["frames"], report[0]["clips"][0]["frames_out"]);
+  EXPECT_EQ(report[0]["seconds"], report[0]["clips"][0]["seconds"]);
+  EXPECT_EQ(report[0]["mapping"]["up_axis"], "+Y");
+  EXPECT_EQ(report[2]["ok"], false);
+  EXPECT_EQ("panache: " + report[2]["error"].get<std::string>() + "\n", ran.err);
+  EXPECT_EQ(report[2]["clips"].size(), 0u);
+  const Ran again = stylize({"takes/a.bvh", "-o", "x.bvh", "--report", "report.json"});
+  EXPECT_EQ(again.err, "panache: report.json: exists already; --force overwrites it\n");
+  const Ran same = stylize({"takes/a.bvh", "-o", "x.bvh", "--report", "x.bvh"});
+  EXPECT_EQ(same.err, "panache: --report: x.bvh is an output too; expected a file of its own\n");
+  EXPECT_EQ(same.exit, 2);
+}
+
+TEST_F(Batch, nothing_found_is_said) {
+  EXPECT_EQ(stylize({"takes/*.glb", "-o", "out"}).err,
+            "panache: takes/*.glb: no motion file has a name that matches this (.bvh, .glb, .gltf, "
+            ".vrm, .fbx)\n");
+  const Ran none = stylize({"none/**/*.bvh", "-o", "out"});
+  EXPECT_EQ(none.exit, 1);
+  EXPECT_EQ(none.err, "panache: none: cannot be read: No such file or directory\n");
+}
+
+}  // namespace
+}  // namespace panache::test

@@ -1,0 +1,200 @@
+// panache convert: motion files from one format to another.
+
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+#include "cli/same_places.h"
+#include "clip/make_character.h"
+
+namespace panache::test {
+namespace {
+
+// Six decimals of a degree and of a metre in BVH add up to less than this along a body. Metres.
+constexpr float kNear = 2e-5f;
+
+class Convert : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write_walk("walk.bvh");
+    write("hero.glb", to_glb(character()));
+  }
+  std::unique_ptr<MotionFile> open(const std::string& name) {
+    Result<std::unique_ptr<MotionFile>> file = read_motion(path(name));
+    EXPECT_TRUE(file.ok()) << file.error().message;
+    return file ? *std::move(file) : nullptr;
+  }
+  void expect_refused(std::vector<std::string> arguments, int exit, const std::string& sentence) {
+    arguments.insert(arguments.begin(), "convert");
+    const Ran ran = run(arguments);
+    EXPECT_EQ(ran.err, "panache: " + sentence + "\n");
+    EXPECT_EQ(ran.exit, exit);
+  }
+  void convert(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "convert");
+    const Ran ran = run(arguments);
+    EXPECT_EQ(ran.exit, 0) << ran.err;
+    EXPECT_EQ(ran.err, "");
+  }
+};
+
+TEST_F(Convert, the_same_format_is_the_very_file) {
+  write("hero.vrm", read("hero.glb"));
+  for (const std::string name : {"walk.bvh", "hero.glb", "hero.vrm"}) {
+    convert({name, "-o", "out/" + name});
+    EXPECT_TRUE(read("out/" + name) == read(name)) << name;
+  }
+  convert({"hero.vrm", "-o", "out/vrm.glb"});
+  EXPECT_TRUE(read("out/vrm.glb") == read("hero.glb"));
+}
+
+TEST_F(Convert, bvh_becomes_glb_in_metres_with_y_up) {
+  // The walk in centimetres with Z up.
+  Clip walk = walking_clip(40);
+  const Quat turn = {std::sqrt(0.5f), 0, 0, std::sqrt(0.5f)};
+  for (Joint& joint : walk.skeleton.joints) joint.offset *= 100;
+  for (Vec3& t : walk.translations) t *= 100;
+  for (int f = 0; f < walk.frames; ++f) {
+    walk.pose(f).translations[0] = rotate(turn, walk.pose(f).translations[0]);
+    walk.pose(f).rotations[0] = turn * walk.pose(f).rotations[0];
+  }
+  write("z.bvh", format_bvh(walk));
+  convert({"z.bvh", "-o", "z.glb", "--scale", "0.01"});
+  const auto file = open("z.glb");
+  ASSERT_TRUE(file);
+  EXPECT_EQ(file->clip_names(), std::vector<std::string>{"z"});
+  expect_same_places(walking_clip(40), file->clip(), kNear);
+  // The legs tell the unit as well.
+  convert({"z.bvh", "-o", "found.glb"});
+  expect_same_places(walking_clip(40), open("found.glb")->clip(), 0.01f);
+}
+
+TEST_F(Convert, glb_becomes_bvh_with_every_joint_in_its_place) {
+  for (const std::string name : {"Walk", "Wave"}) {
+    SCOPED_TRACE(name);
+    convert({"hero.glb", "--clip", name, "-o", name + ".bvh"});
+    const auto glb = open("hero.glb"), bvh = open(name + ".bvh");
+    ASSERT_TRUE(glb && bvh);
+    const std::vector<std::string> names = glb->clip_names();
+    const auto which = std::find(names.begin(), names.end(), name) - names.begin();
+    expect_same_places(glb->clip(static_cast<int>(which)), bvh->clip(), kNear);
+  }
+}
+
+TEST_F(Convert, a_bvh_from_glb_rests_as_the_glb_does) {
+  convert({"hero.glb", "--clip", "Walk", "-o", "out.bvh"});
+  const auto glb = open("hero.glb"), bvh = open("out.bvh");
+  ASSERT_TRUE(glb && bvh);
+  // Both skeletons without motion.
+  const auto at_rest = [](const Clip& clip) {
+    Clip rest;
+    rest.skeleton = clip.skeleton;
+    rest.resize(1);
+    for (size_t j = 0; j < rest.joints(); ++j) {
+      rest.rotations[j] = rest.skeleton.joints[j].rest;
+      rest.translations[j] = rest.skeleton.joints[j].offset;
+    }
+    return rest;
+  };
+  expect_same_places(at_rest(glb->clip()), at_rest(bvh->clip()), kNear);
+}
+
+TEST_F(Convert, gltf_takes_along_what_it_points_to) {
+  const GltfParts parts = character();
+  write("in/hero.gltf", to_gltf_text(parts, "hero.bin"));
+  write("in/hero.bin", parts.bin);
+  convert({"in/hero.gltf", "-o", "out/hero.gltf"});
+  convert({"in/hero.gltf", "-o", "out/hero.glb"});
+  for (const std::string name : {"out/hero.gltf", "out/hero.glb"}) {
+    const auto before = open("hero.glb"), after = open(name);
+    ASSERT_TRUE(before && after);
+    EXPECT_EQ(after->clip_names(), before->clip_names());
+    expect_same_places(before->clip(), after->clip(), 0);
+  }
+  const GltfParts glb = glb_parts(read("out/hero.glb"));
+  EXPECT_EQ(glb.json["meshes"], parts.json["meshes"]);
+  EXPECT_TRUE(glb.bin == parts.bin);
+}
+
+TEST_F(Convert, gltf_with_several_buffers_becomes_glb_with_one) {
+  GltfParts parts = character();
+  // The last view's bytes go into a buffer of their own.
+  Json& view = parts.json["bufferViews"].back();
+  const std::string bytes = parts.bin.substr(view.value("byteOffset", 0), view["byteLength"]);
+  view["buffer"] = 1;
+  view["byteOffset"] = 4;
+  Json whole = Json::parse(to_gltf_text(parts));
+  whole["buffers"].push_back(
+      {{"byteLength", bytes.size() + 4},
+       {"uri", "data:application/octet-stream;base64," + to_base64("pad!" + bytes)}});
+  write("two.gltf", whole.dump());
+  convert({"two.gltf", "-o", "two.glb"});
+  const GltfParts glb = glb_parts(read("two.glb"));
+  ASSERT_EQ(glb.json["buffers"].size(), 1u);
+  const Json& moved = glb.json["bufferViews"].back();
+  EXPECT_EQ(moved["buffer"], 0);
+  EXPECT_TRUE(glb.bin.substr(moved["byteOffset"], moved["byteLength"]) == bytes);
+}
+
+TEST_F(Convert, one_of_several_motions_must_be_named) {
+  expect_refused({"hero.glb", "-o", "out.bvh"}, 1,
+                 "hero.glb: holds 2 motions ('Walk', 'Wave') and out.bvh takes one; --clip NAME "
+                 "picks it");
+  expect_refused({"hero.glb", "--clip", "Run", "-o", "out.bvh"}, 1,
+                 "hero.glb: holds no motion 'Run'; expected one of 'Walk', 'Wave'");
+  expect_refused({"hero.glb", "--clip", "Walk", "-o", "out.glb"}, 1,
+                 "hero.glb: all its motions go into out.glb; expected no --clip, which is for "
+                 "formats that hold one motion");
+  expect_refused({"walk.bvh", "--clip", "Walk", "-o", "out.glb"}, 1,
+                 "walk.bvh: holds one motion, which has no name; expected no --clip, found 'Walk'");
+}
+
+TEST_F(Convert, what_is_no_humanoid_keeps_its_units) {
+  Skeleton box;
+  box.joints.push_back({"Box", -1, {}, {}, true, true, {{0, 1, 0}}, ""});
+  write("box.bvh",
+        format_bvh({box, 1.0 / 30, 2, std::vector<Quat>(2), std::vector<Vec3>(2, {0, 0, 5})}));
+  expect_refused(
+      {"box.bvh", "-o", "box.glb"}, 0,
+      "box.bvh: is no humanoid that would tell its unit and up axis; taken as metres and "
+      "+Y where --scale and --up do not say otherwise");
+  expect_same_places(open("box.bvh")->clip(), open("box.glb")->clip(), 0);
+  convert({"box.bvh", "-o", "big.glb", "--scale", "2", "--up", "z"});
+  const auto big = open("big.glb");
+  std::vector<Quat> rotations(big->clip().joints());
+  std::vector<Vec3> places(big->clip().joints());
+  world_pose(big->clip().skeleton, big->clip().pose(0), {rotations, places});
+  EXPECT_NEAR(places[1].y, 10, 1e-5) << "twice as large and Y up";
+}
+
+TEST_F(Convert, a_folder_needs_a_format) {
+  write_walk("takes/a.bvh");
+  write("takes/b.glb", to_glb(small_gltf()));
+  expect_refused({"takes", "-o", "out"}, 2,
+                 "--output out: is a folder; expected --to bvh or --to glb with it");
+  expect_refused({"takes", "-o", "out", "--to", "fbx"}, 2,
+                 "--to: expected bvh or glb, found 'fbx'");
+  expect_refused({"walk.bvh", "-o", "out.glb", "--to", "bvh"}, 2,
+                 "--to bvh: out.glb says otherwise");
+  convert({"takes", "-o", "out", "--to", "bvh"});
+  EXPECT_EQ(entries("out"), (std::vector<std::string>{"a.bvh", "b.bvh"}));
+  write("takes/a.glb", to_glb(small_gltf()));
+  expect_refused(
+      {"takes", "-o", "more", "--to", "bvh"}, 2,
+      "more/a.bvh: is where the results of both 'takes/a.bvh' and 'takes/a.glb' would go; "
+      "expected inputs of different names");
+}
+
+TEST_F(Convert, tells_machines_what_it_did) {
+  const Ran ran = run({"convert", "hero.glb", "walk.bvh", "--to", "glb", "-o", "out", "--json"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  const auto files = nlohmann::json::parse(ran.out);
+  ASSERT_EQ(files.size(), 2u);
+  EXPECT_EQ(files[0]["clips"].size(), 2u);
+  EXPECT_EQ(files[0]["clips"][1]["name"], "Wave");
+  EXPECT_EQ(files[1]["frames"], 40);
+  EXPECT_EQ(files[1]["mapping"]["likely_unit"], "metres");
+}
+
+}  // namespace
+}  // namespace panache::test

@@ -1,0 +1,250 @@
+// FBX files, which come in through Assimp and go on as GLB.
+
+#include <nlohmann/json.hpp>
+
+#include "cli/make_fbx.h"
+#include "cli/program.h"
+#include "cli/same_places.h"
+#include "clip/make_gltf.h"
+
+namespace panache::test {
+namespace {
+
+// Angles in the file have six decimals of a degree, places six of a unit; along a chain of seven
+// joints of half a metre that adds up to less than this. Metres.
+constexpr float kNear = 2e-5f;
+
+class Fbx : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write("walk.fbx", format_fbx(walking_clip(5)));
+    if (run({"info", "walk.fbx"}).err.find("this build reads no FBX files") != std::string::npos) {
+      GTEST_SKIP() << "this build has no Assimp";
+    }
+  }
+  // The file brought to `name` and read again.
+  std::unique_ptr<MotionFile> converted(const std::string& from, const std::string& name) {
+    const Ran ran = run({"convert", from, "--force", "-o", name});
+    EXPECT_EQ(ran.exit, 0) << ran.err;
+    EXPECT_EQ(ran.err, "");
+    Result<std::unique_ptr<MotionFile>> file = read_motion(path(name));
+    EXPECT_TRUE(file.ok()) << file.error().message;
+    return file ? *std::move(file) : nullptr;
+  }
+  // A walk goes through FBX, as `options` have it, to BVH and to GLB.
+  void expect_kept(const FbxOptions& options) {
+    const Clip walk = walking_clip(20);
+    write("in.fbx", format_fbx(walk, options));
+    for (const std::string name : {"out.bvh", "out.glb"}) {
+      SCOPED_TRACE(name);
+      const auto file = converted("in.fbx", name);
+      ASSERT_TRUE(file);
+      expect_same_places(walk, file->clip(), kNear);
+    }
+  }
+};
+
+TEST_F(Fbx, a_walk_keeps_its_places_and_times) { expect_kept({}); }
+
+TEST_F(Fbx, units_become_metres) {
+  FbxOptions inches;
+  inches.centimetres = 2.54;
+  expect_kept(inches);
+  FbxOptions metres;
+  metres.centimetres = 100;
+  expect_kept(metres);
+}
+
+TEST_F(Fbx, z_up_becomes_y_up) {
+  FbxOptions options;
+  options.z_up = true;
+  expect_kept(options);
+}
+
+TEST_F(Fbx, rotations_before_a_joints_own_count) {
+  FbxOptions options;
+  options.pre_rotation = normalized(Quat{0.3f, -0.5f, 0.2f, 0.7f});
+  expect_kept(options);
+}
+
+TEST_F(Fbx, a_motion_that_begins_late_begins_with_its_first_key) {
+  FbxOptions options;
+  options.first_key = 2.5;
+  expect_kept(options);
+}
+
+TEST_F(Fbx, only_what_moves_can_move) {
+  const auto file = converted("walk.fbx", "out.glb");
+  ASSERT_TRUE(file);
+  EXPECT_EQ(file->clip_names(), std::vector<std::string>{"Take 001"});
+  for (const Joint& joint : file->clip().skeleton.joints) {
+    EXPECT_EQ(joint.can_translate, joint.name == "hips") << joint.name;
+  }
+}
+
+TEST_F(Fbx, several_at_once_give_what_each_gives_alone) {
+  for (const std::string name : {"a", "b", "c", "d", "e"}) {
+    write("in/" + name + ".fbx", format_fbx(walking_clip(name[0] - 'a' + 5)));
+  }
+  EXPECT_EQ(run({"convert", "in", "--to", "bvh", "--jobs", "5", "-o", "many"}).exit, 0);
+  for (const std::string& name : entries("in")) {
+    const std::string stem = name.substr(0, 1);
+    ASSERT_TRUE(converted("in/" + name, "one.bvh"));
+    EXPECT_TRUE(read("many/" + stem + ".bvh") == read("one.bvh")) << stem;
+  }
+}
+
+TEST_F(Fbx, info_shows_it) {
+  const Ran ran = run({"info", "walk.fbx"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_NE(ran.out.find("  motion  Take 001  5 frames at 30 a second: 0.17 s\n"),
+            std::string::npos)
+      << ran.out;
+  EXPECT_NE(ran.out.find("  unit    1 m (metres, most likely), judged by the legs\n"),
+            std::string::npos)
+      << ran.out;
+}
+
+TEST_F(Fbx, stylize_gives_a_glb_with_both_motions) {
+  write("walk.fbx", format_fbx(walking_clip(40)));
+  const Ran ran = run({"stylize", "walk.fbx", "--style", "old=1", "-o", "out/"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_EQ(entries("out"), std::vector<std::string>{"walk.glb"});
+  const auto file = read_motion(path("out/walk.glb"));
+  ASSERT_TRUE(file.ok()) << file.error().message;
+  EXPECT_EQ((*file)->clip_names(), (std::vector<std::string>{"Take 001", "Take 001 (old 1)"}));
+}
+
+TEST_F(Fbx, a_skeleton_without_motion_has_nothing_to_restyle) {
+  FbxOptions options;
+  options.motion = "";
+  write("still.fbx", format_fbx(walking_clip(1), options));
+  const Ran ran = run({"stylize", "still.fbx", "--style", "old=1", "-o", "out.glb"});
+  EXPECT_EQ(ran.exit, 1);
+  EXPECT_TRUE(ran.err.starts_with("panache: still.fbx: ")) << ran.err;
+  EXPECT_FALSE(exists("out.glb"));
+}
+
+TEST_F(Fbx, a_damaged_file_gets_a_sentence) {
+  const std::string good = read("walk.fbx");
+  // Each cut leaves a bracket open somewhere else.
+  for (size_t size = 100; size < good.size(); size += good.size() / 23) {
+    write("bad.fbx", good.substr(0, size));
+    const Ran ran = run({"info", "bad.fbx"});
+    EXPECT_EQ(ran.exit, 1) << size << ran.out;
+    EXPECT_TRUE(ran.err.starts_with("panache: bad.fbx: ")) << ran.err;
+    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+  }
+  write("bad.fbx", "no such thing");
+  EXPECT_EQ(run({"info", "bad.fbx"}).err,
+            "panache: bad.fbx: does not begin as FBX files do; is it damaged?\n");
+}
+
+// A program of other people's reads a walk of ours and writes it as FBX, on its own axes and units,
+// with a skin.
+class FbxOfBlender : public Fbx {
+ protected:
+  void SetUp() override {
+    Fbx::SetUp();
+    if (IsSkipped()) return;
+    if (std::system("command -v blender >/dev/null") != 0) GTEST_SKIP() << "there is no blender";
+    ASSERT_EQ(run({"walker", "-o", "walk.bvh", "--seconds", "2", "--turn", "20"}).exit, 0);
+  }
+  // `options` go to Blender's exporter.
+  void expect_kept_by_blender(const std::string& options) {
+    write("make.py", kScript + std::string("export('walk.bvh', 'blender.fbx'") + options + ")\n");
+    const std::string command =
+        "cd '" + path("") +
+        "' && blender -b --factory-startup --python-exit-code 1 --python make.py";
+    ASSERT_EQ(std::system((command + " >blender.log 2>&1").c_str()), 0) << read("blender.log");
+    const auto walk = read_motion(path("walk.bvh"));
+    ASSERT_TRUE(walk.ok());
+    for (const std::string name : {"out.bvh", "out.glb"}) {
+      SCOPED_TRACE(name);
+      const auto file = converted("blender.fbx", name);
+      ASSERT_TRUE(file);
+      // Blender samples the motion in floats, some metres from the origin.
+      expect_same_places((*walk)->clip(), file->clip(), 1e-4f);
+      // The skin tells the rest pose, so that the first frame is not taken for it.
+      const Ran info = run({"info", name});
+      EXPECT_NE(info.out.find("  start   the first frame is motion\n"), std::string::npos)
+          << info.out;
+    }
+  }
+
+  // Each joint has a triangle in each body, of which one corner is in the joint and two are 5 cm
+  // from it: so it is in the axes of a joint that counts in metres.
+  void expect_skins_sit_on_their_joints() {
+    GltfParts glb = glb_parts(read("out.glb"));
+    ASSERT_EQ(glb.json["meshes"].size(), 2u);
+    ASSERT_EQ(glb.json["skins"].size(), 1u);
+    const size_t matrices = glb.json["skins"][0]["inverseBindMatrices"];
+    Json& columns = glb.json["accessors"][matrices];  // Four to a matrix.
+    columns["count"] = 4 * columns["count"].get<size_t>();
+    columns["type"] = "VEC4";
+    const std::vector<float> binds = accessor_floats(glb, matrices);
+    for (const Json& mesh : glb.json["meshes"]) {
+      const Json& attributes = mesh["primitives"][0]["attributes"];
+      const std::vector<float> points = accessor_floats(glb, attributes["POSITION"]);
+      const std::string joints = accessor_bytes(glb, attributes["JOINTS_0"]);
+      const size_t joint_bytes = joints.size() / (points.size() / 3);
+      for (size_t i = 0; 3 * i < points.size(); ++i) {
+        const auto joint = static_cast<unsigned char>(joints[i * joint_bytes]);
+        const float* m = &binds[16u * joint];  // Column after column.
+        const float* p = &points[3 * i];
+        const auto row = [&](int r) {
+          return m[r] * p[0] + m[4 + r] * p[1] + m[8 + r] * p[2] + m[12 + r];
+        };
+        const float away = length(Vec3{row(0), row(1), row(2)});
+        EXPECT_LE(std::min(away, std::abs(away - 0.05f)), 1e-5f) << i;
+      }
+    }
+  }
+
+  // Debian's Blender opens files in a way that its Python has given up.
+  static constexpr const char* kScript = R"(
+import bpy, builtins
+plain = builtins.open
+builtins.open = lambda f, mode='r', *rest, **named: plain(f, mode.replace('U', ''), *rest, **named)
+
+def add_body(armature, place):
+    mesh = bpy.data.meshes.new('Body')
+    body = bpy.data.objects.new('Body', mesh)
+    bpy.context.collection.objects.link(body)
+    body.location = place
+    bones = list(armature.data.bones)
+    corners = [(0, 0, 0), (.05, 0, 0), (0, .05, 0)]
+    heads = [armature.matrix_world @ bone.head_local for bone in bones]
+    mesh.from_pydata([tuple(h[k] + c[k] - place[k] for k in range(3))
+                      for h in heads for c in corners], [],
+                     [(3 * i, 3 * i + 1, 3 * i + 2) for i in range(len(bones))])
+    for i, bone in enumerate(bones):
+        body.vertex_groups.new(name=bone.name).add([3 * i, 3 * i + 1, 3 * i + 2], 1, 'REPLACE')
+    body.parent = armature
+    body.matrix_parent_inverse = armature.matrix_world.inverted()
+    body.modifiers.new('Armature', 'ARMATURE').object = armature
+
+def export(bvh, fbx, **options):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.import_anim.bvh(filepath=bvh, update_scene_fps=True, update_scene_duration=True)
+    armature = bpy.context.object
+    for place in ((0, 0, 0), (1, 2, 3)):
+        add_body(armature, place)
+    bpy.ops.export_scene.fbx(filepath=fbx, add_leaf_bones=False, bake_anim_simplify_factor=0,
+                             **options)
+
+)";
+};
+
+TEST_F(FbxOfBlender, a_skinned_walk_keeps_its_places) {
+  expect_kept_by_blender("");
+  expect_skins_sit_on_their_joints();
+}
+
+TEST_F(FbxOfBlender, a_skinned_walk_with_other_axes_and_units_keeps_its_places) {
+  expect_kept_by_blender(", axis_up='Z', axis_forward='Y', apply_scale_options='FBX_SCALE_ALL'");
+}
+
+}  // namespace
+}  // namespace panache::test

@@ -1,0 +1,160 @@
+// panache info of motion files: the rig as it was understood, and what the user says of it.
+
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+
+namespace panache::test {
+namespace {
+
+class Info : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write_walk("walk.bvh");
+  }
+  static bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  }
+  nlohmann::json json_of(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "info");
+    arguments.emplace_back("--json");
+    return nlohmann::json::parse(run(arguments).out);
+  }
+  // Which joint of walk.bvh the human joint is, as the map in map.json has it.
+  nlohmann::json joint(const std::string& human_joint) {
+    const nlohmann::json info = json_of({"walk.bvh", "--map", "map.json"});
+    for (const auto& entry : info["mapping"]["joints"]) {
+      if (entry["humanoid"] == human_joint) return entry["joint"];
+    }
+    return "no such joint";
+  }
+  void expect_map_refused(const std::string& map, const std::string& sentence) {
+    write("map.json", map);
+    const Ran ran = run({"info", "walk.bvh", "--map", "map.json"});
+    EXPECT_EQ(ran.err, "panache: map.json" + sentence + "\n");
+    EXPECT_EQ(ran.exit, 1);
+    EXPECT_EQ(ran.out, "");
+  }
+};
+
+TEST_F(Info, shows_how_the_rig_was_mapped) {
+  const Ran ran = run({"info", "walk.bvh", "--tree"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_TRUE(contains(ran.out, "  joints  21, of which 21 rotate and 1 move\n")) << ran.out;
+  EXPECT_TRUE(contains(ran.out, "  motion  40 frames at 30 a second: 1.33 s\n")) << ran.out;
+  EXPECT_TRUE(contains(ran.out, "  unit    1 m (metres, most likely), judged by the legs\n"))
+      << ran.out;
+  EXPECT_TRUE(contains(ran.out, "  up      +Y\n")) << ran.out;
+  EXPECT_TRUE(contains(ran.out, "  humanoid       joint of the file  sure  how it was found\n"))
+      << ran.out;
+  EXPECT_TRUE(contains(ran.out, "  leftHand       leftHand           100%  by its name\n"))
+      << ran.out;
+  EXPECT_TRUE(contains(ran.out, "\n  hips (moves)\n    spine\n      chest\n")) << ran.out;
+}
+
+TEST_F(Info, tells_machines_the_same) {
+  const auto info = json_of({"walk.bvh"});
+  ASSERT_EQ(info["clips"].size(), 1u);
+  EXPECT_EQ(info["clips"][0]["name"], "");
+  EXPECT_EQ(info["clips"][0]["frames"], 40);
+  EXPECT_EQ(info["skeleton"].size(), 21u);
+  ASSERT_EQ(info["mapping"]["joints"].size(), 21u);
+  EXPECT_EQ(info["mapping"]["joints"][8]["humanoid"], "leftHand");
+  EXPECT_EQ(info["mapping"]["joints"][8]["joint"], "leftHand");
+  EXPECT_EQ(info["mapping"]["joints"][8]["confidence"], 1.0);
+  EXPECT_EQ(info["mapping"]["likely_unit"], "metres");
+}
+
+TEST_F(Info, shows_a_file_that_is_no_humanoid_too) {
+  Skeleton box;
+  box.joints.push_back({"Box", -1, {}, {}, true, true, {{0, 1, 0}}, ""});
+  write("box.bvh", format_bvh({box, 1.0 / 30, 2, std::vector<Quat>(2), std::vector<Vec3>(2)}));
+  const Ran ran = run({"info", "box.bvh", "--tree"});
+  EXPECT_EQ(ran.exit, 1);
+  EXPECT_TRUE(contains(ran.out, "  joints  1, of which 1 rotate and 1 move\n")) << ran.out;
+  EXPECT_TRUE(contains(ran.out, "\nSkeleton:\n  Box (moves)\n")) << ran.out;
+  EXPECT_TRUE(ran.err.starts_with("panache: box.bvh: no humanoid found")) << ran.err;
+  const auto info = json_of({"box.bvh"});
+  EXPECT_TRUE(info["mapping"].is_null());
+  EXPECT_EQ("panache: " + info["error"].get<std::string>() + "\n", ran.err);
+}
+
+TEST_F(Info, believes_a_unit_and_an_axis) {
+  const Ran ran = run({"info", "walk.bvh", "--scale", "0.0254", "--up", "z"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_TRUE(contains(ran.out, "  unit    0.0254 m, as given\n  up      +Z, as given\n"))
+      << ran.out;
+  for (const std::string axis : {"-x", "-X"}) {
+    EXPECT_EQ(json_of({"walk.bvh", "--up", axis})["mapping"]["up_axis"], "-X");
+  }
+}
+
+TEST_F(Info, refuses_what_is_no_unit_or_axis) {
+  const auto refused = [&](const std::string& option, const std::string& value) {
+    const Ran ran = run({"info", "walk.bvh", option, value});
+    EXPECT_EQ(ran.exit, 2);
+    EXPECT_EQ(ran.out, "");
+    return ran.err;
+  };
+  for (const std::string axis : {"up", "w", "-", "++y", "+"}) {
+    EXPECT_EQ(refused("--up", axis),
+              "panache: --up: expected an axis (x, y, z, -x, -y or -z), found '" + axis + "'\n");
+  }
+  EXPECT_EQ(refused("--scale", "0"),
+            "panache: --scale: expected a number from 1e-09 to 1000, found 0\n");
+  EXPECT_EQ(refused("--scale", "nan"),
+            "panache: --scale: expected a number from 1e-09 to 1000, found nan\n");
+}
+
+TEST_F(Info, believes_a_map_and_finds_the_rest) {
+  std::string walk = read("walk.bvh");
+  walk.replace(walk.find("leftHand"), 8, "Paw");
+  write("walk.bvh", walk);
+  write("map.json", R"({"leftHand": "Paw", "neck": null})");
+  EXPECT_EQ(joint("leftHand"), "Paw");
+  EXPECT_TRUE(joint("neck").is_null());
+  EXPECT_EQ(joint("rightHand"), "rightHand");
+}
+
+TEST_F(Info, takes_back_what_it_printed) {
+  nlohmann::json info = json_of({"walk.bvh"});
+  for (auto& entry : info["mapping"]["joints"]) {
+    if (entry["humanoid"] == "leftToes") entry["joint"] = nullptr;
+  }
+  write("map.json", info.dump());
+  EXPECT_TRUE(joint("leftToes").is_null());
+  EXPECT_EQ(joint("rightToes"), "rightToes");
+}
+
+TEST_F(Info, refuses_a_map_that_is_none) {
+  const std::string example = "expected JSON such as {\"leftHand\": \"Hand_L\", \"neck\": null}";
+  expect_map_refused("{\n  \"leftHand\" \"x\"\n}", ":2:16: " + example);
+  expect_map_refused("", ":1:1: " + example);
+  expect_map_refused("[]", ": " + example + ", found a JSON array");
+  expect_map_refused("{}", ": " + example + ", found nothing in it");
+  expect_map_refused(
+      "{\"leftHnad\": \"x\"}",
+      ": unknown human joint 'leftHnad'; the nearest is leftHand (panache info lists "
+      "all 21)");
+  expect_map_refused("{\"leftHand\": 3}",
+                     ": leftHand: expected the name of a joint or null, found 3");
+  expect_map_refused("{\"mapping\": null}",
+                     ": holds no mapping; that file was no humanoid; " + example);
+  expect_map_refused("{\"mapping\": {\"joints\": [{\"humanoid\": \"neck\"}]}}",
+                     ": mapping.joints[0]: expected an object with 'humanoid' and 'joint', as "
+                     "panache info --json prints them");
+  const Ran none = run({"info", "walk.bvh", "--map", "none.json"});
+  EXPECT_EQ(none.err, "panache: none.json: cannot be read: No such file or directory\n");
+}
+
+TEST_F(Info, refuses_a_map_to_a_joint_that_there_is_not) {
+  write("map.json", R"({"leftHand": "Hand_L"})");
+  const Ran ran = run({"info", "walk.bvh", "--map", "map.json"});
+  EXPECT_EQ(ran.exit, 1);
+  EXPECT_TRUE(ran.err.starts_with("panache: walk.bvh: ")) << ran.err;
+  EXPECT_TRUE(contains(ran.err, "'Hand_L'")) << ran.err;
+}
+
+}  // namespace
+}  // namespace panache::test

@@ -1,0 +1,148 @@
+// panache stylize on files that hold more than one motion, and from one format to another.
+
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+#include "cli/same_places.h"
+#include "clip/make_character.h"
+
+namespace panache::test {
+namespace {
+
+class StylizeGltf : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write("hero.glb", to_glb(character()));
+    write_walk("walk.bvh");
+  }
+  Ran stylize(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "stylize");
+    return run(arguments);
+  }
+  std::unique_ptr<MotionFile> styled(std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--force"});
+    const std::string name = *(std::find(arguments.begin(), arguments.end(), "-o") + 1);
+    const Ran ran = stylize(std::move(arguments));
+    EXPECT_EQ(ran.exit, 0) << ran.err;
+    Result<std::unique_ptr<MotionFile>> file = read_motion(path(name));
+    EXPECT_TRUE(file.ok()) << file.error().message;
+    return file ? *std::move(file) : nullptr;
+  }
+  using Names = std::vector<std::string>;
+};
+
+TEST_F(StylizeGltf, new_motions_stand_beside_the_old) {
+  const auto file = styled({"hero.glb", "--style", "old=1", "-o", "out.glb"});
+  ASSERT_TRUE(file);
+  EXPECT_EQ(file->clip_names(), (Names{"Walk", "Wave", "Walk (old 1)", "Wave (old 1)"}));
+}
+
+TEST_F(StylizeGltf, a_name_tells_styles_and_strengths) {
+  write("table.csv", "seconds,sad\n0,0\n0.5,1\n");
+  const auto file = styled({"hero.glb", "--clip", "Walk", "--style", "old=0.5", "--style",
+                            "proud=0..1", "--strengths", "table.csv", "-o", "out.glb"});
+  ASSERT_TRUE(file);
+  EXPECT_EQ(file->clip_names(), (Names{"Walk", "Wave", "Walk (old 0.5, proud 0..1, sad varies)"}));
+}
+
+TEST_F(StylizeGltf, new_motions_take_the_place_of_the_old_when_asked) {
+  const auto before = read_motion(path("hero.glb"));
+  const auto file =
+      styled({"hero.glb", "--replace", "--clip", "Wave", "--style", "old=1", "-o", "out.glb"});
+  ASSERT_TRUE(before.ok() && file);
+  EXPECT_EQ(file->clip_names(), (Names{"Walk", "Wave"}));
+  expect_same_places((*before)->clip(0), file->clip(0), 0);
+  EXPECT_FALSE((*before)->clip(1).rotations == file->clip(1).rotations);
+}
+
+TEST_F(StylizeGltf, one_motion_goes_into_a_bvh) {
+  EXPECT_EQ(
+      stylize({"hero.glb", "--style", "old=1", "-o", "out.bvh"}).err,
+      "panache: hero.glb: holds 2 motions ('Walk', 'Wave') and out.bvh takes one; --clip NAME "
+      "picks it\n");
+  const auto glb = styled({"hero.glb", "--clip", "Walk", "--style", "old=1", "-o", "out.glb"});
+  const auto bvh = styled({"hero.glb", "--clip", "Walk", "--style", "old=1", "-o", "out.bvh"});
+  ASSERT_TRUE(glb && bvh);
+  expect_same_places(glb->clip(2), bvh->clip(), 2e-5f);
+}
+
+TEST_F(StylizeGltf, a_bvh_goes_into_a_glb) {
+  const auto bvh = styled({"walk.bvh", "--style", "old=1", "-o", "out.bvh"});
+  const auto glb = styled({"walk.bvh", "--style", "old=1", "-o", "out.glb"});
+  ASSERT_TRUE(bvh && glb);
+  EXPECT_EQ(glb->clip_names(), Names{"walk (old 1)"});
+  // The body's legs are those of the canonical one, whose unit is the metre, to rounding.
+  expect_same_places(bvh->clip(), glb->clip(), 1e-3f);
+}
+
+TEST_F(StylizeGltf, a_gltf_goes_into_a_glb_with_all_it_holds) {
+  write("hero.gltf", to_gltf_text(character()));
+  const auto file = styled({"hero.gltf", "--style", "old=1", "-o", "out.glb"});
+  ASSERT_TRUE(file);
+  EXPECT_EQ(file->clip_names().size(), 4u);
+  EXPECT_EQ(glb_parts(read("out.glb")).json["meshes"], character().json["meshes"]);
+}
+
+TEST_F(StylizeGltf, a_motion_that_cannot_be_restyled_stays_with_a_note) {
+  GltfParts parts = character();
+  const size_t times = parts.add_bounded({0.0f}, "SCALAR", 1);
+  const size_t nowhere = parts.add(std::vector<float>{0, 0, 0}, "VEC3", 3);
+  for (size_t node = 0; node < parts.json["nodes"].size(); ++node) {
+    const std::string name = parts.json["nodes"][node].value("name", "");
+    if (name.ends_with("Leg") || name.ends_with("Foot")) {
+      parts.add_channel(1, node, "translation", "LINEAR", times, nowhere);
+    }
+  }
+  write("legless.glb", to_glb(parts));
+  const std::string sentence =
+      "panache: legless.glb: Wave: the legs of the humanoid have no length";
+  const Ran both = stylize({"legless.glb", "--style", "old=1", "-o", "out.glb"});
+  EXPECT_EQ(both.exit, 0);
+  EXPECT_EQ(both.err, sentence + "; this motion stays as it is\n");
+  const auto file = read_motion(path("out.glb"));
+  ASSERT_TRUE(file.ok());
+  EXPECT_EQ((*file)->clip_names(), (Names{"Walk", "Wave", "Walk (old 1)"}));
+  const Ran one = stylize({"legless.glb", "--clip", "Wave", "--style", "old=1", "-o", "no.glb"});
+  EXPECT_EQ(one.exit, 1);
+  EXPECT_EQ(one.err, sentence + "\n");
+  EXPECT_FALSE(exists("no.glb"));
+}
+
+TEST_F(StylizeGltf, a_skeleton_without_motion_is_refused) {
+  GltfParts parts = character();
+  parts.json.erase("animations");
+  write("still.glb", to_glb(parts));
+  const Ran ran = stylize({"still.glb", "--style", "old=1", "-o", "out.glb"});
+  EXPECT_EQ(ran.exit, 1);
+  EXPECT_EQ(ran.err,
+            "panache: still.glb: holds a skeleton and no motion; expected a file with an "
+            "animation\n");
+  const Ran info = run({"info", "still.glb"});
+  EXPECT_EQ(info.exit, 0) << info.err;
+  EXPECT_NE(info.out.find("  motion  none: what follows is of the rest pose\n"), std::string::npos)
+      << info.out;
+}
+
+TEST_F(StylizeGltf, info_lists_the_motions) {
+  const Ran ran = run({"info", "hero.glb", "--clip", "Wave"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_NE(ran.out.find("  motion  Walk  31 frames at 30 a second: 1.03 s\n"), std::string::npos)
+      << ran.out;
+  EXPECT_NE(ran.out.find("\n  motion  Wave  "), std::string::npos) << ran.out;
+  EXPECT_NE(ran.out.find(" s (shown below)\n"), std::string::npos) << ran.out;
+}
+
+TEST_F(StylizeGltf, the_machine_hears_of_every_motion) {
+  const Ran ran = stylize({"hero.glb", "--style", "old=1", "--json", "-o", "out.glb"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  const auto file = nlohmann::json::parse(ran.out)[0];
+  ASSERT_EQ(file["clips"].size(), 2u);
+  EXPECT_EQ(file["clips"][1]["name"], "Wave");
+  EXPECT_EQ(file["clips"][1]["result"], "Wave (old 1)");
+  EXPECT_EQ(file["frames"],
+            file["clips"][0]["frames_out"].get<int>() + file["clips"][1]["frames_out"].get<int>());
+}
+
+}  // namespace
+}  // namespace panache::test

@@ -1,0 +1,212 @@
+// The sentences that say why a glTF file cannot be read.
+
+#include <functional>
+
+#include "gltf_checks.h"
+
+namespace panache {
+namespace {
+
+using test::GltfParts;
+using test::Json;
+using test::small_gltf;
+
+// What is said of the small file after `spoil` did something to it.
+std::string spoilt(const std::function<void(GltfParts&)>& spoil) {
+  GltfParts parts = small_gltf();
+  spoil(parts);
+  return gltf_refusal(parts);
+}
+std::string spoilt_json(const std::function<void(Json&)>& spoil) {
+  return spoilt([&](GltfParts& parts) { spoil(parts.json); });
+}
+
+TEST(GltfError, AFileThatIsNoGltf) {
+  EXPECT_EQ(gltf_refusal(std::string("HIERARCHY")),
+            "walk.glb: expected glTF, found text that is not JSON; is the file complete?");
+  EXPECT_EQ(gltf_refusal(std::string("[1, 2]")),
+            "walk.glb: expected glTF, a JSON object, found a list of 2");
+  EXPECT_EQ(gltf_refusal(std::string("{}")),
+            "walk.glb: asset: expected glTF's version in it, found nothing");
+  EXPECT_EQ(spoilt_json([](Json& j) { j["asset"]["version"] = "1.0"; }),
+            "walk.glb: asset: expected glTF version 2.0, found '1.0'");
+  EXPECT_EQ(spoilt_json([](Json& j) { j["asset"]["minVersion"] = "2.1"; }),
+            "walk.glb: asset: expected glTF version 2.0, found '2.1'");
+}
+
+TEST(GltfError, AGlbThatWasCut) {
+  const std::string glb = test::to_glb(small_gltf());
+  EXPECT_EQ(gltf_refusal(glb.substr(0, 10)),
+            "walk.glb: expected a GLB of 12 bytes at least, found 10; is the file complete?");
+  EXPECT_EQ(gltf_refusal(glb.substr(0, 100)),
+            "walk.glb: expected a GLB of " + std::to_string(glb.size()) +
+                " bytes at least, found 100; is the file complete?");
+  EXPECT_EQ(gltf_refusal(std::string("glTF\1\0\0\0\0\0\0\0", 12)),
+            "walk.glb: expected GLB version 2, found version 1");
+}
+
+TEST(GltfError, NestingAndSizeOfTheJson) {
+  const std::string deep(100'000, '[');
+  EXPECT_EQ(gltf_refusal("{\"extras\": " + deep),
+            "walk.glb: expected JSON at most 200 brackets deep and with at most 4000 members in an "
+            "object, found more");
+  std::string wide = "{\"a\":1";
+  for (int i = 0; i < 5000; ++i) wide += ",\"a" + std::to_string(i) + "\":1";
+  EXPECT_EQ(gltf_refusal(wide + "}"),
+            "walk.glb: expected JSON at most 200 brackets deep and with at most 4000 members in an "
+            "object, found more");
+}
+
+TEST(GltfError, ATreeThatIsNone) {
+  EXPECT_EQ(spoilt_json([](Json& j) { j["nodes"][2]["children"].push_back(0); }),
+            "walk.glb: nodes: expected a tree, found nodes that are below themselves");
+  EXPECT_EQ(spoilt_json([](Json& j) { j["nodes"][3]["children"].push_back(2); }),
+            "walk.glb: nodes[3].children[0]: expected a node without another parent, found node 2, "
+            "a child of node 1");
+  EXPECT_EQ(spoilt_json([](Json& j) { j["nodes"][3]["children"].push_back(4); }),
+            "walk.glb: nodes[3].children[0]: expected a whole number below 4, found 4");
+  EXPECT_EQ(spoilt_json([](Json& j) { j["skins"][0]["joints"][1] = -1; }),
+            "walk.glb: skins[0].joints[1]: expected a whole number below 4, found -1");
+  EXPECT_EQ(spoilt_json([](Json& j) {
+              j["nodes"][1]["translation"] = {1, 2};
+            }),
+            "walk.glb: nodes[1].translation: expected 3 numbers, found a list of 2");
+  EXPECT_EQ(spoilt_json([](Json& j) { j["nodes"][1]["translation"][1] = 2e9; }),
+            "walk.glb: nodes[1].translation[1]: expected a number within a thousand million, found "
+            "2000000000.0");
+  EXPECT_EQ(spoilt_json([](Json& j) {
+              j.erase("skins");
+              j.erase("animations");
+            }),
+            "walk.glb: expected a skin or an animated node, found neither");
+  EXPECT_EQ(spoilt_json([](Json& j) {
+              for (int i = 4; i < 1100; ++i) {
+                j["nodes"][static_cast<size_t>(i - 1)]["children"].push_back(i);
+                j["nodes"].push_back(Json::object());
+              }
+            }),
+            "walk.glb: nodes: expected at most 1000 one below the other, found more");
+  EXPECT_EQ(spoilt_json([](Json& j) {
+              for (int i = 0; i < 10'000; ++i) j["nodes"].push_back(Json::object());
+            }),
+            "walk.glb: nodes: expected at most 10000, found 10004");
+  EXPECT_EQ(spoilt_json([](Json& j) {
+              j["nodes"][0]["scale"] = {1e8, 1e8, 1e8};
+              j["nodes"][1]["scale"] = {1e8, 1e8, 1e8};
+            }),
+            "walk.glb: nodes[2]: expected a place and a scale within a thousand million, found the "
+            "nodes above to scale it beyond that");
+}
+
+TEST(GltfError, AnimationsThatPointNowhere) {
+  const auto with = [](const std::function<void(Json&)>& spoil) {
+    return spoilt_json([&](Json& j) { spoil(j["animations"][0]); });
+  };
+  EXPECT_EQ(
+      with([](Json& a) { a["channels"][1]["sampler"] = 2; }),
+      "walk.glb: animations[0].channels[1].sampler: expected a whole number below 2, found 2");
+  EXPECT_EQ(with([](Json& a) { a["channels"][1]["target"]["node"] = 9; }),
+            "walk.glb: animations[0].channels[1].target.node: expected a whole number below 4, "
+            "found 9");
+  EXPECT_EQ(with([](Json& a) { a["channels"][1].erase("sampler"); }),
+            "walk.glb: animations[0].channels[1]: expected a sampler and a target, found a part");
+  EXPECT_EQ(with([](Json& a) { a["channels"][1]["target"]["path"] = "rotation"; }),
+            "walk.glb: animations[0].channels[1]: expected a target of its own, found that of a "
+            "channel before it");
+  EXPECT_EQ(with([](Json& a) { a["samplers"][0]["input"] = 77; }),
+            "walk.glb: animations[0].samplers[0].input: expected a whole number below 3, found 77");
+  EXPECT_EQ(with([](Json& a) { a["samplers"][0]["interpolation"] = "SMOOTH"; }),
+            "walk.glb: animations[0].samplers[0].interpolation: expected LINEAR, STEP or "
+            "CUBICSPLINE, found 'SMOOTH'");
+  EXPECT_EQ(with([](Json& a) { a["samplers"][0]["output"] = 2; }),
+            "walk.glb: animations[0].samplers[0].output: expected vectors of 4 numbers, in number "
+            "4 for 4 times, found 4 of 3");
+  EXPECT_EQ(with([](Json& a) { a["samplers"][0]["interpolation"] = "CUBICSPLINE"; }),
+            "walk.glb: animations[0].samplers[0].output: expected vectors of 4 numbers, in number "
+            "12 for 4 times, found 4 of 4");
+}
+
+TEST(GltfError, AccessorsBeyondTheirData) {
+  EXPECT_EQ(spoilt_json([](Json& j) { j["accessors"][1]["count"] = 5; }),
+            "walk.glb: animations[0].samplers[0].output (accessors[1]): expected 5 elements within "
+            "the 64 bytes of bufferViews[1], found it too short");
+  EXPECT_EQ(spoilt_json([](Json& j) { j["accessors"][1]["count"] = 0xffffffffffffffff; }),
+            "walk.glb: animations[0].samplers[0].output (accessors[1]): expected "
+            "18446744073709551615 elements within the 64 bytes of bufferViews[1], found it too "
+            "short");
+  EXPECT_EQ(spoilt_json([](Json& j) { j["accessors"][1].erase("bufferView"); }), "(accepted)");
+  EXPECT_EQ(spoilt_json([](Json& j) {
+              j["accessors"][1].erase("bufferView");
+              j["accessors"][1]["count"] = 4'000'000'000u;
+            }),
+            "walk.glb: animations[0].samplers[0].output (accessors[1]): expected fewer zeros than "
+            "the file has bytes, found 4000000000");
+  EXPECT_EQ(spoilt_json([](Json& j) {
+              Json& accessor = j["accessors"][1];
+              accessor.erase("bufferView");
+              accessor["sparse"]["count"] = 1;
+              accessor["sparse"]["indices"] = {{"bufferView", 0}, {"componentType", 5121}};
+              accessor["sparse"]["values"]["bufferView"] = 0;
+              // The first accessor that is asked for, so that nothing else is missed before.
+              j["animations"][0]["samplers"][0]["input"] = 1;
+              j.erase("bufferViews");
+            }),
+            "walk.glb: accessors[1].sparse.indices.bufferView: expected a whole number below 0, "
+            "found 0");
+  EXPECT_EQ(spoilt_json([](Json& j) { j["bufferViews"][1]["byteOffset"] = 100; }),
+            "walk.glb: bufferViews[1]: expected a part of the 128 bytes of buffers[0], found 64 "
+            "bytes from byte 100 on");
+  EXPECT_EQ(spoilt_json([](Json& j) { j["accessors"][1]["componentType"] = 5124; }),
+            "walk.glb: animations[0].samplers[0].output (accessors[1]): expected a componentType "
+            "of 5120 to 5126, found 5124");
+  EXPECT_EQ(spoilt_json([](Json& j) {
+              j["bufferViews"][1]["extensions"]["EXT_meshopt_compression"] = Json::object();
+            }),
+            "walk.glb: animations[0].samplers[0].output: expected plain motion, found it packed "
+            "with EXT_meshopt_compression; save the file without compression");
+}
+
+TEST(GltfError, NumbersThatAreNoMotion) {
+  EXPECT_EQ(spoilt([](GltfParts& p) { p.bin.replace(4, 4, p.bin.substr(8, 4)); }),
+            "walk.glb: animations[0].samplers[0].input: expected times that increase, found time 2 "
+            "not after the one before it");
+  EXPECT_EQ(spoilt([](GltfParts& p) { p.bin.replace(16 + 16 + 4, 4, "\xff\xff\xff\xff"); }),
+            "walk.glb: animations[0].samplers[0].output (accessors[1]): expected finite numbers "
+            "within a thousand million, found another in element 1");
+  EXPECT_EQ(spoilt([](GltfParts& p) { p.bin.replace(12, 4, std::string("\0\0\x80\x4d", 4)); }),
+            "walk.glb: animations[0]: expected at most 500000 frames, and frames times joints in "
+            "all animations at most 50000000, found more");
+}
+
+TEST(GltfError, FilesThatMayNotBeRead) {
+  const auto with_uri = [](const std::string& uri) {
+    return gltf_refusal(test::to_gltf_text(small_gltf(), uri));
+  };
+  const std::string cure = "; save the file as .glb, which has everything in it";
+  EXPECT_EQ(with_uri("/etc/passwd"),
+            "walk.glb: buffers[0].uri: expected a name relative to this file, found "
+            "'/etc/passwd'" +
+                cure);
+  for (const char* uri :
+       {"../walk.bin", "a/../../walk.bin", "%2e%2e/walk.bin", "a/%2E./walk.bin"}) {
+    EXPECT_EQ(with_uri(uri),
+              "walk.glb: buffers[0].uri: expected a file beside or below this one, "
+              "found '" +
+                  std::string(uri) + "'" + cure);
+  }
+  for (const char* uri : {"https://example.org/walk.bin", "file:///etc/passwd"}) {
+    EXPECT_EQ(with_uri(uri),
+              "walk.glb: buffers[0].uri: expected a file beside this one or a data "
+              "URI, found '" +
+                  std::string(uri) + "'" + cure);
+  }
+  EXPECT_EQ(with_uri("%00"),
+            "walk.glb: buffers[0].uri: expected the name of a file, found '%00'" + cure);
+  EXPECT_EQ(with_uri("nowhere.bin"),
+            "walk.glb: buffers[0].uri: nowhere.bin: cannot be read: No such file or directory");
+  EXPECT_EQ(with_uri("data:;base64,AA!A"), "walk.glb: buffers[0].uri: expected base64, found '!'");
+  EXPECT_EQ(with_uri("data:;base64,AAAA"), "walk.glb: buffers[0]: expected 128 bytes, found 3");
+}
+
+}  // namespace
+}  // namespace panache

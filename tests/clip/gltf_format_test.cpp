@@ -1,0 +1,80 @@
+// GLB files for clips that came from elsewhere.
+
+#include "gltf_checks.h"
+
+namespace panache {
+namespace {
+
+using test::GltfParts;
+
+Clip bvh_clip(const char* fixture) { return must_parse(read_fixture(fixture))->clip(); }
+
+constexpr double kCentimetre = 0.01;
+const Quat kZUp = axis_angle(Vec3d{1, 0, 0}, -1.5707963267948966).as<float>();
+
+TEST(GltfFormat, AClipReadsBackUnderANodeOfItsName) {
+  for (const char* fixture : kBvhFixtures) {
+    const Clip clip = bvh_clip(fixture);
+    const auto file = must_read(format_glb(clip, "a walk", kCentimetre, kZUp));
+    ASSERT_EQ(file->clip_names(), std::vector<std::string>{"a walk"});
+    const Clip& back = file->clip();
+    ASSERT_EQ(back.frames, clip.frames);
+    // A whole rate is taken where all keys lie on it to a thousandth of a frame.
+    EXPECT_NEAR(back.frame_time * clip.frames, clip.frame_time * clip.frames,
+                clip.frame_time * 1e-3);
+    ASSERT_EQ(back.joints(), clip.joints() + 1);
+    EXPECT_EQ(back.skeleton.joints[0].name, "a walk");
+    EXPECT_EQ(back.skeleton.joints[0].rest, kZUp);
+    for (size_t j = 0; j < clip.joints(); ++j) {
+      const Joint &in = clip.skeleton.joints[j], &out = back.skeleton.joints[j + 1];
+      EXPECT_EQ(out.name, in.name);
+      EXPECT_EQ(out.parent, in.parent + 1);
+      for (int f = 0; f < clip.frames; ++f) {
+        const Quat a = clip.pose(f).rotations[j], b = back.pose(f).rotations[j + 1];
+        EXPECT_TRUE(a == b || a == (Quat{-b.x, -b.y, -b.z, -b.w}));
+        // Times a hundredth, rounded once.
+        const Vec3 place = in.can_translate ? clip.pose(f).translations[j] : in.offset;
+        EXPECT_EQ(back.pose(f).translations[j + 1], (place.as<double>() * kCentimetre).as<float>());
+      }
+    }
+  }
+}
+
+TEST(GltfFormat, OnlyWhatMovesIsAnimated) {
+  const Clip clip = bvh_clip("plain.bvh");
+  const GltfParts parts = test::glb_parts(format_glb(clip, "walk", 1, {}));
+  size_t expected = 0;
+  for (const Joint& joint : clip.skeleton.joints)
+    expected += joint.can_rotate + joint.can_translate;
+  EXPECT_EQ(parts.json["animations"][0]["channels"].size(), expected);
+}
+
+TEST(GltfFormat, EndSitesAreNodesWithoutChildren) {
+  const Clip clip = bvh_clip("plain.bvh");
+  const GltfParts parts = test::glb_parts(format_glb(clip, "walk", 1, {}));
+  size_t ends = 0;
+  for (size_t j = 0; j < clip.joints(); ++j) {
+    for (const Vec3 end : clip.skeleton.joints[j].ends) {
+      const test::Json& node = parts.json["nodes"][1 + clip.joints() + ends++];
+      EXPECT_EQ(node["name"], clip.skeleton.joints[j].name + " end");
+      EXPECT_EQ(node["translation"][1], end.y);
+      EXPECT_FALSE(node.contains("children"));
+    }
+  }
+  EXPECT_GT(ends, 0u);
+}
+
+TEST(GltfFormat, AClipWithNothingToSeeIsWrittenToo) {
+  Clip clip;
+  clip.skeleton.joints.resize(1);
+  clip.skeleton.joints[0].name = "dot";
+  clip.resize(1);
+  clip.rotations[0] = {};
+  clip.translations[0] = {};
+  const auto file = must_read(format_glb(clip, "dot", 1, {}));
+  EXPECT_TRUE(file->clip_names().empty());
+  EXPECT_EQ(file->clip().joints(), 2u);
+}
+
+}  // namespace
+}  // namespace panache

@@ -1,0 +1,331 @@
+// What a glTF file means as a skeleton and its motion.
+
+#include "base/file.h"
+#include "gltf_checks.h"
+#include "temporary_folder.h"
+
+namespace panache {
+namespace {
+
+using test::GltfParts;
+using test::Json;
+using test::key_times;
+using test::small_gltf;
+
+// The small file with other keys for the turns of the hips.
+GltfParts with_turns(const std::vector<float>& times, const std::vector<float>& turns,
+                     const char* interpolation) {
+  GltfParts parts = small_gltf();
+  parts.json["animations"][0].erase("channels");
+  parts.json["animations"][0].erase("samplers");
+  const size_t input = parts.add_bounded(times, "SCALAR", 1);
+  parts.add_channel(0, 1, "rotation", interpolation, input, parts.add(turns, "VEC4", 4));
+  return parts;
+}
+GltfParts with_times(const std::vector<float>& times) {
+  std::vector<float> turns;
+  for (size_t i = 0; i < times.size(); ++i) {
+    test::append(turns, axis_angle(Vec3{1, 0, 0}, 0.1f * static_cast<float>(i)));
+  }
+  return with_turns(times, turns, "LINEAR");
+}
+
+Quat about_x(double angle) { return axis_angle(Vec3d{1, 0, 0}, angle).as<float>(); }
+
+TEST(GltfRead, NodesOfSkinsAndAllAboveThemAreJoints) {
+  const auto file = must_read(small_gltf());
+  ASSERT_EQ(file->clip_names(), std::vector<std::string>{"nod"});
+  const Clip& clip = file->clip();
+  ASSERT_EQ(clip.joints(), 3u);
+  const auto& joints = clip.skeleton.joints;
+  EXPECT_EQ(joints[0].name, "Armature");
+  EXPECT_EQ(joints[1].name, "Hips");
+  EXPECT_EQ(joints[2].name, "Head");
+  EXPECT_EQ(joints[0].parent, -1);
+  EXPECT_EQ(joints[1].parent, 0);
+  EXPECT_EQ(joints[2].parent, 1);
+  EXPECT_EQ(joints[2].offset, (Vec3{0, 0.5f, 0}));
+  for (const Joint& joint : joints) EXPECT_TRUE(joint.can_rotate);
+  EXPECT_TRUE(joints[0].can_translate);
+  EXPECT_TRUE(joints[1].can_translate);
+  EXPECT_FALSE(joints[2].can_translate);
+}
+
+TEST(GltfRead, KeysOnFramesComeBitForBit) {
+  const Clip clip = must_read(small_gltf())->clip();
+  ASSERT_EQ(clip.frames, 4);
+  EXPECT_EQ(clip.frame_time, 1.0 / 30);
+  for (int f = 0; f < 4; ++f) {
+    EXPECT_EQ(clip.pose(f).rotations[1], about_x(0.2 * f));
+    EXPECT_EQ(clip.pose(f).translations[1], (Vec3{0.1f * static_cast<float>(f), 1, 0}));
+    EXPECT_EQ(clip.pose(f).rotations[2], Quat{});
+    EXPECT_EQ(clip.pose(f).translations[2], clip.skeleton.joints[2].offset);
+  }
+}
+
+TEST(GltfRead, TextAndBinaryMeanTheSame) {
+  const auto binary = must_read(small_gltf());
+  const auto text = must_read(test::to_gltf_text(small_gltf()));
+  EXPECT_EQ(binary->clip().rotations, text->clip().rotations);
+  EXPECT_EQ(binary->clip().translations, text->clip().translations);
+  const auto marked = must_read("\xef\xbb\xbf" + test::to_gltf_text(small_gltf()));
+  EXPECT_EQ(binary->clip().rotations, marked->clip().rotations);
+}
+
+TEST(GltfRead, DataInFilesBesideTheFileIsFound) {
+  test::TemporaryFolder folder;
+  const GltfParts parts = small_gltf();
+  ASSERT_TRUE(write_file(folder.path() + "data/the motion.bin", parts.bin, false).ok());
+  ASSERT_TRUE(write_file(folder.path() + "walk.gltf",
+                         test::to_gltf_text(parts, "data/the%20motion.bin"), false)
+                  .ok());
+  auto file = read_motion(folder.path() + "walk.gltf");
+  ASSERT_TRUE(file.ok()) << file.error().message;
+  EXPECT_EQ((*file)->clip().rotations, must_read(parts)->clip().rotations);
+}
+
+TEST(GltfRead, StepKeysHoldAndLinearKeysTurnAtConstantSpeed) {
+  // Keys at 0 and 1 s give frames at 24 a second in between.
+  std::vector<float> turns;
+  test::append(turns, about_x(0));
+  test::append(turns, about_x(2));
+  const Clip step = must_read(with_turns({0, 1}, turns, "STEP"))->clip();
+  ASSERT_EQ(step.frames, 25);
+  EXPECT_EQ(step.pose(23).rotations[1], about_x(0));
+  EXPECT_EQ(step.pose(24).rotations[1], about_x(2));
+  const Clip linear = must_read(with_turns({0, 1}, turns, "LINEAR"))->clip();
+  for (int f = 0; f <= 24; ++f) {
+    // Two roundings of a unit quaternion to floats, 2^-24 each of its components, turn it by less
+    // than 4 times that.
+    EXPECT_LT(angle_between(linear.pose(f).rotations[1], about_x(2.0 * f / 24)), 4 * 0x1p-24) << f;
+  }
+}
+
+TEST(GltfRead, LinearKeysOnEitherSideOfTheSphereGoTheShorterWay) {
+  std::vector<float> turns;
+  test::append(turns, about_x(0.2));
+  const Quat q = about_x(0.6);
+  test::append(turns, Quat{-q.x, -q.y, -q.z, -q.w});
+  const Clip clip = must_read(with_turns({0, 1}, turns, "LINEAR"))->clip();
+  EXPECT_LT(angle_between(clip.pose(12).rotations[1], about_x(0.4)), 4 * 0x1p-24);
+}
+
+TEST(GltfRead, CubicKeysFollowTheirTangents) {
+  GltfParts parts = small_gltf();
+  parts.json["animations"][0].erase("channels");
+  parts.json["animations"][0].erase("samplers");
+  // x(t) = t^3 - 2 t^2 + 3 t + 1 over 2 seconds, which a Hermite spline holds exactly.
+  const auto x = [](double t) { return t * t * t - 2 * t * t + 3 * t + 1; };
+  const auto slope = [](double t) { return static_cast<float>(3 * t * t - 4 * t + 3); };
+  const std::vector<float> values = {
+      9,        9, 9, static_cast<float>(x(0)), 0, 0, slope(0), 0, 0,
+      slope(2), 0, 0, static_cast<float>(x(2)), 0, 0, 9,        9, 9};
+  parts.add_channel(0, 1, "translation", "CUBICSPLINE", parts.add_bounded({0, 2}, "SCALAR", 1),
+                    parts.add(values, "VEC3", 3));
+  const Clip clip = must_read(parts)->clip();
+  ASSERT_EQ(clip.frames, 49);
+  for (int f = 0; f < clip.frames; ++f) {
+    const Vec3 place = clip.pose(f).translations[1];
+    // Computed in doubles from exact keys, then rounded once.
+    EXPECT_EQ(place.x, static_cast<float>(x(f / 24.0))) << f;
+    EXPECT_EQ(place.y, 0);
+  }
+}
+
+TEST(GltfRead, WholeNumbersStandForFractions) {
+  GltfParts parts = small_gltf();
+  const std::vector<int16_t> turns = {0, 0,      0, 32767, 32767, 0, 0, 0,
+                                      0, -32768, 0, 0,     0,     0, 0, -32767};
+  const size_t packed = parts.add(turns, "VEC4", 4);
+  parts.json["accessors"][packed]["normalized"] = true;
+  parts.json["animations"][0]["samplers"][0]["output"] = packed;
+  const Clip clip = must_read(parts)->clip();
+  EXPECT_EQ(clip.pose(0).rotations[1], Quat{});
+  EXPECT_EQ(clip.pose(1).rotations[1], (Quat{1, 0, 0, 0}));
+  EXPECT_EQ(clip.pose(2).rotations[1], (Quat{0, -1, 0, 0}));
+  EXPECT_EQ(clip.pose(3).rotations[1], (Quat{0, 0, 0, -1}));
+}
+
+TEST(GltfRead, AStrideSkipsWhatLiesBetween) {
+  GltfParts parts = small_gltf();
+  std::vector<float> places;
+  for (int i = 0; i < 4; ++i) {
+    test::append(places, Vec3{static_cast<float>(i), 2, 3});
+    test::append(places, Vec3{-7, -7, -7});
+  }
+  const size_t output = parts.add(places, "VEC3", 3);
+  parts.json["accessors"][output]["count"] = 4;
+  parts.json["bufferViews"].back()["byteStride"] = 24;
+  parts.json["animations"][0]["samplers"][1]["output"] = output;
+  const Clip clip = must_read(parts)->clip();
+  for (int f = 0; f < 4; ++f) {
+    EXPECT_EQ(clip.pose(f).translations[1], (Vec3{static_cast<float>(f), 2, 3}));
+  }
+}
+
+TEST(GltfRead, SparseNumbersReplaceTheirOwnAndTheRestIsZeroWithoutAView) {
+  GltfParts parts = small_gltf();
+  const size_t indices = parts.add_view("\x02");
+  const std::vector<float> place = {4, 5, 6};
+  parts.add(place, "VEC3", 3);
+  const size_t values = parts.json["accessors"].back()["bufferView"];
+  const size_t output = parts.json["animations"][0]["samplers"][1]["output"];
+  Json& accessor = parts.json["accessors"][output];
+  accessor.erase("bufferView");
+  accessor["sparse"]["count"] = 1;
+  accessor["sparse"]["indices"] = {{"bufferView", indices}, {"componentType", 5121}};
+  accessor["sparse"]["values"]["bufferView"] = values;
+  const Clip clip = must_read(parts)->clip();
+  EXPECT_EQ(clip.pose(1).translations[1], (Vec3{0, 0, 0}));
+  EXPECT_EQ(clip.pose(2).translations[1], (Vec3{4, 5, 6}));
+  EXPECT_EQ(clip.pose(3).translations[1], (Vec3{0, 0, 0}));
+}
+
+TEST(GltfRead, TheDensestChannelGivesTheRate) {
+  const auto rate = [](const std::vector<float>& times) {
+    return 1 / must_read(with_times(times))->clip().frame_time;
+  };
+  // A whole rate comes out as that, not as what rounded times add up to.
+  EXPECT_EQ(rate(key_times(1000, 60)), 1 / (1.0 / 60));
+  EXPECT_EQ(rate(key_times(100, 24)), 1 / (1.0 / 24));
+  EXPECT_NEAR(rate(key_times(1000, 23.976f)), 23.976, 23.976 * 0x1p-22);
+  // Keys on a rate of which some were left out.
+  EXPECT_EQ(rate({0, 1 / 30.f, 2 / 30.f, 3 / 30.f, 7 / 30.f, 20 / 30.f, 21 / 30.f}),
+            1 / (1.0 / 30));
+  // Poses to move between get frames.
+  EXPECT_EQ(rate({0, 1, 2, 3}), 1 / (1.0 / 24));
+  EXPECT_EQ(rate(key_times(20, 12)), 1 / (1.0 / 12 / 2));
+  // Keys on no rate: theirs, within the usual ones.
+  EXPECT_NEAR(rate({0, 0.0213f, 0.0397f, 0.0628f, 0.0817f}), 1 / 0.0213, 1e-3);
+  EXPECT_EQ(rate({0, 0.311f, 0.717f, 1.4f}), 1 / (1.0 / 24));
+  EXPECT_EQ(rate({0, 0.00311f, 0.00717f, 0.0141f}), 1 / (1.0 / 120));
+}
+
+TEST(GltfRead, APoseHeldByTwoKeysDoesNotGiveTheRate) {
+  GltfParts parts = small_gltf();
+  parts.json["animations"][0].erase("channels");
+  parts.json["animations"][0].erase("samplers");
+  const Quat held = about_x(0.5);
+  std::vector<float> turns;
+  test::append(turns, held);
+  test::append(turns, held);
+  parts.add_channel(0, 1, "rotation", "LINEAR", parts.add_bounded({0, 2}, "SCALAR", 1),
+                    parts.add(turns, "VEC4", 4));
+  const Clip clip = must_read(parts)->clip();
+  EXPECT_EQ(clip.frame_time, 1.0 / 30);
+  EXPECT_EQ(clip.frames, 61);
+  EXPECT_EQ(clip.pose(60).rotations[1], held);
+}
+
+TEST(GltfRead, FramesBeginAtTheFirstKeyAndReachTheLast) {
+  const auto file = must_read(with_times({1.5f, 1.6f, 1.7f, 1.75f, 1.8f, 1.85f}));
+  EXPECT_EQ(file->clip().frames, 8);  // At 20 a second.
+  EXPECT_EQ(file->clip().pose(0).rotations[1], about_x(0));
+  EXPECT_LT(angle_between(file->clip().pose(7).rotations[1], about_x(0.5)), 4 * 0x1p-24);
+}
+
+TEST(GltfRead, ASingleKeyIsASingleFrame) {
+  const Clip clip = must_read(with_times({0.7f}))->clip();
+  EXPECT_EQ(clip.frames, 1);
+}
+
+TEST(GltfRead, AFileWithoutAnimationsIsARestPose) {
+  GltfParts parts = small_gltf();
+  parts.json.erase("animations");
+  const auto file = must_read(parts);
+  EXPECT_TRUE(file->clip_names().empty());
+  ASSERT_EQ(file->clip().frames, 1);
+  EXPECT_EQ(file->clip().pose(0).translations[1], (Vec3{0, 1, 0}));
+}
+
+TEST(GltfRead, ClipsWithoutNamesAreNumberedAndNamesGivenTwiceAreToldApart) {
+  GltfParts parts = small_gltf();
+  Json& list = parts.json["animations"];
+  const Json nod = list[0];
+  for (int i = 0; i < 5; ++i) list.push_back(nod);
+  list[1].erase("name");
+  list[4]["name"] = "nod (2)";
+  list[5]["name"] = "";
+  const std::vector<std::string> names = {"nod",     "animation 2", "nod (2)",
+                                          "nod (3)", "nod (2) (2)", "animation 6"};
+  EXPECT_EQ(must_read(parts)->clip_names(), names);
+}
+
+TEST(GltfRead, NodesWithoutNamesAreCalledByTheirNumber) {
+  GltfParts parts = small_gltf();
+  parts.json["nodes"][2].erase("name");
+  EXPECT_EQ(must_read(parts)->clip().skeleton.joints[2].name, "node 2");
+}
+
+TEST(GltfRead, AnAnimatedNodeOutsideOfSkinsIsAJoint) {
+  GltfParts parts = small_gltf();
+  parts.json["animations"][0]["channels"][1]["target"]["node"] = 3;
+  const Clip clip = must_read(parts)->clip();
+  const size_t lamp = joint_named(clip, "Lamp");
+  EXPECT_EQ(clip.skeleton.joints[lamp].parent, -1);
+  EXPECT_EQ(clip.pose(3).translations[lamp], (Vec3{0.3f, 1, 0}));
+}
+
+TEST(GltfRead, AMatrixIsTakenApartAndStaysPut) {
+  GltfParts parts = small_gltf();
+  // A quarter turn about y, twice the size, at (1, 2, 3).
+  parts.json["nodes"][0]["matrix"] = {0, 0, -2, 0, 0, 2, 0, 0, 2, 0, 0, 0, 1, 2, 3, 1};
+  const Clip clip = must_read(parts)->clip();
+  const Joint& joint = clip.skeleton.joints[0];
+  EXPECT_FALSE(joint.can_rotate);
+  EXPECT_FALSE(joint.can_translate);
+  EXPECT_EQ(joint.offset, (Vec3{1, 2, 3}));
+  EXPECT_LT(angle_between(joint.rest, rotation_y(1.57079632679f)), 1e-7);
+  EXPECT_EQ(clip.skeleton.joints[1].offset, (Vec3{0, 2, 0}));
+  EXPECT_EQ(clip.pose(2).translations[1], (Vec3{0.4f, 2, 0}));
+}
+
+TEST(GltfRead, AnArmatureInCentimetresStandsAsTheOneInMetresDoes) {
+  const auto metres = must_read(test::character());
+  const auto centimetres = must_read(test::character({.centimetres = true}));
+  for (const int which : {0, 1}) {
+    const Clip &a = metres->clip(which), &b = centimetres->clip(which);
+    ASSERT_EQ(a.frames, b.frames);
+    ASSERT_EQ(a.joints(), b.joints());
+    for (int f = 0; f < a.frames; ++f) {
+      const std::vector<Vec3> at = world_places(a, f), also = world_places(b, f);
+      for (size_t j = 0; j < at.size(); ++j) {
+        // The way from the root to a fingertip is 11 joints within 2 m, each rounded a few times.
+        EXPECT_LT(length(at[j] - also[j]), 2 * 11 * 4 * 0x1p-23f) << f << " " << j;
+      }
+    }
+  }
+}
+
+TEST(GltfRead, TheHumanoidOfAVrmNamesItsJoints) {
+  using enum test::CharacterOptions::Vrm;
+  for (const auto vrm : {vrm0, vrm1}) {
+    const Clip clip = must_read(test::character({.vrm = vrm}))->clip();
+    const auto role = [&](const char* name) {
+      return clip.skeleton.joints[joint_named(clip, name)].role;
+    };
+    EXPECT_EQ(role("Hips"), "hips");
+    EXPECT_EQ(role("LeftArm"), "leftUpperArm");
+    EXPECT_EQ(role("RightHandLittle3"), "rightLittleDistal");
+    // VRM 0.x counts the thumb's joints otherwise.
+    EXPECT_EQ(role("LeftHandThumb1"), "leftThumbMetacarpal");
+    EXPECT_EQ(role("LeftHandThumb2"), "leftThumbProximal");
+    EXPECT_EQ(role("LeftHandThumb3"), "leftThumbDistal");
+    EXPECT_EQ(role("LeftForeArmTwist"), "");
+    EXPECT_EQ(role("Armature"), "");
+  }
+  const Clip plain = must_read(test::character())->clip();
+  for (const Joint& joint : plain.skeleton.joints) EXPECT_EQ(joint.role, "");
+}
+
+TEST(GltfRead, OnlyTheTopOfTheSkinMovesWhereNothingElseIsAnimatedToMove) {
+  const auto file = must_read(test::character());
+  for (const int which : {0, 1}) {
+    for (const Joint& joint : file->clip(which).skeleton.joints) {
+      EXPECT_EQ(joint.can_translate, joint.name == "Armature" || joint.name == "Hips");
+    }
+  }
+}
+
+}  // namespace
+}  // namespace panache

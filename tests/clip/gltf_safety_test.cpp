@@ -1,0 +1,167 @@
+// No file can hurt us: whatever is done to a good file, the answer is a sentence or clips that keep
+// their promises and can be written again.
+
+#include <functional>
+
+#include "gltf_checks.h"
+
+namespace panache {
+namespace {
+
+using test::GltfParts;
+using test::Json;
+
+// A small file with a little of everything that is read: keys of each kind, whole numbers, a
+// stride, a sparse accessor, a matrix, a humanoid.
+GltfParts rich_gltf() {
+  GltfParts parts = test::small_gltf();
+  const size_t times = parts.add_bounded({0.5f, 1}, "SCALAR", 1);
+  const std::vector<int16_t> turns = {0, 0, 0, 32767, 0, 32767, 0, 0};
+  const size_t packed = parts.add(turns, "VEC4", 4);
+  parts.json["accessors"][packed]["normalized"] = true;
+  parts.json["bufferViews"].back()["byteStride"] = 8;
+  parts.add_channel(1, 2, "rotation", "STEP", times, packed);
+  const size_t cubic = parts.add(std::vector<float>(18, 0.25f), "VEC3", 3);
+  parts.add_channel(1, 2, "translation", "CUBICSPLINE", times, cubic);
+  const size_t scale = parts.add(std::vector<float>{1, 1, 1, 2, 2, 2}, "VEC3", 3);
+  Json accessor = parts.json["accessors"][scale];
+  const size_t indices = parts.add_view(std::string_view("\1\0", 2));
+  accessor["sparse"]["count"] = 1;
+  accessor["sparse"]["values"]["bufferView"] = accessor["bufferView"];
+  accessor["sparse"]["indices"] = {{"bufferView", indices}, {"componentType", 5123}};
+  accessor.erase("bufferView");
+  parts.json["accessors"][scale] = accessor;
+  parts.add_channel(1, 2, "scale", "LINEAR", times, scale);
+  parts.add_channel(1, 3, "weights", "LINEAR", times, times);
+  parts.json["nodes"][0]["matrix"] = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 1, 2, 3, 1};
+  parts.json["extensions"]["VRMC_vrm"]["humanoid"]["humanBones"]["hips"]["node"] = 1;
+  parts.json["extensions"]["VRM"]["humanoid"]["humanBones"].push_back(
+      {{"bone", "head"}, {"node", 2}});
+  return parts;
+}
+
+// Reads `bytes`; what is accepted keeps its promises, can be written in every way, and is accepted
+// again. Returns whether it was.
+bool check_harmless(const std::string& bytes) {
+  auto file = parse_gltf(bytes, "walk.glb");
+  if (!file) {
+    const std::string& sentence = file.error().message;
+    EXPECT_TRUE(sentence.starts_with("walk.glb: ")) << sentence;
+    EXPECT_NE(sentence.find("expected "), std::string::npos) << sentence;
+    EXPECT_EQ(sentence.find('\n'), std::string::npos) << sentence;
+    return false;
+  }
+  const int clips = std::max<int>(static_cast<int>((*file)->clip_names().size()), 1);
+  for (int i = 0; i < clips; ++i) EXPECT_EQ(broken_promise((*file)->clip(i)), "");
+
+  const Clip& clip = (*file)->clip(clips - 1);
+  // A clip of many frames is a clock gone wrong; writing it takes long and shows nothing more.
+  if (clip.frames > 200) return true;
+  Clip changed = clip;
+  for (Quat& q : changed.rotations) q = Quat{q.w, -q.z, q.y, -q.x};
+  for (Vec3& t : changed.translations) t = t * 0.5f;
+  const std::vector<double> same = same_frames(clip.frames);
+  const std::vector<double> still(same.size(), clip.frames / 3.0);
+  const ClipEdit edits[] = {{clips - 1, &clip, same, "same"},
+                            {clips - 1, &clip, still, "still"},
+                            {clips - 1, &changed, same, "changed"}};
+  const std::string replaced = (*file)->encode({&edits[2], 1}, EditMode::replace);
+  for (const std::string& out : {(*file)->encode(edits, EditMode::add_beside), replaced}) {
+    auto back = parse_gltf(out, "walk.glb");
+    EXPECT_TRUE(back.ok()) << back.error().message;
+  }
+  return true;
+}
+
+TEST(GltfSafety, EveryTruncationIsHarmless) {
+  for (const std::string& bytes :
+       {test::to_glb(rich_gltf()), test::to_gltf_text(test::small_gltf())}) {
+    ASSERT_TRUE(check_harmless(bytes));
+    for (size_t size = 0; size < bytes.size(); ++size) {
+      EXPECT_FALSE(check_harmless(bytes.substr(0, size))) << size;
+    }
+  }
+}
+
+TEST(GltfSafety, EveryChangedByteIsHarmless) {
+  constexpr unsigned char kValues[] = {0, '9', 0xff};
+  int accepted = 0, refused = 0;
+  const std::string bytes = test::to_glb(rich_gltf());
+  for (size_t i = 0; i < bytes.size(); ++i) {
+    std::string spoilt = bytes;
+    for (const unsigned char value : kValues) {
+      spoilt[i] = static_cast<char>(value);
+      ++(check_harmless(spoilt) ? accepted : refused);
+    }
+    spoilt[i] = static_cast<char>(bytes[i] ^ 1);
+    ++(check_harmless(spoilt) ? accepted : refused);
+  }
+  // Both ways were taken, or this test says nothing.
+  EXPECT_GT(accepted, 1000);
+  EXPECT_GT(refused, 1000);
+}
+
+// Calls `visit` with each value of `json`, the innermost first.
+void for_each_value(Json& json, const std::function<void(Json&)>& visit) {
+  if (json.is_structured()) {
+    for (Json& item : json) for_each_value(item, visit);
+  }
+  visit(json);
+}
+
+TEST(GltfSafety, EveryValueOfTheJsonReplacedByABadOneIsHarmless) {
+  const Json bad[] = {0,
+                      1,
+                      -1,
+                      0.5,
+                      1e300,
+                      -1e9,
+                      4294967295u,
+                      4294967296u,
+                      18446744073709551615u,
+                      "text",
+                      nullptr,
+                      true,
+                      Json::array(),
+                      Json::object(),
+                      Json::array({0, 0}),
+                      Json::array({-1e9, 1e9, 1e-30})};
+  GltfParts parts = test::glb_parts(test::to_glb(rich_gltf()));
+  int accepted = 0, refused = 0;
+  for_each_value(parts.json, [&](Json& value) {
+    const Json good = value;
+    for (const Json& other : bad) {
+      value = other;
+      ++(check_harmless(test::glb_of(parts.json.dump(), parts.bin)) ? accepted : refused);
+    }
+    value = good;
+  });
+  EXPECT_GT(accepted, 400);
+  EXPECT_GT(refused, 400);
+}
+
+TEST(GltfSafety, EveryMissingMemberAndItemIsHarmless) {
+  GltfParts parts = test::glb_parts(test::to_glb(rich_gltf()));
+  for_each_value(parts.json, [&](Json& value) {
+    const Json good = value;
+    for (size_t i = 0; i < good.size() && good.is_structured(); ++i) {
+      if (value.is_object()) {
+        value.erase(std::next(good.items().begin(), static_cast<std::ptrdiff_t>(i)).key());
+      } else {
+        value.erase(i);
+      }
+      check_harmless(test::glb_of(parts.json.dump(), parts.bin));
+      value = good;
+    }
+  });
+}
+
+TEST(GltfSafety, ManyAnimationsOfOneNameTakeNoTime) {
+  GltfParts parts = test::small_gltf();
+  for (int i = 0; i < 20'000; ++i) parts.json["animations"].push_back({{"name", "nod"}, {"a", 0}});
+  const auto file = must_read(parts);
+  EXPECT_EQ(file->clip_names().back(), "nod (20001)");
+}
+
+}  // namespace
+}  // namespace panache
