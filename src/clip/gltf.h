@@ -26,7 +26,8 @@ namespace panache {
 
 // Reads a GLB (and so a VRM) or the text of a .gltf. `name` is the file's path and stands in front
 // of the sentence of a failure, followed by the place in the JSON. What the file points to is read
-// from beside or below it, and is inside of what encode() gives.
+// from beside or below it, and is inside of what encode() gives; a picture that is not there stays
+// an address.
 //
 // encode() keeps in EditMode::replace an animation's index and name, and the bytes that are no
 // longer used; in add_beside the new animation goes to the end of the list. A channel whose joint

@@ -1,6 +1,7 @@
 #include "clip/gltf_container.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <cassert>
 #include <limits>
 
@@ -200,6 +201,10 @@ class ContainerReader {
       if (!checker_.text(image, path, "uri", uri)) return false;
       if (!checker_.text(image, path, "mimeType", type)) return false;
       if (uri.empty() || is_data_uri(uri)) continue;  // A picture is not ours to look into.
+      // Motion does not need it, so one that is nowhere, or elsewhere, stays an address.
+      const auto file = resolve_uri(uri, name_);
+      std::error_code unknown;
+      if (!file || !std::filesystem::is_regular_file(*file, unknown)) continue;
       if (!fetch(image, path, type, bytes)) return false;
     }
     return true;

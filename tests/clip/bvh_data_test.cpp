@@ -49,7 +49,7 @@ std::vector<std::string_view> split(std::string_view text) {
   return out;
 }
 
-TEST(BvhData, EveryFileComesBackByteForByte) {
+TEST(BvhData, every_file_comes_back_byte_for_byte) {
   if (!std::getenv("PANACHE_DATA")) GTEST_SKIP() << kNoData;
   const auto paths = small_sets();
   ASSERT_GT(paths.size(), 200u);
@@ -99,7 +99,7 @@ int leaps(const std::vector<std::string_view>& words, const Columns& columns, si
   return count;
 }
 
-TEST(BvhData, OnlyTheChangedJointGetsNewNumbersAndTheyAreRight) {
+TEST(BvhData, only_the_changed_joint_gets_new_numbers_and_they_are_right) {
   if (!std::getenv("PANACHE_DATA")) GTEST_SKIP() << kNoData;
   const Quat change = axis_angle(normalized(Vec3{1, -2, 3}), 0.05f);
   double worst = 0;
@@ -146,7 +146,7 @@ TEST(BvhData, OnlyTheChangedJointGetsNewNumbersAndTheyAreRight) {
   EXPECT_LT(worst, 1e-5);  // Four decimals at least: three roundings of 9e-7 radians, and floats.
 }
 
-TEST(BvhData, TheLargestSetIsReadInSeconds) {
+TEST(BvhData, the_largest_set_is_read_in_seconds) {
   if (!std::getenv("PANACHE_DATA")) GTEST_SKIP() << kNoData;
   const auto paths = data_files("bandai-2");
   if (paths.empty()) GTEST_SKIP() << "bandai-2 is not unpacked in PANACHE_DATA";

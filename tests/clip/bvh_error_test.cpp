@@ -22,9 +22,9 @@ struct Pieces {
   }
 };
 
-TEST(BvhErrors, ThePiecesTogetherAreAFile) { EXPECT_EQ(Pieces().refusal(), "(accepted)"); }
+TEST(BvhErrors, the_pieces_together_are_a_file) { EXPECT_EQ(Pieces().refusal(), "(accepted)"); }
 
-TEST(BvhErrors, AFileThatIsNoBvh) {
+TEST(BvhErrors, a_file_that_is_no_bvh) {
   EXPECT_EQ(refusal(""), "walk.bvh:1:1: expected 'HIERARCHY', found the end of the file");
   EXPECT_EQ(refusal(" \n\n"), "walk.bvh:3:1: expected 'HIERARCHY', found the end of the file");
   EXPECT_EQ(refusal(std::string("\x89PNG\r\n\x1a\n\0\0", 10)),
@@ -35,7 +35,7 @@ TEST(BvhErrors, AFileThatIsNoBvh) {
             "walk.bvh:1:1: expected 'HIERARCHY', found '" + std::string(40, 'x') + "...'");
 }
 
-TEST(BvhErrors, ATruncatedHierarchy) {
+TEST(BvhErrors, a_truncated_hierarchy) {
   EXPECT_EQ(refusal("HIERARCHY"), "walk.bvh:1:10: expected 'ROOT', found the end of the file");
   EXPECT_EQ(refusal("HIERARCHY\nROOT Hips\n{\n  OFF"),
             "walk.bvh:4:3: expected 'OFFSET' of joint 'Hips', found 'OFF'");
@@ -48,7 +48,7 @@ TEST(BvhErrors, ATruncatedHierarchy) {
             "the file");
 }
 
-TEST(BvhErrors, MissingPartsOfAJoint) {
+TEST(BvhErrors, missing_parts_of_a_joint) {
   Pieces pieces;
   pieces.name = "ROOT\n{\n";
   EXPECT_EQ(pieces.refusal(),
@@ -84,7 +84,7 @@ TEST(BvhErrors, MissingPartsOfAJoint) {
             "walk.bvh:6:6: expected 'Site' after 'End', found the end of the line");
 }
 
-TEST(BvhErrors, WrongNumbersInTheHierarchy) {
+TEST(BvhErrors, wrong_numbers_in_the_hierarchy) {
   Pieces pieces;
   pieces.offset = "  OFFSET 0 1,5 0\n";
   EXPECT_EQ(pieces.refusal(),
@@ -101,7 +101,7 @@ TEST(BvhErrors, WrongNumbersInTheHierarchy) {
       "the line");
 }
 
-TEST(BvhErrors, WrongChannels) {
+TEST(BvhErrors, wrong_channels) {
   Pieces pieces;
   pieces.channels = "  CHANNELS 3 Xrotation Wrotation Zposition\n";
   EXPECT_EQ(pieces.refusal(),
@@ -132,7 +132,7 @@ TEST(BvhErrors, WrongChannels) {
             "line");
 }
 
-TEST(BvhErrors, TooManyJointsAndTooDeepOnes) {
+TEST(BvhErrors, too_many_joints_and_too_deep_ones) {
   const std::string joint = "JOINT a\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n";
   std::string deep = "HIERARCHY\n", many = deep;
   for (int i = 0; i <= kBvhMaxDepth; ++i) deep += joint;
@@ -142,7 +142,7 @@ TEST(BvhErrors, TooManyJointsAndTooDeepOnes) {
   EXPECT_EQ(refusal(many), "walk.bvh:50002:1: expected at most 10000 joints, found 'JOINT'");
 }
 
-TEST(BvhErrors, AMotionWithoutItsHead) {
+TEST(BvhErrors, a_motion_without_its_head) {
   Pieces pieces;
   pieces.name = pieces.offset = pieces.channels = pieces.end = pieces.close = "";
   EXPECT_EQ(pieces.refusal(), "walk.bvh:2:1: expected 'ROOT', found 'MOTION'");
@@ -157,7 +157,7 @@ TEST(BvhErrors, AMotionWithoutItsHead) {
   EXPECT_EQ(pieces.refusal(), "walk.bvh:13:1: expected 'Frame Time:' after 'Frames:', found '1'");
 }
 
-TEST(BvhErrors, WrongFrameCounts) {
+TEST(BvhErrors, wrong_frame_counts) {
   Pieces pieces;
   for (const char* count : {"-2", "2.0", "two"}) {
     pieces.count = std::string("Frames: ") + count + "\n";
@@ -185,7 +185,7 @@ TEST(BvhErrors, WrongFrameCounts) {
             "walk.bvh:14:1: expected a frame at least, found the end of the file");
 }
 
-TEST(BvhErrors, StillJointsMayNotFillTheMemory) {
+TEST(BvhErrors, still_joints_may_not_fill_the_memory) {
   // 9,999 joints without a channel and one with: two bytes of file would be 280 kB of poses.
   std::string text = "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n}\n";
   for (int i = 1; i < kBvhMaxJoints; ++i) text += "ROOT a\n{\nOFFSET 0 0 0\nCHANNELS 0\n}\n";
@@ -201,7 +201,7 @@ TEST(BvhErrors, StillJointsMayNotFillTheMemory) {
       "of 352051 bytes, found '1'");
 }
 
-TEST(BvhErrors, WrongFrameTimes) {
+TEST(BvhErrors, wrong_frame_times) {
   Pieces pieces;
   for (const char* time : {"0", "-0.04", "1e-9"}) {
     pieces.time = std::string("Frame Time: ") + time + "\n";
@@ -217,7 +217,7 @@ TEST(BvhErrors, WrongFrameTimes) {
             "walk.bvh:13:18: expected the end of the line after the frame time, found '1'");
 }
 
-TEST(BvhErrors, WrongNumbersInAFrame) {
+TEST(BvhErrors, wrong_numbers_in_a_frame) {
   Pieces pieces;
   for (const char* wrong :
        {"abc", "nan", "-inf", "inf", "1.#QNAN", "0x10", "1e", "--1", "+-1", "5}"}) {
@@ -235,14 +235,14 @@ TEST(BvhErrors, WrongNumbersInAFrame) {
   }
 }
 
-TEST(BvhErrors, TheJointOfAWrongNumberIsNamed) {
+TEST(BvhErrors, the_joint_of_a_wrong_number_is_named) {
   EXPECT_EQ(refusal(replaced(read_fixture("plain.bvh"), "89.000000", "eighty")),
             "walk.bvh:29:95: expected a number for channel 2 of joint 'Spine', found 'eighty'");
   EXPECT_EQ(refusal(replaced(read_fixture("odd.bvh"), "-3 10", "-3 ten")),
             "walk.bvh:37:9: expected a number for channel 1 of joint 'Hand', found 'ten'");
 }
 
-TEST(BvhErrors, ALineIsAFrame) {
+TEST(BvhErrors, a_line_is_a_frame) {
   Pieces pieces;
   pieces.frames = "1 2\n3 4 5 6\n";
   EXPECT_EQ(pieces.refusal(),
@@ -254,7 +254,7 @@ TEST(BvhErrors, ALineIsAFrame) {
       "walk.bvh:14:7: expected the end of the line after the 3 numbers of a frame, found '4'");
 }
 
-TEST(BvhErrors, ATruncatedMotion) {
+TEST(BvhErrors, a_truncated_motion) {
   Pieces pieces;
   pieces.frames = "1 2 3\n4 5";
   EXPECT_EQ(pieces.refusal(),
@@ -271,7 +271,7 @@ TEST(BvhErrors, ATruncatedMotion) {
             "walk.bvh:14:1: expected frame 1 of the 1 announced, found the end of the file");
 }
 
-TEST(BvhErrors, TextAfterTheLastFrame) {
+TEST(BvhErrors, text_after_the_last_frame) {
   Pieces pieces;
   pieces.frames += "the end\n";
   EXPECT_EQ(pieces.refusal(),
@@ -279,7 +279,7 @@ TEST(BvhErrors, TextAfterTheLastFrame) {
             "found 'the'");
 }
 
-TEST(BvhErrors, LinesAreCountedAtEveryKindOfLineEnd) {
+TEST(BvhErrors, lines_are_counted_at_every_kind_of_line_end) {
   Pieces pieces;
   pieces.head = "\xef\xbb\xbfHIERARCHY\r\n\r";
   pieces.channels = "  CHANNELS x\r\n";
@@ -288,7 +288,7 @@ TEST(BvhErrors, LinesAreCountedAtEveryKindOfLineEnd) {
   EXPECT_EQ(refusal("\xef\xbb\xbfHI"), "walk.bvh:1:1: expected 'HIERARCHY', found 'HI'");
 }
 
-TEST(BvhErrors, NamesAreQuotedAsTheyAre) {
+TEST(BvhErrors, names_are_quoted_as_they_are) {
   Pieces pieces;
   pieces.name = "ROOT \xe8\x85\xb0 \x01\xff\n{\n";
   pieces.offset = "";

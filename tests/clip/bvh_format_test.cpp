@@ -28,7 +28,7 @@ Clip breadth_first_clip() {
   return clip;
 }
 
-TEST(BvhFormat, WhatIsWrittenReadsBackDepthFirst) {
+TEST(BvhFormat, what_is_written_reads_back_depth_first) {
   const Clip clip = breadth_first_clip();
   const auto file = must_parse(format_bvh(clip));
   ASSERT_TRUE(file);
@@ -55,7 +55,7 @@ TEST(BvhFormat, WhatIsWrittenReadsBackDepthFirst) {
   }
 }
 
-TEST(BvhFormat, ReadsAsPeopleExpect) {
+TEST(BvhFormat, reads_as_people_expect) {
   Clip clip = breadth_first_clip();
   clip.skeleton.joints.resize(3);
   clip.frames = 0;
@@ -94,7 +94,7 @@ TEST(BvhFormat, ReadsAsPeopleExpect) {
             "0.000000 0.000000 0.000000\n");
 }
 
-TEST(BvhFormat, NamesThatWouldBreakTheFileAreMended) {
+TEST(BvhFormat, names_that_would_break_the_file_are_mended) {
   Clip clip = breadth_first_clip();
   clip.skeleton.joints[0].name = "";
   clip.skeleton.joints[1].name = "a\nb";
@@ -106,7 +106,7 @@ TEST(BvhFormat, NamesThatWouldBreakTheFileAreMended) {
   EXPECT_EQ(file->clip().skeleton.joints[3].name, "leg _");
 }
 
-TEST(BvhFormat, ATurnGoesOnWithoutAWrap) {
+TEST(BvhFormat, a_turn_goes_on_without_a_wrap) {
   Clip clip;
   clip.skeleton.joints.resize(1);
   clip.skeleton.joints[0].name = "hips";

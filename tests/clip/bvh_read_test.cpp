@@ -23,7 +23,7 @@ void expect_same_clip(const Clip& a, const Clip& b) {
   EXPECT_EQ(a.translations, b.translations);
 }
 
-TEST(BvhReading, HierarchyRateAndPosesAreTheFiles) {
+TEST(BvhReading, hierarchy_rate_and_poses_are_the_files) {
   const auto file = must_parse(read_fixture("plain.bvh"));
   ASSERT_TRUE(file);
   const Clip& clip = file->clip();
@@ -43,7 +43,7 @@ TEST(BvhReading, HierarchyRateAndPosesAreTheFiles) {
   EXPECT_EQ(broken_promise(clip), "");
 }
 
-TEST(BvhReading, OddButHonestFilesAreRead) {
+TEST(BvhReading, odd_but_honest_files_are_read) {
   const auto file = must_parse(read_fixture("odd.bvh"));
   ASSERT_TRUE(file);
   const Clip& clip = file->clip();
@@ -71,7 +71,7 @@ TEST(BvhReading, OddButHonestFilesAreRead) {
   EXPECT_EQ(broken_promise(clip), "");
 }
 
-TEST(BvhReading, SeveralRootsAreSeveralTrees) {
+TEST(BvhReading, several_roots_are_several_trees) {
   const auto file = must_parse(read_fixture("two_roots.bvh"));
   ASSERT_TRUE(file);
   const auto& joints = file->clip().skeleton.joints;
@@ -82,7 +82,7 @@ TEST(BvhReading, SeveralRootsAreSeveralTrees) {
   EXPECT_EQ(file->clip().pose(1).translations[1], (Vec3{0, 0.5f, 0}));
 }
 
-TEST(BvhReading, LineEndsBlanksAndByteOrderMarksChangeNothing) {
+TEST(BvhReading, line_ends_blanks_and_byte_order_marks_change_nothing) {
   for (const char* fixture : kBvhFixtures) {
     const std::string text = read_fixture(fixture);
     const auto plain = must_parse(text);
@@ -102,7 +102,7 @@ TEST(BvhReading, LineEndsBlanksAndByteOrderMarksChangeNothing) {
   }
 }
 
-TEST(BvhReading, FramesBeyondTheAnnouncedCountAreReadAsInBlender) {
+TEST(BvhReading, frames_beyond_the_announced_count_are_read_as_in_blender) {
   for (const char* count : {"0", "1", "2"}) {
     const auto file = must_parse(
         replaced(read_fixture("plain.bvh"), "Frames: 3", std::string("Frames: ") + count));
@@ -112,7 +112,7 @@ TEST(BvhReading, FramesBeyondTheAnnouncedCountAreReadAsInBlender) {
   }
 }
 
-TEST(BvhReading, DepthAndJointCountMayReachTheirLimits) {
+TEST(BvhReading, depth_and_joint_count_may_reach_their_limits) {
   for (const bool deep : {true, false}) {
     const int count = deep ? kBvhMaxDepth : kBvhMaxJoints;
     std::string text = "HIERARCHY\n", numbers;

@@ -57,14 +57,14 @@ bool check_harmless(const std::string& text) {
   return true;
 }
 
-TEST(BvhSafety, EveryTruncationIsHarmless) {
+TEST(BvhSafety, every_truncation_is_harmless) {
   for (const char* fixture : kBvhFixtures) {
     const std::string text = read_fixture(fixture);
     for (size_t size = 0; size < text.size(); ++size) check_harmless(text.substr(0, size));
   }
 }
 
-TEST(BvhSafety, EveryChangedByteIsHarmless) {
+TEST(BvhSafety, every_changed_byte_is_harmless) {
   constexpr unsigned char kValues[] = {0,   ' ', '\n', '\r', '0', '9',  '-',
                                        '.', 'e', '{',  '}',  'X', 0x7f, 0xff};
   int accepted = 0, refused = 0;
@@ -85,7 +85,7 @@ TEST(BvhSafety, EveryChangedByteIsHarmless) {
   EXPECT_GT(refused, 1000);
 }
 
-TEST(BvhSafety, EveryMissingLineIsHarmless) {
+TEST(BvhSafety, every_missing_line_is_harmless) {
   for (const char* fixture : kBvhFixtures) {
     const std::string text = read_fixture(fixture);
     for (size_t begin = 0; begin < text.size();) {
@@ -97,7 +97,7 @@ TEST(BvhSafety, EveryMissingLineIsHarmless) {
   }
 }
 
-TEST(BvhSafety, EveryFailedAllocationComesOutAsBadAlloc) {
+TEST(BvhSafety, every_failed_allocation_comes_out_as_bad_alloc) {
   std::string texts[] = {read_fixture(kBvhFixtures[0]), read_fixture(kBvhFixtures[1]),
                          read_fixture(kBvhFixtures[2]),
                          replaced(read_fixture(kBvhFixtures[0]), "89.000000", "eighty")};
@@ -125,7 +125,7 @@ TEST(BvhSafety, EveryFailedAllocationComesOutAsBadAlloc) {
   }
 }
 
-TEST(BvhSafety, AnAnnouncedFloodTakesNoMemory) {
+TEST(BvhSafety, an_announced_flood_takes_no_memory) {
   const std::string text =
       replaced(read_fixture("plain.bvh"), "Frames: 3", "Frames: 1000000000000");
   const long before = allocations_made;
@@ -133,7 +133,7 @@ TEST(BvhSafety, AnAnnouncedFloodTakesNoMemory) {
   EXPECT_LT(allocations_made - before, 100);
 }
 
-TEST(BvhSafety, SamplingAndForwardKinematicsAllocateNothing) {
+TEST(BvhSafety, sampling_and_forward_kinematics_allocate_nothing) {
   const auto file = must_parse(read_fixture("plain.bvh"));
   const Clip& clip = file->clip();
   std::vector<Quat> rotations(clip.joints());

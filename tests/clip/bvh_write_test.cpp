@@ -68,7 +68,7 @@ std::vector<EulerAngles> turned(const std::vector<EulerAngles>& frames, Turn tur
   return angles_of(text);
 }
 
-TEST(BvhWriting, AnUnchangedFileComesBackByteForByte) {
+TEST(BvhWriting, an_unchanged_file_comes_back_byte_for_byte) {
   for (const char* fixture : kBvhFixtures) {
     const std::string text = read_fixture(fixture);
     for (const std::string& variant :
@@ -81,12 +81,12 @@ TEST(BvhWriting, AnUnchangedFileComesBackByteForByte) {
   }
 }
 
-TEST(BvhWriting, ACountThatWasTooSmallStaysWhileTheFramesDo) {
+TEST(BvhWriting, a_count_that_was_too_small_stays_while_the_frames_do) {
   const std::string text = replaced(read_fixture("plain.bvh"), "Frames: 3", "Frames: 1");
   EXPECT_EQ(encode_same(*must_parse(text)), text);
 }
 
-TEST(BvhWriting, FramesMayBeLeftOutRepeatedAndReordered) {
+TEST(BvhWriting, frames_may_be_left_out_repeated_and_reordered) {
   const std::string text = read_fixture("plain.bvh");
   const auto file = must_parse(text);
   const size_t table = text.find("0.100000 93");
@@ -109,7 +109,7 @@ TEST(BvhWriting, FramesMayBeLeftOutRepeatedAndReordered) {
   }
 }
 
-TEST(BvhWriting, TheOnlyFrameOfAFileWithoutALastLineEndMayBeRepeated) {
+TEST(BvhWriting, the_only_frame_of_a_file_without_a_last_line_end_may_be_repeated) {
   for (const std::string line_end : {"\n", "\r\n", "\r"}) {
     std::string text = replaced_all(one_joint({{1, 2, 3}}), '\n', line_end);
     text.resize(text.size() - line_end.size());
@@ -122,7 +122,7 @@ TEST(BvhWriting, TheOnlyFrameOfAFileWithoutALastLineEndMayBeRepeated) {
   }
 }
 
-TEST(BvhWriting, OnlyTheChangedJointGetsNewNumbers) {
+TEST(BvhWriting, only_the_changed_joint_gets_new_numbers) {
   const std::string text = read_fixture("odd.bvh");
   const auto file = must_parse(text);
   Clip clip = file->clip();
@@ -135,7 +135,7 @@ TEST(BvhWriting, OnlyTheChangedJointGetsNewNumbers) {
                           "-3 10 20 .5 21.5000"));
 }
 
-TEST(BvhWriting, ATranslationWithoutAChannelIsTheOffset) {
+TEST(BvhWriting, a_translation_without_a_channel_is_the_offset) {
   const std::string text = read_fixture("odd.bvh");
   const auto file = must_parse(text);
   Clip clip = file->clip();
@@ -144,7 +144,7 @@ TEST(BvhWriting, ATranslationWithoutAChannelIsTheOffset) {
   EXPECT_EQ(file->encode(clip, same_frames(2)), text);
 }
 
-TEST(BvhWriting, FewerThanThreeRotationsTakeWhatTheyCan) {
+TEST(BvhWriting, fewer_than_three_rotations_take_what_they_can) {
   const auto file = must_parse(read_fixture("odd.bvh"));
   Clip clip = file->clip();
   const Quat twist = rotation_y(0.5f), swing = axis_angle(Vec3{1, 0, 0}, 0.3f);
@@ -154,7 +154,7 @@ TEST(BvhWriting, FewerThanThreeRotationsTakeWhatTheyCan) {
   EXPECT_LT(angle_between(back->clip().pose(0).rotations[0], twist), 2e-6);
 }
 
-TEST(BvhWriting, AFrameBetweenTwoIsWrittenWithTheFilesDecimals) {
+TEST(BvhWriting, a_frame_between_two_is_written_with_the_files_decimals) {
   const std::string text = read_fixture("plain.bvh");
   const auto file = must_parse(text);
   Clip clip = file->clip();
@@ -169,7 +169,7 @@ TEST(BvhWriting, AFrameBetweenTwoIsWrittenWithTheFilesDecimals) {
   }
 }
 
-TEST(BvhWriting, NoNewWrapsAppear) {
+TEST(BvhWriting, no_new_wraps_appear) {
   // The file winds through 180 without a wrap, and comes back; the change is a turn by a right
   // angle.
   std::vector<EulerAngles> frames;
@@ -180,7 +180,7 @@ TEST(BvhWriting, NoNewWrapsAppear) {
   }
 }
 
-TEST(BvhWriting, HalfATurnAwayFromTheFileThereAreNoWrapsEither) {
+TEST(BvhWriting, half_a_turn_away_from_the_file_there_are_no_wraps_either) {
   // A turn about z by 174 to 186 degrees: what is nearest to the file's own angle is now +180, now
   // -180, so a choice frame by frame would flicker.
   std::vector<EulerAngles> frames;
@@ -193,7 +193,7 @@ TEST(BvhWriting, HalfATurnAwayFromTheFileThereAreNoWrapsEither) {
   }
 }
 
-TEST(BvhWriting, TheFilesOwnWrapsStay) {
+TEST(BvhWriting, the_files_own_wraps_stay) {
   std::vector<EulerAngles> frames;
   for (int i = 0; i < 100; ++i) {
     const double y = std::remainder(i * 10.0, 360.0);
@@ -206,7 +206,7 @@ TEST(BvhWriting, TheFilesOwnWrapsStay) {
   }
 }
 
-TEST(BvhWriting, AtThePoleTheAnglesStayWithTheFile) {
+TEST(BvhWriting, at_the_pole_the_angles_stay_with_the_file) {
   std::mt19937 random(6);
   std::uniform_real_distribution<double> noise(-1e-6, 1e-6);
   std::vector<EulerAngles> frames;
@@ -221,7 +221,7 @@ TEST(BvhWriting, AtThePoleTheAnglesStayWithTheFile) {
   for (size_t i = 1; i < out.size(); ++i) EXPECT_NEAR(out[i][2] - out[i - 1][2], 0.1, 0.01) << i;
 }
 
-TEST(BvhWriting, TooLargeAndNonFiniteNumbersStillMakeAFile) {
+TEST(BvhWriting, too_large_and_non_finite_numbers_still_make_a_file) {
   const auto file = must_parse(read_fixture("plain.bvh"));
   Clip clip = file->clip();
   clip.pose(0).translations[0] = {NAN, INFINITY, -3e30f};

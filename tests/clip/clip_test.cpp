@@ -26,7 +26,7 @@ struct PoseArrays {
   operator Pose() { return {rotations, translations}; }
 };
 
-TEST(Clip, WholeFramesComeBackBitForBit) {
+TEST(Clip, whole_frames_come_back_bit_for_bit) {
   const Clip clip = two_frames();
   PoseArrays out;
   for (int frame = 0; frame < 2; ++frame) {
@@ -38,7 +38,7 @@ TEST(Clip, WholeFramesComeBackBitForBit) {
   }
 }
 
-TEST(Clip, HalfwayIsHalfway) {
+TEST(Clip, halfway_is_halfway) {
   PoseArrays out;
   sample(two_frames(), 0.5, out);
   const Quat half = rotation_y(0.5f);
@@ -47,7 +47,7 @@ TEST(Clip, HalfwayIsHalfway) {
   EXPECT_EQ(out.translations[0], (Vec3{1, 2, 3}));
 }
 
-TEST(Clip, AStillJointDoesNotTremble) {
+TEST(Clip, a_still_joint_does_not_tremble) {
   const Clip clip = two_frames();
   PoseArrays out;
   for (double t = 0; t < 1; t += 0.01) {
@@ -57,7 +57,7 @@ TEST(Clip, AStillJointDoesNotTremble) {
   }
 }
 
-TEST(Clip, RotationsTakeTheShorterArc) {
+TEST(Clip, rotations_take_the_shorter_arc) {
   Clip clip = two_frames();
   const Quat q = clip.rotations[2];
   clip.rotations[2] = {-q.x, -q.y, -q.z, -q.w};
@@ -66,7 +66,7 @@ TEST(Clip, RotationsTakeTheShorterArc) {
   EXPECT_NEAR(out.rotations[0].w, rotation_y(0.5f).w, 1e-6);
 }
 
-TEST(Clip, TimesOutsideAreClamped) {
+TEST(Clip, times_outside_are_clamped) {
   const Clip clip = two_frames();
   PoseArrays out;
   for (const double early : {-1.0, -1e300, std::numeric_limits<double>::quiet_NaN()}) {
@@ -79,7 +79,7 @@ TEST(Clip, TimesOutsideAreClamped) {
   }
 }
 
-TEST(Clip, DurationCountsEveryFrame) {
+TEST(Clip, duration_counts_every_frame) {
   Clip clip = two_frames();
   clip.frame_time = 0.25;
   EXPECT_EQ(clip.duration(), 0.5);

@@ -17,7 +17,7 @@ std::string fixed(double value, int decimals) {
   return out.substr(1);
 }
 
-TEST(Decimal, WritesTheDecimalsAskedFor) {
+TEST(Decimal, writes_the_decimals_asked_for) {
   EXPECT_EQ(fixed(1.5, 0), "2");
   EXPECT_EQ(fixed(-0.25, 1), "-0.3");
   EXPECT_EQ(fixed(12.0625, 4), "12.0625");
@@ -25,18 +25,18 @@ TEST(Decimal, WritesTheDecimalsAskedFor) {
   EXPECT_EQ(fixed(-1e9, 9), "-1000000000.000000000");
 }
 
-TEST(Decimal, WritesNoNegativeZero) {
+TEST(Decimal, writes_no_negative_zero) {
   EXPECT_EQ(fixed(-0.0, 2), "0.00");
   EXPECT_EQ(fixed(-0.00001, 4), "0.0000");
 }
 
-TEST(Decimal, WritesWhatIsNoNumberAsOne) {
+TEST(Decimal, writes_what_is_no_number_as_one) {
   EXPECT_EQ(fixed(std::numeric_limits<double>::infinity(), 1), "1000000000.0");
   EXPECT_EQ(fixed(-1e300, 0), "-1000000000");
   EXPECT_EQ(fixed(std::numeric_limits<double>::quiet_NaN(), 4), "0.0000");
 }
 
-TEST(Decimal, IsNeverFurtherOffThanHalfTheLastDigit) {
+TEST(Decimal, is_never_further_off_than_half_the_last_digit) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> size(-6, 8.9);
   for (int i = 0; i < 10000; ++i) {
@@ -49,7 +49,7 @@ TEST(Decimal, IsNeverFurtherOffThanHalfTheLastDigit) {
   }
 }
 
-TEST(Decimal, CountsDecimals) {
+TEST(Decimal, counts_decimals) {
   EXPECT_EQ(decimals_of("12"), 0);
   EXPECT_EQ(decimals_of("12."), 0);
   EXPECT_EQ(decimals_of("-.0083333"), 7);

@@ -38,7 +38,7 @@ double largest_difference(const EulerAngles& a, const EulerAngles& b) {
   return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
 }
 
-TEST(Euler, TheFirstChannelTurnsLast) {
+TEST(Euler, the_first_channel_turns_last) {
   // Z then X in the file is R = Rz Rx: the point is turned about x first.
   const Quatd q = euler_to_quat({2, {2, 0, 0}}, {90, 90, 0});
   const Vec3d p = rotate(q, Vec3d{0, 1, 0});  // x turns y to z; z leaves that alone.
@@ -47,7 +47,7 @@ TEST(Euler, TheFirstChannelTurnsLast) {
   EXPECT_NEAR(p.z, 1, 1e-15);
 }
 
-TEST(Euler, AnglesComeBackNearWhereTheyWere) {
+TEST(Euler, angles_come_back_near_where_they_were) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> angle(-400, 400), shake(-20, 20);
   for (const EulerOrder& order : all_orders()) {
@@ -63,7 +63,7 @@ TEST(Euler, AnglesComeBackNearWhereTheyWere) {
   }
 }
 
-TEST(Euler, AnyAnglesThatComeBackAreTheSameRotation) {
+TEST(Euler, any_angles_that_come_back_are_the_same_rotation) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> angle(-400, 400);
   for (const EulerOrder& order : all_orders()) {
@@ -79,7 +79,7 @@ TEST(Euler, AnyAnglesThatComeBackAreTheSameRotation) {
   }
 }
 
-TEST(Euler, BothSolutionsAreTried) {
+TEST(Euler, both_solutions_are_tried) {
   const EulerOrder order = {3, {2, 0, 1}};
   // (170, 160, 190) turns like (-10, 20, 10); whichever is asked for comes back.
   const EulerAngles one = {-10, 20, 10}, other = {170, 160, 190};
@@ -89,7 +89,7 @@ TEST(Euler, BothSolutionsAreTried) {
   EXPECT_LT(largest_difference(quat_to_euler(order, rotation, other), other), 3e-5);
 }
 
-TEST(Euler, GimbalLockKeepsTheFirstAngle) {
+TEST(Euler, gimbal_lock_keeps_the_first_angle) {
   const EulerOrder order = {3, {2, 1, 0}};
   const Quatd rotation = euler_to_quat(order, {30, 90, 40});
   const EulerAngles near = {71, 88, 80};
@@ -98,7 +98,7 @@ TEST(Euler, GimbalLockKeepsTheFirstAngle) {
   EXPECT_LT(angle_between(rotation, euler_to_quat(order, back)), 4e-7);
 }
 
-TEST(Euler, ASteadyPoseAtThePoleIsSteadyInSpiteOfRounding) {
+TEST(Euler, a_steady_pose_at_the_pole_is_steady_in_spite_of_rounding) {
   const EulerOrder order = {3, {2, 1, 0}};
   EulerAngles angles = {30, 90, 40};
   std::mt19937 random(4);
@@ -112,7 +112,7 @@ TEST(Euler, ASteadyPoseAtThePoleIsSteadyInSpiteOfRounding) {
   }
 }
 
-TEST(Euler, ARotationThatFewAxesCannotReachComesAsNearAsItGets) {
+TEST(Euler, a_rotation_that_few_axes_cannot_reach_comes_as_near_as_it_gets) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> angle(-180, 180);
   const EulerOrder full = {3, {0, 1, 2}};

@@ -17,7 +17,7 @@ Skeleton chain(size_t joints) {
   return skeleton;
 }
 
-TEST(WorldPose, RotationsAndTranslationsAddUpFromTheRoot) {
+TEST(WorldPose, rotations_and_translations_add_up_from_the_root) {
   const Skeleton skeleton = chain(3);
   const std::vector<Quat> rotations = {axis_angle(Vec3{0, 0, 1}, kRightAngle),
                                        axis_angle(Vec3{1, 0, 0}, kRightAngle), Quat{}};
@@ -37,7 +37,7 @@ TEST(WorldPose, RotationsAndTranslationsAddUpFromTheRoot) {
   EXPECT_NEAR(dot(world_rotations[2], product), 1, 1e-6f);
 }
 
-TEST(WorldPose, EachRootStandsInTheWorld) {
+TEST(WorldPose, each_root_stands_in_the_world) {
   Skeleton skeleton = chain(2);
   skeleton.joints[1].parent = -1;
   const std::vector<Quat> rotations = {rotation_y(1.0f), rotation_y(2.0f)};
@@ -49,7 +49,7 @@ TEST(WorldPose, EachRootStandsInTheWorld) {
   EXPECT_EQ(world_translations, translations);
 }
 
-TEST(WorldPose, MayWorkInPlace) {
+TEST(WorldPose, may_work_in_place) {
   const Skeleton skeleton = chain(4);
   std::vector<Quat> rotations(4, axis_angle(Vec3{0, 0.6f, 0.8f}, 0.3f));
   std::vector<Vec3> translations(4, Vec3{1, 2, 3});
@@ -61,7 +61,7 @@ TEST(WorldPose, MayWorkInPlace) {
   EXPECT_EQ(translations, world_translations);
 }
 
-TEST(WorldPose, ADeepChainStaysUnit) {
+TEST(WorldPose, a_deep_chain_stays_unit) {
   const Skeleton skeleton = chain(1000);
   std::vector<Quat> rotations(1000, axis_angle(Vec3{0, 0.6f, 0.8f}, 0.3f));
   std::vector<Vec3> translations(1000, Vec3{1, 0, 0});

@@ -21,7 +21,7 @@ std::string spoilt_json(const std::function<void(Json&)>& spoil) {
   return spoilt([&](GltfParts& parts) { spoil(parts.json); });
 }
 
-TEST(GltfError, AFileThatIsNoGltf) {
+TEST(GltfError, a_file_that_is_no_gltf) {
   EXPECT_EQ(gltf_refusal(std::string("HIERARCHY")),
             "walk.glb: expected glTF, found text that is not JSON; is the file complete?");
   EXPECT_EQ(gltf_refusal(std::string("[1, 2]")),
@@ -34,7 +34,7 @@ TEST(GltfError, AFileThatIsNoGltf) {
             "walk.glb: asset: expected glTF version 2.0, found '2.1'");
 }
 
-TEST(GltfError, AGlbThatWasCut) {
+TEST(GltfError, a_glb_that_was_cut) {
   const std::string glb = test::to_glb(small_gltf());
   EXPECT_EQ(gltf_refusal(glb.substr(0, 10)),
             "walk.glb: expected a GLB of 12 bytes at least, found 10; is the file complete?");
@@ -45,7 +45,7 @@ TEST(GltfError, AGlbThatWasCut) {
             "walk.glb: expected GLB version 2, found version 1");
 }
 
-TEST(GltfError, NestingAndSizeOfTheJson) {
+TEST(GltfError, nesting_and_size_of_the_json) {
   const std::string deep(100'000, '[');
   EXPECT_EQ(gltf_refusal("{\"extras\": " + deep),
             "walk.glb: expected JSON at most 200 brackets deep and with at most 4000 members in an "
@@ -57,7 +57,7 @@ TEST(GltfError, NestingAndSizeOfTheJson) {
             "object, found more");
 }
 
-TEST(GltfError, ATreeThatIsNone) {
+TEST(GltfError, a_tree_that_is_none) {
   EXPECT_EQ(spoilt_json([](Json& j) { j["nodes"][2]["children"].push_back(0); }),
             "walk.glb: nodes: expected a tree, found nodes that are below themselves");
   EXPECT_EQ(spoilt_json([](Json& j) { j["nodes"][3]["children"].push_back(2); }),
@@ -98,7 +98,7 @@ TEST(GltfError, ATreeThatIsNone) {
             "nodes above to scale it beyond that");
 }
 
-TEST(GltfError, AnimationsThatPointNowhere) {
+TEST(GltfError, animations_that_point_nowhere) {
   const auto with = [](const std::function<void(Json&)>& spoil) {
     return spoilt_json([&](Json& j) { spoil(j["animations"][0]); });
   };
@@ -126,7 +126,7 @@ TEST(GltfError, AnimationsThatPointNowhere) {
             "12 for 4 times, found 4 of 4");
 }
 
-TEST(GltfError, AccessorsBeyondTheirData) {
+TEST(GltfError, accessors_beyond_their_data) {
   EXPECT_EQ(spoilt_json([](Json& j) { j["accessors"][1]["count"] = 5; }),
             "walk.glb: animations[0].samplers[0].output (accessors[1]): expected 5 elements within "
             "the 64 bytes of bufferViews[1], found it too short");
@@ -166,7 +166,7 @@ TEST(GltfError, AccessorsBeyondTheirData) {
             "with EXT_meshopt_compression; save the file without compression");
 }
 
-TEST(GltfError, NumbersThatAreNoMotion) {
+TEST(GltfError, numbers_that_are_no_motion) {
   EXPECT_EQ(spoilt([](GltfParts& p) { p.bin.replace(4, 4, p.bin.substr(8, 4)); }),
             "walk.glb: animations[0].samplers[0].input: expected times that increase, found time 2 "
             "not after the one before it");
@@ -178,7 +178,7 @@ TEST(GltfError, NumbersThatAreNoMotion) {
             "all animations at most 50000000, found more");
 }
 
-TEST(GltfError, FilesThatMayNotBeRead) {
+TEST(GltfError, files_that_may_not_be_read) {
   const auto with_uri = [](const std::string& uri) {
     return gltf_refusal(test::to_gltf_text(small_gltf(), uri));
   };

@@ -12,7 +12,7 @@ Clip bvh_clip(const char* fixture) { return must_parse(read_fixture(fixture))->c
 constexpr double kCentimetre = 0.01;
 const Quat kZUp = axis_angle(Vec3d{1, 0, 0}, -1.5707963267948966).as<float>();
 
-TEST(GltfFormat, AClipReadsBackUnderANodeOfItsName) {
+TEST(GltfFormat, a_clip_reads_back_under_a_node_of_its_name) {
   for (const char* fixture : kBvhFixtures) {
     const Clip clip = bvh_clip(fixture);
     const auto file = must_read(format_glb(clip, "a walk", kCentimetre, kZUp));
@@ -40,7 +40,7 @@ TEST(GltfFormat, AClipReadsBackUnderANodeOfItsName) {
   }
 }
 
-TEST(GltfFormat, OnlyWhatMovesIsAnimated) {
+TEST(GltfFormat, only_what_moves_is_animated) {
   const Clip clip = bvh_clip("plain.bvh");
   const GltfParts parts = test::glb_parts(format_glb(clip, "walk", 1, {}));
   size_t expected = 0;
@@ -49,7 +49,7 @@ TEST(GltfFormat, OnlyWhatMovesIsAnimated) {
   EXPECT_EQ(parts.json["animations"][0]["channels"].size(), expected);
 }
 
-TEST(GltfFormat, EndSitesAreNodesWithoutChildren) {
+TEST(GltfFormat, end_sites_are_nodes_without_children) {
   const Clip clip = bvh_clip("plain.bvh");
   const GltfParts parts = test::glb_parts(format_glb(clip, "walk", 1, {}));
   size_t ends = 0;
@@ -64,7 +64,7 @@ TEST(GltfFormat, EndSitesAreNodesWithoutChildren) {
   EXPECT_GT(ends, 0u);
 }
 
-TEST(GltfFormat, AClipWithNothingToSeeIsWrittenToo) {
+TEST(GltfFormat, a_clip_with_nothing_to_see_is_written_too) {
   Clip clip;
   clip.skeleton.joints.resize(1);
   clip.skeleton.joints[0].name = "dot";

@@ -83,7 +83,7 @@ std::string changed(const MotionFile& file, EditMode mode) {
   return file.encode(edits, mode);
 }
 
-TEST_F(GltfPrograms, TheKhronosValidatorFindsNoError) {
+TEST_F(GltfPrograms, the_khronos_validator_finds_no_error) {
   if (const std::string what = missing(false); !what.empty()) GTEST_SKIP() << what;
   using enum test::CharacterOptions::Vrm;
   std::string names;
@@ -108,7 +108,7 @@ TEST_F(GltfPrograms, TheKhronosValidatorFindsNoError) {
   EXPECT_EQ(run("validate.mjs", names), "");
 }
 
-TEST_F(GltfPrograms, TheValidatorWouldFindAnError) {
+TEST_F(GltfPrograms, the_validator_would_find_an_error) {
   if (const std::string what = missing(false); !what.empty()) GTEST_SKIP() << what;
   test::GltfParts parts = test::small_gltf();
   parts.json["accessors"][0]["max"][0] = 7;
@@ -116,7 +116,7 @@ TEST_F(GltfPrograms, TheValidatorWouldFindAnError) {
   EXPECT_NE(run("validate.mjs", "bad.glb"), "");
 }
 
-TEST_F(GltfPrograms, ThreeJsShowsTheMotionThatWeReadAndWrote) {
+TEST_F(GltfPrograms, three_js_shows_the_motion_that_we_read_and_wrote) {
   if (const std::string what = missing(true); !what.empty()) GTEST_SKIP() << what;
   expect_seen_alike(test::to_glb(test::character()), 0, 10);
   // Clip 3 is the second one, changed in pose and time.
@@ -124,7 +124,7 @@ TEST_F(GltfPrograms, ThreeJsShowsTheMotionThatWeReadAndWrote) {
   expect_seen_alike(changed(*file, EditMode::add_beside), 3, 20);
 }
 
-TEST_F(GltfPrograms, ThreeJsShowsSticksForAClipFromElsewhere) {
+TEST_F(GltfPrograms, three_js_shows_sticks_for_a_clip_from_elsewhere) {
   if (const std::string what = missing(true); !what.empty()) GTEST_SKIP() << what;
   expect_seen_alike(format_glb(must_read(test::character())->clip(), "sticks", 1, {}), 0, 10);
 }

@@ -32,7 +32,7 @@ GltfParts with_times(const std::vector<float>& times) {
 
 Quat about_x(double angle) { return axis_angle(Vec3d{1, 0, 0}, angle).as<float>(); }
 
-TEST(GltfRead, NodesOfSkinsAndAllAboveThemAreJoints) {
+TEST(GltfRead, nodes_of_skins_and_all_above_them_are_joints) {
   const auto file = must_read(small_gltf());
   ASSERT_EQ(file->clip_names(), std::vector<std::string>{"nod"});
   const Clip& clip = file->clip();
@@ -51,7 +51,7 @@ TEST(GltfRead, NodesOfSkinsAndAllAboveThemAreJoints) {
   EXPECT_FALSE(joints[2].can_translate);
 }
 
-TEST(GltfRead, KeysOnFramesComeBitForBit) {
+TEST(GltfRead, keys_on_frames_come_bit_for_bit) {
   const Clip clip = must_read(small_gltf())->clip();
   ASSERT_EQ(clip.frames, 4);
   EXPECT_EQ(clip.frame_time, 1.0 / 30);
@@ -63,7 +63,7 @@ TEST(GltfRead, KeysOnFramesComeBitForBit) {
   }
 }
 
-TEST(GltfRead, TextAndBinaryMeanTheSame) {
+TEST(GltfRead, text_and_binary_mean_the_same) {
   const auto binary = must_read(small_gltf());
   const auto text = must_read(test::to_gltf_text(small_gltf()));
   EXPECT_EQ(binary->clip().rotations, text->clip().rotations);
@@ -72,7 +72,7 @@ TEST(GltfRead, TextAndBinaryMeanTheSame) {
   EXPECT_EQ(binary->clip().rotations, marked->clip().rotations);
 }
 
-TEST(GltfRead, DataInFilesBesideTheFileIsFound) {
+TEST(GltfRead, data_in_files_beside_the_file_is_found) {
   test::TemporaryFolder folder;
   const GltfParts parts = small_gltf();
   ASSERT_TRUE(write_file(folder.path() + "data/the motion.bin", parts.bin, false).ok());
@@ -84,7 +84,7 @@ TEST(GltfRead, DataInFilesBesideTheFileIsFound) {
   EXPECT_EQ((*file)->clip().rotations, must_read(parts)->clip().rotations);
 }
 
-TEST(GltfRead, StepKeysHoldAndLinearKeysTurnAtConstantSpeed) {
+TEST(GltfRead, step_keys_hold_and_linear_keys_turn_at_constant_speed) {
   // Keys at 0 and 1 s give frames at 24 a second in between.
   std::vector<float> turns;
   test::append(turns, about_x(0));
@@ -101,7 +101,7 @@ TEST(GltfRead, StepKeysHoldAndLinearKeysTurnAtConstantSpeed) {
   }
 }
 
-TEST(GltfRead, LinearKeysOnEitherSideOfTheSphereGoTheShorterWay) {
+TEST(GltfRead, linear_keys_on_either_side_of_the_sphere_go_the_shorter_way) {
   std::vector<float> turns;
   test::append(turns, about_x(0.2));
   const Quat q = about_x(0.6);
@@ -110,7 +110,7 @@ TEST(GltfRead, LinearKeysOnEitherSideOfTheSphereGoTheShorterWay) {
   EXPECT_LT(angle_between(clip.pose(12).rotations[1], about_x(0.4)), 4 * 0x1p-24);
 }
 
-TEST(GltfRead, CubicKeysFollowTheirTangents) {
+TEST(GltfRead, cubic_keys_follow_their_tangents) {
   GltfParts parts = small_gltf();
   parts.json["animations"][0].erase("channels");
   parts.json["animations"][0].erase("samplers");
@@ -132,7 +132,7 @@ TEST(GltfRead, CubicKeysFollowTheirTangents) {
   }
 }
 
-TEST(GltfRead, WholeNumbersStandForFractions) {
+TEST(GltfRead, whole_numbers_stand_for_fractions) {
   GltfParts parts = small_gltf();
   const std::vector<int16_t> turns = {0, 0,      0, 32767, 32767, 0, 0, 0,
                                       0, -32768, 0, 0,     0,     0, 0, -32767};
@@ -146,7 +146,7 @@ TEST(GltfRead, WholeNumbersStandForFractions) {
   EXPECT_EQ(clip.pose(3).rotations[1], (Quat{0, 0, 0, -1}));
 }
 
-TEST(GltfRead, AStrideSkipsWhatLiesBetween) {
+TEST(GltfRead, a_stride_skips_what_lies_between) {
   GltfParts parts = small_gltf();
   std::vector<float> places;
   for (int i = 0; i < 4; ++i) {
@@ -163,7 +163,7 @@ TEST(GltfRead, AStrideSkipsWhatLiesBetween) {
   }
 }
 
-TEST(GltfRead, SparseNumbersReplaceTheirOwnAndTheRestIsZeroWithoutAView) {
+TEST(GltfRead, sparse_numbers_replace_their_own_and_the_rest_is_zero_without_a_view) {
   GltfParts parts = small_gltf();
   const size_t indices = parts.add_view("\x02");
   const std::vector<float> place = {4, 5, 6};
@@ -181,7 +181,7 @@ TEST(GltfRead, SparseNumbersReplaceTheirOwnAndTheRestIsZeroWithoutAView) {
   EXPECT_EQ(clip.pose(3).translations[1], (Vec3{0, 0, 0}));
 }
 
-TEST(GltfRead, TheDensestChannelGivesTheRate) {
+TEST(GltfRead, the_densest_channel_gives_the_rate) {
   const auto rate = [](const std::vector<float>& times) {
     return 1 / must_read(with_times(times))->clip().frame_time;
   };
@@ -201,7 +201,7 @@ TEST(GltfRead, TheDensestChannelGivesTheRate) {
   EXPECT_EQ(rate({0, 0.00311f, 0.00717f, 0.0141f}), 1 / (1.0 / 120));
 }
 
-TEST(GltfRead, APoseHeldByTwoKeysDoesNotGiveTheRate) {
+TEST(GltfRead, a_pose_held_by_two_keys_does_not_give_the_rate) {
   GltfParts parts = small_gltf();
   parts.json["animations"][0].erase("channels");
   parts.json["animations"][0].erase("samplers");
@@ -217,19 +217,19 @@ TEST(GltfRead, APoseHeldByTwoKeysDoesNotGiveTheRate) {
   EXPECT_EQ(clip.pose(60).rotations[1], held);
 }
 
-TEST(GltfRead, FramesBeginAtTheFirstKeyAndReachTheLast) {
+TEST(GltfRead, frames_begin_at_the_first_key_and_reach_the_last) {
   const auto file = must_read(with_times({1.5f, 1.6f, 1.7f, 1.75f, 1.8f, 1.85f}));
   EXPECT_EQ(file->clip().frames, 8);  // At 20 a second.
   EXPECT_EQ(file->clip().pose(0).rotations[1], about_x(0));
   EXPECT_LT(angle_between(file->clip().pose(7).rotations[1], about_x(0.5)), 4 * 0x1p-24);
 }
 
-TEST(GltfRead, ASingleKeyIsASingleFrame) {
+TEST(GltfRead, a_single_key_is_a_single_frame) {
   const Clip clip = must_read(with_times({0.7f}))->clip();
   EXPECT_EQ(clip.frames, 1);
 }
 
-TEST(GltfRead, AFileWithoutAnimationsIsARestPose) {
+TEST(GltfRead, a_file_without_animations_is_a_rest_pose) {
   GltfParts parts = small_gltf();
   parts.json.erase("animations");
   const auto file = must_read(parts);
@@ -238,7 +238,7 @@ TEST(GltfRead, AFileWithoutAnimationsIsARestPose) {
   EXPECT_EQ(file->clip().pose(0).translations[1], (Vec3{0, 1, 0}));
 }
 
-TEST(GltfRead, ClipsWithoutNamesAreNumberedAndNamesGivenTwiceAreToldApart) {
+TEST(GltfRead, clips_without_names_are_numbered_and_names_given_twice_are_told_apart) {
   GltfParts parts = small_gltf();
   Json& list = parts.json["animations"];
   const Json nod = list[0];
@@ -251,13 +251,13 @@ TEST(GltfRead, ClipsWithoutNamesAreNumberedAndNamesGivenTwiceAreToldApart) {
   EXPECT_EQ(must_read(parts)->clip_names(), names);
 }
 
-TEST(GltfRead, NodesWithoutNamesAreCalledByTheirNumber) {
+TEST(GltfRead, nodes_without_names_are_called_by_their_number) {
   GltfParts parts = small_gltf();
   parts.json["nodes"][2].erase("name");
   EXPECT_EQ(must_read(parts)->clip().skeleton.joints[2].name, "node 2");
 }
 
-TEST(GltfRead, AnAnimatedNodeOutsideOfSkinsIsAJoint) {
+TEST(GltfRead, an_animated_node_outside_of_skins_is_a_joint) {
   GltfParts parts = small_gltf();
   parts.json["animations"][0]["channels"][1]["target"]["node"] = 3;
   const Clip clip = must_read(parts)->clip();
@@ -266,7 +266,7 @@ TEST(GltfRead, AnAnimatedNodeOutsideOfSkinsIsAJoint) {
   EXPECT_EQ(clip.pose(3).translations[lamp], (Vec3{0.3f, 1, 0}));
 }
 
-TEST(GltfRead, AMatrixIsTakenApartAndStaysPut) {
+TEST(GltfRead, a_matrix_is_taken_apart_and_stays_put) {
   GltfParts parts = small_gltf();
   // A quarter turn about y, twice the size, at (1, 2, 3).
   parts.json["nodes"][0]["matrix"] = {0, 0, -2, 0, 0, 2, 0, 0, 2, 0, 0, 0, 1, 2, 3, 1};
@@ -280,7 +280,7 @@ TEST(GltfRead, AMatrixIsTakenApartAndStaysPut) {
   EXPECT_EQ(clip.pose(2).translations[1], (Vec3{0.4f, 2, 0}));
 }
 
-TEST(GltfRead, AnArmatureInCentimetresStandsAsTheOneInMetresDoes) {
+TEST(GltfRead, an_armature_in_centimetres_stands_as_the_one_in_metres_does) {
   const auto metres = must_read(test::character());
   const auto centimetres = must_read(test::character({.centimetres = true}));
   for (const int which : {0, 1}) {
@@ -297,7 +297,7 @@ TEST(GltfRead, AnArmatureInCentimetresStandsAsTheOneInMetresDoes) {
   }
 }
 
-TEST(GltfRead, TheHumanoidOfAVrmNamesItsJoints) {
+TEST(GltfRead, the_humanoid_of_a_vrm_names_its_joints) {
   using enum test::CharacterOptions::Vrm;
   for (const auto vrm : {vrm0, vrm1}) {
     const Clip clip = must_read(test::character({.vrm = vrm}))->clip();
@@ -318,7 +318,7 @@ TEST(GltfRead, TheHumanoidOfAVrmNamesItsJoints) {
   for (const Joint& joint : plain.skeleton.joints) EXPECT_EQ(joint.role, "");
 }
 
-TEST(GltfRead, OnlyTheTopOfTheSkinMovesWhereNothingElseIsAnimatedToMove) {
+TEST(GltfRead, only_the_top_of_the_skin_moves_where_nothing_else_is_animated_to_move) {
   const auto file = must_read(test::character());
   for (const int which : {0, 1}) {
     for (const Joint& joint : file->clip(which).skeleton.joints) {

@@ -73,7 +73,7 @@ bool check_harmless(const std::string& bytes) {
   return true;
 }
 
-TEST(GltfSafety, EveryTruncationIsHarmless) {
+TEST(GltfSafety, every_truncation_is_harmless) {
   for (const std::string& bytes :
        {test::to_glb(rich_gltf()), test::to_gltf_text(test::small_gltf())}) {
     ASSERT_TRUE(check_harmless(bytes));
@@ -83,7 +83,7 @@ TEST(GltfSafety, EveryTruncationIsHarmless) {
   }
 }
 
-TEST(GltfSafety, EveryChangedByteIsHarmless) {
+TEST(GltfSafety, every_changed_byte_is_harmless) {
   constexpr unsigned char kValues[] = {0, '9', 0xff};
   int accepted = 0, refused = 0;
   const std::string bytes = test::to_glb(rich_gltf());
@@ -109,7 +109,7 @@ void for_each_value(Json& json, const std::function<void(Json&)>& visit) {
   visit(json);
 }
 
-TEST(GltfSafety, EveryValueOfTheJsonReplacedByABadOneIsHarmless) {
+TEST(GltfSafety, every_value_of_the_json_replaced_by_a_bad_one_is_harmless) {
   const Json bad[] = {0,
                       1,
                       -1,
@@ -140,7 +140,7 @@ TEST(GltfSafety, EveryValueOfTheJsonReplacedByABadOneIsHarmless) {
   EXPECT_GT(refused, 400);
 }
 
-TEST(GltfSafety, EveryMissingMemberAndItemIsHarmless) {
+TEST(GltfSafety, every_missing_member_and_item_is_harmless) {
   GltfParts parts = test::glb_parts(test::to_glb(rich_gltf()));
   for_each_value(parts.json, [&](Json& value) {
     const Json good = value;
@@ -156,7 +156,7 @@ TEST(GltfSafety, EveryMissingMemberAndItemIsHarmless) {
   });
 }
 
-TEST(GltfSafety, ManyAnimationsOfOneNameTakeNoTime) {
+TEST(GltfSafety, many_animations_of_one_name_take_no_time) {
   GltfParts parts = test::small_gltf();
   for (int i = 0; i < 20'000; ++i) parts.json["animations"].push_back({{"name", "nod"}, {"a", 0}});
   const auto file = must_read(parts);

@@ -61,7 +61,7 @@ void expect_contains(const Json& out, const Json& in, const std::string& path) {
   }
 }
 
-TEST(GltfWrite, UnchangedMotionBesideTheOldUsesTheVeryAccessorsOfTheOld) {
+TEST(GltfWrite, unchanged_motion_beside_the_old_uses_the_very_accessors_of_the_old) {
   const GltfParts in = test::glb_parts(test::to_glb(test::character()));
   const auto file = must_read(in);
   for (const int which : {0, 1}) {
@@ -77,7 +77,7 @@ TEST(GltfWrite, UnchangedMotionBesideTheOldUsesTheVeryAccessorsOfTheOld) {
   }
 }
 
-TEST(GltfWrite, UnchangedMotionInPlaceOfTheOldIsTheSameFile) {
+TEST(GltfWrite, unchanged_motion_in_place_of_the_old_is_the_same_file) {
   GltfParts in = test::character();
   const auto file = must_read(in);
   for (const int which : {0, 1}) {
@@ -89,7 +89,7 @@ TEST(GltfWrite, UnchangedMotionInPlaceOfTheOldIsTheSameFile) {
   }
 }
 
-TEST(GltfWrite, WhatIsNotMotionStays) {
+TEST(GltfWrite, what_is_not_motion_stays) {
   const GltfParts in =
       test::glb_parts(test::to_glb(test::character({.vrm = test::CharacterOptions::Vrm::vrm1})));
   const auto file = must_read(in);
@@ -102,7 +102,7 @@ TEST(GltfWrite, WhatIsNotMotionStays) {
   EXPECT_EQ(out.json["animations"][2]["extras"], in.json["animations"][0]["extras"]);
 }
 
-TEST(GltfWrite, OnlyTheChangedChannelsGetNewKeys) {
+TEST(GltfWrite, only_the_changed_channels_get_new_keys) {
   const GltfParts in = test::character();
   const auto file = must_read(in);
   Clip clip = file->clip(1);
@@ -125,7 +125,7 @@ TEST(GltfWrite, OnlyTheChangedChannelsGetNewKeys) {
   }
 }
 
-TEST(GltfWrite, AChangedClipReadsBack) {
+TEST(GltfWrite, a_changed_clip_reads_back) {
   for (const bool centimetres : {false, true}) {
     const auto file = must_read(test::character({.centimetres = centimetres}));
     Clip clip = file->clip();
@@ -145,7 +145,7 @@ TEST(GltfWrite, AChangedClipReadsBack) {
   }
 }
 
-TEST(GltfWrite, EveryValueThatDidNotChangeKeepsItsKeysBits) {
+TEST(GltfWrite, every_value_that_did_not_change_keeps_its_keys_bits) {
   const GltfParts in = small_gltf();
   const auto file = must_read(in);
   Clip clip = file->clip();
@@ -162,7 +162,7 @@ TEST(GltfWrite, EveryValueThatDidNotChangeKeepsItsKeysBits) {
   EXPECT_EQ(sampler_of(animation, 1, "translation"), in.json["animations"][0]["samplers"][1]);
 }
 
-TEST(GltfWrite, KeysThatAreNotUnitKeepTheirBitsToo) {
+TEST(GltfWrite, keys_that_are_not_unit_keep_their_bits_too) {
   GltfParts in = small_gltf();
   const std::vector<float> turns = {0, 0, 0, 2, 3, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0, 1};
   in.json["animations"][0]["samplers"][0]["output"] = in.add(turns, "VEC4", 4);
@@ -176,7 +176,7 @@ TEST(GltfWrite, KeysThatAreNotUnitKeepTheirBitsToo) {
             std::vector<float>(turns.begin(), turns.begin() + 12));
 }
 
-TEST(GltfWrite, AChangedJointWithoutAChannelGetsOne) {
+TEST(GltfWrite, a_changed_joint_without_a_channel_gets_one) {
   const GltfParts in = small_gltf();
   const auto file = must_read(in);
   Clip clip = file->clip();
@@ -191,7 +191,7 @@ TEST(GltfWrite, AChangedJointWithoutAChannelGetsOne) {
   expect_same_motion(must_read(bytes)->clip(), clip, 0);
 }
 
-TEST(GltfWrite, ANodePlacedByAMatrixIsNeverAnimated) {
+TEST(GltfWrite, a_node_placed_by_a_matrix_is_never_animated) {
   GltfParts in = small_gltf();
   in.json["nodes"][2] = {{"name", "Head"},
                          {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0.5, 0, 1}}};
@@ -202,7 +202,7 @@ TEST(GltfWrite, ANodePlacedByAMatrixIsNeverAnimated) {
   EXPECT_EQ(out.json["animations"], in.json["animations"]);
 }
 
-TEST(GltfWrite, QuaternionsDoNotJumpToTheOtherSideOfTheSphere) {
+TEST(GltfWrite, quaternions_do_not_jump_to_the_other_side_of_the_sphere) {
   const auto file = must_read(small_gltf());
   Clip clip = file->clip();
   for (int f = 0; f < clip.frames; ++f) {
@@ -215,7 +215,7 @@ TEST(GltfWrite, QuaternionsDoNotJumpToTheOtherSideOfTheSphere) {
   for (size_t i = 4; i < keys.size(); i += 4) EXPECT_GT(keys[i + 3] * keys[i - 1], 0);
 }
 
-TEST(GltfWrite, ChangedTimesTakeEveryChannelWithThem) {
+TEST(GltfWrite, changed_times_take_every_channel_with_them) {
   const GltfParts in = test::character();
   const auto file = must_read(in);
   const Clip& source = file->clip(1);
@@ -266,7 +266,7 @@ TEST(GltfWrite, ChangedTimesTakeEveryChannelWithThem) {
   }
 }
 
-TEST(GltfWrite, AShorterClipEndsEarlier) {
+TEST(GltfWrite, a_shorter_clip_ends_earlier) {
   const auto file = must_read(test::character());
   Clip clip = file->clip(1);
   clip.resize(20);
@@ -274,7 +274,7 @@ TEST(GltfWrite, AShorterClipEndsEarlier) {
   EXPECT_EQ(back->clip(1).frames, 20);
 }
 
-TEST(GltfWrite, NewTimesBeginWhereTheOldDid) {
+TEST(GltfWrite, new_times_begin_where_the_old_did) {
   GltfParts in = small_gltf();
   const size_t times = in.add_bounded(test::key_times(4, 30, 2), "SCALAR", 1);
   for (Json& sampler : in.json["animations"][0]["samplers"]) sampler["input"] = times;
@@ -286,7 +286,7 @@ TEST(GltfWrite, NewTimesBeginWhereTheOldDid) {
   EXPECT_EQ(accessor_floats(out, sampler["input"]), accessor_floats(in, times));
 }
 
-TEST(GltfWrite, ATakenNameGetsANumber) {
+TEST(GltfWrite, a_taken_name_gets_a_number) {
   const auto file = must_read(test::character());
   Clip clip = file->clip();
   const std::vector<double> frames = same_frames(clip.frames);
@@ -297,7 +297,7 @@ TEST(GltfWrite, ATakenNameGetsANumber) {
             (std::vector<std::string>{"Walk", "Wave", "Walk (2)", "Walk (3)", "animation 5"}));
 }
 
-TEST(GltfWrite, SeveralClipsAreEditedAtOnce) {
+TEST(GltfWrite, several_clips_are_edited_at_once) {
   const auto file = must_read(test::character());
   Clip walk = file->clip(0), wave = file->clip(1);
   turn(walk, joint_named(walk, "Spine"), 0.1f);
@@ -313,7 +313,7 @@ TEST(GltfWrite, SeveralClipsAreEditedAtOnce) {
   }
 }
 
-TEST(GltfWrite, AFileWithoutAnimationsGetsOneWhereItsPoseChanges) {
+TEST(GltfWrite, a_file_without_animations_gets_one_where_its_pose_changes) {
   GltfParts in = small_gltf();
   in.json.erase("animations");
   const auto file = must_read(in);
@@ -325,7 +325,7 @@ TEST(GltfWrite, AFileWithoutAnimationsGetsOneWhereItsPoseChanges) {
   EXPECT_EQ(back->clip().rotations, clip.rotations);
 }
 
-TEST(GltfWrite, TextStaysTextAndGetsItsDataInIt) {
+TEST(GltfWrite, text_stays_text_and_gets_its_data_in_it) {
   const std::string text = test::to_gltf_text(small_gltf());
   const auto file = must_read(text);
   EXPECT_EQ(file->encode(file->clip(), same_frames(4)), text);
@@ -338,7 +338,7 @@ TEST(GltfWrite, TextStaysTextAndGetsItsDataInIt) {
   expect_same_motion(must_read(out)->clip(), clip, 0);
 }
 
-TEST(GltfWrite, WhatWasInOtherFilesIsInTheResult) {
+TEST(GltfWrite, what_was_in_other_files_is_in_the_result) {
   test::TemporaryFolder folder;
   GltfParts parts = small_gltf();
   const std::string picture = "\x89PNG and so on";
@@ -355,7 +355,20 @@ TEST(GltfWrite, WhatWasInOtherFilesIsInTheResult) {
             "data:application/octet-stream;base64," + test::to_base64(parts.bin));
 }
 
-TEST(GltfWrite, UnknownChunksOfAGlbStay) {
+TEST(GltfWrite, a_picture_that_is_not_beside_the_file_stays_an_address) {
+  test::TemporaryFolder folder;
+  GltfParts parts = small_gltf();
+  parts.json["images"][0]["uri"] = "gone.png";
+  parts.json["images"].push_back({{"uri", "../textures/skin.png"}});
+  ASSERT_TRUE(write_file(folder.path() + "walk.bin", parts.bin, false).ok());
+  auto file = parse_gltf(test::to_gltf_text(parts, "walk.bin"), folder.path() + "walk.gltf");
+  ASSERT_TRUE(file.ok()) << file.error().message;
+  const Json json = Json::parse((*file)->encode((*file)->clip(), same_frames(4)));
+  EXPECT_EQ(json["images"][0]["uri"], "gone.png");
+  EXPECT_EQ(json["images"][1]["uri"], "../textures/skin.png");
+}
+
+TEST(GltfWrite, unknown_chunks_of_a_glb_stay) {
   std::string glb = test::to_glb(small_gltf());
   std::string more;
   test::append_uint32(more, 4);
@@ -368,7 +381,7 @@ TEST(GltfWrite, UnknownChunksOfAGlbStay) {
   EXPECT_TRUE(file->encode(file->clip(), same_frames(4)).ends_with(more));
 }
 
-TEST(GltfWrite, ChannelsOfExtensionsStay) {
+TEST(GltfWrite, channels_of_extensions_stay) {
   GltfParts in = small_gltf();
   in.json["animations"][0]["channels"].push_back(
       {{"sampler", 0},

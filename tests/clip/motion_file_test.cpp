@@ -10,7 +10,7 @@ std::string read_refusal(const std::string& path) {
   return file.ok() ? "(accepted)" : file.error().message;
 }
 
-TEST(MotionFile, TheEndingDecidesTheFormatInAnyCase) {
+TEST(MotionFile, the_ending_decides_the_format_in_any_case) {
   const std::string folder = testing::TempDir() + "panache_motion_file";
   for (const char* name : {"/walk.bvh", "/walk.BVH", "/walk.neutral.Bvh"}) {
     ASSERT_TRUE(write_file(folder + name, read_fixture("plain.bvh"), true).ok());
@@ -21,7 +21,7 @@ TEST(MotionFile, TheEndingDecidesTheFormatInAnyCase) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(MotionFile, AnUnknownEndingIsAnsweredWithTheKnownOnes) {
+TEST(MotionFile, an_unknown_ending_is_answered_with_the_known_ones) {
   EXPECT_EQ(
       read_refusal("a/walk.fbx"),
       "a/walk.fbx: expected a motion file (.bvh, .glb, .gltf, .vrm), found the ending '.fbx'");
@@ -29,7 +29,7 @@ TEST(MotionFile, AnUnknownEndingIsAnsweredWithTheKnownOnes) {
             "a.b/walk: expected a motion file (.bvh, .glb, .gltf, .vrm), found no ending");
 }
 
-TEST(MotionFile, AFileThatCannotBeReadSaysWhy) {
+TEST(MotionFile, a_file_that_cannot_be_read_says_why) {
   EXPECT_EQ(read_refusal("nowhere/walk.bvh"),
             "nowhere/walk.bvh: cannot be read: No such file or directory");
 }
