@@ -48,6 +48,8 @@ int run(int argc, char** argv) {
   add_info(app, exit_code);
   add_walker(app, exit_code);
   add_strip(app, exit_code);
+  add_live(app, exit_code);
+  add_send(app, exit_code);
   add_train(app, exit_code);
   add_eval(app, exit_code);
   if (argc < 2) {

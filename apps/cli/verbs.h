@@ -11,6 +11,9 @@ void add_styles(CLI::App& app, int& exit_code);
 void add_info(CLI::App& app, int& exit_code);
 void add_walker(CLI::App& app, int& exit_code);
 void add_strip(CLI::App& app, int& exit_code);
+// In a build without liblo these two exist and say so.
+void add_live(CLI::App& app, int& exit_code);
+void add_send(CLI::App& app, int& exit_code);
 // In a build without training these two exist and say so.
 void add_train(CLI::App& app, int& exit_code);
 void add_eval(CLI::App& app, int& exit_code);

@@ -1,0 +1,162 @@
+// panache live: motion from trackers in, the same motion in another style out to avatars, while it
+// happens (VMC protocol).
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/file.h"
+#include "clip/bvh.h"
+#include "clip/text_cursor.h"
+#include "model_path.h"
+#include "outputs.h"
+#include "report.h"
+#include "stop_signal.h"
+#include "strengths.h"
+#include "verbs.h"
+#include "vmc_relay.h"
+
+namespace panache::cli {
+namespace {
+
+struct LiveOptions {
+  std::string in = "39539", out = "39540";
+  std::vector<std::string> styles;
+  std::string model, record;
+  bool quiet = false, force = false;
+};
+
+// One strength per style of the model.
+Result<std::vector<float>> read_styles(const std::vector<std::string>& texts, const Model& model) {
+  Result<std::vector<StrengthWish>> wishes = parse_styles(texts, model);
+  if (!wishes) return wishes.error();
+  std::vector<float> strengths(model.styles().size());
+  for (const StrengthWish& wish : *wishes) {
+    const auto style = static_cast<size_t>(wish.track.style);
+    if (wish.over_clip) {
+      return Error{"--style " + model.styles()[style].name + "=" + describe(wish) +
+                   ": live motion has no end to change towards; expected one strength"};
+    }
+    strengths[style] = wish.track.points.front().strength;
+  }
+  return strengths;
+}
+
+// What is sent to the port that is listened at would come in again, and again.
+Result<void> check_no_circle(uint16_t in, const sockaddr_in& out) {
+  const uint32_t host = ntohl(out.sin_addr.s_addr);
+  if (ntohs(out.sin_port) != in || (host != INADDR_ANY && host >> 24 != IN_LOOPBACKNET)) return {};
+  return Error{"--vmc-out: expected another port than that of --vmc-in, found " +
+               std::to_string(in) + " for both"};
+}
+
+Result<void> check_record(const LiveOptions& options) {
+  if (options.record.empty() || options.record.ends_with(".bvh")) return {};
+  return Error{"--record " + options.record + ": expected a name that ends in .bvh"};
+}
+
+void relay_until_stopped(VmcRelay& relay, bool quiet) {
+  double next = stamp_now() + 1;
+  while (!stop_asked()) {
+    relay.run_once();
+    // Also where the clock was set back.
+    if (stamp_now() < next && stamp_now() > next - 2) continue;
+    next = stamp_now() + 1;
+    const std::string line = relay.second(), note = relay.take_note();
+    if (!note.empty()) say(note);
+    if (!quiet) say(line);
+  }
+  relay.finish();
+}
+
+void print_summary(const VmcRelay& relay, double seconds) {
+  const VmcCounts& all = relay.all();
+  print("relayed " + plural(static_cast<size_t>(all.frames), "frame") + " of " +
+        plural(relay.senders(), "sender") + " in " + fixed(seconds, 1) +
+        " s: " + std::to_string(all.lost) + " lost, " + std::to_string(all.refused) +
+        " refused, p50 " + std::to_string(all.latencies.quantile_us(0.5)) + " us, p99 " +
+        std::to_string(all.latencies.quantile_us(0.99)) + " us\n");
+}
+
+Result<void> write_recording(const VmcRecording& recording, const LiveOptions& options) {
+  if (recording.frames() == 0) {
+    return Error{options.record + ": not written, as no sender was understood"};
+  }
+  const Clip clip = recording.clip();
+  auto written = write_file(options.record, format_bvh(clip), options.force);
+  if (!written) return written;
+  print("recorded " + plural(recording.frames(), "frame") + " (" + fixed(clip.duration(), 1) +
+        " s) into " + options.record + (recording.full() ? ", which is full\n" : "\n"));
+  return {};
+}
+
+int live(const LiveOptions& options) {
+  Result<uint16_t> in = parse_port(options.in, "--vmc-in");
+  if (!in) return refuse(in.error(), kBadUsage);
+  Result<sockaddr_in> out = parse_address(options.out, "--vmc-out");
+  if (!out) return refuse(out.error(), kBadUsage);
+  for (const Result<void>& good : {check_no_circle(*in, *out), check_record(options)}) {
+    if (!good) return refuse(good.error(), kBadUsage);
+  }
+  if (!options.record.empty()) {
+    auto free = check_output("", options.record, options.force);
+    if (!free) return refuse(free.error(), kBadInput);
+  }
+  Result<std::string> path = find_model(options.model);
+  if (!path) return refuse(path.error(), kBadInput);
+  Result<std::shared_ptr<const Model>> model = Model::load(*path);
+  if (!model) return refuse(model.error(), kBadInput);
+  Result<std::vector<float>> strengths = read_styles(options.styles, **model);
+  if (!strengths) return refuse(strengths.error(), kBadUsage);
+  Result<UdpSocket> socket = UdpSocket::listen(*in, "--vmc-in");
+  if (!socket) return refuse(socket.error(), kBadInput);
+
+  watch_stop_signals();
+  VmcRecording recording;
+  VmcRelay relay(*std::move(socket), *out, *std::move(model), *std::move(strengths),
+                 options.record.empty() ? nullptr : &recording);
+  if (!options.quiet) {
+    say("relaying from port " + std::to_string(*in) + " to " + to_string(*out) +
+        " until Ctrl-C ends it");
+  }
+  const double begin = stamp_now();
+  relay_until_stopped(relay, options.quiet);
+  print_summary(relay, stamp_now() - begin);
+  if (options.record.empty()) return kDone;
+  auto written = write_recording(recording, options);
+  return written ? kDone : refuse(written.error(), kBadInput);
+}
+
+}  // namespace
+
+void add_live(CLI::App& app, int& exit_code) {
+  CLI::App* verb = app.add_subcommand("live", "Restyle live motion (VMC protocol)");
+  auto options = std::make_shared<LiveOptions>();
+  verb->add_option("--vmc-in", options->in, "Port that trackers send to; default: 39539")
+      ->type_name("PORT");
+  verb->add_option("--vmc-out", options->out,
+                   "Where the avatars listen: PORT of this machine or\nHOST:PORT; default: 39540")
+      ->type_name("ADDRESS");
+  verb->add_option("--style", options->styles,
+                   "NAME=STRENGTH: 0 is neutral, 1 the style as captured,\n"
+                   "more exaggerates it (-4 to 4). One --style per style")
+      ->allow_extra_args(false)
+      ->type_name("STYLE");
+  verb->add_option("--model", options->model,
+                   "Model; default: $PANACHE_MODEL, else the one shipped")
+      ->type_name("FILE");
+  verb->add_option("--record", options->record,
+                   "Write what the first sender's character does (.bvh),\nwhen all is over")
+      ->type_name("FILE");
+  verb->add_flag("--force", options->force, "Overwrite the recording's file");
+  verb->add_flag("--quiet", options->quiet, "No statistics every second");
+  verb->footer(
+      "While it runs, the OSC messages '/panache/style NAME STRENGTH' and '/panache/reset' to\n"
+      "the same port change a strength and undo what the styles added to the way.\n\n"
+      "Examples:\n"
+      "  panache live --style old=1\n"
+      "  panache live --vmc-in 39539 --vmc-out 192.168.1.20:39540 --record show.bvh");
+  verb->callback([options, &exit_code] { exit_code = live(*options); });
+}
+
+}  // namespace panache::cli

@@ -1,0 +1,161 @@
+// panache send: plays a motion file as a tracker would send it (VMC protocol).
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "input.h"
+#include "report.h"
+#include "rig/canonical_skeleton.h"
+#include "rig_options.h"
+#include "stop_signal.h"
+#include "verbs.h"
+#include "vmc_bones.h"
+#include "vmc_messages.h"
+#include "vmc_socket.h"
+
+namespace panache::cli {
+namespace {
+
+struct SendOptions {
+  std::string input, to = "39539", clip;
+  std::optional<double> fps, seconds;
+  bool loop = false;
+  RigFlags rig;
+};
+
+// VRM's name is Unity's with a small first letter.
+int bone_of(int human_joint) {
+  std::string name(human_joint_name(human_joint));
+  name[0] = static_cast<char>(name[0] - 'a' + 'A');
+  return find_vmc_bone(name).value();
+}
+
+// Reads poses of a clip as the canonical body's bones, whose T-pose has no rotations.
+class Player {
+ public:
+  Player(const Clip& clip, Rig rig)
+      : clip_(clip), rig_(std::move(rig)), rotations_(clip.joints()), translations_(clip.joints()) {
+    for (int j = 0; j < kHumanJoints; ++j) bones_[j] = bone_of(j);
+  }
+
+  // The motion's length in seconds, from its first usable frame to its last.
+  double duration() const { return (clip_.frames - 1 - rig_.first_frame()) * clip_.frame_time; }
+
+  // `at`: seconds into the motion.
+  std::vector<VmcFrame::Bone> bones(double at) {
+    const Pose pose{rotations_, translations_};
+    sample(clip_, rig_.first_frame() + at / clip_.frame_time, pose);
+    BodyPose body;
+    rig_.read(pose, body);
+    std::array<Quat, kHumanJoints> world;
+    canonical_frames(body.positions, body.facing, world);
+    std::vector<VmcFrame::Bone> out = {{kVmcRoot, {}, {}}};
+    for (int j = 0; j < kHumanJoints; ++j) {
+      const int parent = kHumanParent[j];
+      if (parent < 0) {
+        out.push_back({bones_[j], body.positions[j], world[j]});
+      } else {
+        out.push_back({bones_[j], skeleton_.joints[static_cast<size_t>(j)].offset,
+                       normalized(conjugate(world[parent]) * world[j])});
+      }
+    }
+    return out;
+  }
+
+ private:
+  const Clip& clip_;
+  Rig rig_;
+  std::vector<Quat> rotations_;
+  std::vector<Vec3> translations_;
+  Skeleton skeleton_ = canonical_skeleton();
+  std::array<int, kHumanJoints> bones_;  // Of vmc_bones.h.
+};
+
+Result<void> check(const SendOptions& options) {
+  if (options.fps) {
+    if (auto good = check_range("--fps", *options.fps, 1, 1000); !good) return good;
+  }
+  if (options.seconds) {
+    if (auto good = check_range("--seconds", *options.seconds, 0.1, 1e6); !good) return good;
+  }
+  return check_rig_flags(options.rig);
+}
+
+// Returns how many frames were sent before the end, or before the user had enough.
+int64_t play(Player& player, double fps, const SendOptions& options, UdpSocket& socket,
+             const sockaddr_in& to) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  const double motion = player.duration();
+  constexpr double kRounding = 1e-3;  // Frames; files round their frame times.
+  double count = std::numeric_limits<double>::infinity();
+  if (!options.loop) count = std::floor(motion * fps + kRounding) + 1;  // The last one too.
+  if (options.seconds) count = std::min(count, std::ceil(*options.seconds * fps - kRounding));
+  for (int64_t frame = 0;; ++frame) {
+    if (static_cast<double>(frame) >= count) return frame;
+    const double at = static_cast<double>(frame) / fps;
+    // Where the motion has but one pose, there is nothing to go round.
+    const double in_motion = options.loop && motion > 0 ? std::fmod(at, motion) : at;
+    std::this_thread::sleep_until(
+        begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(at)));
+    if (stop_asked()) return frame;
+    for (const std::vector<char>& bundle : format_vmc({at, player.bones(in_motion)})) {
+      socket.send(bundle, to);  // Nobody has to listen.
+    }
+  }
+}
+
+int send(const SendOptions& options) {
+  if (auto good = check(options); !good) return refuse(good.error(), kBadUsage);
+  Result<sockaddr_in> to = parse_address(options.to, "--to");
+  if (!to) return refuse(to.error(), kBadUsage);
+  Result<RigOptions> rig_options = read_rig_options(options.rig);
+  if (!rig_options) return refuse(rig_options.error(), kBadInput);
+  Result<std::unique_ptr<MotionFile>> motion = open_motion(options.input);
+  if (!motion) return refuse(motion.error(), kBadInput);
+  Result<std::vector<int>> picked = pick_clips(**motion, options.clip, options.input);
+  if (!picked) return refuse(picked.error(), kBadInput);
+  const Clip& clip = (*motion)->clip(picked->front());
+  Result<Rig> rig = make_rig(clip, *rig_options, options.input);
+  if (!rig) return refuse(rig.error(), kBadInput);
+  Result<UdpSocket> socket = UdpSocket::open();
+  if (!socket) return refuse(socket.error(), kBadInput);
+
+  watch_stop_signals();
+  Player player(clip, *std::move(rig));
+  const double fps = options.fps.value_or(1 / clip.frame_time);
+  const int64_t frames = play(player, fps, options, *socket, *to);
+  print("sent " + plural(static_cast<size_t>(frames), "frame") + " (" +
+        fixed(static_cast<double>(frames) / fps, 1) + " s) to " + to_string(*to) + "\n");
+  return kDone;
+}
+
+}  // namespace
+
+void add_send(CLI::App& app, int& exit_code) {
+  CLI::App* verb = app.add_subcommand("send", "Play a file as a tracker would (VMC protocol)");
+  auto options = std::make_shared<SendOptions>();
+  verb->add_option("FILE", options->input, "Motion file")->required();
+  verb->add_option("--to", options->to,
+                   "Who listens: PORT of this machine or HOST:PORT;\ndefault: 39539")
+      ->type_name("ADDRESS");
+  verb->add_option("--fps", options->fps, "Frames a second; default: the file's")->type_name("N");
+  verb->add_option("--seconds", options->seconds, "End after this long")->type_name("SECONDS");
+  verb->add_flag("--loop", options->loop, "Begin again at the end");
+  verb->add_option("--clip", options->clip,
+                   "The motion to play, of a file with several;\ndefault: the first")
+      ->type_name("NAME");
+  add_rig_options(*verb, options->rig);
+  verb->footer("Example:\n  panache send walk.bvh --to 127.0.0.1:39539 --fps 90 --loop");
+  verb->callback([options, &exit_code] { exit_code = send(*options); });
+}
+
+}  // namespace panache::cli

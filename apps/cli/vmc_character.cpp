@@ -1,0 +1,175 @@
+#include "vmc_character.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <utility>
+
+namespace panache::cli {
+namespace {
+
+constexpr double kLearnSeconds = 1;
+constexpr size_t kMostLearnt = 240;    // Frames of that second that are kept.
+constexpr double kLongestWait = 0.02;  // Seconds; all of a frame comes in one go.
+constexpr float kFarthest = 10'000;    // Metres.
+
+// Fit to make a skeleton of. The stylizer looks after itself later.
+bool is_sound(const VmcMessage& bone) {
+  const Vec3 p = bone.position;
+  return is_finite(p) && std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) < kFarthest &&
+         is_finite(bone.rotation) && std::abs(dot(bone.rotation, bone.rotation) - 1) < 0.1f;
+}
+
+// Zeros of either sign differ, and a number is the same as itself even if it is none.
+bool same_bits(float a, float b) {
+  return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b);
+}
+bool same_bits(Vec3 a, Vec3 b) {
+  return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z);
+}
+bool same_bits(Quat a, Quat b) { return same_bits(a.xyz(), b.xyz()) && same_bits(a.w, b.w); }
+
+}  // namespace
+
+VmcCharacter::VmcCharacter(std::shared_ptr<const Model> model, VmcRecording* recording)
+    : model_(std::move(model)), recording_(recording) {}
+
+void VmcCharacter::reset() noexcept {
+  if (stylizer_) stylizer_->reset();
+}
+
+void VmcCharacter::take(Datagram datagram, std::span<const VmcMessage> messages,
+                        std::span<const float> strengths) {
+  held_.push_back(std::move(datagram));
+  for (const VmcMessage& message : messages) {
+    if (message.kind == VmcMessage::bone) take_bone(message, strengths);
+    // Before the rig stands, nobody knows whether this says that all bones have come.
+    if (message.kind == VmcMessage::frame_end && stylizer_) finish_frame(strengths);
+  }
+  release();
+}
+
+void VmcCharacter::take_bone(const VmcMessage& bone, std::span<const float> strengths) {
+  const auto b = static_cast<size_t>(bone.bone_index);
+  if (stylizer_ ? !whole_[b] : !is_sound(bone)) return;
+  if (seen_[b]) finish_frame(strengths);
+  if (seen_.none()) now_.seconds = held_.back().received;
+  seen_.set(b);
+  now_.known.set(b);
+  now_.positions[b] = bone.position;
+  now_.rotations[b] = bone.rotation;
+  // The rig may have come to stand just now.
+  if (!stylizer_) return;
+  open_.push_back({held_.size() - 1, bone.place, joint_of_[b]});
+  if (seen_ == whole_) finish_frame(strengths);
+}
+
+void VmcCharacter::end_late_frame(double now, std::span<const float> strengths) {
+  if (held_.empty() || now - held_.front().received < kLongestWait) return;
+  end_frame(strengths);
+}
+
+void VmcCharacter::end_frame(std::span<const float> strengths) {
+  finish_frame(strengths);
+  release();
+}
+
+void VmcCharacter::finish_frame(std::span<const float> strengths) {
+  if (seen_.none()) return;
+  if (stylizer_) {
+    style(strengths);
+  } else {
+    learn();
+  }
+  seen_.reset();
+  open_.clear();
+  ++frames_;
+}
+
+void VmcCharacter::learn() {
+  if (learnt_.size() < kMostLearnt) learnt_.push_back(now_);
+  if (learnt_.size() < 2 || now_.seconds - learnt_.front().seconds < kLearnSeconds) return;
+  if (Result<void> stands = stand(); !stands) note_ = stands.error().message;
+  learnt_.clear();
+}
+
+Result<void> VmcCharacter::stand() {
+  Clip clip;
+  const VmcBoneSet bones = VmcBoneSet(now_.known).set(kVmcRoot);
+  clip.skeleton = vmc_skeleton(bones, now_.positions);
+  clip.frame_time = std::max(1e-6, (learnt_.back().seconds - learnt_.front().seconds) /
+                                       static_cast<double>(learnt_.size() - 1));
+  clip.resize(static_cast<int>(learnt_.size()));
+  std::vector<int> order;
+  for (int b = 0; b < kVmcBones; ++b) {
+    if (bones[static_cast<size_t>(b)]) order.push_back(b);
+  }
+  for (int f = 0; f < clip.frames; ++f) {
+    const Bones& frame = learnt_[static_cast<size_t>(f)];
+    for (size_t j = 0; j < order.size(); ++j) {
+      const auto b = static_cast<size_t>(order[j]);
+      const Bones& from = frame.known[b] ? frame : now_;
+      clip.pose(f).rotations[j] = from.rotations[b];
+      clip.pose(f).translations[j] = from.positions[b];
+    }
+  }
+  RigOptions options;
+  options.up_axis = "+Y";
+  Result<Rig> rig = Rig::create(clip, options);
+  if (!rig) return rig.error();
+  Result<Stylizer> stylizer = Stylizer::create(model_, *std::move(rig));
+  if (!stylizer) return stylizer.error();
+  stylizer_.emplace(*std::move(stylizer));
+
+  bones_ = std::move(order);
+  whole_ = now_.known;
+  for (size_t j = 0; j < bones_.size(); ++j) joint_of_[static_cast<size_t>(bones_[j])] = j;
+  rotations_.resize(bones_.size());
+  translations_.resize(bones_.size());
+  styled_rotations_.resize(bones_.size());
+  styled_translations_.resize(bones_.size());
+  last_frame_ = now_.seconds;
+  if (recording_ && !recording_->started()) {
+    records_ = true;
+    recording_->start(clip.skeleton);
+    for (int f = 0; f < clip.frames; ++f) {
+      recording_->add(learnt_[static_cast<size_t>(f)].seconds, std::as_const(clip).pose(f));
+    }
+  }
+  return {};
+}
+
+void VmcCharacter::style(std::span<const float> strengths) {
+  for (size_t j = 0; j < bones_.size(); ++j) {
+    const auto b = static_cast<size_t>(bones_[j]);
+    rotations_[j] = now_.rotations[b];
+    translations_[j] = now_.positions[b];
+  }
+  const Pose styled{styled_rotations_, styled_translations_};
+  stylizer_->step({rotations_, translations_}, strengths, now_.seconds - last_frame_, styled);
+  last_frame_ = now_.seconds;
+  for (const Place& place : open_) {
+    std::vector<char>& bytes = held_[place.datagram].bytes;
+    const size_t j = place.joint;
+    if (!same_bits(styled.rotations[j], rotations_[j])) {
+      put_rotation(bytes, place.at, styled.rotations[j]);
+    }
+    if (!same_bits(styled.translations[j], translations_[j])) {
+      put_position(bytes, place.at, styled.translations[j]);
+    }
+  }
+  if (records_) recording_->add(now_.seconds, styled);
+}
+
+// Hands out what no bone of an open frame is in or before.
+void VmcCharacter::release() {
+  const size_t done = open_.empty() ? held_.size() : open_.front().datagram;
+  const auto end = held_.begin() + static_cast<std::ptrdiff_t>(done);
+  std::move(held_.begin(), end, std::back_inserter(ready_));
+  held_.erase(held_.begin(), end);
+  for (Place& place : open_) place.datagram -= done;
+}
+
+}  // namespace panache::cli

@@ -1,0 +1,175 @@
+#include "vmc_messages.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <string_view>
+
+#include <lo/lo.h>
+
+#include "vmc_bones.h"
+#include "vmc_coordinates.h"
+
+namespace panache::cli {
+namespace {
+
+constexpr const char* kBonePath = "/VMC/Ext/Bone/Pos";
+constexpr const char* kRootPath = "/VMC/Ext/Root/Pos";
+constexpr const char* kOkPath = "/VMC/Ext/OK";
+constexpr const char* kTimePath = "/VMC/Ext/T";
+constexpr std::string_view kBundle("#bundle\0", 8);
+constexpr size_t kBundleHead = 16;  // "#bundle" and a time tag.
+constexpr int kMostNested = 8;      // Bundles in bundles.
+
+uint32_t read_number(std::span<const char> bytes, size_t at) {
+  uint32_t out = 0;
+  for (size_t i = 0; i < 4; ++i) out = out << 8 | static_cast<unsigned char>(bytes[at + i]);
+  return out;
+}
+
+void put_float(std::span<char> bytes, size_t at, float value) {
+  assert(at + 4 <= bytes.size());
+  const auto number = std::bit_cast<uint32_t>(value);
+  for (size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<char>(number >> (24 - 8 * i));
+}
+
+// OSC pads strings with one to four zeros.
+size_t padded(size_t length) { return length / 4 * 4 + 4; }
+
+// The first argument of a message, a string. An lo_arg is no more aligned than the message is, and
+// so is never looked into as the union that it is.
+std::string_view string_at(lo_arg** arguments) {
+  return static_cast<const char*>(static_cast<const void*>(arguments[0]));
+}
+
+// The message's string and numbers, where they are those of a bone.
+void read_bone(VmcMessage& out, std::span<const char> bytes, std::string_view path,
+               std::string_view types, std::string_view name) {
+  const std::optional<int> bone = path == kRootPath ? kVmcRoot : find_vmc_bone(name);
+  if (!bone) return;
+  out.kind = VmcMessage::bone;
+  out.bone_index = *bone;
+  out.place = padded(path.size()) + padded(types.size() + 1) + padded(name.size());
+  float n[7];
+  for (size_t i = 0; i < 7; ++i) n[i] = std::bit_cast<float>(read_number(bytes, out.place + 4 * i));
+  out.position = mirrored_position({n[0], n[1], n[2]});
+  out.rotation = mirrored_rotation({n[3], n[4], n[5], n[6]});
+}
+
+// `begin`: where the message's bytes begin in the datagram.
+VmcMessage read_message(std::span<const char> bytes, size_t begin) {
+  VmcMessage out;
+  const std::unique_ptr<void, decltype(&lo_message_free)> message(
+      lo_message_deserialise(const_cast<char*>(bytes.data()), bytes.size(), nullptr),
+      &lo_message_free);
+  if (!message) return out;
+  const std::string_view path = bytes.data();  // Ends in a zero, or it would be no message.
+  const std::string_view types = lo_message_get_types(message.get());
+  lo_arg** arguments = lo_message_get_argv(message.get());
+  if (path == kBonePath || path == kRootPath) {
+    // The root may come with scale and offset after its numbers.
+    if (types.starts_with("sfffffff")) read_bone(out, bytes, path, types, string_at(arguments));
+    out.place += begin;
+  } else if (path == kOkPath || path == kTimePath) {
+    out.kind = VmcMessage::frame_end;
+  } else if (path == "/panache/reset") {
+    out.kind = VmcMessage::reset;
+  } else if (path == "/panache/style" && (types == "sf" || types == "si" || types == "sd")) {
+    out.kind = VmcMessage::style;
+    out.name = string_at(arguments);
+    out.strength = static_cast<double>(lo_hires_val(static_cast<lo_type>(types[1]), arguments[1]));
+  }
+  return out;
+}
+
+// Reads the message or bundle datagram[begin, end) into `out`.
+bool read_element(std::span<const char> datagram, size_t begin, size_t end, int depth,
+                  std::vector<VmcMessage>& out) {
+  const std::span<const char> bytes = datagram.subspan(begin, end - begin);
+  if (bytes.size() < 4 || bytes.size() % 4 != 0 || depth > kMostNested) return false;
+  if (!std::string_view(bytes.data(), bytes.size()).starts_with(kBundle)) {
+    if (bytes[0] != '/' || std::find(bytes.begin(), bytes.end(), '\0') == bytes.end()) return false;
+    out.push_back(read_message(bytes, begin));
+    return true;
+  }
+  if (bytes.size() < kBundleHead) return false;
+  size_t at = begin + kBundleHead;
+  while (at < end) {
+    // Both are whole numbers of four bytes, so that four are left for the size.
+    const size_t size = read_number(datagram, at);
+    at += 4;
+    if (size > end - at || !read_element(datagram, at, at + size, depth + 1, out)) return false;
+    at += size;
+  }
+  return true;
+}
+
+void add_bone(lo_bundle bundle, const VmcFrame::Bone& bone) {
+  const Vec3 p = mirrored_position(bone.position);
+  const Quat q = mirrored_rotation(bone.rotation);
+  const lo_message message = lo_message_new();
+  lo_message_add_string(message, std::string(vmc_bone_name(bone.index)).c_str());
+  for (const float value : {p.x, p.y, p.z, q.x, q.y, q.z, q.w}) {
+    lo_message_add_float(message, value);
+  }
+  lo_bundle_add_message(bundle, bone.index == kVmcRoot ? kRootPath : kBonePath, message);
+}
+
+void add_end(lo_bundle bundle, double seconds) {
+  const lo_message ok = lo_message_new(), time = lo_message_new();
+  lo_message_add_int32(ok, 1);
+  lo_message_add_float(time, static_cast<float>(seconds));
+  lo_bundle_add_message(bundle, kOkPath, ok);
+  lo_bundle_add_message(bundle, kTimePath, time);
+}
+
+std::vector<char> bytes_of(lo_bundle bundle) {
+  size_t size = 0;
+  const std::unique_ptr<void, decltype(&std::free)> bytes(
+      lo_bundle_serialise(bundle, nullptr, &size), &std::free);
+  lo_bundle_free_recursive(bundle);
+  const char* begin = static_cast<const char*>(bytes.get());
+  return std::vector<char>(begin, begin + size);
+}
+
+}  // namespace
+
+std::optional<std::vector<VmcMessage>> read_vmc(std::span<const char> datagram) {
+  std::vector<VmcMessage> out;
+  if (!read_element(datagram, 0, datagram.size(), 0, out)) return std::nullopt;
+  return out;
+}
+
+void put_position(std::span<char> datagram, size_t place, Vec3 position) {
+  const Vec3 p = mirrored_position(position);
+  put_float(datagram, place, p.x);
+  put_float(datagram, place + 4, p.y);
+  put_float(datagram, place + 8, p.z);
+}
+
+void put_rotation(std::span<char> datagram, size_t place, Quat rotation) {
+  const Quat q = mirrored_rotation(rotation);
+  put_float(datagram, place + 12, q.x);
+  put_float(datagram, place + 16, q.y);
+  put_float(datagram, place + 20, q.z);
+  put_float(datagram, place + 24, q.w);
+}
+
+std::vector<std::vector<char>> format_vmc(const VmcFrame& frame) {
+  // A message of the longest name takes 88 bytes, so that the bundle stays below 1,500.
+  constexpr size_t kBonesPerBundle = 12;
+  std::vector<std::vector<char>> out;
+  for (size_t i = 0; i < frame.bones.size(); i += kBonesPerBundle) {
+    const lo_bundle bundle = lo_bundle_new(LO_TT_IMMEDIATE);
+    const size_t end = std::min(i + kBonesPerBundle, frame.bones.size());
+    for (size_t b = i; b < end; ++b) add_bone(bundle, frame.bones[b]);
+    if (end == frame.bones.size()) add_end(bundle, frame.seconds);
+    out.push_back(bytes_of(bundle));
+  }
+  return out;
+}
+
+}  // namespace panache::cli

@@ -1,0 +1,161 @@
+#include "vmc_relay.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <poll.h>
+
+#include "clip/text_cursor.h"
+#include "report.h"
+#include "strengths.h"
+
+namespace panache::cli {
+namespace {
+
+constexpr int kWaitMilliseconds = 10;
+// So that frames that wait and the statistics have their turn in a flood.
+constexpr int kMostAtOnce = 64;
+
+bool is_command(const VmcMessage& message) {
+  return message.kind == VmcMessage::style || message.kind == VmcMessage::reset;
+}
+
+}  // namespace
+
+VmcRelay::VmcRelay(UdpSocket socket, const sockaddr_in& to, std::shared_ptr<const Model> model,
+                   std::vector<float> strengths, VmcRecording* recording)
+    : socket_(std::move(socket)),
+      to_(to),
+      model_(std::move(model)),
+      strengths_(std::move(strengths)),
+      recording_(recording) {
+  senders_.reserve(kMostSenders);
+}
+
+void VmcRelay::run_once() {
+  pollfd waiting = {socket_.file(), POLLIN, 0};
+  ::poll(&waiting, 1, kWaitMilliseconds);
+  for (int i = 0; i < kMostAtOnce; ++i) {
+    std::optional<Datagram> datagram = socket_.receive();
+    if (!datagram) break;
+    take(*std::move(datagram));
+  }
+  for (Sender& sender : senders_) {
+    sender.character.end_late_frame(stamp_now(), strengths_);
+    send_ready(sender);
+  }
+  count_lost();
+}
+
+void VmcRelay::finish() {
+  for (Sender& sender : senders_) {
+    sender.character.end_frame(strengths_);
+    send_ready(sender);
+  }
+}
+
+void VmcRelay::take(Datagram datagram) {
+  const std::optional<std::vector<VmcMessage>> messages = read_vmc(datagram.bytes);
+  if (!messages) {
+    ++all_.refused;
+    ++second_.refused;
+    return;
+  }
+  for (const VmcMessage& message : *messages) obey(message);
+  // What is for this program alone is not for the avatar.
+  if (!messages->empty() && std::all_of(messages->begin(), messages->end(), is_command)) return;
+  const bool has_bones = std::any_of(messages->begin(), messages->end(), [](const VmcMessage& m) {
+    return m.kind == VmcMessage::bone;
+  });
+  Sender* sender = sender_of(datagram, has_bones);
+  if (!sender) {
+    send(datagram);
+    return;
+  }
+  sender->heard = datagram.received;
+  sender->this_second = true;
+  sender->character.take(std::move(datagram), *messages, strengths_);
+  send_ready(*sender);
+}
+
+void VmcRelay::obey(const VmcMessage& message) {
+  if (message.kind == VmcMessage::reset) {
+    for (Sender& sender : senders_) sender.character.reset();
+  }
+  if (message.kind != VmcMessage::style) return;
+  const Result<int> style = model_->find_style(message.name);
+  const double strength = message.strength;
+  if (!style) {
+    note_ = "/panache/style: " + style.error().message;
+  } else if (!(strength >= double{kLowestStrength} && strength <= double{kHighestStrength})) {
+    note_ = "/panache/style " + message.name + ": expected a strength from -4 to 4, found " +
+            brief(strength);
+  } else {
+    strengths_[static_cast<size_t>(*style)] = static_cast<float>(strength);
+  }
+}
+
+VmcRelay::Sender* VmcRelay::sender_of(const Datagram& datagram, bool meet) {
+  for (Sender& sender : senders_) {
+    if (same_place(sender.address, datagram.sender)) return &sender;
+  }
+  if (!meet) return nullptr;
+  // The one that was silent longest makes room for one too many.
+  if (senders_.size() == kMostSenders) {
+    senders_.erase(
+        std::min_element(senders_.begin(), senders_.end(),
+                         [](const Sender& a, const Sender& b) { return a.heard < b.heard; }));
+  }
+  senders_.push_back({datagram.sender, datagram.received, true, VmcCharacter(model_, recording_)});
+  ++met_;
+  return &senders_.back();
+}
+
+void VmcRelay::send_ready(Sender& sender) {
+  for (const Datagram& datagram : sender.character.take_ready()) send(datagram);
+  const int frames = sender.character.take_frames();
+  all_.frames += frames;
+  second_.frames += frames;
+  if (const std::string note = sender.character.take_note(); !note.empty()) {
+    note_ = to_string(sender.address) + ": " + note + "; its motion passes as it is";
+  }
+}
+
+void VmcRelay::send(const Datagram& datagram) {
+  if (!socket_.send(datagram.bytes, to_)) {
+    ++all_.lost;
+    ++second_.lost;
+    return;
+  }
+  const double seconds = stamp_now() - datagram.received;
+  all_.latencies.add(seconds);
+  second_.latencies.add(seconds);
+}
+
+void VmcRelay::count_lost() {
+  // The machine's count goes round.
+  const uint32_t lost = socket_.lost() - std::exchange(lost_before_, socket_.lost());
+  all_.lost += lost;
+  second_.lost += lost;
+}
+
+std::string VmcRelay::second() {
+  size_t heard = 0;
+  for (Sender& sender : senders_) heard += std::exchange(sender.this_second, false);
+  std::string line = plural(static_cast<size_t>(second_.frames), "frame") + " of " +
+                     plural(heard, "sender") + ", " + std::to_string(second_.lost) + " lost, p50 " +
+                     std::to_string(second_.latencies.quantile_us(0.5)) + " us, p99 " +
+                     std::to_string(second_.latencies.quantile_us(0.99)) + " us";
+  if (second_.refused > 0) line += ", " + std::to_string(second_.refused) + " refused";
+  bool neutral = true;
+  for (size_t i = 0; i < strengths_.size(); ++i) {
+    if (strengths_[i] == 0) continue;
+    neutral = false;
+    line += ", " + model_->styles()[i].name + " " + brief(static_cast<double>(strengths_[i]));
+  }
+  if (neutral) line += ", neutral";
+  second_ = {};
+  return line;
+}
+
+}  // namespace panache::cli

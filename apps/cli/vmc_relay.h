@@ -1,0 +1,73 @@
+#pragma once
+// The relay itself: from a socket to an address, a character for each sender.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "style/model.h"
+#include "vmc_character.h"
+#include "vmc_latencies.h"
+#include "vmc_socket.h"
+
+namespace panache::cli {
+
+// Counts of a second, or of all.
+struct VmcCounts {
+  int64_t frames = 0;   // Of all senders.
+  int64_t lost = 0;     // Datagrams that found no room on the way in or out.
+  int64_t refused = 0;  // Datagrams that are no OSC.
+  VmcLatencies latencies;
+};
+
+class VmcRelay {
+ public:
+  // `recording` may be null, and must outlive the relay. strengths: one per style of the model.
+  VmcRelay(UdpSocket socket, const sockaddr_in& to, std::shared_ptr<const Model> model,
+           std::vector<float> strengths, VmcRecording* recording);
+
+  // Waits for datagrams a little while and sends on what is ready.
+  void run_once();
+  // Sends on what still waits.
+  void finish();
+
+  const VmcCounts& all() const { return all_; }
+  size_t senders() const { return met_; }  // So far.
+  // "270 frames of 3 senders, 0 lost, p50 85 us, p99 210 us, old 1": since this was last asked.
+  std::string second();
+  // What a user should know, since this was last asked; the last such sentence, or empty.
+  std::string take_note() { return std::exchange(note_, {}); }
+
+ private:
+  struct Sender {
+    sockaddr_in address;
+    double heard;  // When last.
+    bool this_second;
+    VmcCharacter character;
+  };
+  static constexpr size_t kMostSenders = 16;
+
+  void take(Datagram datagram);
+  void obey(const VmcMessage& message);
+  // Null where the sender is new and not to be met.
+  Sender* sender_of(const Datagram& datagram, bool meet);
+  void send_ready(Sender& sender);
+  void send(const Datagram& datagram);
+  void count_lost();
+
+  UdpSocket socket_;
+  sockaddr_in to_;
+  std::shared_ptr<const Model> model_;
+  std::vector<float> strengths_;  // [styles]
+  VmcRecording* recording_;
+  std::vector<Sender> senders_;
+  size_t met_ = 0;
+  uint32_t lost_before_ = 0;
+  VmcCounts all_, second_;
+  std::string note_;
+};
+
+}  // namespace panache::cli

@@ -1,0 +1,332 @@
+// panache live and panache send, fed and heard by sockets of the test.
+
+#include <chrono>
+#include <csignal>
+#include <functional>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "base/random.h"
+#include "cli/program.h"
+#include "cli/vmc_peer.h"
+#include "clip/fk.h"
+#include "clip/motion_file.h"
+
+namespace panache::test {
+namespace {
+
+// How far the head is ahead of the hips, mean over the last `count` frames, of a walk along +z.
+float lean(const std::vector<Bytes>& datagrams, int count) {
+  std::map<std::string, Bone> now;
+  std::vector<float> all;
+  for (const Bytes& datagram : datagrams) {
+    for (const auto& [name, bone] : bones_of(datagram)) {
+      if (name == "Hips" && now.size() > 20) {
+        Quat rotation;
+        Vec3 position;
+        for (const char* joint : {"Hips", "Spine", "Chest", "Neck", "Head"}) {
+          position += rotate(rotation, now[joint].position);
+          rotation = rotation * now[joint].rotation;
+        }
+        all.push_back((position - now["Hips"].position).z);
+      }
+      now[name] = bone;
+    }
+  }
+  EXPECT_GE(all.size(), static_cast<size_t>(count));
+  float sum = 0;
+  for (size_t i = all.size() - static_cast<size_t>(count); i < all.size(); ++i) sum += all[i];
+  return sum / static_cast<float>(count);
+}
+
+class LiveVerb : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    if (run({"live", "--help"}).out.find("not in this build") != std::string::npos) {
+      GTEST_SKIP() << "this build has no liblo";
+    }
+    Peer free;
+    in_ = free.port();
+  }
+  void TearDown() override {
+    for (const pid_t child : children_) {
+      ::kill(child, SIGKILL);
+      ::waitpid(child, nullptr, 0);
+    }
+    ProgramTest::TearDown();
+  }
+
+  // Starts the program, its output going to NAME.out and NAME.err; without `model` it takes the one
+  // that is shipped.
+  pid_t start(const std::string& name, std::vector<std::string> arguments,
+              const char* model = "model.safetensors") {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      constexpr int kCreate = O_WRONLY | O_CREAT | O_TRUNC;
+      std::vector<char*> argv = {const_cast<char*>(PANACHE_PROGRAM)};
+      for (std::string& argument : arguments) argv.push_back(argument.data());
+      argv.push_back(nullptr);
+      model ? ::setenv("PANACHE_MODEL", model, 1) : ::unsetenv("PANACHE_MODEL");
+      if (::chdir(path("").c_str()) == 0 &&
+          ::dup2(::open((name + ".out").c_str(), kCreate, 0600), STDOUT_FILENO) >= 0 &&
+          ::dup2(::open((name + ".err").c_str(), kCreate, 0600), STDERR_FILENO) >= 0) {
+        ::execv(PANACHE_PROGRAM, argv.data());
+      }
+      ::_exit(127);
+    }
+    children_.push_back(child);
+    return child;
+  }
+
+  // Starts the relay from in_ to `sink` and waits until it listens.
+  void start_live(std::vector<std::string> arguments, const char* model = "model.safetensors") {
+    arguments.insert(arguments.begin(), {"live", "--vmc-in", std::to_string(in_), "--vmc-out",
+                                         "127.0.0.1:" + sink_.port_name()});
+    live_ = start("live", arguments, model);
+    for (int i = 0; i < 1000 && !exists("live.err"); ++i) nap(5);
+    for (int i = 0; i < 1000 && read("live.err").find("relaying") == std::string::npos; ++i) nap(5);
+    ASSERT_NE(read("live.err").find("relaying"), std::string::npos) << read("live.err");
+  }
+
+  Ran end(pid_t child, int signal) {
+    if (signal) ::kill(child, signal);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    std::erase(children_, child);
+    const std::string name = child == live_ ? "live" : "send";
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(name + ".out"), read(name + ".err")};
+  }
+  Ran end_live(int signal = SIGINT) { return end(live_, signal); }
+
+  // Plays walk.bvh for so long through `change` to the relay, and collects what went in and what
+  // came out.
+  using Change = std::function<std::vector<Bytes>(const Bytes&)>;
+  void play(
+      double seconds, const Change& change = [](const Bytes& b) { return std::vector{b}; }) {
+    Peer tracker;
+    const pid_t sender = start("send", {"send", "walk.bvh", "--to", tracker.port_name(), "--loop",
+                                        "--seconds", std::to_string(seconds)});
+    while (std::optional<Bytes> datagram = tracker.receive(sent_.empty() ? 5000 : 300)) {
+      for (const Bytes& part : change(*datagram)) {
+        tracker_.send(in_, part);
+        sent_.push_back(part);
+      }
+      collect(0);
+    }
+    EXPECT_EQ(end(sender, 0).exit, 0);
+    collect(200);
+  }
+  void collect(int milliseconds) {
+    while (std::optional<Bytes> datagram = sink_.receive(milliseconds)) got_.push_back(*datagram);
+  }
+
+  static void nap(int milliseconds) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+  }
+
+  Peer tracker_, sink_;
+  std::vector<Bytes> sent_, got_;
+  uint16_t in_ = 0;
+  pid_t live_ = -1;
+  std::vector<pid_t> children_;
+};
+
+TEST_F(LiveVerb, send_plays_a_file_as_a_tracker_would) {
+  write("walk.bvh", format_bvh(walking_clip(60, 60)));
+  const pid_t sender =
+      start("send", {"send", "walk.bvh", "--to", sink_.port_name(), "--seconds", "0.2"});
+  collect(1000);
+  const Ran ran = end(sender, 0);
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  // 60 a second.
+  EXPECT_EQ(ran.out, "sent 12 frames (0.2 s) to 127.0.0.1:" + sink_.port_name() + "\n");
+  std::vector<std::map<std::string, Bone>> frames(1);
+  int ends = 0;
+  for (const Bytes& datagram : got_) {
+    EXPECT_LT(datagram.size(), 1500u);  // A packet of most networks.
+    frames.back().merge(bones_of(datagram));
+    if (messages_of(datagram).back().starts_with("/VMC/Ext/T")) {
+      ++ends;
+      frames.emplace_back();
+    }
+  }
+  EXPECT_EQ(ends, 12);
+  EXPECT_EQ(frames[0].size(), 22u);                    // 21 joints and the root.
+  EXPECT_LT(frames[0]["LeftUpperArm"].position.x, 0);  // Unity's left.
+  // 1.2 m/s for 11 frame times, to a hundredth: the file has six decimals.
+  EXPECT_NEAR(frames[11]["Hips"].position.z - frames[0]["Hips"].position.z, 0.22f, 0.0022f);
+  // The arms hang, 1.4 of a quarter turn's 1.57 radians: in Unity the left one turns to +z.
+  EXPECT_NEAR(frames[0]["LeftUpperArm"].rotation.z, std::sin(0.7f), 0.05f);
+  EXPECT_NEAR(frames[0]["RightUpperArm"].rotation.z, -std::sin(0.7f), 0.05f);
+}
+
+TEST_F(LiveVerb, neutral_motion_and_other_messages_pass_byte_for_byte_until_a_style_is_set) {
+  write("walk.bvh", format_bvh(walking_clip(60, 60)));
+  start_live({});
+  int count = 0;
+  play(1.6, [&](const Bytes& datagram) {
+    // Beside the bones, among them, and in a bundle in a bundle.
+    std::vector<Bytes> messages = messages_of(datagram);
+    messages.insert(messages.begin() + 3, blend_message(static_cast<float>(++count)));
+    return std::vector{osc("/VMC/Ext/Blend/Apply") + osc(","), bundle(messages),
+                       bundle({bundle({blend_message(0.5f)}), osc("/VMC/Ext/Hmd/Pos") + osc(",")})};
+  });
+  ASSERT_EQ(got_.size(), sent_.size());
+  for (size_t i = 0; i < sent_.size(); ++i) ASSERT_EQ(got_[i], sent_[i]) << i;
+
+  tracker_.send(in_, style_message("old", 1));
+  sent_.clear();
+  got_.clear();
+  play(0.5);
+  ASSERT_EQ(got_.size(), sent_.size());  // The message itself is not for the avatar.
+  EXPECT_NE(bones_of(got_[got_.size() - 2])["Spine"].rotation,
+            bones_of(sent_[sent_.size() - 2])["Spine"].rotation);
+  EXPECT_EQ(bones_of(got_[got_.size() - 2])["Spine"].position,
+            bones_of(sent_[sent_.size() - 2])["Spine"].position);
+  const Ran ran = end_live();
+  EXPECT_EQ(ran.exit, 0);
+  EXPECT_NE(ran.err.find(", neutral\n"), std::string::npos) << ran.err;
+}
+
+TEST_F(LiveVerb, an_old_walk_leans_forward_even_when_each_bone_comes_alone) {
+  ASSERT_EQ(run({"walker", "-o", "walk.bvh", "--seconds", "3"}).exit, 0);
+  start_live({"--style", "old=1"}, nullptr);
+  play(2.5, messages_of);
+  EXPECT_EQ(end_live().exit, 0);
+  ASSERT_EQ(got_.size(), sent_.size());
+  // In the data old people walk with the head some 10 cm further ahead; half of it shows that it
+  // is forward, and not the noise of the walk.
+  EXPECT_GT(lean(got_, 60) - lean(sent_, 60), 0.05f);
+}
+
+TEST_F(LiveVerb, sigterm_ends_it_with_a_recording_of_all_frames) {
+  write("walk.bvh", format_bvh(walking_clip(60, 60)));
+  start_live({"--record", "take.bvh"});
+  play(1.5);
+  const Ran ran = end_live(SIGTERM);
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  // 60 a second.
+  EXPECT_EQ(ran.out.find("relayed 90 frames of 1 sender in "), 0u) << ran.out;
+  EXPECT_NE(ran.out.find("\nrecorded 90 frames ("), std::string::npos) << ran.out;
+  const auto file = read_motion(path("take.bvh"));
+  ASSERT_TRUE(file.ok()) << file.error().message;
+  const Clip& clip = (*file)->clip();
+  ASSERT_EQ(clip.frames, 90);
+  std::vector<Quat> rotations(clip.joints());
+  std::vector<Vec3> positions(clip.joints());
+  world_pose(clip.skeleton, clip.pose(0), {rotations, positions});
+  for (size_t j = 0; j < clip.joints(); ++j) {
+    const std::string& name = clip.skeleton.joints[j].name;
+    if (name.starts_with("LeftHand")) {
+      EXPECT_GT(positions[j].x, 0);
+    } else if (name.starts_with("RightHand")) {
+      EXPECT_LT(positions[j].x, 0);
+    }
+  }
+}
+
+TEST_F(LiveVerb, each_sender_has_a_character_of_its_own) {
+  start_live({});
+  const Peer others[2];
+  // Sent by one, the second of these would repeat a bone and end a frame.
+  for (int i = 0; i < 5; ++i) {
+    for (const Peer* peer : {&std::as_const(tracker_), &others[0], &others[1]}) {
+      peer->send(in_, bundle({bone_message("Hips")}));
+    }
+  }
+  collect(200);
+  EXPECT_EQ(got_.size(), 15u);
+  const Ran ran = end_live();
+  EXPECT_EQ(ran.out.find("relayed 15 frames of 3 senders in "), 0u) << ran.out;
+}
+
+TEST_F(LiveVerb, garbage_does_not_end_it) {
+  write("walk.bvh", format_bvh(walking_clip(60, 60)));
+  start_live({"--style", "old=1"});
+  play(1.3);
+  const Bytes good = sent_.back();
+  Random random(7);
+  const auto throw_at = [&](const Bytes& bytes) {
+    tracker_.send(in_, bytes);
+    collect(0);
+  };
+  for (size_t size = 0; size < good.size(); ++size) throw_at(good.substr(0, size));
+  for (size_t i = 0; i < good.size(); ++i) {
+    Bytes changed = good;
+    changed[i] = static_cast<char>(changed[i] ^ (1 << random.below(8)));
+    throw_at(changed);
+  }
+  for (int i = 0; i < 300; ++i) {
+    Bytes noise(random.below(2000), '\0');
+    for (char& c : noise) c = static_cast<char>(random.below(256));
+    throw_at(noise);
+    throw_at("/" + noise);
+    throw_at("#bundle" + Bytes(1, '\0') + noise);
+  }
+  throw_at(Bytes(65507, '/'));
+  Bytes nested = blend_message(1);
+  for (int i = 0; i < 1000; ++i) nested = bundle({nested});
+  throw_at(osc("/VMC/Ext/Bone/Pos") + osc(",fs") + osc(1.0f) + osc("Hips"));
+  throw_at(osc("/VMC/Ext/Bone/Pos") + osc(",sfffffff") + osc("Hips"));
+  throw_at(osc("/panache/style") + osc(",ss") + osc("old") + osc("1"));
+  throw_at(style_message("nobody", 1));
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  throw_at(style_message("old", kNan));
+  throw_at(bundle({bone_message("Hips", kNan, 1e38f, kNan), bone_message("Head", 0, 0, 0)}));
+  collect(200);
+  got_.clear();
+
+  // Bundles are opened, but not without end.
+  tracker_.send(in_, nested);
+  // A frame that stays incomplete goes out all the same, and in finite numbers.
+  tracker_.send(in_, bundle({bone_message("Hips", kNan, 1e38f, kNan)}));
+  tracker_.send(in_, blend_message(0.25f));
+  collect(500);
+  ASSERT_EQ(got_.size(), 2u);
+  EXPECT_TRUE(is_finite(bones_of(got_[0])["Hips"].position));
+  EXPECT_TRUE(is_finite(bones_of(got_[0])["Hips"].rotation));
+  EXPECT_EQ(got_[1], blend_message(0.25f));
+  const Ran ran = end_live();
+  EXPECT_EQ(ran.exit, 0);
+  EXPECT_EQ(ran.out.find(" 0 refused"), std::string::npos) << ran.out;
+}
+
+TEST_F(LiveVerb, explains_a_wrong_wish_before_it_starts) {
+  const auto expect_refused = [&](const std::vector<std::string>& arguments, int exit,
+                                  const std::string& sentence) {
+    const Ran ran = run(arguments);
+    EXPECT_EQ(ran.err, "panache: " + sentence + "\n");
+    EXPECT_EQ(ran.exit, exit);
+  };
+  write("take.bvh", "mine");
+  write_walk("walk.bvh");
+  expect_refused({"live", "--record", "take.bvh"}, 1,
+                 "take.bvh: exists already; --force overwrites it");
+  EXPECT_EQ(read("take.bvh"), "mine");
+  expect_refused({"live", "--record", "take.glb"}, 2,
+                 "--record take.glb: expected a name that ends in .bvh");
+  expect_refused({"live", "--vmc-in", "0"}, 2,
+                 "--vmc-in: expected a port from 1 to 65535, found '0'");
+  expect_refused({"live", "--vmc-out", "there:x"}, 2,
+                 "--vmc-out: expected a port from 1 to 65535, found 'x'");
+  expect_refused({"live", "--vmc-in", "40000", "--vmc-out", "40000"}, 2,
+                 "--vmc-out: expected another port than that of --vmc-in, found 40000 for both");
+  expect_refused({"live", "--style", "old=1..0"}, 2,
+                 "--style old=1..0: live motion has no end to change towards; expected one "
+                 "strength");
+  expect_refused(
+      {"live", "--vmc-in", sink_.port_name()}, 1,
+      "--vmc-in: cannot listen at port " + sink_.port_name() + ": Address already in use");
+  expect_refused({"send", "walk.bvh", "--fps", "0"}, 2,
+                 "--fps: expected a number from 1 to 1000, found 0");
+  expect_refused({"send", "none.bvh"}, 1, "none.bvh: cannot be read: No such file or directory");
+}
+
+}  // namespace
+}  // namespace panache::test
