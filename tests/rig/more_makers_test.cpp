@@ -1,5 +1,7 @@
 // Names of more makers, tools and languages: each on a plain skeleton.
 
+#include <ostream>
+
 #include <gtest/gtest.h>
 
 #include "rig/put_on.h"
@@ -18,6 +20,9 @@ struct Names {
   const char *shoulder, *upper_arm, *lower_arm, *hand, *finger;
   const char *upper_leg, *lower_leg, *foot, *toes;
 };
+
+// In the names of tests.
+void PrintTo(const Names& names, std::ostream* out) { *out << names.maker; }
 
 Maker plain(const Names& n) {
   Maker out{n.maker, {}, n.left, n.right, RestPose::t, Axes::world, 100, false, 1.05f, 1, 1, {}};
