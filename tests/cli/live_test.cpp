@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <functional>
 #include <limits>
 #include <map>
@@ -112,7 +113,7 @@ class LiveVerb : public ProgramTest {
     Peer tracker;
     const pid_t sender = start("send", {"send", "walk.bvh", "--to", tracker.port_name(), "--loop",
                                         "--seconds", std::to_string(seconds)});
-    while (std::optional<Bytes> datagram = tracker.receive(sent_.empty() ? 5000 : 300)) {
+    while (std::optional<Bytes> datagram = tracker.receive(sent_.empty() ? 5000 : 1500)) {
       for (const Bytes& part : change(*datagram)) {
         tracker_.send(in_, part);
         sent_.push_back(part);
@@ -120,7 +121,7 @@ class LiveVerb : public ProgramTest {
       collect(0);
     }
     EXPECT_EQ(end(sender, 0).exit, 0);
-    collect(200);
+    collect(500);
   }
   void collect(int milliseconds) {
     while (std::optional<Bytes> datagram = sink_.receive(milliseconds)) got_.push_back(*datagram);
@@ -141,9 +142,9 @@ TEST_F(LiveVerb, send_plays_a_file_as_a_tracker_would) {
   write("walk.bvh", format_bvh(walking_clip(60, 60)));
   const pid_t sender =
       start("send", {"send", "walk.bvh", "--to", sink_.port_name(), "--seconds", "0.2"});
-  collect(1000);
   const Ran ran = end(sender, 0);
   EXPECT_EQ(ran.exit, 0) << ran.err;
+  collect(500);  // The socket has kept it all.
   // 60 a second.
   EXPECT_EQ(ran.out, "sent 12 frames (0.2 s) to 127.0.0.1:" + sink_.port_name() + "\n");
   std::vector<std::map<std::string, Bone>> frames(1);
@@ -156,7 +157,7 @@ TEST_F(LiveVerb, send_plays_a_file_as_a_tracker_would) {
       frames.emplace_back();
     }
   }
-  EXPECT_EQ(ends, 12);
+  ASSERT_EQ(ends, 12);
   EXPECT_EQ(frames[0].size(), 22u);                    // 21 joints and the root.
   EXPECT_LT(frames[0]["LeftUpperArm"].position.x, 0);  // Unity's left.
   // 1.2 m/s for 11 frame times, to a hundredth: the file has six decimals.
@@ -211,13 +212,18 @@ TEST_F(LiveVerb, sigterm_ends_it_with_a_recording_of_all_frames) {
   play(1.5);
   const Ran ran = end_live(SIGTERM);
   EXPECT_EQ(ran.exit, 0) << ran.err;
-  // 60 a second.
-  EXPECT_EQ(ran.out.find("relayed 90 frames of 1 sender in "), 0u) << ran.out;
-  EXPECT_NE(ran.out.find("\nrecorded 90 frames ("), std::string::npos) << ran.out;
+  // 60 a second; a stall of this machine between the datagrams of one may make two of it.
+  int relayed = 0;
+  ASSERT_EQ(std::sscanf(ran.out.c_str(), "relayed %d frames of 1 sender in ", &relayed), 1)
+      << ran.out;
+  EXPECT_GE(relayed, 90);
+  EXPECT_LE(relayed, 100);
+  EXPECT_NE(ran.out.find("\nrecorded " + std::to_string(relayed) + " frames ("), std::string::npos)
+      << ran.out;
   const auto file = read_motion(path("take.bvh"));
   ASSERT_TRUE(file.ok()) << file.error().message;
   const Clip& clip = (*file)->clip();
-  ASSERT_EQ(clip.frames, 90);
+  ASSERT_EQ(clip.frames, relayed);
   std::vector<Quat> rotations(clip.joints());
   std::vector<Vec3> positions(clip.joints());
   world_pose(clip.skeleton, clip.pose(0), {rotations, positions});
@@ -240,7 +246,7 @@ TEST_F(LiveVerb, each_sender_has_a_character_of_its_own) {
       peer->send(in_, bundle({bone_message("Hips")}));
     }
   }
-  collect(200);
+  collect(500);
   EXPECT_EQ(got_.size(), 15u);
   const Ran ran = end_live();
   EXPECT_EQ(ran.out.find("relayed 15 frames of 3 senders in "), 0u) << ran.out;
@@ -250,6 +256,7 @@ TEST_F(LiveVerb, garbage_does_not_end_it) {
   write("walk.bvh", format_bvh(walking_clip(60, 60)));
   start_live({"--style", "old=1"});
   play(1.3);
+  ASSERT_FALSE(sent_.empty());
   const Bytes good = sent_.back();
   Random random(7);
   const auto throw_at = [&](const Bytes& bytes) {
