@@ -113,9 +113,11 @@ Result<EvaluateOptions> read_options(const Options& options) {
 
 int run(const Options& options) {
   if (!options.report.empty()) {
-    const std::string file = (std::filesystem::path(options.report) / "report.json").string();
-    if (Result<void> free = check_free(file, options.force); !free) {
-      return refuse(free.error(), kBadInput);
+    for (const char* name : {"report.json", "index.html"}) {
+      const std::string file = (std::filesystem::path(options.report) / name).string();
+      if (Result<void> free = check_free(file, options.force); !free) {
+        return refuse(free.error(), kBadInput);
+      }
     }
   }
   Result<EvaluateOptions> evaluation = read_options(options);

@@ -1,25 +1,15 @@
 #include "formats.h"
 
-#include <cmath>
-
 #include "clip/bvh.h"
 #include "clip/gltf.h"
 #include "clip/rest_axes.h"
 #include "glb.h"
 #include "input.h"
 #include "report.h"
+#include "rig/up_axis.h"
 
 namespace panache::cli {
 namespace {
-
-// Turns `axis`, of those that a rig knows, to +Y.
-Quat turn_up(const std::string& axis) {
-  const float half = std::sqrt(0.5f);
-  const bool negative = axis[0] == '-';
-  if (axis[1] == 'X') return {0, 0, negative ? -half : half, half};
-  if (axis[1] == 'Z') return {negative ? half : -half, 0, 0, half};
-  return negative ? Quat{1, 0, 0, 0} : Quat{};
-}
 
 // Whether the nodes of the file stand as in the first frame, so that nothing is known of a rest.
 bool rests_as_it_starts(const Clip& clip) {
@@ -31,8 +21,7 @@ bool rests_as_it_starts(const Clip& clip) {
   return true;
 }
 
-// A BVH file whose first frame is its rest pose looks as if it began with a calibration pose, so
-// axes stay where the rest is not known. Programs that read BVH want an End Site in every branch.
+// Axes stay where the rest is not known. Programs that read BVH want an End Site in every branch.
 std::string format_as_bvh(const Clip& clip) {
   Clip out = rests_as_it_starts(clip) ? clip : in_rest_axes(clip);
   std::vector<bool> has_child(out.joints());
@@ -76,10 +65,11 @@ Result<void> check_fits(const MotionFile& file, std::span<const int> clips,
                ") and " + output + " takes one; --clip NAME picks it"};
 }
 
-Placement placement_of(const Rig& rig) { return {rig.scale(), turn_up(rig.up_axis())}; }
+Placement placement_of(const Rig& rig) { return {rig.scale(), *turn_up(rig.up_axis())}; }
 
 Placement placement_of(const RigOptions& options) {
-  return {options.metres_per_unit.value_or(1), turn_up(options.up_axis.value_or("+Y"))};
+  return {options.metres_per_unit.value_or(1),
+          turn_up(options.up_axis.value_or("+Y")).value_or(Quat{})};
 }
 
 std::string format_clip(const Clip& clip, const std::string& name, const Placement& placement,

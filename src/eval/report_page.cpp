@@ -1,5 +1,6 @@
 // The report as one page that needs nothing but itself.
 
+#include "base/xml.h"
 #include "eval/report.h"
 
 #include "eval/report_numbers.h"
@@ -76,7 +77,7 @@ std::string report_page(const Report& report) {
   std::string links, body;
   for (const Section& section : sections_of(report)) {
     if (section.body.empty()) continue;
-    const std::string id = section.id, title = html_escaped(section.title);
+    const std::string id = section.id, title = xml_escaped(section.title);
     links += "<a href=\"#" + id + "\">" + title + "</a>\n";
     body += "<section id=\"" + id + "\">\n<h2>" + title + "</h2>\n" +
             html_paragraph(section.introduction) + section.body + "</section>\n";

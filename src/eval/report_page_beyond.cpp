@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "base/xml.h"
 #include "eval/report_foreign.h"
 #include "eval/report_numbers.h"
 #include "eval/report_page_html.h"
@@ -11,7 +12,7 @@
 namespace panache {
 namespace {
 
-std::string heading(const std::string& text) { return "<h3>" + html_escaped(text) + "</h3>\n"; }
+std::string heading(const std::string& text) { return "<h3>" + xml_escaped(text) + "</h3>\n"; }
 
 std::vector<std::string> names_of_systems(const std::vector<const SystemReport*>& systems) {
   std::vector<std::string> names;

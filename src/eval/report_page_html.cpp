@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "base/xml.h"
 #include "eval/report_numbers.h"
 
 namespace panache {
@@ -21,49 +22,28 @@ std::string cell_html(const HtmlCell& cell, bool first) {
     classes += classes.empty() ? "share" : " share";
     style = " style=\"--share:" + number_text(100 * std::clamp(cell.share, 0.0, 1.0), 1) + "%\"";
   }
-  const std::string text = html_escaped(cell.text);
+  const std::string text = xml_escaped(cell.text);
   return "<td" + class_attribute(classes) + style + ">" +
          (cell.best ? "<b>\xe2\x80\xa2 " + text + "</b>" : text) + "</td>";
 }
 
 }  // namespace
 
-std::string html_escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    const unsigned char byte = static_cast<unsigned char>(c);
-    if (c == '&') {
-      out += "&amp;";
-    } else if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else if (c == '"') {
-      out += "&quot;";
-    } else if ((byte < 0x20 && c != '\n' && c != '\t') || byte == 0x7f) {
-      out += "\xef\xbf\xbd";  // U+FFFD: no page may hold control characters.
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
-
 std::string html_paragraph(std::string_view text, std::string_view css_class) {
-  return "<p" + class_attribute(std::string(css_class)) + ">" + html_escaped(text) + "</p>\n";
+  return "<p" + class_attribute(std::string(css_class)) + ">" + xml_escaped(text) + "</p>\n";
 }
 
 std::string html_drawing(const std::string& svg, std::string_view what, bool wide) {
   constexpr std::string_view kStart = "<svg";
   assert(svg.starts_with(kStart));
   return "<figure class=\"" + std::string(wide ? "wide" : "plot") + "\">" + std::string(kStart) +
-         " role=\"img\" aria-label=\"" + html_escaped(what) + "\"" + svg.substr(kStart.size()) +
+         " role=\"img\" aria-label=\"" + xml_escaped(what) + "\"" + svg.substr(kStart.size()) +
          "</figure>\n";
 }
 
 std::string html_details(std::string_view title, const std::string& body) {
   if (body.empty()) return "";
-  return "<details><summary>" + html_escaped(title) + "</summary>\n" + body + "</details>\n";
+  return "<details><summary>" + xml_escaped(title) + "</summary>\n" + body + "</details>\n";
 }
 
 void HtmlTable::add_columns(const std::string& group, const std::vector<std::string>& labels) {
@@ -81,18 +61,18 @@ std::string HtmlTable::head() const {
   const bool grouped = std::any_of(groups_.begin(), groups_.end(),
                                    [](const Group& group) { return !group.label.empty(); });
   std::string out = "<thead>\n<tr><th scope=\"col\"" +
-                    std::string(grouped ? " rowspan=\"2\"" : "") + ">" + html_escaped(names_) +
+                    std::string(grouped ? " rowspan=\"2\"" : "") + ">" + xml_escaped(names_) +
                     "</th>";
   if (grouped) {
     for (const Group& group : groups_) {
       out += "<th scope=\"colgroup\" class=\"group first\" colspan=\"" +
-             std::to_string(group.columns) + "\">" + html_escaped(group.label) + "</th>";
+             std::to_string(group.columns) + "\">" + xml_escaped(group.label) + "</th>";
     }
     out += "</tr>\n<tr>";
   }
   for (const Column& column : columns_) {
     out += "<th scope=\"col\"" + class_attribute(column.first ? "first" : "") + ">" +
-           html_escaped(column.label) + "</th>";
+           xml_escaped(column.label) + "</th>";
   }
   return out + "</tr>\n</thead>\n";
 }
@@ -102,7 +82,7 @@ std::string HtmlTable::body() const {
   for (const Row& row : rows_) {
     out += "<tr" + class_attribute(row.apart ? "apart" : "") + "><th scope=\"row\"" +
            class_attribute(column_count(row.name) > kLongName ? "long" : "") + ">" +
-           html_escaped(row.name) + "</th>";
+           xml_escaped(row.name) + "</th>";
     for (size_t c = 0; c < row.cells.size(); ++c) {
       out += cell_html(row.cells[c], columns_[c].first);
     }
@@ -114,7 +94,7 @@ std::string HtmlTable::body() const {
 std::string HtmlTable::str(std::string_view caption) const {
   if (empty()) return "";
   std::string out = "<div class=\"table\"><table>\n";
-  if (!caption.empty()) out += "<caption>" + html_escaped(caption) + "</caption>\n";
+  if (!caption.empty()) out += "<caption>" + xml_escaped(caption) + "</caption>\n";
   return out + head() + body() + "</table></div>\n";
 }
 

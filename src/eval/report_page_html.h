@@ -9,9 +9,6 @@
 
 namespace panache {
 
-// `text` as it may stand between tags and in an attribute's value.
-std::string html_escaped(std::string_view text);
-
 // <p>; `text` is escaped.
 std::string html_paragraph(std::string_view text, std::string_view css_class = "");
 

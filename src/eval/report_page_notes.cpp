@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/xml.h"
 #include "eval/report_numbers.h"
 #include "eval/report_page_html.h"
 #include "eval/report_page_sections.h"
@@ -133,7 +134,7 @@ std::string page_cost(const Report& report) {
 std::string page_definitions() {
   std::string out = "<dl class=\"definitions\">\n";
   for (const Definition& definition : kDefinitions) {
-    out += "<dt>" + html_escaped(definition.term) + "</dt><dd>" + html_escaped(definition.meaning) +
+    out += "<dt>" + xml_escaped(definition.term) + "</dt><dd>" + xml_escaped(definition.meaning) +
            "</dd>\n";
   }
   return out + "</dl>\n";

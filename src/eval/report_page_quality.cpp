@@ -6,6 +6,7 @@
 
 #include "base/plot.h"
 #include "base/svg.h"
+#include "base/xml.h"
 #include "eval/report_numbers.h"
 #include "eval/report_page_html.h"
 #include "eval/report_page_sections.h"
@@ -73,7 +74,7 @@ std::string joined(const std::vector<std::string>& names) {
 }
 
 void add_fact(std::string& facts, const std::string& term, const std::string& text) {
-  facts += "<dt>" + html_escaped(term) + "</dt><dd>" + html_escaped(text) + "</dd>\n";
+  facts += "<dt>" + xml_escaped(term) + "</dt><dd>" + xml_escaped(text) + "</dd>\n";
 }
 
 // "0.992 (needed: 0.950)".

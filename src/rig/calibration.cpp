@@ -6,6 +6,7 @@
 #include "clip/fk.h"
 #include "rig/first_frame.h"
 #include "rig/frames.h"
+#include "rig/up_axis.h"
 
 namespace panache {
 namespace {
@@ -21,20 +22,7 @@ constexpr float kSteepestToe = -0.95f;
 constexpr float kStanceShare = 0.3f;
 constexpr float kFloorShare = 0.02f;
 
-// The rotation that turns axis k (0 x, 1 y, 2 z) of that sign to +y.
-Quat turn_up(int k, bool negative) {
-  const float half = std::sqrt(0.5f);
-  if (k == 0) return {0, 0, negative ? -half : half, half};
-  if (k == 2) return {negative ? half : -half, 0, 0, half};
-  return negative ? Quat{1, 0, 0, 0} : Quat{};
-}
-
 float component(Vec3 v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
-
-void set_up(int k, bool negative, Calibration& out) {
-  out.up_axis = {negative ? '-' : '+', "XYZ"[k]};
-  out.y_up = turn_up(k, negative);
-}
 
 Result<void> believe(std::optional<float> metres_per_unit,
                      const std::optional<std::string>& up_axis, Calibration& out) {
@@ -43,13 +31,10 @@ Result<void> believe(std::optional<float> metres_per_unit,
     return Error{"expected metres per unit above 0, found " + std::to_string(*metres_per_unit)};
   }
   if (!up_axis) return {};
-  static constexpr std::string_view kAxes[] = {"+X", "+Y", "+Z", "-X", "-Y", "-Z"};
-  const auto found = std::find(std::begin(kAxes), std::end(kAxes), *up_axis);
-  if (found == std::end(kAxes)) {
-    return Error{"expected an up axis from +X to -Z, found '" + *up_axis + "'"};
-  }
-  const int at = static_cast<int>(found - std::begin(kAxes));
-  set_up(at % 3, at > 2, out);
+  const std::optional<Quat> turn = turn_up(*up_axis);
+  if (!turn) return Error{"expected an up axis from +X to -Z, found '" + *up_axis + "'"};
+  out.up_axis = *up_axis;
+  out.y_up = *turn;
   return {};
 }
 
@@ -111,7 +96,8 @@ class Calibrator {
       if (std::abs(component(mean, i)) > std::abs(component(mean, k))) k = i;
     }
     const bool negative = component(mean, k) < 0;
-    set_up(k, negative, out_);
+    out_.up_axis = {negative ? '-' : '+', "XYZ"[k]};
+    out_.y_up = *turn_up(out_.up_axis);
     if (out_.up_axis != "+Y") out_.notes.push_back("up is " + out_.up_axis);
   }
 

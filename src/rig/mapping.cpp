@@ -4,10 +4,10 @@
 #include <cmath>
 #include <optional>
 
-#include "rig/limbs_by_name.h"
-#include "rig/limbs_by_shape.h"
 #include "rig/joint_words.h"
 #include "rig/limb_shape.h"
+#include "rig/limbs_by_name.h"
+#include "rig/limbs_by_shape.h"
 
 namespace panache {
 namespace {
@@ -85,11 +85,6 @@ class Mapper {
     map_.reasons[index(joint)] = std::move(reason);
     map_.confidence[index(joint)] = confidence;
   }
-  std::optional<int> known(HumanJoint joint) const {
-    const auto found = known_.find(index(joint));
-    return found == known_.end() ? std::nullopt : std::optional(found->second);
-  }
-
   void take(const Limb& limb, const LimbNames& names, const Limbs& limbs) {
     const float sure = limbs.confidence * std::min(1.0f, 0.3f + limbs.side_confidence);
     if (by_shape_) {
