@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/elementary.h"
 #include "base/vec.h"
 
 namespace panache {
@@ -56,28 +57,28 @@ constexpr BasicVec3<T> rotate(BasicQuat<T> q, BasicVec3<T> v) {
 // The rotation by `angle` radians about the unit `axis`.
 template <class T>
 BasicQuat<T> axis_angle(BasicVec3<T> axis, T angle) {
-  const T s = std::sin(angle / 2);
-  return {axis.x * s, axis.y * s, axis.z * s, std::cos(angle / 2)};
+  const T s = sine(angle / 2);
+  return {axis.x * s, axis.y * s, axis.z * s, cosine(angle / 2)};
 }
 // The rotation by `angle` radians about +y.
 template <class T>
 BasicQuat<T> rotation_y(T angle) {
-  return {0, std::sin(angle / 2), 0, std::cos(angle / 2)};
+  return {0, sine(angle / 2), 0, cosine(angle / 2)};
 }
 // The rotation whose axis is the direction of `r` and whose angle is its length, in radians.
 template <class T>
 BasicQuat<T> exp_rotation(BasicVec3<T> r) {
   const T angle = length(r);
   // sin(a/2)/a -> 1/2 as a -> 0; at zero the result is exactly the identity.
-  const T k = angle > T(1e-6) ? std::sin(angle / 2) / angle : T(0.5);
-  return {r.x * k, r.y * k, r.z * k, std::cos(angle / 2)};
+  const T k = angle > T(1e-6) ? sine(angle / 2) / angle : T(0.5);
+  return {r.x * k, r.y * k, r.z * k, cosine(angle / 2)};
 }
 // The rotation vector of `q`, of length 0 to pi.
 template <class T>
 BasicVec3<T> log_rotation(BasicQuat<T> q) {
   if (q.w < 0) q = {-q.x, -q.y, -q.z, -q.w};
   const T s = length(q.xyz());
-  return s > T(1e-9) ? q.xyz() * (2 * std::atan2(s, q.w) / s) : q.xyz() * T(2);
+  return s > T(1e-9) ? q.xyz() * (2 * arc_tangent(s, q.w) / s) : q.xyz() * T(2);
 }
 // The smallest rotation that turns the unit vector `from` to the unit vector `to`.
 template <class T>

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/elementary.h"
+
 namespace panache {
 namespace {
 
@@ -79,7 +81,7 @@ void FootLock::follow(Foot& foot, Vec3 toe, float contact, float seconds) noexce
   }
   if (foot.state == State::planted) {
     foot.anchor += foot.glide * seconds;
-    foot.glide *= std::exp(-seconds / kRestSeconds);
+    foot.glide *= exponential(-seconds / kRestSeconds);
     foot.offset = foot.anchor - toe;
     const float pull = length(foot.offset);
     foot.speed = seconds > 0 ? (foot.offset - last_offset) / seconds : Vec3{};
@@ -89,7 +91,7 @@ void FootLock::follow(Foot& foot, Vec3 toe, float contact, float seconds) noexce
     foot.speed = {};
   }
   const Vec3 pace = foot.speed + foot.offset * kFadeRate;
-  const float fade = std::exp(-seconds * kFadeRate);
+  const float fade = exponential(-seconds * kFadeRate);
   foot.offset = (foot.offset + pace * seconds) * fade;
   foot.speed = (foot.speed - pace * (kFadeRate * seconds)) * fade;
 }

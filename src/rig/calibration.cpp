@@ -180,7 +180,7 @@ class Calibrator {
   // that and the frames roughly agree.
   Vec3 estimate_toe(HumanJoint foot) const {
     const float slope = kProportions.toe_pitch;
-    const Vec3 sloping = {0, -std::sin(slope), std::cos(slope)};
+    const Vec3 sloping = {0, -sine(slope), cosine(slope)};
     const auto local_in = [&](ConstPose world, int joint, Vec3 direction) {
       return rotate(conjugate(out_.y_up * world.rotations[joint]), direction);
     };

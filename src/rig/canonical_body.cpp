@@ -152,7 +152,7 @@ std::optional<float> facing_of(const HumanPositions& joints) noexcept {
   const Vec3 ahead = cross(left, kUp);
   // Hips and shoulders are a third of a metre apart in sum: below 2 cm the rest is noise.
   if (!(length(ahead) > 0.02f)) return std::nullopt;
-  return std::atan2(ahead.x, ahead.z);
+  return arc_tangent(ahead.x, ahead.z);
 }
 
 }  // namespace panache

@@ -22,7 +22,7 @@ HumanPositions rest_offsets() {
   HumanPositions out;
   const auto at = [&](HumanJoint joint) -> Vec3& { return out[index(joint)]; };
   const auto length_of = [&](HumanJoint joint) { return body.length[index(joint)]; };
-  const Vec3 toes = Vec3{0, -std::sin(slope), std::cos(slope)} * length_of(left_toes);
+  const Vec3 toes = Vec3{0, -sine(slope), cosine(slope)} * length_of(left_toes);
   at(hips) = {0, body.leg - toes.y - body.hips_to_mid_hip.y, 0};
   at(spine) = body.hips_to_mid_hip + Vec3{0, body.torso * body.spine_fraction, 0};
   at(chest) = {0, body.torso * (body.chest_fraction - body.spine_fraction), 0};

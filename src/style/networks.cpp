@@ -2,6 +2,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "base/elementary.h"
 #include "net/dense.h"
 #include "style/model.h"
 
@@ -98,7 +99,7 @@ void StyleNetworks::forward(std::span<const float> window, float gate_share) noe
   for (size_t i = 0; i < pose_out_.size(); ++i) {
     pose_out_[i] = pose_out_[i] * m.output_scale_[i] + m.output_mean_[i];
   }
-  for (float& c : contact_out_) c = 1 / (1 + std::exp(-c));
+  for (float& c : contact_out_) c = 1 / (1 + exponential(-c));
 }
 
 }  // namespace panache

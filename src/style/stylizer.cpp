@@ -28,7 +28,7 @@ constexpr float kMostShortened = 0.8f, kMostStretched = 1.5f;
 
 // Share of the way to a target that a one-pole filter goes in `seconds`.
 float filter_gain(float seconds, float time_constant) {
-  return time_constant > 0 ? 1 - std::exp(-seconds / time_constant) : 1.0f;
+  return time_constant > 0 ? 1 - exponential(-seconds / time_constant) : 1.0f;
 }
 
 }  // namespace
@@ -133,7 +133,7 @@ void Stylizer::move_root(double input_seconds) noexcept {
   // On unknown motion a style has no say in the way: its mean way is that of its walks.
   const float known = networks_.gate();
   const float moving = known * std::min(1.0f, history_.ground_speed() / kStandingSpeed);
-  const float back = std::exp(-dt / kCourseSeconds);
+  const float back = exponential(-dt / kCourseSeconds);
   turn_ = turn_ * back + numbers_[66] * moving * dt;
   sway_ = sway_ * back + numbers_[64] * moving * dt;
 

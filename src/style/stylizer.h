@@ -54,7 +54,7 @@ class Stylizer {
   bool restore(std::span<const std::byte> in) noexcept;
 
   // Input seconds per output second that the style asks for at the last step; 1 without a style.
-  double rate() const noexcept { return std::exp(static_cast<double>(log_rate_)); }
+  double rate() const noexcept { return static_cast<double>(exponential(log_rate_)); }
   // See StyleNetworks::gate(); smoothed, at the last step.
   float gate() const noexcept { return networks_.gate(); }
   // Probability that each foot is planted, at the last step.

@@ -1,0 +1,100 @@
+#pragma once
+// Elementary functions of float that give the same bits on every machine and in the browser, which
+// those of a machine's own library do not. Inside they are sums of series in double, to about 1e-9;
+// rounding that to float leaves at most one unit in the last place.
+//
+// The functions of double are the machine's own: nothing whose bits are promised uses them.
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace panache {
+namespace elementary {
+
+inline constexpr double kHalfPi = 1.57079632679489661923;
+inline constexpr double kLn2 = 0.69314718055994530942;
+// 1.5 * 2^52: adding it rounds to a whole number, which is then found in the low bits of the sum.
+inline constexpr double kRound = 6755399441055744.0;
+
+// Taylor's series; |r| <= pi / 4 leaves out less than r^13 / 13! = 7e-12.
+inline double sine_near_zero(double r) {
+  const double s = r * r;
+  return r *
+         (1 + s * (-1.0 / 6 + s * (1.0 / 120 + s * (-1.0 / 5040 +
+                                                    s * (1.0 / 362880 + s * (-1.0 / 39916800))))));
+}
+// Leaves out less than r^14 / 14! = 4e-13.
+inline double cosine_near_zero(double r) {
+  const double s = r * r;
+  return 1 +
+         s * (-1.0 / 2 +
+              s * (1.0 / 24 + s * (-1.0 / 720 + s * (1.0 / 40320 + s * (-1.0 / 3628800 +
+                                                                        s * (1.0 / 479001600))))));
+}
+
+// The sine of `x` advanced by so many quarters of a turn.
+inline float sine(double x, uint64_t quarters) {
+  // Beyond this a float's own steps are longer than a turn.
+  if (!(std::abs(x) < 1e8)) return std::isfinite(x) ? 0.0f : std::nanf("");
+  const double shifted = x / kHalfPi + kRound;
+  const double r = x - (shifted - kRound) * kHalfPi;
+  const uint64_t quarter = (std::bit_cast<uint64_t>(shifted) + quarters) & 3;
+  const double part = quarter & 1 ? cosine_near_zero(r) : sine_near_zero(r);
+  return static_cast<float>(quarter & 2 ? -part : part);
+}
+
+// The arc tangent of `t`, |t| <= sqrt(2) - 1: the series leaves out less than t^25 / 25 = 1e-11.
+inline double arc_tangent_near_zero(double t) {
+  const double s = t * t;
+  double sum = 0;
+  for (int k = 23; k >= 3; k -= 2) sum = s * (((k & 2) != 0 ? -1.0 : 1.0) / k + sum);
+  return t * (1 + sum);
+}
+
+}  // namespace elementary
+
+inline float sine(float x) { return elementary::sine(static_cast<double>(x), 0); }
+inline float cosine(float x) { return elementary::sine(static_cast<double>(x), 1); }
+
+// The angle from the x axis to the point (x, y), in [-pi, pi]; 0 where both are 0.
+inline float arc_tangent(float y, float x) {
+  using namespace elementary;
+  if (std::isnan(x) || std::isnan(y)) return std::nanf("");
+  const double across = std::abs(static_cast<double>(y)), along = std::abs(static_cast<double>(x));
+  const double larger = across > along ? across : along;
+  if (larger == 0) return 0;
+  if (!std::isfinite(larger))
+    return arc_tangent(std::copysign(std::isinf(y) ? 1.0f : 0.0f, y),
+                       std::isinf(x) ? std::copysign(1.0f, x) : 0.0f);
+  const double t = (across > along ? along : across) / larger;
+  // Beyond a quarter of a right angle, tan(a - pi/4) = (tan(a) - 1) / (tan(a) + 1).
+  double angle = t > 0.41421356 ? kHalfPi / 2 + arc_tangent_near_zero((t - 1) / (t + 1))
+                                : arc_tangent_near_zero(t);
+  if (across > along) angle = kHalfPi - angle;
+  if (x < 0) angle = 2 * kHalfPi - angle;
+  return static_cast<float>(std::signbit(y) ? -angle : angle);
+}
+
+// e to the power of `x`.
+inline float exponential(float x) {
+  using namespace elementary;
+  // Beyond these a float is 0 or infinite.
+  const double wide = x < -110.0f ? -110.0 : x > 90.0f ? 90.0 : static_cast<double>(x);
+  if (std::isnan(wide)) return x;
+  const double shifted = wide / kLn2 + kRound;
+  const double r = wide - (shifted - kRound) * kLn2;
+  // Taylor's series; |r| <= ln(2) / 2 leaves out less than r^10 / 10! = 7e-12.
+  double sum = 1;
+  for (int k = 9; k >= 1; --k) sum = 1 + sum * r / k;
+  constexpr int kMantissaBits = 52;
+  constexpr uint64_t kOneBits = 0x3ff0000000000000;
+  const uint64_t whole = std::bit_cast<uint64_t>(shifted) - std::bit_cast<uint64_t>(kRound);
+  return static_cast<float>(sum * std::bit_cast<double>((whole << kMantissaBits) + kOneBits));
+}
+
+inline double sine(double x) { return std::sin(x); }
+inline double cosine(double x) { return std::cos(x); }
+inline double arc_tangent(double y, double x) { return std::atan2(y, x); }
+
+}  // namespace panache
