@@ -1,19 +1,15 @@
 #pragma once
 // Counts every allocation of the test program. Include it in one source file of a program only.
 
-#include <atomic>
 #include <cstdlib>
 #include <new>
+
+#include "allocations.h"
 
 // GCC takes the replaced pair for a mismatched one where it sees only half of it inlined.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wmismatched-new-delete"
 #endif
-
-namespace panache::test {
-inline std::atomic<long> allocations = 0;
-inline std::atomic<size_t> allocated_bytes = 0;  // All that was ever asked for.
-}  // namespace panache::test
 
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   ++panache::test::allocations;

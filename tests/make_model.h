@@ -1,6 +1,7 @@
 #pragma once
 // A small model of random numbers, for tests that need a model and no particular one.
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -86,6 +87,33 @@ inline void add_gate(TensorFile& file, float limit, float mean = 0) {
   file.tensors["gate.whitening.weight"] = identity;
   file.tensors["gate.whitening.bias"] = constant_tensor(hidden, 0);
   file.tensors["gate.limit"] = constant_tensor(1, limit);
+}
+
+// Makes a model of make_model() ask for this tempo, in all styles and on any motion.
+inline void set_rate(TensorFile& file, double rate) {
+  for (int h = 0; file.tensors.contains("timing.head." + std::to_string(h) + ".bias"); ++h) {
+    const std::string head = "timing.head." + std::to_string(h);
+    std::fill(file.tensors[head + ".weight"].values.begin(),
+              file.tensors[head + ".weight"].values.end(), 0.0f);
+    file.tensors[head + ".bias"].values = {static_cast<float>(std::log(rate))};
+  }
+}
+
+// Gives a model of make_model() a predictor whose network adds numbers of this size, in metres, and
+// which otherwise continues with constant velocity.
+inline void add_predictor(TensorFile& file, float size = 0, uint64_t seed = 5) {
+  constexpr int kNumbers = 66;
+  Random random(seed);
+  file.tensors["predict.mean"] = constant_tensor(kNumbers, 0);
+  file.tensors["predict.scale"] = constant_tensor(kNumbers, 1);
+  file.tensors["predict.linear"] = constant_tensor((kWindowPoses - 1) * kNumbers, 0);
+  // The last change goes on as it is, but the root's velocity stays what it is.
+  std::fill_n(file.tensors["predict.linear"].values.begin(), kNumbers - kRootNumbers, 1.0f);
+  file.tensors["predict.trunk.0.weight"] =
+      random_tensor({kWindowPoses * kNumbers, 8}, 0.05f, random);
+  file.tensors["predict.trunk.0.bias"] = constant_tensor(8, 0);
+  file.tensors["predict.head.0.weight"] = random_tensor({8, kNumbers}, size, random);
+  file.tensors["predict.head.0.bias"] = constant_tensor(kNumbers, 0);
 }
 
 }  // namespace panache::test

@@ -19,10 +19,11 @@
 namespace panache::cli {
 namespace {
 
-struct LiveOptions {
+struct Options {
   std::string in = "39539", out = "39540";
   std::vector<std::string> styles;
   std::string model, record;
+  panache::LiveOptions time;
   bool quiet = false, force = false;
 };
 
@@ -50,7 +51,7 @@ Result<void> check_no_circle(uint16_t in, const sockaddr_in& out) {
                std::to_string(in) + " for both"};
 }
 
-Result<void> check_record(const LiveOptions& options) {
+Result<void> check_record(const Options& options) {
   if (options.record.empty() || options.record.ends_with(".bvh")) return {};
   return Error{"--record " + options.record + ": expected a name that ends in .bvh"};
 }
@@ -78,7 +79,7 @@ void print_summary(const VmcRelay& relay, double seconds) {
         std::to_string(all.latencies.quantile_us(0.99)) + " us\n");
 }
 
-Result<void> write_recording(const VmcRecording& recording, const LiveOptions& options) {
+Result<void> write_recording(const VmcRecording& recording, const Options& options) {
   if (recording.frames() == 0) {
     return Error{options.record + ": not written, as no sender was understood"};
   }
@@ -90,7 +91,7 @@ Result<void> write_recording(const VmcRecording& recording, const LiveOptions& o
   return {};
 }
 
-int live(const LiveOptions& options) {
+int live(const Options& options) {
   Result<uint16_t> in = parse_port(options.in, "--vmc-in");
   if (!in) return refuse(in.error(), kBadUsage);
   Result<sockaddr_in> out = parse_address(options.out, "--vmc-out");
@@ -108,12 +109,15 @@ int live(const LiveOptions& options) {
   if (!model) return refuse(model.error(), kBadInput);
   Result<std::vector<float>> strengths = read_styles(options.styles, **model);
   if (!strengths) return refuse(strengths.error(), kBadUsage);
+  if (auto good = LiveStylizer::check(**model, options.time); !good) {
+    return refuse({*path + ": " + good.error().message}, kBadUsage);
+  }
   Result<UdpSocket> socket = UdpSocket::listen(*in, "--vmc-in");
   if (!socket) return refuse(socket.error(), kBadInput);
 
   watch_stop_signals();
   VmcRecording recording;
-  VmcRelay relay(*std::move(socket), *out, *std::move(model), *std::move(strengths),
+  VmcRelay relay(*std::move(socket), *out, *std::move(model), options.time, *std::move(strengths),
                  options.record.empty() ? nullptr : &recording);
   if (!options.quiet) {
     say("relaying from port " + std::to_string(*in) + " to " + to_string(*out) +
@@ -131,7 +135,7 @@ int live(const LiveOptions& options) {
 
 void add_live(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("live", "Restyle live motion (VMC protocol)");
-  auto options = std::make_shared<LiveOptions>();
+  auto options = std::make_shared<Options>();
   verb->add_option("--vmc-in", options->in, "Port that trackers send to; default: 39539")
       ->type_name("PORT");
   verb->add_option("--vmc-out", options->out,
@@ -148,6 +152,18 @@ void add_live(CLI::App& app, int& exit_code) {
   verb->add_option("--record", options->record,
                    "Write what the first sender's character does (.bvh),\nwhen all is over")
       ->type_name("FILE");
+  verb->add_option(
+          "--max-lag", options->time.max_lag,
+          "A style slower than its input may be shown this late,\n0 to 4 seconds; default: 0")
+      ->check(CLI::Range(0.0, panache::LiveOptions::kMostLag).description(""))
+      ->type_name("SECONDS");
+  verb->add_option("--max-lead", options->time.max_lead,
+                   "And a faster one this early, foreseen, 0 to 0.25\nseconds; default: 0")
+      ->check(CLI::Range(0.0, Predictor::kMostSeconds).description(""))
+      ->type_name("SECONDS");
+  verb->add_flag("--skip-cycles", options->time.skip_cycles,
+                 "Late by a whole cycle of a walk, leave it out; too early,\n"
+                 "play it again: so a tempo lasts (with --max-lag 1.5)");
   verb->add_flag("--force", options->force, "Overwrite the recording's file");
   verb->add_flag("--quiet", options->quiet, "No statistics every second");
   verb->footer(

@@ -1,5 +1,6 @@
 // panache train: from manifests to a model.
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
@@ -33,7 +34,11 @@ int run(const Options& options) {
   TrainOptions train_options;
   train_options.settings =
       recipe_settings(options.recipe == "panache" ? Recipe::panache : Recipe::smith2019);
-  if (options.steps > 0) train_options.settings.steps = options.steps;
+  if (options.steps > 0) {
+    RecipeSettings& settings = train_options.settings;
+    settings.steps = options.steps;
+    settings.predictor_steps = std::min(settings.predictor_steps, options.steps);
+  }
   train_options.seed = options.seed;
   train_options.data = options.data_name;
   train_options.licence = options.licence;

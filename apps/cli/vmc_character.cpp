@@ -33,8 +33,9 @@ bool same_bits(Quat a, Quat b) { return same_bits(a.xyz(), b.xyz()) && same_bits
 
 }  // namespace
 
-VmcCharacter::VmcCharacter(std::shared_ptr<const Model> model, VmcRecording* recording)
-    : model_(std::move(model)), recording_(recording) {}
+VmcCharacter::VmcCharacter(std::shared_ptr<const Model> model, const LiveOptions& options,
+                           VmcRecording* recording)
+    : model_(std::move(model)), options_(options), recording_(recording) {}
 
 void VmcCharacter::reset() noexcept {
   if (stylizer_) stylizer_->reset();
@@ -119,7 +120,7 @@ Result<void> VmcCharacter::stand() {
   options.up_axis = "+Y";
   Result<Rig> rig = Rig::create(clip, options);
   if (!rig) return rig.error();
-  Result<Stylizer> stylizer = Stylizer::create(model_, *std::move(rig));
+  Result<LiveStylizer> stylizer = LiveStylizer::create(model_, *std::move(rig), options_);
   if (!stylizer) return stylizer.error();
   stylizer_.emplace(*std::move(stylizer));
 

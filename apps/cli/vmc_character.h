@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "style/stylizer.h"
+#include "style/live_stylizer.h"
 #include "vmc_bones.h"
 #include "vmc_messages.h"
 #include "vmc_recording.h"
@@ -25,7 +25,8 @@ class VmcCharacter {
  public:
   // `recording` may be null; the first character that is understood fills it, and it must outlive
   // that.
-  VmcCharacter(std::shared_ptr<const Model> model, VmcRecording* recording);
+  VmcCharacter(std::shared_ptr<const Model> model, const LiveOptions& options,
+               VmcRecording* recording);
 
   // Takes the sender's next datagram with its messages. strengths: one per style of the model.
   void take(Datagram datagram, std::span<const VmcMessage> messages,
@@ -67,6 +68,7 @@ class VmcCharacter {
   void release();
 
   std::shared_ptr<const Model> model_;
+  LiveOptions options_;
   VmcRecording* recording_;
   bool records_ = false;  // Fills the recording.
 
@@ -74,9 +76,9 @@ class VmcCharacter {
   VmcBoneSet seen_;            // In this frame.
   std::vector<Bones> learnt_;  // The first second.
 
-  std::optional<Stylizer> stylizer_;  // Once the rig stands.
-  VmcBoneSet whole_;                  // What makes a frame whole: the root only if it is sent.
-  std::vector<int> bones_;            // [joints]
+  std::optional<LiveStylizer> stylizer_;  // Once the rig stands.
+  VmcBoneSet whole_;                      // What makes a frame whole: the root only if it is sent.
+  std::vector<int> bones_;                // [joints]
   std::array<size_t, kVmcBones> joint_of_{};              // Of the bones of the skeleton.
   std::vector<Quat> rotations_, styled_rotations_;        // [joints]
   std::vector<Vec3> translations_, styled_translations_;  // [joints]

@@ -23,10 +23,12 @@ bool is_command(const VmcMessage& message) {
 }  // namespace
 
 VmcRelay::VmcRelay(UdpSocket socket, const sockaddr_in& to, std::shared_ptr<const Model> model,
-                   std::vector<float> strengths, VmcRecording* recording)
+                   const LiveOptions& options, std::vector<float> strengths,
+                   VmcRecording* recording)
     : socket_(std::move(socket)),
       to_(to),
       model_(std::move(model)),
+      options_(options),
       strengths_(std::move(strengths)),
       recording_(recording) {
   senders_.reserve(kMostSenders);
@@ -106,7 +108,8 @@ VmcRelay::Sender* VmcRelay::sender_of(const Datagram& datagram, bool meet) {
         std::min_element(senders_.begin(), senders_.end(),
                          [](const Sender& a, const Sender& b) { return a.heard < b.heard; }));
   }
-  senders_.push_back({datagram.sender, datagram.received, true, VmcCharacter(model_, recording_)});
+  senders_.push_back(
+      {datagram.sender, datagram.received, true, VmcCharacter(model_, options_, recording_)});
   ++met_;
   return &senders_.back();
 }

@@ -27,7 +27,7 @@ class VmcRelay {
  public:
   // `recording` may be null, and must outlive the relay. strengths: one per style of the model.
   VmcRelay(UdpSocket socket, const sockaddr_in& to, std::shared_ptr<const Model> model,
-           std::vector<float> strengths, VmcRecording* recording);
+           const LiveOptions& options, std::vector<float> strengths, VmcRecording* recording);
 
   // Waits for datagrams a little while and sends on what is ready.
   void run_once();
@@ -61,6 +61,7 @@ class VmcRelay {
   UdpSocket socket_;
   sockaddr_in to_;
   std::shared_ptr<const Model> model_;
+  LiveOptions options_;
   std::vector<float> strengths_;  // [styles]
   VmcRecording* recording_;
   std::vector<Sender> senders_;

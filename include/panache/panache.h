@@ -136,8 +136,16 @@ typedef struct panache_character_options {
   float smoothing_seconds; /* Time constant of the filter on what a style adds; 0 to 10. */
   int32_t hold_feet;       /* 1: planted feet are held in place. */
   int32_t style_root;      /* 1: the way over the ground is styled too. */
+  /* The tempo of a style needs time: how far behind its input the character may be shown (0 to 4
+   * seconds), and how far ahead (0 to 0.25; what has not come yet is foreseen, if the model can).
+   * With both at 0 nothing is late, and the tempo stays the input's. */
+  double max_lag, max_lead;
+  /* 1: late by a whole cycle of a walk (or of what else repeats), the character leaves it out; at
+   * its max_lead it plays the last one again. So it keeps the style's tempo for ever. Needs a
+   * max_lag longer than a cycle, say 1.5 seconds. Then it stands elsewhere than its input. */
+  int32_t skip_cycles;
 } panache_character_options;
-#define PANACHE_CHARACTER_OPTIONS {0.15f, 0.04f, 1, 1}
+#define PANACHE_CHARACTER_OPTIONS {0.15f, 0.04f, 1, 1, 0, 0, 0}
 
 /* `options` may be NULL. */
 PANACHE_API panache_status panache_character_create(const panache_model *model,
@@ -169,7 +177,9 @@ typedef struct panache_output_pose {
  * or a leap, the past is forgotten. */
 PANACHE_API void panache_character_step(panache_character *character, panache_input_pose in,
                                         double seconds, panache_output_pose out);
-/* Does the same for many characters, one after another: in[i] becomes out[i]. */
+/* Does the same for many characters at once: in[i] becomes out[i], bit for bit as alone, in less time
+ * where characters of one model stand side by side. A character that comes twice is stepped twice.
+ * No out[i] may be part of another character's pose. Works in about 180 KB of the stack. */
 PANACHE_API void panache_step_many(panache_character *const *characters, int32_t count,
                                    const panache_input_pose *in, double seconds,
                                    const panache_output_pose *out);
@@ -179,6 +189,7 @@ PANACHE_API void panache_character_reset(panache_character *character);
 /* What went on at the last step. */
 typedef struct panache_report {
   double rate;       /* Seconds of input that the style would take per second: 0.5 to 2. */
+  double ahead;      /* Seconds from the newest input to what is shown; below 0: it is late. */
   float gate;        /* 1: motion like what the model knows; 0: unlike, the style's mean is used. */
   float contacts[2]; /* Probability that the left and the right foot are planted. */
 } panache_report;

@@ -1,6 +1,7 @@
 // The C interface: checks what comes in, and hands it on.
 #include "panache/panache.h"
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <new>
@@ -8,8 +9,9 @@
 #include <vector>
 
 #include "rig/rig.h"
+#include "style/crowd.h"
+#include "style/live_stylizer.h"
 #include "style/model.h"
-#include "style/stylizer.h"
 
 struct panache_model {
   std::shared_ptr<const panache::Model> model;
@@ -18,7 +20,7 @@ struct panache_skeleton {
   panache::Rig rig;
 };
 struct panache_character {
-  panache::Stylizer stylizer;
+  panache::LiveStylizer live;
   std::vector<float> strengths;  // As set.
 };
 
@@ -211,17 +213,20 @@ panache_status panache_character_create(const panache_model* model,
                                         panache_character** out) {
   start(out);
   return guarded([&] {
-    StylizerOptions how;
+    LiveOptions how;
     if (options) {
-      how.ease_seconds = options->ease_seconds;
-      how.smoothing_seconds = options->smoothing_seconds;
-      how.foot_lock = options->hold_feet != 0;
-      how.root = options->style_root != 0;
+      how.stylizer.ease_seconds = options->ease_seconds;
+      how.stylizer.smoothing_seconds = options->smoothing_seconds;
+      how.stylizer.foot_lock = options->hold_feet != 0;
+      how.stylizer.root = options->style_root != 0;
+      how.max_lag = options->max_lag;
+      how.max_lead = options->max_lead;
+      how.skip_cycles = options->skip_cycles != 0;
     }
-    Result<Stylizer> stylizer = Stylizer::create(model->model, skeleton->rig, how);
-    if (!stylizer) return fail(PANACHE_BAD_ARGUMENT, stylizer.error().message);
-    *out = new panache_character{*std::move(stylizer),
-                                 std::vector<float>(model->model->styles().size())};
+    Result<LiveStylizer> live = LiveStylizer::create(model->model, skeleton->rig, how);
+    if (!live) return fail(PANACHE_BAD_ARGUMENT, live.error().message);
+    *out =
+        new panache_character{*std::move(live), std::vector<float>(model->model->styles().size())};
     return PANACHE_OK;
   });
 }
@@ -236,39 +241,56 @@ void panache_character_set_strength(panache_character* character, int32_t style,
 
 void panache_character_step(panache_character* character, panache_input_pose in, double seconds,
                             panache_output_pose out) {
-  const size_t joints = character->stylizer.rig().joint_count();
-  character->stylizer.step(view(in, joints), character->strengths, seconds, view(out, joints));
+  const size_t joints = character->live.stylizer().rig().joint_count();
+  character->live.step(view(in, joints), character->strengths, seconds, view(out, joints));
 }
 
 void panache_step_many(panache_character* const* characters, int32_t count,
                        const panache_input_pose* in, double seconds,
                        const panache_output_pose* out) {
-  for (int32_t i = 0; i < count; ++i) panache_character_step(characters[i], in[i], seconds, out[i]);
+  // As many at a time as have a place on the stack.
+  std::array<CrowdMember, 64> members;
+  int32_t done = 0;
+  while (done < count) {
+    size_t taken = 0;
+    for (; taken < members.size() && done < count; ++taken, ++done) {
+      panache_character& character = *characters[done];
+      // Who has a time of his own goes alone.
+      if (!character.live.keeps_time()) break;
+      Stylizer& stylizer = character.live.stylizer();
+      const size_t joints = stylizer.rig().joint_count();
+      members[taken] = {&stylizer, view(in[done], joints), character.strengths,
+                        view(out[done], joints)};
+    }
+    step_crowd(std::span(members).first(taken), seconds);
+    for (; done < count && !characters[done]->live.keeps_time(); ++done) {
+      panache_character_step(characters[done], in[done], seconds, out[done]);
+    }
+  }
 }
 
-void panache_character_reset(panache_character* character) { character->stylizer.reset(); }
+void panache_character_reset(panache_character* character) { character->live.reset(); }
 
 panache_report panache_character_report(const panache_character* character) {
-  const Stylizer& stylizer = character->stylizer;
+  const Stylizer& stylizer = character->live.stylizer();
   const std::span<const float> contacts = stylizer.contacts();
-  return {stylizer.rate(), stylizer.gate(), {contacts[0], contacts[1]}};
+  return {stylizer.rate(), character->live.ahead(), stylizer.gate(), {contacts[0], contacts[1]}};
 }
 
 size_t panache_character_state_size(const panache_character* character) {
-  return character->stylizer.state_size();
+  return character->live.state_size();
 }
 
 void panache_character_save(const panache_character* character, void* out) {
-  const size_t size = character->stylizer.state_size();
-  character->stylizer.save({static_cast<std::byte*>(out), size});
+  const size_t size = character->live.state_size();
+  character->live.save({static_cast<std::byte*>(out), size});
 }
 
 panache_status panache_character_restore(panache_character* character, const void* bytes,
                                          size_t size) {
-  if (character->stylizer.restore({static_cast<const std::byte*>(bytes), size})) return PANACHE_OK;
+  if (character->live.restore({static_cast<const std::byte*>(bytes), size})) return PANACHE_OK;
   return guarded([&] {
-    return fail(PANACHE_BAD_STATE, "expected the " +
-                                       std::to_string(character->stylizer.state_size()) +
+    return fail(PANACHE_BAD_STATE, "expected the " + std::to_string(character->live.state_size()) +
                                        " bytes of a state saved by a character of the same model, "
                                        "skeleton and options; found " +
                                        std::to_string(size) + " bytes that are none");

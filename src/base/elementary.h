@@ -13,7 +13,8 @@ namespace panache {
 namespace elementary {
 
 inline constexpr double kHalfPi = 1.57079632679489661923;
-inline constexpr double kLn2 = 0.69314718055994530942;
+inline constexpr double kQuartersPerRadian = 0.63661977236758134308;
+inline constexpr double kLn2 = 0.69314718055994530942, kLog2E = 1.44269504088896340736;
 // 1.5 * 2^52: adding it rounds to a whole number, which is then found in the low bits of the sum.
 inline constexpr double kRound = 6755399441055744.0;
 
@@ -37,7 +38,7 @@ inline double cosine_near_zero(double r) {
 inline float sine(double x, uint64_t quarters) {
   // Beyond this a float's own steps are longer than a turn.
   if (!(std::abs(x) < 1e8)) return std::isfinite(x) ? 0.0f : std::nanf("");
-  const double shifted = x / kHalfPi + kRound;
+  const double shifted = x * kQuartersPerRadian + kRound;
   const double r = x - (shifted - kRound) * kHalfPi;
   const uint64_t quarter = (std::bit_cast<uint64_t>(shifted) + quarters) & 3;
   const double part = quarter & 1 ? cosine_near_zero(r) : sine_near_zero(r);
@@ -82,11 +83,13 @@ inline float exponential(float x) {
   // Beyond these a float is 0 or infinite.
   const double wide = x < -110.0f ? -110.0 : x > 90.0f ? 90.0 : static_cast<double>(x);
   if (std::isnan(wide)) return x;
-  const double shifted = wide / kLn2 + kRound;
+  const double shifted = wide * kLog2E + kRound;
   const double r = wide - (shifted - kRound) * kLn2;
   // Taylor's series; |r| <= ln(2) / 2 leaves out less than r^10 / 10! = 7e-12.
+  constexpr double kInverse[] = {1.0,     1.0 / 2, 1.0 / 3, 1.0 / 4, 1.0 / 5,
+                                 1.0 / 6, 1.0 / 7, 1.0 / 8, 1.0 / 9};
   double sum = 1;
-  for (int k = 9; k >= 1; --k) sum = 1 + sum * r / k;
+  for (int k = 8; k >= 0; --k) sum = 1 + sum * r * kInverse[k];
   constexpr int kMantissaBits = 52;
   constexpr uint64_t kOneBits = 0x3ff0000000000000;
   const uint64_t whole = std::bit_cast<uint64_t>(shifted) - std::bit_cast<uint64_t>(kRound);

@@ -142,12 +142,11 @@ class AccessorReader {
     if (!checker_.is_object(json, view_path)) return false;
     if (!check_compression(json, view_path)) return false;
     int buffer = -1;
-    uint64_t view_at = 0, view_size = 0, at = 0;
-    stride = size;
+    uint64_t view_at = 0, view_size = 0, at = 0, wide_stride = size;
     if (!checker_.index(json, view_path, "buffer", container_.buffers.size(), buffer) ||
         !checker_.count(json, view_path, "byteOffset", view_at) ||
         !checker_.count(json, view_path, "byteLength", view_size) ||
-        !checker_.count(json, view_path, "byteStride", stride) ||
+        !checker_.count(json, view_path, "byteStride", wide_stride) ||
         !checker_.count(object, path, "byteOffset", at)) {
       return false;
     }
@@ -162,12 +161,13 @@ class AccessorReader {
                                           std::to_string(view_size) + " bytes from byte " +
                                           std::to_string(view_at) + " on");
     }
-    if (stride < size || at > view_size || view_size - at < size ||
-        (count - 1) > (view_size - at - size) / stride) {
+    if (wide_stride < size || at > view_size || view_size - at < size ||
+        (count - 1) > (view_size - at - size) / wide_stride) {
       return fail("expected " + std::to_string(count) + " elements within the " +
                   std::to_string(view_size) + " bytes of " + view_path + ", found it too short");
     }
     first = bytes.data() + view_at + at;
+    stride = static_cast<size_t>(wide_stride);  // Beyond the file only where there is one element.
     return true;
   }
 

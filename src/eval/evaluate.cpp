@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "eval/disturbances.h"
 #include "eval/foreign.h"
+#include "eval/foresight.h"
 #include "eval/mean_posture.h"
 #include "eval/motion_metrics.h"
 #include "net/safetensors.h"
@@ -78,6 +79,23 @@ Result<std::vector<NamedModel>> find_models(const EvaluateOptions& options, cons
   return models;
 }
 
+// All test takes, neutral and styled, and all foreign clips as one content.
+Result<std::vector<ForesightRow>> judge_foresight(const NamedModel& system, const Bench& bench,
+                                                  const EvaluateOptions& options) {
+  std::vector<const Take*> takes;
+  for (const std::vector<TestInput>* part : {&bench.inputs, &bench.styled}) {
+    for (const TestInput& input : *part) takes.push_back(&input.take);
+  }
+  std::vector<ManifestRow> rows;
+  for (const std::string& path : options.foreign) {
+    rows.push_back({path, "", "(foreign motion)", "", true, true, 0});
+  }
+  Result<std::vector<Take>> foreign = load_takes(rows, PoseLayout::positions);
+  if (!foreign) return foreign.error();
+  for (const Take& take : *foreign) takes.push_back(&take);
+  return measure_foresight(system.model, takes);
+}
+
 }  // namespace
 
 Result<NamedModel> train_system(Recipe recipe, const std::string& name, const TrainingData& data,
@@ -85,6 +103,7 @@ Result<NamedModel> train_system(Recipe recipe, const std::string& name, const Tr
   TrainOptions training;
   training.settings = recipe_settings(recipe);
   if (options.steps) training.settings.steps = *options.steps;
+  training.settings.predictor_steps = 0;  // Nothing that is judged here needs one.
   training.seed = options.seed;
   Result<Trained> trained = train(data, options.styles, training);
   if (!trained) return trained.error();
@@ -140,6 +159,11 @@ Result<Report> evaluate(const EvaluateOptions& options) {
           options.foreign, system.model, [&](double share) { progress.update(share); });
       if (!foreign) return foreign.error();
       judged->foreign = *std::move(foreign);
+    }
+    if (system.model->predictor()) {
+      Result<std::vector<ForesightRow>> foresight = judge_foresight(system, *bench, options);
+      if (!foresight) return foresight.error();
+      judged->foresight = *std::move(foresight);
     }
     report.systems.push_back(*std::move(judged));
   }

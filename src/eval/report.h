@@ -9,6 +9,7 @@
 #include "base/result.h"
 #include "eval/disturbances.h"
 #include "eval/foreign.h"
+#include "eval/foresight.h"
 #include "eval/quality.h"
 #include "pose/contacts.h"
 #include "pose/strip.h"
@@ -45,6 +46,7 @@ struct SystemReport {
   std::vector<UnseenReport> unseen;
   std::vector<ForeignRow> foreign;
   std::vector<DisturbanceRow> disturbances;
+  std::vector<ForesightRow> foresight;          // Empty where the model foresees nothing.
   double cc = kNotMeasured, sc = kNotMeasured;  // CC and SC++ in file units.
   double bone_length_error_cm = kNotMeasured;   // Largest change of a bone's length.
   double step_us = kNotMeasured;                // Processor time of one step.

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "eval/report_foreign.h"
+#include "eval/report_numbers.h"
 
 namespace panache {
 namespace {
@@ -128,6 +129,20 @@ Json disturbances_json(const std::vector<DisturbanceRow>& rows) {
   return out;
 }
 
+Json foresight_json(const std::vector<ForesightRow>& rows) {
+  Json out = Json::object();
+  for (const ForesightRow& row : rows) {
+    Json& entry = out[row.content];
+    entry["instants"] = row.instants;
+    for (size_t h = 0; h < kForesightSeconds.size(); ++h) {
+      entry[number_text(kForesightSeconds[h], 2)] = {{"predicted_cm", number(row.predicted_cm[h])},
+                                                     {"velocity_cm", number(row.velocity_cm[h])},
+                                                     {"held_cm", number(row.held_cm[h])}};
+    }
+  }
+  return out;
+}
+
 Json system_json(const SystemReport& system) {
   Json out;
   out["recipe"] = system.recipe.empty() ? Json(nullptr) : Json(system.recipe);
@@ -142,6 +157,7 @@ Json system_json(const SystemReport& system) {
   out["unseen_splits"] = unseen_splits_json(system.unseen);
   out["foreign"] = foreign_json(system.foreign);
   out["disturbances"] = disturbances_json(system.disturbances);
+  out["foresight"] = foresight_json(system.foresight);
   out["cc"] = number(system.cc);
   out["sc"] = number(system.sc);
   out["bone_length_error_cm"] = number(system.bone_length_error_cm);

@@ -49,6 +49,10 @@ std::vector<Section> sections_of(const Report& report) {
       {"disturbances", "Disturbances",
        "Pose error when the windows that a system sees are disturbed and nothing else is.",
        page_disturbances(report)},
+      {"foresight", "Input foreseen",
+       "How far the joints are from where they will be, in centimetres, if the input is foreseen, "
+       "goes on at constant velocity, or is held. Live, a style faster than its input asks for it.",
+       page_foresight(report)},
       {"strips", "Strips", "The same stretch of time, row by row. The body's left is lighter.",
        page_strips(report)},
       {"contacts", "Foot contacts", "A bar is a foot on the ground.", page_contacts(report)},

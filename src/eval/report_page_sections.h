@@ -32,6 +32,9 @@ std::string page_foreign(const Report& report);
 std::string page_disturbances(const Report& report);
 std::string page_mixes(const Report& report);
 
+// report_page_foresight.cpp: input that has not come yet.
+std::string page_foresight(const Report& report);
+
 // report_page_pictures.cpp
 std::string page_strips(const Report& report);
 std::string page_contacts(const Report& report);

@@ -159,6 +159,24 @@ std::string disturbances(const Report& report) {
   return table.str();
 }
 
+std::string foresight(const SystemReport& system) {
+  TextTable table("content");
+  const auto name = [](double seconds) { return number_text(seconds, 2) + " s ahead, cm"; };
+  for (const double seconds : kForesightSeconds) {
+    table.add_columns(name(seconds), {"foreseen", "velocity", "held"});
+  }
+  for (const ForesightRow& row : system.foresight) {
+    std::vector<std::string> cells;
+    for (size_t h = 0; h < kForesightSeconds.size(); ++h) {
+      for (const double cm : {row.predicted_cm[h], row.velocity_cm[h], row.held_cm[h]}) {
+        cells.push_back(number_text(cm, 2));
+      }
+    }
+    table.add_row(row.content, std::move(cells));
+  }
+  return table.str();
+}
+
 }  // namespace
 
 std::string report_text(const Report& report) {
@@ -187,6 +205,11 @@ std::string report_text(const Report& report) {
   }
   text += titled("Foreign motion: every clip in every style", foreign(report));
   text += titled("Disturbed windows: pose error in cm", disturbances(report));
+  for (const SystemReport& system : report.systems) {
+    text += titled("Input foreseen by " + cut_text(system.name, kTextWidth / 2) +
+                       ", against constant velocity and holding the pose",
+                   foresight(system));
+  }
   return text;
 }
 

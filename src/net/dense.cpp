@@ -1,7 +1,9 @@
 #include "net/dense.h"
 
+#include <array>
 #include <cassert>
 #include <cstddef>
+#include <utility>
 
 #include "net/exponential.h"
 
@@ -12,6 +14,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "net/dense.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
+#include "hwy/cache_control.h"
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -21,65 +24,129 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Floats = hn::ScalableTag<float>;
 using Vector = hn::Vec<Floats>;
-// Enough running sums to hide the latency of an addition; more would not fit into 16 registers
-// together with the input and the product.
+// Running sums in registers: enough of them hide the latency of an addition. There must be room for
+// the inputs and a product beside them, in 32 registers or in 16.
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL || HWY_ARCH_ARM_A64
+constexpr size_t kMaxVectors = 16;  // Of one row,
+constexpr size_t kMaxRows = 8;      // or two of each of these.
+#else
 constexpr size_t kMaxVectors = 12;
+constexpr size_t kMaxRows = 4;
+#endif
+static_assert(kMaxRows <= kRowsAtOnce);
+constexpr size_t kRowVectors = 2;
+// With one row the kernel waits for weights, not for arithmetic: it asks for them so many numbers
+// ahead, which the processor by itself does too late.
+constexpr size_t kAhead = 512;
 
-// Computes kVectors vectors of outputs from column `first` on. The last of them starts at `last`:
-// where the outputs are no multiple of the lanes it overlaps the one before, and the outputs in
-// common are computed twice with the same bits.
-template <size_t kVectors>
-HWY_INLINE void columns(const float* HWY_RESTRICT x, size_t inputs,
-                        const float* HWY_RESTRICT weights, const float* HWY_RESTRICT bias,
-                        float* HWY_RESTRICT y, size_t outputs, size_t first, size_t last) {
+struct Task {
+  Rows<const float> x;
+  size_t inputs;
+  const float* weights;
+  const float* bias;
+  size_t outputs;
+  Rows<float> y;
+};
+
+// Computes kVectors vectors of outputs from column `first` on, of kRows rows from `row` on.
+template <size_t kRows, size_t kVectors>
+HWY_INLINE void tile(const Task& task, size_t row, size_t first) {
   const Floats d;
   const size_t lanes = hn::Lanes(d);
-  Vector sums[kVectors];
-  for (size_t v = 0; v + 1 < kVectors; ++v) sums[v] = hn::LoadU(d, bias + first + v * lanes);
-  sums[kVectors - 1] = hn::LoadU(d, bias + last);
-  for (size_t i = 0; i < inputs; ++i) {
-    const Vector input = hn::Set(d, x[i]);
-    const float* row = weights + i * outputs;
-    for (size_t v = 0; v + 1 < kVectors; ++v) {
-      // Multiplied and added apart: a fused step would round once where others round twice.
-      sums[v] = hn::Add(sums[v], hn::Mul(input, hn::LoadU(d, row + first + v * lanes)));
-    }
-    sums[kVectors - 1] = hn::Add(sums[kVectors - 1], hn::Mul(input, hn::LoadU(d, row + last)));
+  const float* HWY_RESTRICT x = task.x.row(row);
+  const size_t stride = task.x.stride;
+  Vector sums[kRows][kVectors];
+  for (size_t v = 0; v < kVectors; ++v) {
+    const Vector bias = hn::LoadU(d, task.bias + first + v * lanes);
+    for (size_t r = 0; r < kRows; ++r) sums[r][v] = bias;
   }
-  for (size_t v = 0; v + 1 < kVectors; ++v) hn::StoreU(sums[v], d, y + first + v * lanes);
-  hn::StoreU(sums[kVectors - 1], d, y + last);
+  const float* HWY_RESTRICT weights = task.weights + first;
+  for (size_t i = 0; i < task.inputs; ++i) {
+    Vector column[kVectors];
+    for (size_t v = 0; v < kVectors; ++v) {
+      if (kRows == 1) hwy::Prefetch(weights + v * lanes + kAhead);
+      column[v] = hn::LoadU(d, weights + v * lanes);
+    }
+    for (size_t r = 0; r < kRows; ++r) {
+      const Vector input = hn::Set(d, x[r * stride + i]);
+      for (size_t v = 0; v < kVectors; ++v) {
+        // Multiplied and added apart: a fused step would round once where others round twice.
+        sums[r][v] = hn::Add(sums[r][v], hn::Mul(input, column[v]));
+      }
+    }
+    weights += task.outputs;
+  }
+  for (size_t r = 0; r < kRows; ++r) {
+    for (size_t v = 0; v < kVectors; ++v) {
+      hn::StoreU(sums[r][v], d, task.y.row(row + r) + first + v * lanes);
+    }
+  }
 }
 
-using Columns = void (*)(const float*, size_t, const float*, const float*, float*, size_t, size_t,
-                         size_t);
-constexpr Columns kColumns[kMaxVectors + 1] = {
-    nullptr,    columns<1>, columns<2>, columns<3>,  columns<4>,  columns<5>, columns<6>,
-    columns<7>, columns<8>, columns<9>, columns<10>, columns<11>, columns<12>};
+using Tile = void (*)(const Task&, size_t, size_t);
+// kTiles[vectors - 1] of one row.
+template <size_t... k>
+constexpr std::array<Tile, sizeof...(k)> one_row_tiles(std::index_sequence<k...>) {
+  return {tile<1, k + 1>...};
+}
+// kTiles[rows - 1], of so many vectors each.
+template <size_t kVectors, size_t... k>
+constexpr std::array<Tile, sizeof...(k)> tiles_of(std::index_sequence<k...>) {
+  return {tile<k + 1, kVectors>...};
+}
+constexpr auto kOneRow = one_row_tiles(std::make_index_sequence<kMaxVectors>());
+constexpr auto kNarrow = tiles_of<1>(std::make_index_sequence<kMaxRows>());
+constexpr auto kWide = tiles_of<kRowVectors>(std::make_index_sequence<kMaxRows>());
 
 // Fewer outputs than lanes: one running sum in a register per output.
-void few_outputs(const float* x, size_t inputs, const float* weights, const float* bias, float* y,
-                 size_t outputs) {
-  for (size_t o = 0; o < outputs; ++o) {
-    float sum = bias[o];
-    for (size_t i = 0; i < inputs; ++i) sum = sum + x[i] * weights[i * outputs + o];
-    y[o] = sum;
+void few_outputs(const Task& task, size_t row) {
+  const float* x = task.x.row(row);
+  for (size_t o = 0; o < task.outputs; ++o) {
+    float sum = task.bias[o];
+    for (size_t i = 0; i < task.inputs; ++i) sum = sum + x[i] * task.weights[i * task.outputs + o];
+    task.y.row(row)[o] = sum;
   }
 }
 
-void dense(const float* x, size_t inputs, const float* weights, const float* bias, float* y,
-           size_t outputs) {
+// Passes of about equal width; each reads its columns of all weights once.
+void one_row(const Task& task, size_t row) {
   const size_t lanes = hn::Lanes(Floats());
-  if (outputs < lanes) return few_outputs(x, inputs, weights, bias, y, outputs);
-  // Passes of about equal width; each reads its columns of all weights once.
-  size_t vectors = (outputs + lanes - 1) / lanes;
+  size_t vectors = task.outputs / lanes;
   size_t passes = (vectors + kMaxVectors - 1) / kMaxVectors;
   for (size_t first = 0; passes > 0; --passes) {
     const size_t now = (vectors + passes - 1) / passes;
-    const size_t next = first + now * lanes;
-    const size_t last = (next < outputs ? next : outputs) - lanes;
-    kColumns[now](x, inputs, weights, bias, y, outputs, first, last);
-    first = next;
+    kOneRow[now - 1](task, row, first);
+    first += now * lanes;
     vectors -= now;
+  }
+}
+
+void some_rows(const Task& task, size_t row, size_t rows) {
+  const size_t lanes = hn::Lanes(Floats()), vectors = task.outputs / lanes;
+  size_t v = 0;
+  for (; v + kRowVectors <= vectors; v += kRowVectors) kWide[rows - 1](task, row, v * lanes);
+  for (; v < vectors; ++v) kNarrow[rows - 1](task, row, v * lanes);
+}
+
+void dense_rows(Rows<const float> x, size_t inputs, const float* weights, const float* bias,
+                size_t outputs, Rows<float> y) {
+  const Task task{x, inputs, weights, bias, outputs, y};
+  const size_t lanes = hn::Lanes(Floats());
+  for (size_t row = 0; row < task.x.count;) {
+    const size_t rows = HWY_MIN(task.x.count - row, kMaxRows);
+    if (task.outputs < lanes) {
+      for (size_t r = 0; r < rows; ++r) few_outputs(task, row + r);
+    } else {
+      if (rows == 1) {
+        one_row(task, row);
+      } else {
+        some_rows(task, row, rows);
+      }
+      // Where the outputs are no multiple of the lanes, a last vector overlaps the one before: what
+      // they have in common is computed twice with the same bits.
+      if (task.outputs % lanes != 0) kNarrow[rows - 1](task, row, task.outputs - lanes);
+    }
+    row += rows;
   }
 }
 
@@ -126,6 +193,60 @@ void add_scaled(float a, const float* HWY_RESTRICT x, float* HWY_RESTRICT y, siz
   for (; i < size; ++i) y[i] = y[i] + a * x[i];
 }
 
+void standardise(const float* x, const float* mean, const float* factor, float clip, float* y,
+                 size_t size) {
+  const Floats d;
+  const size_t lanes = hn::Lanes(d);
+  const Vector high = hn::Set(d, clip), low = hn::Set(d, -clip);
+  size_t i = 0;
+  for (; i + lanes <= size; i += lanes) {
+    const Vector v =
+        hn::Mul(hn::Sub(hn::LoadU(d, x + i), hn::LoadU(d, mean + i)), hn::LoadU(d, factor + i));
+    const Vector above = hn::IfThenElse(hn::Lt(v, low), low, v);
+    hn::StoreU(hn::IfThenElse(hn::Gt(v, high), high, above), d, y + i);
+  }
+  for (; i < size; ++i) {
+    const float v = (x[i] - mean[i]) * factor[i];
+    y[i] = v < -clip ? -clip : v > clip ? clip : v;
+  }
+}
+
+float square_length(const float* x, size_t size) {
+  const hn::CappedTag<float, kPadding> d;
+  const size_t lanes = hn::Lanes(d);
+  HWY_ALIGN float parts[kPadding] = {};
+  size_t i = 0;
+  for (; i + kPadding <= size; i += kPadding) {
+    for (size_t p = 0; p < kPadding; p += lanes) {
+      const auto v = hn::LoadU(d, x + i + p);
+      hn::Store(hn::Add(hn::Load(d, parts + p), hn::Mul(v, v)), d, parts + p);
+    }
+  }
+  for (; i < size; ++i) parts[i % kPadding] += x[i] * x[i];
+  for (size_t half = kPadding / 2; half > 0; half /= 2) {
+    for (size_t p = 0; p < half; ++p) parts[p] += parts[p + half];
+  }
+  return parts[0];
+}
+
+float sum_in_any_order(const float* x, size_t size) {
+  const Floats d;
+  constexpr size_t kSums = 8;
+  const size_t lanes = hn::Lanes(d);
+  Vector sums[kSums];
+  for (Vector& sum : sums) sum = hn::Zero(d);
+  size_t i = 0;
+  for (; i + kSums * lanes <= size; i += kSums * lanes) {
+    for (size_t k = 0; k < kSums; ++k) {
+      sums[k] = hn::Add(sums[k], hn::LoadU(d, x + i + k * lanes));
+    }
+  }
+  for (size_t k = 1; k < kSums; ++k) sums[0] = hn::Add(sums[0], sums[k]);
+  float sum = hn::GetLane(hn::SumOfLanes(d, sums[0]));
+  for (; i < size; ++i) sum += x[i];
+  return sum;
+}
+
 const char* target_name() { return hwy::TargetName(HWY_TARGET); }
 
 }  // namespace HWY_NAMESPACE
@@ -135,16 +256,24 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace panache {
 
-HWY_EXPORT(dense);
+HWY_EXPORT(dense_rows);
 HWY_EXPORT(elu);
 HWY_EXPORT(add_scaled);
+HWY_EXPORT(standardise);
+HWY_EXPORT(square_length);
+HWY_EXPORT(sum_in_any_order);
 HWY_EXPORT(target_name);
 
 void dense(std::span<const float> x, std::span<const float> weights, std::span<const float> bias,
            std::span<float> y) noexcept {
-  assert(bias.size() == y.size() && weights.size() == x.size() * y.size());
-  HWY_DYNAMIC_DISPATCH(dense)
-  (x.data(), x.size(), weights.data(), bias.data(), y.data(), y.size());
+  assert(bias.size() == y.size());
+  dense_rows({x.data(), 1, 0}, x.size(), weights, bias, {y.data(), 1, 0});
+}
+
+void dense_rows(Rows<const float> x, size_t inputs, std::span<const float> weights,
+                std::span<const float> bias, Rows<float> y) noexcept {
+  assert(x.count == y.count && weights.size() == inputs * bias.size());
+  HWY_DYNAMIC_DISPATCH(dense_rows)(x, inputs, weights.data(), bias.data(), bias.size(), y);
 }
 
 void elu(std::span<float> y) noexcept { HWY_DYNAMIC_DISPATCH(elu)(y.data(), y.size()); }
@@ -152,6 +281,21 @@ void elu(std::span<float> y) noexcept { HWY_DYNAMIC_DISPATCH(elu)(y.data(), y.si
 void add_scaled(float a, std::span<const float> x, std::span<float> y) noexcept {
   assert(x.size() == y.size());
   HWY_DYNAMIC_DISPATCH(add_scaled)(a, x.data(), y.data(), y.size());
+}
+
+void standardise(std::span<const float> x, std::span<const float> mean,
+                 std::span<const float> factor, float clip, std::span<float> y) noexcept {
+  assert(x.size() == y.size() && mean.size() == y.size() && factor.size() == y.size());
+  HWY_DYNAMIC_DISPATCH(standardise)
+  (x.data(), mean.data(), factor.data(), clip, y.data(), y.size());
+}
+
+float square_length(std::span<const float> x) noexcept {
+  return HWY_DYNAMIC_DISPATCH(square_length)(x.data(), x.size());
+}
+
+float sum_in_any_order(std::span<const float> x) noexcept {
+  return HWY_DYNAMIC_DISPATCH(sum_in_any_order)(x.data(), x.size());
 }
 
 const char* kernel_target() { return HWY_DYNAMIC_DISPATCH(target_name)(); }

@@ -48,4 +48,22 @@ void add_scaled(float a, std::span<const float> x, std::span<float> y) noexcept 
   for (size_t i = 0; i < y.size(); ++i) y[i] = y[i] + a * x[i];
 }
 
+void standardise(std::span<const float> x, std::span<const float> mean,
+                 std::span<const float> factor, float clip, std::span<float> y) noexcept {
+  assert(x.size() == y.size() && mean.size() == y.size() && factor.size() == y.size());
+  for (size_t i = 0; i < y.size(); ++i) {
+    const float v = (x[i] - mean[i]) * factor[i];
+    y[i] = v < -clip ? -clip : v > clip ? clip : v;
+  }
+}
+
+float square_length(std::span<const float> x) noexcept {
+  float parts[kPadding] = {};
+  for (size_t i = 0; i < x.size(); ++i) parts[i % kPadding] += x[i] * x[i];
+  for (size_t half = kPadding / 2; half > 0; half /= 2) {
+    for (size_t p = 0; p < half; ++p) parts[p] += parts[p + half];
+  }
+  return parts[0];
+}
+
 }  // namespace panache::scalar

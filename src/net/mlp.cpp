@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "net/dense.h"
+#include "net/dense_bytes.h"
 
 namespace panache {
 namespace {
@@ -47,6 +48,23 @@ Result<const Tensor*> find_tensor(const TensorFile& file, const std::string& key
 
 }  // namespace
 
+Result<std::vector<float>> read_vector(const TensorFile& file, const std::string& key, int size,
+                                       const std::string& name) {
+  const auto found = file.tensors.find(key);
+  if (found == file.tensors.end()) return Error{name + ": tensor '" + key + "' is missing"};
+  const Tensor& tensor = found->second;
+  if (tensor.shape != std::vector<int64_t>{size}) {
+    return Error{name + ": tensor '" + key + "' has " + std::to_string(tensor.values.size()) +
+                 " numbers; expected shape [" + std::to_string(size) + "]"};
+  }
+  for (const float v : tensor.values) {
+    if (!std::isfinite(v)) {
+      return Error{name + ": tensor '" + key + "' holds a number that is not finite"};
+    }
+  }
+  return tensor.values;
+}
+
 Result<DenseLayer> read_layer(const TensorFile& file, const std::string& prefix, int inputs,
                               int outputs, const std::string& name) {
   Result<const Tensor*> weights = find_tensor(file, prefix + ".weight", {inputs, outputs}, name);
@@ -58,6 +76,24 @@ Result<DenseLayer> read_layer(const TensorFile& file, const std::string& prefix,
   if (!bias) return bias.error();
   layer.weights = (*weights)->values;
   layer.bias = (*bias)->values;
+  if (!(*weights)->bytes) return layer;
+
+  Result<const Tensor*> scale = find_tensor(file, prefix + ".scale", {layer.outputs}, name);
+  if (!scale) return scale.error();
+  layer.scale = (*scale)->values;
+  const std::string where = name + ": tensor '" + prefix + ".weight' ";
+  if (static_cast<size_t>(layer.inputs) > kMaxByteInputs) {
+    return Error{where + "of bytes has " + std::to_string(layer.inputs) +
+                 " inputs; expected at most " + std::to_string(kMaxByteInputs)};
+  }
+  for (size_t i = 0; i < layer.weights.size(); ++i) {
+    if (layer.weights[i] < -kLargestByte) {
+      return Error{where + "holds a -128 (number " + std::to_string(i) + "); expected bytes from " +
+                   std::to_string(-kLargestByte) + " to " + std::to_string(kLargestByte)};
+    }
+    layer.bytes.push_back(static_cast<int8_t>(layer.weights[i]));
+    layer.weights[i] *= layer.scale[i % static_cast<size_t>(layer.outputs)];
+  }
   return layer;
 }
 
@@ -66,11 +102,14 @@ Result<Trunk> Trunk::read(const TensorFile& file, const std::string& prefix, int
   Trunk trunk;
   const auto key = [&](size_t layer) { return prefix + "." + std::to_string(layer); };
   const auto has = [&](size_t layer) { return file.tensors.contains(key(layer) + ".weight"); };
+  size_t expected = 0;  // Tensors.
   do {
-    Result<DenseLayer> layer = read_layer(file, key(trunk.layers_.size()), inputs, -1, name);
+    Result<DenseLayer> layer = read_layer(file, key(trunk.plain_.size()), inputs, -1, name);
     if (!layer) return layer.error();
     inputs = layer->outputs;
-    trunk.layers_.push_back(*std::move(layer));
+    expected += layer->bytes.empty() ? 2 : 3;
+    trunk.layers_.emplace_back(*layer);
+    trunk.plain_.push_back(*std::move(layer));
   } while (has(trunk.layers_.size()));
   // A layer behind a gap would be left out in silence.
   const std::string start = prefix + ".";
@@ -79,8 +118,7 @@ Result<Trunk> Trunk::read(const TensorFile& file, const std::string& prefix, int
        it != file.tensors.end() && it->first.starts_with(start); ++it) {
     ++found;
   }
-  if (found != 2 * trunk.layers_.size()) {
-    const size_t expected = 2 * trunk.layers_.size();
+  if (found != expected) {
     return Error{name + ": has " + std::to_string(found) + " tensors '" + start + "*'; expected " +
                  std::to_string(expected) + ", a weight and a bias for each of the layers from " +
                  key(0) + " to " + key(trunk.layers_.size() - 1)};
@@ -88,71 +126,84 @@ Result<Trunk> Trunk::read(const TensorFile& file, const std::string& prefix, int
   return trunk;
 }
 
-int Trunk::inputs() const { return layers_.empty() ? 0 : layers_.front().inputs; }
-int Trunk::outputs() const { return layers_.empty() ? 0 : layers_.back().outputs; }
+int Trunk::inputs() const { return plain_.empty() ? 0 : plain_.front().inputs; }
+int Trunk::outputs() const { return plain_.empty() ? 0 : plain_.back().outputs; }
+bool Trunk::of_bytes() const { return !plain_.empty() && !plain_.front().bytes.empty(); }
 
-size_t Trunk::scratch_size() const {
+int Trunk::widest() const {
   int widest = 0;
-  for (const DenseLayer& layer : layers_) widest = std::max(widest, layer.outputs);
-  return 2 * static_cast<size_t>(widest);
+  for (const DenseLayer& layer : plain_) widest = std::max(widest, layer.outputs);
+  return widest;
 }
 
-std::span<const float> Trunk::forward(std::span<const float> x,
-                                      std::span<float> scratch) const noexcept {
-  assert(layers_.empty() || x.size() == static_cast<size_t>(inputs()));
-  assert(scratch.size() >= scratch_size());
+size_t Trunk::trunk_scratch_size(size_t rows) const {
+  size_t widest = 0;
+  for (const PackedLayer& layer : layers_) widest = std::max(widest, layer.width());
+  return 2 * rows * widest;
+}
+
+Rows<const float> Trunk::forward(Rows<const float> x, std::span<float> scratch) const noexcept {
+  assert(scratch.size() >= trunk_scratch_size(x.count));
   // The layers take turns between the two halves, as none may write where it reads.
-  std::span<float> half = scratch.first(scratch_size() / 2);
-  std::span<float> other = scratch.subspan(scratch_size() / 2);
-  for (const DenseLayer& layer : layers_) {
-    const std::span<float> y = half.first(layer.outputs);
-    dense(x, layer.weights, layer.bias, y);
-    elu(y);
+  float* half = scratch.data();
+  float* other = half + trunk_scratch_size(x.count) / 2;
+  for (const PackedLayer& layer : layers_) {
+    const Rows<float> y{half, x.count, layer.width()};
+    layer.forward(x, y);
+    elu({half, x.count * layer.width()});
     x = y;
     std::swap(half, other);
   }
   return x;
 }
 
-TrunkTrio::TrunkTrio(std::array<Trunk, kTrunks> trunks) : rest_(std::move(trunks)) {
-  first_.inputs = rest_[0].inputs();
-  for (size_t t = 0; t < kTrunks; ++t) {
-    assert(rest_[t].inputs() == first_.inputs);
-    outputs_[t] = rest_[t].outputs();
-    widths_[t] = rest_[t].layers_.front().outputs;
-    first_.outputs += widths_[t];
-    const std::vector<float>& bias = rest_[t].layers_.front().bias;
-    first_.bias.insert(first_.bias.end(), bias.begin(), bias.end());
-  }
-  first_.weights.reserve(static_cast<size_t>(first_.inputs) * first_.outputs);
-  for (int i = 0; i < first_.inputs; ++i) {
-    for (const Trunk& trunk : rest_) {
-      const DenseLayer& layer = trunk.layers_.front();
-      const auto row = layer.weights.begin() + static_cast<ptrdiff_t>(i) * layer.outputs;
-      first_.weights.insert(first_.weights.end(), row, row + layer.outputs);
-    }
-  }
-  for (Trunk& trunk : rest_) trunk.layers_.erase(trunk.layers_.begin());
+std::span<const float> Trunk::forward(std::span<const float> x,
+                                      std::span<float> scratch) const noexcept {
+  assert(layers_.empty() || x.size() == static_cast<size_t>(inputs()));
+  const size_t outputs = layers_.empty() ? x.size() : static_cast<size_t>(this->outputs());
+  return {forward(Rows<const float>{x.data(), 1, 0}, scratch).first, outputs};
 }
 
-size_t TrunkTrio::scratch_size() const {
-  size_t size = static_cast<size_t>(first_.outputs);
-  for (const Trunk& trunk : rest_) size += trunk.scratch_size();
+TrunkTrio::TrunkTrio(std::array<Trunk, kTrunks> trunks) : rest_(std::move(trunks)) {
+  std::vector<DenseLayer> first;
+  for (size_t t = 0; t < kTrunks; ++t) {
+    assert(rest_[t].inputs() == rest_[0].inputs());
+    outputs_[t] = rest_[t].outputs();
+    first.push_back(std::move(rest_[t].plain_.front()));
+    rest_[t].plain_.clear();
+    rest_[t].layers_.erase(rest_[t].layers_.begin());
+  }
+  first_ = PackedLayer(first);
+}
+
+size_t TrunkTrio::scratch_size(size_t rows) const {
+  size_t size = rows * first_.width();
+  for (const Trunk& trunk : rest_) size += trunk.trunk_scratch_size(rows);
   return size;
 }
 
 std::array<std::span<const float>, TrunkTrio::kTrunks> TrunkTrio::forward(
     std::span<const float> x, std::span<float> scratch) const noexcept {
-  assert(x.size() == static_cast<size_t>(inputs()) && scratch.size() >= scratch_size());
-  std::span<float> hidden = scratch.first(first_.outputs);
-  scratch = scratch.subspan(hidden.size());
-  dense(x, first_.weights, first_.bias, hidden);
-  elu(hidden);
+  assert(x.size() == static_cast<size_t>(inputs()));
+  const auto rows = forward(Rows<const float>{x.data(), 1, 0}, scratch);
   std::array<std::span<const float>, kTrunks> out;
   for (size_t t = 0; t < kTrunks; ++t) {
-    out[t] = rest_[t].forward(hidden.first(widths_[t]), scratch);
-    hidden = hidden.subspan(widths_[t]);
-    scratch = scratch.subspan(rest_[t].scratch_size());
+    out[t] = {rows[t].first, static_cast<size_t>(outputs_[t])};
+  }
+  return out;
+}
+
+std::array<Rows<const float>, TrunkTrio::kTrunks> TrunkTrio::forward(
+    Rows<const float> x, std::span<float> scratch) const noexcept {
+  assert(scratch.size() >= scratch_size(x.count));
+  const Rows<float> hidden{scratch.data(), x.count, first_.width()};
+  scratch = scratch.subspan(x.count * first_.width());
+  first_.forward(x, hidden);
+  elu({hidden.first, x.count * first_.width()});
+  std::array<Rows<const float>, kTrunks> out;
+  for (size_t t = 0; t < kTrunks; ++t) {
+    out[t] = rest_[t].forward(Rows<const float>(hidden.from(first_.begin(t))), scratch);
+    scratch = scratch.subspan(rest_[t].trunk_scratch_size(x.count));
   }
   return out;
 }

@@ -7,20 +7,20 @@
 #include <vector>
 
 #include "base/result.h"
+#include "net/layer.h"
 #include "net/safetensors.h"
 
 namespace panache {
 
-struct DenseLayer {
-  int inputs = 0, outputs = 0;
-  std::vector<float> weights;  // [inputs][outputs]
-  std::vector<float> bias;     // [outputs]
-};
-
 // Reads layer `prefix`.weight [inputs][outputs] and `prefix`.bias [outputs], and checks that the
-// shapes are these; -1 accepts any size. Non-finite numbers are refused.
+// shapes are these; -1 accepts any size. Where the weights are bytes, `prefix`.scale [outputs] says
+// what one is worth. Non-finite numbers are refused, and bytes that the kernels do not take.
 Result<DenseLayer> read_layer(const TensorFile& file, const std::string& prefix, int inputs,
                               int outputs, const std::string& name);
+
+// Reads the tensor `key`, which must hold `size` finite numbers in one row.
+Result<std::vector<float>> read_vector(const TensorFile& file, const std::string& key, int size,
+                                       const std::string& name);
 
 // Hidden layers, each followed by ELU.
 class Trunk {
@@ -30,18 +30,26 @@ class Trunk {
                             const std::string& name);
   int inputs() const;
   int outputs() const;
+  int widest() const;     // The outputs of its widest layer.
+  bool of_bytes() const;  // Whether the first layer has bytes for weights.
   // Numbers that forward() needs to work in.
-  size_t scratch_size() const;
+  size_t scratch_size() const { return trunk_scratch_size(1); }
   // Returns the last layer's activations, a part of `scratch`. x.size() = inputs().
   std::span<const float> forward(std::span<const float> x, std::span<float> scratch) const noexcept;
 
  private:
   friend class TrunkTrio;
-  std::vector<DenseLayer> layers_;
+  // The same for several rows at once.
+  size_t trunk_scratch_size(size_t rows) const;
+  Rows<const float> forward(Rows<const float> x, std::span<float> scratch) const noexcept;
+
+  std::vector<DenseLayer> plain_;  // As read.
+  std::vector<PackedLayer> layers_;
 };
 
 // Three trunks that read the same input: their first layers stand in one matrix, so that the input
-// is gone through once. Bit for bit what each trunk gives by itself.
+// is gone through once. Bit for bit what each trunk gives by itself, unless only some of the first
+// layers are of bytes: then their weights are taken as floats.
 class TrunkTrio {
  public:
   static constexpr size_t kTrunks = 3;
@@ -50,17 +58,21 @@ class TrunkTrio {
   // All trunks take the same number of inputs.
   explicit TrunkTrio(std::array<Trunk, kTrunks> trunks);
 
-  int inputs() const { return first_.inputs; }
+  int inputs() const { return static_cast<int>(first_.inputs()); }
   int outputs(size_t trunk) const { return outputs_[trunk]; }
-  size_t scratch_size() const;  // Numbers that forward() needs to work in.
+  // Numbers that forward() needs to work in, for so many rows.
+  size_t scratch_size(size_t rows = 1) const;
   // Returns the last activations of each trunk, parts of `scratch`. x.size() = inputs().
   std::array<std::span<const float>, kTrunks> forward(std::span<const float> x,
                                                       std::span<float> scratch) const noexcept;
+  // The same for each row of x: bit for bit what the rows give alone. `scratch` should begin on a
+  // cache line.
+  std::array<Rows<const float>, kTrunks> forward(Rows<const float> x,
+                                                 std::span<float> scratch) const noexcept;
 
  private:
-  DenseLayer first_;                    // The columns of trunk 0, then of 1, then of 2.
-  std::array<int, kTrunks> widths_{};   // Of each trunk's first layer,
-  std::array<int, kTrunks> outputs_{};  // and of its last.
+  PackedLayer first_;                   // The layers of trunk 0, then of 1, then of 2.
+  std::array<int, kTrunks> outputs_{};  // Of each trunk's last layer.
   std::array<Trunk, kTrunks> rest_;     // The other layers; may have none.
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -205,11 +206,12 @@ void append_little_endian(uint64_t value, size_t bytes, std::string& out) {
 Result<Tensor> read_tensor(const Entry& entry, std::string_view data, const std::string& name) {
   const std::string where = name + ": tensor " + in_quotes(entry.name);
   Tensor tensor;
-  if (entry.type != "F32" && entry.type != "F16") {
-    return Error{where + " has type " + printable(entry.type) + "; expected F32 or F16"};
+  if (entry.type != "F32" && entry.type != "F16" && entry.type != "I8") {
+    return Error{where + " has type " + printable(entry.type) + "; expected F32, F16 or I8"};
   }
   tensor.half = entry.type == "F16";
-  const uint64_t width = tensor.half ? 2 : 4;
+  tensor.bytes = entry.type == "I8";
+  const uint64_t width = tensor.bytes ? 1 : tensor.half ? 2 : 4;
   const uint64_t begin = entry.offsets[0], end = entry.offsets[1];
   if (begin > end || end > data.size()) {
     return Error{where + " lies at bytes " + std::to_string(begin) + " to " + std::to_string(end) +
@@ -233,8 +235,9 @@ Result<Tensor> read_tensor(const Entry& entry, std::string_view data, const std:
   tensor.values.resize(count);
   for (size_t i = 0; i < count; ++i) {
     const uint64_t bits = read_little_endian(data.substr(begin + i * width, width));
-    tensor.values[i] = tensor.half ? from_half(static_cast<uint16_t>(bits))
-                                   : std::bit_cast<float>(static_cast<uint32_t>(bits));
+    tensor.values[i] = tensor.bytes  ? static_cast<float>(static_cast<int8_t>(bits))
+                       : tensor.half ? from_half(static_cast<uint16_t>(bits))
+                                     : std::bit_cast<float>(static_cast<uint32_t>(bits));
   }
   return tensor;
 }
@@ -260,11 +263,18 @@ Result<void> check_coverage(std::vector<Entry>& entries, uint64_t bytes, const s
   return {};
 }
 
+const char* type_of(const Tensor& tensor) {
+  return tensor.bytes ? "I8" : tensor.half ? "F16" : "F32";
+}
+
 void append_values(const Tensor& tensor, std::string& out) {
   assert(std::accumulate(tensor.shape.begin(), tensor.shape.end(), int64_t{1},
                          std::multiplies<>()) == static_cast<int64_t>(tensor.values.size()));
   for (const float value : tensor.values) {
-    if (tensor.half) {
+    if (tensor.bytes) {
+      assert(value >= -128 && value <= 127 && value == std::trunc(value));
+      out += static_cast<char>(static_cast<int8_t>(value));
+    } else if (tensor.half) {
       append_little_endian(to_half(value), 2, out);
     } else {
       append_little_endian(std::bit_cast<uint32_t>(value), 4, out);
@@ -331,13 +341,13 @@ std::string format_safetensors(const TensorFile& file) {
     member(header, "__metadata__", texts + "}");
   }
   // The wide ones first: with the header a multiple of 8 long, every number is then aligned.
-  for (const bool half : {false, true}) {
+  for (const char* type : {"F32", "F16", "I8"}) {
     for (const auto& [key, tensor] : file.tensors) {
-      if (tensor.half != half) continue;
+      if (type_of(tensor) != std::string_view(type)) continue;
       const size_t begin = data.size();
       append_values(tensor, data);
       std::string fields;
-      member(fields, "dtype", json_text(half ? "F16" : "F32"));
+      member(fields, "dtype", json_text(type));
       member(fields, "shape", shape_text({tensor.shape.begin(), tensor.shape.end()}));
       member(fields, "data_offsets", shape_text({begin, data.size()}));
       member(header, key, fields + "}");

@@ -15,6 +15,7 @@ struct Tensor {
   std::vector<int64_t> shape;  // Row-major, last index fastest.
   std::vector<float> values;   // Product of the shape.
   bool half = false;           // Stored as 16-bit floats (F16) in the file; always float here.
+  bool bytes = false;          // Stored as whole numbers from -128 to 127 (I8); not `half` then.
 };
 
 struct TensorFile {
@@ -22,13 +23,14 @@ struct TensorFile {
   std::map<std::string, Tensor> tensors;
 };
 
-// Reads a safetensors file (types F32 and F16). Every count is bounded by the bytes that are there;
-// `name` stands in front of the sentence of a failure.
+// Reads a safetensors file (types F32, F16 and I8). Every count is bounded by the bytes that are
+// there; `name` stands in front of the sentence of a failure.
 Result<TensorFile> parse_safetensors(std::string_view bytes, const std::string& name);
 
-// The bytes of a safetensors file: tensors and metadata sorted by name (full floats before halves),
-// numbers aligned, so that the same contents always give the same bytes. Every tensor must have as
-// many values as its shape says, a shape of at most 8 sizes, and a name other than "__metadata__".
+// The bytes of a safetensors file: tensors and metadata sorted by name (full floats before halves
+// before bytes), numbers aligned, so that the same contents always give the same bytes. Every
+// tensor must have as many values as its shape says, a shape of at most 8 sizes, and a name other
+// than "__metadata__".
 std::string format_safetensors(const TensorFile& file);
 
 // IEEE half precision, rounded to nearest even. Finite numbers beyond the largest half become that

@@ -47,6 +47,20 @@ void write_root_numbers(const Ground& before, const Ground& now, double seconds,
   out[2] = (now.facing - before.facing) * rate;
 }
 
+HumanPositions read_positions(std::span<const float> pose) noexcept {
+  HumanPositions body;
+  for (size_t j = 0; j < body.size(); ++j)
+    body[j] = {pose[3 * j], pose[3 * j + 1], pose[3 * j + 2]};
+  return body;
+}
+
+Ground move_ground(const Ground& before, std::span<const float, kRootNumbers> root,
+                   double seconds) noexcept {
+  const auto time = static_cast<float>(seconds);
+  const float facing = before.facing + root[2] * time;
+  return {before.position + rotate(rotation_y(facing), Vec3{root[0], 0, root[1]} * time), facing};
+}
+
 float unwrap_angle(float angle, float reference) noexcept {
   constexpr float turn = 2 * std::numbers::pi_v<float>;
   return angle - turn * std::round((angle - reference) / turn);

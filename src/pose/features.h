@@ -44,6 +44,11 @@ void write_pose_numbers(PoseLayout layout, const HumanPositions& body,
 // Writes the root numbers of a body that went from `before` to `now` in `seconds` > 0.
 void write_root_numbers(const Ground& before, const Ground& now, double seconds,
                         std::span<float, kRootNumbers> out) noexcept;
+// The reverse of the two: the body that these numbers of layout positions are, and where a body
+// comes to stand that moves from `before` with these root numbers for `seconds`.
+HumanPositions read_positions(std::span<const float> pose) noexcept;
+Ground move_ground(const Ground& before, std::span<const float, kRootNumbers> root,
+                   double seconds) noexcept;
 
 // The equivalent of `angle` (radians) nearest to `reference`.
 float unwrap_angle(float angle, float reference) noexcept;

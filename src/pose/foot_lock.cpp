@@ -96,10 +96,9 @@ void FootLock::follow(Foot& foot, Vec3 toe, float contact, float seconds) noexce
   foot.speed = (foot.speed - pace * (kFadeRate * seconds)) * fade;
 }
 
-void FootLock::step(const BodyPose& body, std::span<const float, kFeet> contacts, float amount,
-                    float seconds, BodyChange& change) noexcept {
-  HumanPositions joints;
-  changed_joints(body, change, joints);
+void FootLock::step(const BodyPose& body, const HumanPositions& joints,
+                    std::span<const float, kFeet> contacts, float amount, float seconds,
+                    BodyChange& change) noexcept {
   const Quat to_world = rotation_y(body.facing + change.turn);
   const Vec3 origin = mid_hip(body) + change.translation;
   for (int f = 0; f < kFeet; ++f) {

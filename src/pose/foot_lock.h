@@ -29,11 +29,19 @@ void changed_joints(const BodyPose& body, const BodyChange& change, HumanPositio
 class FootLock {
  public:
   void reset() noexcept { feet_ = {}; }
-  // Adjusts the legs of `change`. `contacts`: probability that each foot is planted, 0 to 1;
-  // `amount`: how much of the correction to apply, 0 (none at all) to 1; `seconds` since the last
-  // step.
+  // Adjusts the legs of `change`. `joints`: changed_joints() of body and change; `contacts`:
+  // probability that each foot is planted, 0 to 1; `amount`: how much of the correction to apply, 0
+  // (none at all) to 1; `seconds` since the last step.
+  void step(const BodyPose& body, const HumanPositions& joints,
+            std::span<const float, kFeet> contacts, float amount, float seconds,
+            BodyChange& change) noexcept;
+  // The same where nobody has the joints yet.
   void step(const BodyPose& body, std::span<const float, kFeet> contacts, float amount,
-            float seconds, BodyChange& change) noexcept;
+            float seconds, BodyChange& change) noexcept {
+    HumanPositions joints;
+    changed_joints(body, change, joints);
+    step(body, joints, contacts, amount, seconds, change);
+  }
 
   // Calls visit(member) for everything that tells one foot lock from another.
   template <class Self, class Visit>

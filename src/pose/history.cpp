@@ -19,23 +19,20 @@ void PoseHistory::push(double time, const HumanPositions& body, const Ground& gr
   write_pose_numbers(layout_, body, std::span(numbers_).subspan(head_ * count, count));
 }
 
-PoseHistory::Between PoseHistory::find(double time) const noexcept {
-  int later = place(0);
-  for (int age = 1; age < count_; ++age) {
-    const int earlier = place(age);
+PoseHistory::Between PoseHistory::find(double time, int& age) const noexcept {
+  for (; age + 1 < count_; ++age) {
+    const int later = place(age), earlier = place(age + 1);
     if (ring_[earlier].time <= time) {
       const double gap = ring_[later].time - ring_[earlier].time;
       const double t = gap > 0 ? (time - ring_[earlier].time) / gap : 1;
       return {earlier, later, static_cast<float>(std::clamp(t, 0.0, 1.0))};
     }
-    later = earlier;
   }
-  const int held = time >= newest(0).time ? place(0) : later;
-  return {held, held, 0};
+  return {place(age), place(age), 0};  // The oldest.
 }
 
-Ground PoseHistory::ground_at(double time) const noexcept {
-  const auto [a, b, t] = find(time);
+Ground PoseHistory::ground(const Between& between) const noexcept {
+  const auto& [a, b, t] = between;
   return {lerp(ring_[a].ground.position, ring_[b].ground.position, t),
           ring_[a].ground.facing * (1 - t) + ring_[b].ground.facing * t};
 }
@@ -45,12 +42,15 @@ void PoseHistory::window(std::span<float> out) const noexcept {
   const int count = stored_numbers(layout_);
   float* number = out.data();
   Ground now = newest(0).ground;
+  int age = 0;
+  Between here = find(newest(0).time, age);
   for (int k = 0; k < kWindowPoses; ++k) {
-    const double time = newest(0).time - k * kWindowSpacing;
-    const auto [a, b, t] = find(time);
-    const std::span<const float> from = numbers(a), to = numbers(b);
+    const auto& [a, b, t] = here;
+    const float* from = numbers(a).data();
+    const float* to = numbers(b).data();
     for (int i = 0; i < count; ++i) number[i] = from[i] * (1 - t) + to[i] * t;
-    const Ground before = ground_at(time - kWindowSpacing);
+    here = find(newest(0).time - (k + 1) * kWindowSpacing, age);
+    const Ground before = ground(here);
     write_root_numbers(before, now, kWindowSpacing,
                        std::span<float, kRootNumbers>(number + count, kRootNumbers));
     now = before;
@@ -60,7 +60,9 @@ void PoseHistory::window(std::span<float> out) const noexcept {
 
 float PoseHistory::ground_speed() const noexcept {
   const double seconds = kWindowPoses * kWindowSpacing;
-  const Vec3 way = newest(0).ground.position - ground_at(newest(0).time - seconds).position;
+  int age = 0;
+  const Between then = find(newest(0).time - seconds, age);
+  const Vec3 way = newest(0).ground.position - ground(then).position;
   return length(way) / static_cast<float>(seconds);
 }
 

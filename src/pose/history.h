@@ -42,9 +42,11 @@ class PoseHistory {
   static constexpr int stored_numbers(PoseLayout layout) {
     return pose_numbers(layout) - kRootNumbers;
   }
-  Between find(double time) const noexcept;
-  Ground ground_at(double time) const noexcept;
-  int place(int age) const noexcept { return (head_ + kCapacity - age) % kCapacity; }
+  // Looks from the pose of that age on, which is not older than `time` unless it is the newest, and
+  // leaves there how far it came: for earlier times the search goes on from there.
+  Between find(double time, int& age) const noexcept;
+  Ground ground(const Between& between) const noexcept;
+  int place(int age) const noexcept { return age <= head_ ? head_ - age : head_ - age + kCapacity; }
   const Entry& newest(int age) const noexcept { return ring_[place(age)]; }
   std::span<const float> numbers(int place) const noexcept {
     const size_t count = stored_numbers(layout_);

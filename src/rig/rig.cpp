@@ -174,6 +174,19 @@ void Rig::write(ConstPose in, const BodyPose& body, const BodyChange& change, Po
   write_translation(in, change, out);
 }
 
+void Rig::place(float turn, Vec3 about, Vec3 move, Pose pose) const noexcept {
+  if (turn == 0 && move == Vec3{}) return;
+  const Quat file_axes = conjugate(shared_->calibration.y_up);
+  const Quat by = in_axes(file_axes, rotation_y(turn));
+  const Vec3 centre = rotate(file_axes, about) / shared_->calibration.scale;
+  const Vec3 way = rotate(file_axes, move) / shared_->calibration.scale;
+  for (size_t j = 0; j < shared_->skeleton.joints.size(); ++j) {
+    if (shared_->skeleton.joints[j].parent >= 0) continue;
+    pose.rotations[j] = by * pose.rotations[j];
+    pose.translations[j] += shift(by, pose.translations[j] - centre) + way;
+  }
+}
+
 // With E the world delta of a joint, E_p that of its parent and P its parent's world rotation in
 // the input, the joint's new world rotation E P q and its parent's E_p P give the local rotation
 // P^-1 E_p^-1 E P q. At E = E_p = 1 the factor before q is exactly 1.

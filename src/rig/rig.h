@@ -93,6 +93,10 @@ class Rig {
   // the translation, if the hips or a joint above them can. Allocates nothing, never fails.
   void write(ConstPose in, const BodyPose& body, const BodyChange& change, Pose out) noexcept;
 
+  // Turns a whole pose by `turn` (radians, about +y through `about`), then moves it by `move`, both
+  // world, Y up, metres: by its root joints, whatever they are. With neither it stays bit for bit.
+  void place(float turn, Vec3 about, Vec3 move, Pose pose) const noexcept;
+
   // Calls visit(member) for what a rig remembers from one read() to the next.
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {

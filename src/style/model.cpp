@@ -1,16 +1,20 @@
 #include "style/model.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "base/file.h"
 #include "style/names.h"
+#include "style/predictor.h"
 
 namespace panache {
 namespace {
 
 constexpr const char* kFormatVersion = "1";
+constexpr std::string_view kScale = ".scale";  // Of a layer of bytes.
 
 std::vector<std::string> split_lines(const std::string& text) {
   std::vector<std::string> lines;
@@ -29,23 +33,6 @@ Result<std::string> require(const TensorFile& file, const std::string& key,
   return found->second;
 }
 
-Result<std::vector<float>> read_vector(const TensorFile& file, const std::string& key, int size,
-                                       const std::string& name) {
-  const auto found = file.tensors.find(key);
-  if (found == file.tensors.end()) return Error{name + ": tensor '" + key + "' is missing"};
-  const Tensor& tensor = found->second;
-  if (tensor.shape != std::vector<int64_t>{size}) {
-    return Error{name + ": tensor '" + key + "' has " + std::to_string(tensor.values.size()) +
-                 " numbers; expected shape [" + std::to_string(size) + "]"};
-  }
-  for (const float v : tensor.values) {
-    if (!std::isfinite(v)) {
-      return Error{name + ": tensor '" + key + "' holds a number that is not finite"};
-    }
-  }
-  return tensor.values;
-}
-
 }  // namespace
 
 Result<std::shared_ptr<const Model>> Model::load(const std::string& path) {
@@ -60,7 +47,12 @@ Result<std::shared_ptr<const Model>> Model::parse(std::string_view bytes, const 
   auto model = std::make_shared<Model>();
   if (Result<void> read = model->read_metadata(*file, name); !read) return read.error();
   if (Result<void> read = model->read_numbers(*file, name); !read) return read.error();
-  for (const auto& [key, tensor] : file->tensors) model->parameter_count_ += tensor.values.size();
+  for (const auto& [key, tensor] : file->tensors) {
+    // What a byte is worth is no parameter, but a part of how one is written.
+    const bool unit = key.ends_with(kScale) &&
+                      file->tensors.contains(key.substr(0, key.size() - kScale.size()) + ".weight");
+    if (!unit) model->parameter_count_ += tensor.values.size();
+  }
   return std::shared_ptr<const Model>(std::move(model));
 }
 
@@ -109,6 +101,10 @@ Result<void> Model::read_metadata(const TensorFile& file, const std::string& nam
     styles_.push_back({style, i < texts.size() ? texts[i] : ""});
   }
   if (styles_.empty()) return Error{name + ": has no styles"};
+  if (styles_.size() > kMaxStyles) {
+    return Error{name + ": has " + std::to_string(styles_.size()) + " styles; expected at most " +
+                 std::to_string(kMaxStyles)};
+  }
   metadata_ = file.metadata;
   return {};
 }
@@ -130,16 +126,24 @@ Result<void> Model::read_networks(const TensorFile& file, const std::string& nam
     const std::string prefix = networks[n].prefix;
     Result<Trunk> trunk = Trunk::read(file, prefix + ".trunk", inputs, name);
     if (!trunk) return trunk.error();
-    if (trunk->scratch_size() > 2 * kMaxUnits) {
+    if (static_cast<size_t>(trunk->widest()) > kMaxUnits) {
       return Error{name + ": the layers of '" + prefix + ".trunk' have up to " +
-                   std::to_string(trunk->scratch_size() / 2) + " units; expected at most " +
+                   std::to_string(trunk->widest()) + " units; expected at most " +
                    std::to_string(kMaxUnits)};
     }
+    std::vector<DenseLayer> heads;
     for (int h = 0; h < networks[n].heads; ++h) {
       Result<DenseLayer> head = read_layer(file, prefix + ".head." + std::to_string(h),
                                            trunk->outputs(), networks[n].outputs, name);
       if (!head) return head.error();
-      heads_[n].push_back(*std::move(head));
+      heads.push_back(*std::move(head));
+    }
+    heads_[n].count = heads.size();
+    heads_[n].outputs = static_cast<size_t>(networks[n].outputs);
+    if (heads_[n].outputs < kPadding) {
+      heads_[n].layers.emplace_back(side_by_side(heads));
+    } else {
+      for (const DenseLayer& head : heads) heads_[n].layers.emplace_back(head);
     }
     trunks[n] = *std::move(trunk);
   }
@@ -151,16 +155,28 @@ Result<void> Model::read_networks(const TensorFile& file, const std::string& nam
   return {};
 }
 
+void Model::measure_work() {
+  size_t answers = 0;
+  for (const Heads& heads : heads_) {
+    for (const PackedLayer& layer : heads.layers) answers = std::max(answers, layer.width());
+  }
+  const size_t features = padded(static_cast<size_t>(trunks_.outputs(kPose)));
+  work_ = padded(static_cast<size_t>(trunks_.inputs())) + trunks_.scratch_size() + 3 * features +
+          answers;
+  assert(work_ <= kMaxWork);
+}
+
 Result<void> Model::read_numbers(const TensorFile& file, const std::string& name) {
   const int numbers = pose_numbers(layout_);
   const bool heads = recipe_ == Recipe::panache;
   const int outputs = heads ? kChangeNumbers : numbers;
+  std::vector<float> input_mean, input_scale;
   const struct {
     const char* key;
     int size;
     std::vector<float>* to;
-  } vectors[] = {{"input.mean", numbers, &input_mean_},
-                 {"input.scale", numbers, &input_scale_},
+  } vectors[] = {{"input.mean", numbers, &input_mean},
+                 {"input.scale", numbers, &input_scale},
                  {"output.scale", outputs, &output_scale_}};
   for (const auto& [key, size, to] : vectors) {
     Result<std::vector<float>> read = read_vector(file, key, size, name);
@@ -175,12 +191,25 @@ Result<void> Model::read_numbers(const TensorFile& file, const std::string& name
   }
   Result<std::vector<float>> clip = read_vector(file, "input.clip", 1, name);
   if (!clip) return clip.error();
-  input_clip_ = clip->front();
-  for (const float scale : input_scale_) {
-    if (scale <= 0) return Error{name + ": tensor 'input.scale' must be above zero throughout"};
+  input_clip_ = clip->front() > 0 ? clip->front() : std::numeric_limits<float>::infinity();
+  for (const float scale : input_scale) {
+    if (!(scale > 0) || std::isinf(1 / scale)) {
+      return Error{name + ": tensor 'input.scale' must be above zero throughout"};
+    }
+  }
+  for (int k = 0; k < kWindowPoses; ++k) {
+    input_mean_.insert(input_mean_.end(), input_mean.begin(), input_mean.end());
+    for (const float scale : input_scale) input_factor_.push_back(1 / scale);
   }
   if (auto read = read_networks(file, name); !read) return read.error();
-  return read_gate(file, name);
+  if (Predictor::is_in(file)) {
+    Result<Predictor> predictor = Predictor::read(file, name);
+    if (!predictor) return predictor.error();
+    predictor_ = std::make_shared<const Predictor>(*std::move(predictor));
+  }
+  if (auto read = read_gate(file, name); !read) return read.error();
+  measure_work();
+  return {};
 }
 
 Result<void> Model::read_gate(const TensorFile& file, const std::string& name) {
@@ -195,7 +224,7 @@ Result<void> Model::read_gate(const TensorFile& file, const std::string& name) {
     gate_.mean = *std::move(mean);
     Result<DenseLayer> whitening = read_layer(file, "gate.whitening", hidden, hidden, name);
     if (!whitening) return whitening.error();
-    gate_.whitening = *std::move(whitening);
+    gate_.whitening = PackedLayer(*whitening);
     Result<std::vector<float>> limit = read_vector(file, "gate.limit", 1, name);
     if (!limit) return limit.error();
     gate_.limit = limit->front();

@@ -13,12 +13,32 @@ namespace {
 // tears the motion apart, and the upper half of the slider would be of no use.
 constexpr float kExaggeration = 0.3f;
 
-float head_strength(float strength) {
+float exaggerated(float strength) {
   const float size = std::abs(strength);
   return size <= 1 ? strength : std::copysign(1 + kExaggeration * (size - 1), strength);
 }
 
 }  // namespace
+
+// Room on the stack, handed out in parts that begin on a cache line.
+class StyleNetworks::Work {
+ public:
+  explicit Work(std::span<float> numbers) : rest_(numbers) {}
+  std::span<float> take(size_t numbers) {
+    const std::span<float> part = rest_.first(padded(numbers));
+    rest_ = rest_.subspan(part.size());
+    return part;
+  }
+  // So many rows of so many numbers.
+  Rows<float> rows(size_t count, size_t numbers) {
+    return {take(count * padded(numbers)).data(), count, padded(numbers)};
+  }
+  // What is there by now, to be handed out again by a copy.
+  std::span<float> rest() const { return rest_; }
+
+ private:
+  std::span<float> rest_;
+};
 
 StyleNetworks::StyleNetworks(std::shared_ptr<const Model> model)
     : model_(std::move(model)),
@@ -30,76 +50,120 @@ void StyleNetworks::set_strengths(std::span<const float> strengths) noexcept {
   std::copy(strengths.begin(), strengths.end(), strengths_.begin());
 }
 
-void StyleNetworks::add_heads(int network, std::span<const float> hidden,
-                              std::span<float> out) const noexcept {
-  const Model::Heads& heads = model_->heads_[network];
+float StyleNetworks::head_strength(const Model::Heads& heads, size_t head) const noexcept {
   // Heads that are in force whatever the styles: the only one (smith2019), or that of no style.
-  const size_t always = heads.size() > strengths_.size() || model_->recipe_ == Recipe::smith2019;
-  std::array<float, Model::kMaxOutputs> answer;
-  const std::span<float> part = std::span(answer).first(out.size());
-  std::fill(out.begin(), out.end(), 0.0f);
-  for (size_t h = 0; h < heads.size(); ++h) {
-    const float strength = h < always ? 1.0f : head_strength(strengths_[h - always]);
-    if (strength == 0) continue;
-    dense(hidden, heads[h].weights, heads[h].bias, part);
-    add_scaled(strength, part, out);
+  const size_t always = heads.count > strengths_.size() || model_->recipe_ == Recipe::smith2019;
+  return head < always ? 1.0f : exaggerated(strengths_[head - always]);
+}
+
+template <class Out>
+void StyleNetworks::add_heads(std::span<const Pass> passes, int network, Rows<const float> hidden,
+                              Work& work, Out out) noexcept {
+  const Model::Heads& heads = passes.front().networks->model_->heads_[network];
+  for (const Pass& pass : passes) std::ranges::fill(out(*pass.networks), 0.0f);
+  Work room = work;
+  const Rows<float> answers = room.rows(passes.size(), heads.layers.front().width());
+  if (heads.joined()) heads.layers.front().forward(hidden, answers);
+  for (size_t h = 0; h < heads.count; ++h) {
+    for (size_t p = 0; p < passes.size(); ++p) {
+      const float strength = passes[p].networks->head_strength(heads, h);
+      if (strength == 0) continue;
+      const Rows<float> answer{answers.row(p), 1, 0};
+      if (!heads.joined()) heads.layers[h].forward({hidden.row(p), 1, 0}, answer);
+      const float* from = answer.first + (heads.joined() ? h * heads.outputs : 0);
+      add_scaled(strength, {from, heads.outputs}, out(*passes[p].networks));
+    }
   }
 }
 
-void StyleNetworks::shrink(std::span<const float> hidden, float gate_share,
-                           std::span<float> features) noexcept {
-  const Model::Gate& gate = model_->gate_;
-  std::copy(hidden.begin(), hidden.end(), features.begin());
-  if (!gate.present()) return;
-  std::array<float, Model::kMaxUnits> centred, white;
-  for (size_t i = 0; i < features.size(); ++i) centred[i] = features[i] - gate.mean[i];
-  const std::span<float> out = std::span(white).first(gate.whitening.outputs);
-  dense(std::span(centred).first(features.size()), gate.whitening.weights, gate.whitening.bias,
-        out);
-  float square = 0;
-  for (const float w : out) square += w * w;
+Rows<const float> StyleNetworks::shrink(std::span<const Pass> passes, Rows<const float> hidden,
+                                        Work& work) noexcept {
+  const Model& m = *passes.front().networks->model_;
+  const Model::Gate& gate = m.gate_;
+  if (!gate.present()) return hidden;
+  const size_t size = gate.mean.size();
+  const Rows<float> features = work.rows(passes.size(), size);
+  const Rows<float> centred = work.rows(passes.size(), size);
+  const Rows<float> white = work.rows(passes.size(), size);
+  for (size_t p = 0; p < passes.size(); ++p) {
+    for (size_t i = 0; i < size; ++i) centred.row(p)[i] = hidden.row(p)[i] - gate.mean[i];
+  }
+  gate.whitening.forward(centred, white);
   const float limit = gate.limit * gate.limit;
-  const float near = square > limit ? limit / square : 1.0f;
-  const float wanted = near * near;  // Falls with the fourth power of the distance.
-  if (std::isfinite(wanted)) gate_ += gate_share * (wanted - gate_);
-  if (gate_ == 1) return;
-  for (size_t i = 0; i < features.size(); ++i) features[i] = gate.mean[i] + gate_ * centred[i];
+  for (size_t p = 0; p < passes.size(); ++p) {
+    const float square = square_length({white.row(p), size});
+    const float near = square > limit ? limit / square : 1.0f;
+    const float wanted = near * near;  // Falls with the fourth power of the distance.
+    float& open = passes[p].networks->gate_;
+    if (std::isfinite(wanted)) open += passes[p].gate_share * (wanted - open);
+    const std::span<float> out(features.row(p), size);
+    if (open == 1) {
+      std::copy_n(hidden.row(p), size, out.begin());
+    } else {
+      std::ranges::copy(gate.mean, out.begin());
+      add_scaled(open, {centred.row(p), size}, out);
+    }
+  }
+  return features;
+}
+
+void StyleNetworks::write_input(std::span<const float> window,
+                                std::span<float> input) const noexcept {
+  const Model& m = *model_;
+  assert(window.size() == m.input_mean_.size());
+  standardise(window, m.input_mean_, m.input_factor_, m.input_clip_, input.first(window.size()));
+  if (m.recipe_ != Recipe::smith2019) return;
+  // The style vector: first neutral, which gets what the styles leave of 1, then the styles.
+  float neutral = 1;
+  for (const float s : strengths_) neutral -= s;
+  float* style = input.data() + window.size();
+  style[0] = std::max(neutral, 0.0f);
+  std::copy(strengths_.begin(), strengths_.end(), style + 1);
+}
+
+void StyleNetworks::evaluate(std::span<const Pass> passes, std::span<float> numbers) noexcept {
+  const Model& m = *passes.front().networks->model_;
+  Work work(numbers);
+  const size_t inputs = static_cast<size_t>(m.trunks_.inputs());
+  const Rows<float> input = work.rows(passes.size(), inputs);
+  for (size_t p = 0; p < passes.size(); ++p) {
+    passes[p].networks->write_input(passes[p].window, {input.row(p), inputs});
+  }
+  const std::span<float> scratch = work.take(m.trunks_.scratch_size(passes.size()));
+  const auto hidden = m.trunks_.forward(Rows<const float>(input), scratch);
+  const Rows<const float> features = shrink(passes, hidden[Model::kPose], work);
+  using Self = StyleNetworks;
+  add_heads(passes, Model::kPose, features, work,
+            [](Self& self) { return std::span(self.pose_out_); });
+  add_heads(passes, Model::kTiming, hidden[Model::kTiming], work,
+            [](Self& self) { return std::span(self.timing_out_); });
+  add_heads(passes, Model::kContact, hidden[Model::kContact], work,
+            [](Self& self) { return std::span(self.contact_out_); });
+  for (const Pass& pass : passes) {
+    std::vector<float>& pose = pass.networks->pose_out_;
+    for (size_t i = 0; i < pose.size(); ++i) {
+      pose[i] = pose[i] * m.output_scale_[i] + m.output_mean_[i];
+    }
+    for (float& c : pass.networks->contact_out_) c = 1 / (1 + exponential(-c));
+  }
 }
 
 void StyleNetworks::forward(std::span<const float> window, float gate_share) noexcept {
-  const Model& m = *model_;
-  const size_t numbers = m.input_mean_.size();
-  assert(window.size() == numbers * kWindowPoses);
-  std::array<float, Model::kMaxInputs> inputs;
-  std::array<float, Model::kMaxScratch> scratch;
-  const std::span<float> input = std::span(inputs).first(m.trunks_.inputs());
-  const float clip = m.input_clip_ > 0 ? m.input_clip_ : INFINITY;
-  for (size_t k = 0; k < size_t(kWindowPoses); ++k) {
-    const float* pose = window.data() + k * numbers;
-    float* to = input.data() + k * numbers;
-    for (size_t n = 0; n < numbers; ++n) {
-      to[n] = std::clamp((pose[n] - m.input_mean_[n]) / m.input_scale_[n], -clip, clip);
-    }
+  alignas(kCacheLine) std::array<float, Model::kMaxWork> numbers;
+  const Pass pass{this, window, gate_share};
+  evaluate({&pass, 1}, numbers);
+}
+
+void StyleNetworks::forward_all(std::span<const Pass> passes) noexcept {
+  // Eight characters of most models, and three of the largest.
+  alignas(kCacheLine) std::array<float, 32768> numbers;
+  static_assert(numbers.size() >= Model::kMaxWork);
+  while (!passes.empty()) {
+    const size_t fit = numbers.size() / passes.front().networks->model_->work_;
+    const size_t count = std::min({passes.size(), kRowsAtOnce, fit});
+    evaluate(passes.first(count), numbers);
+    passes = passes.subspan(count);
   }
-  if (m.recipe_ == Recipe::smith2019) {
-    // The style vector: first neutral, which gets what the styles leave of 1, then the styles.
-    float neutral = 1;
-    for (const float s : strengths_) neutral -= s;
-    float* style = input.data() + window.size();
-    style[0] = std::max(neutral, 0.0f);
-    std::copy(strengths_.begin(), strengths_.end(), style + 1);
-  }
-  const auto hidden = m.trunks_.forward(input, scratch);
-  std::array<float, Model::kMaxUnits> features;
-  const std::span<float> pose_features = std::span(features).first(hidden[Model::kPose].size());
-  shrink(hidden[Model::kPose], gate_share, pose_features);
-  add_heads(Model::kPose, pose_features, pose_out_);
-  add_heads(Model::kTiming, hidden[Model::kTiming], timing_out_);
-  add_heads(Model::kContact, hidden[Model::kContact], contact_out_);
-  for (size_t i = 0; i < pose_out_.size(); ++i) {
-    pose_out_[i] = pose_out_[i] * m.output_scale_[i] + m.output_mean_[i];
-  }
-  for (float& c : contact_out_) c = 1 / (1 + exponential(-c));
 }
 
 }  // namespace panache

@@ -31,7 +31,18 @@ ChangeNumbers change_to_pose(std::span<const float> pose, const HumanPositions& 
 }
 
 Quat joint_rotation(const ChangeNumbers& change, int joint) noexcept {
-  return exp_rotation(Vec3{change[3 * joint], change[3 * joint + 1], change[3 * joint + 2]});
+  const Vec3 r{change[3 * joint], change[3 * joint + 1], change[3 * joint + 2]};
+  const float s = dot(r, r) / 4;  // Of the half angle a: a^2.
+  if (!(s < 2.5f)) return exp_rotation(r);
+  // Half a turn and less: Taylor's series of sin(a) / a and cos(a) in a^2, of which rounding loses
+  // more than they leave out, 2.5^8 / 17! = 4e-12 and 2.5^8 / 16! = 7e-11.
+  float sine = 1, cosine = 1;
+  for (int k = 7; k >= 1; --k) {
+    sine = 1 - sine * s * (1.0f / static_cast<float>(2 * k * (2 * k + 1)));
+    cosine = 1 - cosine * s * (1.0f / static_cast<float>(2 * k * (2 * k - 1)));
+  }
+  const Vec3 axis = r * (sine / 2);
+  return {axis.x, axis.y, axis.z, cosine};
 }
 
 HumanPositions change_body(const HumanPositions& body, const ChangeNumbers& change) noexcept {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "style/pose_change.h"
+#include "style/sound_pose.h"
 
 namespace panache {
 namespace {
@@ -68,19 +69,6 @@ void Stylizer::reset() noexcept {
   foot_lock_.reset();
 }
 
-void Stylizer::take_input(ConstPose in) noexcept {
-  assert(in.rotations.size() == rotations_.size());
-  for (size_t j = 0; j < rotations_.size(); ++j) {
-    const Quat q = in.rotations[j];
-    const Vec3 t = in.translations[j];
-    // Also guards against numbers so large that products overflow.
-    if (is_finite(q) && std::abs(dot(q, q) - 1) < 0.1f) rotations_[j] = q;
-    if (is_finite(t) && std::max({std::abs(t.x), std::abs(t.y), std::abs(t.z)}) < 1e9f) {
-      translations_[j] = t;
-    }
-  }
-}
-
 void Stylizer::ease_strengths(std::span<const float> strengths, float seconds) noexcept {
   assert(strengths.size() == strengths_.size());
   const float gain = started_ ? filter_gain(seconds, options_.ease_seconds) : 1.0f;
@@ -95,10 +83,7 @@ void Stylizer::ease_strengths(std::span<const float> strengths, float seconds) n
   amount_ = std::min(1.0f, 4 * total);
 }
 
-void Stylizer::predict(float seconds) noexcept {
-  networks_.set_strengths(strengths_);
-  history_.window(window_);
-  networks_.forward(window_, started_ ? filter_gain(seconds, kGateSeconds) : 1.0f);
+void Stylizer::take_answer(float seconds) noexcept {
   ChangeNumbers wanted;
   if (networks_.model().recipe() == Recipe::panache) {
     std::copy_n(networks_.pose().begin(), kChangeNumbers, wanted.begin());
@@ -149,11 +134,10 @@ void Stylizer::move_root(double input_seconds) noexcept {
 }
 
 // A style trained on one body may put another's feet through the ground: lifts the body by as much
-// as its lowest toe is deeper than both the floor and the input's own lowest toe.
-void Stylizer::keep_above_floor() noexcept {
+// as its lowest toe is deeper than both the floor and the input's own lowest toe. `joints`: those
+// of changed_joints().
+void Stylizer::keep_above_floor(const HumanPositions& joints) noexcept {
   if (amount_ <= 0) return;
-  HumanPositions joints;
-  changed_joints(body_, change_, joints);
   const float origin = mid_hip(body_).y + change_.translation.y;
   float before = 0, after = 0;
   for (int f = 0; f < kFeet; ++f) {
@@ -166,12 +150,18 @@ void Stylizer::keep_above_floor() noexcept {
 
 void Stylizer::step(ConstPose in, std::span<const float> strengths, double input_seconds,
                     double output_seconds, Pose out) noexcept {
+  const Times times = look(in, strengths, input_seconds, output_seconds);
+  networks_.forward(window_, times.gate_share);
+  change_pose(times, out);
+}
+
+Stylizer::Times Stylizer::look(ConstPose in, std::span<const float> strengths, double input_seconds,
+                               double output_seconds) noexcept {
   if (!(input_seconds >= 0)) input_seconds = 0;
   if (!(output_seconds >= 0)) output_seconds = 0;
   if (input_seconds > kMaxGap || output_seconds > kMaxGap) reset();
-  take_input(in);
-  const ConstPose pose{rotations_, translations_};
-  rig_.read(pose, body_);
+  take_sound(in, {rotations_, translations_});
+  rig_.read({rotations_, translations_}, body_);
 
   last_ground_ = ground_;
   const Vec3 hips = body_.positions[0];
@@ -186,8 +176,14 @@ void Stylizer::step(ConstPose in, std::span<const float> strengths, double input
 
   const float seconds = static_cast<float>(output_seconds);
   ease_strengths(strengths, seconds);
-  predict(seconds);
-  move_root(input_seconds);
+  networks_.set_strengths(strengths_);
+  history_.window(window_);
+  return {input_seconds, seconds, started_ ? filter_gain(seconds, kGateSeconds) : 1.0f};
+}
+
+void Stylizer::change_pose(const Times& times, Pose out) noexcept {
+  take_answer(times.output);
+  move_root(times.input);
 
   for (int j = 0; j < kHumanJoints; ++j) {
     change_.rotations[j] = joint_rotation(numbers_, j);
@@ -195,11 +191,14 @@ void Stylizer::step(ConstPose in, std::span<const float> strengths, double input
   change_.turn = turn_;
   const Vec3 side = rotate(rotation_y(ground_.facing + turn_), Vec3{sway_, 0, 0});
   change_.translation = drift_ + side + Vec3{0, numbers_[63], 0};
-  keep_above_floor();
+  HumanPositions joints;
+  changed_joints(body_, change_, joints);
+  keep_above_floor(joints);
   if (options_.foot_lock) {
-    foot_lock_.step(body_, networks_.contact().first<kFeet>(), amount_, seconds, change_);
+    foot_lock_.step(body_, joints, networks_.contact().first<kFeet>(), amount_, times.output,
+                    change_);
   }
-  rig_.write(pose, body_, change_, out);
+  rig_.write({rotations_, translations_}, body_, change_, out);
   started_ = true;
 }
 

@@ -13,6 +13,8 @@
 
 namespace panache {
 
+struct CrowdMember;
+
 struct StylizerOptions {
   float ease_seconds = 0.15f;  // A change of strength takes about this long to arrive.
   float smoothing_seconds =
@@ -55,6 +57,8 @@ class Stylizer {
 
   // Input seconds per output second that the style asks for at the last step; 1 without a style.
   double rate() const noexcept { return static_cast<double>(exponential(log_rate_)); }
+  // How much any style is in force: 0 without one, 1 from a quarter strength on; at the last step.
+  float amount() const noexcept { return amount_; }
   // See StyleNetworks::gate(); smoothed, at the last step.
   float gate() const noexcept { return networks_.gate(); }
   // Probability that each foot is planted, at the last step.
@@ -71,12 +75,24 @@ class Stylizer {
 
   Stylizer(std::shared_ptr<const Model> model, Rig rig, const StylizerOptions& options);
 
-  void take_input(ConstPose in) noexcept;
+  // A step is three parts, so that a crowd's networks can be evaluated together in the middle.
+  friend void step_crowd(std::span<const CrowdMember> members, double seconds) noexcept;
+  struct Times {
+    double input = 0;      // Seconds of the input,
+    float output = 0;      // and of the viewer.
+    float gate_share = 1;  // See StyleNetworks::forward().
+  };
+  // Takes a pose in and fills the window.
+  Times look(ConstPose in, std::span<const float> strengths, double input_seconds,
+             double output_seconds) noexcept;
+  // Puts on `out` what the networks answered to the window.
+  void change_pose(const Times& times, Pose out) noexcept;
+
   void ease_strengths(std::span<const float> strengths, float seconds) noexcept;
-  void predict(float seconds) noexcept;
+  void take_answer(float seconds) noexcept;
   float forward_speed() const noexcept;  // Mean of the window, m/s; below zero backwards.
   void move_root(double input_seconds) noexcept;
-  void keep_above_floor() noexcept;
+  void keep_above_floor(const HumanPositions& joints) noexcept;
 
   Rig rig_;
   StyleNetworks networks_;
@@ -86,7 +102,7 @@ class Stylizer {
   std::vector<Vec3> translations_;  // [joints]
   std::vector<float> window_;
   std::vector<float> strengths_;  // In force, eased. [styles]
-  float amount_ = 0;              // 0 without any style, 1 from a quarter strength on.
+  float amount_ = 0;              // See amount().
 
   bool started_ = false;
   double time_ = 0;  // Input seconds since the start.

@@ -1,42 +1,11 @@
 // A stylizer's memory as bytes, and back.
 
-#include <algorithm>
 #include <cassert>
-#include <cstring>
-#include <type_traits>
-#include <vector>
 
+#include "style/state_bytes.h"
 #include "style/stylizer.h"
 
 namespace panache {
-namespace {
-
-// Fowler, Noll and Vo's hash (FNV-1a): tells a damaged state from a whole one.
-uint64_t hash_of(std::span<const std::byte> bytes) {
-  uint64_t hash = 0xcbf29ce484222325;
-  for (const std::byte b : bytes) hash = (hash ^ static_cast<uint64_t>(b)) * 0x100000001b3;
-  return hash;
-}
-
-template <class T>
-std::span<std::byte> bytes_of(std::vector<T>& numbers) {
-  return std::as_writable_bytes(std::span(numbers));
-}
-template <class T>
-std::span<const std::byte> bytes_of(const std::vector<T>& numbers) {
-  return std::as_bytes(std::span(numbers));
-}
-template <class T>
-auto bytes_of(T& value) {
-  static_assert(std::is_trivially_copyable_v<T>);
-  if constexpr (std::is_const_v<T>) {
-    return std::as_bytes(std::span(&value, 1));
-  } else {
-    return std::as_writable_bytes(std::span(&value, 1));
-  }
-}
-
-}  // namespace
 
 template <class Self, class Visit>
 void Stylizer::visit_state(Self& self, Visit&& visit) {
@@ -52,34 +21,17 @@ void Stylizer::visit_state(Self& self, Visit&& visit) {
 }
 
 size_t Stylizer::state_size() const noexcept {
-  size_t size = sizeof(uint64_t);
-  visit_state(*this, [&](const auto& member) { size += bytes_of(member).size(); });
-  return size;
+  return state_bytes([this](auto&& visit) { visit_state(*this, visit); });
 }
 
 void Stylizer::save(std::span<std::byte> out) const noexcept {
   assert(out.size() == state_size());
-  std::byte* to = out.data() + sizeof(uint64_t);
-  visit_state(*this, [&](const auto& member) {
-    const std::span<const std::byte> bytes = bytes_of(member);
-    std::memcpy(to, bytes.data(), bytes.size());
-    to += bytes.size();
-  });
-  const uint64_t hash = hash_of(out.subspan(sizeof(uint64_t)));
-  std::memcpy(out.data(), &hash, sizeof hash);
+  write_state(out, [this](auto&& visit) { visit_state(*this, visit); });
 }
 
 bool Stylizer::restore(std::span<const std::byte> in) noexcept {
-  if (in.size() != state_size()) return false;
-  uint64_t hash = 0;
-  std::memcpy(&hash, in.data(), sizeof hash);
-  if (hash != hash_of(in.subspan(sizeof hash))) return false;
-  const std::byte* from = in.data() + sizeof hash;
-  visit_state(*this, [&](auto& member) {
-    const std::span<std::byte> bytes = bytes_of(member);
-    std::memcpy(bytes.data(), from, bytes.size());
-    from += bytes.size();
-  });
+  if (in.size() != state_size() || !is_whole_state(in)) return false;
+  read_state(in, [this](auto&& visit) { visit_state(*this, visit); });
   return true;
 }
 

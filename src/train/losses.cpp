@@ -22,7 +22,8 @@ std::string losses_svg(const std::vector<LossPoint>& losses) {
   };
   constexpr Look looks[] = {{"pose", "#c2410c", "#fdba74"},
                             {"timing", "#1d4ed8", "#93c5fd"},
-                            {"contact", "#15803d", "#86efac"}};
+                            {"contact", "#15803d", "#86efac"},
+                            {"predict", "#7e22ce", "#d8b4fe"}};
   std::vector<PlotSeries> series;
   for (const Look& look : looks) {
     const std::string network = look.network;
@@ -35,6 +36,7 @@ std::string losses_svg(const std::vector<LossPoint>& losses) {
       validation.x.push_back(static_cast<double>(point.step));
       validation.y.push_back(point.validation);
     }
+    if (train.x.empty()) continue;
     series.push_back(std::move(train));
     series.push_back(std::move(validation));
   }

@@ -13,6 +13,7 @@
 #include "train/checkpoint.h"
 #include "train/export.h"
 #include "train/gate.h"
+#include "train/train_predictor.h"
 
 namespace panache {
 namespace {
@@ -288,6 +289,7 @@ RecipeSettings recipe_settings(Recipe recipe) {
   settings.optimizer.weight_decay = 0.2f;
   settings.optimizer.dropout = 0.02f;
   settings.smoothness = 0.3f;
+  settings.predictor_steps = 6000;
   return settings;
 }
 
@@ -382,7 +384,6 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
     // The pose network costs as much as the other two together: one thread each.
     training.run({{{&networks[0]}, 1}, {{&networks[1], &networks[2]}, 2}}, trained.losses);
   }
-  trained.train_seconds = seconds_since(begin);
   for (NetworkTrainer& network : networks) network.round_halves();
   trained.model = export_model(settings, set, styles, networks, options);
   Result<float> error = export_error(trained.model, set, batches, networks, choice);
@@ -393,6 +394,13 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
     fit_gate(clean_features(set, choice, count, settings.batch, networks[0], options.seed),
              trained.model);
   }
+  if (settings.predictor_steps > 0) {
+    Progress progress("training what foresees input");
+    train_predictor(
+        data.takes, settings.predictor_steps, options.seed,
+        [&](double share) { progress.update(share); }, trained.model, trained.losses);
+  }
+  trained.train_seconds = seconds_since(begin);
   return trained;
 }
 

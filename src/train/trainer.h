@@ -1,5 +1,5 @@
 #pragma once
-// From manifests to a model: pairs, samples, three networks, a file.
+// From manifests to a model: pairs, samples, networks, a file.
 
 #include <memory>
 #include <string>
@@ -20,7 +20,8 @@ struct RecipeSettings {
   int64_t steps = 0;
   BatchSettings batch;
   OptimizerSettings optimizer;
-  float smoothness = 0;  // Weight of the loss on the change from one frame to the next.
+  int64_t predictor_steps = 0;  // Of the network that foresees input; 0: the model has none.
+  float smoothness = 0;         // Weight of the loss on the change from one frame to the next.
 };
 RecipeSettings recipe_settings(Recipe recipe);
 

@@ -228,6 +228,44 @@ TEST_F(Api, what_is_wrong_is_said_in_a_sentence_and_nothing_is_created) {
   panache_character_destroy(none);
 }
 
+TEST_F(Api, a_character_may_be_late_and_says_by_how_much) {
+  panache_character_options options = PANACHE_CHARACTER_OPTIONS;
+  options.max_lag = 0.5;
+  options.max_lead = 0.25;
+  panache_character* timed = nullptr;
+  ASSERT_EQ(panache_character_create(model_, skeleton_, &options, &timed), PANACHE_OK)
+      << panache_last_error();
+  panache_character* plain = character("childlike");
+  panache_character_set_strength(timed, panache_model_find_style(model_, "childlike"), 1);
+  walk(timed, 600);
+  walk(plain, 600);
+  EXPECT_NE(panache_character_report(timed).ahead, 0);
+  EXPECT_GE(panache_character_report(timed).ahead, -0.5);
+  EXPECT_LE(panache_character_report(timed).ahead, 0.25);
+  EXPECT_EQ(panache_character_report(plain).ahead, 0);
+
+  // Beside others in a crowd he has the same time.
+  panache_character* again = nullptr;
+  ASSERT_EQ(panache_character_create(model_, skeleton_, &options, &again), PANACHE_OK);
+  panache_character_set_strength(again, panache_model_find_style(model_, "childlike"), 1);
+  panache_character* const crowd[] = {plain, again, plain};
+  for (int f = 0; f < 600; ++f) {
+    stick_pose in, out[3];
+    stick_walk(f / 60.0, 0, &in);
+    const panache_input_pose from[] = {stick_input(&in), stick_input(&in), stick_input(&in)};
+    const panache_output_pose to[] = {stick_output(&out[0]), stick_output(&out[1]),
+                                      stick_output(&out[2])};
+    panache_step_many(crowd, 3, from, 1 / 60.0, to);
+  }
+  EXPECT_EQ(panache_character_report(again).ahead, panache_character_report(timed).ahead);
+
+  options.max_lag = -1;
+  panache_character* none = nullptr;
+  EXPECT_EQ(panache_character_create(model_, skeleton_, &options, &none), PANACHE_BAD_ARGUMENT);
+  EXPECT_STREQ(panache_last_error(), "max_lag of -1.000000 seconds; expected 0 to 4 seconds");
+  for (panache_character* one : {timed, plain, again}) panache_character_destroy(one);
+}
+
 TEST_F(Api, every_prefix_of_a_model_is_refused) {
   const std::string bytes = model_bytes();
   for (size_t size = 0; size < bytes.size(); size += 1 + size / 2) {

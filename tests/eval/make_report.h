@@ -65,6 +65,7 @@ inline SystemReport made_up_system(const std::string& name, double seed) {
     system.foreign.push_back(row);
   }
   system.disturbances = {{"none", 2.25}, {"floor -5 cm", 2.75}};
+  system.foresight = {{"walk", 100, {0.5, 1.25, 3.5}, {6.5, 12.5, 30.5}, {1.5, 4.5, 15.5}}};
   system.cc = 8.5;
   system.sc = 63;
   system.bone_length_error_cm = 0.002;

@@ -78,8 +78,9 @@ TEST(ReportPage, a_section_without_data_is_left_out) {
     system = bare;
   }
   const std::string page = report_page(report);
-  for (const char* section : {"content", "style", "strength", "mixes", "unseen", "foreign",
-                              "disturbances", "strips", "contacts", "literature", "cost"}) {
+  for (const char* section :
+       {"content", "style", "strength", "mixes", "unseen", "foreign", "disturbances", "foresight",
+        "strips", "contacts", "literature", "cost"}) {
     const std::string id = "<section id=\"" + std::string(section) + "\">";
     EXPECT_EQ(occurrences(full, id), 1u) << section;
     EXPECT_EQ(occurrences(page, id), 0u) << section;

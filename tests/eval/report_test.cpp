@@ -68,6 +68,10 @@ TEST(ReportJson, every_number_stands_under_its_key) {
   EXPECT_EQ(system["mixes"][0]["either"], 0.81);
   EXPECT_EQ(system["mixes"][0]["second"], "proud");
   EXPECT_EQ(system["disturbances"]["floor -5 cm"]["cm"], 2.75);
+  EXPECT_EQ(system["foresight"]["walk"]["instants"], 100);
+  EXPECT_EQ(system["foresight"]["walk"]["0.10"]["predicted_cm"], 1.25);
+  EXPECT_EQ(system["foresight"]["walk"]["0.10"]["velocity_cm"], 4.5);
+  EXPECT_EQ(system["foresight"]["walk"]["0.25"]["held_cm"], 30.5);
   EXPECT_EQ(system["cc"], 8.5);
   EXPECT_EQ(system["sc"], 63);
   EXPECT_EQ(system["bone_length_error_cm"], 0.002);

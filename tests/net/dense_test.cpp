@@ -1,59 +1,17 @@
 #include "net/dense.h"
 
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <random>
-#include <set>
 #include <string>
 #include <vector>
 
-#include <gtest/gtest.h>
-#include <hwy/targets.h>
+#include "kernel_checks.h"
 
 namespace panache {
 namespace {
 
-constexpr unsigned kSeed = 20190713;
-constexpr float kUntouched = 12345.0f;
-
-std::vector<float> random_numbers(size_t count, std::mt19937& random) {
-  std::normal_distribution<float> normal(0, 1.5f);
-  std::vector<float> numbers(count);
-  for (float& v : numbers) v = normal(random);
-  return numbers;
-}
-
-// Any NaN equals any other; all else must agree in each bit, the sign of zero included.
-::testing::AssertionResult same_bits(std::span<const float> a, std::span<const float> b) {
-  for (size_t i = 0; i < a.size(); ++i) {
-    if (std::isnan(a[i]) && std::isnan(b[i])) continue;
-    if (std::bit_cast<uint32_t>(a[i]) != std::bit_cast<uint32_t>(b[i])) {
-      return ::testing::AssertionFailure() << "number " << i << " of " << a.size() << " is " << a[i]
-                                           << ", by the plain loop " << b[i];
-    }
-  }
-  return ::testing::AssertionSuccess();
-}
-
-// Runs `check` on every instruction set that this machine has and the kernels are compiled for.
-template <class Check>
-void on_every_target(Check check) {
-  const int64_t supported = hwy::SupportedTargets();
-  std::set<std::string> seen;
-  for (int64_t rest = supported; rest != 0; rest &= rest - 1) {
-    hwy::SetSupportedTargetsForTest(rest & -rest);
-    // Targets that are not compiled fall back to one that is.
-    if (!seen.insert(kernel_target()).second) continue;
-    SCOPED_TRACE(std::string("on ") + kernel_target() + ", seed " + std::to_string(kSeed));
-    check();
-  }
-  hwy::SetSupportedTargetsForTest(0);
-#if defined(__x86_64__)
-  EXPECT_GE(seen.size(), 3u) << "expected at least SSSE3, SSE4 and the portable fallback";
-#endif
-}
+using namespace test;
 
 void check_dense(size_t inputs, size_t outputs) {
   SCOPED_TRACE(std::to_string(inputs) + " inputs, " + std::to_string(outputs) + " outputs");
@@ -118,6 +76,57 @@ TEST(Dense, every_instruction_set_keeps_infinity_and_nan_where_the_plain_loop_ha
   on_every_target([&] {
     dense(x, weights, bias, found);
     EXPECT_TRUE(same_bits(found, expected));
+  });
+}
+
+// Rows with gaps between them, of which no number may change.
+void check_rows(size_t rows, size_t inputs, size_t outputs) {
+  SCOPED_TRACE(std::to_string(rows) + " rows of " + std::to_string(inputs) + " inputs, " +
+               std::to_string(outputs) + " outputs");
+  std::mt19937 random(kSeed);
+  const size_t x_stride = inputs + 3, y_stride = outputs + 2;
+  const std::vector<float> x = random_numbers(rows * x_stride, random);
+  const std::vector<float> weights = random_numbers(inputs * outputs, random);
+  const std::vector<float> bias = random_numbers(outputs, random);
+  std::vector<float> found(rows * y_stride, kUntouched), expected(outputs);
+  dense_rows({x.data(), rows, x_stride}, inputs, weights, bias, {found.data(), rows, y_stride});
+  for (size_t r = 0; r < rows; ++r) {
+    scalar::dense(std::span(x).subspan(r * x_stride, inputs), weights, bias, expected);
+    EXPECT_TRUE(same_bits(std::span(found).subspan(r * y_stride, outputs), expected)) << r;
+    EXPECT_EQ(found[r * y_stride + outputs], kUntouched) << r;
+    EXPECT_EQ(found[r * y_stride + outputs + 1], kUntouched) << r;
+  }
+}
+
+TEST(DenseRows, each_row_has_the_bits_that_it_has_alone) {
+  on_every_target([] {
+    for (size_t rows = 0; rows <= 17; ++rows) {
+      for (const size_t outputs : {1, 5, 16, 31, 32, 33, 48, 67}) check_rows(rows, 13, outputs);
+    }
+    for (const size_t rows : {1, 3, 8, 11}) {
+      check_rows(rows, 396, 224);
+      check_rows(rows, 0, 32);
+    }
+  });
+}
+
+TEST(DenseRows, a_row_that_is_not_finite_leaves_the_others_alone) {
+  constexpr size_t kRows = 9, kInputs = 20, kOutputs = 32;
+  std::mt19937 random(kSeed);
+  std::vector<float> x = random_numbers(kRows * kInputs, random);
+  x[3 * kInputs + 7] = std::numeric_limits<float>::quiet_NaN();
+  x[5 * kInputs] = std::numeric_limits<float>::infinity();
+  x[6 * kInputs] = std::numeric_limits<float>::denorm_min();
+  const std::vector<float> weights = random_numbers(kInputs * kOutputs, random);
+  const std::vector<float> bias = random_numbers(kOutputs, random);
+  on_every_target([&] {
+    std::vector<float> found(kRows * kOutputs), expected(kOutputs);
+    dense_rows({x.data(), kRows, kInputs}, kInputs, weights, bias, {found.data(), kRows, kOutputs});
+    for (size_t r = 0; r < kRows; ++r) {
+      scalar::dense(std::span(x).subspan(r * kInputs, kInputs), weights, bias, expected);
+      EXPECT_TRUE(same_bits(std::span(found).subspan(r * kOutputs, kOutputs), expected)) << r;
+      EXPECT_EQ(std::isnan(expected[0]), r == 3);
+    }
   });
 }
 
@@ -204,6 +213,60 @@ TEST(AddScaled, every_instruction_set_gives_the_bits_of_the_plain_loop) {
       scalar::add_scaled(0.3f, std::span(x).first(size), std::span(expected).first(size));
       add_scaled(0.3f, std::span(x).first(size), std::span(found).first(size));
       EXPECT_TRUE(same_bits(found, expected));
+    }
+  });
+}
+
+TEST(Standardise, every_instruction_set_gives_the_bits_of_the_plain_loop) {
+  on_every_target([] {
+    std::mt19937 random(kSeed);
+    for (size_t size = 0; size <= 67; ++size) {
+      SCOPED_TRACE(size);
+      std::vector<float> x = random_numbers(size, random);
+      if (size > 3) x[1] = std::nanf(""), x[2] = INFINITY, x[3] = -INFINITY;
+      const std::vector<float> mean = random_numbers(size, random);
+      const std::vector<float> factor = random_numbers(size, random);
+      std::vector<float> found(size), expected(size);
+      for (const float clip : {0.5f, INFINITY}) {
+        scalar::standardise(x, mean, factor, clip, expected);
+        standardise(x, mean, factor, clip, found);
+        EXPECT_TRUE(same_bits(found, expected));
+      }
+    }
+  });
+}
+
+TEST(Standardise, numbers_are_moved_scaled_and_clipped) {
+  const std::vector<float> x = {3, 1, -9}, mean = {1, 1, 1}, factor = {0.5f, 2, 0.5f};
+  std::vector<float> y(3);
+  standardise(x, mean, factor, 3, y);
+  EXPECT_EQ(y, (std::vector<float>{1, 0, -3}));
+}
+
+TEST(SquareLength, every_instruction_set_gives_the_bits_of_the_plain_loop) {
+  on_every_target([] {
+    std::mt19937 random(kSeed);
+    for (size_t size = 0; size <= 131; ++size) {
+      const std::vector<float> x = random_numbers(size, random);
+      const float found = square_length(x), expected = scalar::square_length(x);
+      EXPECT_TRUE(same_bits({&found, 1}, {&expected, 1})) << size;
+    }
+  });
+}
+
+TEST(SquareLength, is_the_sum_of_squares) {
+  EXPECT_EQ(square_length(std::vector<float>{3, -4}), 25);
+  EXPECT_EQ(square_length(std::vector<float>(100, 2)), 400);
+}
+
+TEST(SumInAnyOrder, sums_every_number_once) {
+  std::vector<float> x(1000);
+  for (size_t i = 0; i < x.size(); ++i) x[i] = static_cast<float>(i);
+  on_every_target([&] {
+    for (const size_t size : {0, 1, 7, 128, 130, 1000}) {
+      // Whole numbers below 2^24: exact in any order.
+      EXPECT_EQ(sum_in_any_order(std::span(x).first(size)),
+                static_cast<float>(size == 0 ? 0 : size * (size - 1) / 2));
     }
   });
 }

@@ -90,6 +90,23 @@ TEST(TrunkTrio, gives_bit_for_bit_what_each_of_its_trunks_gives) {
   }
 }
 
+TEST(TrunkTrio, gives_several_rows_the_bits_that_each_gives_alone) {
+  const TensorFile file = small_file();
+  const Trunk trunk = *Trunk::read(file, "pose", 5, kName);
+  const TrunkTrio trio({trunk, trunk, trunk});
+  constexpr size_t kRows = 11;
+  const std::vector<float> x = ramp({kRows * 5}).values;
+  std::vector<float> scratch(trio.scratch_size(kRows)), alone(trunk.scratch_size());
+  const auto outputs = trio.forward(Rows<const float>{x.data(), kRows, 5}, scratch);
+  for (size_t r = 0; r < kRows; ++r) {
+    const auto expected = trunk.forward(std::span(x).subspan(5 * r, 5), alone);
+    for (size_t t = 0; t < 3; ++t) {
+      const float* found = outputs[t].row(r);
+      EXPECT_EQ(std::vector(found, found + 3), std::vector(expected.begin(), expected.end()));
+    }
+  }
+}
+
 TEST(Trunk, takes_any_number_of_inputs_when_told_so) {
   const Result<Trunk> trunk = Trunk::read(small_file(), "pose", -1, kName);
   ASSERT_TRUE(trunk.ok());

@@ -34,6 +34,7 @@ TensorFile small_file() {
   file.tensors["b.weight"] = {{2, 2}, {1, -0.0f, 3.25f, 1e-30f}, false};
   file.tensors["empty"] = {{0, 4}, {}, false};
   file.tensors["scalar"] = {{}, {7}, false};
+  file.tensors["whole"] = {{3}, {-128, 127, 0}, false, true};
   return file;
 }
 
@@ -46,6 +47,7 @@ void expect_equal(const TensorFile& a, const TensorFile& b) {
     EXPECT_EQ(tensor.shape, other.shape) << key;
     EXPECT_EQ(tensor.values, other.values) << key;
     EXPECT_EQ(tensor.half, other.half) << key;
+    EXPECT_EQ(tensor.bytes, other.bytes) << key;
   }
 }
 
@@ -63,16 +65,19 @@ TEST(Safetensors, the_bytes_are_those_of_the_format) {
   TensorFile file;
   file.metadata = {{"k", "v"}};
   file.tensors["h"] = {{1}, {1}, true};
+  file.tensors["b"] = {{2}, {-1, 100}, false, true};
   file.tensors["z"] = {{1, 2}, {1, -2}, false};
   const std::string header =
       R"({"__metadata__":{"k":"v"},"z":{"dtype":"F32","shape":[1, 2],"data_offsets":[0, 8]},)"
-      R"("h":{"dtype":"F16","shape":[1],"data_offsets":[8, 10]}})";
+      R"("h":{"dtype":"F16","shape":[1],"data_offsets":[8, 10]},)"
+      R"("b":{"dtype":"I8","shape":[2],"data_offsets":[10, 12]}})";
   const std::string bytes = format_safetensors(file);
   const size_t padded = (header.size() + 7) / 8 * 8;
   EXPECT_EQ(static_cast<unsigned char>(bytes[0]), padded);
   EXPECT_EQ(bytes.substr(1, 7), std::string(7, '\0'));
   EXPECT_EQ(bytes.substr(8, padded), header + std::string(padded - header.size(), ' '));
-  EXPECT_EQ(bytes.substr(8 + padded), std::string("\x00\x00\x80\x3f\x00\x00\x00\xc0\x00\x3c", 10));
+  EXPECT_EQ(bytes.substr(8 + padded),
+            std::string("\x00\x00\x80\x3f\x00\x00\x00\xc0\x00\x3c\xff\x64", 12));
 }
 
 TEST(Safetensors, text_that_is_not_utf8_is_written_as_a_file_that_reads) {
@@ -128,11 +133,11 @@ TEST(Safetensors, what_is_no_safetensors_file_is_refused) {
   EXPECT_EQ(failure("{} {}", 0), "model.safetensors: the header is not JSON from its byte 4 on");
 }
 
-TEST(Safetensors, a_type_other_than_f32_and_f16_is_refused_with_its_name) {
+TEST(Safetensors, a_type_other_than_f32_f16_and_i8_is_refused_with_its_name) {
   EXPECT_EQ(failure(R"({"pose.0.weight":{"dtype":"I64","shape":[1],"data_offsets":[0,8]}})", 8),
-            "model.safetensors: tensor 'pose.0.weight' has type I64; expected F32 or F16");
+            "model.safetensors: tensor 'pose.0.weight' has type I64; expected F32, F16 or I8");
   EXPECT_EQ(failure(R"({"a":{"dtype":"BF16","shape":[1],"data_offsets":[0,2]}})", 2),
-            "model.safetensors: tensor 'a' has type BF16; expected F32 or F16");
+            "model.safetensors: tensor 'a' has type BF16; expected F32, F16 or I8");
 }
 
 TEST(Safetensors, offsets_that_do_not_fit_are_refused) {
@@ -158,6 +163,17 @@ TEST(Safetensors, offsets_that_do_not_fit_are_refused) {
             "before it ends");
   EXPECT_EQ(failure(at("[0]"), 8),
             "model.safetensors: tensor 'a': data_offsets has 1 numbers; expected 2");
+}
+
+TEST(Safetensors, a_byte_is_a_number_of_its_own) {
+  const auto at = [](const std::string& offsets) {
+    return R"({"a":{"dtype":"I8","shape":[3],"data_offsets":)" + offsets + "}}";
+  };
+  EXPECT_EQ(failure(at("[0,3]"), 3), "");
+  EXPECT_EQ(failure(at("[0,12]"), 12),
+            "model.safetensors: tensor 'a' has 12 bytes; expected 3 for shape [3] of I8");
+  EXPECT_EQ(failure(at("[0,3]"), 2),
+            "model.safetensors: tensor 'a' lies at bytes 0 to 3 of the data; the data has 2 bytes");
 }
 
 TEST(Safetensors, overlaps_and_holes_are_refused) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "make_model.h"
+#include "net/half_size.h"
 
 namespace panache {
 namespace {
@@ -22,6 +23,43 @@ TEST(Model, what_was_written_is_read) {
   EXPECT_EQ((*model)->styles()[1].name, "proud");
   EXPECT_EQ((*model)->styles()[1].description, "looks proud");
   EXPECT_EQ((*model)->recipe(), Recipe::panache);
+}
+
+TEST(Model, one_of_half_size_is_the_same_model_with_as_many_parameters) {
+  const TensorFile file = test::make_model({"old", "proud"});
+  const auto whole = Model::parse(format_safetensors(file), "whole");
+  const auto half = Model::parse(format_safetensors(in_half_size(file)), "half");
+  ASSERT_TRUE(half.ok()) << half.error().message;
+  EXPECT_EQ((*half)->metadata(), (*whole)->metadata());
+  EXPECT_EQ((*half)->parameter_count(), (*whole)->parameter_count());
+}
+
+TEST(Model, one_of_half_size_without_the_worth_of_its_bytes_is_refused) {
+  TensorFile file = in_half_size(test::make_model({"old"}));
+  file.tensors.erase("pose.head.0.scale");
+  EXPECT_EQ(refusal(file), "m.safetensors: tensor 'pose.head.0.scale' is missing");
+}
+
+TEST(Model, every_truncation_of_one_of_half_size_is_refused) {
+  const std::string bytes = format_safetensors(in_half_size(test::make_model({"old"})));
+  for (size_t size = 0; size < bytes.size(); size += 97) {
+    EXPECT_FALSE(Model::parse(bytes.substr(0, size), "m").ok()) << size;
+  }
+}
+
+TEST(Model, more_styles_than_a_step_has_room_for_are_refused) {
+  std::vector<std::string> names;
+  for (int i = 0; i < 256; ++i) names.push_back("style" + std::to_string(i));
+  EXPECT_EQ(refusal(test::make_model(names)),
+            "m.safetensors: has 256 styles; expected at most 255");
+  names.pop_back();
+  EXPECT_EQ(refusal(test::make_model(names)), "accepted");
+}
+
+TEST(Model, a_scale_without_a_reciprocal_is_refused) {
+  TensorFile file = test::make_model({"old"});
+  file.tensors["input.scale"].values[3] = 1e-40f;
+  EXPECT_EQ(refusal(file), "m.safetensors: tensor 'input.scale' must be above zero throughout");
 }
 
 TEST(Model, a_model_of_another_version_is_refused) {

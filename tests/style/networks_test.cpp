@@ -1,11 +1,13 @@
 // StyleNetworks: how strengths mix, how far exaggeration goes, and when the gate closes.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "make_model.h"
+#include "net/half_size.h"
 
 namespace panache {
 namespace {
@@ -88,6 +90,75 @@ TEST(Networks, tempo_is_exaggerated_like_the_pose) {
   const float pose_one = answer(networks, window, {1})[0], rate_one = networks.log_rate();
   const float pose_two = answer(networks, window, {2})[0], rate_two = networks.log_rate();
   EXPECT_NEAR(rate_two / rate_one, pose_two / pose_one, 1e-3);
+}
+
+TEST(Networks, each_style_has_its_own_tempo_and_contacts) {
+  TensorFile file = test::make_model({"old", "proud"}), swapped = file;
+  for (const char* part : {".weight", ".bias"}) {
+    const auto swap = [&](const std::string& a, const std::string& b) {
+      std::swap(swapped.tensors[a + part], swapped.tensors[b + part]);
+    };
+    swap("pose.head.0", "pose.head.1");
+    swap("timing.head.0", "timing.head.1");
+    swap("contact.head.1", "contact.head.2");  // Before them that of no style.
+  }
+  StyleNetworks one(read(file)), other(read(swapped));
+  const std::vector<float> window = window_of(1);
+  const auto rate = [&](StyleNetworks& networks, const std::vector<float>& strengths) {
+    answer(networks, window, strengths);
+    return std::array{networks.log_rate(), networks.contact()[0], networks.contact()[1]};
+  };
+  EXPECT_EQ(rate(one, {1, 0}), rate(other, {0, 1}));
+  EXPECT_EQ(rate(one, {0, 1}), rate(other, {1, 0}));
+  EXPECT_NE(rate(one, {1, 0}), rate(one, {0, 1}));
+}
+
+// Forward passes of several characters at once give each what it gets alone, its gate included.
+TEST(PassesTogether, have_the_bits_of_passes_alone) {
+  for (const bool half : {false, true}) {
+    TensorFile file = test::make_model({"old", "proud", "sad"});
+    test::add_gate(file, 2);
+    const auto model = read(half ? in_half_size(file) : file);
+    constexpr size_t kCount = 11;
+    std::vector<StyleNetworks> together(kCount, StyleNetworks(model)), alone = together;
+    std::vector<std::vector<float>> windows;
+    std::vector<StyleNetworks::Pass> passes;
+    for (size_t i = 0; i < kCount; ++i) windows.push_back(window_of(0.5f + float(i), i));
+    windows[5][7] = NAN;
+    for (size_t i = 0; i < kCount; ++i) {
+      const float size = static_cast<float>(i);
+      const std::vector<float> strengths = {size / 4, i % 3 ? 0.0f : 1.0f, -size / 8};
+      together[i].set_strengths(strengths);
+      alone[i].set_strengths(strengths);
+      passes.push_back({&together[i], windows[i], 0.3f});
+      alone[i].forward(windows[i], 0.3f);
+    }
+    StyleNetworks::forward_all(passes);
+    for (size_t i = 0; i < kCount; ++i) {
+      EXPECT_EQ(together[i].gate(), alone[i].gate()) << i;
+      for (size_t n = 0; n < alone[i].pose().size(); ++n) {
+        const float a = alone[i].pose()[n], b = together[i].pose()[n];
+        EXPECT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << i << ", number " << n;
+      }
+      if (i == 5) continue;
+      EXPECT_EQ(together[i].log_rate(), alone[i].log_rate()) << i;
+      EXPECT_EQ(together[i].contact()[1], alone[i].contact()[1]) << i;
+    }
+  }
+}
+
+TEST(Networks, of_half_size_answer_like_whole_ones) {
+  const TensorFile file = test::make_model({"old"});
+  StyleNetworks whole(read(file)), half(read(in_half_size(file)));
+  const std::vector<float> window = window_of(1), strengths = {1};
+  const auto a = answer(whole, window, strengths), b = answer(half, window, strengths);
+  double apart = 0, size = 0;
+  for (size_t i = 0; i < a.size(); ++i) {
+    apart += std::pow(double(a[i]) - double(b[i]), 2), size += std::pow(double(a[i]), 2);
+  }
+  EXPECT_GT(apart, 0);
+  // Three layers of weights that are off by up to a 254th of the largest of their column.
+  EXPECT_LT(std::sqrt(apart / size), 0.03);
 }
 
 TEST(Gate, a_model_without_one_trusts_everything) {

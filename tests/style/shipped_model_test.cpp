@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "base/file.h"
 #include "make_clip.h"
+#include "net/half_size.h"
 #include "style/restyle.h"
 
 namespace panache {
@@ -35,8 +37,9 @@ TEST(ShippedModels, the_default_is_smaller_than_the_papers) {
   EXPECT_LT(std::filesystem::file_size(kModels + "panache.safetensors"), 931000u);
 }
 
-TEST(ShippedModels, both_name_their_data_and_its_licence) {
-  for (const char* file : {"panache.safetensors", "smith2019.safetensors"}) {
+TEST(ShippedModels, all_name_their_data_and_its_licence) {
+  for (const char* file :
+       {"panache.safetensors", "panache-half.safetensors", "smith2019.safetensors"}) {
     const auto model = shipped(file);
     EXPECT_EQ(model->metadata().at("licence"), "CC BY-NC 4.0");
     EXPECT_NE(model->metadata().at("data").find("Bandai"), std::string::npos);
@@ -46,31 +49,73 @@ TEST(ShippedModels, both_name_their_data_and_its_licence) {
 
 TEST(ShippedModels, an_old_walk_is_bent_forward_and_ours_twice_as_old_more_so) {
   const Clip walk = test::walking_clip(180);
-  for (const char* file : {"panache.safetensors", "smith2019.safetensors"}) {
+  for (const char* file :
+       {"panache.safetensors", "panache-half.safetensors", "smith2019.safetensors"}) {
     const auto model = shipped(file);
     const int old = *model->find_style("old");
     const auto head = [&](float strength) {
       return mean_head(restyle(walk, *Rig::create(walk), model, {{old, {{0, strength}}}})->clip);
     };
     EXPECT_GT(head(1).z, head(0).z + 0.05f) << file;
-    if (model->recipe() == Recipe::panache) EXPECT_GT(head(2).z, head(1).z + 0.03f);
+    if (model->recipe() == Recipe::panache) {
+      EXPECT_GT(head(2).z, head(1).z + 0.03f) << file;
+    }
+  }
+}
+
+TEST(ShippedModels, the_half_size_one_is_the_default_halved) {
+  const std::string whole = *read_file(kModels + "panache.safetensors");
+  const std::string half = *read_file(kModels + "panache-half.safetensors");
+  EXPECT_LE(half.size(), 480'000u);
+  EXPECT_TRUE(format_safetensors(in_half_size(*parse_safetensors(whole, "whole"))) == half)
+      << "made of another model; panache halve makes it anew";
+}
+
+TEST(ShippedModels, the_half_size_one_styles_like_the_whole_one) {
+  const Clip walk = test::walking_clip(180);
+  const auto whole = shipped("panache.safetensors"), half = shipped("panache-half.safetensors");
+  for (int s = 0; s < static_cast<int>(whole->styles().size()); ++s) {
+    const auto styled = [&](const auto& model) {
+      RestyleOptions options;
+      options.timing = false;  // So that frames stand side by side.
+      return restyle(walk, *Rig::create(walk), model, {{s, {{0, 1}}}}, options)->clip;
+    };
+    const Clip a = styled(whole), b = styled(half);
+    Rig rig = *Rig::create(walk);
+    double apart = 0, changed = 0;
+    for (int f = 0; f < walk.frames; ++f) {
+      BodyPose in, one, other;
+      rig.read(walk.pose(f), in);
+      rig.read(a.pose(f), one);
+      rig.read(b.pose(f), other);
+      for (int j = 0; j < kHumanJoints; ++j) {
+        const auto place = [&](const BodyPose& body) { return body.joints[j] - body.joints[0]; };
+        apart += static_cast<double>(length(place(one) - place(other)));
+        changed += static_cast<double>(length(place(one) - place(in)));
+      }
+    }
+    // Weights are off by a hundredth of their usual size in four layers, one after another.
+    EXPECT_LT(apart, 0.05 * changed) << whole->styles()[static_cast<size_t>(s)].name;
   }
 }
 
 TEST(ShippedModels, every_style_keeps_the_feet_on_the_ground_and_the_body_whole) {
   const Clip walk = test::walking_clip(180);
-  const auto model = shipped("panache.safetensors");
-  for (size_t s = 0; s < model->styles().size(); ++s) {
-    const auto styled =
-        restyle(walk, *Rig::create(walk), model, {{static_cast<int>(s), {{0, 1.5f}}}});
-    Rig rig = *Rig::create(walk);
-    BodyPose body;
-    for (int f = 0; f < styled->clip.frames; ++f) {
-      rig.read(styled->clip.pose(f), body);
-      for (const HumanJoint toe : kToes) {
-        ASSERT_GT(body.joints[index(toe)].y, -0.02f) << model->styles()[s].name << ", frame " << f;
+  for (const char* file : {"panache.safetensors", "panache-half.safetensors"}) {
+    const auto model = shipped(file);
+    for (size_t s = 0; s < model->styles().size(); ++s) {
+      const auto styled =
+          restyle(walk, *Rig::create(walk), model, {{static_cast<int>(s), {{0, 1.5f}}}});
+      Rig rig = *Rig::create(walk);
+      BodyPose body;
+      for (int f = 0; f < styled->clip.frames; ++f) {
+        rig.read(styled->clip.pose(f), body);
+        for (const HumanJoint toe : kToes) {
+          ASSERT_GT(body.joints[index(toe)].y, -0.02f)
+              << model->styles()[s].name << ", frame " << f;
+        }
+        ASSERT_GT(body.joints[index(HumanJoint::head)].y, 0.9f) << model->styles()[s].name;
       }
-      ASSERT_GT(body.joints[index(HumanJoint::head)].y, 0.9f) << model->styles()[s].name;
     }
   }
 }

@@ -10,6 +10,7 @@
 #include "count_allocations.h"
 #include "make_clip.h"
 #include "make_model.h"
+#include "style/crowd.h"
 
 namespace panache {
 namespace {
@@ -95,6 +96,19 @@ TEST_F(StylizerTest, a_step_allocates_nothing) {
     }
     EXPECT_EQ(test::allocations - before, 0);
   }
+}
+
+TEST_F(StylizerTest, a_step_of_a_crowd_allocates_nothing) {
+  std::vector<Stylizer> characters(17, stylizer());
+  std::vector<Clip> outs(characters.size(), clip_);
+  const std::vector<float> strengths = {0.5f, 0.5f};
+  std::vector<CrowdMember> members;
+  for (size_t i = 0; i < characters.size(); ++i) {
+    members.push_back({&characters[i], clip_.pose(0), strengths, outs[i].pose(0)});
+  }
+  const long before = test::allocations;
+  for (int i = 0; i < 20; ++i) step_crowd(members, 1 / 30.0);
+  EXPECT_EQ(test::allocations - before, 0);
 }
 
 TEST_F(StylizerTest, a_step_through_a_gate_allocates_nothing_and_closes_it_gradually) {

@@ -25,6 +25,7 @@ class TrainerTest : public testing::Test {
     TrainOptions options;
     options.settings = recipe_settings(recipe);
     options.settings.steps = steps;
+    options.settings.predictor_steps = 0;  // Has tests of its own.
     return options;
   }
 

@@ -1,0 +1,71 @@
+#include "net/layer.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "net/dense.h"
+#include "net/dense_bytes.h"
+
+namespace panache {
+
+DenseLayer side_by_side(std::span<const DenseLayer> layers) {
+  DenseLayer out;
+  out.inputs = layers.front().inputs;
+  for (const DenseLayer& layer : layers) {
+    assert(layer.inputs == out.inputs);
+    out.outputs += layer.outputs;
+    out.bias.insert(out.bias.end(), layer.bias.begin(), layer.bias.end());
+  }
+  for (int i = 0; i < out.inputs; ++i) {
+    for (const DenseLayer& layer : layers) {
+      const auto row = layer.weights.begin() + static_cast<ptrdiff_t>(i) * layer.outputs;
+      out.weights.insert(out.weights.end(), row, row + layer.outputs);
+    }
+  }
+  return out;
+}
+
+PackedLayer::PackedLayer(std::span<const DenseLayer> layers) {
+  size_t width = 0;
+  for (const DenseLayer& layer : layers) {
+    begins_.push_back(width);
+    width += padded(static_cast<size_t>(layer.outputs));
+  }
+  inputs_ = static_cast<size_t>(layers.front().inputs);
+  const bool of_bytes = std::all_of(layers.begin(), layers.end(),
+                                    [](const DenseLayer& layer) { return !layer.bytes.empty(); });
+  bias_.resize(width);
+  if (of_bytes) {
+    scale_.resize(width);
+    bytes_.resize((inputs_ + 1) / 2 * 2 * width);
+  } else {
+    weights_.resize(inputs_ * width);
+  }
+  for (size_t l = 0; l < layers.size(); ++l) {
+    const DenseLayer& layer = layers[l];
+    assert(static_cast<size_t>(layer.inputs) == inputs_);
+    const size_t outputs = static_cast<size_t>(layer.outputs);
+    std::copy(layer.bias.begin(), layer.bias.end(), bias_.begin() + begins_[l]);
+    if (of_bytes) std::copy(layer.scale.begin(), layer.scale.end(), scale_.begin() + begins_[l]);
+    for (size_t i = 0; i < inputs_; ++i) {
+      for (size_t o = 0; o < outputs; ++o) {
+        const size_t from = i * outputs + o, to = begins_[l] + o;
+        if (of_bytes) {
+          bytes_[(i / 2 * width + to) * 2 + i % 2] = layer.bytes[from];
+        } else {
+          weights_[i * width + to] = layer.weights[from];
+        }
+      }
+    }
+  }
+}
+
+void PackedLayer::forward(Rows<const float> x, Rows<float> y) const noexcept {
+  if (bytes_.empty()) {
+    dense_rows(x, inputs_, weights_, bias_, y);
+  } else {
+    dense_bytes(x, {inputs_, width(), bytes_.data(), scale_.data(), bias_.data()}, y);
+  }
+}
+
+}  // namespace panache

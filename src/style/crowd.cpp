@@ -1,0 +1,39 @@
+#include "style/crowd.h"
+
+#include <algorithm>
+#include <array>
+
+namespace panache {
+namespace {
+
+// How many of the first members can be stepped at once: different characters of one model.
+size_t count_together(std::span<const CrowdMember> members) {
+  const size_t most = std::min(members.size(), kRowsAtOnce);
+  for (size_t i = 1; i < most; ++i) {
+    const Stylizer* character = members[i].character;
+    const bool seen = std::any_of(members.begin(), members.begin() + i,
+                                  [&](const CrowdMember& m) { return m.character == character; });
+    if (seen || &character->model() != &members[0].character->model()) return i;
+  }
+  return most;
+}
+
+}  // namespace
+
+void step_crowd(std::span<const CrowdMember> members, double seconds) noexcept {
+  while (!members.empty()) {
+    const size_t count = count_together(members);
+    std::array<Stylizer::Times, kRowsAtOnce> times;
+    std::array<StyleNetworks::Pass, kRowsAtOnce> passes;
+    for (size_t i = 0; i < count; ++i) {
+      const auto& [character, in, strengths, out] = members[i];
+      times[i] = character->look(in, strengths, seconds, seconds);
+      passes[i] = {&character->networks_, character->window_, times[i].gate_share};
+    }
+    StyleNetworks::forward_all(std::span(passes).first(count));
+    for (size_t i = 0; i < count; ++i) members[i].character->change_pose(times[i], members[i].out);
+    members = members.subspan(count);
+  }
+}
+
+}  // namespace panache

@@ -1,0 +1,76 @@
+#include "style/input_ring.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace panache {
+
+InputRing::InputRing(size_t joints, double seconds)
+    : joints_(joints),
+      entries_(static_cast<size_t>(std::ceil(seconds / kMinGap)) + 3),
+      rotations_(entries_.size() * joints),
+      translations_(rotations_.size()) {}
+
+void InputRing::push(double time, ConstPose pose, const HumanPositions& body,
+                     const Ground& ground) noexcept {
+  assert(pose.rotations.size() == joints_);
+  const bool replaces =
+      count_ > 0 && (time <= newest() || (count_ > 1 && entry(0).time - entry(1).time < kMinGap));
+  if (!replaces) {
+    head_ = (head_ + 1) % entries_.size();
+    count_ = std::min(count_ + 1, entries_.size());
+  }
+  entries_[head_] = {time, body, ground};
+  std::copy(pose.rotations.begin(), pose.rotations.end(), &rotations_[head_ * joints_]);
+  std::copy(pose.translations.begin(), pose.translations.end(), &translations_[head_ * joints_]);
+}
+
+InputRing::Between InputRing::find(double time) const noexcept {
+  // The youngest entry that is no younger than `time`: halving, as ages go back in time.
+  size_t young = 0, old = count_ - 1;
+  while (young < old) {
+    const size_t middle = (young + old) / 2;
+    if (entry(middle).time <= time) {
+      old = middle;
+    } else {
+      young = middle + 1;
+    }
+  }
+  const size_t a = place(old);
+  if (old == 0 || entries_[a].time > time) return {a, a, 0};
+  const size_t b = place(old - 1);
+  const double gap = entries_[b].time - entries_[a].time;
+  return {a, b, static_cast<float>(std::min((time - entries_[a].time) / gap, 1.0))};
+}
+
+void InputRing::pose(double time, Pose out) const noexcept {
+  if (empty()) return;
+  const auto [a, b, t] = find(time);
+  for (size_t j = 0; j < joints_; ++j) {
+    const Quat &from = rotations_[a * joints_ + j], &to = rotations_[b * joints_ + j];
+    // At the poses themselves to the bit.
+    out.rotations[j] = t == 0 ? from : nlerp(from, to, t);
+    const Vec3 &here = translations_[a * joints_ + j], &there = translations_[b * joints_ + j];
+    out.translations[j] = t == 0 ? here : lerp(here, there, t);
+  }
+}
+
+HumanPositions InputRing::body(double time) const noexcept {
+  HumanPositions out{};
+  if (empty()) return out;
+  const auto [a, b, t] = find(time);
+  for (size_t j = 0; j < out.size(); ++j) {
+    out[j] = lerp(entries_[a].body[j], entries_[b].body[j], t);
+  }
+  return out;
+}
+
+Ground InputRing::ground(double time) const noexcept {
+  if (empty()) return {};
+  const auto [a, b, t] = find(time);
+  const Ground &from = entries_[a].ground, &to = entries_[b].ground;
+  return {lerp(from.position, to.position, t), from.facing * (1 - t) + to.facing * t};
+}
+
+}  // namespace panache

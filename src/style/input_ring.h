@@ -1,0 +1,64 @@
+#pragma once
+// The input of the last seconds, to be read at any time in it.
+
+#include <span>
+#include <vector>
+
+#include "clip/clip.h"
+#include "pose/features.h"
+
+namespace panache {
+
+// Allocates when it is made and never again.
+class InputRing {
+ public:
+  // Room for `seconds` of poses of that many joints, whatever their rate.
+  InputRing(size_t joints, double seconds);
+
+  void clear() noexcept { count_ = 0; }
+  // Adds a pose at `time` (seconds, never before the last one), with what the rig made of it.
+  void push(double time, ConstPose pose, const HumanPositions& body, const Ground& ground) noexcept;
+
+  bool empty() const noexcept { return count_ == 0; }
+  double oldest() const noexcept { return entry(count_ - 1).time; }
+  double newest() const noexcept { return entry(0).time; }
+  // The input at `time`, which is held within oldest() and newest(): joints, body (in the body
+  // frame) and ground, straight between two poses. Nothing if empty.
+  void pose(double time, Pose out) const noexcept;
+  HumanPositions body(double time) const noexcept;
+  Ground ground(double time) const noexcept;
+
+  // Calls visit(member) for everything that tells one ring from another of its size.
+  template <class Self, class Visit>
+  static void visit_state(Self& self, Visit&& visit) {
+    visit(self.entries_), visit(self.rotations_), visit(self.translations_), visit(self.head_);
+    visit(self.count_);
+  }
+
+ private:
+  struct Entry {
+    double time = 0;
+    HumanPositions body{};
+    Ground ground;
+  };
+  struct Between {
+    size_t a, b;  // Places: earlier, later.
+    float t;
+  };
+  // A pose closer than this to the one before it gives way to the next, so that any rate fits.
+  static constexpr double kMinGap = 0.0118;
+
+  size_t place(size_t age) const noexcept {
+    return (head_ + entries_.size() - age) % entries_.size();
+  }
+  const Entry& entry(size_t age) const noexcept { return entries_[place(age)]; }
+  Between find(double time) const noexcept;
+
+  size_t joints_;
+  std::vector<Entry> entries_;
+  std::vector<Quat> rotations_;     // [entries][joints]
+  std::vector<Vec3> translations_;  // Likewise.
+  size_t head_ = 0, count_ = 0;
+};
+
+}  // namespace panache

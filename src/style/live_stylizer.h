@@ -1,0 +1,107 @@
+#pragma once
+// One character being restyled live, with the tempo of the style as far as time allows.
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "style/foresight.h"
+#include "style/input_ring.h"
+#include "style/play_head.h"
+#include "style/stylizer.h"
+
+namespace panache {
+
+struct LiveOptions {
+  StylizerOptions stylizer;
+  // How far the play head may be behind the input, and how far ahead of it, seconds: 0 to
+  // kMostLag, and 0 to Predictor::kMostSeconds. With both at 0 nothing is delayed, and the tempo is
+  // the input's own.
+  double max_lag = 0, max_lead = 0;
+  // Where the head is late by a whole cycle of a gait (or of anything that repeats), it leaves out
+  // that cycle; where it can go no further ahead, it plays the last one again. So a style can be
+  // slower or faster than its input for ever. Needs a max_lag longer than a cycle.
+  bool skip_cycles = false;
+  static constexpr double kMostLag = 4;
+};
+
+// A stylizer, the input of the last `max_lag` seconds, and a play head between them. What a skipped
+// or repeated cycle would have added to the way is left out of it, or added: the character goes on
+// from where it is, and stands elsewhere than its input does.
+class LiveStylizer {
+ public:
+  // Fails with a sentence where an option of time is out of its range, or where `max_lead` is asked
+  // of a model that foresees nothing.
+  static Result<void> check(const Model& model, const LiveOptions& options);
+  // Fails likewise, and where Stylizer::create() does.
+  static Result<LiveStylizer> create(std::shared_ptr<const Model> model, Rig rig,
+                                     const LiveOptions& options = {});
+
+  // Forgets the motion so far, and with it lag, lead and place.
+  void reset() noexcept;
+
+  // See Stylizer::step(); `seconds` passed since the last step. Allocates nothing, never fails.
+  void step(ConstPose in, std::span<const float> strengths, double seconds, Pose out) noexcept;
+
+  // Where the shown input is: seconds after the newest pose, below zero if late, at the last step.
+  double ahead() const noexcept { return head_.ahead(); }
+  // Cycles left out (above zero) and played again (below) since the start, in sum.
+  int skipped_cycles() const noexcept { return skipped_; }
+  // Whether time is the input's own, so that a step is that of the stylizer alone.
+  bool keeps_time() const noexcept { return !timed_; }
+
+  // See Stylizer.
+  Stylizer& stylizer() noexcept { return stylizer_; }
+  const Stylizer& stylizer() const noexcept { return stylizer_; }
+  size_t state_size() const noexcept;
+  void save(std::span<std::byte> out) const noexcept;
+  bool restore(std::span<const std::byte> in) noexcept;
+
+ private:
+  // What stands in the way of the input's own place: a cycle that was left out.
+  struct Glue {
+    Vec3 moved;        // World, metres.
+    float turned = 0;  // About +y, radians; fades.
+  };
+  // What is needed to be anywhere else than now.
+  struct Timed {
+    Timed(const Rig& rig, std::shared_ptr<const Model> model, const LiveOptions& options);
+
+    Rig reader;  // Of the newest pose; the stylizer's own is that of the play head.
+    BodyPose now;
+    Ground ground;
+    InputRing ring;
+    std::optional<Foresight> foresight;
+    // What the play head's body is ahead of the newest, smoothed.
+    ForeseenBody ahead;
+    // The newest pose as far as it is sound, what is shown, and what was shown before a skip.
+    std::vector<Quat> rotations, shown_rotations, old_rotations;           // [joints]
+    std::vector<Vec3> translations, shown_translations, old_translations;  // [joints]
+    double time = 0;      // Input seconds since the start,
+    double searched = 0;  // and when a cycle was last looked for.
+    bool started = false;
+    Glue glue, old_glue;
+    double old_ahead = 0;  // Of the head as it was before the last skip,
+    double blended = 1;    // and how much of the way from it is done, 0 to 1.
+  };
+
+  LiveStylizer(Stylizer stylizer, std::shared_ptr<const Model> model, const LiveOptions& options);
+
+  void take_input(ConstPose in, double seconds) noexcept;
+  void skip_cycle(double rate) noexcept;
+  std::optional<double> find_cycle(double at, double nearest, double farthest) const noexcept;
+  void look_ahead(double seconds) noexcept;
+  Ground ground_at(double ahead) const noexcept;
+  void pose_at(double ahead, const Glue& glue, Pose out) noexcept;
+  template <class Self, class Visit>
+  static void visit_state(Self& self, Visit&& visit);
+
+  LiveOptions options_;
+  Stylizer stylizer_;
+  PlayHead head_;
+  int skipped_ = 0;
+  std::unique_ptr<Timed> timed_;  // Null where time is the input's own.
+};
+
+}  // namespace panache

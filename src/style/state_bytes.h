@@ -1,0 +1,73 @@
+#pragma once
+// Members of a character's memory as bytes, for those who save and restore it.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace panache {
+
+template <class T>
+std::span<std::byte> bytes_of(std::vector<T>& numbers) {
+  return std::as_writable_bytes(std::span(numbers));
+}
+template <class T>
+std::span<const std::byte> bytes_of(const std::vector<T>& numbers) {
+  return std::as_bytes(std::span(numbers));
+}
+template <class T>
+auto bytes_of(T& value) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  if constexpr (std::is_const_v<T>) {
+    return std::as_bytes(std::span(&value, 1));
+  } else {
+    return std::as_writable_bytes(std::span(&value, 1));
+  }
+}
+
+// Fowler, Noll and Vo's hash (FNV-1a): tells a damaged state from a whole one.
+inline uint64_t hash_of(std::span<const std::byte> bytes) {
+  uint64_t hash = 0xcbf29ce484222325;
+  for (const std::byte b : bytes) hash = (hash ^ static_cast<uint64_t>(b)) * 0x100000001b3;
+  return hash;
+}
+
+// A state is the hash of what follows it, and all members that `visit_all` visits, one behind the
+// other. `visit_all(visitor)` calls visitor(member) for each.
+template <class VisitAll>
+size_t state_bytes(VisitAll&& visit_all) {
+  size_t size = sizeof(uint64_t);
+  visit_all([&](const auto& member) { size += bytes_of(member).size(); });
+  return size;
+}
+template <class VisitAll>
+void write_state(std::span<std::byte> out, VisitAll&& visit_all) {
+  std::byte* to = out.data() + sizeof(uint64_t);
+  visit_all([&](const auto& member) {
+    const std::span<const std::byte> bytes = bytes_of(member);
+    std::memcpy(to, bytes.data(), bytes.size());
+    to += bytes.size();
+  });
+  const uint64_t hash = hash_of(out.subspan(sizeof(uint64_t)));
+  std::memcpy(out.data(), &hash, sizeof hash);
+}
+// Whether `in`, of the right size, is what write_state() wrote.
+inline bool is_whole_state(std::span<const std::byte> in) {
+  uint64_t hash = 0;
+  std::memcpy(&hash, in.data(), sizeof hash);
+  return hash == hash_of(in.subspan(sizeof hash));
+}
+template <class VisitAll>
+void read_state(std::span<const std::byte> in, VisitAll&& visit_all) {
+  const std::byte* from = in.data() + sizeof(uint64_t);
+  visit_all([&](auto& member) {
+    const std::span<std::byte> bytes = bytes_of(member);
+    std::memcpy(bytes.data(), from, bytes.size());
+    from += bytes.size();
+  });
+}
+
+}  // namespace panache

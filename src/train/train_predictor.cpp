@@ -1,0 +1,323 @@
+#include "train/train_predictor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.h"
+#include "style/predictor.h"
+#include "train/network.h"
+
+namespace panache {
+namespace {
+
+constexpr int kNumbers = Predictor::kNumbers;
+constexpr int kAhead = 5;  // Poses that are rolled out.
+constexpr int kPoses = kWindowPoses + kAhead;
+constexpr int kInputs = kWindowPoses * kNumbers;
+constexpr int kHidden = 48;
+constexpr int kBatch = 128;
+constexpr float kInputClip = 3;
+// Errors count as a share of those of holding the pose or of constant velocity, whichever is less,
+// so that slow actions weigh as much as fast ones; but these as no less than this.
+constexpr float kLeastError = 0.003f;  // Metres.
+
+// How the windows are disturbed: as the networks of the styles are, but for the jitter, which would
+// hide what is to be seen.
+constexpr float kScale = 0.08f, kTempo = 0.2f, kPosture = 0.02f;
+constexpr float kMostJitter = 0.001f;  // Metres; each window has its own share of it.
+
+struct Place {
+  int take;
+  int frame;
+};
+
+// The body and its ground at a fractional frame.
+struct Instant {
+  HumanPositions body;
+  Ground ground;
+};
+Instant instant_at(const Take& take, float frame) {
+  frame = std::clamp(frame, 0.0f, static_cast<float>(take.frames() - 1));
+  const int a = static_cast<int>(frame), b = std::min(a + 1, take.frames() - 1);
+  const float t = frame - static_cast<float>(a);
+  const Ground &from = take.ground[a], &to = take.ground[b];
+  return {body_at(take, frame),
+          {lerp(from.position, to.position, t), from.facing * (1 - t) + to.facing * t}};
+}
+
+// The joints above the hips, and those of the arms alone, can be borrowed from another motion: who
+// has seen few actions shall not believe that arms follow from legs.
+struct Borrowed {
+  int first, last;  // Joints.
+  int base;         // The joint that they are carried by.
+};
+constexpr Borrowed kUpperBody = {1, 12, 0}, kArms = {5, 12, 2};
+constexpr float kBorrows = 0.2f;    // Share of windows with each.
+constexpr float kReversed = 0.15f;  // Share that is played backwards.
+
+struct Draw {
+  bool mirrored = false, reversed = false;
+  const Borrowed* borrowed = nullptr;
+  Place lender{};
+  float scale = 1, tempo = 1, jitter = 0;
+  std::array<float, 3 * kHumanJoints> posture{};
+};
+
+// Writes kPoses poses, oldest first, the last of the window at `place`. out[kPoses][kNumbers]
+void write_poses(const std::vector<Take>& takes, const Place& place, const Draw& draw,
+                 Random& random, float* out) {
+  float spacing = static_cast<float>(kWindowSpacing * kTakeRate) * draw.tempo;
+  if (draw.reversed) spacing = -spacing;
+  const auto instant = [&](const Place& from, int pose) {
+    const auto age = static_cast<float>(pose - kWindowPoses + 1);
+    return instant_at(takes[from.take], static_cast<float>(from.frame) + age * spacing);
+  };
+  const auto at = [&](int pose) {
+    Instant now = instant(place, pose);
+    if (!draw.borrowed) return now;
+    const auto [first, last, base] = *draw.borrowed;
+    const HumanPositions other = instant(draw.lender, pose).body;
+    const Vec3 carried = now.body[base] - other[base];
+    for (int j = first; j <= last; ++j) now.body[j] = other[j] + carried;
+    return now;
+  };
+  Instant before = at(-1);
+  for (int p = 0; p < kPoses; ++p, out += kNumbers) {
+    const Instant now = at(p);
+    const HumanPositions body = draw.mirrored ? mirrored(now.body) : now.body;
+    for (int j = 0; j < kHumanJoints; ++j) {
+      const float position[] = {body[j].x, body[j].y, body[j].z};
+      for (int axis = 0; axis < 3; ++axis) {
+        float& number = out[3 * j + axis];
+        number = position[axis] * draw.scale + draw.posture[3 * j + axis];
+        // Only what is seen trembles, not what is asked for.
+        if (p < kWindowPoses) number += draw.jitter * random.normal();
+      }
+    }
+    float* root = out + 3 * kHumanJoints;
+    write_root_numbers(before.ground, now.ground, kWindowSpacing,
+                       std::span<float, kRootNumbers>(root, kRootNumbers));
+    if (draw.mirrored) root[0] = -root[0], root[2] = -root[2];
+    root[0] *= draw.scale, root[1] *= draw.scale;
+    before = now;
+  }
+}
+
+class PredictorTraining {
+ public:
+  PredictorTraining(const std::vector<Take>& takes, int64_t steps, uint64_t seed)
+      : takes_(takes), seed_(seed), network_(shape(), optimizer(), steps, seed * 31 + 7) {
+    // Enough for the oldest velocity and the newest prediction.
+    constexpr int kMargin = static_cast<int>(kWindowPoses * kWindowSpacing * kTakeRate) + 1;
+    for (size_t t = 0; t < takes.size(); ++t) {
+      const bool validates = t % 20 == 7;
+      for (int f = kMargin; f + kMargin < takes[t].frames(); ++f) {
+        (validates ? held_ : places_).push_back({static_cast<int>(t), f});
+      }
+    }
+  }
+
+  bool has_motion() const { return !places_.empty(); }
+
+  void run(int64_t steps, const std::function<void(double)>& progress,
+           std::vector<LossPoint>& losses) {
+    Random random(seed_ * 77 + 5);
+    const torch::Tensor first = draw_batch(places_, 4096, false, random);
+    measure(first);
+    fit_linear(first);
+    Random validation_random(9);
+    const torch::Tensor validation =
+        draw_batch(held_.empty() ? places_ : held_, 1024, false, validation_random);
+    const int64_t report = std::max<int64_t>(1, steps / 50);
+    double sum = 0;
+    for (int64_t step = 0; step < steps; ++step) {
+      const torch::Tensor loss = loss_of(draw_batch(places_, kBatch, true, random), &random);
+      sum += loss.item<double>();
+      network_.learn(loss);
+      if ((step + 1) % report != 0) continue;
+      torch::NoGradGuard no_gradients;
+      losses.push_back({"predict", step + 1, static_cast<float>(sum / static_cast<double>(report)),
+                        loss_of(validation, nullptr).item<float>()});
+      sum = 0;
+      if (progress) progress(static_cast<double>(step + 1) / static_cast<double>(steps));
+    }
+  }
+
+  void write(TensorFile& file) const {
+    TensorFile own;
+    network_.write(own);
+    // The network answers in its own units; the file's in metres and seconds.
+    const float* unit = unit_.data_ptr<float>();
+    for (const char* key : {"predict.head.0.weight", "predict.head.0.bias"}) {
+      std::vector<float>& values = own.tensors.at(key).values;
+      for (size_t i = 0; i < values.size(); ++i) values[i] /= unit[i % kNumbers];
+    }
+    // Half-size: the error is a thousandth of what is predicted anyway.
+    for (auto& [key, tensor] : own.tensors) {
+      tensor.half = key.ends_with(".weight");
+      file.tensors[key] = std::move(tensor);
+    }
+    const auto put = [&](const char* key, const torch::Tensor& tensor, std::vector<int64_t> shape) {
+      const torch::Tensor flat = tensor.contiguous();
+      const float* values = flat.data_ptr<float>();
+      file.tensors[key] = {std::move(shape), {values, values + flat.numel()}, false};
+    };
+    put("predict.mean", mean_, {kNumbers});
+    put("predict.scale", scale_, {kNumbers});
+    put("predict.linear", linear_, {(kWindowPoses - 1) * kNumbers});
+  }
+
+ private:
+  static NetworkShape shape() {
+    return {"predict", kInputs, kHidden, 1, kNumbers, 1, false, false};
+  }
+  static OptimizerSettings optimizer() {
+    OptimizerSettings settings;
+    settings.learning_rate = 0.004f;
+    settings.one_cycle = true;
+    settings.weight_decay = 0.05f;
+    settings.dropout = 0.05f;
+    return settings;
+  }
+
+  // [rows][kPoses][kNumbers], oldest first.
+  torch::Tensor draw_batch(const std::vector<Place>& places, int rows, bool disturbed,
+                           Random& random) const {
+    torch::Tensor out = torch::empty({rows, kPoses, kNumbers});
+    float* row = out.data_ptr<float>();
+    for (int r = 0; r < rows; ++r, row += kPoses * kNumbers) {
+      const Place& place = places[random.below(static_cast<uint32_t>(places.size()))];
+      Draw draw;
+      draw.mirrored = random.uniform() < 0.5f;
+      if (disturbed) {
+        draw.scale = 1 + kScale * random.normal();
+        draw.tempo = std::exp(kTempo * random.normal());
+        draw.jitter = kMostJitter * random.uniform() * random.uniform();
+        draw.reversed = random.uniform() < kReversed;
+        const float borrows = random.uniform();
+        if (borrows < 2 * kBorrows) draw.borrowed = borrows < kBorrows ? &kUpperBody : &kArms;
+        draw.lender = places[random.below(static_cast<uint32_t>(places.size()))];
+        for (float& offset : draw.posture) offset = kPosture * random.normal();
+      }
+      write_poses(takes_, place, draw, random, row);
+    }
+    return out;
+  }
+
+  void measure(const torch::Tensor& poses) {
+    const torch::Tensor rows = poses.reshape({-1, kNumbers});
+    mean_ = rows.mean(0);
+    torch::Tensor floor = torch::full({kNumbers}, 0.03f);
+    floor.slice(0, 63, 65).fill_(0.1f), floor[65].fill_(0.2f);
+    unit_ = torch::empty({kNumbers});
+    for (int n = 0; n < kNumbers; ++n) unit_[n] = Predictor::unit(static_cast<size_t>(n));
+    scale_ = ((rows - mean_).square().mean(0) + floor.square()).sqrt();
+  }
+
+  // Root mean square of a window's changes in the network's units, as Predictor::next() has it.
+  // changes[rows][kWindowPoses - 1][kNumbers] -> [rows][1]
+  torch::Tensor motion_of(const torch::Tensor& changes) const {
+    return (changes * unit_)
+        .square()
+        .mean(2)
+        .mean(1, true)
+        .sqrt()
+        .clamp_min(Predictor::kLeastMotion);
+  }
+
+  // Each number's own continuation: the shares of its last changes that leave the least error, as
+  // a share of the motion.
+  void fit_linear(const torch::Tensor& poses) {
+    const torch::Tensor changes = poses.slice(1, 1) - poses.slice(1, 0, kPoses - 1);
+    linear_ = torch::zeros({kWindowPoses - 1, kNumbers});
+    std::vector<torch::Tensor> seen, wanted;
+    for (int end = kWindowPoses - 1; end < kPoses - 1; ++end) {
+      const torch::Tensor part = changes.slice(1, end - kWindowPoses + 1, end).flip(1);
+      const torch::Tensor motion = motion_of(part);
+      seen.push_back(part / motion.unsqueeze(1));
+      wanted.push_back(changes.select(1, end) / motion);
+    }
+    const torch::Tensor a = torch::cat(seen).to(torch::kDouble);
+    const torch::Tensor b = torch::cat(wanted).to(torch::kDouble);
+    for (int n = 0; n < kNumbers; ++n) {
+      const torch::Tensor x = a.select(2, n);
+      const torch::Tensor square = x.t().matmul(x) + 1e-3 * torch::eye(kWindowPoses - 1);
+      linear_.select(1, n).copy_(
+          torch::linalg_solve(square, x.t().matmul(b.slice(1, n, n + 1))).squeeze(1));
+    }
+  }
+
+  // The poses after a window, each foreseen from those before it. window[rows][kWindowPoses]
+  // [kNumbers], oldest first -> [rows][kAhead][kNumbers]
+  torch::Tensor roll_out(torch::Tensor window, Random* random) const {
+    std::vector<torch::Tensor> out;
+    for (int step = 0; step < kAhead; ++step) {
+      const torch::Tensor newest = window.select(1, kWindowPoses - 1);
+      const torch::Tensor changes =
+          (window.slice(1, 1) - window.slice(1, 0, kWindowPoses - 1)).flip(1);
+      const torch::Tensor motion = motion_of(changes);
+      const torch::Tensor pose = ((newest - mean_) / scale_).clamp(-kInputClip, kInputClip);
+      const torch::Tensor seen = (changes * unit_).reshape({-1, kInputs - kNumbers}) / motion;
+      const torch::Tensor answer = network_.forward(torch::cat({pose, seen}, 1), {}, random);
+      const torch::Tensor next = newest + (changes * linear_).sum(1) + motion * answer / unit_;
+      out.push_back(next);
+      window = torch::cat({window.slice(1, 1), next.unsqueeze(1)}, 1);
+    }
+    return torch::stack(out, 1);
+  }
+
+  // Where the joints of the poses ahead stand, seen from where the body is now: each pose's own
+  // positions, the way so far, and to the first order the turn so far.
+  // ahead[rows][kAhead][kNumbers] -> [rows][kAhead][joints][3]
+  static torch::Tensor joints_ahead(const torch::Tensor& ahead) {
+    const torch::Tensor body = ahead.slice(2, 0, 63).reshape({-1, kAhead, kHumanJoints, 3});
+    const torch::Tensor root = ahead.slice(2, 63).cumsum(1) * kWindowSpacing;
+    const torch::Tensor turn = root.select(2, 2).unsqueeze(2);
+    const torch::Tensor x =
+        body.select(3, 0) + root.select(2, 0).unsqueeze(2) + turn * body.select(3, 2);
+    const torch::Tensor z =
+        body.select(3, 2) + root.select(2, 1).unsqueeze(2) - turn * body.select(3, 0);
+    return torch::stack({x, body.select(3, 1), z}, 3);
+  }
+
+  torch::Tensor loss_of(const torch::Tensor& poses, Random* random) const {
+    const torch::Tensor window = poses.slice(1, 0, kWindowPoses);
+    const torch::Tensor wanted = joints_ahead(poses.slice(1, kWindowPoses));
+    const auto error = [&](const torch::Tensor& joints) {
+      return (joints - wanted).square().sum(3).mean(2);  // [rows][kAhead]
+    };
+    const torch::Tensor newest = window.slice(1, kWindowPoses - 1);
+    const torch::Tensor held = newest.slice(2, 0, 63).reshape({-1, 1, kHumanJoints, 3});
+    const torch::Tensor times = torch::arange(1, kAhead + 1).reshape({1, kAhead, 1});
+    const torch::Tensor velocity = newest - window.slice(1, kWindowPoses - 2, kWindowPoses - 1);
+    const torch::Tensor moved =
+        torch::cat({newest.slice(2, 0, 63) + times * velocity.slice(2, 0, 63),
+                    newest.slice(2, 63).expand({-1, kAhead, kRootNumbers})},
+                   2);
+    const torch::Tensor least =
+        torch::minimum(error(held.expand_as(wanted)), error(joints_ahead(moved)));
+    return (error(joints_ahead(roll_out(window, random))) / (least + kLeastError * kLeastError))
+        .sqrt()
+        .mean();
+  }
+
+  const std::vector<Take>& takes_;
+  uint64_t seed_;
+  NetworkTrainer network_;
+  std::vector<Place> places_, held_;
+  torch::Tensor mean_, scale_, unit_;  // [kNumbers]
+  torch::Tensor linear_;               // [kWindowPoses - 1][kNumbers], newest change first
+};
+
+}  // namespace
+
+void train_predictor(const std::vector<Take>& takes, int64_t steps, uint64_t seed,
+                     const std::function<void(double)>& progress, TensorFile& model,
+                     std::vector<LossPoint>& losses) {
+  PredictorTraining training(takes, steps, seed);
+  if (!training.has_motion()) return;
+  training.run(steps, progress, losses);
+  training.write(model);
+}
+
+}  // namespace panache

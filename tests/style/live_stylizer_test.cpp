@@ -1,0 +1,421 @@
+#include "style/live_stylizer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "allocations.h"
+#include "base/random.h"
+#include "make_clip.h"
+#include "make_model.h"
+#include "rig/canonical_skeleton.h"
+#include "walker/walker.h"
+
+namespace panache {
+namespace {
+
+constexpr double kStep = 1.0 / 60;
+
+// A model that asks for this tempo and changes nothing else by much.
+std::shared_ptr<const Model> model_at_rate(double rate, bool foresees = true) {
+  TensorFile file = test::make_model({"old", "proud"}, 3);
+  file.tensors["output.scale"] = test::constant_tensor(kChangeNumbers, 1e-3f);
+  test::set_rate(file, rate);
+  if (foresees) test::add_predictor(file);
+  return *Model::parse(format_safetensors(file), "test model");
+}
+
+// A walk of the walker, endless.
+class LiveWalk {
+ public:
+  LiveWalk() {
+    auto model = WalkerModel::load(std::string(PANACHE_SOURCE_DIR "/models/walker.safetensors"));
+    walker_.emplace(*model);
+    clip_.skeleton = canonical_skeleton();
+    clip_.frame_time = kStep;
+    clip_.resize(1);
+  }
+  ConstPose step(double seconds, float speed = 1.4f, float turn = 0) {
+    walker_->step(speed, turn, seconds, clip_.pose(0));
+    return std::as_const(clip_).pose(0);
+  }
+
+ private:
+  std::optional<Walker> walker_;
+  Clip clip_;
+};
+
+class LiveStylizerTest : public testing::Test {
+ protected:
+  LiveStylizer live(std::shared_ptr<const Model> model, const LiveOptions& options) const {
+    Result<LiveStylizer> made = LiveStylizer::create(model, *Rig::create(clip_), options);
+    EXPECT_TRUE(made.ok()) << (made ? "" : made.error().message);
+    return *std::move(made);
+  }
+  void expect_same(const Clip& a, int frame, const Clip& b, int other) const {
+    for (size_t j = 0; j < clip_.joints(); ++j) {
+      EXPECT_EQ(a.pose(frame).rotations[j], b.pose(other).rotations[j]) << "joint " << j;
+      EXPECT_EQ(a.pose(frame).translations[j], b.pose(other).translations[j]) << "joint " << j;
+    }
+  }
+  Clip clip_ = test::walking_clip(600, 60);
+  Clip out_ = test::walking_clip(600, 60);
+};
+
+TEST_F(LiveStylizerTest, by_default_it_is_the_stylizer_bit_for_bit) {
+  const auto model = model_at_rate(0.8);
+  LiveStylizer timed = live(model, {});
+  Stylizer plain = *Stylizer::create(model, *Rig::create(clip_));
+  Clip expected = clip_;
+  EXPECT_TRUE(timed.keeps_time());
+  for (int f = 0; f < 200; ++f) {
+    timed.step(clip_.pose(f), std::vector<float>{1, 0}, kStep, out_.pose(f));
+    plain.step(clip_.pose(f), std::vector<float>{1, 0}, kStep, expected.pose(f));
+    expect_same(out_, f, expected, f);
+  }
+}
+
+// An arm that jerks in one frame: at which step does the output show it?
+TEST_F(LiveStylizerTest, by_default_an_impulse_is_there_at_once) {
+  const size_t arm = static_cast<size_t>(index(HumanJoint::left_lower_arm));
+  const auto steps_until_seen = [&](const LiveOptions& options) {
+    Clip still = clip_;
+    for (int f = 0; f < still.frames; ++f) {
+      std::copy_n(clip_.pose(0).rotations.begin(), still.joints(), still.pose(f).rotations.begin());
+      std::copy_n(clip_.pose(0).translations.begin(), still.joints(),
+                  still.pose(f).translations.begin());
+    }
+    constexpr int kImpulse = 300;
+    still.pose(kImpulse).rotations[arm] =
+        still.pose(0).rotations[arm] * axis_angle(Vec3{0, 1, 0}, 1.0f);
+    LiveStylizer character = live(model_at_rate(0.8), options);
+    std::optional<int> seen;
+    for (int f = 0; f < 500; ++f) {
+      character.step(still.pose(f), std::vector<float>{1, 0}, kStep, out_.pose(f));
+      const Quat before = out_.pose(std::max(f - 1, 0)).rotations[arm];
+      const bool jerks = std::abs(dot(out_.pose(f).rotations[arm], before)) < 0.97f;
+      if (f > 0 && jerks && !seen) seen = f - kImpulse;
+    }
+    return seen;
+  };
+  EXPECT_EQ(steps_until_seen({}), 0);
+  // A slower style that may be late is, by as much as it may.
+  LiveOptions late;
+  late.max_lag = 0.5;
+  const auto seen = steps_until_seen(late);
+  ASSERT_TRUE(seen);
+  EXPECT_NEAR(*seen * kStep, 0.5, 0.05);
+}
+
+TEST_F(LiveStylizerTest, a_slower_style_falls_behind_and_a_faster_one_runs_ahead_within_bounds) {
+  for (const double rate : {0.8, 1.25}) {
+    LiveOptions options;
+    options.max_lag = 0.6;
+    options.max_lead = 0.2;
+    LiveStylizer character = live(model_at_rate(rate), options);
+    for (int f = 0; f < 600; ++f) {
+      character.step(clip_.pose(f), std::vector<float>{1, 0}, kStep, out_.pose(f));
+      ASSERT_GE(character.ahead(), -0.6);
+      ASSERT_LE(character.ahead(), 0.2);
+    }
+    EXPECT_NEAR(character.ahead(), rate < 1 ? -0.6 : 0.2, 0.03);
+  }
+}
+
+TEST_F(LiveStylizerTest, without_a_style_it_comes_back_and_is_the_input_bit_for_bit) {
+  LiveOptions options;
+  options.max_lag = 0.3;
+  options.max_lead = 0.2;
+  for (const double rate : {0.8, 1.25}) {
+    LiveStylizer character = live(model_at_rate(rate), options);
+    for (int f = 0; f < 200; ++f) {
+      character.step(clip_.pose(f), std::vector<float>{1, 0}, kStep, out_.pose(f));
+    }
+    for (int f = 200; f < 600; ++f) {
+      character.step(clip_.pose(f), std::vector<float>{0, 0}, kStep, out_.pose(f));
+    }
+    EXPECT_EQ(character.ahead(), 0);
+    // But for the hips, whose turn off the course is still fading.
+    for (size_t j = 1; j < clip_.joints(); ++j) {
+      EXPECT_EQ(out_.pose(599).rotations[j], clip_.pose(599).rotations[j]) << "joint " << j;
+    }
+  }
+}
+
+// A head that is ahead shows guesses, but nothing may twitch. (A style changes nothing here, and
+// constant velocity is all that the model's network knows.)
+TEST_F(LiveStylizerTest, input_that_is_foreseen_does_not_twitch) {
+  const auto largest_turn = [&](const LiveOptions& options, double ahead) {
+    LiveStylizer character = live(model_at_rate(1.25), options);
+    LiveWalk walk;
+    float largest = 0;
+    for (int f = 0; f < 900; ++f) {
+      character.step(walk.step(kStep), std::vector<float>{1, 0}, kStep, out_.pose(f % 2));
+      for (size_t j = 0; f > 300 && j < clip_.joints(); ++j) {
+        const float d = std::abs(dot(out_.pose(0).rotations[j], out_.pose(1).rotations[j]));
+        largest = std::max(largest, 2 * std::acos(std::min(d, 1.0f)));
+      }
+    }
+    EXPECT_NEAR(character.ahead(), ahead, 0.01);
+    return largest;
+  };
+  LiveOptions early;
+  early.max_lead = 0.1;
+  // Constant velocity overshoots wherever a joint turns back.
+  EXPECT_LT(largest_turn(early, 0.1), 2 * largest_turn({}, 0));
+}
+
+TEST_F(LiveStylizerTest, by_whole_cycles_a_slower_or_faster_style_is_held_for_ever) {
+  for (const double rate : {0.9, 1.1}) {
+    LiveOptions options;
+    options.max_lag = 1.5;
+    options.max_lead = 0.1;
+    options.skip_cycles = true;
+    LiveWalk walk;
+    LiveStylizer character = live(model_at_rate(rate), options);
+    double played = 0, ahead = 0;
+    float fastest = 0, fastest_input = 0;
+    Clip last_input = out_;
+    constexpr int kSteps = 5 * 60 * 60;  // Five minutes.
+    int blends = 0, before = 0;
+    for (int f = 0; f < kSteps; ++f) {
+      const ConstPose in = walk.step(kStep);
+      character.step(in, std::vector<float>{1, 0}, kStep, out_.pose(f % 2));
+      ASSERT_GE(character.ahead(), -1.5);
+      ASSERT_LE(character.ahead(), 0.1);
+      if (f < 120) continue;
+      // What was played is what time went, and what the head went against it but for leaps.
+      const double moved = character.ahead() - ahead;
+      ahead = character.ahead();
+      if (std::abs(moved) < 0.2) played += kStep + moved;
+      blends += character.skipped_cycles() != before;
+      before = character.skipped_cycles();
+      for (size_t j = 0; j < in.rotations.size(); ++j) {
+        const auto turn = [](Quat a, Quat b) {
+          return 2 * std::acos(std::min(std::abs(dot(a, b)), 1.0f));
+        };
+        fastest = std::max(fastest, turn(out_.pose(0).rotations[j], out_.pose(1).rotations[j]));
+        fastest_input =
+            std::max(fastest_input, turn(in.rotations[j], last_input.pose(0).rotations[j]));
+      }
+      std::copy(in.rotations.begin(), in.rotations.end(), last_input.pose(0).rotations.begin());
+    }
+    // The tempo is the style's, over all.
+    EXPECT_NEAR(played / ((kSteps - 120) * kStep), rate, 0.01);
+    // 30 s of 300 are left out or played again, in cycles of about 1.1 s.
+    EXPECT_NEAR(character.skipped_cycles(), rate < 1 ? 27 : -27, 6);
+    EXPECT_EQ(blends, std::abs(character.skipped_cycles()));
+    // No joint jumps where a cycle is left out: cycles of one walk differ by little, and 0.2 s is
+    // long.
+    EXPECT_LT(fastest, 1.3f * fastest_input);
+  }
+}
+
+TEST_F(LiveStylizerTest, the_way_goes_on_where_a_cycle_is_left_out) {
+  LiveOptions options;
+  options.max_lag = 1.5;
+  options.skip_cycles = true;
+  LiveWalk walk;
+  LiveStylizer character = live(model_at_rate(0.85), options);
+  float largest = 0;
+  for (int f = 0; f < 60 * 60; ++f) {
+    character.step(walk.step(kStep), std::vector<float>{1, 0}, kStep, out_.pose(f % 2));
+    const Vec3 step = out_.pose(0).translations[0] - out_.pose(1).translations[0];
+    if (f > 60) largest = std::max(largest, std::hypot(step.x, step.z));
+  }
+  ASSERT_GT(character.skipped_cycles(), 4);
+  // A stride is 1.4 m; a step at 1.4 m/s, swaying, is well below 4 cm.
+  EXPECT_LT(largest, 0.04f);
+}
+
+// Cycles of a walk whose speed changes are not the same: what is left between them is blended over
+// 0.2 s, not jumped.
+TEST_F(LiveStylizerTest, where_a_cycle_is_left_out_no_joint_jumps) {
+  LiveOptions options;
+  options.max_lag = 1.5;
+  options.skip_cycles = true;
+  LiveWalk walk;
+  LiveStylizer character = live(model_at_rate(0.85), options);
+  // How much the joints' turns change from one step to the next, in the mean.
+  double at_skips = 0, elsewhere = 0;
+  std::vector<float> before(clip_.joints());
+  int skipped = 0;
+  for (int f = 0; f < 90 * 60; ++f) {
+    const float speed = 1.4f + 0.3f * std::sin(0.012f * static_cast<float>(f));
+    character.step(walk.step(kStep, speed), std::vector<float>{1, 0}, kStep, out_.pose(f % 2));
+    const bool skips = skipped != character.skipped_cycles();
+    skipped = character.skipped_cycles();
+    for (size_t j = 0; j < clip_.joints(); ++j) {
+      const float d = std::abs(dot(out_.pose(0).rotations[j], out_.pose(1).rotations[j]));
+      const float turn = 2 * std::acos(std::min(d, 1.0f));
+      if (f > 60) (skips ? at_skips : elsewhere) += static_cast<double>(std::abs(turn - before[j]));
+      before[j] = turn;
+    }
+  }
+  ASSERT_GT(skipped, 6);
+  EXPECT_LT(at_skips / skipped, 2 * elsewhere / (90 * 60));
+}
+
+TEST_F(LiveStylizerTest, any_clock_pause_gap_or_leap_leaves_it_whole) {
+  LiveOptions options;
+  options.max_lag = 1.2;
+  options.max_lead = 0.25;
+  options.skip_cycles = true;
+  for (const double rate : {0.8, 1.25}) {
+    LiveStylizer character = live(model_at_rate(rate), options);
+    LiveWalk walk;
+    Random random(11);
+    Clip in = out_;
+    for (int i = 0; i < 6000; ++i) {
+      double seconds = 0.03 * random.uniform();
+      if (i % 97 == 0) seconds = 0;
+      if (i % 501 == 0) seconds = 3;  // A pause.
+      if (i % 777 == 0) seconds = -1;
+      if (i % 1001 == 0) seconds = std::numeric_limits<double>::quiet_NaN();
+      const ConstPose pose = walk.step(std::clamp(seconds, 0.0, 0.2), 1.4f, 0.5f);
+      std::copy(pose.rotations.begin(), pose.rotations.end(), in.pose(0).rotations.begin());
+      std::copy(pose.translations.begin(), pose.translations.end(),
+                in.pose(0).translations.begin());
+      const float nan = std::numeric_limits<float>::quiet_NaN();
+      if (i % 333 == 0) in.pose(0).rotations[3] = {nan, 0, 0, 1};
+      if (i % 444 == 0) in.pose(0).translations[0] = {1e30f, nan, 0};
+      if (i / 1500 % 2 == 1) in.pose(0).translations[0].x += 50;  // A leap at 1500 and at 3000.
+      character.step(in.pose(0), std::vector<float>{1, 0.5f}, seconds, out_.pose(0));
+      for (size_t j = 0; j < in.joints(); ++j) {
+        ASSERT_TRUE(is_finite(out_.pose(0).rotations[j])) << i;
+        ASSERT_NEAR(dot(out_.pose(0).rotations[j], out_.pose(0).rotations[j]), 1, 0.01f) << i;
+        ASSERT_TRUE(is_finite(out_.pose(0).translations[j])) << i;
+      }
+    }
+  }
+}
+
+TEST_F(LiveStylizerTest, after_a_leap_nothing_of_the_old_place_is_shown) {
+  LiveOptions options;
+  options.max_lag = 1;
+  LiveStylizer character = live(model_at_rate(0.8), options);
+  for (int f = 0; f < 400; ++f) {
+    Clip moved = clip_;
+    if (f >= 300) moved.pose(f).translations[0].x += 100;
+    character.step(moved.pose(f), std::vector<float>{1, 0}, kStep, out_.pose(f));
+    if (f >= 300) {
+      ASSERT_GT(out_.pose(f).translations[0].x, 90) << f;
+    }
+  }
+}
+
+TEST_F(LiveStylizerTest, a_step_allocates_nothing) {
+  LiveOptions options;
+  options.max_lag = 1.5;
+  options.max_lead = 0.25;
+  options.skip_cycles = true;
+  for (const double rate : {0.8, 1.25}) {
+    LiveStylizer character = live(model_at_rate(rate), options);
+    LiveWalk walk;
+    const std::vector<float> strengths = {1, 0};
+    long allocated = 0;
+    for (int f = 0; f < 1200; ++f) {
+      const ConstPose in = walk.step(kStep);
+      const long before = test::allocations;
+      character.step(in, strengths, kStep, out_.pose(0));
+      allocated += test::allocations - before;
+    }
+    EXPECT_EQ(allocated, 0);
+    EXPECT_NE(character.skipped_cycles(), 0);
+  }
+}
+
+TEST_F(LiveStylizerTest, a_restored_character_goes_on_bit_for_bit) {
+  LiveOptions options;
+  options.max_lag = 1.5;
+  options.max_lead = 0.2;
+  options.skip_cycles = true;
+  const auto model = model_at_rate(0.85);
+  LiveStylizer character = live(model, options), other = live(model, options);
+  LiveWalk walk;
+  const std::vector<float> strengths = {1, 0};
+  for (int f = 0; f < 500; ++f) character.step(walk.step(kStep), strengths, kStep, out_.pose(0));
+  std::vector<std::byte> state(character.state_size());
+  character.save(state);
+  ASSERT_TRUE(other.restore(state));
+  for (int f = 0; f < 500; ++f) {
+    const ConstPose in = walk.step(kStep);
+    character.step(in, strengths, kStep, out_.pose(0));
+    other.step(in, strengths, kStep, out_.pose(1));
+    expect_same(out_, 0, out_, 1);
+  }
+  for (const size_t byte : {size_t{3}, state.size() / 2, state.size() - 1}) {
+    std::vector<std::byte> damaged = state;
+    damaged[byte] ^= std::byte{1};
+    EXPECT_FALSE(other.restore(damaged));
+  }
+  EXPECT_FALSE(other.restore(std::span(state).first(state.size() - 1)));
+}
+
+TEST_F(LiveStylizerTest, an_option_that_cannot_be_is_refused_in_a_sentence) {
+  const auto error = [&](LiveOptions options, bool foresees = true) {
+    const auto made =
+        LiveStylizer::create(model_at_rate(1, foresees), *Rig::create(clip_), options);
+    return made ? std::string() : made.error().message;
+  };
+  LiveOptions late, early;
+  late.max_lag = 5;
+  EXPECT_EQ(error(late), "max_lag of 5.000000 seconds; expected 0 to 4 seconds");
+  late.max_lag = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(error(late), "max_lag of nan seconds; expected 0 to 4 seconds");
+  early.max_lead = 0.3;
+  EXPECT_EQ(error(early), "max_lead of 0.300000 seconds; expected 0 to 0.25 seconds");
+  early.max_lead = 0.1;
+  EXPECT_EQ(error(early), "");
+  EXPECT_EQ(error(early, false),
+            "max_lead needs a model that foresees input, which this one does not; train it again "
+            "or set max_lead to 0");
+}
+
+// An hour of walking, 5 km, at 30 frames a second: what the style does in the last minute is what
+// it did in the second.
+TEST(AnHour, of_a_stream_leaves_the_style_as_it_was) {
+  const auto model = *Model::load(PANACHE_SOURCE_DIR "/models/panache.safetensors");
+  const Clip one = walk_clip(*WalkerModel::load(PANACHE_SOURCE_DIR "/models/walker.safetensors"),
+                             {.seconds = 1});
+  LiveWalk walk;
+  LiveOptions options;
+  options.max_lag = 1.5;
+  options.max_lead = 0.1;
+  options.skip_cycles = true;
+  LiveStylizer character = *LiveStylizer::create(model, *Rig::create(one), options);
+  std::vector<float> strengths(model->styles().size());
+  strengths[static_cast<size_t>(*model->find_style("old"))] = 1;
+  Clip out = one;
+  constexpr int kMinute = 60 * 30;
+  // Mean turn of each joint by the style, and its height of the hips, in a minute.
+  struct Minute {
+    std::array<double, kHumanJoints> turn{};
+    double height = 0, rate = 0;
+  } second, last;
+  for (int f = 0; f < 60 * kMinute; ++f) {
+    character.step(walk.step(1.0 / 30), strengths, 1.0 / 30, out.pose(0));
+    Minute* minute = f / kMinute == 1 ? &second : f / kMinute == 59 ? &last : nullptr;
+    if (!minute) continue;
+    const Stylizer& stylizer = character.stylizer();
+    for (size_t j = 0; j < kHumanJoints; ++j) {
+      const Quat turned = stylizer.change().rotations[j];
+      minute->turn[j] += 2 * std::asin(static_cast<double>(length(turned.xyz()))) / kMinute;
+    }
+    minute->height += static_cast<double>(stylizer.change().translation.y) / kMinute;
+    minute->rate += stylizer.rate() / kMinute;
+    ASSERT_GE(character.ahead(), -1.5);
+    ASSERT_LE(character.ahead(), 0.1);
+  }
+  // At 5 km a float is 0.5 mm fine: half a degree, half a centimetre and a percent are far above
+  // what that does, and far below what a style does.
+  for (size_t j = 0; j < kHumanJoints; ++j) EXPECT_NEAR(last.turn[j], second.turn[j], 0.009) << j;
+  EXPECT_NEAR(last.height, second.height, 0.005);
+  EXPECT_NEAR(last.rate, second.rate, 0.01);
+}
+
+}  // namespace
+}  // namespace panache
