@@ -2,6 +2,7 @@
 // inputs, three hidden layers of 128, 64 and 32 units, outputs for pose (130), timing (1) and
 // contact (2). Compares the vectorised kernels with the plain loops that define them, in one run.
 
+#include <array>
 #include <cmath>
 #include <random>
 #include <string>
@@ -11,6 +12,7 @@
 #include <benchmark/benchmark.h>
 
 #include "net/dense.h"
+#include "net/half_size.h"
 #include "net/mlp.h"
 
 namespace {
@@ -80,6 +82,63 @@ void vectorised(benchmark::State& state) { three_networks<dense, elu>(state); }
 void plain_loops(benchmark::State& state) { three_networks<scalar::dense, scalar::elu>(state); }
 BENCHMARK(vectorised)->Unit(benchmark::kMicrosecond);
 BENCHMARK(plain_loops)->Unit(benchmark::kMicrosecond);
+
+// The same networks as a model holds them: the three first layers in one matrix, rows padded.
+TensorFile make_file() {
+  TensorFile file;
+  const std::vector<Network> networks = make_networks();
+  for (size_t n = 0; n < networks.size(); ++n) {
+    for (size_t l = 0; l < networks[n].layers.size(); ++l) {
+      const DenseLayer& layer = networks[n].layers[l];
+      const std::string key = "network" + std::to_string(n) +
+                              (l < kHiddenLayers ? ".trunk." + std::to_string(l) : ".head");
+      file.tensors[key + ".weight"] = {{layer.inputs, layer.outputs}, layer.weights};
+      file.tensors[key + ".bias"] = {{layer.outputs}, layer.bias};
+    }
+  }
+  return file;
+}
+
+// Forward passes of so many characters at once.
+void packed_networks(benchmark::State& state, const TensorFile& file) {
+  const size_t rows = static_cast<size_t>(state.range(0));
+  std::array<Trunk, 3> trunks;
+  std::array<PackedLayer, 3> heads;
+  for (size_t n = 0; n < 3; ++n) {
+    const std::string key = "network" + std::to_string(n);
+    trunks[n] = *Trunk::read(file, key + ".trunk", kInputs, "made up");
+    heads[n] = PackedLayer(*read_layer(file, key + ".head", -1, -1, "made up"));
+  }
+  const TrunkTrio trio(std::move(trunks));
+  std::mt19937 random(2);
+  std::normal_distribution<float> normal;
+  AlignedVector<float> input(kInputs * rows), scratch(trio.scratch_size(rows)), out(256 * rows);
+  for (float& v : input) v = normal(random);
+  for (auto _ : state) {
+    const auto hidden =
+        trio.forward(Rows<const float>{input.data(), rows, kInputs}, std::span(scratch));
+    for (size_t n = 0; n < 3; ++n) heads[n].forward(hidden[n], {out.data(), rows, 256});
+    benchmark::DoNotOptimize(out.data());
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(static_cast<int64_t>(state.iterations() * rows));
+}
+void packed(benchmark::State& state) { packed_networks(state, make_file()); }
+void half_size(benchmark::State& state) { packed_networks(state, in_half_size(make_file())); }
+BENCHMARK(packed)->Arg(1)->Arg(8)->Arg(16)->Unit(benchmark::kMicrosecond);
+BENCHMARK(half_size)->Arg(1)->Arg(8)->Arg(16)->Unit(benchmark::kMicrosecond);
+
+// How fast the caches give what the networks weigh: reading and adding up so many bytes, as fast as
+// the kernels' instruction set allows.
+void read_once(benchmark::State& state) {
+  AlignedVector<float> weights(static_cast<size_t>(state.range(0)) / 4, 1.0f);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(sum_in_any_order(weights));
+    benchmark::ClobberMemory();
+  }
+  state.SetBytesProcessed(static_cast<int64_t>(state.iterations()) * state.range(0));
+}
+BENCHMARK(read_once)->Arg(953344)->Arg(953344 / 4)->Unit(benchmark::kMicrosecond);
 
 // The layers that weigh most, alone.
 template <auto kDense>

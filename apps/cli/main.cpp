@@ -48,10 +48,13 @@ int run(int argc, char** argv) {
   add_info(app, exit_code);
   add_walker(app, exit_code);
   add_strip(app, exit_code);
+  add_halve(app, exit_code);
+  add_view(app, exit_code);
   add_live(app, exit_code);
   add_send(app, exit_code);
   add_train(app, exit_code);
   add_eval(app, exit_code);
+  add_bench(app, exit_code);
   if (argc < 2) {
     std::fputs(app.help().c_str(), stderr);
     return kBadUsage;

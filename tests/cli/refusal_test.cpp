@@ -229,7 +229,7 @@ TEST_F(Refusal, a_verb_that_does_not_exist) {
   expect_refused(
       {"stylise", "walk.bvh"}, 2,
       "there is no verb 'stylise'; expected stylize, convert, styles, info, walker, strip, "
-      "live, send, train or eval");
+      "halve, view, live, send, train, eval or bench");
 }
 
 TEST_F(Refusal, a_command_that_is_incomplete) {

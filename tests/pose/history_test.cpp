@@ -54,6 +54,21 @@ TEST(History, every_rate_shows_the_same_window) {
   }
 }
 
+TEST(History, between_the_poses_of_a_slow_input_the_window_lies_on_straight_lines) {
+  // At 8 poses a second, several of the window's times lie between the same two.
+  constexpr double kGap = 1.0 / 8;
+  const std::vector<float> window = window_after(8, 1);
+  for (int k = 0; k < kWindowPoses; ++k) {
+    const double time = 1 - k * kWindowSpacing, before = std::floor(time / kGap) * kGap;
+    const float t = static_cast<float>((time - before) / kGap);
+    for (int j = 0; j < kHumanJoints; ++j) {
+      const Vec3 expected = lerp(body_at(before)[j], body_at(before + kGap)[j], t);
+      // Rounding only.
+      EXPECT_NEAR(window[66 * k + 3 * j], expected.x, 1e-6) << "pose " << k << " joint " << j;
+    }
+  }
+}
+
 TEST(History, velocity_and_turn_rate_are_those_of_the_body) {
   const std::vector<float> window = window_after(60, 1);
   // The body goes at 0.3 m/s in x and 1.2 in z while it faces 0.5 rad to the left.

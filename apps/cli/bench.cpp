@@ -1,0 +1,68 @@
+// panache bench: how fast it is here, and beside what.
+
+#include <memory>
+#include <string>
+
+#include "base/progress.h"
+#include "bench/run.h"
+#include "bench_report.h"
+#include "model_path.h"
+#include "report.h"
+#include "verbs.h"
+
+namespace panache::cli {
+namespace {
+
+constexpr int64_t kQuickSteps = 100'000;
+
+struct Options {
+  std::string model;
+  int64_t steps = 1'000'000;
+  bool quick = false, json = false;
+};
+
+int run(const Options& options) {
+  if (Result<void> steps = check_range("--steps", static_cast<double>(options.steps), 1, 1e9);
+      !steps) {
+    return refuse(steps.error(), kBadUsage);
+  }
+  Result<std::string> model = find_model(options.model);
+  if (!model) return refuse(model.error(), kBadInput);
+  Result<std::string> walker = find_shipped("walker.safetensors");
+  if (!walker) return refuse(walker.error(), kBadInput);
+  bench::Options how;
+  how.model = *model;
+  how.walker_model = *walker;
+  how.steps = options.quick ? kQuickSteps : options.steps;
+  Result<bench::Measurements> measured = [&] {
+    Progress progress("measuring");
+    return bench::measure_all(how, [&](double share) { progress.update(share); });
+  }();
+  if (!measured) return refuse(measured.error(), kBadInput);
+  if (options.json) {
+    print(to_json(*measured));
+  } else {
+    print(describe(*measured));
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App* verb = app.add_subcommand("bench", "Measure the speed of networks and steps");
+  verb->add_option("--model", options->model,
+                   "Model whose steps are timed; default: $PANACHE_MODEL, else the one shipped");
+  verb->add_option("--steps", options->steps, "Steps to time; all else is repeated accordingly")
+      ->capture_default_str();
+  verb->add_flag("--quick", options->quick, "A tenth of everything")->excludes("--steps");
+  verb->add_flag("--json", options->json, "Print JSON");
+  verb->footer(
+      "Everything runs on one core; let nothing else run beside it. Libraries to compare with are\n"
+      "looked for in the folder bench beside the program, where ./run bench puts them.\n\n"
+      "Example:\n  panache bench --quick");
+  verb->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace panache::cli

@@ -1,0 +1,19 @@
+#pragma once
+// What was measured, for machines and for people.
+
+#include <string>
+
+#include "bench/run.h"
+#include "report.h"
+
+namespace panache::cli {
+
+// Times in microseconds; null where there is none.
+Json to_json(const bench::Measurements& measured);
+// Tables for a terminal, and what is missing and how one gets it.
+std::string describe(const bench::Measurements& measured);
+
+// Characters whose steps fit into a sixtieth of a second.
+int characters_at_60hz(const bench::CrowdTime& crowd);
+
+}  // namespace panache::cli

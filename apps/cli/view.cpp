@@ -1,0 +1,127 @@
+// panache view: the page, served to this machine alone.
+
+#include <cctype>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <httplib.h>
+
+#include "base/file.h"
+#include "input.h"
+#include "report.h"
+#include "verbs.h"
+
+namespace panache::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kAddress = "127.0.0.1";
+
+// A file as the page takes it, and what to call it there.
+struct Served {
+  std::string name, bytes;
+};
+
+// The folder that ./run web makes: beside an installed program's folder or beside the build's.
+Result<std::string> find_page() {
+  std::error_code status;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", status).parent_path();
+  std::string looked;
+  for (const char* web : {"../share/panache/web", "../web"}) {
+    const fs::path page = (folder / web).lexically_normal();
+    if (fs::exists(page / "index.html", status)) return page.string();
+    looked += (looked.empty() ? "" : ", ") + page.string();
+  }
+  return Error{"the page was not found; looked for " + looked + "; ./run web makes it"};
+}
+
+// All that a file points to goes into what is served, and FBX comes as GLB.
+Result<Served> read_served(const std::string& path) {
+  Result<std::unique_ptr<MotionFile>> motion = open_motion(path);
+  if (!motion) return motion.error();
+  const std::string name = fs::path(path).filename().string(), ending = ending_of(path);
+  if (ending == ".fbx") return Served{name + ".glb", (*motion)->encode({}, EditMode::replace)};
+  if (ending == ".gltf") return Served{name, (*motion)->encode({}, EditMode::replace)};
+  Result<std::string> bytes = read_file(path);
+  if (!bytes) return bytes.error();
+  return Served{name, *std::move(bytes)};
+}
+
+// In the path of an address.
+std::string percent_encoded(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (std::isalnum(byte) || c == '-' || c == '_' || c == '.') {
+      out += c;
+    } else {
+      char code[4];
+      std::snprintf(code, sizeof code, "%%%02X", byte);
+      out += code;
+    }
+  }
+  return out;
+}
+
+// Pages of others must not reach this server under a name of theirs that leads to this machine.
+bool is_own_host(const std::string& host, int port) {
+  const std::string end = ":" + std::to_string(port);
+  return host == kAddress + end || host == "localhost" + end;
+}
+
+int view(const std::string& path) {
+  Served served;
+  if (!path.empty()) {
+    Result<Served> read = read_served(path);
+    if (!read) return refuse(read.error(), kBadInput);
+    served = *std::move(read);
+  }
+  Result<std::string> page = find_page();
+  if (!page) return refuse(page.error(), kBadInput);
+
+  httplib::Server server;
+  // With these a page may read a finer clock, which the times of a step are told by.
+  server.set_default_headers({{"Cross-Origin-Opener-Policy", "same-origin"},
+                              {"Cross-Origin-Embedder-Policy", "require-corp"},
+                              {"Cache-Control", "no-cache"}});
+  const int port = server.bind_to_any_port(kAddress);
+  if (port < 0 || !server.set_mount_point("/", *page)) {
+    return refuse({"no port of " + std::string(kAddress) + " is free to serve the page on"},
+                  kBadInput);
+  }
+  server.set_pre_routing_handler(
+      [port](const httplib::Request& request, httplib::Response& answer) {
+        if (is_own_host(request.get_header_value("Host"), port)) {
+          return httplib::Server::HandlerResponse::Unhandled;
+        }
+        answer.status = 403;
+        return httplib::Server::HandlerResponse::Handled;
+      });
+  if (!path.empty()) {
+    server.Get("/open/.*", [&served](const httplib::Request&, httplib::Response& answer) {
+      answer.set_content(served.bytes, "application/octet-stream");
+    });
+  }
+  print("http://" + std::string(kAddress) + ":" + std::to_string(port) + "/" +
+        (path.empty() ? "" : "?open=" + percent_encoded(served.name)) + "\n");
+  say("open this address in a browser; Ctrl-C ends");
+  std::fflush(stdout);
+  server.listen_after_bind();
+  return kDone;
+}
+
+}  // namespace
+
+void add_view(CLI::App& app, int& exit_code) {
+  CLI::App* verb = app.add_subcommand("view", "Show motion in a browser, and style it by hand");
+  auto path = std::make_shared<std::string>();
+  verb->add_option("file", *path, "Motion file to open in the page; default: a walker to steer")
+      ->type_name("FILE");
+  verb->footer("Example:\n  panache view walk.bvh");
+  verb->callback([path, &exit_code] { exit_code = view(*path); });
+}
+
+}  // namespace panache::cli

@@ -1,0 +1,22 @@
+// node example.mjs walk.bvh old=1 proud=0.5 > styled.bvh: restyles a file.
+import { readFile } from 'node:fs/promises';
+import { Panache } from './index.js';
+
+const here = (name) => readFile(new URL(name, import.meta.url));
+const [path, ...styles] = process.argv.slice(2);
+const panache = await Panache.create({
+  wasm: await here('panache.wasm'),
+  model: await here('panache.safetensors'),
+});
+try {
+  const file = panache.openFile(await readFile(path), path);
+  const actor = file.createActor();
+  for (const style of styles) {
+    const [name, strength] = style.split('=');
+    actor.setStrength(name, Number(strength));
+  }
+  process.stdout.write(actor.exportAs(file.ending));
+} catch (error) {
+  console.error(error.message);
+  process.exitCode = 1;
+}

@@ -1,0 +1,27 @@
+// A little help with elements.
+
+type Attributes = Record<string, string | number | boolean | undefined>;
+
+/** An element with attributes and children; `class`, `text` and everything else by its own name. */
+export function element<Tag extends keyof HTMLElementTagNameMap>(
+  tag: Tag, attributes: Attributes = {}, ...children: (Node | string)[]
+): HTMLElementTagNameMap[Tag] {
+  const out = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === undefined || value === false) continue;
+    out.setAttribute(name, value === true ? '' : String(value));
+  }
+  out.append(...children);
+  return out;
+}
+
+export function find<T extends HTMLElement>(selector: string): T {
+  const out = document.querySelector<T>(selector);
+  if (!out) throw new Error(`the page has no ${selector}`);
+  return out;
+}
+
+/** The value of a colour of the style sheet. */
+export function colour(name: string): string {
+  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+}

@@ -1,0 +1,357 @@
+// The page: makes everything and runs it, one frame after the other.
+
+import * as files from 'virtual:panache-files';
+
+import { Panache, PanacheError } from '../package/index.js';
+import { element, find } from './dom';
+import { Cross } from './gamepad';
+import { buildPanel } from './panel';
+import { Plots } from './plots';
+import { Film, saveBytes, savePicture } from './saving';
+import { fromAddress, shapeOf, Store, toAddress, type Settings } from './settings';
+import { clipSource, openFile, walkSource, type Source } from './source';
+import { Stage } from './stage';
+import { kPaces, Steering, type Pace } from './steering';
+import { TransportBar } from './transport';
+
+const kMeasuredSteps = 16;   // At once: a browser's clock is too coarse for one.
+const kMeasureEvery = 6;     // Frames.
+const kPlotEvery = 3;        // Frames.
+const kAlertSeconds = 12;
+
+/** What the build packed into the script. */
+async function unpack(base64: string): Promise<ArrayBuffer> {
+  const text = atob(base64);
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+  const packed = new Blob([bytes]).stream();
+  return new Response(packed.pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
+}
+
+class Page {
+  #panache: Panache;
+  #store: Store;
+  #stage = new Stage(find<HTMLCanvasElement>('#view'));
+  #plots: Plots;
+  #steering = new Steering(find('#stick'));
+  #cross = new Cross();
+  #transport: TransportBar;
+  #film = new Film(this.#stage.canvas);
+  #source: Source;
+  #bytes = new ArrayBuffer(0);  // Of the file that is open.
+  #cut = true;
+  #last = 0;
+  #seconds = 0;
+  #frames = 0;
+  #alertTimer = 0;
+
+  constructor(panache: Panache) {
+    this.#panache = panache;
+    const names = panache.styles.map((style) => style.name);
+    this.#store = new Store(fromAddress(location.hash, names));
+    this.#plots = new Plots(find('#plots'), names);
+    this.#transport = new TransportBar({
+      onSeek: (seconds) => this.#seek(seconds),
+      onClip: (clip) => void this.#attempt(() => this.#playClip(clip)),
+      onLoop: (loop) => this.#source.kind === 'clip' && (this.#source.actor.loop = loop),
+    });
+    this.#source = walkSource(panache);
+    buildPanel(this.#store, panache.styles);
+    this.#buildWalkerControls();
+    this.#buildFileControls();
+    this.#listenToDrops();
+    this.#use(this.#source);
+    this.#store.listen((settings) => this.#apply(settings));
+    this.#rememberInAddress();
+    matchMedia('(prefers-color-scheme: dark)')
+      .addEventListener('change', () => this.#stage.paint());
+    addEventListener('keydown', (event) => this.#key(event));
+    find('#wait').hidden = true;
+    requestAnimationFrame((now) => {
+      this.#last = now;
+      this.#frame(now);
+    });
+  }
+
+  // ---- One frame ----
+
+  #frame(now: number) {
+    requestAnimationFrame((next) => this.#frame(next));
+    const seconds = Math.min(0.1, (now - this.#last) / 1000);
+    this.#last = now;
+    this.#cross.step(seconds);
+    this.#advance(seconds);
+    this.#stage.update(this.#source.actor, this.#source.joints, this.#cut);
+    this.#cut = false;
+    this.#stage.draw(seconds);
+    this.#report();
+    ++this.#frames;
+  }
+
+  #advance(seconds: number) {
+    const source = this.#source;
+    if (source.kind === 'walk') {
+      const { speed, turn } = this.#steering.wish(seconds);
+      source.actor.steer(speed, turn);
+      source.actor.step(seconds);
+      this.#seconds += seconds;
+      return;
+    }
+    const { playing, speed } = this.#transport.state;
+    if (playing) {
+      const before = source.actor.seconds;
+      // The library takes a tenth of a second at once.
+      source.actor.step(seconds * speed);
+      this.#cut ||= source.actor.seconds < before;
+      this.#seconds += seconds * speed;
+    } else {
+      source.actor.step(0);  // What is pushed is seen when the clip goes on, or is scrubbed.
+    }
+    this.#transport.at(source.actor.seconds);
+  }
+
+  #report() {
+    const actor = this.#source.actor;
+    const { styles, strength } = this.#store.settings;
+    this.#plots.add({
+      time: this.#seconds,
+      strengths: Object.entries(styles).map(([name, value]) => [name, value * strength]),
+      rate: actor.rate,
+      contacts: actor.contacts,
+    });
+    if (this.#frames % kMeasureEvery === 0) {
+      const begin = performance.now();
+      actor.measure(kMeasuredSteps);
+      this.#plots.addStep(((performance.now() - begin) * 1000) / kMeasuredSteps);
+    }
+    if (this.#frames % kPlotEvery !== 0) return;
+    this.#plots.draw();
+    find('#rate-now').textContent = `${actor.rate.toFixed(2)}×`;
+    find('#step-now').textContent = `median ${Math.round(this.#plots.stepMedian)}`;
+  }
+
+  // ---- Settings ----
+
+  #apply(settings: Settings) {
+    const actor = this.#source.actor;
+    for (const { name } of this.#panache.styles) {
+      actor.setStrength(name, (settings.styles[name] ?? 0) * settings.strength);
+    }
+    actor.setShape(shapeOf(settings));
+    this.#stage.view = settings.view;
+    this.#stage.trail = settings.trail;
+  }
+
+  #rememberInAddress() {
+    let timer = 0;
+    this.#store.listen((settings) => {
+      clearTimeout(timer);
+      timer = window.setTimeout(() => {
+        const text = toAddress(settings);
+        if (text === location.hash.replace(/^#/, '')) return;
+        history.replaceState(null, '', text ? `#${text}` : location.pathname + location.search);
+      }, 200);
+    });
+    addEventListener('hashchange', () => {
+      this.#store.set(fromAddress(location.hash, this.#panache.styles.map((s) => s.name)));
+    });
+  }
+
+  #key(event: KeyboardEvent) {
+    const target = event.target as HTMLElement;
+    if (target.matches('input, select, button') || event.ctrlKey || event.metaKey) return;
+    if (event.code === 'Space') {
+      event.preventDefault();
+      if (this.#source.kind === 'clip') this.#transport.setPlaying(!this.#transport.state.playing);
+      else this.#setPace(this.#steering.pace === 'stand' ? 'walk' : 'stand');
+    }
+    if (event.code === 'Digit0') this.#store.set({ styles: {} });
+  }
+
+  // ---- Sources ----
+
+  #use(source: Source) {
+    if (this.#source !== source) {
+      const old = this.#source;
+      if (old.kind === 'clip' && (source.kind !== 'clip' || source.file !== old.file)) {
+        old.file.free();
+      }
+      old.actor.free();
+    }
+    this.#source = source;
+    document.body.dataset.source = source.kind;
+    find('#walker-controls').hidden = source.kind !== 'walk';
+    find('#clip-controls').hidden = source.kind !== 'clip';
+    find('#back').hidden = source.kind === 'walk';
+    find('#file-name').textContent = source.kind === 'clip' ? source.file.name : '';
+    if (source.kind === 'clip') {
+      this.#transport.show(source.file, source.clip);
+      this.#transport.setPlaying(true);
+      source.actor.loop = this.#transport.state.loop;
+    }
+    this.#apply(this.#store.settings);
+    source.actor.step(0);
+    this.#stage.show(source.actor, source.own);
+    this.#plots.clear();
+    this.#cut = true;
+  }
+
+  #seek(seconds: number) {
+    if (this.#source.kind !== 'clip') return;
+    this.#source.actor.seek(seconds);
+    this.#cut = true;
+  }
+
+  async #open(file: File) {
+    const opened = await openFile(this.#panache, file);
+    let source: Source;
+    try {
+      source = await clipSource(opened.file, opened.bytes, 0);
+    } catch (error) {
+      opened.file.free();
+      throw error;
+    }
+    this.#bytes = opened.bytes;
+    this.#use(source);
+  }
+
+  async #playClip(clip: number) {
+    if (this.#source.kind !== 'clip') return;
+    this.#use(await clipSource(this.#source.file, this.#bytes, clip));
+  }
+
+  /** Tells of what is wrong with a file; everything else is a fault of ours. */
+  async #attempt(action: () => Promise<void> | void) {
+    try {
+      this.#alert('');
+      await action();
+    } catch (error) {
+      if (!(error instanceof PanacheError)) throw error;
+      this.#alert(error.message);
+    }
+  }
+
+  #alert(text: string) {
+    const alert = find('#alert');
+    alert.textContent = text;
+    alert.hidden = text === '';
+    clearTimeout(this.#alertTimer);
+    this.#alertTimer = window.setTimeout(() => (alert.hidden = true), kAlertSeconds * 1000);
+  }
+
+  // ---- Controls under the view ----
+
+  #setPace(pace: Pace) {
+    this.#steering.setPace(pace);
+    for (const button of document.querySelectorAll<HTMLElement>('[data-pace]')) {
+      button.setAttribute('aria-pressed', String(button.dataset.pace === pace));
+    }
+  }
+
+  #buildWalkerControls() {
+    const buttons = (Object.keys(kPaces) as Pace[]).map((pace) => {
+      const button = element('button', { type: 'button', 'data-pace': pace },
+        pace[0].toUpperCase() + pace.slice(1));
+      button.addEventListener('click', () => this.#setPace(pace));
+      return button;
+    });
+    const keys = element('span', { class: 'keys' });
+    for (const key of ['W', 'A', 'S', 'D']) keys.append(element('kbd', {}, key), ' ');
+    keys.append('steer');
+    find('#walker-controls').append(...buttons, keys);
+    this.#setPace('walk');
+  }
+
+  #buildFileControls() {
+    const input = find<HTMLInputElement>('#file');
+    const button = (id: string, text: string, hint: string, press: () => void) => {
+      const out = element('button', { type: 'button', id, title: hint }, text);
+      out.addEventListener('click', () => void this.#attempt(press));
+      return out;
+    };
+    const film = button('save-webm', 'WebM', 'Film what is seen; press again to end', () => {
+      if (this.#film.running) this.#film.stop();
+      else this.#film.start('panache.webm');
+      film.setAttribute('aria-pressed', String(this.#film.running));
+      film.textContent = this.#film.running ? 'Stop filming' : 'WebM';
+    });
+    film.hidden = !Film.possible;
+    input.addEventListener('change', () => {
+      const [file] = input.files ?? [];
+      input.value = '';
+      if (file) void this.#attempt(() => this.#open(file));
+    });
+    const save = (ending: string) => () => {
+      saveBytes(this.#source.actor.exportAs(ending) as BlobPart, `panache${ending}`);
+    };
+    find('#file-controls').append(
+      button('back', 'Walker', 'Close the file and steer the walker again',
+        () => this.#use(walkSource(this.#panache))),
+      button('open', 'Open …', 'A BVH, GLB, glTF or VRM file; or drop one on the view',
+        () => input.click()),
+      element('span', { class: 'keys' }, 'Save'),
+      button('save-bvh', 'BVH', 'The motion, as a BVH file', save('.bvh')),
+      button('save-glb', 'GLB', 'The motion, as a GLB file', save('.glb')),
+      button('save-png', 'PNG', 'What is seen, as a picture',
+        () => {
+        this.#stage.draw(0);  // What was drawn before is gone once it was shown.
+        savePicture(this.#stage.canvas, 'panache.png');
+      }),
+      film);
+  }
+
+  #listenToDrops() {
+    const drop = find('#drop');
+    let depth = 0;
+    addEventListener('dragenter', (event) => {
+      event.preventDefault();
+      drop.hidden = ++depth === 0;
+    });
+    addEventListener('dragleave', () => (drop.hidden = --depth <= 0));
+    addEventListener('dragover', (event) => event.preventDefault());
+    addEventListener('drop', (event) => {
+      event.preventDefault();
+      depth = 0;
+      drop.hidden = true;
+      const file = event.dataTransfer?.files[0];
+      if (file) void this.#attempt(() => this.#open(file));
+    });
+    // `panache view FILE` names a file that it serves beside the page.
+    const served = new URLSearchParams(location.search).get('open');
+    if (served) {
+      void this.#attempt(async () => {
+        const answer = await fetch(`open/${encodeURIComponent(served)}`);
+        if (!answer.ok) throw new PanacheError(`${served}: the server has no such file`);
+        await this.#open(new File([await answer.blob()], served));
+      });
+    }
+  }
+
+  /** For tests: what is going on. */
+  get panache() {
+    return this.#panache;
+  }
+  get source() {
+    return this.#source;
+  }
+  get frames() {
+    return this.#frames;
+  }
+  get stepMicroseconds() {
+    return this.#plots.stepMedian;
+  }
+}
+
+async function start() {
+  try {
+    const [wasm, model, walker] = await Promise.all(
+      [files.wasm, files.model, files.walker].map(unpack));
+    const panache = await Panache.create({ wasm, model, walker });
+    Object.assign(window, { page: new Page(panache) });
+  } catch (error) {
+    find('#wait').textContent = `This browser cannot show the page: ${(error as Error).message}`;
+    throw error;
+  }
+}
+
+void start();

@@ -1,0 +1,70 @@
+// The pad on the page: a field to drag in, and four menus that say what its corners are.
+
+import { place, shares } from './blend';
+import { element } from './dom';
+import type { Store } from './settings';
+
+const kStep = 0.05;
+const kCornerNames = ['top left', 'top right', 'bottom left', 'bottom right'];
+
+export function buildPad(store: Store, styles: readonly string[], first: readonly string[]) {
+  const corners = [...first];
+  const knob = element('span');
+  const field = element('div', {
+    class: 'pad-field', role: 'application', tabindex: 0, id: 'pad', 'data-arrows': true,
+    'aria-label': 'Blend of four styles; arrow keys move it',
+  }, knob);
+  const at = { x: 0.5, y: 0.5 };
+
+  const apply = (x: number, y: number) => {
+    at.x = Math.min(1, Math.max(0, x));
+    at.y = Math.min(1, Math.max(0, y));
+    const strengths: Record<string, number> = {};
+    shares(at.x, at.y).forEach((share, i) => {
+      strengths[corners[i]] = (strengths[corners[i]] ?? 0) + share;
+    });
+    for (const [name, share] of Object.entries(strengths)) {
+      const rounded = Math.round(share * 100) / 100;
+      if (rounded > 0) strengths[name] = rounded;
+      else delete strengths[name];
+    }
+    store.set({ styles: strengths });
+  };
+  const drag = (event: PointerEvent) => {
+    const box = field.getBoundingClientRect();
+    apply((event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height);
+  };
+  field.addEventListener('pointerdown', (event) => {
+    field.setPointerCapture(event.pointerId);
+    drag(event);
+  });
+  field.addEventListener('pointermove', (event) => {
+    if (field.hasPointerCapture(event.pointerId)) drag(event);
+  });
+  field.addEventListener('keydown', (event) => {
+    const move = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[
+      event.key];
+    if (!move) return;
+    event.preventDefault();
+    apply(at.x + move[0] * kStep, at.y + move[1] * kStep);
+  });
+
+  const menus = corners.map((corner, i) => {
+    const menu = element('select', { 'aria-label': `Style of the pad, ${kCornerNames[i]}` },
+      ...styles.map((style) =>
+        element('option', { value: style, selected: style === corner }, style)));
+    menu.addEventListener('change', () => {
+      corners[i] = menu.value;
+      apply(at.x, at.y);
+    });
+    return menu;
+  });
+  store.listen(({ styles: strengths }) => {
+    Object.assign(at, place(corners.map((corner) => strengths[corner] ?? 0)));
+    knob.style.left = `${at.x * 100}%`;
+    knob.style.top = `${at.y * 100}%`;
+    const said = corners.map((corner) => `${corner} ${(strengths[corner] ?? 0).toFixed(2)}`);
+    field.setAttribute('aria-description', said.join(', '));
+  });
+  return element('div', { class: 'pad' }, menus[0], menus[1], field, menus[2], menus[3]);
+}

@@ -1,0 +1,104 @@
+// Everything that is set by hand: presets, styles, the pad, how much, and of which part.
+
+import type { Style } from '../package/index.js';
+import { element, find } from './dom';
+import { buildPad } from './pad';
+import { kCorners, kPresets } from './presets';
+import {
+  kAmounts, kLeast, kMost, kRegions, type Settings, type Store, type View,
+} from './settings';
+import { Slider } from './slider';
+
+const kAmountHints = {
+  strength: 'Of all styles together',
+  posture: 'Of the lasting part of the change: how the body is held',
+  dynamics: 'Of what moves beyond that: swing, bounce, length of step',
+  timing: 'Of the change of tempo',
+};
+const kViewTitles: Record<View, string> = {
+  styled: 'Styled', side: 'Side by side', over: 'Overlaid',
+};
+
+const title = (name: string) => name[0].toUpperCase() + name.slice(1);
+
+function toggle(text: string, hint: string, pressed: (s: Settings) => boolean, store: Store,
+    press: (s: Settings) => Partial<Settings>) {
+  const button = element('button', { type: 'button', title: hint }, text);
+  button.addEventListener('click', () => store.set(press(store.settings)));
+  store.listen((settings) => button.setAttribute('aria-pressed', String(pressed(settings))));
+  return button;
+}
+
+function presets(store: Store) {
+  const buttons = kPresets.map((preset) => {
+    const button = element('button', { type: 'button' }, preset.title);
+    button.addEventListener('click', () => store.set({ styles: { ...preset.styles } }));
+    store.listen(({ styles }) => {
+      const same = JSON.stringify(Object.entries(styles).sort()) ===
+        JSON.stringify(Object.entries(preset.styles).sort());
+      button.setAttribute('aria-pressed', String(same));
+    });
+    return button;
+  });
+  return element('div', { class: 'chips', id: 'presets', role: 'group', 'aria-label': 'Presets' },
+    ...buttons);
+}
+
+function styleSliders(store: Store, styles: readonly Style[]) {
+  return styles.map(({ name, description }) => {
+    const slider = new Slider({
+      id: `style-${name}`, title: title(name), hint: description,
+      least: kLeast, most: kMost, rest: 0,
+      onChange: (value) => store.setStyle(name, value),
+    });
+    store.listen((settings) => slider.show(settings.styles[name] ?? 0));
+    return slider.row;
+  });
+}
+
+function amountSliders(store: Store) {
+  return kAmounts.map((key) => {
+    const slider = new Slider({
+      id: `amount-${key}`, title: title(key), hint: kAmountHints[key], least: 0, most: 2, rest: 1,
+      onChange: (value) => store.set({ [key]: value }),
+    });
+    store.listen((settings) => slider.show(settings[key]));
+    return slider.row;
+  });
+}
+
+export function buildPanel(store: Store, styles: readonly Style[]) {
+  const names = styles.map((style) => style.name);
+  const regions = kRegions.map((key) => toggle(title(key), `Style the ${key}, or leave it as it is`,
+    (s) => s[key], store, (s) => ({ [key]: !s[key] })));
+  const feet = toggle('Feet lock', 'Planted feet stay where they are', (s) => s.feet, store,
+    (s) => ({ feet: !s.feet }));
+  const trail = toggle('Trail of the feet', 'Where the toes went', (s) => s.trail, store,
+    (s) => ({ trail: !s.trail }));
+  find('#panel').append(
+    element('h2', {}, 'Presets'), presets(store),
+    element('h2', { id: 'styles', tabindex: -1 }, 'Styles'),
+    element('p', { class: 'hint' }, '0 is neutral, 1 as captured; beyond that it is exaggerated.'),
+    ...styleSliders(store, styles),
+    element('h2', {}, 'Blend of four'),
+    buildPad(store, names,
+      kCorners.map((corner, i) => (names.includes(corner) ? corner : names[i]))),
+    element('h2', {}, 'How much'), ...amountSliders(store),
+    element('h2', {}, 'Parts of the body'),
+    element('div', { class: 'chips', role: 'group', 'aria-label': 'Parts of the body' },
+      ...regions),
+    element('h2', {}, 'Ground'),
+    element('div', { class: 'chips', role: 'group', 'aria-label': 'Ground' }, feet, trail));
+  find('#views').append(...(Object.keys(kViewTitles) as View[]).map((view) =>
+    toggle(kViewTitles[view], 'What is shown', (s) => s.view === view, store, () => ({ view }))));
+  store.listen((settings) => {
+    document.body.dataset.view = settings.view;
+    find('#caption').textContent = captionOf(settings);
+  });
+}
+
+/** "old 1.00 + proud 0.50" */
+export function captionOf({ styles }: Settings): string {
+  const parts = Object.entries(styles).map(([name, value]) => `${name} ${value.toFixed(2)}`);
+  return parts.length ? parts.join(' + ') : 'neutral: push a slider';
+}

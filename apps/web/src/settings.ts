@@ -1,0 +1,112 @@
+// Everything that a person can set, and its way into the address bar and back.
+
+import type { Shape } from '../package/index.js';
+
+export const kLeast = -0.5;
+export const kMost = 2;
+
+export const kRegions = ['legs', 'spine', 'arms', 'head'] as const;
+export const kAmounts = ['strength', 'posture', 'dynamics', 'timing'] as const;
+export const kViews = ['styled', 'side', 'over'] as const;
+export type Region = (typeof kRegions)[number];
+export type Amount = (typeof kAmounts)[number];
+export type View = (typeof kViews)[number];
+
+export interface Settings {
+  /** Strength of each style that is not 0. */
+  styles: Record<string, number>;
+  strength: number;
+  posture: number;
+  dynamics: number;
+  timing: number;
+  legs: boolean;
+  spine: boolean;
+  arms: boolean;
+  head: boolean;
+  feet: boolean;
+  view: View;
+  trail: boolean;
+}
+
+export const kDefaults: Readonly<Settings> = {
+  styles: {},
+  strength: 1, posture: 1, dynamics: 1, timing: 1,
+  legs: true, spine: true, arms: true, head: true, feet: true,
+  view: 'styled',
+  trail: true,
+};
+
+const kSwitches = [...kRegions, 'feet', 'trail'] as const;
+
+/** To two decimals within the bounds; `otherwise` where it is no number. */
+export function bounded(value: number, least: number, most: number, otherwise: number): number {
+  if (!Number.isFinite(value)) return otherwise;
+  return Math.round(Math.min(most, Math.max(least, value)) * 100) / 100 || 0;
+}
+
+/** "old=1&view=side": what differs from the defaults. */
+export function toAddress(settings: Settings): string {
+  const out = new URLSearchParams();
+  for (const [name, value] of Object.entries(settings.styles)) {
+    if (value !== 0) out.set(name, String(value));
+  }
+  for (const key of kAmounts) if (settings[key] !== 1) out.set(key, String(settings[key]));
+  for (const key of kSwitches) {
+    if (settings[key] !== kDefaults[key]) out.set(key, settings[key] ? 'on' : 'off');
+  }
+  if (settings.view !== kDefaults.view) out.set('view', settings.view);
+  return out.toString();
+}
+
+/** The settings of an address; what it says that is unknown or wrong counts as not said. */
+export function fromAddress(text: string, styles: readonly string[]): Settings {
+  const given = new URLSearchParams(text.replace(/^#/, ''));
+  const settings: Settings = { ...kDefaults, styles: {} };
+  for (const [key, value] of given) {
+    const number = value.trim() === '' ? NaN : Number(value);
+    if (styles.includes(key)) {
+      const strength = bounded(number, kLeast, kMost, 0);
+      if (strength !== 0) settings.styles[key] = strength;
+    } else if (kAmounts.includes(key as Amount)) {
+      settings[key as Amount] = bounded(number, 0, 2, 1);
+    } else if (kSwitches.includes(key as (typeof kSwitches)[number])) {
+      if (value === 'on' || value === 'off') {
+        settings[key as (typeof kSwitches)[number]] = value === 'on';
+      }
+    } else if (key === 'view' && kViews.includes(value as View)) {
+      settings.view = value as View;
+    }
+  }
+  return settings;
+}
+
+/** What the library is asked for. */
+export function shapeOf(settings: Settings): Shape {
+  const { posture, dynamics, timing } = settings;
+  const on = (key: Region) => (settings[key] ? 1 : 0);
+  return {
+    posture, dynamics, timing,
+    legs: on('legs'), spine: on('spine'), arms: on('arms'), head: on('head'),
+    footLock: settings.feet ? 1 : 0,
+  };
+}
+
+/** Holds the settings; tells everybody who listens of every change. */
+export class Store {
+  #listeners: ((settings: Settings) => void)[] = [];
+  constructor(public settings: Settings) {}
+
+  listen(listener: (settings: Settings) => void) {
+    this.#listeners.push(listener);
+    listener(this.settings);
+  }
+  set(patch: Partial<Settings>) {
+    this.settings = { ...this.settings, ...patch };
+    for (const listener of this.#listeners) listener(this.settings);
+  }
+  setStyle(name: string, value: number) {
+    const styles = { ...this.settings.styles, [name]: value };
+    if (value === 0) delete styles[name];
+    this.set({ styles });
+  }
+}

@@ -1,0 +1,104 @@
+// The user's own character: the meshes of a GLB, moved by the library's poses.
+
+import * as THREE from 'three';
+import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
+import { clone } from 'three/examples/jsm/utils/SkeletonUtils.js';
+
+import type { MotionFile, Playback } from '../package/index.js';
+
+/** Names from the top down to a thing; those of equals are numbered in order. */
+function pathsOf(parents: number[], names: string[]): Map<string, number> {
+  const paths: string[] = [];
+  const found = new Map<string, number>();
+  names.forEach((name, i) => {
+    const above = parents[i] < 0 ? '' : paths[parents[i]];
+    let path = `${above}/${name}`;
+    while (found.has(path)) path += '+';
+    paths.push(path);
+    found.set(path, i);
+  });
+  return found;
+}
+
+interface Moved {
+  node: THREE.Object3D;
+  joint: number;
+  /** The resting scale of everything above, which the library multiplies translations by. */
+  scale: number;
+}
+
+export class SkinnedCharacter {
+  readonly group = new THREE.Group();
+  #scene: THREE.Object3D;
+  #moved: Moved[] = [];
+  #joints: number;
+
+  constructor(scene: THREE.Object3D, file: MotionFile, actor: Playback) {
+    this.#scene = scene;
+    this.#joints = file.joints.length;
+    const nodes: THREE.Object3D[] = [], parents: number[] = [];
+    const walk = (node: THREE.Object3D, parent: number) => {
+      const index = nodes.push(node) - 1;
+      parents.push(parent);
+      for (const child of node.children) walk(child, index);
+    };
+    for (const child of scene.children) walk(child, -1);
+    // three.js renames nodes; what the file calls them it keeps aside.
+    const paths = pathsOf(parents, nodes.map((node) => node.userData.name ?? node.name));
+    scene.updateMatrixWorld(true);
+    const wanted = pathsOf(file.joints.map((j) => j.parent), file.joints.map((j) => j.name));
+    for (const [path, joint] of wanted) {
+      const index = paths.get(path);
+      if (index === undefined) continue;
+      const above = nodes[index].parent?.getWorldScale(new THREE.Vector3()).x ?? 1;
+      this.#moved.push({ node: nodes[index], joint, scale: above || 1 });
+    }
+    const { toYUp, scale, floor } = actor.placement;
+    this.group.add(scene);
+    scene.quaternion.fromArray(toYUp);
+    scene.scale.setScalar(scale);
+    scene.position.y = -floor;
+    this.group.traverse((node) => {
+      node.frustumCulled = false;
+      if (node instanceof THREE.Mesh) node.castShadow = true;
+    });
+  }
+
+  /** Whether the joints of the library were found among the nodes that three.js made. */
+  get complete() {
+    return this.#moved.length === this.#joints;
+  }
+
+  pose(numbers: Float32Array, shift: THREE.Vector3) {
+    for (const { node, joint, scale } of this.#moved) {
+      node.quaternion.fromArray(numbers, 7 * joint);
+      node.position.fromArray(numbers, 7 * joint + 4).divideScalar(scale);
+    }
+    this.group.position.copy(shift);
+  }
+
+  free() {
+    this.group.removeFromParent();
+    this.#scene.traverse((node) => {
+      if (node instanceof THREE.Mesh) node.geometry.dispose();
+    });
+  }
+}
+
+/** The file's character twice, for input and output; nothing where it has no skin. */
+export async function loadSkinned(bytes: ArrayBuffer, file: MotionFile, actor: Playback):
+    Promise<[SkinnedCharacter, SkinnedCharacter] | null> {
+  const { scene, parser } = await new GLTFLoader().parseAsync(bytes, '');
+  let skinned = false;
+  scene.traverse((node) => {
+    if (node instanceof THREE.SkinnedMesh) skinned = true;
+    const index = parser.associations.get(node)?.nodes;
+    if (index !== undefined) {
+      node.userData.name = parser.json.nodes[index].name || `node ${index}`;
+    }
+  });
+  if (!skinned) return null;
+  const pair: [SkinnedCharacter, SkinnedCharacter] = [
+    new SkinnedCharacter(clone(scene), file, actor), new SkinnedCharacter(scene, file, actor)];
+  return pair.every((character) => character.complete) ? pair : null;
+}

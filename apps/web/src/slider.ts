@@ -1,0 +1,73 @@
+// A number with a name: a slider to push, a field for the exact value, and a way back.
+
+import { element } from './dom';
+import { bounded } from './settings';
+
+export interface SliderOptions {
+  id: string;
+  title: string;
+  hint?: string;
+  least: number;
+  most: number;
+  /** Where reset goes. */
+  rest: number;
+  onChange(value: number): void;
+}
+
+export class Slider {
+  readonly row: HTMLElement;
+  readonly range: HTMLInputElement;
+  #field: HTMLInputElement;
+  #reset: HTMLButtonElement;
+  #options: SliderOptions;
+
+  constructor(options: SliderOptions) {
+    this.#options = options;
+    const { id, title, hint, least, most } = options;
+    const bounds = { min: least, max: most, step: 0.01 };
+    this.range = element('input', { type: 'range', id, ...bounds, title: hint });
+    this.#field = element('input', {
+      type: 'number', ...bounds, 'aria-label': `${title}, exact`, inputmode: 'decimal',
+    });
+    this.#reset = element('button', {
+      type: 'button', class: 'reset', 'aria-label': `Reset ${title}`, title: `Reset ${title}`,
+    }, '↺');
+    const label = element('label', { for: id, title: hint }, title);
+    // Marks at where reset goes and at 1.
+    const share = (value: number) => (value - least) / (most - least);
+    const marks = `--rest: ${share(options.rest)}; --one: ${share(1)}`;
+    this.row = element('div', { class: 'slider', style: marks },
+      label, this.range, this.#field, this.#reset);
+    this.range.addEventListener('input', () => this.#change(Number(this.range.value)));
+    this.#field.addEventListener('change', () => {
+      this.#change(bounded(this.#field.valueAsNumber, least, most, options.rest));
+      this.#field.value = this.range.value;
+    });
+    this.range.addEventListener('dblclick', () => this.#change(options.rest));
+    this.#reset.addEventListener('click', () => {
+      this.#change(options.rest);
+      this.range.focus();
+    });
+    this.show(options.rest);
+  }
+
+  /** Shows a value without telling anybody. */
+  show(value: number) {
+    const { least, most, rest } = this.#options;
+    const text = String(value);
+    if (this.range.value !== text) this.range.value = text;
+    if (document.activeElement !== this.#field) this.#field.value = value.toFixed(2);
+    const share = (v: number) => String((v - least) / (most - least));
+    this.row.style.setProperty('--from', share(Math.min(value, rest)));
+    this.row.style.setProperty('--to', share(Math.max(value, rest)));
+    this.row.classList.toggle('changed', value !== rest);
+    this.#reset.disabled = value === rest;
+  }
+
+  #change(value: number) {
+    const { least, most, rest, onChange } = this.#options;
+    const good = bounded(value, least, most, rest);
+    this.show(good);
+    onChange(good);
+  }
+}

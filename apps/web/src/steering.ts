@@ -1,0 +1,106 @@
+// Where the walker is to go: keys, a stick on the screen, a gamepad; nobody at the helm lets her
+// wander.
+
+const kWalk = 1.35, kJog = 3, kTurn = 1.5;  // m/s, m/s, rad/s.
+const kFastest = 4;
+export const kPaces = { stand: 0, walk: kWalk, jog: kJog } as const;
+export type Pace = keyof typeof kPaces;
+
+export interface Wish {
+  speed: number;
+  /** To the left, rad/s. */
+  turn: number;
+}
+
+/** What a stick pushed `x` to the right and `y` ahead (-1 to 1) asks for. */
+export function stickWish(x: number, y: number): Wish {
+  const push = Math.min(1, Math.hypot(x, y));
+  if (push < 0.12) return { speed: 0, turn: 0 };
+  return { speed: Math.max(0, y) * kFastest * push, turn: -x * kTurn * (y < -0.3 ? 1.3 : 1) };
+}
+
+/** What the keys held down ask for, on top of the pace. */
+export function keyWish(held: ReadonlySet<string>, pace: Pace): Wish {
+  const on = (...codes: string[]) => codes.some((code) => held.has(code));
+  const turn = (on('KeyA', 'ArrowLeft') ? kTurn : 0) - (on('KeyD', 'ArrowRight') ? kTurn : 0);
+  let speed: number = kPaces[pace];
+  if (on('KeyW', 'ArrowUp')) speed = Math.max(speed, kWalk);
+  if (on('ShiftLeft', 'ShiftRight') && speed > 0) speed = kJog;
+  if (on('KeyS', 'ArrowDown')) speed = 0;
+  return { speed, turn };
+}
+
+const kSteeringKeys = ['KeyW', 'KeyA', 'KeyS', 'KeyD', 'ArrowUp', 'ArrowDown', 'ArrowLeft',
+  'ArrowRight', 'ShiftLeft', 'ShiftRight'];
+
+export class Steering {
+  pace: Pace = 'walk';
+  #held = new Set<string>();
+  #stick: { x: number; y: number } | null = null;
+  #free = true;  // Nobody has steered yet.
+  #seconds = 0;
+
+  constructor(stick: HTMLElement) {
+    // Arrows belong to whatever has the focus, and steer where that has no use for them.
+    addEventListener('keydown', (event) => {
+      const target = event.target as HTMLElement;
+      const taken = target.matches('input, select, textarea, [data-arrows]') &&
+        event.code.startsWith('Arrow');
+      const typing = target.matches('input[type=number]');
+      if (taken || typing || event.ctrlKey || event.metaKey || event.altKey) return;
+      if (!kSteeringKeys.includes(event.code)) return;
+      this.#held.add(event.code);
+      this.#free = false;
+      if (event.code.startsWith('Arrow')) event.preventDefault();
+    });
+    addEventListener('keyup', (event) => this.#held.delete(event.code));
+    addEventListener('blur', () => this.#held.clear());
+    this.#listenToStick(stick);
+  }
+
+  setPace(pace: Pace) {
+    this.pace = pace;
+    this.#held.clear();
+  }
+
+  /** Asked once a frame. */
+  wish(seconds: number): Wish {
+    this.#seconds += seconds;
+    if (this.#stick) return stickWish(this.#stick.x, this.#stick.y);
+    const pad = navigator.getGamepads?.().find((p) => p?.connected);
+    if (pad && Math.hypot(pad.axes[0] ?? 0, pad.axes[1] ?? 0) > 0.2) {
+      this.#free = false;
+      return stickWish(pad.axes[0], -pad.axes[1]);
+    }
+    const wish = keyWish(this.#held, this.pace);
+    if (this.#free && wish.speed > 0) wish.turn = 0.22 * Math.sin(0.35 * this.#seconds);
+    return wish;
+  }
+
+  #listenToStick(stick: HTMLElement) {
+    const knob = stick.firstElementChild as HTMLElement;
+    const move = (event: PointerEvent) => {
+      const box = stick.getBoundingClientRect();
+      const reach = box.width / 2;
+      let x = (event.clientX - box.left) / reach - 1, y = 1 - (event.clientY - box.top) / reach;
+      const far = Math.max(1, Math.hypot(x, y));
+      [x, y] = [x / far, y / far];
+      this.#stick = { x, y };
+      knob.style.transform = `translate(${x * 34}px, ${-y * 34}px)`;
+    };
+    stick.addEventListener('pointerdown', (event) => {
+      stick.setPointerCapture(event.pointerId);
+      this.#free = false;
+      move(event);
+    });
+    stick.addEventListener('pointermove', (event) => {
+      if (this.#stick) move(event);
+    });
+    for (const end of ['pointerup', 'pointercancel']) {
+      stick.addEventListener(end, () => {
+        this.#stick = null;
+        knob.style.transform = '';
+      });
+    }
+  }
+}

@@ -1,0 +1,51 @@
+import { describe, expect, it } from 'vitest';
+
+import { bounded, fromAddress, kDefaults, shapeOf, Store, toAddress } from '../src/settings';
+
+const kStyles = ['old', 'proud'];
+
+describe('the address', () => {
+  it('says nothing of what is as it always is', () => {
+    expect(toAddress(kDefaults)).toBe('');
+    expect(fromAddress('', kStyles)).toEqual(kDefaults);
+  });
+  it('brings back whatever was set', () => {
+    const set = {
+      ...kDefaults, styles: { old: 1.25, proud: -0.5 }, strength: 0.5, posture: 0, timing: 2,
+      legs: false, feet: false, trail: false, view: 'side' as const,
+    };
+    expect(fromAddress(`#${toAddress(set)}`, kStyles)).toEqual(set);
+  });
+  it('is believed as far as it makes sense', () => {
+    const settings = fromAddress('#old=9&proud=x&angry=1&posture=&legs=maybe&view=up', kStyles);
+    expect(settings).toEqual({ ...kDefaults, styles: { old: 2 } });
+  });
+});
+
+describe('a number', () => {
+  it('is brought within its bounds and to two decimals', () => {
+    expect(bounded(1.2345, 0, 2, 1)).toBe(1.23);
+    expect(bounded(-7, -0.5, 2, 0)).toBe(-0.5);
+    expect(bounded(NaN, 0, 2, 1)).toBe(1);
+    expect(Object.is(bounded(-0.001, -0.5, 2, 1), 0)).toBe(true);
+  });
+});
+
+describe('the store', () => {
+  it('tells of every change, and forgets styles at nothing', () => {
+    const store = new Store({ ...kDefaults });
+    const heard: string[] = [];
+    store.listen((settings) => heard.push(toAddress(settings)));
+    store.setStyle('old', 1);
+    store.setStyle('old', 0);
+    expect(heard).toEqual(['', 'old=1', '']);
+  });
+});
+
+describe('the shape', () => {
+  it('turns switches into weights', () => {
+    expect(shapeOf({ ...kDefaults, arms: false, feet: false, dynamics: 0.5 })).toEqual({
+      posture: 1, dynamics: 0.5, timing: 1, legs: 1, spine: 1, arms: 0, head: 1, footLock: 0,
+    });
+  });
+});

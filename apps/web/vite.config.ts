@@ -1,0 +1,54 @@
+import { readFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import { gzipSync } from 'node:zlib';
+import { defineConfig, type Plugin } from 'vite';
+
+const root = fileURLToPath(new URL('../..', import.meta.url));
+const files = {
+  wasm: process.env.PANACHE_WASM ?? `${root}build/wasm/panache.wasm`,
+  model: `${root}models/panache.safetensors`,
+  walker: `${root}models/walker.safetensors`,
+};
+
+// import { wasm, model, walker } from 'virtual:panache-files': what the page would have to fetch,
+// packed, as base64, inside of the script. A page opened from a disk may fetch nothing.
+function embedFiles(): Plugin {
+  const name = 'virtual:panache-files';
+  return {
+    name: 'panache-files',
+    resolveId: (id) => (id === name ? `\0${name}` : null),
+    load(id) {
+      if (id !== `\0${name}`) return null;
+      return Object.entries(files)
+        .map(([key, path]) => [key, gzipSync(readFileSync(path), { level: 9 }).toString('base64')])
+        .map(([key, text]) => `export const ${key} = '${text}';`)
+        .join('\n');
+    },
+  };
+}
+
+// Modules are fetched as from a server, which a page opened from a disk has not: one plain script.
+function plainScript(): Plugin {
+  return {
+    name: 'panache-plain-script',
+    enforce: 'post',
+    transformIndexHtml: (html) => html.replace('type="module" crossorigin', 'defer')
+      .replaceAll(' crossorigin', ''),
+  };
+}
+
+export default defineConfig({
+  base: './',
+  plugins: [embedFiles(), plainScript()],
+  build: {
+    outDir: `${root}build/web`,
+    emptyOutDir: true,
+    target: 'es2022',
+    modulePreload: false,
+    cssCodeSplit: false,
+    assetsInlineLimit: 0,
+    chunkSizeWarningLimit: 4000,
+    rollupOptions: { output: { format: 'iife' } },
+  },
+  test: { include: ['test/**/*.test.ts'] },
+} as Parameters<typeof defineConfig>[0]);

@@ -1,0 +1,96 @@
+#include "actor.h"
+
+#include <algorithm>
+
+#include "restyle_clip.h"
+#include "rig/up_axis.h"
+
+namespace panache::web {
+namespace {
+
+constexpr double kLongestStep = 0.1;  // Seconds; a page that was hidden does not leap.
+constexpr double kRecordedSeconds = 20;
+constexpr double kRecordedFps = 60;
+constexpr size_t kJointNumbers = 7;
+
+void put_numbers(ConstPose pose, std::vector<float>& out) {
+  for (size_t j = 0; j < pose.rotations.size(); ++j) {
+    const Quat q = pose.rotations[j];
+    const Vec3 t = pose.translations[j];
+    const float numbers[kJointNumbers] = {q.x, q.y, q.z, q.w, t.x, t.y, t.z};
+    std::copy_n(numbers, kJointNumbers, out.begin() + static_cast<ptrdiff_t>(kJointNumbers * j));
+  }
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Actor>> Actor::create(std::shared_ptr<const Model> model,
+                                             std::unique_ptr<Source> source) {
+  Result<Character> character = Character::create(model, source->rig());
+  if (!character) return character.error();
+  return std::unique_ptr<Actor>(
+      new Actor(std::move(model), *std::move(character), std::move(source)));
+}
+
+Actor::Actor(std::shared_ptr<const Model> model, Character character,
+             std::unique_ptr<Source> source)
+    : model_(std::move(model)),
+      source_(std::move(source)),
+      character_(std::move(character)),
+      twin_(character_),
+      in_mannequin_(source_->rig(), source_->reference()),
+      out_mannequin_(in_mannequin_),
+      recording_(source_->clip().skeleton, kRecordedSeconds),
+      strengths_(model_->styles().size()) {
+  const size_t joints = source_->clip().joints();
+  for (auto* rotations : {&in_rotations_, &out_rotations_, &twin_rotations_}) {
+    rotations->resize(joints);
+  }
+  for (auto* translations : {&in_translations_, &out_translations_, &twin_translations_}) {
+    translations->resize(joints);
+  }
+  in_numbers_.resize(kJointNumbers * joints);
+  out_numbers_.resize(kJointNumbers * joints);
+  step(0);
+}
+
+void Actor::step(double seconds) {
+  seconds = std::clamp(seconds, 0.0, kLongestStep);
+  const double input_seconds = seconds * rate_;
+  if (source_->advance(input_seconds, {in_rotations_, in_translations_})) character_.reset();
+  const Pose out = {out_rotations_, out_translations_};
+  character_.step(input(), strengths_, shape_, input_seconds, seconds, out);
+  rate_ = character_.rate();
+  put_numbers(input(), in_numbers_);
+  put_numbers(out, out_numbers_);
+  in_mannequin_.read(input(), in_parts_);
+  out_mannequin_.read(out, out_parts_);
+  if (dynamic_cast<WalkerSource*>(source_.get())) recording_.add(out, seconds);
+}
+
+void Actor::measure(int count) {
+  twin_ = character_;
+  for (int i = 0; i < count; ++i) {
+    twin_.step(input(), strengths_, shape_, 1.0 / 60, 1.0 / 60,
+               {twin_rotations_, twin_translations_});
+  }
+}
+
+Placement Actor::placement() const {
+  const Rig& rig = source_->rig();
+  return {turn_up(rig.up_axis()).value_or(Quat{}), rig.scale(), rig.floor()};
+}
+
+Result<std::string> Actor::export_as(const std::string& ending,
+                                     const std::string& file_ending) const {
+  const auto* from_file = dynamic_cast<const ClipSource*>(source_.get());
+  if (!from_file) return format_clip(recording_.clip(kRecordedFps), source_->rig(), ending);
+  Result<RestyledClip> restyled =
+      restyle_clip(source_->clip(), source_->rig(), model_, strengths_, shape_);
+  if (!restyled) return restyled.error();
+  if (ending != file_ending) return format_clip(restyled->clip, source_->rig(), ending);
+  const ClipEdit edit = {from_file->which(), &restyled->clip, restyled->source_frames, "styled"};
+  return from_file->file().encode({&edit, 1}, EditMode::replace);
+}
+
+}  // namespace panache::web

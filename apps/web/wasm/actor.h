@@ -1,0 +1,70 @@
+#pragma once
+// What the page shows: a source of motion, the character that it moves, and both as mannequins.
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "character.h"
+#include "mannequin.h"
+#include "recording.h"
+#include "source.h"
+
+namespace panache::web {
+
+// How the rig's file lies in the world: world = scale * rotate(to_y_up, point) - {0, floor, 0}.
+struct Placement {
+  Quat to_y_up;
+  float scale, floor;  // Metres per file unit; metres.
+};
+
+class Actor {
+ public:
+  static Result<std::unique_ptr<Actor>> create(std::shared_ptr<const Model> model,
+                                               std::unique_ptr<Source> source);
+
+  // What is asked for from the next step on.
+  std::vector<float>& strengths() { return strengths_; }  // [styles]
+  Shape& shape() { return shape_; }
+  Source& source() { return *source_; }
+  const Character& character() const { return character_; }
+
+  // Goes on by `seconds` (at most a tenth is taken at once) of the viewer's time.
+  void step(double seconds);
+  // Steps a copy of the character `count` times with the pose in force, to see how long that takes.
+  void measure(int count);
+
+  // Input and output of the last step, per joint of the rig: rotation x y z w and translation, in
+  // the file's own units and axes. [joints][7]
+  const std::vector<float>& pose(bool styled) const { return styled ? out_numbers_ : in_numbers_; }
+  // The same as the mannequin's parts. [21][7]
+  const std::array<float, kMannequinNumbers>& parts(bool styled) const {
+    return styled ? out_parts_ : in_parts_;
+  }
+  const HumanPositions& offsets() const { return in_mannequin_.offsets(); }
+  Placement placement() const;
+
+  // The bytes of a file of this `ending` (".bvh", ".glb", or that of the file that the clip is
+  // from), with the whole clip restyled as is asked for now, or the last twenty seconds of a walk.
+  Result<std::string> export_as(const std::string& ending, const std::string& file_ending) const;
+
+ private:
+  Actor(std::shared_ptr<const Model> model, Character character, std::unique_ptr<Source> source);
+  ConstPose input() const { return {in_rotations_, in_translations_}; }
+
+  std::shared_ptr<const Model> model_;
+  std::unique_ptr<Source> source_;
+  Character character_, twin_;
+  Mannequin in_mannequin_, out_mannequin_;
+  Recording recording_;
+  std::vector<float> strengths_;
+  Shape shape_;
+  double rate_ = 1;
+  std::vector<Quat> in_rotations_, out_rotations_, twin_rotations_;           // [joints]
+  std::vector<Vec3> in_translations_, out_translations_, twin_translations_;  // [joints]
+  std::vector<float> in_numbers_, out_numbers_;
+  std::array<float, kMannequinNumbers> in_parts_{}, out_parts_{};
+};
+
+}  // namespace panache::web

@@ -1,0 +1,15 @@
+# The headers of others that the library takes from the system, in a folder of their own: the whole
+# of /usr/include would hide the headers that Emscripten brings.
+set(headers ${CMAKE_BINARY_DIR}/headers)
+foreach(name hwy fast_float nlohmann)
+  find_path(${name}_parent ${name} PATHS /usr/include /usr/local/include NO_CMAKE_FIND_ROOT_PATH
+    REQUIRED)
+  file(MAKE_DIRECTORY ${headers})
+  file(CREATE_LINK ${${name}_parent}/${name} ${headers}/${name} SYMBOLIC)
+endforeach()
+include_directories(SYSTEM ${headers})
+add_compile_options(-msimd128 -include ${CMAKE_CURRENT_LIST_DIR}/missing_std.h)
+# What find_package(nlohmann_json) finds instead of the system's, which names /usr/include.
+file(WRITE ${CMAKE_FIND_PACKAGE_REDIRECTS_DIR}/nlohmann_json-config.cmake
+  "if(NOT TARGET nlohmann_json::nlohmann_json)\n"
+  "  add_library(nlohmann_json::nlohmann_json INTERFACE IMPORTED GLOBAL)\nendif()\n")

@@ -1,0 +1,58 @@
+#pragma once
+// What the library uses, or is likely to, of C++20 and the standard library of Debian's Emscripten
+// (3.1.6) has not got. Included in front of every file; empty with a newer Emscripten.
+
+#include <algorithm>
+#include <iterator>
+#include <version>
+
+#ifndef __cpp_lib_bit_cast
+namespace std {
+template <class To, class From>
+constexpr To bit_cast(const From& value) noexcept {
+  return __builtin_bit_cast(To, value);
+}
+}  // namespace std
+#endif
+
+#ifndef __cpp_lib_ranges
+namespace std::ranges {
+template <class Range, class Out>
+constexpr Out copy(Range&& range, Out out) {
+  return std::copy(std::begin(range), std::end(range), out);
+}
+template <class A, class B>
+constexpr bool equal(A&& a, B&& b) {
+  return std::equal(std::begin(a), std::end(a), std::begin(b), std::end(b));
+}
+template <class Range, class Test>
+constexpr bool any_of(Range&& range, Test test) {
+  return std::any_of(std::begin(range), std::end(range), test);
+}
+template <class Range, class Test>
+constexpr bool all_of(Range&& range, Test test) {
+  return std::all_of(std::begin(range), std::end(range), test);
+}
+template <class Range, class Test>
+constexpr bool none_of(Range&& range, Test test) {
+  return std::none_of(std::begin(range), std::end(range), test);
+}
+template <class Range, class Value>
+constexpr void fill(Range&& range, const Value& value) {
+  std::fill(std::begin(range), std::end(range), value);
+}
+template <class Range>
+constexpr auto max_element(Range&& range) {
+  return std::max_element(std::begin(range), std::end(range));
+}
+template <class Number>
+struct minmax_result {
+  Number min, max;
+};
+template <class Range>
+constexpr auto minmax(Range&& range) {
+  const auto [least, most] = std::minmax_element(std::begin(range), std::end(range));
+  return minmax_result<std::iter_value_t<decltype(least)>>{*least, *most};
+}
+}  // namespace std::ranges
+#endif

@@ -1,0 +1,54 @@
+#pragma once
+// The networks of Smith et al. 2019 at the sizes of the paper's slides, with random weights, and
+// their evaluation: what our kernels and the libraries of others are compared on.
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+
+namespace panache::bench {
+
+struct Layer {
+  int inputs = 0, outputs = 0;
+  std::vector<float> weights;  // [inputs][outputs]
+  std::vector<float> bias;     // [outputs]
+};
+// Layers with ELU behind each but the last.
+struct Network {
+  std::vector<Layer> layers;
+};
+
+// A layer whose outputs are of about the size of its inputs, drawn with `seed`.
+Layer random_layer(int inputs, int outputs, uint64_t seed);
+// Numbers close to the standard normal distribution.
+std::vector<float> random_numbers(size_t count, uint64_t seed);
+
+// 794 inputs (six poses and the style vector), three hidden layers of 128, 64 and 32 units, outputs
+// for pose (130), timing (1) and contact (2).
+inline constexpr int kSlidesInputs = 794, kSlidesOutputs = 133;
+std::vector<Network> slides_networks();
+size_t parameter_count(std::span<const Network> networks);
+
+// Networks that read the same input, made ready by somebody's library. Keeps what it needs of the
+// networks.
+class Evaluation {
+ public:
+  virtual ~Evaluation() = default;
+  // x[kSlidesInputs]; y[kSlidesOutputs]: the networks' outputs, one after the other.
+  virtual void run(std::span<const float> x, std::span<float> y) = 0;
+  // The library's name and version, for people.
+  virtual std::string library() const = 0;
+};
+
+// In the loops that define the result, for checking all others.
+void run_plainly(std::span<const Network> networks, std::span<const float> x, std::span<float> y);
+
+// Three networks in our own kernels, evaluated as StyleNetworks evaluates a model; with `half`
+// their weights are in half size (net/half_size.h).
+Result<std::unique_ptr<Evaluation>> make_own_evaluation(std::span<const Network> networks,
+                                                        bool half);
+
+}  // namespace panache::bench

@@ -1,0 +1,18 @@
+#pragma once
+// ONNX Runtime, whose library comes without headers.
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "bench/networks.h"
+
+namespace panache::bench {
+
+// Opens the library at `path`, for good: one thread, all optimisations of the graph, outputs in
+// memory that is there. Null, and a sentence, where that does not work.
+std::unique_ptr<Evaluation> open_onnxruntime(const std::string& path,
+                                             std::span<const Network> networks,
+                                             std::string& problem);
+
+}  // namespace panache::bench

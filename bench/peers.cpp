@@ -1,0 +1,109 @@
+#include "bench/peers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include <dlfcn.h>
+
+#include "bench/onnxruntime.h"
+
+namespace panache::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr struct {
+  const char *key, *name;
+} kPeers[] = {{"eigen", "Eigen"},
+              {"openblas", "OpenBLAS"},
+              {"onednn", "oneDNN"},
+              {"onnxruntime", "ONNX Runtime"},
+              {"libtorch", "libtorch"}};
+// Outputs are of size 1, and sums of some hundred products in another order differ by a few units
+// of float.
+constexpr float kMostApart = 1e-4f;
+
+std::string folder_beside_program() {
+  std::error_code status;
+  return fs::read_symlink("/proc/self/exe", status).parent_path() / "bench";
+}
+
+bool machine_has(const std::string& flag) {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string word; file >> word;) {
+    if (word == flag) return true;
+  }
+  return false;
+}
+
+// One thread each. And OpenBLAS takes some newer machines for much older ones: where there is
+// AVX-512, its kernels for that are asked for.
+void set_environment() {
+  constexpr int kKeep = 0;
+  ::setenv("OMP_NUM_THREADS", "1", kKeep);
+  ::setenv("OPENBLAS_NUM_THREADS", "1", kKeep);
+  if (machine_has("avx512dq") && machine_has("avx512bw") && machine_has("avx512vl")) {
+    ::setenv("OPENBLAS_CORETYPE", "SkylakeX", 1);
+  }
+}
+
+// Opens the module at `path`, for good.
+std::unique_ptr<Evaluation> open_module(const std::string& path, std::span<const Network> networks,
+                                        std::string& problem) {
+  void* module = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!module) {
+    problem = ::dlerror();
+    return nullptr;
+  }
+  const auto make =
+      reinterpret_cast<decltype(&panache_bench_peer)>(::dlsym(module, "panache_bench_peer"));
+  if (!make) {
+    problem = path + " is no module of panache bench";
+    return nullptr;
+  }
+  return std::unique_ptr<Evaluation>(make(networks.data(), networks.size(), &problem));
+}
+
+// Says how far the evaluation is from our own loops, if that is too far.
+std::string check(Evaluation& evaluation, std::span<const Network> networks) {
+  for (const uint64_t seed : {11, 12, 13}) {
+    const std::vector<float> x = random_numbers(kSlidesInputs, seed);
+    std::vector<float> wanted(kSlidesOutputs), found(kSlidesOutputs);
+    run_plainly(networks, x, wanted);
+    evaluation.run(x, found);
+    for (size_t i = 0; i < wanted.size(); ++i) {
+      if (std::abs(wanted[i] - found[i]) <= kMostApart) continue;
+      return "gives " + std::to_string(found[i]) + " for output " + std::to_string(i) +
+             "; expected " + std::to_string(wanted[i]);
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<Peer> make_peers(std::span<const Network> networks, const std::string& given) {
+  set_environment();
+  const std::string folder = given.empty() ? folder_beside_program() : given;
+  std::vector<Peer> peers;
+  for (const auto& [key, name] : kPeers) {
+    Peer peer{key, name, nullptr, ""};
+    const bool onnx = peer.key == "onnxruntime";
+    const std::string path = folder + (onnx ? "/libonnxruntime.so.1" : "/peer_" + peer.key + ".so");
+    if (!fs::exists(path)) {
+      peer.missing = "not installed";
+    } else {
+      peer.evaluation = onnx ? open_onnxruntime(path, networks, peer.missing)
+                             : open_module(path, networks, peer.missing);
+    }
+    if (peer.evaluation) peer.missing = check(*peer.evaluation, networks);
+    if (!peer.missing.empty()) peer.evaluation.reset();
+    peers.push_back(std::move(peer));
+  }
+  return peers;
+}
+
+}  // namespace panache::bench

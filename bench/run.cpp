@@ -1,0 +1,196 @@
+#include "bench/run.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "base/file.h"
+#include "bench/networks.h"
+#include "bench/peers.h"
+#include "bench/published.h"
+#include "net/aligned.h"
+#include "net/dense.h"
+#include "net/half_size.h"
+#include "net/safetensors.h"
+
+namespace panache::bench {
+namespace {
+
+// How the time goes by until the networks, the steps and the crowds are through.
+constexpr double kAfterLimits = 0.03, kAfterRace = 0.5, kAfterSteps = 0.85;
+// A walking cycle of a second at 60 frames a second.
+constexpr float kPhaseStep = 1.0f / 60;
+
+ProgressCall part_of(const ProgressCall& progress, double from, double to) {
+  return [=](double share) {
+    if (progress) progress(from + (to - from) * share);
+  };
+}
+
+// What takes turns in the race, and all that it works on.
+class Race {
+ public:
+  // Appends what is there to `forward_passes` and `others`, still without times.
+  Result<void> prepare(Measurements& out);
+  // Fills in the times.
+  void run(Measurements& out, int rounds, const ProgressCall& progress);
+
+ private:
+  void add_forward_pass(Measurements& out, const std::string& key, const std::string& name,
+                        std::function<void()> run);
+  void add_evaluation(Measurements& out, const std::string& key,
+                      std::unique_ptr<Evaluation> evaluation);
+  // `work` is called with a phase that goes round.
+  void add_other(Measurements& out, const std::string& key, const std::string& name, size_t bytes,
+                 const std::string& published, std::function<void(float)> work);
+
+  std::vector<Contestant> contestants_;
+  std::vector<std::unique_ptr<Evaluation>> evaluations_;
+  std::vector<float> x_ = random_numbers(1024, 1), y_ = std::vector<float>(1024);
+  AlignedVector<float> as_many_;  // Numbers as the slides' networks have.
+  std::unique_ptr<PhaseNetwork> phase_network_;
+  std::unique_ptr<PhaseTable> phase_table_;
+  std::unique_ptr<ModeNetwork> mode_network_;
+  std::unique_ptr<StyleAdapterNetwork> adapter_network_;
+};
+
+void Race::add_forward_pass(Measurements& out, const std::string& key, const std::string& name,
+                            std::function<void()> run) {
+  out.forward_passes.push_back({key, name, Timing{}, ""});
+  contestants_.push_back({key, std::move(run)});
+}
+
+void Race::add_evaluation(Measurements& out, const std::string& key,
+                          std::unique_ptr<Evaluation> evaluation) {
+  evaluations_.push_back(std::move(evaluation));
+  Evaluation* const networks = evaluations_.back().get();
+  add_forward_pass(out, key, networks->library(), [this, networks] {
+    networks->run(std::span(x_).first(kSlidesInputs), std::span(y_).first(kSlidesOutputs));
+  });
+}
+
+void Race::add_other(Measurements& out, const std::string& key, const std::string& name,
+                     size_t bytes, const std::string& published, std::function<void(float)> work) {
+  out.others.push_back({key, name, bytes, published, Timing{}});
+  contestants_.push_back({key, [work = std::move(work), phase = 0.0f]() mutable {
+                            work(phase);
+                            phase += kPhaseStep;
+                            if (phase >= 1) phase -= 1;
+                          }});
+}
+
+Result<void> Race::prepare(Measurements& out) {
+  const std::vector<Network> networks = slides_networks();
+  out.network_bytes = sizeof(float) * parameter_count(networks);
+  for (const bool half : {false, true}) {
+    auto own = make_own_evaluation(networks, half);
+    if (!own) return own.error();
+    add_evaluation(out, half ? "panache_half" : "panache", *std::move(own));
+  }
+  for (Peer& peer : make_peers(networks)) {
+    if (peer.evaluation) {
+      add_evaluation(out, peer.key, std::move(peer.evaluation));
+    } else {
+      out.forward_passes.push_back({peer.key, peer.name, std::nullopt, peer.missing});
+    }
+  }
+  as_many_.assign(parameter_count(networks), 1.0f);
+  add_forward_pass(out, "read_limit", "reading the weights, no more",
+                   [this] { y_[0] = sum_of(as_many_); });
+
+  phase_network_ = std::make_unique<PhaseNetwork>();
+  phase_table_ = std::make_unique<PhaseTable>(*phase_network_);
+  mode_network_ = std::make_unique<ModeNetwork>();
+  adapter_network_ = std::make_unique<StyleAdapterNetwork>();
+  const std::span<const float> x = x_;
+  const std::span<float> y = y_;
+  add_other(out, "pfnn_cubic", "phase-functioned, cubic (2017)", phase_network_->bytes(),
+            "1.8 ms, 10 MB", [this, x, y](float phase) {
+              phase_network_->run(x.first(PhaseNetwork::kInputs), phase,
+                                  y.first(PhaseNetwork::kOutputs));
+            });
+  add_other(out, "pfnn_constant", "phase-functioned, constant (2017)", phase_table_->bytes(),
+            "0.8 ms, 125 MB", [this, x, y](float phase) {
+              phase_table_->run(x.first(PhaseNetwork::kInputs), phase,
+                                y.first(PhaseNetwork::kOutputs));
+            });
+  add_other(out, "mann", "mode-adaptive (2018)", mode_network_->bytes(), "2 ms, 22 MB",
+            [this, x, y](float) {
+              mode_network_->run(x.first(ModeNetwork::kInputs), y.first(ModeNetwork::kOutputs));
+            });
+  add_other(out, "mason", "phase-functioned with style adapters (2018)", adapter_network_->bytes(),
+            "1.1 ms, 126 KB a style", [this, x, y](float phase) {
+              adapter_network_->run(x.first(StyleAdapterNetwork::kInputs), phase,
+                                    y.first(StyleAdapterNetwork::kOutputs));
+            });
+  return {};
+}
+
+void Race::run(Measurements& out, int rounds, const ProgressCall& progress) {
+  const std::vector<Timing> timings = race(contestants_, rounds, progress);
+  size_t next = 0;
+  for (ForwardPass& pass : out.forward_passes) {
+    if (pass.timing) pass.timing = timings[next++];
+  }
+  for (OtherNetwork& other : out.others) other.timing = timings[next++];
+}
+
+}  // namespace
+
+int Options::rounds() const { return static_cast<int>(std::clamp<int64_t>(steps / 1000, 1, 1000)); }
+int Options::crowd_rounds() const {
+  return static_cast<int>(std::clamp<int64_t>(steps / 25'000, 1, 40));
+}
+
+std::optional<double> Measurements::forward_us(const std::string& key) const {
+  for (const ForwardPass& pass : forward_passes) {
+    if (pass.key == key && pass.timing) return pass.timing->warm;
+  }
+  return std::nullopt;
+}
+
+Result<Measurements> measure_all(const Options& options, const ProgressCall& progress) {
+  // What may fail comes first.
+  const Result<std::string> bytes = read_file(options.model);
+  if (!bytes) return bytes.error();
+  const auto model = Model::parse(*bytes, options.model);
+  if (!model) return model.error();
+  const Result<TensorFile> tensors = parse_safetensors(*bytes, options.model);
+  if (!tensors) return tensors.error();
+  const Result<Clip> walk = make_walk(options.walker_model);
+  if (!walk) return walk.error();
+
+  Measurements out;
+  out.pinned = pin_to_one_core();
+  out.kernels = kernel_target();
+  out.clock_ns = clock_cost_ns();
+  out.rounds = options.rounds();
+  out.model = std::filesystem::path(options.model).filename();
+  out.limits = measure_limits();
+  if (progress) progress(kAfterLimits);
+  {
+    Race race;
+    if (Result<void> ready = race.prepare(out); !ready) return ready.error();
+    race.run(out, out.rounds, part_of(progress, kAfterLimits, kAfterRace));
+  }
+  out.model_bytes = bytes->size();
+  const std::string half_bytes = format_safetensors(in_half_size(*tensors));
+  out.half_model_bytes = half_bytes.size();
+  const Result<double> character = bytes_per_character(*bytes, *walk);
+  if (!character) return character.error();
+  out.character_bytes = *character;
+
+  out.steps = time_steps(*model, *walk, options.steps, part_of(progress, kAfterRace, kAfterSteps));
+  constexpr double kAfterCrowds = (kAfterSteps + 1) / 2;
+  auto crowds = time_crowds(*bytes, *walk, options.crowd_rounds(),
+                            part_of(progress, kAfterSteps, kAfterCrowds));
+  if (!crowds) return crowds.error();
+  out.crowds = *std::move(crowds);
+  auto half_crowds =
+      time_crowds(half_bytes, *walk, options.crowd_rounds(), part_of(progress, kAfterCrowds, 1));
+  if (!half_crowds) return half_crowds.error();
+  out.half_crowds = *std::move(half_crowds);
+  return out;
+}
+
+}  // namespace panache::bench

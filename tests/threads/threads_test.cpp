@@ -1,0 +1,73 @@
+// Two threads, two characters of one model and one skeleton: the thread sanitizer watches.
+
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "panache/panache.h"
+#include "stick_figure.h"
+
+namespace {
+
+constexpr int kFrames = 300;
+
+// Steps a character of his own and, every other frame, a crowd of two; makes errors, too.
+std::vector<stick_pose> animate(const panache_model* model, const panache_skeleton* skeleton,
+                                int style) {
+  panache_character_options timed = PANACHE_CHARACTER_OPTIONS;
+  timed.max_lag = 0.5;
+  timed.max_lead = 0.1;
+  panache_character* pair[2] = {};
+  panache_character_create(model, skeleton, nullptr, &pair[0]);
+  panache_character_create(model, skeleton, &timed, &pair[1]);
+  for (panache_character* one : pair) panache_character_set_strength(one, style, 1);
+  std::vector<stick_pose> out(2 * kFrames);
+  for (int f = 0; f < kFrames; ++f) {
+    stick_pose in;
+    stick_walk(f / 60.0, style, &in);
+    const panache_input_pose from[] = {stick_input(&in), stick_input(&in)};
+    const panache_output_pose to[] = {stick_output(&out[2 * f]), stick_output(&out[2 * f + 1])};
+    if (f % 2 == 0) {
+      panache_step_many(pair, 2, from, 1 / 60.0, to);
+    } else {
+      for (int i = 0; i < 2; ++i) panache_character_step(pair[i], from[i], 1 / 60.0, to[i]);
+    }
+    panache_model* none = nullptr;
+    if (f % 50 == 0) panache_model_create("no model", 8, &none);
+  }
+  for (panache_character* one : pair) panache_character_destroy(one);
+  return out;
+}
+
+bool same(const std::vector<stick_pose>& a, const std::vector<stick_pose>& b) {
+  return std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) return std::fputs("usage: test_threads MODEL\n", stderr), 2;
+  std::ifstream file(argv[1], std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  panache_model* model = nullptr;
+  panache_skeleton* skeleton = nullptr;
+  if (panache_model_create(bytes.data(), bytes.size(), &model) != PANACHE_OK ||
+      panache_skeleton_create(stick_figure, STICK_JOINTS, nullptr, &skeleton) != PANACHE_OK) {
+    return std::fprintf(stderr, "%s\n", panache_last_error()), 1;
+  }
+  std::vector<stick_pose> first, second;
+  std::thread a([&] { first = animate(model, skeleton, 0); });
+  std::thread b([&] { second = animate(model, skeleton, 1); });
+  a.join();
+  b.join();
+  const bool alone =
+      same(first, animate(model, skeleton, 0)) && same(second, animate(model, skeleton, 1));
+  panache_skeleton_destroy(skeleton);
+  panache_model_destroy(model);
+  if (!alone) return std::fputs("beside each other they move otherwise than alone\n", stderr), 1;
+  return 0;
+}

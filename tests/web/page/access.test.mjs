@@ -1,0 +1,132 @@
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+
+import { frames, pictures, start } from './browser.mjs';
+
+const phone = { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2, isMobile: true,
+  hasTouch: true };
+
+let site;
+before(async () => (site = await start()));
+after(() => site.close());
+
+test('every control has a name', async () => {
+  const tab = await site.open();
+  const session = await tab.context().newCDPSession(tab);
+  const { nodes } = await session.send('Accessibility.getFullAXTree');
+  const roles = ['slider', 'spinbutton', 'button', 'combobox', 'application', 'img'];
+  const controls = nodes.filter((node) => !node.ignored && roles.includes(node.role?.value));
+  assert.ok(controls.length > 80, `${controls.length}`);
+  for (const node of controls) {
+    assert.ok(node.name?.value, JSON.stringify(node.role) + JSON.stringify(node.properties));
+  }
+  await tab.close();
+});
+
+test('text stands out from what is behind it, by light and by dark', async () => {
+  for (const colorScheme of ['light', 'dark']) {
+    const tab = await site.open('old=1', { colorScheme });
+    // WCAG 2: 4.5 to 1.
+    const weak = await tab.evaluate(() => {
+      const numbers = (text) => text.match(/[\d.]+/g).map(Number);
+      const light = ([r, g, b]) => [r, g, b].map((v) => v / 255)
+        .map((v) => (v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4))
+        .reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
+      const behind = (element) => {
+        for (let up = element; up; up = up.parentElement) {
+          const colour = numbers(getComputedStyle(up).backgroundColor);
+          if (colour.length < 4 || colour[3] === 1) return colour;
+        }
+        return [255, 255, 255];
+      };
+      const out = [];
+      for (const element of document.querySelectorAll('body *')) {
+        const text = [...element.childNodes].some((n) => n.nodeType === 3 && n.data.trim());
+        if (!text || element.disabled || !element.checkVisibility()) continue;
+        const [a, b] = [light(numbers(getComputedStyle(element).color)), light(behind(element))];
+        const contrast = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+        if (contrast < 4.5) out.push(`${element.textContent}: ${contrast.toFixed(2)}`);
+      }
+      return out;
+    });
+    assert.deepEqual(weak, [], colorScheme);
+    await tab.close();
+  }
+});
+
+test('all of it can be done with the keyboard, and one sees where one is', async () => {
+  const tab = await site.open();
+  const seen = new Set();
+  for (let i = 0; i < 140; ++i) {
+    await tab.keyboard.press('Tab');
+    const at = await tab.evaluate(() => {
+      const e = document.activeElement;
+      if (e === document.body) return null;
+      const { outlineStyle, outlineWidth } = getComputedStyle(e);
+      const name = e.id || e.getAttribute('aria-label') || e.textContent;
+      return { name, visible: outlineStyle !== 'none' && parseFloat(outlineWidth) >= 2 };
+    });
+    if (!at) break;
+    assert.ok(at.visible, at.name);
+    seen.add(at.name);
+    if (at.name === 'style-old') {
+      await tab.keyboard.press('ArrowRight');
+      assert.equal(await tab.locator('#style-old').inputValue(), '0.01');
+      await tab.keyboard.press('End');
+    }
+  }
+  for (const name of ['Styled', 'Walk', 'open', 'save-bvh', 'style-old', 'pad', 'amount-timing',
+    'Legs', 'Feet lock']) {
+    assert.ok(seen.has(name), name);
+  }
+  assert.equal(await tab.locator('#style-old').inputValue(), '2');
+  await tab.evaluate(() => document.activeElement.blur());
+  await tab.keyboard.press('Space');
+  const stand = tab.getByRole('button', { name: 'Stand', exact: true });
+  assert.equal(await stand.getAttribute('aria-pressed'), 'true');
+  await tab.close();
+});
+
+test('a phone shows all of it, large enough for a finger', async () => {
+  const tab = await site.open('old=1', phone);
+  const wide = await tab.evaluate(() => document.documentElement.scrollWidth);
+  assert.equal(wide, 390);
+  const small = await tab.evaluate(() => [...document.querySelectorAll('button, select, input')]
+    .filter((e) => e.checkVisibility() && !e.hidden)
+    .map((e) => [e.id || e.textContent, e.getBoundingClientRect().height])
+    .filter(([, height]) => height < 36));
+  assert.deepEqual(small, []);
+  await tab.locator('#style-proud').scrollIntoViewIfNeeded();
+  await tab.locator('#style-proud').tap();
+  assert.notEqual(await tab.locator('#style-proud').inputValue(), '0');
+  // The character stays in sight while one is at the sliders.
+  assert.ok((await tab.locator('#view').boundingBox()).y >= 0);
+  await tab.close();
+});
+
+test('pictures for a person to look at', async () => {
+  const folder = mkdtempSync(join(tmpdir(), 'panache-page-'));
+  const panache = (...given) => execFileSync(process.env.PANACHE_PROGRAM, given, { cwd: folder });
+  panache('walker', '-o', 'walk.bvh', '--seconds', '3');
+  panache('convert', 'walk.bvh', '-o', 'walk.glb');
+  const looks = [['default', ''], ['old', 'old=1&view=side'], ['very-old', 'old=2'],
+    ['mix', 'proud=0.8&giant=0.6&view=over'], ['dark', 'angry=1', { colorScheme: 'dark' }],
+    ['bvh', 'tired=1&view=side', {}, 'walk.bvh'], ['glb', 'happy=1', {}, 'walk.glb'],
+    ['phone', '', phone], ['phone-old', 'old=1', phone],
+    ['phone-very-old', 'old=2&view=side', phone]];
+  for (const [name, hash, options, file] of looks) {
+    const tab = await site.open(hash, { ...options, steady: true });
+    if (file) {
+      await tab.setInputFiles('#file', join(folder, file));
+      await tab.waitForFunction(() => window.page.source.kind === 'clip');
+    }
+    await frames(tab, 25);
+    await tab.screenshot({ path: join(pictures, `${name}.png`) });
+    await tab.close();
+  }
+  rmSync(folder, { recursive: true });
+});

@@ -1,0 +1,117 @@
+// What the tests of the page share: a server of the built page, and a browser that complains.
+
+import assert from 'node:assert/strict';
+import { mkdir, readFile } from 'node:fs/promises';
+import { createServer } from 'node:http';
+import { extname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { chromium } from 'playwright-core';
+
+const root = fileURLToPath(new URL('../../..', import.meta.url));
+export const pageFolder = join(root, 'build', 'web');
+export const models = join(root, 'models');
+/** Screenshots for a person to look at. */
+export const pictures = join(root, 'build', 'web-pictures');
+
+const types = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css' };
+
+/** The page at an address with a path of its own, as it may lie on any server. */
+async function serve() {
+  const server = createServer(async (request, response) => {
+    const path = new URL(request.url, 'http://localhost').pathname.replace(/^\/some\/path\//, '/');
+    try {
+      const body = await readFile(join(pageFolder, path === '/' ? 'index.html' : path));
+      response.setHeader('Content-Type', types[extname(path === '/' ? '.html' : path)] ??
+        'application/octet-stream');
+      if (path === '/') response.setHeader('Content-Type', 'text/html');
+      response.end(body);
+    } catch {
+      response.statusCode = 404;
+      response.end();
+    }
+  });
+  await new Promise((ready) => server.listen(0, '127.0.0.1', ready));
+  return { server, address: `http://127.0.0.1:${server.address().port}/some/path/` };
+}
+
+// Sixty frames for each second of the motion, however long they take, as with a graphics card.
+function steadyFrames() {
+  const request = window.requestAnimationFrame.bind(window);
+  let now = 0;
+  window.requestAnimationFrame = (draw) => request(() => draw((now += 1000 / 60)));
+}
+
+// The page spares whoever draws in software, which a browser without a window always does.
+function graphicsCard() {
+  WebGL2RenderingContext.prototype.getExtension = ((own) => function (name) {
+    return name === 'WEBGL_debug_renderer_info' ? null : own.call(this, name);
+  })(WebGL2RenderingContext.prototype.getExtension);
+}
+
+/** Starts both; close() ends them. open() gives a tab in which the page runs. */
+export async function start() {
+  const { server, address } = await serve();
+  const browser = await chromium.launch({
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+  });
+  await mkdir(pictures, { recursive: true });
+  const complaints = [], requests = [];
+
+  async function open(hash = '', options = {}) {
+    const { url = address, steady, card, ...look } = options;
+    const tab = await browser.newPage({ viewport: { width: 1280, height: 800 }, ...look });
+    if (steady) await tab.addInitScript(steadyFrames);
+    if (card) await tab.addInitScript(graphicsCard);
+    tab.on('console', (message) => {
+      // Chromium warns of its own slowness when WebGL runs in software.
+      const ours = !/GL Driver Message|software WebGL/.test(message.text());
+      if (ours && ['error', 'warning'].includes(message.type())) complaints.push(message.text());
+    });
+    tab.on('pageerror', (error) => complaints.push(error.message));
+    tab.on('request', (request) => requests.push(request.url()));
+    await tab.goto(url + (hash ? `#${hash}` : ''));
+    await tab.waitForFunction(() => window.page?.frames > 2, null, { timeout: 60000 });
+    return tab;
+  }
+  async function close() {
+    await browser.close();
+    server.close();
+    assert.deepEqual(complaints, []);
+  }
+  return { open, close, address, requests };
+}
+
+/** Waits until the page has drawn some more frames. */
+export async function frames(tab, count = 3) {
+  const begin = await tab.evaluate(() => window.page.frames);
+  await tab.waitForFunction((until) => window.page.frames >= until, begin + count,
+    { timeout: 60000 });
+}
+
+/** Where the styled body is, and how each of its parts is turned. */
+export function styledParts(tab) {
+  return tab.evaluate(() => [...window.page.source.actor.parts('styled')]);
+}
+
+/** Listens to what the page asks of the library from now on; told() has the last of it. */
+export async function listen(tab) {
+  await tab.evaluate(() => {
+    const actor = window.page.source.actor, told = { strengths: {} };
+    const { setStrength, setShape } = actor;
+    actor.setStrength = (name, value) => {
+      told.strengths[name] = value;
+      setStrength.call(actor, name, value);
+    };
+    actor.setShape = (shape) => {
+      told.shape = shape;
+      setShape.call(actor, shape);
+    };
+    actor.steer &&= ((steer) => (speed, turn) => {
+      told.steer = { speed, turn };
+      steer.call(actor, speed, turn);
+    })(actor.steer);
+    window.told = told;
+  });
+}
+export const told = (tab) => tab.evaluate(() => window.told);

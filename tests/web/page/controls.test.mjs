@@ -1,0 +1,177 @@
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+
+import { frames, listen, start, styledParts, told } from './browser.mjs';
+
+let site, tab;
+before(async () => {
+  site = await start();
+  tab = await site.open();
+  await listen(tab);
+});
+after(() => site.close());
+
+const address = () => tab.evaluate(() => location.hash);
+const settle = () => tab.waitForTimeout(300);
+const field = (title) => tab.getByLabel(`${title}, exact`);
+const button = (name) => tab.getByRole('button', { name, exact: true });
+
+test('every style has a slider that sets its strength, and no other', async () => {
+  const styles = await tab.evaluate(() => window.page.panache.styles.map((style) => style.name));
+  assert.ok(styles.length >= 17);
+  for (const style of styles) {
+    await tab.locator(`#style-${style}`).fill('1.5');
+    const { strengths } = await told(tab);
+    for (const other of styles) assert.equal(strengths[other], other === style ? 1.5 : 0, style);
+    await button(`Reset ${style[0].toUpperCase()}${style.slice(1)}`).click();
+  }
+});
+
+test('a field takes the exact value, and holds it within the bounds', async () => {
+  await field('Old').fill('0.37');
+  await field('Old').press('Enter');
+  assert.equal((await told(tab)).strengths.old, 0.37);
+  await field('Old').fill('99');
+  await field('Old').press('Enter');
+  assert.equal((await told(tab)).strengths.old, 2);
+  await settle();
+  assert.equal(await address(), '#old=2');
+});
+
+test('an amount counts for all styles, or for what it says', async () => {
+  await field('Strength').fill('0.5');
+  await field('Strength').press('Enter');
+  assert.equal((await told(tab)).strengths.old, 1);
+  for (const amount of ['Posture', 'Dynamics', 'Timing']) {
+    await field(amount).fill('0.25');
+    await field(amount).press('Enter');
+    assert.equal((await told(tab)).shape[amount.toLowerCase()], 0.25);
+    await button(`Reset ${amount}`).click();
+    assert.equal((await told(tab)).shape[amount.toLowerCase()], 1);
+  }
+  await button('Reset Strength').click();
+});
+
+test('a part of the body is switched off and on', async () => {
+  for (const [name, key] of [['Legs', 'legs'], ['Spine', 'spine'], ['Arms', 'arms'],
+    ['Head', 'head'], ['Feet lock', 'footLock']]) {
+    await button(name).click();
+    assert.equal((await told(tab)).shape[key], 0);
+    assert.equal(await button(name).getAttribute('aria-pressed'), 'false');
+    await button(name).click();
+    assert.equal((await told(tab)).shape[key], 1);
+  }
+});
+
+test('presets mix, and say that they are on', async () => {
+  await button('Proud giant').click();
+  const { strengths } = await told(tab);
+  assert.equal(strengths.proud, 0.6);
+  assert.equal(strengths.giant, 0.8);
+  assert.equal(strengths.old, 0);
+  assert.equal(await button('Proud giant').getAttribute('aria-pressed'), 'true');
+  await button('Neutral').click();
+  assert.equal((await told(tab)).strengths.proud, 0);
+});
+
+test('the pad blends four styles, by mouse and by keys', async () => {
+  const pad = tab.locator('#pad');
+  await pad.scrollIntoViewIfNeeded();
+  const box = await pad.boundingBox();
+  await tab.mouse.click(box.x + 3, box.y + 3);
+  assert.ok((await told(tab)).strengths.old > 0.9);
+  await tab.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+  for (const style of ['old', 'proud', 'sad', 'happy']) {
+    assert.ok(Math.abs((await told(tab)).strengths[style] - 0.25) < 0.02, style);
+  }
+  await pad.focus();
+  for (let i = 0; i < 4; ++i) await tab.keyboard.press('ArrowRight');
+  assert.ok((await told(tab)).strengths.proud > 0.3);
+  await tab.getByLabel('Style of the pad, top right').selectOption('angry');
+  assert.ok((await told(tab)).strengths.angry > 0.3);
+  assert.equal((await told(tab)).strengths.proud, 0);
+  await button('Neutral').click();
+});
+
+test('what is set is in the address, and comes back from it', async () => {
+  const link = 'old=1.2&sad=-0.3&strength=0.8&posture=0.5&arms=off&trail=off&view=over';
+  const other = await site.open(link);
+  const settings = await other.evaluate(() => ({
+    old: document.querySelector('#style-old').value,
+    sad: document.querySelector('#style-sad').value,
+    posture: document.querySelector('#amount-posture').value,
+    view: document.body.dataset.view,
+  }));
+  assert.deepEqual(settings, { old: '1.2', sad: '-0.3', posture: '0.5', view: 'over' });
+  await other.waitForTimeout(300);
+  assert.equal(await other.evaluate(() => location.hash), `#${link}`);
+  await other.close();
+});
+
+test('each view shows something else', async () => {
+  await tab.locator('#style-old').fill('2');
+  await button('Stand').click();
+  await frames(tab, 20);
+  const pictures = new Set();
+  for (const view of ['Styled', 'Side by side', 'Overlaid']) {
+    await button(view).click();
+    await frames(tab, 2);
+    pictures.add((await tab.locator('#view').screenshot()).toString('base64'));
+  }
+  assert.equal(pictures.size, 3);
+  await button('Styled').click();
+  await button('Neutral').click();
+});
+
+test('the walker stands, walks and jogs, and turns by keys, stick and gamepad', async () => {
+  const steer = async () => {
+    await frames(tab, 2);
+    return (await told(tab)).steer;
+  };
+  await button('Stand').click();
+  assert.deepEqual(await steer(), { speed: 0, turn: 0 });
+  await button('Jog').click();
+  assert.equal((await steer()).speed, 3);
+  await button('Walk').click();
+  await tab.locator('#view').click({ position: { x: 300, y: 300 } });
+  await tab.evaluate(() => document.activeElement.blur());
+  await tab.keyboard.down('a');
+  assert.ok((await steer()).turn > 1);
+  await tab.keyboard.up('a');
+  await tab.keyboard.down('ArrowDown');
+  assert.equal((await steer()).speed, 0);
+  await tab.keyboard.up('ArrowDown');
+
+  const box = await tab.locator('#stick').boundingBox();
+  await tab.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await tab.mouse.down();
+  await tab.mouse.move(box.x + box.width, box.y);
+  const pushed = await steer();
+  assert.ok(pushed.speed > 2 && pushed.turn < -0.8, JSON.stringify(pushed));
+  await tab.mouse.up();
+
+  await tab.evaluate(() => {
+    window.pad = { connected: true, axes: [-1, 0], buttons: Array(17).fill({ pressed: false }) };
+    navigator.getGamepads = () => [window.pad];
+  });
+  assert.ok((await steer()).turn > 1);
+  await tab.evaluate(() => {
+    window.pad.axes = [0, 0];
+    document.querySelector('#style-old').focus();
+    window.pad.buttons[15] = { pressed: true };
+  });
+  await tab.waitForFunction(() => window.told.strengths.old > 0.1);
+  await tab.evaluate(() => (navigator.getGamepads = () => []));
+});
+
+test('a style reaches the body', async () => {
+  await button('Stand').click();
+  await button('Neutral').click();
+  await frames(tab, 30);
+  const hips = (parts) => parts[1], head = (parts) => parts[7 * 4 + 1] - hips(parts);
+  const before = head(await styledParts(tab));
+  await button('Very old').click();
+  await frames(tab, 30);
+  // Who is very old is bowed: the head is some centimetres lower over the hips.
+  assert.ok(head(await styledParts(tab)) < before - 0.01);
+});

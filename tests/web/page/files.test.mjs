@@ -1,0 +1,178 @@
+import assert from 'node:assert/strict';
+import { execFileSync, spawn } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync, statSync, truncateSync, writeFileSync } from 'node:fs';
+import { request } from 'node:http';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+
+import { frames, start } from './browser.mjs';
+
+const program = process.env.PANACHE_PROGRAM;
+const folder = mkdtempSync(join(tmpdir(), 'panache-page-'));
+const at = (name) => join(folder, name);
+const panache = (...given) => execFileSync(program, given, { cwd: folder, encoding: 'utf8' });
+
+let site, tab;
+before(async () => {
+  panache('walker', '-o', 'walk.bvh', '--seconds', '3');
+  panache('convert', 'walk.bvh', '-o', 'walk.glb');
+  writeFileSync(at('damaged.bvh'), readFileSync(at('walk.bvh'), 'utf8').replace('OFFSET', 'OFSET'));
+  site = await start();
+  tab = await site.open();
+});
+after(async () => {
+  await site.close();
+  rmSync(folder, { recursive: true });
+});
+
+const button = (name) => tab.getByRole('button', { name, exact: true });
+const kind = () => tab.evaluate(() => window.page.source.kind);
+const alertText = async () => {
+  await tab.locator('#alert').waitFor({ state: 'visible' });
+  return tab.locator('#alert').textContent();
+};
+const choose = (name) => tab.setInputFiles('#file', at(name));
+const isPlaying = () => tab.waitForFunction(() => window.page.source.kind === 'clip');
+
+/** As if a person dropped the file on the view. */
+async function drop(name) {
+  const bytes = readFileSync(at(name)).toString('base64');
+  await tab.evaluate(async ([text, title]) => {
+    const data = new DataTransfer();
+    const answer = await fetch(`data:application/octet-stream;base64,${text}`);
+    data.items.add(new File([await answer.blob()], title));
+    const event = (type) =>
+      new DragEvent(type, { dataTransfer: data, bubbles: true, cancelable: true });
+    const view = document.querySelector('#view');
+    for (const type of ['dragenter', 'dragover', 'drop']) view.dispatchEvent(event(type));
+  }, [bytes, name]);
+}
+
+/** Presses a button that saves a file, and puts that beside the others. */
+async function save(name, ending) {
+  const download = tab.waitForEvent('download');
+  await button(name).click();
+  const path = at(`saved${ending}`);
+  await (await download).saveAs(path);
+  return path;
+}
+
+test('a dropped BVH plays, pauses, is scrubbed and loops', async () => {
+  await drop('walk.bvh');
+  await isPlaying();
+  await button('Pause').click();
+  await tab.locator('#scrub').fill('0.5');
+  await frames(tab);
+  const seconds = await tab.evaluate(() => window.page.source.actor.seconds);
+  // Half of 3 s less a frame, to the thousandth that the slider goes by.
+  assert.ok(Math.abs(seconds - (3 - 1 / 60) / 2) < 0.002, `${seconds}`);
+  await frames(tab);
+  assert.equal(await tab.evaluate(() => window.page.source.actor.seconds), seconds);
+  await button('Loop').click();
+  await tab.locator('#scrub').fill('0.98');
+  await tab.locator('#speed').selectOption('2');
+  await button('Play').click();
+  await tab.waitForFunction(() => window.page.source.actor.seconds > 2.98);
+  await frames(tab, 4);
+  assert.ok(await tab.evaluate(() => window.page.source.actor.seconds > 2.98));
+  await button('Loop').click();
+  await tab.waitForFunction(() => window.page.source.actor.seconds < 2);
+});
+
+test('what is saved reads back: BVH, GLB, a picture and a film', async () => {
+  await tab.locator('#style-old').fill('1');
+  for (const ending of ['.bvh', '.glb']) {
+    const info = panache('info', await save(ending.slice(1).toUpperCase(), ending));
+    assert.match(info, /joints  2[12], of which/);  // A GLB has a node above them.
+    assert.match(info, /leftUpperArm   leftUpperArm/);
+    const kept = Number(/(\d+) frames/.exec(info)[1]);
+    assert.notEqual(kept, 180);  // Who is old takes another time for the same way.
+  }
+  const picture = readFileSync(await save('PNG', '.png'));
+  assert.equal(picture.subarray(1, 4).toString(), 'PNG');
+  assert.ok(picture.length > 5000, `${picture.length}`);
+  await button('WebM').click();
+  await tab.waitForTimeout(1200);
+  const film = statSync(await save('Stop filming', '.webm'));
+  assert.ok(film.size > 2000, `${film.size}`);
+});
+
+test('a clip that is saved is what the program makes of it, byte for byte', async () => {
+  panache('stylize', 'walk.bvh', '--style', 'old=1', '-o', 'old.bvh');
+  assert.deepEqual(readFileSync(await save('BVH', '.bvh')), readFileSync(at('old.bvh')));
+});
+
+test('a clip that no style changes is saved as it was, byte for byte', async () => {
+  await button('Neutral').click();
+  assert.deepEqual(readFileSync(await save('BVH', '.bvh')), readFileSync(at('walk.bvh')));
+});
+
+test('a GLB is shown with its own meshes', async () => {
+  await choose('walk.glb');
+  await tab.waitForFunction(() => window.page.source.file?.name === 'walk.glb');
+  await frames(tab);
+  assert.ok(await tab.evaluate(() => window.page.source.own !== null));
+  const info = panache('info', await save('GLB', '.glb'));
+  assert.match(info, /joints  22, of which.*\n.*180 frames at 60 a second/);
+});
+
+test('a wrong file is refused with the library\'s sentence, and the old one goes on', async () => {
+  await drop('damaged.bvh');
+  assert.match(await alertText(), /^damaged\.bvh:\d+:\d+: expected .*OFSET/);
+  assert.equal(await kind(), 'clip');
+  writeFileSync(at('notes.txt'), 'no motion');
+  await choose('notes.txt');
+  await tab.waitForFunction(() => document.querySelector('#alert').textContent.startsWith('notes'));
+  assert.equal(await alertText(), 'notes.txt: expected a motion file (.bvh, .glb, .gltf, .vrm), ' +
+    'found the ending \'.txt\'');
+  writeFileSync(at('cut.glb'), readFileSync(at('walk.glb')).subarray(0, 500));
+  await choose('cut.glb');
+  await tab.waitForFunction(() => document.querySelector('#alert').textContent.startsWith('cut'));
+  await frames(tab);
+});
+
+test('a huge file is refused, or read, and the page lives on', async () => {
+  writeFileSync(at('huge.bvh'), 'HIERARCHY');
+  truncateSync(at('huge.bvh'), 300 << 20);
+  await choose('huge.bvh');
+  await tab.waitForFunction(() => document.querySelector('#alert').textContent.startsWith('huge'));
+  assert.match(await alertText(), /expected at most 256 MB, found 300 MB/);
+  // Ten minutes of motion.
+  panache('walker', '-o', 'long.bvh', '--seconds', '600', '--fps', '30');
+  await choose('long.bvh');
+  await tab.waitForFunction(() => window.page.source.file?.name === 'long.bvh', null,
+    { timeout: 60000 });
+  await frames(tab);
+  await button('Walker').click();
+  assert.equal(await kind(), 'walk');
+});
+
+test('the walk itself is saved as it was steered', async () => {
+  await frames(tab, 30);
+  assert.match(panache('info', await save('BVH', '.bvh')), /joints  21, of which/);
+});
+
+test('panache view serves the page to this machine alone, with the file open in it', async (t) => {
+  const server = spawn(program, ['view', 'walk.bvh'], { cwd: folder });
+  t.after(() => server.kill());
+  const said = await new Promise((done) => {
+    server.stdout.once('data', (data) => done(String(data)));
+    server.once('exit', () => done(''));
+  });
+  if (said === '') return t.skip('this build has no server for the page');
+  assert.match(said, /^http:\/\/127\.0\.0\.1:\d+\/\?open=walk\.bvh\n$/);
+  const served = await site.open('', { url: said.trim() });
+  await served.waitForFunction(() => window.page.source.file?.name === 'walk.bvh');
+  assert.ok(await served.evaluate(() => window.crossOriginIsolated));
+  await served.close();
+
+  // Nothing of another name that leads to this machine, and nothing outside of the page's folder.
+  const ask = (path, host) => new Promise((done, fail) => request(
+    { host: '127.0.0.1', port: new URL(said).port, path, headers: host ? { Host: host } : {} },
+    (answer) => done(answer.resume().statusCode)).on('error', fail).end());
+  assert.equal(await ask('/'), 200);
+  assert.equal(await ask('/', 'example.org'), 403);
+  assert.equal(await ask('/../CMakeCache.txt'), 404);
+  assert.equal(await ask('/%2e%2e/CMakeCache.txt'), 404);
+});
