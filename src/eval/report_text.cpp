@@ -206,9 +206,9 @@ std::string report_text(const Report& report) {
   text += titled("Foreign motion: every clip in every style", foreign(report));
   text += titled("Disturbed windows: pose error in cm", disturbances(report));
   for (const SystemReport& system : report.systems) {
-    text += titled("Input foreseen by " + cut_text(system.name, kTextWidth / 2) +
-                       ", against constant velocity and holding the pose",
-                   foresight(system));
+    text += titled(
+        cut_text("Input foreseen, going on at constant velocity, held: " + system.name, kTextWidth),
+        foresight(system));
   }
   return text;
 }

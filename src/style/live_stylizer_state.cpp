@@ -15,7 +15,8 @@ void LiveStylizer::visit_state(Self& self, Visit&& visit) {
   Rig::visit_state(t.reader, visit);
   InputRing::visit_state(t.ring, visit);
   if (t.foresight) Foresight::visit_state(*t.foresight, visit);
-  visit(t.ahead), visit(t.now), visit(t.ground), visit(t.rotations), visit(t.translations), visit(t.time);
+  visit(t.ahead), visit(t.now), visit(t.ground), visit(t.rotations), visit(t.translations),
+      visit(t.time);
   visit(t.searched), visit(t.started), visit(t.glue), visit(t.old_glue), visit(t.old_ahead);
   visit(t.blended);
 }
