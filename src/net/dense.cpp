@@ -40,12 +40,12 @@ constexpr size_t kRowVectors = 2;
 constexpr size_t kAhead = 512;
 
 struct Task {
-  Rows<const float> x;
+  const Rows<const float>& x;
   size_t inputs;
   const float* weights;
   const float* bias;
   size_t outputs;
-  Rows<float> y;
+  const Rows<float>& y;
 };
 
 // Computes kVectors vectors of outputs from column `first` on, of kRows rows from `row` on.
@@ -128,8 +128,8 @@ void some_rows(const Task& task, size_t row, size_t rows) {
   for (; v < vectors; ++v) kNarrow[rows - 1](task, row, v * lanes);
 }
 
-void dense_rows(Rows<const float> x, size_t inputs, const float* weights, const float* bias,
-                size_t outputs, Rows<float> y) {
+void dense_rows(const Rows<const float>& x, size_t inputs, const float* weights, const float* bias,
+                size_t outputs, const Rows<float>& y) {
   const Task task{x, inputs, weights, bias, outputs, y};
   const size_t lanes = hn::Lanes(Floats());
   for (size_t row = 0; row < task.x.count;) {
@@ -270,8 +270,8 @@ void dense(std::span<const float> x, std::span<const float> weights, std::span<c
   dense_rows({x.data(), 1, 0}, x.size(), weights, bias, {y.data(), 1, 0});
 }
 
-void dense_rows(Rows<const float> x, size_t inputs, std::span<const float> weights,
-                std::span<const float> bias, Rows<float> y) noexcept {
+void dense_rows(const Rows<const float>& x, size_t inputs, std::span<const float> weights,
+                std::span<const float> bias, const Rows<float>& y) noexcept {
   assert(x.count == y.count && weights.size() == inputs * bias.size());
   HWY_DYNAMIC_DISPATCH(dense_rows)(x, inputs, weights.data(), bias.data(), bias.size(), y);
 }

@@ -15,8 +15,8 @@ void dense(std::span<const float> x, std::span<const float> weights, std::span<c
            std::span<float> y) noexcept;
 // The same for each row of x, of `inputs` numbers, with bias.size() outputs in each row of y: bit
 // for bit what the rows give alone, but weights are read once for several of them.
-void dense_rows(Rows<const float> x, size_t inputs, std::span<const float> weights,
-                std::span<const float> bias, Rows<float> y) noexcept;
+void dense_rows(const Rows<const float>& x, size_t inputs, std::span<const float> weights,
+                std::span<const float> bias, const Rows<float>& y) noexcept;
 // y[i] = y[i] > 0 ? y[i] : exp(y[i]) - 1, in place (ELU, Clevert et al. 2016), to within one unit
 // in the last place. NaN stays NaN.
 void elu(std::span<float> y) noexcept;

@@ -27,7 +27,7 @@ namespace HWY_NAMESPACE {
 #if HWY_TARGET == HWY_SCALAR
 
 // A machine without vectors has the plain loop.
-void dense_bytes(Rows<const float> x, const ByteMatrix& layer, Rows<float> y) {
+void dense_bytes(const Rows<const float>& x, const ByteMatrix& layer, const Rows<float>& y) {
   scalar::dense_bytes(x, layer, y);
 }
 
@@ -165,7 +165,7 @@ constexpr auto kOneRow = one_row_byte_tiles(std::make_index_sequence<kMaxVectors
 constexpr auto kNarrow = byte_tiles_of<1>(std::make_index_sequence<kMaxRows>());
 constexpr auto kWide = byte_tiles_of<kRowVectors>(std::make_index_sequence<kMaxRows>());
 
-void dense_bytes(Rows<const float> x, const ByteMatrix& layer, Rows<float> y) {
+void dense_bytes(const Rows<const float>& x, const ByteMatrix& layer, const Rows<float>& y) {
   const size_t lanes = hn::Lanes(Floats());
   HWY_ALIGN Rounded rounded;
   float steps[kMaxRows];
@@ -206,7 +206,8 @@ namespace panache {
 
 HWY_EXPORT(dense_bytes);
 
-void dense_bytes(Rows<const float> x, const ByteMatrix& layer, Rows<float> y) noexcept {
+void dense_bytes(const Rows<const float>& x, const ByteMatrix& layer,
+                 const Rows<float>& y) noexcept {
   assert(x.count == y.count && layer.inputs <= kMaxByteInputs && layer.outputs % kPadding == 0);
   HWY_DYNAMIC_DISPATCH(dense_bytes)(x, layer, y);
 }

@@ -30,11 +30,13 @@ struct ByteMatrix {
 // row. `step` is a power of two, the smallest for which no x[i] of the row is above 2^13 steps;
 // halves are rounded to the even number. Numbers that are not finite, and steps below 2^-100,
 // count as 0.
-void dense_bytes(Rows<const float> x, const ByteMatrix& layer, Rows<float> y) noexcept;
+void dense_bytes(const Rows<const float>& x, const ByteMatrix& layer,
+                 const Rows<float>& y) noexcept;
 
 // The plain loop that the above equals bit for bit.
 namespace scalar {
-void dense_bytes(Rows<const float> x, const ByteMatrix& layer, Rows<float> y) noexcept;
+void dense_bytes(const Rows<const float>& x, const ByteMatrix& layer,
+                 const Rows<float>& y) noexcept;
 }
 
 }  // namespace panache

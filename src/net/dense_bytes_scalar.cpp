@@ -24,7 +24,8 @@ int32_t rounded(float x, float reciprocal) {
 
 }  // namespace
 
-void dense_bytes(Rows<const float> x, const ByteMatrix& layer, Rows<float> y) noexcept {
+void dense_bytes(const Rows<const float>& x, const ByteMatrix& layer,
+                 const Rows<float>& y) noexcept {
   assert(x.count == y.count && layer.inputs <= kMaxByteInputs);
   for (size_t r = 0; r < x.count; ++r) {
     uint32_t largest = 0;

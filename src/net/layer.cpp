@@ -60,7 +60,7 @@ PackedLayer::PackedLayer(std::span<const DenseLayer> layers) {
   }
 }
 
-void PackedLayer::forward(Rows<const float> x, Rows<float> y) const noexcept {
+void PackedLayer::forward(const Rows<const float>& x, const Rows<float>& y) const noexcept {
   if (bytes_.empty()) {
     dense_rows(x, inputs_, weights_, bias_, y);
   } else {

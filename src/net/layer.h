@@ -38,7 +38,7 @@ class PackedLayer {
   // Where the outputs of layer `l` begin.
   size_t begin(size_t l) const { return begins_[l]; }
   // Computes width() numbers in each row of y from inputs() numbers in each row of x.
-  void forward(Rows<const float> x, Rows<float> y) const noexcept;
+  void forward(const Rows<const float>& x, const Rows<float>& y) const noexcept;
 
  private:
   size_t inputs_ = 0;

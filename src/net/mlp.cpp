@@ -142,19 +142,22 @@ size_t Trunk::trunk_scratch_size(size_t rows) const {
   return 2 * rows * widest;
 }
 
-Rows<const float> Trunk::forward(Rows<const float> x, std::span<float> scratch) const noexcept {
+Rows<const float> Trunk::forward(const Rows<const float>& x,
+                                 std::span<float> scratch) const noexcept {
   assert(scratch.size() >= trunk_scratch_size(x.count));
   // The layers take turns between the two halves, as none may write where it reads.
   float* half = scratch.data();
   float* other = half + trunk_scratch_size(x.count) / 2;
+  const float* from = x.first;
+  size_t stride = x.stride;
   for (const PackedLayer& layer : layers_) {
-    const Rows<float> y{half, x.count, layer.width()};
-    layer.forward(x, y);
+    layer.forward({from, x.count, stride}, {half, x.count, layer.width()});
     elu({half, x.count * layer.width()});
-    x = y;
+    from = half;
+    stride = layer.width();
     std::swap(half, other);
   }
-  return x;
+  return {from, x.count, stride};
 }
 
 std::span<const float> Trunk::forward(std::span<const float> x,
@@ -194,7 +197,7 @@ std::array<std::span<const float>, TrunkTrio::kTrunks> TrunkTrio::forward(
 }
 
 std::array<Rows<const float>, TrunkTrio::kTrunks> TrunkTrio::forward(
-    Rows<const float> x, std::span<float> scratch) const noexcept {
+    const Rows<const float>& x, std::span<float> scratch) const noexcept {
   assert(scratch.size() >= scratch_size(x.count));
   const Rows<float> hidden{scratch.data(), x.count, first_.width()};
   scratch = scratch.subspan(x.count * first_.width());

@@ -41,7 +41,7 @@ class Trunk {
   friend class TrunkTrio;
   // The same for several rows at once.
   size_t trunk_scratch_size(size_t rows) const;
-  Rows<const float> forward(Rows<const float> x, std::span<float> scratch) const noexcept;
+  Rows<const float> forward(const Rows<const float>& x, std::span<float> scratch) const noexcept;
 
   std::vector<DenseLayer> plain_;  // As read.
   std::vector<PackedLayer> layers_;
@@ -67,7 +67,7 @@ class TrunkTrio {
                                                       std::span<float> scratch) const noexcept;
   // The same for each row of x: bit for bit what the rows give alone. `scratch` should begin on a
   // cache line.
-  std::array<Rows<const float>, kTrunks> forward(Rows<const float> x,
+  std::array<Rows<const float>, kTrunks> forward(const Rows<const float>& x,
                                                  std::span<float> scratch) const noexcept;
 
  private:

@@ -8,7 +8,8 @@
 
 namespace panache {
 
-// `count` rows; row r starts at first + r * stride.
+// `count` rows; row r starts at first + r * stride. Kernels take them by reference: copies
+// are read in larger pieces than they were written in, which a processor waits for (docs/speed.md).
 template <class T>
 struct Rows {
   T* first = nullptr;

@@ -1,5 +1,6 @@
 #include "net/mlp.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -23,10 +24,9 @@ Tensor ramp(std::vector<int64_t> shape) {
   return tensor;
 }
 
-// A trunk of three layers, 5 -> 4 -> 6 -> 3, called "pose".
-TensorFile small_file() {
+// A trunk of three layers, 5 -> 4 -> 6 -> 3 unless told otherwise, called "pose".
+TensorFile small_file(std::array<int64_t, 4> sizes = {5, 4, 6, 3}) {
   TensorFile file;
-  const int64_t sizes[] = {5, 4, 6, 3};
   for (int layer = 0; layer < 3; ++layer) {
     const std::string key = "pose." + std::to_string(layer);
     file.tensors[key + ".weight"] = ramp({sizes[layer], sizes[layer + 1]});
@@ -91,7 +91,8 @@ TEST(TrunkTrio, gives_bit_for_bit_what_each_of_its_trunks_gives) {
 }
 
 TEST(TrunkTrio, gives_several_rows_the_bits_that_each_gives_alone) {
-  const TensorFile file = small_file();
+  // Each layer's rows are of another width, padded too.
+  const TensorFile file = small_file({5, 40, 20, 3});
   const Trunk trunk = *Trunk::read(file, "pose", 5, kName);
   const TrunkTrio trio({trunk, trunk, trunk});
   constexpr size_t kRows = 11;
