@@ -35,8 +35,8 @@ TEST(Foresight, is_off_by_what_it_is_off) {
     // Centimetres; 1e-3 of them is the rounding of floats of a few metres.
     EXPECT_NEAR(rows[0].held_cm[h], 200 * kForesightSeconds[h], 1e-3);
     EXPECT_NEAR(rows[0].velocity_cm[h], 0, 1e-3);
-    // Before it has learnt whom to trust, a hundredth of the say is that of holding.
-    EXPECT_LT(rows[0].predicted_cm[h], 0.012 * rows[0].held_cm[h]);
+    // Before it has learnt whom to trust, holding has a hundredth or two of the say.
+    EXPECT_LT(rows[0].predicted_cm[h], 0.03 * rows[0].held_cm[h]);
   }
 }
 
