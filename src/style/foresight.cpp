@@ -106,6 +106,7 @@ Foresight::PerGuesser Foresight::shares_of(const PerGuesser& errors) noexcept {
 }
 
 ForeseenBody Foresight::foresee(double seconds) const noexcept {
+  if (seconds <= 0) return newest_;
   const Guesses guesses = guess(seconds);
   // The share of the later check.
   const auto later =

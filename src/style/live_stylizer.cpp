@@ -62,12 +62,6 @@ BodyChange change_between(const HumanPositions& before, const Ground& ground,
   return change;
 }
 
-HumanPositions body_of(const BodyPose& pose, const Ground& ground) {
-  HumanPositions body;
-  to_body_frame(pose.positions, ground, body);
-  return body;
-}
-
 }  // namespace
 
 LiveStylizer::Timed::Timed(const Rig& rig, std::shared_ptr<const Model> model,
@@ -149,9 +143,9 @@ void LiveStylizer::take_input(ConstPose in, double seconds) noexcept {
     reset();
   }
   t.time += seconds;
-  const HumanPositions body = body_of(t.now, t.ground);
-  t.ring.push(t.time, {t.rotations, t.translations}, body, t.ground);
-  if (t.foresight) t.foresight->push(t.time, body, t.ground);
+  to_body_frame(t.now.positions, t.ground, t.body);
+  t.ring.push(t.time, {t.rotations, t.translations}, t.body, t.ground);
+  if (t.foresight) t.foresight->push(t.time, t.body, t.ground);
   t.started = true;
 }
 
@@ -164,11 +158,10 @@ Ground LiveStylizer::ground_at(double ahead) const noexcept {
 void LiveStylizer::look_ahead(double seconds) noexcept {
   Timed& t = *timed_;
   if (!t.foresight) return;
-  ForeseenBody wanted = t.foresight->foresee(std::max(head_.ahead(), 0.0));
-  const HumanPositions body = body_of(t.now, t.ground);
+  const ForeseenBody wanted = t.foresight->foresee(std::max(head_.ahead(), 0.0));
   const float gain = 1 - exponential(-static_cast<float>(seconds) / kLeadSeconds);
-  for (size_t j = 0; j < body.size(); ++j) {
-    t.ahead.body[j] += (wanted.body[j] - body[j] - t.ahead.body[j]) * gain;
+  for (size_t j = 0; j < t.body.size(); ++j) {
+    t.ahead.body[j] += (wanted.body[j] - t.body[j] - t.ahead.body[j]) * gain;
   }
   const Ground way{wanted.ground.position - t.ground.position,
                    wanted.ground.facing - t.ground.facing};
@@ -180,10 +173,9 @@ void LiveStylizer::look_ahead(double seconds) noexcept {
 void LiveStylizer::pose_at(double ahead, const Glue& glue, Pose out) noexcept {
   Timed& t = *timed_;
   if (ahead > 0) {
-    const HumanPositions body = body_of(t.now, t.ground);
-    ForeseenBody foreseen{body, ground_at(ahead)};
-    for (size_t j = 0; j < body.size(); ++j) foreseen.body[j] += t.ahead.body[j];
-    const BodyChange change = change_between(body, t.ground, foreseen);
+    ForeseenBody foreseen{t.body, ground_at(ahead)};
+    for (size_t j = 0; j < t.body.size(); ++j) foreseen.body[j] += t.ahead.body[j];
+    const BodyChange change = change_between(t.body, t.ground, foreseen);
     t.reader.write({t.rotations, t.translations}, t.now, change, out);
   } else {
     t.ring.pose(t.time + ahead, out);

@@ -70,6 +70,7 @@ class LiveStylizer {
 
     Rig reader;  // Of the newest pose; the stylizer's own is that of the play head.
     BodyPose now;
+    HumanPositions body{};  // Of `now`, in its body frame.
     Ground ground;
     InputRing ring;
     std::optional<Foresight> foresight;
