@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/measure.h"
+#include "net/dense.h"
 
 // The running sums live in arrays, which vectors of a length unknown to the compiler cannot.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
@@ -24,24 +25,7 @@ using Floats = hn::ScalableTag<float>;
 using Vector = hn::Vec<Floats>;
 
 // As many running sums as hide the latency of an addition.
-constexpr size_t kSums = 8, kArithmeticSums = 12;
-
-float sum_of(const float* HWY_RESTRICT numbers, size_t count) {
-  const Floats d;
-  const size_t lanes = hn::Lanes(d);
-  Vector sums[kSums];
-  for (Vector& sum : sums) sum = hn::Zero(d);
-  size_t i = 0;
-  for (; i + kSums * lanes <= count; i += kSums * lanes) {
-    for (size_t s = 0; s < kSums; ++s) {
-      sums[s] = hn::Add(sums[s], hn::LoadU(d, numbers + i + s * lanes));
-    }
-  }
-  for (size_t s = 1; s < kSums; ++s) sums[0] = hn::Add(sums[0], sums[s]);
-  float sum = hn::GetLane(hn::SumOfLanes(d, sums[0]));
-  for (; i < count; ++i) sum += numbers[i];
-  return sum;
-}
+constexpr size_t kArithmeticSums = 12;
 
 template <bool kFused>
 float arithmetic(size_t rounds) {
@@ -70,7 +54,6 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace panache::bench {
 
-HWY_EXPORT(sum_of);
 HWY_EXPORT(multiply_and_add);
 HWY_EXPORT(fused_multiply_add);
 HWY_EXPORT(operations);
@@ -105,10 +88,6 @@ std::string processor_name() {
 
 }  // namespace
 
-float sum_of(std::span<const float> numbers) noexcept {
-  return HWY_DYNAMIC_DISPATCH(sum_of)(numbers.data(), numbers.size());
-}
-
 Limits measure_limits() {
   Limits limits;
   limits.processor = processor_name();
@@ -122,7 +101,7 @@ Limits measure_limits() {
   // More than twice the largest third caches.
   const std::vector<float> numbers(size_t{64} << 20, 1.0f);
   limits.memory_gb_s = 1e-9 * sizeof(float) * static_cast<double>(numbers.size()) /
-                       seconds_of([&] { return sum_of(numbers); });
+                       seconds_of([&] { return sum_in_any_order(numbers); });
   return limits;
 }
 

@@ -2,14 +2,9 @@
 // What the machine can do at best, with the widest registers that it has: the limits beside which
 // the speed of a network means something.
 
-#include <cstddef>
-#include <span>
 #include <string>
 
 namespace panache::bench {
-
-// The sum of the numbers, in some order: reads each once, and does next to nothing else.
-float sum_of(std::span<const float> numbers) noexcept;
 
 struct Limits {
   std::string processor;    // As the system calls it.

@@ -96,7 +96,7 @@ Result<void> Race::prepare(Measurements& out) {
   }
   as_many_.assign(parameter_count(networks), 1.0f);
   add_forward_pass(out, "read_limit", "reading the weights, no more",
-                   [this] { y_[0] = sum_of(as_many_); });
+                   [this] { y_[0] = sum_in_any_order(as_many_); });
 
   phase_network_ = std::make_unique<PhaseNetwork>();
   phase_table_ = std::make_unique<PhaseTable>(*phase_network_);

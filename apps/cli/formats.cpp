@@ -21,17 +21,10 @@ bool rests_as_it_starts(const Clip& clip) {
   return true;
 }
 
-// Axes stay where the rest is not known. Programs that read BVH want an End Site in every branch.
+// Axes stay where the rest is not known.
 std::string format_as_bvh(const Clip& clip) {
   Clip out = rests_as_it_starts(clip) ? clip : in_rest_axes(clip);
-  std::vector<bool> has_child(out.joints());
-  for (const Joint& joint : out.skeleton.joints) {
-    if (joint.parent >= 0) has_child[static_cast<size_t>(joint.parent)] = true;
-  }
-  for (size_t j = 0; j < out.joints(); ++j) {
-    std::vector<Vec3>& ends = out.skeleton.joints[j].ends;
-    if (!has_child[j] && ends.empty()) ends.emplace_back();
-  }
+  add_end_sites(out.skeleton);
   return format_bvh(out);
 }
 

@@ -35,4 +35,8 @@ Result<std::unique_ptr<MotionFile>> parse_bvh(std::string text, const std::strin
 // false is its offset in the file, whatever the poses say.
 std::string format_bvh(const Clip& clip);
 
+// Gives every joint at the end of a branch an end, at the joint itself if it has none: programs
+// that read BVH want an End Site there.
+void add_end_sites(Skeleton& skeleton);
+
 }  // namespace panache

@@ -145,6 +145,17 @@ class BvhFormatter {
 
 }  // namespace
 
+void add_end_sites(Skeleton& skeleton) {
+  std::vector<bool> has_child(skeleton.joints.size());
+  for (const Joint& joint : skeleton.joints) {
+    if (joint.parent >= 0) has_child[static_cast<size_t>(joint.parent)] = true;
+  }
+  for (size_t j = 0; j < skeleton.joints.size(); ++j) {
+    std::vector<Vec3>& ends = skeleton.joints[j].ends;
+    if (!has_child[j] && ends.empty()) ends.emplace_back();
+  }
+}
+
 std::string format_bvh(const Clip& clip) { return BvhFormatter(clip).format(); }
 
 }  // namespace panache

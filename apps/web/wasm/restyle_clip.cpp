@@ -54,15 +54,7 @@ std::string format_clip(const Clip& clip, const Rig& rig, const std::string& end
     return format_glb(clip, "styled", static_cast<double>(rig.scale()), to_y_up);
   }
   Clip out = in_rest_axes(clip);
-  // Programs that read BVH want an End Site in every branch.
-  std::vector<bool> has_child(out.joints());
-  for (const Joint& joint : out.skeleton.joints) {
-    if (joint.parent >= 0) has_child[static_cast<size_t>(joint.parent)] = true;
-  }
-  for (size_t j = 0; j < out.joints(); ++j) {
-    std::vector<Vec3>& ends = out.skeleton.joints[j].ends;
-    if (!has_child[j] && ends.empty()) ends.emplace_back();
-  }
+  add_end_sites(out.skeleton);
   return format_bvh(out);
 }
 
