@@ -2,15 +2,20 @@
 
 #include <cerrno>
 #include <cstring>
-#include <mutex>
 
 #include <fcntl.h>
+#include <spawn.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "report.h"
+
 namespace panache::cli {
 namespace {
+
+// What an answer begins with: a result, or the sentence of a failure.
+constexpr char kGood = '+', kBad = '-';
 
 void limit(int what, rlim_t most) {
   const rlimit bound = {most, most};
@@ -39,60 +44,68 @@ std::string read_all(int file) {
   }
 }
 
-// '+' and the result, or '-' and the sentence.
-[[noreturn]] void become_worker(const std::function<Result<std::string>()>& work, int seconds,
-                                int out) {
+// Starts this program again with its standard output going to `out`; the errno of a failure, or 0.
+int start(const std::vector<std::string>& arguments, int out, pid_t& child) {
+  std::vector<std::string> words = {"panache"};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  if (const int failed = ::posix_spawn_file_actions_init(&actions)) return failed;
+  ::posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
+  const int failed =
+      ::posix_spawn(&child, "/proc/self/exe", &actions, nullptr, pointers.data(), environ);
+  ::posix_spawn_file_actions_destroy(&actions);
+  return failed;
+}
+
+}  // namespace
+
+Result<std::string> run_in_child(const std::vector<std::string>& arguments,
+                                 const std::string& breakdown) {
+  // Closed in every child, so that none of another thread's holds this pipe open.
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) {
+    return Error{std::string("no pipe to a child: ") + std::strerror(errno)};
+  }
+  pid_t child = -1;
+  const int failed = start(arguments, ends[1], child);
+  ::close(ends[1]);
+  std::string answer;
+  if (!failed) answer = read_all(ends[0]);
+  ::close(ends[0]);
+  if (failed) return Error{std::string("no child process: ") + std::strerror(failed)};
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  const bool well = WIFEXITED(status) && WEXITSTATUS(status) == kDone && !answer.empty();
+  if (!well) return Error{breakdown};
+  const bool is_good = answer[0] == kGood;
+  answer.erase(0, 1);
+  if (!is_good) return Error{answer};
+  return answer;
+}
+
+int answer_as_child(const std::function<Result<std::string>()>& work, int seconds) {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, static_cast<rlim_t>(seconds));
 #ifndef __SANITIZE_ADDRESS__  // It reserves more addresses than there is memory.
   limit(RLIMIT_AS, rlim_t{8} << 30);
 #endif
-  // What a library says on its way down is not the program's sentence.
+  // What a library says on its way is not the answer, nor the program's sentence.
+  const int out = ::dup(STDOUT_FILENO);
   const int nowhere = ::open("/dev/null", O_WRONLY);
   ::dup2(nowhere, STDOUT_FILENO);
   ::dup2(nowhere, STDERR_FILENO);
   try {
     const Result<std::string> done = work();
     const std::string& text = done ? *done : done.error().message;
-    const bool sent =
-        write_all(out, done ? "+" : "-", 1) && write_all(out, text.data(), text.size());
-    ::_exit(sent ? 0 : 1);
+    const char mark = done ? kGood : kBad;
+    return write_all(out, &mark, 1) && write_all(out, text.data(), text.size()) ? kDone : kBadInput;
   } catch (...) {
-    ::_exit(1);
+    return kBadInput;
   }
-}
-
-}  // namespace
-
-Result<std::string> run_in_child(const std::function<Result<std::string>()>& work, int seconds,
-                                 const std::string& breakdown) {
-  int ends[2];
-  pid_t child = -1;
-  {
-    // A child that another thread starts in between would hold this pipe open.
-    static std::mutex starting;
-    const std::lock_guard lock(starting);
-    if (::pipe(ends) != 0) return Error{std::string("no pipe to a child: ") + std::strerror(errno)};
-    child = ::fork();
-    if (child == 0) {
-      ::close(ends[0]);
-      become_worker(work, seconds, ends[1]);
-    }
-    ::close(ends[1]);
-  }
-  std::string answer;
-  if (child > 0) answer = read_all(ends[0]);
-  ::close(ends[0]);
-  if (child < 0) return Error{std::string("no child process: ") + std::strerror(errno)};
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  const bool well = WIFEXITED(status) && WEXITSTATUS(status) == 0 && !answer.empty();
-  if (!well) return Error{breakdown};
-  const bool is_error = answer[0] == '-';
-  answer.erase(0, 1);
-  if (is_error) return Error{answer};
-  return answer;
 }
 
 }  // namespace panache::cli

@@ -1,17 +1,23 @@
 #pragma once
-// Work that is better done where it cannot hurt.
+// Work that is better done where it cannot hurt: in this program, started again.
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "base/result.h"
 
 namespace panache::cli {
 
-// The result of `work`, done in a child process that may use 8 GB of memory and `seconds` of the
-// processor. `breakdown` is the sentence where it crashed, threw or went beyond its bounds. May be
-// called from several threads; `work` must not wait for another thread.
-Result<std::string> run_in_child(const std::function<Result<std::string>()>& work, int seconds,
+// What the child that runs this program with `arguments` answers through answer_as_child().
+// `breakdown` is the sentence where it crashed or went beyond its bounds. May be called from
+// several threads: the child is a program of its own, not a copy of this one, in which a lock that
+// another thread held would stay locked for ever.
+Result<std::string> run_in_child(const std::vector<std::string>& arguments,
                                  const std::string& breakdown);
+
+// The child's side: does `work` within 8 GB of memory and `seconds` of the processor, and hands its
+// result to the parent. What `work` prints goes nowhere. Returns the exit code.
+int answer_as_child(const std::function<Result<std::string>()>& work, int seconds);
 
 }  // namespace panache::cli

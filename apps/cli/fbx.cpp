@@ -25,12 +25,14 @@ bool is_fbx(const std::string& bytes) {
          (start.find("FBX") != std::string::npos && start.find('\0') == std::string::npos);
 }
 
-Result<std::string> convert(const std::string& bytes, const std::string& path) {
+Result<std::string> convert(const std::string& path) {
+  const Result<std::string> bytes = read_file(path);
+  if (!bytes) return bytes.error();
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_CAMERAS, false);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_LIGHTS, false);
-  if (!importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "fbx")) {
+  if (!importer.ReadFileFromMemory(bytes->data(), bytes->size(), 0, "fbx")) {
     return Error{path + ": cannot be read as FBX: " + importer.GetErrorString()};
   }
   const std::unique_ptr<aiScene> scene(importer.GetOrphanedScene());
@@ -54,12 +56,16 @@ Result<std::string> fbx_to_glb(const std::string& path) {
   }
   if (!is_fbx(*bytes)) return Error{path + ": does not begin as FBX files do; is it damaged?"};
   Result<std::string> glb =
-      run_in_child([&] { return convert(*bytes, path); }, kLongestRead,
+      run_in_child({kFbxReader, path},
                    path +
                        ": the FBX reader broke down over it; the file may be damaged; exporting "
                        "it again, or as GLB, may help");
   if (!glb) return glb.error();
   return with_pictures(*std::move(glb), path);
+}
+
+int read_fbx_as_child(const std::string& path) {
+  return answer_as_child([&] { return convert(path); }, kLongestRead);
 }
 
 }  // namespace panache::cli

@@ -16,4 +16,9 @@ namespace panache::cli {
 // Assimp has only a sentence too.
 Result<std::string> fbx_to_glb(const std::string& path);
 
+// The first argument that makes this program the process that reads the file named by the second,
+// and what it does then; returns the exit code. Nobody else has a use for it.
+inline constexpr const char* kFbxReader = "--read-fbx-for-parent";
+int read_fbx_as_child(const std::string& path);
+
 }  // namespace panache::cli

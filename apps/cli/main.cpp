@@ -3,7 +3,9 @@
 #include <cstdio>
 #include <new>
 #include <string>
+#include <string_view>
 
+#include "fbx.h"
 #include "report.h"
 #include "verbs.h"
 
@@ -31,6 +33,7 @@ std::string one_line(std::string text) {
 }
 
 int run(int argc, char** argv) {
+  if (argc == 3 && argv[1] == std::string_view(kFbxReader)) return read_fbx_as_child(argv[2]);
   int exit_code = kDone;
   CLI::App app(
       "Panache gives motion a style: neutral motion in, the same motion angry, old or "

@@ -1,11 +1,17 @@
 // In the place of fbx.cpp in a build without Assimp.
 
 #include "fbx.h"
+#include "report.h"
 
 namespace panache::cli {
 
 Result<std::string> fbx_to_glb(const std::string& path) {
   return Error{path + ": this build reads no FBX files; build with libassimp-dev"};
+}
+
+int read_fbx_as_child(const std::string& path) {
+  say(fbx_to_glb(path).error().message);
+  return kBadInput;
 }
 
 }  // namespace panache::cli
