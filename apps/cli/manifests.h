@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/result.h"
-#include "train/manifest.h"
+#include "learn/manifest.h"
 
 namespace panache::cli {
 

@@ -5,7 +5,7 @@
 
 #include "base/parallel.h"
 #include "style/pose_change.h"
-#include "train/samples.h"
+#include "learn/samples.h"
 
 namespace panache {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "eval/pose_error.h"
 #include "style/model.h"
-#include "train/take.h"
+#include "learn/take.h"
 
 namespace panache {
 

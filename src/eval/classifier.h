@@ -7,7 +7,7 @@
 #include <torch/torch.h>
 
 #include "train/network.h"
-#include "train/take.h"
+#include "learn/take.h"
 
 namespace panache {
 

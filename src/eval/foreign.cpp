@@ -14,8 +14,8 @@
 #include "eval/quality.h"
 #include "eval/systems.h"
 #include "style/restyle.h"
-#include "train/manifest.h"
-#include "train/take.h"
+#include "learn/manifest.h"
+#include "learn/take.h"
 
 namespace panache {
 namespace {

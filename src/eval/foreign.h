@@ -8,7 +8,7 @@
 
 #include "base/result.h"
 #include "style/model.h"
-#include "train/take.h"
+#include "learn/take.h"
 
 namespace panache {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "style/model.h"
-#include "train/take.h"
+#include "learn/take.h"
 
 namespace panache {
 

@@ -9,7 +9,7 @@
 #include "base/result.h"
 #include "eval/classifier.h"
 #include "eval/quality.h"
-#include "train/take.h"
+#include "learn/take.h"
 
 namespace panache {
 

@@ -5,7 +5,7 @@
 
 #include "net/safetensors.h"
 #include "train/export.h"
-#include "train/samples.h"
+#include "learn/samples.h"
 
 namespace panache {
 namespace {

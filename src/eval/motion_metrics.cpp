@@ -6,7 +6,7 @@
 
 #include "clip/fk.h"
 #include "eval/quality.h"
-#include "train/samples.h"
+#include "learn/samples.h"
 
 namespace panache {
 namespace {

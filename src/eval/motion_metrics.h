@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "clip/clip.h"
-#include "train/take.h"
+#include "learn/take.h"
 
 namespace panache {
 

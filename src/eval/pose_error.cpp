@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "style/pose_change.h"
-#include "train/samples.h"
+#include "learn/samples.h"
 
 namespace panache {
 namespace {

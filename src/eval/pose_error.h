@@ -2,7 +2,7 @@
 // How far one pose is from the pose of a real styled take.
 
 #include "style/model.h"
-#include "train/take.h"
+#include "learn/take.h"
 
 namespace panache {
 

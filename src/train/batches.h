@@ -6,7 +6,7 @@
 
 #include <torch/torch.h>
 
-#include "train/samples.h"
+#include "learn/samples.h"
 
 namespace panache {
 

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "train/gait_take.h"
-#include "train/ridge.h"
-#include "train/take.h"
+#include "learn/ridge.h"
+#include "learn/take.h"
 
 namespace panache {
 namespace {

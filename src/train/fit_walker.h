@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "train/manifest.h"
+#include "learn/manifest.h"
 #include "walker/model.h"
 
 namespace panache {

@@ -7,7 +7,7 @@
 
 #include "base/quat.h"
 #include "rig/canonical_skeleton.h"
-#include "train/ridge.h"
+#include "learn/ridge.h"
 
 namespace panache {
 namespace {

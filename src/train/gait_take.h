@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "train/take.h"
+#include "learn/take.h"
 #include "walker/gait.h"
 
 namespace panache {

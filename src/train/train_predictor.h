@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "net/safetensors.h"
-#include "train/take.h"
+#include "learn/take.h"
 #include "train/trainer.h"
 
 namespace panache {

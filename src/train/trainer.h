@@ -8,9 +8,9 @@
 #include "base/result.h"
 #include "net/safetensors.h"
 #include "train/batches.h"
-#include "train/manifest.h"
+#include "learn/manifest.h"
 #include "train/network.h"
-#include "train/samples.h"
+#include "learn/samples.h"
 
 namespace panache {
 

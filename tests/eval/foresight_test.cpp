@@ -4,7 +4,7 @@
 
 #include "eval/one_thread.h"
 #include "make_model.h"
-#include "train/make_takes.h"
+#include "learn/make_takes.h"
 
 namespace panache {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "clip/fk.h"
 #include "make_clip.h"
-#include "train/manifest.h"
-#include "train/take.h"
+#include "learn/manifest.h"
+#include "learn/take.h"
 
 namespace panache {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "make_styles.h"
-#include "train/take.h"
+#include "learn/take.h"
 
 namespace panache::test {
 

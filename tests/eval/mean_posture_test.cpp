@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "train/make_takes.h"
-#include "train/samples.h"
+#include "learn/make_takes.h"
+#include "learn/samples.h"
 
 namespace panache {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "make_aligned.h"
-#include "train/samples.h"
+#include "learn/samples.h"
 
 namespace panache {
 namespace {

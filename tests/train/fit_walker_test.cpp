@@ -14,7 +14,7 @@
 #include "clip/bvh.h"
 #include "make_clip.h"
 #include "train/gait_take.h"
-#include "train/ridge.h"
+#include "learn/ridge.h"
 
 namespace panache {
 namespace {

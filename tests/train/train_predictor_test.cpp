@@ -4,7 +4,7 @@
 
 #include "make_model.h"
 #include "style/predictor.h"
-#include "train/make_takes.h"
+#include "learn/make_takes.h"
 
 namespace panache {
 namespace {

@@ -1,4 +1,4 @@
-#include "train/manifest.h"
+#include "learn/manifest.h"
 
 #include <gtest/gtest.h>
 

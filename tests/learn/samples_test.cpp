@@ -1,4 +1,4 @@
-#include "train/samples.h"
+#include "learn/samples.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "train/ridge.h"
+#include "learn/ridge.h"
 
 #include <cassert>
 #include <cmath>

@@ -9,8 +9,8 @@
 
 #include "base/random.h"
 #include "style/model.h"
-#include "train/pairing.h"
-#include "train/take.h"
+#include "learn/pairing.h"
+#include "learn/take.h"
 
 namespace panache {
 

@@ -1,4 +1,4 @@
-#include "train/pairing.h"
+#include "learn/pairing.h"
 
 #include <algorithm>
 #include <cmath>

@@ -12,7 +12,7 @@
 #include "pose/contacts.h"
 #include "pose/features.h"
 #include "rig/rig.h"
-#include "train/manifest.h"
+#include "learn/manifest.h"
 
 namespace panache {
 

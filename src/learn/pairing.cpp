@@ -1,15 +1,15 @@
-#include "train/pairing.h"
+#include "learn/pairing.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 #include <tuple>
 
-#include <torch/torch.h>
-
 #include "base/parallel.h"
+#include "net/dense.h"
 
 namespace panache {
 namespace {
@@ -55,39 +55,48 @@ std::vector<float> comparison_numbers(const Take& take) {
 // own posture does not spoil the comparison.
 struct Group {
   std::vector<int> takes;
-  torch::Tensor numbers;   // [frames][kNumbers]
-  torch::Tensor squares;   // [frames]
-  std::vector<int> begin;  // First frame of each take; one more at the end.
+  std::vector<float> numbers;  // [frames][kNumbers]
+  std::vector<int> begin;      // First frame of each take; one more at the end.
 };
+
+// A number that hardly moves must not drown the others in its noise: while a hand is raised, only
+// that arm tells where in the action one is.
+float still(int number) {
+  const bool speed = number + 1 < kNumbers && number % 6 >= 3;
+  return speed ? kStillSpeed / static_cast<float>(kTakeRate) : kStillWay;
+}
 
 Group make_group(const std::vector<Take>& takes, std::vector<int> members) {
   Group group;
   group.takes = std::move(members);
-  std::vector<float> all;
+  std::vector<float>& all = group.numbers;
   group.begin.push_back(0);
   for (const int t : group.takes) {
     const std::vector<float> numbers = comparison_numbers(takes[t]);
     all.insert(all.end(), numbers.begin(), numbers.end());
     group.begin.push_back(static_cast<int>(all.size()) / kNumbers);
   }
-  const torch::Tensor raw =
-      torch::from_blob(all.data(), {static_cast<int64_t>(all.size()) / kNumbers, kNumbers});
-  const torch::Tensor mean = raw.mean(0, true);
-  // A number that hardly moves must not drown the others in its noise: while a hand is raised, only
-  // that arm tells where in the action one is.
-  torch::Tensor floor = torch::full({1, kNumbers}, kStillWay);
-  for (int i = 0; i + 1 < kNumbers; ++i) {
-    if (i % 6 >= 3) floor[0][i] = kStillSpeed / kTakeRate;
+  const double frames = group.begin.back();
+  for (int i = 0; i < kNumbers; ++i) {
+    double sum = 0, squares = 0;
+    for (size_t at = i; at < all.size(); at += kNumbers) {
+      sum += all[at];
+      squares += double(all[at]) * all[at];
+    }
+    const double mean = sum / frames, variance = std::max(0.0, squares / frames - mean * mean);
+    const double factor = 1 / std::hypot(std::sqrt(variance), still(i));
+    for (size_t at = i; at < all.size(); at += kNumbers) {
+      all[at] = static_cast<float>((all[at] - mean) * factor);
+    }
   }
-  const torch::Tensor deviation = (raw.var(0, false, true) + floor.square()).sqrt();
-  group.numbers = ((raw - mean) / deviation).contiguous();
-  group.squares = group.numbers.square().sum(1);
   return group;
 }
 
-// The neutral side of the warping: which frames may follow which.
+// The neutral side of the warping: what its frames are like, and which may follow which.
 struct Track {
   int frames = 0;
+  // Such that |a - b|^2 / kNumbers = |a|^2 / kNumbers + square[b] + sum of a[i] * factors[i][b].
+  std::vector<float> factors, squares;  // [kNumbers][frames], [frames]
   std::vector<float>
       barrier[4];  // barrier[k][j]: 0 where frame j - k is of the same take, else far.
 };
@@ -95,6 +104,15 @@ struct Track {
 Track make_track(const Group& group) {
   Track track;
   track.frames = group.begin.back();
+  track.factors.resize(size_t(kNumbers) * track.frames);
+  track.squares.resize(track.frames);
+  for (int f = 0; f < track.frames; ++f) {
+    for (int i = 0; i < kNumbers; ++i) {
+      const float number = group.numbers[size_t(f) * kNumbers + i];
+      track.factors[size_t(i) * track.frames + f] = -2 * number / kNumbers;
+      track.squares[f] += number * number / kNumbers;
+    }
+  }
   for (int k = 0; k < 4; ++k) {
     track.barrier[k].assign(track.frames, 0.0f);
     for (size_t t = 0; t + 1 < group.begin.size(); ++t) {
@@ -181,15 +199,30 @@ std::vector<float> slopes(const std::vector<float>& path) {
   return rates;
 }
 
+// Distances of `frames` frames of a group, from `begin` on, to all neutral frames: mean over the
+// numbers of their squared difference. [frames][track.frames]
+std::vector<float> distances(const Group& styled, int begin, int frames, const Track& track) {
+  const size_t columns = track.frames;
+  std::vector<float> distance(size_t(frames) * columns);
+  const size_t rows = frames;
+  const float* first = &styled.numbers[size_t(begin) * kNumbers];
+  dense_rows({first, rows, kNumbers}, kNumbers, track.factors, track.squares,
+             {distance.data(), rows, columns});
+  for (size_t r = 0; r < rows; ++r) {
+    const float own = square_length({first + r * kNumbers, kNumbers}) / kNumbers;
+    for (size_t c = 0; c < columns; ++c) {
+      float& d = distance[r * columns + c];
+      d = std::max(0.0f, d + own);
+    }
+  }
+  return distance;
+}
+
 // Pairs one styled take, number `which` of its group.
 std::vector<Pairing> pair_take(const Group& styled, int which, const Group& neutral,
                                const Track& track, const PairingOptions& options) {
   const int begin = styled.begin[which], frames = styled.begin[which + 1] - begin;
-  const torch::Tensor rows = styled.numbers.slice(0, begin, begin + frames);
-  // |a - b|^2 = |a|^2 + |b|^2 - 2 a b, all frames of the take against all neutral ones.
-  torch::Tensor distance = torch::mm(rows, neutral.numbers.t()).mul_(-2);
-  distance.add_(styled.squares.slice(0, begin, begin + frames).unsqueeze(1));
-  distance.add_(neutral.squares.unsqueeze(0)).clamp_min_(0).div_(kNumbers);
+  const std::vector<float> distance = distances(styled, begin, frames, track);
 
   const int window = std::min(static_cast<int>(options.window_seconds * kTakeRate), frames);
   const int hop = static_cast<int>(options.hop_seconds * kTakeRate);
@@ -198,8 +231,8 @@ std::vector<Pairing> pair_take(const Group& styled, int which, const Group& neut
   std::vector<int8_t> steps;
   for (int first = 0;; first += hop) {
     first = std::min(first, frames - window);
-    const Warp warped = warp(distance.data_ptr<float>() + size_t(first) * track.frames, window,
-                             track, before, after, steps);
+    const Warp warped =
+        warp(distance.data() + size_t(first) * track.frames, window, track, before, after, steps);
     if (warped.path.empty()) return pairings;
     const int take = static_cast<int>(std::upper_bound(neutral.begin.begin(), neutral.begin.end(),
                                                        warped.path.front()) -
@@ -222,7 +255,6 @@ std::vector<Pairing> pair_take(const Group& styled, int which, const Group& neut
 std::vector<Pairing> pair_takes(const std::vector<Take>& takes, const std::vector<int>& styled,
                                 const std::vector<int>& neutral, const PairingOptions& options,
                                 const std::function<void(double)>& progress) {
-  torch::NoGradGuard no_gradients;
   using Cell = std::tuple<int, std::string, std::string>;  // Set, content, style.
   std::map<Cell, std::vector<int>> cells, references;
   for (const int t : styled) {
@@ -234,7 +266,7 @@ std::vector<Pairing> pair_takes(const std::vector<Take>& takes, const std::vecto
     references[{row.set, row.content, ""}].push_back(t);
   }
   struct Job {
-    Group styled;
+    std::shared_ptr<const Group> styled;
     int reference;
     int which;
   };
@@ -250,17 +282,16 @@ std::vector<Pairing> pair_takes(const std::vector<Take>& takes, const std::vecto
   for (auto& [cell, members] : cells) {
     const auto found = reference_index.find({std::get<0>(cell), std::get<1>(cell), ""});
     if (found == reference_index.end()) continue;
-    const Group group = make_group(takes, members);  // Its tensors are shared by the jobs.
-    for (size_t i = 0; i < group.takes.size(); ++i) {
+    const auto group = std::make_shared<const Group>(make_group(takes, members));
+    for (size_t i = 0; i < group->takes.size(); ++i) {
       jobs.push_back({group, found->second, static_cast<int>(i)});
     }
   }
   std::vector<std::vector<Pairing>> found(jobs.size());
   std::atomic<int> done = 0;
   parallel_for(static_cast<int>(jobs.size()), [&](int i) {
-    torch::NoGradGuard guard;
     const Job& job = jobs[i];
-    found[i] = pair_take(job.styled, job.which, neutral_groups[job.reference],
+    found[i] = pair_take(*job.styled, job.which, neutral_groups[job.reference],
                          tracks[job.reference], options);
     const int count = ++done;
     if (progress) progress(static_cast<double>(count) / static_cast<double>(jobs.size()));

@@ -1,4 +1,4 @@
-#include "train/take.h"
+#include "learn/take.h"
 
 #include <algorithm>
 #include <atomic>

@@ -6,7 +6,7 @@
 
 #include "base/random.h"
 #include "pose/features.h"
-#include "train/take.h"
+#include "learn/take.h"
 
 namespace panache::test {
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "train/take.h"
+#include "learn/take.h"
 
 namespace panache {
 
