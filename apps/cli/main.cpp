@@ -47,6 +47,7 @@ int run(int argc, char** argv) {
       "  panache stylize walk.bvh --style old=1 -o old.bvh");
   add_stylize(app, exit_code);
   add_convert(app, exit_code);
+  add_learn(app, exit_code);
   add_styles(app, exit_code);
   add_info(app, exit_code);
   add_walker(app, exit_code);

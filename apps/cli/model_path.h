@@ -8,6 +8,7 @@
 namespace panache::cli {
 
 inline constexpr const char* kDefaultModel = "panache.safetensors";
+inline constexpr const char* kWalkerModel = "walker.safetensors";
 
 // The path of the shipped model called `file_name`: in share/panache/models beside an installed
 // program's folder, in models/ beside the program, or in models/ of the checkout that it was built

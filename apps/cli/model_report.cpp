@@ -3,14 +3,38 @@
 #include <algorithm>
 
 #include "base/file.h"
+#include "learn/style_file.h"
 
 namespace panache::cli {
 namespace {
 
-// A metadata entry; empty where the model has none.
+// A metadata entry; empty where the file has none.
+std::string entry(const std::map<std::string, std::string>& metadata, const std::string& key) {
+  const auto found = metadata.find(key);
+  return found == metadata.end() ? "" : found->second;
+}
 std::string entry(const Model& model, const std::string& key) {
-  const auto found = model.metadata().find(key);
-  return found == model.metadata().end() ? "" : found->second;
+  return entry(model.metadata(), key);
+}
+
+// What the file was made of, and under which terms.
+std::string describe_data(const std::map<std::string, std::string>& metadata) {
+  const std::string data = entry(metadata, "data"), licence = entry(metadata, "licence");
+  return "  trained on   " + (data.empty() ? "not stated" : data) + "\n" + "  data licence " +
+         (licence.empty() ? "not stated" : licence) + "\n";
+}
+
+// "(learnt from 2 takes)"; empty for styles that the model was trained with.
+std::string describe_origin(const StyleInfo& style) {
+  if (!style.learnt) return "";
+  return style.origin.empty() ? "(learnt)" : "(learnt from " + style.origin + ")";
+}
+
+std::string describe(const StyleInfo& style, size_t width) {
+  const std::string origin = describe_origin(style);
+  const bool both = !style.description.empty() && !origin.empty();
+  const std::string told = style.description + (both ? " " : "") + origin;
+  return "  " + (told.empty() ? style.name : padded(style.name, width + 2)) + told + "\n";
 }
 
 }  // namespace
@@ -23,22 +47,28 @@ Result<LoadedModel> load_model(const std::string& path) {
   return LoadedModel{path, *model, bytes->size()};
 }
 
+Result<LoadedStyle> load_style(const std::string& path) {
+  Result<std::string> bytes = read_file(path);
+  if (!bytes) return bytes.error();
+  Result<TensorFile> file = parse_safetensors(*bytes, path);
+  if (!file) return file.error();
+  Result<StyleInfo> info = read_style_info(*file, path);
+  if (!info) return info.error();
+  return LoadedStyle{path, *std::move(info), *std::move(file), bytes->size()};
+}
+
 std::string describe(const LoadedModel& loaded) {
   const Model& model = *loaded.model;
-  const std::string licence = entry(model, "licence");
   std::string text = loaded.path + "\n";
   text += "  recipe       " + entry(model, "recipe") + "\n";
   text += "  size         " + fixed(static_cast<double>(loaded.bytes) / 1000, 0) + " KB, " +
           std::to_string(model.parameter_count()) + " numbers\n";
-  const std::string data = entry(model, "data");
-  text += "  trained on   " + (data.empty() ? "not stated" : data) + "\n";
-  text += "  data licence " + (licence.empty() ? "not stated" : licence) + "\n\n";
+  text += describe_data(model.metadata()) + "\n";
   size_t width = 0;
   for (const StyleInfo& style : model.styles()) width = std::max(width, style.name.size());
   text += plural(model.styles().size(), "style") + ":\n";
   for (const StyleInfo& style : model.styles()) {
-    text += "  " + (style.description.empty() ? style.name : padded(style.name, width + 2)) +
-            style.description + "\n";
+    text += describe(style, width);
   }
   return text;
 }
@@ -47,7 +77,10 @@ Json to_json(const LoadedModel& loaded) {
   const Model& model = *loaded.model;
   Json styles = Json::array();
   for (const StyleInfo& style : model.styles()) {
-    styles.push_back({{"name", style.name}, {"description", style.description}});
+    styles.push_back({{"name", style.name},
+                      {"description", style.description},
+                      {"learnt", style.learnt},
+                      {"origin", style.origin}});
   }
   return {{"model", loaded.path},
           {"recipe", entry(model, "recipe")},
@@ -56,6 +89,26 @@ Json to_json(const LoadedModel& loaded) {
           {"bytes", loaded.bytes},
           {"parameters", model.parameter_count()},
           {"styles", styles}};
+}
+
+std::string describe(const LoadedStyle& loaded) {
+  std::string text = loaded.path + "\n";
+  text += "  size         " + fixed(static_cast<double>(loaded.bytes) / 1000, 0) + " KB\n";
+  text += "  trunk        " + entry(loaded.file.metadata, "trunk") + "\n";
+  text += describe_data(loaded.file.metadata);
+  return text + "\n1 style:\n" + describe(loaded.info, loaded.info.name.size());
+}
+
+Json to_json(const LoadedStyle& loaded) {
+  return {{"style_file", loaded.path},
+          {"name", loaded.info.name},
+          {"description", loaded.info.description},
+          {"learnt", loaded.info.learnt},
+          {"origin", loaded.info.origin},
+          {"trunk", entry(loaded.file.metadata, "trunk")},
+          {"data", entry(loaded.file.metadata, "data")},
+          {"licence", entry(loaded.file.metadata, "licence")},
+          {"bytes", loaded.bytes}};
 }
 
 }  // namespace panache::cli

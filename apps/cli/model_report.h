@@ -1,9 +1,10 @@
 #pragma once
-// What a model file is, in words and as JSON.
+// What a model file is, and a style file, in words and as JSON.
 
 #include <memory>
 #include <string>
 
+#include "net/safetensors.h"
 #include "report.h"
 #include "style/model.h"
 
@@ -19,5 +20,16 @@ Result<LoadedModel> load_model(const std::string& path);
 // A few lines about the model, then a line for each style.
 std::string describe(const LoadedModel& loaded);
 Json to_json(const LoadedModel& loaded);
+
+struct LoadedStyle {
+  std::string path;
+  StyleInfo info;
+  TensorFile file;
+  uint64_t bytes = 0;  // Of the file.
+};
+Result<LoadedStyle> load_style(const std::string& path);
+
+std::string describe(const LoadedStyle& loaded);
+Json to_json(const LoadedStyle& loaded);
 
 }  // namespace panache::cli

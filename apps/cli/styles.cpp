@@ -1,20 +1,48 @@
-// panache styles: what a model can do.
+// panache styles: what a model can do, and its styles taken out, put in, removed and renamed.
 
+#include <algorithm>
+#include <array>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include <unistd.h>
+
+#include "base/file.h"
+#include "learn/style_file.h"
 #include "model_path.h"
 #include "model_report.h"
+#include "outputs.h"
 #include "report.h"
 #include "verbs.h"
 
 namespace panache::cli {
 namespace {
 
-int styles(const std::string& given, bool json) {
-  Result<std::string> path = find_model(given);
-  if (!path) return refuse(path.error(), kBadInput);
-  Result<LoadedModel> loaded = load_model(*path);
+struct StylesVerb {
+  std::string model, extract, output, rename;
+  std::vector<std::string> add, remove;
+  bool force = false;
+  bool json = false;
+};
+
+// "'old', 'proud'"
+std::string list(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "'" : ", '") + name + "'";
+  return text;
+}
+
+Result<TensorFile> read_tensors(const std::string& path) {
+  Result<std::string> bytes = read_file(path);
+  if (!bytes) return bytes.error();
+  return parse_safetensors(*bytes, path);
+}
+
+// Prints what is known of a model or of a style file.
+template <class Loaded>
+int report(const Result<Loaded>& loaded, bool json) {
   if (!loaded) return refuse(loaded.error(), kBadInput);
   if (json) {
     print(to_json(*loaded));
@@ -24,20 +52,166 @@ int styles(const std::string& given, bool json) {
   return kDone;
 }
 
+int show(const std::string& path, bool json) {
+  const Result<TensorFile> file = read_tensors(path);
+  // What a file is that cannot be read, is told as of models everywhere.
+  if (file && is_style_file(*file)) return report(load_style(path), json);
+  return report(load_model(path), json);
+}
+
+// Renaming over a file needs no right to write to it, so that this must be asked.
+Result<void> check_writable(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code status;
+  const fs::perms writers =
+      fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
+  const bool read_only = (fs::status(path, status).permissions() & writers) == fs::perms::none;
+  if (!read_only && ::access(path.c_str(), W_OK) == 0) return {};
+  return Error{path + ": is read-only and stays as it is; change a copy of it, or allow writing"};
+}
+
+// A model after a change, and what was done to it in a few words.
+struct Changed {
+  TensorFile file;
+  std::string deed;
+};
+
+Result<Changed> add(TensorFile model, const StylesVerb& verb) {
+  std::vector<std::string> names;
+  for (const std::string& path : verb.add) {
+    Result<TensorFile> style = read_tensors(path);
+    if (!style) return style.error();
+    Result<TensorFile> merged = add_style(model, verb.model, *style, path, verb.force);
+    if (!merged) return merged.error();
+    model = *std::move(merged);
+    names.push_back(style->metadata.at("style"));
+  }
+  return Changed{std::move(model), "added " + list(names) + " to " + verb.model};
+}
+
+Result<Changed> remove(TensorFile model, const StylesVerb& verb) {
+  for (const std::string& name : verb.remove) {
+    Result<TensorFile> rest = remove_style(model, name, verb.model);
+    if (!rest) return rest.error();
+    model = *std::move(rest);
+  }
+  return Changed{std::move(model), "removed " + list(verb.remove) + " from " + verb.model};
+}
+
+Result<Changed> rename(TensorFile model, const StylesVerb& verb) {
+  const size_t equals = verb.rename.find('=');
+  const std::string from = verb.rename.substr(0, equals), to = verb.rename.substr(equals + 1);
+  Result<TensorFile> renamed = rename_style(model, from, to, verb.model);
+  if (!renamed) return renamed.error();
+  return Changed{*std::move(renamed), "renamed '" + from + "' to '" + to + "' in " + verb.model};
+}
+
+int change(const StylesVerb& verb) {
+  Result<TensorFile> model = read_tensors(verb.model);
+  if (!model) return refuse(model.error(), kBadInput);
+  Result<Changed> changed = !verb.add.empty()      ? add(*std::move(model), verb)
+                            : !verb.remove.empty() ? remove(*std::move(model), verb)
+                                                   : rename(*std::move(model), verb);
+  if (!changed) return refuse(changed.error(), kBadInput);
+  if (auto open = check_writable(verb.model); !open) return refuse(open.error(), kBadInput);
+  // A link stays one.
+  std::error_code status;
+  const std::string place = std::filesystem::canonical(verb.model, status).string();
+  const std::string bytes = format_safetensors(changed->file);
+  if (auto written = write_file(place, bytes, true); !written) {
+    return refuse(written.error(), kBadInput);
+  }
+  const Result<LoadedModel> loaded = load_model(verb.model);
+  if (!loaded || verb.json) return report(loaded, true);
+  print(changed->deed + ", which has " + plural(loaded->model->styles().size(), "style") +
+        " now and " + std::to_string(loaded->bytes) + " bytes\n");
+  return kDone;
+}
+
+int extract(const std::string& path, const StylesVerb& verb) {
+  if (!verb.output.ends_with(".safetensors")) {
+    return refuse({verb.output + ": expected a name that ends in .safetensors"}, kBadUsage);
+  }
+  if (auto free = check_output(path, verb.output, verb.force); !free) {
+    return refuse(free.error(), kBadInput);
+  }
+  Result<TensorFile> model = read_tensors(path);
+  if (!model) return refuse(model.error(), kBadInput);
+  Result<TensorFile> style = extract_style(*model, verb.extract, path);
+  if (!style) return refuse(style.error(), kBadInput);
+  const std::string bytes = format_safetensors(*style);
+  if (auto written = write_file(verb.output, bytes, verb.force); !written) {
+    return refuse(written.error(), kBadInput);
+  }
+  if (verb.json) return show(verb.output, true);
+  print("copied '" + verb.extract + "' from " + path + " to " + verb.output + ", which has " +
+        std::to_string(bytes.size()) + " bytes\n");
+  return kDone;
+}
+
+bool changes(const StylesVerb& verb) {
+  return !verb.add.empty() || !verb.remove.empty() || !verb.rename.empty();
+}
+
+// Whether the options go together.
+Result<void> check_usage(const StylesVerb& verb) {
+  const std::array wishes = {!verb.extract.empty(), !verb.add.empty(), !verb.remove.empty(),
+                             !verb.rename.empty()};
+  if (std::ranges::count(wishes, true) > 1) {
+    return Error{"--extract, --add, --remove and --rename: expected one of them at a time"};
+  }
+  if (verb.extract.empty() != verb.output.empty()) {
+    return Error{"--extract NAME and --output FILE: expected both or neither"};
+  }
+  if (changes(verb) && verb.model.empty()) {
+    return Error{
+        "--add, --remove and --rename change a model in its place; expected its name, as "
+        "in panache styles model.safetensors --remove old"};
+  }
+  if (!verb.rename.empty() && verb.rename.find('=') == std::string::npos) {
+    return Error{"--rename " + verb.rename + ": expected OLD=NEW"};
+  }
+  return {};
+}
+
+int styles(const StylesVerb& verb) {
+  if (auto usage = check_usage(verb); !usage) return refuse(usage.error(), kBadUsage);
+  if (changes(verb)) return change(verb);
+  Result<std::string> path = find_model(verb.model);
+  if (!path) return refuse(path.error(), kBadInput);
+  return verb.extract.empty() ? show(*path, verb.json) : extract(*path, verb);
+}
+
 }  // namespace
 
 void add_styles(CLI::App& app, int& exit_code) {
-  CLI::App* verb = app.add_subcommand("styles", "List the styles of a model");
-  struct Options {
-    std::string model;
-    bool json = false;
-  };
-  auto options = std::make_shared<Options>();
-  verb->add_option("MODEL", options->model, "Model; default: $PANACHE_MODEL, else the one shipped")
+  CLI::App* verb =
+      app.add_subcommand("styles", "List the styles of a model, or change which it has");
+  auto options = std::make_shared<StylesVerb>();
+  verb->add_option("MODEL", options->model,
+                   "Model, or the file of a single style; default:\n"
+                   "$PANACHE_MODEL, else the one shipped")
       ->type_name("");
+  verb->add_option("--extract", options->extract, "Copy a style into a file of its own (-o)")
+      ->type_name("NAME");
+  verb->add_option("--add", options->add, "Put the styles of such files into MODEL")
+      ->type_name("FILE");
+  verb->add_option("--remove", options->remove, "Take styles out of MODEL")->type_name("NAME");
+  verb->add_option("--rename", options->rename, "Give a style of MODEL another name")
+      ->type_name("OLD=NEW");
+  verb->add_option("-o,--output", options->output, "File for the style (.safetensors)")
+      ->type_name("OUT");
+  verb->add_flag("--force", options->force, "Overwrite the file; replace styles of the same name");
   verb->add_flag("--json", options->json, "Print JSON");
-  verb->footer("Example:\n  panache styles");
-  verb->callback([options, &exit_code] { exit_code = styles(options->model, options->json); });
+  verb->footer(
+      "--add, --remove and --rename change MODEL in its place. A style goes into the model that\n"
+      "it comes from, and into that of half size.\n\n"
+      "Examples:\n"
+      "  panache styles\n"
+      "  panache styles mine.safetensors --extract limping -o limping.safetensors\n"
+      "  panache styles other.safetensors --add limping.safetensors\n"
+      "  panache styles mine.safetensors --rename limping=hurt");
+  verb->callback([options, &exit_code] { exit_code = styles(*options); });
 }
 
 }  // namespace panache::cli

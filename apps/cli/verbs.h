@@ -7,6 +7,7 @@ namespace panache::cli {
 
 void add_stylize(CLI::App& app, int& exit_code);
 void add_convert(CLI::App& app, int& exit_code);
+void add_learn(CLI::App& app, int& exit_code);
 void add_styles(CLI::App& app, int& exit_code);
 void add_info(CLI::App& app, int& exit_code);
 void add_walker(CLI::App& app, int& exit_code);

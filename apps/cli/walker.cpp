@@ -22,7 +22,6 @@
 namespace panache::cli {
 namespace {
 
-constexpr const char* kWalkerModel = "walker.safetensors";
 constexpr double kLongestWalk = 600;  // Seconds.
 
 struct WalkerVerb {

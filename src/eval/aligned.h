@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "eval/pose_error.h"
+#include "learn/pose_error.h"
 #include "style/model.h"
 #include "learn/take.h"
 

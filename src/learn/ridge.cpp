@@ -21,6 +21,14 @@ void Ridge::add(std::span<const double> row, std::span<const double> outputs, do
   }
 }
 
+std::vector<double> Ridge::gram() const {
+  std::vector<double> whole = gram_;
+  for (size_t i = 0; i < unknowns_; ++i) {
+    for (size_t j = 0; j < i; ++j) whole[j * unknowns_ + i] = whole[i * unknowns_ + j];
+  }
+  return whole;
+}
+
 // By Cholesky: gram + penalties = L L^T, then L y = target and L^T weights = y.
 std::vector<double> Ridge::solve(std::span<const double> penalties,
                                  std::span<const double> prior) const {

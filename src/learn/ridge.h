@@ -18,9 +18,12 @@ class Ridge {
   std::vector<double> solve(std::span<const double> penalties,
                             std::span<const double> prior = {}) const;
 
+  // Weighted sum of row^T row. [unknowns][unknowns]
+  std::vector<double> gram() const;
+
  private:
   const size_t unknowns_, outputs_;
-  std::vector<double> gram_;    // [unknowns][unknowns]
+  std::vector<double> gram_;    // [unknowns][unknowns], of which [i][j] with j <= i is filled
   std::vector<double> target_;  // [unknowns][outputs]
 };
 

@@ -167,6 +167,7 @@ void SampleSet::add_pairing(const Pairing& pairing, int style) {
     sample.frame = pairing.neutral_frames[i];
     sample.style = style;
     sample.styled = pairing.styled;
+    sample.styled_frame = pairing.first + i;
     const float rate = believable_rate(pairing.rates[i]);
     sample.log_rate = std::log(rate);
     const FootContacts& planted = styled.contacts[pairing.first + i];

@@ -26,7 +26,8 @@ struct Sample {
   int take = 0;                       // The neutral take,
   float frame = 0;                    // and where in it the window ends.
   int style = 0;                      // Index in the model; -1 is neutral itself.
-  int styled = -1;                    // The styled take it was paired with; -1 for neutral itself.
+  int styled = -1;                    // The styled take it was paired with; -1 for neutral itself,
+  int styled_frame = 0;               // and the frame of it.
   float log_rate = 0;                 // Logarithm of neutral seconds per styled second.
   std::array<float, kFeet> contacts;  // Of the styled frame: 0 or 1.
   bool has_next = false;              // The next sample is the next frame of the same window.

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "net/dense.h"
 #include "net/dense_bytes.h"
@@ -137,25 +138,25 @@ int Trunk::widest() const {
 }
 
 size_t Trunk::trunk_scratch_size(size_t rows) const {
-  size_t widest = 0;
-  for (const PackedLayer& layer : layers_) widest = std::max(widest, layer.width());
-  return 2 * rows * widest;
+  size_t width = 0;
+  for (const PackedLayer& layer : layers_) width += layer.width();
+  return rows * width;
 }
 
 Rows<const float> Trunk::forward(const Rows<const float>& x,
                                  std::span<float> scratch) const noexcept {
   assert(scratch.size() >= trunk_scratch_size(x.count));
-  // The layers take turns between the two halves, as none may write where it reads.
-  float* half = scratch.data();
-  float* other = half + trunk_scratch_size(x.count) / 2;
+  // Layer after layer, each with all rows: what a layer answers stays for all_layers().
+  float* to = scratch.data();
   const float* from = x.first;
   size_t stride = x.stride;
   for (const PackedLayer& layer : layers_) {
-    layer.forward({from, x.count, stride}, {half, x.count, layer.width()});
-    elu({half, x.count * layer.width()});
-    from = half;
+    const size_t numbers = x.count * layer.width();
+    layer.forward({from, x.count, stride}, {to, x.count, layer.width()});
+    elu({to, numbers});
+    from = to;
     stride = layer.width();
-    std::swap(half, other);
+    to += numbers;
   }
   return {from, x.count, stride};
 }
@@ -171,7 +172,9 @@ TrunkTrio::TrunkTrio(std::array<Trunk, kTrunks> trunks) : rest_(std::move(trunks
   std::vector<DenseLayer> first;
   for (size_t t = 0; t < kTrunks; ++t) {
     assert(rest_[t].inputs() == rest_[0].inputs());
-    outputs_[t] = rest_[t].outputs();
+    for (const DenseLayer& layer : rest_[t].plain_) {
+      outputs_[t].push_back(static_cast<size_t>(layer.outputs));
+    }
     first.push_back(std::move(rest_[t].plain_.front()));
     rest_[t].plain_.clear();
     rest_[t].layers_.erase(rest_[t].layers_.begin());
@@ -191,7 +194,7 @@ std::array<std::span<const float>, TrunkTrio::kTrunks> TrunkTrio::forward(
   const auto rows = forward(Rows<const float>{x.data(), 1, 0}, scratch);
   std::array<std::span<const float>, kTrunks> out;
   for (size_t t = 0; t < kTrunks; ++t) {
-    out[t] = {rows[t].first, static_cast<size_t>(outputs_[t])};
+    out[t] = {rows[t].first, outputs_[t].back()};
   }
   return out;
 }
@@ -209,6 +212,26 @@ std::array<Rows<const float>, TrunkTrio::kTrunks> TrunkTrio::forward(
     scratch = scratch.subspan(rest_[t].trunk_scratch_size(x.count));
   }
   return out;
+}
+
+size_t TrunkTrio::all_outputs(size_t trunk) const {
+  return std::accumulate(outputs_[trunk].begin(), outputs_[trunk].end(), size_t{0});
+}
+
+void TrunkTrio::all_layers(size_t trunk, size_t row, size_t rows, std::span<const float> scratch,
+                           std::span<float> out) const noexcept {
+  assert(row < rows && scratch.size() >= scratch_size(rows) && out.size() == all_outputs(trunk));
+  const std::vector<size_t>& outputs = outputs_[trunk];
+  const float* from = scratch.data();
+  float* to =
+      std::copy_n(from + row * first_.width() + first_.begin(trunk), outputs[0], out.data());
+  from += rows * first_.width();
+  for (size_t t = 0; t < trunk; ++t) from += rest_[t].trunk_scratch_size(rows);
+  for (size_t l = 1; l < outputs.size(); ++l) {
+    const size_t width = rest_[trunk].layers_[l - 1].width();
+    to = std::copy_n(from + row * width, outputs[l], to);
+    from += rows * width;
+  }
 }
 
 }  // namespace panache

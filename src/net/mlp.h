@@ -59,7 +59,7 @@ class TrunkTrio {
   explicit TrunkTrio(std::array<Trunk, kTrunks> trunks);
 
   int inputs() const { return static_cast<int>(first_.inputs()); }
-  int outputs(size_t trunk) const { return outputs_[trunk]; }
+  int outputs(size_t trunk) const { return static_cast<int>(outputs_[trunk].back()); }
   // Numbers that forward() needs to work in, for so many rows.
   size_t scratch_size(size_t rows = 1) const;
   // Returns the last activations of each trunk, parts of `scratch`. x.size() = inputs().
@@ -70,10 +70,17 @@ class TrunkTrio {
   std::array<Rows<const float>, kTrunks> forward(const Rows<const float>& x,
                                                  std::span<float> scratch) const noexcept;
 
+  // Numbers of all hidden layers of a trunk together.
+  size_t all_outputs(size_t trunk) const;
+  // The activations of all hidden layers of a trunk, first layer first, that forward() of `rows`
+  // rows has left in `scratch` for one of them. out.size() = all_outputs(trunk).
+  void all_layers(size_t trunk, size_t row, size_t rows, std::span<const float> scratch,
+                  std::span<float> out) const noexcept;
+
  private:
-  PackedLayer first_;                   // The layers of trunk 0, then of 1, then of 2.
-  std::array<int, kTrunks> outputs_{};  // Of each trunk's last layer.
-  std::array<Trunk, kTrunks> rest_;     // The other layers; may have none.
+  PackedLayer first_;  // The layers of trunk 0, then of 1, then of 2.
+  std::array<std::vector<size_t>, kTrunks> outputs_;  // Of each layer of each trunk.
+  std::array<Trunk, kTrunks> rest_;                   // The other layers; may have none.
 };
 
 }  // namespace panache

@@ -23,6 +23,9 @@ std::vector<std::string> split_lines(const std::string& text) {
   return lines;
 }
 
+// What the tensors of a learnt style begin with.
+std::string learnt_prefix(size_t learnt) { return "learnt." + std::to_string(learnt) + "."; }
+
 // Looks up a metadata entry that every model has.
 Result<std::string> require(const TensorFile& file, const std::string& key,
                             const std::string& name) {
@@ -95,10 +98,14 @@ Result<void> Model::read_metadata(const TensorFile& file, const std::string& nam
   if (!names) return names.error();
   Result<std::string> descriptions = require(file, "style_descriptions", name);
   if (!descriptions) return descriptions.error();
+  const auto origins = file.metadata.find("style_origins");
   const std::vector<std::string> texts = split_lines(*descriptions);
+  const std::vector<std::string> sources =
+      origins == file.metadata.end() ? std::vector<std::string>() : split_lines(origins->second);
   for (const std::string& style : split_lines(*names)) {
     const size_t i = styles_.size();
-    styles_.push_back({style, i < texts.size() ? texts[i] : ""});
+    styles_.push_back(
+        {style, i < texts.size() ? texts[i] : "", i < sources.size() ? sources[i] : "", false});
   }
   if (styles_.empty()) return Error{name + ": has no styles"};
   if (styles_.size() > kMaxStyles) {
@@ -111,7 +118,13 @@ Result<void> Model::read_metadata(const TensorFile& file, const std::string& nam
 
 Result<void> Model::read_networks(const TensorFile& file, const std::string& name) {
   const bool per_style = recipe_ == Recipe::panache;
-  const int styles = static_cast<int>(styles_.size());
+  size_t learnt = 0;  // The last styles.
+  while (file.tensors.contains(learnt_prefix(learnt) + "head.weight")) ++learnt;
+  if (learnt > (per_style ? styles_.size() : 0)) {
+    return Error{name + ": has " + std::to_string(learnt) + " learnt styles and lists " +
+                 std::to_string(styles_.size()) + " in all; expected a model written by panache"};
+  }
+  const int styles = static_cast<int>(styles_.size() - learnt);
   int inputs = kWindowPoses * pose_numbers(layout_);
   if (!per_style) inputs += styles + 1;  // Neutral has a number of its own.
   const struct {
@@ -140,7 +153,9 @@ Result<void> Model::read_networks(const TensorFile& file, const std::string& nam
     }
     heads_[n].count = heads.size();
     heads_[n].outputs = static_cast<size_t>(networks[n].outputs);
-    if (heads_[n].outputs < kPadding) {
+    if (heads.empty()) {
+      // All styles are learnt ones.
+    } else if (heads_[n].outputs < kPadding) {
       heads_[n].layers.emplace_back(side_by_side(heads));
     } else {
       for (const DenseLayer& head : heads) heads_[n].layers.emplace_back(head);
@@ -152,18 +167,77 @@ Result<void> Model::read_networks(const TensorFile& file, const std::string& nam
                  std::to_string(kMaxInputs - 800) + " with this recipe"};
   }
   trunks_ = TrunkTrio(std::move(trunks));
+  if (auto read = read_features(file, name); !read) return read.error();
+  for (size_t k = 0; k < learnt; ++k) {
+    Result<Learnt> style = read_learnt(file, learnt_prefix(k), name);
+    if (!style) return style.error();
+    learnt_.push_back(*std::move(style));
+    styles_[static_cast<size_t>(styles) + k].learnt = true;
+  }
   return {};
 }
 
-void Model::measure_work() {
-  size_t answers = 0;
+Result<void> Model::read_features(const TensorFile& file, const std::string& name) {
+  if (!file.tensors.contains("learn.mean") && !file.tensors.contains("learn.scale")) return {};
+  const int features = static_cast<int>(feature_count());
+  Result<std::vector<float>> mean = read_vector(file, "learn.mean", features, name);
+  if (!mean) return mean.error();
+  Result<std::vector<float>> scale = read_vector(file, "learn.scale", features, name);
+  if (!scale) return scale.error();
+  for (const float s : *scale) {
+    if (!(s > 0) || std::isinf(1 / s)) {
+      return Error{name + ": tensor 'learn.scale' must be above zero throughout"};
+    }
+    feature_factor_.push_back(1 / s);
+  }
+  feature_mean_ = *std::move(mean);
+  feature_scale_ = *std::move(scale);
+  return {};
+}
+
+Result<Model::Learnt> Model::read_learnt(const TensorFile& file, const std::string& prefix,
+                                         const std::string& name) const {
+  if (!can_learn()) {
+    return Error{name + ": has tensors '" + prefix +
+                 "*' of a learnt style, but no 'learn.mean' and 'learn.scale'"};
+  }
+  const int features = static_cast<int>(feature_count());
+  Learnt learnt;
+  Result<DenseLayer> head = read_layer(file, prefix + "head", features, kLearntNumbers, name);
+  if (!head) return head.error();
+  learnt.head = PackedLayer(*head);
+  Result<std::vector<float>> mean = read_vector(file, prefix + "mean", features, name);
+  if (!mean) return mean.error();
+  learnt.mean = *std::move(mean);
+  Result<DenseLayer> gate = read_layer(file, prefix + "gate", features, -1, name);
+  if (!gate) return gate.error();
+  if (gate->outputs > features) {
+    return Error{name + ": tensor '" + prefix + "gate.weight' has " +
+                 std::to_string(gate->outputs) + " directions; expected at most " +
+                 std::to_string(features)};
+  }
+  learnt.gate = PackedLayer(*gate);
+  Result<std::vector<float>> worth = read_vector(file, prefix + "gate.worth", gate->outputs, name);
+  if (!worth) return worth.error();
+  learnt.worth = *std::move(worth);
+  Result<std::vector<float>> rest = read_vector(file, prefix + "gate.rest", 1, name);
+  if (!rest) return rest.error();
+  learnt.rest = rest->front();
+  return learnt;
+}
+
+Result<void> Model::measure_work(const std::string& name) {
+  size_t answers = padded(kLearntNumbers);
   for (const Heads& heads : heads_) {
     for (const PackedLayer& layer : heads.layers) answers = std::max(answers, layer.width());
   }
-  const size_t features = padded(static_cast<size_t>(trunks_.outputs(kPose)));
+  const size_t features = padded(can_learn() ? feature_count() : trunks_.outputs(kPose));
   work_ = padded(static_cast<size_t>(trunks_.inputs())) + trunks_.scratch_size() + 3 * features +
           answers;
-  assert(work_ <= kMaxWork);
+  if (work_ <= kMaxWork) return {};
+  return Error{name + ": a step works in " + std::to_string(work_) +
+               " numbers; expected trunks of fewer layers, so that it takes at most " +
+               std::to_string(kMaxWork)};
 }
 
 Result<void> Model::read_numbers(const TensorFile& file, const std::string& name) {
@@ -208,8 +282,7 @@ Result<void> Model::read_numbers(const TensorFile& file, const std::string& name
     predictor_ = std::make_shared<const Predictor>(*std::move(predictor));
   }
   if (auto read = read_gate(file, name); !read) return read.error();
-  measure_work();
-  return {};
+  return measure_work(name);
 }
 
 Result<void> Model::read_gate(const TensorFile& file, const std::string& name) {

@@ -30,9 +30,16 @@ enum class Recipe {
   smith2019,  // The style vector is an input; the output is an absolute pose.
 };
 
+// What the head of a learnt style answers: the change, the logarithm of the rate, and what to add
+// to the contact network's answer (before it becomes a probability) for the left and the right
+// foot.
+inline constexpr int kLearntNumbers = kChangeNumbers + 1 + 2;
+
 struct StyleInfo {
   std::string name;         // "old"
   std::string description;  // What it looks like, for people.
+  std::string origin;       // What a learnt style was learnt from; empty for others.
+  bool learnt = false;      // By learn_style(), from features that other styles trained.
 };
 
 class Model {
@@ -52,15 +59,26 @@ class Model {
   // What foresees input that has not arrived; null in models without one.
   const Predictor* predictor() const { return predictor_.get(); }
 
+  // Whether styles can be learnt: the model knows how its features vary.
+  bool can_learn() const { return !feature_mean_.empty(); }
+  // Numbers that all hidden layers of the pose trunk answer together: what styles are learnt on.
+  size_t feature_count() const { return trunks_.all_outputs(kPose); }
+  // Their mean and deviation over motion of all kinds. [feature_count()], or empty.
+  std::span<const float> feature_mean() const { return feature_mean_; }
+  std::span<const float> feature_scale() const { return feature_scale_; }
+  // What each of the pose network's numbers is worth: its answers are multiplied by this.
+  std::span<const float> output_scale() const { return output_scale_; }
+
  private:
   friend class StyleNetworks;
 
   // A file may not exceed these, so that a step finds room for its work on the stack.
   static constexpr size_t kMaxInputs = 2048, kMaxUnits = 512, kMaxStyles = 255;
+  static constexpr size_t kMaxFeatures = 3 * kMaxUnits;
   // The numbers that a forward pass works in, at the most: inputs, all layers of three trunks,
-  // features on three stages of the gate, answers of one head or of all styles' small heads.
+  // features on three stages of a gate, answers of one head or of all styles' small heads.
   static constexpr size_t kMaxWork =
-      kMaxInputs + 9 * kMaxUnits + 3 * kMaxUnits + 2 * (kMaxStyles + 1);
+      kMaxInputs + 3 * kMaxFeatures + 3 * kMaxFeatures + 2 * (kMaxStyles + 1);
 
   // The networks, by their place in trunks_ and heads_.
   enum { kPose, kTiming, kContact, kNetworks };
@@ -82,11 +100,24 @@ class Model {
     float limit = 0;          // Distance up to which everything is trusted.
     bool present() const { return limit > 0; }
   };
+  // A style learnt in closed form on the features of all layers of the pose trunk, with a gate of
+  // its own: how far a window is from those that the style was learnt from.
+  struct Learnt {
+    PackedLayer head;          // [features][kLearntNumbers]
+    std::vector<float> mean;   // Of the features it was learnt from. [features]
+    PackedLayer gate;          // [features][directions]: how far along the main directions,
+    std::vector<float> worth;  // and what a square along them is worth beyond `rest`.
+    float rest = 0;            // What a square of a standardised difference from the mean is worth.
+  };
+  size_t built_in() const { return styles_.size() - learnt_.size(); }
   Result<void> read_metadata(const TensorFile& file, const std::string& name);
   Result<void> read_numbers(const TensorFile& file, const std::string& name);
   Result<void> read_gate(const TensorFile& file, const std::string& name);
   Result<void> read_networks(const TensorFile& file, const std::string& name);
-  void measure_work();
+  Result<void> read_features(const TensorFile& file, const std::string& name);
+  Result<Learnt> read_learnt(const TensorFile& file, const std::string& prefix,
+                             const std::string& name) const;
+  Result<void> measure_work(const std::string& name);
 
   Recipe recipe_ = Recipe::panache;
   PoseLayout layout_ = PoseLayout::positions;
@@ -100,6 +131,8 @@ class Model {
   TrunkTrio trunks_;
   std::array<Heads, kNetworks> heads_;
   Gate gate_;
+  std::vector<float> feature_mean_, feature_scale_, feature_factor_;  // The last is 1 / scale.
+  std::vector<Learnt> learnt_;                                        // Of the last styles.
   std::shared_ptr<const Predictor> predictor_;
   size_t parameter_count_ = 0;
   size_t work_ = 0;  // Numbers that a forward pass of one character works in, see kMaxWork.
@@ -127,9 +160,13 @@ class StyleNetworks {
     float gate_share = 1;
   };
   static void forward_all(std::span<const Pass> passes) noexcept;
-  // How much of each style's answer to this very motion is given, beside its mean answer: 1 on most
-  // motion like the training's, towards 0 on motion unlike it.
-  float gate() const { return gate_; }
+  // How much of the styles' answer to this very motion is given, beside their mean answer: 1 on
+  // most motion like what they were trained or learnt on, towards 0 on motion unlike it. Learnt
+  // styles have a gate each; this is the mean over the styles in force, by their strengths.
+  float gate() const noexcept;
+  // What styles are learnt on: the activations of all hidden layers of the pose trunk for a window.
+  // out.size() = Model::feature_count().
+  void features(std::span<const float> window, std::span<float> out) const noexcept;
   // The pose network's numbers, in the model's own units undone: a change of kChangeNumbers
   // (panache) or a pose of 130 numbers (smith2019).
   std::span<const float> pose() const { return pose_out_; }
@@ -142,7 +179,7 @@ class StyleNetworks {
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
     visit(self.strengths_), visit(self.pose_out_), visit(self.timing_out_);
-    visit(self.contact_out_), visit(self.gate_);
+    visit(self.contact_out_), visit(self.gate_), visit(self.learnt_gates_);
   }
 
  private:
@@ -157,6 +194,12 @@ class StyleNetworks {
   template <class Out>
   static void add_heads(std::span<const Pass> passes, int network, Rows<const float> hidden,
                         Work& work, Out out) noexcept;
+  // Adds what the learnt styles in force answer to what the trunks have left in `scratch`.
+  static void add_learnt(std::span<const Pass> passes, std::span<const float> scratch, Work& work);
+  // How far a window is from those that a style was learnt from: 1 where trust in it ends. Leaves
+  // the standardised difference of the features from their mean in `apart`.
+  float leverage(const Model::Learnt& learnt, std::span<const float> features,
+                 std::span<float> apart, Work& work) const noexcept;
   // The strength of a network's head, after exaggeration; 0 if it is not in force.
   float head_strength(const Model::Heads& heads, size_t head) const noexcept;
 
@@ -165,7 +208,8 @@ class StyleNetworks {
   std::vector<float> pose_out_;
   std::array<float, 1> timing_out_{};
   std::array<float, 2> contact_out_{};
-  float gate_ = 1;
+  float gate_ = 1;                   // Of the built-in styles.
+  std::vector<float> learnt_gates_;  // As it was when the style was last in force. [learnt styles]
 };
 
 }  // namespace panache

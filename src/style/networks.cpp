@@ -43,7 +43,8 @@ class StyleNetworks::Work {
 StyleNetworks::StyleNetworks(std::shared_ptr<const Model> model)
     : model_(std::move(model)),
       strengths_(model_->styles_.size()),
-      pose_out_(model_->output_scale_.size()) {}
+      pose_out_(model_->output_scale_.size()),
+      learnt_gates_(model_->learnt_.size(), 1.0f) {}
 
 void StyleNetworks::set_strengths(std::span<const float> strengths) noexcept {
   assert(strengths.size() == strengths_.size());
@@ -52,7 +53,7 @@ void StyleNetworks::set_strengths(std::span<const float> strengths) noexcept {
 
 float StyleNetworks::head_strength(const Model::Heads& heads, size_t head) const noexcept {
   // Heads that are in force whatever the styles: the only one (smith2019), or that of no style.
-  const size_t always = heads.count > strengths_.size() || model_->recipe_ == Recipe::smith2019;
+  const size_t always = heads.count > model_->built_in() || model_->recipe_ == Recipe::smith2019;
   return head < always ? 1.0f : exaggerated(strengths_[head - always]);
 }
 
@@ -61,6 +62,7 @@ void StyleNetworks::add_heads(std::span<const Pass> passes, int network, Rows<co
                               Work& work, Out out) noexcept {
   const Model::Heads& heads = passes.front().networks->model_->heads_[network];
   for (const Pass& pass : passes) std::ranges::fill(out(*pass.networks), 0.0f);
+  if (heads.layers.empty()) return;
   Work room = work;
   const Rows<float> answers = room.rows(passes.size(), heads.layers.front().width());
   if (heads.joined()) heads.layers.front().forward(hidden, answers);
@@ -74,6 +76,78 @@ void StyleNetworks::add_heads(std::span<const Pass> passes, int network, Rows<co
       add_scaled(strength, {from, heads.outputs}, out(*passes[p].networks));
     }
   }
+}
+
+float StyleNetworks::gate() const noexcept {
+  const size_t built_in = model_->built_in();
+  float total = 0, sum = 0;
+  for (size_t s = 0; s < strengths_.size(); ++s) {
+    const float strength = std::abs(strengths_[s]);
+    total += strength;
+    sum += strength * (s < built_in ? gate_ : learnt_gates_[s - built_in]);
+  }
+  // Styles of the same gate give that gate, not what rounding makes of it.
+  if (learnt_gates_.empty() || !(total > 0)) return gate_;
+  return std::min(sum / total, 1.0f);
+}
+
+void StyleNetworks::add_learnt(std::span<const Pass> passes, std::span<const float> scratch,
+                               Work& work) {
+  const Model& m = *passes.front().networks->model_;
+  if (m.learnt_.empty()) return;
+  Work room = work;
+  const size_t count = m.feature_count(), first = m.built_in();
+  const std::span<float> features = room.take(count).first(count);
+  const std::span<float> drawn = room.take(count).first(count);
+  for (size_t p = 0; p < passes.size(); ++p) {
+    StyleNetworks& self = *passes[p].networks;
+    bool gathered = false;
+    for (size_t k = 0; k < m.learnt_.size(); ++k) {
+      const float strength = exaggerated(self.strengths_[first + k]);
+      if (strength == 0) continue;
+      if (!gathered) m.trunks_.all_layers(Model::kPose, p, passes.size(), scratch, features);
+      gathered = true;
+      const Model::Learnt& learnt = m.learnt_[k];
+      Work rest = room;
+      const float far = self.leverage(learnt, features, drawn, rest);
+      const float near = far > 1 ? 1 / far : 1.0f;
+      float& open = self.learnt_gates_[k];
+      if (std::isfinite(far)) open += passes[p].gate_share * (near * near - open);
+      for (size_t i = 0; i < count; ++i) {
+        drawn[i] = learnt.mean[i] + open * (features[i] - learnt.mean[i]);
+      }
+      const std::span<float> answer = rest.take(learnt.head.width());
+      learnt.head.forward({drawn.data(), 1, 0}, {answer.data(), 1, 0});
+      add_scaled(strength, answer.first<kChangeNumbers>(), self.pose_out_);
+      add_scaled(strength, answer.subspan<kChangeNumbers, 1>(), self.timing_out_);
+      add_scaled(strength, answer.subspan<kChangeNumbers + 1, 2>(), self.contact_out_);
+    }
+  }
+}
+
+float StyleNetworks::leverage(const Model::Learnt& learnt, std::span<const float> features,
+                              std::span<float> apart, Work& work) const noexcept {
+  const std::vector<float>& factor = model_->feature_factor_;
+  for (size_t i = 0; i < features.size(); ++i) {
+    apart[i] = (features[i] - learnt.mean[i]) * factor[i];
+  }
+  Work room = work;
+  const std::span<float> along = room.take(learnt.gate.width());
+  learnt.gate.forward({features.data(), 1, 0}, {along.data(), 1, 0});
+  float sum = learnt.rest * square_length(apart);
+  for (size_t d = 0; d < learnt.worth.size(); ++d) sum += learnt.worth[d] * along[d] * along[d];
+  return sum;
+}
+
+void StyleNetworks::features(std::span<const float> window, std::span<float> out) const noexcept {
+  alignas(kCacheLine) std::array<float, Model::kMaxWork> numbers;
+  Work work(numbers);
+  const size_t inputs = static_cast<size_t>(model_->trunks_.inputs());
+  const Rows<float> input = work.rows(1, inputs);
+  write_input(window, {input.row(0), inputs});
+  const std::span<float> scratch = work.take(model_->trunks_.scratch_size(1));
+  model_->trunks_.forward(Rows<const float>(input), scratch);
+  model_->trunks_.all_layers(Model::kPose, 0, 1, scratch, out);
 }
 
 Rows<const float> StyleNetworks::shrink(std::span<const Pass> passes, Rows<const float> hidden,
@@ -139,6 +213,7 @@ void StyleNetworks::evaluate(std::span<const Pass> passes, std::span<float> numb
             [](Self& self) { return std::span(self.timing_out_); });
   add_heads(passes, Model::kContact, hidden[Model::kContact], work,
             [](Self& self) { return std::span(self.contact_out_); });
+  add_learnt(passes, scratch, work);
   for (const Pass& pass : passes) {
     std::vector<float>& pose = pass.networks->pose_out_;
     for (size_t i = 0; i < pose.size(); ++i) {

@@ -36,9 +36,9 @@ Result<Predictor> Predictor::read(const TensorFile& file, const std::string& nam
   Result<Trunk> trunk = Trunk::read(file, "predict.trunk", kWindowPoses * kNumbers, name);
   if (!trunk) return trunk.error();
   if (trunk->scratch_size() > kMaxScratch) {
-    return Error{name + ": the layers of 'predict.trunk' have up to " +
-                 std::to_string(trunk->scratch_size() / 2) + " units; expected at most " +
-                 std::to_string(kMaxScratch / 2)};
+    return Error{name + ": the layers of 'predict.trunk' have " +
+                 std::to_string(trunk->scratch_size()) + " units; expected at most " +
+                 std::to_string(kMaxScratch)};
   }
   Result<DenseLayer> head = read_layer(file, "predict.head.0", trunk->outputs(), kNumbers, name);
   if (!head) return head.error();

@@ -10,6 +10,7 @@
 #include <dlfcn.h>
 
 #include "base/progress.h"
+#include "learn/fit_style.h"
 #include "train/checkpoint.h"
 #include "train/export.h"
 #include "train/gate.h"
@@ -393,6 +394,9 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
   if (heads) {
     fit_gate(clean_features(set, choice, count, settings.batch, networks[0], options.seed),
              trained.model);
+    if (auto added = add_feature_statistics(data.takes, trained.model); !added) {
+      return added.error();
+    }
   }
   if (settings.predictor_steps > 0) {
     Progress progress("training what foresees input");

@@ -45,6 +45,35 @@ TEST_F(HalveVerb, its_model_styles_a_walk) {
   EXPECT_TRUE(exists("old.bvh"));
 }
 
+TEST_F(HalveVerb, takes_the_file_of_a_style) {
+  ASSERT_EQ(run({"styles", "model.safetensors", "--extract", "old", "-o", "old.safetensors"}).exit,
+            0);
+  const Ran ran = run({"halve", "old.safetensors", "-o", "half.safetensors"});
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_TRUE(ran.out.starts_with("halved old.safetensors (")) << ran.out;
+  EXPECT_LT(read("half.safetensors").size(), read("old.safetensors").size());
+  expect_refused({"half.safetensors", "-o", "quarter.safetensors"}, 1,
+                 "half.safetensors: is a style of half size already");
+  EXPECT_EQ(run({"styles", "model.safetensors", "--add", "half.safetensors", "--force"}).exit, 0);
+  TensorFile bad = *parse_safetensors(read("old.safetensors"), "old");
+  bad.tensors["pose.head.bias"].values[0] = INFINITY;
+  write("bad.safetensors", format_safetensors(bad));
+  expect_refused({"bad.safetensors", "-o", "quarter.safetensors"}, 1,
+                 "bad.safetensors: tensor 'pose.head.bias' holds a number that is not finite");
+}
+
+// As it comes about when a style is put into a model of half size.
+TEST_F(HalveVerb, halves_the_rest_of_a_model_that_is_half_halved) {
+  ASSERT_EQ(run({"styles", "model.safetensors", "--extract", "old", "-o", "old.safetensors"}).exit,
+            0);
+  ASSERT_EQ(run({"halve", "model.safetensors", "-o", "half.safetensors"}).exit, 0);
+  const std::string half = read("half.safetensors");
+  ASSERT_EQ(run({"styles", "half.safetensors", "--add", "old.safetensors", "--force"}).exit, 0);
+  EXPECT_GT(read("half.safetensors").size(), half.size());
+  ASSERT_EQ(run({"halve", "half.safetensors", "-o", "whole.safetensors"}).exit, 0);
+  EXPECT_TRUE(read("whole.safetensors") == half);
+}
+
 TEST_F(HalveVerb, a_file_that_exists_is_kept_unless_forced) {
   write("half.safetensors", "mine");
   expect_refused({"model.safetensors", "-o", "half.safetensors"}, 1,

@@ -1,4 +1,4 @@
-#include "eval/pose_error.h"
+#include "learn/pose_error.h"
 
 #include <gtest/gtest.h>
 

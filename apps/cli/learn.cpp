@@ -1,0 +1,223 @@
+// panache learn: a new style from a few seconds of motion.
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/file.h"
+#include "input.h"
+#include "learn/learn_style.h"
+#include "learn/style_file.h"
+#include "model_edit.h"
+#include "model_path.h"
+#include "report.h"
+#include "rig_options.h"
+#include "verbs.h"
+
+namespace panache::cli {
+namespace {
+
+struct LearnVerb {
+  std::vector<std::string> clips;
+  std::string name, model, description, action;
+  RigFlags rig;
+  bool force = false, json = false;
+};
+
+// A motion file and its rig.
+struct OpenClip {
+  std::string path;
+  std::unique_ptr<MotionFile> file;
+  Rig rig;
+
+  LearnClip to_learn() const { return {file->clip(), rig, path}; }
+};
+
+Result<OpenClip> open(const std::string& path, const RigOptions& options) {
+  Result<std::unique_ptr<MotionFile>> file = open_motion(path);
+  if (!file) return file.error();
+  Result<std::vector<int>> picked = pick_clips(**file, "", path);
+  if (!picked) return picked.error();
+  if (picked->size() > 1) {
+    return Error{path + ": holds " + std::to_string(picked->size()) + " motions (" +
+                 list_clips(**file) +
+                 "); expected one; panache convert --clip NAME takes one out of it"};
+  }
+  Result<Rig> rig = make_rig((*file)->clip(), options, path);
+  if (!rig) return rig.error();
+  return OpenClip{path, *std::move(file), *std::move(rig)};
+}
+
+Result<std::shared_ptr<const WalkerModel>> load_walker() {
+  Result<std::string> path = find_shipped(kWalkerModel);
+  if (!path) return path.error();
+  return WalkerModel::load(*path);
+}
+
+Result<std::vector<LearnPair>> open_pairs(const LearnVerb& verb) {
+  Result<RigOptions> options = read_rig_options(verb.rig);
+  if (!options) return options.error();
+  std::vector<OpenClip> clips;
+  for (const std::string& path : verb.clips) {
+    Result<OpenClip> clip = open(path, *options);
+    if (!clip) return clip.error();
+    clips.push_back(*std::move(clip));
+  }
+  std::vector<LearnPair> pairs;
+  const auto add = [&](Result<LearnPair> pair) -> Result<void> {
+    if (!pair) return pair.error();
+    pairs.push_back(*std::move(pair));
+    return {};
+  };
+  if (verb.action.empty()) {
+    for (size_t i = 0; i < clips.size(); i += 2) {
+      auto good = add(make_learn_pair(clips[i].to_learn(), clips[i + 1].to_learn()));
+      if (!good) return good.error();
+    }
+    return pairs;
+  }
+  Result<std::shared_ptr<const WalkerModel>> walker = load_walker();
+  if (!walker) return walker.error();
+  for (const OpenClip& clip : clips) {
+    auto good = add(make_learn_pair(clip.to_learn(), verb.action, *walker));
+    if (!good) return good.error();
+  }
+  return pairs;
+}
+
+std::string judgement(double match) {
+  return match < 0.35 ? "good" : match < 0.6 ? "fair" : "poor";
+}
+
+Json to_json(const LearntStyle& learnt, const LearnVerb& verb, size_t bytes, double seconds) {
+  Json pairs = Json::array();
+  for (const PairReport& pair : learnt.pairs) {
+    pairs.push_back({{"neutral", pair.neutral_name},
+                     {"styled", pair.styled_name},
+                     {"seconds", pair.seconds},
+                     {"tempo", pair.tempo},
+                     {"match", pair.match},
+                     {"warnings", pair.warnings}});
+  }
+  return {{"style", verb.name},
+          {"model", verb.model},
+          {"bytes", bytes},
+          {"seconds", seconds},
+          {"held_back_cm", learnt.held_back_cm},
+          {"mean_posture_cm", learnt.mean_posture_cm},
+          {"untouched_cm", learnt.untouched_cm},
+          {"pairs", pairs}};
+}
+
+std::string describe(const LearntStyle& learnt, const LearnVerb& verb, size_t bytes,
+                     double seconds) {
+  std::string text = "learnt '" + verb.name + "' in " + fixed(seconds, 2) + " s into " +
+                     verb.model + " (" + fixed(static_cast<double>(bytes) / 1000, 1) +
+                     " KB of it)\n";
+  for (const PairReport& pair : learnt.pairs) {
+    text += "  " + pair.neutral_name + " -> " + pair.styled_name + ": " + fixed(pair.seconds, 1) +
+            " s, match " + fixed(pair.match, 2) + " (" + judgement(pair.match) + "), tempo " +
+            fixed(1 / pair.tempo, 2) + " x\n";
+  }
+  text += "  held-back quarter: joints " + fixed(learnt.held_back_cm, 1) +
+          " cm off (mean posture alone " + fixed(learnt.mean_posture_cm, 1) + ", no style " +
+          fixed(learnt.untouched_cm, 1) + ")\n";
+  return text;
+}
+
+Result<void> check_usage(const LearnVerb& verb) {
+  if (verb.action.empty() && verb.clips.size() % 2 != 0) {
+    return Error{"there are " + plural(verb.clips.size(), "clip") +
+                 "; expected NEUTRAL STYLED, or several such pairs; for styled clips alone say "
+                 "what they show, as in --action walk"};
+  }
+  if (!verb.model.ends_with(".safetensors")) {
+    return Error{"--into " + verb.model + ": expected a name that ends in .safetensors"};
+  }
+  if (auto name = check_style_name(verb.name); !name) {
+    return Error{"--name: " + name.error().message};
+  }
+  return check_rig_flags(verb.rig);
+}
+
+int learn(const LearnVerb& verb) {
+  if (auto usage = check_usage(verb); !usage) return refuse(usage.error(), kBadUsage);
+  // A model that is not there yet begins as a copy of the one shipped.
+  const bool is_new = !std::filesystem::exists(verb.model);
+  Result<std::string> base = is_new ? find_model("") : Result<std::string>(verb.model);
+  if (!base) return refuse(base.error(), kBadInput);
+  if (!is_new) {
+    if (auto open = check_writable(verb.model); !open) return refuse(open.error(), kBadInput);
+  }
+  Result<TensorFile> model = read_tensors(*base);
+  if (!model) return refuse(model.error(), kBadInput);
+  // Before the work: a name that is taken.
+  Result<std::shared_ptr<const Model>> read = Model::parse(format_safetensors(*model), *base);
+  if (!read) return refuse(read.error(), kBadInput);
+  if ((*read)->find_style(verb.name) && !verb.force) {
+    return refuse({*base + ": has a style '" + verb.name +
+                   "' already; give another --name, or --force to replace it"},
+                  kBadInput);
+  }
+  using Clock = std::chrono::steady_clock;
+  Result<std::vector<LearnPair>> pairs = open_pairs(verb);
+  if (!pairs) return refuse(pairs.error(), kBadInput);
+  const Clock::time_point begin = Clock::now();
+  Result<LearntStyle> learnt = learn_style(*model, *base, *pairs, verb.name, verb.description);
+  if (!learnt) return refuse(learnt.error(), kBadInput);
+  const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  Result<TensorFile> merged = add_style(*model, *base, learnt->file, verb.name, verb.force);
+  if (!merged) return refuse(merged.error(), kBadInput);
+  auto written = is_new ? write_file(verb.model, format_safetensors(*merged), false)
+                        : replace_model(verb.model, *merged);
+  if (!written) return refuse(written.error(), kBadInput);
+  for (const PairReport& pair : learnt->pairs) {
+    for (const std::string& warning : pair.warnings) say("warning: " + warning);
+  }
+  const size_t bytes = format_safetensors(learnt->file).size();
+  if (verb.json) {
+    print(to_json(*learnt, verb, bytes, seconds));
+  } else {
+    print(describe(*learnt, verb, bytes, seconds));
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_learn(CLI::App& app, int& exit_code) {
+  CLI::App* verb = app.add_subcommand("learn", "Learn a style from seconds of motion");
+  auto options = std::make_shared<LearnVerb>();
+  verb->add_option("CLIPS", options->clips,
+                   "An action done neutrally, then in the style; several\nsuch pairs may follow")
+      ->required()
+      ->type_name("");
+  verb->add_option("--name", options->name, "What to call the style")
+      ->required()
+      ->type_name("NAME");
+  verb->add_option("--into", options->model,
+                   "Model to put it into; one that is not there yet begins\n"
+                   "as a copy of the one shipped")
+      ->required()
+      ->type_name("MODEL");
+  verb->add_option("--description", options->description, "What it looks like, for people")
+      ->type_name("TEXT");
+  verb->add_option("--action", options->action,
+                   "All CLIPS are styled ones of this action, walk or run, and\n"
+                   "a neutral of our own stands beside them")
+      ->type_name("ACTION");
+  add_rig_options(*verb, options->rig);
+  verb->add_flag("--force", options->force, "Replace a style of the same name");
+  verb->add_flag("--json", options->json, "Print what was learnt as JSON");
+  verb->footer(
+      "Examples:\n"
+      "  panache learn walk.bvh drunk.bvh --name drunk --into mine.safetensors\n"
+      "  panache learn drunk.bvh --action walk --name drunk --into mine.safetensors\n"
+      "  panache stylize run.bvh --model mine.safetensors --style drunk=1 -o out.bvh");
+  verb->callback([options, &exit_code] { exit_code = learn(*options); });
+}
+
+}  // namespace panache::cli

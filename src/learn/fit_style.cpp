@@ -1,0 +1,253 @@
+#include "learn/fit_style.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "learn/ridge.h"
+
+namespace panache {
+namespace {
+
+constexpr int kCopies = 8;  // Disturbed ones of each window, beside the window itself.
+// What a weight's square costs, in variances of a standardised feature. Less fits an action's own
+// pair better and other takes of it worse; 1 is smoother too.
+constexpr double kPenalty = 1;
+// What a foot that is planted, or is not, asks of the contact network: a probability of 0.88. The
+// network's own is held within the same bounds.
+constexpr float kSure = 2;
+// Directions that the gate tells apart; all others share what is left of the variance.
+constexpr size_t kDirections = 32;
+constexpr int kSweeps = 12;  // Of the iteration that finds them.
+// Windows of at most this quantile of the leverage in learning are trusted.
+constexpr double kTrusted = 0.99;
+
+// What the regression sees: a row of standardised features and one of answers per window.
+struct Table {
+  size_t rows = 0, features = 0;
+  std::vector<double> seen;     // [rows][features]
+  std::vector<double> answers;  // [rows][kLearntNumbers]
+
+  std::span<double> row(size_t r) { return {&seen[r * features], features}; }
+  std::span<double> answer(size_t r) { return {&answers[r * kLearntNumbers], kLearntNumbers}; }
+};
+
+Table make_table(const std::shared_ptr<const Model>& model, const SampleSet& set,
+                 std::span<const size_t> samples) {
+  StyleNetworks networks(model);  // Of no style: its contacts are those of the networks alone.
+  Table table;
+  table.features = model->feature_count();
+  Random random(1);
+  const Disturbance how;
+  std::vector<float> window(set.inputs()), features(table.features);
+  for (const size_t i : samples) {
+    const Sample& sample = set.samples()[i];
+    for (int copy = 0; copy <= kCopies; ++copy) {
+      if (copy == 0) {
+        set.window(i, window);
+      } else {
+        const Disturbed draw = set.draw(how, random);
+        set.window(i, window, draw.tempo);
+        set.disturb(draw, how, random, window);
+      }
+      networks.forward(window);
+      networks.features(window, features);
+      for (size_t f = 0; f < features.size(); ++f) {
+        table.seen.push_back((features[f] - model->feature_mean()[f]) / model->feature_scale()[f]);
+      }
+      for (int n = 0; n < kChangeNumbers; ++n) {
+        table.answers.push_back(set.target(i)[n] / model->output_scale()[n]);
+      }
+      table.answers.push_back(sample.log_rate);
+      for (int foot = 0; foot < kFeet; ++foot) {
+        const float p = networks.contact()[foot];
+        const float unchanged = std::clamp(std::log(p / (1 - p)), -kSure, kSure);
+        table.answers.push_back((sample.contacts[foot] > 0.5f ? kSure : -kSure) - unchanged);
+      }
+      ++table.rows;
+    }
+  }
+  return table;
+}
+
+// Takes the mean of each column out of the rows, and returns it.
+std::vector<double> centre(std::vector<double>& rows, size_t columns) {
+  std::vector<double> mean(columns);
+  const double count = static_cast<double>(rows.size()) / static_cast<double>(columns);
+  for (size_t i = 0; i < rows.size(); ++i) mean[i % columns] += rows[i] / count;
+  for (size_t i = 0; i < rows.size(); ++i) rows[i] -= mean[i % columns];
+  return mean;
+}
+
+double dot(std::span<const double> a, std::span<const double> b) {
+  double sum = 0;
+  for (size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+// The directions of a covariance in which it varies most, of length 1 and at right angles to each
+// other, and its variance along each. By orthogonal iteration: when two variances are close, their
+// directions may be mixed, which no leverage depends on.
+struct Directions {
+  std::vector<double> vectors;  // [directions][size]
+  std::vector<double> variances;
+  std::span<double> vector(size_t d, size_t size) { return {&vectors[d * size], size}; }
+};
+Directions main_directions(const std::vector<double>& covariance, size_t size, size_t count) {
+  Directions found;
+  Random random(2);
+  for (size_t i = 0; i < count * size; ++i) found.vectors.push_back(random.normal());
+  std::vector<double> turned(count * size);
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (size_t d = 0; d < count; ++d) {
+      const std::span<double> vector = found.vector(d, size);
+      for (size_t e = 0; e < d; ++e) {
+        const std::span<double> other = found.vector(e, size);
+        const double shared = dot(vector, other);
+        for (size_t i = 0; i < size; ++i) vector[i] -= shared * other[i];
+      }
+      const double longest = std::sqrt(dot(vector, vector));
+      for (double& v : vector) v /= std::max(longest, 1e-30);
+    }
+    found.variances.clear();
+    for (size_t d = 0; d < count; ++d) {
+      for (size_t i = 0; i < size; ++i) {
+        turned[d * size + i] = dot({&covariance[i * size], size}, found.vector(d, size));
+      }
+      found.variances.push_back(dot({&turned[d * size], size}, found.vector(d, size)));
+    }
+    if (sweep + 1 < kSweeps) std::swap(found.vectors, turned);
+  }
+  return found;
+}
+
+Tensor tensor(std::vector<int64_t> shape, const std::vector<double>& values, bool half = false) {
+  Tensor out;
+  out.shape = std::move(shape);
+  out.values.assign(values.begin(), values.end());
+  out.half = half;
+  return out;
+}
+
+// Puts a layer on standardised features into the file as one on the features themselves: halves,
+// and a bias such that the answer to the features `mean` is exactly `answer`.
+void put_layer(const std::string& key, const Model& model, const std::vector<double>& weights,
+               const std::vector<double>& mean, std::vector<double> answer, TensorFile& file) {
+  const size_t outputs = answer.size();
+  std::vector<double> rounded(weights.size());
+  for (size_t i = 0; i < weights.size(); ++i) {
+    const size_t f = i / outputs;
+    const double scale = static_cast<double>(model.feature_scale()[f]);
+    rounded[i] = from_half(to_half(static_cast<float>(weights[i] / scale)));
+    answer[i % outputs] -= rounded[i] * mean[f];
+  }
+  const auto rows = static_cast<int64_t>(mean.size()), columns = static_cast<int64_t>(outputs);
+  file.tensors[key + ".weight"] = tensor({rows, columns}, rounded, true);
+  file.tensors[key + ".bias"] = tensor({columns}, answer);
+}
+
+// The gate: leverage of a window, z^T (S + penalty)^-1 z with S the covariance of what was learnt
+// from, in units of where trust ends.
+void put_gate(const Model& model, Table& table, const std::vector<double>& covariance,
+              const std::vector<double>& mean, TensorFile& file) {
+  const size_t size = table.features, count = std::min(kDirections, size);
+  Directions main = main_directions(covariance, size, count);
+  double left = 0;  // Variance beside the main directions.
+  for (size_t f = 0; f < size; ++f) left += covariance[f * size + f];
+  for (const double variance : main.variances) left -= variance;
+  const double others = size > count ? std::max(0.0, left) / static_cast<double>(size - count) : 0;
+  const double rest = 1 / (others + kPenalty);
+  std::vector<double> worth;
+  for (const double variance : main.variances) worth.push_back(1 / (variance + kPenalty) - rest);
+
+  std::vector<double> leverages;
+  for (size_t r = 0; r < table.rows; ++r) {
+    const std::span<const double> row = table.row(r);
+    double leverage = rest * dot(row, row);
+    for (size_t d = 0; d < count; ++d) {
+      const double along = dot(row, main.vector(d, size));
+      leverage += worth[d] * along * along;
+    }
+    leverages.push_back(leverage);
+  }
+  const auto place = static_cast<size_t>(kTrusted * static_cast<double>(table.rows - 1));
+  std::nth_element(leverages.begin(), leverages.begin() + static_cast<ptrdiff_t>(place),
+                   leverages.end());
+  const double limit = std::max(leverages[place], 1e-6);  // A single pose has none.
+  for (double& w : worth) w /= limit;
+
+  std::vector<double> weights(size * count);
+  for (size_t d = 0; d < count; ++d) {
+    for (size_t f = 0; f < size; ++f) weights[f * count + d] = main.vector(d, size)[f];
+  }
+  put_layer("gate", model, weights, mean, std::vector<double>(count, 0.0), file);
+  file.tensors["gate.worth"] = tensor({static_cast<int64_t>(count)}, worth);
+  file.tensors["gate.rest"] = tensor({1}, {rest / limit});
+}
+
+}  // namespace
+
+TensorFile fit_style(std::shared_ptr<const Model> model, const SampleSet& set,
+                     std::span<const size_t> samples) {
+  assert(model->can_learn() && !samples.empty());
+  Table table = make_table(model, set, samples);
+  const std::vector<double> middle = centre(table.seen, table.features);
+  const std::vector<double> answer = centre(table.answers, kLearntNumbers);
+  Ridge ridge(static_cast<int>(table.features), kLearntNumbers);
+  for (size_t r = 0; r < table.rows; ++r) {
+    ridge.add(table.row(r), table.answer(r), 1 / static_cast<double>(table.rows));
+  }
+  // The mean posture costs nothing: rows and answers are centred.
+  const std::vector<double> weights = ridge.solve(std::vector<double>(table.features, kPenalty));
+  std::vector<double> mean;
+  for (size_t f = 0; f < table.features; ++f) {
+    const double scale = static_cast<double>(model->feature_scale()[f]);
+    // As the file will hold it.
+    mean.push_back(static_cast<float>(model->feature_mean()[f] + middle[f] * scale));
+  }
+  TensorFile file;
+  put_layer("head", *model, weights, mean, answer, file);
+  file.tensors["mean"] = tensor({static_cast<int64_t>(mean.size())}, mean);
+  put_gate(*model, table, ridge.gram(), mean, file);
+  return file;
+}
+
+Result<void> add_feature_statistics(const std::vector<Take>& takes, TensorFile& file) {
+  // A feature that hardly moves must not count for its noise.
+  constexpr double kStill = 0.01;
+  constexpr int kEvery = 5;  // Frames.
+  Result<std::shared_ptr<const Model>> model = Model::parse(format_safetensors(file), "the model");
+  if (!model) return model.error();
+  if ((*model)->recipe() != Recipe::panache) {
+    return Error{"the model is of recipe smith2019, on which no style can be learnt"};
+  }
+  const StyleNetworks networks(*model);
+  const size_t size = (*model)->feature_count();
+  const int numbers = pose_numbers((*model)->layout());
+  std::vector<float> window(size_t(kWindowPoses) * numbers), features(size);
+  std::vector<double> sum(size), squares(size);
+  double count = 0;
+  for (const Take& take : takes) {
+    if (!take.row.neutral || take.row.test) continue;
+    for (int f = 0; f < take.frames(); f += kEvery) {
+      take_window(take, static_cast<float>(f), numbers, window);
+      networks.features(window, features);
+      for (size_t i = 0; i < size; ++i) {
+        sum[i] += features[i];
+        squares[i] += double(features[i]) * features[i];
+      }
+      ++count;
+    }
+  }
+  std::vector<double> mean, scale;
+  for (size_t i = 0; i < size; ++i) {
+    mean.push_back(count > 0 ? sum[i] / count : 0);
+    const double variance = count > 0 ? squares[i] / count - mean[i] * mean[i] : 1;
+    scale.push_back(std::sqrt(std::max(0.0, variance)) + kStill);
+  }
+  file.tensors["learn.mean"] = tensor({static_cast<int64_t>(size)}, mean, true);
+  file.tensors["learn.scale"] = tensor({static_cast<int64_t>(size)}, scale, true);
+  return {};
+}
+
+}  // namespace panache

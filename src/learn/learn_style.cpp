@@ -1,0 +1,280 @@
+#include "learn/learn_style.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "learn/fit_style.h"
+#include "learn/pairing.h"
+#include "learn/pose_error.h"
+#include "learn/style_file.h"
+#include "rig/canonical_skeleton.h"
+#include "walker/walker.h"
+
+namespace panache {
+namespace {
+
+// Less teaches nothing: the ends of a warped window are left out.
+constexpr int kFewestFrames = 15;
+constexpr double kShort = 1;  // Seconds.
+// Mean squared distances of takes of one action are below the first, of different ones mostly above
+// the second; beyond the third nothing was laid together at all. Found on takes of 22 styles.
+constexpr double kGoodMatch = 0.35, kPoorMatch = 0.6, kNoMatch = 1.6;
+// A clip that matches so much better when left and right are exchanged is mirrored.
+constexpr double kMirrored = 0.6;
+constexpr double kSlowest = 0.5, kFastest = 2;  // Tempo.
+// Rests that are further apart than this are two rigs'.
+constexpr double kSameRest = 5;     // Degrees.
+constexpr double kHeldBack = 0.75;  // The share of a styled clip from which on it is held back.
+constexpr float kWalkSpeed = 1.4f, kRunSpeed = 3.0f;  // m/s.
+constexpr double kWalkSeconds = 8;
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", value);
+  return text;
+}
+
+// Of a path, as a model may tell it to others: without folders, on one line.
+std::string file_name(const std::string& path) {
+  std::string name = path.substr(path.find_last_of("/\\") + 1);
+  for (char& c : name) {
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  }
+  return name;
+}
+
+Result<Take> take_of(const LearnClip& from) {
+  const double seconds = (from.clip.frames - from.rig.first_frame()) * from.clip.frame_time;
+  if (seconds * kTakeRate < kFewestFrames) {
+    return Error{from.name + ": has " + number(std::max(0.0, seconds)) +
+                 " s of motion; a style is learnt from " + number(kFewestFrames / kTakeRate) +
+                 " s at least, better from 2 to 3 s; give a longer clip"};
+  }
+  return make_take(from.clip, from.rig, PoseLayout::positions);
+}
+
+Result<void> check_one_skeleton(const LearnClip& neutral, const LearnClip& styled) {
+  const std::vector<Joint>& a = neutral.clip.skeleton.joints;
+  const std::vector<Joint>& b = styled.clip.skeleton.joints;
+  const std::string where = neutral.name + " and " + styled.name + ": have different skeletons (";
+  const std::string cure =
+      "); a pair is of one skeleton: bring one of them to the skeleton of the other, or leave the "
+      "neutral clip out and say what the action is";
+  if (a.size() != b.size()) {
+    return Error{where + std::to_string(a.size()) + " and " + std::to_string(b.size()) + " joints" +
+                 cure};
+  }
+  for (size_t j = 0; j < a.size(); ++j) {
+    if (a[j].name != b[j].name || a[j].parent != b[j].parent) {
+      return Error{where + "joint " + std::to_string(j + 1) + " is '" + a[j].name + "' and '" +
+                   b[j].name + "'" + cure};
+    }
+    const float lengths = length(a[j].offset) * length(b[j].offset);
+    // What stands on its parent has no direction; nor has the place of a root.
+    if (a[j].parent < 0 || !(lengths > 0)) continue;
+    const double cosine = static_cast<double>(dot(a[j].offset, b[j].offset) / lengths);
+    const double turned = length(log_rotation(conjugate(a[j].rest) * b[j].rest));
+    const double limit = kSameRest * std::numbers::pi / 180;
+    if (std::acos(std::clamp(cosine, -1.0, 1.0)) > limit || turned > limit) {
+      return Error{where + "'" + a[j].name + "' rests in another direction" + cure};
+    }
+  }
+  return {};
+}
+
+// Rotations that follow from the positions alone, the same for every rig.
+void forget_twist(Take& take) {
+  for (int f = 0; f < take.frames(); ++f) canonical_frames(take.body[f], 0, take.turned[f]);
+}
+
+double mean_cost(const std::vector<Pairing>& pairings) {
+  double sum = 0;
+  for (const Pairing& pairing : pairings) sum += static_cast<double>(pairing.cost);
+  return sum / static_cast<double>(pairings.size());
+}
+
+double mean_tempo(const std::vector<Pairing>& pairings) {
+  double sum = 0, count = 0;
+  for (const Pairing& pairing : pairings) {
+    for (const float rate : pairing.rates) sum += static_cast<double>(rate), ++count;
+  }
+  return sum / count;
+}
+
+Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& pairings,
+                            const std::vector<Take>& takes, int neutral, int styled) {
+  const std::string both = pair.neutral_name + " and " + pair.styled_name;
+  PairReport report{
+      pair.neutral_name, pair.styled_name, takes[styled].frames() / kTakeRate, 1, 0, {}};
+  if (!pairings.empty()) report.match = mean_cost(pairings);
+  if (pairings.empty() || report.match > kNoMatch) {
+    return Error{both + ": no match was found between them" +
+                 (pairings.empty() ? ", as the neutral one is too short for the styled one"
+                                   : " (distance " + number(report.match) + ", good is below " +
+                                         number(kGoodMatch) + ")") +
+                 "; a pair shows one action, done neutrally and in the style"};
+  }
+  report.tempo = mean_tempo(pairings);
+  std::vector<Take> exchanged = {takes[neutral], takes[styled]};
+  for (HumanPositions& body : exchanged[1].body) body = mirrored(body);
+  const std::vector<Pairing> other = pair_takes(exchanged, {1}, {0});
+  const bool is_mirrored =
+      report.match > kGoodMatch && !other.empty() && mean_cost(other) < kMirrored * report.match;
+  if (is_mirrored) {
+    report.warnings.push_back(both +
+                              ": match better with left and right exchanged; record the action "
+                              "with the same hand or foot in both");
+  } else if (report.match > kPoorMatch) {
+    report.warnings.push_back(both + ": match badly (distance " + number(report.match) +
+                              ", good is below " + number(kGoodMatch) +
+                              "); are they of the same action, from its beginning to its end?");
+  }
+  if (report.tempo < kSlowest || report.tempo > kFastest) {
+    report.warnings.push_back(both + ": the style takes " + number(1 / report.tempo) +
+                              " times as long as the neutral motion, expected " +
+                              number(1 / kFastest) + " to " + number(1 / kSlowest) +
+                              "; beyond that the tempo is not followed; record a neutral take "
+                              "nearer to it");
+  }
+  for (const int t : {neutral, styled}) {
+    const double seconds = takes[t].frames() / kTakeRate;
+    if (seconds >= kShort) continue;
+    report.warnings.push_back((t == neutral ? pair.neutral_name : pair.styled_name) +
+                              ": has only " + number(seconds) +
+                              " s; 2 to 3 s of a walk, or the whole of an action, teach more");
+  }
+  return report;
+}
+
+// Errors of the style over some samples, its mean posture's, and the neutral motion's own.
+void measure(const std::shared_ptr<const Model>& model, const std::string& style,
+             const std::vector<Take>& takes, const SampleSet& set,
+             const std::vector<size_t>& learnt, const std::vector<size_t>& held_back,
+             LearntStyle& out) {
+  ChangeNumbers mean{};
+  for (const size_t i : learnt) {
+    for (int n = 0; n < kChangeNumbers; ++n) {
+      mean[n] += set.target(i)[n] / static_cast<float>(learnt.size());
+    }
+  }
+  StyleNetworks networks(model);
+  std::vector<float> strengths(model->styles().size()), window(set.inputs());
+  strengths[static_cast<size_t>(*model->find_style(style))] = 1;
+  networks.set_strengths(strengths);
+  for (const size_t i : held_back) {
+    const Sample& sample = set.samples()[i];
+    set.window(i, window);
+    networks.forward(window);
+    ChangeNumbers answer;
+    std::copy_n(networks.pose().begin(), kChangeNumbers, answer.begin());
+    const auto error = [&](const ChangeNumbers& change) {
+      return pose_error(takes[sample.styled], sample.styled_frame, takes[sample.take], sample.frame,
+                        change)
+                 .cm /
+             static_cast<double>(held_back.size());
+    };
+    out.held_back_cm += error(answer);
+    out.mean_posture_cm += error(mean);
+    out.untouched_cm += error({});
+  }
+}
+
+}  // namespace
+
+Result<LearnPair> make_learn_pair(const LearnClip& neutral, const LearnClip& styled) {
+  if (auto same = check_one_skeleton(neutral, styled); !same) return same.error();
+  Result<Take> before = take_of(neutral), after = take_of(styled);
+  if (!before) return before.error();
+  if (!after) return after.error();
+  return LearnPair{neutral.name, styled.name, *std::move(before), *std::move(after)};
+}
+
+Result<LearnPair> make_learn_pair(const LearnClip& styled, const std::string& action,
+                                  std::shared_ptr<const WalkerModel> walker) {
+  if (action != "walk" && action != "run") {
+    return Error{"there is no neutral '" + action +
+                 "' of our own; expected walk or run, or a neutral clip of the same skeleton"};
+  }
+  Result<Take> after = take_of(styled);
+  if (!after) return after.error();
+  WalkClipOptions options;
+  options.seconds = kWalkSeconds;
+  options.fps = kTakeRate;
+  options.speed = action == "walk" ? kWalkSpeed : kRunSpeed;
+  const Clip clip = walk_clip(std::move(walker), options);
+  Result<Rig> rig = Rig::create(clip);
+  if (!rig) return rig.error();
+  LearnPair pair{"the walker's " + action, styled.name,
+                 make_take(clip, *rig, PoseLayout::positions), *std::move(after)};
+  forget_twist(pair.neutral);
+  forget_twist(pair.styled);
+  return pair;
+}
+
+Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
+                                std::span<const LearnPair> pairs, const std::string& style,
+                                const std::string& description) {
+  if (auto good = check_style_name(style); !good) return good.error();
+  Result<std::shared_ptr<const Model>> model = Model::parse(format_safetensors(file), name);
+  if (!model) return model.error();
+  if (!(*model)->can_learn()) {
+    return Error{name +
+                 ": has no trunk that styles can be learnt on; expected a model of recipe "
+                 "panache with 'learn.mean' and 'learn.scale', as panache train writes them"};
+  }
+  if (pairs.empty()) {
+    return Error{"there is nothing to learn '" + style +
+                 "' from; give a neutral and a styled clip"};
+  }
+  // Each pair is a set of its own, so that it goes together with nothing else.
+  std::vector<Take> takes;
+  std::vector<Pairing> pairings;
+  LearntStyle learnt;
+  double seconds = 0;
+  for (const LearnPair& pair : pairs) {
+    const int neutral = static_cast<int>(takes.size()), styled = neutral + 1;
+    takes.push_back(pair.neutral);
+    takes.push_back(pair.styled);
+    for (const int t : {neutral, styled}) {
+      takes[t].row = {};
+      takes[t].row.set = neutral;
+      takes[t].row.style = t == styled ? style : "neutral";
+      takes[t].row.neutral = t == neutral;
+    }
+    const std::vector<Pairing> found = pair_takes(takes, {styled}, {neutral});
+    Result<PairReport> report = describe(pair, found, takes, neutral, styled);
+    if (!report) return report.error();
+    seconds += report->seconds;
+    learnt.pairs.push_back(*std::move(report));
+    pairings.insert(pairings.end(), found.begin(), found.end());
+  }
+  const SampleSet set(takes, pairings, {style}, Recipe::panache, false);
+  std::vector<size_t> all, first, held_back;
+  for (size_t i = 0; i < set.samples().size(); ++i) {
+    const Sample& sample = set.samples()[i];
+    const bool late = sample.styled_frame >= kHeldBack * takes[sample.styled].frames();
+    all.push_back(i);
+    (late ? held_back : first).push_back(i);
+  }
+  StyleInfo info{style, description, "", true};
+  info.origin = std::to_string(pairs.size()) + (pairs.size() == 1 ? " pair, " : " pairs, ") +
+                number(seconds) + " s:";
+  for (const PairReport& pair : learnt.pairs) {
+    info.origin += " " + file_name(pair.neutral_name) + " -> " + file_name(pair.styled_name) + ";";
+  }
+  info.origin.pop_back();
+  if (!first.empty() && !held_back.empty()) {
+    const TensorFile trial = make_style_file(file, info, fit_style(*model, set, first).tensors);
+    Result<TensorFile> with_it = add_style(file, name, trial, "the style", true);
+    if (!with_it) return with_it.error();
+    auto read = Model::parse(format_safetensors(*with_it), name);
+    if (!read) return read.error();
+    measure(*read, style, takes, set, first, held_back, learnt);
+  }
+  learnt.file = make_style_file(file, info, fit_style(*model, set, all).tensors);
+  return learnt;
+}
+
+}  // namespace panache

@@ -1,0 +1,303 @@
+#include "learn/style_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <string_view>
+#include <vector>
+
+#include "base/xml.h"
+#include "clip/text_cursor.h"
+#include "style/state_bytes.h"
+
+namespace panache {
+namespace {
+
+constexpr const char* kStyleFormat = "panache-style";
+constexpr const char* kStyleVersion = "1";
+constexpr size_t kMaxNameBytes = 60;
+
+// What the tensors of a style are called in a style file.
+constexpr std::array kBuiltInTensors = {
+    "pose.head.weight",    "pose.head.bias",    "pose.head.scale",
+    "timing.head.weight",  "timing.head.bias",  "timing.head.scale",
+    "contact.head.weight", "contact.head.bias", "contact.head.scale"};
+constexpr std::array kLearntTensors = {"head.weight", "head.bias",   "head.scale",
+                                       "mean",        "gate.weight", "gate.bias",
+                                       "gate.scale",  "gate.worth",  "gate.rest"};
+
+using Tensors = std::map<std::string, Tensor>;
+
+// A style with its tensors, which are named as in a style file.
+struct Style {
+  StyleInfo info;
+  Tensors tensors;
+};
+
+// A model file, and the styles taken out of it, in their order.
+struct Parts {
+  TensorFile rest;
+  std::vector<Style> styles;
+};
+
+// What the tensor `key` of a style file is called in a model, where `index` styles of its kind are
+// before this one.
+std::string key_in_model(const std::string& key, bool learnt, size_t index) {
+  if (learnt) return "learnt." + std::to_string(index) + "." + key;
+  // The contact network has a head of no style before those of the styles.
+  const size_t head = index + (key.starts_with("contact.") ? 1 : 0);
+  const size_t dot = key.rfind('.');
+  return key.substr(0, dot + 1) + std::to_string(head) + key.substr(dot);
+}
+
+template <class Visit>
+void for_each_tensor(bool learnt, Visit&& visit) {
+  if (learnt) {
+    std::ranges::for_each(kLearntTensors, visit);
+  } else {
+    std::ranges::for_each(kBuiltInTensors, visit);
+  }
+}
+
+Result<std::shared_ptr<const Model>> parse(const TensorFile& model, const std::string& name) {
+  return Model::parse(format_safetensors(model), name);
+}
+
+// `parsed` is the same model.
+Parts take_apart(const TensorFile& model, const Model& parsed) {
+  Parts parts{model, {}};
+  size_t built_in = 0, learnt = 0;
+  for (const StyleInfo& info : parsed.styles()) {
+    Style style{info, {}};
+    const size_t index = info.learnt ? learnt++ : built_in++;
+    for_each_tensor(info.learnt, [&](const std::string& key) {
+      auto found = parts.rest.tensors.extract(key_in_model(key, info.learnt, index));
+      if (found) style.tensors[key] = std::move(found.mapped());
+    });
+    parts.styles.push_back(std::move(style));
+  }
+  return parts;
+}
+
+// The lists of styles that a model carries as text.
+void write_lists(const std::vector<Style>& styles, std::map<std::string, std::string>& metadata) {
+  std::string names, descriptions, origins;
+  bool has_origin = false;
+  for (const Style& style : styles) {
+    names += style.info.name + "\n";
+    descriptions += style.info.description + "\n";
+    origins += style.info.origin + "\n";
+    has_origin = has_origin || !style.info.origin.empty();
+  }
+  metadata["styles"] = names;
+  metadata["style_descriptions"] = descriptions;
+  metadata.erase("style_origins");
+  if (has_origin) metadata["style_origins"] = origins;
+}
+
+TensorFile put_together(Parts parts) {
+  size_t built_in = 0, learnt = 0;
+  for (Style& style : parts.styles) {
+    const size_t index = style.info.learnt ? learnt++ : built_in++;
+    for (auto& [key, tensor] : style.tensors) {
+      parts.rest.tensors[key_in_model(key, style.info.learnt, index)] = std::move(tensor);
+    }
+  }
+  write_lists(parts.styles, parts.rest.metadata);
+  return std::move(parts.rest);
+}
+
+Result<void> check_has_heads(const Model& model, const std::string& name) {
+  if (model.recipe() == Recipe::panache) return {};
+  return Error{name + ": is of recipe smith2019, whose styles are inputs of all its layers; " +
+               "expected a model of recipe panache, where each has a head of its own"};
+}
+
+bool is_one_line(const std::string& text) {
+  const auto is_blank = [](char c) { return c == '\t' || c == '\n' || c == '\r'; };
+  if (std::ranges::any_of(text, is_blank)) return false;
+  // Everything else that no line of UTF-8 holds is replaced there.
+  return xml_escaped(text).find("\xef\xbf\xbd") == std::string::npos;
+}
+
+std::string metadata_of(const TensorFile& file, const std::string& key) {
+  const auto found = file.metadata.find(key);
+  return found == file.metadata.end() ? "" : found->second;
+}
+
+// Where the styles of this kind end.
+auto end_of_kind(std::vector<Style>& styles, bool learnt) {
+  if (learnt) return styles.end();
+  return std::ranges::find_if(styles, [](const Style& style) { return style.info.learnt; });
+}
+
+}  // namespace
+
+std::string trunk_fingerprint(const TensorFile& model) {
+  std::vector<float> values;
+  const auto add = [&](const std::string& key) {
+    const auto found = model.tensors.find(key);
+    if (found == model.tensors.end()) return false;
+    values.insert(values.end(), found->second.values.begin(), found->second.values.end());
+    return true;
+  };
+  for (const char* key : {"input.mean", "input.scale", "output.scale"}) add(key);
+  for (int layer = 0; add("pose.trunk." + std::to_string(layer) + ".bias"); ++layer) {
+  }
+  const uint64_t hash = hash_of(bytes_of(values));
+  std::string text;
+  for (int digit = 15; digit >= 0; --digit) text += "0123456789abcdef"[hash >> (4 * digit) & 15];
+  return text;
+}
+
+Result<void> check_style_name(const std::string& name) {
+  const std::string where = "style name " + quoted(name) + ": ";
+  if (name.empty()) return Error{where + "is empty"};
+  if (name.size() > kMaxNameBytes) {
+    return Error{where + "has " + std::to_string(name.size()) + " bytes; expected at most " +
+                 std::to_string(kMaxNameBytes)};
+  }
+  if (!is_one_line(name)) return Error{where + "is no line of UTF-8 text"};
+  for (const char c : {'=', ','}) {
+    if (name.find(c) == std::string::npos) continue;
+    return Error{where + "holds a '" + c + "', which parts names from strengths"};
+  }
+  if (name.starts_with(' ') || name.ends_with(' ')) {
+    return Error{where + "begins or ends with a blank"};
+  }
+  if (name.starts_with('-')) return Error{where + "begins like an option"};
+  if (name == "seconds") {
+    return Error{where + "is what tables of strengths call the column of time"};
+  }
+  return {};
+}
+
+bool is_style_file(const TensorFile& file) { return metadata_of(file, "format") == kStyleFormat; }
+
+Result<StyleInfo> read_style_info(const TensorFile& file, const std::string& name) {
+  if (metadata_of(file, "format") == "panache") {
+    return Error{name + ": is a model; expected a style file, as panache styles " + name +
+                 " --extract NAME -o FILE makes one"};
+  }
+  if (!is_style_file(file)) {
+    return Error{name + ": is a safetensors file, but not a style; expected metadata 'format' to " +
+                 "be '" + kStyleFormat + "'"};
+  }
+  if (const std::string version = metadata_of(file, "format_version"); version != kStyleVersion) {
+    return Error{name + ": is a style file of format version " + quoted(version) +
+                 "; this program reads version " + kStyleVersion};
+  }
+  StyleInfo info{metadata_of(file, "style"), metadata_of(file, "description"),
+                 metadata_of(file, "origin"), file.tensors.contains("head.weight")};
+  if (auto fit = check_style_name(info.name); !fit) return Error{name + ": " + fit.error().message};
+  for (const char* key : {"description", "origin", "trunk", "data", "licence"}) {
+    if (is_one_line(metadata_of(file, key))) continue;
+    return Error{name + ": metadata '" + key + "' is no line of UTF-8 text"};
+  }
+  size_t known = 0;
+  for_each_tensor(info.learnt, [&](const char* key) { known += file.tensors.contains(key); });
+  if (known == 0 || known != file.tensors.size()) {
+    return Error{name + ": has " + std::to_string(file.tensors.size()) + " tensors, of which " +
+                 std::to_string(known) + " are those of a style; expected no others"};
+  }
+  for (const auto& [key, tensor] : file.tensors) {
+    const auto is_finite = [](float value) { return std::isfinite(value); };
+    if (std::ranges::all_of(tensor.values, is_finite)) continue;
+    return Error{name + ": tensor '" + key + "' holds a number that is not finite"};
+  }
+  return info;
+}
+
+TensorFile make_style_file(const TensorFile& model, const StyleInfo& info,
+                           std::map<std::string, Tensor> tensors) {
+  TensorFile file;
+  file.metadata = {{"format", kStyleFormat}, {"format_version", kStyleVersion},
+                   {"style", info.name},     {"description", info.description},
+                   {"origin", info.origin},  {"trunk", trunk_fingerprint(model)}};
+  for (const char* key : {"data", "licence"}) {
+    if (model.metadata.contains(key)) file.metadata[key] = model.metadata.at(key);
+  }
+  file.tensors = std::move(tensors);
+  return file;
+}
+
+Result<TensorFile> extract_style(const TensorFile& model, const std::string& style,
+                                 const std::string& name) {
+  Result<std::shared_ptr<const Model>> parsed = parse(model, name);
+  if (!parsed) return parsed.error();
+  if (auto heads = check_has_heads(**parsed, name); !heads) return heads.error();
+  Result<int> index = (*parsed)->find_style(style);
+  if (!index) return index.error();
+  Style found = std::move(take_apart(model, **parsed).styles[static_cast<size_t>(*index)]);
+  return make_style_file(model, found.info, std::move(found.tensors));
+}
+
+Result<TensorFile> add_style(const TensorFile& model, const std::string& name,
+                             const TensorFile& style, const std::string& style_name, bool replace) {
+  Result<StyleInfo> info = read_style_info(style, style_name);
+  if (!info) return info.error();
+  Result<std::shared_ptr<const Model>> parsed = parse(model, name);
+  if (!parsed) return parsed.error();
+  if (auto heads = check_has_heads(**parsed, name); !heads) return heads.error();
+  const std::string trunk = trunk_fingerprint(model), made_for = metadata_of(style, "trunk");
+  if (trunk != made_for) {
+    return Error{style_name + ": rests on trunk " + quoted(made_for) + ", " + name + " has " +
+                 quoted(trunk) +
+                 "; put it into the model that it was made with or the half-size twin of that, " +
+                 "or learn it again with this one (panache learn)"};
+  }
+  Parts parts = take_apart(model, **parsed);
+  std::vector<Style>& styles = parts.styles;
+  Style added{*info, style.tensors};
+  const auto taken = std::ranges::find_if(
+      styles, [&](const Style& other) { return other.info.name == info->name; });
+  if (taken != styles.end() && !replace) {
+    return Error{name + ": has a style '" + info->name +
+                 "' already; --force replaces it, and --rename gives it another name"};
+  }
+  if (taken != styles.end() && taken->info.learnt == info->learnt) {
+    *taken = std::move(added);
+  } else {
+    if (taken != styles.end()) styles.erase(taken);
+    styles.insert(end_of_kind(styles, info->learnt), std::move(added));
+  }
+  TensorFile merged = put_together(std::move(parts));
+  // Nobody knows better than the model what it can hold and evaluate.
+  if (auto read = parse(merged, name + " with " + style_name); !read) return read.error();
+  return merged;
+}
+
+Result<TensorFile> remove_style(const TensorFile& model, const std::string& style,
+                                const std::string& name) {
+  Result<std::shared_ptr<const Model>> parsed = parse(model, name);
+  if (!parsed) return parsed.error();
+  if (auto heads = check_has_heads(**parsed, name); !heads) return heads.error();
+  Result<int> index = (*parsed)->find_style(style);
+  if (!index) return index.error();
+  Parts parts = take_apart(model, **parsed);
+  if (parts.styles.size() == 1) {
+    return Error{name + ": has no style but '" + style + "'; a model keeps at least one"};
+  }
+  parts.styles.erase(parts.styles.begin() + *index);
+  return put_together(std::move(parts));
+}
+
+Result<TensorFile> rename_style(const TensorFile& model, const std::string& from,
+                                const std::string& to, const std::string& name) {
+  Result<std::shared_ptr<const Model>> parsed = parse(model, name);
+  if (!parsed) return parsed.error();
+  Result<int> index = (*parsed)->find_style(from);
+  if (!index) return index.error();
+  if (auto fit = check_style_name(to); !fit) return fit.error();
+  if ((*parsed)->find_style(to)) return Error{name + ": has a style '" + to + "' already"};
+  std::vector<Style> styles;
+  for (const StyleInfo& info : (*parsed)->styles()) styles.push_back({info, {}});
+  styles[static_cast<size_t>(*index)].info.name = to;
+  TensorFile renamed = model;
+  write_lists(styles, renamed.metadata);
+  return renamed;
+}
+
+}  // namespace panache

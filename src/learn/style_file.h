@@ -1,0 +1,54 @@
+#pragma once
+// Styles as files of their own: taken out of a model, put into another, renamed, removed.
+
+#include <map>
+#include <string>
+
+#include "base/result.h"
+#include "net/safetensors.h"
+#include "style/model.h"
+
+namespace panache {
+
+// What the styles of a model rest on, as 16 hexadecimal digits: a hash of its normalisation and of
+// the pose trunk's biases, which a model shares with its twin of half size. A style goes with every
+// model of its own model's fingerprint.
+std::string trunk_fingerprint(const TensorFile& model);
+
+// Whether people can type this name and files can hold it: 1 to 60 bytes of UTF-8 without control
+// characters, '=' and ',', without a blank at either end or a '-' at the start. "seconds" is taken
+// by tables of strengths.
+Result<void> check_style_name(const std::string& name);
+
+// Whether the file says that it is a style, and not a model.
+bool is_style_file(const TensorFile& file);
+// What a style file says of its style. Files are refused that extract_style() does not write: other
+// versions, texts that are no single line, tensors that no style has, numbers that are not finite.
+// What shapes the tensors must have, only a model can tell, see add_style(). `name` stands in front
+// of the sentence of a failure.
+Result<StyleInfo> read_style_info(const TensorFile& file, const std::string& name);
+
+// The style file of a style of a model, or learnt on one. `tensors` are called as in a style file.
+TensorFile make_style_file(const TensorFile& model, const StyleInfo& info,
+                           std::map<std::string, Tensor> tensors);
+
+// Each of these hands back a new file and leaves what it is given alone. Model files are refused
+// where Model::parse() refuses them, `name` stands in front of sentences, and all styles but the
+// one in question stay bit for bit what they are.
+
+// The style file of the model's style called `style`. Models of recipe smith2019 have none to give.
+Result<TensorFile> extract_style(const TensorFile& model, const std::string& style,
+                                 const std::string& name);
+// The model with the style of a style file; where it has one of this name, that is replaced
+// (`replace`) or the file refused. Built-in styles go behind the built-in ones, learnt ones to the
+// end. The style's shapes and numbers are judged by Model::parse().
+Result<TensorFile> add_style(const TensorFile& model, const std::string& name,
+                             const TensorFile& style, const std::string& style_name, bool replace);
+// The model without a style. It keeps at least one.
+Result<TensorFile> remove_style(const TensorFile& model, const std::string& style,
+                                const std::string& name);
+// The model with a style called `to` instead of `from`. Of any recipe.
+Result<TensorFile> rename_style(const TensorFile& model, const std::string& from,
+                                const std::string& to, const std::string& name);
+
+}  // namespace panache

@@ -1,0 +1,225 @@
+// panache styles: styles taken out of models, put into others, removed and renamed.
+
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+#include "make_learnt.h"
+#include "net/half_size.h"
+
+namespace panache::test {
+namespace {
+
+class StylesVerb : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    TensorFile model = *parse_safetensors(read("model.safetensors"), "model");
+    add_learnt(model, 0, "limping", "limp.bvh");
+    write("mine.safetensors", format_safetensors(model));
+  }
+
+  std::vector<std::string> styles_of(const std::string& file) const {
+    const auto model = Model::parse(read(file), file);
+    EXPECT_TRUE(model.ok()) << model.error().message;
+    std::vector<std::string> names;
+    for (const StyleInfo& style : (*model)->styles()) names.push_back(style.name);
+    return names;
+  }
+  std::string size_of(const std::string& file) const { return std::to_string(read(file).size()); }
+
+  // Runs `panache styles` and expects a sentence; no file may change, appear or vanish.
+  void expect_refused(std::vector<std::string> arguments, int exit, const std::string& sentence) {
+    const auto state = [this] {
+      std::string all;
+      for (const std::string& name : entries()) all += name + "\n" + read(name);
+      return all;
+    };
+    const std::string before = state();
+    arguments.insert(arguments.begin(), "styles");
+    const Ran ran = run(arguments);
+    EXPECT_EQ(ran.err, "panache: " + sentence + "\n");
+    EXPECT_EQ(ran.out, "");
+    EXPECT_EQ(ran.exit, exit);
+    EXPECT_TRUE(state() == before) << sentence;
+  }
+};
+
+using Names = std::vector<std::string>;
+
+TEST_F(StylesVerb, lists_learnt_styles_with_what_they_were_learnt_from) {
+  const std::string text = run({"styles", "mine.safetensors"}).out;
+  EXPECT_TRUE(
+      text.ends_with("\n5 styles:\n"
+                     "  angry    looks angry\n"
+                     "  old      looks old\n"
+                     "  proud    looks proud\n"
+                     "  sad      looks sad\n"
+                     "  limping  looks limping (learnt from limp.bvh)\n"))
+      << text;
+  const auto model = nlohmann::json::parse(run({"styles", "mine.safetensors", "--json"}).out);
+  EXPECT_EQ(model["styles"][0]["learnt"], false);
+  EXPECT_EQ(model["styles"][0]["origin"], "");
+  EXPECT_EQ(model["styles"][4]["learnt"], true);
+  EXPECT_EQ(model["styles"][4]["origin"], "limp.bvh");
+}
+
+TEST_F(StylesVerb, describes_the_file_of_a_style) {
+  ASSERT_EQ(
+      run({"styles", "mine.safetensors", "--extract", "limping", "-o", "limping.safetensors"}).exit,
+      0);
+  const std::string text = run({"styles", "limping.safetensors"}).out;
+  EXPECT_TRUE(text.starts_with("limping.safetensors\n  size         ")) << text;
+  EXPECT_TRUE(
+      text.ends_with("  data licence CC0\n\n1 style:\n"
+                     "  limping  looks limping (learnt from limp.bvh)\n"))
+      << text;
+  const auto style = nlohmann::json::parse(run({"styles", "limping.safetensors", "--json"}).out);
+  EXPECT_EQ(style["style_file"], "limping.safetensors");
+  EXPECT_EQ(style["name"], "limping");
+  EXPECT_EQ(style["learnt"], true);
+  EXPECT_EQ(style["bytes"], read("limping.safetensors").size());
+  EXPECT_EQ(style["trunk"].get<std::string>().size(), 16u);
+}
+
+TEST_F(StylesVerb, says_what_it_did_and_what_came_of_it) {
+  const Ran taken =
+      run({"styles", "mine.safetensors", "--extract", "limping", "-o", "limping.safetensors"});
+  EXPECT_EQ(taken.out, "copied 'limping' from mine.safetensors to limping.safetensors, which has " +
+                           size_of("limping.safetensors") + " bytes\n");
+  const auto expect_line = [&](const std::vector<std::string>& arguments, const std::string& deed) {
+    const Ran ran = run(arguments);
+    EXPECT_EQ(ran.exit, 0) << ran.err;
+    EXPECT_EQ(ran.out, deed + " now and " + size_of("mine.safetensors") + " bytes\n");
+  };
+  expect_line({"styles", "mine.safetensors", "--remove", "limping", "sad"},
+              "removed 'limping', 'sad' from mine.safetensors, which has 3 styles");
+  expect_line({"styles", "mine.safetensors", "--add", "limping.safetensors"},
+              "added 'limping' to mine.safetensors, which has 4 styles");
+  expect_line({"styles", "mine.safetensors", "--rename", "old=aged"},
+              "renamed 'old' to 'aged' in mine.safetensors, which has 4 styles");
+}
+
+TEST_F(StylesVerb, a_style_put_back_styles_a_walk_as_before) {
+  write_walk("walk.bvh");
+  const auto stylize = [&](const std::string& model, const std::string& style,
+                           const std::string& out) {
+    const Ran ran = run({"stylize", "walk.bvh", "--style", style, "-o", out}, model);
+    EXPECT_EQ(ran.exit, 0) << ran.err;
+    return read(out);
+  };
+  const std::string old = stylize("mine.safetensors", "old=1", "old.bvh");
+  const std::string limping = stylize("mine.safetensors", "limping=1", "limping.bvh");
+  for (const std::string name : {"old", "limping"}) {
+    ASSERT_EQ(
+        run({"styles", "mine.safetensors", "--extract", name, "-o", name + ".safetensors"}).exit,
+        0);
+  }
+  ASSERT_EQ(run({"styles", "mine.safetensors", "--remove", "old", "limping"}).exit, 0);
+  EXPECT_EQ(styles_of("mine.safetensors"), (Names{"angry", "proud", "sad"}));
+  ASSERT_EQ(
+      run({"styles", "mine.safetensors", "--add", "limping.safetensors", "old.safetensors"}).exit,
+      0);
+  EXPECT_EQ(styles_of("mine.safetensors"), (Names{"angry", "proud", "sad", "old", "limping"}));
+  EXPECT_TRUE(stylize("mine.safetensors", "old=1", "old-again.bvh") == old);
+  EXPECT_TRUE(stylize("mine.safetensors", "limping=1", "limping-again.bvh") == limping);
+  EXPECT_FALSE(old == limping);
+}
+
+TEST_F(StylesVerb, a_style_gets_another_name) {
+  ASSERT_EQ(run({"styles", "mine.safetensors", "--rename", "limping=lahm und müde"}).exit, 0);
+  EXPECT_EQ(styles_of("mine.safetensors").back(), "lahm und müde");
+  expect_refused({"mine.safetensors", "--rename", "old=lahm, alt"}, 1,
+                 "style name 'lahm, alt': holds a ',', which parts names from strengths");
+}
+
+TEST_F(StylesVerb, tells_machines_what_a_changed_model_is) {
+  const Ran ran = run({"styles", "mine.safetensors", "--remove", "old", "--json"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_EQ(nlohmann::json::parse(ran.out)["styles"].size(), 4u);
+}
+
+TEST_F(StylesVerb, a_link_to_a_model_stays_a_link) {
+  std::filesystem::create_symlink("mine.safetensors", path("link.safetensors"));
+  ASSERT_EQ(run({"styles", "link.safetensors", "--remove", "old"}).exit, 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(path("link.safetensors")));
+  EXPECT_EQ(styles_of("mine.safetensors").size(), 4u);
+}
+
+TEST_F(StylesVerb, a_read_only_model_stays_as_it_is) {
+  using std::filesystem::perms;
+  std::filesystem::permissions(path("mine.safetensors"), perms::owner_read);
+  expect_refused({"mine.safetensors", "--remove", "old"}, 1,
+                 "mine.safetensors: is read-only and stays as it is; change a copy of it, or allow "
+                 "writing");
+}
+
+TEST_F(StylesVerb, a_model_that_is_not_named_is_never_changed) {
+  const std::string sentence =
+      "--add, --remove and --rename change a model in its place; expected its name, as in panache "
+      "styles model.safetensors --remove old";
+  expect_refused({"--remove", "old"}, 2, sentence);
+  expect_refused({"--rename", "old=new"}, 2, sentence);
+  expect_refused({"--add", "mine.safetensors"}, 2, sentence);
+}
+
+TEST_F(StylesVerb, does_one_thing_at_a_time) {
+  const std::string one = "--extract, --add, --remove and --rename: expected one of them at a time";
+  expect_refused({"mine.safetensors", "--remove", "old", "--rename", "sad=blue"}, 2, one);
+  expect_refused({"mine.safetensors", "--add", "x", "--extract", "sad", "-o", "y"}, 2, one);
+  const std::string both = "--extract NAME and --output FILE: expected both or neither";
+  expect_refused({"mine.safetensors", "--extract", "old"}, 2, both);
+  expect_refused({"mine.safetensors", "-o", "old.safetensors"}, 2, both);
+  expect_refused({"mine.safetensors", "--rename", "old"}, 2, "--rename old: expected OLD=NEW");
+}
+
+TEST_F(StylesVerb, all_of_a_change_happens_or_nothing) {
+  expect_refused({"mine.safetensors", "--remove", "old", "olld"}, 1,
+                 "unknown style 'olld'; the nearest are sad, proud and angry (panache styles lists "
+                 "all 4)");
+  ASSERT_EQ(run({"styles", "mine.safetensors", "--extract", "old", "-o", "old.safetensors"}).exit,
+            0);
+  ASSERT_EQ(run({"styles", "mine.safetensors", "--remove", "old"}).exit, 0);
+  expect_refused({"mine.safetensors", "--add", "old.safetensors", "none.safetensors"}, 1,
+                 "none.safetensors: cannot be read: No such file or directory");
+}
+
+TEST_F(StylesVerb, a_taken_name_is_replaced_by_force_only) {
+  ASSERT_EQ(run({"styles", "mine.safetensors", "--extract", "old", "-o", "old.safetensors"}).exit,
+            0);
+  expect_refused({"mine.safetensors", "--add", "old.safetensors"}, 1,
+                 "mine.safetensors: has a style 'old' already; --force replaces it, and --rename "
+                 "gives it another name");
+  const std::string before = read("mine.safetensors");
+  EXPECT_EQ(run({"styles", "mine.safetensors", "--add", "old.safetensors", "--force"}).exit, 0);
+  EXPECT_TRUE(read("mine.safetensors") == before);
+  expect_refused({"mine.safetensors", "--extract", "sad", "-o", "old.safetensors"}, 1,
+                 "old.safetensors: exists already; --force overwrites it");
+}
+
+TEST_F(StylesVerb, explains_what_is_no_style_and_what_is_no_model) {
+  expect_refused({"mine.safetensors", "--add", "model.safetensors"}, 1,
+                 "model.safetensors: is a model; expected a style file, as panache styles "
+                 "model.safetensors --extract NAME -o FILE makes one");
+  expect_refused({"mine.safetensors", "--extract", "old", "-o", "old.bin"}, 2,
+                 "old.bin: expected a name that ends in .safetensors");
+  ASSERT_EQ(run({"styles", "mine.safetensors", "--extract", "old", "-o", "old.safetensors"}).exit,
+            0);
+  expect_refused({"old.safetensors", "--remove", "old"}, 1,
+                 "old.safetensors: is a safetensors file, but not a panache model; expected "
+                 "metadata 'format' to be 'panache'");
+}
+
+TEST_F(StylesVerb, a_style_of_another_model_is_refused) {
+  write("other.safetensors", format_safetensors(make_model({"young"}, 2)));
+  ASSERT_EQ(
+      run({"styles", "other.safetensors", "--extract", "young", "-o", "young.safetensors"}).exit,
+      0);
+  const std::string before = read("mine.safetensors");
+  const Ran ran = run({"styles", "mine.safetensors", "--add", "young.safetensors"});
+  EXPECT_EQ(ran.exit, 1);
+  EXPECT_NE(ran.err.find("young.safetensors: rests on trunk"), std::string::npos) << ran.err;
+  EXPECT_TRUE(read("mine.safetensors") == before);
+}
+
+}  // namespace
+}  // namespace panache::test

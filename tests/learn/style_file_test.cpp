@@ -1,0 +1,385 @@
+// Styles as files of their own: what comes along, what stays behind, and what is refused.
+
+#include "learn/style_file.h"
+
+#include <algorithm>
+#include <bit>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "base/file.h"
+#include "make_learnt.h"
+#include "net/half_size.h"
+
+namespace panache {
+namespace {
+
+const std::string kModels = PANACHE_SOURCE_DIR "/models/";
+
+TensorFile shipped(const std::string& file) {
+  return *parse_safetensors(*read_file(kModels + file), file);
+}
+
+std::shared_ptr<const Model> read(const TensorFile& file) {
+  const auto model = Model::parse(format_safetensors(file), "m");
+  EXPECT_TRUE(model.ok()) << model.error().message;
+  return *model;
+}
+
+std::vector<std::string> styles_of(const TensorFile& file) {
+  std::vector<std::string> names;
+  const auto model = read(file);
+  for (const StyleInfo& style : model->styles()) names.push_back(style.name);
+  return names;
+}
+
+using Names = std::vector<std::string>;
+
+// A model of two built-in and two learnt styles.
+TensorFile mixed_model(uint64_t seed = 1) {
+  TensorFile file = test::make_model({"old", "proud"}, seed);
+  test::add_learnt(file, 0, "limping", "limp.bvh", 7);
+  test::add_learnt(file, 1, "sneaking", "", 8);
+  return file;
+}
+
+TensorFile extract(const TensorFile& model, const std::string& style) {
+  const auto file = extract_style(model, style, "m.safetensors");
+  EXPECT_TRUE(file.ok()) << file.error().message;
+  return *file;
+}
+TensorFile removed(const TensorFile& model, const std::string& style) {
+  const auto file = remove_style(model, style, "m.safetensors");
+  EXPECT_TRUE(file.ok()) << file.error().message;
+  return *file;
+}
+TensorFile added(const TensorFile& model, const TensorFile& style, bool replace = false) {
+  const auto file = add_style(model, "m.safetensors", style, "s.safetensors", replace);
+  EXPECT_TRUE(file.ok()) << file.error().message;
+  return *file;
+}
+std::string refusal(const TensorFile& model, const TensorFile& style, bool replace = false) {
+  const auto file = add_style(model, "m.safetensors", style, "s.safetensors", replace);
+  return file.ok() ? "accepted" : file.error().message;
+}
+
+// All that the networks answer to a few windows with one style in force, bit for bit.
+std::vector<uint32_t> answers(const TensorFile& file, const std::string& style) {
+  const auto model = read(file);
+  StyleNetworks networks(model);
+  std::vector<float> strengths(model->styles().size());
+  strengths[static_cast<size_t>(*model->find_style(style))] = 1;
+  networks.set_strengths(strengths);
+  Random random(3);
+  std::vector<uint32_t> bits;
+  const auto add = [&](float number) { bits.push_back(std::bit_cast<uint32_t>(number)); };
+  for (int n = 0; n < 3; ++n) {
+    std::vector<float> window(size_t(kWindowPoses) * pose_numbers(PoseLayout::positions));
+    for (float& w : window) w = random.normal();
+    networks.forward(window, 0.5f);
+    std::ranges::for_each(networks.pose(), add);
+    std::ranges::for_each(networks.contact(), add);
+    add(networks.log_rate());
+    add(networks.gate());
+  }
+  return bits;
+}
+
+TEST(TrunkFingerprint, is_that_of_the_twin_of_half_size_and_of_no_other_model) {
+  EXPECT_EQ(trunk_fingerprint(shipped("panache.safetensors")),
+            trunk_fingerprint(shipped("panache-half.safetensors")));
+  const TensorFile model = mixed_model();
+  EXPECT_NE(trunk_fingerprint(model), trunk_fingerprint(mixed_model(2)));
+  for (const char* key :
+       {"input.mean", "input.scale", "output.scale", "pose.trunk.0.bias", "pose.trunk.1.bias"}) {
+    TensorFile other = model;
+    other.tensors[key].values.back() += 1;
+    EXPECT_NE(trunk_fingerprint(other), trunk_fingerprint(model)) << key;
+  }
+}
+
+TEST(TrunkFingerprint, stays_when_styles_come_and_go) {
+  const TensorFile model = mixed_model();
+  EXPECT_EQ(trunk_fingerprint(removed(model, "old")), trunk_fingerprint(model));
+  EXPECT_EQ(trunk_fingerprint(removed(model, "limping")), trunk_fingerprint(model));
+}
+
+TEST(StyleFile, carries_its_styles_numbers_and_all_that_a_user_must_know) {
+  TensorFile model = mixed_model();
+  model.metadata["data"] = "our own takes";
+  const TensorFile old = extract(model, "proud"), limping = extract(model, "limping");
+  EXPECT_EQ(old.tensors.at("pose.head.weight").values,
+            model.tensors.at("pose.head.1.weight").values);
+  EXPECT_EQ(old.tensors.at("timing.head.bias").values,
+            model.tensors.at("timing.head.1.bias").values);
+  EXPECT_EQ(old.tensors.at("contact.head.bias").values,
+            model.tensors.at("contact.head.2.bias").values);  // The first is of no style.
+  EXPECT_EQ(old.tensors.size(), 6u);
+  EXPECT_EQ(limping.tensors.at("gate.worth").values,
+            model.tensors.at("learnt.0.gate.worth").values);
+  EXPECT_TRUE(limping.tensors.at("head.weight").half);
+  const std::map<std::string, std::string> told = {
+      {"format", "panache-style"}, {"format_version", "1"},
+      {"style", "limping"},        {"description", "looks limping"},
+      {"origin", "limp.bvh"},      {"trunk", trunk_fingerprint(model)},
+      {"data", "our own takes"},   {"licence", "CC0"}};
+  EXPECT_EQ(limping.metadata, told);
+  const auto info = read_style_info(limping, "s.safetensors");
+  ASSERT_TRUE(info.ok()) << info.error().message;
+  EXPECT_TRUE(info->learnt);
+  EXPECT_EQ(info->origin, "limp.bvh");
+  EXPECT_FALSE(read_style_info(old, "s.safetensors")->learnt);
+}
+
+TEST(StyleFile, every_tensor_of_a_learnt_style_comes_along) {
+  const TensorFile rest = removed(removed(mixed_model(), "sneaking"), "limping");
+  for (const auto& [key, tensor] : rest.tensors) EXPECT_FALSE(key.starts_with("learnt.")) << key;
+  EXPECT_FALSE(rest.metadata.contains("style_origins"));
+}
+
+TEST(StyleFile, a_style_taken_out_and_put_back_moves_as_before_bit_for_bit) {
+  const TensorFile whole = shipped("panache.safetensors");
+  const TensorFile without = removed(whole, "old");
+  EXPECT_EQ(read(without)->find_style("old").ok(), false);
+  const TensorFile back = added(without, extract(whole, "old"));
+  EXPECT_EQ(answers(back, "old"), answers(whole, "old"));
+  EXPECT_EQ(format_safetensors(back).size(), format_safetensors(whole).size());
+  for (const char* other : {"active", "proud", "youthful"}) {
+    EXPECT_EQ(answers(without, other), answers(whole, other)) << other;
+    EXPECT_EQ(answers(back, other), answers(whole, other)) << other;
+  }
+}
+
+TEST(StyleFile, a_learnt_style_taken_out_and_put_back_gives_the_same_file) {
+  TensorFile whole = shipped("panache.safetensors");
+  test::add_learnt(whole, 0, "limping", "limp.bvh");
+  const TensorFile without = removed(whole, "limping"), style = extract(whole, "limping");
+  EXPECT_TRUE(format_safetensors(added(without, style)) == format_safetensors(whole));
+  EXPECT_EQ(answers(added(removed(without, "old"), style), "limping"), answers(whole, "limping"));
+}
+
+TEST(StyleFile, is_small) {
+  TensorFile model = shipped("panache.safetensors");
+  test::add_learnt(model, 0, "limping", "limp.bvh");
+  for (const char* name : {"limping", "old"}) {
+    const TensorFile style = extract(model, name);
+    EXPECT_LE(format_safetensors(style).size(), 110'000u) << name;
+    EXPECT_LE(format_safetensors(in_half_size(style)).size(), 55'000u) << name;
+  }
+}
+
+TEST(StyleFile, a_model_and_its_half_size_twin_exchange_styles) {
+  TensorFile whole = shipped("panache.safetensors");
+  test::add_learnt(whole, 0, "limping", "limp.bvh");
+  const TensorFile half = in_half_size(whole);
+  for (const char* name : {"old", "limping"}) {
+    const TensorFile style = extract(whole, name), half_style = extract(half, name);
+    EXPECT_TRUE(format_safetensors(in_half_size(style)) == format_safetensors(half_style)) << name;
+    EXPECT_TRUE(format_safetensors(added(half, half_style, true)) == format_safetensors(half));
+    // Each model moves with the other's style, and nearly as with its own.
+    const auto near = [&](const TensorFile& a, const TensorFile& b) {
+      const std::vector<uint32_t> x = answers(a, name), y = answers(b, name);
+      double apart = 0, size = 0;
+      for (size_t i = 0; i < x.size(); ++i) {
+        const double from = std::bit_cast<float>(x[i]), to = std::bit_cast<float>(y[i]);
+        apart += (from - to) * (from - to), size += from * from;
+      }
+      EXPECT_GT(apart, 0) << name;
+      // A weight is off by up to a 254th of the largest of its column.
+      EXPECT_LT(std::sqrt(apart / size), 0.03) << name;
+    };
+    near(whole, added(whole, half_style, true));
+    near(half, added(half, style, true));
+  }
+}
+
+TEST(StyleFile, styles_go_behind_those_of_their_kind) {
+  const TensorFile model = mixed_model();
+  const TensorFile proud = extract(model, "proud"), limping = extract(model, "limping");
+  const TensorFile two = removed(removed(model, "proud"), "limping");
+  EXPECT_EQ(styles_of(two), (Names{"old", "sneaking"}));
+  const TensorFile four = added(added(two, limping), proud);
+  EXPECT_EQ(styles_of(four), (Names{"old", "proud", "sneaking", "limping"}));
+  for (const std::string& name : styles_of(model)) {
+    EXPECT_EQ(answers(four, name), answers(model, name)) << name;
+  }
+  EXPECT_EQ(read(four)->styles()[3].origin, "limp.bvh");
+  EXPECT_EQ(read(four)->styles()[2].origin, "");
+  EXPECT_EQ(read(four)->styles()[1].description, "looks proud");
+}
+
+TEST(StyleFile, a_style_of_the_same_name_is_replaced_in_its_place_when_asked) {
+  const TensorFile model = mixed_model();
+  TensorFile proud = extract(model, "proud"), limping = extract(model, "limping");
+  proud.metadata["style"] = "old", limping.metadata["style"] = "proud";
+  EXPECT_EQ(refusal(model, proud),
+            "m.safetensors: has a style 'old' already; --force replaces it, and --rename gives it "
+            "another name");
+  const TensorFile same_kind = added(model, proud, true);
+  EXPECT_EQ(styles_of(same_kind), styles_of(model));
+  EXPECT_EQ(answers(same_kind, "old"), answers(model, "proud"));
+  const TensorFile other_kind = added(model, limping, true);
+  EXPECT_EQ(styles_of(other_kind), (Names{"old", "limping", "sneaking", "proud"}));
+  EXPECT_EQ(answers(other_kind, "proud"), answers(model, "limping"));
+}
+
+TEST(StyleFile, a_model_may_keep_learnt_styles_only) {
+  const TensorFile rest = removed(removed(mixed_model(), "old"), "proud");
+  EXPECT_EQ(styles_of(rest), (Names{"limping", "sneaking"}));
+  EXPECT_EQ(answers(rest, "limping"), answers(mixed_model(), "limping"));
+}
+
+TEST(StyleFile, one_that_was_made_with_another_model_is_refused_with_the_cure) {
+  const TensorFile model = mixed_model(), other = mixed_model(2);
+  EXPECT_EQ(refusal(model, extract(other, "limping"), true),
+            "s.safetensors: rests on trunk '" + trunk_fingerprint(other) +
+                "', m.safetensors has '" + trunk_fingerprint(model) +
+                "'; put it into the model that it was made with or the half-size twin of that, or "
+                "learn it again with this one (panache learn)");
+}
+
+TEST(StyleFile, a_model_that_cannot_learn_takes_no_learnt_style) {
+  EXPECT_EQ(refusal(test::make_model({"old"}), extract(mixed_model(), "limping")),
+            "m.safetensors with s.safetensors: has tensors 'learnt.0.*' of a learnt style, but no "
+            "'learn.mean' and 'learn.scale'");
+}
+
+TEST(StyleFile, a_model_takes_255_styles_and_no_more) {
+  std::vector<std::string> names;
+  for (int i = 0; i < 254; ++i) names.push_back("style" + std::to_string(i));
+  TensorFile style = extract(mixed_model(), "old");
+  const TensorFile full = added(test::make_model(names), style);
+  style.metadata["style"] = "young";
+  EXPECT_EQ(refusal(full, style),
+            "m.safetensors with s.safetensors: has 256 styles; expected at most 255");
+}
+
+TEST(StyleFile, a_model_without_heads_gives_and_takes_no_styles) {
+  const TensorFile model = test::make_model({"old", "proud"}, 1, Recipe::smith2019);
+  const std::string sentence =
+      "m.safetensors: is of recipe smith2019, whose styles are inputs of all its layers; expected "
+      "a model of recipe panache, where each has a head of its own";
+  EXPECT_EQ(extract_style(model, "old", "m.safetensors").error().message, sentence);
+  EXPECT_EQ(remove_style(model, "old", "m.safetensors").error().message, sentence);
+  EXPECT_EQ(refusal(model, extract(mixed_model(), "old")), sentence);
+}
+
+TEST(StyleFile, a_style_that_is_not_there_is_neither_extracted_nor_removed) {
+  const std::string sentence =
+      "unknown style 'prou'; the nearest are proud, old and limping (panache styles lists all 4)";
+  EXPECT_EQ(extract_style(mixed_model(), "prou", "m").error().message, sentence);
+  EXPECT_EQ(remove_style(mixed_model(), "prou", "m").error().message, sentence);
+  EXPECT_EQ(rename_style(mixed_model(), "prou", "sad", "m").error().message, sentence);
+}
+
+TEST(StyleFile, the_last_style_stays) {
+  EXPECT_EQ(remove_style(test::make_model({"old"}), "old", "m.safetensors").error().message,
+            "m.safetensors: has no style but 'old'; a model keeps at least one");
+}
+
+TEST(StyleFile, a_renamed_style_is_the_same_under_another_name) {
+  for (const Recipe recipe : {Recipe::panache, Recipe::smith2019}) {
+    const TensorFile model = test::make_model({"old", "proud"}, 1, recipe);
+    const auto renamed = rename_style(model, "old", "old, very", "m");
+    EXPECT_FALSE(renamed.ok());
+    const auto good = rename_style(model, "old", "altväterlich", "m");
+    ASSERT_TRUE(good.ok()) << good.error().message;
+    EXPECT_EQ(styles_of(*good), (Names{"altväterlich", "proud"}));
+    EXPECT_EQ(read(*good)->styles()[0].description, "looks old");
+    TensorFile same = *good;
+    same.metadata = model.metadata;
+    EXPECT_TRUE(format_safetensors(same) == format_safetensors(model));
+  }
+  EXPECT_EQ(rename_style(mixed_model(), "old", "limping", "m").error().message,
+            "m: has a style 'limping' already");
+  EXPECT_EQ(read(*rename_style(mixed_model(), "limping", "lame", "m"))->styles()[2].origin,
+            "limp.bvh");
+}
+
+TEST(StyleName, holds_what_a_command_line_and_a_table_can_say) {
+  const auto refusal = [](const std::string& name) {
+    const auto fit = check_style_name(name);
+    return fit.ok() ? "" : fit.error().message;
+  };
+  for (const std::string good :
+       {"old", "very old", "altväterlich", "年老", "a.b/c", "1..0", "\"x\""}) {
+    EXPECT_EQ(refusal(good), "");
+  }
+  EXPECT_EQ(refusal(std::string(60, 'a')), "");
+  EXPECT_EQ(refusal(""), "style name '': is empty");
+  EXPECT_EQ(refusal(std::string(61, 'a')),
+            "style name '" + std::string(40, 'a') + "...': has 61 bytes; expected at most 60");
+  EXPECT_EQ(refusal("a=1"), "style name 'a=1': holds a '=', which parts names from strengths");
+  EXPECT_EQ(refusal("a,b"), "style name 'a,b': holds a ',', which parts names from strengths");
+  for (const std::string torn :
+       {"a\nb", "a\rb", "a\tb", "a\x1b[2J", "a\x7f", "\xff", "\xed\xa0\x80"}) {
+    EXPECT_TRUE(refusal(torn).ends_with(": is no line of UTF-8 text")) << refusal(torn);
+  }
+  EXPECT_EQ(refusal(std::string("a\0b", 3)), "style name 'a\\x00b': is no line of UTF-8 text");
+  EXPECT_EQ(refusal("old "), "style name 'old ': begins or ends with a blank");
+  EXPECT_EQ(refusal(" old"), "style name ' old': begins or ends with a blank");
+  EXPECT_EQ(refusal("-old"), "style name '-old': begins like an option");
+  EXPECT_EQ(refusal("seconds"),
+            "style name 'seconds': is what tables of strengths call the column of time");
+}
+
+TEST(StyleFile, from_a_stranger_is_refused_where_anything_is_wrong_with_it) {
+  const TensorFile model = removed(mixed_model(), "limping");
+  const auto told = [&](const std::function<void(TensorFile&)>& spoil) {
+    TensorFile style = extract(mixed_model(), "limping");
+    spoil(style);
+    return refusal(model, style);
+  };
+  EXPECT_EQ(told([](TensorFile&) {}), "accepted");
+  EXPECT_EQ(told([](TensorFile& s) { s.metadata.clear(); }),
+            "s.safetensors: is a safetensors file, but not a style; expected metadata 'format' to "
+            "be 'panache-style'");
+  EXPECT_EQ(told([](TensorFile& s) { s.metadata["format"] = "panache"; }),
+            "s.safetensors: is a model; expected a style file, as panache styles s.safetensors "
+            "--extract NAME -o FILE makes one");
+  EXPECT_EQ(told([](TensorFile& s) { s.metadata["format_version"] = "2"; }),
+            "s.safetensors: is a style file of format version '2'; this program reads version 1");
+  EXPECT_EQ(told([](TensorFile& s) { s.metadata["style"] = "a=b"; }),
+            "s.safetensors: style name 'a=b': holds a '=', which parts names from strengths");
+  EXPECT_EQ(told([](TensorFile& s) { s.metadata["description"] = "one\ntwo"; }),
+            "s.safetensors: metadata 'description' is no line of UTF-8 text");
+  EXPECT_EQ(told([](TensorFile& s) { s.metadata["origin"] = "\x1b[2J"; }),
+            "s.safetensors: metadata 'origin' is no line of UTF-8 text");
+  EXPECT_EQ(
+      told([](TensorFile& s) { s.tensors["pose.trunk.0.bias"] = test::constant_tensor(16, 0); }),
+      "s.safetensors: has 8 tensors, of which 7 are those of a style; expected no others");
+  EXPECT_EQ(told([](TensorFile& s) { s.tensors.clear(); }),
+            "s.safetensors: has 0 tensors, of which 0 are those of a style; expected no others");
+  EXPECT_EQ(told([](TensorFile& s) { s.tensors["head.bias"].values[3] = NAN; }),
+            "s.safetensors: tensor 'head.bias' holds a number that is not finite");
+  EXPECT_EQ(told([](TensorFile& s) { s.tensors["mean"] = test::constant_tensor(3, 0); }),
+            "m.safetensors with s.safetensors: tensor 'learnt.1.mean' has 3 numbers; expected "
+            "shape [32]");
+  EXPECT_EQ(told([](TensorFile& s) { s.tensors.erase("gate.worth"); }),
+            "m.safetensors with s.safetensors: tensor 'learnt.1.gate.worth' is missing");
+}
+
+// A style file of random bytes changed is refused or gives a model that can be read.
+TEST(StyleFile, damaged_anywhere_does_no_harm) {
+  const TensorFile model = mixed_model(), style = extract(mixed_model(), "old");
+  const std::string bytes = format_safetensors(style);
+  for (size_t size = 0; size < bytes.size(); size += 61) {
+    EXPECT_FALSE(parse_safetensors(bytes.substr(0, size), "s").ok()) << size;
+  }
+  int accepted = 0;
+  for (size_t at = 0; at < bytes.size(); at += at < 1400 ? 2 : 97) {
+    std::string damaged = bytes;
+    damaged[at] = static_cast<char>(damaged[at] ^ "\x01\x10\x80"[at % 3]);
+    const auto file = parse_safetensors(damaged, "s");
+    if (!file) continue;
+    const auto merged = add_style(model, "m", *file, "s", true);
+    if (!merged) continue;
+    ++accepted;
+    ASSERT_TRUE(Model::parse(format_safetensors(*merged), "m").ok()) << at;
+  }
+  EXPECT_GT(accepted, 0);  // Some bytes are but weights.
+}
+
+}  // namespace
+}  // namespace panache
