@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "learn/learn_style.h"
+#include "learn/style_file.h"
 #include "rig/rig.h"
 #include "style/crowd.h"
 #include "style/live_stylizer.h"
@@ -18,6 +20,12 @@ struct panache_model {
 };
 struct panache_skeleton {
   panache::Rig rig;
+  panache::Skeleton joints;
+};
+struct panache_learnt {
+  std::string model;
+  panache::LearntStyle style;
+  std::string warnings;
 };
 struct panache_character {
   panache::LiveStylizer live;
@@ -30,7 +38,7 @@ using namespace panache;
 
 static_assert(sizeof(Quat) == 4 * sizeof(float) && sizeof(Vec3) == 3 * sizeof(float));
 
-constexpr int32_t kMaxJoints = 10'000, kMaxPoses = 10'000;
+constexpr int32_t kMaxJoints = 10'000, kMaxPoses = 10'000, kMaxFrames = 1'000'000;
 
 // Kept per thread; its room stays, so that a short sentence needs no memory.
 std::string& last_error() {
@@ -101,26 +109,37 @@ Result<Skeleton> read_skeleton(const panache_joint* joints, int32_t count) {
   return out;
 }
 
+// The frames of `clip`, [frames][joints]: of each a rotation and a translation.
+Result<void> read_frames(const float* rotations, const float* translations, int32_t count,
+                         Clip& clip) {
+  if (count > 0 && (!rotations || !translations)) {
+    return Error{"poses need both rotations and translations"};
+  }
+  const size_t joints = clip.skeleton.joints.size();
+  for (size_t i = 0; i < static_cast<size_t>(count) * joints; ++i) {
+    Quat q = quat(rotations + 4 * i);
+    const Vec3 v = vec(translations + 3 * i);
+    const std::string place =
+        "pose " + std::to_string(i / joints) + ", joint " + std::to_string(i % joints) + ": ";
+    if (!make_unit(q)) {
+      return Error{place + "its rotation is no unit quaternion (x, y, z, w)"};
+    }
+    if (!is_finite(v)) return Error{place + "its translation is not finite"};
+    clip.rotations.push_back(q);
+    clip.translations.push_back(v);
+  }
+  clip.frames = count;
+  return {};
+}
+
 Result<Clip> read_poses(Skeleton skeleton, const panache_skeleton_options& options) {
-  const size_t joints = skeleton.joints.size();
   Clip clip{std::move(skeleton), 1.0 / 30, 0, {}, {}};
   const int32_t count = options.pose_count;
   if (count < 0 || count > kMaxPoses) {
     return Error{std::to_string(count) + " poses; expected 0 to " + std::to_string(kMaxPoses)};
   }
-  if (count > 0 && (!options.rotations || !options.translations)) {
-    return Error{"poses need both rotations and translations"};
-  }
-  for (size_t i = 0; i < static_cast<size_t>(count) * joints; ++i) {
-    Quat q = quat(options.rotations + 4 * i);
-    if (!make_unit(q)) {
-      return Error{"pose " + std::to_string(i / joints) + ", joint " + std::to_string(i % joints) +
-                   ": its rotation is no unit quaternion (x, y, z, w)"};
-    }
-    clip.rotations.push_back(q);
-    clip.translations.push_back(vec(options.translations + 3 * i));
-  }
-  clip.frames = count;
+  auto read = read_frames(options.rotations, options.translations, count, clip);
+  if (!read) return read.error();
   if (count == 0) {
     for (const Joint& joint : clip.skeleton.joints) {
       clip.rotations.push_back(joint.rest);
@@ -129,6 +148,32 @@ Result<Clip> read_poses(Skeleton skeleton, const panache_skeleton_options& optio
     clip.frames = 1;
   }
   return clip;
+}
+
+Result<Clip> read_clip(const panache_clip& from, const std::string& name) {
+  if (from.frame_count < 0 || from.frame_count > kMaxFrames) {
+    return Error{name + ": has " + std::to_string(from.frame_count) + " frames; expected up to " +
+                 std::to_string(kMaxFrames)};
+  }
+  if (!(from.frame_seconds > 0 && from.frame_seconds <= 1)) {
+    return Error{name + ": has frames " + std::to_string(from.frame_seconds) +
+                 " seconds apart; expected more than 0 and at most 1"};
+  }
+  Clip clip{from.skeleton->joints, from.frame_seconds, 0, {}, {}};
+  auto read = read_frames(from.rotations, from.translations, from.frame_count, clip);
+  if (!read) return Error{name + ": " + read.error().message};
+  return clip;
+}
+
+Result<LearnPair> read_pair(const panache_pair& pair, int32_t number) {
+  const std::string name = "pair " + std::to_string(number);
+  const std::string neutral_name = name + ", neutral", styled_name = name + ", styled";
+  Result<Clip> neutral = read_clip(pair.neutral, neutral_name);
+  if (!neutral) return neutral.error();
+  Result<Clip> styled = read_clip(pair.styled, styled_name);
+  if (!styled) return styled.error();
+  return make_learn_pair({*neutral, pair.neutral.skeleton->rig, neutral_name},
+                         {*styled, pair.styled.skeleton->rig, styled_name});
 }
 
 ConstPose view(const panache_input_pose& pose, size_t joints) {
@@ -191,7 +236,7 @@ panache_status panache_skeleton_create(const panache_joint* joints, int32_t join
     if (told.up_axis) how.up_axis = told.up_axis;
     Result<Rig> rig = Rig::create(*clip, how);
     if (!rig) return fail(PANACHE_BAD_SKELETON, rig.error().message);
-    *out = new panache_skeleton{*std::move(rig)};
+    *out = new panache_skeleton{*std::move(rig), std::move(clip->skeleton)};
     return PANACHE_OK;
   });
 }
@@ -295,4 +340,55 @@ panache_status panache_character_restore(panache_character* character, const voi
                                        "skeleton and options; found " +
                                        std::to_string(size) + " bytes that are none");
   });
+}
+
+panache_status panache_learn(const void* model_bytes, size_t model_size, const panache_pair* pairs,
+                             int32_t pair_count, const char* name, int32_t replace,
+                             panache_learnt** out) {
+  start(out);
+  return guarded([&] {
+    const std::string_view bytes(static_cast<const char*>(model_bytes), model_size);
+    Result<TensorFile> model = parse_safetensors(bytes, "the model");
+    if (!model) return fail(PANACHE_BAD_MODEL, model.error().message);
+    const auto read = Model::parse(bytes, "the model");
+    if (!read) return fail(PANACHE_BAD_MODEL, read.error().message);
+    if (!(*read)->can_learn()) {
+      return fail(PANACHE_BAD_MODEL, cannot_learn("the model").message);
+    }
+    if (!replace && (*read)->find_style(name)) {
+      return fail(PANACHE_BAD_ARGUMENT, std::string("the model has a style '") + name +
+                                            "' already; give another name, or replace it");
+    }
+    if (auto good = check_style_name(name); !good) {
+      return fail(PANACHE_BAD_ARGUMENT, good.error().message);
+    }
+    std::vector<LearnPair> learnt_from;
+    for (int32_t p = 0; p < pair_count; ++p) {
+      Result<LearnPair> pair = read_pair(pairs[p], p + 1);
+      if (!pair) return fail(PANACHE_BAD_CLIP, pair.error().message);
+      learnt_from.push_back(*std::move(pair));
+    }
+    Result<LearntStyle> style = learn_style(*model, "the model", learnt_from, name, "");
+    if (!style) return fail(PANACHE_BAD_CLIP, style.error().message);
+    Result<TensorFile> merged = add_style(*model, "the model", style->file, name, true);
+    if (!merged) return fail(PANACHE_BAD_MODEL, merged.error().message);
+    std::string warnings;
+    for (const PairReport& pair : style->pairs) {
+      for (const std::string& warning : pair.warnings) warnings += warning + "\n";
+    }
+    *out = new panache_learnt{format_safetensors(*merged), *std::move(style), std::move(warnings)};
+    return PANACHE_OK;
+  });
+}
+
+void panache_learnt_destroy(panache_learnt* learnt) { delete learnt; }
+
+const void* panache_learnt_model(const panache_learnt* learnt, size_t* size) {
+  *size = learnt->model.size();
+  return learnt->model.data();
+}
+
+panache_learnt_report panache_learnt_get_report(const panache_learnt* learnt) {
+  const LearntStyle& style = learnt->style;
+  return {style.held_back_cm, style.mean_posture_cm, style.untouched_cm, learnt->warnings.c_str()};
 }

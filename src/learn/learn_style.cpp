@@ -213,6 +213,12 @@ Result<LearnPair> make_learn_pair(const LearnClip& styled, const std::string& ac
   return pair;
 }
 
+Error cannot_learn(const std::string& name) {
+  return {name +
+          ": has no trunk that styles can be learnt on; expected a model of recipe panache with "
+          "'learn.mean' and 'learn.scale', as panache train writes it"};
+}
+
 Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
                                 std::span<const LearnPair> pairs, const std::string& style,
                                 const std::string& description) {
@@ -220,9 +226,7 @@ Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
   Result<std::shared_ptr<const Model>> model = Model::parse(format_safetensors(file), name);
   if (!model) return model.error();
   if (!(*model)->can_learn()) {
-    return Error{name +
-                 ": has no trunk that styles can be learnt on; expected a model of recipe "
-                 "panache with 'learn.mean' and 'learn.scale', as panache train writes them"};
+    return cannot_learn(name);
   }
   if (pairs.empty()) {
     return Error{"there is nothing to learn '" + style +

@@ -57,6 +57,9 @@ struct LearntStyle {
   double held_back_cm = 0, mean_posture_cm = 0, untouched_cm = 0;
 };
 
+// The sentence for a model without a trunk that styles can be learnt on.
+Error cannot_learn(const std::string& name);
+
 // Learns the style called `style` on the features of a model file, which can learn and stays as it
 // is; `name` is its own, for sentences. The same input gives the same bytes.
 Result<LearntStyle> learn_style(const TensorFile& model, const std::string& name,

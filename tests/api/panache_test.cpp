@@ -289,4 +289,87 @@ TEST_F(Api, two_threads_style_two_characters_of_one_model) {
   panache_character_destroy(other);
 }
 
+// A walk of the stick figure, and the same bent forward at its first joint above the hips.
+struct Walk {
+  std::vector<float> rotations, translations;
+  panache_clip clip{};
+  Walk(const panache_skeleton* skeleton, int frames, bool bent) {
+    for (int f = 0; f < frames; ++f) {
+      stick_pose pose;
+      stick_walk(f / 60.0, 0, &pose);
+      const panache_input_pose in = stick_input(&pose);
+      rotations.insert(rotations.end(), in.rotations, in.rotations + 4 * STICK_JOINTS);
+      translations.insert(translations.end(), in.translations, in.translations + 3 * STICK_JOINTS);
+      if (bent) {  // By 0.4 radians about x; the walk leaves this joint alone.
+        float* q = &rotations[rotations.size() - 4 * (STICK_JOINTS - 1)];
+        q[0] = std::sin(0.2f), q[1] = 0, q[2] = 0, q[3] = std::cos(0.2f);
+      }
+    }
+    clip = {skeleton, frames, 1 / 60.0, rotations.data(), translations.data()};
+  }
+};
+
+TEST_F(Api, learns_a_style_from_a_pair_of_clips) {
+  const std::string bytes = model_bytes();
+  const Walk neutral(skeleton_, 180, false), bent(skeleton_, 180, true);
+  const panache_pair pair = {neutral.clip, bent.clip};
+  panache_learnt* learnt = nullptr;
+  ASSERT_EQ(panache_learn(bytes.data(), bytes.size(), &pair, 1, "bent", 0, &learnt), PANACHE_OK)
+      << panache_last_error();
+  const panache_learnt_report report = panache_learnt_get_report(learnt);
+  EXPECT_STREQ(report.warnings, "");
+  EXPECT_LT(report.held_back_cm, 0.25 * report.untouched_cm);
+
+  size_t size = 0;
+  const void* with_it = panache_learnt_model(learnt, &size);
+  panache_model* model = nullptr;
+  ASSERT_EQ(panache_model_create(with_it, size, &model), PANACHE_OK) << panache_last_error();
+  const int style = panache_model_find_style(model, "bent");
+  EXPECT_EQ(style, panache_model_style_count(model_));
+  panache_character* learner = nullptr;
+  ASSERT_EQ(panache_character_create(model, skeleton_, nullptr, &learner), PANACHE_OK);
+  panache_character_set_strength(learner, style, 1);
+  const std::vector<stick_pose> out = walk(learner, 120);
+  // The joint that was bent is, by nearly as much.
+  EXPECT_NEAR(stick_output(const_cast<stick_pose*>(&out.back())).rotations[4], std::sin(0.2f),
+              0.06);
+  EXPECT_GT(panache_character_report(learner).gate, 0.9f);
+  panache_character_destroy(learner);
+
+  // The same again, in the same bytes; and the name is taken now.
+  panache_learnt* again = nullptr;
+  ASSERT_EQ(panache_learn(bytes.data(), bytes.size(), &pair, 1, "bent", 0, &again), PANACHE_OK);
+  size_t same_size = 0;
+  const void* same_bytes = panache_learnt_model(again, &same_size);
+  ASSERT_EQ(same_size, size);
+  EXPECT_EQ(std::memcmp(same_bytes, with_it, size), 0);
+  panache_learnt_destroy(again);
+  EXPECT_EQ(panache_learn(with_it, size, &pair, 1, "bent", 0, &again), PANACHE_BAD_ARGUMENT);
+  EXPECT_STREQ(panache_last_error(),
+               "the model has a style 'bent' already; give another name, or replace it");
+  EXPECT_EQ(again, nullptr);
+  ASSERT_EQ(panache_learn(with_it, size, &pair, 1, "bent", 1, &again), PANACHE_OK);
+  panache_learnt_destroy(again);
+  panache_model_destroy(model);
+  panache_learnt_destroy(learnt);
+}
+
+TEST_F(Api, says_why_it_cannot_learn) {
+  const std::string bytes = model_bytes();
+  const Walk neutral(skeleton_, 180, false), brief(skeleton_, 12, true);
+  panache_learnt* learnt = nullptr;
+  EXPECT_EQ(panache_learn(bytes.data(), bytes.size(), nullptr, 0, "bent", 0, &learnt),
+            PANACHE_BAD_CLIP);
+  EXPECT_STREQ(panache_last_error(),
+               "there is nothing to learn 'bent' from; give a neutral and a styled clip");
+  const panache_pair pair = {neutral.clip, brief.clip};
+  EXPECT_EQ(panache_learn(bytes.data(), bytes.size(), &pair, 1, "bent", 0, &learnt),
+            PANACHE_BAD_CLIP);
+  EXPECT_STREQ(panache_last_error(),
+               "pair 1, styled: has 0.20 s of motion; a style is learnt from 0.50 s at least, "
+               "better from 2 to 3 s; give a longer clip");
+  EXPECT_EQ(panache_learn("x", 1, &pair, 1, "bent", 0, &learnt), PANACHE_BAD_MODEL);
+  EXPECT_EQ(learnt, nullptr);
+}
+
 }  // namespace
