@@ -145,6 +145,9 @@ int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::st
     print(results);
   } else {
     print(summary(files, done, spent));
+    for (const FileJob& file : files) {
+      for (const std::string& line : file.details) print("  " + line + "\n");
+    }
   }
   if (!flags.report.empty()) {
     auto written = write_file(flags.report, dump(results), flags.force);

@@ -28,12 +28,13 @@ void add_batch_options(CLI::App& verb, BatchFlags& flags);
 // One file on its way.
 struct FileJob {
   std::string input, output;
-  std::string error;               // Empty where all went well.
-  std::vector<std::string> notes;  // What a careful user would want to know; for stderr.
-  Json clips = Json::array();      // An object for each motion that was worked on.
-  int frames = 0;                  // Of the result, all motions together.
-  double seconds = 0;              // Likewise.
-  Json mapping;                    // Of the rig, null where there was none.
+  std::string error;                 // Empty where all went well.
+  std::vector<std::string> notes;    // What a careful user would want to know; for stderr.
+  std::vector<std::string> details;  // Lines to print below the summary, where they are asked for.
+  Json clips = Json::array();        // An object for each motion that was worked on.
+  int frames = 0;                    // Of the result, all motions together.
+  double seconds = 0;                // Likewise.
+  Json mapping;                      // Of the rig, null where there was none.
 };
 
 // Checks the flags, finds the files and names their outputs, with `ending` where it is not empty. A

@@ -24,17 +24,19 @@ std::string describe_data(const std::map<std::string, std::string>& metadata) {
          (licence.empty() ? "not stated" : licence) + "\n";
 }
 
-// "(learnt from 2 takes)"; empty for styles that the model was trained with.
-std::string describe_origin(const StyleInfo& style) {
-  if (!style.learnt) return "";
-  return style.origin.empty() ? "(learnt)" : "(learnt from " + style.origin + ")";
-}
-
+// A line for the style, its description `width` letters from its name's start; below that what it
+// was learnt from.
 std::string describe(const StyleInfo& style, size_t width) {
-  const std::string origin = describe_origin(style);
-  const bool both = !style.description.empty() && !origin.empty();
-  const std::string told = style.description + (both ? " " : "") + origin;
-  return "  " + (told.empty() ? style.name : padded(style.name, width + 2)) + told + "\n";
+  const std::string from = style.origin.empty() ? "" : " from " + style.origin;
+  const std::string origin = style.learnt ? "learnt" + from : "";
+  std::string text;
+  std::string name = style.name;
+  for (const std::string& told : {style.description, origin}) {
+    if (told.empty()) continue;
+    text += "  " + padded(name, width) + told + "\n";
+    name.clear();
+  }
+  return text.empty() ? "  " + name + "\n" : text;
 }
 
 }  // namespace
@@ -68,7 +70,7 @@ std::string describe(const LoadedModel& loaded) {
   for (const StyleInfo& style : model.styles()) width = std::max(width, style.name.size());
   text += plural(model.styles().size(), "style") + ":\n";
   for (const StyleInfo& style : model.styles()) {
-    text += describe(style, width);
+    text += describe(style, width + 2);
   }
   return text;
 }
@@ -96,7 +98,7 @@ std::string describe(const LoadedStyle& loaded) {
   text += "  size         " + fixed(static_cast<double>(loaded.bytes) / 1000, 0) + " KB\n";
   text += "  trunk        " + entry(loaded.file.metadata, "trunk") + "\n";
   text += describe_data(loaded.file.metadata);
-  return text + "\n1 style:\n" + describe(loaded.info, loaded.info.name.size());
+  return text + "\n1 style:\n" + describe(loaded.info, loaded.info.name.size() + 2);
 }
 
 Json to_json(const LoadedStyle& loaded) {

@@ -2,18 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include <unistd.h>
-
 #include "base/file.h"
 #include "learn/style_file.h"
+#include "model_edit.h"
 #include "model_path.h"
 #include "model_report.h"
-#include "outputs.h"
 #include "report.h"
 #include "verbs.h"
 
@@ -34,12 +31,6 @@ std::string list(const std::vector<std::string>& names) {
   return text;
 }
 
-Result<TensorFile> read_tensors(const std::string& path) {
-  Result<std::string> bytes = read_file(path);
-  if (!bytes) return bytes.error();
-  return parse_safetensors(*bytes, path);
-}
-
 // Prints what is known of a model or of a style file.
 template <class Loaded>
 int report(const Result<Loaded>& loaded, bool json) {
@@ -57,17 +48,6 @@ int show(const std::string& path, bool json) {
   // What a file is that cannot be read, is told as of models everywhere.
   if (file && is_style_file(*file)) return report(load_style(path), json);
   return report(load_model(path), json);
-}
-
-// Renaming over a file needs no right to write to it, so that this must be asked.
-Result<void> check_writable(const std::string& path) {
-  namespace fs = std::filesystem;
-  std::error_code status;
-  const fs::perms writers =
-      fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
-  const bool read_only = (fs::status(path, status).permissions() & writers) == fs::perms::none;
-  if (!read_only && ::access(path.c_str(), W_OK) == 0) return {};
-  return Error{path + ": is read-only and stays as it is; change a copy of it, or allow writing"};
 }
 
 // A model after a change, and what was done to it in a few words.
@@ -114,11 +94,7 @@ int change(const StylesVerb& verb) {
                                                    : rename(*std::move(model), verb);
   if (!changed) return refuse(changed.error(), kBadInput);
   if (auto open = check_writable(verb.model); !open) return refuse(open.error(), kBadInput);
-  // A link stays one.
-  std::error_code status;
-  const std::string place = std::filesystem::canonical(verb.model, status).string();
-  const std::string bytes = format_safetensors(changed->file);
-  if (auto written = write_file(place, bytes, true); !written) {
+  if (auto written = replace_model(verb.model, changed->file); !written) {
     return refuse(written.error(), kBadInput);
   }
   const Result<LoadedModel> loaded = load_model(verb.model);
@@ -131,9 +107,6 @@ int change(const StylesVerb& verb) {
 int extract(const std::string& path, const StylesVerb& verb) {
   if (!verb.output.ends_with(".safetensors")) {
     return refuse({verb.output + ": expected a name that ends in .safetensors"}, kBadUsage);
-  }
-  if (auto free = check_output(path, verb.output, verb.force); !free) {
-    return refuse(free.error(), kBadInput);
   }
   Result<TensorFile> model = read_tensors(path);
   if (!model) return refuse(model.error(), kBadInput);

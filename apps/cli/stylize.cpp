@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct StylizeOptions {
   bool replace = false;
   bool no_timing = false;
   bool no_feet = false;
+  bool verbose = false;
 };
 
 // What all files have in common.
@@ -62,6 +64,30 @@ Json to_json(const std::vector<StrengthTrack>& tracks, const Model& model) {
   return styles;
 }
 
+// How much of the styles' answers to this very motion a clip got, see Stylizer::gate().
+struct GateReport {
+  double mean = 0, least = 1;
+  double eased = 0;  // The share of frames that got more of the mean posture than of that.
+};
+
+GateReport report_gate(std::span<const float> gates) {
+  GateReport report;
+  for (const float open : gates) {
+    const double gate = static_cast<double>(open);
+    report.mean += gate;
+    report.least = std::min(report.least, gate);
+    report.eased += gate < 0.5;
+  }
+  report.mean /= static_cast<double>(gates.size());
+  report.eased /= static_cast<double>(gates.size());
+  return report;
+}
+
+std::string describe(const GateReport& gate) {
+  return "gate " + fixed(gate.mean, 2) + " (least " + fixed(gate.least, 2) + "; " +
+         fixed(100 * gate.eased, 0) + " % of frames eased to the mean posture)";
+}
+
 // "walk (old 1)".
 std::string result_name(const std::string& title, const Wanted& wanted) {
   std::string styles;
@@ -85,12 +111,18 @@ Result<RestyledClip> restyle_clip(const MotionFile& motion, int which, const Wan
   if (!restyled) return Error{place + ": " + restyled.error().message};
   RestyledClip out{which, result_name(title_of(name, file.input), wanted), *std::move(rig),
                    *std::move(restyled)};
-  file.clips.push_back({{"name", name},
-                        {"result", out.name},
-                        {"frames_in", clip.frames},
-                        {"frames_out", out.result.clip.frames},
-                        {"seconds", out.result.clip.duration()},
-                        {"styles", to_json(tracks, *wanted.model)}});
+  // A calibration pose in front is no motion, and is not restyled.
+  const auto first = static_cast<size_t>(std::min(out.rig.first_frame(), clip.frames - 1));
+  const GateReport gate = report_gate(std::span(out.result.gates).subspan(first));
+  file.clips.push_back(
+      {{"name", name},
+       {"result", out.name},
+       {"frames_in", clip.frames},
+       {"frames_out", out.result.clip.frames},
+       {"seconds", out.result.clip.duration()},
+       {"styles", to_json(tracks, *wanted.model)},
+       {"gate", {{"mean", gate.mean}, {"least", gate.least}, {"eased", gate.eased}}}});
+  file.details.push_back(place + ": " + describe(gate));
   file.frames += out.result.clip.frames;
   file.seconds += out.result.clip.duration();
   if (file.mapping.is_null()) file.mapping = mapping_json(out.rig);
@@ -192,7 +224,9 @@ int stylize(const StylizeOptions& options) {
   wanted.how.stylizer.foot_lock = !options.no_feet;
   return run_batch(*std::move(files), options.batch, "restyling", "restyled",
                    [&](FileJob& file, const std::function<void(double)>& progress) {
-                     return stylize_file(file, wanted, options, progress);
+                     auto done = stylize_file(file, wanted, options, progress);
+                     if (!done || !options.verbose) file.details.clear();
+                     return done;
                    });
 }
 
@@ -222,6 +256,8 @@ void add_stylize(CLI::App& app, int& exit_code) {
                  "Put new motions in the place of the old, not beside\nthem (BVH holds but one)");
   verb->add_flag("--no-timing", options->no_timing, "Keep the tempo, and so the number of frames");
   verb->add_flag("--no-feet", options->no_feet, "Do not hold planted feet in place");
+  verb->add_flag("--verbose", options->verbose,
+                 "Tell how far each motion is like those that the styles\nwere learnt from");
   add_rig_options(*verb, options->rig);
   verb->footer(
       "Rig, joint names, channel order and frame rate stay as they are. An FBX file comes\n"

@@ -122,6 +122,18 @@ bool is_one_line(const std::string& text) {
   return xml_escaped(text).find("\xef\xbf\xbd") == std::string::npos;
 }
 
+// `text` as one line of UTF-8: what it may not hold is replaced.
+std::string in_one_line(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  if (is_one_line(text)) return text;
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) >= 0x80) c = '?';
+  }
+  return text;
+}
+
 std::string metadata_of(const TensorFile& file, const std::string& key) {
   const auto found = file.metadata.find(key);
   return found == file.metadata.end() ? "" : found->second;
@@ -213,9 +225,12 @@ Result<StyleInfo> read_style_info(const TensorFile& file, const std::string& nam
 TensorFile make_style_file(const TensorFile& model, const StyleInfo& info,
                            std::map<std::string, Tensor> tensors) {
   TensorFile file;
-  file.metadata = {{"format", kStyleFormat}, {"format_version", kStyleVersion},
-                   {"style", info.name},     {"description", info.description},
-                   {"origin", info.origin},  {"trunk", trunk_fingerprint(model)}};
+  file.metadata = {{"format", kStyleFormat},
+                   {"format_version", kStyleVersion},
+                   {"style", info.name},
+                   {"description", in_one_line(info.description)},
+                   {"origin", in_one_line(info.origin)},
+                   {"trunk", trunk_fingerprint(model)}};
   for (const char* key : {"data", "licence"}) {
     if (model.metadata.contains(key)) file.metadata[key] = model.metadata.at(key);
   }

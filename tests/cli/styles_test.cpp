@@ -54,13 +54,23 @@ TEST_F(StylesVerb, lists_learnt_styles_with_what_they_were_learnt_from) {
                      "  old      looks old\n"
                      "  proud    looks proud\n"
                      "  sad      looks sad\n"
-                     "  limping  looks limping (learnt from limp.bvh)\n"))
+                     "  limping  looks limping\n"
+                     "           learnt from limp.bvh\n"))
       << text;
   const auto model = nlohmann::json::parse(run({"styles", "mine.safetensors", "--json"}).out);
   EXPECT_EQ(model["styles"][0]["learnt"], false);
   EXPECT_EQ(model["styles"][0]["origin"], "");
   EXPECT_EQ(model["styles"][4]["learnt"], true);
   EXPECT_EQ(model["styles"][4]["origin"], "limp.bvh");
+}
+
+TEST_F(StylesVerb, a_learnt_style_shows_even_if_nobody_knows_from_what) {
+  TensorFile model = *parse_safetensors(read("mine.safetensors"), "mine");
+  model.metadata.erase("style_origins");
+  model.metadata["style_descriptions"] = "";
+  write("mine.safetensors", format_safetensors(model));
+  const std::string text = run({"styles", "mine.safetensors"}).out;
+  EXPECT_TRUE(text.ends_with("\n  proud\n  sad\n  limping  learnt\n")) << text;
 }
 
 TEST_F(StylesVerb, describes_the_file_of_a_style) {
@@ -71,7 +81,8 @@ TEST_F(StylesVerb, describes_the_file_of_a_style) {
   EXPECT_TRUE(text.starts_with("limping.safetensors\n  size         ")) << text;
   EXPECT_TRUE(
       text.ends_with("  data licence CC0\n\n1 style:\n"
-                     "  limping  looks limping (learnt from limp.bvh)\n"))
+                     "  limping  looks limping\n"
+                     "           learnt from limp.bvh\n"))
       << text;
   const auto style = nlohmann::json::parse(run({"styles", "limping.safetensors", "--json"}).out);
   EXPECT_EQ(style["style_file"], "limping.safetensors");
@@ -123,6 +134,28 @@ TEST_F(StylesVerb, a_style_put_back_styles_a_walk_as_before) {
   EXPECT_TRUE(stylize("mine.safetensors", "old=1", "old-again.bvh") == old);
   EXPECT_TRUE(stylize("mine.safetensors", "limping=1", "limping-again.bvh") == limping);
   EXPECT_FALSE(old == limping);
+}
+
+// From the model that the program finds by itself, as panache learn begins with it.
+TEST_F(StylesVerb, a_learnt_style_is_small_and_moves_the_same_after_a_journey) {
+  write_walk("walk.bvh", 200);
+  const auto done = [&](const std::vector<std::string>& arguments) {
+    const Ran ran = run(arguments, "");
+    EXPECT_EQ(ran.exit, 0) << ran.err;
+  };
+  done({"stylize", "walk.bvh", "--style", "old=1", "-o", "old.bvh"});
+  done({"learn", "walk.bvh", "old.bvh", "--name", "bent", "--into", "new.safetensors"});
+  done({"styles", "new.safetensors", "--extract", "bent", "-o", "bent.safetensors"});
+  done({"halve", "bent.safetensors", "-o", "half.safetensors"});
+  EXPECT_LE(read("bent.safetensors").size(), 110'000u);
+  EXPECT_LE(read("half.safetensors").size(), 55'000u);
+  const std::string model = read("new.safetensors");
+  done({"styles", "new.safetensors", "--remove", "bent"});
+  EXPECT_LT(read("new.safetensors").size(), model.size());
+  done({"styles", "new.safetensors", "--add", "bent.safetensors"});
+  EXPECT_TRUE(read("new.safetensors") == model);
+  done({"styles", "new.safetensors", "--add", "half.safetensors", "--force"});
+  done({"stylize", "walk.bvh", "--model", "new.safetensors", "--style", "bent=1", "-o", "b.bvh"});
 }
 
 TEST_F(StylesVerb, a_style_gets_another_name) {

@@ -1,5 +1,7 @@
 // panache stylize: what it makes, and where it puts it.
 
+#include <cmath>
+#include <cstdio>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -162,6 +164,39 @@ TEST_F(Stylize, tells_machines_about_each_file) {
   EXPECT_TRUE(files[1]["mapping"].is_null());
   EXPECT_EQ(files[1]["ok"], false);
   EXPECT_EQ("panache: " + files[1]["error"].get<std::string>() + "\n", ran.err);
+}
+
+TEST_F(Stylize, tells_how_far_the_styles_know_the_motion_when_asked) {
+  write_walk("walk.bvh");
+  const auto summary = [](const Ran& ran) { return ran.out.substr(0, ran.out.find('\n') + 1); };
+  const std::vector<std::string> quiet = {"stylize",     "walk.bvh", "--style", "old=1",
+                                          "--no-timing", "--force",  "-o",      "old.bvh"};
+  std::vector<std::string> verbose = quiet, machine = quiet;
+  verbose.push_back("--verbose");
+  machine.push_back("--json");
+  const Ran silent = run(quiet);
+  EXPECT_EQ(silent.out, summary(silent));
+  const Ran open = run(verbose);
+  EXPECT_EQ(open.out, summary(open) +
+                          "  walk.bvh: gate 1.00 (least 1.00; 0 % of frames eased to "
+                          "the mean posture)\n");
+  // A model that knows nothing of the kind: its gate closes within the first frames.
+  TensorFile model = *parse_safetensors(read("model.safetensors"), "model");
+  add_gate(model, 1e-3f);
+  write("model.safetensors", format_safetensors(model));
+  const auto gate = nlohmann::json::parse(run(machine).out)[0]["clips"][0]["gate"];
+  const double mean = gate["mean"], least = gate["least"], eased = gate["eased"];
+  EXPECT_LT(least, 0.1);
+  EXPECT_GT(mean, least);
+  EXPECT_GT(eased, 0.5);
+  EXPECT_LT(eased, 1);
+  EXPECT_NEAR(eased * 40, std::round(eased * 40), 1e-9);  // Of 40 frames.
+  char line[128];
+  std::snprintf(line, sizeof line,
+                "  walk.bvh: gate %.2f (least %.2f; %.0f %% of frames eased to the mean posture)\n",
+                mean, least, 100 * eased);
+  const Ran closed = run(verbose);
+  EXPECT_EQ(closed.out, summary(closed) + line);
 }
 
 TEST_F(Stylize, leaves_nothing_half_written) {

@@ -209,6 +209,17 @@ TEST(StyleFile, styles_go_behind_those_of_their_kind) {
   EXPECT_EQ(read(four)->styles()[1].description, "looks proud");
 }
 
+// A clip may be called anything, and no one should have to rename it before its style can be kept.
+TEST(StyleFile, of_any_description_and_origin_goes_into_a_model) {
+  const TensorFile model = mixed_model();
+  const TensorFile style =
+      make_style_file(model, {"drunk", "one\ntwo, müde", "w\xe4lk\x1b.bvh", true},
+                      extract(model, "limping").tensors);
+  const auto merged = read(added(model, style));
+  EXPECT_EQ(merged->styles().back().description, "one two, müde");
+  EXPECT_EQ(merged->styles().back().origin, "w?lk .bvh");
+}
+
 TEST(StyleFile, a_style_of_the_same_name_is_replaced_in_its_place_when_asked) {
   const TensorFile model = mixed_model();
   TensorFile proud = extract(model, "proud"), limping = extract(model, "limping");

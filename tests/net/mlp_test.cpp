@@ -108,6 +108,40 @@ TEST(TrunkTrio, gives_several_rows_the_bits_that_each_gives_alone) {
   }
 }
 
+TEST(TrunkTrio, leaves_what_every_layer_answered_to_each_row) {
+  // Of trunks of different depths: each layer by a trunk that ends with it.
+  const TensorFile deep = small_file({5, 40, 20, 3});
+  TensorFile flat = deep;
+  for (const char* key : {"pose.1", "pose.2"}) {
+    for (const char* part : {".weight", ".bias"}) flat.tensors.erase(std::string(key) + part);
+  }
+  TensorFile middle = deep;
+  for (const char* part : {".weight", ".bias"}) middle.tensors.erase("pose.2" + std::string(part));
+  const Trunk one = *Trunk::read(flat, "pose", 5, kName),
+              two = *Trunk::read(middle, "pose", 5, kName);
+  const Trunk three = *Trunk::read(deep, "pose", 5, kName);
+  const TrunkTrio trio({two, one, three});
+  EXPECT_EQ(trio.all_outputs(0), 60u);
+  EXPECT_EQ(trio.all_outputs(1), 40u);
+  EXPECT_EQ(trio.all_outputs(2), 63u);
+  constexpr size_t kRows = 3;
+  const std::vector<float> x = ramp({kRows * 5}).values;
+  std::vector<float> scratch(trio.scratch_size(kRows)), alone(three.scratch_size()), out(63);
+  trio.forward(Rows<const float>{x.data(), kRows, 5}, scratch);
+  for (size_t r = 0; r < kRows; ++r) {
+    std::vector<float> expected;
+    for (const Trunk* trunk : {&one, &two, &three}) {
+      const auto layer = trunk->forward(std::span(x).subspan(5 * r, 5), alone);
+      expected.insert(expected.end(), layer.begin(), layer.end());
+    }
+    trio.all_layers(2, r, kRows, scratch, out);
+    EXPECT_EQ(out, expected) << r;
+    std::vector<float> start(60);
+    trio.all_layers(0, r, kRows, scratch, start);
+    EXPECT_TRUE(std::equal(start.begin(), start.end(), expected.begin())) << r;
+  }
+}
+
 TEST(Trunk, takes_any_number_of_inputs_when_told_so) {
   const Result<Trunk> trunk = Trunk::read(small_file(), "pose", -1, kName);
   ASSERT_TRUE(trunk.ok());

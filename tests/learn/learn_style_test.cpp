@@ -1,0 +1,283 @@
+#include "learn/learn_style.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "learn/style_file.h"
+#include "make_model.h"
+#include "make_walks.h"
+#include "style/restyle.h"
+
+namespace panache {
+namespace {
+
+std::string failure(const Result<LearntStyle>& learnt) {
+  return learnt.ok() ? "" : learnt.error().message;
+}
+
+LearntStyle learn(const std::vector<LearnPair>& pairs, const std::string& name = "bent") {
+  Result<LearntStyle> learnt =
+      learn_style(test::shipped_model(), "model.safetensors", pairs, name, "bent forward");
+  EXPECT_TRUE(learnt.ok()) << failure(learnt);
+  return *std::move(learnt);
+}
+
+TensorFile with_it(const LearntStyle& learnt) {
+  return add_style(test::shipped_model(), "model.safetensors", learnt.file, "style.safetensors",
+                   false)
+      .value();
+}
+
+std::shared_ptr<const Model> parse(const TensorFile& file) {
+  auto model = Model::parse(format_safetensors(file), "model.safetensors");
+  EXPECT_TRUE(model.ok());
+  return *model;
+}
+
+// A clip in the style, at its full strength.
+Restyled in_style(const std::shared_ptr<const Model>& model, const std::string& style,
+                  const Clip& clip) {
+  const StrengthTrack track{*model->find_style(style), {{0, 1}}};
+  return restyle(clip, *Rig::create(clip), model, {track}).value();
+}
+
+// How far the spine leans forward at a frame, radians.
+double lean(const Clip& clip, int frame) {
+  const Quat q = clip.pose(frame).rotations[index(HumanJoint::spine)];
+  return std::atan2(rotate(q, Vec3{0, 1, 0}).z, rotate(q, Vec3{0, 1, 0}).y);
+}
+
+TEST(LearnStyle, a_bent_walk_bends_a_walk_of_another_speed) {
+  const LearntStyle learnt = learn({test::make_pair(test::neutral_walk(), test::bent_walk())});
+  EXPECT_TRUE(learnt.pairs[0].warnings.empty());
+  EXPECT_LT(learnt.held_back_cm, 0.25 * learnt.untouched_cm);
+  const Clip walk = test::neutral_walk(5, 1.1f);
+  const Restyled bent = in_style(parse(with_it(learnt)), "bent", walk);
+  // A quarter of the bend may be lost to the ridge and to what the gate does not know.
+  for (int f = 30; f < 120; f += 10) EXPECT_NEAR(lean(bent.clip, f) - lean(walk, f), 0.5, 0.12);
+}
+
+TEST(LearnStyle, a_slower_style_slows_the_motion_by_as_much) {
+  const Clip slow = test::bent_walk(5, 0.5f, 1.3);
+  const LearntStyle learnt = learn({test::make_pair(test::neutral_walk(), slow)});
+  // The warping goes by whole frames, smoothed over 7 of them.
+  EXPECT_NEAR(learnt.pairs[0].tempo, 1 / 1.3, 0.03);
+  const Clip walk = test::neutral_walk(6);
+  const Restyled styled = in_style(parse(with_it(learnt)), "bent", walk);
+  EXPECT_NEAR(styled.clip.duration() / walk.duration(), 1.3, 0.1);
+}
+
+TEST(LearnStyle, the_other_styles_stay_bit_for_bit) {
+  const LearntStyle learnt = learn({test::make_pair(test::neutral_walk(), test::bent_walk())});
+  const TensorFile before = test::shipped_model(), after = with_it(learnt);
+  for (const auto& [key, tensor] : before.tensors) {
+    ASSERT_TRUE(after.tensors.contains(key)) << key;
+    EXPECT_EQ(after.tensors.at(key).values, tensor.values) << key;
+  }
+  const Clip walk = test::neutral_walk(2);
+  EXPECT_EQ(in_style(parse(before), "old", walk).clip.rotations,
+            in_style(parse(after), "old", walk).clip.rotations);
+}
+
+TEST(LearnStyle, the_same_motion_gives_the_same_bytes_in_a_small_file) {
+  const std::vector<LearnPair> pairs = {test::make_pair(test::neutral_walk(), test::bent_walk())};
+  const std::string bytes = format_safetensors(learn(pairs).file);
+  EXPECT_EQ(bytes, format_safetensors(learn(pairs).file));
+  EXPECT_LE(bytes.size(), 110'000u);
+}
+
+TEST(LearnStyle, motion_unlike_what_it_learnt_gets_its_mean_posture) {
+  const LearntStyle learnt = learn({test::make_pair(test::neutral_walk(), test::bent_walk())});
+  const auto model = parse(with_it(learnt));
+  const Clip walk = test::neutral_walk(3);
+  const Restyled known = in_style(model, "bent", walk);
+  // Not at the start, where nothing has been seen yet.
+  EXPECT_GT(*std::min_element(known.gates.begin() + 15, known.gates.end()), 0.8f);
+  // Upside down arms and legs: no walk.
+  Clip odd = walk;
+  for (int f = 0; f < odd.frames; ++f) {
+    for (const HumanJoint joint : {HumanJoint::left_upper_arm, HumanJoint::right_upper_leg}) {
+      Quat& q = odd.pose(f).rotations[index(joint)];
+      q = axis_angle(Vec3{1, 0, 0}, -2.0f) * q;
+    }
+  }
+  const Restyled unknown = in_style(model, "bent", odd);
+  EXPECT_LT(unknown.gates.back(), 0.2f);
+  // The mean posture is as bent as all of the style is.
+  const int last = unknown.clip.frames - 1, from = static_cast<int>(unknown.source_frames[last]);
+  EXPECT_NEAR(lean(unknown.clip, last) - lean(odd, from), 0.5, 0.12);
+}
+
+TEST(LearnStyle, several_pairs_of_several_skeletons_make_one_style) {
+  // The same walks under other names, in centimetres.
+  const auto other = [](Clip clip) {
+    for (Joint& joint : clip.skeleton.joints) joint.name = "rig:" + joint.name;
+    for (Joint& joint : clip.skeleton.joints) joint.offset = joint.offset * 100;
+    for (Joint& joint : clip.skeleton.joints) {
+      for (Vec3& end : joint.ends) end = end * 100;
+    }
+    for (Vec3& v : clip.translations) v = v * 100;
+    return clip;
+  };
+  const LearntStyle learnt = learn(
+      {test::make_pair(test::neutral_walk(), test::bent_walk()),
+       test::make_pair(other(test::neutral_walk(3, 2.8f)), other(test::neutral_walk(3, 2.9f)))});
+  EXPECT_EQ(learnt.pairs.size(), 2u);
+  const StyleInfo info = read_style_info(learnt.file, "style").value();
+  EXPECT_EQ(info.origin, "2 pairs, 7.00 s: neutral.bvh -> styled.bvh; neutral.bvh -> styled.bvh");
+  EXPECT_EQ(info.description, "bent forward");
+}
+
+TEST(LearnStyle, a_styled_walk_alone_is_learnt_beside_the_walkers_own) {
+  const Clip bent = test::bent_walk();
+  const auto rig = Rig::create(bent);
+  Result<LearnPair> pair =
+      make_learn_pair({bent, *rig, "bent.bvh"}, "walk", test::shipped_walker());
+  ASSERT_TRUE(pair.ok()) << pair.error().message;
+  const LearntStyle learnt = learn({*pair});
+  EXPECT_EQ(learnt.pairs[0].neutral_name, "the walker's walk");
+  const Clip walk = test::neutral_walk(4, 1.2f);
+  const Restyled styled = in_style(parse(with_it(learnt)), "bent", walk);
+  EXPECT_NEAR(lean(styled.clip, 60) - lean(walk, 60), 0.5, 0.15);
+
+  pair = make_learn_pair({bent, *rig, "bent.bvh"}, "juggle", test::shipped_walker());
+  ASSERT_FALSE(pair.ok());
+  EXPECT_EQ(pair.error().message,
+            "there is no neutral 'juggle' of our own; expected walk or run, or a neutral clip of "
+            "the same skeleton");
+}
+
+TEST(LearnStyle, half_a_model_learns_too) {
+  const TensorFile half = test::shipped_model("panache-half.safetensors");
+  const std::vector<LearnPair> pairs = {test::make_pair(test::neutral_walk(), test::bent_walk())};
+  const LearntStyle learnt = learn_style(half, "half.safetensors", pairs, "bent", "").value();
+  EXPECT_LT(learnt.held_back_cm, 0.25 * learnt.untouched_cm);
+  EXPECT_TRUE(add_style(half, "half.safetensors", learnt.file, "style", false).ok());
+}
+
+TEST(LearnPair, of_different_skeletons_is_refused) {
+  const Clip walk = test::neutral_walk(2);
+  Clip fewer = walk, renamed = walk, bent = test::bent_walk(2);
+  renamed.skeleton.joints[5].name = "leftCollar";
+  bent.skeleton.joints[6].offset = {0, -0.1f, 0};
+  const auto rig = Rig::create(walk);
+  const auto message = [&](const Clip& styled) {
+    const auto pair = make_learn_pair({walk, *rig, "a.bvh"}, {styled, *rig, "b.bvh"});
+    return pair.ok() ? "" : pair.error().message;
+  };
+  const std::string start = "a.bvh and b.bvh: have different skeletons (";
+  const std::string end =
+      "); a pair is of one skeleton: bring one of them to the skeleton of the other, or leave the "
+      "neutral clip out and say what the action is";
+  EXPECT_EQ(message(renamed), start + "joint 6 is 'leftShoulder' and 'leftCollar'" + end);
+  EXPECT_EQ(message(bent), start + "'leftUpperArm' rests in another direction" + end);
+  fewer.skeleton.joints.pop_back();
+  EXPECT_EQ(message(fewer), start + "21 and 20 joints" + end);
+  // Another size is no other skeleton.
+  Clip larger = walk;
+  for (Joint& joint : larger.skeleton.joints) joint.offset = joint.offset * 1.2f;
+  EXPECT_EQ(message(larger), "");
+}
+
+TEST(LearnPair, of_clips_that_are_empty_or_too_short_is_refused) {
+  const Clip walk = test::neutral_walk(2);
+  Clip empty = walk, brief = walk;
+  empty.frames = 0;
+  brief.frames = 10;
+  const auto rig = Rig::create(walk);
+  const auto message = [&](const Clip& styled) {
+    const auto pair = make_learn_pair({walk, *rig, "a.bvh"}, {styled, *rig, "b.bvh"});
+    return pair.ok() ? "" : pair.error().message;
+  };
+  const std::string rest =
+      " s of motion; a style is learnt from 0.50 s at least, better from 2 to 3 s; give a longer "
+      "clip";
+  EXPECT_EQ(message(empty), "b.bvh: has 0.00" + rest);
+  EXPECT_EQ(message(brief), "b.bvh: has 0.33" + rest);
+}
+
+TEST(LearnStyle, says_what_it_cannot_learn_on_or_from) {
+  const std::vector<LearnPair> pairs = {test::make_pair(test::neutral_walk(2), test::bent_walk(2))};
+  const std::string cure =
+      ": has no trunk that styles can be learnt on; expected a model of recipe panache with "
+      "'learn.mean' and 'learn.scale', as panache train writes it";
+  for (const Recipe recipe : {Recipe::panache, Recipe::smith2019}) {
+    const TensorFile model = test::make_model({"old"}, 1, recipe);
+    EXPECT_EQ(failure(learn_style(model, "m.safetensors", pairs, "bent", "")),
+              "m.safetensors" + cure);
+  }
+  EXPECT_EQ(failure(learn_style(test::shipped_model(), "m", {}, "bent", "")),
+            "there is nothing to learn 'bent' from; give a neutral and a styled clip");
+  EXPECT_NE(failure(learn_style(test::shipped_model(), "m", pairs, "a=b", "")), "");
+}
+
+TEST(LearnStyle, finds_no_match_where_the_neutral_clip_is_much_too_short) {
+  // 5 s that may advance by 3 of a half second's 15 frames at a time, and wait twice in a row.
+  LearnPair pair = test::make_pair(test::neutral_walk(2), test::bent_walk(5));
+  pair.neutral.body.resize(15);
+  pair.neutral.turned.resize(15);
+  pair.neutral.ground.resize(15);
+  pair.neutral.contacts.resize(15);
+  const std::string message =
+      failure(learn_style(test::shipped_model(), "m", std::span(&pair, 1), "bent", ""));
+  EXPECT_EQ(message,
+            "neutral.bvh and styled.bvh: no match was found between them, as the neutral one is "
+            "too short for the styled one; a pair shows one action, done neutrally and in the "
+            "style");
+}
+
+TEST(LearnStyle, warns_of_what_does_not_match) {
+  // A walk seen beside standing still with waving arms.
+  Clip waving = test::neutral_walk(3);
+  for (int f = 0; f < waving.frames; ++f) {
+    const Pose pose = waving.pose(f);
+    for (Quat& q : pose.rotations) q = Quat{};
+    pose.translations[0] = waving.pose(0).translations[0];
+    const float angle = 1.5f * std::sin(static_cast<float>(f) * 0.9f);
+    pose.rotations[index(HumanJoint::left_upper_arm)] = axis_angle(Vec3{0, 0, 1}, angle);
+    pose.rotations[index(HumanJoint::head)] = axis_angle(Vec3{0, 1, 0}, angle);
+  }
+  const LearntStyle odd = learn({test::make_pair(test::neutral_walk(), waving)});
+  ASSERT_EQ(odd.pairs[0].warnings.size(), 1u);
+  EXPECT_NE(odd.pairs[0].warnings[0].find("match badly"), std::string::npos)
+      << odd.pairs[0].warnings[0];
+  const LearntStyle brief = learn({test::make_pair(test::neutral_walk(3), test::bent_walk(0.8))});
+  ASSERT_EQ(brief.pairs[0].warnings.size(), 1u);
+  EXPECT_EQ(brief.pairs[0].warnings[0],
+            "styled.bvh: has only 0.80 s; 2 to 3 s of a walk, or the whole of an action, teach "
+            "more");
+  const LearntStyle slow =
+      learn({test::make_pair(test::neutral_walk(6), test::bent_walk(6, 0.3f, 2.4))});
+  ASSERT_EQ(slow.pairs[0].warnings.size(), 1u) << slow.pairs[0].tempo;
+  EXPECT_NE(slow.pairs[0].warnings[0].find("times as long as the neutral motion"),
+            std::string::npos);
+}
+
+TEST(LearnStyle, warns_of_a_gesture_with_the_other_hand) {
+  // A left and a right arm that is raised once.
+  const auto raised = [](HumanJoint arm, float side) {
+    Clip clip = test::neutral_walk(2);
+    for (int f = 0; f < clip.frames; ++f) {
+      const Pose pose = clip.pose(f);
+      for (Quat& q : pose.rotations) q = Quat{};
+      pose.translations[0] = clip.pose(0).translations[0];
+      const float share = static_cast<float>(f) / static_cast<float>(clip.frames);
+      const float angle = 2.5f * std::pow(std::sin(3.14159f * share), 2.0f);
+      pose.rotations[index(arm)] = axis_angle(Vec3{0, 0, 1}, side * angle);
+    }
+    return clip;
+  };
+  const Clip left = raised(HumanJoint::left_upper_arm, 1);
+  const Clip right = raised(HumanJoint::right_upper_arm, -1);
+  EXPECT_TRUE(learn({test::make_pair(left, left)}).pairs[0].warnings.empty());
+  const LearntStyle wrong = learn({test::make_pair(left, right)});
+  ASSERT_EQ(wrong.pairs[0].warnings.size(), 1u) << wrong.pairs[0].match;
+  EXPECT_EQ(wrong.pairs[0].warnings[0],
+            "neutral.bvh and styled.bvh: match better with left and right exchanged; record the "
+            "action with the same hand or foot first in both");
+}
+
+}  // namespace
+}  // namespace panache
