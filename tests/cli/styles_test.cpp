@@ -88,6 +88,7 @@ TEST_F(StylesVerb, describes_the_file_of_a_style) {
   EXPECT_EQ(style["style_file"], "limping.safetensors");
   EXPECT_EQ(style["name"], "limping");
   EXPECT_EQ(style["learnt"], true);
+  EXPECT_EQ(style["origin"], "limp.bvh");
   EXPECT_EQ(style["bytes"], read("limping.safetensors").size());
   EXPECT_EQ(style["trunk"].get<std::string>().size(), 16u);
 }
