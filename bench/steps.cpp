@@ -117,9 +117,7 @@ class StepInParts {
     done(rotations);
     HumanPositions joints;
     changed_joints(body_, change_, joints);
-    float lowest = 0;
-    for (const HumanJoint toe : kToes) lowest = std::min(lowest, joints[size_t(index(toe))].y);
-    change_.translation.y += std::max(0.0f, -(mid_hip(body_).y + change_.translation.y + lowest));
+    change_.translation.y += floor_depth(body_, joints, change_);
     done(floor);
     feet_.step(body_, joints, networks_.contact().first<kFeet>(), 1, seconds, change_);
     done(feet);

@@ -97,7 +97,9 @@ float round_row(const float* x, size_t inputs, int16_t* out) {
 HWY_INLINE Sums add_pairs(hn::Vec<Shorts> a, hn::Vec<Shorts> b, Sums sums, Sums& other) {
 #if HWY_TARGET == HWY_AVX3_DL
   (void)other;
-  return Sums{_mm512_dpwssd_epi32(sums.raw, a.raw, b.raw)};
+  // Not by the intrinsic, with which GCC 12 copies each sum to another register and back.
+  __asm__("vpdpwssd %2, %1, %0" : "+v"(sums.raw) : "v"(a.raw), "v"(b.raw));
+  return sums;
 #else
   return hn::ReorderWidenMulAccumulate(Wholes(), a, b, sums, other);
 #endif

@@ -19,6 +19,22 @@ constexpr float kMaxGlide = 1.5f;  // m/s; a faster foot was no foot about to st
 // Straightening the last degrees of a knee takes no distance but much angle: a leg is never asked
 // for more than this share of its length unless the style itself stretches it further.
 constexpr float kMaxReach = 0.995f;
+// So a leg that is nearly straight follows only a share of what would make it longer or shorter, as
+// its knee would fly back and forth: all of it from a bend on at which the sine of the angle
+// between reach and length is this, none when it is straight. What is left of the slide is less
+// than before, as feet are let go later.
+constexpr float kBent = 0.6f;
+
+// Where the ankle goes in place of `target`.
+Vec3 easy_target(Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 target) {
+  const float leg = length(knee - hip) + length(ankle - knee);
+  const Vec3 way = target - hip;
+  const float before = length(ankle - hip), wanted = length(way);
+  if (!(leg > 0 && wanted > 0)) return target;
+  const float share = std::min(1.0f, std::min(before, wanted) / leg);
+  const float follow = std::min(1.0f, std::sqrt(1 - share * share) / kBent);
+  return hip + way * ((before + follow * (wanted - before)) / wanted);
+}
 
 }  // namespace
 
@@ -67,6 +83,18 @@ void changed_joints(const BodyPose& body, const BodyChange& change, HumanPositio
   }
 }
 
+float toe_floor(const BodyPose& body) noexcept {
+  float floor = 0;
+  for (const HumanJoint toe : kToes) floor = std::min(floor, body.joints[index(toe)].y);
+  return floor;
+}
+
+float floor_depth(const BodyPose& body, const HumanPositions& joints,
+                  const BodyChange& change) noexcept {
+  const float lowest = std::min(joints[index(kToes[0])].y, joints[index(kToes[1])].y);
+  return std::max(0.0f, toe_floor(body) - (mid_hip(body).y + change.translation.y + lowest));
+}
+
 void FootLock::follow(Foot& foot, Vec3 toe, float contact, float seconds) noexcept {
   const Vec3 last_offset = foot.offset, last_toe = foot.seen ? foot.toe : toe;
   foot.toe = toe;
@@ -99,17 +127,23 @@ void FootLock::follow(Foot& foot, Vec3 toe, float contact, float seconds) noexce
 void FootLock::step(const BodyPose& body, const HumanPositions& joints,
                     std::span<const float, kFeet> contacts, float amount, float seconds,
                     BodyChange& change) noexcept {
+  const float floor = toe_floor(body);
   const Quat to_world = rotation_y(body.facing + change.turn);
   const Vec3 origin = mid_hip(body) + change.translation;
   for (int f = 0; f < kFeet; ++f) {
     Foot& foot = feet_[f];
-    follow(foot, origin + rotate(to_world, joints[index(kToes[f])]), contacts[f], seconds);
-    if (amount <= 0 || foot.offset == Vec3{}) continue;
+    const Vec3 toe = origin + rotate(to_world, joints[index(kToes[f])]);
+    follow(foot, toe, contacts[f], seconds);
+    Vec3 offset = foot.offset;
+    offset.y += std::max(0.0f, floor - (toe.y + offset.y));
+    if (amount <= 0 || offset == Vec3{}) continue;
 
-    const Vec3 shift = rotate(conjugate(to_world), foot.offset) * amount;
     const int hip = index(kUpperLegs[f]), knee = index(kLowerLegs[f]), ankle = index(kAnkles[f]);
+    const Vec3 shift = rotate(conjugate(to_world), offset) * amount;
+    const Vec3 target =
+        easy_target(joints[hip], joints[knee], joints[ankle], joints[ankle] + shift);
     const TwoBoneTurn turn =
-        two_bone_ik(joints[hip], joints[knee], joints[ankle], joints[ankle] + shift, Vec3{0, 0, 1});
+        two_bone_ik(joints[hip], joints[knee], joints[ankle], target, Vec3{0, 0, 1});
     change.rotations[hip] = turn.upper * change.rotations[hip];
     change.rotations[knee] = turn.lower * change.rotations[knee];
   }

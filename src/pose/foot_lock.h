@@ -26,22 +26,24 @@ TwoBoneTurn two_bone_ik(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 bend
 Vec3 mid_hip(const BodyPose& body) noexcept;  // World.
 void changed_joints(const BodyPose& body, const BodyChange& change, HumanPositions& out) noexcept;
 
+// The height below which a style should put no toe: the floor, or the input's own lowest toe where
+// that is lower. World, metres.
+float toe_floor(const BodyPose& body) noexcept;
+// How much deeper than that the lowest toe is with `change`; 0 above it. `joints`:
+// changed_joints().
+float floor_depth(const BodyPose& body, const HumanPositions& joints,
+                  const BodyChange& change) noexcept;
+
 class FootLock {
  public:
   void reset() noexcept { feet_ = {}; }
-  // Adjusts the legs of `change`. `joints`: changed_joints() of body and change; `contacts`:
-  // probability that each foot is planted, 0 to 1; `amount`: how much of the correction to apply, 0
-  // (none at all) to 1; `seconds` since the last step.
+  // Adjusts the legs of `change`, and draws toes up that are below toe_floor() as far as the legs
+  // can easily see to it. `joints`: changed_joints() of body and change; `contacts`: probability
+  // that each foot is planted, 0 to 1; `amount`: how much of the correction to apply, 0 (none at
+  // all) to 1; `seconds` since the last step.
   void step(const BodyPose& body, const HumanPositions& joints,
             std::span<const float, kFeet> contacts, float amount, float seconds,
             BodyChange& change) noexcept;
-  // The same where nobody has the joints yet.
-  void step(const BodyPose& body, std::span<const float, kFeet> contacts, float amount,
-            float seconds, BodyChange& change) noexcept {
-    HumanPositions joints;
-    changed_joints(body, change, joints);
-    step(body, joints, contacts, amount, seconds, change);
-  }
 
   // Calls visit(member) for everything that tells one foot lock from another.
   template <class Self, class Visit>

@@ -58,6 +58,21 @@ void PoseHistory::window(std::span<float> out) const noexcept {
   }
 }
 
+void PoseHistory::fetch_window(double seconds) const noexcept {
+  if (count_ == 0) return;
+  constexpr size_t kCacheLine = 64;
+  int age = 0, fetched = 0;  // Poses younger than `fetched` were asked for.
+  for (int k = 0; k < kWindowPoses; ++k) {
+    const double time = newest(0).time + seconds - k * kWindowSpacing;
+    while (age + 1 < count_ && newest(age).time > time) ++age;
+    // The pose before that time and the one after it.
+    for (fetched = std::max(fetched, age - 1); fetched <= age && fetched < count_; ++fetched) {
+      const auto bytes = std::as_bytes(numbers(place(fetched)));
+      for (size_t i = 0; i < bytes.size(); i += kCacheLine) __builtin_prefetch(&bytes[i]);
+    }
+  }
+}
+
 float PoseHistory::ground_speed() const noexcept {
   const double seconds = kWindowPoses * kWindowSpacing;
   int age = 0;

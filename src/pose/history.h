@@ -20,6 +20,9 @@ class PoseHistory {
   // Writes the window that ends at the newest pose: kWindowPoses times pose_numbers(layout), newest
   // first. Times before the first pose show the first pose at rest. At least one pose was pushed.
   void window(std::span<float> out) const noexcept;
+  // Asks the caches for what window() reads after a push `seconds` from now, which in a crowd is
+  // far away by then. Changes nothing.
+  void fetch_window(double seconds) const noexcept;
   // Mean speed over the ground in the window, m/s.
   float ground_speed() const noexcept;
 

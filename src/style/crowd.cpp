@@ -27,6 +27,8 @@ void step_crowd(std::span<const CrowdMember> members, double seconds) noexcept {
     std::array<StyleNetworks::Pass, kRowsAtOnce> passes;
     for (size_t i = 0; i < count; ++i) {
       const auto& [character, in, strengths, out] = members[i];
+      // By its turn the next one's past has come from a far cache.
+      if (i + 1 < members.size()) members[i + 1].character->history_.fetch_window(seconds);
       times[i] = character->look(in, strengths, seconds, seconds);
       passes[i] = {&character->networks_, character->window_, times[i].gate_share};
     }

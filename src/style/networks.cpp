@@ -110,9 +110,9 @@ void StyleNetworks::add_learnt(std::span<const Pass> passes, std::span<const flo
       const Model::Learnt& learnt = m.learnt_[k];
       Work rest = room;
       const float far = self.leverage(learnt, features, drawn, rest);
-      const float near = far > 1 ? 1 / far : 1.0f;
+      const float wanted = far > 1 ? 1 / far : 1.0f;
       float& open = self.learnt_gates_[k];
-      if (std::isfinite(far)) open += passes[p].gate_share * (near * near - open);
+      if (std::isfinite(far)) open += passes[p].gate_share * (wanted - open);
       for (size_t i = 0; i < count; ++i) {
         drawn[i] = learnt.mean[i] + open * (features[i] - learnt.mean[i]);
       }

@@ -20,6 +20,7 @@ constexpr float kMaxLogRate = 0.7f;    // Half to double tempo.
 // A style may sway and turn within a step, but not leave the input's course: what it adds sideways
 // and to the heading fades with this time constant.
 constexpr float kCourseSeconds = 1.5f;
+constexpr float kLiftSeconds = 0.1f;  // Time constant of what keeps the feet above the floor.
 // Below this speed a character stands, or walks in place: the style may not carry it away.
 constexpr float kStandingSpeed = 0.3f;  // m/s
 // Well above this speed the way over the ground changes by the style's full share, below it by
@@ -66,6 +67,7 @@ void Stylizer::reset() noexcept {
   drift_ = {};
   sway_ = 0;
   turn_ = 0;
+  lift_ = 0;
   foot_lock_.reset();
 }
 
@@ -134,18 +136,14 @@ void Stylizer::move_root(double input_seconds) noexcept {
 }
 
 // A style trained on one body may put another's feet through the ground: lifts the body by as much
-// as its lowest toe is deeper than both the floor and the input's own lowest toe. `joints`: those
-// of changed_joints().
-void Stylizer::keep_above_floor(const HumanPositions& joints) noexcept {
-  if (amount_ <= 0) return;
-  const float origin = mid_hip(body_).y + change_.translation.y;
-  float before = 0, after = 0;
-  for (int f = 0; f < kFeet; ++f) {
-    const int toe = index(kToes[f]);
-    before = std::min(before, body_.joints[toe].y);
-    after = f == 0 ? origin + joints[toe].y : std::min(after, origin + joints[toe].y);
-  }
-  change_.translation.y += amount_ * std::max(0.0f, before - after);
+// as its lowest toe is deeper than both the floor and the input's own lowest toe. It comes and goes
+// slowly, or the whole body would start at every step; what is left of the depth is up to the legs.
+// `joints`: those of changed_joints().
+void Stylizer::keep_above_floor(const HumanPositions& joints, float seconds) noexcept {
+  const float depth = floor_depth(body_, joints, change_);
+  const float gain = started_ ? filter_gain(seconds, kLiftSeconds) : 1.0f;
+  lift_ += gain * (depth - lift_);
+  change_.translation.y += amount_ * lift_;
 }
 
 void Stylizer::step(ConstPose in, std::span<const float> strengths, double input_seconds,
@@ -193,7 +191,7 @@ void Stylizer::change_pose(const Times& times, Pose out) noexcept {
   change_.translation = drift_ + side + Vec3{0, numbers_[63], 0};
   HumanPositions joints;
   changed_joints(body_, change_, joints);
-  keep_above_floor(joints);
+  keep_above_floor(joints, times.output);
   if (options_.foot_lock) {
     foot_lock_.step(body_, joints, networks_.contact().first<kFeet>(), amount_, times.output,
                     change_);

@@ -92,7 +92,7 @@ class Stylizer {
   void take_answer(float seconds) noexcept;
   float forward_speed() const noexcept;  // Mean of the window, m/s; below zero backwards.
   void move_root(double input_seconds) noexcept;
-  void keep_above_floor(const HumanPositions& joints) noexcept;
+  void keep_above_floor(const HumanPositions& joints, float seconds) noexcept;
 
   Rig rig_;
   StyleNetworks networks_;
@@ -115,6 +115,7 @@ class Stylizer {
   Vec3 drift_;      // What the style added to the way over the ground; world, metres.
   float sway_ = 0;  // And to its left, metres,
   float turn_ = 0;  // and to the heading, radians; both fade.
+  float lift_ = 0;  // What keeps the feet above the floor, metres.
   BodyChange change_;
   FootLock foot_lock_;
 };

@@ -13,7 +13,7 @@ void Stylizer::visit_state(Self& self, Visit&& visit) {
   visit(self.amount_), visit(self.started_), visit(self.time_), visit(self.body_);
   visit(self.ground_), visit(self.last_ground_), visit(self.seen_), visit(self.numbers_);
   visit(self.log_rate_), visit(self.drift_), visit(self.sway_), visit(self.turn_);
-  visit(self.change_);
+  visit(self.lift_), visit(self.change_);
   Rig::visit_state(self.rig_, visit);
   StyleNetworks::visit_state(self.networks_, visit);
   PoseHistory::visit_state(self.history_, visit);

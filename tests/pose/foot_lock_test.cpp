@@ -51,12 +51,13 @@ class Sliding {
     rig_.read(clip_.pose(0), body_);
   }
   // World position of the left toe once the change of frame f is locked.
-  Vec3 step(int f, float contact, float amount) {
+  Vec3 step(int f, float contact, float amount, float deeper = 0) {
     BodyChange change;
-    change.translation = {0.002f * static_cast<float>(f), 0, 0};
+    change.translation = {0.002f * static_cast<float>(f), -deeper, 0};
     const float contacts[kFeet] = {contact, 0};
-    lock_.step(body_, contacts, amount, 1 / 30.0f, change);
     HumanPositions joints;
+    changed_joints(body_, change, joints);
+    lock_.step(body_, joints, contacts, amount, 1 / 30.0f, change);
     changed_joints(body_, change, joints);
     const Vec3 toe = joints[index(HumanJoint::left_toes)];
     return mid_hip(body_) + change.translation + rotate(rotation_y(body_.facing), toe);
@@ -112,6 +113,57 @@ TEST(FootLock, a_foot_pulled_too_far_is_let_go) {
   Vec3 toe;
   for (int f = 1; f <= 200; ++f) toe = body.step(f, 1, 1);
   EXPECT_GT(length(toe - start), 0.3f);
+}
+
+TEST(FootLock, a_toe_below_the_floor_is_drawn_up_planted_or_not) {
+  Sliding free, planted, half;
+  const float high = free.step(0, 0, 1).y, sunk = high + 0.03f;
+  // Where the toe is when the body sinks until the toe is 3 cm below the floor. These legs are
+  // nearly straight, so that they do not follow all of the way, but most of it.
+  const float raised = free.step(1, 0, 1, sunk).y;
+  EXPECT_GT(raised, -0.015f);
+  EXPECT_LE(raised, 1e-4f);
+  for (int f = 0; f < 5; ++f) planted.step(f, 0, 1, high);
+  EXPECT_NEAR(planted.step(5, 1, 1, sunk).y, raised, 5e-3);
+  EXPECT_NEAR(half.step(0, 0, 0.5f, sunk).y, (raised - 0.03f) / 2, 3e-3);
+  EXPECT_NEAR(free.step(2, 0, 0, sunk).y, -0.03f, 1e-4);
+}
+
+TEST(FootLock, a_straight_leg_does_not_let_its_knee_fly) {
+  // The target comes nearer to the hip by 1 mm at a time; the leg begins straight.
+  const auto bend = [](float nearer) {
+    const HumanPositions joints = [] {
+      HumanPositions standing{};
+      standing[index(HumanJoint::left_upper_leg)] = {0.1f, 0, 0};
+      standing[index(HumanJoint::left_lower_leg)] = {0.1f, -0.4f, 0.001f};
+      standing[index(HumanJoint::left_foot)] = {0.1f, -0.8f, 0};
+      standing[index(HumanJoint::left_toes)] = {0.1f, -0.85f, 0.1f};
+      standing[index(HumanJoint::right_upper_leg)] = {-0.1f, 0, 0};
+      standing[index(HumanJoint::right_lower_leg)] = {-0.1f, -0.4f, 0.001f};
+      standing[index(HumanJoint::right_foot)] = {-0.1f, -0.8f, 0};
+      standing[index(HumanJoint::right_toes)] = {-0.1f, -0.85f, 0.1f};
+      return standing;
+    }();
+    BodyPose body;
+    body.joints = joints;
+    for (Vec3& joint : body.joints) joint.y += 0.85f - nearer;  // So deep are the toes.
+    body.joints[index(HumanJoint::left_toes)].y = body.joints[index(HumanJoint::right_toes)].y = 0;
+    FootLock lock;
+    BodyChange change;
+    const float contacts[kFeet] = {0, 0};
+    lock.step(body, joints, contacts, 1, 1 / 60.0f, change);
+    return length(log_rotation(change.rotations[index(HumanJoint::left_upper_leg)]));
+  };
+  // All of 1 mm would bend it by acos(0.799 / 0.8) = 0.05 radians.
+  EXPECT_LT(bend(0.001f), 0.02f);
+  float last = 0;
+  for (int mm = 1; mm < 100; ++mm) {
+    const float now = bend(0.001f * static_cast<float>(mm));
+    EXPECT_GE(now, last) << mm;
+    EXPECT_LT(now - last, 0.02f) << mm;
+    last = now;
+  }
+  EXPECT_GT(last, 0.3f);
 }
 
 TEST(FootLock, without_amount_nothing_changes) {

@@ -143,8 +143,8 @@ TEST(LearntNetworks, beyond_its_gate_a_style_is_drawn_to_its_mean_answer) {
   }
   StyleNetworks half(read(with_learnt(static_cast<float>(2 / square))));
   const Answer drawn = answer(half, window, {0, 1});
-  EXPECT_NEAR(drawn.gate, 0.25, 1e-5);  // Falls with the square of a leverage of 2.
-  EXPECT_NEAR(drawn.pose[0], 0.25 * whole.pose[0] + 0.75 * mean[0] * scale, kRounding);
+  EXPECT_NEAR(drawn.gate, 0.5, 1e-5);
+  EXPECT_NEAR(drawn.pose[0], 0.5 * whole.pose[0] + 0.5 * mean[0] * scale, kRounding);
   StyleNetworks closed(read(with_learnt(1e9f)));
   const Answer posture = answer(closed, window, {0, 1});
   EXPECT_NEAR(posture.pose[0], mean[0] * scale, kRounding);

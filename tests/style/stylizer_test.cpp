@@ -66,6 +66,33 @@ TEST_F(StylizerTest, strength_zero_gives_the_input_back_bit_for_bit) {
   EXPECT_EQ(character.rate(), 1);
 }
 
+TEST_F(StylizerTest, a_body_that_a_style_puts_underground_is_lifted_without_a_start) {
+  // A style that does nothing but take the hips 10 cm down.
+  TensorFile file = test::make_model({"low", "other"}, 3);
+  for (float& weight : file.tensors["pose.head.0.weight"].values) weight = 0;
+  for (float& bias : file.tensors["pose.head.0.bias"].values) bias = 0;
+  file.tensors["pose.head.0.bias"].values[63] = -0.1f;
+  file.tensors["output.scale"] = test::constant_tensor(kChangeNumbers, 1);
+  StylizerOptions options;
+  options.ease_seconds = options.smoothing_seconds = 0;
+  Stylizer character =
+      *Stylizer::create(*Model::parse(format_safetensors(file), "m"), *Rig::create(clip_), options);
+  std::vector<float> sunk;
+  Clip out = clip_;
+  for (int f = 0; f < clip_.frames; ++f) {
+    const std::vector<float> strengths = {f < 30 ? 0.0f : 1.0f, 0};
+    character.step(clip_.pose(f), strengths, clip_.frame_time, out.pose(f));
+    sunk.push_back(character.change().translation.y);
+  }
+  // At once down, then up again within some tenths of a second, a part at a time.
+  EXPECT_EQ(sunk[29], 0);
+  EXPECT_LT(sunk[30], -0.06f);
+  for (int f = 31; f < 60; ++f) EXPECT_LT(std::abs(sunk[f] - sunk[f - 1]), 0.035f) << f;
+  // Toes that the walk itself lifts may sink by as much.
+  EXPECT_GT(*std::max_element(sunk.begin() + 60, sunk.end()), -0.02f);
+  EXPECT_GT(*std::min_element(sunk.begin() + 60, sunk.end()), -0.08f);
+}
+
 TEST_F(StylizerTest, a_style_changes_the_pose_and_keeps_it_whole) {
   Stylizer character = stylizer();
   const Clip styled = run(character, {1, 0});

@@ -121,21 +121,6 @@ void Character::hold_back_way(BodyChange& change) noexcept {
   change.turn -= held_turn_;
 }
 
-// As the stylizer does it, for the legs as they are after the shape.
-void Character::keep_above_floor(BodyChange& change) const noexcept {
-  HumanPositions joints;
-  changed_joints(body_, change, joints);
-  const float origin = mid_hip(body_).y + change.translation.y;
-  float before = 0, after = 0;
-  for (int f = 0; f < kFeet; ++f) {
-    const int toe = index(kToes[f]);
-    before = std::min(before, body_.joints[toe].y);
-    const float height = origin + joints[toe].y;
-    after = f == 0 ? height : std::min(after, height);
-  }
-  change.translation.y += amount_ * std::max(0.0f, before - after);
-}
-
 void Character::step(ConstPose in, std::span<const float> strengths, const Shape& shape,
                      double input_seconds, double output_seconds, Pose out) noexcept {
   const auto seconds = static_cast<float>(std::clamp(output_seconds, 0.0, 0.5));
@@ -146,12 +131,15 @@ void Character::step(ConstPose in, std::span<const float> strengths, const Shape
   hold_back_way(change);
   weigh_in_time(seconds, change);
   weigh_regions(change);
+  HumanPositions joints;
+  changed_joints(body_, change, joints);
   const Shape whole;
   if (shape_.posture != 1 || shape_.dynamics != 1 || shape_.regions != whole.regions) {
-    keep_above_floor(change);
+    // The stylizer's lift is for legs as they were before.
+    change.translation.y += amount_ * floor_depth(body_, joints, change);
   }
-  foot_lock_.step(body_, stylizer_.contacts().first<kFeet>(), amount_ * shape_.foot_lock, seconds,
-                  change);
+  foot_lock_.step(body_, joints, stylizer_.contacts().first<kFeet>(), amount_ * shape_.foot_lock,
+                  seconds, change);
   rig_.write(in, body_, change, out);
   started_ = true;
 }

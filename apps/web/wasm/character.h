@@ -55,7 +55,6 @@ class Character {
   void weigh_in_time(float seconds, BodyChange& change) noexcept;
   void weigh_regions(BodyChange& change) const noexcept;
   void hold_back_way(BodyChange& change) noexcept;
-  void keep_above_floor(BodyChange& change) const noexcept;
 
   Stylizer stylizer_;  // Without foot lock and easing, which come after the shape here.
   Rig rig_;
