@@ -155,6 +155,7 @@ TEST_F(TrainerTest, the_gate_is_open_on_the_middle_of_what_was_trained_on_and_sh
   ASSERT_TRUE(trained.ok()) << trained.error().message;
   const auto model = Model::parse(format_safetensors(trained->model), "model");
   ASSERT_TRUE(model.ok()) << model.error().message;
+  EXPECT_TRUE((*model)->can_learn());
   StyleNetworks networks(*model);
   networks.set_strengths(std::vector<float>{1});
   const TrainingData data = *prepare_training(rows_, PoseLayout::positions);
