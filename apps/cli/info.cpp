@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "input.h"
+#include "learn/style_file.h"
+#include "model_edit.h"
 #include "model_report.h"
 #include "report.h"
 #include "rig_options.h"
@@ -129,8 +131,22 @@ int motion_info(const InfoVerb& verb) {
   return rig ? kDone : refuse(rig.error(), kBadInput);
 }
 
+// A style file as `panache styles` shows it.
+int style_info(const std::string& path, bool json) {
+  const Result<LoadedStyle> loaded = load_style(path);
+  if (!loaded) return refuse(loaded.error(), kBadInput);
+  if (json) {
+    print(to_json(*loaded));
+  } else {
+    print(describe(*loaded));
+  }
+  return kDone;
+}
+
 // As styles, and all else that the file says of itself.
 int model_info(const std::string& path, bool json) {
+  const Result<TensorFile> file = read_tensors(path);
+  if (file && is_style_file(*file)) return style_info(path, json);
   Result<LoadedModel> loaded = load_model(path);
   if (!loaded) return refuse(loaded.error(), kBadInput);
   const auto& metadata = loaded->model->metadata();

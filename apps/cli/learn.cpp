@@ -88,10 +88,6 @@ Result<std::vector<LearnPair>> open_pairs(const LearnVerb& verb) {
   return pairs;
 }
 
-std::string judgement(double match) {
-  return match < 0.35 ? "good" : match < 0.6 ? "fair" : "poor";
-}
-
 Json to_json(const LearntStyle& learnt, const LearnVerb& verb, size_t bytes, double seconds) {
   Json pairs = Json::array();
   for (const PairReport& pair : learnt.pairs) {
@@ -100,27 +96,33 @@ Json to_json(const LearntStyle& learnt, const LearnVerb& verb, size_t bytes, dou
                      {"seconds", pair.seconds},
                      {"tempo", pair.tempo},
                      {"match", pair.match},
+                     {"judgement", pair.judgement()},
                      {"warnings", pair.warnings}});
   }
+  const auto measured = [&](double cm) { return learnt.judged ? Json(cm) : Json(); };
   return {{"style", verb.name},
           {"model", verb.model},
           {"bytes", bytes},
           {"seconds", seconds},
-          {"held_back_cm", learnt.held_back_cm},
-          {"mean_posture_cm", learnt.mean_posture_cm},
-          {"untouched_cm", learnt.untouched_cm},
+          {"held_back_cm", measured(learnt.held_back_cm)},
+          {"mean_posture_cm", measured(learnt.mean_posture_cm)},
+          {"untouched_cm", measured(learnt.untouched_cm)},
           {"pairs", pairs}};
 }
 
 std::string describe(const LearntStyle& learnt, const LearnVerb& verb, size_t bytes,
                      double seconds) {
   std::string text = "learnt '" + verb.name + "' in " + fixed(seconds, 2) + " s into " +
-                     verb.model + " (" + fixed(static_cast<double>(bytes) / 1000, 1) +
-                     " KB of it)\n";
+                     verb.model + " (the style is " + fixed(static_cast<double>(bytes) / 1000, 1) +
+                     " KB)\n";
   for (const PairReport& pair : learnt.pairs) {
     text += "  " + pair.neutral_name + " -> " + pair.styled_name + ": " + fixed(pair.seconds, 1) +
-            " s, match " + fixed(pair.match, 2) + " (" + judgement(pair.match) + "), tempo " +
+            " s, match " + fixed(pair.match, 2) + " (" + pair.judgement() + "), tempo " +
             fixed(1 / pair.tempo, 2) + " x\n";
+  }
+  if (!learnt.judged) {
+    return text +
+           "  too short for a quarter of it to be held back, so nothing tells how far off it is\n";
   }
   text += "  held-back quarter: joints " + fixed(learnt.held_back_cm, 1) +
           " cm off (mean posture alone " + fixed(learnt.mean_posture_cm, 1) + ", no style " +
@@ -130,7 +132,8 @@ std::string describe(const LearntStyle& learnt, const LearnVerb& verb, size_t by
 
 Result<void> check_usage(const LearnVerb& verb) {
   if (verb.action.empty() && verb.clips.size() % 2 != 0) {
-    return Error{"there are " + plural(verb.clips.size(), "clip") +
+    return Error{(verb.clips.size() == 1 ? "there is " : "there are ") +
+                 plural(verb.clips.size(), "clip") +
                  "; expected NEUTRAL STYLED, or several such pairs; for styled clips alone say "
                  "what they show, as in --action walk"};
   }
@@ -140,13 +143,19 @@ Result<void> check_usage(const LearnVerb& verb) {
   if (auto name = check_style_name(verb.name); !name) {
     return Error{"--name: " + name.error().message};
   }
+  if (!verb.action.empty()) {
+    if (auto known = check_action(verb.action); !known) {
+      return Error{"--action: " + known.error().message};
+    }
+  }
   return check_rig_flags(verb.rig);
 }
 
 int learn(const LearnVerb& verb) {
   if (auto usage = check_usage(verb); !usage) return refuse(usage.error(), kBadUsage);
   // A model that is not there yet begins as a copy of the one shipped.
-  const bool is_new = !std::filesystem::exists(verb.model);
+  std::error_code unknown;
+  const bool is_new = !std::filesystem::exists(verb.model, unknown);
   Result<std::string> base = is_new ? find_model("") : Result<std::string>(verb.model);
   if (!base) return refuse(base.error(), kBadInput);
   if (!is_new) {
@@ -189,30 +198,34 @@ int learn(const LearnVerb& verb) {
 }  // namespace
 
 void add_learn(CLI::App& app, int& exit_code) {
-  CLI::App* verb = app.add_subcommand("learn", "Learn a style from seconds of motion");
+  CLI::App* verb = app.add_subcommand("learn", "Learn a style from a few seconds of motion");
   auto options = std::make_shared<LearnVerb>();
   verb->add_option("CLIPS", options->clips,
-                   "An action done neutrally, then in the style; several\nsuch pairs may follow")
+                   "Motion files (" + motion_endings() +
+                       "):\nan action done neutrally, then the same in the style, 2 to\n"
+                       "3 s of each; more such pairs may follow")
       ->required()
       ->type_name("");
-  verb->add_option("--name", options->name, "What to call the style")
+  verb->add_option("--name", options->name, "What to call the style, as in stylize --style NAME=1")
       ->required()
       ->type_name("NAME");
   verb->add_option("--into", options->model,
-                   "Model to put it into; one that is not there yet begins\n"
-                   "as a copy of the one shipped")
+                   "Model to put it into (.safetensors); one that is not\n"
+                   "there yet begins as a copy of the one shipped")
       ->required()
       ->type_name("MODEL");
-  verb->add_option("--description", options->description, "What it looks like, for people")
+  verb->add_option("--description", options->description,
+                   "What it looks like; panache styles shows it")
       ->type_name("TEXT");
   verb->add_option("--action", options->action,
-                   "All CLIPS are styled ones of this action, walk or run, and\n"
-                   "a neutral of our own stands beside them")
+                   "All CLIPS are styled ones of this action, walk or run; a\n"
+                   "neutral of our own stands beside them")
       ->type_name("ACTION");
   add_rig_options(*verb, options->rig);
   verb->add_flag("--force", options->force, "Replace a style of the same name");
   verb->add_flag("--json", options->json, "Print what was learnt as JSON");
   verb->footer(
+      "A pair is of one skeleton, and begins with the same foot or hand.\n\n"
       "Examples:\n"
       "  panache learn walk.bvh drunk.bvh --name drunk --into mine.safetensors\n"
       "  panache learn drunk.bvh --action walk --name drunk --into mine.safetensors\n"

@@ -29,7 +29,6 @@ struct Table {
   std::vector<double> answers;  // [rows][kLearntNumbers]
 
   std::span<double> row(size_t r) { return {&seen[r * features], features}; }
-  std::span<double> answer(size_t r) { return {&answers[r * kLearntNumbers], kLearntNumbers}; }
 };
 
 Table make_table(const std::shared_ptr<const Model>& model, const SampleSet& set,
@@ -194,9 +193,7 @@ TensorFile fit_style(std::shared_ptr<const Model> model, const SampleSet& set,
   const std::vector<double> middle = centre(table.seen, table.features);
   const std::vector<double> answer = centre(table.answers, kLearntNumbers);
   Ridge ridge(static_cast<int>(table.features), kLearntNumbers);
-  for (size_t r = 0; r < table.rows; ++r) {
-    ridge.add(table.row(r), table.answer(r), 1 / static_cast<double>(table.rows));
-  }
+  ridge.add(table.seen, table.answers, 1 / static_cast<double>(table.rows));
   // The mean posture costs nothing: rows and answers are centred.
   const std::vector<double> weights = ridge.solve(std::vector<double>(table.features, kPenalty));
   std::vector<double> mean;

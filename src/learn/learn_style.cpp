@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "base/parallel.h"
 #include "learn/fit_style.h"
 #include "learn/pairing.h"
 #include "learn/pose_error.h"
@@ -49,12 +50,32 @@ std::string file_name(const std::string& path) {
 
 Result<Take> take_of(const LearnClip& from) {
   const double seconds = (from.clip.frames - from.rig.first_frame()) * from.clip.frame_time;
-  if (seconds * kTakeRate < kFewestFrames) {
+  // Files round the time of a frame: half a frame less is the same.
+  if (seconds * kTakeRate < kFewestFrames - 0.5) {
     return Error{from.name + ": has " + number(std::max(0.0, seconds)) +
                  " s of motion; a style is learnt from " + number(kFewestFrames / kTakeRate) +
                  " s at least, better from 2 to 3 s; give a longer clip"};
   }
   return make_take(from.clip, from.rig, PoseLayout::positions);
+}
+
+// Which joints the body's bones go through. The hips and what is above them are not among these:
+// files put there where the body was, not how it is made. Nor are props.
+std::vector<bool> joints_below_hips(const std::vector<Joint>& joints, const Rig& rig) {
+  std::vector<bool> below(joints.size());
+  const int hips = rig.joints()[index(HumanJoint::hips)];
+  for (int joint : rig.joints()) {
+    for (; joint > hips; joint = joints[static_cast<size_t>(joint)].parent) below[joint] = true;
+  }
+  return below;
+}
+
+// Often called like the file or the scene, and not like a part of the body.
+std::vector<bool> joints_above_hips(const std::vector<Joint>& joints, const Rig& rig) {
+  std::vector<bool> above(joints.size());
+  int joint = rig.joints()[index(HumanJoint::hips)];
+  while ((joint = joints[static_cast<size_t>(joint)].parent) >= 0) above[joint] = true;
+  return above;
 }
 
 Result<void> check_one_skeleton(const LearnClip& neutral, const LearnClip& styled) {
@@ -68,18 +89,19 @@ Result<void> check_one_skeleton(const LearnClip& neutral, const LearnClip& style
     return Error{where + std::to_string(a.size()) + " and " + std::to_string(b.size()) + " joints" +
                  cure};
   }
+  const std::vector<bool> in_body = joints_below_hips(a, neutral.rig);
+  const std::vector<bool> above = joints_above_hips(a, neutral.rig);
   for (size_t j = 0; j < a.size(); ++j) {
-    if (a[j].name != b[j].name || a[j].parent != b[j].parent) {
+    if ((a[j].name != b[j].name && !above[j]) || a[j].parent != b[j].parent) {
       return Error{where + "joint " + std::to_string(j + 1) + " is '" + a[j].name + "' and '" +
                    b[j].name + "'" + cure};
     }
+    // What stands on its parent has no direction.
     const float lengths = length(a[j].offset) * length(b[j].offset);
-    // What stands on its parent has no direction; nor has the place of a root.
-    if (a[j].parent < 0 || !(lengths > 0)) continue;
+    if (!in_body[j] || !(lengths > 0)) continue;
     const double cosine = static_cast<double>(dot(a[j].offset, b[j].offset) / lengths);
-    const double turned = length(log_rotation(conjugate(a[j].rest) * b[j].rest));
     const double limit = kSameRest * std::numbers::pi / 180;
-    if (std::acos(std::clamp(cosine, -1.0, 1.0)) > limit || turned > limit) {
+    if (std::acos(std::clamp(cosine, -1.0, 1.0)) > limit) {
       return Error{where + "'" + a[j].name + "' rests in another direction" + cure};
     }
   }
@@ -185,6 +207,16 @@ void measure(const std::shared_ptr<const Model>& model, const std::string& style
 
 }  // namespace
 
+const char* PairReport::judgement() const {
+  return match < kGoodMatch ? "good" : match <= kPoorMatch ? "fair" : "poor";
+}
+
+Result<void> check_action(const std::string& action) {
+  if (action == "walk" || action == "run") return {};
+  return Error{"there is no neutral '" + action +
+               "' of our own; expected walk or run, or a neutral clip of the same skeleton"};
+}
+
 Result<LearnPair> make_learn_pair(const LearnClip& neutral, const LearnClip& styled) {
   if (auto same = check_one_skeleton(neutral, styled); !same) return same.error();
   Result<Take> before = take_of(neutral), after = take_of(styled);
@@ -195,10 +227,7 @@ Result<LearnPair> make_learn_pair(const LearnClip& neutral, const LearnClip& sty
 
 Result<LearnPair> make_learn_pair(const LearnClip& styled, const std::string& action,
                                   std::shared_ptr<const WalkerModel> walker) {
-  if (action != "walk" && action != "run") {
-    return Error{"there is no neutral '" + action +
-                 "' of our own; expected walk or run, or a neutral clip of the same skeleton"};
-  }
+  if (auto known = check_action(action); !known) return known.error();
   Result<Take> after = take_of(styled);
   if (!after) return after.error();
   WalkClipOptions options;
@@ -271,15 +300,20 @@ Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
     info.origin += " " + file_name(pair.neutral_name) + " -> " + file_name(pair.styled_name) + ";";
   }
   info.origin.pop_back();
-  if (!first.empty() && !held_back.empty()) {
-    const TensorFile trial = make_style_file(file, info, fit_style(*model, set, first).tensors);
+  // Once without what is held back, to be judged, and once with everything.
+  learnt.judged = !first.empty() && !held_back.empty();
+  std::vector<TensorFile> fits(learnt.judged ? 2 : 1);
+  parallel_for(static_cast<int>(fits.size()),
+               [&](int i) { fits[i] = fit_style(*model, set, i == 0 ? all : first); });
+  if (learnt.judged) {
+    const TensorFile trial = make_style_file(file, info, std::move(fits[1].tensors));
     Result<TensorFile> with_it = add_style(file, name, trial, "the style", true);
     if (!with_it) return with_it.error();
     auto read = Model::parse(format_safetensors(*with_it), name);
     if (!read) return read.error();
     measure(*read, style, takes, set, first, held_back, learnt);
   }
-  learnt.file = make_style_file(file, info, fit_style(*model, set, all).tensors);
+  learnt.file = make_style_file(file, info, std::move(fits[0].tensors));
   return learnt;
 }
 

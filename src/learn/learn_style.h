@@ -28,12 +28,15 @@ struct LearnPair {
   Take neutral, styled;
 };
 
-// Both clips are of one skeleton: joints of the same names in the same tree, resting in the same
-// directions, of any length. Clips of other skeletons are refused, and those too short to learn
-// from.
+// Refuses what is no action that a neutral of our own is made for: they are "walk" and "run".
+Result<void> check_action(const std::string& action);
+
+// Both clips are of one skeleton: joints of the same names in the same tree (what is above the
+// hips may have any), resting in the same directions, of any length. Clips of other skeletons are
+// refused, and those too short to learn from.
 Result<LearnPair> make_learn_pair(const LearnClip& neutral, const LearnClip& styled);
-// With a neutral of our own making in place of a recorded one: the walker's, for the actions "walk"
-// and "run". What tells the walker's body and gait from the performer's becomes part of the style,
+// With a neutral of our own making in place of a recorded one: the walker's, see check_action().
+// What tells the walker's body and gait from the performer's becomes part of the style,
 // and the turn of a limb about its own axis is not learnt.
 Result<LearnPair> make_learn_pair(const LearnClip& styled, const std::string& action,
                                   std::shared_ptr<const WalkerModel> walker);
@@ -44,6 +47,7 @@ struct PairReport {
   double seconds = 0;  // Of the styled clip.
   double tempo = 1;    // Neutral seconds per styled second, the mean.
   double match = 0;  // Mean squared distance of what was laid together, in deviations: 0 is equal.
+  const char* judgement() const;  // Of `match`: "good", "fair" or "poor".
   // What about it may spoil the style, and the cure. Sentences.
   std::vector<std::string> warnings;
 };
@@ -53,7 +57,8 @@ struct LearntStyle {
   std::vector<PairReport> pairs;
   // Mean distance of the joints (cm on the canonical body) over the last quarters of the styled
   // clips when the style was learnt without them: of the style, of its mean posture alone, and of
-  // the neutral motion as it is.
+  // the neutral motion as it is. 0 where the clips are too short for it: `judged` tells.
+  bool judged = false;
   double held_back_cm = 0, mean_posture_cm = 0, untouched_cm = 0;
 };
 

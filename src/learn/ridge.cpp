@@ -1,5 +1,6 @@
 #include "learn/ridge.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -11,13 +12,23 @@ Ridge::Ridge(int unknowns, int outputs)
       gram_(unknowns_ * unknowns_),
       target_(unknowns_ * outputs_) {}
 
-void Ridge::add(std::span<const double> row, std::span<const double> outputs, double weight) {
-  assert(row.size() == unknowns_ && outputs.size() == outputs_);
-  for (size_t i = 0; i < unknowns_; ++i) {
-    const double a = weight * row[i];
-    if (a == 0) continue;
-    for (size_t j = 0; j <= i; ++j) gram_[i * unknowns_ + j] += a * row[j];
-    for (size_t j = 0; j < outputs_; ++j) target_[i * outputs_ + j] += a * outputs[j];
+void Ridge::add(std::span<const double> rows, std::span<const double> outputs, double weight) {
+  assert(rows.size() % unknowns_ == 0 && rows.size() / unknowns_ * outputs_ == outputs.size());
+  // A few rows at a time, as the sums are larger than the caches that are near.
+  constexpr size_t kRows = 8;
+  const size_t count = rows.size() / unknowns_;
+  for (size_t first = 0; first < count; first += kRows) {
+    const size_t last = std::min(first + kRows, count);
+    for (size_t i = 0; i < unknowns_; ++i) {
+      for (size_t r = first; r < last; ++r) {
+        const double* row = &rows[r * unknowns_];
+        const double* given = &outputs[r * outputs_];
+        const double a = weight * row[i];
+        if (a == 0) continue;
+        for (size_t j = 0; j <= i; ++j) gram_[i * unknowns_ + j] += a * row[j];
+        for (size_t j = 0; j < outputs_; ++j) target_[i * outputs_ + j] += a * given[j];
+      }
+    }
   }
 }
 

@@ -11,7 +11,8 @@ class Ridge {
  public:
   Ridge(int unknowns, int outputs);
 
-  void add(std::span<const double> row, std::span<const double> outputs, double weight = 1);
+  // Adds a row, or several of one weight. rows[...][unknowns], outputs[...][outputs]
+  void add(std::span<const double> rows, std::span<const double> outputs, double weight = 1);
   // penalties[unknowns], not negative: what a weight's square costs. With `prior`
   // ([unknowns][outputs], or empty for zero) it is the distance from the prior that costs. The
   // rows and penalties together must determine every unknown.

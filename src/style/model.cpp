@@ -61,6 +61,11 @@ Result<std::shared_ptr<const Model>> Model::parse(std::string_view bytes, const 
 
 Result<void> Model::read_metadata(const TensorFile& file, const std::string& name) {
   const auto format = file.metadata.find("format");
+  if (format != file.metadata.end() && format->second == "panache-style") {
+    return Error{name +
+                 ": is a style file, not a model; panache styles MODEL --add FILE puts it into "
+                 "one"};
+  }
   if (format == file.metadata.end() || format->second != "panache") {
     return Error{name +
                  ": is a safetensors file, but not a panache model; expected metadata "

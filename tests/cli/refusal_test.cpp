@@ -228,8 +228,8 @@ TEST_F(Refusal, a_model_that_is_none) {
 TEST_F(Refusal, a_verb_that_does_not_exist) {
   expect_refused(
       {"stylise", "walk.bvh"}, 2,
-      "there is no verb 'stylise'; expected stylize, convert, styles, info, walker, strip, "
-      "halve, view, live, send, train, eval or bench");
+      "there is no verb 'stylise'; expected stylize, convert, learn, styles, info, walker, "
+      "strip, halve, view, live, send, train, eval or bench");
 }
 
 TEST_F(Refusal, a_command_that_is_incomplete) {

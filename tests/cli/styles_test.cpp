@@ -239,8 +239,8 @@ TEST_F(StylesVerb, explains_what_is_no_style_and_what_is_no_model) {
   ASSERT_EQ(run({"styles", "mine.safetensors", "--extract", "old", "-o", "old.safetensors"}).exit,
             0);
   expect_refused({"old.safetensors", "--remove", "old"}, 1,
-                 "old.safetensors: is a safetensors file, but not a panache model; expected "
-                 "metadata 'format' to be 'panache'");
+                 "old.safetensors: is a style file, not a model; panache styles MODEL --add FILE "
+                 "puts it into one");
 }
 
 TEST_F(StylesVerb, a_style_of_another_model_is_refused) {

@@ -78,6 +78,14 @@ TEST(Model, a_safetensors_file_of_something_else_is_refused) {
             "'format' to be 'panache'");
 }
 
+TEST(Model, a_style_file_is_told_from_a_model) {
+  TensorFile file = test::make_model({"old"});
+  file.metadata["format"] = "panache-style";
+  EXPECT_EQ(refusal(file),
+            "m.safetensors: is a style file, not a model; panache styles MODEL --add FILE puts it "
+            "into one");
+}
+
 TEST(Model, wrong_or_missing_tensors_are_named) {
   TensorFile file = test::make_model({"old"});
   file.tensors.erase("input.mean");

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "make_takes.h"
+#include "learn/make_takes.h"
 
 namespace panache {
 namespace {

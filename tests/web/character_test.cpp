@@ -70,6 +70,23 @@ TEST_F(CharacterTest, with_all_of_a_style_is_what_the_library_makes_of_it_bit_fo
   EXPECT_EQ(character.rate(), stylizer.rate());
 }
 
+TEST_F(CharacterTest, tells_how_far_the_styles_know_the_motion_as_the_stylizer_does) {
+  TensorFile file = test::make_model({"old", "proud"}, 3);
+  test::add_gate(file, 0.5f);
+  const auto model = *Model::parse(format_safetensors(file), "test model");
+  Stylizer stylizer = *Stylizer::create(model, rig_);
+  Character character = *Character::create(model, rig_);
+  Clip out = clip_;
+  for (int f = 0; f < clip_.frames; ++f) {
+    const std::vector<float> strengths = {1, 0};
+    stylizer.step(clip_.pose(f), strengths, clip_.frame_time, out.pose(f));
+    character.step(clip_.pose(f), strengths, {}, clip_.frame_time, clip_.frame_time, out.pose(f));
+    EXPECT_EQ(character.gate(), stylizer.gate());
+  }
+  EXPECT_GT(character.gate(), 0);
+  EXPECT_LT(character.gate(), 1);
+}
+
 TEST_F(CharacterTest, lets_the_feet_go_where_they_are_not_to_be_locked) {
   Shape shape;
   shape.foot_lock = 0;
@@ -96,6 +113,26 @@ TEST_F(CharacterTest, leaves_a_region_that_is_off_as_the_input_has_it) {
   }
   EXPECT_LT(std::abs(dot(rotation(out, HumanJoint::spine), rotation(clip_, HumanJoint::spine))),
             1 - 1e-4f);
+}
+
+TEST_F(CharacterTest, starts_no_more_at_a_step_for_arms_that_are_off_or_that_come_back) {
+  // Legs and height are those of the whole style; only the lift above the floor is another.
+  Shape shape;
+  shape.regions[kArms] = 0;
+  const auto start = [&](const Clip& clip) {
+    float most = 0;
+    for (int f = 12; f < clip.frames; ++f) {
+      const auto height = [&](int frame) {
+        return clip.pose(frame).translations[0].y - clip_.pose(frame).translations[0].y;
+      };
+      most = std::max(most, std::abs(height(f) - 2 * height(f - 1) + height(f - 2)));
+    }
+    return most;
+  };
+  // What is beyond the stylizer's lift is eased as that lift is: at most as much again. Were it
+  // not, it would start nearly three times as much.
+  EXPECT_LT(start(run(shape)), 2 * start(run({})));
+  EXPECT_LT(start(run(shape, {1, 0.5f}, 60)), 2 * start(run({})));
 }
 
 TEST_F(CharacterTest, with_no_legs_goes_where_the_input_goes) {

@@ -81,7 +81,8 @@ declare class Actor {
   measure(count: number): void;
   /** Input seconds per output second that the style asks for. */
   readonly rate: number;
-  /** How much of each style's answer to this very motion is given, 0 to 1. */
+  /** How much of the styles' answer to this very motion is given: 1 where they know a motion like
+   * it, 0 where they do not and give no more than their mean posture. */
   readonly gate: number;
   /** Probability that each foot is planted: left, right. */
   readonly contacts: number[];

@@ -116,6 +116,7 @@ class Page {
     this.#plots.add({
       time: this.#seconds,
       strengths: Object.entries(styles).map(([name, value]) => [name, value * strength]),
+      gate: actor.gate,
       rate: actor.rate,
       contacts: actor.contacts,
     });
@@ -126,6 +127,7 @@ class Page {
     }
     if (this.#frames % kPlotEvery !== 0) return;
     this.#plots.draw();
+    find('#gate-now').textContent = actor.gate.toFixed(2);
     find('#rate-now').textContent = `${actor.rate.toFixed(2)}×`;
     find('#step-now').textContent = `median ${Math.round(this.#plots.stepMedian)}`;
   }

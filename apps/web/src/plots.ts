@@ -9,6 +9,7 @@ const kBinMicroseconds = 4;
 interface Moment {
   time: number;
   strengths: [string, number][];
+  gate: number;  // How much of the styles' answer is given: 1 where they know the motion.
   rate: number;
   contacts: number[];
 }
@@ -73,6 +74,11 @@ export class Plots {
         this.#line(context, width, height, now, -0.5, 2,
           (m) => m.strengths.find(([n]) => n === name)?.[1] ?? 0);
       }
+    });
+    this.#paint('gate', (context, width, height) => {
+      this.#scale(context, width, height, 0, 1, [0, 1]);
+      context.strokeStyle = colour('accent');
+      this.#line(context, width, height, now, 0, 1, (m) => m.gate);
     });
     this.#paint('rate', (context, width, height) => {
       this.#scale(context, width, height, 0.5, 1.5, [1]);

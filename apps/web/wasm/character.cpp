@@ -11,6 +11,7 @@ namespace {
 constexpr float kEaseSeconds = StylizerOptions{}.ease_seconds;
 // Long enough for a cycle of two steps to cancel out of the mean, mostly.
 constexpr float kPostureSeconds = 0.8f;
+constexpr float kLiftSeconds = 0.1f;  // As the stylizer's own.
 // At twice what a style asks for, a rate would leave what the stylizer itself allows.
 constexpr double kMaxLogRate = 0.7;
 
@@ -54,6 +55,7 @@ void Character::reset() noexcept {
   last_ = {};
   held_way_ = {};
   held_turn_ = 0;
+  lift_ = 0;
 }
 
 void Character::ease(std::span<const float> strengths, const Shape& shape, float seconds) noexcept {
@@ -134,10 +136,13 @@ void Character::step(ConstPose in, std::span<const float> strengths, const Shape
   HumanPositions joints;
   changed_joints(body_, change, joints);
   const Shape whole;
-  if (shape_.posture != 1 || shape_.dynamics != 1 || shape_.regions != whole.regions) {
-    // The stylizer's lift is for legs as they were before.
-    change.translation.y += amount_ * floor_depth(body_, joints, change);
-  }
+  const bool reshaped =
+      shape_.posture != 1 || shape_.dynamics != 1 || shape_.regions != whole.regions;
+  // The stylizer's lift is for legs as they were before. What others want beyond it comes and goes
+  // as slowly, or the whole body would start at every step.
+  const float depth = reshaped ? floor_depth(body_, joints, change) : 0.0f;
+  approach(lift_, depth, started_ ? filter_gain(seconds, kLiftSeconds) : 1.0f);
+  change.translation.y += amount_ * lift_;
   foot_lock_.step(body_, joints, stylizer_.contacts().first<kFeet>(), amount_ * shape_.foot_lock,
                   seconds, change);
   rig_.write(in, body_, change, out);

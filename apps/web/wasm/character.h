@@ -43,6 +43,7 @@ class Character {
   double rate() const noexcept;
   // Probability that each foot is planted, at the last step.
   std::span<const float> contacts() const noexcept { return stylizer_.contacts(); }
+  // How much of the styles' answer is given, 0 to 1: see Stylizer::gate().
   float gate() const noexcept { return stylizer_.gate(); }
   // In force at the last step. [styles]
   std::span<const float> strengths() const noexcept { return strengths_; }
@@ -69,6 +70,7 @@ class Character {
   BodyChange last_;                              // The stylizer's, at the last step.
   Vec3 held_way_;                                // What was not given of the way, world, metres,
   float held_turn_ = 0;                          // and of the turn, radians.
+  float lift_ = 0;  // Beyond the stylizer's, to keep toes above the floor, metres.
 };
 
 }  // namespace panache::web

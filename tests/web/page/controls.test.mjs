@@ -164,6 +164,50 @@ test('the walker stands, walks and jogs, and turns by keys, stick and gamepad', 
   await tab.evaluate(() => (navigator.getGamepads = () => []));
 });
 
+test('every plot shows what it says', async () => {
+  await button('Walk').click();
+  await tab.locator('#style-old').fill('1');
+  const captions = await tab.locator('figcaption').allTextContents();
+  assert.deepEqual(captions.map((text) => text.replace(/[\d.×]+$/, '').trim()), ['Strengths',
+    'Known motion', 'Rate of time', 'Feet planted, left and right', 'µs per step median']);
+  const gate = await tab.evaluate(() => window.page.source.actor.gate);
+  assert.ok(gate > 0.5 && gate <= 1, `a walk is known: ${gate}`);
+
+  // From now on the styles know a quarter of the motion, and the rest is made up as well.
+  await tab.evaluate(() => {
+    const own = { gate: 0.25, rate: 1.25, contacts: [1, 0] };
+    for (const [name, value] of Object.entries(own)) {
+      Object.defineProperty(window.page.source.actor, name,
+        { get: () => value, configurable: true });
+    }
+  });
+  await frames(tab, 6);
+  assert.equal(await tab.locator('#gate-now').textContent(), '0.25');
+  assert.equal(await tab.locator('#rate-now').textContent(), '1.25×');
+  // How high the ink at the right edge lies on the whole: 0 is the bottom, 1 the top.
+  const inks = await tab.evaluate(() => Object.fromEntries(
+    ['styles', 'gate', 'rate', 'contacts'].map((name) => {
+      const canvas = document.querySelector(`[data-plot=${name}] canvas`);
+      const { width, height } = canvas;
+      const { data } = canvas.getContext('2d').getImageData(width - 1, 0, 1, height);
+      let sum = 0, weighed = 0;
+      for (let y = 0; y < height; ++y) {
+        if (data[4 * y + 3] < 128) continue;  // The scale and a foot in the air are fainter.
+        ++sum;
+        weighed += y + 0.5;
+      }
+      return [name, 1 - (weighed / sum - 3) / (height - 6)];
+    })));
+  const wanted = { styles: 1.5 / 2.5, gate: 0.25, rate: 0.75, contacts: 0.78 };
+  for (const [name, value] of Object.entries(wanted)) {
+    // Half of a line that is two pixels thick, and as much for whole pixels: 2 of 52.
+    assert.ok(Math.abs(inks[name] - value) < 0.04, `${name}: ${inks[name]}`);
+  }
+  await tab.evaluate((names) => {
+    for (const name of names) delete window.page.source.actor[name];
+  }, ['gate', 'rate', 'contacts']);
+});
+
 test('a style reaches the body', async () => {
   await button('Stand').click();
   await button('Neutral').click();
