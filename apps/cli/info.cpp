@@ -131,22 +131,10 @@ int motion_info(const InfoVerb& verb) {
   return rig ? kDone : refuse(rig.error(), kBadInput);
 }
 
-// A style file as `panache styles` shows it.
-int style_info(const std::string& path, bool json) {
-  const Result<LoadedStyle> loaded = load_style(path);
-  if (!loaded) return refuse(loaded.error(), kBadInput);
-  if (json) {
-    print(to_json(*loaded));
-  } else {
-    print(describe(*loaded));
-  }
-  return kDone;
-}
-
 // As styles, and all else that the file says of itself.
 int model_info(const std::string& path, bool json) {
   const Result<TensorFile> file = read_tensors(path);
-  if (file && is_style_file(*file)) return style_info(path, json);
+  if (file && is_style_file(*file)) return report(load_style(path), json);
   Result<LoadedModel> loaded = load_model(path);
   if (!loaded) return refuse(loaded.error(), kBadInput);
   const auto& metadata = loaded->model->metadata();
@@ -159,7 +147,7 @@ int model_info(const std::string& path, bool json) {
   std::string text = describe(*loaded) + "\nMetadata:\n";
   for (const auto& [key, value] : metadata) {
     // These stand above.
-    if (key == "styles" || key == "style_descriptions") continue;
+    if (key == "styles" || key == "style_descriptions" || key == "style_origins") continue;
     text += "  " + padded(key, 16) + value + "\n";
   }
   print(text);

@@ -32,4 +32,16 @@ Result<LoadedStyle> load_style(const std::string& path);
 std::string describe(const LoadedStyle& loaded);
 Json to_json(const LoadedStyle& loaded);
 
+// Prints what is known of a model or of a style file, and returns the exit code.
+template <class Loaded>
+int report(const Result<Loaded>& loaded, bool json) {
+  if (!loaded) return refuse(loaded.error(), kBadInput);
+  if (json) {
+    print(to_json(*loaded));
+  } else {
+    print(describe(*loaded));
+  }
+  return kDone;
+}
+
 }  // namespace panache::cli

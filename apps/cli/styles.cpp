@@ -31,18 +31,6 @@ std::string list(const std::vector<std::string>& names) {
   return text;
 }
 
-// Prints what is known of a model or of a style file.
-template <class Loaded>
-int report(const Result<Loaded>& loaded, bool json) {
-  if (!loaded) return refuse(loaded.error(), kBadInput);
-  if (json) {
-    print(to_json(*loaded));
-  } else {
-    print(describe(*loaded));
-  }
-  return kDone;
-}
-
 int show(const std::string& path, bool json) {
   const Result<TensorFile> file = read_tensors(path);
   // What a file is that cannot be read, is told as of models everywhere.
