@@ -28,7 +28,7 @@ int run(const Options& options) {
   }
   Result<std::string> model = find_model(options.model);
   if (!model) return refuse(model.error(), kBadInput);
-  Result<std::string> walker = find_shipped("walker.safetensors");
+  Result<std::string> walker = find_shipped(kWalkerModel);
   if (!walker) return refuse(walker.error(), kBadInput);
   bench::Options how;
   how.model = *model;

@@ -28,6 +28,10 @@ bool is_fbx(const std::string& bytes) {
 Result<std::string> convert(const std::string& path) {
   const Result<std::string> bytes = read_file(path);
   if (!bytes) return bytes.error();
+  if (bytes->size() > kLargestFile) {
+    return Error{path + ": is larger than 1 GB; expected a smaller FBX file, or the same as GLB"};
+  }
+  if (!is_fbx(*bytes)) return Error{path + ": does not begin as FBX files do; is it damaged?"};
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_CAMERAS, false);
@@ -49,12 +53,6 @@ Result<std::string> convert(const std::string& path) {
 }  // namespace
 
 Result<std::string> fbx_to_glb(const std::string& path) {
-  Result<std::string> bytes = read_file(path);
-  if (!bytes) return bytes.error();
-  if (bytes->size() > kLargestFile) {
-    return Error{path + ": is larger than 1 GB; expected a smaller FBX file, or the same as GLB"};
-  }
-  if (!is_fbx(*bytes)) return Error{path + ": does not begin as FBX files do; is it damaged?"};
   Result<std::string> glb =
       run_in_child({kFbxReader, path},
                    path +

@@ -21,8 +21,8 @@ constexpr float kMaxGlide = 1.5f;  // m/s; a faster foot was no foot about to st
 constexpr float kMaxReach = 0.995f;
 // So a leg that is nearly straight follows only a share of what would make it longer or shorter, as
 // its knee would fly back and forth: all of it from a bend on at which the sine of the angle
-// between reach and length is this, none when it is straight. What is left of the slide is less
-// than before, as feet are let go later.
+// between reach and length is this, none when it is straight. Feet slide no more for it, as they
+// are let go later.
 constexpr float kBent = 0.6f;
 
 // Where the ankle goes in place of `target`.

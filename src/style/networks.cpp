@@ -79,6 +79,7 @@ void StyleNetworks::add_heads(std::span<const Pass> passes, int network, Rows<co
 }
 
 float StyleNetworks::gate() const noexcept {
+  if (learnt_gates_.empty()) return gate_;
   const size_t built_in = model_->built_in();
   float total = 0, sum = 0;
   for (size_t s = 0; s < strengths_.size(); ++s) {
@@ -86,9 +87,7 @@ float StyleNetworks::gate() const noexcept {
     total += strength;
     sum += strength * (s < built_in ? gate_ : learnt_gates_[s - built_in]);
   }
-  // Styles of the same gate give that gate, not what rounding makes of it.
-  if (learnt_gates_.empty() || !(total > 0)) return gate_;
-  return std::min(sum / total, 1.0f);
+  return total > 0 ? std::min(sum / total, 1.0f) : gate_;
 }
 
 void StyleNetworks::add_learnt(std::span<const Pass> passes, std::span<const float> scratch,
