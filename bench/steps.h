@@ -24,7 +24,7 @@ struct StepTimes {
   };
   Histogram steps;            // Of Stylizer::step, one after another.
   int64_t interruptions = 0;  // How often other programs took the core meanwhile.
-  std::vector<Stage> stages;  // What a step consists of, in its order, by its public functions.
+  std::vector<Stage> stages;  // The stages of a step, in their order.
   double networks = 0;        // The one of these that evaluates the networks.
   double whole = 0;           // Median of the step, in the rounds in which the stages were timed.
   double cold = 0;            // Median of single steps after evict_caches().

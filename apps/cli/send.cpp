@@ -47,12 +47,14 @@ class Player {
   }
 
   // The motion's length in seconds, from its first usable frame to its last.
-  double duration() const { return (clip_.frames - 1 - rig_.first_frame()) * clip_.frame_time; }
+  double duration() const {
+    return (clip_.frames - 1 - rig_.rig().first_frame()) * clip_.frame_time;
+  }
 
   // `at`: seconds into the motion.
   std::vector<VmcFrame::Bone> bones(double at) {
     const Pose pose{rotations_, translations_};
-    sample(clip_, rig_.first_frame() + at / clip_.frame_time, pose);
+    sample(clip_, rig_.rig().first_frame() + at / clip_.frame_time, pose);
     BodyPose body;
     rig_.read(pose, body);
     std::array<Quat, kHumanJoints> world;
@@ -72,7 +74,7 @@ class Player {
 
  private:
   const Clip& clip_;
-  Rig rig_;
+  PosedRig rig_;
   std::vector<Quat> rotations_;
   std::vector<Vec3> translations_;
   Skeleton skeleton_ = canonical_skeleton();

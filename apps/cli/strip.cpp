@@ -81,6 +81,7 @@ Result<StripRow> read_row(const std::string& path, const StripVerb& verb,
   const double begin = std::max(verb.from, rig->first_frame() * clip.frame_time);
   StripRow row;
   row.label = std::filesystem::path(path).stem().string();
+  PosedRig reader(*rig);
   std::vector<Quat> rotations(clip.joints());
   std::vector<Vec3> translations(clip.joints());
   for (int i = 0;; ++i) {
@@ -89,7 +90,7 @@ Result<StripRow> read_row(const std::string& path, const StripVerb& verb,
     if (i > 0 && seconds > std::min(verb.to, end) + 5e-7) break;
     sample(clip, seconds / clip.frame_time, {rotations, translations});
     BodyPose body;
-    rig->read({rotations, translations}, body);
+    reader.read({rotations, translations}, body);
     row.frames.push_back(body.joints);
   }
   return row;

@@ -54,6 +54,19 @@ constexpr BasicVec3<T> rotate(BasicQuat<T> q, BasicVec3<T> v) {
   const BasicVec3<T> t = cross(q.xyz(), v) * T(2);
   return v + t * q.w + cross(q.xyz(), t);
 }
+// rotate(q, v) - v, which is exactly zero where q is the identity.
+template <class T>
+constexpr BasicVec3<T> rotate_offset(BasicQuat<T> q, BasicVec3<T> v) {
+  const BasicVec3<T> t = cross(q.xyz(), v) * T(2);
+  return t * q.w + cross(q.xyz(), t);
+}
+// The rotation that does in other axes what `q` does in its own: `axes` turns its axes to those.
+// The scalar part stays as it is, so that the identity stays the identity to the bit.
+template <class T>
+constexpr BasicQuat<T> in_axes(BasicQuat<T> axes, BasicQuat<T> q) {
+  const BasicVec3<T> v = rotate(axes, q.xyz());
+  return {v.x, v.y, v.z, q.w};
+}
 // The rotation by `angle` radians about the unit `axis`.
 template <class T>
 BasicQuat<T> axis_angle(BasicVec3<T> axis, T angle) {

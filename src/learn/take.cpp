@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "clip/motion_file.h"
+#include "pose/observer.h"
 
 namespace panache {
 
@@ -21,35 +22,34 @@ void write_numbers(PoseLayout layout, Take& take) {
     const double before = std::max(0.0, f - back);
     const int a = static_cast<int>(before), b = std::min(a + 1, frames - 1);
     const float t = static_cast<float>(before - a);
-    const Ground ground{lerp(take.ground[a].position, take.ground[b].position, t),
-                        take.ground[a].facing * (1 - t) + take.ground[b].facing * t};
+    const Ground ground = interpolate(take.ground[a], take.ground[b], t);
     write_root_numbers(ground, take.ground[f], kWindowSpacing, numbers.last<kRootNumbers>());
   }
 }
 
-Take make_take(const Clip& clip, Rig rig, PoseLayout layout) {
+Take make_take(const Clip& clip, const Rig& rig, PoseLayout layout) {
   Take take;
+  PosedRig reader(rig);
   const double step = 1 / (kTakeRate * clip.frame_time);  // File frames per frame of the take.
   const int frames = 1 + static_cast<int>((clip.frames - 1 - rig.first_frame()) / step + 1e-6);
   std::vector<Quat> rotations(clip.joints());
   std::vector<Vec3> translations(clip.joints());
   std::vector<HumanPositions> world(frames);
-  BodyPose body;
+  Observation now;
   for (int f = 0; f < frames; ++f) {
     // Rates that are 30 but for the digits of the file (0.0333333) are not resampled.
     double at = rig.first_frame() + f * step;
     if (std::abs(at - std::round(at)) < 0.02) at = std::round(at);
     sample(clip, at, {rotations, translations});
-    rig.read({rotations, translations}, body);
-    const Vec3 hips = body.positions[0];
-    const float last = f > 0 ? take.ground.back().facing : 0;
-    take.ground.push_back({{hips.x, 0, hips.z}, unwrap_angle(body.facing, last)});
-    take.body.emplace_back();
-    to_body_frame(body.positions, take.ground.back(), take.body.back());
-    const Quat to_heading = rotation_y(-body.facing);
+    observe(reader, {rotations, translations}, now.ground.facing, now);
+    take.ground.push_back(now.ground);
+    take.body.push_back(now.body_frame);
+    const Quat to_heading = rotation_y(-now.world.facing);
     take.turned.emplace_back();
-    for (int j = 0; j < kHumanJoints; ++j) take.turned.back()[j] = to_heading * body.rotations[j];
-    world[f] = body.positions;
+    for (int j = 0; j < kHumanJoints; ++j) {
+      take.turned.back()[j] = to_heading * now.world.rotations[j];
+    }
+    world[f] = now.world.positions;
   }
   take.contacts = detect_contacts(world, kTakeRate);
   write_numbers(layout, take);
@@ -85,13 +85,7 @@ Result<std::vector<Take>> load_takes(const std::vector<ManifestRow>& rows, PoseL
 }
 
 HumanPositions world_positions(const Take& take, int frame) {
-  HumanPositions world;
-  const Ground& ground = take.ground[frame];
-  const Quat heading = rotation_y(ground.facing);
-  for (int j = 0; j < kHumanJoints; ++j) {
-    world[j] = rotate(heading, take.body[frame][j]) + ground.position;
-  }
-  return world;
+  return to_world(take.body[frame], take.ground[frame]);
 }
 
 }  // namespace panache

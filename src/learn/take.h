@@ -32,7 +32,7 @@ struct Take {
 };
 
 // The take of a clip on a character, from the first frame that is motion; its row stays empty.
-Take make_take(const Clip& clip, Rig rig, PoseLayout layout);
+Take make_take(const Clip& clip, const Rig& rig, PoseLayout layout);
 
 // Reads one take.
 Result<Take> load_take(const ManifestRow& row, PoseLayout layout);

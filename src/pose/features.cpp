@@ -2,18 +2,11 @@
 
 #include <cassert>
 #include <cmath>
-#include <numbers>
 
 #include "base/quat.h"
 #include "rig/canonical_skeleton.h"
 
 namespace panache {
-
-void to_body_frame(const HumanPositions& world, const Ground& ground,
-                   HumanPositions& body) noexcept {
-  const Quat to_heading = rotation_y(-ground.facing);
-  for (int j = 0; j < kHumanJoints; ++j) body[j] = rotate(to_heading, world[j] - ground.position);
-}
 
 void write_pose_numbers(PoseLayout layout, const HumanPositions& body,
                         std::span<float> out) noexcept {
@@ -59,11 +52,6 @@ Ground move_ground(const Ground& before, std::span<const float, kRootNumbers> ro
   const auto time = static_cast<float>(seconds);
   const float facing = before.facing + root[2] * time;
   return {before.position + rotate(rotation_y(facing), Vec3{root[0], 0, root[1]} * time), facing};
-}
-
-float unwrap_angle(float angle, float reference) noexcept {
-  constexpr float turn = 2 * std::numbers::pi_v<float>;
-  return angle - turn * std::round((angle - reference) / turn);
 }
 
 }  // namespace panache

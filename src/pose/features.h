@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "rig/humanoid.h"
+#include "pose/root_pose.h"
 
 namespace panache {
 
@@ -16,27 +16,14 @@ inline constexpr int kMaxPoseNumbers = 130;     // Of the larger layout, root nu
 // How a pose is laid out in numbers. Root numbers come last in both.
 enum class PoseLayout {
   // 21 joint positions in the body frame, metres [63]; then ground velocity left and forward, m/s,
-  // and
-  // turn rate, rad/s.
+  // and turn rate, rad/s.
   positions,
   // 21 rotations of the canonical skeleton, each as the first two columns of its matrix: the hips
-  // in
-  // the body frame, the others relative to their parents [126]; height of the hips, metres; then
-  // the
-  // root numbers as above.
+  // in the body frame, the others relative to their parents [126]; height of the hips, metres; then
+  // the root numbers as above.
   rotations,
 };
 constexpr int pose_numbers(PoseLayout layout) { return layout == PoseLayout::positions ? 66 : 130; }
-
-// Where a body stands and looks.
-struct Ground {
-  Vec3 position;     // Under the hips, y = 0; world, metres.
-  float facing = 0;  // About +y, radians, unwrapped: it never jumps by a full turn.
-};
-
-// `world` (Y up, metres) seen from the ground point under the hips, facing +z.
-void to_body_frame(const HumanPositions& world, const Ground& ground,
-                   HumanPositions& body) noexcept;
 
 // Writes the pose_numbers(layout) - kRootNumbers first numbers of a pose given in the body frame.
 void write_pose_numbers(PoseLayout layout, const HumanPositions& body,
@@ -49,8 +36,5 @@ void write_root_numbers(const Ground& before, const Ground& now, double seconds,
 HumanPositions read_positions(std::span<const float> pose) noexcept;
 Ground move_ground(const Ground& before, std::span<const float, kRootNumbers> root,
                    double seconds) noexcept;
-
-// The equivalent of `angle` (radians) nearest to `reference`.
-float unwrap_angle(float angle, float reference) noexcept;
 
 }  // namespace panache

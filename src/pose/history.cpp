@@ -33,8 +33,7 @@ PoseHistory::Between PoseHistory::find(double time, int& age) const noexcept {
 
 Ground PoseHistory::ground(const Between& between) const noexcept {
   const auto& [a, b, t] = between;
-  return {lerp(ring_[a].ground.position, ring_[b].ground.position, t),
-          ring_[a].ground.facing * (1 - t) + ring_[b].ground.facing * t};
+  return interpolate(ring_[a].ground, ring_[b].ground, t);
 }
 
 void PoseHistory::window(std::span<float> out) const noexcept {

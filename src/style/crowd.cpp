@@ -23,17 +23,19 @@ size_t count_together(std::span<const CrowdMember> members) {
 void step_crowd(std::span<const CrowdMember> members, double seconds) noexcept {
   while (!members.empty()) {
     const size_t count = count_together(members);
-    std::array<Stylizer::Times, kRowsAtOnce> times;
+    std::array<StepTime, kRowsAtOnce> times;
     std::array<StyleNetworks::Pass, kRowsAtOnce> passes;
     for (size_t i = 0; i < count; ++i) {
       const auto& [character, in, strengths, out] = members[i];
       // By its turn the next one's past has come from a far cache.
-      if (i + 1 < members.size()) members[i + 1].character->history_.fetch_window(seconds);
-      times[i] = character->look(in, strengths, seconds, seconds);
-      passes[i] = {&character->networks_, character->window_, times[i].gate_share};
+      if (i + 1 < members.size()) members[i + 1].character->window_.fetch(seconds);
+      times[i] = character->take_in(in, strengths, seconds, seconds, nullptr);
+      passes[i] = character->pass(times[i]);
     }
     StyleNetworks::forward_all(std::span(passes).first(count));
-    for (size_t i = 0; i < count; ++i) members[i].character->change_pose(times[i], members[i].out);
+    for (size_t i = 0; i < count; ++i) {
+      members[i].character->give_out(times[i], members[i].out, nullptr);
+    }
     members = members.subspan(count);
   }
 }

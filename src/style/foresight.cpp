@@ -17,15 +17,6 @@ constexpr float kShareSeconds = 0.2f;
 // A check that comes later than this is none: frames were dropped.
 constexpr double kLatest = 0.05;  // Seconds.
 
-HumanPositions in_world(const ForeseenBody& at) {
-  HumanPositions world;
-  const Quat turn = rotation_y(at.ground.facing);
-  for (size_t j = 0; j < world.size(); ++j) {
-    world[j] = at.ground.position + rotate(turn, at.body[j]);
-  }
-  return world;
-}
-
 }  // namespace
 
 Foresight::Foresight(std::shared_ptr<const Model> model)
@@ -61,9 +52,9 @@ void Foresight::push(double time, const HumanPositions& body, const Ground& grou
 }
 
 void Foresight::check(size_t at, const HumanPositions& body, const Ground& ground) noexcept {
-  const HumanPositions truth = in_world({body, ground});
+  const HumanPositions truth = to_world(body, ground);
   for (size_t g = 0; g < kGuessers; ++g) {
-    const HumanPositions guessed = in_world(guesses_[at][g]);
+    const HumanPositions guessed = to_world(guesses_[at][g].body, guesses_[at][g].ground);
     float sum = 0;
     for (size_t j = 0; j < truth.size(); ++j) sum += length(guessed[j] - truth[j]);
     const float error = sum / static_cast<float>(truth.size());

@@ -69,8 +69,7 @@ HumanPositions InputRing::body(double time) const noexcept {
 Ground InputRing::ground(double time) const noexcept {
   if (empty()) return {};
   const auto [a, b, t] = find(time);
-  const Ground &from = entries_[a].ground, &to = entries_[b].ground;
-  return {lerp(from.position, to.position, t), from.facing * (1 - t) + to.facing * t};
+  return interpolate(entries_[a].ground, entries_[b].ground, t);
 }
 
 }  // namespace panache

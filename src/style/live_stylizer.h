@@ -49,7 +49,7 @@ class LiveStylizer {
   // Cycles left out (above zero) and played again (below) since the start, in sum.
   int skipped_cycles() const noexcept { return skipped_; }
   // Whether time is the input's own, so that a step is that of the stylizer alone.
-  bool keeps_time() const noexcept { return !timed_; }
+  bool keeps_time() const noexcept { return !playback_; }
 
   // See Stylizer.
   Stylizer& stylizer() noexcept { return stylizer_; }
@@ -59,42 +59,35 @@ class LiveStylizer {
   bool restore(std::span<const std::byte> in) noexcept;
 
  private:
-  // What stands in the way of the input's own place: a cycle that was left out.
-  struct Glue {
-    Vec3 moved;        // World, metres.
-    float turned = 0;  // About +y, radians; fades.
-  };
   // What is needed to be anywhere else than now.
-  struct Timed {
-    Timed(const Rig& rig, std::shared_ptr<const Model> model, const LiveOptions& options);
+  struct Playback {
+    Playback(const Rig& rig, std::shared_ptr<const Model> model, const LiveOptions& options);
 
-    Rig reader;  // Of the newest pose; the stylizer's own is that of the play head.
-    BodyPose now;
-    HumanPositions body{};  // Of `now`, in its body frame.
-    Ground ground;
+    Observer input;  // The newest pose; the stylizer's own is that of the play head.
     InputRing ring;
     std::optional<Foresight> foresight;
     // What the play head's body is ahead of the newest, smoothed.
     ForeseenBody ahead;
-    // The newest pose as far as it is sound, what is shown, and what was shown before a skip.
-    std::vector<Quat> rotations, shown_rotations, old_rotations;           // [joints]
-    std::vector<Vec3> translations, shown_translations, old_translations;  // [joints]
-    double time = 0;      // Input seconds since the start,
+    // What is shown, and what was shown before a skip.
+    std::vector<Quat> shown_rotations, old_rotations;        // [joints]
+    std::vector<Vec3> shown_translations, old_translations;  // [joints]
+    double time = 0;                                         // Input seconds since the start,
     double searched = 0;  // and when a cycle was last looked for.
-    bool started = false;
-    Glue glue, old_glue;
+    // What a cycle that was left out adds to the input's own place; the turn fades.
+    RootOffset offset, old_offset;
     double old_ahead = 0;  // Of the head as it was before the last skip,
     double blended = 1;    // and how much of the way from it is done, 0 to 1.
   };
 
   LiveStylizer(Stylizer stylizer, std::shared_ptr<const Model> model, const LiveOptions& options);
 
+  void forget() noexcept;  // Of the motion so far, all but the observer's part.
   void take_input(ConstPose in, double seconds) noexcept;
   void skip_cycle(double rate) noexcept;
-  std::optional<double> find_cycle(double at, double nearest, double farthest) const noexcept;
   void look_ahead(double seconds) noexcept;
   Ground ground_at(double ahead) const noexcept;
-  void pose_at(double ahead, const Glue& glue, Pose out) noexcept;
+  void pose_at(double ahead, const RootOffset& offset, Pose out) noexcept;
+  void blend_from_old(double seconds, double played, Pose shown) noexcept;
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit);
 
@@ -102,7 +95,7 @@ class LiveStylizer {
   Stylizer stylizer_;
   PlayHead head_;
   int skipped_ = 0;
-  std::unique_ptr<Timed> timed_;  // Null where time is the input's own.
+  std::unique_ptr<Playback> playback_;  // Null where time is the input's own.
 };
 
 }  // namespace panache

@@ -31,7 +31,11 @@ ChangeNumbers change_to_pose(std::span<const float> pose, const HumanPositions& 
 }
 
 Quat joint_rotation(const ChangeNumbers& change, int joint) noexcept {
-  const Vec3 r{change[3 * joint], change[3 * joint + 1], change[3 * joint + 2]};
+  return joint_rotation(unpack(change), joint);
+}
+
+Quat joint_rotation(const StyleDelta& delta, int joint) noexcept {
+  const Vec3 r = delta.rotations[joint];
   const float s = dot(r, r) / 4;  // Of the half angle a: a^2.
   if (!(s < 2.5f)) return exp_rotation(r);
   // Half a turn and less: Taylor's series of sin(a) / a and cos(a) in a^2, of which rounding loses

@@ -7,6 +7,7 @@
 
 #include "pose/features.h"
 #include "style/model.h"
+#include "style/style_delta.h"
 
 namespace panache {
 
@@ -18,6 +19,7 @@ ChangeNumbers change_to_pose(std::span<const float> pose, const HumanPositions& 
 
 // World rotation that the change puts on a joint, in the heading frame.
 Quat joint_rotation(const ChangeNumbers& change, int joint) noexcept;
+Quat joint_rotation(const StyleDelta& delta, int joint) noexcept;
 
 // The canonical body (body frame, metres) with the change's rotations and hips height on it.
 HumanPositions change_body(const HumanPositions& body, const ChangeNumbers& change) noexcept;

@@ -98,8 +98,7 @@ ForeseenBody Predictor::foresee(std::span<const float> window, const Ground& now
   for (size_t j = 0; j < out.body.size(); ++j) {
     out.body[j] = lerp(earlier.body[j], later.body[j], t);
   }
-  out.ground = {lerp(earlier.ground.position, later.ground.position, t),
-                earlier.ground.facing * (1 - t) + later.ground.facing * t};
+  out.ground = interpolate(earlier.ground, later.ground, t);
   return out;
 }
 

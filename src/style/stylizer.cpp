@@ -1,36 +1,18 @@
 #include "style/stylizer.h"
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
 
 #include "style/pose_change.h"
-#include "style/sound_pose.h"
+#include "style/rate.h"
+#include "style/state_bytes.h"
 
 namespace panache {
 namespace {
 
-constexpr float kMaxStrength = 4;
-// A step over a longer gap, or a leap over the ground this fast, is a cut: the past says nothing.
-constexpr double kMaxGap = 0.5;        // Seconds.
-constexpr float kMaxGroundSpeed = 15;  // m/s; a sprinter reaches 12.
-constexpr float kRateSeconds = 0.05f;  // Time constant of the tempo.
 constexpr float kGateSeconds = 0.15f;  // Time constant of the gate.
-constexpr float kMaxLogRate = 0.7f;    // Half to double tempo.
-// A style may sway and turn within a step, but not leave the input's course: what it adds sideways
-// and to the heading fades with this time constant.
-constexpr float kCourseSeconds = 1.5f;
-constexpr float kLiftSeconds = 0.1f;  // Time constant of what keeps the feet above the floor.
-// Below this speed a character stands, or walks in place: the style may not carry it away.
-constexpr float kStandingSpeed = 0.3f;  // m/s
-// Well above this speed the way over the ground changes by the style's full share, below it by
-// less.
-constexpr float kSlowSpeed = 0.4f;  // m/s
-constexpr float kMostShortened = 0.8f, kMostStretched = 1.5f;
 
-// Share of the way to a target that a one-pole filter goes in `seconds`.
-float filter_gain(float seconds, float time_constant) {
-  return time_constant > 0 ? 1 - exponential(-seconds / time_constant) : 1.0f;
+void tell(StageClock* clock, Stage stage) noexcept {
+  if (clock) clock->done(stage);
 }
 
 }  // namespace
@@ -47,157 +29,127 @@ Result<Stylizer> Stylizer::create(std::shared_ptr<const Model> model, Rig rig,
 }
 
 Stylizer::Stylizer(std::shared_ptr<const Model> model, Rig rig, const StylizerOptions& options)
-    : rig_(std::move(rig)),
-      networks_(model),
-      options_(options),
-      rotations_(rig_.joint_count()),
-      translations_(rig_.joint_count()),
-      window_(size_t(kWindowPoses) * pose_numbers(model->layout())),
-      strengths_(model->styles().size()),
-      history_(model->layout()) {
-  reset();
-}
+    : options_(options),
+      observer_(std::move(rig)),
+      strengths_(model->styles().size(), options.ease_seconds),
+      window_(model->layout()),
+      networks_(std::move(model)),
+      filter_(options.smoothing_seconds) {}
 
 void Stylizer::reset() noexcept {
+  observer_.reset();
+  forget();
+}
+
+void Stylizer::forget() noexcept {
   started_ = false;
-  time_ = 0;
-  history_.clear();
-  numbers_ = {};
-  log_rate_ = 0;
-  drift_ = {};
-  sway_ = 0;
-  turn_ = 0;
-  lift_ = 0;
+  window_.reset();
+  filter_.reset();
+  root_.reset();
+  shaping_.reset();
+  floor_.reset();
   foot_lock_.reset();
-}
-
-void Stylizer::ease_strengths(std::span<const float> strengths, float seconds) noexcept {
-  assert(strengths.size() == strengths_.size());
-  const float gain = started_ ? filter_gain(seconds, options_.ease_seconds) : 1.0f;
-  float total = 0;
-  for (size_t i = 0; i < strengths_.size(); ++i) {
-    const float wanted =
-        std::isfinite(strengths[i]) ? std::clamp(strengths[i], -kMaxStrength, kMaxStrength) : 0.0f;
-    strengths_[i] += gain * (wanted - strengths_[i]);
-    if (std::abs(wanted - strengths_[i]) < 1e-4f) strengths_[i] = wanted;
-    total += std::abs(strengths_[i]);
-  }
-  amount_ = std::min(1.0f, 4 * total);
-}
-
-void Stylizer::take_answer(float seconds) noexcept {
-  ChangeNumbers wanted;
-  if (networks_.model().recipe() == Recipe::panache) {
-    std::copy_n(networks_.pose().begin(), kChangeNumbers, wanted.begin());
-  } else {
-    const size_t root = window_.size() / kWindowPoses - kRootNumbers;
-    wanted = change_to_pose(networks_.pose(), seen_,
-                            std::span(window_).subspan(root).first<kRootNumbers>());
-  }
-  const float gain = started_ ? filter_gain(seconds, options_.smoothing_seconds) : 1.0f;
-  for (int i = 0; i < kChangeNumbers; ++i) {
-    if (!std::isfinite(wanted[i])) wanted[i] = 0;
-    numbers_[i] += gain * (wanted[i] - numbers_[i]);
-    if (std::abs(wanted[i] - numbers_[i]) < 1e-7f) numbers_[i] = wanted[i];
-  }
-  const float rate = std::isfinite(networks_.log_rate())
-                         ? std::clamp(networks_.log_rate(), -kMaxLogRate, kMaxLogRate)
-                         : 0.0f;
-  log_rate_ += (started_ ? filter_gain(seconds, kRateSeconds) : 1.0f) * (rate - log_rate_);
-  if (std::abs(rate - log_rate_) < 1e-6f) log_rate_ = rate;
-}
-
-float Stylizer::forward_speed() const noexcept {
-  const size_t numbers = window_.size() / kWindowPoses;
-  float sum = 0;
-  for (int k = 0; k < kWindowPoses; ++k) sum += window_[(k + 1) * numbers - kRootNumbers + 1];
-  return sum / kWindowPoses;
-}
-
-void Stylizer::move_root(double input_seconds) noexcept {
-  if (!started_ || !options_.root) return;
-  const float dt = static_cast<float>(input_seconds);
-  // On unknown motion a style has no say in the way: its mean way is that of its walks.
-  const float known = networks_.gate();
-  const float moving = known * std::min(1.0f, history_.ground_speed() / kStandingSpeed);
-  const float back = exponential(-dt / kCourseSeconds);
-  turn_ = turn_ * back + numbers_[66] * moving * dt;
-  sway_ = sway_ * back + numbers_[64] * moving * dt;
-
-  // Forward the style stretches or shortens the input's own way, by the share that its velocity is
-  // of the input's: what comes back in the input comes back in the output, and what stands stays.
-  // Each term is exactly zero without a style.
-  const float speed = forward_speed();
-  const float share = known * numbers_[65] * speed / (speed * speed + kSlowSpeed * kSlowSpeed);
-  const Vec3 way = ground_.position - last_ground_.position;
-  drift_ += rotate(rotation_y(turn_), way) - way;
-  const float most = speed > 0 ? kMostStretched : 0.0f;  // Backwards, or the way would not close.
-  drift_ += rotate(rotation_y(turn_), way) * std::clamp(share, -kMostShortened, most);
-}
-
-// A style trained on one body may put another's feet through the ground: lifts the body by as much
-// as its lowest toe is deeper than both the floor and the input's own lowest toe. It comes and goes
-// slowly, or the whole body would start at every step; what is left of the depth is up to the legs.
-// `joints`: those of changed_joints().
-void Stylizer::keep_above_floor(const HumanPositions& joints, float seconds) noexcept {
-  const float depth = floor_depth(body_, joints, change_);
-  const float gain = started_ ? filter_gain(seconds, kLiftSeconds) : 1.0f;
-  lift_ += gain * (depth - lift_);
-  change_.translation.y += amount_ * lift_;
 }
 
 void Stylizer::step(ConstPose in, std::span<const float> strengths, double input_seconds,
                     double output_seconds, Pose out) noexcept {
-  const Times times = look(in, strengths, input_seconds, output_seconds);
-  networks_.forward(window_, times.gate_share);
-  change_pose(times, out);
+  const StepTime time = take_in(in, strengths, input_seconds, output_seconds, nullptr);
+  networks_.forward(pass(time).window, pass(time).gate_share);
+  give_out(time, out, nullptr);
 }
 
-Stylizer::Times Stylizer::look(ConstPose in, std::span<const float> strengths, double input_seconds,
-                               double output_seconds) noexcept {
+void Stylizer::step(ConstPose in, std::span<const float> strengths, double seconds, Pose out,
+                    StageClock& clock) noexcept {
+  const StepTime time = take_in(in, strengths, seconds, seconds, &clock);
+  networks_.forward(pass(time).window, pass(time).gate_share);
+  clock.done(Stage::networks);
+  give_out(time, out, &clock);
+}
+
+StepTime Stylizer::take_in(ConstPose in, std::span<const float> strengths, double input_seconds,
+                           double output_seconds, StageClock* clock) noexcept {
   if (!(input_seconds >= 0)) input_seconds = 0;
   if (!(output_seconds >= 0)) output_seconds = 0;
-  if (input_seconds > kMaxGap || output_seconds > kMaxGap) reset();
-  take_sound(in, {rotations_, translations_});
-  rig_.read({rotations_, translations_}, body_);
+  if (output_seconds > Observer::kMaxGap) observer_.reset();
+  if (!observer_.observe(in, input_seconds)) forget();
+  tell(clock, Stage::observe);
 
-  last_ground_ = ground_;
-  const Vec3 hips = body_.positions[0];
-  ground_ = {{hips.x, 0, hips.z}, unwrap_angle(body_.facing, started_ ? ground_.facing : 0)};
-  if (started_ && length(ground_.position - last_ground_.position) >
-                      kMaxGroundSpeed * static_cast<float>(std::max(input_seconds, 1e-3))) {
-    reset();
-  }
-  time_ += input_seconds;
-  to_body_frame(body_.positions, ground_, seen_);
-  history_.push(time_, seen_, ground_);
-
-  const float seconds = static_cast<float>(output_seconds);
-  ease_strengths(strengths, seconds);
-  networks_.set_strengths(strengths_);
-  history_.window(window_);
-  return {input_seconds, seconds, started_ ? filter_gain(seconds, kGateSeconds) : 1.0f};
+  const StepTime time{input_seconds, static_cast<float>(output_seconds), !started_};
+  strengths_.step(strengths, shape_, time);
+  networks_.set_strengths(strengths_.now());
+  tell(clock, Stage::strengths);
+  window_.step(observer_.now(), time);
+  tell(clock, Stage::window);
+  return time;
 }
 
-void Stylizer::change_pose(const Times& times, Pose out) noexcept {
-  take_answer(times.output);
-  move_root(times.input);
+StyleNetworks::Pass Stylizer::pass(const StepTime& time) noexcept {
+  return {&networks_, window_.window(), time.gain(kGateSeconds)};
+}
 
-  for (int j = 0; j < kHumanJoints; ++j) {
-    change_.rotations[j] = joint_rotation(numbers_, j);
+StyleDelta Stylizer::asked_delta() const noexcept {
+  if (networks_.model().recipe() == Recipe::panache) {
+    return unpack(networks_.pose().first<StyleDelta::kSize>());
   }
-  change_.turn = turn_;
-  const Vec3 side = rotate(rotation_y(ground_.facing + turn_), Vec3{sway_, 0, 0});
-  change_.translation = drift_ + side + Vec3{0, numbers_[63], 0};
+  return unpack(change_to_pose(networks_.pose(), observer_.now().body_frame, window_.root()));
+}
+
+void Stylizer::give_out(const StepTime& time, Pose out, StageClock* clock) noexcept {
+  const Observation& now = observer_.now();
+  const Shape& shape = strengths_.shape();
+  const float amount = strengths_.amount();
+  filter_.step(asked_delta(), networks_.log_rate(), time);
+  tell(clock, Stage::filter);
+  if (options_.root) root_.step(filter_.delta(), networks_.gate(), observer_, window_, time);
+  tell(clock, Stage::root);
+  shaping_.step(shape, filter_.delta(), root_.offset(now.ground), time, change_);
+  tell(clock, Stage::shape);
   HumanPositions joints;
-  changed_joints(body_, change_, joints);
-  keep_above_floor(joints, times.output);
+  changed_joints(now.world, change_, joints);
+  floor_.step(now.world, joints, amount, time, change_);
+  tell(clock, Stage::floor);
   if (options_.foot_lock) {
-    foot_lock_.step(body_, joints, networks_.contact().first<kFeet>(), amount_, times.output,
-                    change_);
+    foot_lock_.step(now.world, joints, networks_.contact().first<kFeet>(), amount * shape.foot_lock,
+                    time.output, change_);
   }
-  rig_.write({rotations_, translations_}, body_, change_, out);
+  tell(clock, Stage::feet);
+  observer_.write(change_, out);
+  tell(clock, Stage::write);
   started_ = true;
+}
+
+double Stylizer::rate() const noexcept {
+  const float log_rate = strengths_.shape().timing * filter_.log_rate();
+  return static_cast<double>(exponential(bounded_log_rate(log_rate)));
+}
+
+template <class Self, class Visit>
+void Stylizer::visit_state(Self& self, Visit&& visit) {
+  visit(self.started_), visit(self.change_);
+  Observer::visit_state(self.observer_, visit);
+  EasedStrengths::visit_state(self.strengths_, visit);
+  InputWindow::visit_state(self.window_, visit);
+  StyleNetworks::visit_state(self.networks_, visit);
+  OutputFilter::visit_state(self.filter_, visit);
+  RootMotion::visit_state(self.root_, visit);
+  Shaping::visit_state(self.shaping_, visit);
+  FloorClearance::visit_state(self.floor_, visit);
+  FootLock::visit_state(self.foot_lock_, visit);
+}
+
+size_t Stylizer::state_size() const noexcept {
+  return state_bytes([this](auto&& visit) { visit_state(*this, visit); });
+}
+
+void Stylizer::save(std::span<std::byte> out) const noexcept {
+  assert(out.size() == state_size());
+  write_state(out, [this](auto&& visit) { visit_state(*this, visit); });
+}
+
+bool Stylizer::restore(std::span<const std::byte> in) noexcept {
+  if (in.size() != state_size() || !is_whole_state(in)) return false;
+  read_state(in, [this](auto&& visit) { visit_state(*this, visit); });
+  return true;
 }
 
 }  // namespace panache

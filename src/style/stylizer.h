@@ -1,38 +1,79 @@
 #pragma once
 // One character being restyled, step by step, while it moves.
 
+#include <array>
 #include <memory>
 #include <span>
-#include <vector>
 
 #include "base/result.h"
 #include "pose/foot_lock.h"
-#include "pose/history.h"
-#include "rig/rig.h"
+#include "pose/observer.h"
 #include "style/model.h"
+#include "style/shape.h"
+#include "style/stages/filter.h"
+#include "style/stages/floor.h"
+#include "style/stages/root_motion.h"
+#include "style/stages/shaping.h"
+#include "style/stages/strengths.h"
+#include "style/stages/window.h"
 
 namespace panache {
 
 struct CrowdMember;
 
 struct StylizerOptions {
-  float ease_seconds = 0.15f;  // A change of strength takes about this long to arrive.
-  float smoothing_seconds =
-      0.04f;  // Time constant of the filter on the change, never on the input.
+  // A change of strength or shape takes about this long to arrive.
+  float ease_seconds = 0.15f;
+  // Time constant of the filter on the change, never on the input.
+  float smoothing_seconds = 0.04f;
   bool foot_lock = true;
-  bool root = true;  // Style the way over the ground, not only the pose.
+  bool root = true;  // Style the root motion, not only the pose.
+};
+
+// What a step consists of, in this order. Each is a type of its own, in style/stages or where it is
+// named here.
+enum class Stage {
+  observe,    // Observer
+  strengths,  // EasedStrengths
+  window,     // InputWindow
+  networks,   // StyleNetworks
+  filter,     // OutputFilter
+  root,       // RootMotion
+  shape,      // Shaping
+  floor,      // FloorClearance
+  feet,       // FootLock
+  write,      // PosedRig
+};
+inline constexpr std::array<const char*, 10> kStageNames = {"observe the pose",
+                                                            "ease strengths and shape",
+                                                            "history and window",
+                                                            "networks, heads and gate",
+                                                            "filter",
+                                                            "root motion",
+                                                            "shape",
+                                                            "keep above the floor",
+                                                            "hold the feet",
+                                                            "write the pose (rig)"};
+
+// Told when each stage of a step is done, to time them.
+class StageClock {
+ public:
+  virtual ~StageClock() = default;
+  virtual void done(Stage stage) noexcept = 0;
 };
 
 // One character's memory. create() allocates everything and may fail; step() does neither.
 class Stylizer {
  public:
-  // `rig` maps the character's skeleton; the stylizer keeps its own copy. Fails with a sentence
-  // where an option is out of its range.
+  // `rig` maps the character's skeleton. Fails with a sentence where an option is out of its range.
   static Result<Stylizer> create(std::shared_ptr<const Model> model, Rig rig,
                                  const StylizerOptions& options = {});
 
   // Forgets the motion so far: the next step starts afresh, at full strength.
   void reset() noexcept;
+
+  // What is given of the styles from the next step on; eased. reset() leaves it alone.
+  void set_shape(const Shape& shape) noexcept { shape_ = shape; }
 
   // Styles one pose of the character. `strengths`: one per style of the model; numbers that are not
   // finite count as 0, all are held within -4 to 4. `input_seconds`: how much of the input's own
@@ -45,6 +86,9 @@ class Stylizer {
   void step(ConstPose in, std::span<const float> strengths, double seconds, Pose out) noexcept {
     step(in, strengths, seconds, seconds, out);
   }
+  // The same, and `clock` is told of each stage.
+  void step(ConstPose in, std::span<const float> strengths, double seconds, Pose out,
+            StageClock& clock) noexcept;
 
   // The character's memory as bytes, to go back to a moment (rollback, rewind): after restore() the
   // next step gives what it gave after save(), bit for bit, on a stylizer of the same model,
@@ -55,18 +99,20 @@ class Stylizer {
   // Returns false, and leaves the stylizer alone, where `in` is no whole state of such a stylizer.
   bool restore(std::span<const std::byte> in) noexcept;
 
-  // Input seconds per output second that the style asks for at the last step; 1 without a style.
-  double rate() const noexcept { return static_cast<double>(exponential(log_rate_)); }
+  // Input seconds per output second that style and shape ask for at the last step; 1 without a
+  // style.
+  double rate() const noexcept;
   // How much any style is in force: 0 without one, 1 from a quarter strength on; at the last step.
-  float amount() const noexcept { return amount_; }
+  float amount() const noexcept { return strengths_.amount(); }
+  // In force at the last step. [styles]
+  std::span<const float> strengths() const noexcept { return strengths_.now(); }
   // See StyleNetworks::gate(); smoothed, at the last step.
   float gate() const noexcept { return networks_.gate(); }
   // Probability that each foot is planted, at the last step.
   std::span<const float> contacts() const noexcept { return networks_.contact(); }
-  // The canonical body as it was read, and what was done to it, at the last step.
-  const BodyPose& body() const noexcept { return body_; }
+  // What was done to the input at the last step.
   const BodyChange& change() const noexcept { return change_; }
-  const Rig& rig() const noexcept { return rig_; }
+  const Rig& rig() const noexcept { return observer_.rig(); }
   const Model& model() const noexcept { return networks_.model(); }
 
  private:
@@ -76,48 +122,30 @@ class Stylizer {
   Stylizer(std::shared_ptr<const Model> model, Rig rig, const StylizerOptions& options);
 
   // A step is three parts, so that a crowd's networks can be evaluated together in the middle.
+  // `clock` may be null.
   friend void step_crowd(std::span<const CrowdMember> members, double seconds) noexcept;
-  struct Times {
-    double input = 0;      // Seconds of the input,
-    float output = 0;      // and of the viewer.
-    float gate_share = 1;  // See StyleNetworks::forward().
-  };
-  // Takes a pose in and fills the window.
-  Times look(ConstPose in, std::span<const float> strengths, double input_seconds,
-             double output_seconds) noexcept;
-  // Puts on `out` what the networks answered to the window.
-  void change_pose(const Times& times, Pose out) noexcept;
+  StepTime take_in(ConstPose in, std::span<const float> strengths, double input_seconds,
+                   double output_seconds, StageClock* clock) noexcept;
+  StyleNetworks::Pass pass(const StepTime& time) noexcept;
+  void forget() noexcept;  // Of the motion so far, all but the observer's part.
+  StyleDelta asked_delta() const noexcept;
+  void give_out(const StepTime& time, Pose out, StageClock* clock) noexcept;
 
-  void ease_strengths(std::span<const float> strengths, float seconds) noexcept;
-  void take_answer(float seconds) noexcept;
-  float forward_speed() const noexcept;  // Mean of the window, m/s; below zero backwards.
-  void move_root(double input_seconds) noexcept;
-  void keep_above_floor(const HumanPositions& joints, float seconds) noexcept;
-
-  Rig rig_;
-  StyleNetworks networks_;
   StylizerOptions options_;
-
-  std::vector<Quat> rotations_;     // The input as taken: finite. [joints]
-  std::vector<Vec3> translations_;  // [joints]
-  std::vector<float> window_;
-  std::vector<float> strengths_;  // In force, eased. [styles]
-  float amount_ = 0;              // See amount().
-
+  Shape shape_;  // As asked for.
   bool started_ = false;
-  double time_ = 0;  // Input seconds since the start.
-  PoseHistory history_;
-  BodyPose body_;
-  Ground ground_, last_ground_;
-  HumanPositions seen_;  // The canonical body in the body frame.
-  ChangeNumbers numbers_{};
-  float log_rate_ = 0;
-  Vec3 drift_;      // What the style added to the way over the ground; world, metres.
-  float sway_ = 0;  // And to its left, metres,
-  float turn_ = 0;  // and to the heading, radians; both fade.
-  float lift_ = 0;  // What keeps the feet above the floor, metres.
-  BodyChange change_;
+
+  // The stages.
+  Observer observer_;
+  EasedStrengths strengths_;
+  InputWindow window_;
+  StyleNetworks networks_;
+  OutputFilter filter_;
+  RootMotion root_;
+  Shaping shaping_;
+  FloorClearance floor_;
   FootLock foot_lock_;
+  BodyChange change_;
 };
 
 }  // namespace panache

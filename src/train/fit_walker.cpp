@@ -256,8 +256,7 @@ int fit_stand(const std::vector<const Take*>& takes, Channels& stand) {
                          body[index(kAnkles[1])]) *
                         0.25f;
       const Ground& ground = take->ground[f];
-      const Vec3 origin =
-          ground.position + rotate(rotation_y(ground.facing), Vec3{feet.x, 0, feet.z});
+      const Vec3 origin = to_world(Vec3{feet.x, 0, feet.z}, ground);
       const Channels channels = gait_channels(*take, f, origin, ground.facing);
       const Channels other = mirrored(channels);
       for (int c = 0; c < kChannels; ++c) {

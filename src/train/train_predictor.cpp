@@ -40,9 +40,7 @@ Instant instant_at(const Take& take, float frame) {
   frame = std::clamp(frame, 0.0f, static_cast<float>(take.frames() - 1));
   const int a = static_cast<int>(frame), b = std::min(a + 1, take.frames() - 1);
   const float t = frame - static_cast<float>(a);
-  const Ground &from = take.ground[a], &to = take.ground[b];
-  return {body_at(take, frame),
-          {lerp(from.position, to.position, t), from.facing * (1 - t) + to.facing * t}};
+  return {body_at(take, frame), interpolate(take.ground[a], take.ground[b], t)};
 }
 
 // The joints above the hips, and those of the arms alone, can be borrowed from another motion: who

@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "make_clip.h"
+#include "rig/posed_rig.h"
 
 namespace panache {
 namespace {
@@ -65,7 +66,7 @@ class Sliding {
 
  private:
   Clip clip_;
-  Rig rig_;
+  PosedRig rig_;
   BodyPose body_;
   FootLock lock_;
 };

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "rig/made_up.h"
-#include "rig/rig.h"
+#include "rig/posed_rig.h"
 
 namespace panache {
 namespace {
@@ -49,15 +49,15 @@ TEST(Calibration, any_axis_may_be_up_and_any_unit_a_metre) {
                                                {"-Z", {-h, 0, 0, h}},
                                                {"+X", {0, 0, -h, h}},
                                                {"-X", {0, 0, h, h}}};
-  Rig plain = rig_of(clip);
-  EXPECT_EQ(plain.up_axis(), "+Y");
-  EXPECT_NEAR(plain.scale(), 1, 1e-5f);
+  PosedRig plain(rig_of(clip));
+  EXPECT_EQ(plain.rig().up_axis(), "+Y");
+  EXPECT_NEAR(plain.rig().scale(), 1, 1e-5f);
   for (const auto& [name, turn] : axes) {
     for (float unit : {1.0f, 0.01f, 39.37f}) {
       const Clip turned = in_axes(clip, turn, unit, rotate(turn, Vec3{0, 0.5f * unit, 0}));
-      Rig rig = rig_of(turned);
-      EXPECT_EQ(rig.up_axis(), name);
-      EXPECT_NEAR(rig.scale() * unit, 1, 1e-5f);
+      PosedRig rig(rig_of(turned));
+      EXPECT_EQ(rig.rig().up_axis(), name);
+      EXPECT_NEAR(rig.rig().scale() * unit, 1, 1e-5f);
       for (int f = 0; f < clip.frames; ++f) {
         BodyPose want, got;
         plain.read(clip.pose(f), want);
@@ -229,9 +229,9 @@ Clip toeless(Quat twist, bool ends) {
 TEST(Calibration, missing_toes_are_taken_from_end_sites) {
   const Quat twist = exp_rotation(Vec3{1, 2, -0.5f});
   const Clip clip = calm(30), other = toeless(twist, true);
-  Rig whole = rig_of(clip), rig = rig_of(other);
-  EXPECT_EQ(rig.joints()[index(left_toes)], -1);
-  EXPECT_TRUE(has_note(rig.notes(), "the left foot's direction is taken from the End Site"));
+  PosedRig whole(rig_of(clip)), rig(rig_of(other));
+  EXPECT_EQ(rig.rig().joints()[index(left_toes)], -1);
+  EXPECT_TRUE(has_note(rig.rig().notes(), "the left foot's direction is taken from the End Site"));
   for (int f = 0; f < clip.frames; ++f) {
     BodyPose want, got;
     whole.read(clip.pose(f), want);
@@ -247,8 +247,8 @@ TEST(Calibration, missing_toes_are_taken_from_end_sites) {
 
 TEST(Calibration, missing_toes_are_estimated_from_the_standing_foot) {
   const Clip other = toeless(exp_rotation(Vec3{1, 2, -0.5f}), false);
-  Rig rig = rig_of(other);
-  EXPECT_TRUE(has_note(rig.notes(), "estimated from the standing foot"));
+  PosedRig rig(rig_of(other));
+  EXPECT_TRUE(has_note(rig.rig().notes(), "estimated from the standing foot"));
   for (int f = 0; f < other.frames; ++f) {
     BodyPose body;
     rig.read(other.pose(f), body);

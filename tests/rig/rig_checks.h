@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "rig/made_up.h"
-#include "rig/rig.h"
+#include "rig/posed_rig.h"
 
 namespace panache::test {
 
@@ -57,7 +57,7 @@ inline void expect_canonical(const BodyPose& body) {
 }
 
 // Without a change, the pose comes back bit for bit; `out` is scratch.
-inline bool unchanged(Rig& rig, ConstPose in, Pose out) {
+inline bool unchanged(PosedRig& rig, ConstPose in, Pose out) {
   BodyPose body;
   rig.read(in, body);
   rig.write(in, body, BodyChange{}, out);
@@ -75,7 +75,7 @@ struct Deviation {
 };
 
 // Writes `change` and compares, in double, with what it must do to the body.
-inline Deviation deviation(Rig& rig, const Clip& clip, ConstPose in, const BodyChange& change,
+inline Deviation deviation(PosedRig& rig, const Clip& clip, ConstPose in, const BodyChange& change,
                            Pose out) {
   BodyPose before, after;
   rig.read(in, before);
@@ -85,7 +85,7 @@ inline Deviation deviation(Rig& rig, const Clip& clip, ConstPose in, const BodyC
   const Quatd heading = rotation_y<double>(before.facing);
   std::array<Quatd, kHumanJoints> delta;
   for (int j = 0; j < kHumanJoints; ++j) {
-    const int joint = rig.joints()[j];
+    const int joint = rig.rig().joints()[j];
     const bool rotates = joint >= 0 && clip.skeleton.joints[joint].can_rotate;
     const Quatd own = change.rotations[j].as<double>();
     delta[j] = rotates ? turn * heading * own * conjugate(heading) : delta[kHumanParent[j]];

@@ -68,17 +68,17 @@ TEST(Rig, reads_the_canonical_skeleton_as_itself) {
     rest.translations[j] = clip.skeleton.joints[j].offset;
   }
   rest.resize(1);
-  Rig rig = rig_of(rest);
+  PosedRig rig(rig_of(rest));
   BodyPose body;
   rig.read(rest.pose(0), body);
-  EXPECT_NEAR(rig.floor(), 0, 1e-6f);
+  EXPECT_NEAR(rig.rig().floor(), 0, 1e-6f);
   EXPECT_EQ(body.facing, 0);
   const HumanPositions want = t_pose();
   for (int j = 0; j < kHumanJoints; ++j) {
     EXPECT_LT(length(body.positions[j] - want[j]), 2e-6f) << human_joint_name(j);
     EXPECT_LT(length(body.joints[j] - want[j]), 2e-6f) << human_joint_name(j);
   }
-  Rig moving = rig_of(clip);
+  PosedRig moving(rig_of(clip));
   for (int f = 0; f < clip.frames; ++f) {
     moving.read(clip.pose(f), body);
     expect_canonical(body);
@@ -94,7 +94,7 @@ TEST(Rig, a_canonical_body_whose_shoulders_rest_is_read_as_itself_in_any_pose) {
       clip.pose(f).rotations[index(joint)] = {};
     }
   }
-  Rig rig = rig_of(clip);
+  PosedRig rig(rig_of(clip));
   BodyPose body;
   for (int f = 0; f < clip.frames; ++f) {
     rig.read(clip.pose(f), body);
@@ -108,7 +108,7 @@ TEST(Rig, a_canonical_body_whose_shoulders_rest_is_read_as_itself_in_any_pose) {
 
 TEST(Rig, facing_is_the_heading_of_the_body) {
   const Clip clip = random_clip(canonical_skeleton(), 1, 0, 6);
-  Rig rig = rig_of(clip);
+  PosedRig rig(rig_of(clip));
   PoseBuffer turned(clip.joints());
   BodyPose body;
   for (float angle : {0.0f, 0.5f, 1.5f, 3.0f, -2.0f, -0.1f}) {
@@ -135,7 +135,7 @@ TEST(Rig, facing_is_the_heading_of_the_body) {
 TEST(Rig, the_trunk_is_resampled_along_its_bend) {
   const MadeUp made = awkward();
   const Clip clip = random_clip(made.skeleton, 50, 0.6f, 7);
-  Rig rig = rig_of(clip);
+  PosedRig rig(rig_of(clip));
   BodyPose body;
   const Proportions& own = kProportions;
   for (int f = 0; f < clip.frames; ++f) {
@@ -153,8 +153,8 @@ TEST(Rig, the_trunk_is_resampled_along_its_bend) {
 
 TEST(Rig, without_a_neck_the_head_points_away_from_the_shoulders) {
   const Clip clip = random_clip(awkward().skeleton, 50, 0.6f, 20);
-  Rig rig = rig_of(clip);
-  ASSERT_EQ(rig.joints()[index(neck)], -1);
+  PosedRig rig(rig_of(clip));
+  ASSERT_EQ(rig.rig().joints()[index(neck)], -1);
   BodyPose body;
   for (int f = 0; f < clip.frames; ++f) {
     rig.read(clip.pose(f), body);
@@ -177,7 +177,7 @@ TEST(Rig, no_change_gives_the_pose_back_bit_for_bit) {
     for (size_t i = 1; i < clip.rotations.size(); i += 5) {
       clip.rotations[i].x = std::nextafter(clip.rotations[i].x, 2.0f);
     }
-    Rig rig = rig_of(clip);
+    PosedRig rig(rig_of(clip));
     PoseBuffer out(clip.joints());
     for (int f = 0; f < clip.frames; ++f) ASSERT_TRUE(unchanged(rig, clip.pose(f), out.pose()));
   }
@@ -186,7 +186,7 @@ TEST(Rig, no_change_gives_the_pose_back_bit_for_bit) {
 TEST(Rig, a_change_turns_every_limb_as_it_says) {
   for (const Skeleton& skeleton : {canonical_skeleton(), awkward().skeleton}) {
     const Clip clip = random_clip(skeleton, 200, 0.7f, 9);
-    Rig rig = rig_of(clip);
+    PosedRig rig(rig_of(clip));
     std::mt19937 random(9);
     PoseBuffer out(clip.joints());
     for (int f = 0; f < clip.frames; ++f) {
@@ -210,8 +210,8 @@ TEST(Rig, a_change_is_the_same_in_every_axes_and_unit) {
     z_up.rotations[i] = turn * clip.rotations[i];
     z_up.translations[i] = rotate(turn, clip.translations[i] * 40);
   }
-  Rig rig = rig_of(z_up);
-  ASSERT_EQ(rig.up_axis(), "+Z");
+  PosedRig rig(rig_of(z_up));
+  ASSERT_EQ(rig.rig().up_axis(), "+Z");
   std::mt19937 random(10);
   PoseBuffer out(clip.joints());
   for (int f = 0; f < clip.frames; ++f) {
@@ -224,11 +224,11 @@ TEST(Rig, a_change_is_the_same_in_every_axes_and_unit) {
 TEST(Rig, what_is_not_the_humanoid_keeps_its_local_rotation) {
   const MadeUp made = awkward();
   const Clip clip = random_clip(made.skeleton, 20, 0.7f, 11);
-  Rig rig = rig_of(clip);
+  PosedRig rig(rig_of(clip));
   std::mt19937 random(11);
   PoseBuffer out(clip.joints());
   std::vector<bool> mapped(clip.joints());
-  for (int joint : rig.joints()) {
+  for (int joint : rig.rig().joints()) {
     if (joint >= 0) mapped[joint] = true;
   }
   for (int f = 0; f < clip.frames; ++f) {
@@ -249,7 +249,7 @@ TEST(Rig, what_is_not_the_humanoid_keeps_its_local_rotation) {
 
 TEST(Rig, a_turn_alone_changes_the_hips_and_nothing_else) {
   const Clip clip = random_clip(canonical_skeleton(), 20, 0.7f, 12);
-  Rig rig = rig_of(clip);
+  PosedRig rig(rig_of(clip));
   PoseBuffer out(clip.joints());
   BodyChange change;
   change.turn = 0.7f;
@@ -268,7 +268,7 @@ TEST(Rig, a_translation_alone_moves_one_joint_and_turns_none) {
     MadeUp made = awkward();
     for (Joint& joint : made.skeleton.joints) joint.can_translate = joint.name == mover;
     const Clip clip = random_clip(made.skeleton, 20, 0.7f, 13);
-    Rig rig = rig_of(clip);
+    PosedRig rig(rig_of(clip));
     PoseBuffer out(clip.joints());
     BodyChange change;
     change.translation = {0.1f, -0.2f, 0.3f};
@@ -287,8 +287,8 @@ TEST(Rig, a_character_that_cannot_move_stays) {
   MadeUp made = awkward();
   for (Joint& joint : made.skeleton.joints) joint.can_translate = false;
   const Clip clip = random_clip(made.skeleton, 5, 0.7f, 14);
-  Rig rig = rig_of(clip);
-  EXPECT_EQ(rig.notes().back(), "neither the hips nor a joint above them can move");
+  PosedRig rig(rig_of(clip));
+  EXPECT_EQ(rig.rig().notes().back(), "neither the hips nor a joint above them can move");
   std::mt19937 random(14);
   PoseBuffer out(clip.joints());
   BodyPose body;
@@ -304,7 +304,7 @@ TEST(Rig, a_joint_that_the_file_does_not_rotate_follows_its_parent) {
   skeleton.joints[index(left_hand)].can_rotate = false;
   skeleton.joints[index(spine)].can_rotate = false;
   const Clip clip = random_clip(skeleton, 20, 0.7f, 15);
-  Rig rig = rig_of(clip);
+  PosedRig rig(rig_of(clip));
   std::mt19937 random(15);
   PoseBuffer out(clip.joints());
   for (int f = 0; f < clip.frames; ++f) {
@@ -316,7 +316,7 @@ TEST(Rig, a_joint_that_the_file_does_not_rotate_follows_its_parent) {
 
 TEST(Rig, poses_that_are_not_finite_are_read_as_the_last_one_that_was) {
   const Clip clip = random_clip(awkward().skeleton, 2, 0.5f, 16);
-  Rig rig = rig_of(clip);
+  PosedRig rig(rig_of(clip));
   BodyPose good, got;
   rig.read(clip.pose(1), good);
   const float bad[] = {NAN, INFINITY, -INFINITY, std::numeric_limits<float>::max()};
@@ -349,7 +349,7 @@ TEST(Rig, poses_that_are_not_finite_are_read_as_the_last_one_that_was) {
 
 TEST(Rig, reading_and_writing_allocate_nothing) {
   const Clip clip = random_clip(awkward().skeleton, 20, 0.7f, 17);
-  Rig rig = rig_of(clip);
+  PosedRig rig(rig_of(clip));
   std::mt19937 random(17);
   const BodyChange change = random_change(random);
   PoseBuffer out(clip.joints());

@@ -36,9 +36,9 @@ Clip walk() {
 
 // A clip's motion on the canonical skeleton.
 Clip on_canonical_body(const Clip& clip, int most_frames) {
-  Rig rig = *Rig::create(clip);
+  PosedRig rig(*Rig::create(clip));
   Clip out{canonical_skeleton(), clip.frame_time, 0, {}, {}};
-  for (int f = rig.first_frame(); f < std::min(clip.frames, most_frames); ++f) {
+  for (int f = rig.rig().first_frame(); f < std::min(clip.frames, most_frames); ++f) {
     BodyPose body;
     rig.read(clip.pose(f), body);
     std::array<Quat, kHumanJoints> world;
@@ -65,7 +65,7 @@ std::vector<HumanPositions> styled(const Clip& clip, const std::string& style, f
   const Result<Restyled> restyled = restyle(clip, *rig, model, {track}, options);
   EXPECT_TRUE(restyled.ok());
   std::vector<HumanPositions> out;
-  Rig reader = *rig;
+  PosedRig reader(*rig);
   for (int f = rig->first_frame(); f < restyled->clip.frames; ++f) {
     BodyPose body;
     reader.read(restyled->clip.pose(f), body);

@@ -22,7 +22,7 @@ std::shared_ptr<const Model> shipped(const std::string& file) {
 
 // Mean height and forward place of the head, relative to the hips.
 Vec3 mean_head(const Clip& clip) {
-  Rig rig = *Rig::create(clip);
+  PosedRig rig(*Rig::create(clip));
   BodyPose body;
   Vec3 sum;
   for (int f = 0; f < clip.frames; ++f) {
@@ -81,7 +81,7 @@ TEST(ShippedModels, the_half_size_one_styles_like_the_whole_one) {
       return restyle(walk, *Rig::create(walk), model, {{s, {{0, 1}}}}, options)->clip;
     };
     const Clip a = styled(whole), b = styled(half);
-    Rig rig = *Rig::create(walk);
+    PosedRig rig(*Rig::create(walk));
     double apart = 0, changed = 0;
     for (int f = 0; f < walk.frames; ++f) {
       BodyPose in, one, other;
@@ -106,7 +106,7 @@ TEST(ShippedModels, every_style_keeps_the_feet_on_the_ground_and_the_body_whole)
     for (size_t s = 0; s < model->styles().size(); ++s) {
       const auto styled =
           restyle(walk, *Rig::create(walk), model, {{static_cast<int>(s), {{0, 1.5f}}}});
-      Rig rig = *Rig::create(walk);
+      PosedRig rig(*Rig::create(walk));
       BodyPose body;
       for (int f = 0; f < styled->clip.frames; ++f) {
         rig.read(styled->clip.pose(f), body);

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
-#include "restyle_clip.h"
+#include "format_clip.h"
 #include "rig/up_axis.h"
+#include "style/restyle.h"
 
 namespace panache::web {
 namespace {
@@ -26,18 +27,17 @@ void put_numbers(ConstPose pose, std::vector<float>& out) {
 
 Result<std::unique_ptr<Actor>> Actor::create(std::shared_ptr<const Model> model,
                                              std::unique_ptr<Source> source) {
-  Result<Character> character = Character::create(model, source->rig());
-  if (!character) return character.error();
+  Result<Stylizer> stylizer = Stylizer::create(model, source->rig());
+  if (!stylizer) return stylizer.error();
   return std::unique_ptr<Actor>(
-      new Actor(std::move(model), *std::move(character), std::move(source)));
+      new Actor(std::move(model), *std::move(stylizer), std::move(source)));
 }
 
-Actor::Actor(std::shared_ptr<const Model> model, Character character,
-             std::unique_ptr<Source> source)
+Actor::Actor(std::shared_ptr<const Model> model, Stylizer stylizer, std::unique_ptr<Source> source)
     : model_(std::move(model)),
       source_(std::move(source)),
-      character_(std::move(character)),
-      twin_(character_),
+      stylizer_(std::move(stylizer)),
+      twin_(stylizer_),
       in_mannequin_(source_->rig(), source_->reference()),
       out_mannequin_(in_mannequin_),
       recording_(source_->clip().skeleton, kRecordedSeconds),
@@ -57,10 +57,11 @@ Actor::Actor(std::shared_ptr<const Model> model, Character character,
 void Actor::step(double seconds) {
   seconds = std::clamp(seconds, 0.0, kLongestStep);
   const double input_seconds = seconds * rate_;
-  if (source_->advance(input_seconds, {in_rotations_, in_translations_})) character_.reset();
+  if (source_->advance(input_seconds, {in_rotations_, in_translations_})) stylizer_.reset();
   const Pose out = {out_rotations_, out_translations_};
-  character_.step(input(), strengths_, shape_, input_seconds, seconds, out);
-  rate_ = character_.rate();
+  stylizer_.set_shape(shape_);
+  stylizer_.step(input(), strengths_, input_seconds, seconds, out);
+  rate_ = stylizer_.rate();
   put_numbers(input(), in_numbers_);
   put_numbers(out, out_numbers_);
   in_mannequin_.read(input(), in_parts_);
@@ -69,10 +70,9 @@ void Actor::step(double seconds) {
 }
 
 void Actor::measure(int count) {
-  twin_ = character_;
+  twin_ = stylizer_;
   for (int i = 0; i < count; ++i) {
-    twin_.step(input(), strengths_, shape_, 1.0 / 60, 1.0 / 60,
-               {twin_rotations_, twin_translations_});
+    twin_.step(input(), strengths_, 1.0 / 60, {twin_rotations_, twin_translations_});
   }
 }
 
@@ -85,8 +85,13 @@ Result<std::string> Actor::export_as(const std::string& ending,
                                      const std::string& file_ending) const {
   const auto* from_file = dynamic_cast<const ClipSource*>(source_.get());
   if (!from_file) return format_clip(recording_.clip(kRecordedFps), source_->rig(), ending);
-  Result<RestyledClip> restyled =
-      restyle_clip(source_->clip(), source_->rig(), model_, strengths_, shape_);
+  std::vector<StrengthTrack> tracks;
+  for (size_t s = 0; s < strengths_.size(); ++s) {
+    if (strengths_[s] != 0) tracks.push_back({static_cast<int>(s), {{0, strengths_[s]}}});
+  }
+  RestyleOptions options;
+  options.shape = shape_;
+  Result<Restyled> restyled = restyle(source_->clip(), source_->rig(), model_, tracks, options);
   if (!restyled) return restyled.error();
   if (ending != file_ending) return format_clip(restyled->clip, source_->rig(), ending);
   const ClipEdit edit = {from_file->which(), &restyled->clip, restyled->source_frames, "styled"};

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "character.h"
 #include "mannequin.h"
 #include "recording.h"
 #include "source.h"
+#include "style/stylizer.h"
 
 namespace panache::web {
 
@@ -28,11 +28,11 @@ class Actor {
   std::vector<float>& strengths() { return strengths_; }  // [styles]
   Shape& shape() { return shape_; }
   Source& source() { return *source_; }
-  const Character& character() const { return character_; }
+  const Stylizer& stylizer() const { return stylizer_; }
 
   // Goes on by `seconds` (at most a tenth is taken at once) of the viewer's time.
   void step(double seconds);
-  // Steps a copy of the character `count` times with the pose in force, to see how long that takes.
+  // Steps a copy of the stylizer `count` times with the pose in force, to see how long that takes.
   void measure(int count);
 
   // Input and output of the last step, per joint of the rig: rotation x y z w and translation, in
@@ -50,12 +50,12 @@ class Actor {
   Result<std::string> export_as(const std::string& ending, const std::string& file_ending) const;
 
  private:
-  Actor(std::shared_ptr<const Model> model, Character character, std::unique_ptr<Source> source);
+  Actor(std::shared_ptr<const Model> model, Stylizer stylizer, std::unique_ptr<Source> source);
   ConstPose input() const { return {in_rotations_, in_translations_}; }
 
   std::shared_ptr<const Model> model_;
   std::unique_ptr<Source> source_;
-  Character character_, twin_;
+  Stylizer stylizer_, twin_;
   Mannequin in_mannequin_, out_mannequin_;
   Recording recording_;
   std::vector<float> strengths_;

@@ -117,11 +117,11 @@ PANACHE_EXPORT Actor* panache_actor_clip(ModelHandle* model, FileHandle* file, i
 PANACHE_EXPORT void panache_actor_free(Actor* actor) { delete actor; }
 
 PANACHE_EXPORT float* panache_actor_strengths(Actor* actor) { return actor->strengths().data(); }
-// Posture, dynamics, timing, legs, spine, arms, head, foot lock.
+// Posture, dynamics, timing, legs, torso, left arm, right arm, foot lock.
 PANACHE_EXPORT void panache_actor_shape(Actor* actor, float posture, float dynamics, float timing,
-                                        float legs, float spine, float arms, float head,
+                                        float legs, float torso, float left_arm, float right_arm,
                                         float foot_lock) {
-  actor->shape() = {posture, dynamics, timing, {legs, spine, arms, head}, foot_lock};
+  actor->shape() = {1, posture, dynamics, timing, {legs, torso, left_arm, right_arm}, foot_lock};
 }
 PANACHE_EXPORT void panache_actor_step(Actor* actor, double seconds) { actor->step(seconds); }
 PANACHE_EXPORT void panache_actor_measure(Actor* actor, int32_t count) { actor->measure(count); }
@@ -141,10 +141,10 @@ PANACHE_EXPORT double panache_actor_seconds(Actor* actor) {
   return clip ? clip->seconds() : 0;
 }
 
-PANACHE_EXPORT double panache_actor_rate(Actor* actor) { return actor->character().rate(); }
-PANACHE_EXPORT float panache_actor_gate(Actor* actor) { return actor->character().gate(); }
+PANACHE_EXPORT double panache_actor_rate(Actor* actor) { return actor->stylizer().rate(); }
+PANACHE_EXPORT float panache_actor_gate(Actor* actor) { return actor->stylizer().gate(); }
 PANACHE_EXPORT float panache_actor_contact(Actor* actor, int32_t foot) {
-  return actor->character().contacts()[static_cast<size_t>(foot)];
+  return actor->stylizer().contacts()[static_cast<size_t>(foot)];
 }
 PANACHE_EXPORT const float* panache_actor_pose(Actor* actor, int32_t styled) {
   return actor->pose(styled != 0).data();

@@ -5,7 +5,7 @@
 #include <array>
 #include <span>
 
-#include "rig/rig.h"
+#include "rig/posed_rig.h"
 
 namespace panache::web {
 
@@ -27,7 +27,7 @@ class Mannequin {
   const BodyPose& body() const { return body_; }  // Of the last read().
 
  private:
-  Rig rig_;
+  PosedRig rig_;
   BodyPose body_;
   std::array<Quat, kHumanJoints> to_part_;  // From the rig's local axes to those of the part.
   HumanPositions offsets_;

@@ -1,0 +1,44 @@
+#include "pose/observer.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace panache {
+
+void observe(PosedRig& rig, ConstPose pose, float last_facing, Observation& out) noexcept {
+  rig.read(pose, out.world);
+  out.ground = ground_of(out.world, last_facing);
+  to_body_frame(out.world.positions, out.ground, out.body_frame);
+}
+
+Observer::Observer(Rig rig)
+    : rig_(std::move(rig)),
+      rotations_(rig_.rig().joint_count()),
+      translations_(rig_.rig().joint_count()) {}
+
+bool Observer::observe(ConstPose in, double seconds) noexcept {
+  if (seconds > kMaxGap) reset();
+  take_sound(in);
+  last_ground_ = now_.ground;
+  panache::observe(rig_, pose(), started_ ? last_ground_.facing : 0, now_);
+  const float most = kMaxGroundSpeed * static_cast<float>(std::max(seconds, 1e-3));
+  const bool continues = started_ && !(length(now_.ground.position - last_ground_.position) > most);
+  started_ = true;
+  return continues;
+}
+
+// Also guards against numbers so large that products overflow.
+void Observer::take_sound(ConstPose in) noexcept {
+  assert(in.rotations.size() == rotations_.size());
+  for (size_t j = 0; j < rotations_.size(); ++j) {
+    const Quat q = in.rotations[j];
+    const Vec3 t = in.translations[j];
+    if (is_finite(q) && std::abs(dot(q, q) - 1) < 0.1f) rotations_[j] = q;
+    if (is_finite(t) && std::max({std::abs(t.x), std::abs(t.y), std::abs(t.z)}) < 1e9f) {
+      translations_[j] = t;
+    }
+  }
+}
+
+}  // namespace panache

@@ -1,0 +1,72 @@
+#pragma once
+// One character's input as it comes: poses made sound, brought to the canonical body, seen in the
+// body frame, and cuts told from motion.
+
+#include <span>
+#include <vector>
+
+#include "pose/root_pose.h"
+#include "rig/posed_rig.h"
+
+namespace panache {
+
+// One instant of a character.
+struct Observation {
+  BodyPose world;               // In the world.
+  Ground ground;                // Where it stands and looks.
+  HumanPositions body_frame{};  // Its canonical joints seen from there, metres.
+};
+
+// Reads `pose` with `rig`; the facing is the one nearest to `last_facing`.
+void observe(PosedRig& rig, ConstPose pose, float last_facing, Observation& out) noexcept;
+
+// The constructor allocates; nothing else does, and nothing fails.
+class Observer {
+ public:
+  // A pose that comes after a longer gap does not continue what was before. Seconds.
+  static constexpr double kMaxGap = 0.5;
+  // Nor does one that is further away than this speed over the ground would bring it. m/s; a
+  // sprinter reaches 12.
+  static constexpr float kMaxGroundSpeed = 15;
+
+  explicit Observer(Rig rig);
+
+  // Forgets the motion so far.
+  void reset() noexcept { started_ = false; }
+
+  // Takes in the pose `seconds` after the last. What is no rotation or place in it is replaced by
+  // the last that was one. Returns whether it continues the motion; false at the first pose, too.
+  bool observe(ConstPose in, double seconds) noexcept;
+
+  // The pose as taken in: every number of it is finite.
+  ConstPose pose() const noexcept { return {rotations_, translations_}; }
+  const Observation& now() const noexcept { return now_; }
+  // Where the body stood and looked at the pose before; meaningless at the first.
+  const Ground& last_ground() const noexcept { return last_ground_; }
+  const Rig& rig() const noexcept { return rig_.rig(); }
+
+  // The pose as taken in with `change` on it, see PosedRig::write().
+  void write(const BodyChange& change, Pose out) noexcept {
+    rig_.write(pose(), now_.world, change, out);
+  }
+
+  // Calls visit(member) for everything that tells one character from another of this rig.
+  template <class Self, class Visit>
+  static void visit_state(Self& self, Visit&& visit) {
+    PosedRig::visit_state(self.rig_, visit);
+    visit(self.rotations_), visit(self.translations_), visit(self.now_), visit(self.last_ground_);
+    visit(self.started_);
+  }
+
+ private:
+  void take_sound(ConstPose in) noexcept;
+
+  PosedRig rig_;
+  std::vector<Quat> rotations_;     // [joints]
+  std::vector<Vec3> translations_;  // [joints]
+  Observation now_;
+  Ground last_ground_;
+  bool started_ = false;
+};
+
+}  // namespace panache

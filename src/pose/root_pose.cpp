@@ -1,0 +1,41 @@
+#include "pose/root_pose.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "base/quat.h"
+
+namespace panache {
+
+Ground ground_of(const BodyPose& body, float last_facing) noexcept {
+  const Vec3 hips = body.positions[index(HumanJoint::hips)];
+  return {{hips.x, 0, hips.z}, unwrap_angle(body.facing, last_facing)};
+}
+
+float unwrap_angle(float angle, float reference) noexcept {
+  constexpr float turn = 2 * std::numbers::pi_v<float>;
+  return angle - turn * std::round((angle - reference) / turn);
+}
+
+Ground interpolate(const Ground& a, const Ground& b, float t) noexcept {
+  return {lerp(a.position, b.position, t), a.facing * (1 - t) + b.facing * t};
+}
+
+void to_body_frame(const HumanPositions& world, const Ground& ground,
+                   HumanPositions& body) noexcept {
+  const Quat to_heading = rotation_y(-ground.facing);
+  for (int j = 0; j < kHumanJoints; ++j) body[j] = rotate(to_heading, world[j] - ground.position);
+}
+
+HumanPositions to_world(const HumanPositions& body, const Ground& ground) noexcept {
+  HumanPositions world;
+  const Quat heading = rotation_y(ground.facing);
+  for (int j = 0; j < kHumanJoints; ++j) world[j] = ground.position + rotate(heading, body[j]);
+  return world;
+}
+
+Vec3 to_world(Vec3 point, const Ground& ground) noexcept {
+  return ground.position + rotate(rotation_y(ground.facing), point);
+}
+
+}  // namespace panache

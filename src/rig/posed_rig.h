@@ -1,0 +1,50 @@
+#pragma once
+// How poses travel between one character's skeleton and the canonical body.
+
+#include <array>
+#include <vector>
+
+#include "rig/body_pose.h"
+#include "rig/rig.h"
+
+namespace panache {
+
+// A rig and the little that one character's poses leave behind: the pose read last. The constructor
+// allocates; read() and write() neither allocate nor fail.
+class PosedRig {
+ public:
+  explicit PosedRig(Rig rig);
+
+  const Rig& rig() const noexcept { return rig_; }
+
+  // The user's pose on the canonical body. A heading that the pose does not show is the last one. A
+  // pose that is not finite is read as the last one that was; returns whether it was finite.
+  bool read(ConstPose pose, BodyPose& out) noexcept;
+
+  // The user's pose with `change` on it. `in` and `body` are those of the last read(), whose
+  // forward kinematics it reuses. Where the change is the identity, `out` is `in` bit for bit.
+  // Joints that are not part of the humanoid, or that the file does not rotate, keep their local
+  // rotation and follow their parent. The middle between the upper legs turns in place and moves by
+  // the translation, if the hips or a joint above them can. `in` and `out` may be the same arrays.
+  void write(ConstPose in, const BodyPose& body, const BodyChange& change, Pose out) noexcept;
+
+  // Calls visit(member) for what is remembered from one read() to the next.
+  template <class Self, class Visit>
+  static void visit_state(Self& self, Visit&& visit) {
+    visit(self.last_);
+  }
+
+ private:
+  void write_rotations(ConstPose in, Pose out) noexcept;
+  void write_translation(ConstPose in, const BodyChange& change, Pose out) noexcept;
+
+  Rig rig_;
+  BodyPose last_;  // The last finite one.
+
+  std::vector<Quat> world_rotations_;      // [joints], of the last read(), file axes.
+  std::vector<Vec3> world_translations_;   // [joints], likewise, file units.
+  std::array<Quat, kHumanJoints> deltas_;  // What write() puts on each human joint, file axes.
+  std::vector<Quat> effective_;            // [joints]: the delta that each joint has or inherits.
+};
+
+}  // namespace panache

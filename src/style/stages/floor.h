@@ -1,0 +1,29 @@
+#pragma once
+// Seventh stage: no toe below the floor.
+
+#include "pose/foot_lock.h"
+#include "style/stages/step_time.h"
+
+namespace panache {
+
+// A style trained on one body may put another's feet through the floor: lifts the body by as much
+// as its lowest toe is deeper than both the floor and the input's own lowest toe. It comes and goes
+// slowly, or the whole body would start at every step; what is left of the depth is up to the legs.
+class FloorClearance {
+ public:
+  void reset() noexcept { lift_ = 0; }
+  // `joints`: those of changed_joints(); `amount`: how much of a style is in force, 0 to 1.
+  void step(const BodyPose& body, const HumanPositions& joints, float amount, const StepTime& time,
+            BodyChange& change) noexcept;
+
+  // Calls visit(member) for everything that tells one character from another.
+  template <class Self, class Visit>
+  static void visit_state(Self& self, Visit&& visit) {
+    visit(self.lift_);
+  }
+
+ private:
+  float lift_ = 0;  // Metres.
+};
+
+}  // namespace panache

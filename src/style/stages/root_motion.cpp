@@ -1,0 +1,48 @@
+#include "style/stages/root_motion.h"
+
+#include <algorithm>
+
+#include "base/quat.h"
+
+namespace panache {
+namespace {
+
+// A style may sway and turn within a step, but not leave the input's course: what it adds sideways
+// and to the heading fades with this time constant.
+constexpr float kCourseSeconds = 1.5f;
+// Below this speed a character stands, or walks in place: the style may not carry it away.
+constexpr float kStandingSpeed = 0.3f;  // m/s
+// Well above this speed the root motion changes by the style's full share, below it by less.
+constexpr float kSlowSpeed = 0.4f;  // m/s
+constexpr float kMaxShortened = 0.8f, kMaxStretched = 1.5f;
+
+}  // namespace
+
+void RootMotion::step(const StyleDelta& delta, float gate, const Observer& observer,
+                      const InputWindow& window, const StepTime& time) noexcept {
+  if (time.first) return;
+  const float dt = static_cast<float>(time.input);
+  // On unknown motion a style has no say in the root motion: its mean is that of its walks.
+  const float moving = gate * std::min(1.0f, window.ground_speed() / kStandingSpeed);
+  const float back = exponential(-dt / kCourseSeconds);
+  turn_ = turn_ * back + delta.turn_rate * moving * dt;
+  sway_ = sway_ * back + delta.velocity_left * moving * dt;
+
+  // Forward the style stretches or shortens the input's own way, by the share that its velocity is
+  // of the input's: what comes back in the input comes back in the output, and what stands stays.
+  // Each term is exactly zero without a style.
+  const float speed = window.forward_speed();
+  const float share =
+      gate * delta.velocity_forward * speed / (speed * speed + kSlowSpeed * kSlowSpeed);
+  const Vec3 way = observer.now().ground.position - observer.last_ground().position;
+  drift_ += rotate(rotation_y(turn_), way) - way;
+  const float most = speed > 0 ? kMaxStretched : 0.0f;  // Backwards, or the way would not close.
+  drift_ += rotate(rotation_y(turn_), way) * std::clamp(share, -kMaxShortened, most);
+}
+
+RootOffset RootMotion::offset(const Ground& ground) const noexcept {
+  const Vec3 side = rotate(rotation_y(ground.facing + turn_), Vec3{sway_, 0, 0});
+  return {drift_ + side, turn_};
+}
+
+}  // namespace panache

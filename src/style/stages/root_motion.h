@@ -1,0 +1,38 @@
+#pragma once
+// Fifth stage: where the character goes.
+
+#include "pose/observer.h"
+#include "style/stages/step_time.h"
+#include "style/stages/window.h"
+#include "style/style_delta.h"
+
+namespace panache {
+
+// What a style has added to the root motion since the start.
+struct RootOffset {
+  Vec3 translation;  // World, metres, y = 0.
+  float turn = 0;    // About +y, radians.
+};
+
+// Adds up what a style changes of the speed and of the heading.
+class RootMotion {
+ public:
+  void reset() noexcept { drift_ = {}, sway_ = 0, turn_ = 0; }
+  // `gate`: how well the motion is known, 0 to 1.
+  void step(const StyleDelta& delta, float gate, const Observer& observer,
+            const InputWindow& window, const StepTime& time) noexcept;
+  RootOffset offset(const Ground& ground) const noexcept;
+
+  // Calls visit(member) for everything that tells one character from another.
+  template <class Self, class Visit>
+  static void visit_state(Self& self, Visit&& visit) {
+    visit(self.drift_), visit(self.sway_), visit(self.turn_);
+  }
+
+ private:
+  Vec3 drift_;      // Along the way; world, metres.
+  float sway_ = 0;  // To the left, metres,
+  float turn_ = 0;  // and to the heading, radians; both fade.
+};
+
+}  // namespace panache

@@ -1,0 +1,82 @@
+#include "style/stages/shaping.h"
+
+#include <algorithm>
+
+#include "style/pose_change.h"
+
+namespace panache {
+namespace {
+
+// Long enough for a cycle of two steps to cancel out of the mean, mostly.
+constexpr float kPostureSeconds = 0.8f;
+constexpr float kNear = 1e-7f;
+
+constexpr size_t region_of(int joint) {
+  using enum HumanJoint;
+  if (joint == index(hips) || joint >= index(left_upper_leg)) {
+    return static_cast<size_t>(Region::legs);
+  }
+  if (joint <= index(head)) return static_cast<size_t>(Region::torso);
+  const bool left = joint < index(right_shoulder);
+  return static_cast<size_t>(left ? Region::left_arm : Region::right_arm);
+}
+
+float legs_of(const Shape& shape) { return shape.regions[static_cast<size_t>(Region::legs)]; }
+
+// A joint's own part of the change is what it turns beyond the joint that it hangs on.
+void weigh_regions(const Shape& shape, std::array<Quat, kHumanJoints>& rotations) {
+  if (shape.regions == Shape{}.regions) return;
+  const std::array<Quat, kHumanJoints> whole = rotations;
+  for (int j = 0; j < kHumanJoints; ++j) {
+    const float weight = shape.regions[region_of(j)];
+    const int parent = kHumanParent[j];
+    const Quat own = parent < 0 ? whole[j] : conjugate(whole[parent]) * whole[j];
+    const Quat weighed = exp_rotation(log_rotation(own) * weight);
+    rotations[j] = parent < 0 ? weighed : normalized(rotations[parent] * weighed);
+  }
+}
+
+}  // namespace
+
+// The root motion is a sum over time: what is held back now stays held back, so that nobody jumps.
+RootOffset Shaping::hold_back(const Shape& shape, const RootOffset& root,
+                              const StepTime& time) noexcept {
+  const float held = 1 - std::min(1.0f, shape.dynamics * legs_of(shape));
+  if (!time.first) {
+    held_.translation += (root.translation - last_.translation) * held;
+    held_.turn += (root.turn - last_.turn) * held;
+  }
+  last_ = root;
+  return {root.translation - held_.translation, root.turn - held_.turn};
+}
+
+// The mean is kept up at all times, so that a change of mind finds it.
+StyleDelta Shaping::weigh_in_time(const Shape& shape, const StyleDelta& delta,
+                                  const StepTime& time) noexcept {
+  const float gain = time.gain(kPostureSeconds);
+  const bool whole = shape.posture == 1 && shape.dynamics == 1;
+  StyleDelta out = delta;
+  const auto weigh = [&](float& mean, float& number) {
+    approach(mean, number, gain, kNear);
+    if (!whole) number = mean * shape.posture + (number - mean) * shape.dynamics;
+  };
+  for (size_t j = 0; j < kHumanJoints; ++j) {
+    weigh(mean_rotations_[j].x, out.rotations[j].x);
+    weigh(mean_rotations_[j].y, out.rotations[j].y);
+    weigh(mean_rotations_[j].z, out.rotations[j].z);
+  }
+  weigh(mean_height_, out.hips_height);
+  return out;
+}
+
+void Shaping::step(const Shape& shape, const StyleDelta& delta, const RootOffset& root,
+                   const StepTime& time, BodyChange& out) noexcept {
+  const RootOffset given = hold_back(shape, root, time);
+  const StyleDelta shaped = weigh_in_time(shape, delta, time);
+  for (int j = 0; j < kHumanJoints; ++j) out.rotations[j] = joint_rotation(shaped, j);
+  weigh_regions(shape, out.rotations);
+  out.turn = given.turn;
+  out.translation = given.translation + Vec3{0, shaped.hips_height * legs_of(shape), 0};
+}
+
+}  // namespace panache

@@ -1,0 +1,39 @@
+#pragma once
+// Sixth stage: the change as a change of the body, as much of it as the shape asks for.
+
+#include <array>
+
+#include "rig/body_pose.h"
+#include "style/shape.h"
+#include "style/stages/root_motion.h"
+#include "style/stages/step_time.h"
+#include "style/style_delta.h"
+
+namespace panache {
+
+// Neutral to the bit while the shape is Shape{}.
+class Shaping {
+ public:
+  void reset() noexcept { *this = {}; }
+  // Writes what `delta` and `root` come to.
+  void step(const Shape& shape, const StyleDelta& delta, const RootOffset& root,
+            const StepTime& time, BodyChange& out) noexcept;
+
+  // Calls visit(member) for everything that tells one character from another.
+  template <class Self, class Visit>
+  static void visit_state(Self& self, Visit&& visit) {
+    visit(self.mean_rotations_), visit(self.mean_height_), visit(self.last_), visit(self.held_);
+  }
+
+ private:
+  RootOffset hold_back(const Shape& shape, const RootOffset& root, const StepTime& time) noexcept;
+  StyleDelta weigh_in_time(const Shape& shape, const StyleDelta& delta,
+                           const StepTime& time) noexcept;
+
+  std::array<Vec3, kHumanJoints> mean_rotations_{};  // As in StyleDelta.
+  float mean_height_ = 0;                            // Metres.
+  RootOffset last_;                                  // As asked for at the last step.
+  RootOffset held_;                                  // What was not given of it.
+};
+
+}  // namespace panache

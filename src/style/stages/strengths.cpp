@@ -1,0 +1,43 @@
+#include "style/stages/strengths.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace panache {
+namespace {
+
+constexpr float kNear = 1e-4f;
+
+float bounded(float amount, float max) {
+  return std::isfinite(amount) ? std::clamp(amount, 0.0f, max) : 1.0f;
+}
+
+}  // namespace
+
+void EasedStrengths::step(std::span<const float> strengths, const Shape& shape,
+                          const StepTime& time) noexcept {
+  assert(strengths.size() == now_.size());
+  const float gain = time.gain(ease_seconds_);
+  const auto ease = [&](float& value, float wanted, float max) {
+    approach(value, bounded(wanted, max), gain, kNear);
+  };
+  ease(shape_.posture, shape.posture, Shape::kMax);
+  ease(shape_.dynamics, shape.dynamics, Shape::kMax);
+  ease(shape_.timing, shape.timing, Shape::kMax);
+  ease(shape_.foot_lock, shape.foot_lock, 1);
+  for (size_t r = 0; r < kRegions; ++r) {
+    ease(shape_.regions[r], shape.regions[r], Shape::kMax);
+  }
+
+  const float all = bounded(shape.strength, Shape::kMax);
+  float total = 0;
+  for (size_t i = 0; i < now_.size(); ++i) {
+    const float wanted = std::isfinite(strengths[i]) ? strengths[i] * all : 0.0f;
+    approach(now_[i], std::clamp(wanted, -kMaxStrength, kMaxStrength), gain, kNear);
+    total += std::abs(now_[i]);
+  }
+  amount_ = std::min(1.0f, 4 * total);
+}
+
+}  // namespace panache

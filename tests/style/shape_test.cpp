@@ -1,0 +1,190 @@
+#include "style/shape.h"
+
+#include <cmath>
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "make_clip.h"
+#include "make_model.h"
+#include "style/stylizer.h"
+
+namespace panache {
+namespace {
+
+// Sure that both feet stand, so that the foot lock has something to do.
+std::shared_ptr<const Model> random_model() {
+  TensorFile file = test::make_model({"old", "proud"}, 3);
+  file.tensors["contact.head.0.bias"].values = {10, 10};
+  return *Model::parse(format_safetensors(file), "test model");
+}
+
+class ShapeTest : public testing::Test {
+ protected:
+  // All frames with these strengths and this shape, which begins to hold at frame `from`.
+  Clip run(const Shape& shape, std::vector<float> strengths = {1, 0.5f}, int from = 0) const {
+    Stylizer stylizer = *Stylizer::create(random_model(), rig_);
+    Clip out = clip_;
+    for (int f = 0; f < clip_.frames; ++f) {
+      stylizer.set_shape(f < from ? Shape{} : shape);
+      stylizer.step(clip_.pose(f), strengths, clip_.frame_time, out.pose(f));
+    }
+    return out;
+  }
+  Quat rotation(const Clip& clip, HumanJoint joint) const {
+    return clip.pose(clip.frames - 1).rotations[static_cast<size_t>(index(joint))];
+  }
+
+  Clip clip_ = test::walking_clip(120);
+  Rig rig_ = *Rig::create(clip_);
+};
+
+float& part(Shape& shape, Region region) { return shape.regions[static_cast<size_t>(region)]; }
+
+bool same_bits(const Clip& a, const Clip& b) {
+  return a.rotations.size() == b.rotations.size() &&
+         std::memcmp(a.rotations.data(), b.rotations.data(), a.rotations.size() * sizeof(Quat)) ==
+             0 &&
+         std::memcmp(a.translations.data(), b.translations.data(),
+                     a.translations.size() * sizeof(Vec3)) == 0;
+}
+
+TEST_F(ShapeTest, lets_the_feet_go_where_they_are_not_to_be_locked) {
+  Shape shape;
+  shape.foot_lock = 0;
+  EXPECT_FALSE(same_bits(run(shape), run({})));
+}
+
+TEST_F(ShapeTest, without_a_style_is_the_input_bit_for_bit_whatever_the_shape) {
+  Shape shape;
+  shape.posture = 2;
+  shape.dynamics = 0.5f;
+  shape.strength = 2;
+  shape.regions = {0, 1, 0.5f, 2};
+  EXPECT_TRUE(same_bits(run(shape, {0, 0}), clip_));
+}
+
+TEST_F(ShapeTest, leaves_a_region_that_is_off_as_the_input_has_it) {
+  Shape shape;
+  part(shape, Region::left_arm) = part(shape, Region::right_arm) = 0;
+  const Clip out = run(shape);
+  // A rotation through a change and back, in floats: a few units in the last place of 1.
+  constexpr float kRounding = 1e-6f;
+  for (const HumanJoint joint : {HumanJoint::left_upper_arm, HumanJoint::right_lower_arm}) {
+    EXPECT_GT(std::abs(dot(rotation(out, joint), rotation(clip_, joint))), 1 - kRounding);
+    EXPECT_LT(std::abs(dot(rotation(run({}), joint), rotation(clip_, joint))), 1 - 1e-4f);
+  }
+  EXPECT_LT(std::abs(dot(rotation(out, HumanJoint::spine), rotation(clip_, HumanJoint::spine))),
+            1 - 1e-4f);
+}
+
+TEST_F(ShapeTest, starts_no_more_at_a_step_for_arms_that_are_off_or_that_come_back) {
+  // Legs and height are those of the whole style; only the lift above the floor is another.
+  Shape shape;
+  part(shape, Region::left_arm) = part(shape, Region::right_arm) = 0;
+  const auto start = [&](const Clip& clip) {
+    float most = 0;
+    for (int f = 12; f < clip.frames; ++f) {
+      const auto height = [&](int frame) {
+        return clip.pose(frame).translations[0].y - clip_.pose(frame).translations[0].y;
+      };
+      most = std::max(most, std::abs(height(f) - 2 * height(f - 1) + height(f - 2)));
+    }
+    return most;
+  };
+  // The lift is eased whatever the shape. Were it not, it would start nearly three times as much.
+  EXPECT_LT(start(run(shape)), 2 * start(run({})));
+  EXPECT_LT(start(run(shape, {1, 0.5f}, 60)), 2 * start(run({})));
+}
+
+TEST_F(ShapeTest, with_no_legs_goes_where_the_input_goes) {
+  Shape shape;
+  part(shape, Region::legs) = 0;
+  shape.foot_lock = 0;
+  const Vec3 end = run(shape).pose(119).translations[0];
+  EXPECT_LT(length(end - clip_.pose(119).translations[0]), 1e-4f);
+  EXPECT_GT(length(run({}).pose(119).translations[0] - clip_.pose(119).translations[0]), 0.01f);
+}
+
+TEST_F(ShapeTest, keeps_the_way_that_it_has_gone_where_the_legs_are_left_alone_from_now_on) {
+  Shape shape;
+  part(shape, Region::legs) = 0;
+  const Clip out = run(shape, {1, 0.5f}, 60);
+  const auto beyond_input = [&](int frame) {
+    const Vec3 way = out.pose(frame).translations[0] - clip_.pose(frame).translations[0];
+    return Vec3{way.x, 0, way.z};
+  };
+  // Half a second after the change it is eased in to 3 %, and the rest is a matter of millimetres.
+  EXPECT_GT(length(beyond_input(75)), 0.02f);
+  EXPECT_LT(length(beyond_input(119) - beyond_input(75)), 0.005f);
+}
+
+TEST_F(ShapeTest, with_posture_and_dynamics_at_nothing_leaves_the_pose) {
+  Shape shape;
+  shape.posture = shape.dynamics = shape.foot_lock = 0;
+  const Clip out = run(shape);
+  for (size_t j = 0; j < clip_.joints(); ++j) {
+    EXPECT_GT(std::abs(dot(out.pose(119).rotations[j], clip_.pose(119).rotations[j])), 1 - 1e-6f);
+  }
+}
+
+TEST_F(ShapeTest, without_dynamics_changes_by_what_lasts) {
+  // The change of a joint from frame to frame, beyond the input's own.
+  const auto unrest = [&](const Clip& clip) {
+    float sum = 0;
+    const auto joint = static_cast<size_t>(index(HumanJoint::spine));
+    for (int f = 61; f < clip.frames; ++f) {
+      const Quat step =
+          conjugate(clip.pose(f - 1).rotations[joint]) * clip.pose(f).rotations[joint];
+      sum += length(log_rotation(step));
+    }
+    return sum;
+  };
+  Shape shape;
+  shape.dynamics = 0;
+  EXPECT_LT(unrest(run(shape)), 0.5f * unrest(run({})));
+}
+
+TEST_F(ShapeTest, styles_one_arm_and_leaves_the_other) {
+  Shape shape;
+  part(shape, Region::right_arm) = 0;
+  const Clip out = run(shape), whole = run({});
+  const auto left = HumanJoint::left_lower_arm, right = HumanJoint::right_lower_arm;
+  EXPECT_GT(std::abs(dot(rotation(out, left), rotation(whole, left))), 1 - 1e-6f);
+  EXPECT_GT(std::abs(dot(rotation(out, right), rotation(clip_, right))), 1 - 1e-6f);
+}
+
+TEST_F(ShapeTest, strength_is_that_of_all_styles) {
+  Shape half;
+  half.strength = 0.5f;
+  EXPECT_TRUE(same_bits(run(half, {1, 0.5f}), run({}, {0.5f, 0.25f})));
+}
+
+TEST_F(ShapeTest, timing_scales_the_logarithm_of_the_rate_within_its_range) {
+  const auto rate = [&](float timing) {
+    TensorFile file = test::make_model({"old", "proud"}, 3);
+    file.tensors["timing.head.0.bias"].values = {0.3f};
+    Stylizer stylizer =
+        *Stylizer::create(*Model::parse(format_safetensors(file), "test model"), rig_);
+    Shape shape;
+    shape.timing = timing;
+    stylizer.set_shape(shape);
+    Clip out = clip_;
+    stylizer.step(clip_.pose(0), std::vector<float>{1, 0}, clip_.frame_time, out.pose(0));
+    return std::log(stylizer.rate());
+  };
+  const double whole = rate(1);
+  ASSERT_GT(std::abs(whole), 0.1);
+  EXPECT_NEAR(rate(0.5f), whole / 2, 1e-6);
+  EXPECT_EQ(rate(0), 0);
+}
+
+TEST_F(ShapeTest, numbers_that_are_none_count_as_one) {
+  Shape odd;
+  odd.strength = odd.posture = odd.dynamics = std::nanf("");
+  part(odd, Region::legs) = INFINITY;
+  EXPECT_TRUE(same_bits(run(odd), run({})));
+}
+
+}  // namespace
+}  // namespace panache
