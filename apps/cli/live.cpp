@@ -11,6 +11,7 @@
 #include "model_path.h"
 #include "outputs.h"
 #include "report.h"
+#include "shape_options.h"
 #include "stop_signal.h"
 #include "strengths.h"
 #include "verbs.h"
@@ -24,6 +25,7 @@ struct Options {
   std::vector<std::string> styles;
   std::string model, record;
   panache::LiveOptions time;
+  ShapeFlags shape;
   bool quiet = false, force = false;
 };
 
@@ -103,6 +105,10 @@ int live(const Options& options) {
     auto free = check_output("", options.record, options.force);
     if (!free) return refuse(free.error(), kBadInput);
   }
+  Result<Shape> shape = read_shape(options.shape);
+  if (!shape) return refuse(shape.error(), kBadUsage);
+  LiveOptions how = options.time;
+  how.stylizer.shape = *shape;
   Result<std::string> path = find_model(options.model);
   if (!path) return refuse(path.error(), kBadInput);
   Result<std::shared_ptr<const Model>> model = Model::load(*path);
@@ -117,7 +123,7 @@ int live(const Options& options) {
 
   watch_stop_signals();
   VmcRecording recording;
-  VmcRelay relay(*std::move(socket), *out, *std::move(model), options.time, *std::move(strengths),
+  VmcRelay relay(*std::move(socket), *out, *std::move(model), how, *std::move(strengths),
                  options.record.empty() ? nullptr : &recording);
   if (!options.quiet) {
     say("relaying from port " + std::to_string(*in) + " to " + to_string(*out) +
@@ -146,6 +152,7 @@ void add_live(CLI::App& app, int& exit_code) {
                    "more exaggerates it (-4 to 4). One --style per style")
       ->allow_extra_args(false)
       ->type_name("STYLE");
+  add_shape_options(*verb, options->shape);
   verb->add_option("--model", options->model,
                    "Model; default: $PANACHE_MODEL, else the one shipped")
       ->type_name("FILE");

@@ -14,6 +14,7 @@
 #include "input.h"
 #include "report.h"
 #include "rig/canonical_skeleton.h"
+#include "rig/posed_rig.h"
 #include "rig_options.h"
 #include "stop_signal.h"
 #include "verbs.h"

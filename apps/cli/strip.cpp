@@ -13,6 +13,7 @@
 #include "outputs.h"
 #include "pose/strip.h"
 #include "report.h"
+#include "rig/posed_rig.h"
 #include "rig_options.h"
 #include "verbs.h"
 

@@ -15,6 +15,7 @@
 #include "report.h"
 #include "rig_options.h"
 #include "rig_report.h"
+#include "shape_options.h"
 #include "strengths.h"
 #include "style/restyle.h"
 #include "verbs.h"
@@ -25,6 +26,7 @@ namespace {
 struct StylizeOptions {
   BatchFlags batch;
   RigFlags rig;
+  ShapeFlags shape;
   std::vector<std::string> styles;
   std::string strengths;  // A CSV, or empty.
   std::string model;
@@ -203,6 +205,8 @@ Result<std::vector<StrengthWish>> collect_wishes(const StylizeOptions& options, 
 
 int stylize(const StylizeOptions& options) {
   if (auto rig = check_rig_flags(options.rig); !rig) return refuse(rig.error(), kBadUsage);
+  Result<Shape> shape = read_shape(options.shape);
+  if (!shape) return refuse(shape.error(), kBadUsage);
   int exit_code = kDone;
   Result<std::vector<FileJob>> files = plan_batch(options.batch, "", exit_code);
   if (!files) return refuse(files.error(), exit_code);
@@ -222,6 +226,7 @@ int stylize(const StylizeOptions& options) {
   Wanted wanted{*std::move(model), *std::move(wishes), *std::move(rig), {}};
   wanted.how.timing = !options.no_timing;
   wanted.how.stylizer.foot_lock = !options.no_feet;
+  wanted.how.stylizer.shape = *shape;
   return run_batch(*std::move(files), options.batch, "restyling", "restyled",
                    [&](FileJob& file, const std::function<void(double)>& progress) {
                      auto done = stylize_file(file, wanted, options, progress);
@@ -254,6 +259,7 @@ void add_stylize(CLI::App& app, int& exit_code) {
       ->type_name("NAME");
   verb->add_flag("--replace", options->replace,
                  "Put new motions in the place of the old, not beside\nthem (BVH holds but one)");
+  add_shape_options(*verb, options->shape);
   verb->add_flag("--no-timing", options->no_timing, "Keep the tempo, and so the number of frames");
   verb->add_flag("--no-feet", options->no_feet, "Do not hold planted feet in place");
   verb->add_flag("--verbose", options->verbose,

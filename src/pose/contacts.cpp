@@ -10,7 +10,15 @@ namespace {
 constexpr float kMaxSpeed = 0.45f;   // m/s
 constexpr float kMaxHeight = 0.06f;  // m, above the lowest tenth of that toe's own heights
 
+// A toe as high as a planted one may be is near the floor, and one at twice that height is not.
+constexpr float kInTheAir = 2 * kMaxHeight;
+
 }  // namespace
+
+float planted_near_floor(float probability, float toe_height) noexcept {
+  const float t = std::clamp((kInTheAir - toe_height) / (kInTheAir - kMaxHeight), 0.0f, 1.0f);
+  return probability * t;
+}
 
 std::vector<FootContacts> detect_contacts(const std::vector<HumanPositions>& world, double fps) {
   const int frames = static_cast<int>(world.size());

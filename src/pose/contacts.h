@@ -24,4 +24,9 @@ using FootContacts = std::array<bool, kFeet>;
 // A foot is planted while its toe is low and nearly at rest.
 std::vector<FootContacts> detect_contacts(const std::vector<HumanPositions>& world, double fps);
 
+// The probability that a foot is planted, given what `probability` says of its motion and where its
+// toe is in the input (metres above the floor): a foot in the air is not planted, whatever the rest
+// of the body looks like.
+float planted_near_floor(float probability, float toe_height) noexcept;
+
 }  // namespace panache

@@ -20,7 +20,10 @@ constexpr float kShortestToe = 0.03f;
 constexpr float kSteepestToe = -0.95f;
 // A foot counts as standing in the frames of this share in which it is lowest.
 constexpr float kStanceShare = 0.3f;
+// The floor is as low as the lower toe is in this share of the frames, and in three of them: one
+// frame that is no part of the motion does not set it.
 constexpr float kFloorShare = 0.02f;
+constexpr float kFloorFrames = 2;
 
 float component(Vec3 v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
 
@@ -244,7 +247,9 @@ class Calibrator {
       const HumanPositions body = canonical_positions(joints.positions, out_.shape, joints.toes);
       heights[f] = std::min(body[index(left_toes)].y, body[index(right_toes)].y);
     }
-    out_.floor = quantile(heights, kFloorShare);
+    const float last = static_cast<float>(heights.size() - 1);
+    const float share = last > 0 ? std::min(kFloorFrames / last, 0.5f) : 0.0f;
+    out_.floor = quantile(heights, std::max(kFloorShare, share));
   }
 
   const Clip& clip_;

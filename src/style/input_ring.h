@@ -45,8 +45,9 @@ class InputRing {
     size_t a, b;  // Places: earlier, later.
     float t;
   };
-  // A pose closer than this to the one before it gives way to the next, so that any rate fits.
-  static constexpr double kMinGap = 0.0118;
+  // A pose closer than this to the one before it gives way to the next, so that any rate fits. All
+  // of a tracker of 120 Hz are kept.
+  static constexpr double kMinGap = 0.008;
 
   size_t place(size_t age) const noexcept {
     return (head_ + entries_.size() - age) % entries_.size();

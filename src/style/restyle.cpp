@@ -28,7 +28,6 @@ Result<Restyled> restyle(const Clip& clip, const Rig& rig, std::shared_ptr<const
                          const std::function<void(double)>& progress) {
   Result<Stylizer> stylizer = Stylizer::create(model, rig, options.stylizer);
   if (!stylizer) return stylizer.error();
-  stylizer->set_shape(options.shape);
   Restyled result;
   result.clip.skeleton = clip.skeleton;
   result.clip.frame_time = clip.frame_time;

@@ -27,7 +27,6 @@ struct StrengthTrack {
 
 struct RestyleOptions {
   StylizerOptions stylizer;
-  Shape shape;
   bool timing = true;  // Change the tempo too; off, the result has the input's frames.
 };
 

@@ -30,6 +30,7 @@ Result<Stylizer> Stylizer::create(std::shared_ptr<const Model> model, Rig rig,
 
 Stylizer::Stylizer(std::shared_ptr<const Model> model, Rig rig, const StylizerOptions& options)
     : options_(options),
+      shape_(options.shape),
       observer_(std::move(rig)),
       strengths_(model->styles().size(), options.ease_seconds),
       window_(model->layout()),
@@ -108,9 +109,12 @@ void Stylizer::give_out(const StepTime& time, Pose out, StageClock* clock) noexc
   changed_joints(now.world, change_, joints);
   floor_.step(now.world, joints, amount, time, change_);
   tell(clock, Stage::floor);
+  for (size_t f = 0; f < kFeet; ++f) {
+    const float height = now.world.positions[index(kToes[f])].y;
+    contacts_[f] = planted_near_floor(networks_.contact()[f], height);
+  }
   if (options_.foot_lock) {
-    foot_lock_.step(now.world, joints, networks_.contact().first<kFeet>(), amount * shape.foot_lock,
-                    time.output, change_);
+    foot_lock_.step(now.world, joints, contacts_, amount * shape.foot_lock, time.output, change_);
   }
   tell(clock, Stage::feet);
   observer_.write(change_, out);
@@ -125,7 +129,7 @@ double Stylizer::rate() const noexcept {
 
 template <class Self, class Visit>
 void Stylizer::visit_state(Self& self, Visit&& visit) {
-  visit(self.started_), visit(self.change_);
+  visit(self.started_), visit(self.contacts_), visit(self.change_);
   Observer::visit_state(self.observer_, visit);
   EasedStrengths::visit_state(self.strengths_, visit);
   InputWindow::visit_state(self.window_, visit);

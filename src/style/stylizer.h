@@ -28,6 +28,7 @@ struct StylizerOptions {
   float smoothing_seconds = 0.04f;
   bool foot_lock = true;
   bool root = true;  // Style the root motion, not only the pose.
+  Shape shape;       // At first, see Stylizer::set_shape().
 };
 
 // What a step consists of, in this order. Each is a type of its own, in style/stages or where it is
@@ -109,7 +110,7 @@ class Stylizer {
   // See StyleNetworks::gate(); smoothed, at the last step.
   float gate() const noexcept { return networks_.gate(); }
   // Probability that each foot is planted, at the last step.
-  std::span<const float> contacts() const noexcept { return networks_.contact(); }
+  std::span<const float, kFeet> contacts() const noexcept { return contacts_; }
   // What was done to the input at the last step.
   const BodyChange& change() const noexcept { return change_; }
   const Rig& rig() const noexcept { return observer_.rig(); }
@@ -145,6 +146,7 @@ class Stylizer {
   Shaping shaping_;
   FloorClearance floor_;
   FootLock foot_lock_;
+  std::array<float, kFeet> contacts_{};
   BodyChange change_;
 };
 

@@ -45,5 +45,14 @@ TEST(Contacts, too_short_a_motion_shows_none) {
   EXPECT_FALSE(detect_contacts(std::vector<HumanPositions>(1), 30)[0][0]);
 }
 
+TEST(Contacts, a_foot_in_the_air_is_not_planted_whatever_its_probability) {
+  EXPECT_EQ(planted_near_floor(0.9f, 0), 0.9f);
+  EXPECT_EQ(planted_near_floor(0.9f, -0.05f), 0.9f);
+  EXPECT_EQ(planted_near_floor(0.9f, 0.06f), 0.9f);
+  EXPECT_LT(planted_near_floor(1, 0.1f), 0.5f);
+  EXPECT_EQ(planted_near_floor(1, 0.12f), 0);
+  EXPECT_EQ(planted_near_floor(1, 1), 0);
+}
+
 }  // namespace
 }  // namespace panache

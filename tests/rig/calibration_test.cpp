@@ -289,5 +289,15 @@ TEST(Calibration, legs_of_no_length_are_refused) {
   EXPECT_EQ(empty.error().message, "expected at least one frame of motion, found none");
 }
 
+TEST(Calibration, one_low_frame_does_not_set_the_floor) {
+  for (const int frames : {12, 30, 300}) {
+    Clip clip = random_clip(canonical_skeleton(), frames, 0.05f, 3);
+    const float floor = Rig::create(clip)->floor();
+    // Not the first, which might be left out for the jump.
+    clip.pose(frames / 2).translations[0].y -= 0.3f;
+    EXPECT_NEAR(Rig::create(clip)->floor(), floor, 0.02f) << frames << " frames";
+  }
+}
+
 }  // namespace
 }  // namespace panache

@@ -33,6 +33,18 @@ TEST_F(InputRingTest, a_pose_comes_back_bit_for_bit_at_its_own_time) {
   }
 }
 
+TEST_F(InputRingTest, every_pose_of_a_tracker_of_90_or_120_hz_is_kept) {
+  for (const double rate : {90.0, 120.0}) {
+    InputRing ring(clip_.joints(), 2);
+    for (int f = 0; f < 150; ++f) push(ring, f, f / rate);
+    for (int f = 0; f < 150; ++f) {
+      ring.pose(f / rate, out_.pose(0));
+      ASSERT_EQ(out_.pose(0).translations[0], clip_.pose(f).translations[0])
+          << rate << " Hz, pose " << f;
+    }
+  }
+}
+
 TEST_F(InputRingTest, between_poses_and_beyond_them_time_is_straight_and_held) {
   InputRing ring(clip_.joints(), 1);
   for (int f = 0; f < 30; ++f) push(ring, f, 1 + f / 30.0);

@@ -417,5 +417,22 @@ TEST(AnHour, of_a_stream_leaves_the_style_as_it_was) {
   EXPECT_NEAR(last.rate, second.rate, 0.01);
 }
 
+TEST_F(LiveStylizerTest, without_a_style_no_cycle_is_left_out_or_played_again) {
+  LiveOptions options;
+  options.max_lag = 1.5;
+  options.skip_cycles = true;
+  LiveStylizer character = live(model_at_rate(1.2), options);
+  LiveWalk walk;
+  for (int f = 0; f < 60 * 60; ++f) {
+    const ConstPose in = walk.step(kStep);
+    character.step(in, std::vector<float>{0, 0}, kStep, out_.pose(0));
+    for (size_t j = 0; j < in.rotations.size(); ++j) {
+      ASSERT_EQ(out_.pose(0).rotations[j], in.rotations[j]) << "frame " << f;
+      ASSERT_EQ(out_.pose(0).translations[j], in.translations[j]) << "frame " << f;
+    }
+  }
+  EXPECT_EQ(character.skipped_cycles(), 0);
+}
+
 }  // namespace
 }  // namespace panache

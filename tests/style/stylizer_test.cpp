@@ -361,5 +361,31 @@ TEST_F(StylizerTest, a_character_takes_at_most_16_kilobytes_beside_model_and_rig
   EXPECT_LE(sizeof character + heap, 16 * 1024u);
 }
 
+// Hops of half a second, for which the networks take both feet to be planted all the time.
+TEST_F(StylizerTest, feet_are_not_held_in_the_air) {
+  TensorFile file = test::make_model({"old", "sad"}, 3);
+  file.tensors["contact.head.0.bias"].values = {10, 10};
+  const auto model = *Model::parse(format_safetensors(file), "test model");
+  Clip hops = clip_;
+  std::vector<float> height(static_cast<size_t>(hops.frames));
+  for (int f = 0; f < hops.frames; ++f) {
+    const float t = static_cast<float>(f % 30) / 15 - 1;
+    height[size_t(f)] = f % 60 < 30 ? 0.35f * (1 - t * t) : 0;
+    hops.pose(f).translations[0].y += height[size_t(f)];
+  }
+  Stylizer character = *Stylizer::create(model, *Rig::create(hops));
+  Clip out = hops;
+  int in_the_air = 0;
+  for (int f = 0; f < hops.frames; ++f) {
+    character.step(hops.pose(f), std::vector<float>{1, 0}, hops.frame_time, out.pose(f));
+    // The walk itself lifts a toe by less than this.
+    if (height[size_t(f)] < 0.25f) continue;
+    ++in_the_air;
+    EXPECT_LT(character.contacts()[0], 0.5f) << "frame " << f;
+    EXPECT_LT(character.contacts()[1], 0.5f) << "frame " << f;
+  }
+  EXPECT_GT(in_the_air, 10);
+}
+
 }  // namespace
 }  // namespace panache

@@ -90,7 +90,7 @@ Result<std::string> Actor::export_as(const std::string& ending,
     if (strengths_[s] != 0) tracks.push_back({static_cast<int>(s), {{0, strengths_[s]}}});
   }
   RestyleOptions options;
-  options.shape = shape_;
+  options.stylizer.shape = shape_;
   Result<Restyled> restyled = restyle(source_->clip(), source_->rig(), model_, tracks, options);
   if (!restyled) return restyled.error();
   if (ending != file_ending) return format_clip(restyled->clip, source_->rig(), ending);

@@ -1,0 +1,71 @@
+#include "shape_options.h"
+
+#include <array>
+#include <optional>
+
+#include "clip/text_cursor.h"
+
+namespace panache::cli {
+namespace {
+
+std::optional<size_t> find_region(const std::string& name) {
+  for (size_t r = 0; r < kRegions; ++r) {
+    if (name == kRegionNames[r]) return r;
+  }
+  return std::nullopt;
+}
+
+std::optional<float> amount(const std::string& text) {
+  double value = 0;
+  if (!CLI::detail::lexical_cast(text, value)) return std::nullopt;
+  if (!(value >= 0 && value <= static_cast<double>(Shape::kMax))) return std::nullopt;
+  return static_cast<float>(value);
+}
+
+}  // namespace
+
+void add_shape_options(CLI::App& verb, ShapeFlags& flags) {
+  const auto add = [&](const char* name, float& value, const char* description) {
+    verb.add_option(name, value, description)
+        ->check(CLI::Range(0.0f, Shape::kMax).description(""))
+        ->type_name("AMOUNT");
+  };
+  add("--posture", flags.shape.posture,
+      "How much of the lasting part of the style: 0 to 2;\ndefault: 1");
+  add("--dynamics", flags.shape.dynamics,
+      "How much of its movement and root motion: 0 to 2;\ndefault: 1");
+  add("--timing", flags.shape.timing, "How much of its tempo: 0 to 2; default: 1");
+  verb.add_option(
+          "--region", flags.regions,
+          "REGION=AMOUNT: how much of the style legs, torso,\nleft_arm or right_arm get, 0 to 2. "
+          "One --region per\nregion")
+      ->allow_extra_args(false)
+      ->type_name("REGION");
+}
+
+Result<Shape> read_shape(const ShapeFlags& flags) {
+  Shape shape = flags.shape;
+  std::array<bool, kRegions> given{};
+  for (const std::string& text : flags.regions) {
+    const size_t equals = text.find('=');
+    const std::optional<size_t> region = find_region(text.substr(0, equals));
+    if (equals == std::string::npos || !region) {
+      return Error{"--region " + panache::quoted(text) +
+                   ": expected legs, torso, left_arm or right_arm, '=' and an amount, such as "
+                   "legs=0.5"};
+    }
+    const std::optional<float> value = amount(text.substr(equals + 1));
+    if (!value) {
+      return Error{"--region " + panache::quoted(text) + ": expected an amount of 0 to 2, found " +
+                   panache::quoted(text.substr(equals + 1))};
+    }
+    if (given[*region]) {
+      return Error{std::string("--region ") + kRegionNames[*region] + " is given twice"};
+    }
+    given[*region] = true;
+    shape.regions[*region] = *value;
+  }
+  return shape;
+}
+
+}  // namespace panache::cli
