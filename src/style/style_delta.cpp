@@ -1,0 +1,29 @@
+#include "style/style_delta.h"
+
+namespace panache {
+
+void pack(const StyleDelta& delta, std::span<float, StyleDelta::kSize> out) noexcept {
+  float* number = out.data();
+  for (const Vec3& r : delta.rotations) {
+    for (const float v : {r.x, r.y, r.z}) *number++ = v;
+  }
+  for (const float v :
+       {delta.hips_height, delta.velocity_left, delta.velocity_forward, delta.turn_rate}) {
+    *number++ = v;
+  }
+}
+
+StyleDelta unpack(std::span<const float, StyleDelta::kSize> numbers) noexcept {
+  StyleDelta delta;
+  const float* number = numbers.data();
+  for (Vec3& r : delta.rotations) {
+    for (float* v : {&r.x, &r.y, &r.z}) *v = *number++;
+  }
+  for (float* v :
+       {&delta.hips_height, &delta.velocity_left, &delta.velocity_forward, &delta.turn_rate}) {
+    *v = *number++;
+  }
+  return delta;
+}
+
+}  // namespace panache
