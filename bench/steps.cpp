@@ -80,7 +80,6 @@ class StepInParts {
         out_rotations_(walk.joints()),
         out_translations_(walk.joints()),
         window_(size_t(kWindowPoses) * pose_numbers(model->layout())),
-        recipe_(model->recipe()),
         rig_(rig),
         history_(model->layout()),
         networks_(model) {
@@ -104,16 +103,11 @@ class StepInParts {
     done(window);
     networks_.forward(window_, kGateShare);
     done(networks);
-    ChangeNumbers numbers;
-    if (recipe_ == Recipe::panache) {
-      std::copy_n(networks_.pose().begin(), kChangeNumbers, numbers.begin());
-    } else {
-      const size_t root = window_.size() / kWindowPoses - kRootNumbers;
-      numbers = change_to_pose(networks_.pose(), seen_,
-                               std::span(window_).subspan(root).first<kRootNumbers>());
-    }
-    for (int j = 0; j < kHumanJoints; ++j) change_.rotations[j] = joint_rotation(numbers, j);
-    change_.translation = {0, numbers[63], 0};
+    const Model& model = networks_.model();
+    const auto root = std::span(window_).subspan(root_offset(model.layout())).first<kRootNumbers>();
+    const StyleDelta delta = model.recipe().to_change(networks_.pose(), seen_, root);
+    for (int j = 0; j < kHumanJoints; ++j) change_.rotations[j] = joint_rotation(delta, j);
+    change_.translation = {0, delta.hips_height, 0};
     done(rotations);
     HumanPositions joints;
     changed_joints(body_, change_, joints);
@@ -142,7 +136,6 @@ class StepInParts {
   std::vector<Quat> out_rotations_;
   std::vector<Vec3> out_translations_;
   std::vector<float> window_;
-  Recipe recipe_;
   Rig rig_;
   PoseHistory history_;
   StyleNetworks networks_;

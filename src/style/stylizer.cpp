@@ -86,16 +86,11 @@ void Stylizer::ease_strengths(std::span<const float> strengths, float seconds) n
 }
 
 void Stylizer::take_answer(float seconds) noexcept {
-  ChangeNumbers wanted;
-  if (networks_.model().recipe() == Recipe::panache) {
-    std::copy_n(networks_.pose().begin(), kChangeNumbers, wanted.begin());
-  } else {
-    const size_t root = window_.size() / kWindowPoses - kRootNumbers;
-    wanted = change_to_pose(networks_.pose(), seen_,
-                            std::span(window_).subspan(root).first<kRootNumbers>());
-  }
+  const auto root = std::span(window_).subspan(root_offset(model().layout())).first<kRootNumbers>();
+  std::array<float, StyleDelta::kSize> wanted;
+  pack(model().recipe().to_change(networks_.pose(), seen_, root), wanted);
   const float gain = started_ ? filter_gain(seconds, options_.smoothing_seconds) : 1.0f;
-  for (int i = 0; i < kChangeNumbers; ++i) {
+  for (size_t i = 0; i < wanted.size(); ++i) {
     if (!std::isfinite(wanted[i])) wanted[i] = 0;
     numbers_[i] += gain * (wanted[i] - numbers_[i]);
     if (std::abs(wanted[i] - numbers_[i]) < 1e-7f) numbers_[i] = wanted[i];
@@ -121,14 +116,16 @@ void Stylizer::move_root(double input_seconds) noexcept {
   const float known = networks_.gate();
   const float moving = known * std::min(1.0f, history_.ground_speed() / kStandingSpeed);
   const float back = exponential(-dt / kCourseSeconds);
-  turn_ = turn_ * back + numbers_[66] * moving * dt;
-  sway_ = sway_ * back + numbers_[64] * moving * dt;
+  const StyleDelta delta = unpack(numbers_);
+  turn_ = turn_ * back + delta.turn_rate * moving * dt;
+  sway_ = sway_ * back + delta.velocity_left * moving * dt;
 
   // Forward the style stretches or shortens the input's own way, by the share that its velocity is
   // of the input's: what comes back in the input comes back in the output, and what stands stays.
   // Each term is exactly zero without a style.
   const float speed = forward_speed();
-  const float share = known * numbers_[65] * speed / (speed * speed + kSlowSpeed * kSlowSpeed);
+  const float share =
+      known * delta.velocity_forward * speed / (speed * speed + kSlowSpeed * kSlowSpeed);
   const Vec3 way = ground_.position - last_ground_.position;
   drift_ += rotate(rotation_y(turn_), way) - way;
   const float most = speed > 0 ? kMostStretched : 0.0f;  // Backwards, or the way would not close.
@@ -183,12 +180,11 @@ void Stylizer::change_pose(const Times& times, Pose out) noexcept {
   take_answer(times.output);
   move_root(times.input);
 
-  for (int j = 0; j < kHumanJoints; ++j) {
-    change_.rotations[j] = joint_rotation(numbers_, j);
-  }
+  const StyleDelta delta = unpack(numbers_);
+  for (int j = 0; j < kHumanJoints; ++j) change_.rotations[j] = joint_rotation(delta, j);
   change_.turn = turn_;
   const Vec3 side = rotate(rotation_y(ground_.facing + turn_), Vec3{sway_, 0, 0});
-  change_.translation = drift_ + side + Vec3{0, numbers_[63], 0};
+  change_.translation = drift_ + side + Vec3{0, delta.hips_height, 0};
   HumanPositions joints;
   changed_joints(body_, change_, joints);
   keep_above_floor(joints, times.output);

@@ -109,8 +109,8 @@ class Stylizer {
   PoseHistory history_;
   BodyPose body_;
   Ground ground_, last_ground_;
-  HumanPositions seen_;  // The canonical body in the body frame.
-  ChangeNumbers numbers_{};
+  HumanPositions seen_;                             // The canonical body in the body frame.
+  std::array<float, StyleDelta::kSize> numbers_{};  // Packed.
   float log_rate_ = 0;
   Vec3 drift_;      // What the style added to the way over the ground; world, metres.
   float sway_ = 0;  // And to its left, metres,

@@ -22,7 +22,7 @@ TEST(Model, what_was_written_is_read) {
   EXPECT_EQ((*model)->styles().size(), 2u);
   EXPECT_EQ((*model)->styles()[1].name, "proud");
   EXPECT_EQ((*model)->styles()[1].description, "looks proud");
-  EXPECT_EQ((*model)->recipe(), Recipe::panache);
+  EXPECT_EQ(&(*model)->recipe(), &test::kPanache);
 }
 
 TEST(Model, one_of_half_size_is_the_same_model_with_as_many_parameters) {

@@ -1,4 +1,4 @@
-#include "style/style_delta.h"
+#include "pose/style_delta.h"
 
 #include <gtest/gtest.h>
 
