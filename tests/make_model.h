@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/random.h"
+#include "known_recipes.h"
 #include "net/safetensors.h"
 #include "pose/contacts.h"
 #include "pose/features.h"
@@ -42,14 +43,13 @@ inline void add_network(TensorFile& file, const std::string& name, int inputs, i
   }
 }
 
-// A valid model of recipe panache (or smith2019) with these styles. Its changes are visible and
+// A valid model of a recipe with these styles. Its changes are visible and
 // small: joints turn by about a tenth of a radian.
 inline TensorFile make_model(const std::vector<std::string>& styles, uint64_t seed = 1,
-                             Recipe recipe = Recipe::panache) {
-  const bool heads = recipe == Recipe::panache;
-  const PoseLayout layout = heads ? PoseLayout::positions : PoseLayout::rotations;
-  const int numbers = pose_numbers(layout), count = static_cast<int>(styles.size());
-  const int outputs = heads ? kChangeNumbers : numbers;
+                             const Recipe& recipe = kPanache) {
+  const bool heads = recipe.style_heads;
+  const int numbers = pose_numbers(recipe.layout), count = static_cast<int>(styles.size());
+  const int outputs = recipe.outputs;
   std::string names, descriptions;
   for (const std::string& style : styles) {
     names += style + "\n";
@@ -58,7 +58,7 @@ inline TensorFile make_model(const std::vector<std::string>& styles, uint64_t se
   TensorFile file;
   file.metadata = {{"format", "panache"},
                    {"format_version", "1"},
-                   {"recipe", heads ? "panache" : "smith2019"},
+                   {"recipe", recipe.name},
                    {"joints", canonical_joint_list()},
                    {"window", window_description()},
                    {"styles", names},
@@ -68,9 +68,9 @@ inline TensorFile make_model(const std::vector<std::string>& styles, uint64_t se
   file.tensors["input.scale"] = constant_tensor(numbers, 1);
   file.tensors["input.clip"] = constant_tensor(1, 4);
   file.tensors["output.scale"] = constant_tensor(outputs, 0.1f);
-  if (!heads) file.tensors["output.mean"] = constant_tensor(outputs, 0);
+  if (!recipe.output_scale) file.tensors["output.mean"] = constant_tensor(outputs, 0);
   Random random(seed);
-  const int inputs = kWindowPoses * numbers + (heads ? 0 : count + 1);
+  const int inputs = kWindowPoses * numbers + recipe.style_inputs(count);
   add_network(file, "pose", inputs, 16, outputs, heads ? count : 1, random);
   add_network(file, "timing", inputs, 8, 1, heads ? count : 1, random);
   add_network(file, "contact", inputs, 8, kFeet, heads ? count + 1 : 1, random);

@@ -150,7 +150,7 @@ void add_eval(CLI::App& app, int& exit_code) {
                    "may be given several times")
       ->allow_extra_args(false);
   verb->add_option("--model", options->models,
-                   "A model to judge; may be given several times; without any, both recipes are "
+                   "A model to judge; may be given several times; without any, all recipes are "
                    "trained first")
       ->allow_extra_args(false);
   verb->add_option("--unseen", options->unseen,

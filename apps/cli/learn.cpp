@@ -164,7 +164,7 @@ int learn(const LearnVerb& verb) {
   Result<TensorFile> model = read_tensors(*base);
   if (!model) return refuse(model.error(), kBadInput);
   // Before the work: a name that is taken.
-  Result<std::shared_ptr<const Model>> read = Model::parse(format_safetensors(*model), *base);
+  Result<std::shared_ptr<const Model>> read = Model::create(*model, *base);
   if (!read) return refuse(read.error(), kBadInput);
   if ((*read)->find_style(verb.name) && !verb.force) {
     return refuse({*base + ": has a style '" + verb.name +

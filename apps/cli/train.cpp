@@ -18,7 +18,7 @@ namespace {
 
 struct Options {
   ManifestOptions data;
-  std::string output, recipe = "panache", data_name, licence;
+  std::string output, recipe = default_recipe().name, data_name, licence;
   int64_t steps = 0;
   uint64_t seed = 1;
   bool force = false, json = false;
@@ -31,11 +31,9 @@ int run(const Options& options) {
   if (Result<void> free = check_free(options.output, options.force); !free) {
     return refuse(free.error(), kBadInput);
   }
-  TrainOptions train_options;
-  train_options.settings =
-      recipe_settings(options.recipe == "panache" ? Recipe::panache : Recipe::smith2019);
+  TrainOptions train_options(*find_recipe(options.recipe));
   if (options.steps > 0) {
-    RecipeSettings& settings = train_options.settings;
+    TrainingSettings& settings = train_options.settings;
     settings.steps = options.steps;
     settings.predictor_steps = std::min(settings.predictor_steps, options.steps);
   }
@@ -83,9 +81,14 @@ void add_train(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("train", "Train a model on motion of your own");
   add_manifest_options(*verb, options->data);
   verb->add_option("-o,--output", options->output, "The model file to write")->required();
-  verb->add_option("--recipe", options->recipe,
-                   "panache: style heads and differences; smith2019: as in the paper's slides")
-      ->check(CLI::IsMember({"panache", "smith2019"}))
+  std::vector<std::string> names;
+  std::string meanings;
+  for (const Recipe* recipe : recipes()) {
+    names.push_back(recipe->name);
+    meanings += (meanings.empty() ? "" : "; ") + names.back() + ": " + recipe->summary;
+  }
+  verb->add_option("--recipe", options->recipe, meanings)
+      ->check(CLI::IsMember(names))
       ->capture_default_str();
   verb->add_option("--data", options->data_name, "What the data is, kept in the model's metadata");
   verb->add_option("--licence", options->licence,

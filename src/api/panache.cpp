@@ -350,7 +350,7 @@ panache_status panache_learn(const void* model_bytes, size_t model_size, const p
     const std::string_view bytes(static_cast<const char*>(model_bytes), model_size);
     Result<TensorFile> model = parse_safetensors(bytes, "the model");
     if (!model) return fail(PANACHE_BAD_MODEL, model.error().message);
-    const auto read = Model::parse(bytes, "the model");
+    const auto read = Model::create(*model, "the model");
     if (!read) return fail(PANACHE_BAD_MODEL, read.error().message);
     if (!(*read)->can_learn()) {
       return fail(PANACHE_BAD_MODEL, cannot_learn("the model").message);

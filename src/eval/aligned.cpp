@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "base/parallel.h"
-#include "style/pose_change.h"
 #include "learn/samples.h"
 
 namespace panache {
@@ -41,8 +40,8 @@ class Reader {
 
   // The change that it makes of frame `at` of `neutral`, seen as frame `seen_at` of `seen`; nothing
   // where it does not know the style.
-  std::optional<ChangeNumbers> change(const std::string& style, const Take& seen, float seen_at,
-                                      const Take& neutral, float at) {
+  std::optional<StyleDelta> change(const std::string& style, const Take& seen, float seen_at,
+                                   const Take& neutral, float at) {
     const std::vector<StyleInfo>& styles = networks_.model().styles();
     const auto found = std::find_if(styles.begin(), styles.end(),
                                     [&](const StyleInfo& s) { return s.name == style; });
@@ -52,13 +51,8 @@ class Reader {
     networks_.set_strengths(strengths_);
     take_window(seen, seen_at, numbers_, window_);
     networks_.forward(window_);
-    if (networks_.model().recipe() == Recipe::smith2019) {
-      const std::span<const float> root(&window_[numbers_ - kRootNumbers], kRootNumbers);
-      return change_to_pose(networks_.pose(), body_at(neutral, at), root.first<kRootNumbers>());
-    }
-    ChangeNumbers change;
-    std::copy_n(networks_.pose().begin(), kChangeNumbers, change.begin());
-    return change;
+    const auto root = std::span(window_).subspan(numbers_ - kRootNumbers).first<kRootNumbers>();
+    return networks_.model().recipe().to_change(networks_.pose(), body_at(neutral, at), root);
   }
 
  private:
@@ -86,7 +80,7 @@ PoseErrors AlignedTest::errors(const Model& model, double strength, const SeenTa
 }
 
 PoseErrors AlignedTest::untouched_errors() const {
-  return mean_errors([] { return [](const AlignedInstant&) { return ChangeNumbers{}; }; });
+  return mean_errors([] { return [](const AlignedInstant&) { return StyleDelta{}; }; });
 }
 
 PoseErrors AlignedTest::model_errors(const Model& model, double strength,
@@ -107,7 +101,7 @@ PoseErrors AlignedTest::mean_errors(const std::function<Answer()>& make_answer) 
     const size_t first = part * kInstantsPerPart;
     for (size_t n = first; n < std::min(first + kInstantsPerPart, instants_.size()); ++n) {
       const AlignedInstant& i = instants_[n];
-      if (const std::optional<ChangeNumbers> change = answer(i)) {
+      if (const std::optional<StyleDelta> change = answer(i)) {
         errors[n] = pose_error(positions_[i.styled], i.frame, positions_[i.neutral], i.at, *change);
       }
     }

@@ -58,7 +58,7 @@ class AlignedTest {
 
  private:
   // The change that a system makes of an instant; nothing where it does not know the style.
-  using Answer = std::function<std::optional<ChangeNumbers>(const AlignedInstant&)>;
+  using Answer = std::function<std::optional<StyleDelta>(const AlignedInstant&)>;
   // Asks over all cores. Instants are shared out in parts, and each part has an answer of its own,
   // so that answers may keep buffers.
   PoseErrors mean_errors(const std::function<Answer()>& make_answer) const;

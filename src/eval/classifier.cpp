@@ -60,7 +60,7 @@ void Classifier::learn(const std::vector<Take>& takes, const std::vector<int>& l
   for (int i = 0; i < numbers; ++i) {
     const double mean = sum[i] / std::max(1.0, poses);
     const double variance = squares[i] / std::max(1.0, poses) - mean * mean;
-    const double floor = i < 63 ? 0.02 : 0.1;
+    const double floor = i < root_offset(PoseLayout::positions) ? 0.02 : 0.1;
     mean_.push_back(static_cast<float>(mean));
     scale_.push_back(static_cast<float>(std::sqrt(std::max(variance, 0.0) + floor * floor)));
   }

@@ -70,9 +70,8 @@ Result<Bench> prepare(const EvaluateOptions& options) {
 Result<std::vector<NamedModel>> find_models(const EvaluateOptions& options, const Bench& bench) {
   if (!options.models.empty()) return options.models;
   std::vector<NamedModel> models;
-  for (const auto& [recipe, name] :
-       {std::pair{Recipe::panache, "panache"}, std::pair{Recipe::smith2019, "smith2019"}}) {
-    Result<NamedModel> model = train_system(recipe, name, bench.training, options);
+  for (const Recipe* recipe : recipes()) {
+    Result<NamedModel> model = train_system(*recipe, recipe->name, bench.training, options);
     if (!model) return model.error();
     models.push_back(*std::move(model));
   }
@@ -98,17 +97,15 @@ Result<std::vector<ForesightRow>> judge_foresight(const NamedModel& system, cons
 
 }  // namespace
 
-Result<NamedModel> train_system(Recipe recipe, const std::string& name, const TrainingData& data,
-                                const EvaluateOptions& options) {
-  TrainOptions training;
-  training.settings = recipe_settings(recipe);
+Result<NamedModel> train_system(const Recipe& recipe, const std::string& name,
+                                const TrainingData& data, const EvaluateOptions& options) {
+  TrainOptions training(recipe);
   if (options.steps) training.settings.steps = *options.steps;
   training.settings.predictor_steps = 0;  // Nothing that is judged here needs one.
   training.seed = options.seed;
   Result<Trained> trained = train(data, options.styles, training);
   if (!trained) return trained.error();
-  Result<std::shared_ptr<const Model>> model =
-      Model::parse(format_safetensors(trained->model), name);
+  Result<std::shared_ptr<const Model>> model = Model::create(trained->model, name);
   if (!model) return model.error();
   return NamedModel{name, *model};
 }

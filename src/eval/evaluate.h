@@ -31,7 +31,7 @@ struct EvaluateOptions {
   std::vector<ManifestRow> training;  // Styles renamed; rows marked test are not learnt from.
   std::vector<ManifestRow> test;      // Real held-out takes, neutral and styled.
   std::vector<StyleName> styles;      // Of `training`.
-  std::vector<NamedModel> models;     // Where there are none, both recipes are trained.
+  std::vector<NamedModel> models;     // Where there are none, all recipes are trained.
   std::vector<UnseenSplit> unseen;
   std::vector<std::string> foreign;  // Motion files.
   JudgeFloor floor;
@@ -55,8 +55,8 @@ struct Bench {
 };
 
 // A recipe's networks, trained on `data` with the steps and seed of `options`.
-Result<NamedModel> train_system(Recipe recipe, const std::string& name, const TrainingData& data,
-                                const EvaluateOptions& options);
+Result<NamedModel> train_system(const Recipe& recipe, const std::string& name,
+                                const TrainingData& data, const EvaluateOptions& options);
 
 // Fills the pose errors into the cells that there are.
 void add_pose_errors(const PoseErrors& errors, CellTable& cells);

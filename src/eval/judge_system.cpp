@@ -183,7 +183,7 @@ Result<CellTable> judge_contents(const NamedModel& system, const Bench& bench,
 Result<SystemReport> judge_system(const NamedModel& system, const Bench& bench) {
   SystemReport report;
   report.name = system.name;
-  report.recipe = system.model->recipe() == Recipe::panache ? "panache" : "smith2019";
+  report.recipe = system.model->recipe().name;
   report.parameters = system.model->parameter_count();
   const std::vector<std::string> styles = common_styles(*system.model, bench);
   if (styles.empty()) {

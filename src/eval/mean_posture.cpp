@@ -12,7 +12,7 @@ namespace {
 
 // What every pair of a style has in the mean.
 struct MeanChange {
-  std::array<double, kChangeNumbers> change{};
+  std::array<double, StyleDelta::kSize> change{};
   double log_rate = 0, count = 0;
 };
 
@@ -47,12 +47,12 @@ Result<std::shared_ptr<const Model>> mean_posture_model(const TrainingData& data
       pairings.push_back(pairing);
     }
   }
-  const SampleSet set(data.takes, pairings, names, Recipe::panache, false);
+  const SampleSet set(data.takes, pairings, names, default_recipe(), false);
   std::vector<MeanChange> sums(names.size());
   for (size_t i = 0; i < set.samples().size(); ++i) {
     MeanChange& sum = sums[set.samples()[i].style];
     const std::span<const float> target = set.target(i);
-    for (int n = 0; n < kChangeNumbers; ++n) sum.change[n] += target[n];
+    for (int n = 0; n < StyleDelta::kSize; ++n) sum.change[n] += target[n];
     sum.log_rate += set.samples()[i].log_rate;
     ++sum.count;
   }
@@ -69,16 +69,17 @@ Result<std::shared_ptr<const Model>> mean_posture_model(const TrainingData& data
     contact.push_back(std::vector<float>(kFeet, 0.0f));
   }
   TensorFile file;
-  file.metadata = model_metadata(Recipe::panache, styles);
+  file.metadata = model_metadata(default_recipe(), styles);
   const int numbers = set.numbers();
   file.tensors["input.mean"] = constants({numbers}, set.mean());
   file.tensors["input.scale"] = constants({numbers}, set.scale());
   file.tensors["input.clip"] = constants({1}, {0});
-  file.tensors["output.scale"] = constants({kChangeNumbers}, std::vector<float>(kChangeNumbers, 1));
+  file.tensors["output.scale"] =
+      constants({StyleDelta::kSize}, std::vector<float>(StyleDelta::kSize, 1));
   add_constant_network(file, "pose", set.inputs(), pose);
   add_constant_network(file, "timing", set.inputs(), timing);
   add_constant_network(file, "contact", set.inputs(), contact);
-  return Model::parse(format_safetensors(file), "mean posture");
+  return Model::create(file, "mean posture");
 }
 
 }  // namespace panache

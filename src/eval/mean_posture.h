@@ -11,7 +11,7 @@
 
 namespace panache {
 
-// A model of recipe panache whose change is each style's mean over the pairs of `data`: mean
+// A model of the default recipe whose change is each style's mean over the pairs of `data`: mean
 // posture, mean tempo, no foot ever planted. Pairs of the contents in `without` are left out.
 Result<std::shared_ptr<const Model>> mean_posture_model(const TrainingData& data,
                                                         const std::vector<StyleName>& styles,

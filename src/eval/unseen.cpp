@@ -69,11 +69,11 @@ Result<void> judge_unseen(const UnseenSplit& split, const EvaluateOptions& optio
       judge_contents({"mean posture", *posture}, bench, split.contents);
   if (!posture_cells) return posture_cells.error();
 
-  std::map<Recipe, CellTable> judged;  // A recipe trained once serves all systems of it.
+  std::map<const Recipe*, CellTable> judged;  // A recipe trained once serves all systems of it.
   for (size_t s = 0; s < systems.size(); ++s) {
-    const Recipe recipe = systems[s].model->recipe();
+    const Recipe* recipe = &systems[s].model->recipe();
     if (!judged.contains(recipe)) {
-      Result<NamedModel> model = train_system(recipe, systems[s].name, training_data, options);
+      Result<NamedModel> model = train_system(*recipe, systems[s].name, training_data, options);
       if (!model) return Error{"unseen " + split.name + ": " + model.error().message};
       Result<CellTable> cells = judge_contents(*model, bench, split.contents);
       if (!cells) return cells.error();

@@ -54,7 +54,7 @@ Table make_table(const std::shared_ptr<const Model>& model, const SampleSet& set
       for (size_t f = 0; f < features.size(); ++f) {
         table.seen.push_back((features[f] - model->feature_mean()[f]) / model->feature_scale()[f]);
       }
-      for (int n = 0; n < kChangeNumbers; ++n) {
+      for (int n = 0; n < StyleDelta::kSize; ++n) {
         table.answers.push_back(set.target(i)[n] / model->output_scale()[n]);
       }
       table.answers.push_back(sample.log_rate);
@@ -213,10 +213,11 @@ Result<void> add_feature_statistics(const std::vector<Take>& takes, TensorFile& 
   // A feature that hardly moves must not count for its noise.
   constexpr double kStill = 0.01;
   constexpr int kEvery = 5;  // Frames.
-  Result<std::shared_ptr<const Model>> model = Model::parse(format_safetensors(file), "the model");
+  Result<std::shared_ptr<const Model>> model = Model::create(file, "the model");
   if (!model) return model.error();
-  if ((*model)->recipe() != Recipe::panache) {
-    return Error{"the model is of recipe smith2019, on which no style can be learnt"};
+  if (const Recipe& recipe = (*model)->recipe(); !recipe.learns_styles) {
+    return Error{"the model is of recipe " + std::string(recipe.name) +
+                 ", on which no style can be learnt"};
   }
   const StyleNetworks networks(*model);
   const size_t size = (*model)->feature_count();

@@ -12,15 +12,15 @@
 namespace panache {
 
 // The tensors of a learnt style, as a style file has them: `head.*`, `mean` and `gate.*`, see
-// Model. Fitted to these of the set's samples (recipe panache), each seen as it is and in eight
-// disturbed copies, which are the same at every call. `model` can learn. At least one sample.
+// Model. Fitted to these of the set's samples (of the model's recipe), each seen as it is and in
+// eight disturbed copies, which are the same at every call. `model` can learn. At least one sample.
 TensorFile fit_style(std::shared_ptr<const Model> model, const SampleSet& set,
                      std::span<const size_t> samples);
 
 // The features of a window, standardised as they vary over motion of all kinds, tell styles apart
 // that were not there in training. Adds `learn.mean` and `learn.scale`, that mean and deviation
 // over the windows of `takes` (layout positions), to a model file, which can then learn. Fails with
-// Model::parse()'s sentence, or where the recipe is not panache.
+// Model::create()'s sentence, or where no style can be learnt on its recipe.
 Result<void> add_feature_statistics(const std::vector<Take>& takes, TensorFile& model);
 
 }  // namespace panache

@@ -10,6 +10,7 @@
 #include "learn/pairing.h"
 #include "learn/pose_error.h"
 #include "learn/style_file.h"
+#include "recipes/recipes.h"
 #include "rig/canonical_skeleton.h"
 #include "walker/walker.h"
 
@@ -177,9 +178,10 @@ void measure(const std::shared_ptr<const Model>& model, const std::string& style
              const std::vector<Take>& takes, const SampleSet& set,
              const std::vector<size_t>& learnt, const std::vector<size_t>& held_back,
              LearntStyle& out) {
-  ChangeNumbers mean{};
+  const Recipe& recipe = model->recipe();
+  std::array<float, StyleDelta::kSize> mean{};
   for (const size_t i : learnt) {
-    for (int n = 0; n < kChangeNumbers; ++n) {
+    for (size_t n = 0; n < mean.size(); ++n) {
       mean[n] += set.target(i)[n] / static_cast<float>(learnt.size());
     }
   }
@@ -191,16 +193,16 @@ void measure(const std::shared_ptr<const Model>& model, const std::string& style
     const Sample& sample = set.samples()[i];
     set.window(i, window);
     networks.forward(window);
-    ChangeNumbers answer;
-    std::copy_n(networks.pose().begin(), kChangeNumbers, answer.begin());
-    const auto error = [&](const ChangeNumbers& change) {
-      return pose_error(takes[sample.styled], sample.styled_frame, takes[sample.take], sample.frame,
-                        change)
+    const Take& neutral = takes[sample.take];
+    const StyleDelta answer = recipe.to_change(networks.pose(), body_at(neutral, sample.frame),
+                                               root_at(neutral, sample.frame));
+    const auto error = [&](const StyleDelta& change) {
+      return pose_error(takes[sample.styled], sample.styled_frame, neutral, sample.frame, change)
                  .cm /
              static_cast<double>(held_back.size());
     };
     out.held_back_cm += error(answer);
-    out.mean_posture_cm += error(mean);
+    out.mean_posture_cm += error(unpack(mean));
     out.untouched_cm += error({});
   }
 }
@@ -245,16 +247,16 @@ Result<LearnPair> make_learn_pair(const LearnClip& styled, const std::string& ac
 }
 
 Error cannot_learn(const std::string& name) {
-  return {name +
-          ": has no trunk that styles can be learnt on; expected a model of recipe panache with "
-          "'learn.mean' and 'learn.scale', as panache train writes it"};
+  return {name + ": has no trunk that styles can be learnt on; expected a model of recipe " +
+          learning_recipe_names() +
+          " with 'learn.mean' and 'learn.scale', as panache train writes it"};
 }
 
 Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
                                 std::span<const LearnPair> pairs, const std::string& style,
                                 const std::string& description) {
   if (auto good = check_style_name(style); !good) return good.error();
-  Result<std::shared_ptr<const Model>> model = Model::parse(format_safetensors(file), name);
+  Result<std::shared_ptr<const Model>> model = Model::create(file, name);
   if (!model) return model.error();
   if (!(*model)->can_learn()) {
     return cannot_learn(name);
@@ -285,7 +287,7 @@ Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
     learnt.pairs.push_back(*std::move(report));
     pairings.insert(pairings.end(), found.begin(), found.end());
   }
-  const SampleSet set(takes, pairings, {style}, Recipe::panache, false);
+  const SampleSet set(takes, pairings, {style}, (*model)->recipe(), false);
   std::vector<size_t> all, first, held_back;
   for (size_t i = 0; i < set.samples().size(); ++i) {
     const Sample& sample = set.samples()[i];
@@ -309,7 +311,7 @@ Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
     const TensorFile trial = make_style_file(file, info, std::move(fits[1].tensors));
     Result<TensorFile> with_it = add_style(file, name, trial, "the style", true);
     if (!with_it) return with_it.error();
-    auto read = Model::parse(format_safetensors(*with_it), name);
+    auto read = Model::create(*with_it, name);
     if (!read) return read.error();
     measure(*read, style, takes, set, first, held_back, learnt);
   }

@@ -15,10 +15,10 @@ double degrees_between(Quat a, Quat b) {
 }  // namespace
 
 PoseError pose_error(const Take& styled, int frame, const Take& neutral, float at,
-                     const ChangeNumbers& change) {
+                     const StyleDelta& change) {
   // The true change t leads from the neutral rotations n to the styled ones, s = t n; so the model
   // reaches c n = c t^-1 s.
-  const ChangeNumbers truth = change_between(styled, frame, neutral, at, 1);
+  const StyleDelta truth = change_between(styled, frame, neutral, at, 1);
   const std::array<Quat, kHumanJoints>& real = styled.turned[frame];
   std::array<Quat, kHumanJoints> reached;
   for (int j = 0; j < kHumanJoints; ++j) {

@@ -1,7 +1,7 @@
 #pragma once
 // How far one pose is from the pose of a real styled take.
 
-#include "style/model.h"
+#include "pose/style_delta.h"
 #include "learn/take.h"
 
 namespace panache {
@@ -14,6 +14,6 @@ struct PoseError {
 // What is left between the neutral take at frame `at`, with `change` on it, and frame `frame` of
 // the styled take. Both takes are of one character; the way over the ground is not compared.
 PoseError pose_error(const Take& styled, int frame, const Take& neutral, float at,
-                     const ChangeNumbers& change);
+                     const StyleDelta& change);
 
 }  // namespace panache

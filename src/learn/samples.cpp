@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "rig/canonical_skeleton.h"
+#include "pose/mirror.h"
 
 namespace panache {
 namespace {
@@ -19,60 +19,16 @@ Between between(float frame, int frames) {
   return {a, b, frame - static_cast<float>(a)};
 }
 
-// The root numbers of a take, in whichever layout, straight between its frames.
-std::array<float, kRootNumbers> root_at(const Take& take, float frame) {
-  const auto [a, b, t] = between(frame, take.frames());
-  const size_t numbers = take.numbers.size() / take.body.size();
-  std::array<float, kRootNumbers> root;
-  for (size_t k = 0; k < root.size(); ++k) {
-    const size_t n = numbers - root.size() + k;
-    root[k] = take.numbers[a * numbers + n] * (1 - t) + take.numbers[b * numbers + n] * t;
-  }
-  return root;
-}
-
-// Left for right of a rotation: reflecting x keeps the turn about x and reverses the others.
-void mirror_rotation_vector(float* r) {
-  r[1] = -r[1];
-  r[2] = -r[2];
-}
-// The same of the first two columns of a rotation matrix: M R M with M = diag(-1, 1, 1).
-void mirror_columns(float* c) {
-  c[1] = -c[1];
-  c[2] = -c[2];
-  c[3] = -c[3];
-}
-void swap_sides(float* joints, int per_joint) {
-  for (int j = 0; j < kHumanJoints; ++j) {
-    if (kHumanMirror[j] > j) {
-      std::swap_ranges(joints + j * per_joint, joints + (j + 1) * per_joint,
-                       joints + kHumanMirror[j] * per_joint);
-    }
-  }
-}
-void mirror_root(float* root) {
-  root[0] = -root[0];
-  root[2] = -root[2];
-}
-void mirror_pose(PoseLayout layout, float* pose) {
-  if (layout == PoseLayout::positions) {
-    swap_sides(pose, 3);
-    for (int j = 0; j < kHumanJoints; ++j) pose[3 * j] = -pose[3 * j];
-    mirror_root(pose + 63);
-  } else {
-    swap_sides(pose, 6);
-    for (int j = 0; j < kHumanJoints; ++j) mirror_columns(pose + 6 * j);
-    mirror_root(pose + 127);
-  }
-}
-
 // The hips' x and z are constant in the body frame, and others nearly so: divided by their true
 // deviation, any disturbance would explode. So 3 cm (0.1 m/s, 0.2 rad/s) are mixed in. Rotations
 // are normalised as they are, but for those that hardly move: 0.02 of a matrix entry is about a
 // degree.
 float floored_deviation(PoseLayout layout, int number, double variance) {
   double floor = 0.02;
-  if (layout == PoseLayout::positions) floor = number < 63 ? 0.03 : number < 65 ? 0.1 : 0.2;
+  if (layout == PoseLayout::positions) {
+    const int root = root_offset(layout);
+    floor = number < root ? 0.03 : number < root + kTurnRate ? 0.1 : 0.2;
+  }
   return static_cast<float>(std::sqrt(variance + floor * floor));
 }
 
@@ -85,6 +41,17 @@ HumanPositions body_at(const Take& take, float frame) {
   return body;
 }
 
+std::array<float, kRootNumbers> root_at(const Take& take, float frame) {
+  const auto [a, b, t] = between(frame, take.frames());
+  const size_t numbers = take.numbers.size() / take.body.size();
+  std::array<float, kRootNumbers> root;
+  for (size_t k = 0; k < root.size(); ++k) {
+    const size_t n = numbers - root.size() + k;
+    root[k] = take.numbers[a * numbers + n] * (1 - t) + take.numbers[b * numbers + n] * t;
+  }
+  return root;
+}
+
 void take_window(const Take& take, float frame, int numbers, std::span<float> out, float spacing) {
   for (int k = 0; k < kWindowPoses; ++k) {
     const auto [a, b, t] = between(frame - static_cast<float>(k) * spacing, take.frames());
@@ -95,30 +62,27 @@ void take_window(const Take& take, float frame, int numbers, std::span<float> ou
   }
 }
 
-ChangeNumbers change_between(const Take& styled, int frame, const Take& neutral, float at,
-                             float rate) {
+StyleDelta change_between(const Take& styled, int frame, const Take& neutral, float at,
+                          float rate) {
   const auto [a, b, t] = between(at, neutral.frames());
-  ChangeNumbers change;
+  StyleDelta change;
   for (int j = 0; j < kHumanJoints; ++j) {
     const Quat from = nlerp(neutral.turned[a][j], neutral.turned[b][j], t);
-    const Vec3 turn = log_rotation(styled.turned[frame][j] * conjugate(from));
-    change[3 * j] = turn.x;
-    change[3 * j + 1] = turn.y;
-    change[3 * j + 2] = turn.z;
+    change.rotations[j] = log_rotation(styled.turned[frame][j] * conjugate(from));
   }
   const float height = lerp(neutral.body[a][0], neutral.body[b][0], t).y;
-  change[63] = styled.body[frame][0].y - height;
+  change.hips_height = styled.body[frame][0].y - height;
   const auto now = root_at(styled, static_cast<float>(frame)), slow = root_at(neutral, at);
-  for (int k = 0; k < kRootNumbers; ++k) change[64 + k] = now[k] / rate - slow[k];
+  change.velocity_left = now[kVelocityLeft] / rate - slow[kVelocityLeft];
+  change.velocity_forward = now[kVelocityForward] / rate - slow[kVelocityForward];
+  change.turn_rate = now[kTurnRate] / rate - slow[kTurnRate];
   return change;
 }
 
 SampleSet::SampleSet(const std::vector<Take>& takes, const std::vector<Pairing>& pairings,
-                     const std::vector<std::string>& styles, Recipe recipe, bool with_neutral)
-    : takes_(takes),
-      recipe_(recipe),
-      layout_(recipe == Recipe::panache ? PoseLayout::positions : PoseLayout::rotations),
-      outputs_(recipe == Recipe::panache ? kChangeNumbers : pose_numbers(layout_)) {
+                     const std::vector<std::string>& styles, const Recipe& recipe,
+                     bool with_neutral)
+    : takes_(takes), recipe_(recipe) {
   for (const Pairing& pairing : pairings) {
     const auto style = std::find(styles.begin(), styles.end(), takes[pairing.styled].row.style);
     if (style == styles.end()) continue;
@@ -136,25 +100,9 @@ SampleSet::SampleSet(const std::vector<Take>& takes, const std::vector<Pairing>&
 
 void SampleSet::add_target(const Take& styled, int frame, const Take& neutral, float at,
                            float rate) {
-  const ChangeNumbers change = change_between(styled, frame, neutral, at, rate);
-  if (recipe_ == Recipe::panache) {
-    targets_.insert(targets_.end(), change.begin(), change.end());
-    return;
-  }
-  // The absolute pose: the input's, changed.
-  const HumanPositions body = body_at(neutral, at);
-  std::array<Quat, kHumanJoints> frames;
-  canonical_frames(body, 0, frames);
-  for (int j = 0; j < kHumanJoints; ++j) {
-    frames[j] = exp_rotation(Vec3{change[3 * j], change[3 * j + 1], change[3 * j + 2]}) * frames[j];
-    const int parent = kHumanParent[j];
-    const Quat local = parent < 0 ? frames[j] : conjugate(frames[parent]) * frames[j];
-    const Vec3 x = rotate(local, Vec3{1, 0, 0}), y = rotate(local, Vec3{0, 1, 0});
-    for (const float v : {x.x, x.y, x.z, y.x, y.y, y.z}) targets_.push_back(v);
-  }
-  targets_.push_back(body[0].y + change[63]);
-  const auto root = root_at(neutral, at);
-  for (int k = 0; k < kRootNumbers; ++k) targets_.push_back(root[k] + change[64 + k]);
+  targets_.resize(targets_.size() + static_cast<size_t>(outputs()));
+  recipe_.write_target(change_between(styled, frame, neutral, at, rate), body_at(neutral, at),
+                       root_at(neutral, at), std::span(targets_).last(outputs()));
 }
 
 void SampleSet::add_pairing(const Pairing& pairing, int style) {
@@ -202,7 +150,7 @@ void SampleSet::measure_inputs(const std::vector<int>& neutral_takes) {
     for (int f = 0; f < take.frames(); ++f) {
       std::copy_n(&take.numbers[size_t(f) * count], count, pose.begin());
       for (const bool mirrored : {false, true}) {
-        if (mirrored) mirror_pose(layout_, pose.data());
+        if (mirrored) mirror_pose(recipe_.layout, pose);
         for (int i = 0; i < count; ++i) {
           sum[i] += pose[i];
           squares[i] += double(pose[i]) * pose[i];
@@ -215,7 +163,7 @@ void SampleSet::measure_inputs(const std::vector<int>& neutral_takes) {
     const double mean = poses > 0 ? sum[i] / poses : 0;
     mean_.push_back(static_cast<float>(mean));
     const double variance = poses > 0 ? squares[i] / poses - mean * mean : 1;
-    scale_.push_back(floored_deviation(layout_, i, std::max(variance, 0.0)));
+    scale_.push_back(floored_deviation(recipe_.layout, i, std::max(variance, 0.0)));
   }
 }
 
@@ -230,17 +178,9 @@ void SampleSet::window(size_t i, std::span<float> out, float tempo) const {
 }
 
 void SampleSet::mirror_window(std::span<float> window) const {
-  for (size_t at = 0; at < window.size(); at += numbers()) mirror_pose(layout_, &window[at]);
-}
-
-void SampleSet::mirror_target(std::span<float> target) const {
-  if (recipe_ == Recipe::smith2019) {
-    mirror_pose(layout_, target.data());
-    return;
+  for (size_t at = 0; at < window.size(); at += numbers()) {
+    mirror_pose(recipe_.layout, window.subspan(at, numbers()));
   }
-  swap_sides(target.data(), 3);
-  for (int j = 0; j < kHumanJoints; ++j) mirror_rotation_vector(&target[3 * j]);
-  mirror_root(&target[64]);
 }
 
 Disturbed SampleSet::draw(const Disturbance& how, Random& random) const {

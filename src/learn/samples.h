@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/random.h"
-#include "style/model.h"
 #include "learn/pairing.h"
 #include "learn/take.h"
+#include "recipes/recipe.h"
 
 namespace panache {
 
@@ -33,20 +33,6 @@ struct Sample {
   bool has_next = false;              // The next sample is the next frame of the same window.
 };
 
-// How a window is disturbed in training, so that the networks hold on bodies and captures they
-// never saw. Each a standard deviation; all but the jitter are the same for the six poses of a
-// window.
-struct Disturbance {
-  float scale = 0.08f;      // Of body size.
-  float floor = 0.015f;     // Height of the floor, metres.
-  float heading = 0.12f;    // Radians.
-  float posture = 0.25f;    // Constant offset of each number, in deviations.
-  float jitter = 0.005f;    // Per pose and joint, metres.
-  float velocity = 0.03f;   // Per pose, m/s.
-  float turn_rate = 0.27f;  // Per pose, rad/s.
-  float tempo = 0.1f;       // Logarithm of how fast the window is played.
-};
-
 // The draw of one disturbance: shared by two neighbouring samples whose difference is compared.
 struct Disturbed {
   float scale = 1, floor = 0, cos = 1, sin = 0, tempo = 1;
@@ -58,16 +44,16 @@ class SampleSet {
   // Samples of the pairings, and of the neutral takes themselves where `with_neutral`. `styles`:
   // names in the order of the model.
   SampleSet(const std::vector<Take>& takes, const std::vector<Pairing>& pairings,
-            const std::vector<std::string>& styles, Recipe recipe, bool with_neutral);
+            const std::vector<std::string>& styles, const Recipe& recipe, bool with_neutral);
 
-  PoseLayout layout() const { return layout_; }
-  int numbers() const { return pose_numbers(layout_); }  // Per pose.
+  const Recipe& recipe() const { return recipe_; }
+  int numbers() const { return pose_numbers(recipe_.layout); }  // Per pose.
   int inputs() const { return kWindowPoses * numbers(); }
-  int outputs() const { return outputs_; }
+  int outputs() const { return recipe_.outputs; }
   const std::vector<Sample>& samples() const { return samples_; }
   // What the pose network should answer for sample i, in the model's units. [outputs]
   std::span<const float> target(size_t i) const {
-    return {&targets_[i * outputs_], static_cast<size_t>(outputs_)};
+    return {&targets_[i * outputs()], static_cast<size_t>(outputs())};
   }
   // Mean of each pose number over the neutral takes, both sides mirrored, and the scale that it is
   // divided by: its deviation, with a floor under it.
@@ -80,9 +66,8 @@ class SampleSet {
   // Writes the window of sample i as it is, or played `tempo` times as fast. [inputs]
   void window(size_t i, std::span<float> out, float tempo = 1) const;
 
-  // Left for right, in place. Windows of any number of poses; targets of either recipe.
+  // Left for right, in place. Windows of any number of poses.
   void mirror_window(std::span<float> window) const;
-  void mirror_target(std::span<float> target) const;
 
   // Disturbs a window in place (layout positions only).
   Disturbed draw(const Disturbance& how, Random& random) const;
@@ -96,9 +81,7 @@ class SampleSet {
   void measure_inputs(const std::vector<int>& neutral_takes);
 
   const std::vector<Take>& takes_;
-  Recipe recipe_;
-  PoseLayout layout_;
-  int outputs_;
+  const Recipe& recipe_;
   std::vector<Sample> samples_;
   std::vector<float> targets_;
   std::vector<float> mean_, scale_;
@@ -106,11 +89,11 @@ class SampleSet {
 
 // The change that turns the neutral take at frame `at` into frame `frame` of the styled one, `rate`
 // neutral seconds passing per styled second.
-ChangeNumbers change_between(const Take& styled, int frame, const Take& neutral, float at,
-                             float rate);
+StyleDelta change_between(const Take& styled, int frame, const Take& neutral, float at, float rate);
 
-// The body of a take at a fractional frame, straight between its frames.
+// The body and the root numbers of a take at a fractional frame, straight between its frames.
 HumanPositions body_at(const Take& take, float frame);
+std::array<float, kRootNumbers> root_at(const Take& take, float frame);
 
 // Writes the window of a take that ends at `frame`, its poses `spacing` frames apart.
 // [kWindowPoses * numbers]

@@ -10,6 +10,7 @@
 
 #include "base/xml.h"
 #include "clip/text_cursor.h"
+#include "recipes/recipes.h"
 #include "style/state_bytes.h"
 
 namespace panache {
@@ -61,10 +62,6 @@ void for_each_tensor(bool learnt, Visit&& visit) {
   }
 }
 
-Result<std::shared_ptr<const Model>> parse(const TensorFile& model, const std::string& name) {
-  return Model::parse(format_safetensors(model), name);
-}
-
 // `parsed` is the same model.
 Parts take_apart(const TensorFile& model, const Model& parsed) {
   Parts parts{model, {}};
@@ -110,9 +107,10 @@ TensorFile put_together(Parts parts) {
 }
 
 Result<void> check_has_heads(const Model& model, const std::string& name) {
-  if (model.recipe() == Recipe::panache) return {};
-  return Error{name + ": is of recipe smith2019, whose styles are inputs of all its layers; " +
-               "expected a model of recipe panache, where each has a head of its own"};
+  if (model.recipe().style_heads) return {};
+  return Error{name + ": is of recipe " + model.recipe().name +
+               ", whose styles are inputs of all its layers; expected a model of recipe " +
+               learning_recipe_names() + ", where each has a head of its own"};
 }
 
 bool is_one_line(const std::string& text) {
@@ -240,7 +238,7 @@ TensorFile make_style_file(const TensorFile& model, const StyleInfo& info,
 
 Result<TensorFile> extract_style(const TensorFile& model, const std::string& style,
                                  const std::string& name) {
-  Result<std::shared_ptr<const Model>> parsed = parse(model, name);
+  Result<std::shared_ptr<const Model>> parsed = Model::create(model, name);
   if (!parsed) return parsed.error();
   if (auto heads = check_has_heads(**parsed, name); !heads) return heads.error();
   Result<int> index = (*parsed)->find_style(style);
@@ -253,7 +251,7 @@ Result<TensorFile> add_style(const TensorFile& model, const std::string& name,
                              const TensorFile& style, const std::string& style_name, bool replace) {
   Result<StyleInfo> info = read_style_info(style, style_name);
   if (!info) return info.error();
-  Result<std::shared_ptr<const Model>> parsed = parse(model, name);
+  Result<std::shared_ptr<const Model>> parsed = Model::create(model, name);
   if (!parsed) return parsed.error();
   if (auto heads = check_has_heads(**parsed, name); !heads) return heads.error();
   const std::string trunk = trunk_fingerprint(model), made_for = metadata_of(style, "trunk");
@@ -280,13 +278,13 @@ Result<TensorFile> add_style(const TensorFile& model, const std::string& name,
   }
   TensorFile merged = put_together(std::move(parts));
   // Nobody knows better than the model what it can hold and evaluate.
-  if (auto read = parse(merged, name + " with " + style_name); !read) return read.error();
+  if (auto read = Model::create(merged, name + " with " + style_name); !read) return read.error();
   return merged;
 }
 
 Result<TensorFile> remove_style(const TensorFile& model, const std::string& style,
                                 const std::string& name) {
-  Result<std::shared_ptr<const Model>> parsed = parse(model, name);
+  Result<std::shared_ptr<const Model>> parsed = Model::create(model, name);
   if (!parsed) return parsed.error();
   if (auto heads = check_has_heads(**parsed, name); !heads) return heads.error();
   Result<int> index = (*parsed)->find_style(style);
@@ -301,7 +299,7 @@ Result<TensorFile> remove_style(const TensorFile& model, const std::string& styl
 
 Result<TensorFile> rename_style(const TensorFile& model, const std::string& from,
                                 const std::string& to, const std::string& name) {
-  Result<std::shared_ptr<const Model>> parsed = parse(model, name);
+  Result<std::shared_ptr<const Model>> parsed = Model::create(model, name);
   if (!parsed) return parsed.error();
   Result<int> index = (*parsed)->find_style(from);
   if (!index) return index.error();

@@ -34,15 +34,15 @@ TensorFile make_style_file(const TensorFile& model, const StyleInfo& info,
                            std::map<std::string, Tensor> tensors);
 
 // Each of these hands back a new file and leaves what it is given alone. Model files are refused
-// where Model::parse() refuses them, `name` stands in front of sentences, and all styles but the
+// where Model::create() refuses them, `name` stands in front of sentences, and all styles but the
 // one in question stay bit for bit what they are.
 
-// The style file of the model's style called `style`. Models of recipe smith2019 have none to give.
+// The style file of the model's style called `style`. Models without style heads have none to give.
 Result<TensorFile> extract_style(const TensorFile& model, const std::string& style,
                                  const std::string& name);
 // The model with the style of a style file; where it has one of this name, that is replaced
 // (`replace`) or the file refused. Built-in styles go behind the built-in ones, learnt ones to the
-// end. The style's shapes and numbers are judged by Model::parse().
+// end. The style's shapes and numbers are judged by Model::create().
 Result<TensorFile> add_style(const TensorFile& model, const std::string& name,
                              const TensorFile& style, const std::string& style_name, bool replace);
 // The model without a style. It keeps at least one.

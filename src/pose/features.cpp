@@ -4,13 +4,14 @@
 #include <cmath>
 
 #include "base/quat.h"
+#include "pose/absolute_pose.h"
 #include "rig/canonical_skeleton.h"
 
 namespace panache {
 
 void write_pose_numbers(PoseLayout layout, const HumanPositions& body,
                         std::span<float> out) noexcept {
-  assert(out.size() == size_t(pose_numbers(layout) - kRootNumbers));
+  assert(out.size() == size_t(root_offset(layout)));
   float* number = out.data();
   if (layout == PoseLayout::positions) {
     for (const Vec3& p : body) {
@@ -22,12 +23,7 @@ void write_pose_numbers(PoseLayout layout, const HumanPositions& body,
   }
   std::array<Quat, kHumanJoints> frames;
   canonical_frames(body, 0, frames);
-  for (int j = 0; j < kHumanJoints; ++j) {
-    const int parent = kHumanParent[j];
-    const Quat local = parent < 0 ? frames[j] : conjugate(frames[parent]) * frames[j];
-    const Vec3 x = rotate(local, Vec3{1, 0, 0}), y = rotate(local, Vec3{0, 1, 0});
-    for (const float v : {x.x, x.y, x.z, y.x, y.y, y.z}) *number++ = v;
-  }
+  number = write_rotations(to_local(frames), number);
   *number = body[index(HumanJoint::hips)].y;
 }
 
@@ -35,9 +31,9 @@ void write_root_numbers(const Ground& before, const Ground& now, double seconds,
                         std::span<float, kRootNumbers> out) noexcept {
   const float rate = static_cast<float>(1 / seconds);
   const Vec3 velocity = rotate(rotation_y(-now.facing), now.position - before.position) * rate;
-  out[0] = velocity.x;
-  out[1] = velocity.z;
-  out[2] = (now.facing - before.facing) * rate;
+  out[kVelocityLeft] = velocity.x;
+  out[kVelocityForward] = velocity.z;
+  out[kTurnRate] = (now.facing - before.facing) * rate;
 }
 
 HumanPositions read_positions(std::span<const float> pose) noexcept {
@@ -50,8 +46,9 @@ HumanPositions read_positions(std::span<const float> pose) noexcept {
 Ground move_ground(const Ground& before, std::span<const float, kRootNumbers> root,
                    double seconds) noexcept {
   const auto time = static_cast<float>(seconds);
-  const float facing = before.facing + root[2] * time;
-  return {before.position + rotate(rotation_y(facing), Vec3{root[0], 0, root[1]} * time), facing};
+  const float facing = before.facing + root[kTurnRate] * time;
+  const Vec3 velocity{root[kVelocityLeft], 0, root[kVelocityForward]};
+  return {before.position + rotate(rotation_y(facing), velocity * time), facing};
 }
 
 }  // namespace panache

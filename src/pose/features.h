@@ -10,20 +10,23 @@ namespace panache {
 
 inline constexpr int kWindowPoses = 6;          // The current pose and the five before it,
 inline constexpr double kWindowSpacing = 0.05;  // this many seconds apart.
-inline constexpr int kRootNumbers = 3;          // Ground velocity x and z, turn rate.
+inline constexpr int kRootNumbers = 3;          // See RootNumber.
 inline constexpr int kMaxPoseNumbers = 130;     // Of the larger layout, root numbers included.
+
+// The root numbers in their order: velocity over the ground, m/s, and turn rate, rad/s.
+enum RootNumber { kVelocityLeft, kVelocityForward, kTurnRate };
 
 // How a pose is laid out in numbers. Root numbers come last in both.
 enum class PoseLayout {
-  // 21 joint positions in the body frame, metres [63]; then ground velocity left and forward, m/s,
-  // and turn rate, rad/s.
+  // 21 joint positions in the body frame, metres [63]; then the root numbers.
   positions,
-  // 21 rotations of the canonical skeleton, each as the first two columns of its matrix: the hips
-  // in the body frame, the others relative to their parents [126]; height of the hips, metres; then
-  // the root numbers as above.
+  // See AbsolutePose: 21 rotations of six numbers each [126]; height of the hips, metres; then the
+  // root numbers.
   rotations,
 };
 constexpr int pose_numbers(PoseLayout layout) { return layout == PoseLayout::positions ? 66 : 130; }
+// Where the root numbers begin.
+constexpr int root_offset(PoseLayout layout) { return pose_numbers(layout) - kRootNumbers; }
 
 // Writes the pose_numbers(layout) - kRootNumbers first numbers of a pose given in the body frame.
 void write_pose_numbers(PoseLayout layout, const HumanPositions& body,

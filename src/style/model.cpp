@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/file.h"
+#include "recipes/recipes.h"
 #include "style/names.h"
 #include "style/predictor.h"
 
@@ -47,13 +48,18 @@ Result<std::shared_ptr<const Model>> Model::load(const std::string& path) {
 Result<std::shared_ptr<const Model>> Model::parse(std::string_view bytes, const std::string& name) {
   Result<TensorFile> file = parse_safetensors(bytes, name);
   if (!file) return file.error();
+  return create(*file, name);
+}
+
+Result<std::shared_ptr<const Model>> Model::create(const TensorFile& file,
+                                                   const std::string& name) {
   auto model = std::make_shared<Model>();
-  if (Result<void> read = model->read_metadata(*file, name); !read) return read.error();
-  if (Result<void> read = model->read_numbers(*file, name); !read) return read.error();
-  for (const auto& [key, tensor] : file->tensors) {
+  if (Result<void> read = model->read_metadata(file, name); !read) return read.error();
+  if (Result<void> read = model->read_numbers(file, name); !read) return read.error();
+  for (const auto& [key, tensor] : file.tensors) {
     // What a byte is worth is no parameter, but a part of how one is written.
     const bool unit = key.ends_with(kScale) &&
-                      file->tensors.contains(key.substr(0, key.size() - kScale.size()) + ".weight");
+                      file.tensors.contains(key.substr(0, key.size() - kScale.size()) + ".weight");
     if (!unit) model->parameter_count_ += tensor.values.size();
   }
   return std::shared_ptr<const Model>(std::move(model));
@@ -80,14 +86,9 @@ Result<void> Model::read_metadata(const TensorFile& file, const std::string& nam
   }
   Result<std::string> recipe = require(file, "recipe", name);
   if (!recipe) return recipe.error();
-  if (*recipe == "panache") {
-    recipe_ = Recipe::panache;
-    layout_ = PoseLayout::positions;
-  } else if (*recipe == "smith2019") {
-    recipe_ = Recipe::smith2019;
-    layout_ = PoseLayout::rotations;
-  } else {
-    return Error{name + ": has recipe '" + *recipe + "'; expected panache or smith2019"};
+  recipe_ = find_recipe(*recipe);
+  if (!recipe_) {
+    return Error{name + ": has recipe '" + *recipe + "'; expected " + recipe_names()};
   }
   Result<std::string> joints = require(file, "joints", name);
   if (!joints) return joints.error();
@@ -122,23 +123,21 @@ Result<void> Model::read_metadata(const TensorFile& file, const std::string& nam
 }
 
 Result<void> Model::read_networks(const TensorFile& file, const std::string& name) {
-  const bool per_style = recipe_ == Recipe::panache;
+  const bool per_style = recipe_->style_heads;
   size_t learnt = 0;  // The last styles.
   while (file.tensors.contains(learnt_prefix(learnt) + "head.weight")) ++learnt;
-  if (learnt > (per_style ? styles_.size() : 0)) {
+  if (learnt > (recipe_->learns_styles ? styles_.size() : 0)) {
     return Error{name + ": has " + std::to_string(learnt) + " learnt styles and lists " +
                  std::to_string(styles_.size()) + " in all; expected a model written by panache"};
   }
   const int styles = static_cast<int>(styles_.size() - learnt);
-  int inputs = kWindowPoses * pose_numbers(layout_);
-  if (!per_style) inputs += styles + 1;  // Neutral has a number of its own.
+  const int inputs = kWindowPoses * pose_numbers(layout()) + recipe_->style_inputs(styles);
   const struct {
     const char* prefix;
     int outputs, heads;
-  } networks[kNetworks] = {
-      {"pose", per_style ? kChangeNumbers : pose_numbers(layout_), per_style ? styles : 1},
-      {"timing", 1, per_style ? styles : 1},
-      {"contact", 2, per_style ? styles + 1 : 1}};
+  } networks[kNetworks] = {{"pose", recipe_->outputs, per_style ? styles : 1},
+                           {"timing", 1, per_style ? styles : 1},
+                           {"contact", 2, per_style ? styles + 1 : 1}};
   std::array<Trunk, kNetworks> trunks;
   for (size_t n = 0; n < kNetworks; ++n) {
     const std::string prefix = networks[n].prefix;
@@ -246,9 +245,7 @@ Result<void> Model::measure_work(const std::string& name) {
 }
 
 Result<void> Model::read_numbers(const TensorFile& file, const std::string& name) {
-  const int numbers = pose_numbers(layout_);
-  const bool heads = recipe_ == Recipe::panache;
-  const int outputs = heads ? kChangeNumbers : numbers;
+  const int numbers = pose_numbers(layout()), outputs = recipe_->outputs;
   std::vector<float> input_mean, input_scale;
   const struct {
     const char* key;
@@ -263,7 +260,7 @@ Result<void> Model::read_numbers(const TensorFile& file, const std::string& name
     *to = *std::move(read);
   }
   output_mean_.assign(outputs, 0.0f);
-  if (!heads) {
+  if (!recipe_->output_scale) {
     Result<std::vector<float>> mean = read_vector(file, "output.mean", outputs, name);
     if (!mean) return mean.error();
     output_mean_ = *std::move(mean);

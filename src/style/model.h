@@ -13,27 +13,16 @@
 #include "base/result.h"
 #include "net/mlp.h"
 #include "pose/features.h"
+#include "recipes/recipe.h"
 
 namespace panache {
 
 class Predictor;
 
-// What the pose network's numbers mean once they are a change of the body: 21 rotation vectors in
-// the heading frame [0..62], height of the hips [63], ground velocity left and forward [64..65],
-// turn rate [66]; radians, metres, and seconds of the input (so that the way over the ground is the
-// same at any tempo).
-inline constexpr int kChangeNumbers = 67;
-using ChangeNumbers = std::array<float, kChangeNumbers>;
-
-enum class Recipe {
-  panache,    // Style heads on the last layer; the output is a change of the input.
-  smith2019,  // The style vector is an input; the output is an absolute pose.
-};
-
 // What the head of a learnt style answers: the change, the logarithm of the rate, and what to add
 // to the contact network's answer (before it becomes a probability) for the left and the right
 // foot.
-inline constexpr int kLearntNumbers = kChangeNumbers + 1 + 2;
+inline constexpr int kLearntNumbers = StyleDelta::kSize + 1 + 2;
 
 struct StyleInfo {
   std::string name;         // "old"
@@ -48,9 +37,13 @@ class Model {
   static Result<std::shared_ptr<const Model>> load(const std::string& path);
   static Result<std::shared_ptr<const Model>> parse(std::string_view bytes,
                                                     const std::string& name);
+  // The same of the file's contents in memory. Numbers of `half` tensors must be halves, as in a
+  // file.
+  static Result<std::shared_ptr<const Model>> create(const TensorFile& file,
+                                                     const std::string& name);
 
-  Recipe recipe() const { return recipe_; }
-  PoseLayout layout() const { return layout_; }
+  const Recipe& recipe() const { return *recipe_; }
+  PoseLayout layout() const { return recipe_->layout; }
   const std::vector<StyleInfo>& styles() const { return styles_; }
   const std::map<std::string, std::string>& metadata() const { return metadata_; }
   // The index of the style called `style`; failing that, a sentence with the nearest names.
@@ -60,7 +53,7 @@ class Model {
   const Predictor* predictor() const { return predictor_.get(); }
 
   // Whether styles can be learnt: the model knows how its features vary.
-  bool can_learn() const { return !feature_mean_.empty(); }
+  bool can_learn() const { return recipe_->learns_styles && !feature_mean_.empty(); }
   // Numbers that all hidden layers of the pose trunk answer together: what styles are learnt on.
   size_t feature_count() const { return trunks_.all_outputs(kPose); }
   // Their mean and deviation over motion of all kinds. [feature_count()], or empty.
@@ -82,8 +75,8 @@ class Model {
 
   // The networks, by their place in trunks_ and heads_.
   enum { kPose, kTiming, kContact, kNetworks };
-  // On each trunk one head per style (recipe panache; the contact network has one for no style at
-  // all before them) or one output layer (smith2019).
+  // On each trunk one head per style (the contact network has one for no style at all before them)
+  // or one output layer for all, see Recipe::style_heads.
   struct Heads {
     size_t count = 0, outputs = 0;
     // Each head alone; or, where heads have fewer outputs than a vector has lanes, one layer with
@@ -93,7 +86,7 @@ class Model {
   };
   // How far a window is from those that the model was trained on: the length of the whitened
   // difference of the pose trunk's features from their mean. Absent (no whitening) in models of
-  // recipe smith2019.
+  // recipes on which no style can be learnt.
   struct Gate {
     std::vector<float> mean;  // [hidden]
     PackedLayer whitening;    // [hidden][directions], bias zero
@@ -119,14 +112,13 @@ class Model {
                              const std::string& name) const;
   Result<void> measure_work(const std::string& name);
 
-  Recipe recipe_ = Recipe::panache;
-  PoseLayout layout_ = PoseLayout::positions;
+  const Recipe* recipe_ = nullptr;
   std::vector<StyleInfo> styles_;
   std::map<std::string, std::string> metadata_;
   // Of a whole window; the same for each of its poses.
   std::vector<float> input_mean_, input_factor_;  // [kWindowPoses * pose_numbers]
   std::vector<float> output_scale_;               // [pose outputs]
-  std::vector<float> output_mean_;                // The same; smith2019 only, else zero.
+  std::vector<float> output_mean_;                // The same; zero where Recipe::output_scale is.
   float input_clip_ = 0;                          // In deviations; infinity clips nothing.
   TrunkTrio trunks_;
   std::array<Heads, kNetworks> heads_;
@@ -167,8 +159,8 @@ class StyleNetworks {
   // What styles are learnt on: the activations of all hidden layers of the pose trunk for a window.
   // out.size() = Model::feature_count().
   void features(std::span<const float> window, std::span<float> out) const noexcept;
-  // The pose network's numbers, in the model's own units undone: a change of kChangeNumbers
-  // (panache) or a pose of 130 numbers (smith2019).
+  // The pose network's numbers, in the model's own units undone. What change they are,
+  // Recipe::to_change() tells. [Recipe::outputs]
   std::span<const float> pose() const { return pose_out_; }
   float log_rate() const { return timing_out_[0]; }  // log of input seconds per output second.
   std::span<const float> contact() const { return contact_out_; }  // Probability per foot [2].

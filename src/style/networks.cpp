@@ -52,8 +52,8 @@ void StyleNetworks::set_strengths(std::span<const float> strengths) noexcept {
 }
 
 float StyleNetworks::head_strength(const Model::Heads& heads, size_t head) const noexcept {
-  // Heads that are in force whatever the styles: the only one (smith2019), or that of no style.
-  const size_t always = heads.count > model_->built_in() || model_->recipe_ == Recipe::smith2019;
+  // Heads that are in force whatever the styles: the only one, or that of no style.
+  const size_t always = heads.count > model_->built_in() || !model_->recipe().style_heads;
   return head < always ? 1.0f : exaggerated(strengths_[head - always]);
 }
 
@@ -117,9 +117,10 @@ void StyleNetworks::add_learnt(std::span<const Pass> passes, std::span<const flo
       }
       const std::span<float> answer = rest.take(learnt.head.width());
       learnt.head.forward({drawn.data(), 1, 0}, {answer.data(), 1, 0});
-      add_scaled(strength, answer.first<kChangeNumbers>(), self.pose_out_);
-      add_scaled(strength, answer.subspan<kChangeNumbers, 1>(), self.timing_out_);
-      add_scaled(strength, answer.subspan<kChangeNumbers + 1, 2>(), self.contact_out_);
+      constexpr int kChange = StyleDelta::kSize;
+      add_scaled(strength, answer.first<kChange>(), self.pose_out_);
+      add_scaled(strength, answer.subspan<kChange, 1>(), self.timing_out_);
+      add_scaled(strength, answer.subspan<kChange + 1, 2>(), self.contact_out_);
     }
   }
 }
@@ -185,13 +186,7 @@ void StyleNetworks::write_input(std::span<const float> window,
   const Model& m = *model_;
   assert(window.size() == m.input_mean_.size());
   standardise(window, m.input_mean_, m.input_factor_, m.input_clip_, input.first(window.size()));
-  if (m.recipe_ != Recipe::smith2019) return;
-  // The style vector: first neutral, which gets what the styles leave of 1, then the styles.
-  float neutral = 1;
-  for (const float s : strengths_) neutral -= s;
-  float* style = input.data() + window.size();
-  style[0] = std::max(neutral, 0.0f);
-  std::copy(strengths_.begin(), strengths_.end(), style + 1);
+  m.recipe().write_style_inputs(strengths_, input.subspan(window.size()));
 }
 
 void StyleNetworks::evaluate(std::span<const Pass> passes, std::span<float> numbers) noexcept {

@@ -34,7 +34,8 @@ class Predictor {
 
   // What a change of each number weighs against that of a position.
   static constexpr float unit(size_t number) {
-    return number < 63 ? 1.0f : number < 65 ? 0.05f : 0.025f;
+    constexpr size_t kRoot = root_offset(PoseLayout::positions);
+    return number < kRoot ? 1.0f : number < kRoot + kTurnRate ? 0.05f : 0.025f;
   }
   // Changes are seen in proportion to their root mean square, but not to less than this, metres.
   static constexpr float kLeastMotion = 3e-4f;

@@ -2,7 +2,6 @@
 
 #include <cassert>
 
-#include "style/pose_change.h"
 #include "style/rate.h"
 #include "style/state_bytes.h"
 
@@ -88,18 +87,13 @@ StyleNetworks::Pass Stylizer::pass(const StepTime& time) noexcept {
   return {&networks_, window_.window(), time.gain(kGateSeconds)};
 }
 
-StyleDelta Stylizer::asked_delta() const noexcept {
-  if (networks_.model().recipe() == Recipe::panache) {
-    return unpack(networks_.pose().first<StyleDelta::kSize>());
-  }
-  return unpack(change_to_pose(networks_.pose(), observer_.now().body_frame, window_.root()));
-}
-
 void Stylizer::give_out(const StepTime& time, Pose out, StageClock* clock) noexcept {
   const Observation& now = observer_.now();
   const Shape& shape = strengths_.shape();
   const float amount = strengths_.amount();
-  filter_.step(asked_delta(), networks_.log_rate(), time);
+  const StyleDelta delta =
+      model().recipe().to_change(networks_.pose(), now.body_frame, window_.root());
+  filter_.step(delta, networks_.log_rate(), time);
   tell(clock, Stage::filter);
   if (options_.root) root_.step(filter_.delta(), networks_.gate(), observer_, window_, time);
   tell(clock, Stage::root);

@@ -129,7 +129,6 @@ class Stylizer {
                    double output_seconds, StageClock* clock) noexcept;
   StyleNetworks::Pass pass(const StepTime& time) noexcept;
   void forget() noexcept;  // Of the motion so far, all but the observer's part.
-  StyleDelta asked_delta() const noexcept;
   void give_out(const StepTime& time, Pose out, StageClock* clock) noexcept;
 
   StylizerOptions options_;

@@ -7,13 +7,37 @@
 
 namespace panache {
 
-BatchMaker::BatchMaker(const SampleSet& set, std::vector<int> choice, int styles, bool style_input,
-                       BatchSettings settings)
+OutputUnits output_units(const SampleSet& set, const std::vector<int>& samples) {
+  const size_t outputs = static_cast<size_t>(set.outputs());
+  if (set.recipe().output_scale) {
+    return {std::vector<float>(outputs), set.recipe().output_scale()};
+  }
+  std::vector<double> sum(outputs), squares(outputs);
+  for (const int i : samples) {
+    const std::span<const float> target = set.target(i);
+    for (size_t o = 0; o < outputs; ++o) {
+      sum[o] += target[o];
+      squares[o] += double(target[o]) * target[o];
+    }
+  }
+  OutputUnits units;
+  const double count = std::max<double>(1, static_cast<double>(samples.size()));
+  for (size_t o = 0; o < outputs; ++o) {
+    const double mean = sum[o] / count;
+    const double variance = std::max(squares[o] / count - mean * mean, 0.0);
+    units.mean.push_back(static_cast<float>(mean));
+    units.scale.push_back(static_cast<float>(std::max(std::sqrt(variance), 0.02)));
+  }
+  return units;
+}
+
+BatchMaker::BatchMaker(const SampleSet& set, std::vector<int> choice, int styles,
+                       const BatchSettings& settings, OutputUnits units)
     : set_(set),
       choice_(std::move(choice)),
       styles_(styles),
-      style_input_(style_input),
-      settings_(std::move(settings)) {
+      settings_(settings),
+      units_(std::move(units)) {
   if (!settings_.by_style) return;
   std::map<std::pair<int, std::string>, std::vector<int>> cells;
   for (const int i : choice_) {
@@ -79,7 +103,9 @@ Batch BatchMaker::fill(const std::vector<Row>& rows, const std::vector<Disturbed
                        Random* random) const {
   const int64_t count = static_cast<int64_t>(rows.size());
   const int window = set_.inputs(), numbers = set_.numbers(), outputs = set_.outputs();
-  const int inputs = window + (style_input_ ? styles_ + 1 : 0);
+  const Recipe& recipe = set_.recipe();
+  const int style_inputs = recipe.style_inputs(styles_), inputs = window + style_inputs;
+  std::vector<float> strengths(static_cast<size_t>(styles_));
   Batch batch{torch::zeros({count, inputs}),
               torch::empty({count, outputs}),
               torch::empty({count, 1}),
@@ -100,13 +126,15 @@ Batch BatchMaker::fill(const std::vector<Row>& rows, const std::vector<Disturbed
       const int n = i % numbers;
       input[i] = std::clamp((input[i] - set_.mean()[n]) / set_.scale()[n], -clip, clip);
     }
-    if (style_input_) input[window + 1 + sample.style] = 1;
+    if (sample.style >= 0) strengths[sample.style] = 1;
+    recipe.write_style_inputs(strengths, {input + window, static_cast<size_t>(style_inputs)});
+    if (sample.style >= 0) strengths[sample.style] = 0;
 
     float* pose = batch.pose.data_ptr<float>() + r * outputs;
     std::copy_n(set_.target(row.sample).begin(), outputs, pose);
-    if (row.mirrored) set_.mirror_target({pose, static_cast<size_t>(outputs)});
+    if (row.mirrored) recipe.mirror_target({pose, static_cast<size_t>(outputs)});
     for (int i = 0; i < outputs; ++i) {
-      pose[i] = (pose[i] - settings_.output_mean[i]) / settings_.output_scale[i];
+      pose[i] = (pose[i] - units_.mean[i]) / units_.scale[i];
     }
     batch.log_rate.data_ptr<float>()[r] = sample.log_rate;
     float* contacts = batch.contacts.data_ptr<float>() + r * kFeet;

@@ -10,20 +10,15 @@
 
 namespace panache {
 
-struct BatchSettings {
-  int size = 256;
-  // Rows grouped by style and in pairs of neighbouring frames, drawn by the square root of the
-  // share that each action in each style has; else one by one from all.
-  bool by_style = false;
-  bool mirrored = false;  // Half of the rows left for right.
-  bool disturbed = false;
-  Disturbance disturbance;
-  float input_clip = 0;  // Normalised inputs are held within this many deviations; 0: not.
-  std::vector<float> output_mean, output_scale;  // [outputs]
+// How the pose network's targets are normalised: less the mean, divided by the scale. [outputs]
+struct OutputUnits {
+  std::vector<float> mean, scale;
 };
+// The recipe's own scale, or what is measured on the targets of these samples.
+OutputUnits output_units(const SampleSet& set, const std::vector<int>& samples);
 
 struct Batch {
-  torch::Tensor inputs;              // [rows][inputs (+ styles + 1 where styles are an input)]
+  torch::Tensor inputs;              // [rows][inputs and Recipe::style_inputs()]
   torch::Tensor pose;                // [rows][outputs], normalised
   torch::Tensor log_rate;            // [rows][1]
   torch::Tensor contacts;            // [rows][2]
@@ -32,10 +27,9 @@ struct Batch {
 
 class BatchMaker {
  public:
-  // `choice`: the samples to draw from. `styles`: how many the model has; `style_input`: whether
-  // the style vector is appended to the window, neutral first.
-  BatchMaker(const SampleSet& set, std::vector<int> choice, int styles, bool style_input,
-             BatchSettings settings);
+  // `choice`: the samples to draw from. `styles`: how many the model has.
+  BatchMaker(const SampleSet& set, std::vector<int> choice, int styles,
+             const BatchSettings& settings, OutputUnits units);
 
   Batch make(Random& random) const;
   // The samples themselves, undisturbed, in order: for validation.
@@ -55,8 +49,8 @@ class BatchMaker {
   const SampleSet& set_;
   std::vector<int> choice_;
   int styles_;
-  bool style_input_;
   BatchSettings settings_;
+  OutputUnits units_;
   struct Cell {
     int style;
     std::vector<int> samples;  // Of choice_, those with a next one.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "style/model.h"
 #include "style/names.h"
 
 namespace panache {
@@ -14,52 +15,49 @@ Tensor vector_tensor(const std::vector<float>& values) {
 
 }  // namespace
 
-std::vector<NetworkShape> network_shapes(Recipe recipe, const SampleSet& set, int styles) {
-  const bool heads = recipe == Recipe::panache;
-  const int inputs = set.inputs() + (heads ? 0 : styles + 1);
+std::vector<NetworkShape> network_shapes(const SampleSet& set, int styles) {
+  const bool heads = set.recipe().style_heads;
+  const int inputs = set.inputs() + set.recipe().style_inputs(styles);
   const int per_style = heads ? styles : 1;
   return {{"pose", inputs, 128, 3, set.outputs(), per_style, false, heads},
           {"timing", inputs, 64, 3, 1, per_style, false, false},
           {"contact", inputs, 32, 3, kFeet, heads ? styles + 1 : 1, heads, false}};
 }
 
-std::map<std::string, std::string> model_metadata(Recipe recipe,
+std::map<std::string, std::string> model_metadata(const Recipe& recipe,
                                                   const std::vector<StyleName>& styles) {
   std::string names, descriptions;
   for (const StyleName& style : styles) {
     names += style.name + "\n";
     descriptions += style.description + "\n";
   }
-  const bool heads = recipe == Recipe::panache;
   return {
       {"format", "panache"},
       {"format_version", "1"},
-      {"recipe", heads ? "panache" : "smith2019"},
+      {"recipe", recipe.name},
       {"joints", canonical_joint_list()},
       {"window", window_description()},
-      {"layout", heads ? "positions[63] ground_velocity_xz[2] turn_rate[1]"
-                       : "rotations_6d[126] hips_height[1] ground_velocity_xz[2] turn_rate[1]"},
+      {"layout", recipe.layout_text},
       {"styles", names},
       {"style_descriptions", descriptions},
   };
 }
 
-TensorFile export_model(const RecipeSettings& settings, const SampleSet& set,
+TensorFile export_model(const SampleSet& set, const OutputUnits& units,
                         const std::vector<StyleName>& styles,
                         const std::vector<NetworkTrainer>& networks, const TrainOptions& options) {
   TensorFile file;
-  file.metadata = model_metadata(settings.recipe, styles);
+  file.metadata = model_metadata(set.recipe(), styles);
   file.metadata["data"] = options.data;
   file.metadata["licence"] = options.licence;
   file.metadata["seed"] = std::to_string(options.seed);
-  file.metadata["steps"] = std::to_string(settings.steps);
+  file.metadata["steps"] = std::to_string(options.settings.steps);
   file.metadata["samples"] = std::to_string(set.samples().size());
   file.tensors["input.mean"] = vector_tensor(set.mean());
   file.tensors["input.scale"] = vector_tensor(set.scale());
-  file.tensors["input.clip"] = vector_tensor({settings.batch.input_clip});
-  file.tensors["output.scale"] = vector_tensor(settings.batch.output_scale);
-  if (settings.recipe == Recipe::smith2019)
-    file.tensors["output.mean"] = vector_tensor(settings.batch.output_mean);
+  file.tensors["input.clip"] = vector_tensor({options.settings.batch.input_clip});
+  file.tensors["output.scale"] = vector_tensor(units.scale);
+  if (!set.recipe().output_scale) file.tensors["output.mean"] = vector_tensor(units.mean);
   for (const NetworkTrainer& network : networks) network.write(file);
   return file;
 }
@@ -95,8 +93,8 @@ Result<float> export_error(const TensorFile& model, const SampleSet& set, const 
     const torch::Tensor contact = torch::sigmoid(expected(2));
     const std::vector<float>& scale = model.tensors.at("output.scale").values;
     for (int o = 0; o < set.outputs(); ++o) {
-      const float mean =
-          (*read)->recipe() == Recipe::smith2019 ? model.tensors.at("output.mean").values[o] : 0.0f;
+      const auto found = model.tensors.find("output.mean");
+      const float mean = found == model.tensors.end() ? 0.0f : found->second.values[o];
       const float ours = (exported.pose()[o] - mean) / scale[o];
       largest = std::max(largest, std::abs(ours - pose.data_ptr<float>()[o]));
     }

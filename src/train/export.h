@@ -9,14 +9,14 @@
 
 namespace panache {
 
-// The three networks of a recipe: hidden layers of 128, 64 and 32 units, as in the slides.
-std::vector<NetworkShape> network_shapes(Recipe recipe, const SampleSet& set, int styles);
+// The three networks of the set's recipe: hidden layers of 128, 64 and 32 units, as in the slides.
+std::vector<NetworkShape> network_shapes(const SampleSet& set, int styles);
 
 // What every model file of these styles says about itself.
-std::map<std::string, std::string> model_metadata(Recipe recipe,
+std::map<std::string, std::string> model_metadata(const Recipe& recipe,
                                                   const std::vector<StyleName>& styles);
 
-TensorFile export_model(const RecipeSettings& settings, const SampleSet& set,
+TensorFile export_model(const SampleSet& set, const OutputUnits& units,
                         const std::vector<StyleName>& styles,
                         const std::vector<NetworkTrainer>& networks, const TrainOptions& options);
 

@@ -9,6 +9,7 @@
 
 #include "base/random.h"
 #include "net/safetensors.h"
+#include "recipes/training_settings.h"
 
 namespace panache {
 
@@ -22,15 +23,6 @@ struct NetworkShape {
   int heads = 1;
   bool base = false;  // Head 0 is added to every other.
   bool half = false;  // Heads are stored as 16-bit floats.
-};
-
-// How it learns.
-struct OptimizerSettings {
-  float learning_rate = 0.01f;
-  float epsilon = 1e-8f;   // Added to the root of the mean square in Adam.
-  bool one_cycle = false;  // Rises to the learning rate, then falls to nothing (Smith 2018).
-  float weight_decay = 0;  // Decoupled (AdamW, Loshchilov and Hutter 2019); biases have none.
-  float dropout = 0;       // Share of hidden units left out.
 };
 
 class NetworkTrainer {

@@ -11,7 +11,8 @@ namespace panache {
 namespace {
 
 constexpr int kNumbers = Predictor::kNumbers;
-constexpr int kAhead = 5;  // Poses that are rolled out.
+constexpr int kRoot = root_offset(PoseLayout::positions);  // Where the root numbers begin.
+constexpr int kAhead = 5;                                  // Poses that are rolled out.
 constexpr int kPoses = kWindowPoses + kAhead;
 constexpr int kInputs = kWindowPoses * kNumbers;
 constexpr int kHidden = 48;
@@ -206,7 +207,7 @@ class PredictorTraining {
     const torch::Tensor rows = poses.reshape({-1, kNumbers});
     mean_ = rows.mean(0);
     torch::Tensor floor = torch::full({kNumbers}, 0.03f);
-    floor.slice(0, 63, 65).fill_(0.1f), floor[65].fill_(0.2f);
+    floor.slice(0, kRoot, kRoot + kTurnRate).fill_(0.1f), floor[kRoot + kTurnRate].fill_(0.2f);
     unit_ = torch::empty({kNumbers});
     for (int n = 0; n < kNumbers; ++n) unit_[n] = Predictor::unit(static_cast<size_t>(n));
     scale_ = ((rows - mean_).square().mean(0) + floor.square()).sqrt();
@@ -268,8 +269,8 @@ class PredictorTraining {
   // positions, the way so far, and to the first order the turn so far.
   // ahead[rows][kAhead][kNumbers] -> [rows][kAhead][joints][3]
   static torch::Tensor joints_ahead(const torch::Tensor& ahead) {
-    const torch::Tensor body = ahead.slice(2, 0, 63).reshape({-1, kAhead, kHumanJoints, 3});
-    const torch::Tensor root = ahead.slice(2, 63).cumsum(1) * kWindowSpacing;
+    const torch::Tensor body = ahead.slice(2, 0, kRoot).reshape({-1, kAhead, kHumanJoints, 3});
+    const torch::Tensor root = ahead.slice(2, kRoot).cumsum(1) * kWindowSpacing;
     const torch::Tensor turn = root.select(2, 2).unsqueeze(2);
     const torch::Tensor x =
         body.select(3, 0) + root.select(2, 0).unsqueeze(2) + turn * body.select(3, 2);
@@ -285,12 +286,12 @@ class PredictorTraining {
       return (joints - wanted).square().sum(3).mean(2);  // [rows][kAhead]
     };
     const torch::Tensor newest = window.slice(1, kWindowPoses - 1);
-    const torch::Tensor held = newest.slice(2, 0, 63).reshape({-1, 1, kHumanJoints, 3});
+    const torch::Tensor held = newest.slice(2, 0, kRoot).reshape({-1, 1, kHumanJoints, 3});
     const torch::Tensor times = torch::arange(1, kAhead + 1).reshape({1, kAhead, 1});
     const torch::Tensor velocity = newest - window.slice(1, kWindowPoses - 2, kWindowPoses - 1);
     const torch::Tensor moved =
-        torch::cat({newest.slice(2, 0, 63) + times * velocity.slice(2, 0, 63),
-                    newest.slice(2, 63).expand({-1, kAhead, kRootNumbers})},
+        torch::cat({newest.slice(2, 0, kRoot) + times * velocity.slice(2, 0, kRoot),
+                    newest.slice(2, kRoot).expand({-1, kAhead, kRootNumbers})},
                    2);
     const torch::Tensor least =
         torch::minimum(error(held.expand_as(wanted)), error(joints_ahead(moved)));

@@ -34,49 +34,23 @@ void keep_libraries_single_threaded() {
   }
 }
 
-// Units in which the pose network's changes weigh the same: 0.25 rad, 5 cm, 0.15 m/s, 0.6 rad/s.
-std::vector<float> change_scale() {
-  std::vector<float> scale(kChangeNumbers, 0.25f);
-  scale[63] = 0.05f;
-  scale[64] = scale[65] = 0.15f;
-  scale[66] = 0.6f;
-  return scale;
-}
-
-// Mean and deviation of the targets of `choice`, for absolute poses.
-void measure_targets(const SampleSet& set, const std::vector<int>& choice, BatchSettings& batch) {
-  const int outputs = set.outputs();
-  std::vector<double> sum(outputs), squares(outputs);
-  for (const int i : choice) {
-    const std::span<const float> target = set.target(i);
-    for (int o = 0; o < outputs; ++o) {
-      sum[o] += target[o];
-      squares[o] += double(target[o]) * target[o];
-    }
-  }
-  const double count = std::max<double>(1, static_cast<double>(choice.size()));
-  for (int o = 0; o < outputs; ++o) {
-    const double mean = sum[o] / count;
-    const double variance = std::max(squares[o] / count - mean * mean, 0.0);
-    batch.output_mean.push_back(static_cast<float>(mean));
-    batch.output_scale.push_back(static_cast<float>(std::max(std::sqrt(variance), 0.02)));
-  }
+uint32_t fnv1a(std::string_view text) {
+  uint32_t hash = 2166136261u;
+  for (const char c : text) hash = (hash ^ static_cast<uint8_t>(c)) * 16777619u;
+  return hash;
 }
 
 // A twentieth of the styled takes is kept for validation. Whole takes: neighbouring frames are
 // nearly copies of each other.
 bool is_validation_take(const std::string& path) {
-  uint32_t hash = 2166136261u;  // FNV-1a of the file's name.
-  for (const char c : path.substr(path.find_last_of('/') + 1)) {
-    hash = (hash ^ static_cast<uint8_t>(c)) * 16777619u;
-  }
-  return hash % 20 == 0;
+  return fnv1a(path.substr(path.find_last_of('/') + 1)) % 20 == 0;
 }
 
 // Training goes on only from a checkpoint of the same training.
-uint64_t fingerprint(const TrainOptions& options, const RecipeSettings& settings, size_t samples) {
-  return Random(options.seed * 2654435761u + static_cast<uint64_t>(settings.steps) * 40503u +
-                samples * 9176u + (settings.recipe == Recipe::panache))
+uint64_t fingerprint(const TrainOptions& options, size_t samples) {
+  return Random(options.seed * 2654435761u +
+                static_cast<uint64_t>(options.settings.steps) * 40503u + samples * 9176u +
+                fnv1a(options.recipe->name))
              .bits() >>
          1;
 }
@@ -120,9 +94,9 @@ torch::Tensor loss_of(const std::string& network, const torch::Tensor& out, cons
 class Training {
  public:
   // `validation`: samples in order of their style; `groups`: how many of them each style has.
-  Training(const RecipeSettings& settings, const BatchMaker& batches, std::vector<int> validation,
-           std::vector<int64_t> groups, const TrainOptions& options)
-      : settings_(settings),
+  Training(const BatchMaker& batches, std::vector<int> validation, std::vector<int64_t> groups,
+           const TrainOptions& options)
+      : settings_(options.settings),
         batches_(batches),
         validation_(std::move(validation)),
         validation_groups_(std::move(groups)),
@@ -160,9 +134,8 @@ class Training {
       if ((step + 1) % report == 0) report_losses(job, step + 1, report, sums, losses);
       if (!options_.checkpoint.empty() && (step + 1) % keep == 0) {
         for (const NetworkTrainer* network : job.networks) {
-          save_checkpoint(options_.checkpoint,
-                          fingerprint(options_, settings_, batches_.choice().size()), *network,
-                          losses_for_checkpoint(losses, *network));
+          save_checkpoint(options_.checkpoint, fingerprint(options_, batches_.choice().size()),
+                          *network, losses_for_checkpoint(losses, *network));
         }
       }
     }
@@ -221,7 +194,7 @@ class Training {
     return loss_of(network.shape().name, out, batch, 0).item<float>();
   }
 
-  const RecipeSettings& settings_;
+  const TrainingSettings& settings_;
   const BatchMaker& batches_;
   std::vector<int> validation_;
   std::vector<int64_t> validation_groups_;
@@ -250,11 +223,12 @@ std::vector<int> pick_validation(const SampleSet& set, const std::vector<int>& s
 
 // What the pose network makes of training windows as they are, both sides mirrored.
 torch::Tensor clean_features(const SampleSet& set, const std::vector<int>& choice, int styles,
-                             BatchSettings batch, const NetworkTrainer& pose, uint64_t seed) {
+                             BatchSettings batch, const OutputUnits& units,
+                             const NetworkTrainer& pose, uint64_t seed) {
   constexpr int kBatches = 100;
   torch::NoGradGuard no_gradients;
   batch.disturbed = false;
-  const BatchMaker batches(set, choice, styles, false, batch);
+  const BatchMaker batches(set, choice, styles, batch, units);
   Random random(seed);
   std::vector<torch::Tensor> rows;
   for (int b = 0; b < kBatches; ++b) {
@@ -264,35 +238,6 @@ torch::Tensor clean_features(const SampleSet& set, const std::vector<int>& choic
 }
 
 }  // namespace
-
-RecipeSettings recipe_settings(Recipe recipe) {
-  RecipeSettings settings;
-  settings.recipe = recipe;
-  if (recipe == Recipe::smith2019) {
-    // The slides: Adam, learning rate 0.01, 20 epochs of 550,000 samples in batches of 64.
-    settings.steps = 20 * 550000 / 64;
-    settings.batch.size = 64;
-    settings.optimizer.learning_rate = 0.01f;
-    // The slides do not tell Adam's epsilon. With the usual 1e-8 this learning rate makes all three
-    // networks collapse to the mean within 2,000 steps, whatever the activation; with 0.01 they
-    // learn.
-    settings.optimizer.epsilon = 0.01f;
-    return settings;
-  }
-  settings.steps = 20000;
-  settings.batch.size = 256;
-  settings.batch.by_style = true;
-  settings.batch.mirrored = true;
-  settings.batch.disturbed = true;
-  settings.batch.input_clip = 3;
-  settings.optimizer.learning_rate = 0.004f;
-  settings.optimizer.one_cycle = true;
-  settings.optimizer.weight_decay = 0.2f;
-  settings.optimizer.dropout = 0.02f;
-  settings.smoothness = 0.3f;
-  settings.predictor_steps = 6000;
-  return settings;
-}
 
 Result<TrainingData> prepare_training(const std::vector<ManifestRow>& rows, PoseLayout layout) {
   keep_libraries_single_threaded();
@@ -337,15 +282,14 @@ Result<Trained> train(const std::vector<ManifestRow>& rows, const std::vector<St
 
 Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
                       const TrainOptions& options) {
-  RecipeSettings settings = options.settings;
-  const bool heads = settings.recipe == Recipe::panache;
-  const PoseLayout layout = heads ? PoseLayout::positions : PoseLayout::rotations;
-  for (Take& take : data.takes) write_numbers(layout, take);
+  const Recipe& recipe = *options.recipe;
+  const TrainingSettings& settings = options.settings;
+  for (Take& take : data.takes) write_numbers(recipe.layout, take);
 
   std::vector<std::string> names;
   for (const StyleName& style : styles) names.push_back(style.name);
   const int count = static_cast<int>(names.size());
-  const SampleSet set(data.takes, data.pairings, names, settings.recipe, !heads);
+  const SampleSet set(data.takes, data.pairings, names, recipe, settings.neutral_samples);
   std::vector<int> choice, held;
   for (size_t i = 0; i < set.samples().size(); ++i) {
     const int styled = set.samples()[i].styled;
@@ -353,15 +297,10 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
     (validates ? held : choice).push_back(static_cast<int>(i));
   }
 
-  if (heads) {
-    settings.batch.output_mean.assign(kChangeNumbers, 0.0f);
-    settings.batch.output_scale = change_scale();
-  } else {
-    measure_targets(set, choice, settings.batch);
-  }
-  const BatchMaker batches(set, choice, count, !heads, settings.batch);
+  const OutputUnits units = output_units(set, choice);
+  const BatchMaker batches(set, choice, count, settings.batch, units);
   std::vector<NetworkTrainer> networks;
-  for (const NetworkShape& shape : network_shapes(settings.recipe, set, count)) {
+  for (const NetworkShape& shape : network_shapes(set, count)) {
     networks.emplace_back(shape, settings.optimizer, settings.steps,
                           options.seed * 31 + networks.size());
   }
@@ -371,9 +310,8 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
   trained.pair_seconds = data.pair_seconds;
   if (!options.checkpoint.empty()) {
     for (NetworkTrainer& network : networks) {
-      Result<void> loaded =
-          load_checkpoint(options.checkpoint, fingerprint(options, settings, choice.size()),
-                          network, trained.losses);
+      Result<void> loaded = load_checkpoint(options.checkpoint, fingerprint(options, choice.size()),
+                                            network, trained.losses);
       if (!loaded) return loaded.error();
     }
   }
@@ -381,18 +319,18 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
   {
     std::vector<int64_t> groups;
     std::vector<int> validation = pick_validation(set, held, count, groups);
-    Training training(settings, batches, std::move(validation), std::move(groups), options);
+    Training training(batches, std::move(validation), std::move(groups), options);
     // The pose network costs as much as the other two together: one thread each.
     training.run({{{&networks[0]}, 1}, {{&networks[1], &networks[2]}, 2}}, trained.losses);
   }
   for (NetworkTrainer& network : networks) network.round_halves();
-  trained.model = export_model(settings, set, styles, networks, options);
+  trained.model = export_model(set, units, styles, networks, options);
   Result<float> error = export_error(trained.model, set, batches, networks, choice);
   if (!error) return error.error();
   trained.export_error = *error;
   // After the comparison, because libtorch's forward pass has no gate.
-  if (heads) {
-    fit_gate(clean_features(set, choice, count, settings.batch, networks[0], options.seed),
+  if (recipe.learns_styles) {
+    fit_gate(clean_features(set, choice, count, settings.batch, units, networks[0], options.seed),
              trained.model);
     if (auto added = add_feature_statistics(data.takes, trained.model); !added) {
       return added.error();

@@ -11,22 +11,16 @@
 #include "learn/manifest.h"
 #include "train/network.h"
 #include "learn/samples.h"
+#include "recipes/recipes.h"
 
 namespace panache {
 
-// What a recipe fixes. recipe_settings() gives each recipe's own.
-struct RecipeSettings {
-  Recipe recipe = Recipe::panache;
-  int64_t steps = 0;
-  BatchSettings batch;
-  OptimizerSettings optimizer;
-  int64_t predictor_steps = 0;  // Of the network that foresees input; 0: the model has none.
-  float smoothness = 0;         // Weight of the loss on the change from one frame to the next.
-};
-RecipeSettings recipe_settings(Recipe recipe);
-
 struct TrainOptions {
-  RecipeSettings settings = recipe_settings(Recipe::panache);
+  explicit TrainOptions(const Recipe& what = default_recipe())
+      : recipe(&what), settings(what.training) {}
+
+  const Recipe* recipe;
+  TrainingSettings settings;  // The recipe's own, or changed.
   uint64_t seed = 1;
   std::string data, licence;  // What the data is and its terms, for the model's metadata.
   std::string checkpoint;     // File to resume from and to save to now and then; empty: none.
@@ -49,7 +43,7 @@ struct Trained {
       0;  // Largest difference between the exported model's outputs and libtorch's.
 };
 
-// Takes of the training split, read and paired: what both recipes learn from.
+// Takes of the training split, read and paired: what all recipes learn from.
 struct TrainingData {
   std::vector<Take> takes;
   std::vector<Pairing> pairings;

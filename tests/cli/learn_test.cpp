@@ -259,7 +259,7 @@ TEST_F(LearnVerb, a_model_that_nobody_may_write_to_stays_as_it_is) {
 }
 
 TEST_F(LearnVerb, a_model_that_cannot_learn_says_so) {
-  write("smith.safetensors", format_safetensors(make_model({"old"}, 1, Recipe::smith2019)));
+  write("smith.safetensors", format_safetensors(make_model({"old"}, 1, test::kSmith2019)));
   for (const std::string model : {"model.safetensors", "smith.safetensors"}) {
     expect_refused({"walk.bvh", "bent.bvh", "--name", "bent", "--into", model}, 1,
                    model +

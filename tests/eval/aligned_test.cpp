@@ -6,6 +6,7 @@
 
 #include "learn/make_aligned.h"
 #include "learn/samples.h"
+#include "pose/absolute_pose.h"
 
 namespace panache {
 namespace {
@@ -62,8 +63,9 @@ TEST_F(Aligned, strength_scales_what_a_model_does) {
 }
 
 TEST_F(Aligned, both_recipes_are_judged_and_random_ones_are_no_good) {
-  for (const Recipe recipe : {Recipe::panache, Recipe::smith2019}) {
-    const auto model = *Model::parse(format_safetensors(test::make_model({"old"}, 1, recipe)), "m");
+  for (const Recipe* recipe : {&test::kPanache, &test::kSmith2019}) {
+    const auto model =
+        *Model::parse(format_safetensors(test::make_model({"old"}, 1, *recipe)), "m");
     const PoseErrors errors = test_.errors(*model);
     EXPECT_GT(errors.at({"old", "walk"}).cm,
               test_.errors(*test::bending_model(test::kBend)).at({"old", "walk"}).cm);
@@ -73,8 +75,8 @@ TEST_F(Aligned, both_recipes_are_judged_and_random_ones_are_no_good) {
 TEST_F(Aligned, a_model_that_answers_with_a_pose_is_judged_by_that_pose) {
   const Take& neutral = test_.takes(PoseLayout::rotations)[0];
   const int frame = 40;
-  const auto numbers = neutral.numbers.begin() + frame * 130;
-  const auto model = test::posing_model({numbers, numbers + 130});
+  const auto numbers = neutral.numbers.begin() + frame * AbsolutePose::kSize;
+  const auto model = test::posing_model({numbers, numbers + AbsolutePose::kSize});
   double expected = 0, count = 0;
   for (const AlignedInstant& i : test_.instants()) {
     const Take& styled = test_.takes()[i.styled];

@@ -129,9 +129,9 @@ TEST(DisturbanceRows, a_model_that_looks_at_nothing_does_not_suffer) {
 
 TEST(DisturbanceRows, a_model_that_looks_answers_differently_to_each) {
   const AlignedTest test = test::bent_walks();
-  for (const Recipe recipe : {Recipe::panache, Recipe::smith2019}) {
+  for (const Recipe* recipe : {&test::kPanache, &test::kSmith2019}) {
     const auto model =
-        *Model::parse(format_safetensors(test::make_model({"old", "sad"}, 1, recipe)), "m");
+        *Model::parse(format_safetensors(test::make_model({"old", "sad"}, 1, *recipe)), "m");
     const auto rows = measure_disturbances(test, *model);
     ASSERT_EQ(rows.size(), 11u);
     const PoseErrors errors = test.errors(*model);

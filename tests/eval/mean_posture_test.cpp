@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "known_recipes.h"
 #include "learn/make_takes.h"
 #include "learn/samples.h"
 
@@ -45,13 +46,13 @@ Answer answer(const std::shared_ptr<const Model>& model, std::vector<float> stre
 
 // The mean that the model should answer with, over the samples of a style and content; "" for any.
 Answer expected(const TrainingData& data, int style, const std::string& content) {
-  const SampleSet set(data.takes, data.pairings, {"old", "sad"}, Recipe::panache, false);
-  std::vector<double> sum(kChangeNumbers);
+  const SampleSet set(data.takes, data.pairings, {"old", "sad"}, test::kPanache, false);
+  std::vector<double> sum(StyleDelta::kSize);
   double rate = 0, count = 0;
   for (size_t i = 0; i < set.samples().size(); ++i) {
     const Sample& sample = set.samples()[i];
     if (sample.style != style || (!content.empty() && set.content(sample) != content)) continue;
-    for (int n = 0; n < kChangeNumbers; ++n) sum[n] += set.target(i)[n];
+    for (int n = 0; n < StyleDelta::kSize; ++n) sum[n] += set.target(i)[n];
     rate += sample.log_rate;
     ++count;
   }
@@ -62,7 +63,7 @@ Answer expected(const TrainingData& data, int style, const std::string& content)
 
 void expect_same(const Answer& a, const Answer& b) {
   // Means of some hundred numbers below 1, rounded to single precision.
-  for (int n = 0; n < kChangeNumbers; ++n) EXPECT_NEAR(a.pose[n], b.pose[n], 1e-5) << n;
+  for (int n = 0; n < StyleDelta::kSize; ++n) EXPECT_NEAR(a.pose[n], b.pose[n], 1e-5) << n;
   EXPECT_NEAR(a.log_rate, b.log_rate, 1e-5);
 }
 
@@ -70,7 +71,7 @@ TEST(MeanPosture, answers_with_the_mean_change_of_the_style_whatever_the_window)
   const TrainingData data = made_data();
   const auto model = mean_posture_model(data, kStyles, {});
   ASSERT_TRUE(model.ok()) << model.error().message;
-  EXPECT_EQ((*model)->recipe(), Recipe::panache);
+  EXPECT_EQ(&(*model)->recipe(), &test::kPanache);
   EXPECT_EQ((*model)->styles()[0].description, "bent");
   for (const uint64_t seed : {1, 2}) {
     expect_same(answer(*model, {1, 0}, seed), expected(data, 0, ""));

@@ -38,7 +38,7 @@ TEST(FeatureStatistics, are_those_of_neutral_takes_that_are_not_held_out) {
 }
 
 TEST(FeatureStatistics, a_model_of_the_slides_recipe_cannot_have_them) {
-  TensorFile file = test::make_model({"old"}, 1, Recipe::smith2019);
+  TensorFile file = test::make_model({"old"}, 1, test::kSmith2019);
   const Result<void> added = add_feature_statistics({}, file);
   ASSERT_FALSE(added.ok());
   EXPECT_EQ(added.error().message,

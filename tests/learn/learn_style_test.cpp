@@ -203,8 +203,8 @@ TEST(LearnStyle, says_what_it_cannot_learn_on_or_from) {
   const std::string cure =
       ": has no trunk that styles can be learnt on; expected a model of recipe panache with "
       "'learn.mean' and 'learn.scale', as panache train writes it";
-  for (const Recipe recipe : {Recipe::panache, Recipe::smith2019}) {
-    const TensorFile model = test::make_model({"old"}, 1, recipe);
+  for (const Recipe* recipe : {&test::kPanache, &test::kSmith2019}) {
+    const TensorFile model = test::make_model({"old"}, 1, *recipe);
     EXPECT_EQ(failure(learn_style(model, "m.safetensors", pairs, "bent", "")),
               "m.safetensors" + cure);
   }

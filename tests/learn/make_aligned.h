@@ -48,7 +48,7 @@ inline std::shared_ptr<const Model> bending_model(float bend) {
 // A model of recipe smith2019 with the style "old", which always answers with this pose of 130
 // numbers.
 inline std::shared_ptr<const Model> posing_model(const std::vector<float>& pose) {
-  TensorFile file = make_model({"old"}, 1, Recipe::smith2019);
+  TensorFile file = make_model({"old"}, 1, test::kSmith2019);
   for (const char* name : {"pose.head.0.weight", "pose.head.0.bias"}) {
     for (float& value : file.tensors[name].values) value = 0;
   }

@@ -2,19 +2,20 @@
 
 #include <gtest/gtest.h>
 
+#include "known_recipes.h"
 #include "make_takes.h"
 #include "style/pose_change.h"
 
 namespace panache {
 namespace {
 
-class SamplesTest : public testing::TestWithParam<Recipe> {
+class SamplesTest : public testing::TestWithParam<const Recipe*> {
  protected:
   SamplesTest()
-      : layout_(GetParam() == Recipe::panache ? PoseLayout::positions : PoseLayout::rotations),
+      : layout_(GetParam()->layout),
         takes_{test::make_take("neutral", 200, 0, 1, 0, layout_),
                test::make_take("old", 90, 1.7f, 1.3f, 0.4f, layout_)},
-        set_(takes_, pair_takes(takes_, {1}, {0}), {"old"}, GetParam(), false) {}
+        set_(takes_, pair_takes(takes_, {1}, {0}), {"old"}, *GetParam(), false) {}
 
   PoseLayout layout_;
   std::vector<Take> takes_;
@@ -30,9 +31,9 @@ TEST_P(SamplesTest, mirroring_twice_gives_the_same_numbers) {
   set_.mirror_window(twice);
   EXPECT_EQ(twice, window);
   std::vector<float> target(set_.target(7).begin(), set_.target(7).end()), back = target;
-  set_.mirror_target(back);
+  set_.recipe().mirror_target(back);
   EXPECT_NE(back, target);
-  set_.mirror_target(back);
+  set_.recipe().mirror_target(back);
   EXPECT_EQ(back, target);
 }
 
@@ -60,15 +61,13 @@ TEST_P(SamplesTest, every_sample_has_its_style_rate_and_contacts) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, SamplesTest, testing::Values(Recipe::panache, Recipe::smith2019),
-                         [](const auto& tested) {
-                           return tested.param == Recipe::panache ? "panache" : "smith2019";
-                         });
+INSTANTIATE_TEST_SUITE_P(, SamplesTest, testing::Values(&test::kPanache, &test::kSmith2019),
+                         [](const auto& tested) { return tested.param->name; });
 
 TEST(Samples, a_change_put_on_the_neutral_rotations_gives_the_styled_ones) {
   const Take neutral = test::make_take("neutral", 100, 0, 1, 0);
   const Take styled = test::make_take("old", 100, 0.3f, 1, 0.4f);
-  const ChangeNumbers change = change_between(styled, 20, neutral, 31, 1);
+  const StyleDelta change = change_between(styled, 20, neutral, 31, 1);
   for (int j = 0; j < kHumanJoints; ++j) {
     const Quat reached = joint_rotation(change, j) * neutral.turned[31][j];
     EXPECT_NEAR(std::abs(dot(reached, styled.turned[20][j])), 1, 1e-5);
@@ -80,16 +79,18 @@ TEST(Samples, an_absolute_pose_is_the_change_that_made_it) {
       test::make_take("neutral", 200, 0, 1, 0, PoseLayout::rotations),
       test::make_take("old", 90, 1.7f, 1.3f, 0.4f, PoseLayout::rotations)};
   const std::vector<Pairing> pairings = pair_takes(takes, {1}, {0});
-  const SampleSet absolute(takes, pairings, {"old"}, Recipe::smith2019, false);
-  const SampleSet changes(takes, pairings, {"old"}, Recipe::panache, false);
+  const SampleSet absolute(takes, pairings, {"old"}, test::kSmith2019, false);
+  const SampleSet changes(takes, pairings, {"old"}, test::kPanache, false);
   std::vector<float> window(absolute.inputs());
   for (const size_t i : {size_t{0}, size_t{20}, absolute.samples().size() - 1}) {
     absolute.window(i, window);
     const Sample& sample = absolute.samples()[i];
-    const std::span<const float> root(&window[127], kRootNumbers);
-    const ChangeNumbers back = change_to_pose(absolute.target(i), body_at(takes[0], sample.frame),
-                                              root.first<kRootNumbers>());
-    for (int n = 0; n < kChangeNumbers; ++n) {
+    const auto root =
+        std::span(window).subspan(root_offset(PoseLayout::rotations)).first<kRootNumbers>();
+    std::array<float, StyleDelta::kSize> back;
+    pack(test::kSmith2019.to_change(absolute.target(i), body_at(takes[0], sample.frame), root),
+         back);
+    for (int n = 0; n < StyleDelta::kSize; ++n) {
       EXPECT_NEAR(back[n], changes.target(i)[n], 2e-3) << "number " << n;
     }
   }
@@ -98,7 +99,7 @@ TEST(Samples, an_absolute_pose_is_the_change_that_made_it) {
 TEST(Samples, an_undisturbing_disturbance_leaves_the_window_alone) {
   const std::vector<Take> takes = {test::make_take("neutral", 200, 0, 1, 0),
                                    test::make_take("old", 90, 1.7f, 1.3f, 0.4f)};
-  const SampleSet set(takes, pair_takes(takes, {1}, {0}), {"old"}, Recipe::panache, false);
+  const SampleSet set(takes, pair_takes(takes, {1}, {0}), {"old"}, test::kPanache, false);
   const Disturbance none{0, 0, 0, 0, 0, 0, 0};
   Random random(3);
   std::vector<float> window(set.inputs());

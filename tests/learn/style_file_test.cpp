@@ -267,7 +267,7 @@ TEST(StyleFile, a_model_takes_255_styles_and_no_more) {
 }
 
 TEST(StyleFile, a_model_without_heads_gives_and_takes_no_styles) {
-  const TensorFile model = test::make_model({"old", "proud"}, 1, Recipe::smith2019);
+  const TensorFile model = test::make_model({"old", "proud"}, 1, test::kSmith2019);
   const std::string sentence =
       "m.safetensors: is of recipe smith2019, whose styles are inputs of all its layers; expected "
       "a model of recipe panache, where each has a head of its own";
@@ -290,8 +290,8 @@ TEST(StyleFile, the_last_style_stays) {
 }
 
 TEST(StyleFile, a_renamed_style_is_the_same_under_another_name) {
-  for (const Recipe recipe : {Recipe::panache, Recipe::smith2019}) {
-    const TensorFile model = test::make_model({"old", "proud"}, 1, recipe);
+  for (const Recipe* recipe : {&test::kPanache, &test::kSmith2019}) {
+    const TensorFile model = test::make_model({"old", "proud"}, 1, *recipe);
     const auto renamed = rename_style(model, "old", "old, very", "m");
     EXPECT_FALSE(renamed.ok());
     const auto good = rename_style(model, "old", "altväterlich", "m");

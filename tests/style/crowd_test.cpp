@@ -21,7 +21,7 @@ enum class Kind { floats, bytes, gated, smith2019 };
 
 std::shared_ptr<const Model> make_model(Kind kind) {
   TensorFile file = test::make_model({"old", "proud"}, 3,
-                                     kind == Kind::smith2019 ? Recipe::smith2019 : Recipe::panache);
+                                     kind == Kind::smith2019 ? test::kSmith2019 : test::kPanache);
   if (kind == Kind::gated) test::add_gate(file, 1.5f);
   if (kind == Kind::bytes) file = in_half_size(file);
   return *Model::parse(format_safetensors(file), "test model");

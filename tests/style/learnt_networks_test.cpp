@@ -84,14 +84,14 @@ TEST(LearntNetworks, the_head_answers_to_the_features_of_all_layers) {
   networks.features(window, features);
   const std::vector<double> expected = head(file, features);
   const Answer none = answer(networks, window, {0, 0}), got = answer(networks, window, {0, 0.5f});
-  for (int i = 0; i < kChangeNumbers; ++i) {
+  for (int i = 0; i < StyleDelta::kSize; ++i) {
     EXPECT_EQ(none.pose[i], 0);
     const double scale = static_cast<double>(model->output_scale()[i]);
     EXPECT_NEAR(got.pose[i], 0.5 * expected[i] * scale, kRounding) << i;
   }
-  EXPECT_NEAR(got.log_rate, 0.5 * expected[kChangeNumbers], kRounding);
-  EXPECT_NEAR(logit(got.left) - logit(none.left), 0.5 * expected[kChangeNumbers + 1], 1e-4);
-  EXPECT_NEAR(logit(got.right) - logit(none.right), 0.5 * expected[kChangeNumbers + 2], 1e-4);
+  EXPECT_NEAR(got.log_rate, 0.5 * expected[StyleDelta::kSize], kRounding);
+  EXPECT_NEAR(logit(got.left) - logit(none.left), 0.5 * expected[StyleDelta::kSize + 1], 1e-4);
+  EXPECT_NEAR(logit(got.right) - logit(none.right), 0.5 * expected[StyleDelta::kSize + 2], 1e-4);
   EXPECT_EQ(got.gate, 1);
 }
 
@@ -120,7 +120,7 @@ TEST(LearntNetworks, styles_add_up_and_are_exaggerated_like_others) {
   const Answer both = answer(networks, window, {0.3f, 0.6f});
   const Answer two_old = answer(networks, window, {2, 0}), two = answer(networks, window, {0, 2});
   const double share = two_old.pose[0] / old.pose[0];
-  for (int i = 0; i < kChangeNumbers; ++i) {
+  for (int i = 0; i < StyleDelta::kSize; ++i) {
     EXPECT_NEAR(both.pose[i], 0.3 * old.pose[i] + 0.6 * drunk.pose[i], kRounding);
     EXPECT_NEAR(two.pose[i], share * drunk.pose[i], kRounding);
   }
@@ -148,7 +148,7 @@ TEST(LearntNetworks, beyond_its_gate_a_style_is_drawn_to_its_mean_answer) {
   StyleNetworks closed(read(with_learnt(1e9f)));
   const Answer posture = answer(closed, window, {0, 1});
   EXPECT_NEAR(posture.pose[0], mean[0] * scale, kRounding);
-  EXPECT_NEAR(posture.log_rate, mean[kChangeNumbers], kRounding);
+  EXPECT_NEAR(posture.log_rate, mean[StyleDelta::kSize], kRounding);
   // Along a main direction a square is worth more or less than elsewhere.
   TensorFile directed = with_learnt();
   directed.tensors["learnt.0.gate.worth"].values[3] = 1e9f;

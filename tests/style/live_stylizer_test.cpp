@@ -22,7 +22,7 @@ constexpr double kStep = 1.0 / 60;
 // A model that asks for this tempo and changes nothing else by much.
 std::shared_ptr<const Model> model_at_rate(double rate, bool foresees = true) {
   TensorFile file = test::make_model({"old", "proud"}, 3);
-  file.tensors["output.scale"] = test::constant_tensor(kChangeNumbers, 1e-3f);
+  file.tensors["output.scale"] = test::constant_tensor(StyleDelta::kSize, 1e-3f);
   test::set_rate(file, rate);
   if (foresees) test::add_predictor(file);
   return *Model::parse(format_safetensors(file), "test model");

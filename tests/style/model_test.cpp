@@ -22,7 +22,25 @@ TEST(Model, what_was_written_is_read) {
   EXPECT_EQ((*model)->styles().size(), 2u);
   EXPECT_EQ((*model)->styles()[1].name, "proud");
   EXPECT_EQ((*model)->styles()[1].description, "looks proud");
-  EXPECT_EQ((*model)->recipe(), Recipe::panache);
+  EXPECT_EQ(&(*model)->recipe(), &test::kPanache);
+}
+
+TEST(Model, tensors_in_memory_make_the_same_model_as_their_file) {
+  const TensorFile file = in_half_size(test::make_model({"old", "proud"}));
+  const auto answer = [](const Result<std::shared_ptr<const Model>>& model) {
+    EXPECT_TRUE(model.ok()) << model.error().message;
+    StyleNetworks networks(*model);
+    networks.set_strengths(std::vector<float>{1, 0.5f});
+    networks.forward(
+        std::vector<float>(size_t(kWindowPoses) * pose_numbers((*model)->layout()), 1));
+    return std::vector<float>(networks.pose().begin(), networks.pose().end());
+  };
+  // Halves and bytes are numbers that a file can hold, so nothing is rounded on the way.
+  const auto whole = parse_safetensors(format_safetensors(file), "m");
+  EXPECT_EQ(answer(Model::create(*whole, "m")),
+            answer(Model::parse(format_safetensors(file), "m")));
+  EXPECT_EQ(Model::create({}, "m").error().message,
+            Model::parse(format_safetensors({}), "m").error().message);
 }
 
 TEST(Model, one_of_half_size_is_the_same_model_with_as_many_parameters) {

@@ -15,7 +15,7 @@
 namespace panache {
 namespace {
 
-std::shared_ptr<const Model> random_model(Recipe recipe = Recipe::panache) {
+std::shared_ptr<const Model> random_model(const Recipe& recipe = test::kPanache) {
   const TensorFile file = test::make_model({"old", "proud"}, 3, recipe);
   return *Model::parse(format_safetensors(file), "test model");
 }
@@ -30,7 +30,8 @@ class StylizerTest : public testing::Test {
  protected:
   explicit StylizerTest(double fps = 30) : clip_(test::walking_clip(int(fps * 4), fps)) {}
 
-  Stylizer stylizer(const StylizerOptions& options = {}, Recipe recipe = Recipe::panache) const {
+  Stylizer stylizer(const StylizerOptions& options = {},
+                    const Recipe& recipe = test::kPanache) const {
     return *Stylizer::create(random_model(recipe), *Rig::create(clip_), options);
   }
   // All frames restyled live.
@@ -70,9 +71,10 @@ TEST_F(StylizerTest, a_body_that_a_style_puts_underground_is_lifted_without_a_st
   // A style that does nothing but take the hips 10 cm down.
   TensorFile file = test::make_model({"low", "other"}, 3);
   for (float& weight : file.tensors["pose.head.0.weight"].values) weight = 0;
-  for (float& bias : file.tensors["pose.head.0.bias"].values) bias = 0;
-  file.tensors["pose.head.0.bias"].values[63] = -0.1f;
-  file.tensors["output.scale"] = test::constant_tensor(kChangeNumbers, 1);
+  StyleDelta low;
+  low.hips_height = -0.1f;
+  pack(low, std::span(file.tensors["pose.head.0.bias"].values).first<StyleDelta::kSize>());
+  file.tensors["output.scale"] = test::constant_tensor(StyleDelta::kSize, 1);
   StylizerOptions options;
   options.ease_seconds = options.smoothing_seconds = 0;
   Stylizer character =
@@ -111,8 +113,8 @@ TEST_F(StylizerTest, back_at_strength_zero_the_pose_is_the_input_again) {
 }
 
 TEST_F(StylizerTest, a_step_allocates_nothing) {
-  for (const Recipe recipe : {Recipe::panache, Recipe::smith2019}) {
-    Stylizer character = stylizer({}, recipe);
+  for (const Recipe* recipe : {&test::kPanache, &test::kSmith2019}) {
+    Stylizer character = stylizer({}, *recipe);
     Clip out = clip_;
     std::vector<float> strengths = {0.5f, 0.5f};
     const long before = test::allocations;
@@ -206,8 +208,8 @@ TEST_F(StylizerTest, the_same_input_gives_the_same_bits_and_a_reset_one_starts_a
 TEST_F(StylizerTest, garbage_in_gives_finite_poses_out) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   constexpr float infinity = std::numeric_limits<float>::infinity();
-  for (const Recipe recipe : {Recipe::panache, Recipe::smith2019}) {
-    Stylizer character = stylizer({}, recipe);
+  for (const Recipe* recipe : {&test::kPanache, &test::kSmith2019}) {
+    Stylizer character = stylizer({}, *recipe);
     Clip in = clip_, out = clip_;
     Random random(11);
     for (int f = 0; f < in.frames; ++f) {
@@ -346,7 +348,7 @@ TEST_F(StylizerTest, a_state_that_is_damaged_or_of_another_model_is_refused) {
   }
   character.save(kept);
   EXPECT_EQ(kept, state);
-  EXPECT_FALSE(stylizer({}, Recipe::smith2019).restore(state));
+  EXPECT_FALSE(stylizer({}, test::kSmith2019).restore(state));
 }
 
 TEST_F(StylizerTest, a_character_takes_at_most_16_kilobytes_beside_model_and_rig) {

@@ -4,12 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include "known_recipes.h"
 #include "learn/make_takes.h"
 
 namespace panache {
 namespace {
 
-constexpr int kMark = 66;  // The turn rate: no made take turns, so it can tell cells apart.
+constexpr int kMark =
+    StyleDelta::kSize - 1;  // The turn rate: no made take turns, so it can tell cells apart.
 
 // Frame i of take `styled` with frame i of take `neutral`, throughout.
 Pairing straight(int styled, int neutral, int frames) {
@@ -44,20 +46,19 @@ class BatchesTest : public testing::Test {
         set_(takes_,
              {straight(3, 0, kWalk + kEnds), straight(4, 1, kWave + kEnds),
               straight(5, 2, kBow + kEnds), straight(6, 0, kSad + kEnds)},
-             {"old", "sad"}, Recipe::panache, false) {
+             {"old", "sad"}, test::kPanache, false) {
     settings_.by_style = true;
     settings_.size = 512;
-    settings_.output_mean.assign(kChangeNumbers, 0.0f);
-    settings_.output_scale.assign(kChangeNumbers, 1.0f);
+    units_.mean.assign(StyleDelta::kSize, 0.0f);
+    units_.scale.assign(StyleDelta::kSize, 1.0f);
     for (size_t i = 0; i < set_.samples().size(); ++i) all_.push_back(static_cast<int>(i));
   }
-  BatchMaker maker(bool style_input = false) const {
-    return BatchMaker(set_, all_, 2, style_input, settings_);
-  }
+  BatchMaker maker() const { return BatchMaker(set_, all_, 2, settings_, units_); }
 
   const std::vector<Take> takes_;
   const SampleSet set_;
   BatchSettings settings_;
+  OutputUnits units_;
   std::vector<int> all_;
 };
 
@@ -124,11 +125,16 @@ TEST_F(BatchesTest, normalised_inputs_are_held_within_the_clip) {
 }
 
 TEST_F(BatchesTest, a_style_vector_follows_the_window_where_it_is_an_input) {
-  const int sad = static_cast<int>(all_.size()) - 1;
-  const Batch batch = maker(true).plain({0, sad});
-  ASSERT_EQ(batch.inputs.size(1), set_.inputs() + 3);
+  std::vector<Take> takes = takes_;
+  for (Take& take : takes) write_numbers(PoseLayout::rotations, take);
+  const SampleSet set(takes, {straight(4, 1, kWave + kEnds), straight(6, 0, kSad + kEnds)},
+                      {"old", "sad"}, test::kSmith2019, false);
+  const int sad = static_cast<int>(set.samples().size()) - 1;
+  const Batch batch =
+      BatchMaker(set, {0, sad}, 2, settings_, output_units(set, {0, sad})).plain({0, sad});
+  ASSERT_EQ(batch.inputs.size(1), set.inputs() + 3);
   // Neutral, old, sad.
-  const torch::Tensor style = batch.inputs.slice(1, set_.inputs());
+  const torch::Tensor style = batch.inputs.slice(1, set.inputs());
   EXPECT_TRUE(torch::equal(style[0], torch::tensor({0.0f, 1.0f, 0.0f})));
   EXPECT_TRUE(torch::equal(style[1], torch::tensor({0.0f, 0.0f, 1.0f})));
 }

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "known_recipes.h"
 #include "make_manifest.h"
 #include "temporary_folder.h"
 #include "train/checkpoint.h"
@@ -21,9 +22,8 @@ class TrainerTest : public testing::Test {
     EXPECT_TRUE(apply_style_names(styles_, rows_).ok());
   }
 
-  TrainOptions options(Recipe recipe, int64_t steps) const {
-    TrainOptions options;
-    options.settings = recipe_settings(recipe);
+  TrainOptions options(const Recipe& recipe, int64_t steps) const {
+    TrainOptions options(recipe);
     options.settings.steps = steps;
     options.settings.predictor_steps = 0;  // Has tests of its own.
     return options;
@@ -36,8 +36,8 @@ class TrainerTest : public testing::Test {
 };
 
 TEST_F(TrainerTest, both_recipes_learn_and_the_export_is_libtorchs_forward_pass) {
-  for (const Recipe recipe : {Recipe::panache, Recipe::smith2019}) {
-    const auto trained = train(rows_, styles_, options(recipe, 200));
+  for (const Recipe* recipe : {&test::kPanache, &test::kSmith2019}) {
+    const auto trained = train(rows_, styles_, options(*recipe, 200));
     ASSERT_TRUE(trained.ok()) << trained.error().message;
     // Sums of a few hundred products in another order: single precision's share of 1e-7 each.
     EXPECT_LT(trained->export_error, 1e-4f);
@@ -52,7 +52,7 @@ TEST_F(TrainerTest, both_recipes_learn_and_the_export_is_libtorchs_forward_pass)
 }
 
 TEST_F(TrainerTest, the_same_seed_gives_the_same_model_and_another_another) {
-  TrainOptions same = options(Recipe::panache, 40), other = same;
+  TrainOptions same = options(test::kPanache, 40), other = same;
   other.seed = 2;
   const std::string a = format_safetensors(train(rows_, styles_, same)->model);
   EXPECT_EQ(a, format_safetensors(train(rows_, styles_, same)->model));
@@ -60,7 +60,7 @@ TEST_F(TrainerTest, the_same_seed_gives_the_same_model_and_another_another) {
 }
 
 TEST_F(TrainerTest, interrupted_training_goes_on_as_if_it_had_not_been) {
-  TrainOptions whole = options(Recipe::panache, 40);
+  TrainOptions whole = options(test::kPanache, 40);
   const auto uninterrupted = train(rows_, styles_, whole);
   TrainOptions with_checkpoints = whole;
   with_checkpoints.checkpoint = folder_ + "model.safetensors";
@@ -96,15 +96,15 @@ TEST_F(TrainerTest, what_cannot_be_learnt_from_is_said) {
   std::vector<ManifestRow> rows = rows_;
   rows[0].neutral = false;
   rows[0].style = "old";
-  EXPECT_EQ(train(rows, styles_, options(Recipe::panache, 1)).error().message,
+  EXPECT_EQ(train(rows, styles_, options(test::kPanache, 1)).error().message,
             "no neutral take to learn from; expected rows with neutral 1");
   rows = rows_;
   rows[1].content = "run";
-  EXPECT_EQ(train(rows, styles_, options(Recipe::panache, 1)).error().message,
+  EXPECT_EQ(train(rows, styles_, options(test::kPanache, 1)).error().message,
             "no styled take has a neutral take of the same content in its manifest");
   rows = rows_;
   rows[1].path = folder_ + "none.bvh";
-  EXPECT_EQ(train(rows, styles_, options(Recipe::panache, 1)).error().message,
+  EXPECT_EQ(train(rows, styles_, options(test::kPanache, 1)).error().message,
             folder_ + "none.bvh: cannot be read: No such file or directory");
 }
 
@@ -113,7 +113,7 @@ TEST_F(TrainerTest, takes_of_the_test_split_are_not_trained_on) {
   rows.push_back(rows[1]);
   rows.back().path = folder_ + "none.bvh";  // Would be missed if it were read.
   rows.back().test = true;
-  EXPECT_TRUE(train(rows, styles_, options(Recipe::panache, 1)).ok());
+  EXPECT_TRUE(train(rows, styles_, options(test::kPanache, 1)).ok());
 }
 
 TEST_F(TrainerTest, the_timing_network_answers_with_the_mean_of_the_rates) {
@@ -128,7 +128,7 @@ TEST_F(TrainerTest, the_timing_network_answers_with_the_mean_of_the_rates) {
   data.pairings[1].rates.assign(data.pairings[1].rates.size(), 2.0f);
   const Pairing pairing = data.pairings[0];
   const Take neutral = data.takes[pairing.neutral];
-  TrainOptions slow = options(Recipe::panache, 400);
+  TrainOptions slow = options(test::kPanache, 400);
   slow.settings.batch.disturbed = slow.settings.batch.mirrored = false;
   slow.settings.optimizer.dropout = 0;
   const auto trained = train(data, styles_, slow);
@@ -151,7 +151,7 @@ TEST_F(TrainerTest, the_timing_network_answers_with_the_mean_of_the_rates) {
 }
 
 TEST_F(TrainerTest, the_gate_is_open_on_the_middle_of_what_was_trained_on_and_shut_far_away) {
-  const auto trained = train(rows_, styles_, options(Recipe::panache, 200));
+  const auto trained = train(rows_, styles_, options(test::kPanache, 200));
   ASSERT_TRUE(trained.ok()) << trained.error().message;
   const auto model = Model::parse(format_safetensors(trained->model), "model");
   ASSERT_TRUE(model.ok()) << model.error().message;
@@ -175,8 +175,8 @@ TEST_F(TrainerTest, the_gate_is_open_on_the_middle_of_what_was_trained_on_and_sh
 }
 
 TEST_F(TrainerTest, only_our_own_recipe_gets_a_gate) {
-  const auto ours = train(rows_, styles_, options(Recipe::panache, 2));
-  const auto theirs = train(rows_, styles_, options(Recipe::smith2019, 2));
+  const auto ours = train(rows_, styles_, options(test::kPanache, 2));
+  const auto theirs = train(rows_, styles_, options(test::kSmith2019, 2));
   EXPECT_TRUE(ours->model.tensors.contains("gate.limit"));
   EXPECT_FALSE(theirs->model.tensors.contains("gate.limit"));
 }

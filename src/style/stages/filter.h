@@ -2,7 +2,7 @@
 // Fourth stage, after the networks: their outputs without jitter.
 
 #include "style/stages/step_time.h"
-#include "style/style_delta.h"
+#include "pose/style_delta.h"
 
 namespace panache {
 

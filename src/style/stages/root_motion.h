@@ -4,7 +4,7 @@
 #include "pose/observer.h"
 #include "style/stages/step_time.h"
 #include "style/stages/window.h"
-#include "style/style_delta.h"
+#include "pose/style_delta.h"
 
 namespace panache {
 

@@ -7,7 +7,7 @@
 #include "style/shape.h"
 #include "style/stages/root_motion.h"
 #include "style/stages/step_time.h"
-#include "style/style_delta.h"
+#include "pose/style_delta.h"
 
 namespace panache {
 

@@ -22,7 +22,7 @@ std::span<const float, kRootNumbers> InputWindow::root() const noexcept { return
 
 float InputWindow::forward_speed() const noexcept {
   float sum = 0;
-  for (int k = 0; k < kWindowPoses; ++k) sum += root(k)[1];
+  for (int k = 0; k < kWindowPoses; ++k) sum += root(k)[kVelocityForward];
   return sum / kWindowPoses;
 }
 

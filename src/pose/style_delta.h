@@ -26,4 +26,7 @@ struct StyleDelta {
 void pack(const StyleDelta& delta, std::span<float, StyleDelta::kSize> out) noexcept;
 StyleDelta unpack(std::span<const float, StyleDelta::kSize> numbers) noexcept;
 
+// Left for right: the same change of the mirrored body.
+StyleDelta mirrored(const StyleDelta& delta) noexcept;
+
 }  // namespace panache

@@ -1,4 +1,4 @@
-#include "style/style_delta.h"
+#include "pose/style_delta.h"
 
 namespace panache {
 
@@ -24,6 +24,18 @@ StyleDelta unpack(std::span<const float, StyleDelta::kSize> numbers) noexcept {
     *v = *number++;
   }
   return delta;
+}
+
+StyleDelta mirrored(const StyleDelta& delta) noexcept {
+  StyleDelta other = delta;
+  for (int j = 0; j < kHumanJoints; ++j) {
+    // Reflecting x keeps the turn about x and reverses the others.
+    const Vec3 r = delta.rotations[j];
+    other.rotations[kHumanMirror[j]] = {r.x, -r.y, -r.z};
+  }
+  other.velocity_left = -delta.velocity_left;
+  other.turn_rate = -delta.turn_rate;
+  return other;
 }
 
 }  // namespace panache

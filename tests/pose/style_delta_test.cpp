@@ -1,6 +1,10 @@
-#include "style/style_delta.h"
+#include "pose/style_delta.h"
+
+#include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "base/quat.h"
 
 namespace panache {
 namespace {
@@ -32,6 +36,23 @@ TEST(StyleDelta, the_numbers_stand_in_the_order_of_the_model_file) {
   EXPECT_EQ(delta.velocity_left, 64.5f);
   EXPECT_EQ(delta.velocity_forward, 65.5f);
   EXPECT_EQ(delta.turn_rate, 66.5f);
+}
+
+TEST(StyleDelta, mirrored_it_changes_the_mirrored_body) {
+  const auto mirror = [](Vec3 v) { return Vec3{-v.x, v.y, v.z}; };
+  std::array<float, StyleDelta::kSize> numbers;
+  for (size_t n = 0; n < numbers.size(); ++n) numbers[n] = std::sin(static_cast<float>(n));
+  const StyleDelta delta = unpack(numbers), other = mirrored(delta);
+  const Vec3 limb = {0.3f, -0.2f, 0.5f};
+  for (int j = 0; j < kHumanJoints; ++j) {
+    const Vec3 turned = rotate(exp_rotation(delta.rotations[j]), limb);
+    const Vec3 seen = rotate(exp_rotation(other.rotations[kHumanMirror[j]]), mirror(limb));
+    EXPECT_LT(length(seen - mirror(turned)), 1e-6f) << "joint " << j;  // Single precision.
+  }
+  EXPECT_EQ(other.hips_height, delta.hips_height);
+  EXPECT_EQ(other.velocity_left, -delta.velocity_left);
+  EXPECT_EQ(other.velocity_forward, delta.velocity_forward);
+  EXPECT_EQ(other.turn_rate, -delta.turn_rate);
 }
 
 TEST(StyleDelta, without_a_word_it_changes_nothing) {

@@ -1,0 +1,13 @@
+#pragma once
+// Left for right of a pose's numbers.
+
+#include <span>
+
+#include "pose/features.h"
+
+namespace panache {
+
+// In place. numbers[pose_numbers(layout)]
+void mirror_pose(PoseLayout layout, std::span<float> numbers) noexcept;
+
+}  // namespace panache

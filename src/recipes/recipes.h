@@ -1,0 +1,23 @@
+#pragma once
+// The recipes that there are.
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "recipes/recipe.h"
+
+namespace panache {
+
+// All, in the order of the table in recipes.cpp.
+std::span<const Recipe* const> recipes() noexcept;
+// The recipe of this name, or null.
+const Recipe* find_recipe(std::string_view name) noexcept;
+// The first of the table: what is trained where nobody names another.
+const Recipe& default_recipe() noexcept;
+
+// "panache or smith2019", for sentences: all recipes, or those on whose models styles are learnt.
+std::string recipe_names();
+std::string learning_recipe_names();
+
+}  // namespace panache

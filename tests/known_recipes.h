@@ -1,0 +1,11 @@
+#pragma once
+// The recipes that tests call by name.
+
+#include "recipes/recipes.h"
+
+namespace panache::test {
+
+inline const Recipe& kPanache = *find_recipe("panache");
+inline const Recipe& kSmith2019 = *find_recipe("smith2019");
+
+}  // namespace panache::test
