@@ -169,9 +169,11 @@ std::span<const float> Trunk::forward(std::span<const float> x,
 }
 
 TrunkTrio::TrunkTrio(std::array<Trunk, kTrunks> trunks) : rest_(std::move(trunks)) {
+  assert(std::all_of(rest_.begin(), rest_.end(), [this](const Trunk& trunk) {
+    return trunk.inputs() == rest_[0].inputs();
+  }));
   std::vector<DenseLayer> first;
   for (size_t t = 0; t < kTrunks; ++t) {
-    assert(rest_[t].inputs() == rest_[0].inputs());
     for (const DenseLayer& layer : rest_[t].plain_) {
       outputs_[t].push_back(static_cast<size_t>(layer.outputs));
     }
