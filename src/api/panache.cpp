@@ -10,6 +10,7 @@
 
 #include "learn/learn_style.h"
 #include "learn/style_file.h"
+#include "rig/calibration.h"
 #include "rig/rig.h"
 #include "style/crowd.h"
 #include "style/live_stylizer.h"
@@ -40,14 +41,14 @@ static_assert(sizeof(Quat) == 4 * sizeof(float) && sizeof(Vec3) == 3 * sizeof(fl
 
 constexpr int32_t kMaxJoints = 10'000, kMaxPoses = 10'000, kMaxFrames = 1'000'000;
 
-// Kept per thread; its room stays, so that a short sentence needs no memory.
-std::string& last_error() {
-  thread_local std::string sentence;
-  return sentence;
-}
+// Kept per thread: the sentence that was made last, and the one to show, which is that or a fixed
+// one that needs no memory.
+thread_local std::string made_error;
+thread_local const char* last_error = "";
 
 panache_status fail(panache_status status, const std::string& sentence) {
-  last_error() = sentence;
+  made_error = sentence;
+  last_error = made_error.c_str();
   return status;
 }
 
@@ -56,14 +57,9 @@ template <class Work>
 panache_status guarded(Work&& work) noexcept {
   try {
     return work();
-  } catch (const std::bad_alloc&) {
-    try {
-      return fail(PANACHE_NO_MEMORY, "there is not enough memory");
-    } catch (...) {
-      return PANACHE_NO_MEMORY;
-    }
-  } catch (...) {
-    return PANACHE_NO_MEMORY;  // Containers throw nothing else but for sizes beyond any memory.
+  } catch (...) {  // std::bad_alloc, or what containers throw for sizes beyond any memory.
+    last_error = "there is not enough memory";
+    return PANACHE_NO_MEMORY;
   }
 }
 
@@ -191,7 +187,7 @@ int32_t panache_version(void) {
   return 10000 * PANACHE_VERSION_MAJOR + 100 * PANACHE_VERSION_MINOR + PANACHE_VERSION_PATCH;
 }
 
-const char* panache_last_error(void) { return last_error().c_str(); }
+const char* panache_last_error(void) { return last_error; }
 
 panache_status panache_model_create(const void* bytes, size_t size, panache_model** out) {
   start(out);
@@ -234,6 +230,9 @@ panache_status panache_skeleton_create(const panache_joint* joints, int32_t join
     RigOptions how;
     if (told.metres_per_unit != 0) how.metres_per_unit = told.metres_per_unit;
     if (told.up_axis) how.up_axis = told.up_axis;
+    if (auto good = check_units(how.metres_per_unit, how.up_axis); !good) {
+      return fail(PANACHE_BAD_ARGUMENT, good.error().message);
+    }
     Result<Rig> rig = Rig::create(*clip, how);
     if (!rig) return fail(PANACHE_BAD_SKELETON, rig.error().message);
     *out = new panache_skeleton{*std::move(rig), std::move(clip->skeleton)};

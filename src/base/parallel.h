@@ -1,25 +1,41 @@
 #pragma once
 // The same work for many items, over all cores.
 
+#include <algorithm>
 #include <atomic>
+#include <exception>
 #include <functional>
 #include <thread>
 #include <vector>
 
 namespace panache {
 
-// Calls work(i) for each i in [0, count) from as many threads as there are cores (or `threads`).
-// Items are handed out in order; work must not throw.
+// Calls work(i) for each i in [0, count) from as many threads as there are cores (or `threads`; 1
+// is the caller's own alone). Items are handed out in order. Where threads cannot be started, those
+// that could do the work, the caller's own at least. If work(i) throws, no further item begins, and
+// the caller gets the first exception.
 inline void parallel_for(int count, const std::function<void(int)>& work, int threads = 0) {
   if (threads <= 0) threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   std::atomic<int> next = 0;
-  const auto run = [&] {
-    for (int i; (i = next.fetch_add(1)) < count;) work(i);
+  std::atomic_flag failed;
+  std::exception_ptr first;
+  const auto run = [&]() noexcept {
+    try {
+      for (int i; (i = next.fetch_add(1)) < count;) work(i);
+    } catch (...) {
+      next = count;
+      if (!failed.test_and_set()) first = std::current_exception();
+    }
   };
   std::vector<std::thread> others;
-  for (int t = 1; t < std::min(threads, count); ++t) others.emplace_back(run);
+  try {
+    for (int t = 1; t < std::min(threads, count); ++t) others.emplace_back(run);
+  } catch (...) {
+    // No further thread, or no memory to hold it.
+  }
   run();
   for (std::thread& thread : others) thread.join();
+  if (first) std::rethrow_exception(first);
 }
 
 }  // namespace panache

@@ -27,20 +27,6 @@ constexpr float kFloorFrames = 2;
 
 float component(Vec3 v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
 
-Result<void> believe(std::optional<float> metres_per_unit,
-                     const std::optional<std::string>& up_axis, Calibration& out) {
-  out.scale = metres_per_unit.value_or(0);
-  if (metres_per_unit && !(*metres_per_unit > 0 && std::isfinite(*metres_per_unit))) {
-    return Error{"expected metres per unit above 0, found " + std::to_string(*metres_per_unit)};
-  }
-  if (!up_axis) return {};
-  const std::optional<Quat> turn = turn_up(*up_axis);
-  if (!turn) return Error{"expected an up axis from +X to -Z, found '" + *up_axis + "'"};
-  out.up_axis = *up_axis;
-  out.y_up = *turn;
-  return {};
-}
-
 class Calibrator {
  public:
   Calibrator(const Clip& clip, const Mapping& mapping, Calibration& out)
@@ -263,11 +249,27 @@ class Calibrator {
 
 }  // namespace
 
+Result<void> check_units(std::optional<float> metres_per_unit,
+                         const std::optional<std::string>& up_axis) {
+  if (metres_per_unit && !(*metres_per_unit > 0 && std::isfinite(*metres_per_unit))) {
+    return Error{"expected metres per unit above 0, found " + std::to_string(*metres_per_unit)};
+  }
+  if (up_axis && !turn_up(*up_axis)) {
+    return Error{"expected an up axis from +X to -Z, found '" + *up_axis + "'"};
+  }
+  return {};
+}
+
 Result<Calibration> calibrate(const Clip& clip, const Mapping& mapping,
                               std::optional<float> metres_per_unit,
                               const std::optional<std::string>& up_axis) {
+  if (const auto done = check_units(metres_per_unit, up_axis); !done) return done.error();
   Calibration out;
-  if (const auto done = believe(metres_per_unit, up_axis, out); !done) return done.error();
+  out.scale = metres_per_unit.value_or(0);
+  if (up_axis) {
+    out.up_axis = *up_axis;
+    out.y_up = *turn_up(*up_axis);
+  }
   out.first_frame = find_first_frame(clip, out.notes);
   if (const auto done = Calibrator(clip, mapping, out).run(); !done) return done.error();
   return out;

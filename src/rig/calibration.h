@@ -35,8 +35,12 @@ struct Calibration {
   std::vector<std::string> notes;
 };
 
+// Fails where what is given is no unit or axis.
+Result<void> check_units(std::optional<float> metres_per_unit,
+                         const std::optional<std::string>& up_axis);
+
 // Looks at 2,000 frames of the clip at most. Unit and up axis are found unless they are given.
-// Fails where the legs have no length, and where what is given is no unit or axis.
+// Fails where the legs have no length, and where check_units does.
 Result<Calibration> calibrate(const Clip& clip, const Mapping& mapping,
                               std::optional<float> metres_per_unit = {},
                               const std::optional<std::string>& up_axis = {});

@@ -212,8 +212,13 @@ TEST_F(Api, what_is_wrong_is_said_in_a_sentence_and_nothing_is_created) {
   panache_skeleton_options told = {};
   told.up_axis = "up";
   EXPECT_EQ(panache_skeleton_create(joints.data(), STICK_JOINTS, &told, &skeleton),
-            PANACHE_BAD_SKELETON);
+            PANACHE_BAD_ARGUMENT);
   EXPECT_STREQ(panache_last_error(), "expected an up axis from +X to -Z, found 'up'");
+  told = {};
+  told.metres_per_unit = -1;
+  EXPECT_EQ(panache_skeleton_create(joints.data(), STICK_JOINTS, &told, &skeleton),
+            PANACHE_BAD_ARGUMENT);
+  EXPECT_STREQ(panache_last_error(), "expected metres per unit above 0, found -1.000000");
   told = {};
   told.pose_count = -1;
   EXPECT_EQ(panache_skeleton_create(joints.data(), STICK_JOINTS, &told, &skeleton),

@@ -1,34 +1,15 @@
 // No file can hurt us: whatever is done to a good file, the answer is a sentence or a clip that
 // keeps its promises.
 
-#include <cstdlib>
-#include <new>
-
 #include "clip/fk.h"
+#include "count_allocations.h"
 #include "fixtures.h"
-
-namespace {
-
-// Allocations of this thread that may still succeed; -1 for any number.
-thread_local long allocations_left = -1;
-thread_local long allocations_made = 0;
-
-}  // namespace
-
-// Counts, and fails when told to. The other forms of new call this one. Not inlined, or the
-// compiler sees free() meet new and warns.
-[[gnu::noinline]] void* operator new(size_t size) {
-  ++allocations_made;
-  if (allocations_left == 0) throw std::bad_alloc();
-  if (allocations_left > 0) --allocations_left;
-  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, size_t) noexcept { std::free(memory); }
 
 namespace panache {
 namespace {
+
+using test::allocations;
+using test::allocations_left;
 
 // Reads `text`; if it is accepted, the clip keeps its promises and the file comes back byte for
 // byte. Returns whether it was accepted.
@@ -119,7 +100,7 @@ TEST(BvhSafety, every_failed_allocation_comes_out_as_bad_alloc) {
         }
       } catch (const std::bad_alloc&) {
       }
-      allocations_left = -1;
+      allocations_left = LONG_MAX;
     }
     EXPECT_GT(allowed, 10);
   }
@@ -128,9 +109,9 @@ TEST(BvhSafety, every_failed_allocation_comes_out_as_bad_alloc) {
 TEST(BvhSafety, an_announced_flood_takes_no_memory) {
   const std::string text =
       replaced(read_fixture("plain.bvh"), "Frames: 3", "Frames: 1000000000000");
-  const long before = allocations_made;
+  const long before = allocations;
   EXPECT_FALSE(parse_bvh(text, "walk.bvh").ok());
-  EXPECT_LT(allocations_made - before, 100);
+  EXPECT_LT(allocations - before, 100);
 }
 
 TEST(BvhSafety, sampling_and_forward_kinematics_allocate_nothing) {
@@ -139,12 +120,12 @@ TEST(BvhSafety, sampling_and_forward_kinematics_allocate_nothing) {
   std::vector<Quat> rotations(clip.joints());
   std::vector<Vec3> translations(clip.joints());
   const Pose pose = {rotations, translations};
-  const long before = allocations_made;
+  const long before = allocations;
   for (int i = 0; i < 1000; ++i) {
     sample(clip, i * 0.002, pose);
     world_pose(clip.skeleton, pose, pose);
   }
-  EXPECT_EQ(allocations_made, before);
+  EXPECT_EQ(allocations, before);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "learn/make_aligned.h"
+#include "eval/make_aligned.h"
 #include "learn/samples.h"
 #include "pose/absolute_pose.h"
 

@@ -7,7 +7,7 @@
 
 #include "base/file.h"
 #include "clip/bvh.h"
-#include "learn/make_aligned.h"
+#include "eval/make_aligned.h"
 #include "make_manifest.h"
 #include "temporary_folder.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "learn/make_aligned.h"
+#include "learn/make_walk_take.h"
 #include "learn/samples.h"
 
 namespace panache {

@@ -2,26 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
 #include <limits>
-#include <new>
 
+#include "count_allocations.h"
 #include "rig/rig_checks.h"
-
-namespace {
-std::atomic<long> allocations = 0;
-}  // namespace
-
-// Kept out of line: inlined into library code, malloc and free would look mismatched to the
-// compiler.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size ? size : 1)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace panache {
 namespace {

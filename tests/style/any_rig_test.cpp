@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "clip/motion_file.h"
 #include "rig/put_on.h"
@@ -100,6 +101,17 @@ Difference difference(const std::vector<HumanPositions>& a, const std::vector<Hu
   return out;
 }
 
+// What docs/rigs.md promises. A rig may let go of a foot a frame before or after the canonical body
+// does, and the lock then turns a thigh and a shin by up to 6 degrees in that frame: 2 of 20
+// directions in one of 120 frames, 0.005 degrees of the mean. Four seconds of walking have four
+// such frames at most. All else is below half a degree in such frames, and rounding.
+constexpr double kMeanDeg = 0.02, kMostDeg = 6;
+// This one's arms hang on its neck and its legs on its spine. So it is read a little differently
+// even without a style, 0.3 to 0.5 degrees in the mean, and its arms turn with the neck's share of
+// one. The promise is 0.7, rounded.
+constexpr const char* kArmsOnNeck = "3ds Max Biped";
+constexpr double kArmsOnNeckMeanDeg = 0.75;
+
 void expect_same_style_on_all_rigs(const Clip& motion, const std::string& style, float strength) {
   const std::vector<HumanPositions> want = styled(motion, style, strength);
   for (const Maker& maker : makers()) {
@@ -110,8 +122,9 @@ void expect_same_style_on_all_rigs(const Clip& motion, const std::string& style,
                 style.c_str(), off.mean_deg, off.most_deg,
                 std::string(human_joint_name(off.joint)).c_str(), plain.mean_deg, plain.most_deg,
                 std::string(human_joint_name(plain.joint)).c_str());
-    EXPECT_LE(off.mean_deg, 2) << maker.name;
-    EXPECT_LE(off.most_deg, 8) << maker.name << " " << human_joint_name(off.joint);
+    EXPECT_LE(off.mean_deg, maker.name == std::string(kArmsOnNeck) ? kArmsOnNeckMeanDeg : kMeanDeg)
+        << maker.name;
+    EXPECT_LE(off.most_deg, kMostDeg) << maker.name << " " << human_joint_name(off.joint);
   }
 }
 
@@ -145,7 +158,7 @@ TEST(AnyRig, units_axes_and_facing_make_no_difference) {
         const Clip clip = put_on(maker, motion, turn, units, z_up).clip;
         const Difference off = difference(want, styled(clip, "old", 1), turn);
         worst = std::max(worst, off.most_deg);
-        EXPECT_LT(off.most_deg, 0.1) << units << (z_up ? " z up " : " y up ") << quarter;
+        EXPECT_LT(off.most_deg, 0.01) << units << (z_up ? " z up " : " y up ") << quarter;
       }
     }
   }
@@ -219,12 +232,12 @@ TEST(AnyRig, missing_joints_are_lived_with) {
   // Degrees of the mean that a body cannot keep without these: a head of its own to nod with, a
   // spine to bend.
   const std::vector<std::pair<std::vector<std::string>, double>> cases = {
-      {{"Toe"}, 0.1},
-      {{"Hand"}, 0.1},
-      {{"Shoulder"}, 0.5},
-      {{"Neck"}, 1},
-      {{"Head"}, 2},
-      {{"Spine1", "Spine2"}, 2},
+      {{"Toe"}, 0.02},
+      {{"Hand"}, 0.02},
+      {{"Shoulder"}, 0.3},
+      {{"Neck"}, 0.7},
+      {{"Head"}, 1.8},
+      {{"Spine1", "Spine2"}, 1.5},
       {{"Toe", "Neck", "Head", "Shoulder", "Spine", "Hand"}, 6}};
   for (const auto& [words, most] : cases) {
     const Clip clip = without(put_on(maker, motion).clip, words);

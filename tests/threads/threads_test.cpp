@@ -1,5 +1,7 @@
-// Two threads, two characters of one model and one skeleton: the thread sanitizer watches.
+// Two threads, two characters of one model and one skeleton, a style learnt in each, by further
+// threads: the thread sanitizer watches.
 
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -43,6 +45,33 @@ std::vector<stick_pose> animate(const panache_model* model, const panache_skelet
   return out;
 }
 
+// The bytes of the model with a style learnt from a walk and the same walk bent forward by `angle`.
+std::string learn(const std::string& model, const panache_skeleton* skeleton, float angle) {
+  constexpr int kWalkFrames = 180;
+  std::vector<float> neutral, bent, translations;
+  for (int f = 0; f < kWalkFrames; ++f) {
+    stick_pose pose;
+    stick_walk(f / 60.0, 0, &pose);
+    const panache_input_pose in = stick_input(&pose);
+    neutral.insert(neutral.end(), in.rotations, in.rotations + 4 * STICK_JOINTS);
+    translations.insert(translations.end(), in.translations, in.translations + 3 * STICK_JOINTS);
+    stick_bend(&pose, 1, angle);
+    bent.insert(bent.end(), in.rotations, in.rotations + 4 * STICK_JOINTS);
+  }
+  const panache_pair pair = {{skeleton, kWalkFrames, 1 / 60.0, neutral.data(), translations.data()},
+                             {skeleton, kWalkFrames, 1 / 60.0, bent.data(), translations.data()}};
+  panache_learnt* learnt = nullptr;
+  if (panache_learn(model.data(), model.size(), &pair, 1, "bent", 0, &learnt) != PANACHE_OK) {
+    std::fprintf(stderr, "%s\n", panache_last_error());
+    return "";
+  }
+  size_t size = 0;
+  const void* bytes = panache_learnt_model(learnt, &size);
+  std::string out(static_cast<const char*>(bytes), size);
+  panache_learnt_destroy(learnt);
+  return out;
+}
+
 bool same(const std::vector<stick_pose>& a, const std::vector<stick_pose>& b) {
   return std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
 }
@@ -60,14 +89,26 @@ int main(int argc, char** argv) {
     return std::fprintf(stderr, "%s\n", panache_last_error()), 1;
   }
   std::vector<stick_pose> first, second;
-  std::thread a([&] { first = animate(model, skeleton, 0); });
-  std::thread b([&] { second = animate(model, skeleton, 1); });
+  std::string learnt, learnt_too;
+  std::thread a([&] {
+    first = animate(model, skeleton, 0);
+    learnt = learn(bytes, skeleton, 0.4f);
+  });
+  std::thread b([&] {
+    second = animate(model, skeleton, 1);
+    learnt_too = learn(bytes, skeleton, 0.2f);
+  });
   a.join();
   b.join();
   const bool alone =
       same(first, animate(model, skeleton, 0)) && same(second, animate(model, skeleton, 1));
+  const bool learnt_alone = !learnt.empty() && learnt != learnt_too &&
+                            learnt == learn(bytes, skeleton, 0.4f) &&
+                            learnt_too == learn(bytes, skeleton, 0.2f);
   panache_skeleton_destroy(skeleton);
   panache_model_destroy(model);
   if (!alone) return std::fputs("beside each other they move otherwise than alone\n", stderr), 1;
+  if (!learnt_alone)
+    return std::fputs("beside each other they learn otherwise than alone\n", stderr), 1;
   return 0;
 }

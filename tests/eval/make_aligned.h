@@ -5,24 +5,10 @@
 #include <vector>
 
 #include "eval/aligned.h"
-#include "make_clip.h"
+#include "learn/make_walk_take.h"
 #include "make_model.h"
-#include "rig/rig.h"
 
 namespace panache::test {
-
-inline constexpr float kBend = 0.4f;  // Radians, forward at the spine.
-
-inline Take walk_take(const std::string& style, const std::string& content, int frames,
-                      float bend) {
-  Clip clip = walking_clip(frames);
-  for (int f = 0; f < frames; ++f) {
-    clip.pose(f).rotations[index(HumanJoint::spine)] = axis_angle(Vec3{1, 0, 0}, bend);
-  }
-  Take take = make_take(clip, *Rig::create(clip), PoseLayout::positions);
-  take.row = {style + content, style, content, "001", style == "neutral", true, 0};
-  return take;
-}
 
 // A neutral walk, and the same walk bent forward in the styles "old" and, half as much, "sad".
 inline AlignedTest bent_walks() {

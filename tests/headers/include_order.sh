@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# include_order.sh ROOT: fails where a file of src includes a folder that stands below its own in
+# the table of docs/design.md, or where files include each other in a circle; and where either,
+# planted into a copy, is not found.
+set -euo pipefail
+root=$1
+
+# "including included" for each include of ours, in the folder $1 of modules. Files as FOLDER/NAME.
+includes() {
+  (cd "$1" && grep -rHoE '^#include "[a-z_/.0-9]+' --include='*.h' --include='*.cpp' .) |
+    sed -E 's|^\./||; s|:#include "| |'
+}
+
+# The folders of src in the order of the table.
+folders=$(sed -nE 's/^\| `src\/([a-z]+)` .*/\1/p' "$root/docs/design.md")
+
+# Prints what is wrong with the modules in the folder $1, nothing where all is well.
+faults() {
+  includes "$1" | awk -v folders="$folders" '
+    BEGIN { count = split(folders, name, "\n"); for (i = 1; i <= count; ++i) place[name[i]] = i }
+    {
+      split($1, from, "/"); split($2, to, "/")
+      if (!place[from[1]]) print $1 ": docs/design.md does not name its folder"
+      if (place[to[1]] > place[from[1]]) print $1 " includes " $2 ", which stands below it"
+    }'
+  # tsort fails where there is a circle, and names the files of it.
+  includes "$1" | tsort 2>&1 >/dev/null | sed 's/^tsort: //; s/^-: input contains a/in a/' || true
+}
+
+found=$(faults "$root/src")
+if [[ -n $found ]]; then
+  echo "$found"
+  exit 1
+fi
+
+copy=$(mktemp -d)
+trap 'rm -rf "$copy"' EXIT
+# plant FILE INCLUDED WHAT: the same modules with one more include must be found at fault.
+plant() {
+  rm -rf "$copy/src"
+  cp -r "$root/src" "$copy/src"
+  echo "#include \"$2\"" >>"$copy/src/$1"
+  if [[ $(faults "$copy/src") != *"$3"* ]]; then
+    echo "$1 with an include of $2 was not found at fault"
+    exit 1
+  fi
+}
+plant rig/rig.h style/model.h 'rig/rig.h includes style/model.h, which stands below it'
+plant base/vec.h base/quat.h 'in a loop'
