@@ -5,14 +5,15 @@
 #include <cmath>
 #include <functional>
 #include <mutex>
-#include <thread>
 
 #include <dlfcn.h>
 
+#include "base/parallel.h"
 #include "base/progress.h"
 #include "learn/fit_style.h"
 #include "train/checkpoint.h"
 #include "train/export.h"
+#include "train/fingerprint.h"
 #include "train/gate.h"
 #include "train/train_predictor.h"
 
@@ -73,14 +74,6 @@ bool is_validation_take(const std::string& path) {
   return hash % 20 == 0;
 }
 
-// Training goes on only from a checkpoint of the same training.
-uint64_t fingerprint(const TrainOptions& options, const RecipeSettings& settings, size_t samples) {
-  return Random(options.seed * 2654435761u + static_cast<uint64_t>(settings.steps) * 40503u +
-                samples * 9176u + (settings.recipe == Recipe::panache))
-             .bits() >>
-         1;
-}
-
 // Networks that share their batches, trained one step after the other on one thread.
 struct Job {
   std::vector<NetworkTrainer*> networks;
@@ -121,20 +114,21 @@ class Training {
  public:
   // `validation`: samples in order of their style; `groups`: how many of them each style has.
   Training(const RecipeSettings& settings, const BatchMaker& batches, std::vector<int> validation,
-           std::vector<int64_t> groups, const TrainOptions& options)
+           std::vector<int64_t> groups, const TrainOptions& options, const Fingerprint& training)
       : settings_(settings),
         batches_(batches),
         validation_(std::move(validation)),
         validation_groups_(std::move(groups)),
         options_(options),
+        fingerprint_(training),
         progress_("training") {}
 
   void run(std::vector<Job> jobs, std::vector<LossPoint>& losses) {
     total_ = settings_.steps * static_cast<int64_t>(jobs.size());
     for (const Job& job : jobs) done_ += job.step();
-    std::vector<std::thread> threads;
-    for (Job& job : jobs) threads.emplace_back([this, &job, &losses] { run_job(job, losses); });
-    for (std::thread& thread : threads) thread.join();
+    const int count = static_cast<int>(jobs.size());
+    parallel_for(
+        count, [&](int j) { run_job(jobs[static_cast<size_t>(j)], losses); }, count);
     std::stable_sort(losses.begin(), losses.end(),
                      [](const LossPoint& a, const LossPoint& b) { return a.network < b.network; });
   }
@@ -160,8 +154,7 @@ class Training {
       if ((step + 1) % report == 0) report_losses(job, step + 1, report, sums, losses);
       if (!options_.checkpoint.empty() && (step + 1) % keep == 0) {
         for (const NetworkTrainer* network : job.networks) {
-          save_checkpoint(options_.checkpoint,
-                          fingerprint(options_, settings_, batches_.choice().size()), *network,
+          save_checkpoint(options_.checkpoint, fingerprint_, *network,
                           losses_for_checkpoint(losses, *network));
         }
       }
@@ -226,6 +219,7 @@ class Training {
   std::vector<int> validation_;
   std::vector<int64_t> validation_groups_;
   const TrainOptions& options_;
+  const Fingerprint fingerprint_;
   Progress progress_;
   std::mutex mutex_;
   std::string status_;
@@ -369,11 +363,11 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
   trained.samples = choice.size();
   trained.read_seconds = data.read_seconds;
   trained.pair_seconds = data.pair_seconds;
+  const Fingerprint training_print = fingerprint(data.takes, set, choice, styles, options);
   if (!options.checkpoint.empty()) {
     for (NetworkTrainer& network : networks) {
       Result<void> loaded =
-          load_checkpoint(options.checkpoint, fingerprint(options, settings, choice.size()),
-                          network, trained.losses);
+          load_checkpoint(options.checkpoint, training_print, network, trained.losses);
       if (!loaded) return loaded.error();
     }
   }
@@ -381,7 +375,8 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
   {
     std::vector<int64_t> groups;
     std::vector<int> validation = pick_validation(set, held, count, groups);
-    Training training(settings, batches, std::move(validation), std::move(groups), options);
+    Training training(settings, batches, std::move(validation), std::move(groups), options,
+                      training_print);
     // The pose network costs as much as the other two together: one thread each.
     training.run({{{&networks[0]}, 1}, {{&networks[1], &networks[2]}, 2}}, trained.losses);
   }
