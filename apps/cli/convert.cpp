@@ -21,7 +21,7 @@ namespace {
 struct ConvertVerb {
   BatchFlags batch;
   RigFlags rig;
-  std::string to;    // "glb" or "bvh", or empty.
+  std::string to;    // An extension without its point, or empty.
   std::string clip;  // The motion to take, or empty.
 };
 
@@ -33,9 +33,7 @@ void account(FileJob& file, const std::string& name, const Clip& clip) {
 
 // All of a file that keeps its format.
 Result<std::string> whole_file(const MotionFile& motion, const FileJob& file) {
-  const std::string ending = ending_of(file.input);
-  // A .gltf file takes the files that it points to into itself, and an FBX file is a GLB by now.
-  if (ending == ".gltf" || ending == ".fbx") {
+  if (must_be_encoded(ending_of(file.input))) {
     return in_container(motion.encode({}, EditMode::replace), file.input, file.output);
   }
   return read_file(file.input);
@@ -71,7 +69,7 @@ Result<std::string> convert_motion(const MotionFile& motion, FileJob& file, cons
   }
   // What the user says of joints is meant for a humanoid.
   if (!options.joints.empty()) return rig.error();
-  if (ending == ".glb" && !(options.metres_per_unit && options.up_axis)) {
+  if (find_format(formats(), ending)->in_metres && !(options.metres_per_unit && options.up_axis)) {
     file.notes.push_back(file.input +
                          ": is no humanoid that would tell its unit and up axis; taken as metres "
                          "and +Y where --scale and --up do not say otherwise");
@@ -92,8 +90,8 @@ Result<void> convert_file(FileJob& file, const ConvertVerb& verb, const RigOptio
 // The ending of files in an output folder. A single output file says its format itself.
 Result<std::string> wanted_ending(const ConvertVerb& verb) {
   if (verb.to.empty()) return std::string();
-  if (verb.to == "bvh" || verb.to == "glb") return "." + verb.to;
-  return Error{"--to: expected bvh or glb, found " + panache::quoted(verb.to)};
+  if (is_writable("." + verb.to)) return "." + verb.to;
+  return Error{"--to: expected " + list_writable_names() + ", found " + panache::quoted(verb.to)};
 }
 
 int convert(const ConvertVerb& verb) {
@@ -130,7 +128,8 @@ void add_convert(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("convert", "Bring motion files to another format");
   auto options = std::make_shared<ConvertVerb>();
   add_batch_options(*verb, options->batch);
-  verb->add_option("--to", options->to, "bvh or glb: what to make where OUT is a folder")
+  verb->add_option("--to", options->to,
+                   list_writable_names() + ": what to make where OUT is a folder")
       ->type_name("FORMAT");
   verb->add_option("--clip", options->clip, "The motion to take, of a file with several")
       ->type_name("NAME");

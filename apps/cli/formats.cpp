@@ -1,8 +1,9 @@
 #include "formats.h"
 
-#include "clip/bvh.h"
+#include <vector>
+
 #include "clip/gltf.h"
-#include "clip/rest_axes.h"
+#include "fbx.h"
 #include "glb.h"
 #include "input.h"
 #include "report.h"
@@ -11,28 +12,40 @@
 namespace panache::cli {
 namespace {
 
-// Whether the nodes of the file stand as in the first frame, so that nothing is known of a rest.
-bool rests_as_it_starts(const Clip& clip) {
-  const ConstPose pose = clip.pose(0);
-  for (size_t j = 0; j < clip.joints(); ++j) {
-    const Quat rest = clip.skeleton.joints[j].rest;
-    if (length((conjugate(rest) * pose.rotations[j]).xyz()) > 1e-5f) return false;
-  }
-  return true;
+Result<std::unique_ptr<MotionFile>> read_fbx(const std::string& path) {
+  Result<std::string> glb = fbx_to_glb(path);
+  if (!glb) return glb.error();
+  return parse_gltf(*std::move(glb), path);
 }
 
-// Axes stay where the rest is not known.
-std::string format_as_bvh(const Clip& clip) {
-  Clip out = rests_as_it_starts(clip) ? clip : in_rest_axes(clip);
-  add_end_sites(out.skeleton);
-  return format_bvh(out);
+constexpr MotionFormat kFbx = {
+    .extension = ".fbx", .read = read_fbx, .encoded_as = ".glb", .fits_into = ".glb"};
+
+// The extensions of the writable formats, the first `skipped` letters left out.
+std::string list_without(size_t skipped) {
+  std::string list;
+  for (const MotionFormat& format : formats()) {
+    if (!format.write) continue;
+    list += (list.empty() ? "" : " or ") + std::string(format.extension.substr(skipped));
+  }
+  return list;
 }
 
 }  // namespace
 
+std::span<const MotionFormat> formats() {
+  static const std::vector<MotionFormat> all = [] {
+    std::vector<MotionFormat> list(motion_formats().begin(), motion_formats().end());
+    list.push_back(kFbx);
+    return list;
+  }();
+  return all;
+}
+
 bool keeps_format(const std::string& input, const std::string& output) {
-  return input == output ||
-         (output == ".glb" && (input == ".vrm" || input == ".fbx" || input == ".gltf"));
+  if (input == output) return true;
+  const MotionFormat* format = find_format(formats(), input);
+  return format && !format->fits_into.empty() && format->fits_into == output;
 }
 
 Result<std::string> in_container(std::string bytes, const std::string& input,
@@ -41,14 +54,28 @@ Result<std::string> in_container(std::string bytes, const std::string& input,
   return gltf_to_glb(bytes, input);
 }
 
+bool must_be_encoded(const std::string& ending) {
+  const MotionFormat* format = find_format(formats(), ending);
+  return format && (!format->in_one_file || format->encoded_as != format->extension);
+}
+
+std::string list_writable() { return list_without(0); }
+std::string list_writable_names() { return list_without(1); }
+
+bool is_writable(const std::string& ending) {
+  const MotionFormat* format = find_format(formats(), ending);
+  return format && format->write;
+}
+
 Result<void> check_format(const std::string& input, const std::string& output) {
   const std::string from = ending_of(input), to = ending_of(output);
-  if (!is_motion_ending(from)) return {};  // Opening it says what is wrong.
-  const bool is_own = to == from && from != ".fbx";
-  if (is_own || to == ".bvh" || to == ".glb") return {};
-  const bool has_own = from == ".gltf" || from == ".vrm";
-  return Error{output + ": expected a name that ends in " + (has_own ? from + ", " : "") +
-               ".bvh or .glb, or a folder (with a '/' at its end)"};
+  const MotionFormat* format = find_format(formats(), from);
+  if (!format || is_writable(to)) return {};  // Opening the input says what is wrong.
+  const bool has_own = format->encoded_as == format->extension;
+  if (has_own && to == from) return {};
+  return Error{output + ": expected a name that ends in " +
+               (has_own && !format->write ? from + ", " : "") + list_writable() +
+               ", or a folder (with a '/' at its end)"};
 }
 
 Result<void> check_fits(const MotionFile& file, std::span<const int> clips,
@@ -67,8 +94,7 @@ Placement placement_of(const RigOptions& options) {
 
 std::string format_clip(const Clip& clip, const std::string& name, const Placement& placement,
                         const std::string& ending) {
-  if (ending == ".bvh") return format_as_bvh(clip);
-  return format_glb(clip, name, static_cast<double>(placement.metres_per_unit), placement.y_up);
+  return find_format(formats(), ending)->write(clip, name, placement);
 }
 
 }  // namespace panache::cli

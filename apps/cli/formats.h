@@ -1,15 +1,17 @@
 #pragma once
-// Which formats are written, and motions brought from one to another.
+// The formats that the program reads and writes, and motions brought from one to another.
 
 #include <span>
 #include <string>
 
-#include "base/quat.h"
 #include "base/result.h"
-#include "clip/motion_file.h"
+#include "clip/motion_format.h"
 #include "rig/rig.h"
 
 namespace panache::cli {
+
+// Those of the library, and FBX.
+std::span<const MotionFormat> formats();
 
 // Whether a file with the ending `input` keeps its format where it is written with the ending
 // `output`, and with it all that is in it beside motion. Those of glTF count as one: an FBX file is
@@ -18,6 +20,15 @@ bool keeps_format(const std::string& input, const std::string& output);
 // What a file gave that keeps its format, in the container that the output's ending asks for.
 Result<std::string> in_container(std::string bytes, const std::string& input,
                                  const std::string& output);
+// Whether the bytes of a file with this ending are not all of it, or none that are handed on:
+// MotionFile::encode gives those.
+bool must_be_encoded(const std::string& ending);
+
+// The formats that any motion can be written in: ".bvh or .glb", "bvh or glb".
+std::string list_writable();
+std::string list_writable_names();
+// Whether a motion can be written with this ending.
+bool is_writable(const std::string& ending);
 
 // Refuses an output whose ending is none that its input can be written with.
 Result<void> check_format(const std::string& input, const std::string& output);
@@ -26,17 +37,11 @@ Result<void> check_format(const std::string& input, const std::string& output);
 Result<void> check_fits(const MotionFile& file, std::span<const int> clips,
                         const std::string& input, const std::string& output);
 
-// How a clip stands in a world of metres with +Y up.
-struct Placement {
-  float metres_per_unit = 1;
-  Quat y_up;
-};
 Placement placement_of(const Rig& rig);
 // Of a skeleton that is no humanoid; what is not given is metres and +Y.
 Placement placement_of(const RigOptions& options);
 
-// A new file of this motion alone: ".bvh", whose rest pose is the skeleton's and whose units and
-// axes are the clip's, or ".glb", in metres with +Y up.
+// A new file of this motion alone, with an ending that is_writable().
 std::string format_clip(const Clip& clip, const std::string& name, const Placement& placement,
                         const std::string& ending);
 

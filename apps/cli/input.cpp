@@ -1,49 +1,18 @@
 #include "input.h"
 
-#include <algorithm>
-#include <array>
 #include <filesystem>
 
-#include "clip/gltf.h"
 #include "clip/text_cursor.h"
-#include "fbx.h"
+#include "formats.h"
 
 namespace panache::cli {
-namespace {
 
-constexpr std::array kMotionEndings = {".bvh", ".glb", ".gltf", ".vrm", ".fbx"};
+bool is_motion_ending(const std::string& ending) { return find_format(formats(), ending); }
 
-}  // namespace
-
-std::string ending_of(const std::string& path) {
-  std::string text = std::filesystem::path(path).extension().string();
-  for (char& c : text) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return text;
-}
-
-bool is_motion_ending(const std::string& ending) {
-  return std::find(kMotionEndings.begin(), kMotionEndings.end(), ending) != kMotionEndings.end();
-}
-
-std::string motion_endings() {
-  std::string list;
-  for (const char* ending : kMotionEndings)
-    list += (list.empty() ? "" : ", ") + std::string(ending);
-  return list;
-}
+std::string motion_endings() { return list_extensions(formats()); }
 
 Result<std::unique_ptr<MotionFile>> open_motion(const std::string& path) {
-  const std::string ending = ending_of(path);
-  if (!is_motion_ending(ending)) {
-    return Error{path + ": expected a motion file (" + motion_endings() + "), found " +
-                 (ending.empty() ? "no ending" : "the ending " + panache::quoted(ending))};
-  }
-  if (ending != ".fbx") return read_motion(path);
-  Result<std::string> glb = fbx_to_glb(path);
-  if (!glb) return glb.error();
-  return parse_gltf(*std::move(glb), path);
+  return read_motion(path, formats());
 }
 
 std::string list_clips(const MotionFile& file) {

@@ -6,13 +6,10 @@
 #include <vector>
 
 #include "base/result.h"
-#include "clip/motion_file.h"
+#include "clip/motion_format.h"
 #include "rig/rig.h"
 
 namespace panache::cli {
-
-// The ending of a file's name in lower case, with its point: ".bvh"; empty where it has none.
-std::string ending_of(const std::string& path);
 
 // Whether the program reads files with this ending.
 bool is_motion_ending(const std::string& ending);

@@ -1,6 +1,7 @@
 // panache: the program. Each verb is a file of its own.
 
 #include <cstdio>
+#include <exception>
 #include <new>
 #include <string>
 #include <string_view>
@@ -45,20 +46,9 @@ int run(int argc, char** argv) {
   app.footer(
       "'panache VERB --help' tells more, with an example.\n\nExample:\n"
       "  panache stylize walk.bvh --style old=1 -o old.bvh");
-  add_stylize(app, exit_code);
-  add_convert(app, exit_code);
-  add_learn(app, exit_code);
-  add_styles(app, exit_code);
-  add_info(app, exit_code);
-  add_walker(app, exit_code);
-  add_strip(app, exit_code);
-  add_halve(app, exit_code);
-  add_view(app, exit_code);
-  add_live(app, exit_code);
-  add_send(app, exit_code);
-  add_train(app, exit_code);
-  add_eval(app, exit_code);
-  add_bench(app, exit_code);
+#define PANACHE_ADD_VERB(name) add_##name(app, exit_code);
+  PANACHE_VERBS(PANACHE_ADD_VERB)
+#undef PANACHE_ADD_VERB
   if (argc < 2) {
     std::fputs(app.help().c_str(), stderr);
     return kBadUsage;
@@ -80,10 +70,15 @@ int run(int argc, char** argv) {
 }  // namespace panache::cli
 
 int main(int argc, char** argv) {
+  using namespace panache::cli;
   try {
-    return panache::cli::run(argc, argv);
+    return run(argc, argv);
   } catch (const std::bad_alloc&) {
-    panache::cli::say("there is not enough memory");
-    return panache::cli::kBadInput;
+    say("there is not enough memory");
+  } catch (const std::exception& error) {
+    // Of libraries below. Those of libtorch go on with where in its sources they come from.
+    const std::string_view text = error.what();
+    say("cannot go on: " + std::string(text.substr(0, text.find('\n'))));
   }
+  return kBadInput;
 }

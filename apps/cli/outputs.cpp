@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <map>
 
-#include "input.h"
+#include "formats.h"
 #include "report.h"
 
 namespace panache::cli {
@@ -18,7 +18,9 @@ constexpr size_t kNamed = 3;
 fs::path with_ending(fs::path name, const std::string& ending) {
   const std::string own = ending_of(name.string());
   if (!ending.empty() && ending != own) return name.replace_extension(ending);
-  return ending.empty() && own == ".fbx" ? name.replace_extension(".glb") : name;
+  const MotionFormat* format = find_format(formats(), own);
+  const bool has_another = ending.empty() && format && format->encoded_as != own;
+  return has_another ? name.replace_extension(format->encoded_as) : name;
 }
 
 }  // namespace

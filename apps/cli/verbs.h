@@ -1,26 +1,33 @@
 #pragma once
-// The verbs of the program. Each add_* makes its subcommand; running it sets `exit_code`.
+// The verbs of the program. A further one is a source file with its add_ function, and a line here.
 
 #include <CLI/CLI.hpp>
 
+// In the order of --help.
+// clang-format off
+#define PANACHE_VERBS(verb) \
+  verb(stylize) \
+  verb(convert) \
+  verb(learn) \
+  verb(styles) \
+  verb(info) \
+  verb(walker) \
+  verb(strip) \
+  verb(halve) \
+  verb(view) \
+  verb(live) \
+  verb(send) \
+  verb(train) \
+  verb(eval) \
+  verb(bench)
+// clang-format on
+
 namespace panache::cli {
 
-void add_stylize(CLI::App& app, int& exit_code);
-void add_convert(CLI::App& app, int& exit_code);
-void add_learn(CLI::App& app, int& exit_code);
-void add_styles(CLI::App& app, int& exit_code);
-void add_info(CLI::App& app, int& exit_code);
-void add_walker(CLI::App& app, int& exit_code);
-void add_strip(CLI::App& app, int& exit_code);
-void add_halve(CLI::App& app, int& exit_code);
-void add_bench(CLI::App& app, int& exit_code);
-// In a build without cpp-httplib this one exists and says so.
-void add_view(CLI::App& app, int& exit_code);
-// In a build without liblo these two exist and say so.
-void add_live(CLI::App& app, int& exit_code);
-void add_send(CLI::App& app, int& exit_code);
-// In a build without training these two exist and say so.
-void add_train(CLI::App& app, int& exit_code);
-void add_eval(CLI::App& app, int& exit_code);
+// add_stylize() and so on: each makes its subcommand; running that sets `exit_code`. In a build
+// without the library that a verb needs, the verb exists and says so.
+#define PANACHE_DECLARE_VERB(name) void add_##name(CLI::App& app, int& exit_code);
+PANACHE_VERBS(PANACHE_DECLARE_VERB)
+#undef PANACHE_DECLARE_VERB
 
 }  // namespace panache::cli

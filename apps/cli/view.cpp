@@ -9,6 +9,7 @@
 #include <httplib.h>
 
 #include "base/file.h"
+#include "formats.h"
 #include "input.h"
 #include "report.h"
 #include "verbs.h"
@@ -43,8 +44,11 @@ Result<Served> read_served(const std::string& path) {
   Result<std::unique_ptr<MotionFile>> motion = open_motion(path);
   if (!motion) return motion.error();
   const std::string name = fs::path(path).filename().string(), ending = ending_of(path);
-  if (ending == ".fbx") return Served{name + ".glb", (*motion)->encode({}, EditMode::replace)};
-  if (ending == ".gltf") return Served{name, (*motion)->encode({}, EditMode::replace)};
+  if (must_be_encoded(ending)) {
+    const std::string_view encoded_as = find_format(formats(), ending)->encoded_as;
+    return Served{encoded_as == ending ? name : name + std::string(encoded_as),
+                  (*motion)->encode({}, EditMode::replace)};
+  }
   Result<std::string> bytes = read_file(path);
   if (!bytes) return bytes.error();
   return Served{name, *std::move(bytes)};

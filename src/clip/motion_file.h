@@ -48,8 +48,8 @@ class MotionFile {
   }
 };
 
-// Reads the motion file at `path`; the ending decides the format (.bvh, .glb,
-// .gltf, .vrm). A .gltf may have its data in files beside and below it.
+// Reads the motion file at `path`, whose extension decides which of motion_formats() it has
+// (clip/motion_format.h). A .gltf may have its data in files beside and below it.
 Result<std::unique_ptr<MotionFile>> read_motion(const std::string& path);
 
 }  // namespace panache

@@ -1,6 +1,7 @@
 #include "train/checkpoint.h"
 
 #include <filesystem>
+#include <utility>
 
 namespace panache {
 namespace {
@@ -9,10 +10,25 @@ std::string file_of(const std::string& path, const std::string& network) {
   return path + "." + network + ".checkpoint";
 }
 
+torch::Tensor as_tensor(const Fingerprint& training) {
+  return torch::tensor({static_cast<int64_t>(training.data), static_cast<int64_t>(training.styles),
+                        static_cast<int64_t>(training.settings)});
+}
+
+// What of another training differs from this one, "" if nothing does. Other styles make other data
+// and settings may do so, so the first of these that differs is the cause.
+std::string difference(const torch::Tensor& saved, const torch::Tensor& now) {
+  constexpr std::pair<int, const char*> kParts[] = {{2, "settings"}, {1, "styles"}, {0, "data"}};
+  for (const auto& [place, name] : kParts) {
+    if (saved[place].item<int64_t>() != now[place].item<int64_t>()) return name;
+  }
+  return "";
+}
+
 }  // namespace
 
-void save_checkpoint(const std::string& path, uint64_t fingerprint, const NetworkTrainer& network,
-                     const std::vector<LossPoint>& losses) {
+void save_checkpoint(const std::string& path, const Fingerprint& training,
+                     const NetworkTrainer& network, const std::vector<LossPoint>& losses) {
   std::vector<torch::Tensor> saved = network.save();
   torch::Tensor table = torch::zeros({static_cast<int64_t>(losses.size()), 3}, torch::kFloat64);
   auto rows = table.accessor<double, 2>();
@@ -22,27 +38,30 @@ void save_checkpoint(const std::string& path, uint64_t fingerprint, const Networ
     rows[i][2] = losses[i].validation;
   }
   saved.push_back(table);
-  saved.push_back(torch::tensor(static_cast<int64_t>(fingerprint)));
+  saved.push_back(as_tensor(training));
   const std::string file = file_of(path, network.shape().name);
   torch::save(saved, file + ".part");
   std::filesystem::rename(file + ".part", file);
 }
 
-Result<void> load_checkpoint(const std::string& path, uint64_t fingerprint, NetworkTrainer& network,
-                             std::vector<LossPoint>& losses) {
+Result<void> load_checkpoint(const std::string& path, const Fingerprint& training,
+                             NetworkTrainer& network, std::vector<LossPoint>& losses) {
   const std::string file = file_of(path, network.shape().name);
   if (!std::filesystem::exists(file)) return {};
+  const Error damaged{file + ": is damaged; delete it to train from the start"};
   std::vector<torch::Tensor> saved;
   try {
     torch::load(saved, file);
   } catch (const std::exception&) {
-    return Error{file + ": is damaged; delete it to train from the start"};
+    return damaged;
   }
-  if (saved.size() != 6 || saved[5].item<int64_t>() != static_cast<int64_t>(fingerprint) ||
-      !network.restore({saved.begin(), saved.begin() + 4})) {
-    return Error{file +
-                 ": was begun with other data or settings; delete it to train from the start"};
+  const torch::Tensor now = as_tensor(training);
+  if (saved.size() != 6 || !saved[5].sizes().equals(now.sizes())) return damaged;
+  if (const std::string other = difference(saved[5], now); !other.empty()) {
+    return Error{file + ": was begun with other " + other +
+                 "; delete it to train from the start, or train with the " + other + " as before"};
   }
+  if (!network.restore({saved.begin(), saved.begin() + 4})) return damaged;
   const auto rows = saved[4].accessor<double, 2>();
   for (int64_t i = 0; i < rows.size(0); ++i) {
     losses.push_back({network.shape().name, static_cast<int64_t>(rows[i][0]),

@@ -5,20 +5,20 @@
 #include <vector>
 
 #include "base/result.h"
+#include "train/fingerprint.h"
 #include "train/network.h"
 #include "train/trainer.h"
 
 namespace panache {
 
-// Saves a network beside `path` (".pose.checkpoint" and so on), whole or not at all. `fingerprint`
-// tells one training from another.
-void save_checkpoint(const std::string& path, uint64_t fingerprint, const NetworkTrainer& network,
-                     const std::vector<LossPoint>& losses);
+// Saves a network beside `path` (".pose.checkpoint" and so on), whole or not at all.
+void save_checkpoint(const std::string& path, const Fingerprint& training,
+                     const NetworkTrainer& network, const std::vector<LossPoint>& losses);
 
-// Restores a network and its losses where a checkpoint is there; fails where it is of another
-// training or damaged.
-Result<void> load_checkpoint(const std::string& path, uint64_t fingerprint, NetworkTrainer& network,
-                             std::vector<LossPoint>& losses);
+// Restores a network and its losses where a checkpoint is there; fails where it is damaged, or of
+// other data, styles or settings.
+Result<void> load_checkpoint(const std::string& path, const Fingerprint& training,
+                             NetworkTrainer& network, std::vector<LossPoint>& losses);
 
 void remove_checkpoints(const std::string& path);
 

@@ -5,14 +5,15 @@
 #include <cmath>
 #include <functional>
 #include <mutex>
-#include <thread>
 
 #include <dlfcn.h>
 
+#include "base/parallel.h"
 #include "base/progress.h"
 #include "learn/fit_style.h"
 #include "train/checkpoint.h"
 #include "train/export.h"
+#include "train/fingerprint.h"
 #include "train/gate.h"
 #include "train/train_predictor.h"
 
@@ -34,25 +35,14 @@ void keep_libraries_single_threaded() {
   }
 }
 
-uint32_t fnv1a(std::string_view text) {
-  uint32_t hash = 2166136261u;
-  for (const char c : text) hash = (hash ^ static_cast<uint8_t>(c)) * 16777619u;
-  return hash;
-}
-
 // A twentieth of the styled takes is kept for validation. Whole takes: neighbouring frames are
 // nearly copies of each other.
 bool is_validation_take(const std::string& path) {
-  return fnv1a(path.substr(path.find_last_of('/') + 1)) % 20 == 0;
-}
-
-// Training goes on only from a checkpoint of the same training.
-uint64_t fingerprint(const TrainOptions& options, size_t samples) {
-  return Random(options.seed * 2654435761u +
-                static_cast<uint64_t>(options.settings.steps) * 40503u + samples * 9176u +
-                fnv1a(options.recipe->name))
-             .bits() >>
-         1;
+  uint32_t hash = 2166136261u;  // FNV-1a of the file's name.
+  for (const char c : path.substr(path.find_last_of('/') + 1)) {
+    hash = (hash ^ static_cast<uint8_t>(c)) * 16777619u;
+  }
+  return hash % 20 == 0;
 }
 
 // Networks that share their batches, trained one step after the other on one thread.
@@ -95,20 +85,21 @@ class Training {
  public:
   // `validation`: samples in order of their style; `groups`: how many of them each style has.
   Training(const BatchMaker& batches, std::vector<int> validation, std::vector<int64_t> groups,
-           const TrainOptions& options)
+           const TrainOptions& options, const Fingerprint& training)
       : settings_(options.settings),
         batches_(batches),
         validation_(std::move(validation)),
         validation_groups_(std::move(groups)),
         options_(options),
+        fingerprint_(training),
         progress_("training") {}
 
   void run(std::vector<Job> jobs, std::vector<LossPoint>& losses) {
     total_ = settings_.steps * static_cast<int64_t>(jobs.size());
     for (const Job& job : jobs) done_ += job.step();
-    std::vector<std::thread> threads;
-    for (Job& job : jobs) threads.emplace_back([this, &job, &losses] { run_job(job, losses); });
-    for (std::thread& thread : threads) thread.join();
+    const int count = static_cast<int>(jobs.size());
+    parallel_for(
+        count, [&](int j) { run_job(jobs[static_cast<size_t>(j)], losses); }, count);
     std::stable_sort(losses.begin(), losses.end(),
                      [](const LossPoint& a, const LossPoint& b) { return a.network < b.network; });
   }
@@ -134,8 +125,8 @@ class Training {
       if ((step + 1) % report == 0) report_losses(job, step + 1, report, sums, losses);
       if (!options_.checkpoint.empty() && (step + 1) % keep == 0) {
         for (const NetworkTrainer* network : job.networks) {
-          save_checkpoint(options_.checkpoint, fingerprint(options_, batches_.choice().size()),
-                          *network, losses_for_checkpoint(losses, *network));
+          save_checkpoint(options_.checkpoint, fingerprint_, *network,
+                          losses_for_checkpoint(losses, *network));
         }
       }
     }
@@ -199,6 +190,7 @@ class Training {
   std::vector<int> validation_;
   std::vector<int64_t> validation_groups_;
   const TrainOptions& options_;
+  const Fingerprint fingerprint_;
   Progress progress_;
   std::mutex mutex_;
   std::string status_;
@@ -308,10 +300,11 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
   trained.samples = choice.size();
   trained.read_seconds = data.read_seconds;
   trained.pair_seconds = data.pair_seconds;
+  const Fingerprint training_print = fingerprint(data.takes, set, choice, styles, options);
   if (!options.checkpoint.empty()) {
     for (NetworkTrainer& network : networks) {
-      Result<void> loaded = load_checkpoint(options.checkpoint, fingerprint(options, choice.size()),
-                                            network, trained.losses);
+      Result<void> loaded =
+          load_checkpoint(options.checkpoint, training_print, network, trained.losses);
       if (!loaded) return loaded.error();
     }
   }
@@ -319,7 +312,7 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
   {
     std::vector<int64_t> groups;
     std::vector<int> validation = pick_validation(set, held, count, groups);
-    Training training(batches, std::move(validation), std::move(groups), options);
+    Training training(batches, std::move(validation), std::move(groups), options, training_print);
     // The pose network costs as much as the other two together: one thread each.
     training.run({{{&networks[0]}, 1}, {{&networks[1], &networks[2]}, 2}}, trained.losses);
   }

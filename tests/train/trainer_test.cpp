@@ -80,16 +80,59 @@ TEST_F(TrainerTest, interrupted_training_goes_on_as_if_it_had_not_been) {
   EXPECT_EQ(format_safetensors(uninterrupted->model), format_safetensors(half->model));
   EXPECT_EQ(half->losses.size(), uninterrupted->losses.size());
 
-  TrainOptions stranger = with_checkpoints;
-  stranger.seed = 9;
-  const auto refused = train(rows_, styles_, stranger);
-  ASSERT_FALSE(refused.ok());
-  EXPECT_EQ(refused.error().message,
-            folder_ +
-                "model.safetensors.pose.checkpoint: was begun with other data or settings; "
-                "delete it to train from the start");
   remove_checkpoints(with_checkpoints.checkpoint);
   EXPECT_FALSE(std::filesystem::exists(with_checkpoints.checkpoint + ".pose.checkpoint"));
+}
+
+TEST_F(TrainerTest, training_does_not_go_on_from_a_checkpoint_of_another) {
+  TrainOptions begun = options(Recipe::panache, 5);
+  begun.checkpoint = folder_ + "model.safetensors";
+  ASSERT_TRUE(train(rows_, styles_, begun).ok());
+  const auto refusal = [&](const std::vector<StyleName>& styles, const TrainOptions& options) {
+    const auto trained = train(rows_, styles, options);
+    return trained.ok() ? "" : trained.error().message;
+  };
+  const auto expected = [&](const std::string& what) {
+    return begun.checkpoint + ".pose.checkpoint: was begun with other " + what +
+           "; delete it to train from the start, or train with the " + what + " as before";
+  };
+  EXPECT_EQ(refusal(styles_, begun), "");
+
+  std::vector<TrainOptions> others(6, begun);
+  others[0].seed = 9;
+  others[1].settings.steps = 6;
+  others[2].settings.batch.size = 128;
+  others[3].settings.batch.disturbance.jitter = 0;
+  others[4].settings.optimizer.learning_rate = 0.001f;
+  others[5].settings.smoothness = 0;
+  for (size_t i = 0; i < others.size(); ++i) {
+    EXPECT_EQ(refusal(styles_, others[i]), expected("settings")) << i;
+  }
+
+  std::vector<StyleName> renamed = styles_;
+  renamed[0].name = "aged";
+  rows_[1].style = "aged";
+  EXPECT_EQ(refusal(renamed, begun), expected("styles"));
+  rows_[1].style = "old";
+
+  // As many frames and samples as before, and in one of them an arm is somewhere else.
+  Clip neutral = test::walking_clip(150);
+  neutral.pose(75).rotations[index(HumanJoint::left_upper_arm)] = axis_angle(Vec3{1, 0, 0}, 0.3f);
+  ASSERT_TRUE(write_file(folder_ + "neutral.bvh", format_bvh(neutral), true).ok());
+  EXPECT_EQ(refusal(styles_, begun), expected("data"));
+}
+
+TEST_F(TrainerTest, a_checkpoint_that_is_none_is_damaged) {
+  TrainOptions begun = options(Recipe::panache, 5);
+  begun.checkpoint = folder_ + "model.safetensors";
+  const std::string file = begun.checkpoint + ".pose.checkpoint";
+  for (const bool tensors : {false, true}) {
+    ASSERT_TRUE(write_file(file, "no checkpoint", true).ok());
+    if (tensors) torch::save(std::vector<torch::Tensor>(6, torch::zeros({2})), file);
+    const auto trained = train(rows_, styles_, begun);
+    ASSERT_FALSE(trained.ok());
+    EXPECT_EQ(trained.error().message, file + ": is damaged; delete it to train from the start");
+  }
 }
 
 TEST_F(TrainerTest, what_cannot_be_learnt_from_is_said) {

@@ -1,0 +1,94 @@
+#include "clip/motion_format.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "base/file.h"
+#include "clip/bvh.h"
+#include "clip/gltf.h"
+#include "clip/rest_axes.h"
+#include "clip/text_cursor.h"
+
+namespace panache {
+namespace {
+
+// Whether the nodes of the file stand as in the first frame, so that nothing is known of a rest.
+bool rests_as_it_starts(const Clip& clip) {
+  const ConstPose pose = clip.pose(0);
+  for (size_t j = 0; j < clip.joints(); ++j) {
+    const Quat rest = clip.skeleton.joints[j].rest;
+    if (length((conjugate(rest) * pose.rotations[j]).xyz()) > 1e-5f) return false;
+  }
+  return true;
+}
+
+// The rest pose is the skeleton's, units and axes are the clip's. Axes stay where the rest is not
+// known.
+std::string write_bvh(const Clip& clip, const std::string&, const Placement&) {
+  Clip out = rests_as_it_starts(clip) ? clip : in_rest_axes(clip);
+  add_end_sites(out.skeleton);
+  return format_bvh(out);
+}
+
+std::string write_glb(const Clip& clip, const std::string& name, const Placement& placement) {
+  return format_glb(clip, name, static_cast<double>(placement.metres_per_unit), placement.y_up);
+}
+
+constexpr MotionFormat kFormats[] = {
+    {.extension = ".bvh", .parse = parse_bvh, .write = write_bvh, .encoded_as = ".bvh"},
+    {.extension = ".glb",
+     .parse = parse_gltf,
+     .write = write_glb,
+     .in_metres = true,
+     .encoded_as = ".glb"},
+    {.extension = ".gltf",
+     .parse = parse_gltf,
+     .encoded_as = ".gltf",
+     .fits_into = ".glb",
+     .in_one_file = false},
+    {.extension = ".vrm", .parse = parse_gltf, .encoded_as = ".vrm", .fits_into = ".glb"},
+};
+
+}  // namespace
+
+std::span<const MotionFormat> motion_formats() { return kFormats; }
+
+std::string ending_of(const std::string& path) {
+  std::string text = std::filesystem::path(path).extension().string();
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return text;
+}
+
+const MotionFormat* find_format(std::span<const MotionFormat> formats, std::string_view extension) {
+  const auto found = std::find_if(formats.begin(), formats.end(), [&](const MotionFormat& format) {
+    return format.extension == extension;
+  });
+  return found == formats.end() ? nullptr : &*found;
+}
+
+std::string list_extensions(std::span<const MotionFormat> formats) {
+  std::string list;
+  for (const MotionFormat& format : formats) {
+    list += (list.empty() ? "" : ", ") + std::string(format.extension);
+  }
+  return list;
+}
+
+Result<std::unique_ptr<MotionFile>> read_motion(const std::string& path,
+                                                std::span<const MotionFormat> formats) {
+  const std::string extension = ending_of(path);
+  const MotionFormat* format = find_format(formats, extension);
+  if (!format) {
+    return Error{path + ": expected a motion file (" + list_extensions(formats) + "), found " +
+                 (extension.empty() ? "no ending" : "the ending " + panache::quoted(extension))};
+  }
+  if (format->read) return format->read(path);
+  auto bytes = read_file(path);
+  if (!bytes) return bytes.error();
+  return format->parse(std::move(*bytes), path);
+}
+
+}  // namespace panache

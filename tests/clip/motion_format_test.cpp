@@ -1,0 +1,50 @@
+#include "clip/motion_format.h"
+
+#include "fixtures.h"
+#include "make_clip.h"
+
+namespace panache {
+namespace {
+
+TEST(MotionFormat, each_is_found_by_its_extension_and_named_once) {
+  for (const MotionFormat& format : motion_formats()) {
+    EXPECT_EQ(find_format(motion_formats(), format.extension), &format);
+    EXPECT_EQ(format.extension, ending_of("walk" + std::string(format.extension)));
+    EXPECT_TRUE(format.parse) << format.extension;
+  }
+  EXPECT_EQ(find_format(motion_formats(), ".fbx"), nullptr);
+  EXPECT_EQ(list_extensions(motion_formats()), ".bvh, .glb, .gltf, .vrm");
+}
+
+TEST(MotionFormat, what_one_writes_it_reads) {
+  const Clip clip = test::walking_clip(20);
+  int written = 0;
+  for (const MotionFormat& format : motion_formats()) {
+    if (!format.write) continue;
+    ++written;
+    const std::string bytes = format.write(clip, "walk", {});
+    const auto file = format.parse(bytes, "walk");
+    ASSERT_TRUE(file.ok()) << file.error().message;
+    EXPECT_EQ((*file)->clip().frames, 20) << format.extension;
+    EXPECT_EQ(format.encoded_as, format.extension);
+  }
+  EXPECT_EQ(written, 2);
+}
+
+TEST(MotionFormat, a_format_of_a_program_of_its_own_is_read_like_the_others) {
+  static std::string asked;
+  constexpr MotionFormat kOwn[] = {
+      {.extension = ".own",
+       .read = [](const std::string& path) -> Result<std::unique_ptr<MotionFile>> {
+         asked = path;
+         return Error{path + ": is none"};
+       },
+       .encoded_as = ".own"}};
+  EXPECT_EQ(read_motion("nowhere/walk.OWN", kOwn).error().message, "nowhere/walk.OWN: is none");
+  EXPECT_EQ(asked, "nowhere/walk.OWN");
+  EXPECT_EQ(read_motion("walk.bvh", kOwn).error().message,
+            "walk.bvh: expected a motion file (.own), found the ending '.bvh'");
+}
+
+}  // namespace
+}  // namespace panache
