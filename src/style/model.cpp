@@ -59,6 +59,20 @@ Result<std::shared_ptr<const Model>> Model::parse(std::string_view bytes, const 
   return std::shared_ptr<const Model>(std::move(model));
 }
 
+std::shared_ptr<const Model> Model::of_constants(std::vector<ConstantStyle> styles) {
+  auto model = std::make_shared<Model>();
+  for (const ConstantStyle& style : styles) model->styles_.push_back(style.info);
+  const size_t inputs = size_t(kWindowPoses) * pose_numbers(model->layout_);
+  model->input_mean_.resize(inputs);
+  model->input_factor_.resize(inputs);
+  model->output_scale_.assign(kChangeNumbers, 1);
+  model->output_mean_.resize(kChangeNumbers);
+  model->parameter_count_ = styles.size() * (kChangeNumbers + 1);
+  model->work_ = 1;
+  model->constants_ = std::move(styles);
+  return model;
+}
+
 Result<void> Model::read_metadata(const TensorFile& file, const std::string& name) {
   const auto format = file.metadata.find("format");
   if (format != file.metadata.end() && format->second == "panache-style") {
