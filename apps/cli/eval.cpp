@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 
+#include "base/file.h"
 #include "eval/evaluate.h"
 #include "eval/foreign.h"
 #include "eval/report.h"
+#include "eval/systems/recorded.h"
 #include "manifests.h"
 #include "outputs.h"
 #include "report.h"
@@ -21,6 +24,8 @@ struct Options {
   std::vector<std::string> models;
   std::vector<std::string> unseen, splits;
   std::vector<std::string> foreign;
+  std::vector<std::string> recorded;
+  std::string requests;
   std::string report;
   int64_t steps = 0;
   uint64_t seed = 1;
@@ -53,6 +58,30 @@ Result<std::vector<ManifestRow>> read_tests(const std::vector<std::string>& test
   return rename_styles(training.styles, std::move(judged));
 }
 
+// The report tells systems apart by their names.
+Result<void> check_names(const Options& options, const EvaluateOptions& evaluation) {
+  for (size_t a = 0; a < evaluation.models.size(); ++a) {
+    for (size_t b = 0; b < a; ++b) {
+      if (evaluation.models[a].name == evaluation.models[b].name) {
+        return Error{options.models[a] + ": has the name of " + options.models[b] +
+                     "; the report names models by their files, so give one another name"};
+      }
+    }
+  }
+  std::map<std::string, std::string> names;  // And what has it.
+  for (const SystemEntry& entry : evaluation.systems) names[entry.name] = "the judge's own system";
+  for (size_t m = 0; m < evaluation.models.size(); ++m) {
+    names[evaluation.models[m].name] = options.models[m];
+  }
+  for (const std::string& folder : options.recorded) {
+    const auto [name, is_new] = names.try_emplace(Recorded::name_of(folder), folder);
+    if (is_new) continue;
+    return Error{folder + ": has the name of " + name->second +
+                 "; the report names outputs by their folder, so give it another name"};
+  }
+  return {};
+}
+
 Result<EvaluateOptions> read_options(const Options& options) {
   EvaluateOptions evaluation;
   Result<Manifests> data = read_manifests(options.data);
@@ -81,16 +110,13 @@ Result<EvaluateOptions> read_options(const Options& options) {
   for (const std::string& path : options.models) {
     Result<std::shared_ptr<const Model>> model = Model::load(path);
     if (!model) return model.error();
-    evaluation.models.push_back({std::filesystem::path(path).stem().string(), *model});
+    std::error_code status;
+    const size_t bytes = std::filesystem::file_size(path, status);
+    evaluation.models.push_back(
+        {std::filesystem::path(path).stem().string(), *model, status ? 0 : bytes});
   }
-  for (size_t a = 0; a < evaluation.models.size(); ++a) {
-    for (size_t b = 0; b < a; ++b) {
-      if (evaluation.models[a].name == evaluation.models[b].name) {
-        return Error{options.models[a] + ": has the name of " + options.models[b] +
-                     "; the report names models by their files, so give one another name"};
-      }
-    }
-  }
+  evaluation.recorded = options.recorded;
+  if (Result<void> unique = check_names(options, evaluation); !unique) return unique.error();
   if (!options.unseen.empty()) {
     std::string name;
     for (const std::string& content : options.unseen) name += (name.empty() ? "" : "+") + content;
@@ -120,16 +146,24 @@ int run(const Options& options) {
       }
     }
   }
+  if (!options.requests.empty()) {
+    if (Result<void> free = check_free(options.requests, options.force); !free) {
+      return refuse(free.error(), kBadInput);
+    }
+  }
   Result<EvaluateOptions> evaluation = read_options(options);
   if (!evaluation) return refuse(evaluation.error(), kBadInput);
+  if (!options.requests.empty()) {
+    const std::string csv = recorded_requests(judgeable(*evaluation));
+    if (Result<void> written = write_file(options.requests, csv, true); !written) {
+      return refuse(written.error(), kBadInput);
+    }
+    return kDone;
+  }
   Result<Report> report = evaluate(*evaluation);
   if (!report) return refuse(report.error(), kBadInput);
   report->trained_on = options.data.paths;
   report->tested_on = options.tests.empty() ? options.data.paths : options.tests;
-  for (size_t m = 0; m < options.models.size(); ++m) {
-    std::error_code status;
-    report->systems[m].model_bytes = std::filesystem::file_size(options.models[m], status);
-  }
   if (!options.report.empty()) {
     if (Result<void> written = write_report(*report, options.report); !written) {
       return refuse(written.error(), kBadInput);
@@ -164,6 +198,14 @@ void add_eval(CLI::App& app, int& exit_code) {
                    "A motion file, a folder of them or a manifest (of which the contents without "
                    "a style count): motion to try every style on")
       ->allow_extra_args(false);
+  verb->add_option("--recorded", options->recorded,
+                   "A folder of motion that another program made of test takes, with a "
+                   "manifest.csv (input,style,strength,output): judged like a model; may be given "
+                   "several times")
+      ->allow_extra_args(false);
+  verb->add_option("--requests", options->requests,
+                   "Judge nothing; write the manifest of all that --recorded can be judged by at "
+                   "strength 1, for the other program to go through");
   verb->add_option("--report", options->report, "A folder for report.json and the page index.html");
   verb->add_option("--steps", options->steps, "Train this many steps instead of the recipes' own")
       ->check(CLI::Range(1, 1000000000));

@@ -27,42 +27,6 @@ std::vector<AlignedInstant> align(const std::vector<Take>& takes) {
   return instants;
 }
 
-// A model that goes through instants one after the other.
-class Reader {
- public:
-  Reader(const Model& model, double strength)
-      // Nobody owns the model here: it outlives the reader.
-      : networks_(std::shared_ptr<const Model>(std::shared_ptr<const Model>(), &model)),
-        strength_(static_cast<float>(strength)),
-        strengths_(model.styles().size()),
-        numbers_(pose_numbers(model.layout())),
-        window_(size_t(kWindowPoses) * numbers_) {}
-
-  // The change that it makes of frame `at` of `neutral`, seen as frame `seen_at` of `seen`; nothing
-  // where it does not know the style.
-  std::optional<StyleDelta> change(const std::string& style, const Take& seen, float seen_at,
-                                   const Take& neutral, float at) {
-    const std::vector<StyleInfo>& styles = networks_.model().styles();
-    const auto found = std::find_if(styles.begin(), styles.end(),
-                                    [&](const StyleInfo& s) { return s.name == style; });
-    if (found == styles.end()) return std::nullopt;
-    std::fill(strengths_.begin(), strengths_.end(), 0.0f);
-    strengths_[found - styles.begin()] = strength_;
-    networks_.set_strengths(strengths_);
-    take_window(seen, seen_at, numbers_, window_);
-    networks_.forward(window_);
-    const auto root = std::span(window_).subspan(numbers_ - kRootNumbers).first<kRootNumbers>();
-    return networks_.model().recipe().to_change(networks_.pose(), body_at(neutral, at), root);
-  }
-
- private:
-  StyleNetworks networks_;
-  float strength_;
-  std::vector<float> strengths_;
-  int numbers_;
-  std::vector<float> window_;
-};
-
 }  // namespace
 
 AlignedTest::AlignedTest(std::vector<Take> takes)
@@ -71,24 +35,26 @@ AlignedTest::AlignedTest(std::vector<Take> takes)
                [&](int i) { write_numbers(PoseLayout::rotations, rotations_[i]); });
 }
 
-PoseErrors AlignedTest::errors(const Model& model, double strength) const {
-  return model_errors(model, strength, takes(model.layout()), 1);
+PoseErrors AlignedTest::errors(const System& system, double strength) const {
+  return system_errors(system, strength, takes(system.layout()), 1);
 }
 
-PoseErrors AlignedTest::errors(const Model& model, double strength, const SeenTakes& seen) const {
-  return model_errors(model, strength, seen.takes, seen.speed);
+PoseErrors AlignedTest::errors(const System& system, double strength, const SeenTakes& seen) const {
+  return system_errors(system, strength, seen.takes, seen.speed);
 }
 
 PoseErrors AlignedTest::untouched_errors() const {
   return mean_errors([] { return [](const AlignedInstant&) { return StyleDelta{}; }; });
 }
 
-PoseErrors AlignedTest::model_errors(const Model& model, double strength,
-                                     const std::vector<Take>& seen, float speed) const {
+PoseErrors AlignedTest::system_errors(const System& system, double strength,
+                                      const std::vector<Take>& seen, float speed) const {
+  if (!system.instants(strength)) return {};
   return mean_errors([&]() -> Answer {
-    return [&, reader = Reader(model, strength)](const AlignedInstant& i) mutable {
-      return reader.change(positions_[i.styled].row.style, seen[i.neutral], i.at / speed,
-                           positions_[i.neutral], i.at);
+    // Shared, as a std::function can be copied.
+    return [&, answers = std::shared_ptr(system.instants(strength))](const AlignedInstant& i) {
+      return answers->change(positions_[i.styled].row.style, seen[i.neutral], i.at / speed,
+                             positions_[i.neutral], i.at);
     };
   });
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Real styled test takes laid over neutral ones in time, and how near a model comes to them.
+// Real styled test takes laid over neutral ones in time, and how near a system comes to them.
 
 #include <functional>
 #include <map>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "learn/pose_error.h"
+#include "eval/system.h"
 #include "style/model.h"
 #include "learn/take.h"
 
@@ -21,9 +22,9 @@ struct AlignedInstant {
   float at = 0;               // and fractional frame of it.
 };
 
-// What a model is shown in place of the neutral takes, while its answer is still put on the takes
-// themselves. takes[i] stands for take i, in the model's layout, and shows the instant of its frame
-// f at frame f / speed.
+// What a system is shown in place of the neutral takes, while its answer is still put on the takes
+// themselves. takes[i] stands for take i, in the system's layout, and shows the instant of its
+// frame f at frame f / speed.
 struct SeenTakes {
   std::vector<Take> takes;
   float speed = 1;
@@ -32,7 +33,7 @@ struct SeenTakes {
 // Mean errors per style and content.
 using PoseErrors = std::map<std::pair<std::string, std::string>, PoseError>;
 
-// The test takes of one evaluation, aligned once for any number of models. Alignment is that of
+// The test takes of one evaluation, aligned once for any number of systems. Alignment is that of
 // training: pair_takes() lays windows of 1.5 s of each styled take, 0.5 s apart, over the neutral
 // takes of the same set and content by dynamic time warping; kTrimFrames frames at both ends of a
 // window are left out. Frames that lie in several windows count once for each.
@@ -42,11 +43,11 @@ class AlignedTest {
   // Styled takes whose content no neutral take has are left out.
   explicit AlignedTest(std::vector<Take> takes);
 
-  // Of a model's pose network at one strength of each take's own style; styles that the model does
-  // not know are left out. Networks only: no filter, no root, no foot lock.
-  PoseErrors errors(const Model& model, double strength = 1) const;
+  // Of a system's answers at one strength of each take's own style; styles that it does not know
+  // are left out. Empty where it has no answers for single instants.
+  PoseErrors errors(const System& system, double strength = 1) const;
   // The same where the windows are cut from `seen`, and nothing else is.
-  PoseErrors errors(const Model& model, double strength, const SeenTakes& seen) const;
+  PoseErrors errors(const System& system, double strength, const SeenTakes& seen) const;
   // Of the neutral takes themselves: no transfer.
   PoseErrors untouched_errors() const;
 
@@ -62,8 +63,8 @@ class AlignedTest {
   // Asks over all cores. Instants are shared out in parts, and each part has an answer of its own,
   // so that answers may keep buffers.
   PoseErrors mean_errors(const std::function<Answer()>& make_answer) const;
-  PoseErrors model_errors(const Model& model, double strength, const std::vector<Take>& seen,
-                          float speed) const;
+  PoseErrors system_errors(const System& system, double strength, const std::vector<Take>& seen,
+                           float speed) const;
 
   std::vector<Take> positions_, rotations_;
   std::vector<AlignedInstant> instants_;

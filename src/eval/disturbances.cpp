@@ -166,10 +166,11 @@ const std::vector<Disturbing>& disturbing_inputs() {
   return inputs;
 }
 
-std::vector<DisturbanceRow> measure_disturbances(const AlignedTest& test, const Model& model) {
+std::vector<DisturbanceRow> measure_disturbances(const AlignedTest& test, const System& system) {
+  if (!system.instants(1)) return {};
   std::vector<DisturbanceRow> rows;
   for (const Disturbing& input : disturbing_inputs()) {
-    const PoseErrors errors = test.errors(model, 1, input.see(test.takes(), model.layout()));
+    const PoseErrors errors = test.errors(system, 1, input.see(test.takes(), system.layout()));
     if (errors.empty()) return {};
     rows.push_back({input.name, mean_cm(errors)});
   }

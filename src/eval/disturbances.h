@@ -1,5 +1,5 @@
 #pragma once
-// How much a model's answer suffers when only its input is disturbed: what other bodies, captures
+// How much a system's answer suffers when only its input is disturbed: what other bodies, captures
 // and files do to it.
 
 #include <string>
@@ -14,10 +14,11 @@ struct DisturbanceRow {
   double cm = 0;     // Mean pose error over styles and contents, see PoseError.
 };
 
-// The error of a model on `test` when the windows that it sees are disturbed and nothing else is;
+// The error of a system on `test` when the windows that it sees are disturbed and nothing else is;
 // "none" first. Its answer is put on the undisturbed body: changes as they are (recipe panache),
-// poses in place of it (smith2019). Nothing where the model knows no style of the test.
-std::vector<DisturbanceRow> measure_disturbances(const AlignedTest& test, const Model& model);
+// poses in place of it (smith2019). Nothing where the system has no answers for single instants, or
+// knows no style of the test.
+std::vector<DisturbanceRow> measure_disturbances(const AlignedTest& test, const System& system);
 
 // The same takes as seen under one disturbance, numbers in `layout`. Exposed for tests.
 struct Disturbing {

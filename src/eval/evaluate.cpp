@@ -2,34 +2,20 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
+#include <iterator>
 #include <set>
 
 #include "base/progress.h"
 #include "eval/disturbances.h"
 #include "eval/foreign.h"
 #include "eval/foresight.h"
-#include "eval/mean_posture.h"
 #include "eval/motion_metrics.h"
+#include "eval/systems/model_system.h"
+#include "eval/systems/recorded.h"
 #include "net/safetensors.h"
 
 namespace panache {
 namespace {
-
-// Test takes whose style and content a training take shows: nothing can be said of the others.
-std::vector<ManifestRow> judgeable(const EvaluateOptions& options) {
-  std::set<std::string> styles, contents;
-  for (const ManifestRow& row : options.training) {
-    if (row.test) continue;
-    styles.insert(row.style);
-    contents.insert(row.content);
-  }
-  std::vector<ManifestRow> rows;
-  for (const ManifestRow& row : options.test) {
-    if (styles.contains(row.style) && contents.contains(row.content)) rows.push_back(row);
-  }
-  return rows;
-}
 
 Result<Bench> prepare(const EvaluateOptions& options) {
   Result<TrainingData> training = prepare_training(options.training, PoseLayout::positions);
@@ -79,7 +65,8 @@ Result<std::vector<NamedModel>> find_models(const EvaluateOptions& options, cons
 }
 
 // All test takes, neutral and styled, and all foreign clips as one content.
-Result<std::vector<ForesightRow>> judge_foresight(const NamedModel& system, const Bench& bench,
+Result<std::vector<ForesightRow>> judge_foresight(const std::shared_ptr<const Model>& model,
+                                                  const Bench& bench,
                                                   const EvaluateOptions& options) {
   std::vector<const Take*> takes;
   for (const std::vector<TestInput>* part : {&bench.inputs, &bench.styled}) {
@@ -92,10 +79,99 @@ Result<std::vector<ForesightRow>> judge_foresight(const NamedModel& system, cons
   Result<std::vector<Take>> foreign = load_takes(rows, PoseLayout::positions);
   if (!foreign) return foreign.error();
   for (const Take& take : *foreign) takes.push_back(&take);
-  return measure_foresight(system.model, takes);
+  return measure_foresight(model, takes);
+}
+
+using Systems = std::vector<std::unique_ptr<System>>;
+
+// What the outputs of other programs may be of.
+Result<Systems> read_recorded(const EvaluateOptions& options) {
+  Systems systems;
+  if (options.recorded.empty()) return systems;
+  RecordedScope scope;
+  std::set<std::string> styles;
+  for (const ManifestRow& row : judgeable(options)) {
+    scope.inputs.push_back(row.path);
+    if (!row.neutral) styles.insert(row.style);
+  }
+  scope.inputs.insert(scope.inputs.end(), options.foreign.begin(), options.foreign.end());
+  scope.styles.assign(styles.begin(), styles.end());
+  for (const std::string& folder : options.recorded) {
+    Result<std::unique_ptr<Recorded>> recorded = Recorded::load(folder, scope);
+    if (!recorded) return recorded.error();
+    systems.push_back(*std::move(recorded));
+  }
+  return systems;
+}
+
+Result<Systems> make_comparisons(const EvaluateOptions& options, const Bench& bench) {
+  Systems systems;
+  const SystemData data{bench.training.takes, bench.training.pairings, options.styles,
+                        options.seed};
+  for (const SystemEntry& entry : options.systems) {
+    Result<std::unique_ptr<System>> system = entry.make(entry.name, data);
+    if (!system) return system.error();
+    systems.push_back(*std::move(system));
+  }
+  return systems;
+}
+
+Result<SystemReport> judge_in_every_way(const System& system, const Bench& bench,
+                                        const EvaluateOptions& options) {
+  Result<SystemReport> report = judge_system(system, bench);
+  if (!report) return report;
+  report->disturbances = measure_disturbances(bench.aligned, system);
+  if (!options.foreign.empty()) {
+    Progress progress("foreign motion, " + system.name());
+    Result<std::vector<ForeignRow>> foreign =
+        measure_foreign(options.foreign, system, [&](double share) { progress.update(share); });
+    if (!foreign) return foreign.error();
+    report->foreign = *std::move(foreign);
+  }
+  if (const auto model = system.predicting_model()) {
+    Result<std::vector<ForesightRow>> foresight = judge_foresight(model, bench, options);
+    if (!foresight) return foresight.error();
+    report->foresight = *std::move(foresight);
+  }
+  const SystemFacts facts = system.facts();
+  report->recipe = facts.recipe;
+  report->model_bytes = facts.bytes;
+  report->parameters = facts.parameters;
+  report->recorded = facts.recorded;
+  return report;
+}
+
+// The lines that stand beside all systems: real takes, and the neutral takes themselves.
+void judge_references(const Bench& bench, Report& report) {
+  const CellTable& real = bench.judge.real();
+  report.real = mean_quality(real);
+  report.real_by_content = by_content(real);
+  report.real_by_style = by_style(real);
+  const CellTable input =
+      bench.judge.judge(untouched(bench.inputs, bench.styles), takes_of(bench.inputs),
+                        bench.aligned.untouched_errors());
+  report.input = mean_quality(input);
+  report.input_by_content = by_content(input);
+  report.sc_floor = report.cc_floor =
+      distance_to_real(bench.judge.test(), bench.training.takes, bench.judge.test()) *
+      bench.units_per_metre;
 }
 
 }  // namespace
+
+std::vector<ManifestRow> judgeable(const EvaluateOptions& options) {
+  std::set<std::string> styles, contents;
+  for (const ManifestRow& row : options.training) {
+    if (row.test) continue;
+    styles.insert(row.style);
+    contents.insert(row.content);
+  }
+  std::vector<ManifestRow> rows;
+  for (const ManifestRow& row : options.test) {
+    if (styles.contains(row.style) && contents.contains(row.content)) rows.push_back(row);
+  }
+  return rows;
+}
 
 Result<NamedModel> train_system(const Recipe& recipe, const std::string& name,
                                 const TrainingData& data, const EvaluateOptions& options) {
@@ -112,6 +188,9 @@ Result<NamedModel> train_system(const Recipe& recipe, const std::string& name,
 
 Result<Report> evaluate(const EvaluateOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
+  // First, as it takes no time to tell what is wrong with them.
+  Result<Systems> recorded = read_recorded(options);
+  if (!recorded) return recorded.error();
   Result<Bench> bench = prepare(options);
   if (!bench) return bench.error();
   for (const UnseenSplit& split : options.unseen) {
@@ -122,46 +201,29 @@ Result<Report> evaluate(const EvaluateOptions& options) {
   }
   Result<std::vector<NamedModel>> models = find_models(options, *bench);
   if (!models) return models.error();
-  Result<std::shared_ptr<const Model>> posture =
-      mean_posture_model(bench->training, options.styles, {});
-  if (!posture) return posture.error();
+  Result<Systems> comparisons = make_comparisons(options, *bench);
+  if (!comparisons) return comparisons.error();
+
+  Systems systems;
+  std::vector<const System*> drawn;
+  for (const NamedModel& model : *models) {
+    systems.push_back(std::make_unique<ModelSystem>(model.name, model.model, model.bytes));
+    drawn.push_back(systems.back().get());
+  }
+  for (const std::unique_ptr<System>& system : *recorded) drawn.push_back(system.get());
+  for (Systems* part : {&*comparisons, &*recorded}) {
+    std::move(part->begin(), part->end(), std::back_inserter(systems));
+  }
 
   Report report;
   report.styles = bench->styles;
   report.contents = bench->judge.contents().classes();
   report.style_floor = options.floor.style;
   report.content_floor = options.floor.content;
-  const CellTable& real = bench->judge.real();
-  report.real = mean_quality(real);
-  report.real_by_content = by_content(real);
-  report.real_by_style = by_style(real);
-  CellTable input =
-      bench->judge.judge(untouched(bench->inputs, bench->styles), takes_of(bench->inputs));
-  add_pose_errors(bench->aligned.untouched_errors(), input);
-  report.input = mean_quality(input);
-  report.input_by_content = by_content(input);
-  report.sc_floor = report.cc_floor =
-      distance_to_real(bench->judge.test(), bench->training.takes, bench->judge.test()) *
-      bench->units_per_metre;
-
-  std::vector<NamedModel> systems = *models;
-  systems.push_back({"mean posture", *posture});
-  for (const NamedModel& system : systems) {
-    Result<SystemReport> judged = judge_system(system, *bench);
+  judge_references(*bench, report);
+  for (const std::unique_ptr<System>& system : systems) {
+    Result<SystemReport> judged = judge_in_every_way(*system, *bench, options);
     if (!judged) return judged.error();
-    judged->disturbances = measure_disturbances(bench->aligned, *system.model);
-    if (!options.foreign.empty()) {
-      Progress progress("foreign motion, " + system.name);
-      Result<std::vector<ForeignRow>> foreign = measure_foreign(
-          options.foreign, system.model, [&](double share) { progress.update(share); });
-      if (!foreign) return foreign.error();
-      judged->foreign = *std::move(foreign);
-    }
-    if (system.model->predictor()) {
-      Result<std::vector<ForesightRow>> foresight = judge_foresight(system, *bench, options);
-      if (!foresight) return foresight.error();
-      judged->foresight = *std::move(foresight);
-    }
     report.systems.push_back(*std::move(judged));
   }
   for (const UnseenSplit& split : options.unseen) {
@@ -169,7 +231,7 @@ Result<Report> evaluate(const EvaluateOptions& options) {
       return done.error();
     }
   }
-  if (Result<void> done = add_pictures(*models, *bench, report); !done) return done.error();
+  if (Result<void> done = add_pictures(drawn, *bench, report); !done) return done.error();
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return report;
 }

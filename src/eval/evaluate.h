@@ -1,6 +1,7 @@
 #pragma once
 // The whole evaluation: classifiers are trained, systems are run, their motion is judged.
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,7 +10,8 @@
 #include "eval/aligned.h"
 #include "eval/judge.h"
 #include "eval/report.h"
-#include "eval/systems.h"
+#include "eval/system.h"
+#include "eval/systems/table.h"
 #include "train/trainer.h"
 
 namespace panache {
@@ -25,6 +27,7 @@ Result<UnseenSplit> named_split(const std::string& name);
 struct NamedModel {
   std::string name;
   std::shared_ptr<const Model> model;
+  size_t bytes = 0;  // Of its file.
 };
 
 struct EvaluateOptions {
@@ -32,12 +35,18 @@ struct EvaluateOptions {
   std::vector<ManifestRow> test;      // Real held-out takes, neutral and styled.
   std::vector<StyleName> styles;      // Of `training`.
   std::vector<NamedModel> models;     // Where there are none, all recipes are trained.
+  // What the models are compared with.
+  std::vector<SystemEntry> systems = comparison_systems();
+  std::vector<std::string> recorded;  // Folders of outputs of other programs, see Recorded.
   std::vector<UnseenSplit> unseen;
   std::vector<std::string> foreign;  // Motion files.
   JudgeFloor floor;
   std::optional<int64_t> steps;  // Of every training, instead of its recipe's own.
   uint64_t seed = 1;
 };
+
+// The test takes whose style and content a training take shows: nothing can be said of the others.
+std::vector<ManifestRow> judgeable(const EvaluateOptions& options);
 
 // Fails where takes cannot be read, where the test takes lack what is judged, or where the
 // classifiers are no judges (see Judge::create). Shows its progress on a terminal.
@@ -58,24 +67,22 @@ struct Bench {
 Result<NamedModel> train_system(const Recipe& recipe, const std::string& name,
                                 const TrainingData& data, const EvaluateOptions& options);
 
-// Fills the pose errors into the cells that there are.
-void add_pose_errors(const PoseErrors& errors, CellTable& cells);
-
-// What one model makes of the neutral test takes in every way: seen contents, strengths, mixes.
-Result<SystemReport> judge_system(const NamedModel& system, const Bench& bench);
+// What one system makes of the test takes in every way that it can be asked: seen contents,
+// strengths, mixes.
+Result<SystemReport> judge_system(const System& system, const Bench& bench);
 
 // The same of these contents only, at strength 1.
-Result<CellTable> judge_contents(const NamedModel& system, const Bench& bench,
+Result<CellTable> judge_contents(const System& system, const Bench& bench,
                                  const std::vector<std::string>& contents);
 
-// Trains the recipes of `systems` without the contents of `split`, which have test takes, judges
-// them, and adds what was found to the reports of the same order.
+// Trains the recipes of `models` without the contents of `split`, which have test takes, judges
+// them, and adds what was found to the first reports, in the same order.
 Result<void> judge_unseen(const UnseenSplit& split, const EvaluateOptions& options,
-                          const Bench& bench, const std::vector<NamedModel>& systems,
+                          const Bench& bench, const std::vector<NamedModel>& models,
                           std::vector<SystemReport>& reports);
 
 // Skeletons and planted feet of some takes: input, systems, real take.
-Result<void> add_pictures(const std::vector<NamedModel>& systems, const Bench& bench,
+Result<void> add_pictures(const std::vector<const System*>& systems, const Bench& bench,
                           Report& report);
 
 }  // namespace panache

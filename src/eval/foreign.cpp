@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 #include <filesystem>
-#include <numeric>
 #include <optional>
 #include <set>
 
@@ -12,8 +11,6 @@
 #include "eval/joint_limits.h"
 #include "eval/motion_metrics.h"
 #include "eval/quality.h"
-#include "eval/systems.h"
-#include "style/restyle.h"
 #include "learn/manifest.h"
 #include "learn/take.h"
 
@@ -27,19 +24,14 @@ constexpr float kLimitTolerance_deg = 5;  // A joint this little beyond its limi
 constexpr float kFloorTolerance = 0.03f;  // Metres.
 constexpr double kStill = 0.01;           // m/s: a coordinate that deviates less does not move.
 
-Result<ForeignRow> style_input(const TestInput& input, std::shared_ptr<const Model> model,
-                               int style) {
-  RestyleOptions options;
-  options.timing = false;
-  const StrengthTrack full = {style, {{0, 1}}};
-  Result<Restyled> restyled = restyle(input.clip, input.rig, model, {full}, options);
-  if (!restyled) return Error{input.take.row.path + ": " + restyled.error().message};
-  const Take output = make_take(restyled->clip, input.rig, PoseLayout::positions);
-  ForeignRow row = compare_foreign(input.take, output);
+Result<ForeignRow> style_input(const System& system, const TestInput& input,
+                               const Request& request) {
+  Result<Played> played = system.run(input, request);
+  if (!played) return played.error();
+  ForeignRow row = compare_foreign(input.take, played->output.take);
   row.clip = fs::path(input.take.row.path).stem().string();
-  row.style = model->styles()[style].name;
-  row.gate = std::accumulate(restyled->gates.begin(), restyled->gates.end(), 0.0) /
-             static_cast<double>(restyled->gates.size());
+  row.style = request.style;
+  row.gate = played->gate;
   return row;
 }
 
@@ -145,20 +137,26 @@ ForeignRow compare_foreign(const Take& input, const Take& output) {
 }
 
 Result<std::vector<ForeignRow>> measure_foreign(const std::vector<std::string>& files,
-                                                std::shared_ptr<const Model> model,
+                                                const System& system,
                                                 const std::function<void(double)>& progress) {
   std::vector<ManifestRow> named;
   for (const std::string& file : files) named.emplace_back().path = file;
   Result<std::vector<TestInput>> inputs = load_inputs(named);
   if (!inputs) return inputs.error();
-  const int styles = static_cast<int>(model->styles().size());
-  const int jobs = static_cast<int>(inputs->size()) * styles;
-  std::vector<std::optional<Result<ForeignRow>>> rows(jobs);
+  std::vector<std::pair<const TestInput*, Request>> jobs;
+  for (const TestInput& input : *inputs) {
+    for (const std::string& style : system.styles()) {
+      const Request request{style, {{style, 1.0f}}, false};
+      if (system.can_run(input, request)) jobs.emplace_back(&input, request);
+    }
+  }
+  const int count = static_cast<int>(jobs.size());
+  std::vector<std::optional<Result<ForeignRow>>> rows(jobs.size());
   std::atomic<int> done = 0;
-  parallel_for(jobs, [&](int job) {
-    rows[job] = style_input((*inputs)[job / styles], model, job % styles);
-    const int count = ++done;
-    if (progress) progress(static_cast<double>(count) / jobs);
+  parallel_for(count, [&](int job) {
+    rows[job] = style_input(system, *jobs[job].first, jobs[job].second);
+    const int finished = ++done;
+    if (progress) progress(static_cast<double>(finished) / count);
   });
   std::vector<ForeignRow> out;
   for (std::optional<Result<ForeignRow>>& row : rows) {

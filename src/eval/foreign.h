@@ -1,13 +1,12 @@
 #pragma once
-// Motion that no model was trained on: does it stay the motion it was?
+// Motion that no system was trained on: does it stay the motion it was?
 
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
-#include "style/model.h"
+#include "eval/system.h"
 #include "learn/take.h"
 
 namespace panache {
@@ -36,12 +35,13 @@ struct ForeignRow {
 // layout positions. Clip, style and gate are the caller's.
 ForeignRow compare_foreign(const Take& input, const Take& output);
 
-// Styles every clip of `files` (any motion file) in every style of the model, and compares what
-// comes out with the input, both read at 30 frames a second from the first frame that is motion.
-// Rows are in order of files, then styles. Files that cannot be read or mapped fail it with their
+// Asks for every clip of `files` (any motion file) in every style that the system has, at strength
+// 1 and the input's tempo, and compares what comes out with the input, both read at 30 frames a
+// second from the first frame that is motion. Rows are in order of files, then styles; what the
+// system cannot be asked for is left out. Files that cannot be read or mapped fail it with their
 // sentence. `progress` gets the share done, from any thread.
 Result<std::vector<ForeignRow>> measure_foreign(const std::vector<std::string>& files,
-                                                std::shared_ptr<const Model> model,
+                                                const System& system,
                                                 const std::function<void(double)>& progress = {});
 
 // The motion files of a file, a folder (with its subfolders) or a manifest (.csv; those of contents

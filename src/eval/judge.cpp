@@ -6,7 +6,6 @@
 
 #include "base/parallel.h"
 #include "eval/frechet.h"
-#include "eval/motion_metrics.h"
 
 namespace panache {
 namespace {
@@ -28,10 +27,10 @@ class Mean {
 
 Quality mean_of(const std::vector<const Quality*>& parts) {
   Quality mean;
-  for (const QualityField& field : kQualityFields) {
+  for (const Measure& measure : measures()) {
     Mean value;
-    for (const Quality* part : parts) value.add(part->*field.value);
-    mean.*field.value = value.value();
+    for (const Quality* part : parts) value.add((*part)[measure.key]);
+    mean[measure.key] = value.value();
   }
   for (const Quality* part : parts) {
     mean.takes += part->takes;
@@ -104,8 +103,8 @@ Result<Judge> Judge::create(const std::vector<Take>& training, std::vector<Take>
   Judge judge(*std::move(made[0]), *std::move(made[1]), std::move(test));
   const Quality real = mean_quality(judge.real_);
   for (const auto& [what, share, least] :
-       {std::tuple{"style", real.style_accuracy, floor.style},
-        std::tuple{"content", real.content_accuracy, floor.content}}) {
+       {std::tuple{"style", real["style_accuracy"], floor.style},
+        std::tuple{"content", real["content_accuracy"], floor.content}}) {
     if (!(share >= least)) {
       return Error{std::string("the ") + what + " classifier recognises " + percent(share) +
                    " of the windows of real test takes; expected at least " + percent(least) +
@@ -119,99 +118,82 @@ Result<Judge> Judge::create(const std::vector<Take>& training, std::vector<Take>
 Judge::Judge(Classifier styles, Classifier contents, std::vector<Take> test)
     : styles_(std::move(styles)), contents_(std::move(contents)), test_(std::move(test)) {
   std::erase_if(test_, [](const Take& take) { return take.row.neutral; });
-  std::vector<Verdict> verdicts(test_.size());
-  parallel_for(static_cast<int>(test_.size()), [&](int i) { verdicts[i] = look(test_[i]); });
-  std::map<Cell, std::vector<const Verdict*>> cells;
+  Verdicts verdicts(test_.size());
+  parallel_for(static_cast<int>(test_.size()),
+               [&](int i) { verdicts[i] = look({.take = &test_[i]}); });
   for (size_t i = 0; i < test_.size(); ++i) {
-    cells[{test_[i].row.style, test_[i].row.content}].push_back(&verdicts[i]);
+    references_[{test_[i].row.style, test_[i].row.content}].push_back(std::move(verdicts[i]));
   }
-  for (const auto& [cell, members] : cells) {
-    references_[cell] = refer(members);
-    real_[cell] = summarise(members, references_[cell]);
+  for (const auto& [cell, members] : references_) {
+    real_[cell] = summarise(members, members, std::nullopt);
   }
 }
 
-Judge::Verdict Judge::look(const Take& take) const {
-  const Judged style = styles_.judge(take), content = contents_.judge(take);
-  Verdict verdict;
-  verdict.windows = static_cast<size_t>(style.probabilities.size(0));
+Judge::Verdict Judge::look(TakeEvidence of) const {
+  const ManifestRow& row = of.take->row;
+  const Judged style = styles_.judge(*of.take), content = contents_.judge(*of.take);
   const auto count = [](const Judged& judged, int wanted) {
     return judged.probabilities.argmax(1).eq(wanted).sum().item<double>();
   };
-  const int asked = styles_.find(take.row.style);
-  verdict.style = count(style, asked);
-  verdict.content = count(content, contents_.find(take.row.content));
-  if (asked >= 0) verdict.probability = style.probabilities.select(1, asked).sum().item<double>();
-  verdict.features = content.features;
-  verdict.jerk = mean_jerk(take);
-  verdict.skating = skating_ratio(take);
-  verdict.slide = 100 * weighted_skating(take);
-  verdict.cadence = cadence(take);
+  const int asked = styles_.find(row.style);
+  of.windows = static_cast<size_t>(style.probabilities.size(0));
+  of.style_windows = count(style, asked);
+  of.content_windows = count(content, contents_.find(row.content));
+  if (asked >= 0) of.style_probability = style.probabilities.select(1, asked).sum().item<double>();
+  Verdict verdict{of.windows, {}, content.features};
+  for (const Measure& measure : measures()) {
+    verdict.values.push_back(measure.of_take ? measure.of_take(of) : kNotMeasured);
+  }
   return verdict;
 }
 
-Judge::Reference Judge::refer(const std::vector<const Verdict*>& verdicts) {
-  Mean jerk, cadence_mean;
-  std::vector<torch::Tensor> features;
-  for (const Verdict* verdict : verdicts) {
-    jerk.add(verdict->jerk);
-    cadence_mean.add(verdict->cadence);
-    features.push_back(verdict->features);
-  }
-  return {jerk.value(), cadence_mean.value(), torch::cat(features)};
-}
-
-Quality Judge::summarise(const std::vector<const Verdict*>& verdicts,
-                         const Reference& reference) const {
+Quality Judge::summarise(const Verdicts& verdicts, const Verdicts& real,
+                         const std::optional<PoseError>& aligned) {
+  const auto features = [](const Verdicts& of) {
+    std::vector<torch::Tensor> rows;
+    for (const Verdict& verdict : of) rows.push_back(verdict.features);
+    return torch::cat(rows);
+  };
+  const auto values = [](const Verdicts& of, size_t measure) {
+    std::vector<double> found;
+    for (const Verdict& verdict : of) found.push_back(verdict.values[measure]);
+    return found;
+  };
   Quality quality;
-  double style = 0, content = 0, probability = 0;
-  Mean jerk, skating, slide, steps, distance;
-  std::vector<torch::Tensor> features;
-  for (const Verdict* verdict : verdicts) {
-    ++quality.takes;
-    quality.windows += verdict->windows;
-    style += verdict->style;
-    content += verdict->content;
-    probability += verdict->probability;
-    jerk.add(verdict->jerk);
-    skating.add(verdict->skating);
-    slide.add(verdict->slide);
-    steps.add(verdict->cadence);
-    distance.add(verdict->distance);
-    features.push_back(verdict->features);
+  quality.takes = verdicts.size();
+  for (const Verdict& verdict : verdicts) quality.windows += verdict.windows;
+  CellEvidence cell;
+  cell.windows = quality.windows;
+  cell.feature_distance = frechet_distance(features(verdicts), features(real));
+  cell.aligned = aligned;
+  for (size_t m = 0; m < measures().size(); ++m) {
+    cell.values = values(verdicts, m);
+    cell.real = values(real, m);
+    quality[measures()[m].key] = measures()[m].of_cell(cell);
   }
-  const double windows = static_cast<double>(quality.windows);
-  quality.style_accuracy = style / windows;
-  quality.content_accuracy = content / windows;
-  quality.style_probability = probability / windows;
-  quality.jerk_ratio = jerk.value() / reference.jerk;
-  quality.skating_ratio = skating.value();
-  quality.skating_cm_s = slide.value();
-  quality.fmd = frechet_distance(torch::cat(features), reference.features);
-  quality.cadence_ratio = steps.value() / reference.cadence;
-  quality.distance_cm = distance.value();
   return quality;
 }
 
-CellTable Judge::judge(const std::vector<Output>& outputs, const std::vector<Take>& inputs) const {
-  std::vector<Verdict> verdicts(outputs.size());
+CellTable Judge::judge(const std::vector<Output>& outputs, const std::vector<Take>& inputs,
+                       const PoseErrors& aligned) const {
+  Verdicts verdicts(outputs.size());
   parallel_for(static_cast<int>(outputs.size()), [&](int i) {
     const Output& output = outputs[i];
     if (!references_.contains({output.take.row.style, output.take.row.content})) return;
-    verdicts[i] = look(output.take);
-    verdicts[i].distance =
-        100 * mean_distance(output.take, inputs[output.input], output.source_frames);
+    verdicts[i] = look({&output.take, &inputs[output.input], &output.source_frames});
   });
-  std::map<Cell, std::vector<const Verdict*>> cells;
+  std::map<Cell, Verdicts> cells;
   for (size_t i = 0; i < outputs.size(); ++i) {
     const ManifestRow& row = outputs[i].take.row;
     if (references_.contains({row.style, row.content})) {
-      cells[{row.style, row.content}].push_back(&verdicts[i]);
+      cells[{row.style, row.content}].push_back(std::move(verdicts[i]));
     }
   }
   CellTable table;
   for (const auto& [cell, members] : cells) {
-    table[cell] = summarise(members, references_.at(cell));
+    const auto error = aligned.find(cell);
+    table[cell] = summarise(members, references_.at(cell),
+                            error == aligned.end() ? std::nullopt : std::optional(error->second));
   }
   return table;
 }

@@ -2,23 +2,19 @@
 // Compares motion that a system put out with real held-out takes.
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/result.h"
+#include "eval/aligned.h"
 #include "eval/classifier.h"
-#include "eval/quality.h"
+#include "eval/measure.h"
+#include "eval/system.h"
 #include "learn/take.h"
 
 namespace panache {
-
-// What a system made of a neutral take. `take.row` names the style asked for and the content.
-struct Output {
-  Take take;
-  int input = 0;                     // Index of the neutral take.
-  std::vector<float> source_frames;  // Frame of the input per frame of the take.
-};
 
 // Per style and content.
 using Cell = std::pair<std::string, std::string>;
@@ -47,8 +43,9 @@ class Judge {
   // Real styled test takes, judged like outputs.
   const CellTable& real() const { return real_; }
   // Judges outputs whose style and content have a real take in `test`; others are left out.
-  // `inputs`: the neutral takes that outputs refer to. Pose errors are not filled in.
-  CellTable judge(const std::vector<Output>& outputs, const std::vector<Take>& inputs) const;
+  // `inputs`: the neutral takes that outputs refer to. `aligned`: the pose errors of the system.
+  CellTable judge(const std::vector<Output>& outputs, const std::vector<Take>& inputs,
+                  const PoseErrors& aligned = {}) const;
 
   const Classifier& styles() const { return styles_; }
   const Classifier& contents() const { return contents_; }
@@ -56,28 +53,25 @@ class Judge {
   const std::vector<Take>& test() const { return test_; }
 
  private:
-  // What real takes of a cell are like.
-  struct Reference {
-    double jerk = 0, cadence = kNotMeasured;
-    torch::Tensor features;
-  };
   // One take, judged by itself.
   struct Verdict {
     size_t windows = 0;
-    double style = 0, content = 0;  // Windows recognised as what the row says.
-    double probability = 0;
-    double jerk = 0, skating = 0, slide = 0, cadence = kNotMeasured, distance = kNotMeasured;
+    std::vector<double> values;  // Of each measure's of_take().
     torch::Tensor features;
   };
+  // Those of one style and content.
+  using Verdicts = std::vector<Verdict>;
+
   Judge(Classifier styles, Classifier contents, std::vector<Take> test);
-  Verdict look(const Take& take) const;
-  // Means of the verdicts of one cell.
-  Quality summarise(const std::vector<const Verdict*>& verdicts, const Reference& reference) const;
-  static Reference refer(const std::vector<const Verdict*>& verdicts);
+  // `of` names the take, and what it was made from.
+  Verdict look(TakeEvidence of) const;
+  // What the measures say of them beside the real takes of the same style and content.
+  static Quality summarise(const Verdicts& verdicts, const Verdicts& real,
+                           const std::optional<PoseError>& aligned);
 
   Classifier styles_, contents_;
   std::vector<Take> test_;
-  std::map<Cell, Reference> references_;
+  std::map<Cell, Verdicts> references_;  // Of test_.
   CellTable real_;
 };
 

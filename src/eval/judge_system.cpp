@@ -1,18 +1,15 @@
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <optional>
 
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "eval/evaluate.h"
 #include "eval/motion_metrics.h"
-#include "style/stylizer.h"
 
 namespace panache {
 namespace {
 
-constexpr double kStrengths[] = {0, 0.25, 0.5, 0.75, 1, 1.25, 1.5, 1.75, 2};
 constexpr double kHalf = 0.5, kMixShares[] = {0, 0.25, kHalf, 0.75, 1};
 
 std::string number(double value) {
@@ -31,27 +28,28 @@ struct Run {
   std::vector<Output> outputs;
   double bone_length_error = 0;  // Metres.
 };
-Result<Run> run_jobs(const std::shared_ptr<const Model>& model,
-                     const std::vector<TestInput>& inputs, const std::vector<Job>& jobs,
-                     bool timing = true) {
+Result<Run> run_jobs(const System& system, const std::vector<TestInput>& inputs,
+                     const std::vector<Job>& jobs) {
   std::vector<std::optional<Result<Played>>> played(jobs.size());
-  parallel_for(static_cast<int>(jobs.size()), [&](int i) {
-    played[i] = run_system(model, inputs, jobs[i].input, jobs[i].request, timing);
-  });
+  parallel_for(static_cast<int>(jobs.size()),
+               [&](int i) { played[i] = system.run(inputs[jobs[i].input], jobs[i].request); });
   Run run;
-  for (std::optional<Result<Played>>& one : played) {
-    if (!*one) return one->error();
-    run.bone_length_error = std::max(run.bone_length_error, (*one)->bone_length_error);
-    run.outputs.push_back(std::move((**one).output));
+  for (size_t i = 0; i < jobs.size(); ++i) {
+    Result<Played>& one = *played[i];
+    if (!one) return one.error();
+    run.bone_length_error = std::max(run.bone_length_error, one->bone_length_error);
+    run.outputs.push_back(std::move((*one).output));
+    run.outputs.back().input = jobs[i].input;
   }
   return run;
 }
 
-// Styles that are judged and that the model knows.
-std::vector<std::string> common_styles(const Model& model, const Bench& bench) {
+// Styles that are judged and that the system has.
+std::vector<std::string> common_styles(const System& system, const Bench& bench) {
+  const std::vector<std::string> known = system.styles();
   std::vector<std::string> common;
   for (const std::string& style : bench.styles) {
-    if (model.find_style(style).ok()) common.push_back(style);
+    if (std::find(known.begin(), known.end(), style) != known.end()) common.push_back(style);
   }
   return common;
 }
@@ -63,8 +61,9 @@ bool is_shown(const std::string& style, const TestInput& input, const Bench& ben
   });
 }
 
-std::vector<Job> jobs_at(const std::vector<std::string>& styles, double strength,
-                         const Bench& bench, const std::vector<std::string>& contents) {
+std::vector<Job> jobs_at(const System& system, const std::vector<std::string>& styles,
+                         double strength, const Bench& bench,
+                         const std::vector<std::string>& contents) {
   std::vector<Job> jobs;
   for (size_t i = 0; i < bench.inputs.size(); ++i) {
     const std::string& content = bench.inputs[i].take.row.content;
@@ -74,23 +73,16 @@ std::vector<Job> jobs_at(const std::vector<std::string>& styles, double strength
     }
     for (const std::string& style : styles) {
       if (!is_shown(style, bench.inputs[i], bench)) continue;
-      jobs.push_back({static_cast<int>(i), {style, {{style, static_cast<float>(strength)}}}});
+      const Request request{style, {{style, static_cast<float>(strength)}}};
+      if (system.can_run(bench.inputs[i], request)) jobs.push_back({static_cast<int>(i), request});
     }
   }
   return jobs;
 }
 
-// Judges outputs and adds the pose errors, which come from the networks alone.
-CellTable judge_outputs(const NamedModel& system, const Bench& bench,
-                        const std::vector<Output>& outputs, const std::vector<Take>& takes,
-                        double strength) {
-  CellTable cells = bench.judge.judge(outputs, takes);
-  add_pose_errors(bench.aligned.errors(*system.model, strength), cells);
-  return cells;
-}
-
-Result<MixReport> judge_mix(const NamedModel& system, const Bench& bench, const std::string& first,
-                            const std::string& second) {
+// Nothing where the system can make no mix of the two.
+Result<std::optional<MixReport>> judge_mix(const System& system, const Bench& bench,
+                                           const std::string& first, const std::string& second) {
   MixReport mix{first, second, 0, 0, 0};
   const Classifier& styles = bench.judge.styles();
   const Classifier& contents = bench.judge.contents();
@@ -99,11 +91,12 @@ Result<MixReport> judge_mix(const NamedModel& system, const Bench& bench, const 
   for (const double share : kMixShares) {
     std::vector<Job> jobs;
     for (size_t i = 0; i < bench.inputs.size(); ++i) {
-      jobs.push_back(
-          {static_cast<int>(i),
-           {first, {{first, static_cast<float>(1 - share)}, {second, static_cast<float>(share)}}}});
+      const Request request{
+          first, {{first, static_cast<float>(1 - share)}, {second, static_cast<float>(share)}}};
+      if (system.can_run(bench.inputs[i], request)) jobs.push_back({static_cast<int>(i), request});
     }
-    Result<Run> run = run_jobs(system.model, bench.inputs, jobs);
+    if (jobs.empty()) return std::optional<MixReport>();
+    Result<Run> run = run_jobs(system, bench.inputs, jobs);
     if (!run) return run.error();
     double windows = 0, lean = 0, either = 0, kept = 0;
     for (const Output& output : run->outputs) {
@@ -123,89 +116,65 @@ Result<MixReport> judge_mix(const NamedModel& system, const Bench& bench, const 
     mix.content = kept / windows;
   }
   mix.correlation = rank_correlation(shares, leans);
-  return mix;
-}
-
-// Processor time of one step of one character, in microseconds.
-double step_time(const NamedModel& system, const TestInput& input) {
-  Result<Stylizer> stylizer = Stylizer::create(system.model, input.rig);
-  if (!stylizer) return kNotMeasured;
-  std::vector<float> strengths(system.model->styles().size());
-  strengths.front() = 1;
-  std::vector<Quat> rotations(input.clip.joints());
-  std::vector<Vec3> translations(input.clip.joints());
-  constexpr int kSteps = 3000;
-  const std::clock_t begin = std::clock();
-  for (int i = 0; i < kSteps; ++i) {
-    stylizer->step(input.clip.pose(i % input.clip.frames), strengths, input.clip.frame_time,
-                   {rotations, translations});
-  }
-  return 1e6 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC / kSteps;
+  return std::optional(mix);
 }
 
 // CC: each styled test take asked for its own style again, frame by frame; how far it moves.
-Result<double> own_style_distance(const NamedModel& system, const Bench& bench) {
+Result<double> own_style_distance(const System& system, const Bench& bench) {
   std::vector<Job> jobs;
   for (size_t i = 0; i < bench.styled.size(); ++i) {
     const std::string& style = bench.styled[i].take.row.style;
-    if (system.model->find_style(style).ok()) {
-      jobs.push_back({static_cast<int>(i), {style, {{style, 1.0f}}}});
-    }
+    const Request request{style, {{style, 1.0f}}, false};
+    if (system.can_run(bench.styled[i], request)) jobs.push_back({static_cast<int>(i), request});
   }
-  Result<Run> run = run_jobs(system.model, bench.styled, jobs, false);
+  if (jobs.empty()) return kNotMeasured;
+  Result<Run> run = run_jobs(system, bench.styled, jobs);
   if (!run) return run.error();
   double sum = 0;
   for (const Output& output : run->outputs) {
     sum += summed_distance(output.take, bench.styled[output.input].take);
   }
-  return sum / static_cast<double>(std::max<size_t>(1, jobs.size())) * bench.units_per_metre;
+  return sum / static_cast<double>(jobs.size()) * bench.units_per_metre;
 }
 
-}  // namespace
-
-void add_pose_errors(const PoseErrors& errors, CellTable& cells) {
-  for (const auto& [cell, error] : errors) {
-    const auto found = cells.find(cell);
-    if (found == cells.end()) continue;
-    found->second.pose_error_deg = error.degrees;
-    found->second.pose_error_cm = error.cm;
+// What the strength does, over all styles; each has values at all strengths, or nothing is said.
+double mean_correlation(const std::map<std::string, std::vector<double>>& by_style,
+                        const std::vector<std::string>& styles, double until) {
+  double sum = 0;
+  for (const std::string& style : styles) {
+    const auto found = by_style.find(style);
+    if (found == by_style.end() || found->second.size() != kStrengths.size()) return kNotMeasured;
+    std::vector<double> strengths, values;
+    for (size_t i = 0; i < kStrengths.size() && kStrengths[i] <= until; ++i) {
+      strengths.push_back(kStrengths[i]);
+      values.push_back(found->second[i]);
+    }
+    sum += rank_correlation(strengths, values) / static_cast<double>(styles.size());
   }
+  return sum;
 }
 
-Result<CellTable> judge_contents(const NamedModel& system, const Bench& bench,
-                                 const std::vector<std::string>& contents) {
-  const std::vector<std::string> styles = common_styles(*system.model, bench);
-  Result<Run> run = run_jobs(system.model, bench.inputs, jobs_at(styles, 1, bench, contents));
-  if (!run) return run.error();
-  return judge_outputs(system, bench, run->outputs, takes_of(bench.inputs), 1);
-}
-
-Result<SystemReport> judge_system(const NamedModel& system, const Bench& bench) {
-  SystemReport report;
-  report.name = system.name;
-  report.recipe = system.model->recipe().name;
-  report.parameters = system.model->parameter_count();
-  const std::vector<std::string> styles = common_styles(*system.model, bench);
-  if (styles.empty()) {
-    return Error{system.name + ": knows none of the styles that the test takes show; it has '" +
-                 system.model->styles().front().name + "', they show '" + bench.styles.front() +
-                 "'; rename them with --styles"};
-  }
+// At every strength that the system can be asked for.
+Result<void> judge_strengths(const System& system, const Bench& bench,
+                             const std::vector<std::string>& styles, Progress& progress,
+                             SystemReport& report) {
   const std::vector<Take> takes = takes_of(bench.inputs);
   std::map<std::string, std::vector<double>> probability, distance;  // Per style, over strengths.
-  Progress progress("judging " + system.name);
   for (const double strength : kStrengths) {
     progress.update(strength / 3);
-    Result<Run> run = run_jobs(system.model, bench.inputs, jobs_at(styles, strength, bench, {}));
+    const std::vector<Job> jobs = jobs_at(system, styles, strength, bench, {});
+    if (jobs.empty()) continue;
+    Result<Run> run = run_jobs(system, bench.inputs, jobs);
     if (!run) return run.error();
     report.bone_length_error_cm =
         std::max(std::isnan(report.bone_length_error_cm) ? 0.0 : report.bone_length_error_cm,
                  100 * run->bone_length_error);
-    const CellTable cells = judge_outputs(system, bench, run->outputs, takes, strength);
+    const CellTable cells =
+        bench.judge.judge(run->outputs, takes, bench.aligned.errors(system, strength));
     report.strength.push_back({number(strength), mean_quality(cells)});
     for (const auto& [style, quality] : by_style(cells)) {
-      probability[style].push_back(quality.style_probability);
-      distance[style].push_back(quality.distance_cm);
+      probability[style].push_back(quality["style_probability"]);
+      distance[style].push_back(quality["distance_cm"]);
     }
     if (strength != 1) continue;
     report.seen = mean_quality(cells);
@@ -216,30 +185,46 @@ Result<SystemReport> judge_system(const NamedModel& system, const Bench& bench) 
     report.sc =
         distance_to_real(outputs, bench.training.takes, bench.judge.test()) * bench.units_per_metre;
   }
-  report.slider_style = report.slider_distance = 0;
-  for (const std::string& style : styles) {
-    const std::vector<double> strengths(std::begin(kStrengths), std::end(kStrengths));
-    const auto until_one = [](std::vector<double> v) {
-      v.resize(5);
-      return v;
-    };
-    const double count = static_cast<double>(styles.size());
-    report.slider_style +=
-        rank_correlation(until_one(strengths), until_one(probability[style])) / count;
-    report.slider_distance += rank_correlation(strengths, distance[style]) / count;
+  report.slider_style = mean_correlation(probability, styles, 1);
+  report.slider_distance = mean_correlation(distance, styles, 2);
+  return {};
+}
+
+}  // namespace
+
+Result<CellTable> judge_contents(const System& system, const Bench& bench,
+                                 const std::vector<std::string>& contents) {
+  const std::vector<std::string> styles = common_styles(system, bench);
+  Result<Run> run = run_jobs(system, bench.inputs, jobs_at(system, styles, 1, bench, contents));
+  if (!run) return run.error();
+  return bench.judge.judge(run->outputs, takes_of(bench.inputs), bench.aligned.errors(system));
+}
+
+Result<SystemReport> judge_system(const System& system, const Bench& bench) {
+  SystemReport report;
+  report.name = system.name();
+  const std::vector<std::string> styles = common_styles(system, bench);
+  if (styles.empty()) {
+    return Error{system.name() + ": knows none of the styles that the test takes show; it has '" +
+                 system.styles().front() + "', they show '" + bench.styles.front() +
+                 "'; rename them with --styles"};
+  }
+  Progress progress("judging " + system.name());
+  if (Result<void> done = judge_strengths(system, bench, styles, progress, report); !done) {
+    return done.error();
   }
   for (size_t a = 0; a < styles.size(); ++a) {
     for (size_t b = a + 1; b < styles.size(); ++b) {
       progress.update(0.67 + 0.33 * static_cast<double>(a) / static_cast<double>(styles.size()));
-      Result<MixReport> mix = judge_mix(system, bench, styles[a], styles[b]);
+      Result<std::optional<MixReport>> mix = judge_mix(system, bench, styles[a], styles[b]);
       if (!mix) return mix.error();
-      report.mixes.push_back(*mix);
+      if (*mix) report.mixes.push_back(**mix);
     }
   }
   Result<double> cc = own_style_distance(system, bench);
   if (!cc) return cc.error();
   report.cc = *cc;
-  report.step_us = step_time(system, bench.inputs.front());
+  report.step_us = system.step_us(bench.inputs.front());
   return report;
 }
 

@@ -21,7 +21,7 @@ StripRow strip_row(const std::string& label, const Take& take) {
 
 }  // namespace
 
-Result<void> add_pictures(const std::vector<NamedModel>& systems, const Bench& bench,
+Result<void> add_pictures(const std::vector<const System*>& systems, const Bench& bench,
                           Report& report) {
   // One content after the other, each in another style.
   size_t drawn = 0;
@@ -39,13 +39,13 @@ Result<void> add_pictures(const std::vector<NamedModel>& systems, const Bench& b
     const std::string title = row.content + ", " + style;
     StripReport strip{title, {strip_row("input", bench.inputs[i].take)}, kSpacing};
     ContactReport contacts{title, {{"input", kTakeRate, bench.inputs[i].take.contacts}}};
-    for (const NamedModel& system : systems) {
-      if (!system.model->find_style(style).ok()) continue;
-      Result<Played> played =
-          run_system(system.model, bench.inputs, static_cast<int>(i), {style, {{style, 1.0f}}});
+    for (const System* system : systems) {
+      const Request request{style, {{style, 1.0f}}};
+      if (!system->can_run(bench.inputs[i], request)) continue;
+      Result<Played> played = system->run(bench.inputs[i], request);
       if (!played) return played.error();
-      strip.rows.push_back(strip_row(system.name, played->output.take));
-      contacts.rows.push_back({system.name, kTakeRate, played->output.take.contacts});
+      strip.rows.push_back(strip_row(system->name(), played->output.take));
+      contacts.rows.push_back({system->name(), kTakeRate, played->output.take.contacts});
     }
     strip.rows.push_back(strip_row("real " + style, *real));
     contacts.rows.push_back({"real " + style, kTakeRate, real->contacts});

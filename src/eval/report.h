@@ -2,6 +2,7 @@
 // Everything that one evaluation found, and its forms: a file for machines, a page and a table for
 // people.
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,6 +52,7 @@ struct SystemReport {
   double bone_length_error_cm = kNotMeasured;   // Largest change of a bone's length.
   double step_us = kNotMeasured;                // Processor time of one step.
   size_t model_bytes = 0, parameters = 0;
+  std::optional<RecordedCount> recorded;  // Where the outputs were files.
 };
 
 // Input, systems and real take beside each other, for the page.

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "eval/measure.h"
 #include "eval/report_foreign.h"
 #include "eval/report_numbers.h"
 
@@ -22,7 +23,7 @@ Json size(size_t value) { return value > 0 ? Json(value) : Json(nullptr); }
 
 Json quality_json(const Quality& quality) {
   Json out = {{"takes", quality.takes}, {"windows", quality.windows}};
-  for (const QualityField& field : kQualityFields) out[field.key] = number(quality.*field.value);
+  for (const Measure& measure : measures()) out[measure.key] = number(quality[measure.key]);
   return out;
 }
 
@@ -164,6 +165,9 @@ Json system_json(const SystemReport& system) {
   out["step_us"] = number(system.step_us);
   out["model_bytes"] = size(system.model_bytes);
   out["parameters"] = size(system.parameters);
+  if (system.recorded) {
+    out["recorded"] = {{"listed", system.recorded->listed}, {"judged", system.recorded->judged}};
+  }
   return out;
 }
 

@@ -55,19 +55,6 @@ std::string count_text(size_t count) {
   return text;
 }
 
-Better better_of(const QualityField& field) {
-  // How far the body is moved says which style was asked for, not how well it was done.
-  if (field.value == &Quality::distance_cm) return Better::neither;
-  for (const auto value : {&Quality::jerk_ratio, &Quality::cadence_ratio}) {
-    if (field.value == value) return Better::nearest_one;
-  }
-  for (const auto value :
-       {&Quality::style_accuracy, &Quality::content_accuracy, &Quality::style_probability}) {
-    if (field.value == value) return Better::higher;
-  }
-  return Better::lower;
-}
-
 std::vector<bool> best_of(const std::vector<double>& values, Better better, int digits) {
   std::vector<bool> best(values.size());
   size_t measured = 0, least = 0;
@@ -110,10 +97,10 @@ Quality mean_quality(const QualityTable& table) {
     mean.takes += quality.takes;
     mean.windows += quality.windows;
   }
-  for (const QualityField& field : kQualityFields) {
+  for (const Measure& measure : measures()) {
     std::vector<double> values;
-    for (const auto& [name, quality] : table) values.push_back(quality.*field.value);
-    mean.*field.value = finite_mean(values);
+    for (const auto& [name, quality] : table) values.push_back(quality[measure.key]);
+    mean[measure.key] = finite_mean(values);
   }
   return mean;
 }

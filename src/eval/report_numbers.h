@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "eval/quality.h"
+#include "eval/measure.h"
 
 namespace panache {
 
@@ -22,10 +22,6 @@ std::string bytes_text(size_t bytes);
 
 // "1,234,567"; a dash for 0.
 std::string count_text(size_t count);
-
-// Which of two values of a field is the better one.
-enum class Better { higher, lower, nearest_one, neither };
-Better better_of(const QualityField& field);
 
 // Marks the best of `values`, as printed with `digits` decimals: none where fewer than two are
 // finite, several where they print alike.

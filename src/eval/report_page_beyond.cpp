@@ -42,13 +42,13 @@ std::string unseen_table(const Report& report, const UnseenReport& split) {
   const std::vector<std::string> contents = names_of({&split.by_content}, report.contents);
   const std::vector<QualitySource> sources = {
       {"unseen", &unseen}, {"seen", &seen}, {"real, blind", &blind}, {"mean posture", &posture}};
-  const std::vector<double Quality::*> kFirst = {&Quality::style_accuracy,
-                                                 &Quality::content_accuracy, &Quality::jerk_ratio,
-                                                 &Quality::pose_error_deg};
-  std::vector<double Quality::*> others;
-  for (const QualityField& field : kQualityFields) {
-    if (std::find(kFirst.begin(), kFirst.end(), field.value) == kFirst.end()) {
-      others.push_back(field.value);
+  const std::vector<const char*> kFirst = {"style_accuracy", "content_accuracy", "jerk_ratio",
+                                           "pose_error_deg"};
+  std::vector<const char*> others;
+  for (const Measure& measure : measures()) {
+    if (std::none_of(kFirst.begin(), kFirst.end(),
+                     [&](std::string_view first) { return first == measure.key; })) {
+      others.push_back(measure.key);
     }
   }
   return quality_matrix("content", contents, sources, kFirst, kMean) +

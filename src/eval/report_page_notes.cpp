@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/xml.h"
+#include "eval/measure.h"
 #include "eval/report_numbers.h"
 #include "eval/report_page_html.h"
 #include "eval/report_page_sections.h"
@@ -15,35 +16,8 @@ struct Definition {
   const char* meaning;
 };
 
+// Beside those of the measures.
 constexpr Definition kDefinitions[] = {
-    {"style",
-     "Share of windows of about one second that a classifier, trained on real motion, "
-     "recognises as the asked style."},
-    {"content", "Share of windows that a second classifier recognises as the input's content."},
-    {"style probability", "Mean probability that the style classifier gives to the asked style."},
-    {"jerk / real",
-     "Mean magnitude of the third difference of the joints' positions, as a ratio "
-     "to real takes of the same style and content; 1 is as smooth as real motion."},
-    {"skating",
-     "Share of frames in which a toe is below 5 cm in two neighbouring frames and "
-     "slides faster than 0.5 m/s, at 20 frames a second."},
-    {"slide cm/s",
-     "Mean horizontal speed of ankles and toes, weighted from 1 at the floor to 0 at "
-     "2.5 cm above it."},
-    {"error deg",
-     "Mean angle between the local rotations of the joints and those of the "
-     "time-aligned real styled take."},
-    {"error cm",
-     "Mean distance of the joints from those of the time-aligned real styled take, on "
-     "the canonical body."},
-    {"FMD",
-     "Fr\xc3\xa9"
-     "chet distance of the content classifier's features, output against real takes of the "
-     "asked style and content; comparable only within this page."},
-    {"cadence / real", "Steps a second of walks and runs, as a ratio to real takes of the style."},
-    {"moved cm",
-     "Mean distance of the joints from the input's: how much was changed, not how "
-     "well."},
     {"takes, windows", "How many takes were judged, and into how many windows they were cut."},
     {"unseen, seen",
      "What a system makes of contents whose styled takes were left out of its "
@@ -133,10 +107,11 @@ std::string page_cost(const Report& report) {
 
 std::string page_definitions() {
   std::string out = "<dl class=\"definitions\">\n";
-  for (const Definition& definition : kDefinitions) {
-    out += "<dt>" + xml_escaped(definition.term) + "</dt><dd>" + xml_escaped(definition.meaning) +
-           "</dd>\n";
-  }
+  const auto define = [&](const char* term, const char* meaning) {
+    out += "<dt>" + xml_escaped(term) + "</dt><dd>" + xml_escaped(meaning) + "</dd>\n";
+  };
+  for (const Measure& measure : measures()) define(measure.label, measure.meaning);
+  for (const Definition& definition : kDefinitions) define(definition.term, definition.meaning);
   return out + "</dl>\n";
 }
 

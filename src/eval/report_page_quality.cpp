@@ -7,6 +7,7 @@
 #include "base/plot.h"
 #include "base/svg.h"
 #include "base/xml.h"
+#include "eval/measure.h"
 #include "eval/report_numbers.h"
 #include "eval/report_page_html.h"
 #include "eval/report_page_sections.h"
@@ -15,54 +16,47 @@ namespace panache {
 namespace {
 
 // What tells most, in tables that fit a page with three systems in them.
-const std::vector<double Quality::*> kRecognised = {&Quality::style_accuracy,
-                                                    &Quality::content_accuracy};
-const std::vector<double Quality::*> kMoved = {&Quality::jerk_ratio, &Quality::skating_ratio,
-                                               &Quality::pose_error_deg};
+const std::vector<const char*> kRecognised = {"style_accuracy", "content_accuracy"};
+const std::vector<const char*> kMoved = {"jerk_ratio", "skating_ratio", "pose_error_deg"};
 
-const QualityField& field_of(double Quality::*value) {
-  return *std::find_if(kQualityFields.begin(), kQualityFields.end(),
-                       [&](const QualityField& field) { return field.value == value; });
+bool is_accuracy(const Measure& measure) { return measure.better == Better::higher; }
+
+HtmlCell value_cell(const Measure& measure, double value, bool best) {
+  return {number_text(value, measure.digits), best, is_accuracy(measure) ? value : kNotMeasured};
 }
 
-bool is_accuracy(const QualityField& field) { return better_of(field) == Better::higher; }
-
-HtmlCell value_cell(const QualityField& field, double value, bool best) {
-  return {number_text(value, field.digits), best, is_accuracy(field) ? value : kNotMeasured};
-}
-
-double value_in(const QualityTable& table, const std::string& name, double Quality::*value) {
+double value_in(const QualityTable& table, const std::string& name, const char* measure) {
   const auto row = table.find(name);
-  return row == table.end() ? kNotMeasured : row->second.*value;
+  return row == table.end() ? kNotMeasured : row->second[measure];
 }
 
 // The cells of one row in the columns of `sources`, the best of those that compete marked.
-std::vector<HtmlCell> row_cells(const QualityField& field, const std::string& row,
+std::vector<HtmlCell> row_cells(const Measure& measure, const std::string& row,
                                 const std::vector<QualitySource>& sources) {
   std::vector<double> rivals;
   for (const QualitySource& source : sources) {
-    rivals.push_back(source.competes ? value_in(*source.table, row, field.value) : kNotMeasured);
+    rivals.push_back(source.competes ? value_in(*source.table, row, measure.key) : kNotMeasured);
   }
-  const std::vector<bool> best = best_of(rivals, better_of(field), field.digits);
+  const std::vector<bool> best = best_of(rivals, measure.better, measure.digits);
   std::vector<HtmlCell> cells;
   for (size_t s = 0; s < sources.size(); ++s) {
-    cells.push_back(value_cell(field, value_in(*sources[s].table, row, field.value), best[s]));
+    cells.push_back(value_cell(measure, value_in(*sources[s].table, row, measure.key), best[s]));
   }
   return cells;
 }
 
-bool measured(const QualityTable& table, double Quality::*value) {
+bool measured(const QualityTable& table, const char* measure) {
   return std::any_of(table.begin(), table.end(),
-                     [&](const auto& row) { return std::isfinite(row.second.*value); });
+                     [&](const auto& row) { return std::isfinite(row.second[measure]); });
 }
 
 // One row of the overall table.
 void add_overall_row(HtmlTable& table, const std::string& name, const Quality& quality,
                      const std::vector<bool>& best, bool apart) {
   std::vector<HtmlCell> cells = {{count_text(quality.takes)}, {count_text(quality.windows)}};
-  for (size_t f = 0; f < kQualityFields.size(); ++f) {
-    const QualityField& field = kQualityFields[f];
-    cells.push_back(value_cell(field, quality.*field.value, best[f]));
+  for (size_t m = 0; m < measures().size(); ++m) {
+    const Measure& measure = measures()[m];
+    cells.push_back(value_cell(measure, quality[measure.key], best[m]));
   }
   table.add_row(name, std::move(cells), apart);
 }
@@ -83,14 +77,14 @@ std::string with_floor(double value, double floor) {
   return out + " (needed: " + number_text(floor, 3) + ")";
 }
 
-// All fields of each row of one system.
+// All measures of each row of one system.
 std::string all_numbers(const std::string& rows_are, const QualityTable& table,
                         const std::vector<std::string>& order) {
   HtmlTable out(rows_are);
   std::vector<std::string> labels = {"takes", "windows"};
-  for (const QualityField& field : kQualityFields) labels.emplace_back(field.label);
+  for (const Measure& measure : measures()) labels.emplace_back(measure.label);
   out.add_columns("", labels);
-  const std::vector<bool> none(kQualityFields.size());
+  const std::vector<bool> none(measures().size());
   for (const std::string& name : names_of({&table}, order)) {
     add_overall_row(out, name, table.at(name), none, false);
   }
@@ -127,24 +121,24 @@ double strength_of(const std::string& key) {
 
 // Empty where no system was measured at any strength.
 std::string strength_plot(const Report& report, const std::string& title, const std::string& label,
-                          double Quality::*value) {
+                          const char* measure) {
   std::vector<PlotSeries> curves;
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (size_t s = 0; s < report.systems.size(); ++s) {
     PlotSeries curve{report.systems[s].name, {}, {}, palette(s)};
     for (const auto& [key, quality] : report.systems[s].strength) {
-      if (!std::isfinite(strength_of(key)) || !std::isfinite(quality.*value)) continue;
+      if (!std::isfinite(strength_of(key)) || !std::isfinite(quality[measure])) continue;
       curve.x.push_back(strength_of(key));
-      curve.y.push_back(quality.*value);
+      curve.y.push_back(quality[measure]);
       low = std::min(low, curve.x.back());
       high = std::max(high, curve.x.back());
     }
     if (!curve.x.empty()) curves.push_back(std::move(curve));
   }
   if (curves.empty()) return "";
-  if (std::isfinite(report.real.*value)) {
+  if (std::isfinite(report.real[measure])) {
     curves.push_back(
-        {"real takes", {low, high}, {report.real.*value, report.real.*value}, "#8a8a8a"});
+        {"real takes", {low, high}, {report.real[measure], report.real[measure]}, "#8a8a8a"});
   }
   return html_drawing(line_plot(title, "strength", label, curves), title + " over strength");
 }
@@ -164,27 +158,27 @@ std::string slider_table(const Report& report) {
 
 std::string quality_matrix(const std::string& rows_are, const std::vector<std::string>& rows,
                            const std::vector<QualitySource>& sources,
-                           const std::vector<double Quality::*>& fields,
-                           const std::string& last_row) {
+                           const std::vector<const char*>& keys, const std::string& last_row) {
   HtmlTable table(rows_are);
-  std::vector<std::pair<const QualityField*, std::vector<QualitySource>>> groups;
-  for (double Quality::*value : fields) {
+  std::vector<std::pair<const Measure*, std::vector<QualitySource>>> groups;
+  for (const char* key : keys) {
+    const Measure& measure = find_measure(key);
     std::vector<QualitySource> shown;
     std::vector<std::string> labels;
     for (const QualitySource& source : sources) {
-      if (!measured(*source.table, value)) continue;
+      if (!measured(*source.table, key)) continue;
       shown.push_back(source);
       labels.push_back(source.name);
     }
     if (shown.empty()) continue;
-    table.add_columns(field_of(value).label, labels);
-    groups.emplace_back(&field_of(value), shown);
+    table.add_columns(measure.label, labels);
+    groups.emplace_back(&measure, shown);
   }
   if (groups.empty()) return "";
   const auto add = [&](const std::string& row, bool apart) {
     std::vector<HtmlCell> cells;
-    for (const auto& [field, shown] : groups) {
-      const std::vector<HtmlCell> more = row_cells(*field, row, shown);
+    for (const auto& [measure, shown] : groups) {
+      const std::vector<HtmlCell> more = row_cells(*measure, row, shown);
       cells.insert(cells.end(), more.begin(), more.end());
     }
     table.add_row(row, std::move(cells), apart);
@@ -204,19 +198,25 @@ std::string page_judged(const Report& report) {
   add_fact(facts, "Styles", joined(report.styles));
   add_fact(facts, "Contents", joined(report.contents));
   add_fact(facts, "Style classifier on real takes",
-           with_floor(report.real.style_accuracy, report.style_floor));
+           with_floor(report.real["style_accuracy"], report.style_floor));
   add_fact(facts, "Content classifier on real takes",
-           with_floor(report.real.content_accuracy, report.content_floor));
+           with_floor(report.real["content_accuracy"], report.content_floor));
+  for (const SystemReport& system : report.systems) {
+    if (!system.recorded) continue;
+    add_fact(facts, "Recorded outputs of " + system.name,
+             std::to_string(system.recorded->judged) + " of " +
+                 std::to_string(system.recorded->listed) + " judged");
+  }
   add_fact(facts, "Time taken", duration_text(report.seconds));
   std::string out = "<dl class=\"facts\">\n" + facts + "</dl>\n";
   const auto fails = [](double value, double floor) { return !(value >= floor); };
-  if (fails(report.real.style_accuracy, report.style_floor)) {
+  if (fails(report.real["style_accuracy"], report.style_floor)) {
     out += html_paragraph(
         "The style classifier does not reach what is needed of it on real takes: no style "
         "accuracy below counts.",
         "warning");
   }
-  if (fails(report.real.content_accuracy, report.content_floor)) {
+  if (fails(report.real["content_accuracy"], report.content_floor)) {
     out += html_paragraph(
         "The content classifier does not reach what is needed of it on real takes: no content "
         "accuracy below counts.",
@@ -230,15 +230,15 @@ std::string page_overall(const Report& report) {
   HtmlTable table("");
   std::vector<std::string> labels = {"takes", "windows"};
   std::vector<std::vector<bool>> best(report.systems.size());
-  for (const QualityField& field : kQualityFields) {
-    labels.emplace_back(field.label);
+  for (const Measure& measure : measures()) {
+    labels.emplace_back(measure.label);
     std::vector<double> values;
-    for (const SystemReport& system : report.systems) values.push_back(system.seen.*field.value);
-    const std::vector<bool> marks = best_of(values, better_of(field), field.digits);
+    for (const SystemReport& system : report.systems) values.push_back(system.seen[measure.key]);
+    const std::vector<bool> marks = best_of(values, measure.better, measure.digits);
     for (size_t s = 0; s < marks.size(); ++s) best[s].push_back(marks[s]);
   }
   table.add_columns("", labels);
-  const std::vector<bool> none(kQualityFields.size());
+  const std::vector<bool> none(measures().size());
   add_overall_row(table, "real takes", report.real, none, false);
   add_overall_row(table, "input", report.input, none, false);
   for (size_t s = 0; s < report.systems.size(); ++s) {
@@ -259,10 +259,10 @@ std::string page_by_style(const Report& report) {
 
 std::string page_strength(const Report& report) {
   std::string plots =
-      strength_plot(report, "Style recognised", "share of windows", &Quality::style_accuracy) +
-      strength_plot(report, "Content kept", "share of windows", &Quality::content_accuracy) +
-      strength_plot(report, "Jerk", "ratio to real takes", &Quality::jerk_ratio) +
-      strength_plot(report, "Distance from the input", "cm", &Quality::distance_cm);
+      strength_plot(report, "Style recognised", "share of windows", "style_accuracy") +
+      strength_plot(report, "Content kept", "share of windows", "content_accuracy") +
+      strength_plot(report, "Jerk", "ratio to real takes", "jerk_ratio") +
+      strength_plot(report, "Distance from the input", "cm", "distance_cm");
   if (!plots.empty()) plots = "<div class=\"plots\">\n" + plots + "</div>\n";
   std::vector<std::string> order;
   std::vector<QualityTable> tables;
@@ -276,9 +276,9 @@ std::string page_strength(const Report& report) {
   for (size_t s = 0; s < tables.size(); ++s) {
     sources.push_back({report.systems[s].name, &tables[s], false});
   }
-  const std::string numbers = quality_matrix("strength", order, sources,
-                                             {&Quality::style_accuracy, &Quality::content_accuracy,
-                                              &Quality::jerk_ratio, &Quality::distance_cm});
+  const std::string numbers =
+      quality_matrix("strength", order, sources,
+                     {"style_accuracy", "content_accuracy", "jerk_ratio", "distance_cm"});
   return plots + slider_table(report) + html_details("The numbers of the curves", numbers);
 }
 

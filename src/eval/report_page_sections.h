@@ -8,7 +8,7 @@
 namespace panache {
 
 // One table of the numbers of several sources side by side: a row per name, a group of columns per
-// field, in it a column per source that has any number of it.
+// measure (by its key), in it a column per source that has any number of it.
 struct QualitySource {
   std::string name;
   const QualityTable* table = nullptr;
@@ -16,7 +16,7 @@ struct QualitySource {
 };
 std::string quality_matrix(const std::string& rows_are, const std::vector<std::string>& rows,
                            const std::vector<QualitySource>& sources,
-                           const std::vector<double Quality::*>& fields,
+                           const std::vector<const char*>& measures,
                            const std::string& last_row = "");
 
 // report_page_quality.cpp: actions that the systems were trained on.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "eval/measure.h"
 #include "eval/report_foreign.h"
 #include "eval/report_numbers.h"
 #include "eval/report_text_table.h"
@@ -25,12 +26,12 @@ std::string titled(const std::string& title, const std::string& body) {
 std::string overall(const Report& report) {
   TextTable table("");
   std::vector<std::string> labels;
-  for (const QualityField& field : kQualityFields) labels.emplace_back(field.label);
+  for (const Measure& measure : measures()) labels.emplace_back(measure.label);
   table.add_columns("", labels);
   const auto add = [&](const std::string& name, const Quality& quality) {
     std::vector<std::string> cells;
-    for (const QualityField& field : kQualityFields) {
-      cells.push_back(number_text(quality.*field.value, field.digits));
+    for (const Measure& measure : measures()) {
+      cells.push_back(number_text(quality[measure.key], measure.digits));
     }
     table.add_row(name, std::move(cells));
   };
@@ -40,9 +41,15 @@ std::string overall(const Report& report) {
   return table.str();
 }
 
+// What these measures found.
+std::vector<std::string> texts(const Quality& quality, const std::vector<const char*>& keys) {
+  std::vector<std::string> cells;
+  for (const char* key : keys) cells.push_back(number_text(quality[key], find_measure(key).digits));
+  return cells;
+}
+
 std::vector<std::string> four_numbers(const Quality& quality) {
-  return {number_text(quality.style_accuracy, 3), number_text(quality.content_accuracy, 3),
-          number_text(quality.jerk_ratio, 2), number_text(quality.pose_error_deg, 2)};
+  return texts(quality, {"style_accuracy", "content_accuracy", "jerk_ratio", "pose_error_deg"});
 }
 
 std::string by_content(const Report& report) {
@@ -63,7 +70,7 @@ std::string by_content(const Report& report) {
 }
 
 // One number of each system, strengths from left to right.
-std::string strengths(const Report& report, double Quality::*value, int digits) {
+std::string strengths(const Report& report, const char* measure) {
   std::vector<std::string> keys;
   for (const SystemReport& system : report.systems) {
     for (const auto& [key, quality] : system.strength) {
@@ -78,7 +85,7 @@ std::string strengths(const Report& report, double Quality::*value, int digits) 
     for (const std::string& key : keys) {
       const auto at = std::find_if(system.strength.begin(), system.strength.end(),
                                    [&](const auto& entry) { return entry.first == key; });
-      cells.push_back(at == system.strength.end() ? kDash : number_text(at->second.*value, digits));
+      cells.push_back(at == system.strength.end() ? kDash : texts(at->second, {measure}).front());
     }
     table.add_row(system.name, std::move(cells));
   }
@@ -98,9 +105,10 @@ std::string unseen(const Report& report, const UnseenReport& split) {
   const auto add = [&](const std::string& row, const std::vector<Quality>& of) {
     std::vector<std::string> cells;
     for (const Quality& quality : of) {
-      cells.push_back(number_text(quality.style_accuracy, 3));
-      cells.push_back(number_text(quality.content_accuracy, 3));
-      cells.push_back(number_text(quality.jerk_ratio, 2));
+      for (const std::string& cell :
+           texts(quality, {"style_accuracy", "content_accuracy", "jerk_ratio"})) {
+        cells.push_back(cell);
+      }
     }
     table.add_row(row, std::move(cells));
   };
@@ -182,19 +190,26 @@ std::string foresight(const SystemReport& system) {
 std::string report_text(const Report& report) {
   std::string text =
       titled("Overall: held-out takes, means over styles and contents", overall(report));
-  if (!(report.real.style_accuracy >= report.style_floor)) {
+  if (!(report.real["style_accuracy"] >= report.style_floor)) {
     text += "The style classifier is below " + number_text(report.style_floor, 3) +
             " on real takes: no style accuracy counts.\n\n";
   }
-  if (!(report.real.content_accuracy >= report.content_floor)) {
+  if (!(report.real["content_accuracy"] >= report.content_floor)) {
     text += "The content classifier is below " + number_text(report.content_floor, 3) +
             " on real takes: no content accuracy counts.\n\n";
   }
+  for (const SystemReport& system : report.systems) {
+    if (!system.recorded) continue;
+    text += cut_text(system.name + ": " + std::to_string(system.recorded->judged) + " of " +
+                         std::to_string(system.recorded->listed) + " recorded outputs judged",
+                     kTextWidth) +
+            "\n\n";
+  }
   text += titled("By content: style, content, jerk against real takes, pose error in degrees",
                  by_content(report));
-  text += titled("Style recognised by strength", strengths(report, &Quality::style_accuracy, 3));
-  text += titled("Content kept by strength", strengths(report, &Quality::content_accuracy, 3));
-  text += titled("Jerk against real takes by strength", strengths(report, &Quality::jerk_ratio, 2));
+  text += titled("Style recognised by strength", strengths(report, "style_accuracy"));
+  text += titled("Content kept by strength", strengths(report, "content_accuracy"));
+  text += titled("Jerk against real takes by strength", strengths(report, "jerk_ratio"));
   for (const SystemReport& system : report.systems) {
     for (const UnseenReport& split : system.unseen) {
       text += titled(

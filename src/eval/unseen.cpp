@@ -1,7 +1,8 @@
 #include <algorithm>
 
 #include "eval/evaluate.h"
-#include "eval/mean_posture.h"
+#include "eval/systems/mean_posture.h"
+#include "eval/systems/model_system.h"
 
 namespace panache {
 namespace {
@@ -33,7 +34,7 @@ QualityTable judge_blind(const UnseenSplit& split, const Bench& bench, uint64_t 
     hits[cell] += best.eq(blind.find(take.row.style)).sum().item<double>();
   }
   for (auto& [cell, quality] : cells) {
-    quality.style_accuracy = hits[cell] / static_cast<double>(quality.windows);
+    quality["style_accuracy"] = hits[cell] / static_cast<double>(quality.windows);
   }
   return by_content(cells);
 }
@@ -54,7 +55,7 @@ Result<UnseenSplit> named_split(const std::string& name) {
 }
 
 Result<void> judge_unseen(const UnseenSplit& split, const EvaluateOptions& options,
-                          const Bench& bench, const std::vector<NamedModel>& systems,
+                          const Bench& bench, const std::vector<NamedModel>& models,
                           std::vector<SystemReport>& reports) {
   // Inputs are normalised by the takes of the pairs alone, so these contents leave no trace.
   TrainingData training_data = bench.training;
@@ -62,20 +63,20 @@ Result<void> judge_unseen(const UnseenSplit& split, const EvaluateOptions& optio
     return is_among(split.contents, bench.training.takes[pairing.styled].row.content);
   });
   const QualityTable blind = judge_blind(split, bench, options.seed);
-  Result<std::shared_ptr<const Model>> posture =
-      mean_posture_model(bench.training, options.styles, split.contents);
+  Result<std::unique_ptr<System>> posture = make_mean_posture(
+      "mean posture", {training_data.takes, training_data.pairings, options.styles, options.seed});
   if (!posture) return posture.error();
-  Result<CellTable> posture_cells =
-      judge_contents({"mean posture", *posture}, bench, split.contents);
+  Result<CellTable> posture_cells = judge_contents(**posture, bench, split.contents);
   if (!posture_cells) return posture_cells.error();
 
-  std::map<const Recipe*, CellTable> judged;  // A recipe trained once serves all systems of it.
-  for (size_t s = 0; s < systems.size(); ++s) {
-    const Recipe* recipe = &systems[s].model->recipe();
+  std::map<const Recipe*, CellTable> judged;  // A recipe trained once serves all models of it.
+  for (size_t s = 0; s < models.size(); ++s) {
+    const Recipe* recipe = &models[s].model->recipe();
     if (!judged.contains(recipe)) {
-      Result<NamedModel> model = train_system(*recipe, systems[s].name, training_data, options);
+      Result<NamedModel> model = train_system(*recipe, models[s].name, training_data, options);
       if (!model) return Error{"unseen " + split.name + ": " + model.error().message};
-      Result<CellTable> cells = judge_contents(*model, bench, split.contents);
+      Result<CellTable> cells =
+          judge_contents(ModelSystem(model->name, model->model), bench, split.contents);
       if (!cells) return cells.error();
       judged[recipe] = *std::move(cells);
     }

@@ -41,6 +41,13 @@ class Model {
   // file.
   static Result<std::shared_ptr<const Model>> create(const TensorFile& file,
                                                      const std::string& name);
+  // A model without networks: what each style answers, whatever the motion. It plants no foot.
+  struct ConstantStyle {
+    StyleInfo info;
+    StyleDelta change;
+    float log_rate;  // Logarithm of input seconds per output second.
+  };
+  static std::shared_ptr<const Model> of_constants(std::vector<ConstantStyle> styles);
 
   const Recipe& recipe() const { return *recipe_; }
   PoseLayout layout() const { return recipe_->layout; }
@@ -125,6 +132,7 @@ class Model {
   Gate gate_;
   std::vector<float> feature_mean_, feature_scale_, feature_factor_;  // The last is 1 / scale.
   std::vector<Learnt> learnt_;                                        // Of the last styles.
+  std::vector<ConstantStyle> constants_;                              // In place of networks.
   std::shared_ptr<const Predictor> predictor_;
   size_t parameter_count_ = 0;
   size_t work_ = 0;  // Numbers that a forward pass of one character works in, see kMaxWork.
@@ -177,6 +185,8 @@ class StyleNetworks {
  private:
   class Work;
   static void evaluate(std::span<const Pass> passes, std::span<float> numbers) noexcept;
+  // Of a model without networks.
+  void answer_constants() noexcept;
   // Writes a window, and what else the networks take in.
   void write_input(std::span<const float> window, std::span<float> input) const noexcept;
   // Draws the pose trunk's features towards their mean as far as the gates are closed.

@@ -1,5 +1,8 @@
 // panache eval: what it reports and what it refuses.
 
+#include <algorithm>
+#include <filesystem>
+
 #include <nlohmann/json.hpp>
 
 #include "cli/program.h"
@@ -105,6 +108,68 @@ TEST_F(Eval, judges_models_by_real_takes_it_holds_out_and_says_so_in_a_report) {
   expect_quality(split["seen"]["wave"]);
   EXPECT_TRUE(split["blind"]["wave"]["style_accuracy"].is_number());
   expect_quality(split["mean_posture"]["wave"]);
+}
+
+// Our own outputs, made by the program as anybody's would be, judged beside the model itself.
+TEST_F(Eval, outputs_of_another_program_are_judged_as_if_it_had_been_run) {
+  std::filesystem::create_directories(path("theirs"));
+  ASSERT_EQ(run({"eval", "takes.csv", "--requests", "theirs/manifest.csv"}).exit, 0);
+  const std::string manifest = read("theirs/manifest.csv");
+  EXPECT_TRUE(
+      manifest.starts_with("input,style,strength,output\n"
+                           "\"neutral-walk-2.bvh\",\"old\",1,\"1_neutral-walk-2_old.bvh\"\n"
+                           "\"neutral-walk-2.bvh\",\"proud\",1,\"2_neutral-walk-2_proud.bvh\"\n"))
+      << manifest;
+  int count = 0;
+  for (const std::string content : kContents) {
+    for (const std::string take : {"2", "3"}) {
+      for (const std::string style : {"old", "proud"}) {
+        const std::string input = "neutral-" + content + "-" + take;
+        const std::string output = std::to_string(++count) + "_" + input + "_" + style + ".bvh";
+        ASSERT_NE(manifest.find("\"" + output + "\"\n"), manifest.npos) << manifest;
+        const Ran made = run({"stylize", input + ".bvh", "--style", style + "=1", "--model",
+                              "model.safetensors", "-o", "theirs/" + output});
+        ASSERT_EQ(made.exit, 0) << made.err;
+      }
+    }
+  }
+  // A strength of which there is but one take.
+  write("theirs/manifest.csv", manifest + "neutral-walk-2.bvh,old,0.5,1_neutral-walk-2_old.bvh\n");
+
+  const Ran ran = run({"eval", "takes.csv", "--model", "model.safetensors", "--recorded", "theirs",
+                       "--report", "report", "--json"});
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const Json systems = Json::parse(ran.out)["systems"];
+  EXPECT_EQ(systems.size(), 3u);
+  const Json &theirs = systems.at("theirs"), &ours = systems.at("model");
+  EXPECT_EQ(theirs["recorded"], Json({{"listed", 9}, {"judged", 9}}));
+  EXPECT_FALSE(ours.contains("recorded"));
+  EXPECT_EQ(theirs["seen"]["takes"], 8);
+  EXPECT_EQ(theirs["strength"].size(), 2u);
+  EXPECT_EQ(theirs["strength"]["0.5"]["takes"], 1);
+  // The same motion but for the six decimals of the files, of which jerk is most sensitive.
+  for (const char* key : {"style_accuracy", "content_accuracy", "style_probability",
+                          "skating_ratio", "skating_cm_s", "fmd"}) {
+    const double expected = ours["seen"][key];
+    EXPECT_NEAR(theirs["seen"][key], expected, 1e-3 * std::max(1.0, expected)) << key;
+  }
+  EXPECT_NEAR(theirs["seen"]["jerk_ratio"], ours["seen"]["jerk_ratio"].get<double>(), 0.01);
+  EXPECT_TRUE(theirs["seen"]["pose_error_cm"].is_null());
+  EXPECT_TRUE(theirs["slider"]["style"].is_null());
+  EXPECT_TRUE(theirs["mixes"].empty());
+  EXPECT_NE(read("report/index.html").find("9 of 9 judged"), std::string::npos);
+}
+
+TEST_F(Eval, outputs_with_a_manifest_that_is_wrong_are_refused_at_once) {
+  write("theirs/manifest.csv", "input,style,strength,output\nneutral-walk-2.bvh,old,1,a.bvh\n");
+  expect_refused({"eval", "takes.csv", "--model", "model.safetensors", "--recorded", "theirs"},
+                 "theirs/manifest.csv:2: output theirs/a.bvh: cannot be read: No such file or "
+                 "directory");
+  expect_refused({"eval", "takes.csv", "--recorded", "theirs", "--recorded", "./theirs/"},
+                 "./theirs/: has the name of theirs; the report names outputs by their folder, so "
+                 "give it another name");
+  expect_refused({"eval", "takes.csv", "--requests", "theirs/manifest.csv"},
+                 "theirs/manifest.csv: exists already; --force overwrites it");
 }
 
 TEST_F(Eval, takes_that_differ_in_name_only_make_no_judge) {

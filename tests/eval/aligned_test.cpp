@@ -43,7 +43,7 @@ TEST_F(Aligned, untouched_a_bend_is_missing_at_one_joint_and_all_above_it) {
 }
 
 TEST_F(Aligned, a_model_that_bends_as_the_style_does_is_right_and_knows_no_other_style) {
-  const PoseErrors errors = test_.errors(*test::bending_model(test::kBend));
+  const PoseErrors errors = test_.errors(test::as_system(test::bending_model(test::kBend)));
   ASSERT_EQ(errors.size(), 1u);
   const PoseError untouched = test_.untouched_errors().at({"old", "walk"});
   const PoseError reached = errors.at({"old", "walk"});
@@ -54,9 +54,9 @@ TEST_F(Aligned, a_model_that_bends_as_the_style_does_is_right_and_knows_no_other
 TEST_F(Aligned, strength_scales_what_a_model_does) {
   const auto model = test::bending_model(test::kBend);
   const std::pair<std::string, std::string> cell = {"old", "walk"};
-  const double none = test_.errors(*model, 0).at(cell).degrees;
-  const double half = test_.errors(*model, 0.5).at(cell).degrees;
-  const double full = test_.errors(*model, 1).at(cell).degrees;
+  const double none = test_.errors(test::as_system(model), 0).at(cell).degrees;
+  const double half = test_.errors(test::as_system(model), 0.5).at(cell).degrees;
+  const double full = test_.errors(test::as_system(model), 1).at(cell).degrees;
   EXPECT_EQ(none, test_.untouched_errors().at(cell).degrees);
   EXPECT_NEAR(half, none / 2, 0.2);
   EXPECT_LT(full, half);
@@ -66,9 +66,10 @@ TEST_F(Aligned, both_recipes_are_judged_and_random_ones_are_no_good) {
   for (const Recipe* recipe : {&test::kPanache, &test::kSmith2019}) {
     const auto model =
         *Model::parse(format_safetensors(test::make_model({"old"}, 1, *recipe)), "m");
-    const PoseErrors errors = test_.errors(*model);
-    EXPECT_GT(errors.at({"old", "walk"}).cm,
-              test_.errors(*test::bending_model(test::kBend)).at({"old", "walk"}).cm);
+    const PoseErrors errors = test_.errors(test::as_system(model));
+    EXPECT_GT(
+        errors.at({"old", "walk"}).cm,
+        test_.errors(test::as_system(test::bending_model(test::kBend))).at({"old", "walk"}).cm);
   }
 }
 
@@ -87,12 +88,12 @@ TEST_F(Aligned, a_model_that_answers_with_a_pose_is_judged_by_that_pose) {
     }
   }
   // Toes and trunk follow rotations only nearly, so the pose is not met to the millimetre.
-  EXPECT_NEAR(test_.errors(*model).at({"old", "walk"}).cm, expected / count, 0.3);
+  EXPECT_NEAR(test_.errors(test::as_system(model)).at({"old", "walk"}).cm, expected / count, 0.3);
   // And what it sees plays no part, even reversed.
   SeenTakes seen{test_.takes(PoseLayout::rotations), 1};
   for (Take& take : seen.takes) std::reverse(take.numbers.begin(), take.numbers.end());
-  EXPECT_EQ(test_.errors(*model, 1, seen).at({"old", "walk"}).cm,
-            test_.errors(*model).at({"old", "walk"}).cm);
+  EXPECT_EQ(test_.errors(test::as_system(model), 1, seen).at({"old", "walk"}).cm,
+            test_.errors(test::as_system(model)).at({"old", "walk"}).cm);
 }
 
 TEST_F(Aligned, takes_are_kept_in_both_layouts) {
@@ -105,7 +106,8 @@ TEST_F(Aligned, takes_are_kept_in_both_layouts) {
 
 TEST_F(Aligned, the_same_question_has_the_same_answer) {
   const auto model = *Model::parse(format_safetensors(test::make_model({"old", "sad"})), "m");
-  const PoseErrors first = test_.errors(*model), again = test::bent_walks().errors(*model);
+  const PoseErrors first = test_.errors(test::as_system(model)),
+                   again = test::bent_walks().errors(test::as_system(model));
   ASSERT_EQ(first.size(), 2u);
   for (const auto& [cell, error] : first) {
     EXPECT_EQ(error.cm, again.at(cell).cm);

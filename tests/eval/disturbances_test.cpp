@@ -120,10 +120,11 @@ TEST_F(Disturbances, another_posture_is_a_constant_that_leaves_the_way_alone) {
 
 TEST(DisturbanceRows, a_model_that_looks_at_nothing_does_not_suffer) {
   const AlignedTest test = test::bent_walks();
-  const auto rows = measure_disturbances(test, *test::bending_model(test::kBend));
+  const auto rows = measure_disturbances(test, test::as_system(test::bending_model(test::kBend)));
   ASSERT_EQ(rows.size(), 11u);
   EXPECT_EQ(rows[0].name, "none");
-  const double clean = test.errors(*test::bending_model(test::kBend)).at({"old", "walk"}).cm;
+  const double clean =
+      test.errors(test::as_system(test::bending_model(test::kBend))).at({"old", "walk"}).cm;
   for (const DisturbanceRow& row : rows) EXPECT_EQ(row.cm, clean) << row.name;
 }
 
@@ -132,9 +133,9 @@ TEST(DisturbanceRows, a_model_that_looks_answers_differently_to_each) {
   for (const Recipe* recipe : {&test::kPanache, &test::kSmith2019}) {
     const auto model =
         *Model::parse(format_safetensors(test::make_model({"old", "sad"}, 1, *recipe)), "m");
-    const auto rows = measure_disturbances(test, *model);
+    const auto rows = measure_disturbances(test, test::as_system(model));
     ASSERT_EQ(rows.size(), 11u);
-    const PoseErrors errors = test.errors(*model);
+    const PoseErrors errors = test.errors(test::as_system(model));
     EXPECT_DOUBLE_EQ(rows[0].cm,
                      (errors.at({"old", "walk"}).cm + errors.at({"sad", "walk"}).cm) / 2);
     // Rotations do not know of body scale, or hardly: the height of the hips is one of 130 numbers.
@@ -144,7 +145,7 @@ TEST(DisturbanceRows, a_model_that_looks_answers_differently_to_each) {
 
 TEST(DisturbanceRows, a_model_without_the_styles_of_the_test_has_no_rows) {
   const auto model = *Model::parse(format_safetensors(test::make_model({"proud"})), "m");
-  EXPECT_TRUE(measure_disturbances(test::bent_walks(), *model).empty());
+  EXPECT_TRUE(measure_disturbances(test::bent_walks(), test::as_system(model)).empty());
 }
 
 }  // namespace

@@ -149,8 +149,9 @@ TEST_F(ForeignFiles, where_nothing_is_foreign_a_sentence_says_so) {
 TEST_F(ForeignFiles, every_file_is_styled_in_every_style) {
   const auto model = *Model::parse(format_safetensors(test::make_model({"old", "sad"})), "m");
   double shown = 0;
-  const auto rows = measure_foreign({folder_ + "old.bvh", folder_ + "neutral.bvh"}, model,
-                                    [&](double share) { shown = std::max(shown, share); });
+  const auto rows =
+      measure_foreign({folder_ + "old.bvh", folder_ + "neutral.bvh"}, test::as_system(model),
+                      [&](double share) { shown = std::max(shown, share); });
   ASSERT_TRUE(rows.ok()) << rows.error().message;
   ASSERT_EQ(rows->size(), 4u);
   EXPECT_EQ((*rows)[0].clip, "old");
@@ -166,7 +167,8 @@ TEST_F(ForeignFiles, every_file_is_styled_in_every_style) {
 }
 
 TEST_F(ForeignFiles, a_bend_moves_joints_and_leaves_the_legs_and_the_way_alone) {
-  const auto rows = measure_foreign({folder_ + "neutral.bvh"}, test::bending_model(test::kBend));
+  const auto rows =
+      measure_foreign({folder_ + "neutral.bvh"}, test::as_system(test::bending_model(test::kBend)));
   ASSERT_TRUE(rows.ok()) << rows.error().message;
   const ForeignRow& row = rows->front();
   EXPECT_GT(row.distance_cm, 3);
@@ -177,7 +179,8 @@ TEST_F(ForeignFiles, a_bend_moves_joints_and_leaves_the_legs_and_the_way_alone) 
 }
 
 TEST_F(ForeignFiles, a_bend_that_no_back_survives_is_beyond_human_limits) {
-  const auto rows = measure_foreign({folder_ + "neutral.bvh"}, test::bending_model(-1.8f));
+  const auto rows =
+      measure_foreign({folder_ + "neutral.bvh"}, test::as_system(test::bending_model(-1.8f)));
   ASSERT_TRUE(rows.ok()) << rows.error().message;
   EXPECT_EQ(rows->front().beyond_limits, 1);
 }
@@ -195,7 +198,8 @@ TEST_F(ForeignFiles, a_calibration_pose_in_front_is_not_judged) {
   ASSERT_TRUE(write_file(folder_ + "walk.bvh", format_bvh(walk), true).ok());
   ASSERT_TRUE(write_file(folder_ + "posed.bvh", format_bvh(posed), true).ok());
   const auto model = *Model::parse(format_safetensors(test::make_model({"old"})), "m");
-  const auto rows = measure_foreign({folder_ + "walk.bvh", folder_ + "posed.bvh"}, model);
+  const auto rows =
+      measure_foreign({folder_ + "walk.bvh", folder_ + "posed.bvh"}, test::as_system(model));
   ASSERT_TRUE(rows.ok()) << rows.error().message;
   const ForeignRow &plain = (*rows)[0], &with_pose = (*rows)[1];
   // Files have six decimals, and the rig measures its floor on one frame more.
@@ -207,8 +211,8 @@ TEST_F(ForeignFiles, a_calibration_pose_in_front_is_not_judged) {
 
 TEST_F(ForeignFiles, a_file_that_cannot_be_read_fails_with_its_sentence) {
   ASSERT_TRUE(write_file(folder_ + "bad.bvh", "HIERARCHY\nnonsense\n", true).ok());
-  const auto rows =
-      measure_foreign({folder_ + "old.bvh", folder_ + "bad.bvh"}, test::bending_model(0));
+  const auto rows = measure_foreign({folder_ + "old.bvh", folder_ + "bad.bvh"},
+                                    test::as_system(test::bending_model(0)));
   ASSERT_FALSE(rows.ok());
   EXPECT_NE(rows.error().message.find("bad.bvh"), std::string::npos);
 }
@@ -218,7 +222,7 @@ TEST(ForeignReal, motion_of_other_makers_can_be_measured) {
   if (!data) GTEST_SKIP() << "PANACHE_DATA names no folder with real motion.";
   const auto files = list_foreign(std::string(data) + "/formats");
   ASSERT_TRUE(files.ok()) << files.error().message;
-  const auto rows = measure_foreign(*files, test::bending_model(0.1f));
+  const auto rows = measure_foreign(*files, test::as_system(test::bending_model(0.1f)));
   ASSERT_TRUE(rows.ok()) << rows.error().message;
   for (const ForeignRow& row : *rows) {
     EXPECT_GT(row.distance_cm, 0.5) << row.clip;

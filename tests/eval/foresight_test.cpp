@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "eval/one_thread.h"
 #include "make_model.h"
 #include "learn/make_takes.h"
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "eval/aligned.h"
+#include "eval/systems/model_system.h"
 #include "learn/make_walk_take.h"
 #include "make_model.h"
 
@@ -15,6 +16,10 @@ inline AlignedTest bent_walks() {
   return AlignedTest({walk_take("neutral", "walk", 150, 0), walk_take("old", "walk", 120, kBend),
                       walk_take("sad", "walk", 110, kBend / 2),
                       walk_take("old", "run", 110, kBend)});
+}
+
+inline ModelSystem as_system(std::shared_ptr<const Model> model) {
+  return {"model", std::move(model)};
 }
 
 // A model of recipe panache with the style "old", which bends the body forward at the spine by

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "eval/measure.h"
 #include "eval/report.h"
 
 namespace panache::test {
@@ -17,7 +18,7 @@ inline Quality numbers(double seed) {
   quality.takes = static_cast<size_t>(seed * 100);
   quality.windows = quality.takes * 5;
   double step = 0;
-  for (const QualityField& field : kQualityFields) quality.*field.value = seed + 0.001 * ++step;
+  for (const Measure& measure : measures()) quality[measure.key] = seed + 0.001 * ++step;
   return quality;
 }
 

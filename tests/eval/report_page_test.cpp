@@ -92,8 +92,9 @@ TEST(ReportPage, a_section_without_data_is_left_out) {
 
 TEST(ReportPage, every_column_of_the_overall_table_is_defined) {
   const std::string page = report_page(made_up_report());
-  for (const QualityField& field : kQualityFields) {
-    EXPECT_EQ(occurrences(page, "<dt>" + std::string(field.label) + "</dt>"), 1u) << field.label;
+  for (const Measure& measure : measures()) {
+    EXPECT_EQ(occurrences(page, "<dt>" + std::string(measure.label) + "</dt>"), 1u)
+        << measure.label;
   }
 }
 
@@ -103,15 +104,15 @@ TEST(ReportPage, the_best_system_is_marked_with_more_than_colour) {
   SystemReport first, second;
   first.name = "first";
   second.name = "second";
-  first.seen.style_accuracy = 0.5;
-  second.seen.style_accuracy = 0.75;
-  first.seen.jerk_ratio = 0.9;  // Nearer to 1, from below and from above.
-  second.seen.jerk_ratio = 0.5;
-  first.seen.cadence_ratio = 0.7;
-  second.seen.cadence_ratio = 1.1;
-  first.seen.pose_error_cm = 3.001;  // Printed alike.
-  second.seen.pose_error_cm = 3.004;
-  first.seen.fmd = 2;  // Nothing to compare it with.
+  first.seen["style_accuracy"] = 0.5;
+  second.seen["style_accuracy"] = 0.75;
+  first.seen["jerk_ratio"] = 0.9;  // Nearer to 1, from below and from above.
+  second.seen["jerk_ratio"] = 0.5;
+  first.seen["cadence_ratio"] = 0.7;
+  second.seen["cadence_ratio"] = 1.1;
+  first.seen["pose_error_cm"] = 3.001;  // Printed alike.
+  second.seen["pose_error_cm"] = 3.004;
+  first.seen["fmd"] = 2;  // Nothing to compare it with.
   report.systems = {first, second};
   const std::string page = report_page(report);
   const auto marked = [&](const std::string& number) {
@@ -127,7 +128,7 @@ TEST(ReportPage, the_best_system_is_marked_with_more_than_colour) {
 TEST(ReportPage, a_number_that_was_not_measured_is_a_dash) {
   Report report;
   report.real = numbers(0.97);
-  report.real.fmd = kNotMeasured;
+  report.real["fmd"] = kNotMeasured;
   const std::string page = report_page(report);
   EXPECT_EQ(occurrences(page, "nan"), 0u);
   EXPECT_EQ(occurrences(page, "<td>0.98</td><td>0.98</td><td>\xe2\x80\x93</td>"), 1u);
@@ -136,10 +137,10 @@ TEST(ReportPage, a_number_that_was_not_measured_is_a_dash) {
 TEST(ReportPage, classifiers_that_are_not_good_enough_are_told_of) {
   Report report = made_up_report();
   EXPECT_EQ(occurrences(report_page(report), "class=\"warning\""), 0u);
-  report.real.style_accuracy = 0.94;
+  report.real["style_accuracy"] = 0.94;
   EXPECT_EQ(occurrences(report_page(report), "class=\"warning\""), 1u);
   EXPECT_EQ(occurrences(report_text(report), "no style accuracy counts"), 1u);
-  report.real.content_accuracy = kNotMeasured;
+  report.real["content_accuracy"] = kNotMeasured;
   EXPECT_EQ(occurrences(report_page(report), "class=\"warning\""), 2u);
   EXPECT_EQ(occurrences(report_text(report), "no content accuracy counts"), 1u);
 }

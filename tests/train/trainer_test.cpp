@@ -85,7 +85,7 @@ TEST_F(TrainerTest, interrupted_training_goes_on_as_if_it_had_not_been) {
 }
 
 TEST_F(TrainerTest, training_does_not_go_on_from_a_checkpoint_of_another) {
-  TrainOptions begun = options(Recipe::panache, 5);
+  TrainOptions begun = options(test::kPanache, 5);
   begun.checkpoint = folder_ + "model.safetensors";
   ASSERT_TRUE(train(rows_, styles_, begun).ok());
   const auto refusal = [&](const std::vector<StyleName>& styles, const TrainOptions& options) {
@@ -123,7 +123,7 @@ TEST_F(TrainerTest, training_does_not_go_on_from_a_checkpoint_of_another) {
 }
 
 TEST_F(TrainerTest, a_checkpoint_that_is_none_is_damaged) {
-  TrainOptions begun = options(Recipe::panache, 5);
+  TrainOptions begun = options(test::kPanache, 5);
   begun.checkpoint = folder_ + "model.safetensors";
   const std::string file = begun.checkpoint + ".pose.checkpoint";
   for (const bool tensors : {false, true}) {

@@ -1,4 +1,4 @@
-#include "eval/systems.h"
+#include "eval/systems/model_system.h"
 
 #include <cmath>
 
@@ -27,11 +27,11 @@ std::shared_ptr<const Model> tempo_model(float log_rate) {
   return *Model::parse(format_safetensors(file), "tempo");
 }
 
-class SystemsTest : public testing::Test {
+class ModelSystemTest : public testing::Test {
  protected:
   // A walk and a wave as files of 30 and, so that files and takes count differently, 60 frames a
   // second.
-  SystemsTest() {
+  ModelSystemTest() {
     put("walk", 30);
     put("wave", 60);
     ManifestRow walk, wave;
@@ -53,7 +53,7 @@ class SystemsTest : public testing::Test {
   Output run(const std::shared_ptr<const Model>& model, int which, float strength,
              bool timing = true) const {
     const Result<Played> played =
-        run_system(model, inputs_, which, {"old", {{"old", strength}}}, timing);
+        ModelSystem("model", model).run(inputs_[which], {"old", {{"old", strength}}, timing});
     EXPECT_TRUE(played.ok()) << played.error().message;
     // BVH angles have six digits; joints in the world are metres in single precision.
     EXPECT_LT(played->bone_length_error, 1e-5);
@@ -65,28 +65,27 @@ class SystemsTest : public testing::Test {
   std::vector<TestInput> inputs_;
 };
 
-TEST_F(SystemsTest, at_strength_zero_the_output_is_the_input_take) {
+TEST_F(ModelSystemTest, at_strength_zero_the_output_is_the_input_take) {
   const auto model = *Model::parse(format_safetensors(test::make_model({"old"})), "model");
   for (int i = 0; i < 2; ++i) {
     const Output output = run(model, i, 0);
     const Take& input = inputs_[i].take;
     ASSERT_EQ(output.take.frames(), input.frames());
     EXPECT_EQ(output.take.numbers, input.numbers);
-    EXPECT_EQ(output.input, i);
     for (int f = 0; f < input.frames(); ++f) {
       EXPECT_NEAR(output.source_frames[f], f, 1e-3) << "input " << i;
     }
   }
 }
 
-TEST_F(SystemsTest, an_output_is_labelled_as_the_style_asked_for_and_the_content_of_its_input) {
+TEST_F(ModelSystemTest, an_output_is_labelled_as_the_style_asked_for_and_the_content_of_its_input) {
   const Output output = run(tempo_model(0), 1, 1);
   EXPECT_EQ(output.take.row.style, "old");
   EXPECT_EQ(output.take.row.content, "wave");
   EXPECT_FALSE(output.take.row.neutral);
 }
 
-TEST_F(SystemsTest, source_frames_follow_the_tempo_when_there_is_one) {
+TEST_F(ModelSystemTest, source_frames_follow_the_tempo_when_there_is_one) {
   const float rate = 0.8f;
   for (int i = 0; i < 2; ++i) {
     const Output output = run(tempo_model(std::log(rate)), i, 1);
@@ -109,7 +108,7 @@ TEST_F(SystemsTest, source_frames_follow_the_tempo_when_there_is_one) {
   }
 }
 
-TEST_F(SystemsTest, without_timing_source_frames_are_the_frames) {
+TEST_F(ModelSystemTest, without_timing_source_frames_are_the_frames) {
   for (int i = 0; i < 2; ++i) {
     const Output output = run(tempo_model(std::log(0.8f)), i, 1, false);
     ASSERT_EQ(output.take.frames(), inputs_[i].take.frames());
@@ -119,14 +118,19 @@ TEST_F(SystemsTest, without_timing_source_frames_are_the_frames) {
   }
 }
 
-TEST_F(SystemsTest, a_style_that_the_model_lacks_is_refused) {
-  const Result<Played> played = run_system(tempo_model(0), inputs_, 0, {"sad", {{"sad", 1}}});
+TEST_F(ModelSystemTest, a_style_that_the_model_lacks_is_refused) {
+  const ModelSystem system("tempo", tempo_model(0));
+  const Request request{"sad", {{"sad", 1}}};
+  EXPECT_FALSE(system.can_run(inputs_[0], request));
+  EXPECT_TRUE(system.can_run(inputs_[0], {"old", {{"old", 1}}}));
+  EXPECT_FALSE(system.can_run(inputs_[0], {"old", {{"old", 0.5f}, {"sad", 0.5f}}}));
+  const Result<Played> played = system.run(inputs_[0], request);
   ASSERT_FALSE(played.ok());
   EXPECT_EQ(played.error().message,
             "unknown style 'sad'; the nearest are old (panache styles lists all 1)");
 }
 
-TEST_F(SystemsTest, a_test_take_that_cannot_be_read_is_named) {
+TEST_F(ModelSystemTest, a_test_take_that_cannot_be_read_is_named) {
   ManifestRow row;
   row.path = folder_ + "none.bvh";
   const auto inputs = load_inputs({row});
@@ -135,13 +139,22 @@ TEST_F(SystemsTest, a_test_take_that_cannot_be_read_is_named) {
             folder_ + "none.bvh: cannot be read: No such file or directory");
 }
 
-TEST_F(SystemsTest, untouched_inputs_stand_for_every_style) {
+TEST_F(ModelSystemTest, untouched_inputs_stand_for_every_style) {
   const std::vector<Output> outputs = untouched(inputs_, {"old", "sad"});
   ASSERT_EQ(outputs.size(), 4u);
   EXPECT_EQ(outputs[1].take.row.style, "sad");
   EXPECT_EQ(outputs[2].input, 1);
   EXPECT_EQ(outputs[2].take.numbers, inputs_[1].take.numbers);
   EXPECT_EQ(outputs[2].source_frames.back(), static_cast<float>(inputs_[1].take.frames() - 1));
+}
+
+TEST_F(ModelSystemTest, facts_are_those_of_the_model_and_its_file) {
+  const auto model = tempo_model(0);
+  const SystemFacts facts = ModelSystem("tempo", model, 1234).facts();
+  EXPECT_EQ(facts.recipe, "panache");
+  EXPECT_EQ(facts.bytes, 1234u);
+  EXPECT_EQ(facts.parameters, model->parameter_count());
+  EXPECT_FALSE(facts.recorded);
 }
 
 }  // namespace

@@ -1,0 +1,27 @@
+#pragma once
+// A model of ours, run as a user runs it: a whole clip through restyle().
+
+#include "eval/system.h"
+
+namespace panache {
+
+class ModelSystem : public System {
+ public:
+  // `bytes`: of its file, 0 where it has none.
+  ModelSystem(std::string name, std::shared_ptr<const Model> model, size_t bytes = 0);
+
+  SystemFacts facts() const override;
+  std::vector<std::string> styles() const override;
+  Result<Played> run(const TestInput& input, const Request& request) const override;
+  // Of the networks alone: no filter, no root, no foot lock.
+  std::unique_ptr<InstantAnswers> instants(double strength) const override;
+  PoseLayout layout() const override { return model_->layout(); }
+  double step_us(const TestInput& input) const override;
+  std::shared_ptr<const Model> predicting_model() const override;
+
+ private:
+  std::shared_ptr<const Model> model_;
+  size_t bytes_;
+};
+
+}  // namespace panache

@@ -1,0 +1,30 @@
+#pragma once
+// The systems that models are compared with, each a file or folder of eval/systems.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "eval/system.h"
+#include "learn/pairing.h"
+
+namespace panache {
+
+// What a system may learn from.
+struct SystemData {
+  const std::vector<Take>& takes;        // Of the training split, neutral and styled.
+  const std::vector<Pairing>& pairings;  // Of them.
+  const std::vector<StyleName>& styles;
+  uint64_t seed = 1;
+};
+
+struct SystemEntry {
+  const char* name;  // In the report.
+  Result<std::unique_ptr<System>> (*make)(const std::string& name, const SystemData& data);
+};
+
+// In the order of the report.
+const std::vector<SystemEntry>& comparison_systems();
+
+}  // namespace panache
