@@ -56,8 +56,8 @@ bool pin_to_one_core() noexcept {
 }
 
 size_t second_cache_bytes() noexcept {
-  const long told = ::sysconf(_SC_LEVEL2_CACHE_SIZE);
-  return told > 0 ? static_cast<size_t>(told) : size_t{2} << 20;
+  const long given = ::sysconf(_SC_LEVEL2_CACHE_SIZE);
+  return given > 0 ? static_cast<size_t>(given) : size_t{2} << 20;
 }
 
 void evict_caches() noexcept {

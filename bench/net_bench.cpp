@@ -12,8 +12,8 @@
 #include <benchmark/benchmark.h>
 
 #include "net/dense.h"
-#include "net/half_size.h"
 #include "net/mlp.h"
+#include "net/quantize.h"
 
 namespace {
 
@@ -124,9 +124,9 @@ void packed_networks(benchmark::State& state, const TensorFile& file) {
   state.SetItemsProcessed(static_cast<int64_t>(state.iterations() * rows));
 }
 void packed(benchmark::State& state) { packed_networks(state, make_file()); }
-void half_size(benchmark::State& state) { packed_networks(state, in_half_size(make_file())); }
+void int8_weights(benchmark::State& state) { packed_networks(state, quantize(make_file())); }
 BENCHMARK(packed)->Arg(1)->Arg(8)->Arg(16)->Unit(benchmark::kMicrosecond);
-BENCHMARK(half_size)->Arg(1)->Arg(8)->Arg(16)->Unit(benchmark::kMicrosecond);
+BENCHMARK(int8_weights)->Arg(1)->Arg(8)->Arg(16)->Unit(benchmark::kMicrosecond);
 
 // How fast the caches give what the networks weigh: reading and adding up so many bytes, as fast as
 // the kernels' instruction set allows.

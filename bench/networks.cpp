@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "net/aligned.h"
+#include "net/aligned_vector.h"
 #include "net/dense.h"
-#include "net/half_size.h"
 #include "net/layer.h"
 #include "net/mlp.h"
+#include "net/quantize.h"
 
 namespace panache::bench {
 namespace {
@@ -124,10 +124,10 @@ void run_plainly(std::span<const Network> networks, std::span<const float> x, st
 }
 
 Result<std::unique_ptr<Evaluation>> make_own_evaluation(std::span<const Network> networks,
-                                                        bool half) {
+                                                        bool int8) {
   assert(networks.size() == TrunkTrio::kTrunks);
   const TensorFile floats = tensors_of(networks);
-  const TensorFile file = half ? in_half_size(floats) : floats;
+  const TensorFile file = int8 ? quantize(floats) : floats;
   std::array<Trunk, TrunkTrio::kTrunks> trunks;
   std::vector<DenseLayer> heads;
   for (size_t n = 0; n < networks.size(); ++n) {

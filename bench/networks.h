@@ -47,8 +47,8 @@ class Evaluation {
 void run_plainly(std::span<const Network> networks, std::span<const float> x, std::span<float> y);
 
 // Three networks in our own kernels, evaluated as StyleNetworks evaluates a model; with `half`
-// their weights are in half size (net/half_size.h).
+// their weights are in int8 (net/quantize.h).
 Result<std::unique_ptr<Evaluation>> make_own_evaluation(std::span<const Network> networks,
-                                                        bool half);
+                                                        bool int8);
 
 }  // namespace panache::bench

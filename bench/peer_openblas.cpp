@@ -4,8 +4,8 @@
 
 #include <cblas.h>
 
-#include "net/dense.h"
 #include "bench/peers.h"
+#include "net/dense.h"
 
 namespace panache::bench {
 namespace {

@@ -24,7 +24,7 @@ constexpr struct {
               {"libtorch", "libtorch"}};
 // Outputs are of size 1, and sums of some hundred products in another order differ by a few units
 // of float.
-constexpr float kMostApart = 1e-4f;
+constexpr float kMaxDifference = 1e-4f;
 
 std::string folder_beside_program() {
   std::error_code status;
@@ -75,7 +75,7 @@ std::string check(Evaluation& evaluation, std::span<const Network> networks) {
     run_plainly(networks, x, wanted);
     evaluation.run(x, found);
     for (size_t i = 0; i < wanted.size(); ++i) {
-      if (std::abs(wanted[i] - found[i]) <= kMostApart) continue;
+      if (std::abs(wanted[i] - found[i]) <= kMaxDifference) continue;
       return "gives " + std::to_string(found[i]) + " for output " + std::to_string(i) +
              "; expected " + std::to_string(wanted[i]);
     }

@@ -8,9 +8,9 @@
 #include "bench/networks.h"
 #include "bench/peers.h"
 #include "bench/published.h"
-#include "net/aligned.h"
+#include "net/aligned_vector.h"
 #include "net/dense.h"
-#include "net/half_size.h"
+#include "net/quantize.h"
 #include "net/safetensors.h"
 
 namespace panache::bench {
@@ -82,10 +82,10 @@ void Race::add_other(Measurements& out, const std::string& key, const std::strin
 Result<void> Race::prepare(Measurements& out) {
   const std::vector<Network> networks = slides_networks();
   out.network_bytes = sizeof(float) * parameter_count(networks);
-  for (const bool half : {false, true}) {
-    auto own = make_own_evaluation(networks, half);
+  for (const bool int8 : {false, true}) {
+    auto own = make_own_evaluation(networks, int8);
     if (!own) return own.error();
-    add_evaluation(out, half ? "panache_half" : "panache", *std::move(own));
+    add_evaluation(out, int8 ? "panache_half" : "panache", *std::move(own));
   }
   for (Peer& peer : make_peers(networks)) {
     if (peer.evaluation) {
@@ -174,8 +174,8 @@ Result<Measurements> measure_all(const Options& options, const ProgressCall& pro
     race.run(out, out.rounds, part_of(progress, kAfterLimits, kAfterRace));
   }
   out.model_bytes = bytes->size();
-  const std::string half_bytes = format_safetensors(in_half_size(*tensors));
-  out.half_model_bytes = half_bytes.size();
+  const std::string int8_bytes = format_safetensors(quantize(*tensors));
+  out.int8_model_bytes = int8_bytes.size();
   const Result<double> character = bytes_per_character(*bytes, *walk);
   if (!character) return character.error();
   out.character_bytes = *character;
@@ -186,10 +186,10 @@ Result<Measurements> measure_all(const Options& options, const ProgressCall& pro
                             part_of(progress, kAfterSteps, kAfterCrowds));
   if (!crowds) return crowds.error();
   out.crowds = *std::move(crowds);
-  auto half_crowds =
-      time_crowds(half_bytes, *walk, options.crowd_rounds(), part_of(progress, kAfterCrowds, 1));
-  if (!half_crowds) return half_crowds.error();
-  out.half_crowds = *std::move(half_crowds);
+  auto int8_crowds =
+      time_crowds(int8_bytes, *walk, options.crowd_rounds(), part_of(progress, kAfterCrowds, 1));
+  if (!int8_crowds) return int8_crowds.error();
+  out.int8_crowds = *std::move(int8_crowds);
   return out;
 }
 

@@ -48,8 +48,8 @@ struct Measurements {
 
   std::string model;  // Name of the file.
   StepTimes steps;
-  std::vector<CrowdTime> crowds, half_crowds;    // With the model as it is, and in half size.
-  size_t model_bytes = 0, half_model_bytes = 0;  // Of the model file, as floats and in half size.
+  std::vector<CrowdTime> crowds, int8_crowds;    // With the model as it is, and in int8.
+  size_t model_bytes = 0, int8_model_bytes = 0;  // Of the model file, as floats and in int8.
   double character_bytes = 0;                    // 0 where the allocator does not tell.
 
   // The warm median of a forward pass, microseconds; nothing where it is missing.

@@ -36,7 +36,7 @@ BENCHMARK_CAPTURE(step, panache, "panache.safetensors")
     ->Arg(5)
     ->Arg(10)
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(step, panache_half, "panache-half.safetensors")
+BENCHMARK_CAPTURE(step, panache_int8, "panache-int8.safetensors")
     ->Arg(1)
     ->Arg(2)
     ->Arg(5)
@@ -55,14 +55,14 @@ void networks(benchmark::State& state, const char* path) {
   std::vector<float> strengths((*model)->styles().size());
   strengths[0] = 1;
   one.set_strengths(strengths);
-  const std::vector<float> window(kWindowPoses * pose_numbers((*model)->layout()), 0.3f);
+  const std::vector<float> window(kWindowPoses * pose_feature_count((*model)->layout()), 0.3f);
   for (auto _ : state) {
     one.forward(window);
     benchmark::DoNotOptimize(one.pose().data());
   }
 }
 BENCHMARK_CAPTURE(networks, panache, "panache.safetensors")->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(networks, panache_half, "panache-half.safetensors")
+BENCHMARK_CAPTURE(networks, panache_int8, "panache-int8.safetensors")
     ->Unit(benchmark::kMicrosecond);
 
 // Each with a style and a place in the walk of its own; the time is that of all, the rate is
@@ -101,7 +101,7 @@ void crowd(benchmark::State& state, const char* path) {
   state.SetItemsProcessed(static_cast<int64_t>(state.iterations() * count));
 }
 BENCHMARK_CAPTURE(crowd, panache, "panache.safetensors")->Arg(1000)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(crowd, panache_half, "panache-half.safetensors")
+BENCHMARK_CAPTURE(crowd, panache_int8, "panache-int8.safetensors")
     ->Arg(1000)
     ->Unit(benchmark::kMillisecond);
 

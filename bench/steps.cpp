@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kParts = 10;
 constexpr int64_t kStageShare = 5;  // Of the steps, one in so many is taken apart.
-constexpr int kMostColdSteps = 500;
+constexpr int kMaxColdSteps = 500;
 constexpr int64_t kUnseenSteps = 200;
 
 std::vector<float> first_style(const Model& model) {
@@ -121,7 +121,7 @@ StepTimes time_steps(const std::shared_ptr<const Model>& model, const Clip& walk
     if (progress) progress((part + 1.0) / kParts);
   }
   std::vector<double> single;
-  for (int64_t i = 0; i < std::clamp<int64_t>(steps / 100, 1, kMostColdSteps); ++i) {
+  for (int64_t i = 0; i < std::clamp<int64_t>(steps / 100, 1, kMaxColdSteps); ++i) {
     evict_caches();
     single.push_back(static_cast<double>(cold.timed_step()));
   }

@@ -13,19 +13,20 @@ inline void add_learnt(TensorFile& model, int learnt, const std::string& name,
                        const std::string& origin, uint64_t seed = 7) {
   constexpr int kDirections = 32;
   Random random(seed);
-  int features = 0;
+  int activations = 0;
   for (int l = 0; model.tensors.contains("pose.trunk." + std::to_string(l) + ".bias"); ++l) {
     const auto& bias = model.tensors["pose.trunk." + std::to_string(l) + ".bias"];
-    features += static_cast<int>(bias.values.size());
+    activations += static_cast<int>(bias.values.size());
   }
-  model.tensors.try_emplace("learn.mean", constant_tensor(features, 0));
-  model.tensors.try_emplace("learn.scale", constant_tensor(features, 1));
+  model.tensors.try_emplace("learn.mean", constant_tensor(activations, 0));
+  model.tensors.try_emplace("learn.scale", constant_tensor(activations, 1));
   const std::string prefix = "learnt." + std::to_string(learnt) + ".";
-  const int directions = std::min(kDirections, features);
-  model.tensors[prefix + "head.weight"] = random_tensor({features, kLearntNumbers}, 0.1f, random);
-  model.tensors[prefix + "head.bias"] = random_tensor({kLearntNumbers}, 0.1f, random);
-  model.tensors[prefix + "mean"] = random_tensor({features}, 0.1f, random);
-  model.tensors[prefix + "gate.weight"] = random_tensor({features, directions}, 0.1f, random);
+  const int directions = std::min(kDirections, activations);
+  model.tensors[prefix + "head.weight"] =
+      random_tensor({activations, kLearntOutputs}, 0.1f, random);
+  model.tensors[prefix + "head.bias"] = random_tensor({kLearntOutputs}, 0.1f, random);
+  model.tensors[prefix + "mean"] = random_tensor({activations}, 0.1f, random);
+  model.tensors[prefix + "gate.weight"] = random_tensor({activations, directions}, 0.1f, random);
   model.tensors[prefix + "gate.bias"] = random_tensor({directions}, 0.1f, random);
   model.tensors[prefix + "gate.worth"] = constant_tensor(directions, 1e-3f);
   model.tensors[prefix + "gate.rest"] = constant_tensor(1, 1e-3f);

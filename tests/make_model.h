@@ -48,7 +48,7 @@ inline void add_network(TensorFile& file, const std::string& name, int inputs, i
 inline TensorFile make_model(const std::vector<std::string>& styles, uint64_t seed = 1,
                              const Recipe& recipe = kPanache) {
   const bool heads = recipe.style_heads;
-  const int numbers = pose_numbers(recipe.layout), count = static_cast<int>(styles.size());
+  const int numbers = pose_feature_count(recipe.layout), count = static_cast<int>(styles.size());
   const int outputs = recipe.outputs;
   std::string names, descriptions;
   for (const std::string& style : styles) {
@@ -108,7 +108,7 @@ inline void add_predictor(TensorFile& file, float size = 0, uint64_t seed = 5) {
   file.tensors["predict.scale"] = constant_tensor(kNumbers, 1);
   file.tensors["predict.linear"] = constant_tensor((kWindowPoses - 1) * kNumbers, 0);
   // The last change goes on as it is, but the root's velocity stays what it is.
-  std::fill_n(file.tensors["predict.linear"].values.begin(), kNumbers - kRootNumbers, 1.0f);
+  std::fill_n(file.tensors["predict.linear"].values.begin(), kNumbers - kRootFeatures, 1.0f);
   file.tensors["predict.trunk.0.weight"] =
       random_tensor({kWindowPoses * kNumbers, 8}, 0.05f, random);
   file.tensors["predict.trunk.0.bias"] = constant_tensor(8, 0);

@@ -67,7 +67,7 @@ std::string summary(const std::vector<FileJob>& files, const std::string& done, 
 
 void add_batch_options(CLI::App& verb, BatchFlags& flags) {
   verb.add_option("IN", flags.inputs,
-                  "Motion files (" + motion_endings() +
+                  "Motion files (" + motion_extensions() +
                       "),\nfolders of them, or patterns such as 'takes/**/*.bvh'")
       ->required()
       ->type_name("");
@@ -83,7 +83,7 @@ void add_batch_options(CLI::App& verb, BatchFlags& flags) {
       ->type_name("FILE");
 }
 
-Result<std::vector<FileJob>> plan_batch(const BatchFlags& flags, const std::string& ending,
+Result<std::vector<FileJob>> plan_batch(const BatchFlags& flags, const std::string& extension,
                                         int& exit_code) {
   exit_code = kBadUsage;
   if (auto jobs = check_range("--jobs", flags.jobs, 0, 1024); !jobs) return jobs.error();
@@ -92,7 +92,7 @@ Result<std::vector<FileJob>> plan_batch(const BatchFlags& flags, const std::stri
     exit_code = kBadInput;
     return found.error();
   }
-  Result<std::vector<FilePair>> pairs = name_outputs(*found, flags.output, ending);
+  Result<std::vector<FilePair>> pairs = name_outputs(*found, flags.output, extension);
   if (!pairs) return pairs.error();
   std::vector<FileJob> files;
   for (const FilePair& pair : *pairs) {
@@ -136,8 +136,8 @@ int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::st
   Json results = Json::array();
   bool all_good = true;
   for (const FileJob& file : files) {
-    for (const std::string& note : file.notes) say(note);
-    if (!file.error.empty()) say(file.error);
+    for (const std::string& note : file.notes) print_message(note);
+    if (!file.error.empty()) print_message(file.error);
     all_good = all_good && file.error.empty();
     results.push_back(to_json(file));
   }
@@ -151,7 +151,7 @@ int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::st
   }
   if (!flags.report.empty()) {
     auto written = write_file(flags.report, dump(results), flags.force);
-    if (!written) return refuse(written.error(), kBadInput);
+    if (!written) return fail(written.error(), kBadInput);
   }
   return all_good ? kDone : kBadInput;
 }

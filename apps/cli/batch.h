@@ -9,7 +9,7 @@
 
 #include "find_inputs.h"
 #include "outputs.h"
-#include "report.h"
+#include "messages.h"
 
 namespace panache::cli {
 
@@ -37,9 +37,9 @@ struct FileJob {
   Json mapping;                      // Of the rig, null where there was none.
 };
 
-// Checks the flags, finds the files and names their outputs, with `ending` where it is not empty. A
-// failure sets `exit_code`.
-Result<std::vector<FileJob>> plan_batch(const BatchFlags& flags, const std::string& ending,
+// Checks the flags, finds the files and names their outputs, with `extension` where it is not
+// empty. A failure sets `exit_code`.
+Result<std::vector<FileJob>> plan_batch(const BatchFlags& flags, const std::string& extension,
                                         int& exit_code);
 
 // Does `work` for each file, several at once, under a bar titled DOING, and tells of it: errors and

@@ -6,8 +6,8 @@
 #include "base/progress.h"
 #include "bench/run.h"
 #include "bench_report.h"
+#include "messages.h"
 #include "model_path.h"
-#include "report.h"
 #include "verbs.h"
 
 namespace panache::cli {
@@ -24,12 +24,12 @@ struct Options {
 int run(const Options& options) {
   if (Result<void> steps = check_range("--steps", static_cast<double>(options.steps), 1, 1e9);
       !steps) {
-    return refuse(steps.error(), kBadUsage);
+    return fail(steps.error(), kBadUsage);
   }
   Result<std::string> model = find_model(options.model);
-  if (!model) return refuse(model.error(), kBadInput);
+  if (!model) return fail(model.error(), kBadInput);
   Result<std::string> walker = find_shipped(kWalkerModel);
-  if (!walker) return refuse(walker.error(), kBadInput);
+  if (!walker) return fail(walker.error(), kBadInput);
   bench::Options how;
   how.model = *model;
   how.walker_model = *walker;
@@ -38,7 +38,7 @@ int run(const Options& options) {
     Progress progress("measuring");
     return bench::measure_all(how, [&](double share) { progress.update(share); });
   }();
-  if (!measured) return refuse(measured.error(), kBadInput);
+  if (!measured) return fail(measured.error(), kBadInput);
   if (options.json) {
     print(to_json(*measured));
   } else {

@@ -104,10 +104,10 @@ std::string crowd_table(const Measurements& m) {
   std::vector<std::vector<std::string>> rows = {
       {"crowd", "a character", "characters at 60 Hz", "in half size", "characters at 60 Hz"}};
   for (size_t c = 0; c < m.crowds.size(); ++c) {
-    const bench::CrowdTime &crowd = m.crowds[c], &half = m.half_crowds[c];
+    const bench::CrowdTime &crowd = m.crowds[c], &int8 = m.int8_crowds[c];
     rows.push_back({grouped(crowd.characters), us(crowd.us_per_character),
-                    grouped(characters_at_60hz(crowd)), us(half.us_per_character),
-                    grouped(characters_at_60hz(half))});
+                    grouped(characters_at_60hz(crowd)), us(int8.us_per_character),
+                    grouped(characters_at_60hz(int8))});
   }
   return columns(rows);
 }
@@ -115,7 +115,7 @@ std::string crowd_table(const Measurements& m) {
 std::string memory_table(const Measurements& m) {
   return columns({{"memory", ""},
                   {"model", bytes_text(static_cast<double>(m.model_bytes))},
-                  {"model in half size", bytes_text(static_cast<double>(m.half_model_bytes))},
+                  {"model in half size", bytes_text(static_cast<double>(m.int8_model_bytes))},
                   {"a character", bytes_text(m.character_bytes)}});
 }
 
@@ -158,17 +158,17 @@ Json to_json(const Measurements& m) {
   }
   Json stages, crowds = Json::array();
   for (const auto& stage : m.steps.stages) stages[stage.name] = stage.median / 1e3;
-  std::optional<double> at_60hz, at_60hz_half;
+  std::optional<double> at_60hz, at_60hz_int8;
   for (size_t c = 0; c < m.crowds.size(); ++c) {
-    const bench::CrowdTime &crowd = m.crowds[c], &half = m.half_crowds[c];
+    const bench::CrowdTime &crowd = m.crowds[c], &int8 = m.int8_crowds[c];
     crowds.push_back({{"characters", crowd.characters},
                       {"us_per_character", crowd.us_per_character},
                       {"characters_at_60hz", characters_at_60hz(crowd)},
-                      {"us_per_character_half", half.us_per_character},
-                      {"characters_at_60hz_half", characters_at_60hz(half)}});
+                      {"us_per_character_half", int8.us_per_character},
+                      {"characters_at_60hz_half", characters_at_60hz(int8)}});
     if (crowd.characters != kGameCrowd) continue;
     at_60hz = characters_at_60hz(crowd);
-    at_60hz_half = characters_at_60hz(half);
+    at_60hz_int8 = characters_at_60hz(int8);
   }
   const bench::Histogram& steps = m.steps.steps;
   return {{"machine",
@@ -191,12 +191,12 @@ Json to_json(const Measurements& m) {
             {"worst", static_cast<double>(steps.worst()) / 1e3},
             {"networks", m.steps.networks / 1e3}}},
           // The more of the two, as a crowd's model is its owner's choice; and each.
-          {"characters_at_60hz", or_null(std::max(at_60hz, at_60hz_half))},
+          {"characters_at_60hz", or_null(std::max(at_60hz, at_60hz_int8))},
           {"characters_at_60hz_float32", or_null(at_60hz)},
-          {"characters_at_60hz_half", or_null(at_60hz_half)},
+          {"characters_at_60hz_half", or_null(at_60hz_int8)},
           {"bytes",
            {{"model", m.model_bytes},
-            {"model_half", m.half_model_bytes},
+            {"model_half", m.int8_model_bytes},
             {"character", m.character_bytes}}},
           {"steps", steps.count()},
           {"interruptions", m.steps.interruptions},

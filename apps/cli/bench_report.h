@@ -4,7 +4,7 @@
 #include <string>
 
 #include "bench/run.h"
-#include "report.h"
+#include "messages.h"
 
 namespace panache::cli {
 

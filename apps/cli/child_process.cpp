@@ -9,12 +9,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "report.h"
+#include "messages.h"
 
 namespace panache::cli {
 namespace {
 
-// What an answer begins with: a result, or the sentence of a failure.
+// What an answer begins with: a result, or the message of a failure.
 constexpr char kGood = '+', kBad = '-';
 
 void limit(int what, rlim_t most) {
@@ -93,7 +93,7 @@ int answer_as_child(const std::function<Result<std::string>()>& work, int second
 #ifndef __SANITIZE_ADDRESS__  // It reserves more addresses than there is memory.
   limit(RLIMIT_AS, rlim_t{8} << 30);
 #endif
-  // What a library says on its way is not the answer, nor the program's sentence.
+  // What a library says on its way is not the answer, nor the program's message.
   const int out = ::dup(STDOUT_FILENO);
   const int nowhere = ::open("/dev/null", O_WRONLY);
   ::dup2(nowhere, STDOUT_FILENO);

@@ -10,7 +10,7 @@
 #include "clip/text_cursor.h"
 #include "formats.h"
 #include "input.h"
-#include "report.h"
+#include "messages.h"
 #include "rig_options.h"
 #include "rig_report.h"
 #include "verbs.h"
@@ -33,7 +33,7 @@ void account(FileJob& file, const std::string& name, const Clip& clip) {
 
 // All of a file that keeps its format.
 Result<std::string> whole_file(const MotionFile& motion, const FileJob& file) {
-  if (must_be_encoded(ending_of(file.input))) {
+  if (must_be_encoded(extension_of(file.input))) {
     return in_container(motion.encode({}, EditMode::replace), file.input, file.output);
   }
   return read_file(file.input);
@@ -61,61 +61,61 @@ Result<std::string> convert_motion(const MotionFile& motion, FileJob& file, cons
   const std::string name = motion.clip_names()[static_cast<size_t>(picked->front())];
   account(file, name, clip);
   const std::string title = title_of(name, file.input);
-  const std::string ending = ending_of(file.output);
+  const std::string extension = extension_of(file.output);
   const Result<Rig> rig = make_rig(clip, options, file.input);
   if (rig) {
     file.mapping = mapping_json(*rig);
-    return format_clip(clip, title, placement_of(*rig), ending);
+    return format_clip(clip, title, placement_of(*rig), extension);
   }
   // What the user says of joints is meant for a humanoid.
   if (!options.joints.empty()) return rig.error();
-  if (find_format(formats(), ending)->in_metres && !(options.metres_per_unit && options.up_axis)) {
+  if (find_format(formats(), extension)->in_metres &&
+      !(options.metres_per_unit && options.up_axis)) {
     file.notes.push_back(file.input +
                          ": is no humanoid that would tell its unit and up axis; taken as metres "
                          "and +Y where --scale and --up do not say otherwise");
   }
-  return format_clip(clip, title, placement_of(options), ending);
+  return format_clip(clip, title, placement_of(options), extension);
 }
 
 Result<void> convert_file(FileJob& file, const ConvertVerb& verb, const RigOptions& options) {
   Result<std::unique_ptr<MotionFile>> motion = open_motion(file.input);
   if (!motion) return motion.error();
-  Result<std::string> bytes = keeps_format(ending_of(file.input), ending_of(file.output))
+  Result<std::string> bytes = keeps_format(extension_of(file.input), extension_of(file.output))
                                   ? convert_whole(**motion, file, verb)
                                   : convert_motion(**motion, file, verb, options);
   if (!bytes) return bytes.error();
   return write_file(file.output, *bytes, verb.batch.force);
 }
 
-// The ending of files in an output folder. A single output file says its format itself.
-Result<std::string> wanted_ending(const ConvertVerb& verb) {
+// The extension of files in an output folder. A single output file says its format itself.
+Result<std::string> wanted_extension(const ConvertVerb& verb) {
   if (verb.to.empty()) return std::string();
   if (is_writable("." + verb.to)) return "." + verb.to;
   return Error{"--to: expected " + list_writable_names() + ", found " + panache::quoted(verb.to)};
 }
 
 int convert(const ConvertVerb& verb) {
-  if (auto rig = check_rig_flags(verb.rig); !rig) return refuse(rig.error(), kBadUsage);
-  Result<std::string> ending = wanted_ending(verb);
-  if (!ending) return refuse(ending.error(), kBadUsage);
+  if (auto rig = check_rig_flags(verb.rig); !rig) return fail(rig.error(), kBadUsage);
+  Result<std::string> extension = wanted_extension(verb);
+  if (!extension) return fail(extension.error(), kBadUsage);
   int exit_code = kDone;
-  Result<std::vector<FileJob>> files = plan_batch(verb.batch, *ending, exit_code);
-  if (!files) return refuse(files.error(), exit_code);
+  Result<std::vector<FileJob>> files = plan_batch(verb.batch, *extension, exit_code);
+  if (!files) return fail(files.error(), exit_code);
   for (const FileJob& file : *files) {
     auto format = check_format(file.input, file.output);
-    if (!format) return refuse(format.error(), kBadUsage);
+    if (!format) return fail(format.error(), kBadUsage);
   }
-  if (ending->empty() && files->front().output != verb.batch.output) {
-    return refuse(
+  if (extension->empty() && files->front().output != verb.batch.output) {
+    return fail(
         {"--output " + verb.batch.output + ": is a folder; expected --to bvh or --to glb with it"},
         kBadUsage);
   }
-  if (!ending->empty() && ending_of(files->front().output) != *ending) {
-    return refuse({"--to " + verb.to + ": " + files->front().output + " says otherwise"},
-                  kBadUsage);
+  if (!extension->empty() && extension_of(files->front().output) != *extension) {
+    return fail({"--to " + verb.to + ": " + files->front().output + " says otherwise"}, kBadUsage);
   }
   Result<RigOptions> rig = read_rig_options(verb.rig);
-  if (!rig) return refuse(rig.error(), kBadInput);
+  if (!rig) return fail(rig.error(), kBadInput);
   return run_batch(*std::move(files), verb.batch, "converting", "converted",
                    [&](FileJob& file, const std::function<void(double)>&) {
                      return convert_file(file, verb, *rig);

@@ -7,12 +7,12 @@
 
 #include "base/file.h"
 #include "eval/evaluate.h"
-#include "eval/foreign.h"
+#include "eval/ood.h"
 #include "eval/report.h"
 #include "eval/systems/recorded.h"
 #include "manifests.h"
+#include "messages.h"
 #include "outputs.h"
-#include "report.h"
 #include "verbs.h"
 
 namespace panache::cli {
@@ -23,7 +23,7 @@ struct Options {
   std::vector<std::string> tests;
   std::vector<std::string> models;
   std::vector<std::string> unseen, splits;
-  std::vector<std::string> foreign;
+  std::vector<std::string> ood;
   std::vector<std::string> recorded;
   std::string requests;
   std::string report;
@@ -127,10 +127,10 @@ Result<EvaluateOptions> read_options(const Options& options) {
     if (!split) return split.error();
     evaluation.unseen.push_back(*split);
   }
-  for (const std::string& path : options.foreign) {
-    Result<std::vector<std::string>> files = list_foreign(path);
+  for (const std::string& path : options.ood) {
+    Result<std::vector<std::string>> files = list_ood(path);
     if (!files) return files.error();
-    evaluation.foreign.insert(evaluation.foreign.end(), files->begin(), files->end());
+    evaluation.ood.insert(evaluation.ood.end(), files->begin(), files->end());
   }
   if (options.steps > 0) evaluation.steps = options.steps;
   evaluation.seed = options.seed;
@@ -142,31 +142,31 @@ int run(const Options& options) {
     for (const char* name : {"report.json", "index.html"}) {
       const std::string file = (std::filesystem::path(options.report) / name).string();
       if (Result<void> free = check_free(file, options.force); !free) {
-        return refuse(free.error(), kBadInput);
+        return fail(free.error(), kBadInput);
       }
     }
   }
   if (!options.requests.empty()) {
     if (Result<void> free = check_free(options.requests, options.force); !free) {
-      return refuse(free.error(), kBadInput);
+      return fail(free.error(), kBadInput);
     }
   }
   Result<EvaluateOptions> evaluation = read_options(options);
-  if (!evaluation) return refuse(evaluation.error(), kBadInput);
+  if (!evaluation) return fail(evaluation.error(), kBadInput);
   if (!options.requests.empty()) {
     const std::string csv = recorded_requests(judgeable(*evaluation));
     if (Result<void> written = write_file(options.requests, csv, true); !written) {
-      return refuse(written.error(), kBadInput);
+      return fail(written.error(), kBadInput);
     }
     return kDone;
   }
   Result<Report> report = evaluate(*evaluation);
-  if (!report) return refuse(report.error(), kBadInput);
+  if (!report) return fail(report.error(), kBadInput);
   report->trained_on = options.data.paths;
   report->tested_on = options.tests.empty() ? options.data.paths : options.tests;
   if (!options.report.empty()) {
     if (Result<void> written = write_report(*report, options.report); !written) {
-      return refuse(written.error(), kBadInput);
+      return fail(written.error(), kBadInput);
     }
   }
   print(options.json ? report_json(*report) : report_text(*report));
@@ -194,7 +194,7 @@ void add_eval(CLI::App& app, int& exit_code) {
   verb->add_option("--unseen-split", options->splits,
                    "The same for a split of docs/evaluation.md: A, B or C")
       ->allow_extra_args(false);
-  verb->add_option("--foreign", options->foreign,
+  verb->add_option("--out-of-distribution", options->ood,
                    "A motion file, a folder of them or a manifest (of which the contents without "
                    "a style count): motion to try every style on")
       ->allow_extra_args(false);

@@ -40,7 +40,7 @@ Result<std::string> convert(const std::string& path) {
     return Error{path + ": cannot be read as FBX: " + importer.GetErrorString()};
   }
   const std::unique_ptr<aiScene> scene(importer.GetOrphanedScene());
-  mend_scene(*scene);
+  repair_scene(*scene);
   Assimp::Exporter exporter;
   Assimp::ExportProperties properties;
   // An animated node may have no matrix.

@@ -164,7 +164,7 @@ void share_bind_pose(aiScene& scene) {
 
 }  // namespace
 
-void mend_scene(aiScene& scene) {
+void repair_scene(aiScene& scene) {
   rest_as_bound(scene);
   std::map<std::string, const aiNode*> nodes;
   for (const aiNode* node : all_nodes(scene)) nodes.emplace(node->mName.C_Str(), node);

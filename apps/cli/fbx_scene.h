@@ -8,6 +8,6 @@ namespace panache::cli {
 // Puts the file's unit and axes on the root, so that the whole is in metres with +Y up; lets
 // skinned joints rest as their skin was bound; takes keys out of the animations that say nothing;
 // and brings all meshes to one bind pose, as Assimp writes all of them with one skin.
-void mend_scene(aiScene& scene);
+void repair_scene(aiScene& scene);
 
 }  // namespace panache::cli

@@ -110,7 +110,7 @@ class Finder {
       return is_folder ? match(entry, part + 1, depth + 1) : Result<void>();
     }
     std::error_code status;
-    if (is_motion_ending(ending_of(name)) && fs::is_regular_file(entry, status)) {
+    if (is_motion_extension(extension_of(name)) && fs::is_regular_file(entry, status)) {
       add(entry, base_.empty() ? entry : entry.lexically_relative(base_));
     }
     return {};
@@ -147,7 +147,7 @@ Result<FoundFiles> find_inputs(const std::vector<std::string>& arguments,
       return Error{argument +
                    (is_folder ? ": holds no motion file, and neither do its folders"
                               : ": no motion file has a name that matches this") +
-                   " (" + motion_endings() + ")"};
+                   " (" + motion_extensions() + ")"};
     }
   }
   finder.found.is_batch |= finder.found.files.size() > 1;

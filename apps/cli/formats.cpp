@@ -6,7 +6,7 @@
 #include "fbx.h"
 #include "glb.h"
 #include "input.h"
-#include "report.h"
+#include "messages.h"
 #include "rig/up_axis.h"
 
 namespace panache::cli {
@@ -50,25 +50,25 @@ bool keeps_format(const std::string& input, const std::string& output) {
 
 Result<std::string> in_container(std::string bytes, const std::string& input,
                                  const std::string& output) {
-  if (ending_of(input) != ".gltf" || ending_of(output) != ".glb") return bytes;
+  if (extension_of(input) != ".gltf" || extension_of(output) != ".glb") return bytes;
   return gltf_to_glb(bytes, input);
 }
 
-bool must_be_encoded(const std::string& ending) {
-  const MotionFormat* format = find_format(formats(), ending);
+bool must_be_encoded(const std::string& extension) {
+  const MotionFormat* format = find_format(formats(), extension);
   return format && (!format->in_one_file || format->encoded_as != format->extension);
 }
 
 std::string list_writable() { return list_without(0); }
 std::string list_writable_names() { return list_without(1); }
 
-bool is_writable(const std::string& ending) {
-  const MotionFormat* format = find_format(formats(), ending);
+bool is_writable(const std::string& extension) {
+  const MotionFormat* format = find_format(formats(), extension);
   return format && format->write;
 }
 
 Result<void> check_format(const std::string& input, const std::string& output) {
-  const std::string from = ending_of(input), to = ending_of(output);
+  const std::string from = extension_of(input), to = extension_of(output);
   const MotionFormat* format = find_format(formats(), from);
   if (!format || is_writable(to)) return {};  // Opening the input says what is wrong.
   const bool has_own = format->encoded_as == format->extension;
@@ -80,7 +80,7 @@ Result<void> check_format(const std::string& input, const std::string& output) {
 
 Result<void> check_fits(const MotionFile& file, std::span<const int> clips,
                         const std::string& input, const std::string& output) {
-  if (clips.size() == 1 || keeps_format(ending_of(input), ending_of(output))) return {};
+  if (clips.size() == 1 || keeps_format(extension_of(input), extension_of(output))) return {};
   return Error{input + ": holds " + plural(clips.size(), "motion") + " (" + list_clips(file) +
                ") and " + output + " takes one; --clip NAME picks it"};
 }
@@ -93,8 +93,8 @@ Placement placement_of(const RigOptions& options) {
 }
 
 std::string format_clip(const Clip& clip, const std::string& name, const Placement& placement,
-                        const std::string& ending) {
-  return find_format(formats(), ending)->write(clip, name, placement);
+                        const std::string& extension) {
+  return find_format(formats(), extension)->write(clip, name, placement);
 }
 
 }  // namespace panache::cli

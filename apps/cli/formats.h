@@ -13,27 +13,27 @@ namespace panache::cli {
 // Those of the library, and FBX.
 std::span<const MotionFormat> formats();
 
-// Whether a file with the ending `input` keeps its format where it is written with the ending
+// Whether a file with the extension `input` keeps its format where it is written with the extension
 // `output`, and with it all that is in it beside motion. Those of glTF count as one: an FBX file is
 // a GLB by then.
 bool keeps_format(const std::string& input, const std::string& output);
-// What a file gave that keeps its format, in the container that the output's ending asks for.
+// What a file gave that keeps its format, in the container that the output's extension asks for.
 Result<std::string> in_container(std::string bytes, const std::string& input,
                                  const std::string& output);
-// Whether the bytes of a file with this ending are not all of it, or none that are handed on:
+// Whether the bytes of a file with this extension are not all of it, or none that are handed on:
 // MotionFile::encode gives those.
-bool must_be_encoded(const std::string& ending);
+bool must_be_encoded(const std::string& extension);
 
 // The formats that any motion can be written in: ".bvh or .glb", "bvh or glb".
 std::string list_writable();
 std::string list_writable_names();
-// Whether a motion can be written with this ending.
-bool is_writable(const std::string& ending);
+// Whether a motion can be written with this extension.
+bool is_writable(const std::string& extension);
 
-// Refuses an output whose ending is none that its input can be written with.
+// Rejects an output whose extension is none that its input can be written with.
 Result<void> check_format(const std::string& input, const std::string& output);
 
-// Refuses several motions where the output's format holds a single one.
+// Rejects several motions where the output's format holds a single one.
 Result<void> check_fits(const MotionFile& file, std::span<const int> clips,
                         const std::string& input, const std::string& output);
 
@@ -41,8 +41,8 @@ Placement placement_of(const Rig& rig);
 // Of a skeleton that is no humanoid; what is not given is metres and +Y.
 Placement placement_of(const RigOptions& options);
 
-// A new file of this motion alone, with an ending that is_writable().
+// A new file of this motion alone, with an extension that is_writable().
 std::string format_clip(const Clip& clip, const std::string& name, const Placement& placement,
-                        const std::string& ending);
+                        const std::string& extension);
 
 }  // namespace panache::cli

@@ -12,7 +12,7 @@ namespace panache::cli {
 std::string with_pictures(std::string glb, const std::string& path);
 
 // The GLB of a .gltf that stands alone: what it holds in data URIs goes into the binary chunk.
-// Refused, with `path` in front, is a buffer that only an extension can provide.
+// Rejected, with `path` in front, is a buffer that only an extension can provide.
 Result<std::string> gltf_to_glb(const std::string& gltf, const std::string& path);
 
 }  // namespace panache::cli

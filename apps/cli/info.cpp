@@ -7,9 +7,9 @@
 
 #include "input.h"
 #include "learn/style_file.h"
+#include "messages.h"
 #include "model_edit.h"
 #include "model_report.h"
-#include "report.h"
 #include "rig_options.h"
 #include "rig_report.h"
 #include "verbs.h"
@@ -103,15 +103,15 @@ struct InfoVerb {
 };
 
 int motion_info(const InfoVerb& verb) {
-  if (auto flags = check_rig_flags(verb.rig); !flags) return refuse(flags.error(), kBadUsage);
+  if (auto flags = check_rig_flags(verb.rig); !flags) return fail(flags.error(), kBadUsage);
   Result<RigOptions> options = read_rig_options(verb.rig);
-  if (!options) return refuse(options.error(), kBadInput);
+  if (!options) return fail(options.error(), kBadInput);
   Result<std::unique_ptr<MotionFile>> file = open_motion(verb.file);
-  if (!file) return refuse(file.error(), kBadInput);
+  if (!file) return fail(file.error(), kBadInput);
   size_t shown = 0;
   if (!verb.clip.empty() || !(*file)->clip_names().empty()) {
     Result<std::vector<int>> picked = pick_clips(**file, verb.clip, verb.file);
-    if (!picked) return refuse(picked.error(), kBadInput);
+    if (!picked) return fail(picked.error(), kBadInput);
     shown = static_cast<size_t>(picked->front());
   }
   const Clip& clip = (*file)->clip(static_cast<int>(shown));
@@ -128,7 +128,7 @@ int motion_info(const InfoVerb& verb) {
     if (rig) print(describe_mapping(*rig, *options));
     if (verb.tree) print("\nSkeleton:\n" + draw_tree(clip.skeleton));
   }
-  return rig ? kDone : refuse(rig.error(), kBadInput);
+  return rig ? kDone : fail(rig.error(), kBadInput);
 }
 
 // As styles, and all else that the file says of itself.
@@ -136,7 +136,7 @@ int model_info(const std::string& path, bool json) {
   const Result<TensorFile> file = read_tensors(path);
   if (file && is_style_file(*file)) return report(load_style(path), json);
   Result<LoadedModel> loaded = load_model(path);
-  if (!loaded) return refuse(loaded.error(), kBadInput);
+  if (!loaded) return fail(loaded.error(), kBadInput);
   const auto& metadata = loaded->model->metadata();
   if (json) {
     Json out = to_json(*loaded);
@@ -162,7 +162,7 @@ void add_info(CLI::App& app, int& exit_code) {
                                       "model");
   auto options = std::make_shared<InfoVerb>();
   verb->add_option("FILE", options->file,
-                   "Motion file (" + motion_endings() + ")\nor model (.safetensors)")
+                   "Motion file (" + motion_extensions() + ")\nor model (.safetensors)")
       ->required()
       ->type_name("");
   verb->add_option("--clip", options->clip,

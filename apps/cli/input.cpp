@@ -7,9 +7,9 @@
 
 namespace panache::cli {
 
-bool is_motion_ending(const std::string& ending) { return find_format(formats(), ending); }
+bool is_motion_extension(const std::string& extension) { return find_format(formats(), extension); }
 
-std::string motion_endings() { return list_extensions(formats()); }
+std::string motion_extensions() { return list_extensions(formats()); }
 
 Result<std::unique_ptr<MotionFile>> open_motion(const std::string& path) {
   return read_motion(path, formats());

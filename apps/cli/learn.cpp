@@ -11,9 +11,9 @@
 #include "input.h"
 #include "learn/learn_style.h"
 #include "learn/style_file.h"
+#include "messages.h"
 #include "model_edit.h"
 #include "model_path.h"
-#include "report.h"
 #include "rig_options.h"
 #include "verbs.h"
 
@@ -152,39 +152,39 @@ Result<void> check_usage(const LearnVerb& verb) {
 }
 
 int learn(const LearnVerb& verb) {
-  if (auto usage = check_usage(verb); !usage) return refuse(usage.error(), kBadUsage);
+  if (auto usage = check_usage(verb); !usage) return fail(usage.error(), kBadUsage);
   // A model that is not there yet begins as a copy of the one shipped.
   std::error_code unknown;
   const bool is_new = !std::filesystem::exists(verb.model, unknown);
   Result<std::string> base = is_new ? find_model("") : Result<std::string>(verb.model);
-  if (!base) return refuse(base.error(), kBadInput);
+  if (!base) return fail(base.error(), kBadInput);
   if (!is_new) {
-    if (auto open = check_writable(verb.model); !open) return refuse(open.error(), kBadInput);
+    if (auto open = check_writable(verb.model); !open) return fail(open.error(), kBadInput);
   }
   Result<TensorFile> model = read_tensors(*base);
-  if (!model) return refuse(model.error(), kBadInput);
+  if (!model) return fail(model.error(), kBadInput);
   // Before the work: a name that is taken.
   Result<std::shared_ptr<const Model>> read = Model::create(*model, *base);
-  if (!read) return refuse(read.error(), kBadInput);
+  if (!read) return fail(read.error(), kBadInput);
   if ((*read)->find_style(verb.name) && !verb.force) {
-    return refuse({*base + ": has a style '" + verb.name +
-                   "' already; give another --name, or --force to replace it"},
-                  kBadInput);
+    return fail({*base + ": has a style '" + verb.name +
+                 "' already; give another --name, or --force to replace it"},
+                kBadInput);
   }
   using Clock = std::chrono::steady_clock;
   Result<std::vector<LearnPair>> pairs = open_pairs(verb);
-  if (!pairs) return refuse(pairs.error(), kBadInput);
+  if (!pairs) return fail(pairs.error(), kBadInput);
   const Clock::time_point begin = Clock::now();
   Result<LearntStyle> learnt = learn_style(*model, *base, *pairs, verb.name, verb.description);
-  if (!learnt) return refuse(learnt.error(), kBadInput);
+  if (!learnt) return fail(learnt.error(), kBadInput);
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   Result<TensorFile> merged = add_style(*model, *base, learnt->file, verb.name, verb.force);
-  if (!merged) return refuse(merged.error(), kBadInput);
+  if (!merged) return fail(merged.error(), kBadInput);
   auto written = is_new ? write_file(verb.model, format_safetensors(*merged), false)
                         : replace_model(verb.model, *merged);
-  if (!written) return refuse(written.error(), kBadInput);
+  if (!written) return fail(written.error(), kBadInput);
   for (const PairReport& pair : learnt->pairs) {
-    for (const std::string& warning : pair.warnings) say("warning: " + warning);
+    for (const std::string& warning : pair.warnings) print_message("warning: " + warning);
   }
   const size_t bytes = format_safetensors(learnt->file).size();
   if (verb.json) {
@@ -201,7 +201,7 @@ void add_learn(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("learn", "Learn a style from a few seconds of motion");
   auto options = std::make_shared<LearnVerb>();
   verb->add_option("CLIPS", options->clips,
-                   "Motion files (" + motion_endings() +
+                   "Motion files (" + motion_extensions() +
                        "):\nan action done neutrally, then the same in the style, 2 to\n"
                        "3 s of each; more such pairs may follow")
       ->required()

@@ -8,9 +8,9 @@
 #include "base/file.h"
 #include "clip/bvh.h"
 #include "clip/text_cursor.h"
+#include "messages.h"
 #include "model_path.h"
 #include "outputs.h"
-#include "report.h"
 #include "shape_options.h"
 #include "stop_signal.h"
 #include "strengths.h"
@@ -66,8 +66,8 @@ void relay_until_stopped(VmcRelay& relay, bool quiet) {
     if (stamp_now() < next && stamp_now() > next - 2) continue;
     next = stamp_now() + 1;
     const std::string line = relay.second(), note = relay.take_note();
-    if (!note.empty()) say(note);
-    if (!quiet) say(line);
+    if (!note.empty()) print_message(note);
+    if (!quiet) print_message(line);
   }
   relay.finish();
 }
@@ -76,7 +76,7 @@ void print_summary(const VmcRelay& relay, double seconds) {
   const VmcCounts& all = relay.all();
   print("relayed " + plural(static_cast<size_t>(all.frames), "frame") + " of " +
         plural(relay.senders(), "sender") + " in " + fixed(seconds, 1) +
-        " s: " + std::to_string(all.lost) + " lost, " + std::to_string(all.refused) +
+        " s: " + std::to_string(all.lost) + " lost, " + std::to_string(all.rejected) +
         " refused, p50 " + std::to_string(all.latencies.quantile_us(0.5)) + " us, p99 " +
         std::to_string(all.latencies.quantile_us(0.99)) + " us\n");
 }
@@ -95,46 +95,46 @@ Result<void> write_recording(const VmcRecording& recording, const Options& optio
 
 int live(const Options& options) {
   Result<uint16_t> in = parse_port(options.in, "--vmc-in");
-  if (!in) return refuse(in.error(), kBadUsage);
+  if (!in) return fail(in.error(), kBadUsage);
   Result<sockaddr_in> out = parse_address(options.out, "--vmc-out");
-  if (!out) return refuse(out.error(), kBadUsage);
+  if (!out) return fail(out.error(), kBadUsage);
   for (const Result<void>& good : {check_no_circle(*in, *out), check_record(options)}) {
-    if (!good) return refuse(good.error(), kBadUsage);
+    if (!good) return fail(good.error(), kBadUsage);
   }
   if (!options.record.empty()) {
     auto free = check_output("", options.record, options.force);
-    if (!free) return refuse(free.error(), kBadInput);
+    if (!free) return fail(free.error(), kBadInput);
   }
   Result<Shape> shape = read_shape(options.shape);
-  if (!shape) return refuse(shape.error(), kBadUsage);
+  if (!shape) return fail(shape.error(), kBadUsage);
   LiveOptions how = options.time;
   how.stylizer.shape = *shape;
   Result<std::string> path = find_model(options.model);
-  if (!path) return refuse(path.error(), kBadInput);
+  if (!path) return fail(path.error(), kBadInput);
   Result<std::shared_ptr<const Model>> model = Model::load(*path);
-  if (!model) return refuse(model.error(), kBadInput);
+  if (!model) return fail(model.error(), kBadInput);
   Result<std::vector<float>> strengths = read_styles(options.styles, **model);
-  if (!strengths) return refuse(strengths.error(), kBadUsage);
+  if (!strengths) return fail(strengths.error(), kBadUsage);
   if (auto good = LiveStylizer::check(**model, options.time); !good) {
-    return refuse({*path + ": " + good.error().message}, kBadUsage);
+    return fail({*path + ": " + good.error().message}, kBadUsage);
   }
   Result<UdpSocket> socket = UdpSocket::listen(*in, "--vmc-in");
-  if (!socket) return refuse(socket.error(), kBadInput);
+  if (!socket) return fail(socket.error(), kBadInput);
 
   watch_stop_signals();
   VmcRecording recording;
   VmcRelay relay(*std::move(socket), *out, *std::move(model), how, *std::move(strengths),
                  options.record.empty() ? nullptr : &recording);
   if (!options.quiet) {
-    say("relaying from port " + std::to_string(*in) + " to " + to_string(*out) +
-        " until Ctrl-C ends it");
+    print_message("relaying from port " + std::to_string(*in) + " to " + to_string(*out) +
+                  " until Ctrl-C ends it");
   }
   const double begin = stamp_now();
   relay_until_stopped(relay, options.quiet);
   print_summary(relay, stamp_now() - begin);
   if (options.record.empty()) return kDone;
   auto written = write_recording(recording, options);
-  return written ? kDone : refuse(written.error(), kBadInput);
+  return written ? kDone : fail(written.error(), kBadInput);
 }
 
 }  // namespace
@@ -162,11 +162,11 @@ void add_live(CLI::App& app, int& exit_code) {
   verb->add_option(
           "--max-lag", options->time.max_lag,
           "A style slower than its input may be shown this late,\n0 to 4 seconds; default: 0")
-      ->check(CLI::Range(0.0, panache::LiveOptions::kMostLag).description(""))
+      ->check(CLI::Range(0.0, panache::LiveOptions::kMaxLag).description(""))
       ->type_name("SECONDS");
   verb->add_option("--max-lead", options->time.max_lead,
                    "And a faster one this early, foreseen, 0 to 0.25\nseconds; default: 0")
-      ->check(CLI::Range(0.0, Predictor::kMostSeconds).description(""))
+      ->check(CLI::Range(0.0, PredictorNetwork::kMaxSeconds).description(""))
       ->type_name("SECONDS");
   verb->add_flag("--skip-cycles", options->time.skip_cycles,
                  "Late by a whole cycle of a walk, leave it out; too early,\n"

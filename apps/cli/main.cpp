@@ -7,13 +7,13 @@
 #include <string_view>
 
 #include "fbx.h"
-#include "report.h"
+#include "messages.h"
 #include "verbs.h"
 
 namespace panache::cli {
 namespace {
 
-// The library's own sentence for a verb that does not exist names no verb that does.
+// The library's own message for a verb that does not exist names no verb that does.
 Result<void> check_verb(const CLI::App& app, const std::string& verb) {
   std::string list;
   const auto known = app.get_subcommands([](const CLI::App*) { return true; });
@@ -54,14 +54,14 @@ int run(int argc, char** argv) {
     return kBadUsage;
   }
   if (argv[1][0] != '-') {
-    if (auto known = check_verb(app, argv[1]); !known) return refuse(known.error(), kBadUsage);
+    if (auto known = check_verb(app, argv[1]); !known) return fail(known.error(), kBadUsage);
   }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help and --version.
     const std::string verb = argv[1][0] == '-' ? "" : std::string(" ") + argv[1];
-    return refuse({one_line(error.what()) + "; see panache" + verb + " --help"}, kBadUsage);
+    return fail({one_line(error.what()) + "; see panache" + verb + " --help"}, kBadUsage);
   }
   return exit_code;
 }
@@ -74,11 +74,11 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::bad_alloc&) {
-    say("there is not enough memory");
+    print_message("there is not enough memory");
   } catch (const std::exception& error) {
     // Of libraries below. Those of libtorch go on with where in its sources they come from.
     const std::string_view text = error.what();
-    say("cannot go on: " + std::string(text.substr(0, text.find('\n'))));
+    print_message("cannot go on: " + std::string(text.substr(0, text.find('\n'))));
   }
   return kBadInput;
 }

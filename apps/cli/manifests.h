@@ -23,7 +23,7 @@ struct Manifests {
 };
 Result<Manifests> read_manifests(const ManifestOptions& options);
 
-// Refuses an output that exists, unless `force`.
+// Rejects an output that exists, unless `force`.
 Result<void> check_free(const std::string& output, bool force);
 
 }  // namespace panache::cli

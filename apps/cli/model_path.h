@@ -12,7 +12,7 @@ inline constexpr const char* kWalkerModel = "walker.safetensors";
 
 // The path of the shipped model called `file_name`: in share/panache/models beside an installed
 // program's folder, in models/ beside the program, or in models/ of the checkout that it was built
-// in. The sentence of a failure lists where it was looked for.
+// in. The message of a failure lists where it was looked for.
 Result<std::string> find_shipped(const std::string& file_name);
 
 // The path of the model to use: `given` (--model) if not empty, else the one that the environment

@@ -31,9 +31,9 @@ std::string describe(const StyleInfo& style, size_t width) {
   const std::string origin = style.learnt ? "learnt" + from : "";
   std::string text;
   std::string name = style.name;
-  for (const std::string& told : {style.description, origin}) {
-    if (told.empty()) continue;
-    text += "  " + padded(name, width) + told + "\n";
+  for (const std::string& given : {style.description, origin}) {
+    if (given.empty()) continue;
+    text += "  " + padded(name, width) + given + "\n";
     name.clear();
   }
   return text.empty() ? "  " + name + "\n" : text;

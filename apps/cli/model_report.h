@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "messages.h"
 #include "net/safetensors.h"
-#include "report.h"
 #include "style/model.h"
 
 namespace panache::cli {
@@ -35,7 +35,7 @@ Json to_json(const LoadedStyle& loaded);
 // Prints what is known of a model or of a style file, and returns the exit code.
 template <class Loaded>
 int report(const Result<Loaded>& loaded, bool json) {
-  if (!loaded) return refuse(loaded.error(), kBadInput);
+  if (!loaded) return fail(loaded.error(), kBadInput);
   if (json) {
     print(to_json(*loaded));
   } else {

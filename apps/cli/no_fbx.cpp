@@ -1,7 +1,7 @@
 // In the place of fbx.cpp in a build without Assimp.
 
 #include "fbx.h"
-#include "report.h"
+#include "messages.h"
 
 namespace panache::cli {
 
@@ -10,7 +10,7 @@ Result<std::string> fbx_to_glb(const std::string& path) {
 }
 
 int read_fbx_as_child(const std::string& path) {
-  say(fbx_to_glb(path).error().message);
+  print_message(fbx_to_glb(path).error().message);
   return kBadInput;
 }
 

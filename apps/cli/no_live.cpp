@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "report.h"
+#include "messages.h"
 #include "verbs.h"
 
 namespace panache::cli {
@@ -14,7 +14,7 @@ void add_missing(CLI::App& app, int& exit_code, const std::string& name, const s
   CLI::App* verb = app.add_subcommand(name, help);
   verb->allow_extras();
   verb->callback([&exit_code] {
-    exit_code = refuse({"this build has no live input; build with liblo-dev"}, kBadUsage);
+    exit_code = fail({"this build has no live input; build with liblo-dev"}, kBadUsage);
   });
 }
 

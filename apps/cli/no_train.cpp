@@ -1,6 +1,6 @@
 // panache train and panache eval where the program was built without them.
 
-#include "report.h"
+#include "messages.h"
 #include "verbs.h"
 
 namespace panache::cli {
@@ -14,10 +14,10 @@ void add_missing(CLI::App& app, int& exit_code, const std::string& name, const s
       "Example, in a checkout of the sources (builds the program with training, and "
       "trains):\n  ./run train");
   verb->callback([name, &exit_code] {
-    exit_code = refuse({"this program was built without '" + name +
-                        "', which needs libtorch; ./run train in a checkout of the sources "
-                        "builds it with training, as build/dev/panache"},
-                       kBadUsage);
+    exit_code = fail({"this program was built without '" + name +
+                      "', which needs libtorch; ./run train in a checkout of the sources "
+                      "builds it with training, as build/dev/panache"},
+                     kBadUsage);
   });
 }
 

@@ -1,6 +1,6 @@
 // In the place of view.cpp in a build without cpp-httplib.
 
-#include "report.h"
+#include "messages.h"
 #include "verbs.h"
 
 namespace panache::cli {
@@ -10,9 +10,9 @@ void add_view(CLI::App& app, int& exit_code) {
   verb->allow_extras();
   verb->callback([&exit_code] {
     exit_code =
-        refuse({"this build has no server for the page; build with libcpp-httplib-dev, or open "
-                "build/web/index.html"},
-               kBadUsage);
+        fail({"this build has no server for the page; build with libcpp-httplib-dev, or open "
+              "build/web/index.html"},
+             kBadUsage);
   });
 }
 

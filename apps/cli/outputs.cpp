@@ -4,7 +4,7 @@
 #include <map>
 
 #include "formats.h"
-#include "report.h"
+#include "messages.h"
 
 namespace panache::cli {
 
@@ -12,21 +12,21 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Existing files that a sentence names before it says how many more there are.
+// Existing files that a message names before it says how many more there are.
 constexpr size_t kNamed = 3;
 
-fs::path with_ending(fs::path name, const std::string& ending) {
-  const std::string own = ending_of(name.string());
-  if (!ending.empty() && ending != own) return name.replace_extension(ending);
+fs::path with_extension(fs::path name, const std::string& extension) {
+  const std::string own = extension_of(name.string());
+  if (!extension.empty() && extension != own) return name.replace_extension(extension);
   const MotionFormat* format = find_format(formats(), own);
-  const bool has_another = ending.empty() && format && format->encoded_as != own;
+  const bool has_another = extension.empty() && format && format->encoded_as != own;
   return has_another ? name.replace_extension(format->encoded_as) : name;
 }
 
 }  // namespace
 
 Result<std::vector<FilePair>> name_outputs(const FoundFiles& inputs, const std::string& output,
-                                           const std::string& ending) {
+                                           const std::string& extension) {
   if (output.empty()) return Error{"--output: expected the name of a file or folder, found ''"};
   std::error_code status;
   const bool is_folder = fs::is_directory(output, status);
@@ -46,7 +46,7 @@ Result<std::vector<FilePair>> name_outputs(const FoundFiles& inputs, const std::
   std::vector<FilePair> files;
   std::map<std::string, std::string> input_of;
   for (const FoundFile& input : inputs.files) {
-    const std::string path = (fs::path(output) / with_ending(input.name, ending)).string();
+    const std::string path = (fs::path(output) / with_extension(input.name, extension)).string();
     const auto [other, is_new] = input_of.emplace(path, input.path);
     if (!is_new) {
       return Error{path + ": is where the results of both '" + other->second + "' and '" +

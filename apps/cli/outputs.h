@@ -15,14 +15,14 @@ struct FilePair {
 };
 
 // The output file of each input. `output` is a folder where the inputs are a batch, where it ends
-// in '/' and where it is one; files in it are called as the inputs, with `ending` for their own
+// in '/' and where it is one; files in it are called as the inputs, with `extension` for their own
 // where that is not empty and with .glb for .fbx, which nobody writes here. Two inputs with one
-// output are refused.
+// output are rejected.
 Result<std::vector<FilePair>> name_outputs(const FoundFiles& inputs, const std::string& output,
-                                           const std::string& ending = "");
+                                           const std::string& extension = "");
 
-// Refuses all outputs that exist, in one sentence, unless `force`: before any work is done. The
-// sentence says where one of them is its very input.
+// Rejects all outputs that exist, in one message, unless `force`: before any work is done. The
+// message says where one of them is its very input.
 Result<void> check_outputs(const std::vector<FilePair>& files, bool force);
 // The same for a single file.
 Result<void> check_output(const std::string& input, const std::string& output, bool force);

@@ -6,7 +6,7 @@
 
 #include "base/file.h"
 #include "clip/text_cursor.h"
-#include "report.h"
+#include "messages.h"
 #include "rig/humanoid.h"
 
 namespace panache::cli {

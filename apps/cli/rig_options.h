@@ -26,7 +26,7 @@ Result<void> check_rig_flags(const RigFlags& flags);
 Result<RigOptions> read_rig_options(const RigFlags& flags);
 
 // The joints of a mapping: {"leftHand": "Hand_L", "neck": null}, or what panache info --json
-// prints. `name` stands in front of the sentence of a failure.
+// prints. `name` stands in front of the message of a failure.
 Result<std::map<int, std::string>> parse_joint_map(const std::string& text,
                                                    const std::string& name);
 

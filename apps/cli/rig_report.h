@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "report.h"
+#include "messages.h"
 #include "rig/rig.h"
 
 namespace panache::cli {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "input.h"
-#include "report.h"
+#include "messages.h"
 #include "rig/canonical_skeleton.h"
 #include "rig/posed_rig.h"
 #include "rig_options.h"
@@ -117,20 +117,20 @@ int64_t play(Player& player, double fps, const SendOptions& options, UdpSocket& 
 }
 
 int send(const SendOptions& options) {
-  if (auto good = check(options); !good) return refuse(good.error(), kBadUsage);
+  if (auto good = check(options); !good) return fail(good.error(), kBadUsage);
   Result<sockaddr_in> to = parse_address(options.to, "--to");
-  if (!to) return refuse(to.error(), kBadUsage);
+  if (!to) return fail(to.error(), kBadUsage);
   Result<RigOptions> rig_options = read_rig_options(options.rig);
-  if (!rig_options) return refuse(rig_options.error(), kBadInput);
+  if (!rig_options) return fail(rig_options.error(), kBadInput);
   Result<std::unique_ptr<MotionFile>> motion = open_motion(options.input);
-  if (!motion) return refuse(motion.error(), kBadInput);
+  if (!motion) return fail(motion.error(), kBadInput);
   Result<std::vector<int>> picked = pick_clips(**motion, options.clip, options.input);
-  if (!picked) return refuse(picked.error(), kBadInput);
+  if (!picked) return fail(picked.error(), kBadInput);
   const Clip& clip = (*motion)->clip(picked->front());
   Result<Rig> rig = make_rig(clip, *rig_options, options.input);
-  if (!rig) return refuse(rig.error(), kBadInput);
+  if (!rig) return fail(rig.error(), kBadInput);
   Result<UdpSocket> socket = UdpSocket::open();
-  if (!socket) return refuse(socket.error(), kBadInput);
+  if (!socket) return fail(socket.error(), kBadInput);
 
   watch_stop_signals();
   Player player(clip, *std::move(rig));

@@ -19,7 +19,7 @@ struct ShapeFlags {
 // Gives `verb` the four options; `flags` must outlive it.
 void add_shape_options(CLI::App& verb, ShapeFlags& flags);
 
-// The shape with its regions. Fails with a sentence where one is unknown, out of range or given
+// The shape with its regions. Fails with a message where one is unknown, out of range or given
 // twice.
 Result<Shape> read_shape(const ShapeFlags& flags);
 

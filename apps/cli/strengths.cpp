@@ -9,7 +9,7 @@
 
 #include "base/csv.h"
 #include "clip/text_cursor.h"
-#include "report.h"
+#include "messages.h"
 
 namespace panache::cli {
 namespace {

@@ -10,9 +10,9 @@
 
 #include "base/file.h"
 #include "input.h"
+#include "messages.h"
 #include "outputs.h"
 #include "pose/strip.h"
-#include "report.h"
 #include "rig/posed_rig.h"
 #include "rig_options.h"
 #include "verbs.h"
@@ -23,7 +23,7 @@ namespace {
 // What fits a page beside others, unless one asks for more.
 constexpr double kDefaultLength = 4;  // Seconds.
 constexpr double kLongestTime = 86400;
-constexpr int kMostFigures = 1000;  // In a row.
+constexpr int kMaxFigures = 1000;  // In a row.
 
 struct StripVerb {
   std::vector<std::string> inputs, labels;
@@ -49,9 +49,9 @@ Result<void> check(StripVerb& verb) {
   if (verb.to < verb.from) {
     return Error{"--to " + brief(verb.to) + ": expected a time after --from " + brief(verb.from)};
   }
-  if ((verb.to - verb.from) / verb.every > kMostFigures) {
+  if ((verb.to - verb.from) / verb.every > kMaxFigures) {
     return Error{"--every " + brief(verb.every) + ": expected at most " +
-                 std::to_string(kMostFigures) + " figures from " + brief(verb.from) + " to " +
+                 std::to_string(kMaxFigures) + " figures from " + brief(verb.from) + " to " +
                  brief(verb.to) + " s"};
   }
   if (!verb.labels.empty() && verb.labels.size() != verb.inputs.size()) {
@@ -98,15 +98,15 @@ Result<StripRow> read_row(const std::string& path, const StripVerb& verb,
 }
 
 int strip(StripVerb verb) {
-  if (auto good = check(verb); !good) return refuse(good.error(), kBadUsage);
+  if (auto good = check(verb); !good) return fail(good.error(), kBadUsage);
   Result<RigOptions> rig = read_rig_options(verb.rig);
-  if (!rig) return refuse(rig.error(), kBadInput);
+  if (!rig) return fail(rig.error(), kBadInput);
   std::vector<StripRow> rows;
   for (size_t i = 0; i < verb.inputs.size(); ++i) {
     auto free = check_output(verb.inputs[i], verb.output, verb.force);
-    if (!free) return refuse(free.error(), kBadInput);
+    if (!free) return fail(free.error(), kBadInput);
     Result<StripRow> row = read_row(verb.inputs[i], verb, *rig);
-    if (!row) return refuse(row.error(), kBadInput);
+    if (!row) return fail(row.error(), kBadInput);
     if (!verb.labels.empty()) row->label = verb.labels[i];
     rows.push_back(*std::move(row));
   }
@@ -114,7 +114,7 @@ int strip(StripVerb verb) {
   options.seconds_between = verb.every;
   options.travel = verb.travel;
   auto written = write_file(verb.output, draw_strip(rows, options), verb.force);
-  if (!written) return refuse(written.error(), kBadInput);
+  if (!written) return fail(written.error(), kBadInput);
   print("drew " + plural(rows.size(), "row") + " into " + verb.output + "\n");
   return kDone;
 }
@@ -124,7 +124,8 @@ int strip(StripVerb verb) {
 void add_strip(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("strip", "Draw motion files as a film strip");
   auto options = std::make_shared<StripVerb>();
-  verb->add_option("IN", options->inputs, "Motion files (" + motion_endings() + "),\none row each")
+  verb->add_option("IN", options->inputs,
+                   "Motion files (" + motion_extensions() + "),\none row each")
       ->required()
       ->type_name("");
   verb->add_option("-o,--output", options->output, "Picture to write (.svg)")

@@ -8,10 +8,10 @@
 
 #include "base/file.h"
 #include "learn/style_file.h"
+#include "messages.h"
 #include "model_edit.h"
 #include "model_path.h"
 #include "model_report.h"
-#include "report.h"
 #include "verbs.h"
 
 namespace panache::cli {
@@ -76,14 +76,14 @@ Result<Changed> rename(TensorFile model, const StylesVerb& verb) {
 
 int change(const StylesVerb& verb) {
   Result<TensorFile> model = read_tensors(verb.model);
-  if (!model) return refuse(model.error(), kBadInput);
+  if (!model) return fail(model.error(), kBadInput);
   Result<Changed> changed = !verb.add.empty()      ? add(*std::move(model), verb)
                             : !verb.remove.empty() ? remove(*std::move(model), verb)
                                                    : rename(*std::move(model), verb);
-  if (!changed) return refuse(changed.error(), kBadInput);
-  if (auto open = check_writable(verb.model); !open) return refuse(open.error(), kBadInput);
+  if (!changed) return fail(changed.error(), kBadInput);
+  if (auto open = check_writable(verb.model); !open) return fail(open.error(), kBadInput);
   if (auto written = replace_model(verb.model, changed->file); !written) {
-    return refuse(written.error(), kBadInput);
+    return fail(written.error(), kBadInput);
   }
   const Result<LoadedModel> loaded = load_model(verb.model);
   if (!loaded || verb.json) return report(loaded, true);
@@ -94,15 +94,15 @@ int change(const StylesVerb& verb) {
 
 int extract(const std::string& path, const StylesVerb& verb) {
   if (!verb.output.ends_with(".safetensors")) {
-    return refuse({verb.output + ": expected a name that ends in .safetensors"}, kBadUsage);
+    return fail({verb.output + ": expected a name that ends in .safetensors"}, kBadUsage);
   }
   Result<TensorFile> model = read_tensors(path);
-  if (!model) return refuse(model.error(), kBadInput);
+  if (!model) return fail(model.error(), kBadInput);
   Result<TensorFile> style = extract_style(*model, verb.extract, path);
-  if (!style) return refuse(style.error(), kBadInput);
+  if (!style) return fail(style.error(), kBadInput);
   const std::string bytes = format_safetensors(*style);
   if (auto written = write_file(verb.output, bytes, verb.force); !written) {
-    return refuse(written.error(), kBadInput);
+    return fail(written.error(), kBadInput);
   }
   if (verb.json) return show(verb.output, true);
   print("copied '" + verb.extract + "' from " + path + " to " + verb.output + ", which has " +
@@ -136,10 +136,10 @@ Result<void> check_usage(const StylesVerb& verb) {
 }
 
 int styles(const StylesVerb& verb) {
-  if (auto usage = check_usage(verb); !usage) return refuse(usage.error(), kBadUsage);
+  if (auto usage = check_usage(verb); !usage) return fail(usage.error(), kBadUsage);
   if (changes(verb)) return change(verb);
   Result<std::string> path = find_model(verb.model);
-  if (!path) return refuse(path.error(), kBadInput);
+  if (!path) return fail(path.error(), kBadInput);
   return verb.extract.empty() ? show(*path, verb.json) : extract(*path, verb);
 }
 

@@ -11,8 +11,8 @@
 #include "batch.h"
 #include "formats.h"
 #include "input.h"
+#include "messages.h"
 #include "model_path.h"
-#include "report.h"
 #include "rig_options.h"
 #include "rig_report.h"
 #include "shape_options.h"
@@ -135,7 +135,7 @@ Result<RestyledClip> restyle_clip(const MotionFile& motion, int which, const Wan
 // holds the only one.
 Result<std::string> encode(const MotionFile& motion, const std::vector<RestyledClip>& clips,
                            const FileJob& file, bool replace) {
-  if (keeps_format(ending_of(file.input), ending_of(file.output))) {
+  if (keeps_format(extension_of(file.input), extension_of(file.output))) {
     std::vector<ClipEdit> edits;
     for (const RestyledClip& clip : clips) {
       edits.push_back({clip.clip, &clip.result.clip, clip.result.source_frames, clip.name});
@@ -144,7 +144,8 @@ Result<std::string> encode(const MotionFile& motion, const std::vector<RestyledC
                         file.input, file.output);
   }
   const RestyledClip& only = clips.front();
-  return format_clip(only.result.clip, only.name, placement_of(only.rig), ending_of(file.output));
+  return format_clip(only.result.clip, only.name, placement_of(only.rig),
+                     extension_of(file.output));
 }
 
 Result<void> stylize_file(FileJob& file, const Wanted& wanted, const StylizeOptions& options,
@@ -204,24 +205,24 @@ Result<std::vector<StrengthWish>> collect_wishes(const StylizeOptions& options, 
 }
 
 int stylize(const StylizeOptions& options) {
-  if (auto rig = check_rig_flags(options.rig); !rig) return refuse(rig.error(), kBadUsage);
+  if (auto rig = check_rig_flags(options.rig); !rig) return fail(rig.error(), kBadUsage);
   Result<Shape> shape = read_shape(options.shape);
-  if (!shape) return refuse(shape.error(), kBadUsage);
+  if (!shape) return fail(shape.error(), kBadUsage);
   int exit_code = kDone;
   Result<std::vector<FileJob>> files = plan_batch(options.batch, "", exit_code);
-  if (!files) return refuse(files.error(), exit_code);
+  if (!files) return fail(files.error(), exit_code);
   for (const FileJob& file : *files) {
     auto format = check_format(file.input, file.output);
-    if (!format) return refuse(format.error(), kBadUsage);
+    if (!format) return fail(format.error(), kBadUsage);
   }
   Result<std::string> path = find_model(options.model);
-  if (!path) return refuse(path.error(), kBadInput);
+  if (!path) return fail(path.error(), kBadInput);
   Result<std::shared_ptr<const Model>> model = Model::load(*path);
-  if (!model) return refuse(model.error(), kBadInput);
+  if (!model) return fail(model.error(), kBadInput);
   Result<std::vector<StrengthWish>> wishes = collect_wishes(options, **model, exit_code);
-  if (!wishes) return refuse(wishes.error(), exit_code);
+  if (!wishes) return fail(wishes.error(), exit_code);
   Result<RigOptions> rig = read_rig_options(options.rig);
-  if (!rig) return refuse(rig.error(), kBadInput);
+  if (!rig) return fail(rig.error(), kBadInput);
 
   Wanted wanted{*std::move(model), *std::move(wishes), *std::move(rig), {}};
   wanted.how.timing = !options.no_timing;

@@ -8,7 +8,7 @@
 
 #include "base/file.h"
 #include "manifests.h"
-#include "report.h"
+#include "messages.h"
 #include "train/checkpoint.h"
 #include "train/trainer.h"
 #include "verbs.h"
@@ -26,10 +26,10 @@ struct Options {
 
 int run(const Options& options) {
   Result<Manifests> data = read_manifests(options.data);
-  if (!data) return refuse(data.error(), kBadInput);
+  if (!data) return fail(data.error(), kBadInput);
   // Training takes minutes: what stands in the way of its result is said before.
   if (Result<void> free = check_free(options.output, options.force); !free) {
-    return refuse(free.error(), kBadInput);
+    return fail(free.error(), kBadInput);
   }
   TrainOptions train_options(*find_recipe(options.recipe));
   if (options.steps > 0) {
@@ -42,7 +42,7 @@ int run(const Options& options) {
   train_options.licence = options.licence;
   train_options.checkpoint = options.output;
   Result<Trained> trained = train(data->rows, data->styles, train_options);
-  if (!trained) return refuse(trained.error(), kBadInput);
+  if (!trained) return fail(trained.error(), kBadInput);
 
   const std::string bytes = format_safetensors(trained->model);
   const std::pair<std::string, std::string> files[] = {
@@ -51,7 +51,7 @@ int run(const Options& options) {
       {options.output + ".losses.svg", losses_svg(trained->losses)}};
   for (const auto& [path, text] : files) {
     if (Result<void> written = write_file(path, text, true); !written) {
-      return refuse(written.error(), kBadInput);
+      return fail(written.error(), kBadInput);
     }
   }
   remove_checkpoints(options.output);

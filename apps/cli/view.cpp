@@ -11,7 +11,7 @@
 #include "base/file.h"
 #include "formats.h"
 #include "input.h"
-#include "report.h"
+#include "messages.h"
 #include "verbs.h"
 
 namespace panache::cli {
@@ -43,10 +43,10 @@ Result<std::string> find_page() {
 Result<Served> read_served(const std::string& path) {
   Result<std::unique_ptr<MotionFile>> motion = open_motion(path);
   if (!motion) return motion.error();
-  const std::string name = fs::path(path).filename().string(), ending = ending_of(path);
-  if (must_be_encoded(ending)) {
-    const std::string_view encoded_as = find_format(formats(), ending)->encoded_as;
-    return Served{encoded_as == ending ? name : name + std::string(encoded_as),
+  const std::string name = fs::path(path).filename().string(), extension = extension_of(path);
+  if (must_be_encoded(extension)) {
+    const std::string_view encoded_as = find_format(formats(), extension)->encoded_as;
+    return Served{encoded_as == extension ? name : name + std::string(encoded_as),
                   (*motion)->encode({}, EditMode::replace)};
   }
   Result<std::string> bytes = read_file(path);
@@ -80,11 +80,11 @@ int view(const std::string& path) {
   Served served;
   if (!path.empty()) {
     Result<Served> read = read_served(path);
-    if (!read) return refuse(read.error(), kBadInput);
+    if (!read) return fail(read.error(), kBadInput);
     served = *std::move(read);
   }
   Result<std::string> page = find_page();
-  if (!page) return refuse(page.error(), kBadInput);
+  if (!page) return fail(page.error(), kBadInput);
 
   httplib::Server server;
   // With these a page may read a finer clock, which the times of a step are told by.
@@ -93,8 +93,8 @@ int view(const std::string& path) {
                               {"Cache-Control", "no-cache"}});
   const int port = server.bind_to_any_port(kAddress);
   if (port < 0 || !server.set_mount_point("/", *page)) {
-    return refuse({"no port of " + std::string(kAddress) + " is free to serve the page on"},
-                  kBadInput);
+    return fail({"no port of " + std::string(kAddress) + " is free to serve the page on"},
+                kBadInput);
   }
   server.set_pre_routing_handler(
       [port](const httplib::Request& request, httplib::Response& answer) {
@@ -111,7 +111,7 @@ int view(const std::string& path) {
   }
   print("http://" + std::string(kAddress) + ":" + std::to_string(port) + "/" +
         (path.empty() ? "" : "?open=" + percent_encoded(served.name)) + "\n");
-  say("open this address in a browser; Ctrl-C ends");
+  print_message("open this address in a browser; Ctrl-C ends");
   std::fflush(stdout);
   server.listen_after_bind();
   return kDone;

@@ -11,7 +11,7 @@ namespace panache::cli {
 namespace {
 
 constexpr double kLearnSeconds = 1;
-constexpr size_t kMostLearnt = 240;    // Frames of that second that are kept.
+constexpr size_t kMaxLearnt = 240;     // Frames of that second that are kept.
 constexpr double kLongestWait = 0.02;  // Seconds; all of a frame comes in one go.
 constexpr float kFarthest = 10'000;    // Metres.
 
@@ -90,7 +90,7 @@ void VmcCharacter::finish_frame(std::span<const float> strengths) {
 }
 
 void VmcCharacter::learn() {
-  if (learnt_.size() < kMostLearnt) learnt_.push_back(now_);
+  if (learnt_.size() < kMaxLearnt) learnt_.push_back(now_);
   if (learnt_.size() < 2 || now_.seconds - learnt_.front().seconds < kLearnSeconds) return;
   if (Result<void> stands = stand(); !stands) note_ = stands.error().message;
   learnt_.clear();

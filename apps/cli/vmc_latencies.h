@@ -15,8 +15,8 @@ class VmcLatencies {
   void clear() { *this = {}; }
 
  private:
-  static constexpr int kMost = 10'000;
-  std::array<uint32_t, kMost + 1> counts_{};  // [microseconds]
+  static constexpr int kMax = 10'000;
+  std::array<uint32_t, kMax + 1> counts_{};  // [microseconds]
   uint64_t all_ = 0;
 };
 

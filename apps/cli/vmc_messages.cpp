@@ -22,7 +22,7 @@ constexpr const char* kOkPath = "/VMC/Ext/OK";
 constexpr const char* kTimePath = "/VMC/Ext/T";
 constexpr std::string_view kBundle("#bundle\0", 8);
 constexpr size_t kBundleHead = 16;  // "#bundle" and a time tag.
-constexpr int kMostNested = 8;      // Bundles in bundles.
+constexpr int kMaxNesting = 8;      // Bundles in bundles.
 
 uint32_t read_number(std::span<const char> bytes, size_t at) {
   uint32_t out = 0;
@@ -89,7 +89,7 @@ VmcMessage read_message(std::span<const char> bytes, size_t begin) {
 bool read_element(std::span<const char> datagram, size_t begin, size_t end, int depth,
                   std::vector<VmcMessage>& out) {
   const std::span<const char> bytes = datagram.subspan(begin, end - begin);
-  if (bytes.size() < 4 || bytes.size() % 4 != 0 || depth > kMostNested) return false;
+  if (bytes.size() < 4 || bytes.size() % 4 != 0 || depth > kMaxNesting) return false;
   if (!std::string_view(bytes.data(), bytes.size()).starts_with(kBundle)) {
     if (bytes[0] != '/' || std::find(bytes.begin(), bytes.end(), '\0') == bytes.end()) return false;
     out.push_back(read_message(bytes, begin));

@@ -17,14 +17,14 @@ class VmcRecording {
   // One pose of the skeleton's joints at a time that is later than the last one's, seconds; a pose
   // that is not later is left out.
   void add(double seconds, ConstPose pose);
-  bool full() const { return frames_.size() >= kMostFrames; }
+  bool full() const { return frames_.size() >= kMaxFrames; }
   size_t frames() const { return frames_.size(); }
 
   // As many frames at their mean rate, between those that came. At least one was added.
   Clip clip() const;
 
  private:
-  static constexpr size_t kMostFrames = 360'000;
+  static constexpr size_t kMaxFrames = 360'000;
   struct Frame {
     double seconds;
     std::vector<Quat> rotations;

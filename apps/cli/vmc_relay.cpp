@@ -6,7 +6,7 @@
 #include <poll.h>
 
 #include "clip/text_cursor.h"
-#include "report.h"
+#include "messages.h"
 #include "strengths.h"
 
 namespace panache::cli {
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kWaitMilliseconds = 10;
 // So that frames that wait and the statistics have their turn in a flood.
-constexpr int kMostAtOnce = 64;
+constexpr int kMaxAtOnce = 64;
 
 bool is_command(const VmcMessage& message) {
   return message.kind == VmcMessage::style || message.kind == VmcMessage::reset;
@@ -31,13 +31,13 @@ VmcRelay::VmcRelay(UdpSocket socket, const sockaddr_in& to, std::shared_ptr<cons
       options_(options),
       strengths_(std::move(strengths)),
       recording_(recording) {
-  senders_.reserve(kMostSenders);
+  senders_.reserve(kMaxSenders);
 }
 
 void VmcRelay::run_once() {
   pollfd waiting = {socket_.file(), POLLIN, 0};
   ::poll(&waiting, 1, kWaitMilliseconds);
-  for (int i = 0; i < kMostAtOnce; ++i) {
+  for (int i = 0; i < kMaxAtOnce; ++i) {
     std::optional<Datagram> datagram = socket_.receive();
     if (!datagram) break;
     take(*std::move(datagram));
@@ -59,11 +59,11 @@ void VmcRelay::finish() {
 void VmcRelay::take(Datagram datagram) {
   const std::optional<std::vector<VmcMessage>> messages = read_vmc(datagram.bytes);
   if (!messages) {
-    ++all_.refused;
-    ++second_.refused;
+    ++all_.rejected;
+    ++second_.rejected;
     return;
   }
-  for (const VmcMessage& message : *messages) obey(message);
+  for (const VmcMessage& message : *messages) apply_command(message);
   // What is for this program alone is not for the avatar.
   if (!messages->empty() && std::all_of(messages->begin(), messages->end(), is_command)) return;
   const bool has_bones = std::any_of(messages->begin(), messages->end(), [](const VmcMessage& m) {
@@ -80,7 +80,7 @@ void VmcRelay::take(Datagram datagram) {
   send_ready(*sender);
 }
 
-void VmcRelay::obey(const VmcMessage& message) {
+void VmcRelay::apply_command(const VmcMessage& message) {
   if (message.kind == VmcMessage::reset) {
     for (Sender& sender : senders_) sender.character.reset();
   }
@@ -99,11 +99,11 @@ void VmcRelay::obey(const VmcMessage& message) {
 
 VmcRelay::Sender* VmcRelay::sender_of(const Datagram& datagram, bool meet) {
   for (Sender& sender : senders_) {
-    if (same_place(sender.address, datagram.sender)) return &sender;
+    if (same_address(sender.address, datagram.sender)) return &sender;
   }
   if (!meet) return nullptr;
   // The one that was silent longest makes room for one too many.
-  if (senders_.size() == kMostSenders) {
+  if (senders_.size() == kMaxSenders) {
     senders_.erase(
         std::min_element(senders_.begin(), senders_.end(),
                          [](const Sender& a, const Sender& b) { return a.heard < b.heard; }));
@@ -149,7 +149,7 @@ std::string VmcRelay::second() {
                      plural(heard, "sender") + ", " + std::to_string(second_.lost) + " lost, p50 " +
                      std::to_string(second_.latencies.quantile_us(0.5)) + " us, p99 " +
                      std::to_string(second_.latencies.quantile_us(0.99)) + " us";
-  if (second_.refused > 0) line += ", " + std::to_string(second_.refused) + " refused";
+  if (second_.rejected > 0) line += ", " + std::to_string(second_.rejected) + " refused";
   bool neutral = true;
   for (size_t i = 0; i < strengths_.size(); ++i) {
     if (strengths_[i] == 0) continue;

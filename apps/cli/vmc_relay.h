@@ -17,9 +17,9 @@ namespace panache::cli {
 
 // Counts of a second, or of all.
 struct VmcCounts {
-  int64_t frames = 0;   // Of all senders.
-  int64_t lost = 0;     // Datagrams that found no room on the way in or out.
-  int64_t refused = 0;  // Datagrams that are no OSC.
+  int64_t frames = 0;    // Of all senders.
+  int64_t lost = 0;      // Datagrams that found no room on the way in or out.
+  int64_t rejected = 0;  // Datagrams that are no OSC.
   VmcLatencies latencies;
 };
 
@@ -38,7 +38,7 @@ class VmcRelay {
   size_t senders() const { return met_; }  // So far.
   // "270 frames of 3 senders, 0 lost, p50 85 us, p99 210 us, old 1": since this was last asked.
   std::string second();
-  // What a user should know, since this was last asked; the last such sentence, or empty.
+  // What a user should know, since this was last asked; the last such message, or empty.
   std::string take_note() { return std::exchange(note_, {}); }
 
  private:
@@ -48,10 +48,10 @@ class VmcRelay {
     bool this_second;
     VmcCharacter character;
   };
-  static constexpr size_t kMostSenders = 16;
+  static constexpr size_t kMaxSenders = 16;
 
   void take(Datagram datagram);
-  void obey(const VmcMessage& message);
+  void apply_command(const VmcMessage& message);
   // Null where the sender is new and not to be met.
   Sender* sender_of(const Datagram& datagram, bool meet);
   void send_ready(Sender& sender);

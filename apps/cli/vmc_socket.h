@@ -14,14 +14,14 @@
 namespace panache::cli {
 
 // "127.0.0.1:39540", "puppet.local:39540" or "39540" of this machine. The host is looked up. The
-// sentence of a failure begins with `option`.
+// message of a failure begins with `option`.
 Result<sockaddr_in> parse_address(const std::string& text, const std::string& option);
 // A port from 1 to 65535, likewise.
 Result<uint16_t> parse_port(const std::string& text, const std::string& option);
 // "127.0.0.1:39540"
 std::string to_string(const sockaddr_in& address);
 // The same machine and port.
-bool same_place(const sockaddr_in& a, const sockaddr_in& b);
+bool same_address(const sockaddr_in& a, const sockaddr_in& b);
 
 // Seconds of the clock that datagrams are stamped with.
 double stamp_now();

@@ -8,9 +8,9 @@
 
 #include "base/file.h"
 #include "clip/bvh.h"
+#include "messages.h"
 #include "model_path.h"
 #include "outputs.h"
-#include "report.h"
 #include "verbs.h"
 #include "walker/walker.h"
 
@@ -51,15 +51,15 @@ Result<void> check(const WalkerVerb& verb) {
 }
 
 int walk(const WalkerVerb& verb) {
-  if (auto good = check(verb); !good) return refuse(good.error(), kBadUsage);
+  if (auto good = check(verb); !good) return fail(good.error(), kBadUsage);
   if (auto free = check_output("", verb.output, verb.force); !free) {
-    return refuse(free.error(), kBadInput);
+    return fail(free.error(), kBadInput);
   }
   Result<std::string> path =
       verb.model.empty() ? find_shipped(kWalkerModel) : Result<std::string>(verb.model);
-  if (!path) return refuse(path.error(), kBadInput);
+  if (!path) return fail(path.error(), kBadInput);
   Result<std::shared_ptr<const WalkerModel>> model = WalkerModel::load(*path);
-  if (!model) return refuse(model.error(), kBadInput);
+  if (!model) return fail(model.error(), kBadInput);
   WalkClipOptions options;
   options.seconds = verb.seconds;
   options.fps = verb.fps;
@@ -69,7 +69,7 @@ int walk(const WalkerVerb& verb) {
   options.stop = verb.stop;
   const Clip clip = walk_clip(*model, options);
   auto written = write_file(verb.output, format_bvh(clip), verb.force);
-  if (!written) return refuse(written.error(), kBadInput);
+  if (!written) return fail(written.error(), kBadInput);
   print("walked " + fixed(clip.duration(), 1) + " s (" +
         plural(static_cast<size_t>(clip.frames), "frame") + ") into " + verb.output + "\n");
   return kDone;
@@ -78,14 +78,14 @@ int walk(const WalkerVerb& verb) {
 #ifdef PANACHE_TRAIN
 int fit(const WalkerVerb& verb) {
   if (auto free = check_free(verb.output, verb.force); !free) {
-    return refuse(free.error(), kBadInput);
+    return fail(free.error(), kBadInput);
   }
   Result<Manifests> data = read_manifests({verb.fit, ""});
-  if (!data) return refuse(data.error(), kBadInput);
+  if (!data) return fail(data.error(), kBadInput);
   Result<FittedWalker> fitted = fit_walker(data->rows, verb.data, verb.licence);
-  if (!fitted) return refuse(fitted.error(), kBadInput);
+  if (!fitted) return fail(fitted.error(), kBadInput);
   auto written = write_file(verb.output, fitted->model.format(), verb.force);
-  if (!written) return refuse(written.error(), kBadInput);
+  if (!written) return fail(written.error(), kBadInput);
   print("fitted " + verb.output + " to " + std::to_string(fitted->walk_frames) +
         " frames of walk, " + std::to_string(fitted->run_frames) + " of run and " +
         std::to_string(fitted->stand_frames) + " of standing in " +

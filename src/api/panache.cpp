@@ -41,13 +41,13 @@ static_assert(sizeof(Quat) == 4 * sizeof(float) && sizeof(Vec3) == 3 * sizeof(fl
 
 constexpr int32_t kMaxJoints = 10'000, kMaxPoses = 10'000, kMaxFrames = 1'000'000;
 
-// Kept per thread: the sentence that was made last, and the one to show, which is that or a fixed
+// Kept per thread: the message that was made last, and the one to show, which is that or a fixed
 // one that needs no memory.
 thread_local std::string made_error;
 thread_local const char* last_error = "";
 
-panache_status fail(panache_status status, const std::string& sentence) {
-  made_error = sentence;
+panache_status fail(panache_status status, const std::string& message) {
+  made_error = message;
   last_error = made_error.c_str();
   return status;
 }
@@ -222,14 +222,14 @@ panache_status panache_skeleton_create(const panache_joint* joints, int32_t join
                                        panache_skeleton** out) {
   start(out);
   return guarded([&] {
-    const panache_skeleton_options told = options ? *options : panache_skeleton_options{};
+    const panache_skeleton_options given = options ? *options : panache_skeleton_options{};
     Result<Skeleton> skeleton = read_skeleton(joints, joint_count);
     if (!skeleton) return fail(PANACHE_BAD_SKELETON, skeleton.error().message);
-    Result<Clip> clip = read_poses(*std::move(skeleton), told);
+    Result<Clip> clip = read_poses(*std::move(skeleton), given);
     if (!clip) return fail(PANACHE_BAD_ARGUMENT, clip.error().message);
     RigOptions how;
-    if (told.metres_per_unit != 0) how.metres_per_unit = told.metres_per_unit;
-    if (told.up_axis) how.up_axis = told.up_axis;
+    if (given.metres_per_unit != 0) how.metres_per_unit = given.metres_per_unit;
+    if (given.up_axis) how.up_axis = given.up_axis;
     if (auto good = check_units(how.metres_per_unit, how.up_axis); !good) {
       return fail(PANACHE_BAD_ARGUMENT, good.error().message);
     }
@@ -300,14 +300,14 @@ void panache_step_many(panache_character* const* characters, int32_t count,
     for (; taken < members.size() && done < count; ++taken, ++done) {
       panache_character& character = *characters[done];
       // Who has a time of his own goes alone.
-      if (!character.live.keeps_time()) break;
+      if (!character.live.is_pass_through()) break;
       Stylizer& stylizer = character.live.stylizer();
       const size_t joints = stylizer.rig().joint_count();
       members[taken] = {&stylizer, view(in[done], joints), character.strengths,
                         view(out[done], joints)};
     }
     step_crowd(std::span(members).first(taken), seconds);
-    for (; done < count && !characters[done]->live.keeps_time(); ++done) {
+    for (; done < count && !characters[done]->live.is_pass_through(); ++done) {
       panache_character_step(characters[done], in[done], seconds, out[done]);
     }
   }

@@ -8,12 +8,12 @@
 
 namespace panache {
 
-// The bytes of the file at `path`. The sentence names the path and the cause ("walk.bvh: cannot be
+// The bytes of the file at `path`. The message names the path and the cause ("walk.bvh: cannot be
 // read: No such file or directory").
 Result<std::string> read_file(const std::string& path);
 
 // Puts `bytes` at `path`, whole or not at all: writes beside it, then renames. An existing file is
-// left alone and refused unless `force`. Missing folders on the way are made.
+// left alone and rejected unless `force`. Missing folders on the way are made.
 Result<void> write_file(const std::string& path, std::string_view bytes, bool force);
 
 }  // namespace panache

@@ -9,13 +9,13 @@
 
 namespace panache {
 
-// One sentence for a person: where, what was expected, what was found and, if there is one, the
+// One message for a person: where, what was expected, what was found and, if there is one, the
 // cure.
 struct Error {
   std::string message;
 };
 
-// A T, or the sentence that says why there is none. Reading the wrong one is a programming error.
+// A T, or the message that says why there is none. Reading the wrong one is a programming error.
 template <class T>
 class [[nodiscard]] Result {
  public:
@@ -40,7 +40,7 @@ class [[nodiscard]] Result {
   std::variant<T, Error> state_;
 };
 
-// Done, or the sentence that says why not.
+// Done, or the message that says why not.
 template <>
 class [[nodiscard]] Result<void> {
  public:

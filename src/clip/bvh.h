@@ -6,10 +6,10 @@
 // the OFFSET; an axis without a channel keeps the OFFSET's.
 //
 // Read is what Blender reads, and a little more: any subset of the six channels in any order on any
-// joint, any line ends, tabs, a byte order mark, exponents, names with blanks, several End Sites,
+// joint, any line ends, tabs, a byte order mark, exponents, names with spaces, several End Sites,
 // End Sites with names, several roots, keywords in any case, empty lines, and frames beyond the
 // announced count. A line is a frame, as in Blender; where Blender drops the surplus of a long line
-// and stops at a short one, both are refused here with their place.
+// and stops at a short one, both are rejected here with their place.
 
 #include <memory>
 #include <string>
@@ -25,7 +25,7 @@ inline constexpr int kBvhMaxJoints = 10'000;
 inline constexpr int kBvhMaxDepth = 1'000;
 inline constexpr double kBvhMinFrameTime = 1e-6;  // Seconds.
 
-// Reads a BVH file from its bytes; `name` stands in front of the sentence of a failure, followed by
+// Reads a BVH file from its bytes; `name` stands in front of the message of a failure, followed by
 // line and column (bytes, both from 1).
 Result<std::unique_ptr<MotionFile>> parse_bvh(std::string text, const std::string& name);
 

@@ -90,7 +90,7 @@ class BvhReader {
 
   Result<void> read_end_site(Joint& joint) {
     cursor_.take("End");
-    cursor_.skip_blanks();
+    cursor_.skip_spaces();
     if (!cursor_.take("Site")) return cursor_.error("'Site' after 'End'");
     cursor_.take_name();  // Some programs name End Sites; a point fixed to a joint needs no name.
     const std::string owner = "an End Site of joint " + quoted(joint.name);
@@ -110,7 +110,7 @@ class BvhReader {
     if (!cursor_.take("OFFSET")) return cursor_.error("'OFFSET' of " + owner);
     double xyz[3];
     for (int axis = 0; axis < 3; ++axis) {
-      cursor_.skip_blanks();
+      cursor_.skip_spaces();
       if (!cursor_.take_number(xyz[axis])) {
         return cursor_.number_error(std::string(1, "xyz"[axis]) + " of the OFFSET of " + owner);
       }
@@ -126,7 +126,7 @@ class BvhReader {
     if (!cursor_.take("CHANNELS")) {
       return cursor_.error("'CHANNELS' of " + owner + " ('CHANNELS 0' where it does not move)");
     }
-    cursor_.skip_blanks();
+    cursor_.skip_spaces();
     const TextCursor before = cursor_;
     uint64_t count = 0;
     if (!cursor_.take_count(count) || count > kMaxChannels) {
@@ -187,13 +187,13 @@ class BvhReader {
   Result<void> read_motion_head() {
     cursor_.skip_space();
     if (!cursor_.take_label("Frames")) return cursor_.error("'Frames:' after 'MOTION'");
-    cursor_.skip_blanks();
+    cursor_.skip_spaces();
     const TextCursor before_count = cursor_;
     document_.count_begin = cursor_.offset();
     if (!cursor_.take_count(announced_)) return before_count.error("a number of frames");
     document_.count_end = cursor_.offset();
-    if (announced_ > most_frames()) return before_count.error(at_most(most_frames()));
-    // A number takes a byte at least, and a blank or line end each but for the last.
+    if (announced_ > max_frames()) return before_count.error(at_most(max_frames()));
+    // A number takes a byte at least, and a space or line end each but for the last.
     const uint64_t room =
         (cursor_.remaining() + 1) / (2 * static_cast<uint64_t>(document_.numbers));
     if (announced_ > room) {
@@ -205,20 +205,20 @@ class BvhReader {
 
     cursor_.skip_space();
     if (!cursor_.take_label("Frame Time")) return cursor_.error("'Frame Time:' after 'Frames:'");
-    cursor_.skip_blanks();
+    cursor_.skip_spaces();
     const TextCursor before_time = cursor_;
     if (!cursor_.take_number(clip_.frame_time)) return cursor_.number_error("the frame time");
     if (clip_.frame_time < kBvhMinFrameTime) {
       return before_time.error("a frame time of a millionth of a second or more");
     }
-    cursor_.skip_blanks();
+    cursor_.skip_spaces();
     if (!cursor_.at_line_end()) return cursor_.error("the end of the line after the frame time");
     return {};
   }
 
   // A joint without channels takes memory in every frame but no byte of the file, so the bytes
   // alone do not bound the poses. This does, far above what any honest file needs.
-  uint64_t most_frames() const {
+  uint64_t max_frames() const {
     const uint64_t poses =
         std::max<uint64_t>(1'000'000, uint64_t{4} * static_cast<uint64_t>(document_.text.size()));
     return std::min<uint64_t>(poses / joints().size(), std::numeric_limits<int>::max());
@@ -239,9 +239,9 @@ class BvhReader {
     for (;; ++frame) {
       cursor_.skip_space();
       if (cursor_.at_end()) break;
-      if (frame == most_frames()) return cursor_.error(at_most(frame));
+      if (frame == max_frames()) return cursor_.error(at_most(frame));
       if (frame == static_cast<uint64_t>(clip_.frames)) {
-        clip_.resize(static_cast<int>(std::min(most_frames(), frame + frame / 2 + 16)));
+        clip_.resize(static_cast<int>(std::min(max_frames(), frame + frame / 2 + 16)));
       }
       document_.lines.push_back(cursor_.line_begin());
       if (auto done = read_line(frame, numbers); !done) return done;
@@ -262,7 +262,7 @@ class BvhReader {
 
   Result<void> read_line(uint64_t frame, std::vector<double>& numbers) {
     for (size_t i = 0; i < numbers.size(); ++i) {
-      cursor_.skip_blanks();
+      cursor_.skip_spaces();
       if (cursor_.take_number(numbers[i])) continue;
       if (i == 0 && frame > 0 && frame >= announced_) {
         return cursor_.error("a frame or the end of the file after the " +
@@ -270,7 +270,7 @@ class BvhReader {
       }
       return cursor_.number_error(number_name(static_cast<int>(i)));
     }
-    cursor_.skip_blanks();
+    cursor_.skip_spaces();
     if (!cursor_.at_line_end()) {
       return cursor_.error("the end of the line after the " + plural(numbers.size(), "number") +
                            " of a frame");

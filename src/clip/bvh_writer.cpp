@@ -10,7 +10,7 @@
 namespace panache {
 namespace {
 
-// Writes frames in the manner of the file's own: its blanks, its line ends and, where nothing
+// Writes frames in the manner of the file's own: its spaces, its line ends and, where nothing
 // changed, its digits.
 class BvhEncoder {
  public:
@@ -67,13 +67,13 @@ class BvhEncoder {
     const size_t begin = document_.lines[static_cast<size_t>(frame)];
     TextCursor cursor(std::string_view(document_.text).substr(begin), "");
     for (size_t i = 0; i < numbers(); ++i) {
-      cursor.skip_blanks();
+      cursor.skip_spaces();
       const size_t word = cursor.offset();
       [[maybe_unused]] const bool number = cursor.take_number(source_[i]);
       assert(number);  // It was read before.
       words_[i] = std::string_view(document_.text).substr(begin + word, cursor.offset() - word);
     }
-    cursor.skip_blanks();
+    cursor.skip_spaces();
     line_end_ = begin + cursor.offset();
   }
 

@@ -12,7 +12,7 @@
 namespace panache {
 
 struct Joint {
-  std::string name;            // As in the file, prefixes and blanks included.
+  std::string name;            // As in the file, prefixes and spaces included.
   int parent = -1;             // Index of the parent, smaller than the joint's own; -1 for a root.
   Vec3 offset;                 // Rest translation from the parent, file units.
   Quat rest;                   // Rest rotation relative to the parent; the identity in BVH.

@@ -25,7 +25,7 @@
 namespace panache {
 
 // Reads a GLB (and so a VRM) or the text of a .gltf. `name` is the file's path and stands in front
-// of the sentence of a failure, followed by the place in the JSON. What the file points to is read
+// of the message of a failure, followed by the place in the JSON. What the file points to is read
 // from beside or below it, and is inside of what encode() gives; a picture that is not there stays
 // an address.
 //

@@ -101,9 +101,9 @@ class AccessorReader {
   }
 
  private:
-  // A sentence about this accessor, at the place where it is asked for.
-  bool fail(const std::string& sentence) {
-    return checker_.fail(asked_at_ + " (" + path_ + ")", sentence);
+  // A message about this accessor, at the place where it is asked for.
+  bool fail(const std::string& message) {
+    return checker_.fail(asked_at_ + " (" + path_ + ")", message);
   }
 
   size_t bytes_of_file() const {

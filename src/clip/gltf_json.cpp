@@ -51,7 +51,7 @@ bool to_count(const GltfJson& value, uint64_t& out) {
   return true;
 }
 
-// A value for a sentence, short.
+// A value for a message, short.
 std::string shown(const GltfJson& value) {
   if (value.is_object()) return "an object";
   if (value.is_array()) return "a list of " + std::to_string(value.size());
@@ -69,8 +69,8 @@ std::string item_path(const std::string& path, size_t index) {
   return path + "[" + std::to_string(index) + "]";
 }
 
-bool GltfChecker::fail(const std::string& path, const std::string& sentence) {
-  if (!failed()) sentence_ = name_ + ": " + (path.empty() ? "" : path + ": ") + sentence;
+bool GltfChecker::fail(const std::string& path, const std::string& message) {
+  if (!failed()) message_ = name_ + ": " + (path.empty() ? "" : path + ": ") + message;
   return false;
 }
 

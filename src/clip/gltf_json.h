@@ -26,13 +26,13 @@ inline constexpr int kGltfMaxJsonMembers = 4'000;  // Of one object.
 // after it. What is absent leaves `out` alone.
 class GltfChecker {
  public:
-  // `name` stands in front of every sentence.
+  // `name` stands in front of every message.
   explicit GltfChecker(std::string name) : name_(std::move(name)) {}
 
   // Keeps "NAME: PATH: SENTENCE" if it is the first failure; an empty path is left out.
-  bool fail(const std::string& path, const std::string& sentence);
-  bool failed() const { return !sentence_.empty(); }
-  Error error() const { return Error{sentence_}; }
+  bool fail(const std::string& path, const std::string& message);
+  bool failed() const { return !message_.empty(); }
+  Error error() const { return Error{message_}; }
 
   // The whole text, which `out` then holds; an object.
   bool parse(std::string_view text, GltfJson& out);
@@ -60,7 +60,7 @@ class GltfChecker {
 
  private:
   std::string name_;
-  std::string sentence_;
+  std::string message_;
 };
 
 // "PATH.KEY", or the key alone where the path is empty.

@@ -103,18 +103,18 @@ std::string make_data_uri(std::string_view type, std::string_view bytes) {
 
 Result<std::string> resolve_uri(std::string_view uri, const std::string& path) {
   const std::string relative = percent_decoded(uri);
-  const auto refused = [&](const std::string& expected) {
+  const auto rejected = [&](const std::string& expected) {
     return Error{"expected " + expected + ", found " + quoted(uri) +
                  "; save the file as .glb, which has everything in it"};
   };
-  if (has_scheme(uri)) return refused("a file beside this one or a data URI");
+  if (has_scheme(uri)) return rejected("a file beside this one or a data URI");
   if (relative.empty() || relative.find('\0') != std::string::npos) {
-    return refused("the name of a file");
+    return rejected("the name of a file");
   }
   const std::filesystem::path file(relative);
-  if (file.is_absolute()) return refused("a name relative to this file");
+  if (file.is_absolute()) return rejected("a name relative to this file");
   for (const std::filesystem::path& part : file) {
-    if (part == "..") return refused("a file beside or below this one");
+    if (part == "..") return rejected("a file beside or below this one");
   }
   return (std::filesystem::path(path).parent_path() / file).string();
 }

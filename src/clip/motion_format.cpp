@@ -54,7 +54,7 @@ constexpr MotionFormat kFormats[] = {
 
 std::span<const MotionFormat> motion_formats() { return kFormats; }
 
-std::string ending_of(const std::string& path) {
+std::string extension_of(const std::string& path) {
   std::string text = std::filesystem::path(path).extension().string();
   for (char& c : text) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
@@ -79,7 +79,7 @@ std::string list_extensions(std::span<const MotionFormat> formats) {
 
 Result<std::unique_ptr<MotionFile>> read_motion(const std::string& path,
                                                 std::span<const MotionFormat> formats) {
-  const std::string extension = ending_of(path);
+  const std::string extension = extension_of(path);
   const MotionFormat* format = find_format(formats, extension);
   if (!format) {
     return Error{path + ": expected a motion file (" + list_extensions(formats) + "), found " +

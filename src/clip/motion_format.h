@@ -21,7 +21,7 @@ struct Placement {
 struct MotionFormat {
   std::string_view extension;  // Lower case, with the point.
 
-  // Reads a file from its bytes. `path` stands in front of the sentence of a failure and is where
+  // Reads a file from its bytes. `path` stands in front of the message of a failure and is where
   // files beside it are looked for.
   Result<std::unique_ptr<MotionFile>> (*parse)(std::string bytes,
                                                const std::string& path) = nullptr;
@@ -46,12 +46,12 @@ struct MotionFormat {
 std::span<const MotionFormat> motion_formats();
 
 // The extension of a file's name in lower case, with its point: ".bvh"; empty where it has none.
-std::string ending_of(const std::string& path);
+std::string extension_of(const std::string& path);
 
 // The format with this extension, nothing where there is none.
 const MotionFormat* find_format(std::span<const MotionFormat> formats, std::string_view extension);
 
-// ".bvh, .glb, ...", for sentences and help.
+// ".bvh, .glb, ...", for messages and help.
 std::string list_extensions(std::span<const MotionFormat> formats);
 
 // Reads the motion file at `path`, whose extension decides which of the formats it has.

@@ -74,7 +74,7 @@ void TextCursor::skip_space() {
   for (; offset_ < text_.size(); ++offset_) {
     if (is_line_end(text_[offset_])) {
       line_begin_ = offset_ + 1;
-    } else if (!is_blank(text_[offset_])) {
+    } else if (!is_space(text_[offset_])) {
       return;
     }
   }
@@ -82,7 +82,7 @@ void TextCursor::skip_space() {
 
 std::string_view TextCursor::word() const {
   size_t end = offset_;
-  while (end < text_.size() && !is_blank(text_[end]) && !is_line_end(text_[end])) ++end;
+  while (end < text_.size() && !is_space(text_[end]) && !is_line_end(text_[end])) ++end;
   return text_.substr(offset_, end - offset_);
 }
 
@@ -98,7 +98,7 @@ bool TextCursor::take_label(std::string_view label) {
   const size_t before = offset_;
   for (const char wanted : label) {
     if (wanted == ' ') {
-      skip_blanks();
+      skip_spaces();
     } else if (!at_end() && lower(text_[offset_]) == lower(wanted)) {
       ++offset_;
     } else {
@@ -106,7 +106,7 @@ bool TextCursor::take_label(std::string_view label) {
       return false;
     }
   }
-  skip_blanks();
+  skip_spaces();
   if (at_end() || text_[offset_] != ':') {
     offset_ = before;
     return false;
@@ -116,15 +116,15 @@ bool TextCursor::take_label(std::string_view label) {
 }
 
 std::string_view TextCursor::take_name() {
-  skip_blanks();
+  skip_spaces();
   size_t end = offset_;
   while (end < text_.size() && !is_line_end(text_[end])) ++end;
   const auto trim = [&] {
-    while (end > offset_ && is_blank(text_[end - 1])) --end;
+    while (end > offset_ && is_space(text_[end - 1])) --end;
   };
   trim();
   const bool brace = end > offset_ && text_[end - 1] == '{';
-  if (brace && (end - 1 == offset_ || is_blank(text_[end - 2]))) {
+  if (brace && (end - 1 == offset_ || is_space(text_[end - 2]))) {
     --end;
     trim();
   }
@@ -140,8 +140,8 @@ bool TextCursor::take_count(uint64_t& value) {
   for (const char c : digits) {
     if (c < '0' || c > '9') return false;
     const uint64_t digit = static_cast<uint64_t>(c - '0');
-    constexpr uint64_t kMost = std::numeric_limits<uint64_t>::max();
-    sum = sum > (kMost - digit) / 10 ? kMost : sum * 10 + digit;
+    constexpr uint64_t kMax = std::numeric_limits<uint64_t>::max();
+    sum = sum > (kMax - digit) / 10 ? kMax : sum * 10 + digit;
   }
   value = sum;
   offset_ += digits.size();
@@ -152,7 +152,7 @@ bool TextCursor::take_number(double& value) {
   const char* const begin = text_.data() + offset_;
   const char* const end = text_.data() + text_.size();
   const char* const after = parse_number(begin, end, value);
-  if (!after || (after != end && !is_blank(*after) && !is_line_end(*after))) return false;
+  if (!after || (after != end && !is_space(*after) && !is_line_end(*after))) return false;
   if (!(std::abs(value) <= kLargestNumber)) return false;  // Also where it is not a number.
   offset_ += static_cast<size_t>(after - begin);
   return true;
@@ -185,11 +185,11 @@ Error TextCursor::number_error(const std::string& of_what) const {
     const bool spelt_out = here.find_first_of("nN") != std::string_view::npos;
     if (!spelt_out) return error("a number between -1e9 and 1e9 for " + of_what);
   }
-  Error sentence = error("a number for " + of_what);
+  Error failure = error("a number for " + of_what);
   if (here.find(',') != std::string_view::npos) {
-    sentence.message += "; write decimals with a point and part numbers by blanks";
+    failure.message += "; write decimals with a point and part numbers by blanks";
   }
-  return sentence;
+  return failure;
 }
 
 }  // namespace panache

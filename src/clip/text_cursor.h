@@ -9,11 +9,11 @@
 
 namespace panache {
 
-// A place in a text. Words are parted by blanks (space, tab, vertical tab, form feed) and line ends
+// A place in a text. Words are parted by spaces (space, tab, vertical tab, form feed) and line ends
 // (\n, \r\n, lone \r). Nothing but skip_space() leaves the line.
 class TextCursor {
  public:
-  // `text` outlives the cursor; `name` stands in front of every sentence. A UTF-8 byte order mark
+  // `text` outlives the cursor; `name` stands in front of every message. A UTF-8 byte order mark
   // at the start is passed over.
   TextCursor(std::string_view text, std::string name);
 
@@ -23,22 +23,22 @@ class TextCursor {
   bool at_end() const { return offset_ == text_.size(); }
   bool at_line_end() const { return at_end() || is_line_end(text_[offset_]); }
 
-  void skip_blanks() {
-    while (offset_ < text_.size() && is_blank(text_[offset_])) ++offset_;
+  void skip_spaces() {
+    while (offset_ < text_.size() && is_space(text_[offset_])) ++offset_;
   }
-  // Passes blanks and line ends.
+  // Passes spaces and line ends.
   void skip_space();
 
-  // The word here; empty at a blank, a line end and the end.
+  // The word here; empty at a space, a line end and the end.
   std::string_view word() const;
   // Whether the word here is `keyword`, in any case.
   bool is_at(std::string_view keyword) const;
   // Passes the word here if it is `keyword`, in any case.
   bool take(std::string_view keyword);
-  // Passes `label` and the colon after it, in any case and with any blanks between the words and
+  // Passes `label` and the colon after it, in any case and with any spaces between the words and
   // before the colon ("Frame Time:"); if something else is here, stays and returns false.
   bool take_label(std::string_view label);
-  // The rest of the line without blanks around it and without a "{" as its last word.
+  // The rest of the line without spaces around it and without a "{" as its last word.
   std::string_view take_name();
   // Passes the word here if it is a whole number, zero or above; saturates at 2^64 - 1.
   bool take_count(uint64_t& value);
@@ -51,7 +51,7 @@ class TextCursor {
   // The same where a number was expected, with the cure where there is one.
   Error number_error(const std::string& of_what) const;
 
-  static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+  static bool is_space(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
   static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
  private:
@@ -64,7 +64,7 @@ class TextCursor {
   size_t line_begin_ = 0;
 };
 
-// `text` in single quotes for a sentence: cut when long, bytes that are no text as \xNN.
+// `text` in single quotes for a message: cut when long, bytes that are no text as \xNN.
 std::string quoted(std::string_view text);
 
 }  // namespace panache

@@ -13,7 +13,7 @@ constexpr int kHidden = 96, kLayers = 2;
 constexpr int kNetworks = 2;
 constexpr int kRows = 256;
 // Rounds through the windows, and how many steps that may be.
-constexpr int kRounds = 12, kLeastSteps = 400, kMostSteps = 2500;
+constexpr int kRounds = 12, kMinSteps = 400, kMaxSteps = 2500;
 constexpr float kNoise = 0.1f;  // Added to each number in training, in its deviations.
 
 }  // namespace
@@ -32,28 +32,29 @@ int Classifier::find(const std::string& label) const {
 }
 
 void Classifier::write_window(const Take& take, int first, float* out) const {
-  const int numbers = pose_numbers(PoseLayout::positions);
-  for (int p = 0; p < kJudgedPoses; ++p) {
-    const int frame = std::min(first + p * kJudgedSpacing, take.frames() - 1);
+  const int numbers = pose_feature_count(PoseLayout::positions);
+  for (int p = 0; p < kClassifiedPoses; ++p) {
+    const int frame = std::min(first + p * kClassifiedSpacing, take.frames() - 1);
     for (int i = 0; i < numbers; ++i) {
-      *out++ = (take.numbers[size_t(frame) * numbers + i] - mean_[i]) / scale_[i];
+      *out++ = (take.pose_features[size_t(frame) * numbers + i] - mean_[i]) / scale_[i];
     }
   }
 }
 
 void Classifier::learn(const std::vector<Take>& takes, const std::vector<int>& labels,
                        uint64_t seed) {
-  const int numbers = pose_numbers(PoseLayout::positions), inputs = kJudgedPoses * numbers;
+  const int numbers = pose_feature_count(PoseLayout::positions),
+            inputs = kClassifiedPoses * numbers;
   std::vector<std::vector<std::pair<int, int>>> windows(classes_.size());  // Take, first frame.
   std::vector<double> sum(numbers), squares(numbers);
   double poses = 0;
   for (size_t t = 0; t < takes.size(); ++t) {
     if (labels[t] < 0) continue;
-    const int last = takes[t].frames() - 1 - (kJudgedPoses - 1) * kJudgedSpacing;
+    const int last = takes[t].frames() - 1 - (kClassifiedPoses - 1) * kClassifiedSpacing;
     for (int f = 0; f <= std::max(0, last); ++f) windows[labels[t]].push_back({int(t), f});
-    for (size_t i = 0; i < takes[t].numbers.size(); ++i) {
-      sum[i % numbers] += takes[t].numbers[i];
-      squares[i % numbers] += double(takes[t].numbers[i]) * takes[t].numbers[i];
+    for (size_t i = 0; i < takes[t].pose_features.size(); ++i) {
+      sum[i % numbers] += takes[t].pose_features[i];
+      squares[i % numbers] += double(takes[t].pose_features[i]) * takes[t].pose_features[i];
     }
     poses += takes[t].frames();
   }
@@ -67,7 +68,7 @@ void Classifier::learn(const std::vector<Take>& takes, const std::vector<int>& l
 
   size_t count = 0;
   for (const auto& w : windows) count += w.size();
-  const int steps = std::clamp(static_cast<int>(kRounds * count / kRows), kLeastSteps, kMostSteps);
+  const int steps = std::clamp(static_cast<int>(kRounds * count / kRows), kMinSteps, kMaxSteps);
   // Classes are drawn by the square root of their share.
   std::vector<float> share;
   float total = 0;
@@ -106,21 +107,21 @@ void Classifier::learn(const std::vector<Take>& takes, const std::vector<int>& l
   parallel_for(kNetworks, work);
 }
 
-Judged Classifier::judge(const Take& take) const {
+Classification Classifier::classify(const Take& take) const {
   torch::NoGradGuard no_gradients;
-  const int span = (kJudgedPoses - 1) * kJudgedSpacing;
-  const int count = 1 + std::max(0, take.frames() - 1 - span) / kJudgedHop;
-  const int inputs = kJudgedPoses * pose_numbers(PoseLayout::positions);
+  const int span = (kClassifiedPoses - 1) * kClassifiedSpacing;
+  const int count = 1 + std::max(0, take.frames() - 1 - span) / kClassifiedHop;
+  const int inputs = kClassifiedPoses * pose_feature_count(PoseLayout::positions);
   const torch::Tensor x = torch::empty({count, inputs});
   for (int w = 0; w < count; ++w) {
-    write_window(take, w * kJudgedHop, x.data_ptr<float>() + size_t(w) * inputs);
+    write_window(take, w * kClassifiedHop, x.data_ptr<float>() + size_t(w) * inputs);
   }
-  Judged judged{torch::zeros({count, static_cast<int64_t>(classes_.size())}), {}};
+  Classification classified{torch::zeros({count, static_cast<int64_t>(classes_.size())}), {}};
   for (const NetworkTrainer& network : networks_) {
-    judged.probabilities += torch::softmax(network.forward(x, {}, nullptr), 1) / kNetworks;
+    classified.probabilities += torch::softmax(network.forward(x, {}, nullptr), 1) / kNetworks;
   }
-  judged.features = networks_.front().hidden(x, nullptr);
-  return judged;
+  classified.features = networks_.front().hidden(x, nullptr);
+  return classified;
 }
 
 }  // namespace panache

@@ -6,17 +6,18 @@
 
 #include <torch/torch.h>
 
-#include "train/network.h"
 #include "learn/take.h"
+#include "train/network.h"
 
 namespace panache {
 
 // A window is one second: 15 poses 1/15 s apart, each the 63 positions in the body frame and the
-// 3 root numbers; three windows begin each second.
-inline constexpr int kJudgedPoses = 15, kJudgedSpacing = 2, kJudgedHop = 10;  // Frames of a take.
+// 3 root features; three windows begin each second.
+inline constexpr int kClassifiedPoses = 15, kClassifiedSpacing = 2,
+                     kClassifiedHop = 10;  // Frames of a take.
 
 // What a classifier says of the windows of a take.
-struct Judged {
+struct Classification {
   torch::Tensor probabilities;  // [windows][classes]
   torch::Tensor features;       // [windows][features], of its last hidden layer.
 };
@@ -29,7 +30,7 @@ class Classifier {
              std::vector<std::string> classes, uint64_t seed);
 
   // A take shorter than a window is held at its last frame.
-  Judged judge(const Take& take) const;
+  Classification classify(const Take& take) const;
 
   const std::vector<std::string>& classes() const { return classes_; }
   // Index of a class, -1 where it is none.

@@ -71,7 +71,7 @@ SeenTakes scaled(const std::vector<Take>& takes, PoseLayout layout) {
     for (HumanPositions& body : take.body) {
       for (Vec3& joint : body) joint = joint * scale;
     }
-    for (Ground& ground : take.ground) ground.position = ground.position * scale;
+    for (RootPose& root : take.root) root.position = root.position * scale;
   });
 }
 
@@ -89,7 +89,7 @@ template <int degrees>
 SeenTakes turned(const std::vector<Take>& takes, PoseLayout layout) {
   return disturbed(takes, layout, [](Take& take, int) {
     for (int f = 0; f < take.frames(); ++f) {
-      take.ground[f].facing += degrees * kRadians;
+      take.root[f].facing += degrees * kRadians;
       for (Vec3& joint : take.body[f]) joint = rotate(rotation_y(-degrees * kRadians), joint);
     }
   });
@@ -110,16 +110,16 @@ SeenTakes noisy(const std::vector<Take>& takes, PoseLayout layout) {
 
 SeenTakes in_place(const std::vector<Take>& takes, PoseLayout layout) {
   return disturbed(takes, layout, [](Take& take, int) {
-    for (Ground& ground : take.ground) ground.position = {};
+    for (RootPose& root : take.root) root.position = {};
   });
 }
 
-Ground ground_at(const Take& take, float frame) {
+RootPose root_at(const Take& take, float frame) {
   const int a = std::min(static_cast<int>(frame), take.frames() - 1);
   const int b = std::min(a + 1, take.frames() - 1);
   const float t = frame - static_cast<float>(a);
-  return {lerp(take.ground[a].position, take.ground[b].position, t),
-          std::lerp(take.ground[a].facing, take.ground[b].facing, t)};
+  return {lerp(take.root[a].position, take.root[b].position, t),
+          std::lerp(take.root[a].facing, take.root[b].facing, t)};
 }
 
 // A file that is thought to have half the frames a second that it has, or twice as many.
@@ -130,11 +130,11 @@ SeenTakes faster(const std::vector<Take>& takes, PoseLayout layout) {
     const Take from = take;
     const int frames = 1 + static_cast<int>(static_cast<float>(from.frames() - 1) / speed);
     take.body.resize(frames);
-    take.ground.resize(frames);
+    take.root.resize(frames);
     for (int f = 0; f < frames; ++f) {
       const float at = static_cast<float>(f) * speed;
       take.body[f] = body_at(from, at);
-      take.ground[f] = ground_at(from, at);
+      take.root[f] = root_at(from, at);
     }
   });
   seen.speed = speed;
@@ -166,7 +166,7 @@ const std::vector<Disturbing>& disturbing_inputs() {
   return inputs;
 }
 
-std::vector<DisturbanceRow> measure_disturbances(const AlignedTest& test, const System& system) {
+std::vector<DisturbanceRow> measure_disturbances(const AlignedTakes& test, const System& system) {
   if (!system.instants(1)) return {};
   std::vector<DisturbanceRow> rows;
   for (const Disturbing& input : disturbing_inputs()) {

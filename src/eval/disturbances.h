@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/aligned.h"
+#include "eval/aligned_takes.h"
 
 namespace panache {
 
@@ -18,7 +18,7 @@ struct DisturbanceRow {
 // "none" first. Its answer is put on the undisturbed body: changes as they are (recipe panache),
 // poses in place of it (smith2019). Nothing where the system has no answers for single instants, or
 // knows no style of the test.
-std::vector<DisturbanceRow> measure_disturbances(const AlignedTest& test, const System& system);
+std::vector<DisturbanceRow> measure_disturbances(const AlignedTakes& test, const System& system);
 
 // The same takes as seen under one disturbance, numbers in `layout`. Exposed for tests.
 struct Disturbing {

@@ -7,9 +7,9 @@
 
 #include "base/progress.h"
 #include "eval/disturbances.h"
-#include "eval/foreign.h"
-#include "eval/foresight.h"
 #include "eval/motion_metrics.h"
+#include "eval/ood.h"
+#include "eval/prediction.h"
 #include "eval/systems/model_system.h"
 #include "eval/systems/recorded.h"
 #include "net/safetensors.h"
@@ -17,11 +17,12 @@
 namespace panache {
 namespace {
 
-Result<Bench> prepare(const EvaluateOptions& options) {
+Result<TestSet> prepare(const EvaluateOptions& options) {
   Result<TrainingData> training = prepare_training(options.training, PoseLayout::positions);
   if (!training) return training.error();
   std::vector<ManifestRow> neutral, styled;
-  for (const ManifestRow& row : judgeable(options)) (row.neutral ? neutral : styled).push_back(row);
+  for (const ManifestRow& row : rows_to_evaluate(options))
+    (row.neutral ? neutral : styled).push_back(row);
   if (neutral.empty())
     return Error{
         "no neutral test take of a content that is trained on; expected rows with neutral 1"};
@@ -41,45 +42,47 @@ Result<Bench> prepare(const EvaluateOptions& options) {
   }
   for (const ManifestRow& row : styled) styles.insert(row.style);
   progress.update(0.5, "training the classifiers");
-  Result<Judge> judge = Judge::create(training->takes, test, options.floor, options.seed);
-  if (!judge) return judge.error();
+  Result<Evaluator> evaluator =
+      Evaluator::create(training->takes, test, options.floor, options.seed);
+  if (!evaluator) return evaluator.error();
   const double units = 1 / styled_inputs->front().rig.scale();
-  return Bench{*std::move(training),
-               *std::move(inputs),
-               *std::move(styled_inputs),
-               AlignedTest(std::move(test)),
-               *std::move(judge),
-               {styles.begin(), styles.end()},
-               units};
+  return TestSet{*std::move(training),
+                 *std::move(inputs),
+                 *std::move(styled_inputs),
+                 AlignedTakes(std::move(test)),
+                 *std::move(evaluator),
+                 {styles.begin(), styles.end()},
+                 units};
 }
 
-Result<std::vector<NamedModel>> find_models(const EvaluateOptions& options, const Bench& bench) {
+Result<std::vector<NamedModel>> find_models(const EvaluateOptions& options,
+                                            const TestSet& test_set) {
   if (!options.models.empty()) return options.models;
   std::vector<NamedModel> models;
   for (const Recipe* recipe : recipes()) {
-    Result<NamedModel> model = train_system(*recipe, recipe->name, bench.training, options);
+    Result<NamedModel> model = train_system(*recipe, recipe->name, test_set.training, options);
     if (!model) return model.error();
     models.push_back(*std::move(model));
   }
   return models;
 }
 
-// All test takes, neutral and styled, and all foreign clips as one content.
-Result<std::vector<ForesightRow>> judge_foresight(const std::shared_ptr<const Model>& model,
-                                                  const Bench& bench,
-                                                  const EvaluateOptions& options) {
+// All test takes, neutral and styled, and all out-of-distribution clips as one content.
+Result<std::vector<PredictionRow>> evaluate_prediction(const std::shared_ptr<const Model>& model,
+                                                       const TestSet& test_set,
+                                                       const EvaluateOptions& options) {
   std::vector<const Take*> takes;
-  for (const std::vector<TestInput>* part : {&bench.inputs, &bench.styled}) {
+  for (const std::vector<TestInput>* part : {&test_set.inputs, &test_set.styled}) {
     for (const TestInput& input : *part) takes.push_back(&input.take);
   }
   std::vector<ManifestRow> rows;
-  for (const std::string& path : options.foreign) {
+  for (const std::string& path : options.ood) {
     rows.push_back({path, "", "(foreign motion)", "", true, true, 0});
   }
-  Result<std::vector<Take>> foreign = load_takes(rows, PoseLayout::positions);
-  if (!foreign) return foreign.error();
-  for (const Take& take : *foreign) takes.push_back(&take);
-  return measure_foresight(model, takes);
+  Result<std::vector<Take>> ood = load_takes(rows, PoseLayout::positions);
+  if (!ood) return ood.error();
+  for (const Take& take : *ood) takes.push_back(&take);
+  return measure_prediction(model, takes);
 }
 
 using Systems = std::vector<std::unique_ptr<System>>;
@@ -90,11 +93,11 @@ Result<Systems> read_recorded(const EvaluateOptions& options) {
   if (options.recorded.empty()) return systems;
   RecordedScope scope;
   std::set<std::string> styles;
-  for (const ManifestRow& row : judgeable(options)) {
+  for (const ManifestRow& row : rows_to_evaluate(options)) {
     scope.inputs.push_back(row.path);
     if (!row.neutral) styles.insert(row.style);
   }
-  scope.inputs.insert(scope.inputs.end(), options.foreign.begin(), options.foreign.end());
+  scope.inputs.insert(scope.inputs.end(), options.ood.begin(), options.ood.end());
   scope.styles.assign(styles.begin(), styles.end());
   for (const std::string& folder : options.recorded) {
     Result<std::unique_ptr<Recorded>> recorded = Recorded::load(folder, scope);
@@ -104,9 +107,9 @@ Result<Systems> read_recorded(const EvaluateOptions& options) {
   return systems;
 }
 
-Result<Systems> make_comparisons(const EvaluateOptions& options, const Bench& bench) {
+Result<Systems> make_comparisons(const EvaluateOptions& options, const TestSet& test_set) {
   Systems systems;
-  const SystemData data{bench.training.takes, bench.training.pairings, options.styles,
+  const SystemData data{test_set.training.takes, test_set.training.pairings, options.styles,
                         options.seed};
   for (const SystemEntry& entry : options.systems) {
     Result<std::unique_ptr<System>> system = entry.make(entry.name, data);
@@ -116,22 +119,22 @@ Result<Systems> make_comparisons(const EvaluateOptions& options, const Bench& be
   return systems;
 }
 
-Result<SystemReport> judge_in_every_way(const System& system, const Bench& bench,
+Result<SystemReport> judge_in_every_way(const System& system, const TestSet& test_set,
                                         const EvaluateOptions& options) {
-  Result<SystemReport> report = judge_system(system, bench);
+  Result<SystemReport> report = evaluate_system(system, test_set);
   if (!report) return report;
-  report->disturbances = measure_disturbances(bench.aligned, system);
-  if (!options.foreign.empty()) {
+  report->disturbances = measure_disturbances(test_set.aligned, system);
+  if (!options.ood.empty()) {
     Progress progress("foreign motion, " + system.name());
-    Result<std::vector<ForeignRow>> foreign =
-        measure_foreign(options.foreign, system, [&](double share) { progress.update(share); });
-    if (!foreign) return foreign.error();
-    report->foreign = *std::move(foreign);
+    Result<std::vector<OodRow>> ood =
+        measure_ood(options.ood, system, [&](double share) { progress.update(share); });
+    if (!ood) return ood.error();
+    report->ood = *std::move(ood);
   }
   if (const auto model = system.predicting_model()) {
-    Result<std::vector<ForesightRow>> foresight = judge_foresight(model, bench, options);
-    if (!foresight) return foresight.error();
-    report->foresight = *std::move(foresight);
+    Result<std::vector<PredictionRow>> prediction = evaluate_prediction(model, test_set, options);
+    if (!prediction) return prediction.error();
+    report->prediction = *std::move(prediction);
   }
   const SystemFacts facts = system.facts();
   report->recipe = facts.recipe;
@@ -142,24 +145,25 @@ Result<SystemReport> judge_in_every_way(const System& system, const Bench& bench
 }
 
 // The lines that stand beside all systems: real takes, and the neutral takes themselves.
-void judge_references(const Bench& bench, Report& report) {
-  const CellTable& real = bench.judge.real();
-  report.real = mean_quality(real);
+void judge_references(const TestSet& test_set, Report& report) {
+  const StyleContentTable& real = test_set.evaluator.real();
+  report.real = mean_metrics(real);
   report.real_by_content = by_content(real);
   report.real_by_style = by_style(real);
-  const CellTable input =
-      bench.judge.judge(untouched(bench.inputs, bench.styles), takes_of(bench.inputs),
-                        bench.aligned.untouched_errors());
-  report.input = mean_quality(input);
+  const StyleContentTable input =
+      test_set.evaluator.evaluate(untouched(test_set.inputs, test_set.styles),
+                                  takes_of(test_set.inputs), test_set.aligned.untouched_errors());
+  report.input = mean_metrics(input);
   report.input_by_content = by_content(input);
   report.sc_floor = report.cc_floor =
-      distance_to_real(bench.judge.test(), bench.training.takes, bench.judge.test()) *
-      bench.units_per_metre;
+      distance_to_real(test_set.evaluator.test(), test_set.training.takes,
+                       test_set.evaluator.test()) *
+      test_set.units_per_metre;
 }
 
 }  // namespace
 
-std::vector<ManifestRow> judgeable(const EvaluateOptions& options) {
+std::vector<ManifestRow> rows_to_evaluate(const EvaluateOptions& options) {
   std::set<std::string> styles, contents;
   for (const ManifestRow& row : options.training) {
     if (row.test) continue;
@@ -191,17 +195,17 @@ Result<Report> evaluate(const EvaluateOptions& options) {
   // First, as it takes no time to tell what is wrong with them.
   Result<Systems> recorded = read_recorded(options);
   if (!recorded) return recorded.error();
-  Result<Bench> bench = prepare(options);
-  if (!bench) return bench.error();
+  Result<TestSet> test_set = prepare(options);
+  if (!test_set) return test_set.error();
   for (const UnseenSplit& split : options.unseen) {
     for (const std::string& content : split.contents) {
-      if (bench->judge.contents().find(content) >= 0) continue;
+      if (test_set->evaluator.contents().find(content) >= 0) continue;
       return Error{"unseen content '" + content + "' has no test take"};
     }
   }
-  Result<std::vector<NamedModel>> models = find_models(options, *bench);
+  Result<std::vector<NamedModel>> models = find_models(options, *test_set);
   if (!models) return models.error();
-  Result<Systems> comparisons = make_comparisons(options, *bench);
+  Result<Systems> comparisons = make_comparisons(options, *test_set);
   if (!comparisons) return comparisons.error();
 
   Systems systems;
@@ -216,22 +220,23 @@ Result<Report> evaluate(const EvaluateOptions& options) {
   }
 
   Report report;
-  report.styles = bench->styles;
-  report.contents = bench->judge.contents().classes();
+  report.styles = test_set->styles;
+  report.contents = test_set->evaluator.contents().classes();
   report.style_floor = options.floor.style;
   report.content_floor = options.floor.content;
-  judge_references(*bench, report);
+  judge_references(*test_set, report);
   for (const std::unique_ptr<System>& system : systems) {
-    Result<SystemReport> judged = judge_in_every_way(*system, *bench, options);
-    if (!judged) return judged.error();
-    report.systems.push_back(*std::move(judged));
+    Result<SystemReport> evaluated = judge_in_every_way(*system, *test_set, options);
+    if (!evaluated) return evaluated.error();
+    report.systems.push_back(*std::move(evaluated));
   }
   for (const UnseenSplit& split : options.unseen) {
-    if (Result<void> done = judge_unseen(split, options, *bench, *models, report.systems); !done) {
+    if (Result<void> done = evaluate_unseen(split, options, *test_set, *models, report.systems);
+        !done) {
       return done.error();
     }
   }
-  if (Result<void> done = add_pictures(drawn, *bench, report); !done) return done.error();
+  if (Result<void> done = add_pictures(drawn, *test_set, report); !done) return done.error();
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return report;
 }

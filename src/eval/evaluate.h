@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/result.h"
-#include "eval/aligned.h"
-#include "eval/judge.h"
+#include "eval/aligned_takes.h"
+#include "eval/evaluator.h"
 #include "eval/report.h"
 #include "eval/system.h"
 #include "eval/systems/table.h"
@@ -39,26 +39,26 @@ struct EvaluateOptions {
   std::vector<SystemEntry> systems = comparison_systems();
   std::vector<std::string> recorded;  // Folders of outputs of other programs, see Recorded.
   std::vector<UnseenSplit> unseen;
-  std::vector<std::string> foreign;  // Motion files.
-  JudgeFloor floor;
+  std::vector<std::string> ood;  // Motion files.
+  AccuracyFloor floor;
   std::optional<int64_t> steps;  // Of every training, instead of its recipe's own.
   uint64_t seed = 1;
 };
 
 // The test takes whose style and content a training take shows: nothing can be said of the others.
-std::vector<ManifestRow> judgeable(const EvaluateOptions& options);
+std::vector<ManifestRow> rows_to_evaluate(const EvaluateOptions& options);
 
 // Fails where takes cannot be read, where the test takes lack what is judged, or where the
-// classifiers are no judges (see Judge::create). Shows its progress on a terminal.
+// classifiers are no judges (see Evaluator::create). Shows its progress on a terminal.
 Result<Report> evaluate(const EvaluateOptions& options);
 
 // The test takes and everything that judges motion made from them.
-struct Bench {
+struct TestSet {
   TrainingData training;          // Takes and pairs of the training split.
   std::vector<TestInput> inputs;  // Neutral test takes,
   std::vector<TestInput> styled;  // and styled ones.
-  AlignedTest aligned;
-  Judge judge;
+  AlignedTakes aligned;
+  Evaluator evaluator;
   std::vector<std::string> styles;  // That have real test takes, in order.
   double units_per_metre = 1;       // Of the first test file: the unit of CC and SC++.
 };
@@ -69,20 +69,20 @@ Result<NamedModel> train_system(const Recipe& recipe, const std::string& name,
 
 // What one system makes of the test takes in every way that it can be asked: seen contents,
 // strengths, mixes.
-Result<SystemReport> judge_system(const System& system, const Bench& bench);
+Result<SystemReport> evaluate_system(const System& system, const TestSet& test_set);
 
 // The same of these contents only, at strength 1.
-Result<CellTable> judge_contents(const System& system, const Bench& bench,
-                                 const std::vector<std::string>& contents);
+Result<StyleContentTable> evaluate_contents(const System& system, const TestSet& test_set,
+                                            const std::vector<std::string>& contents);
 
 // Trains the recipes of `models` without the contents of `split`, which have test takes, judges
 // them, and adds what was found to the first reports, in the same order.
-Result<void> judge_unseen(const UnseenSplit& split, const EvaluateOptions& options,
-                          const Bench& bench, const std::vector<NamedModel>& models,
-                          std::vector<SystemReport>& reports);
+Result<void> evaluate_unseen(const UnseenSplit& split, const EvaluateOptions& options,
+                             const TestSet& test_set, const std::vector<NamedModel>& models,
+                             std::vector<SystemReport>& reports);
 
 // Skeletons and planted feet of some takes: input, systems, real take.
-Result<void> add_pictures(const std::vector<const System*>& systems, const Bench& bench,
+Result<void> add_pictures(const std::vector<const System*>& systems, const TestSet& test_set,
                           Report& report);
 
 }  // namespace panache

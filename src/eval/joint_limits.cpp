@@ -17,9 +17,9 @@ constexpr float kMargin = 20;  // Degrees beyond every range.
 // Ranges of a swing from the joint's neutral direction, degrees.
 struct Range {
   float front, back;  // Flexion, extension.
-  float out, in;      // Abduction, adduction; both sides alike for the trunk.
+  float out, in;      // Abduction, adduction; both sides alike for the torso.
 };
-constexpr Range kTrunk = {80, 30, 35, 35};       // Chest on hips.
+constexpr Range kTorso = {80, 30, 35, 35};       // Chest on hips.
 constexpr Range kHead = {45, 45, 45, 45};        // Head on chest.
 constexpr Range kShoulder = {180, 60, 180, 75};  // Upper arm on chest, from hanging down.
 constexpr Range kHip = {120, 30, 45, 30};        // Upper leg on hips, from hanging down.
@@ -54,13 +54,13 @@ float swing_excess(Vec3 now, Vec3 rest, const Range& range) {
 
 // How far a hinge between two limb directions bends beyond its range, degrees. `bends_to`: where
 // the lower limb goes when the hinge bends, seen with the upper limb hanging down.
-float hinge_excess(Vec3 upper, Vec3 lower, Vec3 bends_to, float most, float most_back) {
+float hinge_excess(Vec3 upper, Vec3 lower, Vec3 bends_to, float most, float max_back) {
   const float angle = degrees_between(upper, lower);
   const Vec3 to = rotate(rotation_between(Vec3{0, -1, 0}, upper), bends_to);
   const Vec3 bend = lower - upper * dot(upper, lower);
   if (degrees_between(bend, -to) > kWrongWay) return angle - most - kMargin;
   // It went there backwards, or right through the upper limb: the shorter of the two counts.
-  return std::min(angle - most_back, 360 - angle - most) - kMargin;
+  return std::min(angle - max_back, 360 - angle - most) - kMargin;
 }
 
 class Inspection {
@@ -72,7 +72,7 @@ class Inspection {
   }
 
   BeyondLimit worst() {
-    note(spine, swing_excess(mirrored_out(seen_in(hips_, chest_.y)), {0, 1, 0}, kTrunk));
+    note(spine, swing_excess(mirrored_out(seen_in(hips_, chest_.y)), {0, 1, 0}, kTorso));
     const Vec3 head_up = normalized(at(head) - at(neck));
     note(head, swing_excess(mirrored_out(seen_in(chest_, head_up)), {0, 1, 0}, kHead));
     inspect_arm(left_upper_arm, left_lower_arm, left_hand, 1);
@@ -84,7 +84,7 @@ class Inspection {
 
  private:
   Vec3 at(HumanJoint joint) const { return body_[index(joint)]; }
-  // Left and right of the trunk are the same.
+  // Left and right of the torso are the same.
   static Vec3 mirrored_out(Vec3 v) { return {std::abs(v.x), v.y, v.z}; }
   // From one joint to another, seen in a frame with x outward on that side.
   Vec3 limb(HumanJoint from, HumanJoint to, const Frame& frame, float side) const {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "eval/quality.h"
+#include "eval/metrics.h"
 #include "learn/pose_error.h"
 #include "learn/take.h"
 
@@ -40,7 +40,7 @@ struct Measure {
   const char* label;  // For people,
   int digits;         // with so many decimals.
   Better better;
-  const char* meaning;                     // One or two sentences.
+  const char* meaning;                     // One or two messages.
   double (*of_take)(const TakeEvidence&);  // Null where it is no number of single takes.
   double (*of_cell)(const CellEvidence&);
 };

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "clip/fk.h"
-#include "eval/quality.h"
+#include "eval/metrics.h"
 #include "learn/samples.h"
 
 namespace panache {
@@ -117,7 +117,7 @@ double cadence(const Take& take) {
   if (frames < 2) return kNotMeasured;
   double way = 0;
   for (int f = 1; f < frames; ++f) {
-    way += length(take.ground[f].position - take.ground[f - 1].position);
+    way += length(take.root[f].position - take.root[f - 1].position);
   }
   if (way * kTakeRate / (frames - 1) < kTravelSpeed) return kNotMeasured;
 

@@ -37,8 +37,9 @@ double distance_to_real(const std::vector<Take>& takes, const std::vector<Take>&
                         const std::vector<Take>& more_real);
 
 // Largest difference of a bone's length between frame i of `clip` and frame source_frames[i] of
-// `from`, in units of the file. What leads to the joint `hips` (-1: none) is no bone, but the way
-// over the ground.
+// `from`, in units of the file. What leads to the joint `hips` (-1: none) is no bone, but root
+// motion
+// .
 double bone_length_error(const Clip& clip, const Clip& from,
                          const std::vector<double>& source_frames, int hips = -1);
 

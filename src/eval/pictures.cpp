@@ -21,31 +21,31 @@ StripRow strip_row(const std::string& label, const Take& take) {
 
 }  // namespace
 
-Result<void> add_pictures(const std::vector<const System*>& systems, const Bench& bench,
+Result<void> add_pictures(const std::vector<const System*>& systems, const TestSet& test_set,
                           Report& report) {
   // One content after the other, each in another style.
   size_t drawn = 0;
   std::string last;
-  for (size_t i = 0; i < bench.inputs.size() && drawn < kPictures; ++i) {
-    const ManifestRow& row = bench.inputs[i].take.row;
+  for (size_t i = 0; i < test_set.inputs.size() && drawn < kPictures; ++i) {
+    const ManifestRow& row = test_set.inputs[i].take.row;
     if (row.content == last) continue;
-    const std::string& style = bench.styles[drawn % bench.styles.size()];
-    const auto real =
-        std::find_if(bench.judge.test().begin(), bench.judge.test().end(), [&](const Take& take) {
+    const std::string& style = test_set.styles[drawn % test_set.styles.size()];
+    const auto real = std::find_if(
+        test_set.evaluator.test().begin(), test_set.evaluator.test().end(), [&](const Take& take) {
           return take.row.style == style && take.row.content == row.content;
         });
-    if (real == bench.judge.test().end()) continue;
+    if (real == test_set.evaluator.test().end()) continue;
     last = row.content;
     const std::string title = row.content + ", " + style;
-    StripReport strip{title, {strip_row("input", bench.inputs[i].take)}, kSpacing};
-    ContactReport contacts{title, {{"input", kTakeRate, bench.inputs[i].take.contacts}}};
+    StripReport strip{title, {strip_row("input", test_set.inputs[i].take)}, kSpacing};
+    ContactReport contacts{title, {{"input", kTakeRate, test_set.inputs[i].take.contacts}}};
     for (const System* system : systems) {
-      const Request request{style, {{style, 1.0f}}};
-      if (!system->can_run(bench.inputs[i], request)) continue;
-      Result<Played> played = system->run(bench.inputs[i], request);
-      if (!played) return played.error();
-      strip.rows.push_back(strip_row(system->name(), played->output.take));
-      contacts.rows.push_back({system->name(), kTakeRate, played->output.take.contacts});
+      const StyleRequest request{style, {{style, 1.0f}}};
+      if (!system->can_run(test_set.inputs[i], request)) continue;
+      Result<RunResult> run_result = system->run(test_set.inputs[i], request);
+      if (!run_result) return run_result.error();
+      strip.rows.push_back(strip_row(system->name(), run_result->output.take));
+      contacts.rows.push_back({system->name(), kTakeRate, run_result->output.take.contacts});
     }
     strip.rows.push_back(strip_row("real " + style, *real));
     contacts.rows.push_back({"real " + style, kTakeRate, real->contacts});

@@ -9,9 +9,9 @@
 
 #include "base/result.h"
 #include "eval/disturbances.h"
-#include "eval/foreign.h"
-#include "eval/foresight.h"
-#include "eval/quality.h"
+#include "eval/metrics.h"
+#include "eval/ood.h"
+#include "eval/prediction.h"
 #include "pose/contacts.h"
 #include "pose/strip.h"
 
@@ -20,11 +20,11 @@ namespace panache {
 // What a system makes of contents that it never saw in a style.
 struct UnseenReport {
   std::string name;                      // "A", or the contents joined with "+".
-  Quality mean;                          // Over the unseen contents.
-  QualityTable by_content;               // The unseen contents only.
-  QualityTable seen_by_content;          // The same contents by the model that saw them.
-  QualityTable blind_by_content;         // Real takes, judged by classifiers that never saw them.
-  QualityTable mean_posture_by_content;  // The style's mean posture, for comparison.
+  Metrics mean;                          // Over the unseen contents.
+  MetricsTable by_content;               // The unseen contents only.
+  MetricsTable seen_by_content;          // The same contents by the model that saw them.
+  MetricsTable blind_by_content;         // Real takes, judged by classifiers that never saw them.
+  MetricsTable mean_posture_by_content;  // The style's mean posture, for comparison.
 };
 
 // Half of one style, half of another.
@@ -38,16 +38,16 @@ struct MixReport {
 struct SystemReport {
   std::string name;    // "panache", "smith2019", "mean posture", ...; no two systems alike.
   std::string recipe;  // Of the model; empty where there is none.
-  Quality seen;
-  QualityTable by_content, by_style;
-  std::vector<std::pair<std::string, Quality>> strength;  // "0" to "2", in order.
+  Metrics seen;
+  MetricsTable by_content, by_style;
+  std::vector<std::pair<std::string, Metrics>> strength;  // "0" to "2", in order.
   double slider_style = kNotMeasured;     // Rank correlation of strength 0..1 with P(style).
   double slider_distance = kNotMeasured;  // Of strength 0..2 with the distance from the input.
   std::vector<MixReport> mixes;
   std::vector<UnseenReport> unseen;
-  std::vector<ForeignRow> foreign;
+  std::vector<OodRow> ood;
   std::vector<DisturbanceRow> disturbances;
-  std::vector<ForesightRow> foresight;          // Empty where the model foresees nothing.
+  std::vector<PredictionRow> prediction;        // Empty where the model predicts nothing.
   double cc = kNotMeasured, sc = kNotMeasured;  // CC and SC++ in file units.
   double bone_length_error_cm = kNotMeasured;   // Largest change of a bone's length.
   double step_us = kNotMeasured;                // Processor time of one step.
@@ -76,10 +76,10 @@ struct Report {
   std::vector<std::string> trained_on, tested_on;  // Manifests, as they were given.
   std::vector<std::string> styles, contents;
   double style_floor = 0, content_floor = 0;  // Real held-out accuracy below which nothing counts.
-  Quality real;                               // Real held-out takes of the styles.
-  Quality input;  // The neutral takes themselves, as if they were the output.
-  QualityTable real_by_content, real_by_style;
-  QualityTable input_by_content;
+  Metrics real;                               // Real held-out takes of the styles.
+  Metrics input;  // The neutral takes themselves, as if they were the output.
+  MetricsTable real_by_content, real_by_style;
+  MetricsTable input_by_content;
   double cc_floor = kNotMeasured, sc_floor = kNotMeasured;  // Real takes against real takes.
   std::vector<SystemReport> systems;
   std::vector<StripReport> strips;

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "eval/measure.h"
-#include "eval/report_foreign.h"
 #include "eval/report_numbers.h"
+#include "eval/report_ood.h"
 
 namespace panache {
 namespace {
@@ -21,21 +21,21 @@ Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nul
 // What nobody has measured, a size of 0, is null as well.
 Json size(size_t value) { return value > 0 ? Json(value) : Json(nullptr); }
 
-Json quality_json(const Quality& quality) {
-  Json out = {{"takes", quality.takes}, {"windows", quality.windows}};
-  for (const Measure& measure : measures()) out[measure.key] = number(quality[measure.key]);
+Json metrics_json(const Metrics& metrics) {
+  Json out = {{"takes", metrics.takes}, {"windows", metrics.windows}};
+  for (const Measure& measure : measures()) out[measure.key] = number(metrics[measure.key]);
   return out;
 }
 
-Json table_json(const QualityTable& table) {
+Json table_json(const MetricsTable& table) {
   Json out = Json::object();
-  for (const auto& [name, quality] : table) out[name] = quality_json(quality);
+  for (const auto& [name, metrics] : table) out[name] = metrics_json(metrics);
   return out;
 }
 
 Json strength_json(const SystemReport& system) {
   Json out = Json::object();
-  for (const auto& [strength, quality] : system.strength) out[strength] = quality_json(quality);
+  for (const auto& [strength, metrics] : system.strength) out[strength] = metrics_json(metrics);
   return out;
 }
 
@@ -55,8 +55,8 @@ Json mixes_json(const std::vector<MixReport>& mixes) {
 Json unseen_json(const std::vector<UnseenReport>& splits) {
   Json out = Json::object();
   for (const UnseenReport& split : splits) {
-    for (const auto& [content, quality] : split.by_content) {
-      if (!out.contains(content)) out[content] = quality_json(quality);
+    for (const auto& [content, metrics] : split.by_content) {
+      if (!out.contains(content)) out[content] = metrics_json(metrics);
     }
   }
   return out;
@@ -67,7 +67,7 @@ Json unseen_splits_json(const std::vector<UnseenReport>& splits) {
   for (const UnseenReport& split : splits) {
     // The keys of our own come last: they win over a content of the same name.
     Json entry = table_json(split.by_content);
-    entry["mean"] = quality_json(split.mean);
+    entry["mean"] = metrics_json(split.mean);
     entry["seen"] = table_json(split.seen_by_content);
     entry["blind"] = table_json(split.blind_by_content);
     entry["mean_posture"] = table_json(split.mean_posture_by_content);
@@ -76,7 +76,7 @@ Json unseen_splits_json(const std::vector<UnseenReport>& splits) {
   return out;
 }
 
-Json foreign_summary_json(const ForeignSummary& summary) {
+Json ood_summary_json(const OodSummary& summary) {
   return {
       {"rows", summary.rows},
       {"clips", summary.clips},
@@ -103,9 +103,9 @@ Json foreign_summary_json(const ForeignSummary& summary) {
   };
 }
 
-Json foreign_json(const std::vector<ForeignRow>& rows) {
+Json ood_json(const std::vector<OodRow>& rows) {
   Json list = Json::array();
-  for (const ForeignRow& row : rows) {
+  for (const OodRow& row : rows) {
     list.push_back({{"clip", row.clip},
                     {"style", row.style},
                     {"jerk_ratio", number(row.jerk_ratio)},
@@ -119,7 +119,7 @@ Json foreign_json(const std::vector<ForeignRow>& rows) {
                     {"gate", number(row.gate)}});
   }
   Json out;
-  out["summary"] = foreign_summary_json(summarize_foreign(rows));
+  out["summary"] = ood_summary_json(summarize_ood(rows));
   out["rows"] = std::move(list);
   return out;
 }
@@ -130,15 +130,15 @@ Json disturbances_json(const std::vector<DisturbanceRow>& rows) {
   return out;
 }
 
-Json foresight_json(const std::vector<ForesightRow>& rows) {
+Json prediction_json(const std::vector<PredictionRow>& rows) {
   Json out = Json::object();
-  for (const ForesightRow& row : rows) {
+  for (const PredictionRow& row : rows) {
     Json& entry = out[row.content];
     entry["instants"] = row.instants;
-    for (size_t h = 0; h < kForesightSeconds.size(); ++h) {
-      entry[number_text(kForesightSeconds[h], 2)] = {{"predicted_cm", number(row.predicted_cm[h])},
-                                                     {"velocity_cm", number(row.velocity_cm[h])},
-                                                     {"held_cm", number(row.held_cm[h])}};
+    for (size_t h = 0; h < kPredictionSeconds.size(); ++h) {
+      entry[number_text(kPredictionSeconds[h], 2)] = {{"predicted_cm", number(row.predicted_cm[h])},
+                                                      {"velocity_cm", number(row.velocity_cm[h])},
+                                                      {"held_cm", number(row.held_cm[h])}};
     }
   }
   return out;
@@ -147,7 +147,7 @@ Json foresight_json(const std::vector<ForesightRow>& rows) {
 Json system_json(const SystemReport& system) {
   Json out;
   out["recipe"] = system.recipe.empty() ? Json(nullptr) : Json(system.recipe);
-  out["seen"] = quality_json(system.seen);
+  out["seen"] = metrics_json(system.seen);
   out["seen_by_content"] = table_json(system.by_content);
   out["seen_by_style"] = table_json(system.by_style);
   out["strength"] = strength_json(system);
@@ -156,9 +156,9 @@ Json system_json(const SystemReport& system) {
   out["mixes"] = mixes_json(system.mixes);
   out["unseen"] = unseen_json(system.unseen);
   out["unseen_splits"] = unseen_splits_json(system.unseen);
-  out["foreign"] = foreign_json(system.foreign);
+  out["foreign"] = ood_json(system.ood);
   out["disturbances"] = disturbances_json(system.disturbances);
-  out["foresight"] = foresight_json(system.foresight);
+  out["foresight"] = prediction_json(system.prediction);
   out["cc"] = number(system.cc);
   out["sc"] = number(system.sc);
   out["bone_length_error_cm"] = number(system.bone_length_error_cm);
@@ -166,7 +166,7 @@ Json system_json(const SystemReport& system) {
   out["model_bytes"] = size(system.model_bytes);
   out["parameters"] = size(system.parameters);
   if (system.recorded) {
-    out["recorded"] = {{"listed", system.recorded->listed}, {"judged", system.recorded->judged}};
+    out["recorded"] = {{"listed", system.recorded->listed}, {"judged", system.recorded->evaluated}};
   }
   return out;
 }
@@ -183,8 +183,8 @@ std::string report_json(const Report& report) {
   out["seconds"] = number(report.seconds);
   out["style_floor"] = number(report.style_floor);
   out["content_floor"] = number(report.content_floor);
-  out["real"] = quality_json(report.real);
-  out["input"] = quality_json(report.input);
+  out["real"] = metrics_json(report.real);
+  out["input"] = metrics_json(report.input);
   out["real_by_content"] = table_json(report.real_by_content);
   out["real_by_style"] = table_json(report.real_by_style);
   out["input_by_content"] = table_json(report.input_by_content);

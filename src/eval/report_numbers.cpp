@@ -91,32 +91,32 @@ double finite_mean(const std::vector<double>& values) {
   return count > 0 ? sum / static_cast<double>(count) : kNotMeasured;
 }
 
-Quality mean_quality(const QualityTable& table) {
-  Quality mean;
-  for (const auto& [name, quality] : table) {
-    mean.takes += quality.takes;
-    mean.windows += quality.windows;
+Metrics mean_metrics(const MetricsTable& table) {
+  Metrics mean;
+  for (const auto& [name, metrics] : table) {
+    mean.takes += metrics.takes;
+    mean.windows += metrics.windows;
   }
   for (const Measure& measure : measures()) {
     std::vector<double> values;
-    for (const auto& [name, quality] : table) values.push_back(quality[measure.key]);
+    for (const auto& [name, metrics] : table) values.push_back(metrics[measure.key]);
     mean[measure.key] = finite_mean(values);
   }
   return mean;
 }
 
-std::vector<std::string> names_of(const std::vector<const QualityTable*>& tables,
+std::vector<std::string> names_of(const std::vector<const MetricsTable*>& tables,
                                   const std::vector<std::string>& order) {
   std::vector<std::string> names, rest;
   const auto has = [&](const std::string& name) {
     return std::any_of(tables.begin(), tables.end(),
-                       [&](const QualityTable* table) { return table->contains(name); });
+                       [&](const MetricsTable* table) { return table->contains(name); });
   };
   for (const std::string& name : order) {
     if (has(name)) names.push_back(name);
   }
-  for (const QualityTable* table : tables) {
-    for (const auto& [name, quality] : *table) {
+  for (const MetricsTable* table : tables) {
+    for (const auto& [name, metrics] : *table) {
       if (std::find(names.begin(), names.end(), name) == names.end()) rest.push_back(name);
     }
   }

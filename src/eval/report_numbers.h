@@ -36,10 +36,10 @@ double finite_mean(const std::vector<double>& values);
 
 // The mean of each number over the lines of a table where it was measured; takes and windows add
 // up.
-Quality mean_quality(const QualityTable& table);
+Metrics mean_metrics(const MetricsTable& table);
 
 // The names that any of the tables has: first those of `order`, in its order, then the rest.
-std::vector<std::string> names_of(const std::vector<const QualityTable*>& tables,
+std::vector<std::string> names_of(const std::vector<const MetricsTable*>& tables,
                                   const std::vector<std::string>& order);
 
 // How many columns of a terminal `text`, UTF-8, takes.

@@ -22,7 +22,7 @@ std::vector<Section> sections_of(const Report& report) {
       {"judged", "What was judged on what",
        "All numbers are of takes that no system was trained on, and come from the same code. "
        "Accuracies count only if the classifiers recognise real held-out takes well enough.",
-       page_judged(report)},
+       page_evaluated(report)},
       {"overall", "Overall",
        "Means over styles and contents that the systems were trained on. The best system of each "
        "column is in bold, with a dot.",
@@ -45,14 +45,14 @@ std::vector<Section> sections_of(const Report& report) {
       {"foreign", "Foreign motion",
        "Clips of other makers and other actions, each in every style at strength 1. No real "
        "styled takes of them exist: the question is whether they stay the motion that they were.",
-       page_foreign(report)},
+       page_ood(report)},
       {"disturbances", "Disturbances",
        "Pose error when the windows that a system sees are disturbed and nothing else is.",
        page_disturbances(report)},
       {"foresight", "Input foreseen",
        "How far the joints are from where they will be, in centimetres, if the input is foreseen, "
        "goes on at constant velocity, or is held. Live, a style faster than its input asks for it.",
-       page_foresight(report)},
+       page_prediction(report)},
       {"strips", "Strips", "The same stretch of time, row by row. The body's left is lighter.",
        page_strips(report)},
       {"contacts", "Foot contacts", "A bar is a foot on the ground.", page_contacts(report)},

@@ -4,8 +4,8 @@
 #include <functional>
 
 #include "base/xml.h"
-#include "eval/report_foreign.h"
 #include "eval/report_numbers.h"
+#include "eval/report_ood.h"
 #include "eval/report_page_html.h"
 #include "eval/report_page_sections.h"
 
@@ -33,14 +33,14 @@ std::vector<const SystemReport*> systems_with(const Report& report,
 std::string unseen_table(const Report& report, const UnseenReport& split) {
   // The last row stands in the tables under a name that no content has.
   const std::string kMean = "mean of these";
-  QualityTable unseen = split.by_content, seen = split.seen_by_content;
-  QualityTable blind = split.blind_by_content, posture = split.mean_posture_by_content;
-  for (QualityTable* table : {&seen, &blind, &posture}) {
-    if (!table->empty()) (*table)[kMean] = mean_quality(*table);
+  MetricsTable unseen = split.by_content, seen = split.seen_by_content;
+  MetricsTable blind = split.blind_by_content, posture = split.mean_posture_by_content;
+  for (MetricsTable* table : {&seen, &blind, &posture}) {
+    if (!table->empty()) (*table)[kMean] = mean_metrics(*table);
   }
   unseen[kMean] = split.mean;
   const std::vector<std::string> contents = names_of({&split.by_content}, report.contents);
-  const std::vector<QualitySource> sources = {
+  const std::vector<MetricsSource> sources = {
       {"unseen", &unseen}, {"seen", &seen}, {"real, blind", &blind}, {"mean posture", &posture}};
   const std::vector<const char*> kFirst = {"style_accuracy", "content_accuracy", "jerk_ratio",
                                            "pose_error_deg"};
@@ -51,12 +51,12 @@ std::string unseen_table(const Report& report, const UnseenReport& split) {
       others.push_back(measure.key);
     }
   }
-  return quality_matrix("content", contents, sources, kFirst, kMean) +
+  return metrics_matrix("content", contents, sources, kFirst, kMean) +
          html_details("All other numbers of split " + split.name,
-                      quality_matrix("content", contents, sources, others, kMean));
+                      metrics_matrix("content", contents, sources, others, kMean));
 }
 
-std::string foreign_table(const std::vector<const SystemReport*>& systems) {
+std::string ood_table(const std::vector<const SystemReport*>& systems) {
   HtmlTable table("");
   table.add_columns("", {"clips", "pairs"});
   table.add_columns("jerk / input", {"median", "90%", "largest"});
@@ -68,7 +68,7 @@ std::string foreign_table(const std::vector<const SystemReport*>& systems) {
   table.add_columns("drift m", {"largest"});
   table.add_columns("gate", {"mean"});
   for (const SystemReport* system : systems) {
-    const ForeignSummary of = summarize_foreign(system->foreign);
+    const OodSummary of = summarize_ood(system->ood);
     table.add_row(system->name, {{count_text(of.clips)},
                                  {count_text(of.rows)},
                                  {number_text(of.jerk_ratio_median, 2)},
@@ -92,8 +92,8 @@ std::string foreign_table(const std::vector<const SystemReport*>& systems) {
 }
 
 // The first rows by `worse`.
-std::string worst_rows(std::vector<ForeignRow> rows,
-                       const std::function<bool(const ForeignRow&, const ForeignRow&)>& worse,
+std::string worst_rows(std::vector<OodRow> rows,
+                       const std::function<bool(const OodRow&, const OodRow&)>& worse,
                        const std::string& caption) {
   constexpr size_t kShown = 8;
   std::stable_sort(rows.begin(), rows.end(), worse);
@@ -101,7 +101,7 @@ std::string worst_rows(std::vector<ForeignRow> rows,
   HtmlTable table("clip, style");
   table.add_columns("", {"jerk / input", "velocity correlation", "moved cm", "beyond limits",
                          "under the floor", "skating", "of the input", "drift m", "gate"});
-  for (const ForeignRow& row : rows) {
+  for (const OodRow& row : rows) {
     table.add_row(row.clip + ", " + row.style, {{number_text(row.jerk_ratio, 2)},
                                                 {number_text(row.velocity_correlation, 3)},
                                                 {number_text(row.distance_cm, 2)},
@@ -119,18 +119,18 @@ std::string worst_rows(std::vector<ForeignRow> rows,
 std::string clips_table(const std::vector<const SystemReport*>& systems) {
   const struct {
     const char* label;
-    double ForeignRow::*value;
+    double OodRow::*value;
     int digits;
-  } kColumns[] = {{"jerk / input", &ForeignRow::jerk_ratio, 2},
-                  {"velocity correlation", &ForeignRow::velocity_correlation, 3},
-                  {"moved cm", &ForeignRow::distance_cm, 2},
-                  {"under the floor", &ForeignRow::under_floor, 3},
-                  {"gate", &ForeignRow::gate, 3}};
+  } kColumns[] = {{"jerk / input", &OodRow::jerk_ratio, 2},
+                  {"velocity correlation", &OodRow::velocity_correlation, 3},
+                  {"moved cm", &OodRow::distance_cm, 2},
+                  {"under the floor", &OodRow::under_floor, 3},
+                  {"gate", &OodRow::gate, 3}};
   HtmlTable table("clip");
   for (const auto& column : kColumns) table.add_columns(column.label, names_of_systems(systems));
   std::vector<std::string> clips;
   for (const SystemReport* system : systems) {
-    for (const auto& [clip, rows] : foreign_by_clip(system->foreign)) {
+    for (const auto& [clip, rows] : ood_by_clip(system->ood)) {
       if (std::find(clips.begin(), clips.end(), clip) == clips.end()) clips.push_back(clip);
     }
   }
@@ -139,7 +139,7 @@ std::string clips_table(const std::vector<const SystemReport*>& systems) {
     for (const auto& column : kColumns) {
       for (const SystemReport* system : systems) {
         std::vector<double> values;
-        for (const ForeignRow& row : system->foreign) {
+        for (const OodRow& row : system->ood) {
           if (row.clip == clip) values.push_back(row.*column.value);
         }
         cells.push_back({number_text(finite_mean(values), column.digits)});
@@ -164,20 +164,19 @@ std::string page_unseen(const Report& report) {
   return out;
 }
 
-std::string page_foreign(const Report& report) {
+std::string page_ood(const Report& report) {
   const auto systems =
-      systems_with(report, [](const SystemReport& system) { return !system.foreign.empty(); });
+      systems_with(report, [](const SystemReport& system) { return !system.ood.empty(); });
   if (systems.empty()) return "";
-  std::string out = foreign_table(systems);
+  std::string out = ood_table(systems);
   for (const SystemReport* system : systems) {
     out += heading("Worst of " + system->name);
     out += worst_rows(
-        system->foreign,
-        [](const ForeignRow& a, const ForeignRow& b) { return a.jerk_ratio > b.jerk_ratio; },
+        system->ood, [](const OodRow& a, const OodRow& b) { return a.jerk_ratio > b.jerk_ratio; },
         "Most jerk against the input");
     out += worst_rows(
-        system->foreign,
-        [](const ForeignRow& a, const ForeignRow& b) {
+        system->ood,
+        [](const OodRow& a, const OodRow& b) {
           return a.velocity_correlation < b.velocity_correlation;
         },
         "Least like the input in how hands and feet move");

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "eval/quality.h"
+#include "eval/metrics.h"
 
 namespace panache {
 

@@ -9,18 +9,18 @@ namespace panache {
 
 // One table of the numbers of several sources side by side: a row per name, a group of columns per
 // measure (by its key), in it a column per source that has any number of it.
-struct QualitySource {
+struct MetricsSource {
   std::string name;
-  const QualityTable* table = nullptr;
+  const MetricsTable* table = nullptr;
   bool competes = false;  // For the best of its row.
 };
-std::string quality_matrix(const std::string& rows_are, const std::vector<std::string>& rows,
-                           const std::vector<QualitySource>& sources,
+std::string metrics_matrix(const std::string& rows_are, const std::vector<std::string>& rows,
+                           const std::vector<MetricsSource>& sources,
                            const std::vector<const char*>& measures,
                            const std::string& last_row = "");
 
-// report_page_quality.cpp: actions that the systems were trained on.
-std::string page_judged(const Report& report);
+// report_page_metrics.cpp: actions that the systems were trained on.
+std::string page_evaluated(const Report& report);
 std::string page_overall(const Report& report);
 std::string page_by_content(const Report& report);
 std::string page_by_style(const Report& report);
@@ -28,12 +28,12 @@ std::string page_strength(const Report& report);
 
 // report_page_beyond.cpp: what they were not trained on.
 std::string page_unseen(const Report& report);
-std::string page_foreign(const Report& report);
+std::string page_ood(const Report& report);
 std::string page_disturbances(const Report& report);
 std::string page_mixes(const Report& report);
 
-// report_page_foresight.cpp: input that has not come yet.
-std::string page_foresight(const Report& report);
+// report_page_prediction.cpp: input that has not come yet.
+std::string page_prediction(const Report& report);
 
 // report_page_pictures.cpp
 std::string page_strips(const Report& report);

@@ -5,15 +5,15 @@
 #include <algorithm>
 
 #include "eval/measure.h"
-#include "eval/report_foreign.h"
 #include "eval/report_numbers.h"
+#include "eval/report_ood.h"
 #include "eval/report_text_table.h"
 
 namespace panache {
 namespace {
 
-const Quality& line_of(const QualityTable& table, const std::string& name) {
-  static const Quality kNothing;
+const Metrics& line_of(const MetricsTable& table, const std::string& name) {
+  static const Metrics kNothing;
   const auto line = table.find(name);
   return line == table.end() ? kNothing : line->second;
 }
@@ -28,10 +28,10 @@ std::string overall(const Report& report) {
   std::vector<std::string> labels;
   for (const Measure& measure : measures()) labels.emplace_back(measure.label);
   table.add_columns("", labels);
-  const auto add = [&](const std::string& name, const Quality& quality) {
+  const auto add = [&](const std::string& name, const Metrics& metrics) {
     std::vector<std::string> cells;
     for (const Measure& measure : measures()) {
-      cells.push_back(number_text(quality[measure.key], measure.digits));
+      cells.push_back(number_text(metrics[measure.key], measure.digits));
     }
     table.add_row(name, std::move(cells));
   };
@@ -42,26 +42,26 @@ std::string overall(const Report& report) {
 }
 
 // What these measures found.
-std::vector<std::string> texts(const Quality& quality, const std::vector<const char*>& keys) {
+std::vector<std::string> texts(const Metrics& metrics, const std::vector<const char*>& keys) {
   std::vector<std::string> cells;
-  for (const char* key : keys) cells.push_back(number_text(quality[key], find_measure(key).digits));
+  for (const char* key : keys) cells.push_back(number_text(metrics[key], find_measure(key).digits));
   return cells;
 }
 
-std::vector<std::string> four_numbers(const Quality& quality) {
-  return texts(quality, {"style_accuracy", "content_accuracy", "jerk_ratio", "pose_error_deg"});
+std::vector<std::string> four_numbers(const Metrics& metrics) {
+  return texts(metrics, {"style_accuracy", "content_accuracy", "jerk_ratio", "pose_error_deg"});
 }
 
 std::string by_content(const Report& report) {
   TextTable table("content");
-  std::vector<const QualityTable*> tables;
+  std::vector<const MetricsTable*> tables;
   for (const SystemReport& system : report.systems) {
     table.add_columns(system.name, {"style", "content", "jerk", "deg"});
     tables.push_back(&system.by_content);
   }
   for (const std::string& content : names_of(tables, report.contents)) {
     std::vector<std::string> cells;
-    for (const QualityTable* of : tables) {
+    for (const MetricsTable* of : tables) {
       for (const std::string& cell : four_numbers(line_of(*of, content))) cells.push_back(cell);
     }
     table.add_row(content, std::move(cells));
@@ -73,7 +73,7 @@ std::string by_content(const Report& report) {
 std::string strengths(const Report& report, const char* measure) {
   std::vector<std::string> keys;
   for (const SystemReport& system : report.systems) {
-    for (const auto& [key, quality] : system.strength) {
+    for (const auto& [key, metrics] : system.strength) {
       if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
     }
   }
@@ -93,7 +93,7 @@ std::string strengths(const Report& report, const char* measure) {
 }
 
 std::string unseen(const Report& report, const UnseenReport& split) {
-  const std::vector<std::pair<std::string, const QualityTable*>> kSources = {
+  const std::vector<std::pair<std::string, const MetricsTable*>> kSources = {
       {"unseen", &split.by_content},
       {"seen", &split.seen_by_content},
       {"real, blind", &split.blind_by_content},
@@ -102,35 +102,35 @@ std::string unseen(const Report& report, const UnseenReport& split) {
   for (const auto& [name, source] : kSources) {
     table.add_columns(name, {"style", "content", "jerk"});
   }
-  const auto add = [&](const std::string& row, const std::vector<Quality>& of) {
+  const auto add = [&](const std::string& row, const std::vector<Metrics>& of) {
     std::vector<std::string> cells;
-    for (const Quality& quality : of) {
+    for (const Metrics& metrics : of) {
       for (const std::string& cell :
-           texts(quality, {"style_accuracy", "content_accuracy", "jerk_ratio"})) {
+           texts(metrics, {"style_accuracy", "content_accuracy", "jerk_ratio"})) {
         cells.push_back(cell);
       }
     }
     table.add_row(row, std::move(cells));
   };
   for (const std::string& content : names_of({&split.by_content}, report.contents)) {
-    std::vector<Quality> of;
+    std::vector<Metrics> of;
     for (const auto& [name, source] : kSources) of.push_back(line_of(*source, content));
     add(content, of);
   }
-  add("mean", {split.mean, mean_quality(split.seen_by_content),
-               mean_quality(split.blind_by_content), mean_quality(split.mean_posture_by_content)});
+  add("mean", {split.mean, mean_metrics(split.seen_by_content),
+               mean_metrics(split.blind_by_content), mean_metrics(split.mean_posture_by_content)});
   return table.str();
 }
 
-std::string foreign(const Report& report) {
+std::string ood(const Report& report) {
   TextTable table("");
   table.add_columns("", {"clips"});
   table.add_columns("jerk / input", {"median", "90%", "largest"});
   table.add_columns("correlation", {"median", "lowest 10%"});
   table.add_columns("", {"moved cm", "beyond limits", "under floor", "drift m", "gate"});
   for (const SystemReport& system : report.systems) {
-    if (system.foreign.empty()) continue;
-    const ForeignSummary of = summarize_foreign(system.foreign);
+    if (system.ood.empty()) continue;
+    const OodSummary of = summarize_ood(system.ood);
     table.add_row(system.name,
                   {count_text(of.clips), number_text(of.jerk_ratio_median, 2),
                    number_text(of.jerk_ratio_p90, 2), number_text(of.jerk_ratio_max, 2),
@@ -167,15 +167,15 @@ std::string disturbances(const Report& report) {
   return table.str();
 }
 
-std::string foresight(const SystemReport& system) {
+std::string prediction(const SystemReport& system) {
   TextTable table("content");
   const auto name = [](double seconds) { return number_text(seconds, 2) + " s ahead, cm"; };
-  for (const double seconds : kForesightSeconds) {
+  for (const double seconds : kPredictionSeconds) {
     table.add_columns(name(seconds), {"foreseen", "velocity", "held"});
   }
-  for (const ForesightRow& row : system.foresight) {
+  for (const PredictionRow& row : system.prediction) {
     std::vector<std::string> cells;
-    for (size_t h = 0; h < kForesightSeconds.size(); ++h) {
+    for (size_t h = 0; h < kPredictionSeconds.size(); ++h) {
       for (const double cm : {row.predicted_cm[h], row.velocity_cm[h], row.held_cm[h]}) {
         cells.push_back(number_text(cm, 2));
       }
@@ -200,7 +200,7 @@ std::string report_text(const Report& report) {
   }
   for (const SystemReport& system : report.systems) {
     if (!system.recorded) continue;
-    text += cut_text(system.name + ": " + std::to_string(system.recorded->judged) + " of " +
+    text += cut_text(system.name + ": " + std::to_string(system.recorded->evaluated) + " of " +
                          std::to_string(system.recorded->listed) + " recorded outputs judged",
                      kTextWidth) +
             "\n\n";
@@ -218,12 +218,12 @@ std::string report_text(const Report& report) {
           unseen(report, split));
     }
   }
-  text += titled("Foreign motion: every clip in every style", foreign(report));
+  text += titled("Foreign motion: every clip in every style", ood(report));
   text += titled("Disturbed windows: pose error in cm", disturbances(report));
   for (const SystemReport& system : report.systems) {
     text += titled(
         cut_text("Input foreseen, going on at constant velocity, held: " + system.name, kTextWidth),
-        foresight(system));
+        prediction(system));
   }
   return text;
 }

@@ -9,7 +9,7 @@ namespace panache {
 namespace {
 
 constexpr size_t kGap = 2;
-constexpr size_t kLeastForNames = 28, kWidestCell = 24;
+constexpr size_t kMinNameWidth = 28, kWidestCell = 24;
 
 std::string to_left(const std::string& text, size_t width) {
   const std::string shown = cut_text(text, width);
@@ -23,9 +23,9 @@ std::string to_right(const std::string& text, size_t width) {
 
 // A label's first word, and what follows it.
 std::pair<std::string, std::string> broken(const std::string& label) {
-  const size_t blank = label.find(' ');
-  if (blank == label.npos) return {"", label};
-  return {label.substr(0, blank), label.substr(blank + 1)};
+  const size_t space = label.find(' ');
+  if (space == label.npos) return {"", label};
+  return {label.substr(0, space), label.substr(space + 1)};
 }
 
 void add_line(std::string& text, std::string line) {
@@ -130,7 +130,7 @@ std::string TextTable::str() const {
   for (const Group& group : groups_) columns_width += group_width(group);
   // Names may take what the columns leave.
   const size_t left = kTextWidth - std::min(columns_width, kTextWidth);
-  name_width = std::min(name_width, std::max(left, kLeastForNames));
+  name_width = std::min(name_width, std::max(left, kMinNameWidth));
   std::string text;
   std::vector<Group> beside;
   size_t used = name_width;

@@ -17,7 +17,7 @@ class TextTable {
  public:
   explicit TextTable(std::string names) : names_(std::move(names)) {}
 
-  // Labels are broken at their first blank. Without `group` there is no heading, and every column
+  // Labels are broken at their first space. Without `group` there is no heading, and every column
   // may be moved below by itself.
   void add_columns(const std::string& group, const std::vector<std::string>& labels);
   // One text per column.

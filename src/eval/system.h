@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "eval/quality.h"
+#include "eval/metrics.h"
 #include "eval/test_input.h"
 #include "learn/take.h"
 #include "style/model.h"
@@ -20,29 +20,29 @@ namespace panache {
 inline constexpr std::array kStrengths = {0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0};
 
 // One thing to ask for: strengths of styles, and the style that the result is judged as.
-struct Request {
+struct StyleRequest {
   std::string style;
   std::vector<std::pair<std::string, float>> strengths;
   bool timing = true;  // With the style's own tempo; off, frame by frame as the input.
 };
 
 // What a system made of a neutral take. `take.row` names the style asked for and the content.
-struct Output {
+struct StyledTake {
   Take take;
   int input = 0;                     // Index of the neutral take.
   std::vector<float> source_frames;  // Frame of the input per frame of the take; empty: unknown.
 };
 
 // An output, and what else is known of it.
-struct Played {
-  Output output;
+struct RunResult {
+  StyledTake output;
   double bone_length_error = 0;  // Largest change of a bone's length, metres.
   double gate = 1;               // Mean share of the style's dynamics that was let through.
 };
 
 // How many outputs there are of a system that cannot be run, and how many were asked for.
 struct RecordedCount {
-  size_t listed = 0, judged = 0;
+  size_t listed = 0, evaluated = 0;
 };
 
 // What a system is, as far as it is known.
@@ -60,7 +60,7 @@ class InstantAnswers {
   // The change that it makes of frame `at` of `neutral`, seen as frame `seen_at` of `seen` (numbers
   // in the system's layout); nothing where it does not know the style.
   virtual std::optional<StyleDelta> change(const std::string& style, const Take& seen,
-                                              float seen_at, const Take& neutral, float at) = 0;
+                                           float seen_at, const Take& neutral, float at) = 0;
 };
 
 // All of it may be asked by several threads at once.
@@ -75,9 +75,9 @@ class System {
   // The styles that it can be asked for.
   virtual std::vector<std::string> styles() const = 0;
   // Whether it can be asked for this. By default: where it has all the styles.
-  virtual bool can_run(const TestInput& input, const Request& request) const;
-  // What it makes of the whole take; `output.input` is the caller's. Fails with a sentence.
-  virtual Result<Played> run(const TestInput& input, const Request& request) const = 0;
+  virtual bool can_run(const TestInput& input, const StyleRequest& request) const;
+  // What it makes of the whole take; `output.input` is the caller's. Fails with a message.
+  virtual Result<RunResult> run(const TestInput& input, const StyleRequest& request) const = 0;
 
   // Its answers at one strength, for pose error and disturbances; null where it has none for single
   // instants.
@@ -95,7 +95,7 @@ class System {
 };
 
 // The inputs themselves, as if they were the output for each style.
-std::vector<Output> untouched(const std::vector<TestInput>& inputs,
-                              const std::vector<std::string>& styles);
+std::vector<StyledTake> untouched(const std::vector<TestInput>& inputs,
+                                  const std::vector<std::string>& styles);
 
 }  // namespace panache

@@ -20,7 +20,7 @@ struct TestInput {
 };
 
 Result<TestInput> load_input(const ManifestRow& row);
-// Over all cores; of a row only the path is read, and fails with the sentence of the first file, in
+// Over all cores; of a row only the path is read, and fails with the message of the first file, in
 // order, that cannot be read or mapped.
 Result<std::vector<TestInput>> load_inputs(const std::vector<ManifestRow>& rows);
 std::vector<Take> takes_of(const std::vector<TestInput>& inputs);

@@ -22,23 +22,23 @@ constexpr int kSweeps = 12;  // Of the iteration that finds them.
 // Windows of at most this quantile of the leverage in learning are trusted.
 constexpr double kTrusted = 0.99;
 
-// What the regression sees: a row of standardised features and one of answers per window.
+// What the regression sees: a row of standardised activations and one of answers per window.
 struct Table {
-  size_t rows = 0, features = 0;
-  std::vector<double> seen;     // [rows][features]
-  std::vector<double> answers;  // [rows][kLearntNumbers]
+  size_t rows = 0, activations = 0;
+  std::vector<double> seen;     // [rows][activations]
+  std::vector<double> answers;  // [rows][kLearntOutputs]
 
-  std::span<double> row(size_t r) { return {&seen[r * features], features}; }
+  std::span<double> row(size_t r) { return {&seen[r * activations], activations}; }
 };
 
 Table make_table(const std::shared_ptr<const Model>& model, const SampleSet& set,
                  std::span<const size_t> samples) {
   StyleNetworks networks(model);  // Of no style: its contacts are those of the networks alone.
   Table table;
-  table.features = model->feature_count();
+  table.activations = model->activation_count();
   Random random(1);
   const Disturbance how;
-  std::vector<float> window(set.inputs()), features(table.features);
+  std::vector<float> window(set.inputs()), activations(table.activations);
   for (const size_t i : samples) {
     const Sample& sample = set.samples()[i];
     for (int copy = 0; copy <= kCopies; ++copy) {
@@ -50,9 +50,10 @@ Table make_table(const std::shared_ptr<const Model>& model, const SampleSet& set
         set.disturb(draw, how, random, window);
       }
       networks.forward(window);
-      networks.features(window, features);
-      for (size_t f = 0; f < features.size(); ++f) {
-        table.seen.push_back((features[f] - model->feature_mean()[f]) / model->feature_scale()[f]);
+      networks.activations(window, activations);
+      for (size_t f = 0; f < activations.size(); ++f) {
+        table.seen.push_back((activations[f] - model->activation_mean()[f]) /
+                             model->activation_scale()[f]);
       }
       for (int n = 0; n < StyleDelta::kSize; ++n) {
         table.answers.push_back(set.target(i)[n] / model->output_scale()[n]);
@@ -128,15 +129,15 @@ Tensor tensor(std::vector<int64_t> shape, const std::vector<double>& values, boo
   return out;
 }
 
-// Puts a layer on standardised features into the file as one on the features themselves: halves,
-// and a bias such that the answer to the features `mean` is exactly `answer`.
+// Puts a layer on standardised activations into the file as one on the activations themselves:
+// halves, and a bias such that the answer to the activations `mean` is exactly `answer`.
 void put_layer(const std::string& key, const Model& model, const std::vector<double>& weights,
                const std::vector<double>& mean, std::vector<double> answer, TensorFile& file) {
   const size_t outputs = answer.size();
   std::vector<double> rounded(weights.size());
   for (size_t i = 0; i < weights.size(); ++i) {
     const size_t f = i / outputs;
-    const double scale = static_cast<double>(model.feature_scale()[f]);
+    const double scale = static_cast<double>(model.activation_scale()[f]);
     rounded[i] = from_half(to_half(static_cast<float>(weights[i] / scale)));
     answer[i % outputs] -= rounded[i] * mean[f];
   }
@@ -149,15 +150,16 @@ void put_layer(const std::string& key, const Model& model, const std::vector<dou
 // from, in units of where trust ends.
 void put_gate(const Model& model, Table& table, const std::vector<double>& covariance,
               const std::vector<double>& mean, TensorFile& file) {
-  const size_t size = table.features, count = std::min(kDirections, size);
+  const size_t size = table.activations, count = std::min(kDirections, size);
   Directions main = main_directions(covariance, size, count);
   double left = 0;  // Variance beside the main directions.
   for (size_t f = 0; f < size; ++f) left += covariance[f * size + f];
   for (const double variance : main.variances) left -= variance;
   const double others = size > count ? std::max(0.0, left) / static_cast<double>(size - count) : 0;
   const double rest = 1 / (others + kPenalty);
-  std::vector<double> worth;
-  for (const double variance : main.variances) worth.push_back(1 / (variance + kPenalty) - rest);
+  std::vector<double> gate_weights;
+  for (const double variance : main.variances)
+    gate_weights.push_back(1 / (variance + kPenalty) - rest);
 
   std::vector<double> leverages;
   for (size_t r = 0; r < table.rows; ++r) {
@@ -165,7 +167,7 @@ void put_gate(const Model& model, Table& table, const std::vector<double>& covar
     double leverage = rest * dot(row, row);
     for (size_t d = 0; d < count; ++d) {
       const double along = dot(row, main.vector(d, size));
-      leverage += worth[d] * along * along;
+      leverage += gate_weights[d] * along * along;
     }
     leverages.push_back(leverage);
   }
@@ -173,14 +175,14 @@ void put_gate(const Model& model, Table& table, const std::vector<double>& covar
   std::nth_element(leverages.begin(), leverages.begin() + static_cast<ptrdiff_t>(place),
                    leverages.end());
   const double limit = std::max(leverages[place], 1e-6);  // A single pose has none.
-  for (double& w : worth) w /= limit;
+  for (double& w : gate_weights) w /= limit;
 
   std::vector<double> weights(size * count);
   for (size_t d = 0; d < count; ++d) {
     for (size_t f = 0; f < size; ++f) weights[f * count + d] = main.vector(d, size)[f];
   }
   put_layer("gate", model, weights, mean, std::vector<double>(count, 0.0), file);
-  file.tensors["gate.worth"] = tensor({static_cast<int64_t>(count)}, worth);
+  file.tensors["gate.worth"] = tensor({static_cast<int64_t>(count)}, gate_weights);
   file.tensors["gate.rest"] = tensor({1}, {rest / limit});
 }
 
@@ -190,17 +192,17 @@ TensorFile fit_style(std::shared_ptr<const Model> model, const SampleSet& set,
                      std::span<const size_t> samples) {
   assert(model->can_learn() && !samples.empty());
   Table table = make_table(model, set, samples);
-  const std::vector<double> middle = centre(table.seen, table.features);
-  const std::vector<double> answer = centre(table.answers, kLearntNumbers);
-  Ridge ridge(static_cast<int>(table.features), kLearntNumbers);
+  const std::vector<double> middle = centre(table.seen, table.activations);
+  const std::vector<double> answer = centre(table.answers, kLearntOutputs);
+  Ridge ridge(static_cast<int>(table.activations), kLearntOutputs);
   ridge.add(table.seen, table.answers, 1 / static_cast<double>(table.rows));
   // The mean posture costs nothing: rows and answers are centred.
-  const std::vector<double> weights = ridge.solve(std::vector<double>(table.features, kPenalty));
+  const std::vector<double> weights = ridge.solve(std::vector<double>(table.activations, kPenalty));
   std::vector<double> mean;
-  for (size_t f = 0; f < table.features; ++f) {
-    const double scale = static_cast<double>(model->feature_scale()[f]);
+  for (size_t f = 0; f < table.activations; ++f) {
+    const double scale = static_cast<double>(model->activation_scale()[f]);
     // As the file will hold it.
-    mean.push_back(static_cast<float>(model->feature_mean()[f] + middle[f] * scale));
+    mean.push_back(static_cast<float>(model->activation_mean()[f] + middle[f] * scale));
   }
   TensorFile file;
   put_layer("head", *model, weights, mean, answer, file);
@@ -209,7 +211,7 @@ TensorFile fit_style(std::shared_ptr<const Model> model, const SampleSet& set,
   return file;
 }
 
-Result<void> add_feature_statistics(const std::vector<Take>& takes, TensorFile& file) {
+Result<void> add_activation_statistics(const std::vector<Take>& takes, TensorFile& file) {
   // A feature that hardly moves must not count for its noise.
   constexpr double kStill = 0.01;
   constexpr int kEvery = 5;  // Frames.
@@ -220,19 +222,19 @@ Result<void> add_feature_statistics(const std::vector<Take>& takes, TensorFile& 
                  ", on which no style can be learnt"};
   }
   const StyleNetworks networks(*model);
-  const size_t size = (*model)->feature_count();
-  const int numbers = pose_numbers((*model)->layout());
-  std::vector<float> window(size_t(kWindowPoses) * numbers), features(size);
+  const size_t size = (*model)->activation_count();
+  const int numbers = pose_feature_count((*model)->layout());
+  std::vector<float> window(size_t(kWindowPoses) * numbers), activations(size);
   std::vector<double> sum(size), squares(size);
   double count = 0;
   for (const Take& take : takes) {
     if (!take.row.neutral || take.row.test) continue;
     for (int f = 0; f < take.frames(); f += kEvery) {
       take_window(take, static_cast<float>(f), numbers, window);
-      networks.features(window, features);
+      networks.activations(window, activations);
       for (size_t i = 0; i < size; ++i) {
-        sum[i] += features[i];
-        squares[i] += double(features[i]) * features[i];
+        sum[i] += activations[i];
+        squares[i] += double(activations[i]) * activations[i];
       }
       ++count;
     }

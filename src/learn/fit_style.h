@@ -1,5 +1,5 @@
 #pragma once
-// A style in closed form: its head by ridge regression and its gate, on the features of a trunk
+// A style in closed form: its head by ridge regression and its gate, on the activations of a trunk
 // that stays as it is.
 
 #include <memory>
@@ -17,10 +17,10 @@ namespace panache {
 TensorFile fit_style(std::shared_ptr<const Model> model, const SampleSet& set,
                      std::span<const size_t> samples);
 
-// The features of a window, standardised as they vary over motion of all kinds, tell styles apart
-// that were not there in training. Adds `learn.mean` and `learn.scale`, that mean and deviation
-// over the windows of `takes` (layout positions), to a model file, which can then learn. Fails with
-// Model::create()'s sentence, or where no style can be learnt on its recipe.
-Result<void> add_feature_statistics(const std::vector<Take>& takes, TensorFile& model);
+// The activations of a window, standardised as they vary over motion of all kinds, tell styles
+// apart that were not there in training. Adds `learn.mean` and `learn.scale`, that mean and
+// deviation over the windows of `takes` (layout positions), to a model file, which can then learn.
+// Fails with Model::create()'s message, or where no style can be learnt on its recipe.
+Result<void> add_activation_statistics(const std::vector<Take>& takes, TensorFile& model);
 
 }  // namespace panache

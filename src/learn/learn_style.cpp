@@ -18,7 +18,7 @@ namespace panache {
 namespace {
 
 // Less teaches nothing: the ends of a warped window are left out.
-constexpr int kFewestFrames = 15;
+constexpr int kMinFrames = 15;
 constexpr double kShort = 1;  // Seconds.
 // Mean squared distances of takes of one action are below the first, of different ones mostly above
 // the second; beyond the third nothing was laid together at all. Found on takes of 22 styles.
@@ -52,9 +52,9 @@ std::string file_name(const std::string& path) {
 Result<Take> take_of(const LearnClip& from) {
   const double seconds = (from.clip.frames - from.rig.first_frame()) * from.clip.frame_time;
   // Files round the time of a frame: half a frame less is the same.
-  if (seconds * kTakeRate < kFewestFrames - 0.5) {
+  if (seconds * kTakeRate < kMinFrames - 0.5) {
     return Error{from.name + ": has " + number(std::max(0.0, seconds)) +
-                 " s of motion; a style is learnt from " + number(kFewestFrames / kTakeRate) +
+                 " s of motion; a style is learnt from " + number(kMinFrames / kTakeRate) +
                  " s at least, better from 2 to 3 s; give a longer clip"};
   }
   return make_take(from.clip, from.rig, PoseLayout::positions);
@@ -111,7 +111,7 @@ Result<void> check_one_skeleton(const LearnClip& neutral, const LearnClip& style
 
 // Rotations that follow from the positions alone, the same for every rig.
 void forget_twist(Take& take) {
-  for (int f = 0; f < take.frames(); ++f) canonical_frames(take.body[f], 0, take.turned[f]);
+  for (int f = 0; f < take.frames(); ++f) canonical_frames(take.body[f], 0, take.rotations[f]);
 }
 
 double mean_cost(const std::vector<Pairing>& pairings) {

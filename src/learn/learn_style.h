@@ -11,7 +11,7 @@
 #include "learn/take.h"
 #include "net/safetensors.h"
 #include "rig/rig.h"
-#include "walker/model.h"
+#include "walker/walker_model.h"
 
 namespace panache {
 
@@ -19,7 +19,7 @@ namespace panache {
 struct LearnClip {
   const Clip& clip;
   const Rig& rig;
-  std::string name;  // Of its file, for sentences.
+  std::string name;  // Of its file, for messages.
 };
 
 // An action done neutrally and in the style, on the canonical body.
@@ -28,12 +28,12 @@ struct LearnPair {
   Take neutral, styled;
 };
 
-// Refuses what is no action that a neutral of our own is made for: they are "walk" and "run".
+// Rejects what is no action that a neutral of our own is made for: they are "walk" and "run".
 Result<void> check_action(const std::string& action);
 
 // Both clips are of one skeleton: joints of the same names in the same tree (what is above the
 // hips may have any), resting in the same directions, of any length. Clips of other skeletons are
-// refused, and those too short to learn from.
+// rejected, and those too short to learn from.
 Result<LearnPair> make_learn_pair(const LearnClip& neutral, const LearnClip& styled);
 // With a neutral of our own making in place of a recorded one: the walker's, see check_action().
 // What tells the walker's body and gait from the performer's becomes part of the style,
@@ -62,11 +62,11 @@ struct LearntStyle {
   double held_back_cm = 0, mean_posture_cm = 0, untouched_cm = 0;
 };
 
-// The sentence for a model without a trunk that styles can be learnt on.
+// The message for a model without a trunk that styles can be learnt on.
 Error cannot_learn(const std::string& name);
 
-// Learns the style called `style` on the features of a model file, which can learn and stays as it
-// is; `name` is its own, for sentences. The same input gives the same bytes.
+// Learns the style called `style` on the activations of a model file, which can learn and stays as
+// it is; `name` is its own, for messages. The same input gives the same bytes.
 Result<LearntStyle> learn_style(const TensorFile& model, const std::string& name,
                                 std::span<const LearnPair> pairs, const std::string& style,
                                 const std::string& description);

@@ -29,7 +29,7 @@ struct StyleName {
 // marks its rows.
 Result<std::vector<ManifestRow>> read_manifest(const std::string& path, int set);
 
-// Reads a CSV with the columns name, from, description; several `from` are divided by blanks.
+// Reads a CSV with the columns name, from, description; several `from` are divided by spaces.
 Result<std::vector<StyleName>> read_style_names(const std::string& path);
 
 // Renames the styles of `rows`; rows of styles that `names` does not list are dropped.

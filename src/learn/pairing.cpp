@@ -51,8 +51,8 @@ std::vector<float> comparison_numbers(const Take& take) {
   return numbers;
 }
 
-// All takes of one action in one style: their features, standardised together, so that the style's
-// own posture does not spoil the comparison.
+// All takes of one action in one style: their activations, standardised together, so that the
+// style's own posture does not spoil the comparison.
 struct Group {
   std::vector<int> takes;
   std::vector<float> numbers;  // [frames][kNumbers]

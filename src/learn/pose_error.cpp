@@ -2,8 +2,8 @@
 
 #include <numbers>
 
-#include "style/pose_change.h"
 #include "learn/samples.h"
+#include "style/pose_change.h"
 
 namespace panache {
 namespace {
@@ -19,7 +19,7 @@ PoseError pose_error(const Take& styled, int frame, const Take& neutral, float a
   // The true change t leads from the neutral rotations n to the styled ones, s = t n; so the model
   // reaches c n = c t^-1 s.
   const StyleDelta truth = change_between(styled, frame, neutral, at, 1);
-  const std::array<Quat, kHumanJoints>& real = styled.turned[frame];
+  const std::array<Quat, kHumanJoints>& real = styled.rotations[frame];
   std::array<Quat, kHumanJoints> reached;
   for (int j = 0; j < kHumanJoints; ++j) {
     reached[j] = joint_rotation(change, j) * conjugate(joint_rotation(truth, j)) * real[j];

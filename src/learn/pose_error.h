@@ -1,8 +1,8 @@
 #pragma once
 // How far one pose is from the pose of a real styled take.
 
-#include "pose/style_delta.h"
 #include "learn/take.h"
+#include "pose/style_delta.h"
 
 namespace panache {
 
@@ -12,7 +12,7 @@ struct PoseError {
 };
 
 // What is left between the neutral take at frame `at`, with `change` on it, and frame `frame` of
-// the styled take. Both takes are of one character; the way over the ground is not compared.
+// the styled take. Both takes are of one character; root motion is not compared.
 PoseError pose_error(const Take& styled, int frame, const Take& neutral, float at,
                      const StyleDelta& change);
 

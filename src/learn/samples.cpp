@@ -41,13 +41,14 @@ HumanPositions body_at(const Take& take, float frame) {
   return body;
 }
 
-std::array<float, kRootNumbers> root_at(const Take& take, float frame) {
+std::array<float, kRootFeatures> root_at(const Take& take, float frame) {
   const auto [a, b, t] = between(frame, take.frames());
-  const size_t numbers = take.numbers.size() / take.body.size();
-  std::array<float, kRootNumbers> root;
+  const size_t numbers = take.pose_features.size() / take.body.size();
+  std::array<float, kRootFeatures> root;
   for (size_t k = 0; k < root.size(); ++k) {
     const size_t n = numbers - root.size() + k;
-    root[k] = take.numbers[a * numbers + n] * (1 - t) + take.numbers[b * numbers + n] * t;
+    root[k] =
+        take.pose_features[a * numbers + n] * (1 - t) + take.pose_features[b * numbers + n] * t;
   }
   return root;
 }
@@ -55,8 +56,8 @@ std::array<float, kRootNumbers> root_at(const Take& take, float frame) {
 void take_window(const Take& take, float frame, int numbers, std::span<float> out, float spacing) {
   for (int k = 0; k < kWindowPoses; ++k) {
     const auto [a, b, t] = between(frame - static_cast<float>(k) * spacing, take.frames());
-    const float* before = &take.numbers[size_t(a) * numbers];
-    const float* after = &take.numbers[size_t(b) * numbers];
+    const float* before = &take.pose_features[size_t(a) * numbers];
+    const float* after = &take.pose_features[size_t(b) * numbers];
     float* pose = &out[size_t(k) * numbers];
     for (int i = 0; i < numbers; ++i) pose[i] = before[i] * (1 - t) + after[i] * t;
   }
@@ -67,8 +68,8 @@ StyleDelta change_between(const Take& styled, int frame, const Take& neutral, fl
   const auto [a, b, t] = between(at, neutral.frames());
   StyleDelta change;
   for (int j = 0; j < kHumanJoints; ++j) {
-    const Quat from = nlerp(neutral.turned[a][j], neutral.turned[b][j], t);
-    change.rotations[j] = log_rotation(styled.turned[frame][j] * conjugate(from));
+    const Quat from = nlerp(neutral.rotations[a][j], neutral.rotations[b][j], t);
+    change.rotations[j] = log_rotation(styled.rotations[frame][j] * conjugate(from));
   }
   const float height = lerp(neutral.body[a][0], neutral.body[b][0], t).y;
   change.hips_height = styled.body[frame][0].y - height;
@@ -148,7 +149,7 @@ void SampleSet::measure_inputs(const std::vector<int>& neutral_takes) {
   for (const int t : neutral_takes) {
     const Take& take = takes_[t];
     for (int f = 0; f < take.frames(); ++f) {
-      std::copy_n(&take.numbers[size_t(f) * count], count, pose.begin());
+      std::copy_n(&take.pose_features[size_t(f) * count], count, pose.begin());
       for (const bool mirrored : {false, true}) {
         if (mirrored) mirror_pose(recipe_.layout, pose);
         for (int i = 0; i < count; ++i) {
@@ -173,7 +174,7 @@ void SampleSet::window(size_t i, std::span<float> out, float tempo) const {
               static_cast<float>(kWindowSpacing * kTakeRate) * tempo);
   if (tempo == 1) return;
   for (int k = 1; k <= kWindowPoses; ++k) {
-    for (int r = 1; r <= kRootNumbers; ++r) out[size_t(k) * numbers() - r] *= tempo;
+    for (int r = 1; r <= kRootFeatures; ++r) out[size_t(k) * numbers() - r] *= tempo;
   }
 }
 

@@ -47,7 +47,7 @@ class SampleSet {
             const std::vector<std::string>& styles, const Recipe& recipe, bool with_neutral);
 
   const Recipe& recipe() const { return recipe_; }
-  int numbers() const { return pose_numbers(recipe_.layout); }  // Per pose.
+  int numbers() const { return pose_feature_count(recipe_.layout); }  // Per pose.
   int inputs() const { return kWindowPoses * numbers(); }
   int outputs() const { return recipe_.outputs; }
   const std::vector<Sample>& samples() const { return samples_; }
@@ -91,9 +91,9 @@ class SampleSet {
 // neutral seconds passing per styled second.
 StyleDelta change_between(const Take& styled, int frame, const Take& neutral, float at, float rate);
 
-// The body and the root numbers of a take at a fractional frame, straight between its frames.
+// The body and the root activations of a take at a fractional frame, straight between its frames.
 HumanPositions body_at(const Take& take, float frame);
-std::array<float, kRootNumbers> root_at(const Take& take, float frame);
+std::array<float, kRootFeatures> root_at(const Take& take, float frame);
 
 // Writes the window of a take that ends at `frame`, its poses `spacing` frames apart.
 // [kWindowPoses * numbers]

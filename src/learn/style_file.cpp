@@ -114,8 +114,8 @@ Result<void> check_has_heads(const Model& model, const std::string& name) {
 }
 
 bool is_one_line(const std::string& text) {
-  const auto is_blank = [](char c) { return c == '\t' || c == '\n' || c == '\r'; };
-  if (std::ranges::any_of(text, is_blank)) return false;
+  const auto is_space = [](char c) { return c == '\t' || c == '\n' || c == '\r'; };
+  if (std::ranges::any_of(text, is_space)) return false;
   // Everything else that no line of UTF-8 holds is replaced there.
   return xml_escaped(text).find("\xef\xbf\xbd") == std::string::npos;
 }

@@ -11,21 +11,21 @@
 namespace panache {
 
 // What the styles of a model rest on, as 16 hexadecimal digits: a hash of its normalisation and of
-// the pose trunk's biases, which a model shares with its twin of half size. A style goes with every
+// the pose trunk's biases, which a model shares with its int8 twin. A style goes with every
 // model of its own model's fingerprint.
 std::string trunk_fingerprint(const TensorFile& model);
 
 // Whether people can type this name and files can hold it: 1 to 60 bytes of UTF-8 without control
-// characters, '=' and ',', without a blank at either end or a '-' at the start. "seconds" is taken
+// characters, '=' and ',', without a space at either end or a '-' at the start. "seconds" is taken
 // by tables of strengths.
 Result<void> check_style_name(const std::string& name);
 
 // Whether the file says that it is a style, and not a model.
 bool is_style_file(const TensorFile& file);
-// What a style file says of its style. Files are refused that extract_style() does not write: other
-// versions, texts that are no single line, tensors that no style has, numbers that are not finite.
-// What shapes the tensors must have, only a model can tell, see add_style(). `name` stands in front
-// of the sentence of a failure.
+// What a style file says of its style. Files are rejected that extract_style() does not write:
+// other versions, texts that are no single line, tensors that no style has, numbers that are not
+// finite. What shapes the tensors must have, only a model can tell, see add_style(). `name` stands
+// in front of the message of a failure.
 Result<StyleInfo> read_style_info(const TensorFile& file, const std::string& name);
 
 // The style file of a style of a model, or learnt on one. `tensors` are called as in a style file;
@@ -33,15 +33,15 @@ Result<StyleInfo> read_style_info(const TensorFile& file, const std::string& nam
 TensorFile make_style_file(const TensorFile& model, const StyleInfo& info,
                            std::map<std::string, Tensor> tensors);
 
-// Each of these hands back a new file and leaves what it is given alone. Model files are refused
-// where Model::create() refuses them, `name` stands in front of sentences, and all styles but the
+// Each of these hands back a new file and leaves what it is given alone. Model files are rejected
+// where Model::create() rejects them, `name` stands in front of messages, and all styles but the
 // one in question stay bit for bit what they are.
 
 // The style file of the model's style called `style`. Models without style heads have none to give.
 Result<TensorFile> extract_style(const TensorFile& model, const std::string& style,
                                  const std::string& name);
 // The model with the style of a style file; where it has one of this name, that is replaced
-// (`replace`) or the file refused. Built-in styles go behind the built-in ones, learnt ones to the
+// (`replace`) or the file rejected. Built-in styles go behind the built-in ones, learnt ones to the
 // end. The style's shapes and numbers are judged by Model::create().
 Result<TensorFile> add_style(const TensorFile& model, const std::string& name,
                              const TensorFile& style, const std::string& style_name, bool replace);

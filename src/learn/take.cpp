@@ -13,17 +13,17 @@ namespace panache {
 
 // The way of the root is measured over one window spacing, as it is live.
 void write_numbers(PoseLayout layout, Take& take) {
-  const int count = pose_numbers(layout), frames = take.frames();
-  take.numbers.resize(size_t(frames) * count);
+  const int count = pose_feature_count(layout), frames = take.frames();
+  take.pose_features.resize(size_t(frames) * count);
   const double back = kWindowSpacing * kTakeRate;
   for (int f = 0; f < frames; ++f) {
-    const std::span<float> numbers(&take.numbers[size_t(f) * count], count);
-    write_pose_numbers(layout, take.body[f], numbers.first(count - kRootNumbers));
+    const std::span<float> numbers(&take.pose_features[size_t(f) * count], count);
+    write_pose_features(layout, take.body[f], numbers.first(count - kRootFeatures));
     const double before = std::max(0.0, f - back);
     const int a = static_cast<int>(before), b = std::min(a + 1, frames - 1);
     const float t = static_cast<float>(before - a);
-    const Ground ground = interpolate(take.ground[a], take.ground[b], t);
-    write_root_numbers(ground, take.ground[f], kWindowSpacing, numbers.last<kRootNumbers>());
+    const RootPose root = interpolate(take.root[a], take.root[b], t);
+    write_root_features(root, take.root[f], kWindowSpacing, numbers.last<kRootFeatures>());
   }
 }
 
@@ -41,13 +41,13 @@ Take make_take(const Clip& clip, const Rig& rig, PoseLayout layout) {
     double at = rig.first_frame() + f * step;
     if (std::abs(at - std::round(at)) < 0.02) at = std::round(at);
     sample(clip, at, {rotations, translations});
-    observe(reader, {rotations, translations}, now.ground.facing, now);
-    take.ground.push_back(now.ground);
+    observe(reader, {rotations, translations}, now.root.facing, now);
+    take.root.push_back(now.root);
     take.body.push_back(now.body_frame);
     const Quat to_heading = rotation_y(-now.world.facing);
-    take.turned.emplace_back();
+    take.rotations.emplace_back();
     for (int j = 0; j < kHumanJoints; ++j) {
-      take.turned.back()[j] = to_heading * now.world.rotations[j];
+      take.rotations.back()[j] = to_heading * now.world.rotations[j];
     }
     world[f] = now.world.positions;
   }
@@ -85,7 +85,7 @@ Result<std::vector<Take>> load_takes(const std::vector<ManifestRow>& rows, PoseL
 }
 
 HumanPositions world_positions(const Take& take, int frame) {
-  return to_world(take.body[frame], take.ground[frame]);
+  return to_world(take.body[frame], take.root[frame]);
 }
 
 }  // namespace panache

@@ -9,10 +9,10 @@
 #include "base/quat.h"
 #include "base/result.h"
 #include "clip/clip.h"
+#include "learn/manifest.h"
 #include "pose/contacts.h"
 #include "pose/features.h"
 #include "rig/rig.h"
-#include "learn/manifest.h"
 
 namespace panache {
 
@@ -20,13 +20,13 @@ inline constexpr double kTakeRate = 30;  // Frames a second of all takes, whatev
 
 struct Take {
   ManifestRow row;
-  std::vector<HumanPositions> body;                    // [frames], body frame, metres
-  std::vector<Ground> ground;                          // [frames], facing unwrapped
-  std::vector<std::array<Quat, kHumanJoints>> turned;  // [frames], world rotations in the heading
-                                                       // frame; only changes between takes of one
-                                                       // rig mean anything
-  std::vector<FootContacts> contacts;                  // [frames]
-  std::vector<float> numbers;                          // [frames][pose_numbers(layout)]
+  std::vector<HumanPositions> body;                       // [frames], body frame, metres
+  std::vector<RootPose> root;                             // [frames], facing unwrapped
+  std::vector<std::array<Quat, kHumanJoints>> rotations;  // [frames], world rotations in the
+                                                          // heading frame; only changes between
+                                                          // takes of one rig mean anything
+  std::vector<FootContacts> contacts;  // [frames]
+  std::vector<float> pose_features;    // [frames][pose_feature_count(layout)]
 
   int frames() const { return static_cast<int>(body.size()); }
 };
@@ -37,7 +37,7 @@ Take make_take(const Clip& clip, const Rig& rig, PoseLayout layout);
 // Reads one take.
 Result<Take> load_take(const ManifestRow& row, PoseLayout layout);
 
-// Reads all takes over all cores; `progress` gets the number done. Fails with the sentence of the
+// Reads all takes over all cores; `progress` gets the number done. Fails with the message of the
 // first file, in order of the rows, that cannot be read.
 Result<std::vector<Take>> load_takes(const std::vector<ManifestRow>& rows, PoseLayout layout,
                                      const std::function<void(int)>& progress = {});

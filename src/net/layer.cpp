@@ -4,7 +4,7 @@
 #include <cassert>
 
 #include "net/dense.h"
-#include "net/dense_bytes.h"
+#include "net/dense_int8.h"
 
 namespace panache {
 
@@ -32,12 +32,13 @@ PackedLayer::PackedLayer(std::span<const DenseLayer> layers) {
     width += padded(static_cast<size_t>(layer.outputs));
   }
   inputs_ = static_cast<size_t>(layers.front().inputs);
-  const bool of_bytes = std::all_of(layers.begin(), layers.end(),
-                                    [](const DenseLayer& layer) { return !layer.bytes.empty(); });
+  const bool is_int8 = std::all_of(layers.begin(), layers.end(), [](const DenseLayer& layer) {
+    return !layer.int8_weights.empty();
+  });
   bias_.resize(width);
-  if (of_bytes) {
+  if (is_int8) {
     scale_.resize(width);
-    bytes_.resize((inputs_ + 1) / 2 * 2 * width);
+    int8_.resize((inputs_ + 1) / 2 * 2 * width);
   } else {
     weights_.resize(inputs_ * width);
   }
@@ -46,12 +47,12 @@ PackedLayer::PackedLayer(std::span<const DenseLayer> layers) {
     assert(static_cast<size_t>(layer.inputs) == inputs_);
     const size_t outputs = static_cast<size_t>(layer.outputs);
     std::copy(layer.bias.begin(), layer.bias.end(), bias_.begin() + begins_[l]);
-    if (of_bytes) std::copy(layer.scale.begin(), layer.scale.end(), scale_.begin() + begins_[l]);
+    if (is_int8) std::copy(layer.scale.begin(), layer.scale.end(), scale_.begin() + begins_[l]);
     for (size_t i = 0; i < inputs_; ++i) {
       for (size_t o = 0; o < outputs; ++o) {
         const size_t from = i * outputs + o, to = begins_[l] + o;
-        if (of_bytes) {
-          bytes_[(i / 2 * width + to) * 2 + i % 2] = layer.bytes[from];
+        if (is_int8) {
+          int8_[(i / 2 * width + to) * 2 + i % 2] = layer.int8_weights[from];
         } else {
           weights_[i * width + to] = layer.weights[from];
         }
@@ -61,10 +62,10 @@ PackedLayer::PackedLayer(std::span<const DenseLayer> layers) {
 }
 
 void PackedLayer::forward(const Rows<const float>& x, const Rows<float>& y) const noexcept {
-  if (bytes_.empty()) {
+  if (int8_.empty()) {
     dense_rows(x, inputs_, weights_, bias_, y);
   } else {
-    dense_bytes(x, {inputs_, width(), bytes_.data(), scale_.data(), bias_.data()}, y);
+    dense_int8(x, {inputs_, width(), int8_.data(), scale_.data(), bias_.data()}, y);
   }
 }
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "net/aligned.h"
+#include "net/aligned_vector.h"
 #include "net/rows.h"
 
 namespace panache {
@@ -14,17 +14,17 @@ struct DenseLayer {
   int inputs = 0, outputs = 0;
   std::vector<float> weights;  // [inputs][outputs]
   std::vector<float> bias;     // [outputs]
-  // Where the file has the weights as whole numbers of a byte: these, and what one of them is worth
+  // Where the file has the weights as int8: these, and what one of them is worth
   // in each column. `weights` are then their products. Otherwise empty.
-  std::vector<int8_t> bytes = {};  // [inputs][outputs], at most 127 in size.
-  std::vector<float> scale = {};   // [outputs]
+  std::vector<int8_t> int8_weights = {};  // [inputs][outputs], at most 127 in size.
+  std::vector<float> scale = {};          // [outputs]
 };
 
 // The layers' outputs one after another, as one layer of floats. All have the same inputs.
 DenseLayer side_by_side(std::span<const DenseLayer> layers);
 
 // One or several layers of the same inputs, side by side in one matrix: the input is gone through
-// once, with the bits that each layer gives alone. Weights are bytes (dense_bytes.h) where those of
+// once, with the bits that each layer gives alone. Weights are bytes (dense_int8.h) where those of
 // all the layers are, else floats (dense.h).
 class PackedLayer {
  public:
@@ -44,7 +44,7 @@ class PackedLayer {
   size_t inputs_ = 0;
   std::vector<size_t> begins_;
   AlignedVector<float> weights_;  // [inputs][width], or none:
-  AlignedVector<int8_t> bytes_;   // see ByteMatrix.
+  AlignedVector<int8_t> int8_;    // see Int8Matrix.
   AlignedVector<float> scale_;    // [width], of bytes.
   AlignedVector<float> bias_;     // [width]
 };

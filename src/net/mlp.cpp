@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "net/dense.h"
-#include "net/dense_bytes.h"
+#include "net/dense_int8.h"
 
 namespace panache {
 namespace {
@@ -77,22 +77,22 @@ Result<DenseLayer> read_layer(const TensorFile& file, const std::string& prefix,
   if (!bias) return bias.error();
   layer.weights = (*weights)->values;
   layer.bias = (*bias)->values;
-  if (!(*weights)->bytes) return layer;
+  if (!(*weights)->int8) return layer;
 
   Result<const Tensor*> scale = find_tensor(file, prefix + ".scale", {layer.outputs}, name);
   if (!scale) return scale.error();
   layer.scale = (*scale)->values;
   const std::string where = name + ": tensor '" + prefix + ".weight' ";
-  if (static_cast<size_t>(layer.inputs) > kMaxByteInputs) {
+  if (static_cast<size_t>(layer.inputs) > kMaxInt8Inputs) {
     return Error{where + "of bytes has " + std::to_string(layer.inputs) +
-                 " inputs; expected at most " + std::to_string(kMaxByteInputs)};
+                 " inputs; expected at most " + std::to_string(kMaxInt8Inputs)};
   }
   for (size_t i = 0; i < layer.weights.size(); ++i) {
-    if (layer.weights[i] < -kLargestByte) {
+    if (layer.weights[i] < -kMaxInt8Weight) {
       return Error{where + "holds a -128 (number " + std::to_string(i) + "); expected bytes from " +
-                   std::to_string(-kLargestByte) + " to " + std::to_string(kLargestByte)};
+                   std::to_string(-kMaxInt8Weight) + " to " + std::to_string(kMaxInt8Weight)};
     }
-    layer.bytes.push_back(static_cast<int8_t>(layer.weights[i]));
+    layer.int8_weights.push_back(static_cast<int8_t>(layer.weights[i]));
     layer.weights[i] *= layer.scale[i % static_cast<size_t>(layer.outputs)];
   }
   return layer;
@@ -108,7 +108,7 @@ Result<Trunk> Trunk::read(const TensorFile& file, const std::string& prefix, int
     Result<DenseLayer> layer = read_layer(file, key(trunk.plain_.size()), inputs, -1, name);
     if (!layer) return layer.error();
     inputs = layer->outputs;
-    expected += layer->bytes.empty() ? 2 : 3;
+    expected += layer->int8_weights.empty() ? 2 : 3;
     trunk.layers_.emplace_back(*layer);
     trunk.plain_.push_back(*std::move(layer));
   } while (has(trunk.layers_.size()));
@@ -129,7 +129,7 @@ Result<Trunk> Trunk::read(const TensorFile& file, const std::string& prefix, int
 
 int Trunk::inputs() const { return plain_.empty() ? 0 : plain_.front().inputs; }
 int Trunk::outputs() const { return plain_.empty() ? 0 : plain_.back().outputs; }
-bool Trunk::of_bytes() const { return !plain_.empty() && !plain_.front().bytes.empty(); }
+bool Trunk::is_int8() const { return !plain_.empty() && !plain_.front().int8_weights.empty(); }
 
 int Trunk::widest() const {
   int widest = 0;
@@ -169,9 +169,8 @@ std::span<const float> Trunk::forward(std::span<const float> x,
 }
 
 TrunkTrio::TrunkTrio(std::array<Trunk, kTrunks> trunks) : rest_(std::move(trunks)) {
-  assert(std::all_of(rest_.begin(), rest_.end(), [this](const Trunk& trunk) {
-    return trunk.inputs() == rest_[0].inputs();
-  }));
+  assert(std::all_of(rest_.begin(), rest_.end(),
+                     [this](const Trunk& trunk) { return trunk.inputs() == rest_[0].inputs(); }));
   std::vector<DenseLayer> first;
   for (size_t t = 0; t < kTrunks; ++t) {
     for (const DenseLayer& layer : rest_[t].plain_) {

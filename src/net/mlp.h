@@ -14,7 +14,7 @@ namespace panache {
 
 // Reads layer `prefix`.weight [inputs][outputs] and `prefix`.bias [outputs], and checks that the
 // shapes are these; -1 accepts any size. Where the weights are bytes, `prefix`.scale [outputs] says
-// what one is worth. Non-finite numbers are refused, and bytes that the kernels do not take.
+// what one is worth. Non-finite numbers are rejected, and bytes that the kernels do not take.
 Result<DenseLayer> read_layer(const TensorFile& file, const std::string& prefix, int inputs,
                               int outputs, const std::string& name);
 
@@ -30,8 +30,8 @@ class Trunk {
                             const std::string& name);
   int inputs() const;
   int outputs() const;
-  int widest() const;     // The outputs of its widest layer.
-  bool of_bytes() const;  // Whether the first layer has bytes for weights.
+  int widest() const;    // The outputs of its widest layer.
+  bool is_int8() const;  // Whether the first layer has bytes for weights.
   // Numbers that forward() needs to work in.
   size_t scratch_size() const { return trunk_scratch_size(1); }
   // Returns the last layer's activations, a part of `scratch`. x.size() = inputs().

@@ -28,7 +28,7 @@ struct Entry {
   std::set<std::string> fields;   // Which of the above the header has told so far.
 };
 
-// A text from the file, fit for a sentence: short and without control characters.
+// A text from the file, fit for a message: short and without control characters.
 std::string printable(std::string_view text) {
   constexpr size_t kLongest = 80;
   size_t length = std::min(text.size(), kLongest);
@@ -54,7 +54,7 @@ std::string shape_text(const std::vector<uint64_t>& shape) {
 }
 
 // Takes the header's JSON apart as it streams by, so that neither depth nor repetition costs
-// memory: whatever a header may not hold ends the reading with a sentence.
+// memory: whatever a header may not hold ends the reading with a message.
 class HeaderReader : public nlohmann::json_sax<nlohmann::json> {
  public:
   std::map<std::string, std::string> metadata;
@@ -146,8 +146,8 @@ class HeaderReader : public nlohmann::json_sax<nlohmann::json> {
  private:
   enum class In { outside, header, metadata, tensor, numbers };
 
-  bool fail(std::string sentence) {
-    problem = std::move(sentence);
+  bool fail(std::string message) {
+    problem = std::move(message);
     return false;
   }
 
@@ -210,8 +210,8 @@ Result<Tensor> read_tensor(const Entry& entry, std::string_view data, const std:
     return Error{where + " has type " + printable(entry.type) + "; expected F32, F16 or I8"};
   }
   tensor.half = entry.type == "F16";
-  tensor.bytes = entry.type == "I8";
-  const uint64_t width = tensor.bytes ? 1 : tensor.half ? 2 : 4;
+  tensor.int8 = entry.type == "I8";
+  const uint64_t width = tensor.int8 ? 1 : tensor.half ? 2 : 4;
   const uint64_t begin = entry.offsets[0], end = entry.offsets[1];
   if (begin > end || end > data.size()) {
     return Error{where + " lies at bytes " + std::to_string(begin) + " to " + std::to_string(end) +
@@ -235,14 +235,14 @@ Result<Tensor> read_tensor(const Entry& entry, std::string_view data, const std:
   tensor.values.resize(count);
   for (size_t i = 0; i < count; ++i) {
     const uint64_t bits = read_little_endian(data.substr(begin + i * width, width));
-    tensor.values[i] = tensor.bytes  ? static_cast<float>(static_cast<int8_t>(bits))
+    tensor.values[i] = tensor.int8   ? static_cast<float>(static_cast<int8_t>(bits))
                        : tensor.half ? from_half(static_cast<uint16_t>(bits))
                                      : std::bit_cast<float>(static_cast<uint32_t>(bits));
   }
   return tensor;
 }
 
-// Refuses tensors that share bytes, and bytes that no tensor has.
+// Rejects tensors that share bytes, and bytes that no tensor has.
 Result<void> check_coverage(std::vector<Entry>& entries, uint64_t bytes, const std::string& name) {
   std::sort(entries.begin(), entries.end(),
             [](const Entry& a, const Entry& b) { return a.offsets < b.offsets; });
@@ -264,14 +264,14 @@ Result<void> check_coverage(std::vector<Entry>& entries, uint64_t bytes, const s
 }
 
 const char* type_of(const Tensor& tensor) {
-  return tensor.bytes ? "I8" : tensor.half ? "F16" : "F32";
+  return tensor.int8 ? "I8" : tensor.half ? "F16" : "F32";
 }
 
 void append_values(const Tensor& tensor, std::string& out) {
   assert(std::accumulate(tensor.shape.begin(), tensor.shape.end(), int64_t{1},
                          std::multiplies<>()) == static_cast<int64_t>(tensor.values.size()));
   for (const float value : tensor.values) {
-    if (tensor.bytes) {
+    if (tensor.int8) {
       assert(value >= -128 && value <= 127 && value == std::trunc(value));
       out += static_cast<char>(static_cast<int8_t>(value));
     } else if (tensor.half) {

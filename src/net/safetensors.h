@@ -15,7 +15,7 @@ struct Tensor {
   std::vector<int64_t> shape;  // Row-major, last index fastest.
   std::vector<float> values;   // Product of the shape.
   bool half = false;           // Stored as 16-bit floats (F16) in the file; always float here.
-  bool bytes = false;          // Stored as whole numbers from -128 to 127 (I8); not `half` then.
+  bool int8 = false;           // Stored as whole numbers from -128 to 127 (I8); not `half` then.
 };
 
 struct TensorFile {
@@ -24,7 +24,7 @@ struct TensorFile {
 };
 
 // Reads a safetensors file (types F32, F16 and I8). Every count is bounded by the bytes that are
-// there; `name` stands in front of the sentence of a failure.
+// there; `name` stands in front of the message of a failure.
 Result<TensorFile> parse_safetensors(std::string_view bytes, const std::string& name);
 
 // The bytes of a safetensors file: tensors and metadata sorted by name (full floats before halves

@@ -13,10 +13,10 @@ struct AbsolutePose {
   // The hips' in the body frame, all others relative to the parent. As numbers: the first two
   // columns of the matrix.
   std::array<Quat, kHumanJoints> rotations;
-  float hips_height = 0;                   // Metres.
-  std::array<float, kRootNumbers> root{};  // See RootNumber.
+  float hips_height = 0;                    // Metres.
+  std::array<float, kRootFeatures> root{};  // See RootNumber.
 
-  static constexpr int kSize = pose_numbers(PoseLayout::rotations);  // Numbers when packed.
+  static constexpr int kSize = pose_feature_count(PoseLayout::rotations);  // Numbers when packed.
 };
 
 // The one order of the numbers: as the fields stand above.

@@ -9,8 +9,8 @@
 
 namespace panache {
 
-void write_pose_numbers(PoseLayout layout, const HumanPositions& body,
-                        std::span<float> out) noexcept {
+void write_pose_features(PoseLayout layout, const HumanPositions& body,
+                         std::span<float> out) noexcept {
   assert(out.size() == size_t(root_offset(layout)));
   float* number = out.data();
   if (layout == PoseLayout::positions) {
@@ -27,8 +27,8 @@ void write_pose_numbers(PoseLayout layout, const HumanPositions& body,
   *number = body[index(HumanJoint::hips)].y;
 }
 
-void write_root_numbers(const Ground& before, const Ground& now, double seconds,
-                        std::span<float, kRootNumbers> out) noexcept {
+void write_root_features(const RootPose& before, const RootPose& now, double seconds,
+                         std::span<float, kRootFeatures> out) noexcept {
   const float rate = static_cast<float>(1 / seconds);
   const Vec3 velocity = rotate(rotation_y(-now.facing), now.position - before.position) * rate;
   out[kVelocityLeft] = velocity.x;
@@ -43,7 +43,7 @@ HumanPositions read_positions(std::span<const float> pose) noexcept {
   return body;
 }
 
-Ground move_ground(const Ground& before, std::span<const float, kRootNumbers> root,
+RootPose move_root(const RootPose& before, std::span<const float, kRootFeatures> root,
                    double seconds) noexcept {
   const auto time = static_cast<float>(seconds);
   const float facing = before.facing + root[kTurnRate] * time;

@@ -5,7 +5,7 @@
 
 namespace panache {
 
-void PoseHistory::push(double time, const HumanPositions& body, const Ground& ground) noexcept {
+void PoseHistory::push(double time, const HumanPositions& body, const RootPose& root) noexcept {
   const bool replaces = count_ > 0 && (time <= newest(0).time ||
                                        (count_ > 1 && newest(0).time - newest(1).time < kMinGap));
   if (!replaces) {
@@ -14,46 +14,46 @@ void PoseHistory::push(double time, const HumanPositions& body, const Ground& gr
   }
   Entry& entry = ring_[head_];
   entry.time = time;
-  entry.ground = ground;
-  const size_t count = stored_numbers(layout_);
-  write_pose_numbers(layout_, body, std::span(numbers_).subspan(head_ * count, count));
+  entry.root = root;
+  const size_t count = stored_features(layout_);
+  write_pose_features(layout_, body, std::span(features_).subspan(head_ * count, count));
 }
 
 PoseHistory::Between PoseHistory::find(double time, int& age) const noexcept {
   for (; age + 1 < count_; ++age) {
-    const int later = place(age), earlier = place(age + 1);
+    const int later = index_of(age), earlier = index_of(age + 1);
     if (ring_[earlier].time <= time) {
       const double gap = ring_[later].time - ring_[earlier].time;
       const double t = gap > 0 ? (time - ring_[earlier].time) / gap : 1;
       return {earlier, later, static_cast<float>(std::clamp(t, 0.0, 1.0))};
     }
   }
-  return {place(age), place(age), 0};  // The oldest.
+  return {index_of(age), index_of(age), 0};  // The oldest.
 }
 
-Ground PoseHistory::ground(const Between& between) const noexcept {
+RootPose PoseHistory::root(const Between& between) const noexcept {
   const auto& [a, b, t] = between;
-  return interpolate(ring_[a].ground, ring_[b].ground, t);
+  return interpolate(ring_[a].root, ring_[b].root, t);
 }
 
 void PoseHistory::window(std::span<float> out) const noexcept {
-  assert(count_ > 0 && out.size() == size_t(kWindowPoses * pose_numbers(layout_)));
-  const int count = stored_numbers(layout_);
+  assert(count_ > 0 && out.size() == size_t(kWindowPoses * pose_feature_count(layout_)));
+  const int count = stored_features(layout_);
   float* number = out.data();
-  Ground now = newest(0).ground;
+  RootPose now = newest(0).root;
   int age = 0;
   Between here = find(newest(0).time, age);
   for (int k = 0; k < kWindowPoses; ++k) {
     const auto& [a, b, t] = here;
-    const float* from = numbers(a).data();
-    const float* to = numbers(b).data();
+    const float* from = features(a).data();
+    const float* to = features(b).data();
     for (int i = 0; i < count; ++i) number[i] = from[i] * (1 - t) + to[i] * t;
     here = find(newest(0).time - (k + 1) * kWindowSpacing, age);
-    const Ground before = ground(here);
-    write_root_numbers(before, now, kWindowSpacing,
-                       std::span<float, kRootNumbers>(number + count, kRootNumbers));
+    const RootPose before = root(here);
+    write_root_features(before, now, kWindowSpacing,
+                        std::span<float, kRootFeatures>(number + count, kRootFeatures));
     now = before;
-    number += count + kRootNumbers;
+    number += count + kRootFeatures;
   }
 }
 
@@ -66,7 +66,7 @@ void PoseHistory::fetch_window(double seconds) const noexcept {
     while (age + 1 < count_ && newest(age).time > time) ++age;
     // The pose before that time and the one after it.
     for (fetched = std::max(fetched, age - 1); fetched <= age && fetched < count_; ++fetched) {
-      const auto bytes = std::as_bytes(numbers(place(fetched)));
+      const auto bytes = std::as_bytes(features(index_of(fetched)));
       for (size_t i = 0; i < bytes.size(); i += kCacheLine) __builtin_prefetch(&bytes[i]);
     }
   }
@@ -76,7 +76,7 @@ float PoseHistory::ground_speed() const noexcept {
   const double seconds = kWindowPoses * kWindowSpacing;
   int age = 0;
   const Between then = find(newest(0).time - seconds, age);
-  const Vec3 way = newest(0).ground.position - ground(then).position;
+  const Vec3 way = newest(0).root.position - root(then).position;
   return length(way) / static_cast<float>(seconds);
 }
 

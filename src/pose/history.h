@@ -12,13 +12,14 @@ namespace panache {
 class PoseHistory {
  public:
   explicit PoseHistory(PoseLayout layout)
-      : layout_(layout), numbers_(size_t(kCapacity) * stored_numbers(layout)) {}
+      : layout_(layout), features_(size_t(kCapacity) * stored_features(layout)) {}
 
   void clear() noexcept { count_ = 0; }
   // Adds the pose at `time` (seconds, never before the last one). The same time again replaces it.
-  void push(double time, const HumanPositions& body, const Ground& ground) noexcept;
-  // Writes the window that ends at the newest pose: kWindowPoses times pose_numbers(layout), newest
-  // first. Times before the first pose show the first pose at rest. At least one pose was pushed.
+  void push(double time, const HumanPositions& body, const RootPose& root) noexcept;
+  // Writes the window that ends at the newest pose: kWindowPoses times pose_feature_count(layout),
+  // newest first. Times before the first pose show the first pose at rest. At least one pose was
+  // pushed.
   void window(std::span<float> out) const noexcept;
   // Asks the caches for what window() reads after a push `seconds` from now, which in a crowd is
   // far away by then. Changes nothing.
@@ -29,31 +30,33 @@ class PoseHistory {
   // Calls visit(member) for everything that tells one history from another of its layout.
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
-    visit(self.head_), visit(self.count_), visit(self.ring_), visit(self.numbers_);
+    visit(self.head_), visit(self.count_), visit(self.ring_), visit(self.features_);
   }
 
  private:
   struct Entry {
     double time;
-    Ground ground;
+    RootPose root;
   };
   // The stored poses around a time, as places in the ring: earlier, later, and how far between.
   struct Between {
     int a, b;
     float t;
   };
-  static constexpr int stored_numbers(PoseLayout layout) {
-    return pose_numbers(layout) - kRootNumbers;
+  static constexpr int stored_features(PoseLayout layout) {
+    return pose_feature_count(layout) - kRootFeatures;
   }
   // Looks from the pose of that age on, which is not older than `time` unless it is the newest, and
   // leaves there how far it came: for earlier times the search goes on from there.
   Between find(double time, int& age) const noexcept;
-  Ground ground(const Between& between) const noexcept;
-  int place(int age) const noexcept { return age <= head_ ? head_ - age : head_ - age + kCapacity; }
-  const Entry& newest(int age) const noexcept { return ring_[place(age)]; }
-  std::span<const float> numbers(int place) const noexcept {
-    const size_t count = stored_numbers(layout_);
-    return std::span(numbers_).subspan(place * count, count);
+  RootPose root(const Between& between) const noexcept;
+  int index_of(int age) const noexcept {
+    return age <= head_ ? head_ - age : head_ - age + kCapacity;
+  }
+  const Entry& newest(int age) const noexcept { return ring_[index_of(age)]; }
+  std::span<const float> features(int place) const noexcept {
+    const size_t count = stored_features(layout_);
+    return std::span(features_).subspan(place * count, count);
   }
 
   // A pose closer than this to the one before it gives way to the next, so that any rate fits: the
@@ -66,7 +69,7 @@ class PoseHistory {
   PoseLayout layout_;
   int head_ = 0, count_ = 0;
   std::array<Entry, kCapacity> ring_;
-  std::vector<float> numbers_;  // [kCapacity][stored_numbers]
+  std::vector<float> features_;  // [kCapacity][stored_features]
 };
 
 }  // namespace panache

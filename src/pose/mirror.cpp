@@ -27,7 +27,7 @@ void swap_sides(float* joints, int per_joint) {
 }  // namespace
 
 void mirror_pose(PoseLayout layout, std::span<float> numbers) noexcept {
-  assert(numbers.size() == size_t(pose_numbers(layout)));
+  assert(numbers.size() == size_t(pose_feature_count(layout)));
   float* pose = numbers.data();
   if (layout == PoseLayout::positions) {
     swap_sides(pose, kPositionNumbers);

@@ -7,7 +7,7 @@
 
 namespace panache {
 
-// In place. numbers[pose_numbers(layout)]
+// In place. numbers[pose_feature_count(layout)]
 void mirror_pose(PoseLayout layout, std::span<float> numbers) noexcept;
 
 }  // namespace panache

@@ -19,17 +19,17 @@ Observer::Observer(Rig rig)
 
 bool Observer::observe(ConstPose in, double seconds) noexcept {
   if (seconds > kMaxGap) reset();
-  take_sound(in);
-  last_ground_ = now_.ground;
-  panache::observe(rig_, pose(), started_ ? last_ground_.facing : 0, now_);
+  sanitize_pose(in);
+  last_root_ = now_.ground;
+  panache::observe(rig_, pose(), started_ ? last_root_.facing : 0, now_);
   const float most = kMaxGroundSpeed * static_cast<float>(std::max(seconds, 1e-3));
-  const bool continues = started_ && !(length(now_.ground.position - last_ground_.position) > most);
+  const bool continues = started_ && !(length(now_.ground.position - last_root_.position) > most);
   started_ = true;
   return continues;
 }
 
 // Also guards against numbers so large that products overflow.
-void Observer::take_sound(ConstPose in) noexcept {
+void Observer::sanitize_pose(ConstPose in) noexcept {
   assert(in.rotations.size() == rotations_.size());
   for (size_t j = 0; j < rotations_.size(); ++j) {
     const Quat q = in.rotations[j];

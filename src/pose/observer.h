@@ -13,7 +13,7 @@ namespace panache {
 // One instant of a character.
 struct Observation {
   BodyPose world;               // In the world.
-  Ground ground;                // Where it stands and looks.
+  RootPose ground;              // Where it stands and looks.
   HumanPositions body_frame{};  // Its canonical joints seen from there, metres.
 };
 
@@ -42,7 +42,7 @@ class Observer {
   ConstPose pose() const noexcept { return {rotations_, translations_}; }
   const Observation& now() const noexcept { return now_; }
   // Where the body stood and looked at the pose before; meaningless at the first.
-  const Ground& last_ground() const noexcept { return last_ground_; }
+  const RootPose& last_ground() const noexcept { return last_root_; }
   const Rig& rig() const noexcept { return rig_.rig(); }
 
   // The pose as taken in with `change` on it, see PosedRig::write().
@@ -54,18 +54,18 @@ class Observer {
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
     PosedRig::visit_state(self.rig_, visit);
-    visit(self.rotations_), visit(self.translations_), visit(self.now_), visit(self.last_ground_);
+    visit(self.rotations_), visit(self.translations_), visit(self.now_), visit(self.last_root_);
     visit(self.started_);
   }
 
  private:
-  void take_sound(ConstPose in) noexcept;
+  void sanitize_pose(ConstPose in) noexcept;
 
   PosedRig rig_;
   std::vector<Quat> rotations_;     // [joints]
   std::vector<Vec3> translations_;  // [joints]
   Observation now_;
-  Ground last_ground_;
+  RootPose last_root_;
   bool started_ = false;
 };
 

@@ -7,7 +7,7 @@
 
 namespace panache {
 
-Ground ground_of(const BodyPose& body, float last_facing) noexcept {
+RootPose ground_of(const BodyPose& body, float last_facing) noexcept {
   const Vec3 hips = body.positions[index(HumanJoint::hips)];
   return {{hips.x, 0, hips.z}, unwrap_angle(body.facing, last_facing)};
 }
@@ -17,24 +17,24 @@ float unwrap_angle(float angle, float reference) noexcept {
   return angle - turn * std::round((angle - reference) / turn);
 }
 
-Ground interpolate(const Ground& a, const Ground& b, float t) noexcept {
+RootPose interpolate(const RootPose& a, const RootPose& b, float t) noexcept {
   return {lerp(a.position, b.position, t), a.facing * (1 - t) + b.facing * t};
 }
 
-void to_body_frame(const HumanPositions& world, const Ground& ground,
+void to_body_frame(const HumanPositions& world, const RootPose& ground,
                    HumanPositions& body) noexcept {
   const Quat to_heading = rotation_y(-ground.facing);
   for (int j = 0; j < kHumanJoints; ++j) body[j] = rotate(to_heading, world[j] - ground.position);
 }
 
-HumanPositions to_world(const HumanPositions& body, const Ground& ground) noexcept {
+HumanPositions to_world(const HumanPositions& body, const RootPose& ground) noexcept {
   HumanPositions world;
   const Quat heading = rotation_y(ground.facing);
   for (int j = 0; j < kHumanJoints; ++j) world[j] = ground.position + rotate(heading, body[j]);
   return world;
 }
 
-Vec3 to_world(Vec3 point, const Ground& ground) noexcept {
+Vec3 to_world(Vec3 point, const RootPose& ground) noexcept {
   return ground.position + rotate(rotation_y(ground.facing), point);
 }
 

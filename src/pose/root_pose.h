@@ -6,25 +6,25 @@
 namespace panache {
 
 // Where a body stands and looks.
-struct Ground {
+struct RootPose {
   Vec3 position;     // Under the hips, y = 0; world, metres.
   float facing = 0;  // About +y, radians, unwrapped: it never jumps by a full turn.
 };
 
 // Where `body` stands and looks, with the facing nearest to `last_facing` (radians).
-Ground ground_of(const BodyPose& body, float last_facing) noexcept;
+RootPose ground_of(const BodyPose& body, float last_facing) noexcept;
 
 // The equivalent of `angle` (radians) nearest to `reference`.
 float unwrap_angle(float angle, float reference) noexcept;
 
 // From `a` (t = 0) to `b` (t = 1), linearly.
-Ground interpolate(const Ground& a, const Ground& b, float t) noexcept;
+RootPose interpolate(const RootPose& a, const RootPose& b, float t) noexcept;
 
 // `world` (Y up, metres) in the body frame: seen from the ground point under the hips, facing +z.
-void to_body_frame(const HumanPositions& world, const Ground& ground,
+void to_body_frame(const HumanPositions& world, const RootPose& ground,
                    HumanPositions& body) noexcept;
 // The reverse.
-HumanPositions to_world(const HumanPositions& body, const Ground& ground) noexcept;
-Vec3 to_world(Vec3 point, const Ground& ground) noexcept;
+HumanPositions to_world(const HumanPositions& body, const RootPose& ground) noexcept;
+Vec3 to_world(Vec3 point, const RootPose& ground) noexcept;
 
 }  // namespace panache

@@ -13,7 +13,7 @@ namespace {
 constexpr double kMargin = 20, kRowGap = 22, kTitleHeight = 30, kTimeHeight = 24;
 constexpr double kLabelSize = 15, kTimeSize = 11;
 // Metres: how thick the parts of a figure are.
-constexpr double kArm = 0.062, kLeg = 0.085, kTrunk = 0.15, kNeck = 0.07, kHalo = 0.022;
+constexpr double kArm = 0.062, kLeg = 0.085, kTorso = 0.15, kNeck = 0.07, kHalo = 0.022;
 constexpr double kHeadRadius = 0.1, kHeadRise = 0.09;
 constexpr const char* kGround = "#d5d5d5";
 constexpr const char* kFaint = "#8a8a8a";
@@ -103,7 +103,7 @@ std::vector<Part> body_parts() {
   return {
       {{{{left_upper_leg, left_lower_leg, left_foot, left_toes}, kLeg}}, kLeftTint},
       {{{{left_upper_arm, left_lower_arm, left_hand}, kArm}}, kLeftTint},
-      {{{{hips, spine, chest}, kTrunk},
+      {{{{hips, spine, chest}, kTorso},
         {{chest, neck, head}, kNeck},
         {{left_upper_leg, hips, right_upper_leg}, kLeg},
         {{left_upper_arm, chest, right_upper_arm}, kLeg}},

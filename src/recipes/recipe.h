@@ -34,14 +34,14 @@ struct Recipe {
   bool learns_styles = false;
 
   // Writes what the pose network should answer where a style makes this change of a body (body
-  // frame) with these root numbers. out[outputs]
+  // frame) with these root features. out[outputs]
   void (*write_target)(const StyleDelta& change, const HumanPositions& body,
-                       std::span<const float, kRootNumbers> root, std::span<float> out);
+                       std::span<const float, kRootFeatures> root, std::span<float> out);
   // Left for right, in place. target[outputs]
   void (*mirror_target)(std::span<float> target);
   // The reverse of write_target(): the change that an answer is. Allocates nothing.
   StyleDelta (*to_change)(std::span<const float> answer, const HumanPositions& body,
-                          std::span<const float, kRootNumbers> root) noexcept;
+                          std::span<const float, kRootFeatures> root) noexcept;
   // What one of each of the answer's numbers is worth to the networks. [outputs] Where it is null,
   // targets are brought to mean 0 and deviation 1, and models keep that mean besides.
   std::vector<float> (*output_scale)() = nullptr;

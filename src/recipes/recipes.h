@@ -16,7 +16,7 @@ const Recipe* find_recipe(std::string_view name) noexcept;
 // The first of the table: what is trained where nobody names another.
 const Recipe& default_recipe() noexcept;
 
-// "panache or smith2019", for sentences: all recipes, or those on whose models styles are learnt.
+// "panache or smith2019", for messages: all recipes, or those on whose models styles are learnt.
 std::string recipe_names();
 std::string learning_recipe_names();
 

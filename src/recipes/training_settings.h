@@ -44,7 +44,7 @@ struct TrainingSettings {
   BatchSettings batch = {};
   OptimizerSettings optimizer = {};
   float smoothness = 0;         // Weight of the loss on the change from one frame to the next.
-  int64_t predictor_steps = 0;  // Of the network that foresees input; 0: the model has none.
+  int64_t predictor_steps = 0;  // Of the network that predicts input; 0: the model has none.
 };
 
 }  // namespace panache

@@ -5,7 +5,7 @@
 
 #include "clip/fk.h"
 #include "rig/first_frame.h"
-#include "rig/frames.h"
+#include "rig/sampled_joints.h"
 #include "rig/up_axis.h"
 
 namespace panache {
@@ -13,7 +13,7 @@ namespace {
 
 using enum HumanJoint;
 
-constexpr int kMostFrames = 2000;
+constexpr int kMaxFrames = 2000;
 // A toe joint or End Site that is nearer to the ankle than this says nothing of the foot, metres.
 constexpr float kShortestToe = 0.03f;
 // Nor does one straight below the ankle: its direction's mean y in stance would be near -1.
@@ -53,14 +53,14 @@ class Calibrator {
     find_wrist(1);
     find_toes(0);
     find_toes(1);
-    find_trunk();
+    find_torso();
     find_facing();
     find_floor();
     return {};
   }
 
  private:
-  static int step(const Clip& clip) { return (clip.frames + kMostFrames - 1) / kMostFrames; }
+  static int step(const Clip& clip) { return (clip.frames + kMaxFrames - 1) / kMaxFrames; }
   bool has(HumanJoint joint) const { return out_.shape.has[index(joint)]; }
   Vec3 file(int frame, HumanJoint joint) const {
     return frames_.world(frame).translations[index(joint)];
@@ -196,9 +196,9 @@ class Calibrator {
     const MappedJoints joints = mapped_joints(rest_world(), joint_of_, out_);
     const auto at = [&](HumanJoint joint) { return joints.positions[index(joint)]; };
     const auto is_upright = [&](Vec3 v) { return normalized(v).y > kStraight; };
-    const Vec3 trunk =
+    const Vec3 torso =
         (at(left_upper_arm) + at(right_upper_arm)) - (at(left_upper_leg) + at(right_upper_leg));
-    if (!is_upright(trunk) || !is_upright(at(left_upper_leg) - at(left_lower_leg)) ||
+    if (!is_upright(torso) || !is_upright(at(left_upper_leg) - at(left_lower_leg)) ||
         !is_upright(at(left_lower_leg) - at(left_foot)) ||
         !is_upright(at(right_upper_leg) - at(right_lower_leg)) ||
         !is_upright(at(right_lower_leg) - at(right_foot))) {
@@ -207,7 +207,7 @@ class Calibrator {
     return facing_of(joints.positions);
   }
 
-  void find_trunk() {
+  void find_torso() {
     if (!has(chest)) return;
     double apart = 0;
     for (int f = 0; f < frames_.count(); ++f) {
@@ -241,7 +241,7 @@ class Calibrator {
   const Clip& clip_;
   const std::array<int, kHumanJoints>& joint_of_;
   Calibration& out_;
-  Frames frames_;
+  SampledJoints frames_;
   std::vector<int> stance_;
   std::vector<Quat> rest_rotations_;     // [joints of the skeleton], world.
   std::vector<Vec3> rest_translations_;  // Likewise.

@@ -11,10 +11,10 @@ constexpr Vec3 kUp = {0, 1, 0};
 constexpr Vec3 kDown = {0, -1, 0};
 
 // Where the user's spine is missing, that much of the way from mid-hip to the chest.
-constexpr float kSpineOnTrunk = 0.6f;
+constexpr float kSpineOnTorso = 0.6f;
 
-// The line from mid-hip through the trunk's joints to mid-shoulder.
-class Trunk {
+// The line from mid-hip through the torso's joints to mid-shoulder.
+class Torso {
  public:
   void add(Vec3 p) {
     along_[count_] = count_ ? along_[count_ - 1] + length(p - points_[count_ - 1]) : 0;
@@ -41,16 +41,16 @@ class Builder {
   Builder(const HumanPositions& joints, const BodyShape& shape) : joints_(joints), shape_(shape) {}
 
   HumanPositions build(const std::array<Vec3, 2>& toes) {
-    mid_hip_ = (in(left_upper_leg) + in(right_upper_leg)) * 0.5f;
-    mid_shoulder_ = (in(left_upper_arm) + in(right_upper_arm)) * 0.5f;
-    build_trunk();
+    mid_hip_ = (at(left_upper_leg) + at(right_upper_leg)) * 0.5f;
+    mid_shoulder_ = (at(left_upper_arm) + at(right_upper_arm)) * 0.5f;
+    build_torso();
     build_arms();
     build_legs(toes);
     return out_;
   }
 
  private:
-  Vec3 in(HumanJoint joint) const { return joints_[index(joint)]; }
+  Vec3 at(HumanJoint joint) const { return joints_[index(joint)]; }
   bool has(HumanJoint joint) const { return shape_.has[index(joint)]; }
   Vec3& out(HumanJoint joint) { return out_[index(joint)]; }
 
@@ -60,39 +60,39 @@ class Builder {
     out_[j] = out_[p] + normalized(joints_[j] - joints_[p], otherwise) * kProportions.length[j];
   }
 
-  Trunk trunk() const {
-    Trunk line;
+  Torso torso() const {
+    Torso line;
     line.add(mid_hip_);
     if (has(chest)) {
-      line.add(has(spine) ? in(spine) : lerp(mid_hip_, in(chest), kSpineOnTrunk));
-      if (!shape_.chest_at_shoulders) line.add(in(chest));
+      line.add(has(spine) ? at(spine) : lerp(mid_hip_, at(chest), kSpineOnTorso));
+      if (!shape_.chest_at_shoulders) line.add(at(chest));
     } else if (has(spine)) {
-      line.add(in(spine));
+      line.add(at(spine));
     }
     line.add(mid_shoulder_);
     return line;
   }
 
-  void build_trunk() {
+  void build_torso() {
     const Proportions& body = kProportions;
     const Frame hip_frame =
-        frame_of(in(left_upper_leg)-in(right_upper_leg), mid_shoulder_ - mid_hip_);
+        frame_of(at(left_upper_leg) - at(right_upper_leg), mid_shoulder_ - mid_hip_);
     out(hips) = mid_hip_ - hip_frame(body.hips_to_mid_hip);
-    const Trunk line = trunk();
+    const Torso line = torso();
     const float scale = body.torso / std::max(line.total(), 1e-6f);
     const Vec3 at_spine = line.at(body.spine_fraction), at_chest = line.at(body.chest_fraction);
     out(spine) = mid_hip_ + (at_spine - mid_hip_) * scale;
     out(chest) = out(spine) + (at_chest - at_spine) * scale;
     const Vec3 chest_up = line.at(1) - at_chest;
     shoulders_ = out(chest) + chest_up * scale;
-    chest_frame_ = frame_of(in(left_upper_arm)-in(right_upper_arm), chest_up);
+    chest_frame_ = frame_of(at(left_upper_arm) - at(right_upper_arm), chest_up);
     out(neck) = shoulders_ + chest_frame_(body.mid_shoulder_to_neck);
     Vec3 head_up = chest_frame_.y;
     if (has(head)) {
-      const Vec3 from = has(neck) ? in(neck) : mid_shoulder_;
-      head_up = normalized(in(head)-from, head_up);
+      const Vec3 from = has(neck) ? at(neck) : mid_shoulder_;
+      head_up = normalized(at(head) - from, head_up);
     } else if (has(neck)) {
-      head_up = normalized(in(neck)-mid_shoulder_, head_up);
+      head_up = normalized(at(neck) - mid_shoulder_, head_up);
     }
     out(head) = out(neck) + head_up * body.length[index(head)];
   }
@@ -101,8 +101,8 @@ class Builder {
     const Proportions& body = kProportions;
     out(left_shoulder) = shoulders_ + chest_frame_(body.mid_shoulder_to_left_shoulder);
     out(right_shoulder) = shoulders_ + chest_frame_(body.mid_shoulder_to_right_shoulder);
-    const Vec3 left = normalized(in(left_upper_arm)-mid_shoulder_, chest_frame_.x);
-    const Vec3 right = normalized(in(right_upper_arm)-mid_shoulder_, -chest_frame_.x);
+    const Vec3 left = normalized(at(left_upper_arm) - mid_shoulder_, chest_frame_.x);
+    const Vec3 right = normalized(at(right_upper_arm) - mid_shoulder_, -chest_frame_.x);
     out(left_upper_arm) = shoulders_ + left * body.half_shoulders;
     out(right_upper_arm) = shoulders_ + right * body.half_shoulders;
     for (HumanJoint joint : {left_lower_arm, left_hand}) extend(joint, chest_frame_.x);
@@ -111,8 +111,8 @@ class Builder {
 
   void build_legs(const std::array<Vec3, 2>& toes) {
     const Proportions& body = kProportions;
-    const Vec3 left = normalized(in(left_upper_leg)-mid_hip_, Vec3{1, 0, 0});
-    const Vec3 right = normalized(in(right_upper_leg)-mid_hip_, Vec3{-1, 0, 0});
+    const Vec3 left = normalized(at(left_upper_leg) - mid_hip_, Vec3{1, 0, 0});
+    const Vec3 right = normalized(at(right_upper_leg) - mid_hip_, Vec3{-1, 0, 0});
     out(left_upper_leg) = mid_hip_ + left * body.half_hips;
     out(right_upper_leg) = mid_hip_ + right * body.half_hips;
     for (HumanJoint joint : {left_lower_leg, left_foot, right_lower_leg, right_foot}) {

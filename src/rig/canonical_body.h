@@ -18,7 +18,7 @@ struct BodyShape {
 
 // joints: the user's own, Y up, metres of a body with canonical legs. toes[left, right]: unit
 // directions from foot to toes. Mid-hip stays where it is; limbs keep their directions exactly; the
-// trunk's bend is resampled at the canonical fractions.
+// torso's bend is resampled at the canonical fractions.
 HumanPositions canonical_positions(const HumanPositions& joints, const BodyShape& shape,
                                    const std::array<Vec3, 2>& toes) noexcept;
 

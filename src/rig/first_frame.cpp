@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "rig/frames.h"
+#include "rig/sampled_joints.h"
 
 namespace panache {
 namespace {
@@ -49,7 +49,7 @@ int find_first_frame(const Clip& clip, std::vector<std::string>& notes) {
   constexpr int kLooked = 41;
   std::vector<int> all(clip.joints());
   std::iota(all.begin(), all.end(), 0);
-  const Frames frames(clip, 0, std::min(clip.frames, kLooked), 1, all);
+  const SampledJoints frames(clip, 0, std::min(clip.frames, kLooked), 1, all);
   if (frames.count() < 3) return 0;
   std::vector<float> roots, poses;
   for (int i = 1; i + 1 < frames.count(); ++i) {

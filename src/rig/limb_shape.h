@@ -29,7 +29,7 @@ struct Limbs {
 inline int lowest_joint(const Limb& limb) { return limb.end >= 0 ? limb.end : limb.lower; }
 
 // How unlike a person's limb it is: the sum of squared deviations from usual proportions, 0 for a
-// usual limb, a few units for an unusual one. branch: the joint where it leaves the trunk. `limb`
+// usual limb, a few units for an unusual one. branch: the joint where it leaves the torso. `limb`
 // has its upper and lower joint.
 float limb_oddity(const JointTree& tree, LimbKind kind, int branch, const Limb& limb);
 
@@ -40,7 +40,7 @@ int farthest_below(const JointTree& tree, int joint);
 // branch.
 std::vector<int> limb_chain(const JointTree& tree, int branch, int tip);
 
-// The limb of least oddity among the joints of a chain (from the trunk down); with `end` that
+// The limb of least oddity among the joints of a chain (from the torso down); with `end` that
 // joint, which is the last of the chain, is its end. All -1 where the chain is too short.
 Limb most_usual_limb(const JointTree& tree, LimbKind kind, int branch,
                      const std::vector<int>& chain, int end = -1);

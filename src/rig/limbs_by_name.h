@@ -13,7 +13,7 @@
 
 namespace panache {
 
-// The human joints of a limb, from the trunk down.
+// The human joints of a limb, from the torso down.
 struct LimbNames {
   LimbKind kind;
   HumanJoint upper, lower, end;

@@ -13,10 +13,10 @@ constexpr float kUneven = 0.12f;
 constexpr float kShortest = 0.2f;
 // A pair of limbs that is odder than this in the mean is none.
 constexpr float kOddest = 14;
-// The cosine between legs and trunk of a body that stands.
+// The cosine between legs and torso of a body that stands.
 constexpr float kUpright = 0.5f;
 
-// Two limbs of one length that leave the trunk at one joint.
+// Two limbs of one length that leave the torso at one joint.
 struct Pair {
   int branch = -1;
   std::array<int, 2> tops;  // Children of the branch.
@@ -112,7 +112,7 @@ Vec3 end_of(const JointPositions& pose, const Limb& limb) {
 Vec3 middle(Vec3 a, Vec3 b) { return (a + b) * 0.5f; }
 
 // From the middle of the hip joints to the middle of the shoulder joints.
-Vec3 trunk(const JointPositions& pose, const std::array<Limb, 2>& arms,
+Vec3 torso(const JointPositions& pose, const std::array<Limb, 2>& arms,
            const std::array<Limb, 2>& legs) {
   return middle(pose[arms[0].upper], pose[arms[1].upper]) -
          middle(pose[legs[0].upper], pose[legs[1].upper]);
@@ -137,7 +137,7 @@ float leftness(const JointTree& tree, const std::array<Limb, 2>& arms,
                const std::array<Limb, 2>& legs) {
   float sum = 0;
   for (const JointPositions& pose : tree.poses()) {
-    const Vec3 up = normalized(trunk(pose, arms, legs));
+    const Vec3 up = normalized(torso(pose, arms, legs));
     Vec3 ahead;
     bool toes = false;
     for (const Limb& leg : legs) {
@@ -180,7 +180,7 @@ float uprightness(const JointTree& tree, const std::array<Limb, 2>& arms,
   for (const JointPositions& pose : tree.poses()) {
     const Vec3 leg = middle(pose[legs[0].upper], pose[legs[1].upper]) -
                      middle(end_of(pose, legs[0]), end_of(pose, legs[1]));
-    most = std::max(most, dot(normalized(leg), normalized(trunk(pose, arms, legs))));
+    most = std::max(most, dot(normalized(leg), normalized(torso(pose, arms, legs))));
   }
   return most;
 }

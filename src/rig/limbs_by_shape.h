@@ -16,7 +16,7 @@ namespace panache {
 // legs of a body that stands in some of the poses.
 std::optional<Limbs> find_limbs_by_shape(const JointTree& tree, std::span<const JointName> names);
 
-// How upright the body stands with these limbs: the cosine between legs and trunk, 1 for a body
+// How upright the body stands with these limbs: the cosine between legs and torso, 1 for a body
 // that stands straight, below 0 where arms and legs are exchanged. The largest over the poses.
 float uprightness(const JointTree& tree, const std::array<Limb, 2>& arms,
                   const std::array<Limb, 2>& legs);

@@ -18,8 +18,8 @@ constexpr float kByName = 1, kByTree = 0.95f, kByPlace = 0.7f, kByShape = 0.8f;
 
 std::string name_of(HumanJoint joint) { return std::string(human_joint_name(index(joint))); }
 
-// The sentence for a skeleton that lacks these.
-Error refusal(const std::vector<Joint>& joints, const std::vector<HumanJoint>& missing) {
+// The message for a skeleton that lacks these.
+Error rejection(const std::vector<Joint>& joints, const std::vector<HumanJoint>& missing) {
   constexpr size_t kNamed = 12;
   std::string text = "no humanoid found: ";
   for (size_t i = 0; i < missing.size(); ++i) {
@@ -59,15 +59,15 @@ class Mapper {
     if (by_shape && limbs.side_confidence < 0.3f) {
       map_.notes.push_back("left and right are a guess: nothing of the body shows where it faces");
     }
-    find_trunk();
-    if (!missing_.empty()) return refusal(joints_, missing_);
+    find_torso();
+    if (!missing_.empty()) return rejection(joints_, missing_);
     find_head();
     find_spine();
     for (size_t side : {0, 1}) {
       find_shoulder(side ? right_shoulder : left_shoulder, side);
       find_toes(side ? right_toes : left_toes, kLimbNames[1][side].end);
     }
-    if (const auto done = believe(); !done) return done.error();
+    if (const auto done = apply_overrides(); !done) return done.error();
     for (int j = 0; j < kHumanJoints; ++j) {
       if (map_.joint_of[j] < 0) {
         map_.notes.push_back(std::string(human_joint_name(j)) + " is missing");
@@ -104,7 +104,7 @@ class Mapper {
     return find_named(tree_, names_, side, is, where);
   }
 
-  void find_trunk() {
+  void find_torso() {
     const int feet = tree_.meeting(at(left_foot), at(right_foot));
     const int arms = tree_.meeting(arm_tips_[0], arm_tips_[1]);
     int low = feet;
@@ -133,11 +133,11 @@ class Mapper {
       put(chest, arms, "where the arms meet", kByTree);
     }
   }
-  // The trunk's highest joint, below which a head may hang.
-  int trunk_top() const { return at(neck) >= 0 ? at(neck) : at(chest) >= 0 ? at(chest) : at(hips); }
+  // The torso's highest joint, below which a head may hang.
+  int torso_top() const { return at(neck) >= 0 ? at(neck) : at(chest) >= 0 ? at(chest) : at(hips); }
 
   void find_head() {
-    const int top = trunk_top();
+    const int top = torso_top();
     const auto below = [&](int root) {
       return [this, root](int j) { return j != root && tree_.is_above(root, j); };
     };
@@ -147,7 +147,7 @@ class Mapper {
     if (found < 0) find_head_by_place(top);
     if (at(head) >= 0 && at(neck) < 0) find_neck();
   }
-  // What leaves the top of the trunk besides the arms, in the middle between them.
+  // What leaves the top of the torso besides the arms, in the middle between them.
   std::vector<int> chain_above(int top) const {
     std::vector<int> chain;
     for (int next = top; next >= 0;) {
@@ -202,7 +202,7 @@ class Mapper {
     put(is_neck(names_[found]) ? neck : head, found, "in the chain above the chest", kByPlace);
   }
   void find_neck() {
-    const int top = trunk_top();
+    const int top = torso_top();
     if (!tree_.is_above(top, at(head))) return;
     int found = -1, count = 0;
     for (int q = parent(at(head)); q != top; q = parent(q), ++count) {
@@ -261,7 +261,7 @@ class Mapper {
   }
 
   // Puts what is known in place of what was found.
-  Result<void> believe() {
+  Result<void> apply_overrides() {
     for (const auto& [human, joint] : known_) {
       for (int j = 0; j < kHumanJoints; ++j) {
         if (joint >= 0 && map_.joint_of[j] == joint) clear(j);
@@ -279,7 +279,7 @@ class Mapper {
       }
     }
     if (at(hips) < 0) missing_.push_back(hips);
-    if (!missing_.empty()) return refusal(joints_, missing_);
+    if (!missing_.empty()) return rejection(joints_, missing_);
     for (const auto& [human, joint] : known_) {
       int above = kHumanParent[human];
       while (above >= 0 && map_.joint_of[above] < 0) above = kHumanParent[above];
@@ -344,7 +344,7 @@ Result<Mapping> map_humanoid(const Skeleton& skeleton, std::span<const JointPosi
   std::vector<HumanJoint> missing;
   const Limbs limbs = find_limbs_by_name(tree, names, known, missing);
   Result<Mapping> named = missing.empty() ? Mapper(skeleton, tree, names, known).run(limbs, false)
-                                          : Result<Mapping>(refusal(skeleton.joints, missing));
+                                          : Result<Mapping>(rejection(skeleton.joints, missing));
   if (named && is_plausible(tree, limbs)) return named;
   if (const std::optional<Limbs> shaped = find_limbs_by_shape(tree, names)) {
     return Mapper(skeleton, tree, names, known).run(*shaped, true);

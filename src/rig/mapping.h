@@ -26,7 +26,7 @@ struct Mapping {
 using KnownJoints = std::map<int, int>;
 
 // poses: the skeleton in a few poses of its motion or at rest, at least one, in any axes and units.
-// The mapping has hips, upper and lower parts of all limbs, and feet. Fails with a sentence that
+// The mapping has hips, upper and lower parts of all limbs, and feet. Fails with a message that
 // names the joints that were not found and those that were seen, or that says why what is known
 // cannot be.
 Result<Mapping> map_humanoid(const Skeleton& skeleton, std::span<const JointPositions> poses,

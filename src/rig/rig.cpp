@@ -13,7 +13,7 @@ using enum HumanJoint;
 
 // The rest pose and a few of the motion's, as far as they are finite.
 std::vector<JointPositions> some_poses(const Clip& clip) {
-  constexpr int kMost = 15;
+  constexpr int kMax = 15;
   std::vector<Quat> rotations;
   std::vector<Vec3> translations;
   for (const Joint& joint : clip.skeleton.joints) {
@@ -27,7 +27,7 @@ std::vector<JointPositions> some_poses(const Clip& clip) {
       poses.push_back(translations);
   };
   add({rotations, translations});
-  const int count = std::min(kMost, clip.frames);
+  const int count = std::min(kMax, clip.frames);
   for (int i = 0; i < count; ++i) add(clip.pose((2 * i + 1) * clip.frames / (2 * count)));
   return poses;
 }
@@ -118,7 +118,7 @@ std::vector<JointMatch> Rig::matches() const {
   return out;
 }
 
-void Rig::place(float turn, Vec3 about, Vec3 move, Pose pose) const noexcept {
+void Rig::transform_root(float turn, Vec3 about, Vec3 move, Pose pose) const noexcept {
   if (turn == 0 && move == Vec3{}) return;
   const Quat file_axes = conjugate(shared_->calibration.y_up);
   const Quat by = in_axes(file_axes, rotation_y(turn));

@@ -39,9 +39,9 @@ struct RigOptions {
 class Rig {
  public:
   // Finds the humanoid in the skeleton of `clip`, and units, up axis, floor, first usable frame and
-  // toes from its poses. The sentence of a failure says which joints were not found and names those
+  // toes from its poses. The message of a failure says which joints were not found and names those
   // that were seen. A clip needs at least one frame. What `options` say is believed; a joint that
-  // they name and the skeleton has not, or more than once, is refused, as is an axis that is none.
+  // they name and the skeleton has not, or more than once, is rejected, as is an axis that is none.
   static Result<Rig> create(const Clip& clip, const RigOptions& options = {});
 
   // skeleton joint of each human joint, -1 where the skeleton has none.
@@ -60,7 +60,7 @@ class Rig {
 
   // Turns a whole pose by `turn` (radians, about +y through `about`), then moves it by `move`, both
   // world, Y up, metres: by its root joints, whatever they are. With neither it stays bit for bit.
-  void place(float turn, Vec3 about, Vec3 move, Pose pose) const noexcept;
+  void transform_root(float turn, Vec3 about, Vec3 move, Pose pose) const noexcept;
 
  private:
   friend class PosedRig;

@@ -13,7 +13,7 @@ InputRing::InputRing(size_t joints, double seconds)
       translations_(rotations_.size()) {}
 
 void InputRing::push(double time, ConstPose pose, const HumanPositions& body,
-                     const Ground& ground) noexcept {
+                     const RootPose& root) noexcept {
   assert(pose.rotations.size() == joints_);
   const bool replaces =
       count_ > 0 && (time <= newest() || (count_ > 1 && entry(0).time - entry(1).time < kMinGap));
@@ -21,7 +21,7 @@ void InputRing::push(double time, ConstPose pose, const HumanPositions& body,
     head_ = (head_ + 1) % entries_.size();
     count_ = std::min(count_ + 1, entries_.size());
   }
-  entries_[head_] = {time, body, ground};
+  entries_[head_] = {time, body, root};
   std::copy(pose.rotations.begin(), pose.rotations.end(), &rotations_[head_ * joints_]);
   std::copy(pose.translations.begin(), pose.translations.end(), &translations_[head_ * joints_]);
 }
@@ -37,9 +37,9 @@ InputRing::Between InputRing::find(double time) const noexcept {
       young = middle + 1;
     }
   }
-  const size_t a = place(old);
+  const size_t a = index_of(old);
   if (old == 0 || entries_[a].time > time) return {a, a, 0};
-  const size_t b = place(old - 1);
+  const size_t b = index_of(old - 1);
   const double gap = entries_[b].time - entries_[a].time;
   return {a, b, static_cast<float>(std::min((time - entries_[a].time) / gap, 1.0))};
 }
@@ -66,10 +66,10 @@ HumanPositions InputRing::body(double time) const noexcept {
   return out;
 }
 
-Ground InputRing::ground(double time) const noexcept {
+RootPose InputRing::root(double time) const noexcept {
   if (empty()) return {};
   const auto [a, b, t] = find(time);
-  return interpolate(entries_[a].ground, entries_[b].ground, t);
+  return interpolate(entries_[a].root, entries_[b].root, t);
 }
 
 }  // namespace panache

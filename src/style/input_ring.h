@@ -17,7 +17,7 @@ class InputRing {
 
   void clear() noexcept { count_ = 0; }
   // Adds a pose at `time` (seconds, never before the last one), with what the rig made of it.
-  void push(double time, ConstPose pose, const HumanPositions& body, const Ground& ground) noexcept;
+  void push(double time, ConstPose pose, const HumanPositions& body, const RootPose& root) noexcept;
 
   bool empty() const noexcept { return count_ == 0; }
   double oldest() const noexcept { return entry(count_ - 1).time; }
@@ -26,7 +26,7 @@ class InputRing {
   // frame) and ground, straight between two poses. Nothing if empty.
   void pose(double time, Pose out) const noexcept;
   HumanPositions body(double time) const noexcept;
-  Ground ground(double time) const noexcept;
+  RootPose root(double time) const noexcept;
 
   // Calls visit(member) for everything that tells one ring from another of its size.
   template <class Self, class Visit>
@@ -39,7 +39,7 @@ class InputRing {
   struct Entry {
     double time = 0;
     HumanPositions body{};
-    Ground ground;
+    RootPose root;
   };
   struct Between {
     size_t a, b;  // Places: earlier, later.
@@ -49,10 +49,10 @@ class InputRing {
   // of a tracker of 120 Hz are kept.
   static constexpr double kMinGap = 0.008;
 
-  size_t place(size_t age) const noexcept {
+  size_t index_of(size_t age) const noexcept {
     return (head_ + entries_.size() - age) % entries_.size();
   }
-  const Entry& entry(size_t age) const noexcept { return entries_[place(age)]; }
+  const Entry& entry(size_t age) const noexcept { return entries_[index_of(age)]; }
   Between find(double time) const noexcept;
 
   size_t joints_;

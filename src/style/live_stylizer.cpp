@@ -13,28 +13,28 @@ namespace {
 
 constexpr double kSearchEvery = 0.06;  // Seconds.
 constexpr double kBlend = 0.2;         // Seconds from the old head to the new one.
-// Time constant of what is foreseen beyond the newest pose: guesses tremble more than motion does.
+// Time constant of what is predicted beyond the newest pose: guesses tremble more than motion does.
 constexpr float kLeadSeconds = 0.04f;
 constexpr float kTurnFades = 1.5f;  // Seconds, as a style's own turns do.
 
 float smooth(double t) { return static_cast<float>(t * t * (3 - 2 * t)); }
 
-Vec3 mid_hip_of(const HumanPositions& body, const Ground& ground) {
+Vec3 mid_hip_of(const HumanPositions& body, const RootPose& root) {
   const Vec3 middle =
       (body[index(HumanJoint::left_upper_leg)] + body[index(HumanJoint::right_upper_leg)]) * 0.5f;
-  return to_world(middle, ground);
+  return to_world(middle, root);
 }
 
-// What turns the body of `before` into a foreseen one.
-BodyChange change_between(const HumanPositions& before, const Ground& ground,
-                          const ForeseenBody& after) {
+// What turns the body of `before` into a predicted one.
+BodyChange change_between(const HumanPositions& before, const RootPose& root,
+                          const PredictedPose& after) {
   std::array<Quat, kHumanJoints> from, to;
   canonical_frames(before, 0, from);
   canonical_frames(after.body, 0, to);
   BodyChange change;
   for (size_t j = 0; j < kHumanJoints; ++j) change.rotations[j] = to[j] * conjugate(from[j]);
-  change.turn = after.ground.facing - ground.facing;
-  change.translation = mid_hip_of(after.body, after.ground) - mid_hip_of(before, ground);
+  change.turn = after.root.facing - root.facing;
+  change.translation = mid_hip_of(after.body, after.root) - mid_hip_of(before, root);
   return change;
 }
 
@@ -49,7 +49,7 @@ LiveStylizer::Playback::Playback(const Rig& rig, std::shared_ptr<const Model> mo
       old_rotations(rig.joint_count()),
       shown_translations(rig.joint_count()),
       old_translations(rig.joint_count()) {
-  if (options.max_lead > 0) foresight.emplace(std::move(model));
+  if (options.max_lead > 0) predictor.emplace(std::move(model));
 }
 
 Result<void> LiveStylizer::check(const Model& model, const LiveOptions& options) {
@@ -58,8 +58,8 @@ Result<void> LiveStylizer::check(const Model& model, const LiveOptions& options)
     double value, most;
     const char* expected;
   } ranges[] = {
-      {"max_lag", options.max_lag, LiveOptions::kMostLag, "0 to 4"},
-      {"max_lead", options.max_lead, Predictor::kMostSeconds, "0 to 0.25"},
+      {"max_lag", options.max_lag, LiveOptions::kMaxLag, "0 to 4"},
+      {"max_lead", options.max_lead, PredictorNetwork::kMaxSeconds, "0 to 0.25"},
   };
   for (const auto& [name, value, most, expected] : ranges) {
     if (!(value >= 0 && value <= most)) {
@@ -103,7 +103,7 @@ void LiveStylizer::forget() noexcept {
   if (!playback_) return;
   Playback& p = *playback_;
   p.ring.clear();
-  if (p.foresight) p.foresight->reset();
+  if (p.predictor) p.predictor->reset();
   p.ahead = {};
   p.time = p.searched = 0;
   p.offset = p.old_offset = {};
@@ -115,30 +115,30 @@ void LiveStylizer::take_input(ConstPose in, double seconds) noexcept {
   if (!p.input.observe(in, seconds)) forget();
   p.time += seconds;
   const Observation& now = p.input.now();
-  p.ring.push(p.time, p.input.pose(), now.body_frame, now.ground);
-  if (p.foresight) p.foresight->push(p.time, now.body_frame, now.ground);
+  p.ring.push(p.time, p.input.pose(), now.body_frame, now.root);
+  if (p.predictor) p.predictor->push(p.time, now.body_frame, now.root);
 }
 
-Ground LiveStylizer::ground_at(double ahead) const noexcept {
+RootPose LiveStylizer::root_at(double ahead) const noexcept {
   const Playback& p = *playback_;
-  if (ahead <= 0) return p.ring.ground(p.time + ahead);
-  const Ground& now = p.input.now().ground;
-  return {now.position + p.ahead.ground.position, now.facing + p.ahead.ground.facing};
+  if (ahead <= 0) return p.ring.root(p.time + ahead);
+  const RootPose& now = p.input.now().root;
+  return {now.position + p.ahead.root.position, now.facing + p.ahead.root.facing};
 }
 
 void LiveStylizer::look_ahead(double seconds) noexcept {
   Playback& p = *playback_;
-  if (!p.foresight) return;
+  if (!p.predictor) return;
   const Observation& now = p.input.now();
-  const ForeseenBody wanted = p.foresight->foresee(std::max(head_.ahead(), 0.0));
+  const PredictedPose wanted = p.predictor->predict(std::max(head_.ahead(), 0.0));
   const float gain = filter_gain(static_cast<float>(seconds), kLeadSeconds);
   for (size_t j = 0; j < kHumanJoints; ++j) {
     p.ahead.body[j] += (wanted.body[j] - now.body_frame[j] - p.ahead.body[j]) * gain;
   }
-  const Ground way{wanted.ground.position - now.ground.position,
-                   wanted.ground.facing - now.ground.facing};
-  p.ahead.ground.position += (way.position - p.ahead.ground.position) * gain;
-  p.ahead.ground.facing += (way.facing - p.ahead.ground.facing) * gain;
+  const RootPose way{wanted.root.position - now.root.position,
+                     wanted.root.facing - now.root.facing};
+  p.ahead.root.position += (way.position - p.ahead.root.position) * gain;
+  p.ahead.root.facing += (way.facing - p.ahead.root.facing) * gain;
 }
 
 // The pose at a play head, with its offset.
@@ -146,14 +146,14 @@ void LiveStylizer::pose_at(double ahead, const RootOffset& offset, Pose out) noe
   Playback& p = *playback_;
   const Observation& now = p.input.now();
   if (ahead > 0) {
-    ForeseenBody foreseen{now.body_frame, ground_at(ahead)};
-    for (size_t j = 0; j < kHumanJoints; ++j) foreseen.body[j] += p.ahead.body[j];
-    p.input.write(change_between(now.body_frame, now.ground, foreseen), out);
+    PredictedPose predicted{now.body_frame, root_at(ahead)};
+    for (size_t j = 0; j < kHumanJoints; ++j) predicted.body[j] += p.ahead.body[j];
+    p.input.write(change_between(now.body_frame, now.root, predicted), out);
   } else {
     p.ring.pose(p.time + ahead, out);
   }
   // The whole body, by its root joints: turned where it stands, and moved.
-  p.input.rig().place(offset.turn, ground_at(ahead).position, offset.translation, out);
+  p.input.rig().place(offset.turn, root_at(ahead).position, offset.translation, out);
 }
 
 // Leaves out a cycle, or plays one again, where that is due and the motion has one.
@@ -174,11 +174,11 @@ void LiveStylizer::skip_cycle(double rate) noexcept {
   if (!away) return;
   p.old_ahead = head_.ahead();
   p.old_offset = p.offset;
-  const Ground old = ground_at(p.old_ahead), next = ground_at(p.old_ahead + *away);
+  const RootPose old = root_at(p.old_ahead), next = root_at(p.old_ahead + *away);
   p.offset.translation += old.position - next.position;
   p.offset.turn += old.facing - next.facing;
   p.blended = 0;
-  head_.leap(*away);
+  head_.jump(*away);
   skipped_ += *away > 0 ? 1 : -1;
 }
 
@@ -223,7 +223,7 @@ void LiveStylizer::visit_state(Self& self, Visit&& visit) {
   auto& p = *self.playback_;
   Observer::visit_state(p.input, visit);
   InputRing::visit_state(p.ring, visit);
-  if (p.foresight) Foresight::visit_state(*p.foresight, visit);
+  if (p.predictor) PosePredictor::visit_state(*p.predictor, visit);
   visit(p.ahead), visit(p.time), visit(p.searched), visit(p.offset), visit(p.old_offset);
   visit(p.old_ahead), visit(p.blended);
 }

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "style/foresight.h"
 #include "style/input_ring.h"
 #include "style/play_head.h"
+#include "style/pose_predictor.h"
 #include "style/stylizer.h"
 
 namespace panache {
@@ -16,14 +16,14 @@ namespace panache {
 struct LiveOptions {
   StylizerOptions stylizer;
   // How far the play head may be behind the input, and how far ahead of it, seconds: 0 to
-  // kMostLag, and 0 to Predictor::kMostSeconds. With both at 0 nothing is delayed, and the tempo is
-  // the input's own.
+  // kMaxLag, and 0 to PredictorNetwork::kMaxSeconds. With both at 0 nothing is delayed, and the
+  // tempo is the input's own.
   double max_lag = 0, max_lead = 0;
   // Where the head is late by a whole cycle of a gait (or of anything that repeats), it leaves out
   // that cycle; where it can go no further ahead, it plays the last one again. So a style can be
   // slower or faster than its input for ever. Needs a max_lag longer than a cycle.
   bool skip_cycles = false;
-  static constexpr double kMostLag = 4;
+  static constexpr double kMaxLag = 4;
 };
 
 // A stylizer, the input of the last `max_lag` seconds, and a play head between them. What a skipped
@@ -31,8 +31,8 @@ struct LiveOptions {
 // from where it is, and stands elsewhere than its input does.
 class LiveStylizer {
  public:
-  // Fails with a sentence where an option of time is out of its range, or where `max_lead` is asked
-  // of a model that foresees nothing.
+  // Fails with a message where an option of time is out of its range, or where `max_lead` is asked
+  // of a model that predicts nothing.
   static Result<void> check(const Model& model, const LiveOptions& options);
   // Fails likewise, and where Stylizer::create() does.
   static Result<LiveStylizer> create(std::shared_ptr<const Model> model, Rig rig,
@@ -49,7 +49,7 @@ class LiveStylizer {
   // Cycles left out (above zero) and played again (below) since the start, in sum.
   int skipped_cycles() const noexcept { return skipped_; }
   // Whether time is the input's own, so that a step is that of the stylizer alone.
-  bool keeps_time() const noexcept { return !playback_; }
+  bool is_pass_through() const noexcept { return !playback_; }
 
   // See Stylizer.
   Stylizer& stylizer() noexcept { return stylizer_; }
@@ -65,9 +65,9 @@ class LiveStylizer {
 
     Observer input;  // The newest pose; the stylizer's own is that of the play head.
     InputRing ring;
-    std::optional<Foresight> foresight;
+    std::optional<PosePredictor> predictor;
     // What the play head's body is ahead of the newest, smoothed.
-    ForeseenBody ahead;
+    PredictedPose ahead;
     // What is shown, and what was shown before a skip.
     std::vector<Quat> shown_rotations, old_rotations;        // [joints]
     std::vector<Vec3> shown_translations, old_translations;  // [joints]
@@ -85,7 +85,7 @@ class LiveStylizer {
   void take_input(ConstPose in, double seconds) noexcept;
   void skip_cycle(double rate) noexcept;
   void look_ahead(double seconds) noexcept;
-  Ground ground_at(double ahead) const noexcept;
+  RootPose root_at(double ahead) const noexcept;
   void pose_at(double ahead, const RootOffset& offset, Pose out) noexcept;
   void blend_from_old(double seconds, double played, Pose shown) noexcept;
   template <class Self, class Visit>

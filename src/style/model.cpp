@@ -9,7 +9,7 @@
 #include "base/file.h"
 #include "recipes/recipes.h"
 #include "style/names.h"
-#include "style/predictor.h"
+#include "style/predictor_network.h"
 
 namespace panache {
 namespace {
@@ -69,13 +69,13 @@ std::shared_ptr<const Model> Model::of_constants(std::vector<ConstantStyle> styl
   auto model = std::make_shared<Model>();
   model->recipe_ = &default_recipe();
   for (const ConstantStyle& style : styles) model->styles_.push_back(style.info);
-  const size_t inputs = size_t(kWindowPoses) * pose_numbers(model->layout());
+  const size_t inputs = size_t(kWindowPoses) * pose_feature_count(model->layout());
   model->input_mean_.resize(inputs);
   model->input_factor_.resize(inputs);
   model->output_scale_.assign(StyleDelta::kSize, 1);
   model->output_mean_.resize(StyleDelta::kSize);
   model->parameter_count_ = styles.size() * (StyleDelta::kSize + 1);
-  model->work_ = 1;
+  model->scratch_size_ = 1;
   model->constants_ = std::move(styles);
   return model;
 }
@@ -146,7 +146,7 @@ Result<void> Model::read_networks(const TensorFile& file, const std::string& nam
                  std::to_string(styles_.size()) + " in all; expected a model written by panache"};
   }
   const int styles = static_cast<int>(styles_.size() - learnt);
-  const int inputs = kWindowPoses * pose_numbers(layout()) + recipe_->style_inputs(styles);
+  const int inputs = kWindowPoses * pose_feature_count(layout()) + recipe_->style_inputs(styles);
   const struct {
     const char* prefix;
     int outputs, heads;
@@ -186,7 +186,7 @@ Result<void> Model::read_networks(const TensorFile& file, const std::string& nam
                  std::to_string(kMaxInputs - 800) + " with this recipe"};
   }
   trunks_ = TrunkTrio(std::move(trunks));
-  if (auto read = read_features(file, name); !read) return read.error();
+  if (auto read = read_activations(file, name); !read) return read.error();
   for (size_t k = 0; k < learnt; ++k) {
     Result<Learnt> style = read_learnt(file, learnt_prefix(k), name);
     if (!style) return style.error();
@@ -196,21 +196,21 @@ Result<void> Model::read_networks(const TensorFile& file, const std::string& nam
   return {};
 }
 
-Result<void> Model::read_features(const TensorFile& file, const std::string& name) {
+Result<void> Model::read_activations(const TensorFile& file, const std::string& name) {
   if (!file.tensors.contains("learn.mean") && !file.tensors.contains("learn.scale")) return {};
-  const int features = static_cast<int>(feature_count());
-  Result<std::vector<float>> mean = read_vector(file, "learn.mean", features, name);
+  const int activations = static_cast<int>(activation_count());
+  Result<std::vector<float>> mean = read_vector(file, "learn.mean", activations, name);
   if (!mean) return mean.error();
-  Result<std::vector<float>> scale = read_vector(file, "learn.scale", features, name);
+  Result<std::vector<float>> scale = read_vector(file, "learn.scale", activations, name);
   if (!scale) return scale.error();
   for (const float s : *scale) {
     if (!(s > 0) || std::isinf(1 / s)) {
       return Error{name + ": tensor 'learn.scale' must be above zero throughout"};
     }
-    feature_factor_.push_back(1 / s);
+    activation_factor_.push_back(1 / s);
   }
-  feature_mean_ = *std::move(mean);
-  feature_scale_ = *std::move(scale);
+  activation_mean_ = *std::move(mean);
+  activation_scale_ = *std::move(scale);
   return {};
 }
 
@@ -220,47 +220,48 @@ Result<Model::Learnt> Model::read_learnt(const TensorFile& file, const std::stri
     return Error{name + ": has tensors '" + prefix +
                  "*' of a learnt style, but no 'learn.mean' and 'learn.scale'"};
   }
-  const int features = static_cast<int>(feature_count());
+  const int activations = static_cast<int>(activation_count());
   Learnt learnt;
-  Result<DenseLayer> head = read_layer(file, prefix + "head", features, kLearntNumbers, name);
+  Result<DenseLayer> head = read_layer(file, prefix + "head", activations, kLearntOutputs, name);
   if (!head) return head.error();
   learnt.head = PackedLayer(*head);
-  Result<std::vector<float>> mean = read_vector(file, prefix + "mean", features, name);
+  Result<std::vector<float>> mean = read_vector(file, prefix + "mean", activations, name);
   if (!mean) return mean.error();
   learnt.mean = *std::move(mean);
-  Result<DenseLayer> gate = read_layer(file, prefix + "gate", features, -1, name);
+  Result<DenseLayer> gate = read_layer(file, prefix + "gate", activations, -1, name);
   if (!gate) return gate.error();
-  if (gate->outputs > features) {
+  if (gate->outputs > activations) {
     return Error{name + ": tensor '" + prefix + "gate.weight' has " +
                  std::to_string(gate->outputs) + " directions; expected at most " +
-                 std::to_string(features)};
+                 std::to_string(activations)};
   }
   learnt.gate = PackedLayer(*gate);
-  Result<std::vector<float>> worth = read_vector(file, prefix + "gate.worth", gate->outputs, name);
-  if (!worth) return worth.error();
-  learnt.worth = *std::move(worth);
+  Result<std::vector<float>> gate_weights =
+      read_vector(file, prefix + "gate.worth", gate->outputs, name);
+  if (!gate_weights) return gate_weights.error();
+  learnt.gate_weights = *std::move(gate_weights);
   Result<std::vector<float>> rest = read_vector(file, prefix + "gate.rest", 1, name);
   if (!rest) return rest.error();
-  learnt.rest = rest->front();
+  learnt.gate_residual = rest->front();
   return learnt;
 }
 
-Result<void> Model::measure_work(const std::string& name) {
-  size_t answers = padded(kLearntNumbers);
+Result<void> Model::measure_scratch(const std::string& name) {
+  size_t answers = padded(kLearntOutputs);
   for (const Heads& heads : heads_) {
     for (const PackedLayer& layer : heads.layers) answers = std::max(answers, layer.width());
   }
-  const size_t features = padded(can_learn() ? feature_count() : trunks_.outputs(kPose));
-  work_ = padded(static_cast<size_t>(trunks_.inputs())) + trunks_.scratch_size() + 3 * features +
-          answers;
-  if (work_ <= kMaxWork) return {};
-  return Error{name + ": a step works in " + std::to_string(work_) +
+  const size_t activations = padded(can_learn() ? activation_count() : trunks_.outputs(kPose));
+  scratch_size_ = padded(static_cast<size_t>(trunks_.inputs())) + trunks_.scratch_size() +
+                  3 * activations + answers;
+  if (scratch_size_ <= kMaxScratch) return {};
+  return Error{name + ": a step works in " + std::to_string(scratch_size_) +
                " numbers; expected trunks of fewer layers, so that it takes at most " +
-               std::to_string(kMaxWork)};
+               std::to_string(kMaxScratch)};
 }
 
 Result<void> Model::read_numbers(const TensorFile& file, const std::string& name) {
-  const int numbers = pose_numbers(layout()), outputs = recipe_->outputs;
+  const int numbers = pose_feature_count(layout()), outputs = recipe_->outputs;
   std::vector<float> input_mean, input_scale;
   const struct {
     const char* key;
@@ -293,13 +294,13 @@ Result<void> Model::read_numbers(const TensorFile& file, const std::string& name
     for (const float scale : input_scale) input_factor_.push_back(1 / scale);
   }
   if (auto read = read_networks(file, name); !read) return read.error();
-  if (Predictor::is_in(file)) {
-    Result<Predictor> predictor = Predictor::read(file, name);
+  if (PredictorNetwork::is_in(file)) {
+    Result<PredictorNetwork> predictor = PredictorNetwork::read(file, name);
     if (!predictor) return predictor.error();
-    predictor_ = std::make_shared<const Predictor>(*std::move(predictor));
+    predictor_ = std::make_shared<const PredictorNetwork>(*std::move(predictor));
   }
   if (auto read = read_gate(file, name); !read) return read.error();
-  return measure_work(name);
+  return measure_scratch(name);
 }
 
 Result<void> Model::read_gate(const TensorFile& file, const std::string& name) {

@@ -17,23 +17,23 @@
 
 namespace panache {
 
-class Predictor;
+class PredictorNetwork;
 
 // What the head of a learnt style answers: the change, the logarithm of the rate, and what to add
 // to the contact network's answer (before it becomes a probability) for the left and the right
 // foot.
-inline constexpr int kLearntNumbers = StyleDelta::kSize + 1 + 2;
+inline constexpr int kLearntOutputs = StyleDelta::kSize + 1 + 2;
 
 struct StyleInfo {
   std::string name;         // "old"
   std::string description;  // What it looks like, for people.
   std::string origin;       // What a learnt style was learnt from; empty for others.
-  bool learnt = false;      // By learn_style(), from features that other styles trained.
+  bool learnt = false;      // By learn_style(), from activations that other styles trained.
 };
 
 class Model {
  public:
-  // Reads and checks a model file; the sentence of a failure names what is wrong with it.
+  // Reads and checks a model file; the message of a failure names what is wrong with it.
   static Result<std::shared_ptr<const Model>> load(const std::string& path);
   static Result<std::shared_ptr<const Model>> parse(std::string_view bytes,
                                                     const std::string& name);
@@ -53,19 +53,19 @@ class Model {
   PoseLayout layout() const { return recipe_->layout; }
   const std::vector<StyleInfo>& styles() const { return styles_; }
   const std::map<std::string, std::string>& metadata() const { return metadata_; }
-  // The index of the style called `style`; failing that, a sentence with the nearest names.
+  // The index of the style called `style`; failing that, a message with the nearest names.
   Result<int> find_style(std::string_view style) const;
   size_t parameter_count() const { return parameter_count_; }
-  // What foresees input that has not arrived; null in models without one.
-  const Predictor* predictor() const { return predictor_.get(); }
+  // What predicts input that has not arrived; null in models without one.
+  const PredictorNetwork* predictor() const { return predictor_.get(); }
 
-  // Whether styles can be learnt: the model knows how its features vary.
-  bool can_learn() const { return recipe_->learns_styles && !feature_mean_.empty(); }
+  // Whether styles can be learnt: the model knows how its activations vary.
+  bool can_learn() const { return recipe_->learns_styles && !activation_mean_.empty(); }
   // Numbers that all hidden layers of the pose trunk answer together: what styles are learnt on.
-  size_t feature_count() const { return trunks_.all_outputs(kPose); }
-  // Their mean and deviation over motion of all kinds. [feature_count()], or empty.
-  std::span<const float> feature_mean() const { return feature_mean_; }
-  std::span<const float> feature_scale() const { return feature_scale_; }
+  size_t activation_count() const { return trunks_.all_outputs(kPose); }
+  // Their mean and deviation over motion of all kinds. [activation_count()], or empty.
+  std::span<const float> activation_mean() const { return activation_mean_; }
+  std::span<const float> activation_scale() const { return activation_scale_; }
   // What each of the pose network's numbers is worth: its answers are multiplied by this.
   std::span<const float> output_scale() const { return output_scale_; }
 
@@ -74,11 +74,11 @@ class Model {
 
   // A file may not exceed these, so that a step finds room for its work on the stack.
   static constexpr size_t kMaxInputs = 2048, kMaxUnits = 512, kMaxStyles = 255;
-  static constexpr size_t kMaxFeatures = 3 * kMaxUnits;
+  static constexpr size_t kMaxActivations = 3 * kMaxUnits;
   // The numbers that a forward pass works in, at the most: inputs, all layers of three trunks,
-  // features on three stages of a gate, answers of one head or of all styles' small heads.
-  static constexpr size_t kMaxWork =
-      kMaxInputs + 3 * kMaxFeatures + 3 * kMaxFeatures + 2 * (kMaxStyles + 1);
+  // activations on three stages of a gate, answers of one head or of all styles' small heads.
+  static constexpr size_t kMaxScratch =
+      kMaxInputs + 3 * kMaxActivations + 3 * kMaxActivations + 2 * (kMaxStyles + 1);
 
   // The networks, by their place in trunks_ and heads_.
   enum { kPose, kTiming, kContact, kNetworks };
@@ -92,7 +92,7 @@ class Model {
     bool joined() const { return layers.size() < count; }
   };
   // How far a window is from those that the model was trained on: the length of the whitened
-  // difference of the pose trunk's features from their mean. Absent (no whitening) in models of
+  // difference of the pose trunk's activations from their mean. Absent (no whitening) in models of
   // recipes on which no style can be learnt.
   struct Gate {
     std::vector<float> mean;  // [hidden]
@@ -100,42 +100,44 @@ class Model {
     float limit = 0;          // Distance up to which everything is trusted.
     bool present() const { return limit > 0; }
   };
-  // A style learnt in closed form on the features of all layers of the pose trunk, with a gate of
-  // its own: how far a window is from those that the style was learnt from.
+  // A style learnt in closed form on the activations of all layers of the pose trunk, with a gate
+  // of its own: how far a window is from those that the style was learnt from.
   struct Learnt {
-    PackedLayer head;          // [features][kLearntNumbers]
-    std::vector<float> mean;   // Of the features it was learnt from. [features]
-    PackedLayer gate;          // [features][directions]: how far along the main directions,
-    std::vector<float> worth;  // and what a square along them is worth beyond `rest`.
-    float rest = 0;            // What a square of a standardised difference from the mean is worth.
+    PackedLayer head;         // [activations][kLearntOutputs]
+    std::vector<float> mean;  // Of the activations it was learnt from. [activations]
+    PackedLayer gate;         // [activations][directions]: how far along the main directions,
+    std::vector<float> gate_weights;  // and what a square along them is worth beyond `rest`.
+    float gate_residual = 0;  // What a square of a standardised difference from the mean is worth.
   };
   size_t built_in() const { return styles_.size() - learnt_.size(); }
   Result<void> read_metadata(const TensorFile& file, const std::string& name);
   Result<void> read_numbers(const TensorFile& file, const std::string& name);
   Result<void> read_gate(const TensorFile& file, const std::string& name);
   Result<void> read_networks(const TensorFile& file, const std::string& name);
-  Result<void> read_features(const TensorFile& file, const std::string& name);
+  Result<void> read_activations(const TensorFile& file, const std::string& name);
   Result<Learnt> read_learnt(const TensorFile& file, const std::string& prefix,
                              const std::string& name) const;
-  Result<void> measure_work(const std::string& name);
+  Result<void> measure_scratch(const std::string& name);
 
   const Recipe* recipe_ = nullptr;
   std::vector<StyleInfo> styles_;
   std::map<std::string, std::string> metadata_;
   // Of a whole window; the same for each of its poses.
-  std::vector<float> input_mean_, input_factor_;  // [kWindowPoses * pose_numbers]
+  std::vector<float> input_mean_, input_factor_;  // [kWindowPoses * pose_feature_count]
   std::vector<float> output_scale_;               // [pose outputs]
   std::vector<float> output_mean_;                // The same; zero where Recipe::output_scale is.
   float input_clip_ = 0;                          // In deviations; infinity clips nothing.
   TrunkTrio trunks_;
   std::array<Heads, kNetworks> heads_;
   Gate gate_;
-  std::vector<float> feature_mean_, feature_scale_, feature_factor_;  // The last is 1 / scale.
-  std::vector<Learnt> learnt_;                                        // Of the last styles.
-  std::vector<ConstantStyle> constants_;                              // In place of networks.
-  std::shared_ptr<const Predictor> predictor_;
+  std::vector<float> activation_mean_, activation_scale_,
+      activation_factor_;                 // The last is 1 / scale.
+  std::vector<Learnt> learnt_;            // Of the last styles.
+  std::vector<ConstantStyle> constants_;  // In place of networks.
+  std::shared_ptr<const PredictorNetwork> predictor_;
   size_t parameter_count_ = 0;
-  size_t work_ = 0;  // Numbers that a forward pass of one character works in, see kMaxWork.
+  size_t scratch_size_ =
+      0;  // Numbers that a forward pass of one character works in, see kMaxScratch.
 };
 
 // The evaluation of a model for one character. It holds little more than its results: what it works
@@ -165,8 +167,8 @@ class StyleNetworks {
   // styles have a gate each; this is the mean over the styles in force, by their strengths.
   float gate() const noexcept;
   // What styles are learnt on: the activations of all hidden layers of the pose trunk for a window.
-  // out.size() = Model::feature_count().
-  void features(std::span<const float> window, std::span<float> out) const noexcept;
+  // out.size() = Model::activation_count().
+  void activations(std::span<const float> window, std::span<float> out) const noexcept;
   // The pose network's numbers, in the model's own units undone. What change they are,
   // Recipe::to_change() tells. [Recipe::outputs]
   std::span<const float> pose() const { return pose_out_; }
@@ -183,25 +185,26 @@ class StyleNetworks {
   }
 
  private:
-  class Work;
+  class ScratchArena;
   static void evaluate(std::span<const Pass> passes, std::span<float> numbers) noexcept;
   // Of a model without networks.
   void answer_constants() noexcept;
   // Writes a window, and what else the networks take in.
   void write_input(std::span<const float> window, std::span<float> input) const noexcept;
-  // Draws the pose trunk's features towards their mean as far as the gates are closed.
+  // Draws the pose trunk's activations towards their mean as far as the gates are closed.
   static Rows<const float> shrink(std::span<const Pass> passes, Rows<const float> hidden,
-                                  Work& work) noexcept;
+                                  ScratchArena& arena) noexcept;
   // The sum of a network's heads in force, each times its strength, into out(character).
   template <class Out>
   static void add_heads(std::span<const Pass> passes, int network, Rows<const float> hidden,
-                        Work& work, Out out) noexcept;
+                        ScratchArena& arena, Out out) noexcept;
   // Adds what the learnt styles in force answer to what the trunks have left in `scratch`.
-  static void add_learnt(std::span<const Pass> passes, std::span<const float> scratch, Work& work);
+  static void add_learnt(std::span<const Pass> passes, std::span<const float> scratch,
+                         ScratchArena& arena);
   // How far a window is from those that a style was learnt from: 1 where trust in it ends. Leaves
-  // the standardised difference of the features from their mean in `apart`.
-  float leverage(const Model::Learnt& learnt, std::span<const float> features,
-                 std::span<float> apart, Work& work) const noexcept;
+  // the standardised difference of the activations from their mean in `apart`.
+  float leverage(const Model::Learnt& learnt, std::span<const float> activations,
+                 std::span<float> apart, ScratchArena& arena) const noexcept;
   // The strength of a network's head, after exaggeration; 0 if it is not in force.
   float head_strength(const Model::Heads& heads, size_t head) const noexcept;
 

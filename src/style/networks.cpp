@@ -21,12 +21,12 @@ float exaggerated(float strength) {
 }  // namespace
 
 // Room on the stack, handed out in parts that begin on a cache line.
-class StyleNetworks::Work {
+class StyleNetworks::ScratchArena {
  public:
-  explicit Work(std::span<float> numbers) : rest_(numbers) {}
+  explicit ScratchArena(std::span<float> numbers) : remaining_(numbers) {}
   std::span<float> take(size_t numbers) {
-    const std::span<float> part = rest_.first(padded(numbers));
-    rest_ = rest_.subspan(part.size());
+    const std::span<float> part = remaining_.first(padded(numbers));
+    remaining_ = remaining_.subspan(part.size());
     return part;
   }
   // So many rows of so many numbers.
@@ -34,10 +34,10 @@ class StyleNetworks::Work {
     return {take(count * padded(numbers)).data(), count, padded(numbers)};
   }
   // What is there by now, to be handed out again by a copy.
-  std::span<float> rest() const { return rest_; }
+  std::span<float> remaining() const { return remaining_; }
 
  private:
-  std::span<float> rest_;
+  std::span<float> remaining_;
 };
 
 StyleNetworks::StyleNetworks(std::shared_ptr<const Model> model)
@@ -59,11 +59,11 @@ float StyleNetworks::head_strength(const Model::Heads& heads, size_t head) const
 
 template <class Out>
 void StyleNetworks::add_heads(std::span<const Pass> passes, int network, Rows<const float> hidden,
-                              Work& work, Out out) noexcept {
+                              ScratchArena& arena, Out out) noexcept {
   const Model::Heads& heads = passes.front().networks->model_->heads_[network];
   for (const Pass& pass : passes) std::ranges::fill(out(*pass.networks), 0.0f);
   if (heads.layers.empty()) return;
-  Work room = work;
+  ScratchArena room = arena;
   const Rows<float> answers = room.rows(passes.size(), heads.layers.front().width());
   if (heads.joined()) heads.layers.front().forward(hidden, answers);
   for (size_t h = 0; h < heads.count; ++h) {
@@ -91,12 +91,12 @@ float StyleNetworks::gate() const noexcept {
 }
 
 void StyleNetworks::add_learnt(std::span<const Pass> passes, std::span<const float> scratch,
-                               Work& work) {
+                               ScratchArena& arena) {
   const Model& m = *passes.front().networks->model_;
   if (m.learnt_.empty()) return;
-  Work room = work;
-  const size_t count = m.feature_count(), first = m.built_in();
-  const std::span<float> features = room.take(count).first(count);
+  ScratchArena room = arena;
+  const size_t count = m.activation_count(), first = m.built_in();
+  const std::span<float> activations = room.take(count).first(count);
   const std::span<float> drawn = room.take(count).first(count);
   for (size_t p = 0; p < passes.size(); ++p) {
     StyleNetworks& self = *passes[p].networks;
@@ -104,16 +104,16 @@ void StyleNetworks::add_learnt(std::span<const Pass> passes, std::span<const flo
     for (size_t k = 0; k < m.learnt_.size(); ++k) {
       const float strength = exaggerated(self.strengths_[first + k]);
       if (strength == 0) continue;
-      if (!gathered) m.trunks_.all_layers(Model::kPose, p, passes.size(), scratch, features);
+      if (!gathered) m.trunks_.all_layers(Model::kPose, p, passes.size(), scratch, activations);
       gathered = true;
       const Model::Learnt& learnt = m.learnt_[k];
-      Work rest = room;
-      const float far = self.leverage(learnt, features, drawn, rest);
+      ScratchArena rest = room;
+      const float far = self.leverage(learnt, activations, drawn, rest);
       const float wanted = far > 1 ? 1 / far : 1.0f;
       float& open = self.learnt_gates_[k];
       if (std::isfinite(far)) open += passes[p].gate_share * (wanted - open);
       for (size_t i = 0; i < count; ++i) {
-        drawn[i] = learnt.mean[i] + open * (features[i] - learnt.mean[i]);
+        drawn[i] = learnt.mean[i] + open * (activations[i] - learnt.mean[i]);
       }
       const std::span<float> answer = rest.take(learnt.head.width());
       learnt.head.forward({drawn.data(), 1, 0}, {answer.data(), 1, 0});
@@ -125,40 +125,42 @@ void StyleNetworks::add_learnt(std::span<const Pass> passes, std::span<const flo
   }
 }
 
-float StyleNetworks::leverage(const Model::Learnt& learnt, std::span<const float> features,
-                              std::span<float> apart, Work& work) const noexcept {
-  const std::vector<float>& factor = model_->feature_factor_;
-  for (size_t i = 0; i < features.size(); ++i) {
-    apart[i] = (features[i] - learnt.mean[i]) * factor[i];
+float StyleNetworks::leverage(const Model::Learnt& learnt, std::span<const float> activations,
+                              std::span<float> apart, ScratchArena& arena) const noexcept {
+  const std::vector<float>& factor = model_->activation_factor_;
+  for (size_t i = 0; i < activations.size(); ++i) {
+    apart[i] = (activations[i] - learnt.mean[i]) * factor[i];
   }
-  Work room = work;
+  ScratchArena room = arena;
   const std::span<float> along = room.take(learnt.gate.width());
-  learnt.gate.forward({features.data(), 1, 0}, {along.data(), 1, 0});
-  float sum = learnt.rest * square_length(apart);
-  for (size_t d = 0; d < learnt.worth.size(); ++d) sum += learnt.worth[d] * along[d] * along[d];
+  learnt.gate.forward({activations.data(), 1, 0}, {along.data(), 1, 0});
+  float sum = learnt.gate_residual * square_length(apart);
+  for (size_t d = 0; d < learnt.gate_weights.size(); ++d)
+    sum += learnt.gate_weights[d] * along[d] * along[d];
   return sum;
 }
 
-void StyleNetworks::features(std::span<const float> window, std::span<float> out) const noexcept {
-  alignas(kCacheLine) std::array<float, Model::kMaxWork> numbers;
-  Work work(numbers);
+void StyleNetworks::activations(std::span<const float> window,
+                                std::span<float> out) const noexcept {
+  alignas(kCacheLine) std::array<float, Model::kMaxScratch> numbers;
+  ScratchArena arena(numbers);
   const size_t inputs = static_cast<size_t>(model_->trunks_.inputs());
-  const Rows<float> input = work.rows(1, inputs);
+  const Rows<float> input = arena.rows(1, inputs);
   write_input(window, {input.row(0), inputs});
-  const std::span<float> scratch = work.take(model_->trunks_.scratch_size(1));
+  const std::span<float> scratch = arena.take(model_->trunks_.scratch_size(1));
   model_->trunks_.forward(Rows<const float>(input), scratch);
   model_->trunks_.all_layers(Model::kPose, 0, 1, scratch, out);
 }
 
 Rows<const float> StyleNetworks::shrink(std::span<const Pass> passes, Rows<const float> hidden,
-                                        Work& work) noexcept {
+                                        ScratchArena& arena) noexcept {
   const Model& m = *passes.front().networks->model_;
   const Model::Gate& gate = m.gate_;
   if (!gate.present()) return hidden;
   const size_t size = gate.mean.size();
-  const Rows<float> features = work.rows(passes.size(), size);
-  const Rows<float> centred = work.rows(passes.size(), size);
-  const Rows<float> white = work.rows(passes.size(), size);
+  const Rows<float> activations = arena.rows(passes.size(), size);
+  const Rows<float> centred = arena.rows(passes.size(), size);
+  const Rows<float> white = arena.rows(passes.size(), size);
   for (size_t p = 0; p < passes.size(); ++p) {
     for (size_t i = 0; i < size; ++i) centred.row(p)[i] = hidden.row(p)[i] - gate.mean[i];
   }
@@ -170,7 +172,7 @@ Rows<const float> StyleNetworks::shrink(std::span<const Pass> passes, Rows<const
     const float wanted = near * near;  // Falls with the fourth power of the distance.
     float& open = passes[p].networks->gate_;
     if (std::isfinite(wanted)) open += passes[p].gate_share * (wanted - open);
-    const std::span<float> out(features.row(p), size);
+    const std::span<float> out(activations.row(p), size);
     if (open == 1) {
       std::copy_n(hidden.row(p), size, out.begin());
     } else {
@@ -178,7 +180,7 @@ Rows<const float> StyleNetworks::shrink(std::span<const Pass> passes, Rows<const
       add_scaled(open, {centred.row(p), size}, out);
     }
   }
-  return features;
+  return activations;
 }
 
 void StyleNetworks::write_input(std::span<const float> window,
@@ -209,23 +211,23 @@ void StyleNetworks::evaluate(std::span<const Pass> passes, std::span<float> numb
     for (const Pass& pass : passes) pass.networks->answer_constants();
     return;
   }
-  Work work(numbers);
+  ScratchArena arena(numbers);
   const size_t inputs = static_cast<size_t>(m.trunks_.inputs());
-  const Rows<float> input = work.rows(passes.size(), inputs);
+  const Rows<float> input = arena.rows(passes.size(), inputs);
   for (size_t p = 0; p < passes.size(); ++p) {
     passes[p].networks->write_input(passes[p].window, {input.row(p), inputs});
   }
-  const std::span<float> scratch = work.take(m.trunks_.scratch_size(passes.size()));
+  const std::span<float> scratch = arena.take(m.trunks_.scratch_size(passes.size()));
   const auto hidden = m.trunks_.forward(Rows<const float>(input), scratch);
-  const Rows<const float> features = shrink(passes, hidden[Model::kPose], work);
+  const Rows<const float> activations = shrink(passes, hidden[Model::kPose], arena);
   using Self = StyleNetworks;
-  add_heads(passes, Model::kPose, features, work,
+  add_heads(passes, Model::kPose, activations, arena,
             [](Self& self) { return std::span(self.pose_out_); });
-  add_heads(passes, Model::kTiming, hidden[Model::kTiming], work,
+  add_heads(passes, Model::kTiming, hidden[Model::kTiming], arena,
             [](Self& self) { return std::span(self.timing_out_); });
-  add_heads(passes, Model::kContact, hidden[Model::kContact], work,
+  add_heads(passes, Model::kContact, hidden[Model::kContact], arena,
             [](Self& self) { return std::span(self.contact_out_); });
-  add_learnt(passes, scratch, work);
+  add_learnt(passes, scratch, arena);
   for (const Pass& pass : passes) {
     std::vector<float>& pose = pass.networks->pose_out_;
     for (size_t i = 0; i < pose.size(); ++i) {
@@ -236,7 +238,7 @@ void StyleNetworks::evaluate(std::span<const Pass> passes, std::span<float> numb
 }
 
 void StyleNetworks::forward(std::span<const float> window, float gate_share) noexcept {
-  alignas(kCacheLine) std::array<float, Model::kMaxWork> numbers;
+  alignas(kCacheLine) std::array<float, Model::kMaxScratch> numbers;
   const Pass pass{this, window, gate_share};
   evaluate({&pass, 1}, numbers);
 }
@@ -244,9 +246,9 @@ void StyleNetworks::forward(std::span<const float> window, float gate_share) noe
 void StyleNetworks::forward_all(std::span<const Pass> passes) noexcept {
   // Eight characters of most models, and three of the largest.
   alignas(kCacheLine) std::array<float, 32768> numbers;
-  static_assert(numbers.size() >= Model::kMaxWork);
+  static_assert(numbers.size() >= Model::kMaxScratch);
   while (!passes.empty()) {
-    const size_t fit = numbers.size() / passes.front().networks->model_->work_;
+    const size_t fit = numbers.size() / passes.front().networks->model_->scratch_size_;
     const size_t count = std::min({passes.size(), kRowsAtOnce, fit});
     evaluate(passes.first(count), numbers);
     passes = passes.subspan(count);

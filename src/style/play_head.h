@@ -4,7 +4,7 @@
 namespace panache {
 
 // A style plays its input faster or slower than it comes. Live the head can be late by `max_lag`
-// and, where input is foreseen, ahead by `max_lead`; near a bound the rate eases to 1. Without a
+// and, where input is predicted, ahead by `max_lead`; near a bound the rate eases to 1. Without a
 // style it returns to now.
 class PlayHead {
  public:
@@ -16,7 +16,7 @@ class PlayHead {
   // nothing where no style asks. Returns the input seconds that the head went.
   double advance(double seconds, double rate, bool styled) noexcept;
   // Goes on elsewhere: `seconds` later in the input.
-  void leap(double seconds) noexcept { ahead_ += seconds; }
+  void jump(double seconds) noexcept { ahead_ += seconds; }
 
   // Seconds from now to the head: below zero it is late.
   double ahead() const noexcept { return ahead_; }

@@ -97,7 +97,7 @@ void Stylizer::give_out(const StepTime& time, Pose out, StageClock* clock) noexc
   tell(clock, Stage::filter);
   if (options_.root) root_.step(filter_.delta(), networks_.gate(), observer_, window_, time);
   tell(clock, Stage::root);
-  shaping_.step(shape, filter_.delta(), root_.offset(now.ground), time, change_);
+  shaping_.step(shape, filter_.delta(), root_.offset(now.root), time, change_);
   tell(clock, Stage::shape);
   HumanPositions joints;
   changed_joints(now.world, change_, joints);

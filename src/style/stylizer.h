@@ -66,7 +66,7 @@ class StageClock {
 // One character's memory. create() allocates everything and may fail; step() does neither.
 class Stylizer {
  public:
-  // `rig` maps the character's skeleton. Fails with a sentence where an option is out of its range.
+  // `rig` maps the character's skeleton. Fails with a message where an option is out of its range.
   static Result<Stylizer> create(std::shared_ptr<const Model> model, Rig rig,
                                  const StylizerOptions& options = {});
 

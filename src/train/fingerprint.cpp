@@ -38,7 +38,7 @@ uint64_t hash_data(const std::vector<Take>& takes, const SampleSet& set,
   Hash hash;
   for (const Take& take : takes) {
     hash.add_text(take.row.content);
-    hash.add_list(take.numbers);
+    hash.add_list(take.pose_features);
   }
   for (size_t i = 0; i < set.samples().size(); ++i) {
     const Sample& sample = set.samples()[i];
@@ -92,8 +92,7 @@ uint64_t hash_settings(const TrainOptions& options) {
 Fingerprint fingerprint(const std::vector<Take>& takes, const SampleSet& set,
                         const std::vector<int>& choice, const std::vector<StyleName>& styles,
                         const TrainOptions& options) {
-  return {hash_data(takes, set, choice), hash_styles(styles),
-          hash_settings(options)};
+  return {hash_data(takes, set, choice), hash_styles(styles), hash_settings(options)};
 }
 
 }  // namespace panache

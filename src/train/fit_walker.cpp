@@ -5,9 +5,9 @@
 #include <numbers>
 #include <optional>
 
-#include "train/gait_take.h"
 #include "learn/ridge.h"
 #include "learn/take.h"
+#include "train/gait_take.h"
 
 namespace panache {
 namespace {
@@ -255,9 +255,9 @@ int fit_stand(const std::vector<const Take*>& takes, Channels& stand) {
       const Vec3 feet = (body[index(kToes[0])] + body[index(kToes[1])] + body[index(kAnkles[0])] +
                          body[index(kAnkles[1])]) *
                         0.25f;
-      const Ground& ground = take->ground[f];
-      const Vec3 origin = to_world(Vec3{feet.x, 0, feet.z}, ground);
-      const Channels channels = gait_channels(*take, f, origin, ground.facing);
+      const RootPose& root = take->root[f];
+      const Vec3 origin = to_world(Vec3{feet.x, 0, feet.z}, root);
+      const Channels channels = gait_channels(*take, f, origin, root.facing);
       const Channels other = mirrored(channels);
       for (int c = 0; c < kChannels; ++c) {
         sum[c] += static_cast<double>(channels[c] + other[c]) / 2;

@@ -6,7 +6,7 @@
 
 #include "base/result.h"
 #include "learn/manifest.h"
-#include "walker/model.h"
+#include "walker/walker_model.h"
 
 namespace panache {
 

@@ -6,14 +6,14 @@
 #include <numbers>
 
 #include "base/quat.h"
-#include "rig/canonical_skeleton.h"
 #include "learn/ridge.h"
+#include "rig/canonical_skeleton.h"
 
 namespace panache {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr int kFewestFrames = 12;
+constexpr int kMinFrames = 12;
 
 // The four cubic B-splines that are not zero at `x`, in knots; the first is number floor(x).
 std::array<double, 4> splines(double x) {
@@ -104,19 +104,19 @@ std::vector<double> rough_phase(const Take& take) {
 }  // namespace
 
 Channels gait_channels(const Take& take, int frame, Vec3 origin, float facing) {
-  const Ground& ground = take.ground[frame];
+  const RootPose& root = take.root[frame];
   const Quat to_path = rotation_y(-facing);
   std::array<Quat, kHumanJoints> world;
   canonical_frames(take.body[frame], 0, world);
   Channels out;
-  const Vec3 hips = rotate(to_path, ground.position - origin);
+  const Vec3 hips = rotate(to_path, root.position - origin);
   out[0] = hips.x;
   out[1] = take.body[frame][0].y;
   out[2] = hips.z;
   for (size_t i = 0; i < kDriven.size(); ++i) {
     const int j = index(kDriven[i]);
     const Quat local = j ? conjugate(world[kHumanParent[j]]) * world[j]
-                         : rotation_y(ground.facing - facing) * world[0];
+                         : rotation_y(root.facing - facing) * world[0];
     const Vec3 r = log_rotation(local);
     out[3 * i + 3] = r.x;
     out[3 * i + 4] = r.y;
@@ -127,7 +127,7 @@ Channels gait_channels(const Take& take, int frame, Vec3 origin, float facing) {
 
 std::vector<GaitFrame> gait_frames(const Take& take) {
   const int frames = take.frames();
-  if (frames < kFewestFrames) return {};
+  if (frames < kMinFrames) return {};
   const std::vector<double> rough = rough_phase(take);
   const double cycles = (rough.back() - rough.front()) / kTurn;
   if (!(cycles > 0.8)) return {};
@@ -138,9 +138,9 @@ std::vector<GaitFrame> gait_frames(const Take& take) {
 
   std::vector<double> x(frames), z(frames), facing(frames);
   for (int f = 0; f < frames; ++f) {
-    x[f] = static_cast<double>(take.ground[f].position.x);
-    z[f] = static_cast<double>(take.ground[f].position.z);
-    facing[f] = static_cast<double>(take.ground[f].facing);
+    x[f] = static_cast<double>(take.root[f].position.x);
+    z[f] = static_cast<double>(take.root[f].position.z);
+    facing[f] = static_cast<double>(take.root[f].facing);
   }
   x = smooth(x, phase, cycle_frames);
   z = smooth(z, phase, cycle_frames);

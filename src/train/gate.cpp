@@ -5,10 +5,10 @@
 namespace panache {
 namespace {
 
-// Directions in which the features hardly vary are not trusted to tell what is unknown.
+// Directions in which the activations hardly vary are not trusted to tell what is unknown.
 constexpr double kRidge = 0.02;  // Of the mean variance.
 // Windows are trusted up to this share of the distance that 99 % of the training windows keep: the
-// rest of them are transitions and odd moments, and foreign motion begins among those.
+// rest of them are transitions and odd moments, and out-of-distribution motion begins among those.
 constexpr double kQuantile = 0.99, kTrusted = 0.61;
 
 Tensor plain_tensor(const torch::Tensor& values, bool half) {
@@ -24,11 +24,11 @@ Tensor plain_tensor(const torch::Tensor& values, bool half) {
 
 void fit_gate(const torch::Tensor& rows, TensorFile& file) {
   torch::NoGradGuard no_gradients;
-  const torch::Tensor features = rows.to(torch::kFloat64);
-  const torch::Tensor mean = features.mean(0);
-  const torch::Tensor centred = features - mean;
+  const torch::Tensor activations = rows.to(torch::kFloat64);
+  const torch::Tensor mean = activations.mean(0);
+  const torch::Tensor centred = activations - mean;
   const torch::Tensor covariance =
-      torch::mm(centred.t(), centred) / static_cast<double>(features.size(0) - 1);
+      torch::mm(centred.t(), centred) / static_cast<double>(activations.size(0) - 1);
   const auto [values, vectors] = torch::linalg_eigh(covariance);
   // Features that do not vary at all, as those of a single pose, still make a gate.
   const torch::Tensor ridge = values.clamp_min(0) + (values.mean() * kRidge).clamp_min(1e-6);

@@ -1,5 +1,5 @@
 #pragma once
-// What motion a trained pose network knows: the ellipsoid that its features fill in training.
+// What motion a trained pose network knows: the ellipsoid that its activations fill in training.
 
 #include <torch/torch.h>
 
@@ -8,8 +8,8 @@
 namespace panache {
 
 // Adds gate.mean, gate.whitening and gate.limit to a model: mean and covariance of the pose trunk's
-// features over training windows, and the distance beyond which windows are trusted less and less.
-// features[rows][hidden].
-void fit_gate(const torch::Tensor& features, TensorFile& file);
+// activations over training windows, and the distance beyond which windows are trusted less and
+// less. activations[rows][hidden].
+void fit_gate(const torch::Tensor& activations, TensorFile& file);
 
 }  // namespace panache

@@ -4,28 +4,28 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "style/predictor.h"
+#include "style/predictor_network.h"
 #include "train/network.h"
 
 namespace panache {
 namespace {
 
-constexpr int kNumbers = Predictor::kNumbers;
-constexpr int kRoot = root_offset(PoseLayout::positions);  // Where the root numbers begin.
+constexpr int kFeatures = PredictorNetwork::kFeatures;
+constexpr int kRoot = root_offset(PoseLayout::positions);  // Where the root features begin.
 constexpr int kAhead = 5;                                  // Poses that are rolled out.
 constexpr int kPoses = kWindowPoses + kAhead;
-constexpr int kInputs = kWindowPoses * kNumbers;
+constexpr int kInputs = kWindowPoses * kFeatures;
 constexpr int kHidden = 48;
 constexpr int kBatch = 128;
 constexpr float kInputClip = 3;
 // Errors count as a share of those of holding the pose or of constant velocity, whichever is less,
 // so that slow actions weigh as much as fast ones; but these as no less than this.
-constexpr float kLeastError = 0.003f;  // Metres.
+constexpr float kMinError = 0.003f;  // Metres.
 
 // How the windows are disturbed: as the networks of the styles are, but for the jitter, which would
 // hide what is to be seen.
 constexpr float kScale = 0.08f, kTempo = 0.2f, kPosture = 0.02f;
-constexpr float kMostJitter = 0.001f;  // Metres; each window has its own share of it.
+constexpr float kMaxJitter = 0.001f;  // Metres; each window has its own share of it.
 
 struct Place {
   int take;
@@ -35,13 +35,13 @@ struct Place {
 // The body and its ground at a fractional frame.
 struct Instant {
   HumanPositions body;
-  Ground ground;
+  RootPose root;
 };
 Instant instant_at(const Take& take, float frame) {
   frame = std::clamp(frame, 0.0f, static_cast<float>(take.frames() - 1));
   const int a = static_cast<int>(frame), b = std::min(a + 1, take.frames() - 1);
   const float t = frame - static_cast<float>(a);
-  return {body_at(take, frame), interpolate(take.ground[a], take.ground[b], t)};
+  return {body_at(take, frame), interpolate(take.root[a], take.root[b], t)};
 }
 
 // The joints above the hips, and those of the arms alone, can be borrowed from another motion: who
@@ -62,7 +62,7 @@ struct Draw {
   std::array<float, 3 * kHumanJoints> posture{};
 };
 
-// Writes kPoses poses, oldest first, the last of the window at `place`. out[kPoses][kNumbers]
+// Writes kPoses poses, oldest first, the last of the window at `place`. out[kPoses][kFeatures]
 void write_poses(const std::vector<Take>& takes, const Place& place, const Draw& draw,
                  Random& random, float* out) {
   float spacing = static_cast<float>(kWindowSpacing * kTakeRate) * draw.tempo;
@@ -81,7 +81,7 @@ void write_poses(const std::vector<Take>& takes, const Place& place, const Draw&
     return now;
   };
   Instant before = at(-1);
-  for (int p = 0; p < kPoses; ++p, out += kNumbers) {
+  for (int p = 0; p < kPoses; ++p, out += kFeatures) {
     const Instant now = at(p);
     const HumanPositions body = draw.mirrored ? mirrored(now.body) : now.body;
     for (int j = 0; j < kHumanJoints; ++j) {
@@ -94,8 +94,8 @@ void write_poses(const std::vector<Take>& takes, const Place& place, const Draw&
       }
     }
     float* root = out + 3 * kHumanJoints;
-    write_root_numbers(before.ground, now.ground, kWindowSpacing,
-                       std::span<float, kRootNumbers>(root, kRootNumbers));
+    write_root_features(before.root, now.root, kWindowSpacing,
+                        std::span<float, kRootFeatures>(root, kRootFeatures));
     if (draw.mirrored) root[0] = -root[0], root[2] = -root[2];
     root[0] *= draw.scale, root[1] *= draw.scale;
     before = now;
@@ -149,7 +149,7 @@ class PredictorTraining {
     const float* unit = unit_.data_ptr<float>();
     for (const char* key : {"predict.head.0.weight", "predict.head.0.bias"}) {
       std::vector<float>& values = own.tensors.at(key).values;
-      for (size_t i = 0; i < values.size(); ++i) values[i] /= unit[i % kNumbers];
+      for (size_t i = 0; i < values.size(); ++i) values[i] /= unit[i % kFeatures];
     }
     // Half-size: the error is a thousandth of what is predicted anyway.
     for (auto& [key, tensor] : own.tensors) {
@@ -161,14 +161,14 @@ class PredictorTraining {
       const float* values = flat.data_ptr<float>();
       file.tensors[key] = {std::move(shape), {values, values + flat.numel()}, false};
     };
-    put("predict.mean", mean_, {kNumbers});
-    put("predict.scale", scale_, {kNumbers});
-    put("predict.linear", linear_, {(kWindowPoses - 1) * kNumbers});
+    put("predict.mean", mean_, {kFeatures});
+    put("predict.scale", scale_, {kFeatures});
+    put("predict.linear", linear_, {(kWindowPoses - 1) * kFeatures});
   }
 
  private:
   static NetworkShape shape() {
-    return {"predict", kInputs, kHidden, 1, kNumbers, 1, false, false};
+    return {"predict", kInputs, kHidden, 1, kFeatures, 1, false, false};
   }
   static OptimizerSettings optimizer() {
     OptimizerSettings settings;
@@ -179,19 +179,19 @@ class PredictorTraining {
     return settings;
   }
 
-  // [rows][kPoses][kNumbers], oldest first.
+  // [rows][kPoses][kFeatures], oldest first.
   torch::Tensor draw_batch(const std::vector<Place>& places, int rows, bool disturbed,
                            Random& random) const {
-    torch::Tensor out = torch::empty({rows, kPoses, kNumbers});
+    torch::Tensor out = torch::empty({rows, kPoses, kFeatures});
     float* row = out.data_ptr<float>();
-    for (int r = 0; r < rows; ++r, row += kPoses * kNumbers) {
+    for (int r = 0; r < rows; ++r, row += kPoses * kFeatures) {
       const Place& place = places[random.below(static_cast<uint32_t>(places.size()))];
       Draw draw;
       draw.mirrored = random.uniform() < 0.5f;
       if (disturbed) {
         draw.scale = 1 + kScale * random.normal();
         draw.tempo = std::exp(kTempo * random.normal());
-        draw.jitter = kMostJitter * random.uniform() * random.uniform();
+        draw.jitter = kMaxJitter * random.uniform() * random.uniform();
         draw.reversed = random.uniform() < kReversed;
         const float borrows = random.uniform();
         if (borrows < 2 * kBorrows) draw.borrowed = borrows < kBorrows ? &kUpperBody : &kArms;
@@ -204,31 +204,31 @@ class PredictorTraining {
   }
 
   void measure(const torch::Tensor& poses) {
-    const torch::Tensor rows = poses.reshape({-1, kNumbers});
+    const torch::Tensor rows = poses.reshape({-1, kFeatures});
     mean_ = rows.mean(0);
-    torch::Tensor floor = torch::full({kNumbers}, 0.03f);
+    torch::Tensor floor = torch::full({kFeatures}, 0.03f);
     floor.slice(0, kRoot, kRoot + kTurnRate).fill_(0.1f), floor[kRoot + kTurnRate].fill_(0.2f);
-    unit_ = torch::empty({kNumbers});
-    for (int n = 0; n < kNumbers; ++n) unit_[n] = Predictor::unit(static_cast<size_t>(n));
+    unit_ = torch::empty({kFeatures});
+    for (int n = 0; n < kFeatures; ++n) unit_[n] = PredictorNetwork::unit(static_cast<size_t>(n));
     scale_ = ((rows - mean_).square().mean(0) + floor.square()).sqrt();
   }
 
-  // Root mean square of a window's changes in the network's units, as Predictor::next() has it.
-  // changes[rows][kWindowPoses - 1][kNumbers] -> [rows][1]
+  // Root mean square of a window's changes in the network's units, as PredictorNetwork::next() has
+  // it. changes[rows][kWindowPoses - 1][kFeatures] -> [rows][1]
   torch::Tensor motion_of(const torch::Tensor& changes) const {
     return (changes * unit_)
         .square()
         .mean(2)
         .mean(1, true)
         .sqrt()
-        .clamp_min(Predictor::kLeastMotion);
+        .clamp_min(PredictorNetwork::kMinMotion);
   }
 
   // Each number's own continuation: the shares of its last changes that leave the least error, as
   // a share of the motion.
   void fit_linear(const torch::Tensor& poses) {
     const torch::Tensor changes = poses.slice(1, 1) - poses.slice(1, 0, kPoses - 1);
-    linear_ = torch::zeros({kWindowPoses - 1, kNumbers});
+    linear_ = torch::zeros({kWindowPoses - 1, kFeatures});
     std::vector<torch::Tensor> seen, wanted;
     for (int end = kWindowPoses - 1; end < kPoses - 1; ++end) {
       const torch::Tensor part = changes.slice(1, end - kWindowPoses + 1, end).flip(1);
@@ -238,7 +238,7 @@ class PredictorTraining {
     }
     const torch::Tensor a = torch::cat(seen).to(torch::kDouble);
     const torch::Tensor b = torch::cat(wanted).to(torch::kDouble);
-    for (int n = 0; n < kNumbers; ++n) {
+    for (int n = 0; n < kFeatures; ++n) {
       const torch::Tensor x = a.select(2, n);
       const torch::Tensor square = x.t().matmul(x) + 1e-3 * torch::eye(kWindowPoses - 1);
       linear_.select(1, n).copy_(
@@ -246,8 +246,8 @@ class PredictorTraining {
     }
   }
 
-  // The poses after a window, each foreseen from those before it. window[rows][kWindowPoses]
-  // [kNumbers], oldest first -> [rows][kAhead][kNumbers]
+  // The poses after a window, each predicted from those before it. window[rows][kWindowPoses]
+  // [kFeatures], oldest first -> [rows][kAhead][kFeatures]
   torch::Tensor roll_out(torch::Tensor window, Random* random) const {
     std::vector<torch::Tensor> out;
     for (int step = 0; step < kAhead; ++step) {
@@ -256,7 +256,7 @@ class PredictorTraining {
           (window.slice(1, 1) - window.slice(1, 0, kWindowPoses - 1)).flip(1);
       const torch::Tensor motion = motion_of(changes);
       const torch::Tensor pose = ((newest - mean_) / scale_).clamp(-kInputClip, kInputClip);
-      const torch::Tensor seen = (changes * unit_).reshape({-1, kInputs - kNumbers}) / motion;
+      const torch::Tensor seen = (changes * unit_).reshape({-1, kInputs - kFeatures}) / motion;
       const torch::Tensor answer = network_.forward(torch::cat({pose, seen}, 1), {}, random);
       const torch::Tensor next = newest + (changes * linear_).sum(1) + motion * answer / unit_;
       out.push_back(next);
@@ -267,7 +267,7 @@ class PredictorTraining {
 
   // Where the joints of the poses ahead stand, seen from where the body is now: each pose's own
   // positions, the way so far, and to the first order the turn so far.
-  // ahead[rows][kAhead][kNumbers] -> [rows][kAhead][joints][3]
+  // ahead[rows][kAhead][kFeatures] -> [rows][kAhead][joints][3]
   static torch::Tensor joints_ahead(const torch::Tensor& ahead) {
     const torch::Tensor body = ahead.slice(2, 0, kRoot).reshape({-1, kAhead, kHumanJoints, 3});
     const torch::Tensor root = ahead.slice(2, kRoot).cumsum(1) * kWindowSpacing;
@@ -291,11 +291,11 @@ class PredictorTraining {
     const torch::Tensor velocity = newest - window.slice(1, kWindowPoses - 2, kWindowPoses - 1);
     const torch::Tensor moved =
         torch::cat({newest.slice(2, 0, kRoot) + times * velocity.slice(2, 0, kRoot),
-                    newest.slice(2, kRoot).expand({-1, kAhead, kRootNumbers})},
+                    newest.slice(2, kRoot).expand({-1, kAhead, kRootFeatures})},
                    2);
     const torch::Tensor least =
         torch::minimum(error(held.expand_as(wanted)), error(joints_ahead(moved)));
-    return (error(joints_ahead(roll_out(window, random))) / (least + kLeastError * kLeastError))
+    return (error(joints_ahead(roll_out(window, random))) / (least + kMinError * kMinError))
         .sqrt()
         .mean();
   }
@@ -304,8 +304,8 @@ class PredictorTraining {
   uint64_t seed_;
   NetworkTrainer network_;
   std::vector<Place> places_, held_;
-  torch::Tensor mean_, scale_, unit_;  // [kNumbers]
-  torch::Tensor linear_;               // [kWindowPoses - 1][kNumbers], newest change first
+  torch::Tensor mean_, scale_, unit_;  // [kFeatures]
+  torch::Tensor linear_;               // [kWindowPoses - 1][kFeatures], newest change first
 };
 
 }  // namespace

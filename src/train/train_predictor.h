@@ -1,11 +1,11 @@
 #pragma once
-// Training of the network that foresees input: from all takes, of whatever style.
+// Training of the network that predicts input: from all takes, of whatever style.
 
 #include <functional>
 #include <vector>
 
-#include "net/safetensors.h"
 #include "learn/take.h"
+#include "net/safetensors.h"
 #include "train/trainer.h"
 
 namespace panache {

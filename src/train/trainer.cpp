@@ -325,7 +325,7 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
   if (recipe.learns_styles) {
     fit_gate(clean_features(set, choice, count, settings.batch, units, networks[0], options.seed),
              trained.model);
-    if (auto added = add_feature_statistics(data.takes, trained.model); !added) {
+    if (auto added = add_activation_statistics(data.takes, trained.model); !added) {
       return added.error();
     }
   }

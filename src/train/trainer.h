@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "base/result.h"
-#include "net/safetensors.h"
-#include "train/batches.h"
 #include "learn/manifest.h"
-#include "train/network.h"
 #include "learn/samples.h"
+#include "net/safetensors.h"
 #include "recipes/recipes.h"
+#include "train/batches.h"
+#include "train/network.h"
 
 namespace panache {
 

@@ -2,7 +2,7 @@
 // How the walker goes: eases what is wanted, follows the path, chooses between walk and run, and
 // keeps the phase of the steps.
 
-#include "walker/model.h"
+#include "walker/walker_model.h"
 
 namespace panache {
 

@@ -29,7 +29,7 @@ Clip walk_clip(std::shared_ptr<const WalkerModel> model, const WalkClipOptions& 
       walker.step(options.speed, options.turn, 1.0 / 60, {rotations, translations});
     }
   }
-  const Ground begin = walker.ground();
+  const RootPose begin = walker.root();
   const Quat back = rotation_y(-begin.facing);
   const double stop_at =
       options.seconds - kSecondsToStand - static_cast<double>(options.speed) / 2.5;

@@ -45,7 +45,7 @@ void Walker::reset() noexcept {
   before_ = now_;
 }
 
-Ground Walker::ground() const noexcept {
+RootPose Walker::root() const noexcept {
   return {{static_cast<float>(drive_.x()), 0, static_cast<float>(drive_.z())},
           static_cast<float>(drive_.heading())};
 }
@@ -100,7 +100,7 @@ void Walker::pose_body() noexcept {
   const Quat frame = heading * axis_angle(Vec3{0, 0, 1}, -lean);
   up_ = rotate(frame, Vec3{0, 1, 0});
   now_.rotations[0] = normalized(frame * now_.rotations[0]);
-  now_.hips = ground().position + rotate(frame, Vec3{channels[0], channels[1], channels[2]});
+  now_.hips = root().position + rotate(frame, Vec3{channels[0], channels[1], channels[2]});
   now_.hips.y -= feet_.drop();
 }
 
@@ -118,7 +118,7 @@ void Walker::pose_legs(float dt) noexcept {
     leg.knee = leg.hip + rotate(leg.upper, offsets_[lower]);
     leg.ankle = leg.knee + rotate(leg.lower, offsets_[foot]);
     leg.toe = leg.ankle + rotate(leg.foot, offsets_[toe]);
-    leg.height = dot(leg.toe - ground().position, up_);
+    leg.height = dot(leg.toe - root().position, up_);
   }
   const Steps steps = drive_.steps(*model_);
   const float lead = drive_.going().turn * steps.stance_seconds * (1 - drive_.amount());

@@ -9,7 +9,7 @@
 #include "pose/features.h"
 #include "walker/drive.h"
 #include "walker/feet.h"
-#include "walker/model.h"
+#include "walker/walker_model.h"
 
 namespace panache {
 
@@ -27,7 +27,7 @@ class Walker {
   void step(float speed, float turn, double seconds, Pose out) noexcept;
 
   // Where the path is, and how the body goes along it.
-  Ground ground() const noexcept;
+  RootPose root() const noexcept;
   Going going() const noexcept { return drive_.going(); }
 
  private:

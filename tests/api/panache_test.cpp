@@ -132,7 +132,7 @@ TEST_F(Api, characters_outlive_model_and_skeleton_handles) {
 
 TEST_F(Api, a_reset_character_starts_afresh) {
   panache_character* old = character("old");
-  // So short a walk that its beginning again is no leap, which would be forgotten anyway.
+  // So short a walk that its beginning again is no jump, which would be forgotten anyway.
   const std::vector<stick_pose> first = walk(old, 3);
   EXPECT_FALSE(same(walk(old, 3), first));
   panache_character_reset(old);
@@ -140,7 +140,7 @@ TEST_F(Api, a_reset_character_starts_afresh) {
   panache_character_destroy(old);
 }
 
-TEST_F(Api, a_saved_state_goes_back_and_a_damaged_one_is_refused) {
+TEST_F(Api, a_saved_state_goes_back_and_a_damaged_one_is_rejected) {
   panache_character* old = character("old");
   walk(old, 40);
   std::vector<char> state(panache_character_state_size(old));
@@ -180,7 +180,7 @@ TEST_F(Api, bad_poses_and_clocks_never_give_bad_poses) {
   panache_character_destroy(old);
 }
 
-TEST_F(Api, what_is_wrong_is_said_in_a_sentence_and_nothing_is_created) {
+TEST_F(Api, what_is_wrong_is_said_in_a_message_and_nothing_is_created) {
   panache_model* model = model_;
   EXPECT_EQ(panache_model_create("no model", 8, &model), PANACHE_BAD_MODEL);
   EXPECT_EQ(model, nullptr);
@@ -188,7 +188,7 @@ TEST_F(Api, what_is_wrong_is_said_in_a_sentence_and_nothing_is_created) {
 
   panache_skeleton* skeleton = skeleton_;
   std::vector<panache_joint> joints(stick_figure, stick_figure + STICK_JOINTS);
-  const auto refusal = [&](panache_status status) {
+  const auto rejection = [&](panache_status status) {
     EXPECT_EQ(
         panache_skeleton_create(joints.data(), static_cast<int>(joints.size()), nullptr, &skeleton),
         status);
@@ -197,31 +197,32 @@ TEST_F(Api, what_is_wrong_is_said_in_a_sentence_and_nothing_is_created) {
     return std::string(panache_last_error());
   };
   joints[3].parent = 5;
-  EXPECT_EQ(refusal(PANACHE_BAD_SKELETON),
+  EXPECT_EQ(rejection(PANACHE_BAD_SKELETON),
             "joint 3 'Neck': parent is 5; expected a joint before it, or -1");
   joints[3].rotation[3] = 0;
-  EXPECT_EQ(refusal(PANACHE_BAD_SKELETON),
+  EXPECT_EQ(rejection(PANACHE_BAD_SKELETON),
             "joint 3 'Neck': its rest rotation is no unit quaternion (x, y, z, w)");
   joints[3].translation[1] = NAN;
-  EXPECT_EQ(refusal(PANACHE_BAD_SKELETON), "joint 3 'Neck': its rest translation is not finite");
+  EXPECT_EQ(rejection(PANACHE_BAD_SKELETON), "joint 3 'Neck': its rest translation is not finite");
   joints.resize(5);
-  EXPECT_TRUE(refusal(PANACHE_BAD_SKELETON).starts_with("no humanoid found: leftHand, rightHand"));
+  EXPECT_TRUE(
+      rejection(PANACHE_BAD_SKELETON).starts_with("no humanoid found: leftHand, rightHand"));
   EXPECT_EQ(panache_skeleton_create(joints.data(), 0, nullptr, &skeleton), PANACHE_BAD_SKELETON);
   EXPECT_STREQ(panache_last_error(), "0 joints; expected 1 to 10000");
 
-  panache_skeleton_options told = {};
-  told.up_axis = "up";
-  EXPECT_EQ(panache_skeleton_create(joints.data(), STICK_JOINTS, &told, &skeleton),
+  panache_skeleton_options given = {};
+  given.up_axis = "up";
+  EXPECT_EQ(panache_skeleton_create(joints.data(), STICK_JOINTS, &given, &skeleton),
             PANACHE_BAD_ARGUMENT);
   EXPECT_STREQ(panache_last_error(), "expected an up axis from +X to -Z, found 'up'");
-  told = {};
-  told.metres_per_unit = -1;
-  EXPECT_EQ(panache_skeleton_create(joints.data(), STICK_JOINTS, &told, &skeleton),
+  given = {};
+  given.metres_per_unit = -1;
+  EXPECT_EQ(panache_skeleton_create(joints.data(), STICK_JOINTS, &given, &skeleton),
             PANACHE_BAD_ARGUMENT);
   EXPECT_STREQ(panache_last_error(), "expected metres per unit above 0, found -1.000000");
-  told = {};
-  told.pose_count = -1;
-  EXPECT_EQ(panache_skeleton_create(joints.data(), STICK_JOINTS, &told, &skeleton),
+  given = {};
+  given.pose_count = -1;
+  EXPECT_EQ(panache_skeleton_create(joints.data(), STICK_JOINTS, &given, &skeleton),
             PANACHE_BAD_ARGUMENT);
   EXPECT_STREQ(panache_last_error(), "-1 poses; expected 0 to 10000");
 
@@ -271,7 +272,7 @@ TEST_F(Api, a_character_may_be_late_and_says_by_how_much) {
   for (panache_character* one : {timed, plain, again}) panache_character_destroy(one);
 }
 
-TEST_F(Api, every_prefix_of_a_model_is_refused) {
+TEST_F(Api, every_prefix_of_a_model_is_rejected) {
   const std::string bytes = model_bytes();
   for (size_t size = 0; size < bytes.size(); size += 1 + size / 2) {
     panache_model* model = nullptr;

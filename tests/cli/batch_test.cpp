@@ -79,7 +79,7 @@ TEST_F(Batch, a_link_to_a_folder_is_not_followed) {
   EXPECT_EQ(pairs({"takes", "-o", "out"}).size(), 4u);
 }
 
-TEST_F(Batch, existing_outputs_are_refused_together_before_any_work) {
+TEST_F(Batch, existing_outputs_are_rejected_together_before_any_work) {
   EXPECT_EQ(stylize({"takes", "-o", "out"}).exit, 0);
   const Ran all = stylize({"takes", "-o", "out"});
   EXPECT_EQ(all.exit, 1);

@@ -58,22 +58,22 @@ TEST_F(BenchVerb, prints_tables_that_name_what_is_missing) {
   EXPECT_EQ(ran.out.find("./run bench in a checkout") != std::string::npos, missing);
 }
 
-TEST_F(BenchVerb, refuses_what_it_does_not_know) {
-  const auto expect_refused = [&](const std::vector<std::string>& arguments, int exit,
-                                  const std::string& sentence) {
+TEST_F(BenchVerb, rejects_what_it_does_not_know) {
+  const auto expect_rejected = [&](const std::vector<std::string>& arguments, int exit,
+                                   const std::string& message) {
     const Ran ran = run(arguments);
-    EXPECT_EQ(ran.err, "panache: " + sentence + "\n");
+    EXPECT_EQ(ran.err, "panache: " + message + "\n");
     EXPECT_EQ(ran.exit, exit);
     EXPECT_EQ(ran.out, "");
   };
-  expect_refused({"bench", "--fast"}, 2,
-                 "The following argument was not expected: --fast; see panache bench --help");
-  expect_refused({"bench", "--steps", "0"}, 2,
-                 "--steps: expected a number from 1 to 1e+09, found 0");
-  expect_refused({"bench", "--steps", "9", "--quick"}, 2,
-                 "--steps excludes --quick; see panache bench --help");
-  expect_refused({"bench", "--model", "none.safetensors"}, 1,
-                 "none.safetensors: cannot be read: No such file or directory");
+  expect_rejected({"bench", "--fast"}, 2,
+                  "The following argument was not expected: --fast; see panache bench --help");
+  expect_rejected({"bench", "--steps", "0"}, 2,
+                  "--steps: expected a number from 1 to 1e+09, found 0");
+  expect_rejected({"bench", "--steps", "9", "--quick"}, 2,
+                  "--steps excludes --quick; see panache bench --help");
+  expect_rejected({"bench", "--model", "none.safetensors"}, 1,
+                  "none.safetensors: cannot be read: No such file or directory");
 }
 
 TEST(BenchHistogram, gives_times_to_one_percent) {
@@ -158,7 +158,7 @@ TEST(BenchNetworks, our_evaluation_equals_plain_loops) {
   EXPECT_EQ(plain, wanted);
 }
 
-TEST(BenchNetworks, half_size_is_near_the_whole) {
+TEST(BenchNetworks, int8_is_near_float) {
   const std::vector<Network> networks = slides_networks();
   const Numbers x = random_numbers(kSlidesInputs, 7);
   Numbers wanted(kSlidesOutputs), found(kSlidesOutputs);

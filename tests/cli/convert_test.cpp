@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/program.h"
-#include "cli/same_places.h"
+#include "cli/same_positions.h"
 #include "clip/make_character.h"
 
 namespace panache::test {
@@ -24,10 +24,10 @@ class Convert : public ProgramTest {
     EXPECT_TRUE(file.ok()) << file.error().message;
     return file ? *std::move(file) : nullptr;
   }
-  void expect_refused(std::vector<std::string> arguments, int exit, const std::string& sentence) {
+  void expect_rejected(std::vector<std::string> arguments, int exit, const std::string& message) {
     arguments.insert(arguments.begin(), "convert");
     const Ran ran = run(arguments);
-    EXPECT_EQ(ran.err, "panache: " + sentence + "\n");
+    EXPECT_EQ(ran.err, "panache: " + message + "\n");
     EXPECT_EQ(ran.exit, exit);
   }
   void convert(std::vector<std::string> arguments) {
@@ -63,10 +63,10 @@ TEST_F(Convert, bvh_becomes_glb_in_metres_with_y_up) {
   const auto file = open("z.glb");
   ASSERT_TRUE(file);
   EXPECT_EQ(file->clip_names(), std::vector<std::string>{"z"});
-  expect_same_places(walking_clip(40), file->clip(), kNear);
+  expect_same_positions(walking_clip(40), file->clip(), kNear);
   // The legs tell the unit as well.
   convert({"z.bvh", "-o", "found.glb"});
-  expect_same_places(walking_clip(40), open("found.glb")->clip(), 0.01f);
+  expect_same_positions(walking_clip(40), open("found.glb")->clip(), 0.01f);
 }
 
 TEST_F(Convert, glb_becomes_bvh_with_every_joint_in_its_place) {
@@ -77,7 +77,7 @@ TEST_F(Convert, glb_becomes_bvh_with_every_joint_in_its_place) {
     ASSERT_TRUE(glb && bvh);
     const std::vector<std::string> names = glb->clip_names();
     const auto which = std::find(names.begin(), names.end(), name) - names.begin();
-    expect_same_places(glb->clip(static_cast<int>(which)), bvh->clip(), kNear);
+    expect_same_positions(glb->clip(static_cast<int>(which)), bvh->clip(), kNear);
   }
 }
 
@@ -96,7 +96,7 @@ TEST_F(Convert, a_bvh_from_glb_rests_as_the_glb_does) {
     }
     return rest;
   };
-  expect_same_places(at_rest(glb->clip()), at_rest(bvh->clip()), kNear);
+  expect_same_positions(at_rest(glb->clip()), at_rest(bvh->clip()), kNear);
 }
 
 TEST_F(Convert, gltf_takes_along_what_it_points_to) {
@@ -109,7 +109,7 @@ TEST_F(Convert, gltf_takes_along_what_it_points_to) {
     const auto before = open("hero.glb"), after = open(name);
     ASSERT_TRUE(before && after);
     EXPECT_EQ(after->clip_names(), before->clip_names());
-    expect_same_places(before->clip(), after->clip(), 0);
+    expect_same_positions(before->clip(), after->clip(), 0);
   }
   const GltfParts glb = glb_parts(read("out/hero.glb"));
   EXPECT_EQ(glb.json["meshes"], parts.json["meshes"]);
@@ -137,16 +137,17 @@ TEST_F(Convert, gltf_with_several_buffers_becomes_glb_with_one) {
 }
 
 TEST_F(Convert, one_of_several_motions_must_be_named) {
-  expect_refused({"hero.glb", "-o", "out.bvh"}, 1,
-                 "hero.glb: holds 2 motions ('Walk', 'Wave') and out.bvh takes one; --clip NAME "
-                 "picks it");
-  expect_refused({"hero.glb", "--clip", "Run", "-o", "out.bvh"}, 1,
-                 "hero.glb: holds no motion 'Run'; expected one of 'Walk', 'Wave'");
-  expect_refused({"hero.glb", "--clip", "Walk", "-o", "out.glb"}, 1,
-                 "hero.glb: all its motions go into out.glb; expected no --clip, which is for "
-                 "formats that hold one motion");
-  expect_refused({"walk.bvh", "--clip", "Walk", "-o", "out.glb"}, 1,
-                 "walk.bvh: holds one motion, which has no name; expected no --clip, found 'Walk'");
+  expect_rejected({"hero.glb", "-o", "out.bvh"}, 1,
+                  "hero.glb: holds 2 motions ('Walk', 'Wave') and out.bvh takes one; --clip NAME "
+                  "picks it");
+  expect_rejected({"hero.glb", "--clip", "Run", "-o", "out.bvh"}, 1,
+                  "hero.glb: holds no motion 'Run'; expected one of 'Walk', 'Wave'");
+  expect_rejected({"hero.glb", "--clip", "Walk", "-o", "out.glb"}, 1,
+                  "hero.glb: all its motions go into out.glb; expected no --clip, which is for "
+                  "formats that hold one motion");
+  expect_rejected(
+      {"walk.bvh", "--clip", "Walk", "-o", "out.glb"}, 1,
+      "walk.bvh: holds one motion, which has no name; expected no --clip, found 'Walk'");
 }
 
 TEST_F(Convert, what_is_no_humanoid_keeps_its_units) {
@@ -154,11 +155,11 @@ TEST_F(Convert, what_is_no_humanoid_keeps_its_units) {
   box.joints.push_back({"Box", -1, {}, {}, true, true, {{0, 1, 0}}, ""});
   write("box.bvh",
         format_bvh({box, 1.0 / 30, 2, std::vector<Quat>(2), std::vector<Vec3>(2, {0, 0, 5})}));
-  expect_refused(
+  expect_rejected(
       {"box.bvh", "-o", "box.glb"}, 0,
       "box.bvh: is no humanoid that would tell its unit and up axis; taken as metres and "
       "+Y where --scale and --up do not say otherwise");
-  expect_same_places(open("box.bvh")->clip(), open("box.glb")->clip(), 0);
+  expect_same_positions(open("box.bvh")->clip(), open("box.glb")->clip(), 0);
   convert({"box.bvh", "-o", "big.glb", "--scale", "2", "--up", "z"});
   const auto big = open("big.glb");
   std::vector<Quat> rotations(big->clip().joints());
@@ -170,16 +171,16 @@ TEST_F(Convert, what_is_no_humanoid_keeps_its_units) {
 TEST_F(Convert, a_folder_needs_a_format) {
   write_walk("takes/a.bvh");
   write("takes/b.glb", to_glb(small_gltf()));
-  expect_refused({"takes", "-o", "out"}, 2,
-                 "--output out: is a folder; expected --to bvh or --to glb with it");
-  expect_refused({"takes", "-o", "out", "--to", "fbx"}, 2,
-                 "--to: expected bvh or glb, found 'fbx'");
-  expect_refused({"walk.bvh", "-o", "out.glb", "--to", "bvh"}, 2,
-                 "--to bvh: out.glb says otherwise");
+  expect_rejected({"takes", "-o", "out"}, 2,
+                  "--output out: is a folder; expected --to bvh or --to glb with it");
+  expect_rejected({"takes", "-o", "out", "--to", "fbx"}, 2,
+                  "--to: expected bvh or glb, found 'fbx'");
+  expect_rejected({"walk.bvh", "-o", "out.glb", "--to", "bvh"}, 2,
+                  "--to bvh: out.glb says otherwise");
   convert({"takes", "-o", "out", "--to", "bvh"});
   EXPECT_EQ(entries("out"), (std::vector<std::string>{"a.bvh", "b.bvh"}));
   write("takes/a.glb", to_glb(small_gltf()));
-  expect_refused(
+  expect_rejected(
       {"takes", "-o", "more", "--to", "bvh"}, 2,
       "more/a.bvh: is where the results of both 'takes/a.bvh' and 'takes/a.glb' would go; "
       "expected inputs of different names");

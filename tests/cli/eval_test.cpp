@@ -1,4 +1,4 @@
-// panache eval: what it reports and what it refuses.
+// panache eval: what it reports and what it rejects.
 
 #include <algorithm>
 #include <filesystem>
@@ -23,16 +23,16 @@ class Eval : public ProgramTest {
   std::string table(const std::string& rows) const {
     return "path,style,content,take,neutral,split\n" + rows;
   }
-  void expect_refused(const std::vector<std::string>& arguments, const std::string& sentence,
-                      int exit = 1) const {
+  void expect_rejected(const std::vector<std::string>& arguments, const std::string& message,
+                       int exit = 1) const {
     const Ran ran = run(arguments);
-    EXPECT_EQ(ran.err, "panache: " + sentence + "\n");
+    EXPECT_EQ(ran.err, "panache: " + message + "\n");
     EXPECT_EQ(ran.exit, exit);
     EXPECT_EQ(ran.out, "");
   }
 };
 
-void expect_quality(const Json& quality) {
+void expect_metrics(const Json& quality) {
   for (const char* key : {"takes", "windows", "style_accuracy", "content_accuracy", "jerk_ratio",
                           "skating_ratio", "skating_cm_s", "fmd"}) {
     ASSERT_TRUE(quality.contains(key)) << key;
@@ -42,15 +42,15 @@ void expect_quality(const Json& quality) {
 }
 
 void expect_system(const Json& system) {
-  expect_quality(system["seen"]);
+  expect_metrics(system["seen"]);
   EXPECT_TRUE(system["seen"]["pose_error_cm"].is_number());
   for (const char* strength : {"0", "0.25", "0.5", "0.75", "1", "1.25", "1.5", "1.75", "2"}) {
     ASSERT_TRUE(system["strength"].contains(strength)) << strength;
-    expect_quality(system["strength"][strength]);
+    expect_metrics(system["strength"][strength]);
   }
   EXPECT_EQ(system["strength"].size(), 9u);
-  for (const char* content : kContents) expect_quality(system["seen_by_content"][content]);
-  for (const char* style : {"old", "proud"}) expect_quality(system["seen_by_style"][style]);
+  for (const char* content : kContents) expect_metrics(system["seen_by_content"][content]);
+  for (const char* style : {"old", "proud"}) expect_metrics(system["seen_by_style"][style]);
   // At strength 1, it is the same number by both names.
   EXPECT_EQ(system["strength"]["1"], system["seen"]);
   ASSERT_EQ(system["mixes"].size(), 1u);
@@ -73,14 +73,14 @@ TEST_F(Eval, judges_models_by_real_takes_it_holds_out_and_says_so_in_a_report) {
   EXPECT_EQ(report["styles"], Json({"old", "proud"}));
   EXPECT_EQ(report["contents"], Json({"walk", "wave"}));
   EXPECT_EQ(report["trained_on"], Json({"takes.csv"}));
-  expect_quality(report["real"]);
+  expect_metrics(report["real"]);
   EXPECT_EQ(report["real"]["takes"], 8);
   EXPECT_GT(report["real"]["style_accuracy"], 0.95);
   EXPECT_GT(report["real"]["content_accuracy"], 0.9);
   EXPECT_EQ(report["real"]["jerk_ratio"], 1.0);
-  for (const char* content : kContents) expect_quality(report["real_by_content"][content]);
+  for (const char* content : kContents) expect_metrics(report["real_by_content"][content]);
   // Neutral takes are not of the styles, and have moved nowhere.
-  expect_quality(report["input"]);
+  expect_metrics(report["input"]);
   EXPECT_LT(report["input"]["style_accuracy"], 0.1);
   EXPECT_EQ(report["input"]["distance_cm"], 0.0);
 
@@ -101,13 +101,13 @@ TEST_F(Eval, judges_models_by_real_takes_it_holds_out_and_says_so_in_a_report) {
   EXPECT_LT(posture["seen"]["pose_error_cm"], report["input"]["pose_error_cm"]);
   EXPECT_GT(posture["slider"]["distance"], 0.9);
 
-  expect_quality(model["unseen"]["wave"]);
+  expect_metrics(model["unseen"]["wave"]);
   EXPECT_FALSE(model["unseen"].contains("walk"));
   const Json& split = model["unseen_splits"]["wave"];
-  expect_quality(split["mean"]);
-  expect_quality(split["seen"]["wave"]);
+  expect_metrics(split["mean"]);
+  expect_metrics(split["seen"]["wave"]);
   EXPECT_TRUE(split["blind"]["wave"]["style_accuracy"].is_number());
-  expect_quality(split["mean_posture"]["wave"]);
+  expect_metrics(split["mean_posture"]["wave"]);
 }
 
 // Our own outputs, made by the program as anybody's would be, judged beside the model itself.
@@ -160,19 +160,19 @@ TEST_F(Eval, outputs_of_another_program_are_judged_as_if_it_had_been_run) {
   EXPECT_NE(read("report/index.html").find("9 of 9 judged"), std::string::npos);
 }
 
-TEST_F(Eval, outputs_with_a_manifest_that_is_wrong_are_refused_at_once) {
+TEST_F(Eval, outputs_with_a_manifest_that_is_wrong_are_rejected_at_once) {
   write("theirs/manifest.csv", "input,style,strength,output\nneutral-walk-2.bvh,old,1,a.bvh\n");
-  expect_refused({"eval", "takes.csv", "--model", "model.safetensors", "--recorded", "theirs"},
-                 "theirs/manifest.csv:2: output theirs/a.bvh: cannot be read: No such file or "
-                 "directory");
-  expect_refused({"eval", "takes.csv", "--recorded", "theirs", "--recorded", "./theirs/"},
-                 "./theirs/: has the name of theirs; the report names outputs by their folder, so "
-                 "give it another name");
-  expect_refused({"eval", "takes.csv", "--requests", "theirs/manifest.csv"},
-                 "theirs/manifest.csv: exists already; --force overwrites it");
+  expect_rejected({"eval", "takes.csv", "--model", "model.safetensors", "--recorded", "theirs"},
+                  "theirs/manifest.csv:2: output theirs/a.bvh: cannot be read: No such file or "
+                  "directory");
+  expect_rejected({"eval", "takes.csv", "--recorded", "theirs", "--recorded", "./theirs/"},
+                  "./theirs/: has the name of theirs; the report names outputs by their folder, so "
+                  "give it another name");
+  expect_rejected({"eval", "takes.csv", "--requests", "theirs/manifest.csv"},
+                  "theirs/manifest.csv: exists already; --force overwrites it");
 }
 
-TEST_F(Eval, takes_that_differ_in_name_only_make_no_judge) {
+TEST_F(Eval, takes_that_differ_in_name_only_make_no_evaluator) {
   // Who is called old in training is called proud in the test.
   std::string rows;
   for (const std::string content : kContents) {
@@ -184,73 +184,73 @@ TEST_F(Eval, takes_that_differ_in_name_only_make_no_judge) {
     rows += "old-" + content + "-2.bvh,proud," + content + ",2,0,test\n";
   }
   write("crossed.csv", table(rows));
-  expect_refused({"eval", "crossed.csv", "--model", "model.safetensors", "--report", "report"},
-                 "the style classifier recognises 0.000 of the windows of real test takes; "
-                 "expected at least 0.950, so its word on other motion would mean nothing; give "
-                 "more training takes of the test takes' styles and contents");
+  expect_rejected({"eval", "crossed.csv", "--model", "model.safetensors", "--report", "report"},
+                  "the style classifier recognises 0.000 of the windows of real test takes; "
+                  "expected at least 0.950, so its word on other motion would mean nothing; give "
+                  "more training takes of the test takes' styles and contents");
   EXPECT_FALSE(exists("report"));
 }
 
 TEST_F(Eval, without_test_takes_there_is_nothing_to_judge_by) {
   write("all.csv", table("neutral-walk-0.bvh,neutral,walk,0,1,train\n"
                          "old-walk-0.bvh,old,walk,0,0,train\n"));
-  expect_refused({"eval", "all.csv", "--model", "model.safetensors"},
-                 "all.csv: marks no take as test; mark some in its column split, or name a "
-                 "manifest of takes to judge by with --test");
+  expect_rejected({"eval", "all.csv", "--model", "model.safetensors"},
+                  "all.csv: marks no take as test; mark some in its column split, or name a "
+                  "manifest of takes to judge by with --test");
 }
 
-TEST_F(Eval, test_takes_of_one_kind_only_are_refused) {
+TEST_F(Eval, test_takes_of_one_kind_only_are_rejected) {
   const std::string train =
       "neutral-walk-0.bvh,neutral,walk,0,1,train\n"
       "old-walk-0.bvh,old,walk,0,0,train\n";
   write("styled.csv", table(train + "old-walk-2.bvh,old,walk,2,0,test\n"));
-  expect_refused(
+  expect_rejected(
       {"eval", "styled.csv", "--model", "model.safetensors"},
       "no neutral test take of a content that is trained on; expected rows with neutral 1");
   write("neutral.csv", table(train + "neutral-walk-2.bvh,neutral,walk,2,1,test\n"));
-  expect_refused({"eval", "neutral.csv", "--model", "model.safetensors"},
-                 "no styled test take of a style and content that are trained on; expected rows "
-                 "with neutral 0");
+  expect_rejected({"eval", "neutral.csv", "--model", "model.safetensors"},
+                  "no styled test take of a style and content that are trained on; expected rows "
+                  "with neutral 0");
 }
 
 TEST_F(Eval, takes_that_were_trained_on_or_are_of_other_styles_do_not_judge) {
-  const std::string sentence =
+  const std::string message =
       "others.csv: has no take to judge by: all of them are trained on, or of styles that the "
       "training manifests do not have";
   const std::vector<std::string> arguments = {"eval",       "takes.csv", "--test",
                                               "others.csv", "--model",   "model.safetensors"};
   // The same file by another way there.
   write("others.csv", table("./old-walk-0.bvh,old,walk,0,0,train\n"));
-  expect_refused(arguments, sentence);
+  expect_rejected(arguments, message);
   write("others.csv", table("old-walk-2.bvh,jolly,walk,2,0,test\n"));
-  expect_refused(arguments, sentence);
+  expect_rejected(arguments, message);
 }
 
-TEST_F(Eval, an_unknown_split_is_refused) {
-  expect_refused({"eval", "takes.csv", "--model", "model.safetensors", "--unseen-split", "D"},
-                 "no split 'D'; expected A, B or C");
+TEST_F(Eval, an_unknown_split_is_rejected) {
+  expect_rejected({"eval", "takes.csv", "--model", "model.safetensors", "--unseen-split", "D"},
+                  "no split 'D'; expected A, B or C");
 }
 
 TEST_F(Eval, a_report_that_exists_is_kept) {
   write("report/report.json", "mine");
-  expect_refused({"eval", "takes.csv", "--model", "model.safetensors", "--report", "report"},
-                 "report/report.json: exists already; --force overwrites it");
+  expect_rejected({"eval", "takes.csv", "--model", "model.safetensors", "--report", "report"},
+                  "report/report.json: exists already; --force overwrites it");
   EXPECT_EQ(read("report/report.json"), "mine");
 }
 
-TEST_F(Eval, two_models_of_one_name_are_refused) {
+TEST_F(Eval, two_models_of_one_name_are_rejected) {
   write("other/model.safetensors", read("model.safetensors"));
-  expect_refused(
+  expect_rejected(
       {"eval", "takes.csv", "--model", "model.safetensors", "--model", "other/model.safetensors"},
       "other/model.safetensors: has the name of model.safetensors; the report names "
       "models by their files, so give one another name");
 }
 
 TEST_F(Eval, a_manifest_or_model_that_is_none_is_explained) {
-  expect_refused({"eval", "none.csv"}, "none.csv: cannot be read: No such file or directory");
-  expect_refused({"eval", "takes.csv", "--model", "takes.csv"},
-                 "takes.csv: does not start with the length of a header (at most 4194304 bytes); "
-                 "expected a safetensors file");
+  expect_rejected({"eval", "none.csv"}, "none.csv: cannot be read: No such file or directory");
+  expect_rejected({"eval", "takes.csv", "--model", "takes.csv"},
+                  "takes.csv: does not start with the length of a header (at most 4194304 bytes); "
+                  "expected a safetensors file");
   EXPECT_EQ(run({"eval", "takes.csv", "--steps", "0"}).exit, 2);
 }
 

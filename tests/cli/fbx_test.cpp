@@ -4,7 +4,7 @@
 
 #include "cli/make_fbx.h"
 #include "cli/program.h"
-#include "cli/same_places.h"
+#include "cli/same_positions.h"
 #include "clip/make_gltf.h"
 
 namespace panache::test {
@@ -40,7 +40,7 @@ class Fbx : public ProgramTest {
       SCOPED_TRACE(name);
       const auto file = converted("in.fbx", name);
       ASSERT_TRUE(file);
-      expect_same_places(walk, file->clip(), kNear);
+      expect_same_positions(walk, file->clip(), kNear);
     }
   }
 };
@@ -126,7 +126,7 @@ TEST_F(Fbx, a_skeleton_without_motion_has_nothing_to_restyle) {
   EXPECT_FALSE(exists("out.glb"));
 }
 
-TEST_F(Fbx, a_damaged_file_gets_a_sentence) {
+TEST_F(Fbx, a_damaged_file_gets_a_message) {
   const std::string good = read("walk.fbx");
   // Each cut leaves a bracket open somewhere else.
   for (size_t size = 100; size < good.size(); size += good.size() / 23) {
@@ -165,7 +165,7 @@ class FbxOfBlender : public Fbx {
       const auto file = converted("blender.fbx", name);
       ASSERT_TRUE(file);
       // Blender samples the motion in floats, some metres from the origin.
-      expect_same_places((*walk)->clip(), file->clip(), 1e-4f);
+      expect_same_positions((*walk)->clip(), file->clip(), 1e-4f);
       // The skin tells the rest pose, so that the first frame is not taken for it.
       const Ran info = run({"info", name});
       EXPECT_NE(info.out.find("  start   the first frame is motion\n"), std::string::npos)

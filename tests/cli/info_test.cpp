@@ -29,10 +29,10 @@ class Info : public ProgramTest {
     }
     return "no such joint";
   }
-  void expect_map_refused(const std::string& map, const std::string& sentence) {
+  void expect_map_rejected(const std::string& map, const std::string& message) {
     write("map.json", map);
     const Ran ran = run({"info", "walk.bvh", "--map", "map.json"});
-    EXPECT_EQ(ran.err, "panache: map.json" + sentence + "\n");
+    EXPECT_EQ(ran.err, "panache: map.json" + message + "\n");
     EXPECT_EQ(ran.exit, 1);
     EXPECT_EQ(ran.out, "");
   }
@@ -90,20 +90,20 @@ TEST_F(Info, believes_a_unit_and_an_axis) {
   }
 }
 
-TEST_F(Info, refuses_what_is_no_unit_or_axis) {
-  const auto refused = [&](const std::string& option, const std::string& value) {
+TEST_F(Info, rejects_what_is_no_unit_or_axis) {
+  const auto rejected = [&](const std::string& option, const std::string& value) {
     const Ran ran = run({"info", "walk.bvh", option, value});
     EXPECT_EQ(ran.exit, 2);
     EXPECT_EQ(ran.out, "");
     return ran.err;
   };
   for (const std::string axis : {"up", "w", "-", "++y", "+"}) {
-    EXPECT_EQ(refused("--up", axis),
+    EXPECT_EQ(rejected("--up", axis),
               "panache: --up: expected an axis (x, y, z, -x, -y or -z), found '" + axis + "'\n");
   }
-  EXPECT_EQ(refused("--scale", "0"),
+  EXPECT_EQ(rejected("--scale", "0"),
             "panache: --scale: expected a number from 1e-09 to 1000, found 0\n");
-  EXPECT_EQ(refused("--scale", "nan"),
+  EXPECT_EQ(rejected("--scale", "nan"),
             "panache: --scale: expected a number from 1e-09 to 1000, found nan\n");
 }
 
@@ -127,28 +127,28 @@ TEST_F(Info, takes_back_what_it_printed) {
   EXPECT_EQ(joint("rightToes"), "rightToes");
 }
 
-TEST_F(Info, refuses_a_map_that_is_none) {
+TEST_F(Info, rejects_a_map_that_is_none) {
   const std::string example = "expected JSON such as {\"leftHand\": \"Hand_L\", \"neck\": null}";
-  expect_map_refused("{\n  \"leftHand\" \"x\"\n}", ":2:16: " + example);
-  expect_map_refused("", ":1:1: " + example);
-  expect_map_refused("[]", ": " + example + ", found a JSON array");
-  expect_map_refused("{}", ": " + example + ", found nothing in it");
-  expect_map_refused(
+  expect_map_rejected("{\n  \"leftHand\" \"x\"\n}", ":2:16: " + example);
+  expect_map_rejected("", ":1:1: " + example);
+  expect_map_rejected("[]", ": " + example + ", found a JSON array");
+  expect_map_rejected("{}", ": " + example + ", found nothing in it");
+  expect_map_rejected(
       "{\"leftHnad\": \"x\"}",
       ": unknown human joint 'leftHnad'; the nearest is leftHand (panache info lists "
       "all 21)");
-  expect_map_refused("{\"leftHand\": 3}",
-                     ": leftHand: expected the name of a joint or null, found 3");
-  expect_map_refused("{\"mapping\": null}",
-                     ": holds no mapping; that file was no humanoid; " + example);
-  expect_map_refused("{\"mapping\": {\"joints\": [{\"humanoid\": \"neck\"}]}}",
-                     ": mapping.joints[0]: expected an object with 'humanoid' and 'joint', as "
-                     "panache info --json prints them");
+  expect_map_rejected("{\"leftHand\": 3}",
+                      ": leftHand: expected the name of a joint or null, found 3");
+  expect_map_rejected("{\"mapping\": null}",
+                      ": holds no mapping; that file was no humanoid; " + example);
+  expect_map_rejected("{\"mapping\": {\"joints\": [{\"humanoid\": \"neck\"}]}}",
+                      ": mapping.joints[0]: expected an object with 'humanoid' and 'joint', as "
+                      "panache info --json prints them");
   const Ran none = run({"info", "walk.bvh", "--map", "none.json"});
   EXPECT_EQ(none.err, "panache: none.json: cannot be read: No such file or directory\n");
 }
 
-TEST_F(Info, refuses_a_map_to_a_joint_that_there_is_not) {
+TEST_F(Info, rejects_a_map_to_a_joint_that_there_is_not) {
   write("map.json", R"({"leftHand": "Hand_L"})");
   const Ran ran = run({"info", "walk.bvh", "--map", "map.json"});
   EXPECT_EQ(ran.exit, 1);

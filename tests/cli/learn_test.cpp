@@ -1,4 +1,4 @@
-// panache learn: what it says and writes, and what it refuses, word for word. How well it learns is
+// panache learn: what it says and writes, and what it rejects, word for word. How well it learns is
 // tests/learn.
 
 #include <cmath>
@@ -49,7 +49,7 @@ class LearnVerb : public ProgramTest {
   Ran learn_bent(const std::string& into) const {
     return learn({"walk.bvh", "bent.bvh", "--name", "bent", "--into", into});
   }
-  void expect_refused(const Names& arguments, int exit, const std::string& sentence) const {
+  void expect_rejected(const Names& arguments, int exit, const std::string& message) const {
     const auto state = [this] {
       std::string all;
       for (const std::string& name : entries()) all += name + "\n" + read(name);
@@ -57,10 +57,10 @@ class LearnVerb : public ProgramTest {
     };
     const std::string before = state();
     const Ran ran = learn(arguments);
-    EXPECT_EQ(ran.err, "panache: " + sentence + "\n");
+    EXPECT_EQ(ran.err, "panache: " + message + "\n");
     EXPECT_EQ(ran.out, "");
     EXPECT_EQ(ran.exit, exit);
-    EXPECT_TRUE(state() == before) << "files changed, came or went: " << sentence;
+    EXPECT_TRUE(state() == before) << "files changed, came or went: " << message;
   }
   json styles_of(const std::string& model) const {
     return json::parse(run({"styles", model, "--json"}, "").out)["styles"];
@@ -202,9 +202,9 @@ TEST_F(LearnVerb, a_name_that_is_taken_needs_force) {
   ASSERT_EQ(learn_bent("mine.safetensors").exit, 0);
   const std::string before = read("mine.safetensors");
   const Names again = {"walk.bvh", "walk.bvh", "--name", "bent", "--into", "mine.safetensors"};
-  expect_refused(again, 1,
-                 "mine.safetensors: has a style 'bent' already; give another --name, or --force "
-                 "to replace it");
+  expect_rejected(again, 1,
+                  "mine.safetensors: has a style 'bent' already; give another --name, or --force "
+                  "to replace it");
   Names forced = again;
   forced.push_back("--force");
   const size_t count = styles_of("mine.safetensors").size();
@@ -227,93 +227,93 @@ TEST_F(LearnVerb, another_style_joins_the_one_learnt_before) {
   EXPECT_EQ(styles.back()["name"], "stooped");
 }
 
-TEST_F(LearnVerb, a_wrong_command_is_refused) {
+TEST_F(LearnVerb, a_wrong_command_is_rejected) {
   const std::string cure =
       "; expected NEUTRAL STYLED, or several such pairs; for styled clips alone say what they "
       "show, as in --action walk";
-  expect_refused({"bent.bvh", "--name", "bent", "--into", "mine.safetensors"}, 2,
-                 "there is 1 clip" + cure);
-  expect_refused(
+  expect_rejected({"bent.bvh", "--name", "bent", "--into", "mine.safetensors"}, 2,
+                  "there is 1 clip" + cure);
+  expect_rejected(
       {"walk.bvh", "bent.bvh", "bent.bvh", "--name", "bent", "--into", "mine.safetensors"}, 2,
       "there are 3 clips" + cure);
-  expect_refused({"walk.bvh", "bent.bvh", "--name", "bent", "--into", "mine.txt"}, 2,
-                 "--into mine.txt: expected a name that ends in .safetensors");
-  expect_refused({"walk.bvh", "bent.bvh", "--name", "a=b", "--into", "mine.safetensors"}, 2,
-                 "--name: style name 'a=b': holds a '=', which parts names from strengths");
-  expect_refused({"walk.bvh", "bent.bvh", "--name", "", "--into", "mine.safetensors"}, 2,
-                 "--name: style name '': is empty");
-  expect_refused({"bent.bvh", "--action", "juggle", "--name", "bent", "--into", "mine.safetensors"},
-                 2,
-                 "--action: there is no neutral 'juggle' of our own; expected walk or run, or a "
-                 "neutral clip of the same skeleton");
-  expect_refused({"walk.bvh", "bent.bvh", "--into", "mine.safetensors"}, 2,
-                 "--name is required; see panache learn --help");
+  expect_rejected({"walk.bvh", "bent.bvh", "--name", "bent", "--into", "mine.txt"}, 2,
+                  "--into mine.txt: expected a name that ends in .safetensors");
+  expect_rejected({"walk.bvh", "bent.bvh", "--name", "a=b", "--into", "mine.safetensors"}, 2,
+                  "--name: style name 'a=b': holds a '=', which parts names from strengths");
+  expect_rejected({"walk.bvh", "bent.bvh", "--name", "", "--into", "mine.safetensors"}, 2,
+                  "--name: style name '': is empty");
+  expect_rejected(
+      {"bent.bvh", "--action", "juggle", "--name", "bent", "--into", "mine.safetensors"}, 2,
+      "--action: there is no neutral 'juggle' of our own; expected walk or run, or a "
+      "neutral clip of the same skeleton");
+  expect_rejected({"walk.bvh", "bent.bvh", "--into", "mine.safetensors"}, 2,
+                  "--name is required; see panache learn --help");
 }
 
 TEST_F(LearnVerb, a_model_that_nobody_may_write_to_stays_as_it_is) {
   ASSERT_EQ(learn_bent("mine.safetensors").exit, 0);
   ASSERT_EQ(::chmod(path("mine.safetensors").c_str(), 0444), 0);
-  expect_refused({"walk.bvh", "bent.bvh", "--name", "new", "--into", "mine.safetensors"}, 1,
-                 "mine.safetensors: is read-only and stays as it is; change a copy of it, or "
-                 "allow writing");
+  expect_rejected({"walk.bvh", "bent.bvh", "--name", "new", "--into", "mine.safetensors"}, 1,
+                  "mine.safetensors: is read-only and stays as it is; change a copy of it, or "
+                  "allow writing");
 }
 
 TEST_F(LearnVerb, a_model_that_cannot_learn_says_so) {
   write("smith.safetensors", format_safetensors(make_model({"old"}, 1, test::kSmith2019)));
   for (const std::string model : {"model.safetensors", "smith.safetensors"}) {
-    expect_refused({"walk.bvh", "bent.bvh", "--name", "bent", "--into", model}, 1,
-                   model +
-                       ": has no trunk that styles can be learnt on; expected a model of recipe "
-                       "panache with 'learn.mean' and 'learn.scale', as panache train writes it");
+    expect_rejected({"walk.bvh", "bent.bvh", "--name", "bent", "--into", model}, 1,
+                    model +
+                        ": has no trunk that styles can be learnt on; expected a model of recipe "
+                        "panache with 'learn.mean' and 'learn.scale', as panache train writes it");
   }
 }
 
-TEST_F(LearnVerb, a_file_that_is_no_model_is_refused) {
+TEST_F(LearnVerb, a_file_that_is_no_model_is_rejected) {
   write("none.safetensors", "");
-  expect_refused(
+  expect_rejected(
       {"walk.bvh", "bent.bvh", "--name", "bent", "--into", "none.safetensors"}, 1,
       "none.safetensors: has 0 bytes; expected a safetensors file, which starts with the "
       "8-byte length of its header");
   ASSERT_EQ(run({"styles", "--extract", "old", "-o", "old.safetensors"}).exit, 0);
-  expect_refused({"walk.bvh", "bent.bvh", "--name", "bent", "--into", "old.safetensors"}, 1,
-                 "old.safetensors: is a style file, not a model; panache styles MODEL --add FILE "
-                 "puts it into one");
+  expect_rejected({"walk.bvh", "bent.bvh", "--name", "bent", "--into", "old.safetensors"}, 1,
+                  "old.safetensors: is a style file, not a model; panache styles MODEL --add FILE "
+                  "puts it into one");
 }
 
-TEST_F(LearnVerb, a_clip_that_teaches_nothing_is_refused) {
-  const auto refuse = [&](const std::string& styled, const std::string& sentence) {
-    expect_refused({"walk.bvh", styled, "--name", "bent", "--into", "mine.safetensors"}, 1,
-                   sentence);
+TEST_F(LearnVerb, a_clip_that_teaches_nothing_is_rejected) {
+  const auto reject = [&](const std::string& styled, const std::string& message) {
+    expect_rejected({"walk.bvh", styled, "--name", "bent", "--into", "mine.safetensors"}, 1,
+                    message);
   };
-  refuse("missing.bvh", "missing.bvh: cannot be read: No such file or directory");
+  reject("missing.bvh", "missing.bvh: cannot be read: No such file or directory");
   write("empty.bvh", "");
-  refuse("empty.bvh", "empty.bvh:1:1: expected 'HIERARCHY', found the end of the file");
+  reject("empty.bvh", "empty.bvh:1:1: expected 'HIERARCHY', found the end of the file");
   write_clip("brief.bvh", cut(clip_of("bent.bvh"), 10));
-  refuse("brief.bvh",
+  reject("brief.bvh",
          "brief.bvh: has 0.33 s of motion; a style is learnt from 0.50 s at least, better from 2 "
          "to 3 s; give a longer clip");
   write("hero.glb", to_glb(character()));
-  refuse("hero.glb",
+  reject("hero.glb",
          "hero.glb: holds 2 motions ('Walk', 'Wave'); expected one; panache convert --clip NAME "
          "takes one out of it");
 }
 
-TEST_F(LearnVerb, clips_that_are_no_pair_are_refused) {
+TEST_F(LearnVerb, clips_that_are_no_pair_are_rejected) {
   Clip renamed = clip_of("bent.bvh");
   renamed.skeleton.joints[spine_of(renamed)].name = "Spine1";
   write_clip("renamed.bvh", renamed);
   const std::string joint = std::to_string(spine_of(clip_of("walk.bvh")) + 1);
-  expect_refused({"walk.bvh", "renamed.bvh", "--name", "bent", "--into", "mine.safetensors"}, 1,
-                 "walk.bvh and renamed.bvh: have different skeletons (joint " + joint +
-                     " is 'spine' and 'Spine1'); a pair is of one skeleton: bring one of them to "
-                     "the skeleton of the other, or leave the neutral clip out and say what the "
-                     "action is");
+  expect_rejected({"walk.bvh", "renamed.bvh", "--name", "bent", "--into", "mine.safetensors"}, 1,
+                  "walk.bvh and renamed.bvh: have different skeletons (joint " + joint +
+                      " is 'spine' and 'Spine1'); a pair is of one skeleton: bring one of them to "
+                      "the skeleton of the other, or leave the neutral clip out and say what the "
+                      "action is");
   // Half a second that may advance by 3 frames at a time, and wait twice in a row.
   write_clip("brief.bvh", cut(clip_of("walk.bvh"), 15));
-  expect_refused({"brief.bvh", "bent.bvh", "--name", "bent", "--into", "mine.safetensors"}, 1,
-                 "brief.bvh and bent.bvh: no match was found between them, as the neutral one is "
-                 "too short for the styled one; a pair shows one action, done neutrally and in "
-                 "the style");
+  expect_rejected({"brief.bvh", "bent.bvh", "--name", "bent", "--into", "mine.safetensors"}, 1,
+                  "brief.bvh and bent.bvh: no match was found between them, as the neutral one is "
+                  "too short for the styled one; a pair shows one action, done neutrally and in "
+                  "the style");
 }
 
 TEST_F(LearnVerb, warnings_are_for_people_and_do_not_stop_it) {
@@ -347,11 +347,11 @@ TEST_F(LearnVerb, what_is_too_short_to_be_judged_is_learnt_and_not_judged) {
 }
 
 TEST_F(LearnVerb, a_place_that_takes_no_file_is_told) {
-  expect_refused({"walk.bvh", "bent.bvh", "--name", "bent", "--into", "walk.bvh/mine.safetensors"},
-                 1, "walk.bvh/mine.safetensors: cannot be written: Not a directory");
+  expect_rejected({"walk.bvh", "bent.bvh", "--name", "bent", "--into", "walk.bvh/mine.safetensors"},
+                  1, "walk.bvh/mine.safetensors: cannot be written: Not a directory");
   const std::string longest = std::string(300, 'x') + ".safetensors";
-  expect_refused({"walk.bvh", "bent.bvh", "--name", "bent", "--into", longest}, 1,
-                 longest + ": cannot be written: File name too long");
+  expect_rejected({"walk.bvh", "bent.bvh", "--name", "bent", "--into", longest}, 1,
+                  longest + ": cannot be written: File name too long");
 }
 
 }  // namespace

@@ -305,34 +305,34 @@ TEST_F(LiveVerb, garbage_does_not_end_it) {
 }
 
 TEST_F(LiveVerb, explains_a_wrong_wish_before_it_starts) {
-  const auto expect_refused = [&](const std::vector<std::string>& arguments, int exit,
-                                  const std::string& sentence) {
+  const auto expect_rejected = [&](const std::vector<std::string>& arguments, int exit,
+                                   const std::string& message) {
     const Ran ran = run(arguments);
-    EXPECT_EQ(ran.err, "panache: " + sentence + "\n");
+    EXPECT_EQ(ran.err, "panache: " + message + "\n");
     EXPECT_EQ(ran.exit, exit);
   };
   write("take.bvh", "mine");
   write_walk("walk.bvh");
-  expect_refused({"live", "--record", "take.bvh"}, 1,
-                 "take.bvh: exists already; --force overwrites it");
+  expect_rejected({"live", "--record", "take.bvh"}, 1,
+                  "take.bvh: exists already; --force overwrites it");
   EXPECT_EQ(read("take.bvh"), "mine");
-  expect_refused({"live", "--record", "take.glb"}, 2,
-                 "--record take.glb: expected a name that ends in .bvh");
-  expect_refused({"live", "--vmc-in", "0"}, 2,
-                 "--vmc-in: expected a port from 1 to 65535, found '0'");
-  expect_refused({"live", "--vmc-out", "there:x"}, 2,
-                 "--vmc-out: expected a port from 1 to 65535, found 'x'");
-  expect_refused({"live", "--vmc-in", "40000", "--vmc-out", "40000"}, 2,
-                 "--vmc-out: expected another port than that of --vmc-in, found 40000 for both");
-  expect_refused({"live", "--style", "old=1..0"}, 2,
-                 "--style old=1..0: live motion has no end to change towards; expected one "
-                 "strength");
-  expect_refused(
+  expect_rejected({"live", "--record", "take.glb"}, 2,
+                  "--record take.glb: expected a name that ends in .bvh");
+  expect_rejected({"live", "--vmc-in", "0"}, 2,
+                  "--vmc-in: expected a port from 1 to 65535, found '0'");
+  expect_rejected({"live", "--vmc-out", "there:x"}, 2,
+                  "--vmc-out: expected a port from 1 to 65535, found 'x'");
+  expect_rejected({"live", "--vmc-in", "40000", "--vmc-out", "40000"}, 2,
+                  "--vmc-out: expected another port than that of --vmc-in, found 40000 for both");
+  expect_rejected({"live", "--style", "old=1..0"}, 2,
+                  "--style old=1..0: live motion has no end to change towards; expected one "
+                  "strength");
+  expect_rejected(
       {"live", "--vmc-in", sink_.port_name()}, 1,
       "--vmc-in: cannot listen at port " + sink_.port_name() + ": Address already in use");
-  expect_refused({"send", "walk.bvh", "--fps", "0"}, 2,
-                 "--fps: expected a number from 1 to 1000, found 0");
-  expect_refused({"send", "none.bvh"}, 1, "none.bvh: cannot be read: No such file or directory");
+  expect_rejected({"send", "walk.bvh", "--fps", "0"}, 2,
+                  "--fps: expected a number from 1 to 1000, found 0");
+  expect_rejected({"send", "none.bvh"}, 1, "none.bvh: cannot be read: No such file or directory");
 }
 
 }  // namespace

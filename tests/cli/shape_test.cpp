@@ -16,7 +16,7 @@ class ShapeOptions : public ProgramTest {
     EXPECT_EQ(ran.exit, 0) << ran.err;
     return read("out.bvh");
   }
-  std::string refusal(const std::string& verb, std::vector<std::string> more) {
+  std::string rejection(const std::string& verb, std::vector<std::string> more) {
     write_walk("walk.bvh");
     std::vector<std::string> arguments = {verb, "--style", "old=1"};
     if (verb == "stylize") arguments.insert(arguments.end(), {"walk.bvh", "-o", "out.bvh"});
@@ -43,14 +43,14 @@ TEST_F(ShapeOptions, each_changes_the_result) {
   }
 }
 
-TEST_F(ShapeOptions, a_wrong_region_is_refused) {
+TEST_F(ShapeOptions, a_wrong_region_is_rejected) {
   for (const char* verb : {"stylize", "live"}) {
-    EXPECT_EQ(refusal(verb, {"--region", "tail=1"}),
+    EXPECT_EQ(rejection(verb, {"--region", "tail=1"}),
               "panache: --region 'tail=1': expected legs, torso, left_arm or right_arm, '=' and an "
               "amount, such as legs=0.5\n");
-    EXPECT_EQ(refusal(verb, {"--region", "legs=3"}),
+    EXPECT_EQ(rejection(verb, {"--region", "legs=3"}),
               "panache: --region 'legs=3': expected an amount of 0 to 2, found '3'\n");
-    EXPECT_EQ(refusal(verb, {"--region", "legs=1", "--region", "legs=0"}),
+    EXPECT_EQ(rejection(verb, {"--region", "legs=1", "--region", "legs=0"}),
               "panache: --region legs is given twice\n");
   }
 }

@@ -11,10 +11,10 @@ class Strip : public ProgramTest {
     ProgramTest::SetUp();
     write_walk("walk.bvh", 100);
   }
-  void expect_refused(std::vector<std::string> arguments, int exit, const std::string& sentence) {
+  void expect_rejected(std::vector<std::string> arguments, int exit, const std::string& message) {
     arguments.insert(arguments.begin(), {"strip", "walk.bvh"});
     const Ran ran = run(arguments);
-    EXPECT_EQ(ran.err, "panache: " + sentence + "\n");
+    EXPECT_EQ(ran.err, "panache: " + message + "\n");
     EXPECT_EQ(ran.exit, exit);
     EXPECT_FALSE(exists("out.svg"));
   }
@@ -62,28 +62,28 @@ TEST_F(Strip, draws_any_format_and_believes_what_is_said_of_the_rig) {
       run({"strip", "walk.bvh", "--up", "y", "--scale", "1", "-o", "out.svg", "--force"}).exit, 0);
   EXPECT_EQ(count("<circle"), marks);
   std::filesystem::remove(path("out.svg"));
-  expect_refused({"--clip", "run", "-o", "out.svg"}, 1,
-                 "walk.bvh: holds one motion, which has no name; expected no --clip, found 'run'");
+  expect_rejected({"--clip", "run", "-o", "out.svg"}, 1,
+                  "walk.bvh: holds one motion, which has no name; expected no --clip, found 'run'");
 }
 
-TEST_F(Strip, refuses_what_makes_no_picture) {
-  expect_refused({"-o", "out.png"}, 2, "out.png: expected a name that ends in .svg");
-  expect_refused({"-o", "out.svg", "--every", "0"}, 2,
-                 "--every: expected a number from 0.01 to 60, found 0");
-  expect_refused({"-o", "out.svg", "--every", "nan"}, 2,
-                 "--every: expected a number from 0.01 to 60, found nan");
-  expect_refused({"-o", "out.svg", "--from", "-1"}, 2,
-                 "--from: expected a number from 0 to 86400, found -1");
-  expect_refused({"-o", "out.svg", "--from", "2", "--to", "1"}, 2,
-                 "--to 1: expected a time after --from 2");
-  expect_refused({"-o", "out.svg", "--every", "0.01", "--to", "11"}, 2,
-                 "--every 0.01: expected at most 1000 figures from 0 to 11 s");
-  expect_refused({"-o", "out.svg", "--label", "a", "b"}, 2,
-                 "--label: expected one for each of the 1 file, found 2");
-  expect_refused({"-o", "out.svg", "--from", "3.5"}, 1,
-                 "walk.bvh: ends at 3.30 s; expected motion from 3.5 s on");
-  expect_refused({"none.bvh", "-o", "out.svg"}, 1,
-                 "none.bvh: cannot be read: No such file or directory");
+TEST_F(Strip, rejects_what_makes_no_picture) {
+  expect_rejected({"-o", "out.png"}, 2, "out.png: expected a name that ends in .svg");
+  expect_rejected({"-o", "out.svg", "--every", "0"}, 2,
+                  "--every: expected a number from 0.01 to 60, found 0");
+  expect_rejected({"-o", "out.svg", "--every", "nan"}, 2,
+                  "--every: expected a number from 0.01 to 60, found nan");
+  expect_rejected({"-o", "out.svg", "--from", "-1"}, 2,
+                  "--from: expected a number from 0 to 86400, found -1");
+  expect_rejected({"-o", "out.svg", "--from", "2", "--to", "1"}, 2,
+                  "--to 1: expected a time after --from 2");
+  expect_rejected({"-o", "out.svg", "--every", "0.01", "--to", "11"}, 2,
+                  "--every 0.01: expected at most 1000 figures from 0 to 11 s");
+  expect_rejected({"-o", "out.svg", "--label", "a", "b"}, 2,
+                  "--label: expected one for each of the 1 file, found 2");
+  expect_rejected({"-o", "out.svg", "--from", "3.5"}, 1,
+                  "walk.bvh: ends at 3.30 s; expected motion from 3.5 s on");
+  expect_rejected({"none.bvh", "-o", "out.svg"}, 1,
+                  "none.bvh: cannot be read: No such file or directory");
 }
 
 TEST_F(Strip, keeps_an_existing_picture_without_force) {

@@ -4,7 +4,7 @@
 
 #include "cli/program.h"
 #include "make_learnt.h"
-#include "net/half_size.h"
+#include "net/quantize.h"
 
 namespace panache::test {
 namespace {
@@ -27,8 +27,8 @@ class StylesVerb : public ProgramTest {
   }
   std::string size_of(const std::string& file) const { return std::to_string(read(file).size()); }
 
-  // Runs `panache styles` and expects a sentence; no file may change, appear or vanish.
-  void expect_refused(std::vector<std::string> arguments, int exit, const std::string& sentence) {
+  // Runs `panache styles` and expects a message; no file may change, appear or vanish.
+  void expect_rejected(std::vector<std::string> arguments, int exit, const std::string& message) {
     const auto state = [this] {
       std::string all;
       for (const std::string& name : entries()) all += name + "\n" + read(name);
@@ -37,10 +37,10 @@ class StylesVerb : public ProgramTest {
     const std::string before = state();
     arguments.insert(arguments.begin(), "styles");
     const Ran ran = run(arguments);
-    EXPECT_EQ(ran.err, "panache: " + sentence + "\n");
+    EXPECT_EQ(ran.err, "panache: " + message + "\n");
     EXPECT_EQ(ran.out, "");
     EXPECT_EQ(ran.exit, exit);
-    EXPECT_TRUE(state() == before) << sentence;
+    EXPECT_TRUE(state() == before) << message;
   }
 };
 
@@ -147,23 +147,23 @@ TEST_F(StylesVerb, a_learnt_style_is_small_and_moves_the_same_after_a_journey) {
   done({"stylize", "walk.bvh", "--style", "old=1", "-o", "old.bvh"});
   done({"learn", "walk.bvh", "old.bvh", "--name", "bent", "--into", "new.safetensors"});
   done({"styles", "new.safetensors", "--extract", "bent", "-o", "bent.safetensors"});
-  done({"halve", "bent.safetensors", "-o", "half.safetensors"});
+  done({"quantize", "bent.safetensors", "-o", "int8.safetensors"});
   EXPECT_LE(read("bent.safetensors").size(), 110'000u);
-  EXPECT_LE(read("half.safetensors").size(), 55'000u);
+  EXPECT_LE(read("int8.safetensors").size(), 55'000u);
   const std::string model = read("new.safetensors");
   done({"styles", "new.safetensors", "--remove", "bent"});
   EXPECT_LT(read("new.safetensors").size(), model.size());
   done({"styles", "new.safetensors", "--add", "bent.safetensors"});
   EXPECT_TRUE(read("new.safetensors") == model);
-  done({"styles", "new.safetensors", "--add", "half.safetensors", "--force"});
+  done({"styles", "new.safetensors", "--add", "int8.safetensors", "--force"});
   done({"stylize", "walk.bvh", "--model", "new.safetensors", "--style", "bent=1", "-o", "b.bvh"});
 }
 
 TEST_F(StylesVerb, a_style_gets_another_name) {
   ASSERT_EQ(run({"styles", "mine.safetensors", "--rename", "limping=lahm und müde"}).exit, 0);
   EXPECT_EQ(styles_of("mine.safetensors").back(), "lahm und müde");
-  expect_refused({"mine.safetensors", "--rename", "old=lahm, alt"}, 1,
-                 "style name 'lahm, alt': holds a ',', which parts names from strengths");
+  expect_rejected({"mine.safetensors", "--rename", "old=lahm, alt"}, 1,
+                  "style name 'lahm, alt': holds a ',', which parts names from strengths");
 }
 
 TEST_F(StylesVerb, tells_machines_what_a_changed_model_is) {
@@ -182,68 +182,70 @@ TEST_F(StylesVerb, a_link_to_a_model_stays_a_link) {
 TEST_F(StylesVerb, a_read_only_model_stays_as_it_is) {
   using std::filesystem::perms;
   std::filesystem::permissions(path("mine.safetensors"), perms::owner_read);
-  expect_refused({"mine.safetensors", "--remove", "old"}, 1,
-                 "mine.safetensors: is read-only and stays as it is; change a copy of it, or allow "
-                 "writing");
+  expect_rejected(
+      {"mine.safetensors", "--remove", "old"}, 1,
+      "mine.safetensors: is read-only and stays as it is; change a copy of it, or allow "
+      "writing");
 }
 
 TEST_F(StylesVerb, a_model_that_is_not_named_is_never_changed) {
-  const std::string sentence =
+  const std::string message =
       "--add, --remove and --rename change a model in its place; expected its name, as in panache "
       "styles model.safetensors --remove old";
-  expect_refused({"--remove", "old"}, 2, sentence);
-  expect_refused({"--rename", "old=new"}, 2, sentence);
-  expect_refused({"--add", "mine.safetensors"}, 2, sentence);
+  expect_rejected({"--remove", "old"}, 2, message);
+  expect_rejected({"--rename", "old=new"}, 2, message);
+  expect_rejected({"--add", "mine.safetensors"}, 2, message);
 }
 
 TEST_F(StylesVerb, does_one_thing_at_a_time) {
   const std::string one = "--extract, --add, --remove and --rename: expected one of them at a time";
-  expect_refused({"mine.safetensors", "--remove", "old", "--rename", "sad=blue"}, 2, one);
-  expect_refused({"mine.safetensors", "--add", "x", "--extract", "sad", "-o", "y"}, 2, one);
+  expect_rejected({"mine.safetensors", "--remove", "old", "--rename", "sad=blue"}, 2, one);
+  expect_rejected({"mine.safetensors", "--add", "x", "--extract", "sad", "-o", "y"}, 2, one);
   const std::string both = "--extract NAME and --output FILE: expected both or neither";
-  expect_refused({"mine.safetensors", "--extract", "old"}, 2, both);
-  expect_refused({"mine.safetensors", "-o", "old.safetensors"}, 2, both);
-  expect_refused({"mine.safetensors", "--rename", "old"}, 2, "--rename old: expected OLD=NEW");
+  expect_rejected({"mine.safetensors", "--extract", "old"}, 2, both);
+  expect_rejected({"mine.safetensors", "-o", "old.safetensors"}, 2, both);
+  expect_rejected({"mine.safetensors", "--rename", "old"}, 2, "--rename old: expected OLD=NEW");
 }
 
 TEST_F(StylesVerb, all_of_a_change_happens_or_nothing) {
-  expect_refused({"mine.safetensors", "--remove", "old", "olld"}, 1,
-                 "unknown style 'olld'; the nearest are sad, proud and angry (panache styles lists "
-                 "all 4)");
+  expect_rejected(
+      {"mine.safetensors", "--remove", "old", "olld"}, 1,
+      "unknown style 'olld'; the nearest are sad, proud and angry (panache styles lists "
+      "all 4)");
   ASSERT_EQ(run({"styles", "mine.safetensors", "--extract", "old", "-o", "old.safetensors"}).exit,
             0);
   ASSERT_EQ(run({"styles", "mine.safetensors", "--remove", "old"}).exit, 0);
-  expect_refused({"mine.safetensors", "--add", "old.safetensors", "none.safetensors"}, 1,
-                 "none.safetensors: cannot be read: No such file or directory");
+  expect_rejected({"mine.safetensors", "--add", "old.safetensors", "none.safetensors"}, 1,
+                  "none.safetensors: cannot be read: No such file or directory");
 }
 
 TEST_F(StylesVerb, a_taken_name_is_replaced_by_force_only) {
   ASSERT_EQ(run({"styles", "mine.safetensors", "--extract", "old", "-o", "old.safetensors"}).exit,
             0);
-  expect_refused({"mine.safetensors", "--add", "old.safetensors"}, 1,
-                 "mine.safetensors: has a style 'old' already; --force replaces it, and --rename "
-                 "gives it another name");
+  expect_rejected({"mine.safetensors", "--add", "old.safetensors"}, 1,
+                  "mine.safetensors: has a style 'old' already; --force replaces it, and --rename "
+                  "gives it another name");
   const std::string before = read("mine.safetensors");
   EXPECT_EQ(run({"styles", "mine.safetensors", "--add", "old.safetensors", "--force"}).exit, 0);
   EXPECT_TRUE(read("mine.safetensors") == before);
-  expect_refused({"mine.safetensors", "--extract", "sad", "-o", "old.safetensors"}, 1,
-                 "old.safetensors: exists already; --force overwrites it");
+  expect_rejected({"mine.safetensors", "--extract", "sad", "-o", "old.safetensors"}, 1,
+                  "old.safetensors: exists already; --force overwrites it");
 }
 
 TEST_F(StylesVerb, explains_what_is_no_style_and_what_is_no_model) {
-  expect_refused({"mine.safetensors", "--add", "model.safetensors"}, 1,
-                 "model.safetensors: is a model; expected a style file, as panache styles "
-                 "model.safetensors --extract NAME -o FILE makes one");
-  expect_refused({"mine.safetensors", "--extract", "old", "-o", "old.bin"}, 2,
-                 "old.bin: expected a name that ends in .safetensors");
+  expect_rejected({"mine.safetensors", "--add", "model.safetensors"}, 1,
+                  "model.safetensors: is a model; expected a style file, as panache styles "
+                  "model.safetensors --extract NAME -o FILE makes one");
+  expect_rejected({"mine.safetensors", "--extract", "old", "-o", "old.bin"}, 2,
+                  "old.bin: expected a name that ends in .safetensors");
   ASSERT_EQ(run({"styles", "mine.safetensors", "--extract", "old", "-o", "old.safetensors"}).exit,
             0);
-  expect_refused({"old.safetensors", "--remove", "old"}, 1,
-                 "old.safetensors: is a style file, not a model; panache styles MODEL --add FILE "
-                 "puts it into one");
+  expect_rejected({"old.safetensors", "--remove", "old"}, 1,
+                  "old.safetensors: is a style file, not a model; panache styles MODEL --add FILE "
+                  "puts it into one");
 }
 
-TEST_F(StylesVerb, a_style_of_another_model_is_refused) {
+TEST_F(StylesVerb, a_style_of_another_model_is_rejected) {
   write("other.safetensors", format_safetensors(make_model({"young"}, 2)));
   ASSERT_EQ(
       run({"styles", "other.safetensors", "--extract", "young", "-o", "young.safetensors"}).exit,

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/program.h"
-#include "cli/same_places.h"
+#include "cli/same_positions.h"
 #include "clip/make_character.h"
 
 namespace panache::test {
@@ -52,7 +52,7 @@ TEST_F(StylizeGltf, new_motions_take_the_place_of_the_old_when_asked) {
       styled({"hero.glb", "--replace", "--clip", "Wave", "--style", "old=1", "-o", "out.glb"});
   ASSERT_TRUE(before.ok() && file);
   EXPECT_EQ(file->clip_names(), (Names{"Walk", "Wave"}));
-  expect_same_places((*before)->clip(0), file->clip(0), 0);
+  expect_same_positions((*before)->clip(0), file->clip(0), 0);
   EXPECT_FALSE((*before)->clip(1).rotations == file->clip(1).rotations);
 }
 
@@ -64,7 +64,7 @@ TEST_F(StylizeGltf, one_motion_goes_into_a_bvh) {
   const auto glb = styled({"hero.glb", "--clip", "Walk", "--style", "old=1", "-o", "out.glb"});
   const auto bvh = styled({"hero.glb", "--clip", "Walk", "--style", "old=1", "-o", "out.bvh"});
   ASSERT_TRUE(glb && bvh);
-  expect_same_places(glb->clip(2), bvh->clip(), 2e-5f);
+  expect_same_positions(glb->clip(2), bvh->clip(), 2e-5f);
 }
 
 TEST_F(StylizeGltf, a_bvh_goes_into_a_glb) {
@@ -73,7 +73,7 @@ TEST_F(StylizeGltf, a_bvh_goes_into_a_glb) {
   ASSERT_TRUE(bvh && glb);
   EXPECT_EQ(glb->clip_names(), Names{"walk (old 1)"});
   // The body's legs are those of the canonical one, whose unit is the metre, to rounding.
-  expect_same_places(bvh->clip(), glb->clip(), 1e-3f);
+  expect_same_positions(bvh->clip(), glb->clip(), 1e-3f);
 }
 
 TEST_F(StylizeGltf, a_gltf_goes_into_a_glb_with_all_it_holds) {
@@ -95,21 +95,20 @@ TEST_F(StylizeGltf, a_motion_that_cannot_be_restyled_stays_with_a_note) {
     }
   }
   write("legless.glb", to_glb(parts));
-  const std::string sentence =
-      "panache: legless.glb: Wave: the legs of the humanoid have no length";
+  const std::string message = "panache: legless.glb: Wave: the legs of the humanoid have no length";
   const Ran both = stylize({"legless.glb", "--style", "old=1", "-o", "out.glb"});
   EXPECT_EQ(both.exit, 0);
-  EXPECT_EQ(both.err, sentence + "; this motion stays as it is\n");
+  EXPECT_EQ(both.err, message + "; this motion stays as it is\n");
   const auto file = read_motion(path("out.glb"));
   ASSERT_TRUE(file.ok());
   EXPECT_EQ((*file)->clip_names(), (Names{"Walk", "Wave", "Walk (old 1)"}));
   const Ran one = stylize({"legless.glb", "--clip", "Wave", "--style", "old=1", "-o", "no.glb"});
   EXPECT_EQ(one.exit, 1);
-  EXPECT_EQ(one.err, sentence + "\n");
+  EXPECT_EQ(one.err, message + "\n");
   EXPECT_FALSE(exists("no.glb"));
 }
 
-TEST_F(StylizeGltf, a_skeleton_without_motion_is_refused) {
+TEST_F(StylizeGltf, a_skeleton_without_motion_is_rejected) {
   GltfParts parts = character();
   parts.json.erase("animations");
   write("still.glb", to_glb(parts));

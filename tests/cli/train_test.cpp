@@ -9,7 +9,7 @@ namespace {
 
 using Train = test::ProgramTest;
 
-TEST_F(Train, an_error_of_libtorch_ends_it_with_one_sentence) {
+TEST_F(Train, an_error_of_libtorch_ends_it_with_one_message) {
   test::write_manifest(path(""));
   // Where libtorch is to write a checkpoint there is a folder.
   std::filesystem::create_directory(path("mine.safetensors.pose.checkpoint.part"));

@@ -8,10 +8,10 @@ namespace {
 
 class WalkerVerb : public ProgramTest {
  protected:
-  void expect_refused(std::vector<std::string> arguments, int exit, const std::string& sentence) {
+  void expect_rejected(std::vector<std::string> arguments, int exit, const std::string& message) {
     arguments.insert(arguments.begin(), "walker");
     const Ran ran = run(arguments);
-    EXPECT_EQ(ran.err, "panache: " + sentence + "\n");
+    EXPECT_EQ(ran.err, "panache: " + message + "\n");
     EXPECT_EQ(ran.exit, exit);
   }
 };
@@ -31,25 +31,25 @@ TEST_F(WalkerVerb, makes_a_walk_that_stylize_takes) {
 }
 
 TEST_F(WalkerVerb, explains_a_wrong_wish) {
-  expect_refused({"-o", "walk.bvh", "--speed", "9"}, 2,
-                 "--speed: expected a number from 0 to 4.5, found 9");
-  expect_refused({"-o", "walk.bvh", "--speed", "nan"}, 2,
-                 "--speed: expected a number from 0 to 4.5, found nan");
-  expect_refused({"-o", "walk.bvh", "--seconds", "0"}, 2,
-                 "--seconds: expected a number from 0.1 to 600, found 0");
-  expect_refused({"-o", "walk.bvh", "--fps", "1000"}, 2,
-                 "--fps: expected a number from 10 to 240, found 1000");
-  expect_refused({"-o", "walk.bvh", "--turn", "-500"}, 2,
-                 "--turn: expected a number from -120 to 120, found -500 at --speed 1.4");
-  expect_refused({"-o", "walk.fbx"}, 2, "walk.fbx: expected a name that ends in .bvh");
-  expect_refused({"-o", "walk.bvh", "--model", "none.safetensors"}, 1,
-                 "none.safetensors: cannot be read: No such file or directory");
+  expect_rejected({"-o", "walk.bvh", "--speed", "9"}, 2,
+                  "--speed: expected a number from 0 to 4.5, found 9");
+  expect_rejected({"-o", "walk.bvh", "--speed", "nan"}, 2,
+                  "--speed: expected a number from 0 to 4.5, found nan");
+  expect_rejected({"-o", "walk.bvh", "--seconds", "0"}, 2,
+                  "--seconds: expected a number from 0.1 to 600, found 0");
+  expect_rejected({"-o", "walk.bvh", "--fps", "1000"}, 2,
+                  "--fps: expected a number from 10 to 240, found 1000");
+  expect_rejected({"-o", "walk.bvh", "--turn", "-500"}, 2,
+                  "--turn: expected a number from -120 to 120, found -500 at --speed 1.4");
+  expect_rejected({"-o", "walk.fbx"}, 2, "walk.fbx: expected a name that ends in .bvh");
+  expect_rejected({"-o", "walk.bvh", "--model", "none.safetensors"}, 1,
+                  "none.safetensors: cannot be read: No such file or directory");
   EXPECT_FALSE(exists("walk.bvh"));
 }
 
 TEST_F(WalkerVerb, keeps_an_existing_file_without_force) {
   write("walk.bvh", "mine");
-  expect_refused({"-o", "walk.bvh"}, 1, "walk.bvh: exists already; --force overwrites it");
+  expect_rejected({"-o", "walk.bvh"}, 1, "walk.bvh: exists already; --force overwrites it");
   EXPECT_EQ(read("walk.bvh"), "mine");
 }
 

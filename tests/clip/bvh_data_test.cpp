@@ -84,8 +84,8 @@ Columns columns_of(const std::vector<std::string_view>& words) {
   return columns;
 }
 
-// How often a number leaps by more than 170 degrees from one frame to the next.
-int leaps(const std::vector<std::string_view>& words, const Columns& columns, size_t joint) {
+// How often a number jumps by more than 170 degrees from one frame to the next.
+int jumps(const std::vector<std::string_view>& words, const Columns& columns, size_t joint) {
   int count = 0;
   const size_t stride = columns.first.back();
   const size_t end = columns.first[joint + 1], begin = end - columns.rotations[joint];
@@ -103,7 +103,7 @@ TEST(BvhData, only_the_changed_joint_gets_new_numbers_and_they_are_right) {
   if (!std::getenv("PANACHE_DATA")) GTEST_SKIP() << kNoData;
   const Quat change = axis_angle(normalized(Vec3{1, -2, 3}), 0.05f);
   double worst = 0;
-  int leaps_before = 0, leaps_after = 0;
+  int jumps_before = 0, jumps_after = 0;
   size_t turn = 0;
   for (const std::string& path : small_sets()) {
     const std::string text = *read_file(path);
@@ -135,14 +135,14 @@ TEST(BvhData, only_the_changed_joint_gets_new_numbers_and_they_are_right) {
       others_changed += !own && before[w] != after[w];
     }
     EXPECT_EQ(others_changed, 0u) << path;
-    const int leaps_here = leaps(before, columns, joint),
-              leaps_there = leaps(after, columns, joint);
-    leaps_before += leaps_here;
-    leaps_after += leaps_there;
-    EXPECT_LE(leaps_there, leaps_here) << path;
+    const int jumps_here = jumps(before, columns, joint),
+              jumps_there = jumps(after, columns, joint);
+    jumps_before += jumps_here;
+    jumps_after += jumps_there;
+    EXPECT_LE(jumps_there, jumps_here) << path;
   }
   std::printf("worst rotation error %.2g radians, leaps of an angle %d in the files, %d written\n",
-              worst, leaps_before, leaps_after);
+              worst, jumps_before, jumps_after);
   EXPECT_LT(worst, 1e-5);  // Four decimals at least: three roundings of 9e-7 radians, and floats.
 }
 

@@ -82,7 +82,7 @@ TEST(BvhReading, several_roots_are_several_trees) {
   EXPECT_EQ(file->clip().pose(1).translations[1], (Vec3{0, 0.5f, 0}));
 }
 
-TEST(BvhReading, line_ends_blanks_and_byte_order_marks_change_nothing) {
+TEST(BvhReading, line_ends_spaces_and_byte_order_marks_change_nothing) {
   for (const char* fixture : kBvhFixtures) {
     const std::string text = read_fixture(fixture);
     const auto plain = must_parse(text);

@@ -1,4 +1,4 @@
-// No file can hurt us: whatever is done to a good file, the answer is a sentence or a clip that
+// No file can hurt us: whatever is done to a good file, the answer is a message or a clip that
 // keeps its promises.
 
 #include "clip/fk.h"
@@ -16,11 +16,11 @@ using test::allocations_left;
 bool check_harmless(const std::string& text) {
   auto file = parse_bvh(text, "walk.bvh");
   if (!file) {
-    const std::string& sentence = file.error().message;
-    EXPECT_EQ(sentence.substr(0, 9), "walk.bvh:");
-    EXPECT_NE(sentence.find(": expected "), std::string::npos) << sentence;
-    EXPECT_NE(sentence.find(", found "), std::string::npos) << sentence;
-    EXPECT_EQ(sentence.find('\n'), std::string::npos) << sentence;
+    const std::string& message = file.error().message;
+    EXPECT_EQ(message.substr(0, 9), "walk.bvh:");
+    EXPECT_NE(message.find(": expected "), std::string::npos) << message;
+    EXPECT_NE(message.find(", found "), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     return false;
   }
   const Clip& clip = (*file)->clip();
@@ -48,22 +48,22 @@ TEST(BvhSafety, every_truncation_is_harmless) {
 TEST(BvhSafety, every_changed_byte_is_harmless) {
   constexpr unsigned char kValues[] = {0,   ' ', '\n', '\r', '0', '9',  '-',
                                        '.', 'e', '{',  '}',  'X', 0x7f, 0xff};
-  int accepted = 0, refused = 0;
+  int accepted = 0, rejected = 0;
   for (const char* fixture : kBvhFixtures) {
     const std::string text = read_fixture(fixture);
     for (size_t i = 0; i < text.size(); ++i) {
       std::string spoilt = text;
       for (const unsigned char value : kValues) {
         spoilt[i] = static_cast<char>(value);
-        ++(check_harmless(spoilt) ? accepted : refused);
+        ++(check_harmless(spoilt) ? accepted : rejected);
       }
       spoilt[i] = static_cast<char>(text[i] ^ 1);
-      ++(check_harmless(spoilt) ? accepted : refused);
+      ++(check_harmless(spoilt) ? accepted : rejected);
     }
   }
   // Both ways were taken, or this test says nothing.
   EXPECT_GT(accepted, 1000);
-  EXPECT_GT(refused, 1000);
+  EXPECT_GT(rejected, 1000);
 }
 
 TEST(BvhSafety, every_missing_line_is_harmless) {

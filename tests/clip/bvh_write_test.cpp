@@ -130,7 +130,7 @@ TEST(BvhWriting, only_the_changed_joint_gets_new_numbers) {
   clip.pose(1).translations[2].y = 21.5f;
   const std::string out = file->encode(clip, same_frames(2));
   // Y X Z: a turn of 0.01 radians (0.57296 degrees) about y goes into the first angle alone. The
-  // file uses at most one decimal, so four are written; blanks stay.
+  // file uses at most one decimal, so four are written; spaces stay.
   EXPECT_EQ(out, replaced(replaced(text, "30 40 50", "30.5730 40.0000 50.0000"), "-3 10 20 .5 5.",
                           "-3 10 20 .5 21.5000"));
 }

@@ -34,8 +34,8 @@ inline std::unique_ptr<MotionFile> must_parse(const std::string& text,
   return std::move(*file);
 }
 
-// The sentence that says why `text` is no BVH file.
-inline std::string refusal(const std::string& text) {
+// The message that says why `text` is no BVH file.
+inline std::string rejection(const std::string& text) {
   auto file = parse_bvh(text, "walk.bvh");
   return file.ok() ? "(accepted)" : file.error().message;
 }

@@ -29,13 +29,13 @@ inline std::unique_ptr<MotionFile> must_read(const test::GltfParts& parts) {
   return must_read(test::to_glb(parts));
 }
 
-// The sentence that says why the file is none.
-inline std::string gltf_refusal(const std::string& bytes) {
+// The message that says why the file is none.
+inline std::string gltf_rejection(const std::string& bytes) {
   auto file = parse_gltf(bytes, "walk.glb");
   return file.ok() ? "(accepted)" : file.error().message;
 }
-inline std::string gltf_refusal(const test::GltfParts& parts) {
-  return gltf_refusal(test::to_glb(parts));
+inline std::string gltf_rejection(const test::GltfParts& parts) {
+  return gltf_rejection(test::to_glb(parts));
 }
 
 inline size_t joint_named(const Clip& clip, const std::string& name) {

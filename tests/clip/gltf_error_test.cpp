@@ -1,4 +1,4 @@
-// The sentences that say why a glTF file cannot be read.
+// The messages that say why a glTF file cannot be read.
 
 #include <functional>
 
@@ -15,18 +15,18 @@ using test::small_gltf;
 std::string spoilt(const std::function<void(GltfParts&)>& spoil) {
   GltfParts parts = small_gltf();
   spoil(parts);
-  return gltf_refusal(parts);
+  return gltf_rejection(parts);
 }
 std::string spoilt_json(const std::function<void(Json&)>& spoil) {
   return spoilt([&](GltfParts& parts) { spoil(parts.json); });
 }
 
 TEST(GltfError, a_file_that_is_no_gltf) {
-  EXPECT_EQ(gltf_refusal(std::string("HIERARCHY")),
+  EXPECT_EQ(gltf_rejection(std::string("HIERARCHY")),
             "walk.glb: expected glTF, found text that is not JSON; is the file complete?");
-  EXPECT_EQ(gltf_refusal(std::string("[1, 2]")),
+  EXPECT_EQ(gltf_rejection(std::string("[1, 2]")),
             "walk.glb: expected glTF, a JSON object, found a list of 2");
-  EXPECT_EQ(gltf_refusal(std::string("{}")),
+  EXPECT_EQ(gltf_rejection(std::string("{}")),
             "walk.glb: asset: expected glTF's version in it, found nothing");
   EXPECT_EQ(spoilt_json([](Json& j) { j["asset"]["version"] = "1.0"; }),
             "walk.glb: asset: expected glTF version 2.0, found '1.0'");
@@ -36,23 +36,23 @@ TEST(GltfError, a_file_that_is_no_gltf) {
 
 TEST(GltfError, a_glb_that_was_cut) {
   const std::string glb = test::to_glb(small_gltf());
-  EXPECT_EQ(gltf_refusal(glb.substr(0, 10)),
+  EXPECT_EQ(gltf_rejection(glb.substr(0, 10)),
             "walk.glb: expected a GLB of 12 bytes at least, found 10; is the file complete?");
-  EXPECT_EQ(gltf_refusal(glb.substr(0, 100)),
+  EXPECT_EQ(gltf_rejection(glb.substr(0, 100)),
             "walk.glb: expected a GLB of " + std::to_string(glb.size()) +
                 " bytes at least, found 100; is the file complete?");
-  EXPECT_EQ(gltf_refusal(std::string("glTF\1\0\0\0\0\0\0\0", 12)),
+  EXPECT_EQ(gltf_rejection(std::string("glTF\1\0\0\0\0\0\0\0", 12)),
             "walk.glb: expected GLB version 2, found version 1");
 }
 
 TEST(GltfError, nesting_and_size_of_the_json) {
   const std::string deep(100'000, '[');
-  EXPECT_EQ(gltf_refusal("{\"extras\": " + deep),
+  EXPECT_EQ(gltf_rejection("{\"extras\": " + deep),
             "walk.glb: expected JSON at most 200 brackets deep and with at most 4000 members in an "
             "object, found more");
   std::string wide = "{\"a\":1";
   for (int i = 0; i < 5000; ++i) wide += ",\"a" + std::to_string(i) + "\":1";
-  EXPECT_EQ(gltf_refusal(wide + "}"),
+  EXPECT_EQ(gltf_rejection(wide + "}"),
             "walk.glb: expected JSON at most 200 brackets deep and with at most 4000 members in an "
             "object, found more");
 }
@@ -180,7 +180,7 @@ TEST(GltfError, numbers_that_are_no_motion) {
 
 TEST(GltfError, files_that_may_not_be_read) {
   const auto with_uri = [](const std::string& uri) {
-    return gltf_refusal(test::to_gltf_text(small_gltf(), uri));
+    return gltf_rejection(test::to_gltf_text(small_gltf(), uri));
   };
   const std::string cure = "; save the file as .glb, which has everything in it";
   EXPECT_EQ(with_uri("/etc/passwd"),

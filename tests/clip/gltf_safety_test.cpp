@@ -1,4 +1,4 @@
-// No file can hurt us: whatever is done to a good file, the answer is a sentence or clips that keep
+// No file can hurt us: whatever is done to a good file, the answer is a message or clips that keep
 // their promises and can be written again.
 
 #include <functional>
@@ -45,10 +45,10 @@ GltfParts rich_gltf() {
 bool check_harmless(const std::string& bytes) {
   auto file = parse_gltf(bytes, "walk.glb");
   if (!file) {
-    const std::string& sentence = file.error().message;
-    EXPECT_TRUE(sentence.starts_with("walk.glb: ")) << sentence;
-    EXPECT_NE(sentence.find("expected "), std::string::npos) << sentence;
-    EXPECT_EQ(sentence.find('\n'), std::string::npos) << sentence;
+    const std::string& message = file.error().message;
+    EXPECT_TRUE(message.starts_with("walk.glb: ")) << message;
+    EXPECT_NE(message.find("expected "), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     return false;
   }
   const int clips = std::max<int>(static_cast<int>((*file)->clip_names().size()), 1);
@@ -85,20 +85,20 @@ TEST(GltfSafety, every_truncation_is_harmless) {
 
 TEST(GltfSafety, every_changed_byte_is_harmless) {
   constexpr unsigned char kValues[] = {0, '9', 0xff};
-  int accepted = 0, refused = 0;
+  int accepted = 0, rejected = 0;
   const std::string bytes = test::to_glb(rich_gltf());
   for (size_t i = 0; i < bytes.size(); ++i) {
     std::string spoilt = bytes;
     for (const unsigned char value : kValues) {
       spoilt[i] = static_cast<char>(value);
-      ++(check_harmless(spoilt) ? accepted : refused);
+      ++(check_harmless(spoilt) ? accepted : rejected);
     }
     spoilt[i] = static_cast<char>(bytes[i] ^ 1);
-    ++(check_harmless(spoilt) ? accepted : refused);
+    ++(check_harmless(spoilt) ? accepted : rejected);
   }
   // Both ways were taken, or this test says nothing.
   EXPECT_GT(accepted, 1000);
-  EXPECT_GT(refused, 1000);
+  EXPECT_GT(rejected, 1000);
 }
 
 // Calls `visit` with each value of `json`, the innermost first.
@@ -127,17 +127,17 @@ TEST(GltfSafety, every_value_of_the_json_replaced_by_a_bad_one_is_harmless) {
                       Json::array({0, 0}),
                       Json::array({-1e9, 1e9, 1e-30})};
   GltfParts parts = test::glb_parts(test::to_glb(rich_gltf()));
-  int accepted = 0, refused = 0;
+  int accepted = 0, rejected = 0;
   for_each_value(parts.json, [&](Json& value) {
     const Json good = value;
     for (const Json& other : bad) {
       value = other;
-      ++(check_harmless(test::glb_of(parts.json.dump(), parts.bin)) ? accepted : refused);
+      ++(check_harmless(test::glb_of(parts.json.dump(), parts.bin)) ? accepted : rejected);
     }
     value = good;
   });
   EXPECT_GT(accepted, 400);
-  EXPECT_GT(refused, 400);
+  EXPECT_GT(rejected, 400);
 }
 
 TEST(GltfSafety, every_missing_member_and_item_is_harmless) {

@@ -5,12 +5,12 @@
 namespace panache {
 namespace {
 
-std::string read_refusal(const std::string& path) {
+std::string read_rejection(const std::string& path) {
   auto file = read_motion(path);
   return file.ok() ? "(accepted)" : file.error().message;
 }
 
-TEST(MotionFile, the_ending_decides_the_format_in_any_case) {
+TEST(MotionFile, the_extension_decides_the_format_in_any_case) {
   const std::string folder = testing::TempDir() + "panache_motion_file";
   for (const char* name : {"/walk.bvh", "/walk.BVH", "/walk.neutral.Bvh"}) {
     ASSERT_TRUE(write_file(folder + name, read_fixture("plain.bvh"), true).ok());
@@ -21,16 +21,16 @@ TEST(MotionFile, the_ending_decides_the_format_in_any_case) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(MotionFile, an_unknown_ending_is_answered_with_the_known_ones) {
+TEST(MotionFile, an_unknown_extension_is_answered_with_the_known_ones) {
   EXPECT_EQ(
-      read_refusal("a/walk.fbx"),
+      read_rejection("a/walk.fbx"),
       "a/walk.fbx: expected a motion file (.bvh, .glb, .gltf, .vrm), found the ending '.fbx'");
-  EXPECT_EQ(read_refusal("a.b/walk"),
+  EXPECT_EQ(read_rejection("a.b/walk"),
             "a.b/walk: expected a motion file (.bvh, .glb, .gltf, .vrm), found no ending");
 }
 
 TEST(MotionFile, a_file_that_cannot_be_read_says_why) {
-  EXPECT_EQ(read_refusal("nowhere/walk.bvh"),
+  EXPECT_EQ(read_rejection("nowhere/walk.bvh"),
             "nowhere/walk.bvh: cannot be read: No such file or directory");
 }
 

@@ -9,7 +9,7 @@ namespace {
 TEST(MotionFormat, each_is_found_by_its_extension_and_named_once) {
   for (const MotionFormat& format : motion_formats()) {
     EXPECT_EQ(find_format(motion_formats(), format.extension), &format);
-    EXPECT_EQ(format.extension, ending_of("walk" + std::string(format.extension)));
+    EXPECT_EQ(format.extension, extension_of("walk" + std::string(format.extension)));
     EXPECT_TRUE(format.parse) << format.extension;
   }
   EXPECT_EQ(find_format(motion_formats(), ".fbx"), nullptr);

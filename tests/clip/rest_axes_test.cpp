@@ -37,7 +37,7 @@ Clip turned_clip(bool turned) {
 // Five joints of half a metre, a few roundings of 2^-24 each.
 constexpr float kNear = 2e-6f;
 
-void expect_same_places(const Clip& a, const Clip& b) {
+void expect_same_positions(const Clip& a, const Clip& b) {
   std::vector<Quat> turns_a(a.joints()), turns_b(b.joints());
   std::vector<Vec3> places_a(a.joints()), places_b(b.joints());
   for (int f = 0; f < a.frames; ++f) {
@@ -66,8 +66,8 @@ Clip at_rest(const Clip& clip) {
 TEST(RestAxes, a_motion_keeps_every_place_and_rests_without_rotation) {
   const Clip clip = turned_clip(true), out = in_rest_axes(clip);
   for (const Joint& joint : out.skeleton.joints) EXPECT_EQ(joint.rest, Quat{});
-  expect_same_places(clip, out);
-  expect_same_places(at_rest(clip), at_rest(out));
+  expect_same_positions(clip, out);
+  expect_same_positions(at_rest(clip), at_rest(out));
 }
 
 TEST(RestAxes, a_motion_that_rests_without_rotation_stays_as_it_is) {

@@ -29,18 +29,18 @@ TEST(Classifier, learns_its_classes_alone_and_the_same_from_the_same_seed) {
   EXPECT_EQ(classifier.find("old"), 1);
   EXPECT_EQ(classifier.find("jolly"), -1);
   const Take stranger = test::styled_take("neutral", "walk", 1);
-  EXPECT_TRUE(torch::equal(classifier.judge(stranger).probabilities,
-                           without.judge(stranger).probabilities));
+  EXPECT_TRUE(torch::equal(classifier.classify(stranger).probabilities,
+                           without.classify(stranger).probabilities));
 
-  const Judged judged = classifier.judge(test::styled_take("old", "walk", 3, 90));
-  ASSERT_EQ(judged.probabilities.size(0), 7);  // 29 frames each, 10 apart, in 90 frames.
-  EXPECT_EQ(judged.probabilities.size(1), 2);
-  EXPECT_EQ(judged.features.size(0), 7);
-  EXPECT_LT((judged.probabilities.sum(1) - 1).abs().max().item<float>(), 1e-5f);
-  EXPECT_GT(judged.probabilities.select(1, 1).min().item<float>(), 0.9f);
+  const Classification classified = classifier.classify(test::styled_take("old", "walk", 3, 90));
+  ASSERT_EQ(classified.probabilities.size(0), 7);  // 29 frames each, 10 apart, in 90 frames.
+  EXPECT_EQ(classified.probabilities.size(1), 2);
+  EXPECT_EQ(classified.features.size(0), 7);
+  EXPECT_LT((classified.probabilities.sum(1) - 1).abs().max().item<float>(), 1e-5f);
+  EXPECT_GT(classified.probabilities.select(1, 1).min().item<float>(), 0.9f);
 
   // What is shorter than a window is held at its last frame.
-  const Judged one = classifier.judge(test::styled_take("proud", "walk", 3, 12));
+  const Classification one = classifier.classify(test::styled_take("proud", "walk", 3, 12));
   ASSERT_EQ(one.probabilities.size(0), 1);
   EXPECT_GT(one.probabilities[0][0].item<float>(), 0.5f);
 }

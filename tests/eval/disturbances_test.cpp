@@ -33,9 +33,9 @@ class Disturbances : public testing::Test {
 };
 
 TEST_F(Disturbances, none_is_the_take_itself_in_the_layout_asked_for) {
-  EXPECT_EQ(see("none", takes_).takes[0].numbers, takes_[0].numbers);
+  EXPECT_EQ(see("none", takes_).takes[0].pose_features, takes_[0].pose_features);
   const SeenTakes rotations = see("none", takes_, PoseLayout::rotations);
-  EXPECT_EQ(rotations.takes[0].numbers.size(), 130u * 90);
+  EXPECT_EQ(rotations.takes[0].pose_features.size(), 130u * 90);
 }
 
 TEST_F(Disturbances, scale_is_on_positions_and_speeds_but_not_on_the_turn) {
@@ -82,7 +82,8 @@ TEST_F(Disturbances, noise_is_a_centimetre_and_the_same_every_time) {
   }
   // 5,670 numbers: the estimate of their deviation is good to 1 %; three times that.
   EXPECT_NEAR(std::sqrt(squares / count), 0.01, 0.0003);
-  EXPECT_EQ(see("1 cm noise on every joint", takes_).takes[0].numbers, seen.takes[0].numbers);
+  EXPECT_EQ(see("1 cm noise on every joint", takes_).takes[0].pose_features,
+            seen.takes[0].pose_features);
 }
 
 TEST_F(Disturbances, in_place_nothing_travels_and_the_body_is_the_same) {
@@ -119,7 +120,7 @@ TEST_F(Disturbances, another_posture_is_a_constant_that_leaves_the_way_alone) {
 }
 
 TEST(DisturbanceRows, a_model_that_looks_at_nothing_does_not_suffer) {
-  const AlignedTest test = test::bent_walks();
+  const AlignedTakes test = test::bent_walks();
   const auto rows = measure_disturbances(test, test::as_system(test::bending_model(test::kBend)));
   ASSERT_EQ(rows.size(), 11u);
   EXPECT_EQ(rows[0].name, "none");
@@ -129,7 +130,7 @@ TEST(DisturbanceRows, a_model_that_looks_at_nothing_does_not_suffer) {
 }
 
 TEST(DisturbanceRows, a_model_that_looks_answers_differently_to_each) {
-  const AlignedTest test = test::bent_walks();
+  const AlignedTakes test = test::bent_walks();
   for (const Recipe* recipe : {&test::kPanache, &test::kSmith2019}) {
     const auto model =
         *Model::parse(format_safetensors(test::make_model({"old", "sad"}, 1, *recipe)), "m");

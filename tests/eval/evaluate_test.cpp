@@ -8,7 +8,7 @@
 namespace panache {
 namespace {
 
-// What an evaluation refuses before any classifier is trained; what it reports is tested through
+// What an evaluation rejects before any classifier is trained; what it reports is tested through
 // the program, which evaluates as a user would.
 class EvaluateTest : public testing::Test {
  protected:
@@ -29,7 +29,7 @@ class EvaluateTest : public testing::Test {
       if (row.test) change(row);
     }
   }
-  std::string refusal() const {
+  std::string rejection() const {
     const Result<Report> report = evaluate(options_);
     return report.ok() ? "accepted" : report.error().message;
   }
@@ -42,7 +42,7 @@ TEST_F(EvaluateTest, test_takes_of_contents_that_nothing_was_trained_on_do_not_j
   change_tests([](ManifestRow& row) {
     if (row.neutral) row.content = "jump";
   });
-  EXPECT_EQ(refusal(),
+  EXPECT_EQ(rejection(),
             "no neutral test take of a content that is trained on; expected rows with neutral 1");
 }
 
@@ -50,14 +50,14 @@ TEST_F(EvaluateTest, test_takes_of_styles_that_nothing_was_trained_on_do_not_jud
   change_tests([](ManifestRow& row) {
     if (!row.neutral) row.style = "sad";
   });
-  EXPECT_EQ(refusal(),
+  EXPECT_EQ(rejection(),
             "no styled test take of a style and content that are trained on; expected rows with "
             "neutral 0");
 }
 
 TEST_F(EvaluateTest, a_test_take_that_cannot_be_read_is_named) {
   options_.test.back().path = temporary_.path() + "none.bvh";
-  EXPECT_EQ(refusal(), temporary_.path() + "none.bvh: cannot be read: No such file or directory");
+  EXPECT_EQ(rejection(), temporary_.path() + "none.bvh: cannot be read: No such file or directory");
 }
 
 TEST(NamedSplit, there_are_three_and_no_more) {

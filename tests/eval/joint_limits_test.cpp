@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "clip/fk.h"
-#include "make_clip.h"
 #include "learn/manifest.h"
 #include "learn/take.h"
+#include "make_clip.h"
 
 namespace panache {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/aligned.h"
+#include "eval/aligned_takes.h"
 #include "eval/systems/model_system.h"
 #include "learn/make_walk_take.h"
 #include "make_model.h"
@@ -12,10 +12,10 @@
 namespace panache::test {
 
 // A neutral walk, and the same walk bent forward in the styles "old" and, half as much, "sad".
-inline AlignedTest bent_walks() {
-  return AlignedTest({walk_take("neutral", "walk", 150, 0), walk_take("old", "walk", 120, kBend),
-                      walk_take("sad", "walk", 110, kBend / 2),
-                      walk_take("old", "run", 110, kBend)});
+inline AlignedTakes bent_walks() {
+  return AlignedTakes({walk_take("neutral", "walk", 150, 0), walk_take("old", "walk", 120, kBend),
+                       walk_take("sad", "walk", 110, kBend / 2),
+                       walk_take("old", "run", 110, kBend)});
 }
 
 inline ModelSystem as_system(std::shared_ptr<const Model> model) {

@@ -13,13 +13,13 @@ inline const std::string kRude = "a<b> & \"c\"'s";
 inline const std::string kRudeEscaped = "a&lt;b&gt; &amp; &quot;c&quot;'s";
 
 // All numbers of it are different, and tell where they come from.
-inline Quality numbers(double seed) {
-  Quality quality;
-  quality.takes = static_cast<size_t>(seed * 100);
-  quality.windows = quality.takes * 5;
+inline Metrics numbers(double seed) {
+  Metrics metrics;
+  metrics.takes = static_cast<size_t>(seed * 100);
+  metrics.windows = metrics.takes * 5;
   double step = 0;
-  for (const Measure& measure : measures()) quality[measure.key] = seed + 0.001 * ++step;
-  return quality;
+  for (const Measure& measure : measures()) metrics[measure.key] = seed + 0.001 * ++step;
+  return metrics;
 }
 
 inline HumanPositions standing(float along) {
@@ -51,7 +51,7 @@ inline SystemReport made_up_system(const std::string& name, double seed) {
   b.by_content = {{"run", numbers(0.67)}, {"walk", numbers(0.68)}};
   system.unseen = {a, b};
   for (int i = 0; i < 11; ++i) {
-    ForeignRow row;
+    OodRow row;
     row.clip = i < 6 ? "dance" : "box";
     row.style = "style " + std::to_string(i);
     row.jerk_ratio = 1 + 0.1 * i;
@@ -63,10 +63,10 @@ inline SystemReport made_up_system(const std::string& name, double seed) {
     row.input_skating_ratio = 0.04;
     row.drift_m = 0.3 * i;
     row.gate = 0.1 * i;
-    system.foreign.push_back(row);
+    system.ood.push_back(row);
   }
   system.disturbances = {{"none", 2.25}, {"floor -5 cm", 2.75}};
-  system.foresight = {{"walk", 100, {0.5, 1.25, 3.5}, {6.5, 12.5, 30.5}, {1.5, 4.5, 15.5}}};
+  system.prediction = {{"walk", 100, {0.5, 1.25, 3.5}, {6.5, 12.5, 30.5}, {1.5, 4.5, 15.5}}};
   system.cc = 8.5;
   system.sc = 63;
   system.bone_length_error_cm = 0.002;

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "make_styles.h"
 #include "learn/take.h"
+#include "make_styles.h"
 
 namespace panache::test {
 

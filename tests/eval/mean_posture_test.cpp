@@ -48,7 +48,7 @@ struct Answer {
 Answer answer(const std::shared_ptr<const Model>& model, std::vector<float> strengths,
               uint64_t seed = 1) {
   StyleNetworks networks(model);
-  std::vector<float> window(size_t(kWindowPoses) * pose_numbers(PoseLayout::positions));
+  std::vector<float> window(size_t(kWindowPoses) * pose_feature_count(PoseLayout::positions));
   Random random(seed);
   for (float& w : window) w = random.normal();
   networks.set_strengths(strengths);

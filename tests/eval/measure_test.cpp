@@ -50,10 +50,10 @@ TEST(Measures, a_distance_from_an_input_at_unknown_instants_is_not_measured) {
   EXPECT_TRUE(std::isnan(of_take({.take = &take})));
 }
 
-TEST(Quality, what_no_measure_said_is_not_measured) {
-  Quality quality;
-  quality["fmd"] = 2;
-  const Quality& read = quality;
+TEST(Metrics, what_no_measure_said_is_not_measured) {
+  Metrics metrics;
+  metrics["fmd"] = 2;
+  const Metrics& read = metrics;
   EXPECT_EQ(read["fmd"], 2);
   EXPECT_TRUE(std::isnan(read["jerk_ratio"]));
 }

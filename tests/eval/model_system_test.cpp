@@ -50,14 +50,14 @@ class ModelSystemTest : public testing::Test {
     if (content == "wave") test::stand_and_wave(clip);
     EXPECT_TRUE(write_file(folder_ + content + ".bvh", format_bvh(clip), true).ok());
   }
-  Output run(const std::shared_ptr<const Model>& model, int which, float strength,
-             bool timing = true) const {
-    const Result<Played> played =
+  StyledTake run(const std::shared_ptr<const Model>& model, int which, float strength,
+                 bool timing = true) const {
+    const Result<RunResult> run_result =
         ModelSystem("model", model).run(inputs_[which], {"old", {{"old", strength}}, timing});
-    EXPECT_TRUE(played.ok()) << played.error().message;
+    EXPECT_TRUE(run_result.ok()) << run_result.error().message;
     // BVH angles have six digits; joints in the world are metres in single precision.
-    EXPECT_LT(played->bone_length_error, 1e-5);
-    return played->output;
+    EXPECT_LT(run_result->bone_length_error, 1e-5);
+    return run_result->output;
   }
 
   const test::TemporaryFolder temporary_;
@@ -68,10 +68,10 @@ class ModelSystemTest : public testing::Test {
 TEST_F(ModelSystemTest, at_strength_zero_the_output_is_the_input_take) {
   const auto model = *Model::parse(format_safetensors(test::make_model({"old"})), "model");
   for (int i = 0; i < 2; ++i) {
-    const Output output = run(model, i, 0);
+    const StyledTake output = run(model, i, 0);
     const Take& input = inputs_[i].take;
     ASSERT_EQ(output.take.frames(), input.frames());
-    EXPECT_EQ(output.take.numbers, input.numbers);
+    EXPECT_EQ(output.take.pose_features, input.pose_features);
     for (int f = 0; f < input.frames(); ++f) {
       EXPECT_NEAR(output.source_frames[f], f, 1e-3) << "input " << i;
     }
@@ -79,7 +79,7 @@ TEST_F(ModelSystemTest, at_strength_zero_the_output_is_the_input_take) {
 }
 
 TEST_F(ModelSystemTest, an_output_is_labelled_as_the_style_asked_for_and_the_content_of_its_input) {
-  const Output output = run(tempo_model(0), 1, 1);
+  const StyledTake output = run(tempo_model(0), 1, 1);
   EXPECT_EQ(output.take.row.style, "old");
   EXPECT_EQ(output.take.row.content, "wave");
   EXPECT_FALSE(output.take.row.neutral);
@@ -88,7 +88,7 @@ TEST_F(ModelSystemTest, an_output_is_labelled_as_the_style_asked_for_and_the_con
 TEST_F(ModelSystemTest, source_frames_follow_the_tempo_when_there_is_one) {
   const float rate = 0.8f;
   for (int i = 0; i < 2; ++i) {
-    const Output output = run(tempo_model(std::log(rate)), i, 1);
+    const StyledTake output = run(tempo_model(std::log(rate)), i, 1);
     EXPECT_NEAR(output.take.frames(), inputs_[i].take.frames() / rate, 3);
     for (int f = 0; f < output.take.frames(); ++f) {
       // The rate is in force from the second frame of the file on.
@@ -110,7 +110,7 @@ TEST_F(ModelSystemTest, source_frames_follow_the_tempo_when_there_is_one) {
 
 TEST_F(ModelSystemTest, without_timing_source_frames_are_the_frames) {
   for (int i = 0; i < 2; ++i) {
-    const Output output = run(tempo_model(std::log(0.8f)), i, 1, false);
+    const StyledTake output = run(tempo_model(std::log(0.8f)), i, 1, false);
     ASSERT_EQ(output.take.frames(), inputs_[i].take.frames());
     for (int f = 0; f < output.take.frames(); ++f) {
       EXPECT_NEAR(output.source_frames[f], f, 1e-3) << "input " << i;
@@ -118,15 +118,15 @@ TEST_F(ModelSystemTest, without_timing_source_frames_are_the_frames) {
   }
 }
 
-TEST_F(ModelSystemTest, a_style_that_the_model_lacks_is_refused) {
+TEST_F(ModelSystemTest, a_style_that_the_model_lacks_is_rejected) {
   const ModelSystem system("tempo", tempo_model(0));
-  const Request request{"sad", {{"sad", 1}}};
+  const StyleRequest request{"sad", {{"sad", 1}}};
   EXPECT_FALSE(system.can_run(inputs_[0], request));
   EXPECT_TRUE(system.can_run(inputs_[0], {"old", {{"old", 1}}}));
   EXPECT_FALSE(system.can_run(inputs_[0], {"old", {{"old", 0.5f}, {"sad", 0.5f}}}));
-  const Result<Played> played = system.run(inputs_[0], request);
-  ASSERT_FALSE(played.ok());
-  EXPECT_EQ(played.error().message,
+  const Result<RunResult> run_result = system.run(inputs_[0], request);
+  ASSERT_FALSE(run_result.ok());
+  EXPECT_EQ(run_result.error().message,
             "unknown style 'sad'; the nearest are old (panache styles lists all 1)");
 }
 
@@ -140,11 +140,11 @@ TEST_F(ModelSystemTest, a_test_take_that_cannot_be_read_is_named) {
 }
 
 TEST_F(ModelSystemTest, untouched_inputs_stand_for_every_style) {
-  const std::vector<Output> outputs = untouched(inputs_, {"old", "sad"});
+  const std::vector<StyledTake> outputs = untouched(inputs_, {"old", "sad"});
   ASSERT_EQ(outputs.size(), 4u);
   EXPECT_EQ(outputs[1].take.row.style, "sad");
   EXPECT_EQ(outputs[2].input, 1);
-  EXPECT_EQ(outputs[2].take.numbers, inputs_[1].take.numbers);
+  EXPECT_EQ(outputs[2].take.pose_features, inputs_[1].take.pose_features);
   EXPECT_EQ(outputs[2].source_frames.back(), static_cast<float>(inputs_[1].take.frames() - 1));
 }
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "eval/quality.h"
+#include "eval/metrics.h"
 #include "make_clip.h"
 
 namespace panache {
@@ -19,7 +19,7 @@ Take moving(int frames, const std::function<Vec3(float)>& way) {
   for (Vec3& joint : body) joint = {0, 1, 0};
   for (int f = 0; f < frames; ++f) {
     take.body.push_back(body);
-    take.ground.push_back({way(static_cast<float>(f) / 30), 0});
+    take.root.push_back({way(static_cast<float>(f) / 30), 0});
   }
   return take;
 }
@@ -89,12 +89,12 @@ TEST(Skating, a_foot_that_is_high_half_of_the_time_skates_the_other_half) {
   EXPECT_DOUBLE_EQ(skating_ratio(take), 29.0 / 60);
 }
 
-TEST(Skating, a_single_leap_counts_once_and_only_if_the_mean_of_five_is_fast) {
-  // A leap within one twentieth of a second, so five frames have the mean speed of 4 leaps.
-  for (const auto& [leap, slides] : {std::pair{0.2f, 1}, std::pair{0.1f, 0}}) {
-    Take take = moving(91, [leap](float t) { return Vec3{0, 0, t > 1.01f ? leap : 0}; });
+TEST(Skating, a_single_jump_counts_once_and_only_if_the_mean_of_five_is_fast) {
+  // A jump within one twentieth of a second, so five frames have the mean speed of 4 jumps.
+  for (const auto& [jump, slides] : {std::pair{0.2f, 1}, std::pair{0.1f, 0}}) {
+    Take take = moving(91, [jump](float t) { return Vec3{0, 0, t > 1.01f ? jump : 0}; });
     put(take, kBothToes, 0.02f);
-    EXPECT_DOUBLE_EQ(skating_ratio(take), slides / 60.0) << leap;
+    EXPECT_DOUBLE_EQ(skating_ratio(take), slides / 60.0) << jump;
   }
 }
 

@@ -43,7 +43,7 @@ class RecordedTest : public testing::Test {
         {"old", "proud"}};
     return Recorded::load(folder_ + "theirs", scope);
   }
-  std::string refusal(const std::string& lines) const {
+  std::string rejection(const std::string& lines) const {
     const auto recorded = load(lines);
     if (recorded.ok()) return "accepted";
     std::string message = recorded.error().message;
@@ -57,7 +57,7 @@ class RecordedTest : public testing::Test {
   std::vector<TestInput> inputs_;
 };
 
-const Request kOld = {"old", {{"old", 1.0f}}};
+const StyleRequest kOld = {"old", {{"old", 1.0f}}};
 
 TEST_F(RecordedTest, an_output_is_found_by_input_style_and_strength_and_no_other_is) {
   put("theirs/a.bvh", test::styled_clip("old", "walk", 0));
@@ -81,16 +81,16 @@ TEST_F(RecordedTest, what_is_judged_is_the_motion_of_the_file_under_the_names_of
   EXPECT_FALSE(recorded.ok());  // Two takes are called so.
   const auto system = load("takes/walk.bvh,old,1,a.bvh\n");
   ASSERT_TRUE(system.ok()) << system.error().message;
-  const Result<Played> played = (*system)->run(inputs_[0], kOld);
-  ASSERT_TRUE(played.ok()) << played.error().message;
-  const Take& take = played->output.take;
-  EXPECT_EQ(take.numbers, load_input(row("theirs/a.bvh"))->take.numbers);
+  const Result<RunResult> run_result = (*system)->run(inputs_[0], kOld);
+  ASSERT_TRUE(run_result.ok()) << run_result.error().message;
+  const Take& take = run_result->output.take;
+  EXPECT_EQ(take.pose_features, load_input(row("theirs/a.bvh"))->take.pose_features);
   EXPECT_EQ(take.row.style, "old");
   EXPECT_EQ(take.row.content, "walk");
   EXPECT_FALSE(take.row.neutral);
-  ASSERT_EQ(played->output.source_frames.size(), size_t(take.frames()));
-  EXPECT_EQ(played->output.source_frames[7], 7);
-  EXPECT_LT(played->bone_length_error, 1e-5);
+  ASSERT_EQ(run_result->output.source_frames.size(), size_t(take.frames()));
+  EXPECT_EQ(run_result->output.source_frames[7], 7);
+  EXPECT_LT(run_result->bone_length_error, 1e-5);
 }
 
 TEST_F(RecordedTest, a_skeleton_of_another_unit_gives_the_same_motion) {
@@ -103,26 +103,28 @@ TEST_F(RecordedTest, a_skeleton_of_another_unit_gives_the_same_motion) {
   ASSERT_TRUE(system.ok()) << system.error().message;
   const Take a = (*system)->run(inputs_[0], kOld)->output.take;
   const Take b = (*system)->run(inputs_[1], kOld)->output.take;
-  ASSERT_EQ(a.numbers.size(), b.numbers.size());
+  ASSERT_EQ(a.pose_features.size(), b.pose_features.size());
   // Files have six decimals: of a metre in the one, of a centimetre in the other; velocities are
   // differences over 0.05 s.
-  for (size_t i = 0; i < a.numbers.size(); ++i) ASSERT_NEAR(a.numbers[i], b.numbers[i], 1e-4) << i;
+  for (size_t i = 0; i < a.pose_features.size(); ++i)
+    ASSERT_NEAR(a.pose_features[i], b.pose_features[i], 1e-4) << i;
 }
 
 TEST_F(RecordedTest, of_another_length_than_its_input_nobody_knows_which_instant_a_frame_shows) {
   put("theirs/a.bvh", test::styled_clip("old", "walk", 0, 75));
   const auto system = load("takes/walk.bvh,old,1,a.bvh\n");
   ASSERT_TRUE(system.ok()) << system.error().message;
-  const Result<Played> played = (*system)->run(inputs_[0], kOld);
-  ASSERT_TRUE(played.ok());
-  EXPECT_EQ(played->output.take.frames(), 75);
-  EXPECT_TRUE(played->output.source_frames.empty());
+  const Result<RunResult> run_result = (*system)->run(inputs_[0], kOld);
+  ASSERT_TRUE(run_result.ok());
+  EXPECT_EQ(run_result->output.take.frames(), 75);
+  EXPECT_TRUE(run_result->output.source_frames.empty());
   // Where it is compared frame by frame, that is an error.
-  const Result<Played> refused = (*system)->run(inputs_[0], {"old", {{"old", 1.0f}}, false});
-  ASSERT_FALSE(refused.ok());
-  EXPECT_EQ(refused.error().message, folder_ + "theirs/manifest.csv:2: output " + folder_ +
-                                         "theirs/a.bvh lasts 2.50 s and its input 3.00 s; expected "
-                                         "the same, as they are compared frame by frame");
+  const Result<RunResult> rejected = (*system)->run(inputs_[0], {"old", {{"old", 1.0f}}, false});
+  ASSERT_FALSE(rejected.ok());
+  EXPECT_EQ(rejected.error().message,
+            folder_ + "theirs/manifest.csv:2: output " + folder_ +
+                "theirs/a.bvh lasts 2.50 s and its input 3.00 s; expected "
+                "the same, as they are compared frame by frame");
 }
 
 TEST_F(RecordedTest, a_frame_more_or_less_is_rounding) {
@@ -131,11 +133,12 @@ TEST_F(RecordedTest, a_frame_more_or_less_is_rounding) {
   const auto system = load("takes/walk.bvh,old,1,a.bvh\nmore/walk.bvh,old,1,b.bvh\n");
   ASSERT_TRUE(system.ok()) << system.error().message;
   for (int i = 0; i < 2; ++i) {
-    const Result<Played> played = (*system)->run(inputs_[i], {"old", {{"old", 1.0f}}, false});
-    ASSERT_TRUE(played.ok()) << played.error().message;
-    const Take& take = played->output.take;
+    const Result<RunResult> run_result =
+        (*system)->run(inputs_[i], {"old", {{"old", 1.0f}}, false});
+    ASSERT_TRUE(run_result.ok()) << run_result.error().message;
+    const Take& take = run_result->output.take;
     EXPECT_EQ(take.frames(), inputs_[i].take.frames());
-    EXPECT_EQ(take.numbers.size(), inputs_[i].take.numbers.size());
+    EXPECT_EQ(take.pose_features.size(), inputs_[i].take.pose_features.size());
     EXPECT_EQ(take.contacts.size(), inputs_[i].take.contacts.size());
   }
 }
@@ -145,37 +148,37 @@ TEST_F(RecordedTest, what_was_asked_for_is_counted) {
   const auto system =
       load("takes/walk.bvh,old,1,a.bvh\nmore/walk.bvh,old,1,a.bvh\ntakes/walk.bvh,old,0.5,a.bvh\n");
   ASSERT_TRUE(system.ok()) << system.error().message;
-  EXPECT_EQ((*system)->facts().recorded->judged, 0u);
+  EXPECT_EQ((*system)->facts().recorded->evaluated, 0u);
   for (int again = 0; again < 2; ++again) ASSERT_TRUE((*system)->run(inputs_[0], kOld).ok());
   EXPECT_EQ((*system)->facts().recorded->listed, 3u);
-  EXPECT_EQ((*system)->facts().recorded->judged, 1u);
+  EXPECT_EQ((*system)->facts().recorded->evaluated, 1u);
 }
 
 TEST_F(RecordedTest, a_wrong_line_is_explained_with_its_number) {
   put("theirs/a.bvh", test::styled_clip("old", "walk", 0));
-  EXPECT_EQ(refusal("takes/walk.bvh,old,1,a.bvh\ntakes/run.bvh,old,1,a.bvh\n"),
+  EXPECT_EQ(rejection("takes/walk.bvh,old,1,a.bvh\ntakes/run.bvh,old,1,a.bvh\n"),
             "theirs/manifest.csv:3: input 'takes/run.bvh' is no take to judge by; expected a path "
             "as in the judge's own manifest (panache eval --requests FILE writes those that there "
             "are)");
-  EXPECT_EQ(refusal("walk.bvh,old,1,a.bvh\n"),
+  EXPECT_EQ(rejection("walk.bvh,old,1,a.bvh\n"),
             "theirs/manifest.csv:2: input 'walk.bvh' may be takes/more/walk.bvh or "
             "takes/walk.bvh; expected more of the path");
-  EXPECT_EQ(refusal("kes/walk.bvh,old,1,a.bvh\n").substr(0, 45),
+  EXPECT_EQ(rejection("kes/walk.bvh,old,1,a.bvh\n").substr(0, 45),
             "theirs/manifest.csv:2: input 'kes/walk.bvh' i");
-  EXPECT_EQ(refusal("takes/walk.bvh,jolly,1,a.bvh\n"),
+  EXPECT_EQ(rejection("takes/walk.bvh,jolly,1,a.bvh\n"),
             "theirs/manifest.csv:2: style 'jolly' is shown by no test take; expected old or proud");
   for (const std::string strength : {"0.3", "full", "", "1x"}) {
-    EXPECT_EQ(refusal("takes/walk.bvh,old," + strength + ",a.bvh\n"),
+    EXPECT_EQ(rejection("takes/walk.bvh,old," + strength + ",a.bvh\n"),
               "theirs/manifest.csv:2: column strength is '" + strength +
                   "'; expected 0, 0.25, 0.5, 0.75, 1, 1.25, 1.5, 1.75 or 2");
   }
-  EXPECT_EQ(refusal("takes/walk.bvh,old,1,a.bvh\n\ntakes/./walk.bvh,old,1.0,a.bvh\n"),
+  EXPECT_EQ(rejection("takes/walk.bvh,old,1,a.bvh\n\ntakes/./walk.bvh,old,1.0,a.bvh\n"),
             "theirs/manifest.csv:4: asks for the same as theirs/manifest.csv:2");
-  EXPECT_EQ(refusal(""), "theirs/manifest.csv: lists no outputs");
+  EXPECT_EQ(rejection(""), "theirs/manifest.csv: lists no outputs");
 }
 
 TEST_F(RecordedTest, an_output_that_is_missing_or_no_humanoid_is_explained_with_its_line) {
-  EXPECT_EQ(refusal("takes/walk.bvh,old,1,none.bvh\n"),
+  EXPECT_EQ(rejection("takes/walk.bvh,old,1,none.bvh\n"),
             "theirs/manifest.csv:2: output theirs/none.bvh: cannot be read: No such file or "
             "directory");
   ASSERT_TRUE(write_file(folder_ + "theirs/box.bvh",
@@ -184,7 +187,7 @@ TEST_F(RecordedTest, an_output_that_is_missing_or_no_humanoid_is_explained_with_
                          "Frames: 1\nFrame Time: 0.033333\n0 0 0\n",
                          true)
                   .ok());
-  const std::string message = refusal("takes/walk.bvh,old,1,box.bvh\n");
+  const std::string message = rejection("takes/walk.bvh,old,1,box.bvh\n");
   EXPECT_TRUE(message.starts_with("theirs/manifest.csv:2: output theirs/box.bvh: no humanoid "))
       << message;
 }

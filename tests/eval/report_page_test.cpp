@@ -52,7 +52,7 @@ TEST(ReportPage, names_are_escaped_wherever_they_stand) {
   report.contents.push_back(kRude);
   report.systems[0].by_content[kRude] = report.systems[0].by_style[kRude] = numbers(0.5);
   report.systems[0].mixes[0].first = kRude;
-  report.systems[0].foreign[0].clip = report.systems[0].foreign[0].style = kRude;
+  report.systems[0].ood[0].clip = report.systems[0].ood[0].style = kRude;
   report.systems[0].disturbances[0].name = kRude;
   report.systems[0].recipe = report.systems[0].unseen[0].name = kRude;
   report.systems[0].unseen[0].by_content[kRude] = numbers(0.5);

@@ -54,7 +54,7 @@ TEST(ReportJson, every_number_stands_under_its_key) {
       {system["unseen_splits"]["B"]["walk"], 0.68},
   };
   for (auto& [found, seed] : places) {
-    const Quality expected = numbers(seed);
+    const Metrics expected = numbers(seed);
     EXPECT_EQ(found["takes"], expected.takes);
     EXPECT_EQ(found["windows"], expected.windows);
     for (const Measure& measure : measures()) {
@@ -89,13 +89,13 @@ TEST(ReportJson, an_unseen_content_is_that_of_the_first_split_that_has_it) {
   EXPECT_EQ(unseen["walk"]["style_accuracy"].get<double>(), numbers(0.68)["style_accuracy"]);
 }
 
-TEST(ReportJson, foreign_rows_are_kept_and_summed_up) {
+TEST(ReportJson, out_of_distribution_rows_are_kept_and_summed_up) {
   Json json = Json::parse(report_json(made_up_report()));
-  Json& foreign = json["systems"]["panache"]["foreign"];
-  ASSERT_EQ(foreign["rows"].size(), 11u);
-  EXPECT_EQ(foreign["rows"][3]["clip"], "dance");
-  EXPECT_EQ(foreign["rows"][3]["beyond_limits"], 0.11);
-  Json& summary = foreign["summary"];
+  Json& ood = json["systems"]["panache"]["foreign"];
+  ASSERT_EQ(ood["rows"].size(), 11u);
+  EXPECT_EQ(ood["rows"][3]["clip"], "dance");
+  EXPECT_EQ(ood["rows"][3]["beyond_limits"], 0.11);
+  Json& summary = ood["summary"];
   EXPECT_EQ(summary["clips"], 2);
   EXPECT_EQ(summary["rows"], 11);
   // Eleven rows in equal steps: median, 90 % and 10 % are the sixth, tenth and second.
@@ -119,7 +119,7 @@ TEST(ReportJson, what_was_not_measured_is_null) {
   report.real["fmd"] = kNotMeasured;
   report.real["jerk_ratio"] = std::numeric_limits<double>::infinity();
   report.systems[0].slider_style = kNotMeasured;
-  report.systems[0].foreign.clear();
+  report.systems[0].ood.clear();
   report.systems[0].model_bytes = 0;
   report.systems[0].recipe.clear();
   Json json = Json::parse(report_json(report));
@@ -151,7 +151,7 @@ TEST(WriteReport, both_files_are_written_into_a_folder_that_is_made) {
   EXPECT_EQ(bytes_of(folder + "/index.html"), report_page(report));
 }
 
-TEST(WriteReport, a_file_in_the_place_of_the_folder_is_refused) {
+TEST(WriteReport, a_file_in_the_place_of_the_folder_is_rejected) {
   const test::TemporaryFolder temporary;
   const std::string path = temporary.path() + "taken";
   std::ofstream(path) << "mine";

@@ -150,14 +150,14 @@ TEST(LearnStyle, a_styled_walk_alone_is_learnt_beside_the_walkers_own) {
 }
 
 TEST(LearnStyle, half_a_model_learns_too) {
-  const TensorFile half = test::shipped_model("panache-half.safetensors");
+  const TensorFile half = test::shipped_model("panache-int8.safetensors");
   const std::vector<LearnPair> pairs = {test::make_pair(test::neutral_walk(), test::bent_walk())};
-  const LearntStyle learnt = learn_style(half, "half.safetensors", pairs, "bent", "").value();
+  const LearntStyle learnt = learn_style(half, "int8.safetensors", pairs, "bent", "").value();
   EXPECT_LT(learnt.held_back_cm, 0.25 * learnt.untouched_cm);
-  EXPECT_TRUE(add_style(half, "half.safetensors", learnt.file, "style", false).ok());
+  EXPECT_TRUE(add_style(half, "int8.safetensors", learnt.file, "style", false).ok());
 }
 
-TEST(LearnPair, of_different_skeletons_is_refused) {
+TEST(LearnPair, of_different_skeletons_is_rejected) {
   const Clip walk = test::neutral_walk(2);
   Clip fewer = walk, renamed = walk, bent = test::bent_walk(2);
   renamed.skeleton.joints[5].name = "leftCollar";
@@ -181,7 +181,7 @@ TEST(LearnPair, of_different_skeletons_is_refused) {
   EXPECT_EQ(message(larger), "");
 }
 
-TEST(LearnPair, of_clips_that_are_empty_or_too_short_is_refused) {
+TEST(LearnPair, of_clips_that_are_empty_or_too_short_is_rejected) {
   const Clip walk = test::neutral_walk(2);
   Clip empty = walk, brief = walk;
   empty.frames = 0;
@@ -217,8 +217,8 @@ TEST(LearnStyle, finds_no_match_where_the_neutral_clip_is_much_too_short) {
   // 5 s that may advance by 3 of a half second's 15 frames at a time, and wait twice in a row.
   LearnPair pair = test::make_pair(test::neutral_walk(2), test::bent_walk(5));
   pair.neutral.body.resize(15);
-  pair.neutral.turned.resize(15);
-  pair.neutral.ground.resize(15);
+  pair.neutral.rotations.resize(15);
+  pair.neutral.root.resize(15);
   pair.neutral.contacts.resize(15);
   const std::string message =
       failure(learn_style(test::shipped_model(), "m", std::span(&pair, 1), "bent", ""));

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/random.h"
-#include "pose/features.h"
 #include "learn/take.h"
+#include "pose/features.h"
 
 namespace panache::test {
 
@@ -22,8 +22,8 @@ inline void add_frame(Take& take, float phase, float lean) {
   }
   body[0] = {0, 0.9f + 0.02f * std::sin(2 * phase), 0};
   take.body.push_back(body);
-  take.turned.push_back(turned);
-  take.ground.push_back({{0, 0, static_cast<float>(take.frames()) / 30}, 0});
+  take.rotations.push_back(turned);
+  take.root.push_back({{0, 0, static_cast<float>(take.frames()) / 30}, 0});
   take.contacts.push_back({std::sin(phase) > 0, std::sin(phase) <= 0});
 }
 

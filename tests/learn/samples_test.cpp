@@ -45,10 +45,10 @@ TEST_P(SamplesTest, the_mirrored_numbers_are_those_of_the_mirrored_body) {
   }
   const int numbers = set_.numbers();
   std::vector<float> a(numbers), b(numbers);
-  write_pose_numbers(layout_, body, std::span(a).first(numbers - kRootNumbers));
-  write_pose_numbers(layout_, other, std::span(b).first(numbers - kRootNumbers));
+  write_pose_features(layout_, body, std::span(a).first(numbers - kRootFeatures));
+  write_pose_features(layout_, other, std::span(b).first(numbers - kRootFeatures));
   set_.mirror_window(a);
-  for (int i = 0; i < numbers - kRootNumbers; ++i) EXPECT_NEAR(a[i], b[i], 1e-4) << i;
+  for (int i = 0; i < numbers - kRootFeatures; ++i) EXPECT_NEAR(a[i], b[i], 1e-4) << i;
 }
 
 TEST_P(SamplesTest, every_sample_has_its_style_rate_and_contacts) {
@@ -69,8 +69,8 @@ TEST(Samples, a_change_put_on_the_neutral_rotations_gives_the_styled_ones) {
   const Take styled = test::make_take("old", 100, 0.3f, 1, 0.4f);
   const StyleDelta change = change_between(styled, 20, neutral, 31, 1);
   for (int j = 0; j < kHumanJoints; ++j) {
-    const Quat reached = joint_rotation(change, j) * neutral.turned[31][j];
-    EXPECT_NEAR(std::abs(dot(reached, styled.turned[20][j])), 1, 1e-5);
+    const Quat reached = joint_rotation(change, j) * neutral.rotations[31][j];
+    EXPECT_NEAR(std::abs(dot(reached, styled.rotations[20][j])), 1, 1e-5);
   }
 }
 
@@ -86,7 +86,7 @@ TEST(Samples, an_absolute_pose_is_the_change_that_made_it) {
     absolute.window(i, window);
     const Sample& sample = absolute.samples()[i];
     const auto root =
-        std::span(window).subspan(root_offset(PoseLayout::rotations)).first<kRootNumbers>();
+        std::span(window).subspan(root_offset(PoseLayout::rotations)).first<kRootFeatures>();
     std::array<float, StyleDelta::kSize> back;
     pack(test::kSmith2019.to_change(absolute.target(i), body_at(takes[0], sample.frame), root),
          back);

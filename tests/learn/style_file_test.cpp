@@ -1,4 +1,4 @@
-// Styles as files of their own: what comes along, what stays behind, and what is refused.
+// Styles as files of their own: what comes along, what stays behind, and what is rejected.
 
 #include "learn/style_file.h"
 
@@ -10,7 +10,7 @@
 
 #include "base/file.h"
 #include "make_learnt.h"
-#include "net/half_size.h"
+#include "net/quantize.h"
 
 namespace panache {
 namespace {
@@ -59,7 +59,7 @@ TensorFile added(const TensorFile& model, const TensorFile& style, bool replace 
   EXPECT_TRUE(file.ok()) << file.error().message;
   return *file;
 }
-std::string refusal(const TensorFile& model, const TensorFile& style, bool replace = false) {
+std::string rejection(const TensorFile& model, const TensorFile& style, bool replace = false) {
   const auto file = add_style(model, "m.safetensors", style, "s.safetensors", replace);
   return file.ok() ? "accepted" : file.error().message;
 }
@@ -75,7 +75,7 @@ std::vector<uint32_t> answers(const TensorFile& file, const std::string& style) 
   std::vector<uint32_t> bits;
   const auto add = [&](float number) { bits.push_back(std::bit_cast<uint32_t>(number)); };
   for (int n = 0; n < 3; ++n) {
-    std::vector<float> window(size_t(kWindowPoses) * pose_numbers(PoseLayout::positions));
+    std::vector<float> window(size_t(kWindowPoses) * pose_feature_count(PoseLayout::positions));
     for (float& w : window) w = random.normal();
     networks.forward(window, 0.5f);
     std::ranges::for_each(networks.pose(), add);
@@ -86,9 +86,9 @@ std::vector<uint32_t> answers(const TensorFile& file, const std::string& style) 
   return bits;
 }
 
-TEST(TrunkFingerprint, is_that_of_the_twin_of_half_size_and_of_no_other_model) {
+TEST(TrunkFingerprint, is_that_of_the_int8_twin_and_of_no_other_model) {
   EXPECT_EQ(trunk_fingerprint(shipped("panache.safetensors")),
-            trunk_fingerprint(shipped("panache-half.safetensors")));
+            trunk_fingerprint(shipped("panache-int8.safetensors")));
   const TensorFile model = mixed_model();
   EXPECT_NE(trunk_fingerprint(model), trunk_fingerprint(mixed_model(2)));
   for (const char* key :
@@ -119,12 +119,12 @@ TEST(StyleFile, carries_its_styles_numbers_and_all_that_a_user_must_know) {
   EXPECT_EQ(limping.tensors.at("gate.worth").values,
             model.tensors.at("learnt.0.gate.worth").values);
   EXPECT_TRUE(limping.tensors.at("head.weight").half);
-  const std::map<std::string, std::string> told = {
+  const std::map<std::string, std::string> given = {
       {"format", "panache-style"}, {"format_version", "1"},
       {"style", "limping"},        {"description", "looks limping"},
       {"origin", "limp.bvh"},      {"trunk", trunk_fingerprint(model)},
       {"data", "our own takes"},   {"licence", "CC0"}};
-  EXPECT_EQ(limping.metadata, told);
+  EXPECT_EQ(limping.metadata, given);
   const auto info = read_style_info(limping, "s.safetensors");
   ASSERT_TRUE(info.ok()) << info.error().message;
   EXPECT_TRUE(info->learnt);
@@ -165,17 +165,17 @@ TEST(StyleFile, is_small) {
   for (const char* name : {"limping", "old"}) {
     const TensorFile style = extract(model, name);
     EXPECT_LE(format_safetensors(style).size(), 110'000u) << name;
-    EXPECT_LE(format_safetensors(in_half_size(style)).size(), 55'000u) << name;
+    EXPECT_LE(format_safetensors(quantize(style)).size(), 55'000u) << name;
   }
 }
 
-TEST(StyleFile, a_model_and_its_half_size_twin_exchange_styles) {
+TEST(StyleFile, a_model_and_its_int8_twin_exchange_styles) {
   TensorFile whole = shipped("panache.safetensors");
   test::add_learnt(whole, 0, "limping", "limp.bvh");
-  const TensorFile half = in_half_size(whole);
+  const TensorFile half = quantize(whole);
   for (const char* name : {"old", "limping"}) {
     const TensorFile style = extract(whole, name), half_style = extract(half, name);
-    EXPECT_TRUE(format_safetensors(in_half_size(style)) == format_safetensors(half_style)) << name;
+    EXPECT_TRUE(format_safetensors(quantize(style)) == format_safetensors(half_style)) << name;
     EXPECT_TRUE(format_safetensors(added(half, half_style, true)) == format_safetensors(half));
     // Each model moves with the other's style, and nearly as with its own.
     const auto near = [&](const TensorFile& a, const TensorFile& b) {
@@ -224,7 +224,7 @@ TEST(StyleFile, a_style_of_the_same_name_is_replaced_in_its_place_when_asked) {
   const TensorFile model = mixed_model();
   TensorFile proud = extract(model, "proud"), limping = extract(model, "limping");
   proud.metadata["style"] = "old", limping.metadata["style"] = "proud";
-  EXPECT_EQ(refusal(model, proud),
+  EXPECT_EQ(rejection(model, proud),
             "m.safetensors: has a style 'old' already; --force replaces it, and --rename gives it "
             "another name");
   const TensorFile same_kind = added(model, proud, true);
@@ -241,9 +241,9 @@ TEST(StyleFile, a_model_may_keep_learnt_styles_only) {
   EXPECT_EQ(answers(rest, "limping"), answers(mixed_model(), "limping"));
 }
 
-TEST(StyleFile, one_that_was_made_with_another_model_is_refused_with_the_cure) {
+TEST(StyleFile, one_that_was_made_with_another_model_is_rejected_with_the_cure) {
   const TensorFile model = mixed_model(), other = mixed_model(2);
-  EXPECT_EQ(refusal(model, extract(other, "limping"), true),
+  EXPECT_EQ(rejection(model, extract(other, "limping"), true),
             "s.safetensors: rests on trunk '" + trunk_fingerprint(other) +
                 "', m.safetensors has '" + trunk_fingerprint(model) +
                 "'; put it into the model that it was made with or the half-size twin of that, or "
@@ -251,7 +251,7 @@ TEST(StyleFile, one_that_was_made_with_another_model_is_refused_with_the_cure) {
 }
 
 TEST(StyleFile, a_model_that_cannot_learn_takes_no_learnt_style) {
-  EXPECT_EQ(refusal(test::make_model({"old"}), extract(mixed_model(), "limping")),
+  EXPECT_EQ(rejection(test::make_model({"old"}), extract(mixed_model(), "limping")),
             "m.safetensors with s.safetensors: has tensors 'learnt.0.*' of a learnt style, but no "
             "'learn.mean' and 'learn.scale'");
 }
@@ -262,26 +262,26 @@ TEST(StyleFile, a_model_takes_255_styles_and_no_more) {
   TensorFile style = extract(mixed_model(), "old");
   const TensorFile full = added(test::make_model(names), style);
   style.metadata["style"] = "young";
-  EXPECT_EQ(refusal(full, style),
+  EXPECT_EQ(rejection(full, style),
             "m.safetensors with s.safetensors: has 256 styles; expected at most 255");
 }
 
 TEST(StyleFile, a_model_without_heads_gives_and_takes_no_styles) {
   const TensorFile model = test::make_model({"old", "proud"}, 1, test::kSmith2019);
-  const std::string sentence =
+  const std::string message =
       "m.safetensors: is of recipe smith2019, whose styles are inputs of all its layers; expected "
       "a model of recipe panache, where each has a head of its own";
-  EXPECT_EQ(extract_style(model, "old", "m.safetensors").error().message, sentence);
-  EXPECT_EQ(remove_style(model, "old", "m.safetensors").error().message, sentence);
-  EXPECT_EQ(refusal(model, extract(mixed_model(), "old")), sentence);
+  EXPECT_EQ(extract_style(model, "old", "m.safetensors").error().message, message);
+  EXPECT_EQ(remove_style(model, "old", "m.safetensors").error().message, message);
+  EXPECT_EQ(rejection(model, extract(mixed_model(), "old")), message);
 }
 
 TEST(StyleFile, a_style_that_is_not_there_is_neither_extracted_nor_removed) {
-  const std::string sentence =
+  const std::string message =
       "unknown style 'prou'; the nearest are proud, old and limping (panache styles lists all 4)";
-  EXPECT_EQ(extract_style(mixed_model(), "prou", "m").error().message, sentence);
-  EXPECT_EQ(remove_style(mixed_model(), "prou", "m").error().message, sentence);
-  EXPECT_EQ(rename_style(mixed_model(), "prou", "sad", "m").error().message, sentence);
+  EXPECT_EQ(extract_style(mixed_model(), "prou", "m").error().message, message);
+  EXPECT_EQ(remove_style(mixed_model(), "prou", "m").error().message, message);
+  EXPECT_EQ(rename_style(mixed_model(), "prou", "sad", "m").error().message, message);
 }
 
 TEST(StyleFile, the_last_style_stays) {
@@ -309,69 +309,69 @@ TEST(StyleFile, a_renamed_style_is_the_same_under_another_name) {
 }
 
 TEST(StyleName, holds_what_a_command_line_and_a_table_can_say) {
-  const auto refusal = [](const std::string& name) {
+  const auto rejection = [](const std::string& name) {
     const auto fit = check_style_name(name);
     return fit.ok() ? "" : fit.error().message;
   };
   for (const std::string good :
        {"old", "very old", "altväterlich", "年老", "a.b/c", "1..0", "\"x\""}) {
-    EXPECT_EQ(refusal(good), "");
+    EXPECT_EQ(rejection(good), "");
   }
-  EXPECT_EQ(refusal(std::string(60, 'a')), "");
-  EXPECT_EQ(refusal(""), "style name '': is empty");
-  EXPECT_EQ(refusal(std::string(61, 'a')),
+  EXPECT_EQ(rejection(std::string(60, 'a')), "");
+  EXPECT_EQ(rejection(""), "style name '': is empty");
+  EXPECT_EQ(rejection(std::string(61, 'a')),
             "style name '" + std::string(40, 'a') + "...': has 61 bytes; expected at most 60");
-  EXPECT_EQ(refusal("a=1"), "style name 'a=1': holds a '=', which parts names from strengths");
-  EXPECT_EQ(refusal("a,b"), "style name 'a,b': holds a ',', which parts names from strengths");
+  EXPECT_EQ(rejection("a=1"), "style name 'a=1': holds a '=', which parts names from strengths");
+  EXPECT_EQ(rejection("a,b"), "style name 'a,b': holds a ',', which parts names from strengths");
   for (const std::string torn :
        {"a\nb", "a\rb", "a\tb", "a\x1b[2J", "a\x7f", "\xff", "\xed\xa0\x80"}) {
-    EXPECT_TRUE(refusal(torn).ends_with(": is no line of UTF-8 text")) << refusal(torn);
+    EXPECT_TRUE(rejection(torn).ends_with(": is no line of UTF-8 text")) << rejection(torn);
   }
-  EXPECT_EQ(refusal(std::string("a\0b", 3)), "style name 'a\\x00b': is no line of UTF-8 text");
-  EXPECT_EQ(refusal("old "), "style name 'old ': begins or ends with a blank");
-  EXPECT_EQ(refusal(" old"), "style name ' old': begins or ends with a blank");
-  EXPECT_EQ(refusal("-old"), "style name '-old': begins like an option");
-  EXPECT_EQ(refusal("seconds"),
+  EXPECT_EQ(rejection(std::string("a\0b", 3)), "style name 'a\\x00b': is no line of UTF-8 text");
+  EXPECT_EQ(rejection("old "), "style name 'old ': begins or ends with a blank");
+  EXPECT_EQ(rejection(" old"), "style name ' old': begins or ends with a blank");
+  EXPECT_EQ(rejection("-old"), "style name '-old': begins like an option");
+  EXPECT_EQ(rejection("seconds"),
             "style name 'seconds': is what tables of strengths call the column of time");
 }
 
-TEST(StyleFile, from_a_stranger_is_refused_where_anything_is_wrong_with_it) {
+TEST(StyleFile, from_a_stranger_is_rejected_where_anything_is_wrong_with_it) {
   const TensorFile model = removed(mixed_model(), "limping");
-  const auto told = [&](const std::function<void(TensorFile&)>& spoil) {
+  const auto given = [&](const std::function<void(TensorFile&)>& spoil) {
     TensorFile style = extract(mixed_model(), "limping");
     spoil(style);
-    return refusal(model, style);
+    return rejection(model, style);
   };
-  EXPECT_EQ(told([](TensorFile&) {}), "accepted");
-  EXPECT_EQ(told([](TensorFile& s) { s.metadata.clear(); }),
+  EXPECT_EQ(given([](TensorFile&) {}), "accepted");
+  EXPECT_EQ(given([](TensorFile& s) { s.metadata.clear(); }),
             "s.safetensors: is a safetensors file, but not a style; expected metadata 'format' to "
             "be 'panache-style'");
-  EXPECT_EQ(told([](TensorFile& s) { s.metadata["format"] = "panache"; }),
+  EXPECT_EQ(given([](TensorFile& s) { s.metadata["format"] = "panache"; }),
             "s.safetensors: is a model; expected a style file, as panache styles s.safetensors "
             "--extract NAME -o FILE makes one");
-  EXPECT_EQ(told([](TensorFile& s) { s.metadata["format_version"] = "2"; }),
+  EXPECT_EQ(given([](TensorFile& s) { s.metadata["format_version"] = "2"; }),
             "s.safetensors: is a style file of format version '2'; this program reads version 1");
-  EXPECT_EQ(told([](TensorFile& s) { s.metadata["style"] = "a=b"; }),
+  EXPECT_EQ(given([](TensorFile& s) { s.metadata["style"] = "a=b"; }),
             "s.safetensors: style name 'a=b': holds a '=', which parts names from strengths");
-  EXPECT_EQ(told([](TensorFile& s) { s.metadata["description"] = "one\ntwo"; }),
+  EXPECT_EQ(given([](TensorFile& s) { s.metadata["description"] = "one\ntwo"; }),
             "s.safetensors: metadata 'description' is no line of UTF-8 text");
-  EXPECT_EQ(told([](TensorFile& s) { s.metadata["origin"] = "\x1b[2J"; }),
+  EXPECT_EQ(given([](TensorFile& s) { s.metadata["origin"] = "\x1b[2J"; }),
             "s.safetensors: metadata 'origin' is no line of UTF-8 text");
   EXPECT_EQ(
-      told([](TensorFile& s) { s.tensors["pose.trunk.0.bias"] = test::constant_tensor(16, 0); }),
+      given([](TensorFile& s) { s.tensors["pose.trunk.0.bias"] = test::constant_tensor(16, 0); }),
       "s.safetensors: has 8 tensors, of which 7 are those of a style; expected no others");
-  EXPECT_EQ(told([](TensorFile& s) { s.tensors.clear(); }),
+  EXPECT_EQ(given([](TensorFile& s) { s.tensors.clear(); }),
             "s.safetensors: has 0 tensors, of which 0 are those of a style; expected no others");
-  EXPECT_EQ(told([](TensorFile& s) { s.tensors["head.bias"].values[3] = NAN; }),
+  EXPECT_EQ(given([](TensorFile& s) { s.tensors["head.bias"].values[3] = NAN; }),
             "s.safetensors: tensor 'head.bias' holds a number that is not finite");
-  EXPECT_EQ(told([](TensorFile& s) { s.tensors["mean"] = test::constant_tensor(3, 0); }),
+  EXPECT_EQ(given([](TensorFile& s) { s.tensors["mean"] = test::constant_tensor(3, 0); }),
             "m.safetensors with s.safetensors: tensor 'learnt.1.mean' has 3 numbers; expected "
             "shape [32]");
-  EXPECT_EQ(told([](TensorFile& s) { s.tensors.erase("gate.worth"); }),
+  EXPECT_EQ(given([](TensorFile& s) { s.tensors.erase("gate.worth"); }),
             "m.safetensors with s.safetensors: tensor 'learnt.1.gate.worth' is missing");
 }
 
-// A style file of random bytes changed is refused or gives a model that can be read.
+// A style file of random bytes changed is rejected or gives a model that can be read.
 TEST(StyleFile, damaged_anywhere_does_no_harm) {
   const TensorFile model = mixed_model(), style = extract(mixed_model(), "old");
   const std::string bytes = format_safetensors(style);

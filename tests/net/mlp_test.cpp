@@ -148,7 +148,7 @@ TEST(Trunk, takes_any_number_of_inputs_when_told_so) {
   EXPECT_EQ(trunk->inputs(), 5);
 }
 
-TEST(Trunk, a_wrong_shape_is_refused_with_both_shapes) {
+TEST(Trunk, a_wrong_shape_is_rejected_with_both_shapes) {
   EXPECT_EQ(failure(small_file(), 7),
             "model.safetensors: tensor 'pose.0.weight' has shape [5, 4]; expected [7, any]");
   TensorFile file = small_file();
@@ -164,7 +164,7 @@ TEST(Trunk, a_wrong_shape_is_refused_with_both_shapes) {
   EXPECT_EQ(failure(file), "model.safetensors: tensor 'pose.2.bias' has shape [2]; expected [3]");
 }
 
-TEST(Trunk, a_layer_without_outputs_is_refused) {
+TEST(Trunk, a_layer_without_outputs_is_rejected) {
   TensorFile file = small_file();
   file.tensors["pose.0.weight"] = ramp({5, 0});
   EXPECT_EQ(failure(file),
@@ -178,7 +178,7 @@ TEST(Trunk, a_missing_tensor_is_named) {
   EXPECT_EQ(failure(TensorFile{}), "model.safetensors: tensor 'pose.0.weight' is missing");
 }
 
-TEST(Trunk, a_layer_behind_a_gap_is_refused) {
+TEST(Trunk, a_layer_behind_a_gap_is_rejected) {
   TensorFile file = small_file();
   file.tensors.erase("pose.1.weight");
   EXPECT_EQ(failure(file),
@@ -186,7 +186,7 @@ TEST(Trunk, a_layer_behind_a_gap_is_refused) {
             "of the layers from pose.0 to pose.0");
 }
 
-TEST(Trunk, a_number_that_is_not_finite_is_refused_with_its_place) {
+TEST(Trunk, a_number_that_is_not_finite_is_rejected_with_its_place) {
   TensorFile file = small_file();
   file.tensors["pose.1.weight"].values[5] = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(failure(file),

@@ -47,7 +47,7 @@ void expect_equal(const TensorFile& a, const TensorFile& b) {
     EXPECT_EQ(tensor.shape, other.shape) << key;
     EXPECT_EQ(tensor.values, other.values) << key;
     EXPECT_EQ(tensor.half, other.half) << key;
-    EXPECT_EQ(tensor.bytes, other.bytes) << key;
+    EXPECT_EQ(tensor.int8, other.int8) << key;
   }
 }
 
@@ -88,7 +88,7 @@ TEST(Safetensors, text_that_is_not_utf8_is_written_as_a_file_that_reads) {
   EXPECT_EQ(back->metadata.at("licence"), "\xef\xbf\xbd");
 }
 
-TEST(Safetensors, every_truncation_is_refused) {
+TEST(Safetensors, every_truncation_is_rejected) {
   const std::string bytes = format_safetensors(small_file());
   for (size_t size = 0; size < bytes.size(); ++size) {
     EXPECT_TRUE(failure(bytes.substr(0, size)).starts_with("model.safetensors: ")) << size;
@@ -96,7 +96,7 @@ TEST(Safetensors, every_truncation_is_refused) {
   EXPECT_NE(failure(bytes + '\0'), "");
 }
 
-TEST(Safetensors, every_changed_byte_is_refused_or_gives_a_whole_file) {
+TEST(Safetensors, every_changed_byte_is_rejected_or_gives_a_whole_file) {
   const std::string bytes = format_safetensors(small_file());
   for (size_t i = 0; i < bytes.size(); ++i) {
     for (int value = 0; value < 256; ++value) {
@@ -117,7 +117,7 @@ TEST(Safetensors, every_changed_byte_is_refused_or_gives_a_whole_file) {
   }
 }
 
-TEST(Safetensors, what_is_no_safetensors_file_is_refused) {
+TEST(Safetensors, what_is_no_safetensors_file_is_rejected) {
   EXPECT_EQ(failure("HIERAR"),
             "model.safetensors: has 6 bytes; expected a safetensors file, which starts with the "
             "8-byte length of its header");
@@ -133,14 +133,14 @@ TEST(Safetensors, what_is_no_safetensors_file_is_refused) {
   EXPECT_EQ(failure("{} {}", 0), "model.safetensors: the header is not JSON from its byte 4 on");
 }
 
-TEST(Safetensors, a_type_other_than_f32_f16_and_i8_is_refused_with_its_name) {
+TEST(Safetensors, a_type_other_than_f32_f16_and_i8_is_rejected_with_its_name) {
   EXPECT_EQ(failure(R"({"pose.0.weight":{"dtype":"I64","shape":[1],"data_offsets":[0,8]}})", 8),
             "model.safetensors: tensor 'pose.0.weight' has type I64; expected F32, F16 or I8");
   EXPECT_EQ(failure(R"({"a":{"dtype":"BF16","shape":[1],"data_offsets":[0,2]}})", 2),
             "model.safetensors: tensor 'a' has type BF16; expected F32, F16 or I8");
 }
 
-TEST(Safetensors, offsets_that_do_not_fit_are_refused) {
+TEST(Safetensors, offsets_that_do_not_fit_are_rejected) {
   const auto at = [](const std::string& offsets) {
     return R"({"a":{"dtype":"F32","shape":[2],"data_offsets":)" + offsets + "}}";
   };
@@ -176,7 +176,7 @@ TEST(Safetensors, a_byte_is_a_number_of_its_own) {
             "model.safetensors: tensor 'a' lies at bytes 0 to 3 of the data; the data has 2 bytes");
 }
 
-TEST(Safetensors, overlaps_and_holes_are_refused) {
+TEST(Safetensors, overlaps_and_holes_are_rejected) {
   const auto two = [](const std::string& second) {
     return R"({"a":{"dtype":"F32","shape":[2],"data_offsets":[0,8]},)"
            R"("b":{"dtype":"F32","shape":[2],"data_offsets":)" +
@@ -191,7 +191,7 @@ TEST(Safetensors, overlaps_and_holes_are_refused) {
             "one before it ends");
 }
 
-TEST(Safetensors, shapes_beyond_all_bounds_are_refused) {
+TEST(Safetensors, shapes_beyond_all_bounds_are_rejected) {
   const auto of = [](const std::string& shape) {
     return R"({"a":{"dtype":"F32","shape":)" + shape + R"(,"data_offsets":[0,0]}})";
   };
@@ -205,7 +205,7 @@ TEST(Safetensors, shapes_beyond_all_bounds_are_refused) {
             "model.safetensors: tensor 'a': shape has more than 8 numbers");
 }
 
-TEST(Safetensors, values_of_the_wrong_kind_are_refused) {
+TEST(Safetensors, values_of_the_wrong_kind_are_rejected) {
   const auto a = [](const std::string& fields) { return failure("{\"a\":{" + fields + "}}", 4); };
   const std::string start = "model.safetensors: tensor 'a'";
   EXPECT_EQ(a(R"("dtype":32,"shape":[1],"data_offsets":[0,4])"), start + ": dtype is not a text");
@@ -227,7 +227,7 @@ TEST(Safetensors, values_of_the_wrong_kind_are_refused) {
   EXPECT_EQ(failure(R"({"a":[]})", 0), start + " is not described by an object");
 }
 
-TEST(Safetensors, names_that_come_twice_are_refused) {
+TEST(Safetensors, names_that_come_twice_are_rejected) {
   const std::string a = R"("a":{"dtype":"F32","shape":[0],"data_offsets":[0,0]})";
   EXPECT_EQ(failure("{" + a + "," + a + "}", 0),
             "model.safetensors: the header has tensor 'a' twice");
@@ -235,7 +235,7 @@ TEST(Safetensors, names_that_come_twice_are_refused) {
             "model.safetensors: the header has metadata 'k' twice");
 }
 
-TEST(Safetensors, metadata_that_is_not_text_is_refused) {
+TEST(Safetensors, metadata_that_is_not_text_is_rejected) {
   for (const char* bad : {"1", "null", "true", "-1", "0.5", "[]", "{}"}) {
     EXPECT_EQ(failure(R"({"__metadata__":{"k":)" + std::string(bad) + "}}", 0),
               "model.safetensors: metadata 'k' is not a text");
@@ -244,13 +244,13 @@ TEST(Safetensors, metadata_that_is_not_text_is_refused) {
             "model.safetensors: __metadata__ is not an object; expected texts by name");
 }
 
-TEST(Safetensors, deep_nesting_is_refused_without_descending) {
+TEST(Safetensors, deep_nesting_is_rejected_without_descending) {
   std::string deep = "{\"a\":";
   deep.append(3'000'000, '[');
   EXPECT_EQ(failure(deep, 0), "model.safetensors: tensor 'a' is not described by an object");
 }
 
-TEST(Safetensors, hostile_names_are_made_fit_for_a_sentence) {
+TEST(Safetensors, hostile_names_are_made_fit_for_a_message) {
   const std::string name = "x\\n\\u0007" + std::string(200, 'y');
   EXPECT_EQ(failure("{\"" + name + "\":1}", 0), "model.safetensors: tensor 'x??" +
                                                     std::string(77, 'y') +

@@ -23,18 +23,18 @@ HumanPositions t_pose() {
 
 TEST(Features, the_body_frame_undoes_place_and_heading) {
   const HumanPositions body = t_pose();
-  const Ground ground{{3, 0, -2}, 2.1f};
+  const RootPose root{{3, 0, -2}, 2.1f};
   HumanPositions world, back;
   for (int j = 0; j < kHumanJoints; ++j) {
-    world[j] = rotate(rotation_y(ground.facing), body[j]) + ground.position;
+    world[j] = rotate(rotation_y(root.facing), body[j]) + root.position;
   }
-  to_body_frame(world, ground, back);
+  to_body_frame(world, root, back);
   for (int j = 0; j < kHumanJoints; ++j) EXPECT_LT(length(back[j] - body[j]), 1e-5f);
 }
 
 TEST(Features, a_t_pose_has_no_local_rotation) {
   std::vector<float> numbers(127);
-  write_pose_numbers(PoseLayout::rotations, t_pose(), numbers);
+  write_pose_features(PoseLayout::rotations, t_pose(), numbers);
   const float identity[6] = {1, 0, 0, 0, 1, 0};
   for (int i = 0; i < 126; ++i) EXPECT_NEAR(numbers[i], identity[i % 6], 1e-4) << i;
   EXPECT_NEAR(numbers[126], t_pose()[0].y, 1e-6);
@@ -43,8 +43,8 @@ TEST(Features, a_t_pose_has_no_local_rotation) {
 TEST(Features, walking_ahead_is_forward_velocity_whatever_the_heading) {
   for (const float facing : {0.0f, 1.0f, -2.5f}) {
     const Vec3 ahead = rotate(rotation_y(facing), Vec3{0, 0, 0.06f});
-    std::array<float, kRootNumbers> root;
-    write_root_numbers({{1, 0, 1}, facing}, {Vec3{1, 0, 1} + ahead, facing}, 0.05, root);
+    std::array<float, kRootFeatures> root;
+    write_root_features({{1, 0, 1}, facing}, {Vec3{1, 0, 1} + ahead, facing}, 0.05, root);
     EXPECT_NEAR(root[0], 0, 1e-4);
     EXPECT_NEAR(root[1], 1.2, 1e-4);
     EXPECT_EQ(root[2], 0);

@@ -16,7 +16,7 @@ HumanPositions body_at(double seconds) {
   }
   return body;
 }
-Ground ground_at(double seconds) {
+RootPose root_at(double seconds) {
   const float s = static_cast<float>(seconds);
   return {{0.3f * s, 0, 1.2f * s}, 0.5f * s};
 }
@@ -24,8 +24,8 @@ Ground ground_at(double seconds) {
 std::vector<float> window_after(double fps, double seconds) {
   PoseHistory history(PoseLayout::positions);
   const int frames = static_cast<int>(std::lround(seconds * fps));
-  for (int f = 0; f <= frames; ++f) history.push(f / fps, body_at(f / fps), ground_at(f / fps));
-  std::vector<float> window(size_t(kWindowPoses) * pose_numbers(PoseLayout::positions));
+  for (int f = 0; f <= frames; ++f) history.push(f / fps, body_at(f / fps), root_at(f / fps));
+  std::vector<float> window(size_t(kWindowPoses) * pose_feature_count(PoseLayout::positions));
   history.window(window);
   return window;
 }
@@ -79,7 +79,7 @@ TEST(History, velocity_and_turn_rate_are_those_of_the_body) {
 
 TEST(History, before_the_first_pose_the_first_pose_rests) {
   PoseHistory history(PoseLayout::positions);
-  history.push(0, body_at(0), ground_at(0));
+  history.push(0, body_at(0), root_at(0));
   std::vector<float> window(size_t(kWindowPoses) * 66);
   history.window(window);
   for (int k = 1; k < kWindowPoses; ++k) {
@@ -92,8 +92,8 @@ TEST(History, before_the_first_pose_the_first_pose_rests) {
 TEST(History, repeated_and_crowded_times_lose_no_reach) {
   PoseHistory history(PoseLayout::positions);
   for (int f = 0; f <= 2000; ++f) {
-    history.push(f / 2000.0, body_at(f / 2000.0), ground_at(f / 2000.0));
-    history.push(f / 2000.0, body_at(f / 2000.0), ground_at(f / 2000.0));
+    history.push(f / 2000.0, body_at(f / 2000.0), root_at(f / 2000.0));
+    history.push(f / 2000.0, body_at(f / 2000.0), root_at(f / 2000.0));
   }
   EXPECT_NEAR(history.ground_speed(), std::hypot(0.3f, 1.2f), 1e-2);
 }

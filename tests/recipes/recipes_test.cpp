@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "pose/absolute_pose.h"
 #include "make_clip.h"
+#include "pose/absolute_pose.h"
 #include "pose/observer.h"
 
 namespace panache {
@@ -37,7 +37,7 @@ class EveryRecipe : public testing::TestWithParam<const Recipe*> {
 
   const Recipe& recipe_;
   HumanPositions body_;
-  const std::array<float, kRootNumbers> root_ = {0.1f, 1.2f, -0.3f};
+  const std::array<float, kRootFeatures> root_ = {0.1f, 1.2f, -0.3f};
   StyleDelta change_;
 };
 
@@ -82,7 +82,7 @@ TEST(Recipes, the_first_of_the_table_is_the_default) {
   EXPECT_EQ(&default_recipe(), find_recipe("panache"));
 }
 
-TEST(Recipes, sentences_list_them) {
+TEST(Recipes, messages_list_them) {
   EXPECT_EQ(recipe_names(), "panache, toy or smith2019");
   EXPECT_EQ(learning_recipe_names(), "panache");
 }

@@ -36,7 +36,7 @@ TEST(ToyRecipe, a_model_of_it_is_read_and_styles) {
   EXPECT_NE(other.rotations[index(HumanJoint::chest)], bend) << "the strength is an input";
 }
 
-TEST(ToyRecipe, a_model_of_it_that_does_not_fit_is_refused) {
+TEST(ToyRecipe, a_model_of_it_that_does_not_fit_is_rejected) {
   TensorFile file = test::make_model({"bent"}, 1, toy());
   file.tensors["output.scale"] = test::constant_tensor(StyleDelta::kSize, 1);
   EXPECT_EQ(Model::create(file, "toy.safetensors").error().message,

@@ -276,7 +276,7 @@ TEST(Calibration, a_toe_joint_straight_below_the_ankle_says_nothing) {
   EXPECT_TRUE(has_note(rig_of(clip).notes(), "estimated from the standing foot"));
 }
 
-TEST(Calibration, legs_of_no_length_are_refused) {
+TEST(Calibration, legs_of_no_length_are_rejected) {
   Clip clip = calm(1);
   for (size_t i = 0; i < clip.translations.size(); ++i) clip.translations[i] = {NAN, 0, 0};
   const Result<Rig> rig = Rig::create(clip);

@@ -129,8 +129,8 @@ inline Quat random_rotation(std::mt19937& random, float largest) {
   return exp_rotation(Vec3{any(random), any(random), any(random)} * (largest / std::sqrt(3.0f)));
 }
 
-// Frames of `skeleton` with every joint turned by up to `largest` radians about its rest, and the
-// joints that move displaced by up to a tenth of a metre.
+// SampledJoints of `skeleton` with every joint turned by up to `largest` radians about its rest,
+// and the joints that move displaced by up to a tenth of a metre.
 inline Clip random_clip(const Skeleton& skeleton, int frames, float largest, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> any(-0.1f, 0.1f);

@@ -29,7 +29,7 @@ struct Maker {
   Axes axes;
   double units_per_metre;
   bool z_up;
-  float legs, arms, trunk;  // Lengths against the canonical body's.
+  float legs, arms, torso;  // Lengths against the canonical body's.
   // The names that a person gives the human joints, in the order hips, spine, chest, neck, head,
   // shoulder, upper arm, lower arm, hand, upper leg, lower leg, foot, toes; "" is none.
   std::array<const char*, 13> joints;

@@ -204,26 +204,26 @@ TEST(Mapping, every_joint_has_a_reason) {
   EXPECT_EQ(got->notes[0], "2 joints between hips and chest");
 }
 
-std::string refusal(const std::vector<Line>& lines) {
+std::string rejection(const std::vector<Line>& lines) {
   const MadeUp rig = make_up(lines, "Left", "Right");
   const Result<Mapping> got = map_made_up(rig);
   return got.ok() ? "mapped" : got.error().message;
 }
 
-TEST(Mapping, a_robot_arm_is_refused_by_name) {
-  EXPECT_EQ(refusal({{"Base", "", hips}, {"Arm1", "Base", chest}, {"Arm2", "Arm1", head}}),
+TEST(Mapping, a_robot_arm_is_rejected_by_name) {
+  EXPECT_EQ(rejection({{"Base", "", hips}, {"Arm1", "Base", chest}, {"Arm2", "Arm1", head}}),
             "no humanoid found: leftHand, rightHand, leftFoot, rightFoot, head are missing among "
             "'Base', 'Arm1', 'Arm2' (3 joints); expected names such as LeftHand or hand_L, the "
             "shape of a person, or a map that says which joint is which");
 }
 
-TEST(Mapping, a_hand_without_an_arm_is_refused) {
+TEST(Mapping, a_hand_without_an_arm_is_rejected) {
   std::vector<Line> lines = kMixamo;
   std::erase_if(lines, [](const Line& l) { return l.name == "m:*ForeArm" || l.name == "m:*Arm"; });
   for (Line& line : lines) {
     if (line.name == "m:*Hand") line.parent = "m:*Shoulder";
   }
-  EXPECT_EQ(refusal(lines),
+  EXPECT_EQ(rejection(lines),
             "no humanoid found: leftLowerArm, leftUpperArm, rightLowerArm, rightUpperArm are "
             "missing among 'm:Hips', 'm:Spine', "
             "'m:Spine1', 'm:Spine2', 'm:Neck', 'm:Head', 'm:HeadTop_End', 'm:LeftShoulder', "
@@ -260,7 +260,7 @@ TEST(Mapping, missing_feet_are_named_alone) {
   std::erase_if(lines, [](const Line& l) {
     return l.name == "m:*Foot" || l.name == "m:*ToeBase" || l.name == "m:*Toe_End";
   });
-  EXPECT_TRUE(refusal(lines).starts_with(
+  EXPECT_TRUE(rejection(lines).starts_with(
       "no humanoid found: leftFoot, rightFoot are missing among 'm:Hips'"));
 }
 
@@ -278,25 +278,25 @@ TEST(Mapping, what_is_known_goes_before_what_is_found) {
   EXPECT_EQ(std::count(got->joint_of.begin(), got->joint_of.end(), spine1), 0);
 }
 
-TEST(Mapping, what_is_known_but_cannot_be_is_refused) {
+TEST(Mapping, what_is_known_but_cannot_be_is_rejected) {
   const MadeUp rig = make_up(kMixamo, "Left", "Right");
   const std::vector<JointPositions> poses = {rig.positions};
-  const auto sentence = [&](const KnownJoints& known) {
+  const auto message = [&](const KnownJoints& known) {
     const Result<Mapping> got = map_humanoid(rig.skeleton, poses, known);
     return got.ok() ? "mapped" : got.error().message;
   };
-  EXPECT_EQ(sentence({{index(left_toes), rig.joint.at("m:RightToeBase")}}),
+  EXPECT_EQ(message({{index(left_toes), rig.joint.at("m:RightToeBase")}}),
             "'m:RightToeBase' cannot be leftToes: expected a joint below leftFoot 'm:LeftFoot'");
-  EXPECT_TRUE(sentence({{index(left_upper_arm), -1}})
+  EXPECT_TRUE(message({{index(left_upper_arm), -1}})
                   .starts_with("no humanoid found: leftUpperArm is missing among 'm:Hips'"));
 }
 
-TEST(Mapping, bodies_in_pieces_and_poses_without_numbers_are_refused) {
+TEST(Mapping, bodies_in_pieces_and_poses_without_numbers_are_rejected) {
   std::vector<Line> lines = kMixamo;
   for (Line& line : lines) {
     if (line.name == "m:*UpLeg") line.parent = "";
   }
-  EXPECT_TRUE(refusal(lines).starts_with("no humanoid found: hips is missing among"));
+  EXPECT_TRUE(rejection(lines).starts_with("no humanoid found: hips is missing among"));
   MadeUp rig = make_up(kMixamo, "Left", "Right");
   rig.positions.assign(rig.positions.size(), Vec3{NAN, NAN, NAN});
   EXPECT_FALSE(map_made_up(rig).ok());

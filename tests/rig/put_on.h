@@ -38,7 +38,7 @@ inline HumanPositions maker_body(const Maker& maker) {
     };
     const bool leg = is(left_lower_leg) || is(left_foot) || is(left_toes);
     const bool arm = is(left_lower_arm) || is(left_hand);
-    const float scale = leg ? maker.legs : arm ? maker.arms : maker.trunk;
+    const float scale = leg ? maker.legs : arm ? maker.arms : maker.torso;
     const int above = kHumanParent[j];
     if (above >= 0) out[j] = out[above] + (body[j] - body[above]) * scale;
   }
@@ -48,7 +48,7 @@ inline HumanPositions maker_body(const Maker& maker) {
 }
 
 // `motion`: a clip of canonical_skeleton(). Every joint of the maker's rig follows the joint that
-// it belongs to; the way over the ground is scaled with the legs. turn: about the vertical,
+// it belongs to; root motion is scaled with the legs. turn: about the vertical,
 // radians.
 inline Character put_on(const Maker& maker, const Clip& motion, float turn = 0,
                         double units_per_metre = 0, std::optional<bool> z_up = {}) {

@@ -126,7 +126,7 @@ TEST(RealMotion, every_file_maps_as_a_person_would_map_it) {
 }
 
 // Joints that only the name tells from others at the same place, or beyond the end of a limb.
-bool same_place(const Clip& clip, int a, int b) {
+bool same_address(const Clip& clip, int a, int b) {
   if (a == b) return true;
   if (a < 0 || b < 0) return false;
   std::vector<Quat> rotations(clip.joints());
@@ -151,7 +151,7 @@ TEST(RealMotion, every_file_maps_the_same_when_its_joints_have_no_names) {
         const auto name = [&](int joint) {
           return joint < 0 ? std::string("-") : clip.skeleton.joints[joint].name;
         };
-        EXPECT_TRUE(same_place(clip, want, got))
+        EXPECT_TRUE(same_address(clip, want, got))
             << path << " " << human_joint_name(j) << ": " << name(want) << " but " << name(got);
       }
     }

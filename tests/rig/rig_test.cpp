@@ -83,7 +83,7 @@ TEST(Rig, a_canonical_body_whose_shoulders_rest_is_read_as_itself_in_any_pose) {
   for (int f = 0; f < clip.frames; ++f) {
     rig.read(clip.pose(f), body);
     for (int j = 0; j < kHumanJoints; ++j) {
-      // The hips lie on the line from mid-hip to mid-shoulder, which a bent trunk tilts.
+      // The hips lie on the line from mid-hip to mid-shoulder, which a bent torso tilts.
       if (j == index(hips)) continue;
       EXPECT_LT(length(body.positions[j] - body.joints[j]), 1e-5f) << human_joint_name(j);
     }

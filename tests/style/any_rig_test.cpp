@@ -36,10 +36,10 @@ Clip walk() {
 }
 
 // A clip's motion on the canonical skeleton.
-Clip on_canonical_body(const Clip& clip, int most_frames) {
+Clip on_canonical_body(const Clip& clip, int max_frames) {
   PosedRig rig(*Rig::create(clip));
   Clip out{canonical_skeleton(), clip.frame_time, 0, {}, {}};
-  for (int f = rig.rig().first_frame(); f < std::min(clip.frames, most_frames); ++f) {
+  for (int f = rig.rig().first_frame(); f < std::min(clip.frames, max_frames); ++f) {
     BodyPose body;
     rig.read(clip.pose(f), body);
     std::array<Quat, kHumanJoints> world;
@@ -77,7 +77,7 @@ std::vector<HumanPositions> styled(const Clip& clip, const std::string& style, f
 }
 
 struct Difference {
-  double mean_deg = 0, most_deg = 0;
+  double mean_deg = 0, max_deg = 0;
   int joint = 0;
 };
 
@@ -94,7 +94,7 @@ Difference difference(const std::vector<HumanPositions>& a, const std::vector<Hu
       const double off = angle_deg(p, b[f][j] - b[f][kHumanParent[j]]);
       sum += off;
       ++count;
-      if (off > out.most_deg) out.most_deg = off, out.joint = j;
+      if (off > out.max_deg) out.max_deg = off, out.joint = j;
     }
   }
   out.mean_deg = sum / count;
@@ -105,7 +105,7 @@ Difference difference(const std::vector<HumanPositions>& a, const std::vector<Hu
 // does, and the lock then turns a thigh and a shin by up to 6 degrees in that frame: 2 of 20
 // directions in one of 120 frames, 0.005 degrees of the mean. Four seconds of walking have four
 // such frames at most. All else is below half a degree in such frames, and rounding.
-constexpr double kMeanDeg = 0.02, kMostDeg = 6;
+constexpr double kMeanDeg = 0.02, kMaxDeg = 6;
 // This one's arms hang on its neck and its legs on its spine. So it is read a little differently
 // even without a style, 0.3 to 0.5 degrees in the mean, and its arms turn with the neck's share of
 // one. The promise is 0.7, rounded.
@@ -119,12 +119,12 @@ void expect_same_style_on_all_rigs(const Clip& motion, const std::string& style,
     const Difference plain = difference(styled(motion, style, 0), styled(character, style, 0));
     const Difference off = difference(want, styled(character, style, strength));
     std::printf("%-18s %-10s mean %.2f, most %.2f deg (%s); unstyled %.2f, %.2f (%s)\n", maker.name,
-                style.c_str(), off.mean_deg, off.most_deg,
-                std::string(human_joint_name(off.joint)).c_str(), plain.mean_deg, plain.most_deg,
+                style.c_str(), off.mean_deg, off.max_deg,
+                std::string(human_joint_name(off.joint)).c_str(), plain.mean_deg, plain.max_deg,
                 std::string(human_joint_name(plain.joint)).c_str());
     EXPECT_LE(off.mean_deg, maker.name == std::string(kArmsOnNeck) ? kArmsOnNeckMeanDeg : kMeanDeg)
         << maker.name;
-    EXPECT_LE(off.most_deg, kMostDeg) << maker.name << " " << human_joint_name(off.joint);
+    EXPECT_LE(off.max_deg, kMaxDeg) << maker.name << " " << human_joint_name(off.joint);
   }
 }
 
@@ -157,8 +157,8 @@ TEST(AnyRig, units_axes_and_facing_make_no_difference) {
         const float turn = static_cast<float>(quarter) * 1.5707963f;
         const Clip clip = put_on(maker, motion, turn, units, z_up).clip;
         const Difference off = difference(want, styled(clip, "old", 1), turn);
-        worst = std::max(worst, off.most_deg);
-        EXPECT_LT(off.most_deg, 0.01) << units << (z_up ? " z up " : " y up ") << quarter;
+        worst = std::max(worst, off.max_deg);
+        EXPECT_LT(off.max_deg, 0.01) << units << (z_up ? " z up " : " y up ") << quarter;
       }
     }
   }

@@ -10,7 +10,7 @@
 
 #include "make_clip.h"
 #include "make_model.h"
-#include "net/half_size.h"
+#include "net/quantize.h"
 
 namespace panache {
 namespace {
@@ -23,7 +23,7 @@ std::shared_ptr<const Model> make_model(Kind kind) {
   TensorFile file = test::make_model({"old", "proud"}, 3,
                                      kind == Kind::smith2019 ? test::kSmith2019 : test::kPanache);
   if (kind == Kind::gated) test::add_gate(file, 1.5f);
-  if (kind == Kind::bytes) file = in_half_size(file);
+  if (kind == Kind::bytes) file = quantize(file);
   return *Model::parse(format_safetensors(file), "test model");
 }
 

@@ -48,10 +48,10 @@ TEST_F(InputRingTest, every_pose_of_a_tracker_of_90_or_120_hz_is_kept) {
 TEST_F(InputRingTest, between_poses_and_beyond_them_time_is_straight_and_held) {
   InputRing ring(clip_.joints(), 1);
   for (int f = 0; f < 30; ++f) push(ring, f, 1 + f / 30.0);
-  EXPECT_NEAR(ring.ground(1.51).position.x, 1.51f, 1e-5f);
+  EXPECT_NEAR(ring.root(1.51).position.x, 1.51f, 1e-5f);
   EXPECT_NEAR(ring.body(1.77)[0].x, 1.77f, 1e-5f);
-  EXPECT_EQ(ring.ground(0).position.x, 1);
-  EXPECT_EQ(ring.ground(9).position.x, static_cast<float>(1 + 29 / 30.0));
+  EXPECT_EQ(ring.root(0).position.x, 1);
+  EXPECT_EQ(ring.root(9).position.x, static_cast<float>(1 + 29 / 30.0));
 }
 
 TEST_F(InputRingTest, keeps_its_seconds_at_any_rate) {
@@ -62,14 +62,14 @@ TEST_F(InputRingTest, keeps_its_seconds_at_any_rate) {
     EXPECT_EQ(ring.newest(), time);
     EXPECT_LE(ring.oldest(), time - 1.5) << fps;
     // What lies between is there, not only the ends.
-    EXPECT_NEAR(ring.ground(time - 1).position.x, static_cast<float>(time - 1), 1e-4f) << fps;
+    EXPECT_NEAR(ring.root(time - 1).position.x, static_cast<float>(time - 1), 1e-4f) << fps;
   }
 }
 
 TEST_F(InputRingTest, one_pose_is_that_pose_at_any_time) {
   InputRing ring(clip_.joints(), 1);
   push(ring, 3, 7);
-  for (const double time : {0.0, 7.0, 100.0}) EXPECT_EQ(ring.ground(time).position.x, 7);
+  for (const double time : {0.0, 7.0, 100.0}) EXPECT_EQ(ring.root(time).position.x, 7);
   ring.clear();
   EXPECT_TRUE(ring.empty());
 }

@@ -1,4 +1,4 @@
-// Learnt styles: heads on the features of all layers, each with a gate of its own.
+// Learnt styles: heads on the activations of all layers, each with a gate of its own.
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "make_learnt.h"
-#include "net/half_size.h"
+#include "net/quantize.h"
 
 namespace panache {
 namespace {
@@ -24,7 +24,7 @@ std::string failure(const TensorFile& file) {
 }
 
 std::vector<float> window_of(uint64_t seed) {
-  std::vector<float> window(size_t(kWindowPoses) * pose_numbers(PoseLayout::positions));
+  std::vector<float> window(size_t(kWindowPoses) * pose_feature_count(PoseLayout::positions));
   Random random(seed);
   for (float& w : window) w = random.normal();
   return window;
@@ -54,20 +54,20 @@ Answer answer(StyleNetworks& networks, const std::vector<float>& window,
           networks.gate()};
 }
 
-// What head 0 answers to these features. [kLearntNumbers]
-std::vector<double> head(const TensorFile& file, const std::vector<float>& features) {
+// What head 0 answers to these activations. [kLearntOutputs]
+std::vector<double> head(const TensorFile& file, const std::vector<float>& activations) {
   const std::vector<float>& bias = file.tensors.at("learnt.0.head.bias").values;
   const std::vector<float>& weights = file.tensors.at("learnt.0.head.weight").values;
   std::vector<double> out(bias.begin(), bias.end());
   for (size_t i = 0; i < weights.size(); ++i) {
-    out[i % out.size()] += double(features[i / out.size()]) * double(weights[i]);
+    out[i % out.size()] += double(activations[i / out.size()]) * double(weights[i]);
   }
   return out;
 }
 
 double logit(double p) { return std::log(p / (1 - p)); }
 
-// Sums of 32 features of about 1 and weights of about 0.1, in single precision.
+// Sums of 32 activations of about 1 and weights of about 0.1, in single precision.
 constexpr double kRounding = 1e-5;
 
 TEST(LearntNetworks, the_head_answers_to_the_features_of_all_layers) {
@@ -79,10 +79,10 @@ TEST(LearntNetworks, the_head_answers_to_the_features_of_all_layers) {
   EXPECT_EQ(model->styles()[1].origin, "a test");
   StyleNetworks networks(model);
   const std::vector<float> window = window_of(1);
-  std::vector<float> features(model->feature_count());
-  ASSERT_EQ(features.size(), 32u);  // Two layers of 16.
-  networks.features(window, features);
-  const std::vector<double> expected = head(file, features);
+  std::vector<float> activations(model->activation_count());
+  ASSERT_EQ(activations.size(), 32u);  // Two layers of 16.
+  networks.activations(window, activations);
+  const std::vector<double> expected = head(file, activations);
   const Answer none = answer(networks, window, {0, 0}), got = answer(networks, window, {0, 0.5f});
   for (int i = 0; i < StyleDelta::kSize; ++i) {
     EXPECT_EQ(none.pose[i], 0);
@@ -100,15 +100,15 @@ TEST(LearntNetworks, features_are_those_of_the_layers_one_after_another) {
   const auto model = read(file);
   const StyleNetworks networks(model);
   const std::vector<float> window = window_of(2);
-  std::vector<float> features(model->feature_count());
-  networks.features(window, features);
+  std::vector<float> activations(model->activation_count());
+  networks.activations(window, activations);
   // The second layer by hand, from the first.
   const std::vector<float>& weights = file.tensors.at("pose.trunk.1.weight").values;
   const std::vector<float>& bias = file.tensors.at("pose.trunk.1.bias").values;
   for (size_t o = 0; o < 16; ++o) {
     double sum = bias[o];
-    for (size_t i = 0; i < 16; ++i) sum += double(features[i]) * double(weights[i * 16 + o]);
-    EXPECT_NEAR(features[16 + o], sum > 0 ? sum : std::expm1(sum), 1e-5) << o;
+    for (size_t i = 0; i < 16; ++i) sum += double(activations[i]) * double(weights[i * 16 + o]);
+    EXPECT_NEAR(activations[16 + o], sum > 0 ? sum : std::expm1(sum), 1e-5) << o;
   }
 }
 
@@ -135,14 +135,14 @@ TEST(LearntNetworks, beyond_its_gate_a_style_is_drawn_to_its_mean_answer) {
   const float scale = open.model().output_scale()[0];
 
   // The leverage: rest times the square of the standardised distance.
-  std::vector<float> features(open.model().feature_count());
-  open.features(window, features);
+  std::vector<float> activations(open.model().activation_count());
+  open.activations(window, activations);
   double square = 0;
-  for (size_t f = 0; f < features.size(); ++f) {
-    square += std::pow(features[f] - open_file.tensors.at("learnt.0.mean").values[f], 2);
+  for (size_t f = 0; f < activations.size(); ++f) {
+    square += std::pow(activations[f] - open_file.tensors.at("learnt.0.mean").values[f], 2);
   }
-  StyleNetworks half(read(with_learnt(static_cast<float>(2 / square))));
-  const Answer drawn = answer(half, window, {0, 1});
+  StyleNetworks int8(read(with_learnt(static_cast<float>(2 / square))));
+  const Answer drawn = answer(int8, window, {0, 1});
   EXPECT_NEAR(drawn.gate, 0.5, 1e-5);
   EXPECT_NEAR(drawn.pose[0], 0.5 * whole.pose[0] + 0.5 * mean[0] * scale, kRounding);
   StyleNetworks closed(read(with_learnt(1e9f)));
@@ -172,10 +172,10 @@ TEST(LearntNetworks, the_gate_is_the_mean_of_those_in_force_and_moves_by_its_sha
 }
 
 TEST(LearntNetworks, passes_together_have_the_bits_of_passes_alone) {
-  for (const bool half : {false, true}) {
+  for (const bool int8 : {false, true}) {
     TensorFile file = with_learnt(0.05f);
     test::add_learnt(file, 1, "limping", "another", 9);
-    const auto model = read(half ? in_half_size(file) : file);
+    const auto model = read(int8 ? quantize(file) : file);
     constexpr size_t kCount = 11;
     std::vector<StyleNetworks> alone(kCount, StyleNetworks(model)), together = alone;
     std::vector<std::vector<float>> windows;
@@ -212,7 +212,7 @@ TEST(LearntNetworks, a_model_may_have_learnt_styles_only) {
   EXPECT_EQ(answer(only, window, {1}).left, answer(both, window, {0, 1}).left);
 }
 
-TEST(LearntNetworks, damaged_ones_are_refused) {
+TEST(LearntNetworks, damaged_ones_are_rejected) {
   TensorFile file = with_learnt();
   file.tensors.erase("learn.mean");
   file.tensors.erase("learn.scale");
@@ -223,8 +223,8 @@ TEST(LearntNetworks, damaged_ones_are_refused) {
   file.tensors["learn.scale"].values[3] = 0;
   EXPECT_EQ(failure(file), "m.safetensors: tensor 'learn.scale' must be above zero throughout");
   file = with_learnt();
-  file.tensors["learnt.0.head.weight"].shape = {31, kLearntNumbers};
-  file.tensors["learnt.0.head.weight"].values.resize(size_t{31} * kLearntNumbers);
+  file.tensors["learnt.0.head.weight"].shape = {31, kLearntOutputs};
+  file.tensors["learnt.0.head.weight"].values.resize(size_t{31} * kLearntOutputs);
   EXPECT_EQ(failure(file),
             "m.safetensors: tensor 'learnt.0.head.weight' has shape [31, 70]; expected [32, 70]");
   file = with_learnt();

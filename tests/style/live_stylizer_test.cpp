@@ -20,11 +20,11 @@ namespace {
 constexpr double kStep = 1.0 / 60;
 
 // A model that asks for this tempo and changes nothing else by much.
-std::shared_ptr<const Model> model_at_rate(double rate, bool foresees = true) {
+std::shared_ptr<const Model> model_at_rate(double rate, bool predicts = true) {
   TensorFile file = test::make_model({"old", "proud"}, 3);
   file.tensors["output.scale"] = test::constant_tensor(StyleDelta::kSize, 1e-3f);
   test::set_rate(file, rate);
-  if (foresees) test::add_predictor(file);
+  if (predicts) test::add_predictor(file);
   return *Model::parse(format_safetensors(file), "test model");
 }
 
@@ -70,7 +70,7 @@ TEST_F(LiveStylizerTest, by_default_it_is_the_stylizer_bit_for_bit) {
   LiveStylizer timed = live(model, {});
   Stylizer plain = *Stylizer::create(model, *Rig::create(clip_));
   Clip expected = clip_;
-  EXPECT_TRUE(timed.keeps_time());
+  EXPECT_TRUE(timed.is_pass_through());
   for (int f = 0; f < 200; ++f) {
     timed.step(clip_.pose(f), std::vector<float>{1, 0}, kStep, out_.pose(f));
     plain.step(clip_.pose(f), std::vector<float>{1, 0}, kStep, expected.pose(f));
@@ -147,7 +147,7 @@ TEST_F(LiveStylizerTest, without_a_style_it_comes_back_and_is_the_input_bit_for_
 
 // A head that is ahead shows guesses, but nothing may twitch. (A style changes nothing here, and
 // constant velocity is all that the model's network knows.)
-TEST_F(LiveStylizerTest, input_that_is_foreseen_does_not_twitch) {
+TEST_F(LiveStylizerTest, predicted_input_does_not_twitch) {
   const auto largest_turn = [&](const LiveOptions& options, double ahead) {
     LiveStylizer character = live(model_at_rate(1.25), options);
     LiveWalk walk;
@@ -187,7 +187,7 @@ TEST_F(LiveStylizerTest, by_whole_cycles_a_slower_or_faster_style_is_held_for_ev
       ASSERT_GE(character.ahead(), -1.5);
       ASSERT_LE(character.ahead(), 0.1);
       if (f < 120) continue;
-      // What was played is what time went, and what the head went against it but for leaps.
+      // What was played is what time went, and what the head went against it but for jumps.
       const double moved = character.ahead() - ahead;
       ahead = character.ahead();
       if (std::abs(moved) < 0.2) played += kStep + moved;
@@ -259,7 +259,7 @@ TEST_F(LiveStylizerTest, where_a_cycle_is_left_out_no_joint_jumps) {
   EXPECT_LT(at_skips / skipped, 2 * elsewhere / (90 * 60));
 }
 
-TEST_F(LiveStylizerTest, any_clock_pause_gap_or_leap_leaves_it_whole) {
+TEST_F(LiveStylizerTest, any_clock_pause_gap_or_jump_leaves_it_whole) {
   LiveOptions options;
   options.max_lag = 1.2;
   options.max_lead = 0.25;
@@ -282,7 +282,7 @@ TEST_F(LiveStylizerTest, any_clock_pause_gap_or_leap_leaves_it_whole) {
       const float nan = std::numeric_limits<float>::quiet_NaN();
       if (i % 333 == 0) in.pose(0).rotations[3] = {nan, 0, 0, 1};
       if (i % 444 == 0) in.pose(0).translations[0] = {1e30f, nan, 0};
-      if (i / 1500 % 2 == 1) in.pose(0).translations[0].x += 50;  // A leap at 1500 and at 3000.
+      if (i / 1500 % 2 == 1) in.pose(0).translations[0].x += 50;  // A jump at 1500 and at 3000.
       character.step(in.pose(0), std::vector<float>{1, 0.5f}, seconds, out_.pose(0));
       for (size_t j = 0; j < in.joints(); ++j) {
         ASSERT_TRUE(is_finite(out_.pose(0).rotations[j])) << i;
@@ -293,7 +293,7 @@ TEST_F(LiveStylizerTest, any_clock_pause_gap_or_leap_leaves_it_whole) {
   }
 }
 
-TEST_F(LiveStylizerTest, after_a_leap_nothing_of_the_old_place_is_shown) {
+TEST_F(LiveStylizerTest, after_a_jump_nothing_of_the_old_place_is_shown) {
   LiveOptions options;
   options.max_lag = 1;
   LiveStylizer character = live(model_at_rate(0.8), options);
@@ -355,10 +355,10 @@ TEST_F(LiveStylizerTest, a_restored_character_goes_on_bit_for_bit) {
   EXPECT_FALSE(other.restore(std::span(state).first(state.size() - 1)));
 }
 
-TEST_F(LiveStylizerTest, an_option_that_cannot_be_is_refused_in_a_sentence) {
-  const auto error = [&](LiveOptions options, bool foresees = true) {
+TEST_F(LiveStylizerTest, an_option_that_cannot_be_is_rejected_with_a_message) {
+  const auto error = [&](LiveOptions options, bool predicts = true) {
     const auto made =
-        LiveStylizer::create(model_at_rate(1, foresees), *Rig::create(clip_), options);
+        LiveStylizer::create(model_at_rate(1, predicts), *Rig::create(clip_), options);
     return made ? std::string() : made.error().message;
   };
   LiveOptions late, early;

@@ -5,12 +5,12 @@
 #include <gtest/gtest.h>
 
 #include "make_model.h"
-#include "net/half_size.h"
+#include "net/quantize.h"
 
 namespace panache {
 namespace {
 
-std::string refusal(const TensorFile& file) {
+std::string rejection(const TensorFile& file) {
   const auto model = Model::parse(format_safetensors(file), "m.safetensors");
   return model.ok() ? "accepted" : model.error().message;
 }
@@ -26,13 +26,13 @@ TEST(Model, what_was_written_is_read) {
 }
 
 TEST(Model, tensors_in_memory_make_the_same_model_as_their_file) {
-  const TensorFile file = in_half_size(test::make_model({"old", "proud"}));
+  const TensorFile file = quantize(test::make_model({"old", "proud"}));
   const auto answer = [](const Result<std::shared_ptr<const Model>>& model) {
     EXPECT_TRUE(model.ok()) << model.error().message;
     StyleNetworks networks(*model);
     networks.set_strengths(std::vector<float>{1, 0.5f});
     networks.forward(
-        std::vector<float>(size_t(kWindowPoses) * pose_numbers((*model)->layout()), 1));
+        std::vector<float>(size_t(kWindowPoses) * pose_feature_count((*model)->layout()), 1));
     return std::vector<float>(networks.pose().begin(), networks.pose().end());
   };
   // Halves and bytes are numbers that a file can hold, so nothing is rounded on the way.
@@ -43,55 +43,55 @@ TEST(Model, tensors_in_memory_make_the_same_model_as_their_file) {
             Model::parse(format_safetensors({}), "m").error().message);
 }
 
-TEST(Model, one_of_half_size_is_the_same_model_with_as_many_parameters) {
+TEST(Model, an_int8_one_is_the_same_model_with_as_many_parameters) {
   const TensorFile file = test::make_model({"old", "proud"});
   const auto whole = Model::parse(format_safetensors(file), "whole");
-  const auto half = Model::parse(format_safetensors(in_half_size(file)), "half");
-  ASSERT_TRUE(half.ok()) << half.error().message;
-  EXPECT_EQ((*half)->metadata(), (*whole)->metadata());
-  EXPECT_EQ((*half)->parameter_count(), (*whole)->parameter_count());
+  const auto int8 = Model::parse(format_safetensors(quantize(file)), "half");
+  ASSERT_TRUE(int8.ok()) << int8.error().message;
+  EXPECT_EQ((*int8)->metadata(), (*whole)->metadata());
+  EXPECT_EQ((*int8)->parameter_count(), (*whole)->parameter_count());
 }
 
-TEST(Model, one_of_half_size_without_the_worth_of_its_bytes_is_refused) {
-  TensorFile file = in_half_size(test::make_model({"old"}));
+TEST(Model, an_int8_one_without_its_int8_scale_is_rejected) {
+  TensorFile file = quantize(test::make_model({"old"}));
   file.tensors.erase("pose.head.0.scale");
-  EXPECT_EQ(refusal(file), "m.safetensors: tensor 'pose.head.0.scale' is missing");
+  EXPECT_EQ(rejection(file), "m.safetensors: tensor 'pose.head.0.scale' is missing");
 }
 
-TEST(Model, every_truncation_of_one_of_half_size_is_refused) {
-  const std::string bytes = format_safetensors(in_half_size(test::make_model({"old"})));
+TEST(Model, every_truncation_of_an_int8_one_is_rejected) {
+  const std::string bytes = format_safetensors(quantize(test::make_model({"old"})));
   for (size_t size = 0; size < bytes.size(); size += 97) {
     EXPECT_FALSE(Model::parse(bytes.substr(0, size), "m").ok()) << size;
   }
 }
 
-TEST(Model, more_styles_than_a_step_has_room_for_are_refused) {
+TEST(Model, more_styles_than_a_step_has_room_for_are_rejected) {
   std::vector<std::string> names;
   for (int i = 0; i < 256; ++i) names.push_back("style" + std::to_string(i));
-  EXPECT_EQ(refusal(test::make_model(names)),
+  EXPECT_EQ(rejection(test::make_model(names)),
             "m.safetensors: has 256 styles; expected at most 255");
   names.pop_back();
-  EXPECT_EQ(refusal(test::make_model(names)), "accepted");
+  EXPECT_EQ(rejection(test::make_model(names)), "accepted");
 }
 
-TEST(Model, a_scale_without_a_reciprocal_is_refused) {
+TEST(Model, a_scale_without_a_reciprocal_is_rejected) {
   TensorFile file = test::make_model({"old"});
   file.tensors["input.scale"].values[3] = 1e-40f;
-  EXPECT_EQ(refusal(file), "m.safetensors: tensor 'input.scale' must be above zero throughout");
+  EXPECT_EQ(rejection(file), "m.safetensors: tensor 'input.scale' must be above zero throughout");
 }
 
-TEST(Model, a_model_of_another_version_is_refused) {
+TEST(Model, a_model_of_another_version_is_rejected) {
   TensorFile file = test::make_model({"old"});
   file.metadata["format_version"] = "7";
-  EXPECT_EQ(refusal(file),
+  EXPECT_EQ(rejection(file),
             "m.safetensors: is a model of format version 7; this program reads version 1; train it "
             "again or use the program it came with");
 }
 
-TEST(Model, a_safetensors_file_of_something_else_is_refused) {
+TEST(Model, a_safetensors_file_of_something_else_is_rejected) {
   TensorFile file = test::make_model({"old"});
   file.metadata.erase("format");
-  EXPECT_EQ(refusal(file),
+  EXPECT_EQ(rejection(file),
             "m.safetensors: is a safetensors file, but not a panache model; expected metadata "
             "'format' to be 'panache'");
 }
@@ -99,7 +99,7 @@ TEST(Model, a_safetensors_file_of_something_else_is_refused) {
 TEST(Model, a_style_file_is_told_from_a_model) {
   TensorFile file = test::make_model({"old"});
   file.metadata["format"] = "panache-style";
-  EXPECT_EQ(refusal(file),
+  EXPECT_EQ(rejection(file),
             "m.safetensors: is a style file, not a model; panache styles MODEL --add FILE puts it "
             "into one");
 }
@@ -107,28 +107,28 @@ TEST(Model, a_style_file_is_told_from_a_model) {
 TEST(Model, wrong_or_missing_tensors_are_named) {
   TensorFile file = test::make_model({"old"});
   file.tensors.erase("input.mean");
-  EXPECT_EQ(refusal(file), "m.safetensors: tensor 'input.mean' is missing");
+  EXPECT_EQ(rejection(file), "m.safetensors: tensor 'input.mean' is missing");
   file = test::make_model({"old"});
   file.tensors["input.scale"].values[3] = 0;
-  EXPECT_EQ(refusal(file), "m.safetensors: tensor 'input.scale' must be above zero throughout");
+  EXPECT_EQ(rejection(file), "m.safetensors: tensor 'input.scale' must be above zero throughout");
   file = test::make_model({"old"});
   file.tensors["input.mean"].shape = {33, 2};
-  EXPECT_EQ(refusal(file),
+  EXPECT_EQ(rejection(file),
             "m.safetensors: tensor 'input.mean' has 66 numbers; expected shape [66]");
   file = test::make_model({"old"});
   file.metadata["recipe"] = "magic";
-  EXPECT_EQ(refusal(file), "m.safetensors: has recipe 'magic'; expected panache or smith2019");
+  EXPECT_EQ(rejection(file), "m.safetensors: has recipe 'magic'; expected panache or smith2019");
   file = test::make_model({"old"});
   file.metadata["styles"] = "old\nproud\n";
-  EXPECT_NE(refusal(file), "accepted");
+  EXPECT_NE(rejection(file), "accepted");
 }
 
-TEST(Model, a_damaged_gate_is_refused) {
+TEST(Model, a_damaged_gate_is_rejected) {
   const auto damaged = [](const auto& damage) {
     TensorFile file = test::make_model({"old"});
     test::add_gate(file, 2);
     damage(file.tensors);
-    return refusal(file);
+    return rejection(file);
   };
   EXPECT_EQ(damaged([](auto&) {}), "accepted");
   EXPECT_EQ(damaged([](auto& tensors) { tensors["gate.limit"].values = {0}; }),
@@ -149,11 +149,11 @@ TEST(Model, a_damaged_gate_is_refused) {
             "m.safetensors: tensor 'gate.whitening.weight' has shape [16]; expected [16, 16]");
 }
 
-TEST(Model, a_gate_that_lacks_its_mean_is_refused) {
+TEST(Model, a_gate_that_lacks_its_mean_is_rejected) {
   TensorFile file = test::make_model({"old"});
   test::add_gate(file, 2);
   file.tensors.erase("gate.mean");
-  EXPECT_EQ(refusal(file), "m.safetensors: tensor 'gate.mean' is missing");
+  EXPECT_EQ(rejection(file), "m.safetensors: tensor 'gate.mean' is missing");
 }
 
 TEST(Model, an_unknown_style_gets_the_nearest_names) {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "make_model.h"
-#include "net/half_size.h"
+#include "net/quantize.h"
 
 namespace panache {
 namespace {
@@ -20,7 +20,7 @@ std::shared_ptr<const Model> read(const TensorFile& file) {
 
 // A window of random numbers, this many deviations large.
 std::vector<float> window_of(float size, uint64_t seed = 5) {
-  std::vector<float> window(size_t(kWindowPoses) * pose_numbers(PoseLayout::positions));
+  std::vector<float> window(size_t(kWindowPoses) * pose_feature_count(PoseLayout::positions));
   Random random(seed);
   for (float& w : window) w = size * random.normal();
   return window;
@@ -33,7 +33,7 @@ std::vector<float> answer(StyleNetworks& networks, const std::vector<float>& win
   return {networks.pose().begin(), networks.pose().end()};
 }
 
-// What the head of style 0 answers to features that are all `feature`.
+// What the head of style 0 answers to activations that are all `feature`.
 std::vector<float> answer_to(const TensorFile& file, float feature) {
   const std::vector<float>& weights = file.tensors.at("pose.head.0.weight").values;
   std::vector<float> out = file.tensors.at("pose.head.0.bias").values;
@@ -115,10 +115,10 @@ TEST(Networks, each_style_has_its_own_tempo_and_contacts) {
 
 // Forward passes of several characters at once give each what it gets alone, its gate included.
 TEST(PassesTogether, have_the_bits_of_passes_alone) {
-  for (const bool half : {false, true}) {
+  for (const bool int8 : {false, true}) {
     TensorFile file = test::make_model({"old", "proud", "sad"});
     test::add_gate(file, 2);
-    const auto model = read(half ? in_half_size(file) : file);
+    const auto model = read(int8 ? quantize(file) : file);
     constexpr size_t kCount = 11;
     std::vector<StyleNetworks> together(kCount, StyleNetworks(model)), alone = together;
     std::vector<std::vector<float>> windows;
@@ -147,11 +147,11 @@ TEST(PassesTogether, have_the_bits_of_passes_alone) {
   }
 }
 
-TEST(Networks, of_half_size_answer_like_whole_ones) {
+TEST(Networks, in_int8_answer_like_float_ones) {
   const TensorFile file = test::make_model({"old"});
-  StyleNetworks whole(read(file)), half(read(in_half_size(file)));
+  StyleNetworks whole(read(file)), int8(read(quantize(file)));
   const std::vector<float> window = window_of(1), strengths = {1};
-  const auto a = answer(whole, window, strengths), b = answer(half, window, strengths);
+  const auto a = answer(whole, window, strengths), b = answer(int8, window, strengths);
   double apart = 0, size = 0;
   for (size_t i = 0; i < a.size(); ++i) {
     apart += std::pow(double(a[i]) - double(b[i]), 2), size += std::pow(double(a[i]), 2);

@@ -7,7 +7,7 @@
 #include "base/file.h"
 #include "known_recipes.h"
 #include "make_clip.h"
-#include "net/half_size.h"
+#include "net/quantize.h"
 #include "style/restyle.h"
 
 namespace panache {
@@ -40,7 +40,7 @@ TEST(ShippedModels, the_default_is_smaller_than_the_papers) {
 
 TEST(ShippedModels, all_name_their_data_and_its_licence) {
   for (const char* file :
-       {"panache.safetensors", "panache-half.safetensors", "smith2019.safetensors"}) {
+       {"panache.safetensors", "panache-int8.safetensors", "smith2019.safetensors"}) {
     const auto model = shipped(file);
     EXPECT_EQ(model->metadata().at("licence"), "CC BY-NC 4.0");
     EXPECT_NE(model->metadata().at("data").find("Bandai"), std::string::npos);
@@ -51,7 +51,7 @@ TEST(ShippedModels, all_name_their_data_and_its_licence) {
 TEST(ShippedModels, an_old_walk_is_bent_forward_and_ours_twice_as_old_more_so) {
   const Clip walk = test::walking_clip(180);
   for (const char* file :
-       {"panache.safetensors", "panache-half.safetensors", "smith2019.safetensors"}) {
+       {"panache.safetensors", "panache-int8.safetensors", "smith2019.safetensors"}) {
     const auto model = shipped(file);
     const int old = *model->find_style("old");
     const auto head = [&](float strength) {
@@ -64,24 +64,24 @@ TEST(ShippedModels, an_old_walk_is_bent_forward_and_ours_twice_as_old_more_so) {
   }
 }
 
-TEST(ShippedModels, the_half_size_one_is_the_default_halved) {
+TEST(ShippedModels, the_int8_one_is_the_default_quantized) {
   const std::string whole = *read_file(kModels + "panache.safetensors");
-  const std::string half = *read_file(kModels + "panache-half.safetensors");
-  EXPECT_LE(half.size(), 480'000u);
-  EXPECT_TRUE(format_safetensors(in_half_size(*parse_safetensors(whole, "whole"))) == half)
-      << "made of another model; panache halve makes it anew";
+  const std::string int8 = *read_file(kModels + "panache-int8.safetensors");
+  EXPECT_LE(int8.size(), 480'000u);
+  EXPECT_TRUE(format_safetensors(quantize(*parse_safetensors(whole, "whole"))) == int8)
+      << "made of another model; panache quantize makes it anew";
 }
 
-TEST(ShippedModels, the_half_size_one_styles_like_the_whole_one) {
+TEST(ShippedModels, the_int8_one_styles_like_the_float_one) {
   const Clip walk = test::walking_clip(180);
-  const auto whole = shipped("panache.safetensors"), half = shipped("panache-half.safetensors");
+  const auto whole = shipped("panache.safetensors"), int8 = shipped("panache-int8.safetensors");
   for (int s = 0; s < static_cast<int>(whole->styles().size()); ++s) {
     const auto styled = [&](const auto& model) {
       RestyleOptions options;
       options.timing = false;  // So that frames stand side by side.
       return restyle(walk, *Rig::create(walk), model, {{s, {{0, 1}}}}, options)->clip;
     };
-    const Clip a = styled(whole), b = styled(half);
+    const Clip a = styled(whole), b = styled(int8);
     PosedRig rig(*Rig::create(walk));
     double apart = 0, changed = 0;
     for (int f = 0; f < walk.frames; ++f) {
@@ -102,7 +102,7 @@ TEST(ShippedModels, the_half_size_one_styles_like_the_whole_one) {
 
 TEST(ShippedModels, every_style_keeps_the_feet_on_the_ground_and_the_body_whole) {
   const Clip walk = test::walking_clip(180);
-  for (const char* file : {"panache.safetensors", "panache-half.safetensors"}) {
+  for (const char* file : {"panache.safetensors", "panache-int8.safetensors"}) {
     const auto model = shipped(file);
     for (size_t s = 0; s < model->styles().size(); ++s) {
       const auto styled =

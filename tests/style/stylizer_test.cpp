@@ -152,7 +152,7 @@ TEST_F(StylizerTest, a_step_through_a_gate_allocates_nothing_and_closes_it_gradu
   EXPECT_LT(character.gate(), 0.01f);
 }
 
-TEST_F(StylizerTest, behind_a_closed_gate_the_way_over_the_ground_is_the_inputs) {
+TEST_F(StylizerTest, behind_a_closed_gate_the_root_motion_is_the_inputs) {
   const auto drift = [&](std::shared_ptr<const Model> model) {
     Stylizer character = *Stylizer::create(model, *Rig::create(clip_));
     run(character, {1, 0});
@@ -295,7 +295,7 @@ TEST(Stylizer, every_rate_looks_alike) {
   }
 }
 
-TEST(Stylizer, options_out_of_range_are_refused_with_a_sentence) {
+TEST(Stylizer, options_out_of_range_are_rejected_with_a_message) {
   const Clip clip = test::walking_clip(10);
   StylizerOptions options;
   options.ease_seconds = -1;
@@ -334,7 +334,7 @@ TEST_F(StylizerTest, a_restored_state_goes_on_bit_for_bit) {
   }
 }
 
-TEST_F(StylizerTest, a_state_that_is_damaged_or_of_another_model_is_refused) {
+TEST_F(StylizerTest, a_state_that_is_damaged_or_of_another_model_is_rejected) {
   Stylizer character = stylizer();
   run(character, {1, 0});
   std::vector<std::byte> state(character.state_size()), kept(state.size());

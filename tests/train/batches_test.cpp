@@ -27,8 +27,8 @@ Pairing straight(int styled, int neutral, int frames) {
 Take marked(const std::string& style, const std::string& content, int frames, float mark) {
   Take take = test::make_take(style, frames, 0.3f, 1, style == "neutral" ? 0 : 0.4f);
   take.row.content = content;
-  const size_t numbers = pose_numbers(PoseLayout::positions);
-  for (int f = 0; f < frames; ++f) take.numbers[(f + 1) * numbers - 1] = mark;
+  const size_t numbers = pose_feature_count(PoseLayout::positions);
+  for (int f = 0; f < frames; ++f) take.pose_features[(f + 1) * numbers - 1] = mark;
   return take;
 }
 

@@ -12,9 +12,9 @@
 
 #include "base/file.h"
 #include "clip/bvh.h"
+#include "learn/ridge.h"
 #include "make_clip.h"
 #include "train/gait_take.h"
-#include "learn/ridge.h"
 
 namespace panache {
 namespace {

@@ -73,7 +73,7 @@ TEST(Network, going_on_from_a_saved_state_is_as_if_never_stopped) {
   EXPECT_TRUE(torch::equal(whole.save()[0], second.save()[0]));
 }
 
-TEST(Network, a_state_of_another_shape_is_refused) {
+TEST(Network, a_state_of_another_shape_is_rejected) {
   NetworkShape other = kShape;
   other.hidden = 17;
   NetworkTrainer network(kShape, {}, 1, 1), stranger(other, {}, 1, 1);

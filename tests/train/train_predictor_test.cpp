@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "make_model.h"
-#include "style/predictor.h"
 #include "learn/make_takes.h"
+#include "make_model.h"
+#include "style/predictor_network.h"
 
 namespace panache {
 namespace {
@@ -50,7 +50,7 @@ TEST(TrainPredictor, takes_too_short_to_learn_from_add_nothing) {
   std::vector<Take> takes = walks();
   for (Take& take : takes) {
     take.body.resize(12);
-    take.ground.resize(12);
+    take.root.resize(12);
   }
   TensorFile file;
   std::vector<LossPoint> losses;

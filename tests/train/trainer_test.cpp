@@ -88,7 +88,7 @@ TEST_F(TrainerTest, training_does_not_go_on_from_a_checkpoint_of_another) {
   TrainOptions begun = options(test::kPanache, 5);
   begun.checkpoint = folder_ + "model.safetensors";
   ASSERT_TRUE(train(rows_, styles_, begun).ok());
-  const auto refusal = [&](const std::vector<StyleName>& styles, const TrainOptions& options) {
+  const auto rejection = [&](const std::vector<StyleName>& styles, const TrainOptions& options) {
     const auto trained = train(rows_, styles, options);
     return trained.ok() ? "" : trained.error().message;
   };
@@ -96,7 +96,7 @@ TEST_F(TrainerTest, training_does_not_go_on_from_a_checkpoint_of_another) {
     return begun.checkpoint + ".pose.checkpoint: was begun with other " + what +
            "; delete it to train from the start, or train with the " + what + " as before";
   };
-  EXPECT_EQ(refusal(styles_, begun), "");
+  EXPECT_EQ(rejection(styles_, begun), "");
 
   std::vector<TrainOptions> others(6, begun);
   others[0].seed = 9;
@@ -106,20 +106,20 @@ TEST_F(TrainerTest, training_does_not_go_on_from_a_checkpoint_of_another) {
   others[4].settings.optimizer.learning_rate = 0.001f;
   others[5].settings.smoothness = 0;
   for (size_t i = 0; i < others.size(); ++i) {
-    EXPECT_EQ(refusal(styles_, others[i]), expected("settings")) << i;
+    EXPECT_EQ(rejection(styles_, others[i]), expected("settings")) << i;
   }
 
   std::vector<StyleName> renamed = styles_;
   renamed[0].name = "aged";
   rows_[1].style = "aged";
-  EXPECT_EQ(refusal(renamed, begun), expected("styles"));
+  EXPECT_EQ(rejection(renamed, begun), expected("styles"));
   rows_[1].style = "old";
 
   // As many frames and samples as before, and in one of them an arm is somewhere else.
   Clip neutral = test::walking_clip(150);
   neutral.pose(75).rotations[index(HumanJoint::left_upper_arm)] = axis_angle(Vec3{1, 0, 0}, 0.3f);
   ASSERT_TRUE(write_file(folder_ + "neutral.bvh", format_bvh(neutral), true).ok());
-  EXPECT_EQ(refusal(styles_, begun), expected("data"));
+  EXPECT_EQ(rejection(styles_, begun), expected("data"));
 }
 
 TEST_F(TrainerTest, a_checkpoint_that_is_none_is_damaged) {
@@ -180,7 +180,7 @@ TEST_F(TrainerTest, the_timing_network_answers_with_the_mean_of_the_rates) {
   ASSERT_TRUE(model.ok()) << model.error().message;
   StyleNetworks networks(*model);
   networks.set_strengths(std::vector<float>{1});
-  const int numbers = pose_numbers(PoseLayout::positions);
+  const int numbers = pose_feature_count(PoseLayout::positions);
   std::vector<float> window(size_t(kWindowPoses) * numbers);
   double rate = 0;
   for (int i = 10; i < 30; ++i) {
@@ -203,10 +203,10 @@ TEST_F(TrainerTest, the_gate_is_open_on_the_middle_of_what_was_trained_on_and_sh
   networks.set_strengths(std::vector<float>{1});
   const TrainingData data = *prepare_training(rows_, PoseLayout::positions);
   const Take& neutral = data.takes[data.pairings.front().neutral];
-  std::vector<float> window(size_t(kWindowPoses) * pose_numbers(PoseLayout::positions));
+  std::vector<float> window(size_t(kWindowPoses) * pose_feature_count(PoseLayout::positions));
   double gates = 0;
   for (int f = 40; f < 100; ++f) {
-    take_window(neutral, static_cast<float>(f), pose_numbers(PoseLayout::positions), window);
+    take_window(neutral, static_cast<float>(f), pose_feature_count(PoseLayout::positions), window);
     networks.forward(window);
     gates += networks.gate() / 60;
   }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "walker/model.h"
+#include "walker/walker_model.h"
 
 namespace panache::test {
 

@@ -108,16 +108,15 @@ TEST(Walker, turns_as_fast_as_asked) {
     Walker walker(shipped());
     const auto steady = [&, s = speed, t = turn](double) { return std::pair{s, t * kDegree}; };
     watch(walker, 5, 60, steady);
-    const float begin = walker.ground().facing;
+    const float begin = walker.root().facing;
     const Seen seen = watch(walker, 4, 60, steady);
-    EXPECT_NEAR(walker.ground().facing - begin, 4 * turn * kDegree,
+    EXPECT_NEAR(walker.root().facing - begin, 4 * turn * kDegree,
                 0.05f * 4 * std::abs(turn) * kDegree);
     // The body turns with its path.
     const HumanPositions& last = seen.frames.back();
     const Vec3 left =
         last[index(HumanJoint::left_upper_leg)] - last[index(HumanJoint::right_upper_leg)];
-    EXPECT_GT(dot(normalized(left), rotate(rotation_y(walker.ground().facing), Vec3{1, 0, 0})),
-              0.9f);
+    EXPECT_GT(dot(normalized(left), rotate(rotation_y(walker.root().facing), Vec3{1, 0, 0})), 0.9f);
   }
 }
 

@@ -9,7 +9,7 @@
 namespace panache::web {
 namespace {
 
-constexpr double kLongestStep = 0.1;  // Seconds; a page that was hidden does not leap.
+constexpr double kLongestStep = 0.1;  // Seconds; a page that was hidden does not jump.
 constexpr double kRecordedSeconds = 20;
 constexpr double kRecordedFps = 60;
 constexpr size_t kJointNumbers = 7;
@@ -81,10 +81,10 @@ Placement Actor::placement() const {
   return {turn_up(rig.up_axis()).value_or(Quat{}), rig.scale(), rig.floor()};
 }
 
-Result<std::string> Actor::export_as(const std::string& ending,
-                                     const std::string& file_ending) const {
+Result<std::string> Actor::export_as(const std::string& extension,
+                                     const std::string& file_extension) const {
   const auto* from_file = dynamic_cast<const ClipSource*>(source_.get());
-  if (!from_file) return format_clip(recording_.clip(kRecordedFps), source_->rig(), ending);
+  if (!from_file) return format_clip(recording_.clip(kRecordedFps), source_->rig(), extension);
   std::vector<StrengthTrack> tracks;
   for (size_t s = 0; s < strengths_.size(); ++s) {
     if (strengths_[s] != 0) tracks.push_back({static_cast<int>(s), {{0, strengths_[s]}}});
@@ -93,7 +93,7 @@ Result<std::string> Actor::export_as(const std::string& ending,
   options.stylizer.shape = shape_;
   Result<Restyled> restyled = restyle(source_->clip(), source_->rig(), model_, tracks, options);
   if (!restyled) return restyled.error();
-  if (ending != file_ending) return format_clip(restyled->clip, source_->rig(), ending);
+  if (extension != file_extension) return format_clip(restyled->clip, source_->rig(), extension);
   const ClipEdit edit = {from_file->which(), &restyled->clip, restyled->source_frames, "styled"};
   return from_file->file().encode({&edit, 1}, EditMode::replace);
 }

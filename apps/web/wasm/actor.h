@@ -45,9 +45,10 @@ class Actor {
   const HumanPositions& offsets() const { return in_mannequin_.offsets(); }
   Placement placement() const;
 
-  // The bytes of a file of this `ending` (".bvh", ".glb", or that of the file that the clip is
+  // The bytes of a file of this `extension` (".bvh", ".glb", or that of the file that the clip is
   // from), with the whole clip restyled as is asked for now, or the last twenty seconds of a walk.
-  Result<std::string> export_as(const std::string& ending, const std::string& file_ending) const;
+  Result<std::string> export_as(const std::string& extension,
+                                const std::string& file_extension) const;
 
  private:
   Actor(std::shared_ptr<const Model> model, Stylizer stylizer, std::unique_ptr<Source> source);

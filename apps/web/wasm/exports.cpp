@@ -159,7 +159,7 @@ PANACHE_EXPORT void panache_actor_placement(Actor* actor, float* out) {
   std::memcpy(out, &placement, sizeof placement);
 }
 
-PANACHE_EXPORT std::string* panache_actor_export(Actor* actor, const char* ending,
-                                                 const char* file_ending) {
-  return keep(actor->export_as(ending, file_ending));
+PANACHE_EXPORT std::string* panache_actor_export(Actor* actor, const char* extension,
+                                                 const char* file_extension) {
+  return keep(actor->export_as(extension, file_extension));
 }

@@ -18,11 +18,11 @@ class ModelInstants : public InstantAnswers {
       : networks_(std::move(model)),
         strength_(static_cast<float>(strength)),
         strengths_(networks_.model().styles().size()),
-        numbers_(pose_numbers(networks_.model().layout())),
+        numbers_(pose_feature_count(networks_.model().layout())),
         window_(size_t(kWindowPoses) * numbers_) {}
 
   std::optional<StyleDelta> change(const std::string& style, const Take& seen, float seen_at,
-                                      const Take& neutral, float at) override {
+                                   const Take& neutral, float at) override {
     const std::vector<StyleInfo>& styles = networks_.model().styles();
     const auto found = std::find_if(styles.begin(), styles.end(),
                                     [&](const StyleInfo& s) { return s.name == style; });
@@ -32,7 +32,7 @@ class ModelInstants : public InstantAnswers {
     networks_.set_strengths(strengths_);
     take_window(seen, seen_at, numbers_, window_);
     networks_.forward(window_);
-    const auto root = std::span(window_).subspan(numbers_ - kRootNumbers).first<kRootNumbers>();
+    const auto root = std::span(window_).subspan(numbers_ - kRootFeatures).first<kRootFeatures>();
     return networks_.model().recipe().to_change(networks_.pose(), body_at(neutral, at), root);
   }
 
@@ -65,8 +65,7 @@ ModelSystem::ModelSystem(std::string name, std::shared_ptr<const Model> model, s
     : System(std::move(name)), model_(std::move(model)), bytes_(bytes) {}
 
 SystemFacts ModelSystem::facts() const {
-  return {model_->recipe().name, bytes_,
-          model_->parameter_count(), std::nullopt};
+  return {model_->recipe().name, bytes_, model_->parameter_count(), std::nullopt};
 }
 
 std::vector<std::string> ModelSystem::styles() const {
@@ -75,7 +74,7 @@ std::vector<std::string> ModelSystem::styles() const {
   return names;
 }
 
-Result<Played> ModelSystem::run(const TestInput& input, const Request& request) const {
+Result<RunResult> ModelSystem::run(const TestInput& input, const StyleRequest& request) const {
   std::vector<StrengthTrack> tracks;
   for (const auto& [style, strength] : request.strengths) {
     Result<int> found = model_->find_style(style);
@@ -87,19 +86,19 @@ Result<Played> ModelSystem::run(const TestInput& input, const Request& request) 
   Result<Restyled> restyled = restyle(input.clip, input.rig, model_, tracks, options);
   if (!restyled) return Error{input.take.row.path + ": " + restyled.error().message};
 
-  Played played;
-  played.bone_length_error = bone_length_error(restyled->clip, input.clip, restyled->source_frames,
-                                               input.rig.joints()[0]) *
-                             input.rig.scale();
-  played.gate = std::accumulate(restyled->gates.begin(), restyled->gates.end(), 0.0) /
-                static_cast<double>(restyled->gates.size());
-  Output& output = played.output;
+  RunResult run_result;
+  run_result.bone_length_error = bone_length_error(restyled->clip, input.clip,
+                                                   restyled->source_frames, input.rig.joints()[0]) *
+                                 input.rig.scale();
+  run_result.gate = std::accumulate(restyled->gates.begin(), restyled->gates.end(), 0.0) /
+                    static_cast<double>(restyled->gates.size());
+  StyledTake& output = run_result.output;
   output.take = make_take(restyled->clip, input.rig, PoseLayout::positions);
   output.take.row = input.take.row;
   output.take.row.style = request.style;
   output.take.row.neutral = false;
   output.source_frames = take_sources(input, restyled->source_frames, output.take.frames());
-  return played;
+  return run_result;
 }
 
 std::unique_ptr<InstantAnswers> ModelSystem::instants(double strength) const {

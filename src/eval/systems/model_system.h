@@ -12,7 +12,7 @@ class ModelSystem : public System {
 
   SystemFacts facts() const override;
   std::vector<std::string> styles() const override;
-  Result<Played> run(const TestInput& input, const Request& request) const override;
+  Result<RunResult> run(const TestInput& input, const StyleRequest& request) const override;
   // Of the networks alone: no filter, no root, no foot lock.
   std::unique_ptr<InstantAnswers> instants(double strength) const override;
   PoseLayout layout() const override { return model_->layout(); }

@@ -63,8 +63,8 @@ Result<float> read_strength(const std::string& cell) {
 // it: drops that frame, or holds the last one.
 void set_frames(Take& take, int frames) {
   take.body.resize(frames, take.body.back());
-  take.ground.resize(frames, take.ground.back());
-  take.turned.resize(frames, take.turned.back());
+  take.root.resize(frames, take.root.back());
+  take.rotations.resize(frames, take.rotations.back());
   take.contacts.resize(frames, take.contacts.back());
   write_numbers(PoseLayout::positions, take);
 }
@@ -142,24 +142,24 @@ Result<void> Recorded::read_outputs() {
   return {};
 }
 
-const Recorded::Line* Recorded::find(const TestInput& input, const Request& request) const {
+const Recorded::Line* Recorded::find(const TestInput& input, const StyleRequest& request) const {
   if (request.strengths.size() != 1) return nullptr;
   const auto& [style, strength] = request.strengths.front();
   const auto found = lines_.find({normal(input.take.row.path), style, strength});
   return found == lines_.end() ? nullptr : &found->second;
 }
 
-bool Recorded::can_run(const TestInput& input, const Request& request) const {
+bool Recorded::can_run(const TestInput& input, const StyleRequest& request) const {
   return find(input, request) != nullptr;
 }
 
-Result<Played> Recorded::run(const TestInput& input, const Request& request) const {
+Result<RunResult> Recorded::run(const TestInput& input, const StyleRequest& request) const {
   const Line* line = find(input, request);
   if (!line) return Error{name() + ": has no output of " + input.take.row.path};
-  line->judged = true;
-  Played played;
-  played.bone_length_error = line->bone_length_error;
-  Output& output = played.output;
+  line->evaluated = true;
+  RunResult run_result;
+  run_result.bone_length_error = line->bone_length_error;
+  StyledTake& output = run_result.output;
   output.take = line->take;
   const int frames = input.take.frames();
   const bool in_step = std::abs(output.take.frames() - frames) <= 1;
@@ -175,13 +175,13 @@ Result<Played> Recorded::run(const TestInput& input, const Request& request) con
   output.take.row = input.take.row;
   output.take.row.style = request.style;
   output.take.row.neutral = false;
-  return played;
+  return run_result;
 }
 
 SystemFacts Recorded::facts() const {
   SystemFacts facts;
   facts.recorded = {lines_.size(), 0};
-  for (const auto& [key, line] : lines_) facts.recorded->judged += line.judged;
+  for (const auto& [key, line] : lines_) facts.recorded->evaluated += line.evaluated;
   return facts;
 }
 

@@ -30,11 +30,11 @@ class Recorded : public System {
 
   SystemFacts facts() const override;
   std::vector<std::string> styles() const override { return styles_; }
-  bool can_run(const TestInput& input, const Request& request) const override;
+  bool can_run(const TestInput& input, const StyleRequest& request) const override;
   // An output as long as its input is taken to be in step with it. Of others nobody knows which
   // instant of the input a frame shows: they fail where the request is without timing, and have no
   // source frames otherwise. Bone lengths are compared with the output's own first frame.
-  Result<Played> run(const TestInput& input, const Request& request) const override;
+  Result<RunResult> run(const TestInput& input, const StyleRequest& request) const override;
 
  private:
   struct Line {
@@ -42,14 +42,14 @@ class Recorded : public System {
     std::string output;  // Path of the file.
     Take take;
     double bone_length_error = 0;  // Metres.
-    mutable std::atomic<bool> judged = false;
+    mutable std::atomic<bool> evaluated = false;
   };
   using Key = std::tuple<std::string, std::string, float>;  // Input, style, strength.
 
   using System::System;
   Result<void> read_manifest(const std::string& folder, const RecordedScope& scope);
   Result<void> read_outputs();
-  const Line* find(const TestInput& input, const Request& request) const;
+  const Line* find(const TestInput& input, const StyleRequest& request) const;
 
   std::map<Key, Line> lines_;
   std::vector<std::string> styles_;

@@ -15,7 +15,7 @@ std::span<float, StyleDelta::kSize> numbers_of(std::span<float> answer) {
 }
 
 void write_target(const StyleDelta& change, const HumanPositions&,
-                  std::span<const float, kRootNumbers>, std::span<float> out) {
+                  std::span<const float, kRootFeatures>, std::span<float> out) {
   pack(change, numbers_of(out));
 }
 
@@ -24,7 +24,7 @@ void mirror_target(std::span<float> target) {
 }
 
 StyleDelta to_change(std::span<const float> answer, const HumanPositions&,
-                     std::span<const float, kRootNumbers>) noexcept {
+                     std::span<const float, kRootFeatures>) noexcept {
   assert(answer.size() == StyleDelta::kSize);
   return unpack(answer.first<StyleDelta::kSize>());
 }

@@ -25,7 +25,7 @@ void write_style_inputs(std::span<const float> strengths, std::span<float> out) 
 
 // The absolute pose: the input's, changed.
 void write_target(const StyleDelta& change, const HumanPositions& body,
-                  std::span<const float, kRootNumbers> root, std::span<float> out) {
+                  std::span<const float, kRootFeatures> root, std::span<float> out) {
   assert(out.size() == AbsolutePose::kSize);
   std::array<Quat, kHumanJoints> frames;
   canonical_frames(body, 0, frames);
@@ -44,7 +44,7 @@ void write_target(const StyleDelta& change, const HumanPositions& body,
 void mirror_target(std::span<float> target) { mirror_pose(PoseLayout::rotations, target); }
 
 StyleDelta to_change(std::span<const float> answer, const HumanPositions& body,
-                     std::span<const float, kRootNumbers> root) noexcept {
+                     std::span<const float, kRootFeatures> root) noexcept {
   assert(answer.size() == AbsolutePose::kSize);
   const AbsolutePose pose = unpack_pose(answer.first<AbsolutePose::kSize>());
   StyleDelta change;

@@ -1,8 +1,8 @@
 #pragma once
 // Fourth stage, after the networks: their outputs without jitter.
 
-#include "style/stages/step_time.h"
 #include "pose/style_delta.h"
+#include "style/stages/step_time.h"
 
 namespace panache {
 

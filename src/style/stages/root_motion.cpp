@@ -34,14 +34,14 @@ void RootMotion::step(const StyleDelta& delta, float gate, const Observer& obser
   const float speed = window.forward_speed();
   const float share =
       gate * delta.velocity_forward * speed / (speed * speed + kSlowSpeed * kSlowSpeed);
-  const Vec3 way = observer.now().ground.position - observer.last_ground().position;
+  const Vec3 way = observer.now().root.position - observer.last_ground().position;
   drift_ += rotate(rotation_y(turn_), way) - way;
   const float most = speed > 0 ? kMaxStretched : 0.0f;  // Backwards, or the way would not close.
   drift_ += rotate(rotation_y(turn_), way) * std::clamp(share, -kMaxShortened, most);
 }
 
-RootOffset RootMotion::offset(const Ground& ground) const noexcept {
-  const Vec3 side = rotate(rotation_y(ground.facing + turn_), Vec3{sway_, 0, 0});
+RootOffset RootMotion::offset(const RootPose& root) const noexcept {
+  const Vec3 side = rotate(rotation_y(root.facing + turn_), Vec3{sway_, 0, 0});
   return {drift_ + side, turn_};
 }
 

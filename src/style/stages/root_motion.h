@@ -2,9 +2,9 @@
 // Fifth stage: where the character goes.
 
 #include "pose/observer.h"
+#include "pose/style_delta.h"
 #include "style/stages/step_time.h"
 #include "style/stages/window.h"
-#include "pose/style_delta.h"
 
 namespace panache {
 
@@ -21,7 +21,7 @@ class RootMotion {
   // `gate`: how well the motion is known, 0 to 1.
   void step(const StyleDelta& delta, float gate, const Observer& observer,
             const InputWindow& window, const StepTime& time) noexcept;
-  RootOffset offset(const Ground& ground) const noexcept;
+  RootOffset offset(const RootPose& root) const noexcept;
 
   // Calls visit(member) for everything that tells one character from another.
   template <class Self, class Visit>

@@ -3,11 +3,11 @@
 
 #include <array>
 
+#include "pose/style_delta.h"
 #include "rig/body_pose.h"
 #include "style/shape.h"
 #include "style/stages/root_motion.h"
 #include "style/stages/step_time.h"
-#include "pose/style_delta.h"
 
 namespace panache {
 

@@ -9,16 +9,16 @@ void InputWindow::reset() noexcept {
 
 void InputWindow::step(const Observation& now, const StepTime& time) noexcept {
   time_ += time.input;
-  history_.push(time_, now.body_frame, now.ground);
+  history_.push(time_, now.body_frame, now.root);
   history_.window(window_);
 }
 
-std::span<const float, kRootNumbers> InputWindow::root(int pose) const noexcept {
+std::span<const float, kRootFeatures> InputWindow::root(int pose) const noexcept {
   const size_t numbers = window_.size() / kWindowPoses;
-  return window().subspan(static_cast<size_t>(pose) * numbers, numbers).last<kRootNumbers>();
+  return window().subspan(static_cast<size_t>(pose) * numbers, numbers).last<kRootFeatures>();
 }
 
-std::span<const float, kRootNumbers> InputWindow::root() const noexcept { return root(0); }
+std::span<const float, kRootFeatures> InputWindow::root() const noexcept { return root(0); }
 
 float InputWindow::forward_speed() const noexcept {
   float sum = 0;

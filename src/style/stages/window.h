@@ -13,15 +13,15 @@ namespace panache {
 class InputWindow {
  public:
   explicit InputWindow(PoseLayout layout)
-      : history_(layout), window_(size_t{kWindowPoses} * pose_numbers(layout)) {}
+      : history_(layout), window_(size_t{kWindowPoses} * pose_feature_count(layout)) {}
 
   void reset() noexcept;
   void step(const Observation& now, const StepTime& time) noexcept;
 
   // As PoseHistory::window() gives it.
   std::span<const float> window() const noexcept { return window_; }
-  // The newest pose's root numbers.
-  std::span<const float, kRootNumbers> root() const noexcept;
+  // The newest pose's root activations.
+  std::span<const float, kRootFeatures> root() const noexcept;
   float ground_speed() const noexcept { return history_.ground_speed(); }
   // Mean over the window, m/s; below zero backwards.
   float forward_speed() const noexcept;
@@ -35,7 +35,7 @@ class InputWindow {
   }
 
  private:
-  std::span<const float, kRootNumbers> root(int pose) const noexcept;
+  std::span<const float, kRootFeatures> root(int pose) const noexcept;
 
   double time_ = 0;  // Input seconds since the start.
   PoseHistory history_;

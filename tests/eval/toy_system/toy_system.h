@@ -12,7 +12,7 @@ class ToySystem : public System {
 
   std::vector<std::string> styles() const override { return styles_; }
 
-  Result<Played> run(const TestInput& input, const Request& request) const override {
+  Result<RunResult> run(const TestInput& input, const StyleRequest& request) const override {
     float strength = 0;
     for (const auto& [style, share] : request.strengths) strength += share;
     Clip clip = input.clip;
@@ -21,15 +21,15 @@ class ToySystem : public System {
       Quat& rotation = clip.pose(f).rotations[spine];
       rotation = axis_angle(Vec3{1, 0, 0}, 0.5f * strength) * rotation;
     }
-    Played played;
-    played.output.take = make_take(clip, input.rig, PoseLayout::positions);
-    played.output.take.row = input.take.row;
-    played.output.take.row.style = request.style;
-    played.output.take.row.neutral = false;
+    RunResult run_result;
+    run_result.output.take = make_take(clip, input.rig, PoseLayout::positions);
+    run_result.output.take.row = input.take.row;
+    run_result.output.take.row.style = request.style;
+    run_result.output.take.row.neutral = false;
     for (int f = 0; f < input.take.frames(); ++f) {
-      played.output.source_frames.push_back(static_cast<float>(f));
+      run_result.output.source_frames.push_back(static_cast<float>(f));
     }
-    return played;
+    return run_result;
   }
 
  private:

@@ -22,7 +22,7 @@ void write_style_inputs(std::span<const float> strengths, std::span<float> out) 
 }
 
 void write_target(const StyleDelta& change, const HumanPositions&,
-                  std::span<const float, kRootNumbers>, std::span<float> out) {
+                  std::span<const float, kRootFeatures>, std::span<float> out) {
   const Vec3 bend = change.rotations[index(HumanJoint::chest)];
   const std::array<float, kOutputs> numbers = {bend.x, bend.y, bend.z, change.hips_height};
   std::copy(numbers.begin(), numbers.end(), out.begin());
@@ -34,7 +34,7 @@ void mirror_target(std::span<float> target) {
 }
 
 StyleDelta to_change(std::span<const float> answer, const HumanPositions&,
-                     std::span<const float, kRootNumbers>) noexcept {
+                     std::span<const float, kRootFeatures>) noexcept {
   StyleDelta change;
   for (int j = 0; j < kHumanJoints; ++j) {
     if (is_above_hips(j)) change.rotations[j] = {answer[0], answer[1], answer[2]};

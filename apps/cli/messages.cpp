@@ -1,0 +1,53 @@
+#include "messages.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace panache::cli {
+
+void print_message(const std::string& message) {
+  std::fprintf(stderr, "panache: %s\n", message.c_str());
+}
+
+int fail(const Error& error, int exit_code) {
+  print_message(error.message);
+  return exit_code;
+}
+
+void print(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+
+void print(const Json& json) { print(dump(json)); }
+
+std::string dump(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string fixed(double value, int decimals) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  return text;
+}
+
+std::string brief(double value, int digits) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
+}
+
+std::string plural(size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::string padded(const std::string& text, size_t width) {
+  const auto letters = static_cast<size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+  return text + std::string(letters < width ? width - letters : 1, ' ');
+}
+
+Result<void> check_range(const std::string& option, double value, double low, double high) {
+  if (value >= low && value <= high) return {};
+  return Error{option + ": expected a number from " + brief(low) + " to " + brief(high) +
+               ", found " + brief(value)};
+}
+
+}  // namespace panache::cli

@@ -1,0 +1,41 @@
+#pragma once
+// What the program says, where, and with which exit code.
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "base/result.h"
+
+namespace panache::cli {
+
+inline constexpr int kDone = 0;
+inline constexpr int kBadInput = 1;  // A file is not what it should be, or cannot be written.
+inline constexpr int kBadUsage = 2;  // The command line asks for something that there is not.
+
+// "panache: SENTENCE" on stderr.
+void print_message(const std::string& message);
+// The same, handing `exit_code` back.
+int fail(const Error& error, int exit_code);
+
+// Results for people and for machines, on stdout.
+void print(const std::string& text);
+using Json = nlohmann::ordered_json;
+void print(const Json& json);
+// JSON as it is printed: indented, with a line end. Bytes that are no UTF-8, as file names may
+// hold, are replaced.
+std::string dump(const Json& json);
+
+// `value` with `decimals` digits after the point.
+std::string fixed(double value, int decimals);
+// `value` with no more digits than it needs, and at most `digits` that count: "120", "0.0564".
+std::string brief(double value, int digits = 6);
+// "1 file", "2 files".
+std::string plural(size_t count, const std::string& noun);
+// `text` followed by spaces up to `width` letters (UTF-8), and one blank at least.
+std::string padded(const std::string& text, size_t width);
+
+// "--every: expected a number from 0.01 to 60, found nan" unless low <= value <= high.
+Result<void> check_range(const std::string& option, double value, double low, double high);
+
+}  // namespace panache::cli

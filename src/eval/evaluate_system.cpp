@@ -1,0 +1,236 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "eval/evaluate.h"
+#include "eval/motion_metrics.h"
+
+namespace panache {
+namespace {
+
+constexpr double kHalf = 0.5, kMixShares[] = {0, 0.25, kHalf, 0.75, 1};
+
+std::string number(double value) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+// One request for one input.
+struct Job {
+  int input;
+  StyleRequest request;
+};
+
+struct Run {
+  std::vector<StyledTake> outputs;
+  double bone_length_error = 0;  // Metres.
+};
+Result<Run> run_jobs(const System& system, const std::vector<TestInput>& inputs,
+                     const std::vector<Job>& jobs) {
+  std::vector<std::optional<Result<RunResult>>> run_result(jobs.size());
+  parallel_for(static_cast<int>(jobs.size()),
+               [&](int i) { run_result[i] = system.run(inputs[jobs[i].input], jobs[i].request); });
+  Run run;
+  for (size_t i = 0; i < jobs.size(); ++i) {
+    Result<RunResult>& one = *run_result[i];
+    if (!one) return one.error();
+    run.bone_length_error = std::max(run.bone_length_error, one->bone_length_error);
+    run.outputs.push_back(std::move((*one).output));
+    run.outputs.back().input = jobs[i].input;
+  }
+  return run;
+}
+
+// Styles that are judged and that the system has.
+std::vector<std::string> common_styles(const System& system, const TestSet& test_set) {
+  const std::vector<std::string> known = system.styles();
+  std::vector<std::string> common;
+  for (const std::string& style : test_set.styles) {
+    if (std::find(known.begin(), known.end(), style) != known.end()) common.push_back(style);
+  }
+  return common;
+}
+
+// Whether a real test take of the input's own set shows the style: every set has its own neutral.
+bool is_shown(const std::string& style, const TestInput& input, const TestSet& test_set) {
+  return std::any_of(test_set.evaluator.test().begin(), test_set.evaluator.test().end(),
+                     [&](const Take& take) {
+                       return take.row.style == style && take.row.set == input.take.row.set;
+                     });
+}
+
+std::vector<Job> jobs_at(const System& system, const std::vector<std::string>& styles,
+                         double strength, const TestSet& test_set,
+                         const std::vector<std::string>& contents) {
+  std::vector<Job> jobs;
+  for (size_t i = 0; i < test_set.inputs.size(); ++i) {
+    const std::string& content = test_set.inputs[i].take.row.content;
+    if (!contents.empty() &&
+        std::find(contents.begin(), contents.end(), content) == contents.end()) {
+      continue;
+    }
+    for (const std::string& style : styles) {
+      if (!is_shown(style, test_set.inputs[i], test_set)) continue;
+      const StyleRequest request{style, {{style, static_cast<float>(strength)}}};
+      if (system.can_run(test_set.inputs[i], request))
+        jobs.push_back({static_cast<int>(i), request});
+    }
+  }
+  return jobs;
+}
+
+// Nothing where the system can make no mix of the two.
+Result<std::optional<MixReport>> evaluate_mix(const System& system, const TestSet& test_set,
+                                              const std::string& first, const std::string& second) {
+  MixReport mix{first, second, 0, 0, 0};
+  const Classifier& styles = test_set.evaluator.styles();
+  const Classifier& contents = test_set.evaluator.contents();
+  const int from = styles.find(first), to = styles.find(second);
+  std::vector<double> shares, leans;
+  for (const double share : kMixShares) {
+    std::vector<Job> jobs;
+    for (size_t i = 0; i < test_set.inputs.size(); ++i) {
+      const StyleRequest request{
+          first, {{first, static_cast<float>(1 - share)}, {second, static_cast<float>(share)}}};
+      if (system.can_run(test_set.inputs[i], request))
+        jobs.push_back({static_cast<int>(i), request});
+    }
+    if (jobs.empty()) return std::optional<MixReport>();
+    Result<Run> run = run_jobs(system, test_set.inputs, jobs);
+    if (!run) return run.error();
+    double windows = 0, lean = 0, either = 0, kept = 0;
+    for (const StyledTake& output : run->outputs) {
+      const torch::Tensor p = styles.classify(output.take).probabilities;
+      const torch::Tensor best = p.argmax(1);
+      windows += static_cast<double>(p.size(0));
+      lean += (p.select(1, to) - p.select(1, from)).sum().item<double>();
+      either += (best.eq(from) | best.eq(to)).sum().item<double>();
+      if (share != kHalf) continue;
+      const torch::Tensor content = contents.classify(output.take).probabilities.argmax(1);
+      kept += content.eq(contents.find(output.take.row.content)).sum().item<double>();
+    }
+    shares.push_back(share);
+    leans.push_back(lean / windows);
+    if (share != kHalf) continue;
+    mix.either = either / windows;
+    mix.content = kept / windows;
+  }
+  mix.correlation = rank_correlation(shares, leans);
+  return std::optional(mix);
+}
+
+// CC: each styled test take asked for its own style again, frame by frame; how far it moves.
+Result<double> own_style_distance(const System& system, const TestSet& test_set) {
+  std::vector<Job> jobs;
+  for (size_t i = 0; i < test_set.styled.size(); ++i) {
+    const std::string& style = test_set.styled[i].take.row.style;
+    const StyleRequest request{style, {{style, 1.0f}}, false};
+    if (system.can_run(test_set.styled[i], request)) jobs.push_back({static_cast<int>(i), request});
+  }
+  if (jobs.empty()) return kNotMeasured;
+  Result<Run> run = run_jobs(system, test_set.styled, jobs);
+  if (!run) return run.error();
+  double sum = 0;
+  for (const StyledTake& output : run->outputs) {
+    sum += summed_distance(output.take, test_set.styled[output.input].take);
+  }
+  return sum / static_cast<double>(jobs.size()) * test_set.units_per_metre;
+}
+
+// What the strength does, over all styles; each has values at all strengths, or nothing is said.
+double mean_correlation(const std::map<std::string, std::vector<double>>& by_style,
+                        const std::vector<std::string>& styles, double until) {
+  double sum = 0;
+  for (const std::string& style : styles) {
+    const auto found = by_style.find(style);
+    if (found == by_style.end() || found->second.size() != kStrengths.size()) return kNotMeasured;
+    std::vector<double> strengths, values;
+    for (size_t i = 0; i < kStrengths.size() && kStrengths[i] <= until; ++i) {
+      strengths.push_back(kStrengths[i]);
+      values.push_back(found->second[i]);
+    }
+    sum += rank_correlation(strengths, values) / static_cast<double>(styles.size());
+  }
+  return sum;
+}
+
+// At every strength that the system can be asked for.
+Result<void> judge_strengths(const System& system, const TestSet& test_set,
+                             const std::vector<std::string>& styles, Progress& progress,
+                             SystemReport& report) {
+  const std::vector<Take> takes = takes_of(test_set.inputs);
+  std::map<std::string, std::vector<double>> probability, distance;  // Per style, over strengths.
+  for (const double strength : kStrengths) {
+    progress.update(strength / 3);
+    const std::vector<Job> jobs = jobs_at(system, styles, strength, test_set, {});
+    if (jobs.empty()) continue;
+    Result<Run> run = run_jobs(system, test_set.inputs, jobs);
+    if (!run) return run.error();
+    report.bone_length_error_cm =
+        std::max(std::isnan(report.bone_length_error_cm) ? 0.0 : report.bone_length_error_cm,
+                 100 * run->bone_length_error);
+    const StyleContentTable cells =
+        test_set.evaluator.evaluate(run->outputs, takes, test_set.aligned.errors(system, strength));
+    report.strength.push_back({number(strength), mean_metrics(cells)});
+    for (const auto& [style, metrics] : by_style(cells)) {
+      probability[style].push_back(metrics["style_probability"]);
+      distance[style].push_back(metrics["distance_cm"]);
+    }
+    if (strength != 1) continue;
+    report.seen = mean_metrics(cells);
+    report.by_content = by_content(cells);
+    report.by_style = by_style(cells);
+    std::vector<Take> outputs;
+    for (const StyledTake& output : run->outputs) outputs.push_back(output.take);
+    report.sc = distance_to_real(outputs, test_set.training.takes, test_set.evaluator.test()) *
+                test_set.units_per_metre;
+  }
+  report.slider_style = mean_correlation(probability, styles, 1);
+  report.slider_distance = mean_correlation(distance, styles, 2);
+  return {};
+}
+
+}  // namespace
+
+Result<StyleContentTable> evaluate_contents(const System& system, const TestSet& test_set,
+                                            const std::vector<std::string>& contents) {
+  const std::vector<std::string> styles = common_styles(system, test_set);
+  Result<Run> run =
+      run_jobs(system, test_set.inputs, jobs_at(system, styles, 1, test_set, contents));
+  if (!run) return run.error();
+  return test_set.evaluator.evaluate(run->outputs, takes_of(test_set.inputs),
+                                     test_set.aligned.errors(system));
+}
+
+Result<SystemReport> evaluate_system(const System& system, const TestSet& test_set) {
+  SystemReport report;
+  report.name = system.name();
+  const std::vector<std::string> styles = common_styles(system, test_set);
+  if (styles.empty()) {
+    return Error{system.name() + ": knows none of the styles that the test takes show; it has '" +
+                 system.styles().front() + "', they show '" + test_set.styles.front() +
+                 "'; rename them with --styles"};
+  }
+  Progress progress("judging " + system.name());
+  if (Result<void> done = judge_strengths(system, test_set, styles, progress, report); !done) {
+    return done.error();
+  }
+  for (size_t a = 0; a < styles.size(); ++a) {
+    for (size_t b = a + 1; b < styles.size(); ++b) {
+      progress.update(0.67 + 0.33 * static_cast<double>(a) / static_cast<double>(styles.size()));
+      Result<std::optional<MixReport>> mix = evaluate_mix(system, test_set, styles[a], styles[b]);
+      if (!mix) return mix.error();
+      if (*mix) report.mixes.push_back(**mix);
+    }
+  }
+  Result<double> cc = own_style_distance(system, test_set);
+  if (!cc) return cc.error();
+  report.cc = *cc;
+  report.step_us = system.step_us(test_set.inputs.front());
+  return report;
+}
+
+}  // namespace panache

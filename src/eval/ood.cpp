@@ -1,0 +1,193 @@
+#include "eval/ood.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <set>
+
+#include "base/parallel.h"
+#include "eval/joint_limits.h"
+#include "eval/metrics.h"
+#include "eval/motion_metrics.h"
+#include "learn/manifest.h"
+#include "learn/take.h"
+
+namespace panache {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kExtension = ".bvh";  // Of motion files in a folder.
+constexpr float kLimitTolerance_deg = 5;    // A joint this little beyond its limit is not counted.
+constexpr float kFloorTolerance = 0.03f;    // Metres.
+constexpr double kStill = 0.01;             // m/s: a coordinate that deviates less does not move.
+
+Result<OodRow> style_input(const System& system, const TestInput& input,
+                           const StyleRequest& request) {
+  Result<RunResult> run_result = system.run(input, request);
+  if (!run_result) return run_result.error();
+  OodRow row = compare_ood(input.take, run_result->output.take);
+  row.clip = fs::path(input.take.row.path).stem().string();
+  row.style = request.style;
+  row.gate = run_result->gate;
+  return row;
+}
+
+std::string lower_case_extension(const fs::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return extension;
+}
+
+// Paths of the contents that no styled row has.
+std::vector<std::string> unstyled_files(const std::vector<ManifestRow>& rows) {
+  std::set<std::string> styled;
+  for (const ManifestRow& row : rows) {
+    if (!row.neutral) styled.insert(row.content);
+  }
+  std::vector<std::string> files;
+  for (const ManifestRow& row : rows) {
+    if (!styled.contains(row.content)) files.push_back(row.path);
+  }
+  return files;
+}
+
+double mean_of(const std::vector<float>& values) {
+  double sum = 0;
+  for (const float v : values) sum += v;
+  return values.empty() ? 0 : sum / static_cast<double>(values.size());
+}
+
+// Velocity of one coordinate of a joint in the body frame, m/s. [frames - 1]
+std::vector<float> velocities(const Take& take, HumanJoint joint, float Vec3::*axis) {
+  std::vector<float> out;
+  for (int f = 1; f < take.frames(); ++f) {
+    const Vec3 step = take.body[f][index(joint)] - take.body[f - 1][index(joint)];
+    out.push_back(step.*axis * static_cast<float>(kTakeRate));
+  }
+  return out;
+}
+
+// Pearson's correlation of what becomes of `from`; nothing where `from` does not move.
+std::optional<double> correlation(const std::vector<float>& from, const std::vector<float>& to) {
+  const double from_mean = mean_of(from), to_mean = mean_of(to);
+  double both = 0, from_squares = 0, to_squares = 0;
+  for (size_t i = 0; i < from.size(); ++i) {
+    const double a = from[i] - from_mean, b = to[i] - to_mean;
+    both += a * b;
+    from_squares += a * a;
+    to_squares += b * b;
+  }
+  const double count = static_cast<double>(from.size());
+  if (!(from_squares > count * kStill * kStill)) return std::nullopt;
+  return to_squares > 0 ? both / std::sqrt(from_squares * to_squares) : 0;
+}
+
+double velocity_correlation(const Take& from, const Take& to) {
+  using enum HumanJoint;
+  double sum = 0, count = 0;
+  for (const HumanJoint joint : {left_hand, right_hand, left_foot, right_foot}) {
+    for (float Vec3::*axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+      const auto one = correlation(velocities(from, joint, axis), velocities(to, joint, axis));
+      if (!one) continue;
+      sum += *one;
+      ++count;
+    }
+  }
+  return count > 0 ? sum / count : kNotMeasured;
+}
+
+float lowest_toe(const HumanPositions& body) {
+  return std::min(body[index(kToes[0])].y, body[index(kToes[1])].y);
+}
+
+// Share of the frames of `to` that `fails` and those of `from` do not.
+template <typename Fails>
+double share_of_frames(const Take& from, const Take& to, const Fails& fails) {
+  int count = 0;
+  for (int f = 0; f < to.frames(); ++f) count += fails(from.body[f], to.body[f]);
+  return static_cast<double>(count) / to.frames();
+}
+
+}  // namespace
+
+OodRow compare_ood(const Take& input, const Take& output) {
+  OodRow row;
+  const double jerk = mean_jerk(input);
+  row.jerk_ratio = jerk > 0 ? mean_jerk(output) / jerk : kNotMeasured;
+  row.velocity_correlation = velocity_correlation(input, output);
+  row.distance_cm = 100 * summed_distance(output, input) / kHumanJoints;
+  row.beyond_limits =
+      share_of_frames(input, output, [](const HumanPositions& from, const HumanPositions& to) {
+        return beyond_limits(to).degrees > kLimitTolerance_deg &&
+               beyond_limits(from).degrees <= kLimitTolerance_deg;
+      });
+  row.under_floor =
+      share_of_frames(input, output, [](const HumanPositions& from, const HumanPositions& to) {
+        return lowest_toe(to) < std::min(0.0f, lowest_toe(from)) - kFloorTolerance;
+      });
+  row.skating_ratio = skating_ratio(output);
+  row.input_skating_ratio = skating_ratio(input);
+  row.drift_m = length(output.root.back().position - input.root.back().position);
+  return row;
+}
+
+Result<std::vector<OodRow>> measure_ood(const std::vector<std::string>& files, const System& system,
+                                        const std::function<void(double)>& progress) {
+  std::vector<ManifestRow> named;
+  for (const std::string& file : files) named.emplace_back().path = file;
+  Result<std::vector<TestInput>> inputs = load_inputs(named);
+  if (!inputs) return inputs.error();
+  std::vector<std::pair<const TestInput*, StyleRequest>> jobs;
+  for (const TestInput& input : *inputs) {
+    for (const std::string& style : system.styles()) {
+      const StyleRequest request{style, {{style, 1.0f}}, false};
+      if (system.can_run(input, request)) jobs.emplace_back(&input, request);
+    }
+  }
+  const int count = static_cast<int>(jobs.size());
+  std::vector<std::optional<Result<OodRow>>> rows(jobs.size());
+  std::atomic<int> done = 0;
+  parallel_for(count, [&](int job) {
+    rows[job] = style_input(system, *jobs[job].first, jobs[job].second);
+    const int finished = ++done;
+    if (progress) progress(static_cast<double>(finished) / count);
+  });
+  std::vector<OodRow> out;
+  for (std::optional<Result<OodRow>>& row : rows) {
+    if (!*row) return row->error();
+    out.push_back(std::move(*row).value());
+  }
+  return out;
+}
+
+Result<std::vector<std::string>> list_ood(const std::string& path) {
+  std::error_code status;
+  std::vector<std::string> files;
+  if (fs::is_directory(path, status)) {
+    for (fs::recursive_directory_iterator at(path, status), end; !status && at != end;
+         at.increment(status)) {
+      if (at->is_regular_file(status) && lower_case_extension(at->path()) == kExtension)
+        files.push_back(at->path().string());
+    }
+    if (status) return Error{path + ": cannot be listed: " + status.message()};
+    if (files.empty()) return Error{path + ": holds no motion file (" + kExtension + ")"};
+  } else if (lower_case_extension(path) == ".csv") {
+    Result<std::vector<ManifestRow>> rows = read_manifest(path, 0);
+    if (!rows) return rows.error();
+    files = unstyled_files(*rows);
+    if (files.empty()) return Error{path + ": every content is there in a style: none is foreign"};
+  } else if (fs::exists(path, status)) {
+    files = {path};
+  } else {
+    return Error{path + ": not found; expected a motion file, a folder or a manifest (.csv)"};
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace panache

@@ -1,0 +1,35 @@
+#pragma once
+// Many clips in many styles in a few numbers.
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "eval/metrics.h"
+#include "eval/ood.h"
+
+namespace panache {
+
+// Over the rows of one system; NaN where there are none. See OodRow for units.
+struct OodSummary {
+  size_t rows = 0, clips = 0;
+  double jerk_ratio_median = kNotMeasured, jerk_ratio_p90 = kNotMeasured;
+  double jerk_ratio_max = kNotMeasured;
+  double velocity_correlation_median = kNotMeasured, velocity_correlation_p10 = kNotMeasured;
+  double distance_cm_mean = kNotMeasured;
+  double beyond_limits_mean = kNotMeasured, beyond_limits_max = kNotMeasured;  // Shares of frames.
+  double under_floor_mean = kNotMeasured, under_floor_max = kNotMeasured;
+  size_t beyond_limits_rows = 0, under_floor_rows = 0;  // How many rows have any such frame.
+  double skating_ratio_mean = kNotMeasured, input_skating_ratio_mean = kNotMeasured;
+  double drift_m_max = kNotMeasured;
+  double gate_mean = kNotMeasured;
+};
+
+OodSummary summarize_ood(const std::vector<OodRow>& rows);
+
+// The rows of each clip, in order of their first one.
+std::vector<std::pair<std::string, std::vector<OodRow>>> ood_by_clip(
+    const std::vector<OodRow>& rows);
+
+}  // namespace panache

@@ -1,0 +1,249 @@
+// What the program says to a wrong file or a wrong command, word for word, and its exit code: 1
+// where a file is at fault, 2 where the command is.
+
+#include <unistd.h>
+
+#include "cli/program.h"
+
+namespace panache::test {
+namespace {
+
+class Rejection : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write_walk("walk.bvh");
+  }
+  void expect_rejected(const std::vector<std::string>& arguments, int exit,
+                       const std::string& message, const std::string& model = "model.safetensors") {
+    const Ran ran = run(arguments, model);
+    EXPECT_EQ(ran.err, "panache: " + message + "\n");
+    EXPECT_EQ(ran.exit, exit);
+    EXPECT_EQ(ran.out, "");
+  }
+  // stylize walk.bvh with `style`, which is rejected before anything is written.
+  void expect_style_rejected(const std::string& style, const std::string& message) {
+    expect_rejected({"stylize", "walk.bvh", "--style", style, "-o", "out.bvh"}, 2, message);
+    EXPECT_FALSE(exists("out.bvh"));
+  }
+  // stylize FILE, whose contents are `bytes`.
+  void expect_file_rejected(const std::string& bytes, const std::string& message) {
+    write("bad.bvh", bytes);
+    expect_rejected({"stylize", "bad.bvh", "--style", "old=1", "-o", "out.bvh"}, 1, message);
+    EXPECT_FALSE(exists("out.bvh"));
+  }
+  void expect_table_rejected(const std::string& table, const std::string& message) {
+    write("table.csv", table);
+    expect_rejected({"stylize", "walk.bvh", "--strengths", "table.csv", "-o", "out.bvh"}, 1,
+                    message);
+  }
+  void expect_model_rejected(const TensorFile& model, const std::string& message) {
+    write("other.safetensors", format_safetensors(model));
+    for (const std::string from : {"argument", "environment"}) {
+      std::vector<std::string> arguments = {"stylize", "walk.bvh", "--style",
+                                            "old=1",   "-o",       "out.bvh"};
+      if (from == "argument") arguments.insert(arguments.end(), {"--model", "other.safetensors"});
+      expect_rejected(arguments, 1, message,
+                      from == "argument" ? "model.safetensors" : "other.safetensors");
+    }
+  }
+};
+
+TEST_F(Rejection, an_unknown_style_gets_the_nearest_names) {
+  expect_style_rejected("olld=1",
+                        "unknown style 'olld'; the nearest are old, sad and proud (panache styles "
+                        "lists all 4)");
+}
+
+TEST_F(Rejection, a_strength_is_a_finite_number_in_range) {
+  for (const std::string strength : {"nan", "NaN", "inf", "-inf", "much", "", "4.1", "-5", "1e40",
+                                     "0x1", "1 ", "1,5", "..", "0..", "..1", "0..nan", "1..5"}) {
+    expect_style_rejected("old=" + strength, "--style old=" + strength +
+                                                 ": expected a strength from -4 to 4 or a change "
+                                                 "such as '1..0', found '" +
+                                                 strength + "'");
+  }
+}
+
+TEST_F(Rejection, a_style_needs_a_strength) {
+  expect_style_rejected("old", "--style old: expected a name and a strength, as in 'old=1'");
+}
+
+TEST_F(Rejection, a_style_has_one_strength) {
+  expect_rejected({"stylize", "walk.bvh", "--style", "old=1", "--style", "old=2", "-o", "out.bvh"},
+                  2, "--style old=2: this style has a strength already; expected each style once");
+  write("table.csv", "seconds,old\n0,1\n");
+  expect_rejected(
+      {"stylize", "walk.bvh", "--style", "old=1", "--strengths", "table.csv", "-o", "out.bvh"}, 2,
+      "style 'old' has strengths both from --style and from table.csv; expected one of "
+      "them");
+}
+
+TEST_F(Rejection, a_style_is_needed) {
+  expect_rejected({"stylize", "walk.bvh", "-o", "out.bvh"}, 2,
+                  "expected a style, as in --style angry=1, or a table of strengths (--strengths)");
+}
+
+TEST_F(Rejection, a_wrong_table_is_explained_with_its_line) {
+  expect_table_rejected("",
+                        "table.csv:1: expected the columns 'seconds' and one or more styles, "
+                        "found ''");
+  expect_table_rejected("seconds\n1\n",
+                        "table.csv:1: expected the columns 'seconds' and one or more styles, found "
+                        "'seconds'");
+  expect_table_rejected("seconds,olld\n0,1\n",
+                        "table.csv:1: unknown style 'olld'; the nearest are old, sad and proud "
+                        "(panache styles lists all 4)");
+  expect_table_rejected("seconds,old,old\n0,1,1\n", "table.csv:1: column 'old' stands there twice");
+  expect_table_rejected("seconds,old\n", "table.csv: expected a line of strengths, found none");
+  expect_table_rejected("seconds,old\n0,1\n1\n",
+                        "table.csv:3: has 1 cells; expected 2 as in the first line");
+  expect_table_rejected("seconds,old\nnow,1\n",
+                        "table.csv:2: expected a number of seconds, found 'now'");
+  expect_table_rejected(
+      "seconds,old\n0,1\n2,1\n1,1\n",
+      "table.csv:4: expected seconds that rise from line to line, found '1' after "
+      "a later time");
+  expect_table_rejected(
+      "seconds,old\n0,nan\n",
+      "table.csv:2: expected a strength from -4 to 4 in column 'old', found 'nan'");
+}
+
+TEST_F(Rejection, an_empty_file) {
+  expect_file_rejected("", "bad.bvh:1:1: expected 'HIERARCHY', found the end of the file");
+}
+
+TEST_F(Rejection, a_binary_file) {
+  expect_file_rejected(std::string("\x7f"
+                                   "ELF\x02\x01\0\0",
+                                   8),
+                       "bad.bvh:1:1: expected 'HIERARCHY', found '\\x7fELF\\x02\\x01\\x00\\x00'");
+}
+
+TEST_F(Rejection, an_unreadable_path) {
+  expect_rejected({"stylize", "none.bvh", "--style", "old=1", "-o", "out.bvh"}, 1,
+                  "none.bvh: cannot be read: No such file or directory");
+  std::filesystem::create_directory(path("folder.bvh"));
+  expect_rejected(
+      {"stylize", "folder.bvh", "--style", "old=1", "-o", "out.bvh"}, 1,
+      "folder.bvh: holds no motion file, and neither do its folders (.bvh, .glb, .gltf, "
+      ".vrm, .fbx)");
+  expect_rejected({"info", "folder.bvh"}, 1, "folder.bvh: is a folder; expected a file");
+  expect_rejected({"info", "none.bvh"}, 1, "none.bvh: cannot be read: No such file or directory");
+}
+
+TEST_F(Rejection, an_unknown_extension) {
+  write("walk.c3d", "");
+  expect_rejected(
+      {"stylize", "walk.c3d", "--style", "old=1", "-o", "out.bvh"}, 1,
+      "walk.c3d: expected a motion file (.bvh, .glb, .gltf, .vrm, .fbx), found the ending "
+      "'.c3d'");
+  expect_rejected({"stylize", "walk", "--style", "old=1", "-o", "out.bvh"}, 1,
+                  "walk: expected a motion file (.bvh, .glb, .gltf, .vrm, .fbx), found no ending");
+  expect_rejected(
+      {"stylize", "walk.bvh", "--style", "old=1", "-o", "out.fbx"}, 2,
+      "out.fbx: expected a name that ends in .bvh or .glb, or a folder (with a '/' at its "
+      "end)");
+  expect_rejected(
+      {"stylize", "walk.vrm", "--style", "old=1", "-o", "out.gltf"}, 2,
+      "out.gltf: expected a name that ends in .vrm, .bvh or .glb, or a folder (with a '/' "
+      "at its end)");
+}
+
+TEST_F(Rejection, an_unmapped_rig) {
+  Skeleton box;
+  box.joints.push_back({"Box", -1, {}, {}, true, true, {}, ""});
+  box.joints.push_back({"Lid", 0, {0, 1, 0}, {}, true, false, {{0, 1, 0}}, ""});
+  Clip clip{box, 1.0 / 30, 2, std::vector<Quat>(4), std::vector<Vec3>(4)};
+  write("box.bvh", format_bvh(clip));
+  const std::string message =
+      "box.bvh: no humanoid found: leftHand, rightHand, leftFoot, rightFoot, head are missing "
+      "among 'Box', 'Lid' (2 joints); expected names such as LeftHand or hand_L, the shape of a "
+      "person, "
+      "or a map that says which joint is which";
+  expect_rejected({"stylize", "box.bvh", "--style", "old=1", "-o", "out.bvh"}, 1, message);
+}
+
+TEST_F(Rejection, an_existing_output_without_force) {
+  write("out.bvh", "mine");
+  const std::vector<std::string> arguments = {"stylize", "walk.bvh", "--style",
+                                              "old=1",   "-o",       "out.bvh"};
+  expect_rejected(arguments, 1, "out.bvh: exists already; --force overwrites it");
+  EXPECT_EQ(read("out.bvh"), "mine");
+  std::vector<std::string> forced = arguments;
+  forced.push_back("--force");
+  EXPECT_EQ(run(forced).exit, 0);
+  EXPECT_TRUE(read("out.bvh") != "mine");
+}
+
+TEST_F(Rejection, the_input_as_output_without_force) {
+  const std::string before = read("walk.bvh");
+  expect_rejected({"stylize", "walk.bvh", "--style", "old=1", "-o", "./walk.bvh"}, 1,
+                  "./walk.bvh: is the input itself; --force overwrites it");
+  EXPECT_TRUE(read("walk.bvh") == before);
+  EXPECT_EQ(run({"stylize", "walk.bvh", "--style", "old=1", "-o", "walk.bvh", "--force"}).exit, 0);
+  EXPECT_TRUE(read("walk.bvh") != before);
+}
+
+TEST_F(Rejection, one_output_for_several_inputs) {
+  write_walk("more/walk.bvh");
+  expect_rejected({"stylize", "walk.bvh", "more/walk.bvh", "--style", "old=1", "-o", "out"}, 2,
+                  "out/walk.bvh: is where the results of both 'walk.bvh' and 'more/walk.bvh' would "
+                  "go; expected inputs of different names");
+  expect_rejected({"stylize", "walk.bvh", "more/walk.bvh", "--style", "old=1", "-o", "out.bvh"}, 2,
+                  "out.bvh: expected a folder for the results of 2 files; call it 'out.bvh/' if it "
+                  "is to be one");
+  expect_rejected({"stylize", "walk.bvh", "other.bvh", "--style", "old=1", "-o", "walk.bvh"}, 2,
+                  "walk.bvh: is a file; expected a folder for the results of 2 files");
+}
+
+TEST_F(Rejection, an_output_that_cannot_be_written) {
+  write("file", "");
+  expect_rejected({"stylize", "walk.bvh", "--style", "old=1", "-o", "file/out.bvh"}, 1,
+                  "file/out.bvh: cannot be written: Not a directory");
+}
+
+TEST_F(Rejection, a_model_of_another_version) {
+  TensorFile model = make_model({"old"});
+  model.metadata["format_version"] = "2";
+  expect_model_rejected(model,
+                        "other.safetensors: is a model of format version 2; this program reads "
+                        "version 1; train it again or use the program it came with");
+}
+
+TEST_F(Rejection, a_model_with_a_wrong_shape) {
+  TensorFile model = make_model({"old"});
+  model.tensors["pose.head.0.weight"] = constant_tensor(3, 0);
+  expect_model_rejected(model,
+                        "other.safetensors: tensor 'pose.head.0.weight' has shape [3]; expected "
+                        "[16, 67]");
+}
+
+TEST_F(Rejection, a_model_that_is_none) {
+  expect_rejected({"styles", "walk.bvh"}, 1,
+                  "walk.bvh: does not start with the length of a header (at most 4194304 bytes); "
+                  "expected a safetensors file");
+  expect_rejected({"styles", "none.safetensors"}, 1,
+                  "none.safetensors: cannot be read: No such file or directory");
+}
+
+TEST_F(Rejection, a_verb_that_does_not_exist) {
+  expect_rejected(
+      {"stylise", "walk.bvh"}, 2,
+      "there is no verb 'stylise'; expected stylize, convert, learn, styles, info, walker, "
+      "strip, quantize, view, live, send, train, eval or bench");
+}
+
+TEST_F(Rejection, a_command_that_is_incomplete) {
+  expect_rejected({"stylize", "walk.bvh", "--style", "old=1"}, 2,
+                  "--output is required; see panache stylize --help");
+  expect_rejected({"stylize", "--style", "old=1", "-o", "out.bvh"}, 2,
+                  "IN is required; see panache stylize --help");
+  expect_rejected({"info"}, 2, "FILE is required; see panache info --help");
+  expect_rejected({"stylize", "walk.bvh", "-o", "out.bvh", "--style", "old=1", "--jobs", "-1"}, 2,
+                  "--jobs: expected a number from 0 to 1024, found -1");
+  EXPECT_EQ(run({}).exit, 2);
+}
+
+}  // namespace
+}  // namespace panache::test
