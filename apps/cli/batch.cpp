@@ -77,10 +77,10 @@ void add_batch_options(CLI::App& verb, BatchFlags& flags) {
       ->required()
       ->type_name("OUT");
   verb.add_flag("--force", flags.force, "Overwrite files");
-  verb.add_option("--jobs", flags.jobs, "Files at once; default: one per core")->type_name("N");
-  verb.add_flag("--json", flags.json, "Print what was done with each file as JSON");
-  verb.add_option("--report", flags.report, "Write the same JSON into a file too")
-      ->type_name("FILE");
+  verb.add_option("--jobs", flags.jobs, "Files processed in parallel; default: one per core")
+      ->type_name("N");
+  verb.add_flag("--json", flags.json, "Print the result for each file as JSON");
+  verb.add_option("--report", flags.report, "Also write this JSON to a file")->type_name("FILE");
 }
 
 Result<std::vector<FileJob>> plan_batch(const BatchFlags& flags, const std::string& extension,
@@ -101,7 +101,7 @@ Result<std::vector<FileJob>> plan_batch(const BatchFlags& flags, const std::stri
     file.output = pair.output;
     files.push_back(std::move(file));
     if (!flags.report.empty() && pair.output == flags.report) {
-      return Error{"--report: " + flags.report + " is an output too; expected a file of its own"};
+      return Error{"--report: " + flags.report + " is an output too; expected a separate file"};
     }
   }
   exit_code = kBadInput;
@@ -123,9 +123,10 @@ int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::st
       FileJob& file = files[n];
       try {
         const auto share = [&](double part) { progress.update(n, std::min(part, 0.99)); };
-        if (auto worked = work(file, share); !worked) file.error = worked.error().message;
+        if (auto worked = work(file, share); !worked)
+          file.error = with_hint(worked.error().message);
       } catch (const std::bad_alloc&) {
-        file.error = file.input + ": there is not enough memory for it";
+        file.error = file.input + ": out of memory";
       }
       progress.update(n, 1);
     };

@@ -54,13 +54,14 @@ void add_bench(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("bench", "Measure the speed of networks and steps");
   verb->add_option("--model", options->model,
                    "Model whose steps are timed; default: $PANACHE_MODEL, else the one shipped");
-  verb->add_option("--steps", options->steps, "Steps to time; all else is repeated accordingly")
+  verb->add_option("--steps", options->steps, "Steps to time; other measurements scale with it")
       ->capture_default_str();
   verb->add_flag("--quick", options->quick, "A tenth of everything")->excludes("--steps");
   verb->add_flag("--json", options->json, "Print JSON");
   verb->footer(
-      "Everything runs on one core; let nothing else run beside it. Libraries to compare with are\n"
-      "looked for in the folder bench beside the program, where ./run bench puts them.\n\n"
+      "Everything runs on one core; nothing else should run meanwhile. Libraries to compare with "
+      "are\n"
+      "loaded from the folder bench next to the program, where ./run bench puts them.\n\n"
       "Example:\n  panache bench --quick");
   verb->callback([options, &exit_code] { exit_code = run(*options); });
 }

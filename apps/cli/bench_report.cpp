@@ -56,8 +56,7 @@ std::string forward_table(const Measurements& m, double ours) {
   for (const bench::ForwardPass& pass : m.forward_passes) {
     if (!pass.timing) continue;
     std::vector<std::string> row = timing_cells(*pass.timing, ours);
-    row.insert(row.begin(),
-               pass.key == "panache_half" ? "Panache, weights in half size" : pass.name);
+    row.insert(row.begin(), pass.key == "panache_half" ? "Panache, int8 weights" : pass.name);
     rows.push_back(std::move(row));
   }
   return columns(rows);
@@ -95,14 +94,14 @@ std::string steps_table(const Measurements& m) {
     rest -= stage.median;
     add(stage.name, stage.median);
   }
-  add("all else (easing, the way over the ground)", rest);
+  add("everything else (easing, root motion)", rest);
   add("together", steps.whole);
   return text + "\n" + columns(rows);
 }
 
 std::string crowd_table(const Measurements& m) {
   std::vector<std::vector<std::string>> rows = {
-      {"crowd", "a character", "characters at 60 Hz", "in half size", "characters at 60 Hz"}};
+      {"crowd", "a character", "characters at 60 Hz", "int8", "characters at 60 Hz"}};
   for (size_t c = 0; c < m.crowds.size(); ++c) {
     const bench::CrowdTime &crowd = m.crowds[c], &int8 = m.int8_crowds[c];
     rows.push_back({grouped(crowd.characters), us(crowd.us_per_character),
@@ -115,7 +114,7 @@ std::string crowd_table(const Measurements& m) {
 std::string memory_table(const Measurements& m) {
   return columns({{"memory", ""},
                   {"model", bytes_text(static_cast<double>(m.model_bytes))},
-                  {"model in half size", bytes_text(static_cast<double>(m.int8_model_bytes))},
+                  {"int8 model", bytes_text(static_cast<double>(m.int8_model_bytes))},
                   {"a character", bytes_text(m.character_bytes)}});
 }
 

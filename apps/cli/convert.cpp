@@ -42,7 +42,7 @@ Result<std::string> whole_file(const MotionFile& motion, const FileJob& file) {
 Result<std::string> convert_whole(const MotionFile& motion, FileJob& file,
                                   const ConvertVerb& verb) {
   if (!verb.clip.empty()) {
-    return Error{file.input + ": all its motions go into " + file.output +
+    return Error{file.input + ": all its motions are written to " + file.output +
                  "; expected no --clip, which is for formats that hold one motion"};
   }
   const std::vector<std::string> names = motion.clip_names();
@@ -72,8 +72,8 @@ Result<std::string> convert_motion(const MotionFile& motion, FileJob& file, cons
   if (find_format(formats(), extension)->in_metres &&
       !(options.metres_per_unit && options.up_axis)) {
     file.notes.push_back(file.input +
-                         ": is no humanoid that would tell its unit and up axis; taken as metres "
-                         "and +Y where --scale and --up do not say otherwise");
+                         ": is not a humanoid, so unit and up axis cannot be inferred; taken as "
+                         "metres and +Y unless --scale and --up are given");
   }
   return format_clip(clip, title, placement_of(options), extension);
 }
@@ -112,7 +112,8 @@ int convert(const ConvertVerb& verb) {
         kBadUsage);
   }
   if (!extension->empty() && extension_of(files->front().output) != *extension) {
-    return fail({"--to " + verb.to + ": " + files->front().output + " says otherwise"}, kBadUsage);
+    return fail({"--to " + verb.to + ": " + files->front().output + " has another format"},
+                kBadUsage);
   }
   Result<RigOptions> rig = read_rig_options(verb.rig);
   if (!rig) return fail(rig.error(), kBadInput);
@@ -125,17 +126,17 @@ int convert(const ConvertVerb& verb) {
 }  // namespace
 
 void add_convert(CLI::App& app, int& exit_code) {
-  CLI::App* verb = app.add_subcommand("convert", "Bring motion files to another format");
+  CLI::App* verb = app.add_subcommand("convert", "Convert motion files to another format");
   auto options = std::make_shared<ConvertVerb>();
   add_batch_options(*verb, options->batch);
   verb->add_option("--to", options->to,
-                   list_writable_names() + ": what to make where OUT is a folder")
+                   list_writable_names() + ": the format of files if OUT is a folder")
       ->type_name("FORMAT");
-  verb->add_option("--clip", options->clip, "The motion to take, of a file with several")
+  verb->add_option("--clip", options->clip, "Motion to convert, if a file has several")
       ->type_name("NAME");
   add_rig_options(*verb, options->rig);
   verb->footer(
-      "docs/formats.md tells what each way keeps and what it loses.\n\n"
+      "docs/formats.md lists what each conversion keeps and loses.\n\n"
       "Examples:\n"
       "  panache convert walk.fbx -o walk.bvh\n"
       "  panache convert takes/ --to glb -o converted/");

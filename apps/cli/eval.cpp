@@ -93,15 +93,15 @@ Result<EvaluateOptions> read_options(const Options& options) {
     }
     if (evaluation.test.empty()) {
       return Error{options.data.paths.front() +
-                   ": marks no take as test; mark some in its column split, or name a manifest of "
-                   "takes to judge by with --test"};
+                   ": marks no take as test; mark some in its column split, or give a manifest of "
+                   "test takes with --test"};
     }
   } else {
     Result<std::vector<ManifestRow>> rows = read_tests(options.tests, *data);
     if (!rows) return rows.error();
     if (rows->empty()) {
       return Error{options.tests.front() +
-                   ": has no take to judge by: all of them are trained on, or of styles that the "
+                   ": has no usable test take: all of them are trained on, or of styles that the "
                    "training manifests do not have"};
     }
     evaluation.test = *std::move(rows);
@@ -177,26 +177,26 @@ int run(const Options& options) {
 
 void add_eval(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* verb = app.add_subcommand("eval", "Judge models beside real motion");
+  CLI::App* verb = app.add_subcommand("eval", "Evaluate models against real motion");
   add_manifest_options(*verb, options->data);
   verb->add_option("--test", options->tests,
-                   "A manifest of takes to judge by, instead of the test takes of the manifests; "
+                   "A manifest of test takes, instead of the test takes of the manifests; "
                    "may be given several times")
       ->allow_extra_args(false);
   verb->add_option("--model", options->models,
-                   "A model to judge; may be given several times; without any, all recipes are "
+                   "A model to evaluate; may be given several times; without any, all recipes are "
                    "trained first")
       ->allow_extra_args(false);
   verb->add_option("--unseen", options->unseen,
-                   "A content that models are trained without and then judged on; may be given "
+                   "A content to leave out of training and then evaluate on; may be given "
                    "several times")
       ->allow_extra_args(false);
   verb->add_option("--unseen-split", options->splits,
                    "The same for a split of docs/evaluation.md: A, B or C")
       ->allow_extra_args(false);
   verb->add_option("--out-of-distribution", options->ood,
-                   "A motion file, a folder of them or a manifest (of which the contents without "
-                   "a style count): motion to try every style on")
+                   "A motion file, a folder of them or a manifest (of which contents without "
+                   "a style are used): out-of-distribution motion to try every style on")
       ->allow_extra_args(false);
   verb->add_option("--recorded", options->recorded,
                    "A folder of motion that another program made of test takes, with a "
@@ -209,8 +209,8 @@ void add_eval(CLI::App& app, int& exit_code) {
   verb->add_option("--report", options->report, "A folder for report.json and the page index.html");
   verb->add_option("--steps", options->steps, "Train this many steps instead of the recipes' own")
       ->check(CLI::Range(1, 1000000000));
-  verb->add_option("--seed", options->seed, "Of classifiers and trainings");
-  verb->add_flag("--force", options->force, "Overwrite a report that exists");
+  verb->add_option("--seed", options->seed, "Seed of classifiers and training");
+  verb->add_flag("--force", options->force, "Overwrite an existing report");
   verb->add_flag("--json", options->json, "Print the report as JSON");
   verb->footer(
       "Example:\n  panache eval takes.csv --test others.csv --model mine.safetensors --report "

@@ -85,7 +85,7 @@ class Finder {
  private:
   // Adds the files below `folder` that match the pattern from `part` on.
   Result<void> match(const fs::path& folder, size_t part, size_t depth) {
-    if (depth > kDeepest) return Error{folder.string() + ": lies too deep for a batch"};
+    if (depth > kDeepest) return Error{folder.string() + ": is nested too deeply for a batch"};
     // "**" is no folder at all, or any folder and then "**" again.
     if (pattern_[part] == "**") {
       if (auto here = match(folder, part + 1, depth); !here) return here;

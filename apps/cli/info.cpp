@@ -59,7 +59,7 @@ std::string describe(const std::string& path, const MotionFile& file, size_t sho
   std::string text = path + "\n";
   text += "  joints  " + std::to_string(joints.size()) + ", of which " + std::to_string(rotating) +
           " rotate and " + std::to_string(moving) + " move\n";
-  if (names.empty()) text += "  motion  none: what follows is of the rest pose\n";
+  if (names.empty()) text += "  motion  none: the following describes the rest pose\n";
   size_t width = 0;
   for (const std::string& name : names) width = std::max(width, name.size());
   for (size_t i = 0; i < names.size(); ++i) {
@@ -166,10 +166,10 @@ void add_info(CLI::App& app, int& exit_code) {
       ->required()
       ->type_name("");
   verb->add_option("--clip", options->clip,
-                   "The motion to judge the rig by, of a file with\nseveral; default: the first")
+                   "Motion to infer the rig from, if a file has\nseveral; default: the first")
       ->type_name("NAME");
   add_rig_options(*verb, options->rig);
-  verb->add_flag("--tree", options->tree, "Draw the skeleton too");
+  verb->add_flag("--tree", options->tree, "Also draw the skeleton");
   verb->add_flag("--json", options->json, "Print JSON");
   verb->footer(
       "Examples:\n"

@@ -121,8 +121,7 @@ std::string describe(const LearntStyle& learnt, const LearnVerb& verb, size_t by
             fixed(1 / pair.tempo, 2) + " x\n";
   }
   if (!learnt.judged) {
-    return text +
-           "  too short for a quarter of it to be held back, so nothing tells how far off it is\n";
+    return text + "  too short to hold a quarter back, so the error is unknown\n";
   }
   text += "  held-back quarter: joints " + fixed(learnt.held_back_cm, 1) +
           " cm off (mean posture alone " + fixed(learnt.mean_posture_cm, 1) + ", no style " +
@@ -134,8 +133,8 @@ Result<void> check_usage(const LearnVerb& verb) {
   if (verb.action.empty() && verb.clips.size() % 2 != 0) {
     return Error{(verb.clips.size() == 1 ? "there is " : "there are ") +
                  plural(verb.clips.size(), "clip") +
-                 "; expected NEUTRAL STYLED, or several such pairs; for styled clips alone say "
-                 "what they show, as in --action walk"};
+                 "; expected NEUTRAL STYLED, or several such pairs; for styled clips alone name "
+                 "their action, as in --action walk"};
   }
   if (!verb.model.ends_with(".safetensors")) {
     return Error{"--into " + verb.model + ": expected a name that ends in .safetensors"};
@@ -202,30 +201,29 @@ void add_learn(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<LearnVerb>();
   verb->add_option("CLIPS", options->clips,
                    "Motion files (" + motion_extensions() +
-                       "):\nan action done neutrally, then the same in the style, 2 to\n"
-                       "3 s of each; more such pairs may follow")
+                       "):\na neutral clip, then the same action in the style, 2 to\n"
+                       "3 s each; more such pairs may follow")
       ->required()
       ->type_name("");
-  verb->add_option("--name", options->name, "What to call the style, as in stylize --style NAME=1")
+  verb->add_option("--name", options->name, "Name of the style, as in stylize --style NAME=1")
       ->required()
       ->type_name("NAME");
   verb->add_option("--into", options->model,
-                   "Model to put it into (.safetensors); one that is not\n"
-                   "there yet begins as a copy of the one shipped")
+                   "Model to add it to (.safetensors); if it does not\n"
+                   "exist, it starts as a copy of the shipped one")
       ->required()
       ->type_name("MODEL");
-  verb->add_option("--description", options->description,
-                   "What it looks like; panache styles shows it")
+  verb->add_option("--description", options->description, "Description, shown by panache styles")
       ->type_name("TEXT");
   verb->add_option("--action", options->action,
-                   "All CLIPS are styled ones of this action, walk or run; a\n"
-                   "neutral of our own stands beside them")
+                   "All CLIPS are styled clips of this action, walk or run; a\n"
+                   "built-in neutral clip is paired with them")
       ->type_name("ACTION");
   add_rig_options(*verb, options->rig);
   verb->add_flag("--force", options->force, "Replace a style of the same name");
   verb->add_flag("--json", options->json, "Print what was learnt as JSON");
   verb->footer(
-      "A pair is of one skeleton, and begins with the same foot or hand.\n\n"
+      "The clips of a pair need one skeleton and start with the same foot or hand.\n\n"
       "Examples:\n"
       "  panache learn walk.bvh drunk.bvh --name drunk --into mine.safetensors\n"
       "  panache learn drunk.bvh --action walk --name drunk --into mine.safetensors\n"

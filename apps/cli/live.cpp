@@ -77,13 +77,13 @@ void print_summary(const VmcRelay& relay, double seconds) {
   print("relayed " + plural(static_cast<size_t>(all.frames), "frame") + " of " +
         plural(relay.senders(), "sender") + " in " + fixed(seconds, 1) +
         " s: " + std::to_string(all.lost) + " lost, " + std::to_string(all.rejected) +
-        " refused, p50 " + std::to_string(all.latencies.quantile_us(0.5)) + " us, p99 " +
+        " rejected, p50 " + std::to_string(all.latencies.quantile_us(0.5)) + " us, p99 " +
         std::to_string(all.latencies.quantile_us(0.99)) + " us\n");
 }
 
 Result<void> write_recording(const VmcRecording& recording, const Options& options) {
   if (recording.frames() == 0) {
-    return Error{options.record + ": not written, as no sender was understood"};
+    return Error{options.record + ": not written, because no sender has a humanoid"};
   }
   const Clip clip = recording.clip();
   auto written = write_file(options.record, format_bvh(clip), options.force);
@@ -145,11 +145,11 @@ void add_live(CLI::App& app, int& exit_code) {
   verb->add_option("--vmc-in", options->in, "Port that trackers send to; default: 39539")
       ->type_name("PORT");
   verb->add_option("--vmc-out", options->out,
-                   "Where the avatars listen: PORT of this machine or\nHOST:PORT; default: 39540")
+                   "Port of the avatars: PORT on this machine or\nHOST:PORT; default: 39540")
       ->type_name("ADDRESS");
   verb->add_option("--style", options->styles,
                    "NAME=STRENGTH: 0 is neutral, 1 the style as captured,\n"
-                   "more exaggerates it (-4 to 4). One --style per style")
+                   "above 1 exaggerates (-4 to 4). One --style per style")
       ->allow_extra_args(false)
       ->type_name("STYLE");
   add_shape_options(*verb, options->shape);
@@ -157,25 +157,25 @@ void add_live(CLI::App& app, int& exit_code) {
                    "Model; default: $PANACHE_MODEL, else the one shipped")
       ->type_name("FILE");
   verb->add_option("--record", options->record,
-                   "Write what the first sender's character does (.bvh),\nwhen all is over")
+                   "Write the first sender's styled motion (.bvh) when\nthe program ends")
       ->type_name("FILE");
-  verb->add_option(
-          "--max-lag", options->time.max_lag,
-          "A style slower than its input may be shown this late,\n0 to 4 seconds; default: 0")
+  verb->add_option("--max-lag", options->time.max_lag,
+                   "Maximum lag for slower styles, 0 to 4 seconds;\ndefault: 0")
       ->check(CLI::Range(0.0, panache::LiveOptions::kMaxLag).description(""))
       ->type_name("SECONDS");
-  verb->add_option("--max-lead", options->time.max_lead,
-                   "And a faster one this early, foreseen, 0 to 0.25\nseconds; default: 0")
+  verb->add_option(
+          "--max-lead", options->time.max_lead,
+          "Maximum lead for faster styles, using predicted\ninput, 0 to 0.25 seconds; default: 0")
       ->check(CLI::Range(0.0, PredictorNetwork::kMaxSeconds).description(""))
       ->type_name("SECONDS");
   verb->add_flag("--skip-cycles", options->time.skip_cycles,
-                 "Late by a whole cycle of a walk, leave it out; too early,\n"
-                 "play it again: so a tempo lasts (with --max-lag 1.5)");
-  verb->add_flag("--force", options->force, "Overwrite the recording's file");
+                 "Skip or repeat whole gait cycles to stay within the\n"
+                 "limits, so that a tempo lasts (with --max-lag 1.5)");
+  verb->add_flag("--force", options->force, "Overwrite the recording");
   verb->add_flag("--quiet", options->quiet, "No statistics every second");
   verb->footer(
       "While it runs, the OSC messages '/panache/style NAME STRENGTH' and '/panache/reset' to\n"
-      "the same port change a strength and undo what the styles added to the way.\n\n"
+      "the same port change a strength and reset what the styles added to the root motion.\n\n"
       "Examples:\n"
       "  panache live --style old=1\n"
       "  panache live --vmc-in 39539 --vmc-out 192.168.1.20:39540 --record show.bvh");

@@ -22,7 +22,7 @@ Result<void> check_verb(const CLI::App& app, const std::string& verb) {
     if (i) list += i + 1 == known.size() ? " or " : ", ";
     list += known[i]->get_name();
   }
-  return Error{"there is no verb '" + verb + "'; expected " + list};
+  return Error{"there is no command '" + verb + "'; expected " + list};
 }
 
 std::string one_line(std::string text) {
@@ -37,14 +37,14 @@ int run(int argc, char** argv) {
   if (argc == 3 && argv[1] == std::string_view(kFbxReader)) return read_fbx_as_child(argv[2]);
   int exit_code = kDone;
   CLI::App app(
-      "Panache gives motion a style: neutral motion in, the same motion angry, old or "
-      "proud out.",
+      "Panache changes the style of motion: neutral motion in, the same motion in an angry, old or "
+      "proud style out.",
       "panache");
   app.set_version_flag("--version", "panache " PANACHE_VERSION);
   app.require_subcommand(1);
   app.get_formatter()->column_width(32);
   app.footer(
-      "'panache VERB --help' tells more, with an example.\n\nExample:\n"
+      "'panache COMMAND --help' shows details and an example.\n\nExample:\n"
       "  panache stylize walk.bvh --style old=1 -o old.bvh");
 #define PANACHE_ADD_VERB(name) add_##name(app, exit_code);
   PANACHE_VERBS(PANACHE_ADD_VERB)
@@ -74,11 +74,11 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::bad_alloc&) {
-    print_message("there is not enough memory");
+    print_message("out of memory");
   } catch (const std::exception& error) {
     // Of libraries below. Those of libtorch go on with where in its sources they come from.
     const std::string_view text = error.what();
-    print_message("cannot go on: " + std::string(text.substr(0, text.find('\n'))));
+    print_message("internal error: " + std::string(text.substr(0, text.find('\n'))));
   }
   return kBadInput;
 }

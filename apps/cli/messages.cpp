@@ -1,7 +1,9 @@
 #include "messages.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
+#include <string_view>
 
 namespace panache::cli {
 
@@ -9,8 +11,33 @@ void print_message(const std::string& message) {
   std::fprintf(stderr, "panache: %s\n", message.c_str());
 }
 
+std::string with_hint(const std::string& message) {
+  constexpr std::string_view kUnknown = "unknown style '",
+                             kModel = ": is a model; expected a style file";
+  struct Hint {
+    std::string_view end, hint;
+  };
+  constexpr std::array kHints = {
+      Hint{": exists already", "; --force overwrites it"},
+      Hint{"; replace it or give one of the two another name", " (--force, --rename)"},
+      Hint{": is a style file, not a model", "; panache styles MODEL --add FILE puts it into one"},
+      Hint{"or learn it again with this one", " (panache learn)"},
+      Hint{"'learn.mean' and 'learn.scale'", ", as panache train writes it"},
+      Hint{"'; rename them", " with --styles"},
+  };
+  for (const Hint& one : kHints) {
+    if (message.ends_with(one.end)) return message + std::string(one.hint);
+  }
+  if (message.ends_with(kModel)) {
+    return message + ", as panache styles " + message.substr(0, message.size() - kModel.size()) +
+           " --extract NAME -o FILE makes one";
+  }
+  if (message.find(kUnknown) == std::string::npos || message.ends_with(')')) return message;
+  return message + " (panache styles lists all)";
+}
+
 int fail(const Error& error, int exit_code) {
-  print_message(error.message);
+  print_message(with_hint(error.message));
   return exit_code;
 }
 

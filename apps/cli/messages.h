@@ -1,5 +1,5 @@
 #pragma once
-// What the program says, where, and with which exit code.
+// Messages, results and exit codes of the program.
 
 #include <string>
 
@@ -13,9 +13,12 @@ inline constexpr int kDone = 0;
 inline constexpr int kBadInput = 1;  // A file is not what it should be, or cannot be written.
 inline constexpr int kBadUsage = 2;  // The command line asks for something that there is not.
 
-// "panache: SENTENCE" on stderr.
+// "panache: MESSAGE" on stderr.
 void print_message(const std::string& message);
-// The same, handing `exit_code` back.
+// A message of the library followed by the command or option that helps, where there is one: the
+// library knows of neither.
+std::string with_hint(const std::string& message);
+// Prints the message with its hint and hands `exit_code` back.
 int fail(const Error& error, int exit_code);
 
 // Results for people and for machines, on stdout.
@@ -32,7 +35,7 @@ std::string fixed(double value, int decimals);
 std::string brief(double value, int digits = 6);
 // "1 file", "2 files".
 std::string plural(size_t count, const std::string& noun);
-// `text` followed by spaces up to `width` letters (UTF-8), and one blank at least.
+// `text` followed by spaces up to `width` letters (UTF-8), and at least one space.
 std::string padded(const std::string& text, size_t width);
 
 // "--every: expected a number from 0.01 to 60, found nan" unless low <= value <= high.

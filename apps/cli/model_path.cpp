@@ -17,7 +17,7 @@ Result<std::string> find_shipped(const std::string& file_name) {
     if (!looked.empty()) looked += ", ";
     looked += path.string();
   }
-  return Error{"the model " + file_name + " was not found; looked for " + looked};
+  return Error{"the model " + file_name + " was not found; searched " + looked};
 }
 
 Result<std::string> find_model(const std::string& given) {

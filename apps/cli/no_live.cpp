@@ -25,7 +25,7 @@ void add_live(CLI::App& app, int& exit_code) {
 }
 
 void add_send(CLI::App& app, int& exit_code) {
-  add_missing(app, exit_code, "send", "Play a file as a tracker would (not in this build)");
+  add_missing(app, exit_code, "send", "Play a file as a tracker (not in this build)");
 }
 
 }  // namespace panache::cli

@@ -24,11 +24,11 @@ void add_missing(CLI::App& app, int& exit_code, const std::string& name, const s
 }  // namespace
 
 void add_train(CLI::App& app, int& exit_code) {
-  add_missing(app, exit_code, "train", "Train a model on motion of your own");
+  add_missing(app, exit_code, "train", "Train a model on your own motion");
 }
 
 void add_eval(CLI::App& app, int& exit_code) {
-  add_missing(app, exit_code, "eval", "Compare models with real motion");
+  add_missing(app, exit_code, "eval", "Evaluate models against real motion");
 }
 
 }  // namespace panache::cli

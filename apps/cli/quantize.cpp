@@ -37,7 +37,8 @@ Result<std::string> quantize_file(const std::string& path, const std::string& by
   if (auto good = check(*file, path, bytes); !good) return good.error();
   std::string int8 = format_safetensors(quantize(*file));
   if (int8 != format_safetensors(*file)) return int8;
-  return Error{path + ": is a " + (is_style_file(*file) ? "style" : "model") + " in int8 already"};
+  return Error{path + ": is a " + (is_style_file(*file) ? "style" : "model") +
+               " with int8 weights already"};
 }
 
 int run(const QuantizeVerb& verb) {
@@ -65,7 +66,7 @@ int run(const QuantizeVerb& verb) {
 
 void add_quantize(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand(
-      "quantize", "Make a smaller, faster model (or style) that styles nearly the same");
+      "quantize", "Quantize a model (or style) to int8: smaller, faster, nearly the same motion");
   auto options = std::make_shared<QuantizeVerb>();
   verb->add_option("MODEL", options->model, "Model or style file to read")
       ->required()

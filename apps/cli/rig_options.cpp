@@ -66,7 +66,7 @@ Result<void> put(const std::string& human_joint, const Json& joint, const std::s
                  joint.dump(-1, ' ', false, Json::error_handler_t::replace).substr(0, 40)};
   }
   const auto [other, is_new] = out.emplace(*human, joint.is_null() ? "" : joint.get<std::string>());
-  if (!is_new) return Error{name + ": " + human_joint + " stands there twice"};
+  if (!is_new) return Error{name + ": " + human_joint + " is there twice"};
   return {};
 }
 
@@ -96,14 +96,15 @@ std::string place_in(const std::string& text, size_t byte) {
 }  // namespace
 
 void add_rig_options(CLI::App& verb, RigFlags& flags) {
-  verb.add_option("--scale", flags.scale,
-                  "Metres per unit of the file (0.01: centimetres);\ndefault: judged by the legs")
+  verb.add_option(
+          "--scale", flags.scale,
+          "Metres per unit of the file (0.01: centimetres);\ndefault: inferred from the legs")
       ->type_name("METRES");
-  verb.add_option("--up", flags.up, "Axis that points up: x, y, z, -x ...; default: found")
+  verb.add_option("--up", flags.up, "Up axis: x, y, z, -x ...; default: inferred")
       ->type_name("AXIS");
   verb.add_option("--map", flags.map,
-                  "JSON that says which joint is which, as in\n{\"leftHand\": \"Hand_L\", "
-                  "\"neck\": null}, or an edited\n'panache info --json'; all others are found")
+                  "JSON map of joints, as in\n{\"leftHand\": \"Hand_L\", "
+                  "\"neck\": null}, or an edited\n'panache info --json'; others are found")
       ->type_name("FILE");
 }
 
@@ -144,7 +145,7 @@ Result<std::map<int, std::string>> parse_joint_map(const std::string& text,
     const Json& mapping = map["mapping"];
     if (!mapping.is_object() || !mapping.contains("joints") || !mapping["joints"].is_array()) {
       return Error{name +
-                   ": holds no mapping; that file was no humanoid; expected JSON such as "
+                   ": holds no mapping, because that file has no humanoid; expected JSON such as "
                    "{\"leftHand\": \"Hand_L\", \"neck\": null}"};
     }
     if (auto good = put_list(mapping["joints"], name, joints); !good) return good.error();

@@ -58,13 +58,13 @@ std::string describe_mapping(const Rig& rig, const RigOptions& given) {
   if (given.metres_per_unit) {
     text += ", as given\n";
   } else {
-    text += (unit.empty() ? "" : " (" + unit + ", most likely)") + ", judged by the legs\n";
+    text += (unit.empty() ? "" : " (" + unit + ", most likely)") + ", inferred from the legs\n";
   }
   text += "  up      " + rig.up_axis() + (given.up_axis ? ", as given\n" : "\n");
   text += std::string("  start   ") +
-          (rig.first_frame() ? "the first frame is a calibration pose, not motion: stylize leaves "
-                               "it as it is"
-                             : "the first frame is motion") +
+          (rig.first_frame()
+               ? "the first frame is a calibration pose, not motion: stylize leaves it unchanged"
+               : "the first frame is motion") +
           "\n\n" + table(rig.matches());
   if (!rig.notes().empty()) text += "\nNotes:\n";
   for (const std::string& note : rig.notes()) text += "  " + note + "\n";

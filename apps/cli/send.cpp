@@ -144,17 +144,17 @@ int send(const SendOptions& options) {
 }  // namespace
 
 void add_send(CLI::App& app, int& exit_code) {
-  CLI::App* verb = app.add_subcommand("send", "Play a file as a tracker would (VMC protocol)");
+  CLI::App* verb = app.add_subcommand("send", "Play a file as a tracker (VMC protocol)");
   auto options = std::make_shared<SendOptions>();
   verb->add_option("FILE", options->input, "Motion file")->required();
   verb->add_option("--to", options->to,
-                   "Who listens: PORT of this machine or HOST:PORT;\ndefault: 39539")
+                   "Receiver: PORT on this machine or HOST:PORT;\ndefault: 39539")
       ->type_name("ADDRESS");
   verb->add_option("--fps", options->fps, "Frames a second; default: the file's")->type_name("N");
-  verb->add_option("--seconds", options->seconds, "End after this long")->type_name("SECONDS");
-  verb->add_flag("--loop", options->loop, "Begin again at the end");
+  verb->add_option("--seconds", options->seconds, "Stop after this time")->type_name("SECONDS");
+  verb->add_flag("--loop", options->loop, "Repeat from the start");
   verb->add_option("--clip", options->clip,
-                   "The motion to play, of a file with several;\ndefault: the first")
+                   "Motion to play, if a file has several;\ndefault: the first")
       ->type_name("NAME");
   add_rig_options(*verb, options->rig);
   verb->footer("Example:\n  panache send walk.bvh --to 127.0.0.1:39539 --fps 90 --loop");

@@ -82,7 +82,7 @@ Result<StrengthColumns> read_columns(const CsvTable& table, const std::string& w
   }
   for (size_t c = 0; c < names.size(); ++c) {
     if (std::count(names.begin(), names.end(), names[c]) > 1) {
-      return Error{where + "column " + panache::quoted(names[c]) + " stands there twice"};
+      return Error{where + "column " + panache::quoted(names[c]) + " is there twice"};
     }
     Result<int> style = c == out.seconds ? Result<int>(-1) : model.find_style(names[c]);
     if (!style) return Error{where + style.error().message};

@@ -131,7 +131,7 @@ void add_strip(CLI::App& app, int& exit_code) {
   verb->add_option("-o,--output", options->output, "Picture to write (.svg)")
       ->required()
       ->type_name("OUT");
-  verb->add_option("--every", options->every, "From one figure to the next; default: 0.25")
+  verb->add_option("--every", options->every, "Time between figures; default: 0.25")
       ->type_name("SECONDS");
   verb->add_option("--from", options->from, "First figure; default: the start")
       ->type_name("SECONDS");
@@ -140,10 +140,10 @@ void add_strip(CLI::App& app, int& exit_code) {
   verb->add_option("--label", options->labels, "Names of the rows; default: those of the files")
       ->type_name("TEXT");
   verb->add_option("--clip", options->clip,
-                   "The motion to draw, of files with several;\ndefault: the first")
+                   "Motion to draw, if a file has several;\ndefault: the first")
       ->type_name("NAME");
   add_rig_options(*verb, options->rig);
-  verb->add_flag("--travel", options->travel, "Figures stand where they are on the way");
+  verb->add_flag("--travel", options->travel, "Draw figures where they are along the path");
   verb->add_flag("--force", options->force, "Overwrite the picture");
   verb->footer(
       "Example:\n"

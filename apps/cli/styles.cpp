@@ -146,27 +146,24 @@ int styles(const StylesVerb& verb) {
 }  // namespace
 
 void add_styles(CLI::App& app, int& exit_code) {
-  CLI::App* verb =
-      app.add_subcommand("styles", "List the styles of a model, or change which it has");
+  CLI::App* verb = app.add_subcommand("styles", "List or change the styles of a model");
   auto options = std::make_shared<StylesVerb>();
   verb->add_option("MODEL", options->model,
                    "Model, or the file of a single style; default:\n"
                    "$PANACHE_MODEL, else the one shipped")
       ->type_name("");
-  verb->add_option("--extract", options->extract, "Copy a style into a file of its own (-o)")
-      ->type_name("NAME");
-  verb->add_option("--add", options->add, "Put the styles of such files into MODEL")
+  verb->add_option("--extract", options->extract, "Copy a style to a file (-o)")->type_name("NAME");
+  verb->add_option("--add", options->add, "Add the styles of such files to MODEL")
       ->type_name("FILE");
-  verb->add_option("--remove", options->remove, "Take styles out of MODEL")->type_name("NAME");
-  verb->add_option("--rename", options->rename, "Give a style of MODEL another name")
-      ->type_name("OLD=NEW");
+  verb->add_option("--remove", options->remove, "Remove styles from MODEL")->type_name("NAME");
+  verb->add_option("--rename", options->rename, "Rename a style of MODEL")->type_name("OLD=NEW");
   verb->add_option("-o,--output", options->output, "File for the style (.safetensors)")
       ->type_name("OUT");
   verb->add_flag("--force", options->force, "Overwrite the file; replace styles of the same name");
   verb->add_flag("--json", options->json, "Print JSON");
   verb->footer(
-      "--add, --remove and --rename change MODEL in its place. A style goes into the model that\n"
-      "it comes from, and into that of half size.\n\n"
+      "--add, --remove and --rename change MODEL in place. A style works with the model that\n"
+      "it comes from, and with its int8 version.\n\n"
       "Examples:\n"
       "  panache styles\n"
       "  panache styles mine.safetensors --extract limping -o limping.safetensors\n"

@@ -170,7 +170,7 @@ Result<void> stylize_file(FileJob& file, const Wanted& wanted, const StylizeOpti
   }
   if (clips.empty()) return failures.front();
   for (const Error& failure : failures) {
-    file.notes.push_back(failure.message + "; this motion stays as it is");
+    file.notes.push_back(failure.message + "; this motion is left unchanged");
   }
   Result<std::string> bytes = encode(**motion, clips, file, options.replace);
   if (!bytes) return bytes.error();
@@ -245,7 +245,7 @@ void add_stylize(CLI::App& app, int& exit_code) {
   // One value each, so that files may follow.
   verb->add_option("--style", options->styles,
                    "NAME=STRENGTH: 0 is neutral, 1 the style as captured,\n"
-                   "more exaggerates it (-4 to 4). NAME=1..0 changes evenly\n"
+                   "above 1 exaggerates (-4 to 4). NAME=1..0 changes evenly\n"
                    "from the first frame to the last. One --style per style")
       ->allow_extra_args(false)
       ->type_name("STYLE");
@@ -256,19 +256,20 @@ void add_stylize(CLI::App& app, int& exit_code) {
                    "Model; default: $PANACHE_MODEL, else the one shipped")
       ->type_name("FILE");
   verb->add_option("--clip", options->clip,
-                   "The motion to restyle, of a file with several;\ndefault: all of them")
+                   "Motion to restyle, if a file has several;\ndefault: all of them")
       ->type_name("NAME");
-  verb->add_flag("--replace", options->replace,
-                 "Put new motions in the place of the old, not beside\nthem (BVH holds but one)");
+  verb->add_flag(
+      "--replace", options->replace,
+      "Replace the original animations instead of adding\nnew ones (a BVH file holds only one)");
   add_shape_options(*verb, options->shape);
-  verb->add_flag("--no-timing", options->no_timing, "Keep the tempo, and so the number of frames");
+  verb->add_flag("--no-timing", options->no_timing, "Keep the tempo and the number of frames");
   verb->add_flag("--no-feet", options->no_feet, "Do not hold planted feet in place");
   verb->add_flag("--verbose", options->verbose,
-                 "Tell how far each motion is like those that the styles\nwere learnt from");
+                 "Show how similar each motion is to the training data\nof the styles");
   add_rig_options(*verb, options->rig);
   verb->footer(
-      "Rig, joint names, channel order and frame rate stay as they are. An FBX file comes\n"
-      "back as GLB. An output that ends in .bvh or .glb may have an input that does not.\n\n"
+      "Rig, joint names, channel order and frame rate are kept. An FBX file is written\n"
+      "as GLB. The output may be .bvh or .glb whatever the format of the input.\n\n"
       "Examples:\n"
       "  panache stylize walk.bvh --style old=1 -o old.bvh\n"
       "  panache stylize takes/ --style proud=0.7 --style angry=0..1 -o restyled/\n"

@@ -78,7 +78,7 @@ int run(const Options& options) {
 
 void add_train(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* verb = app.add_subcommand("train", "Train a model on motion of your own");
+  CLI::App* verb = app.add_subcommand("train", "Train a model on your own motion");
   add_manifest_options(*verb, options->data);
   verb->add_option("-o,--output", options->output, "The model file to write")->required();
   std::vector<std::string> names;
@@ -92,14 +92,14 @@ void add_train(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   verb->add_option("--data", options->data_name, "What the data is, kept in the model's metadata");
   verb->add_option("--licence", options->licence,
-                   "Terms of the data, kept in the model's metadata");
+                   "Licence of the data, kept in the model's metadata");
   verb->add_option("--steps", options->steps, "Steps of training instead of the recipe's own")
       ->check(CLI::Range(1, 1000000000));
   verb->add_option("--seed", options->seed, "Seed of all random numbers")->capture_default_str();
   verb->add_flag("--force", options->force, "Overwrite the model if it exists");
   verb->add_flag("--json", options->json, "Print the result as JSON");
   verb->footer(
-      "Interrupted training goes on from its last checkpoint when it is called again.\n\n"
+      "Interrupted training resumes from its last checkpoint when it is run again.\n\n"
       "Example:\n  panache train mine.csv -o mine.safetensors");
   verb->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -36,7 +36,7 @@ Result<std::string> find_page() {
     if (fs::exists(page / "index.html", status)) return page.string();
     looked += (looked.empty() ? "" : ", ") + page.string();
   }
-  return Error{"the page was not found; looked for " + looked + "; ./run web makes it"};
+  return Error{"the page was not found; searched " + looked + "; ./run web makes it"};
 }
 
 // All that a file points to goes into what is served, and FBX comes as GLB.
@@ -120,7 +120,7 @@ int view(const std::string& path) {
 }  // namespace
 
 void add_view(CLI::App& app, int& exit_code) {
-  CLI::App* verb = app.add_subcommand("view", "Show motion in a browser, and style it by hand");
+  CLI::App* verb = app.add_subcommand("view", "Show and restyle motion in a browser");
   auto path = std::make_shared<std::string>();
   verb->add_option("file", *path, "Motion file to open in the page; default: a walker to steer")
       ->type_name("FILE");

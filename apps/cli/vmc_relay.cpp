@@ -88,7 +88,7 @@ void VmcRelay::apply_command(const VmcMessage& message) {
   const Result<int> style = model_->find_style(message.name);
   const double strength = message.strength;
   if (!style) {
-    note_ = "/panache/style: " + style.error().message;
+    note_ = with_hint("/panache/style: " + style.error().message);
   } else if (!(strength >= double{kLowestStrength} && strength <= double{kHighestStrength})) {
     note_ = "/panache/style " + message.name + ": expected a strength from -4 to 4, found " +
             brief(strength);
@@ -120,7 +120,7 @@ void VmcRelay::send_ready(Sender& sender) {
   all_.frames += frames;
   second_.frames += frames;
   if (const std::string note = sender.character.take_note(); !note.empty()) {
-    note_ = to_string(sender.address) + ": " + note + "; its motion passes as it is";
+    note_ = to_string(sender.address) + ": " + note + "; its motion is passed on unchanged";
   }
 }
 
@@ -149,7 +149,7 @@ std::string VmcRelay::second() {
                      plural(heard, "sender") + ", " + std::to_string(second_.lost) + " lost, p50 " +
                      std::to_string(second_.latencies.quantile_us(0.5)) + " us, p99 " +
                      std::to_string(second_.latencies.quantile_us(0.99)) + " us";
-  if (second_.rejected > 0) line += ", " + std::to_string(second_.rejected) + " refused";
+  if (second_.rejected > 0) line += ", " + std::to_string(second_.rejected) + " rejected";
   bool neutral = true;
   for (size_t i = 0; i < strengths_.size(); ++i) {
     if (strengths_[i] == 0) continue;

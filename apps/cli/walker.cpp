@@ -99,18 +99,18 @@ int fit(const WalkerVerb& verb) {
 }  // namespace
 
 void add_walker(CLI::App& app, int& exit_code) {
-  CLI::App* verb = app.add_subcommand("walker", "Make a neutral walk, as sample input");
+  CLI::App* verb = app.add_subcommand("walker", "Generate a neutral walk as sample input");
   auto options = std::make_shared<WalkerVerb>();
   verb->add_option("-o,--output", options->output, "File to write (.bvh)")
       ->required()
       ->type_name("OUT");
-  verb->add_option("--seconds", options->seconds, "How long; default: 8")->type_name("SECONDS");
+  verb->add_option("--seconds", options->seconds, "Duration; default: 8")->type_name("SECONDS");
   verb->add_option("--speed", options->speed, "0 stands, 1.4 walks, 3 runs (m/s); default: 1.4")
       ->type_name("SPEED");
   verb->add_option("--turn", options->turn_deg, "To the left (degrees a second); default: 0")
       ->type_name("DEGREES");
   verb->add_option("--fps", options->fps, "Frames a second; default: 60")->type_name("N");
-  verb->add_flag("--start", options->start, "Begin standing");
+  verb->add_flag("--start", options->start, "Start standing");
   verb->add_flag("--stop", options->stop, "End standing");
   verb->add_option("--model", options->model, "Model of the walker; default: the one shipped")
       ->type_name("FILE");
@@ -121,9 +121,9 @@ void add_walker(CLI::App& app, int& exit_code) {
                    "neutral takes of these manifests and write that")
       ->type_name("MANIFEST");
   verb->add_option("--data", options->data,
-                   "With --fit: what the data are, for the model's metadata")
+                   "With --fit: name of the data, for the model's metadata")
       ->type_name("TEXT");
-  verb->add_option("--licence", options->licence, "With --fit: terms of the data, likewise")
+  verb->add_option("--licence", options->licence, "With --fit: licence of the data, likewise")
       ->type_name("TEXT");
 #endif
   verb->footer("Example:\n  panache walker -o walk.bvh --seconds 8 --speed 1.4 --turn 20");

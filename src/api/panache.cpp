@@ -58,7 +58,7 @@ panache_status guarded(Work&& work) noexcept {
   try {
     return work();
   } catch (...) {  // std::bad_alloc, or what containers throw for sizes beyond any memory.
-    last_error = "there is not enough memory";
+    last_error = "out of memory";
     return PANACHE_NO_MEMORY;
   }
 }

@@ -34,7 +34,7 @@ Result<void> write_file(const std::string& path, std::string_view bytes, bool fo
   std::error_code status;
   if (fs::is_directory(path, status)) return Error{path + ": is a folder; expected a file name"};
   if (!force && fs::exists(path, status)) {
-    return Error{path + ": exists already; --force overwrites it"};
+    return Error{path + ": exists already"};
   }
   const fs::path parent = fs::path(path).parent_path();
   if (!parent.empty()) fs::create_directories(parent, status);

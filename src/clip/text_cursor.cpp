@@ -187,7 +187,7 @@ Error TextCursor::number_error(const std::string& of_what) const {
   }
   Error failure = error("a number for " + of_what);
   if (here.find(',') != std::string_view::npos) {
-    failure.message += "; write decimals with a point and part numbers by blanks";
+    failure.message += "; write decimals with a point and separate numbers by spaces";
   }
   return failure;
 }

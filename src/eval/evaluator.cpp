@@ -113,8 +113,8 @@ Result<Evaluator> Evaluator::create(const std::vector<Take>& training, std::vect
     if (!(share >= least)) {
       return Error{std::string("the ") + what + " classifier recognises " + percent(share) +
                    " of the windows of real test takes; expected at least " + percent(least) +
-                   ", so its word on other motion would mean nothing; give more training takes of "
-                   "the test takes' styles and contents"};
+                   ", so its accuracy on other motion is meaningless; add training takes of the "
+                   "styles and contents of the test takes"};
     }
   }
   return evaluator;

@@ -180,7 +180,8 @@ Result<std::vector<std::string>> list_ood(const std::string& path) {
     Result<std::vector<ManifestRow>> rows = read_manifest(path, 0);
     if (!rows) return rows.error();
     files = unstyled_files(*rows);
-    if (files.empty()) return Error{path + ": every content is there in a style: none is foreign"};
+    if (files.empty())
+      return Error{path + ": every content exists in a style; none is out of distribution"};
   } else if (fs::exists(path, status)) {
     files = {path};
   } else {

@@ -19,8 +19,8 @@ struct Section {
 
 std::vector<Section> sections_of(const Report& report) {
   return {
-      {"judged", "What was judged on what",
-       "All numbers are of takes that no system was trained on, and come from the same code. "
+      {"judged", "Training and test data",
+       "All figures are measured on held-out takes, with the same code for every system. "
        "Accuracies count only if the classifiers recognise real held-out takes well enough.",
        page_evaluated(report)},
       {"overall", "Overall",
@@ -34,26 +34,26 @@ std::vector<Section> sections_of(const Report& report) {
        "Means over the contents; the best system of each row is in bold, with a dot.",
        page_by_style(report)},
       {"strength", "Strength",
-       "What the slider does: 0 is the input, 1 the style as captured, above 1 exaggeration.",
+       "The effect of strength: 0 is the input, 1 the style as captured, above 1 exaggeration.",
        page_strength(report)},
-      {"mixes", "Mixes", "Half of one style and half of another at once.", page_mixes(report)},
-      {"unseen", "Contents that were never seen in a style",
-       "Their styled takes were left out of the training. Beside them: the same contents when "
-       "they were not left out, real takes judged by classifiers that never saw these contents, "
-       "and the style's mean posture.",
+      {"mixes", "Mixes", "Two styles at half strength each.", page_mixes(report)},
+      {"unseen", "Contents left out of training",
+       "Their styled takes were left out of training. For comparison: the same contents with them "
+       "in training, real takes classified by classifiers that were not trained on these contents, "
+       "and the mean posture of the style.",
        page_unseen(report)},
-      {"foreign", "Foreign motion",
-       "Clips of other makers and other actions, each in every style at strength 1. No real "
-       "styled takes of them exist: the question is whether they stay the motion that they were.",
+      {"foreign", "Out-of-distribution motion",
+       "Clips from other data sets and other actions, each in every style at strength 1. There is "
+       "no ground truth: the question is whether the motion stays intact.",
        page_ood(report)},
       {"disturbances", "Disturbances",
-       "Pose error when the windows that a system sees are disturbed and nothing else is.",
+       "Pose error when only the input windows of a system are disturbed.",
        page_disturbances(report)},
-      {"foresight", "Input foreseen",
-       "How far the joints are from where they will be, in centimetres, if the input is foreseen, "
-       "goes on at constant velocity, or is held. Live, a style faster than its input asks for it.",
+      {"foresight", "Input prediction",
+       "Mean joint error in centimetres when the input is predicted, continued at constant "
+       "velocity, or held. Live, a style that is faster than its input needs prediction.",
        page_prediction(report)},
-      {"strips", "Strips", "The same stretch of time, row by row. The body's left is lighter.",
+      {"strips", "Strips", "The same time span in each row. The body's left is lighter.",
        page_strips(report)},
       {"contacts", "Foot contacts", "A bar is a foot on the ground.", page_contacts(report)},
       {"literature", "CC and SC++",
@@ -61,7 +61,7 @@ std::vector<Section> sections_of(const Report& report) {
        "63.0 (MoST 2024, on another split).",
        page_literature(report)},
       {"cost", "Cost", "Of one character on one core.", page_cost(report)},
-      {"definitions", "What the numbers mean",
+      {"definitions", "Definitions",
        "Shares lie between 0 and 1. A dash stands where nothing was measured.", page_definitions()},
   };
 }
@@ -90,7 +90,7 @@ std::string report_page(const Report& report) {
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
          "<title>Panache: evaluation</title>\n<style>" +
          page_look() +
-         "</style>\n</head>\n<body>\n<header>\n<h1>Motion style transfer, judged</h1>\n" +
+         "</style>\n</head>\n<body>\n<header>\n<h1>Motion style transfer: evaluation</h1>\n" +
          html_paragraph(subtitle(report)) + "<nav>\n" + links + "</nav>\n</header>\n<main>\n" +
          body + "</main>\n</body>\n</html>\n";
 }

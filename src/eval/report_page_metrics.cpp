@@ -190,7 +190,7 @@ std::string metrics_matrix(const std::string& rows_are, const std::vector<std::s
 
 std::string page_evaluated(const Report& report) {
   std::string facts;
-  add_fact(facts, "Judged on", joined(report.tested_on));
+  add_fact(facts, "Evaluated on", joined(report.tested_on));
   add_fact(facts, "Trained on", joined(report.trained_on));
   add_fact(
       facts, "Real takes",

@@ -18,16 +18,16 @@ struct Definition {
 
 // Beside those of the measures.
 constexpr Definition kDefinitions[] = {
-    {"takes, windows", "How many takes were judged, and into how many windows they were cut."},
+    {"takes, windows", "How many takes were evaluated, and how many windows they have."},
     {"unseen, seen",
-     "What a system makes of contents whose styled takes were left out of its "
-     "training, and what the same system makes of them when they were not."},
+     "Results on contents whose styled takes were left out of training, and of the same system "
+     "trained with them."},
     {"real, blind",
-     "Real styled takes of the unseen contents, judged by classifiers that never "
-     "saw these contents: what the data allow at all."},
+     "Real styled takes of the unseen contents, classified by classifiers that were not trained on "
+     "these contents: an upper bound."},
     {"mean posture",
-     "The style's mean change of posture and tempo over its training pairs, whatever the motion: "
-     "the simplest transfer there is."},
+     "The style's mean change of posture and tempo over its training pairs, for any motion: the "
+     "simplest transfer."},
     {"jerk / input",
      "Mean jerk of the joints against that of the input; 1 is as smooth as the "
      "input."},
@@ -38,12 +38,11 @@ constexpr Definition kDefinitions[] = {
     {"under the floor",
      "Share of frames with a toe 3 cm lower than both the floor and the "
      "input."},
-    {"pairs", "A pair is a foreign clip in a style."},
-    {"drift", "How far the hips end from where the input's end, along the ground."},
-    {"gate", "How much of its dynamic change the system dared to apply: 1 all, 0 posture only."},
+    {"pairs", "A pair is an out-of-distribution clip in a style."},
+    {"drift", "Distance between the final hip positions of output and input on the ground."},
+    {"gate", "Share of the dynamic change that the gate lets through: 1 all, 0 posture only."},
     {"pose error under a disturbance",
-     "The error in cm above, when only the windows that the "
-     "system sees are disturbed."},
+     "The error in cm above, when only the input windows of the system are disturbed."},
     {"rank correlation",
      "Spearman's correlation of the strengths up to 1 with the style's probability, and up to 2 "
      "with the distance from the input; 1 if more strength always does more."},

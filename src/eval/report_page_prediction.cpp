@@ -8,7 +8,7 @@ namespace {
 std::string prediction_table(const SystemReport& system) {
   HtmlTable table("content");
   for (const double seconds : kPredictionSeconds) {
-    table.add_columns(number_text(seconds, 2) + " s ahead, cm", {"foreseen", "velocity", "held"});
+    table.add_columns(number_text(seconds, 2) + " s ahead, cm", {"predicted", "velocity", "held"});
   }
   for (const PredictionRow& row : system.prediction) {
     std::vector<HtmlCell> cells;

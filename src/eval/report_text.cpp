@@ -171,7 +171,7 @@ std::string prediction(const SystemReport& system) {
   TextTable table("content");
   const auto name = [](double seconds) { return number_text(seconds, 2) + " s ahead, cm"; };
   for (const double seconds : kPredictionSeconds) {
-    table.add_columns(name(seconds), {"foreseen", "velocity", "held"});
+    table.add_columns(name(seconds), {"predicted", "velocity", "held"});
   }
   for (const PredictionRow& row : system.prediction) {
     std::vector<std::string> cells;
@@ -212,18 +212,17 @@ std::string report_text(const Report& report) {
   text += titled("Jerk against real takes by strength", strengths(report, "jerk_ratio"));
   for (const SystemReport& system : report.systems) {
     for (const UnseenReport& split : system.unseen) {
-      text += titled(
-          cut_text("Contents never seen in a style: " + system.name + ", split " + split.name,
-                   kTextWidth),
-          unseen(report, split));
+      text +=
+          titled(cut_text("Contents left out of training: " + system.name + ", split " + split.name,
+                          kTextWidth),
+                 unseen(report, split));
     }
   }
-  text += titled("Foreign motion: every clip in every style", ood(report));
+  text += titled("Out-of-distribution motion: every clip in every style", ood(report));
   text += titled("Disturbed windows: pose error in cm", disturbances(report));
   for (const SystemReport& system : report.systems) {
-    text += titled(
-        cut_text("Input foreseen, going on at constant velocity, held: " + system.name, kTextWidth),
-        prediction(system));
+    text += titled(cut_text("Input predicted, constant velocity, held: " + system.name, kTextWidth),
+                   prediction(system));
   }
   return text;
 }

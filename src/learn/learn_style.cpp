@@ -84,8 +84,8 @@ Result<void> check_one_skeleton(const LearnClip& neutral, const LearnClip& style
   const std::vector<Joint>& b = styled.clip.skeleton.joints;
   const std::string where = neutral.name + " and " + styled.name + ": have different skeletons (";
   const std::string cure =
-      "); a pair is of one skeleton: bring one of them to the skeleton of the other, or leave the "
-      "neutral clip out and say what the action is";
+      "); a pair needs one skeleton: export both from one rig, or leave the neutral clip out and "
+      "name the action";
   if (a.size() != b.size()) {
     return Error{where + std::to_string(a.size()) + " and " + std::to_string(b.size()) + " joints" +
                  cure};
@@ -215,8 +215,8 @@ const char* PairReport::judgement() const {
 
 Result<void> check_action(const std::string& action) {
   if (action == "walk" || action == "run") return {};
-  return Error{"there is no neutral '" + action +
-               "' of our own; expected walk or run, or a neutral clip of the same skeleton"};
+  return Error{"there is no built-in neutral '" + action +
+               "'; expected walk or run, or a neutral clip of the same skeleton"};
 }
 
 Result<LearnPair> make_learn_pair(const LearnClip& neutral, const LearnClip& styled) {
@@ -248,8 +248,7 @@ Result<LearnPair> make_learn_pair(const LearnClip& styled, const std::string& ac
 
 Error cannot_learn(const std::string& name) {
   return {name + ": has no trunk that styles can be learnt on; expected a model of recipe " +
-          learning_recipe_names() +
-          " with 'learn.mean' and 'learn.scale', as panache train writes it"};
+          learning_recipe_names() + " with 'learn.mean' and 'learn.scale'"};
 }
 
 Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,

@@ -172,14 +172,14 @@ Result<void> check_style_name(const std::string& name) {
   if (!is_one_line(name)) return Error{where + "is no line of UTF-8 text"};
   for (const char c : {'=', ','}) {
     if (name.find(c) == std::string::npos) continue;
-    return Error{where + "holds a '" + c + "', which parts names from strengths"};
+    return Error{where + "holds a '" + c + "', which separates names from strengths"};
   }
   if (name.starts_with(' ') || name.ends_with(' ')) {
-    return Error{where + "begins or ends with a blank"};
+    return Error{where + "begins or ends with a space"};
   }
   if (name.starts_with('-')) return Error{where + "begins like an option"};
   if (name == "seconds") {
-    return Error{where + "is what tables of strengths call the column of time"};
+    return Error{where + "is the name of the time column in tables of strengths"};
   }
   return {};
 }
@@ -188,8 +188,7 @@ bool is_style_file(const TensorFile& file) { return metadata_of(file, "format") 
 
 Result<StyleInfo> read_style_info(const TensorFile& file, const std::string& name) {
   if (metadata_of(file, "format") == "panache") {
-    return Error{name + ": is a model; expected a style file, as panache styles " + name +
-                 " --extract NAME -o FILE makes one"};
+    return Error{name + ": is a model; expected a style file"};
   }
   if (!is_style_file(file)) {
     return Error{name + ": is a safetensors file, but not a style; expected metadata 'format' to " +
@@ -258,8 +257,8 @@ Result<TensorFile> add_style(const TensorFile& model, const std::string& name,
   if (trunk != made_for) {
     return Error{style_name + ": rests on trunk " + quoted(made_for) + ", " + name + " has " +
                  quoted(trunk) +
-                 "; put it into the model that it was made with or the half-size twin of that, " +
-                 "or learn it again with this one (panache learn)"};
+                 "; use it with the model that it was made with or the int8 version of that model, "
+                 "or learn it again with this one"};
   }
   Parts parts = take_apart(model, **parsed);
   std::vector<Style>& styles = parts.styles;
@@ -268,7 +267,7 @@ Result<TensorFile> add_style(const TensorFile& model, const std::string& name,
       styles, [&](const Style& other) { return other.info.name == info->name; });
   if (taken != styles.end() && !replace) {
     return Error{name + ": has a style '" + info->name +
-                 "' already; --force replaces it, and --rename gives it another name"};
+                 "' already; replace it or give one of the two another name"};
   }
   if (taken != styles.end() && taken->info.learnt == info->learnt) {
     *taken = std::move(added);

@@ -117,7 +117,7 @@ class Calibrator {
       wrist = along * (kProportions.length[lower + 1] / out_.scale);
     }
     out_.notes.push_back(std::string(side ? "the right" : "the left") + " wrist is " +
-                         (shown ? "the lower arm's End Site" : "guessed from the upper arm"));
+                         (shown ? "the lower arm's End Site" : "estimated from the upper arm"));
   }
 
   // Fills the direction of one foot: its toe joint, its End Site, or where it must point in stance.

@@ -69,9 +69,9 @@ int find_first_frame(const Clip& clip, std::vector<std::string>& notes) {
   };
   if (!jumps(first.pose, poses) && !jumps(first.root, roots)) return 0;
   const float jump = std::max(first.pose, first.root) / size;
-  notes.push_back(rests ? "the first frame is the rest pose and left out"
+  notes.push_back(rests ? "the first frame is the rest pose and is skipped"
                         : "the first frame jumps by " + std::to_string(std::lround(100 * jump)) +
-                              " % of the body and is left out");
+                              " % of the body and is skipped");
   return 1;
 }
 

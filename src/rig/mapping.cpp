@@ -54,10 +54,10 @@ class Mapper {
       arm_tips_[side] = lowest_joint(limbs.arms[side]);
     }
     if (by_shape) {
-      map_.notes.push_back("the joints' names do not say which is which: judged by their shape");
+      map_.notes.push_back("the names of the joints are not conclusive: mapped by shape");
     }
     if (by_shape && limbs.side_confidence < 0.3f) {
-      map_.notes.push_back("left and right are a guess: nothing of the body shows where it faces");
+      map_.notes.push_back("left and right are guessed: nothing shows which way the body faces");
     }
     find_torso();
     if (!missing_.empty()) return rejection(joints_, missing_);
@@ -267,7 +267,7 @@ class Mapper {
         if (joint >= 0 && map_.joint_of[j] == joint) clear(j);
       }
       clear(human);
-      if (joint >= 0) put(HumanJoint{human}, joint, "as you say", 1);
+      if (joint >= 0) put(HumanJoint{human}, joint, "as given", 1);
     }
     for (const auto& limbs : kLimbNames) {
       for (const LimbNames& limb : limbs) {

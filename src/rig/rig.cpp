@@ -91,7 +91,9 @@ Result<Rig> Rig::create(const Clip& clip, const RigOptions& options) {
     moved = clip.skeleton.joints[moved].parent;
   }
   shared->moved_joint = moved;
-  if (moved < 0) shared->notes.push_back("neither the hips nor a joint above them can move");
+  if (moved < 0)
+    shared->notes.push_back(
+        "neither the hips nor a joint above them are animated (no translation channels)");
 
   Rig rig;
   // Until a pose was read, `first_body` stands in for one that is not finite.

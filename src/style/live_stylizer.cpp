@@ -69,7 +69,7 @@ Result<void> LiveStylizer::check(const Model& model, const LiveOptions& options)
   }
   if (options.max_lead > 0 && !model.predictor()) {
     return Error{
-        "max_lead needs a model that foresees input, which this one does not; train it again or "
+        "max_lead needs a model that predicts input, which this one does not; train it again or "
         "set max_lead to 0"};
   }
   return {};

@@ -83,9 +83,7 @@ std::shared_ptr<const Model> Model::of_constants(std::vector<ConstantStyle> styl
 Result<void> Model::read_metadata(const TensorFile& file, const std::string& name) {
   const auto format = file.metadata.find("format");
   if (format != file.metadata.end() && format->second == "panache-style") {
-    return Error{name +
-                 ": is a style file, not a model; panache styles MODEL --add FILE puts it into "
-                 "one"};
+    return Error{name + ": is a style file, not a model"};
   }
   if (format == file.metadata.end() || format->second != "panache") {
     return Error{name +
@@ -331,8 +329,7 @@ Result<int> Model::find_style(std::string_view style) const {
     names.push_back(styles_[i].name);
   }
   return Error{"unknown style '" + std::string(style) + "'; the nearest are " +
-               list_nearest(style, names, 3) + " (panache styles lists all " +
-               std::to_string(names.size()) + ")"};
+               list_nearest(style, names, 3)};
 }
 
 }  // namespace panache

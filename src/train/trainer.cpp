@@ -330,7 +330,7 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
     }
   }
   if (settings.predictor_steps > 0) {
-    Progress progress("training what foresees input");
+    Progress progress("training the input predictor");
     train_predictor(
         data.takes, settings.predictor_steps, options.seed,
         [&](double share) { progress.update(share); }, trained.model, trained.losses);

@@ -155,10 +155,9 @@ TEST_F(Convert, what_is_no_humanoid_keeps_its_units) {
   box.joints.push_back({"Box", -1, {}, {}, true, true, {{0, 1, 0}}, ""});
   write("box.bvh",
         format_bvh({box, 1.0 / 30, 2, std::vector<Quat>(2), std::vector<Vec3>(2, {0, 0, 5})}));
-  expect_rejected(
-      {"box.bvh", "-o", "box.glb"}, 0,
-      "box.bvh: is no humanoid that would tell its unit and up axis; taken as metres and "
-      "+Y where --scale and --up do not say otherwise");
+  expect_rejected({"box.bvh", "-o", "box.glb"}, 0,
+                  "box.bvh: is not a humanoid, so unit and up axis cannot be inferred; taken as "
+                  "metres and +Y unless --scale and --up are given");
   expect_same_positions(open("box.bvh")->clip(), open("box.glb")->clip(), 0);
   convert({"box.bvh", "-o", "big.glb", "--scale", "2", "--up", "z"});
   const auto big = open("big.glb");
@@ -176,7 +175,7 @@ TEST_F(Convert, a_folder_needs_a_format) {
   expect_rejected({"takes", "-o", "out", "--to", "fbx"}, 2,
                   "--to: expected bvh or glb, found 'fbx'");
   expect_rejected({"walk.bvh", "-o", "out.glb", "--to", "bvh"}, 2,
-                  "--to bvh: out.glb says otherwise");
+                  "--to bvh: out.glb has another format");
   convert({"takes", "-o", "out", "--to", "bvh"});
   EXPECT_EQ(entries("out"), (std::vector<std::string>{"a.bvh", "b.bvh"}));
   write("takes/a.glb", to_glb(small_gltf()));

@@ -186,8 +186,8 @@ TEST_F(Eval, takes_that_differ_in_name_only_make_no_evaluator) {
   write("crossed.csv", table(rows));
   expect_rejected({"eval", "crossed.csv", "--model", "model.safetensors", "--report", "report"},
                   "the style classifier recognises 0.000 of the windows of real test takes; "
-                  "expected at least 0.950, so its word on other motion would mean nothing; give "
-                  "more training takes of the test takes' styles and contents");
+                  "expected at least 0.950, so its accuracy on other motion is meaningless; add "
+                  "training takes of the styles and contents of the test takes");
   EXPECT_FALSE(exists("report"));
 }
 
@@ -195,8 +195,8 @@ TEST_F(Eval, without_test_takes_there_is_nothing_to_judge_by) {
   write("all.csv", table("neutral-walk-0.bvh,neutral,walk,0,1,train\n"
                          "old-walk-0.bvh,old,walk,0,0,train\n"));
   expect_rejected({"eval", "all.csv", "--model", "model.safetensors"},
-                  "all.csv: marks no take as test; mark some in its column split, or name a "
-                  "manifest of takes to judge by with --test");
+                  "all.csv: marks no take as test; mark some in its column split, or give a "
+                  "manifest of test takes with --test");
 }
 
 TEST_F(Eval, test_takes_of_one_kind_only_are_rejected) {
@@ -215,7 +215,7 @@ TEST_F(Eval, test_takes_of_one_kind_only_are_rejected) {
 
 TEST_F(Eval, takes_that_were_trained_on_or_are_of_other_styles_do_not_judge) {
   const std::string message =
-      "others.csv: has no take to judge by: all of them are trained on, or of styles that the "
+      "others.csv: has no usable test take: all of them are trained on, or of styles that the "
       "training manifests do not have";
   const std::vector<std::string> arguments = {"eval",       "takes.csv", "--test",
                                               "others.csv", "--model",   "model.safetensors"};

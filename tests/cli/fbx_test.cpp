@@ -101,7 +101,7 @@ TEST_F(Fbx, info_shows_it) {
   EXPECT_NE(ran.out.find("  motion  Take 001  5 frames at 30 a second: 0.17 s\n"),
             std::string::npos)
       << ran.out;
-  EXPECT_NE(ran.out.find("  unit    1 m (metres, most likely), judged by the legs\n"),
+  EXPECT_NE(ran.out.find("  unit    1 m (metres, most likely), inferred from the legs\n"),
             std::string::npos)
       << ran.out;
 }

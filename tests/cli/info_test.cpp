@@ -43,7 +43,7 @@ TEST_F(Info, shows_how_the_rig_was_mapped) {
   EXPECT_EQ(ran.exit, 0) << ran.err;
   EXPECT_TRUE(contains(ran.out, "  joints  21, of which 21 rotate and 1 move\n")) << ran.out;
   EXPECT_TRUE(contains(ran.out, "  motion  40 frames at 30 a second: 1.33 s\n")) << ran.out;
-  EXPECT_TRUE(contains(ran.out, "  unit    1 m (metres, most likely), judged by the legs\n"))
+  EXPECT_TRUE(contains(ran.out, "  unit    1 m (metres, most likely), inferred from the legs\n"))
       << ran.out;
   EXPECT_TRUE(contains(ran.out, "  up      +Y\n")) << ran.out;
   EXPECT_TRUE(contains(ran.out, "  humanoid       joint of the file  sure  how it was found\n"))
@@ -140,7 +140,7 @@ TEST_F(Info, rejects_a_map_that_is_none) {
   expect_map_rejected("{\"leftHand\": 3}",
                       ": leftHand: expected the name of a joint or null, found 3");
   expect_map_rejected("{\"mapping\": null}",
-                      ": holds no mapping; that file was no humanoid; " + example);
+                      ": holds no mapping, because that file has no humanoid; " + example);
   expect_map_rejected("{\"mapping\": {\"joints\": [{\"humanoid\": \"neck\"}]}}",
                       ": mapping.joints[0]: expected an object with 'humanoid' and 'joint', as "
                       "panache info --json prints them");

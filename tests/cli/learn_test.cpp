@@ -229,8 +229,8 @@ TEST_F(LearnVerb, another_style_joins_the_one_learnt_before) {
 
 TEST_F(LearnVerb, a_wrong_command_is_rejected) {
   const std::string cure =
-      "; expected NEUTRAL STYLED, or several such pairs; for styled clips alone say what they "
-      "show, as in --action walk";
+      "; expected NEUTRAL STYLED, or several such pairs; for styled clips alone name their action, "
+      "as in --action walk";
   expect_rejected({"bent.bvh", "--name", "bent", "--into", "mine.safetensors"}, 2,
                   "there is 1 clip" + cure);
   expect_rejected(
@@ -239,13 +239,13 @@ TEST_F(LearnVerb, a_wrong_command_is_rejected) {
   expect_rejected({"walk.bvh", "bent.bvh", "--name", "bent", "--into", "mine.txt"}, 2,
                   "--into mine.txt: expected a name that ends in .safetensors");
   expect_rejected({"walk.bvh", "bent.bvh", "--name", "a=b", "--into", "mine.safetensors"}, 2,
-                  "--name: style name 'a=b': holds a '=', which parts names from strengths");
+                  "--name: style name 'a=b': holds a '=', which separates names from strengths");
   expect_rejected({"walk.bvh", "bent.bvh", "--name", "", "--into", "mine.safetensors"}, 2,
                   "--name: style name '': is empty");
   expect_rejected(
       {"bent.bvh", "--action", "juggle", "--name", "bent", "--into", "mine.safetensors"}, 2,
-      "--action: there is no neutral 'juggle' of our own; expected walk or run, or a "
-      "neutral clip of the same skeleton");
+      "--action: there is no built-in neutral 'juggle'; expected walk or run, or a neutral clip of "
+      "the same skeleton");
   expect_rejected({"walk.bvh", "bent.bvh", "--into", "mine.safetensors"}, 2,
                   "--name is required; see panache learn --help");
 }
@@ -305,9 +305,8 @@ TEST_F(LearnVerb, clips_that_are_no_pair_are_rejected) {
   const std::string joint = std::to_string(spine_of(clip_of("walk.bvh")) + 1);
   expect_rejected({"walk.bvh", "renamed.bvh", "--name", "bent", "--into", "mine.safetensors"}, 1,
                   "walk.bvh and renamed.bvh: have different skeletons (joint " + joint +
-                      " is 'spine' and 'Spine1'); a pair is of one skeleton: bring one of them to "
-                      "the skeleton of the other, or leave the neutral clip out and say what the "
-                      "action is");
+                      " is 'spine' and 'Spine1'); a pair needs one skeleton: export both from one "
+                      "rig, or leave the neutral clip out and name the action");
   // Half a second that may advance by 3 frames at a time, and wait twice in a row.
   write_clip("brief.bvh", cut(clip_of("walk.bvh"), 15));
   expect_rejected({"brief.bvh", "bent.bvh", "--name", "bent", "--into", "mine.safetensors"}, 1,
@@ -335,9 +334,7 @@ TEST_F(LearnVerb, what_is_too_short_to_be_judged_is_learnt_and_not_judged) {
   Names arguments = {"walk.bvh", "brief.bvh", "--name", "bent", "--into", "mine.safetensors"};
   const Ran ran = learn(arguments);
   EXPECT_EQ(ran.exit, 0) << ran.err;
-  EXPECT_TRUE(
-      ran.out.ends_with("  too short for a quarter of it to be held back, so nothing tells how "
-                        "far off it is\n"))
+  EXPECT_TRUE(ran.out.ends_with("  too short to hold a quarter back, so the error is unknown\n"))
       << ran.out;
   arguments.insert(arguments.end(), {"--force", "--json"});
   const json out = json::parse(learn(arguments).out);

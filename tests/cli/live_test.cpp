@@ -301,7 +301,7 @@ TEST_F(LiveVerb, garbage_does_not_end_it) {
   EXPECT_EQ(got_[1], blend_message(0.25f));
   const Ran ran = end_live();
   EXPECT_EQ(ran.exit, 0);
-  EXPECT_EQ(ran.out.find(" 0 refused"), std::string::npos) << ran.out;
+  EXPECT_EQ(ran.out.find(" 0 rejected"), std::string::npos) << ran.out;
 }
 
 TEST_F(LiveVerb, explains_a_wrong_wish_before_it_starts) {

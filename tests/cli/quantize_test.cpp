@@ -53,7 +53,7 @@ TEST_F(QuantizeVerb, takes_the_file_of_a_style) {
   EXPECT_TRUE(ran.out.starts_with("quantized old.safetensors (")) << ran.out;
   EXPECT_LT(read("int8.safetensors").size(), read("old.safetensors").size());
   expect_rejected({"int8.safetensors", "-o", "quarter.safetensors"}, 1,
-                  "int8.safetensors: is a style in int8 already");
+                  "int8.safetensors: is a style with int8 weights already");
   EXPECT_EQ(run({"styles", "model.safetensors", "--add", "int8.safetensors", "--force"}).exit, 0);
   TensorFile bad = *parse_safetensors(read("old.safetensors"), "old");
   bad.tensors["pose.head.bias"].values[0] = INFINITY;
@@ -94,7 +94,7 @@ TEST_F(QuantizeVerb, explains_what_it_cannot_quantize) {
                   "the 8-byte length of its header");
   ASSERT_EQ(run({"quantize", "model.safetensors", "-o", "int8.safetensors"}).exit, 0);
   expect_rejected({"int8.safetensors", "-o", "quarter.safetensors"}, 1,
-                  "int8.safetensors: is a model in int8 already");
+                  "int8.safetensors: is a model with int8 weights already");
   EXPECT_FALSE(exists("quarter.safetensors"));
 }
 

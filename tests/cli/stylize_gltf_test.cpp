@@ -98,7 +98,7 @@ TEST_F(StylizeGltf, a_motion_that_cannot_be_restyled_stays_with_a_note) {
   const std::string message = "panache: legless.glb: Wave: the legs of the humanoid have no length";
   const Ran both = stylize({"legless.glb", "--style", "old=1", "-o", "out.glb"});
   EXPECT_EQ(both.exit, 0);
-  EXPECT_EQ(both.err, message + "; this motion stays as it is\n");
+  EXPECT_EQ(both.err, message + "; this motion is left unchanged\n");
   const auto file = read_motion(path("out.glb"));
   ASSERT_TRUE(file.ok());
   EXPECT_EQ((*file)->clip_names(), (Names{"Walk", "Wave", "Walk (old 1)"}));
@@ -119,7 +119,8 @@ TEST_F(StylizeGltf, a_skeleton_without_motion_is_rejected) {
             "animation\n");
   const Ran info = run({"info", "still.glb"});
   EXPECT_EQ(info.exit, 0) << info.err;
-  EXPECT_NE(info.out.find("  motion  none: what follows is of the rest pose\n"), std::string::npos)
+  EXPECT_NE(info.out.find("  motion  none: the following describes the rest pose\n"),
+            std::string::npos)
       << info.out;
 }
 

@@ -80,7 +80,7 @@ class ViewVerb : public ProgramTest {
 TEST_F(ViewVerb, explains_a_missing_page_and_a_damaged_file) {
   Ran ran = run({"view"}, "model.safetensors", program_);
   EXPECT_EQ(ran.exit, 1);
-  EXPECT_EQ(ran.err, "panache: the page was not found; looked for " + path("share/panache/web") +
+  EXPECT_EQ(ran.err, "panache: the page was not found; searched " + path("share/panache/web") +
                          ", " + path("web") + "; ./run web makes it\n");
   write("damaged.bvh", "HIERARCHY\nROTO hips");
   ran = run({"view", "damaged.bvh"}, "model.safetensors", program_);

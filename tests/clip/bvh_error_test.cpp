@@ -90,7 +90,7 @@ TEST(BvhErrors, wrong_numbers_in_the_hierarchy) {
   pieces.offset = "  OFFSET 0 1,5 0\n";
   EXPECT_EQ(pieces.rejection(),
             "walk.bvh:4:12: expected a number for y of the OFFSET of joint 'Hips', found '1,5'; "
-            "write decimals with a point and part numbers by blanks");
+            "write decimals with a point and separate numbers by spaces");
   pieces.offset = "  OFFSET 1e10 1 0\n";
   EXPECT_EQ(pieces.rejection(),
             "walk.bvh:4:10: expected a number between -1e9 and 1e9 for x of the OFFSET of joint "

@@ -124,8 +124,8 @@ TEST(Evaluator, an_evaluator_that_does_not_know_real_takes_is_rejected) {
   ASSERT_FALSE(evaluator.ok());
   EXPECT_EQ(evaluator.error().message,
             "the style classifier recognises 0.000 of the windows of real test takes; expected at "
-            "least 0.950, so its word on other motion would mean nothing; give more training takes "
-            "of the test takes' styles and contents");
+            "least 0.950, so its accuracy on other motion is meaningless; add training takes of "
+            "the styles and contents of the test takes");
 }
 
 // Made-up numbers of two cells of one style and one of another.

@@ -138,7 +138,7 @@ TEST_F(OodFiles, a_file_a_folder_and_a_manifest_are_listed) {
 
 TEST_F(OodFiles, where_nothing_is_out_of_distribution_a_message_says_so) {
   EXPECT_EQ(list_ood(folder_ + "manifest.csv").error().message,
-            folder_ + "manifest.csv: every content is there in a style: none is foreign");
+            folder_ + "manifest.csv: every content exists in a style; none is out of distribution");
   EXPECT_EQ(list_ood("no/such/file.bvh").error().message,
             "no/such/file.bvh: not found; expected a motion file, a folder or a manifest (.csv)");
   std::filesystem::create_directories(folder_ + "empty");

@@ -59,9 +59,10 @@ TEST(ReportText, columns_are_aligned) {
 
 TEST(ReportText, all_its_parts_are_there) {
   const std::string text = report_text(made_up_report());
-  for (const char* part : {"Overall", "By content", "Style recognised by strength",
-                           "Content kept by strength", "split A", "split B", "Foreign motion",
-                           "Disturbed windows", "floor -5 cm", "Input foreseen"}) {
+  for (const char* part :
+       {"Overall", "By content", "Style recognised by strength", "Content kept by strength",
+        "split A", "split B", "Out-of-distribution motion", "Disturbed windows", "floor -5 cm",
+        "Input prediction"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part;
   }
   EXPECT_EQ(occurrences(report_text(Report()), "Foreign"), 0u);

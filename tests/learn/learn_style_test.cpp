@@ -145,8 +145,8 @@ TEST(LearnStyle, a_styled_walk_alone_is_learnt_beside_the_walkers_own) {
   pair = make_learn_pair({bent, *rig, "bent.bvh"}, "juggle", test::shipped_walker());
   ASSERT_FALSE(pair.ok());
   EXPECT_EQ(pair.error().message,
-            "there is no neutral 'juggle' of our own; expected walk or run, or a neutral clip of "
-            "the same skeleton");
+            "there is no built-in neutral 'juggle'; expected walk or run, or a neutral clip of the "
+            "same skeleton");
 }
 
 TEST(LearnStyle, half_a_model_learns_too) {
@@ -169,8 +169,8 @@ TEST(LearnPair, of_different_skeletons_is_rejected) {
   };
   const std::string start = "a.bvh and b.bvh: have different skeletons (";
   const std::string end =
-      "); a pair is of one skeleton: bring one of them to the skeleton of the other, or leave the "
-      "neutral clip out and say what the action is";
+      "); a pair needs one skeleton: export both from one rig, or leave the neutral clip out and "
+      "name the action";
   EXPECT_EQ(message(renamed), start + "joint 6 is 'leftShoulder' and 'leftCollar'" + end);
   EXPECT_EQ(message(bent), start + "'leftUpperArm' rests in another direction" + end);
   fewer.skeleton.joints.pop_back();
@@ -202,7 +202,7 @@ TEST(LearnStyle, says_what_it_cannot_learn_on_or_from) {
   const std::vector<LearnPair> pairs = {test::make_pair(test::neutral_walk(2), test::bent_walk(2))};
   const std::string cure =
       ": has no trunk that styles can be learnt on; expected a model of recipe panache with "
-      "'learn.mean' and 'learn.scale', as panache train writes it";
+      "'learn.mean' and 'learn.scale'";
   for (const Recipe* recipe : {&test::kPanache, &test::kSmith2019}) {
     const TensorFile model = test::make_model({"old"}, 1, *recipe);
     EXPECT_EQ(failure(learn_style(model, "m.safetensors", pairs, "bent", "")),

@@ -224,9 +224,9 @@ TEST(StyleFile, a_style_of_the_same_name_is_replaced_in_its_place_when_asked) {
   const TensorFile model = mixed_model();
   TensorFile proud = extract(model, "proud"), limping = extract(model, "limping");
   proud.metadata["style"] = "old", limping.metadata["style"] = "proud";
-  EXPECT_EQ(rejection(model, proud),
-            "m.safetensors: has a style 'old' already; --force replaces it, and --rename gives it "
-            "another name");
+  EXPECT_EQ(
+      rejection(model, proud),
+      "m.safetensors: has a style 'old' already; replace it or give one of the two another name");
   const TensorFile same_kind = added(model, proud, true);
   EXPECT_EQ(styles_of(same_kind), styles_of(model));
   EXPECT_EQ(answers(same_kind, "old"), answers(model, "proud"));
@@ -246,8 +246,8 @@ TEST(StyleFile, one_that_was_made_with_another_model_is_rejected_with_the_cure) 
   EXPECT_EQ(rejection(model, extract(other, "limping"), true),
             "s.safetensors: rests on trunk '" + trunk_fingerprint(other) +
                 "', m.safetensors has '" + trunk_fingerprint(model) +
-                "'; put it into the model that it was made with or the half-size twin of that, or "
-                "learn it again with this one (panache learn)");
+                "'; use it with the model that it was made with or the int8 version of that model, "
+                "or learn it again with this one");
 }
 
 TEST(StyleFile, a_model_that_cannot_learn_takes_no_learnt_style) {
@@ -277,8 +277,7 @@ TEST(StyleFile, a_model_without_heads_gives_and_takes_no_styles) {
 }
 
 TEST(StyleFile, a_style_that_is_not_there_is_neither_extracted_nor_removed) {
-  const std::string message =
-      "unknown style 'prou'; the nearest are proud, old and limping (panache styles lists all 4)";
+  const std::string message = "unknown style 'prou'; the nearest are proud, old and limping";
   EXPECT_EQ(extract_style(mixed_model(), "prou", "m").error().message, message);
   EXPECT_EQ(remove_style(mixed_model(), "prou", "m").error().message, message);
   EXPECT_EQ(rename_style(mixed_model(), "prou", "sad", "m").error().message, message);
@@ -321,18 +320,20 @@ TEST(StyleName, holds_what_a_command_line_and_a_table_can_say) {
   EXPECT_EQ(rejection(""), "style name '': is empty");
   EXPECT_EQ(rejection(std::string(61, 'a')),
             "style name '" + std::string(40, 'a') + "...': has 61 bytes; expected at most 60");
-  EXPECT_EQ(rejection("a=1"), "style name 'a=1': holds a '=', which parts names from strengths");
-  EXPECT_EQ(rejection("a,b"), "style name 'a,b': holds a ',', which parts names from strengths");
+  EXPECT_EQ(rejection("a=1"),
+            "style name 'a=1': holds a '=', which separates names from strengths");
+  EXPECT_EQ(rejection("a,b"),
+            "style name 'a,b': holds a ',', which separates names from strengths");
   for (const std::string torn :
        {"a\nb", "a\rb", "a\tb", "a\x1b[2J", "a\x7f", "\xff", "\xed\xa0\x80"}) {
     EXPECT_TRUE(rejection(torn).ends_with(": is no line of UTF-8 text")) << rejection(torn);
   }
   EXPECT_EQ(rejection(std::string("a\0b", 3)), "style name 'a\\x00b': is no line of UTF-8 text");
-  EXPECT_EQ(rejection("old "), "style name 'old ': begins or ends with a blank");
-  EXPECT_EQ(rejection(" old"), "style name ' old': begins or ends with a blank");
+  EXPECT_EQ(rejection("old "), "style name 'old ': begins or ends with a space");
+  EXPECT_EQ(rejection(" old"), "style name ' old': begins or ends with a space");
   EXPECT_EQ(rejection("-old"), "style name '-old': begins like an option");
   EXPECT_EQ(rejection("seconds"),
-            "style name 'seconds': is what tables of strengths call the column of time");
+            "style name 'seconds': is the name of the time column in tables of strengths");
 }
 
 TEST(StyleFile, from_a_stranger_is_rejected_where_anything_is_wrong_with_it) {
@@ -347,12 +348,11 @@ TEST(StyleFile, from_a_stranger_is_rejected_where_anything_is_wrong_with_it) {
             "s.safetensors: is a safetensors file, but not a style; expected metadata 'format' to "
             "be 'panache-style'");
   EXPECT_EQ(given([](TensorFile& s) { s.metadata["format"] = "panache"; }),
-            "s.safetensors: is a model; expected a style file, as panache styles s.safetensors "
-            "--extract NAME -o FILE makes one");
+            "s.safetensors: is a model; expected a style file");
   EXPECT_EQ(given([](TensorFile& s) { s.metadata["format_version"] = "2"; }),
             "s.safetensors: is a style file of format version '2'; this program reads version 1");
   EXPECT_EQ(given([](TensorFile& s) { s.metadata["style"] = "a=b"; }),
-            "s.safetensors: style name 'a=b': holds a '=', which parts names from strengths");
+            "s.safetensors: style name 'a=b': holds a '=', which separates names from strengths");
   EXPECT_EQ(given([](TensorFile& s) { s.metadata["description"] = "one\ntwo"; }),
             "s.safetensors: metadata 'description' is no line of UTF-8 text");
   EXPECT_EQ(given([](TensorFile& s) { s.metadata["origin"] = "\x1b[2J"; }),

@@ -272,7 +272,7 @@ TEST(Mapping, what_is_known_goes_before_what_is_found) {
       map_humanoid(rig.skeleton, poses, {{index(spine), below}, {index(neck), -1}});
   ASSERT_TRUE(got.ok()) << got.error().message;
   EXPECT_EQ(got->joint_of[index(spine)], below);
-  EXPECT_EQ(got->reasons[index(spine)], "as you say");
+  EXPECT_EQ(got->reasons[index(spine)], "as given");
   EXPECT_EQ(got->joint_of[index(neck)], -1);
   EXPECT_EQ(got->joint_of[index(head)], rig.joint.at("m:Head"));
   EXPECT_EQ(std::count(got->joint_of.begin(), got->joint_of.end(), spine1), 0);

@@ -371,7 +371,7 @@ TEST_F(LiveStylizerTest, an_option_that_cannot_be_is_rejected_with_a_message) {
   early.max_lead = 0.1;
   EXPECT_EQ(error(early), "");
   EXPECT_EQ(error(early, false),
-            "max_lead needs a model that foresees input, which this one does not; train it again "
+            "max_lead needs a model that predicts input, which this one does not; train it again "
             "or set max_lead to 0");
 }
 

@@ -125,7 +125,7 @@ test('a wrong file is refused with the library\'s sentence, and the old one goes
   await choose('notes.txt');
   await tab.waitForFunction(() => document.querySelector('#alert').textContent.startsWith('notes'));
   assert.equal(await alertText(), 'notes.txt: expected a motion file (.bvh, .glb, .gltf, .vrm), ' +
-    'found the ending \'.txt\'');
+    'found the extension \'.txt\'');
   writeFileSync(at('cut.glb'), readFileSync(at('walk.glb')).subarray(0, 500));
   await choose('cut.glb');
   await tab.waitForFunction(() => document.querySelector('#alert').textContent.startsWith('cut'));
