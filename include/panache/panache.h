@@ -128,7 +128,7 @@ PANACHE_API int32_t panache_skeleton_find(const panache_skeleton *skeleton, cons
 
 /* ---- Characters ----------------------------------------------------------------------------- */
 
-/* One character in motion: its memory of the last third of a second. */
+/* One character in motion: its memory of the last quarter of a second. */
 typedef struct panache_character panache_character;
 
 /* How a character is styled. Start with PANACHE_CHARACTER_OPTIONS. */
@@ -224,7 +224,7 @@ typedef struct panache_pair {
 /* A model that has learnt a style. */
 typedef struct panache_learnt panache_learnt;
 
-/* Learns the style `name` from pairs of clips, in well under a second, on the features of the model
+/* Learns the style `name` from pairs of clips, in about 0.3 s, on the features of the model
  * in these bytes. A style of this name is replaced where `replace` is 1, else it is an error. The
  * same input gives the same bytes. */
 PANACHE_API panache_status panache_learn(const void *model_bytes, size_t model_size,

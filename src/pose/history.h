@@ -1,5 +1,5 @@
 #pragma once
-// The last third of a second of a body, at whatever rate it came, seen as a window of six poses.
+// The last quarter of a second of a body, at any frame rate, as a window of six poses.
 
 #include <array>
 #include <span>
