@@ -4,7 +4,7 @@
 /** The 21 joints of a humanoid, in the order of `parts` and `offsets`; parents before children. */
 export const humanJoints: readonly string[];
 
-/** Bad input; the message is one sentence that says where, what was expected and what was found. */
+/** Bad input; the message says where, what was expected and what was found. */
 export class PanacheError extends Error {}
 
 export interface Style {
@@ -37,7 +37,7 @@ export class Panache {
     walker?: ArrayBuffer | Uint8Array;
   }): Promise<Panache>;
   readonly styles: readonly Style[];
-  /** Reads a .bvh, .glb, .gltf (self-contained) or .vrm; the ending of `name` decides. */
+  /** Reads a .bvh, .glb, .gltf (self-contained) or .vrm; the extension of `name` decides. */
   openFile(bytes: ArrayBuffer | Uint8Array, name: string): MotionFile;
   /** Somebody who walks as she is steered, on a skeleton of humanJoints. */
   createWalker(): Walk;
@@ -95,7 +95,7 @@ declare class Actor {
   readonly offsets: Float32Array;
   /** world = scale * rotate(toYUp, point of the file) - {0, floor, 0}. */
   readonly placement: { toYUp: number[]; scale: number; floor: number };
-  /** A file of this ending (".bvh", ".glb", or that of the file played): the whole clip as styled
+  /** A file with this extension (".bvh", ".glb", or that of the file played): the whole clip as styled
    * now, or the last twenty seconds of a walk. */
   exportAs(ending: string): Uint8Array;
   free(): void;

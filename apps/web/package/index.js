@@ -59,7 +59,7 @@ export class Panache {
     if (!['.bvh', '.glb', '.gltf', '.vrm'].includes(ending)) {
       throw new PanacheError(
         `${name}: expected a motion file (.bvh, .glb, .gltf, .vrm), found ` +
-          (ending ? `the ending '${ending}'` : 'no ending'));
+          (ending ? `the extension '${ending}'` : 'no extension'));
     }
     return new MotionFile(this, this.#wasm, bytes, name, ending);
   }

@@ -271,11 +271,11 @@ class Page {
       out.addEventListener('click', () => void this.#attempt(press));
       return out;
     };
-    const film = button('save-webm', 'WebM', 'Film what is seen; press again to end', () => {
+    const film = button('save-webm', 'WebM', 'Record a video of the view; press again to stop', () => {
       if (this.#film.running) this.#film.stop();
       else this.#film.start('panache.webm');
       film.setAttribute('aria-pressed', String(this.#film.running));
-      film.textContent = this.#film.running ? 'Stop filming' : 'WebM';
+      film.textContent = this.#film.running ? 'Stop recording' : 'WebM';
     });
     film.hidden = !Film.possible;
     input.addEventListener('change', () => {
@@ -294,7 +294,7 @@ class Page {
       element('span', { class: 'keys' }, 'Save'),
       button('save-bvh', 'BVH', 'The motion, as a BVH file', save('.bvh')),
       button('save-glb', 'GLB', 'The motion, as a GLB file', save('.glb')),
-      button('save-png', 'PNG', 'What is seen, as a picture',
+      button('save-png', 'PNG', 'Save the view as a picture',
         () => {
         this.#stage.draw(0);  // What was drawn before is gone once it was shown.
         savePicture(this.#stage.canvas, 'panache.png');

@@ -10,10 +10,10 @@ import {
 import { Slider } from './slider';
 
 const kAmountHints = {
-  strength: 'Of all styles together',
-  posture: 'Of the lasting part of the change: how the body is held',
-  dynamics: 'Of what moves beyond that: swing, bounce, length of step',
-  timing: 'Of the change of tempo',
+  strength: 'Multiplies all styles',
+  posture: 'Slow part of the change: how the body is held',
+  dynamics: 'Fast part of the change: swing, bounce, step length',
+  timing: 'Change of tempo',
 };
 const kViewTitles: Record<View, string> = {
   styled: 'Styled', side: 'Side by side', over: 'Overlaid',
@@ -71,9 +71,9 @@ export function buildPanel(store: Store, styles: readonly Style[]) {
   const names = styles.map((style) => style.name);
   const regions = kRegions.map((key) => toggle(title(key), `Style the ${key}, or leave it as it is`,
     (s) => s[key], store, (s) => ({ [key]: !s[key] })));
-  const feet = toggle('Feet lock', 'Planted feet stay where they are', (s) => s.feet, store,
+  const feet = toggle('Feet lock', 'Planted feet stay in place', (s) => s.feet, store,
     (s) => ({ feet: !s.feet }));
-  const trail = toggle('Trail of the feet', 'Where the toes went', (s) => s.trail, store,
+  const trail = toggle('Foot trails', 'Paths of the toes', (s) => s.trail, store,
     (s) => ({ trail: !s.trail }));
   find('#panel').append(
     element('h2', {}, 'Presets'), presets(store),
@@ -83,14 +83,14 @@ export function buildPanel(store: Store, styles: readonly Style[]) {
     element('h2', {}, 'Blend of four'),
     buildPad(store, names,
       kCorners.map((corner, i) => (names.includes(corner) ? corner : names[i]))),
-    element('h2', {}, 'How much'), ...amountSliders(store),
-    element('h2', {}, 'Parts of the body'),
-    element('div', { class: 'chips', role: 'group', 'aria-label': 'Parts of the body' },
+    element('h2', {}, 'Amount'), ...amountSliders(store),
+    element('h2', {}, 'Body parts'),
+    element('div', { class: 'chips', role: 'group', 'aria-label': 'Body parts' },
       ...regions),
     element('h2', {}, 'Ground'),
     element('div', { class: 'chips', role: 'group', 'aria-label': 'Ground' }, feet, trail));
   find('#views').append(...(Object.keys(kViewTitles) as View[]).map((view) =>
-    toggle(kViewTitles[view], 'What is shown', (s) => s.view === view, store, () => ({ view }))));
+    toggle(kViewTitles[view], 'View', (s) => s.view === view, store, () => ({ view }))));
   store.listen((settings) => {
     document.body.dataset.view = settings.view;
     find('#caption').textContent = captionOf(settings);
@@ -100,5 +100,5 @@ export function buildPanel(store: Store, styles: readonly Style[]) {
 /** "old 1.00 + proud 0.50" */
 export function captionOf({ styles }: Settings): string {
   const parts = Object.entries(styles).map(([name, value]) => `${name} ${value.toFixed(2)}`);
-  return parts.length ? parts.join(' + ') : 'neutral: push a slider';
+  return parts.length ? parts.join(' + ') : 'neutral: move a slider';
 }

@@ -15,7 +15,7 @@ export function walkSource(panache: Panache): Source {
   return { kind: 'walk', actor: panache.createWalker(), joints: 21, own: null };
 }
 
-/** Refuses with the library's sentence. */
+/** Rejects with the library's message. */
 export async function openFile(panache: Panache, file: File): Promise<{ file: MotionFile;
     bytes: ArrayBuffer }> {
   if (file.size > kLargestFile) {

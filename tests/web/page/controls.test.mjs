@@ -169,7 +169,7 @@ test('every plot shows what it says', async () => {
   await tab.locator('#style-old').fill('1');
   const captions = await tab.locator('figcaption').allTextContents();
   assert.deepEqual(captions.map((text) => text.replace(/[\d.×]+$/, '').trim()), ['Strengths',
-    'Known motion', 'Rate of time', 'Feet planted, left and right', 'µs per step median']);
+    'Known motion', 'Playback rate', 'Feet planted, left and right', 'µs per step median']);
   const gate = await tab.evaluate(() => window.page.source.actor.gate);
   assert.ok(gate > 0.5 && gate <= 1, `a walk is known: ${gate}`);
 

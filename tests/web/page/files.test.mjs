@@ -94,7 +94,7 @@ test('what is saved reads back: BVH, GLB, a picture and a film', async () => {
   assert.ok(picture.length > 5000, `${picture.length}`);
   await button('WebM').click();
   await tab.waitForTimeout(1200);
-  const film = statSync(await save('Stop filming', '.webm'));
+  const film = statSync(await save('Stop recording', '.webm'));
   assert.ok(film.size > 2000, `${film.size}`);
 });
 
