@@ -14,8 +14,8 @@
  * or told). Joints stand in the order in which the skeleton was given, parents before children.
  * Seconds are double. Strings are UTF-8 and end with a zero.
  *
- * Errors. Functions that can fail return a panache_status; panache_last_error() then says in one
- * sentence what was wrong. Whatever they were to create is NULL then. Functions that cannot fail
+ * Errors. Functions that can fail return a panache_status; panache_last_error() then says what
+ * was wrong. Whatever they were to create is NULL then. Functions that cannot fail
  * return what they are asked for, or nothing. Arguments are not checked for NULL unless it says so.
  *
  * Memory. What a _create function gives is the caller's, to be given back to the _destroy function
@@ -68,7 +68,7 @@ typedef enum panache_status {
   PANACHE_BAD_CLIP = 6 /* The clips are no pairs that a style can be learnt from. */
 } panache_status;
 
-/* What was wrong when a function of this thread last failed, as one sentence; "" if none has. Valid
+/* What was wrong when a function of this thread last failed, in one line; "" if none has. Valid
  * until the next failure in the same thread. */
 PANACHE_API const char *panache_last_error(void);
 
@@ -136,14 +136,14 @@ typedef struct panache_character_options {
   float ease_seconds;      /* A change of strength takes about this long; 0 to 10. */
   float smoothing_seconds; /* Time constant of the filter on what a style adds; 0 to 10. */
   int32_t hold_feet;       /* 1: planted feet are held in place. */
-  int32_t style_root;      /* 1: the way over the ground is styled too. */
-  /* The tempo of a style needs time: how far behind its input the character may be shown (0 to 4
-   * seconds), and how far ahead (0 to 0.25; what has not come yet is foreseen, if the model can).
-   * With both at 0 nothing is late, and the tempo stays the input's. */
+  int32_t style_root;      /* 1: root motion is styled too. */
+  /* A style's own tempo needs time: the maximum lag behind the input (0 to 4 seconds) and the
+   * maximum lead (0 to 0.25; missing input is predicted, if the model can). With both at 0 no
+   * latency is added, and the tempo stays the input's. */
   double max_lag, max_lead;
-  /* 1: late by a whole cycle of a walk (or of what else repeats), the character leaves it out; at
-   * its max_lead it plays the last one again. So it keeps the style's tempo for ever. Needs a
-   * max_lag longer than a cycle, say 1.5 seconds. Then it stands elsewhere than its input. */
+  /* 1: skip or repeat whole cycles of a walk (or other repetitive motion) to stay within the
+   * limits, so that the style's tempo lasts. Needs a max_lag longer than a cycle, say 1.5 seconds.
+   * The character is then at another place than its input. */
   int32_t skip_cycles;
 } panache_character_options;
 #define PANACHE_CHARACTER_OPTIONS {0.15f, 0.04f, 1, 1, 0, 0, 0}
@@ -175,7 +175,7 @@ typedef struct panache_output_pose {
 /* Styles the next pose of a character; `seconds` have gone by since the last. Both poses may be the
  * same arrays. With all strengths at 0, `out` is `in` bit for bit (models of recipe panache).
  * Poses that are not finite are replaced by the last good one; after half a second without a step,
- * or a leap, the past is forgotten. */
+ * or a jump, the past is forgotten. */
 PANACHE_API void panache_character_step(panache_character *character, panache_input_pose in,
                                         double seconds, panache_output_pose out);
 /* Does the same for many characters at once: in[i] becomes out[i], bit for bit as alone, in less time
@@ -243,7 +243,7 @@ typedef struct panache_learnt_report {
    * try, in centimetres on a body of 1.6 metres: of the style, of its mean posture alone, and of
    * the neutral motion as it is. */
   double held_back_cm, mean_posture_cm, untouched_cm;
-  const char *warnings; /* One sentence a line, "" if there are none; valid as long as `learnt`. */
+  const char *warnings; /* One message a line, "" if there are none; valid as long as `learnt`. */
 } panache_learnt_report;
 PANACHE_API panache_learnt_report panache_learnt_get_report(const panache_learnt *learnt);
 
