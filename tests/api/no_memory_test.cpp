@@ -14,7 +14,7 @@ namespace {
 
 using panache::test::allocations_left;
 
-constexpr const char* kNoMemory = "there is not enough memory";
+constexpr const char* kNoMemory = "out of memory";
 
 // Calls `work` while no more than `count` allocations succeed.
 template <class Work>
