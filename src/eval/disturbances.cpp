@@ -114,12 +114,10 @@ SeenTakes in_place(const std::vector<Take>& takes, PoseLayout layout) {
   });
 }
 
-RootPose root_at(const Take& take, float frame) {
+RootPose root_pose_at(const Take& take, float frame) {
   const int a = std::min(static_cast<int>(frame), take.frames() - 1);
   const int b = std::min(a + 1, take.frames() - 1);
-  const float t = frame - static_cast<float>(a);
-  return {lerp(take.root[a].position, take.root[b].position, t),
-          std::lerp(take.root[a].facing, take.root[b].facing, t)};
+  return interpolate(take.root[a], take.root[b], frame - static_cast<float>(a));
 }
 
 // A file that is thought to have half the frames a second that it has, or twice as many.
@@ -134,7 +132,7 @@ SeenTakes faster(const std::vector<Take>& takes, PoseLayout layout) {
     for (int f = 0; f < frames; ++f) {
       const float at = static_cast<float>(f) * speed;
       take.body[f] = body_at(from, at);
-      take.root[f] = root_at(from, at);
+      take.root[f] = root_pose_at(from, at);
     }
   });
   seen.speed = speed;

@@ -8,8 +8,8 @@ namespace panache {
 
 void observe(PosedRig& rig, ConstPose pose, float last_facing, Observation& out) noexcept {
   rig.read(pose, out.world);
-  out.ground = ground_of(out.world, last_facing);
-  to_body_frame(out.world.positions, out.ground, out.body_frame);
+  out.root = root_pose_of(out.world, last_facing);
+  to_body_frame(out.world.positions, out.root, out.body_frame);
 }
 
 Observer::Observer(Rig rig)
@@ -20,10 +20,10 @@ Observer::Observer(Rig rig)
 bool Observer::observe(ConstPose in, double seconds) noexcept {
   if (seconds > kMaxGap) reset();
   sanitize_pose(in);
-  last_root_ = now_.ground;
+  last_root_ = now_.root;
   panache::observe(rig_, pose(), started_ ? last_root_.facing : 0, now_);
   const float most = kMaxGroundSpeed * static_cast<float>(std::max(seconds, 1e-3));
-  const bool continues = started_ && !(length(now_.ground.position - last_root_.position) > most);
+  const bool continues = started_ && !(length(now_.root.position - last_root_.position) > most);
   started_ = true;
   return continues;
 }

@@ -13,7 +13,7 @@ namespace panache {
 // One instant of a character.
 struct Observation {
   BodyPose world;               // In the world.
-  RootPose ground;              // Where it stands and looks.
+  RootPose root;              // Where it stands and looks.
   HumanPositions body_frame{};  // Its canonical joints seen from there, metres.
 };
 
@@ -42,7 +42,7 @@ class Observer {
   ConstPose pose() const noexcept { return {rotations_, translations_}; }
   const Observation& now() const noexcept { return now_; }
   // Where the body stood and looked at the pose before; meaningless at the first.
-  const RootPose& last_ground() const noexcept { return last_root_; }
+  const RootPose& last_root() const noexcept { return last_root_; }
   const Rig& rig() const noexcept { return rig_.rig(); }
 
   // The pose as taken in with `change` on it, see PosedRig::write().

@@ -7,7 +7,7 @@
 
 namespace panache {
 
-RootPose ground_of(const BodyPose& body, float last_facing) noexcept {
+RootPose root_pose_of(const BodyPose& body, float last_facing) noexcept {
   const Vec3 hips = body.positions[index(HumanJoint::hips)];
   return {{hips.x, 0, hips.z}, unwrap_angle(body.facing, last_facing)};
 }
@@ -21,21 +21,21 @@ RootPose interpolate(const RootPose& a, const RootPose& b, float t) noexcept {
   return {lerp(a.position, b.position, t), a.facing * (1 - t) + b.facing * t};
 }
 
-void to_body_frame(const HumanPositions& world, const RootPose& ground,
+void to_body_frame(const HumanPositions& world, const RootPose& root,
                    HumanPositions& body) noexcept {
-  const Quat to_heading = rotation_y(-ground.facing);
-  for (int j = 0; j < kHumanJoints; ++j) body[j] = rotate(to_heading, world[j] - ground.position);
+  const Quat to_heading = rotation_y(-root.facing);
+  for (int j = 0; j < kHumanJoints; ++j) body[j] = rotate(to_heading, world[j] - root.position);
 }
 
-HumanPositions to_world(const HumanPositions& body, const RootPose& ground) noexcept {
+HumanPositions to_world(const HumanPositions& body, const RootPose& root) noexcept {
   HumanPositions world;
-  const Quat heading = rotation_y(ground.facing);
-  for (int j = 0; j < kHumanJoints; ++j) world[j] = ground.position + rotate(heading, body[j]);
+  const Quat heading = rotation_y(root.facing);
+  for (int j = 0; j < kHumanJoints; ++j) world[j] = root.position + rotate(heading, body[j]);
   return world;
 }
 
-Vec3 to_world(Vec3 point, const RootPose& ground) noexcept {
-  return ground.position + rotate(rotation_y(ground.facing), point);
+Vec3 to_world(Vec3 point, const RootPose& root) noexcept {
+  return root.position + rotate(rotation_y(root.facing), point);
 }
 
 }  // namespace panache

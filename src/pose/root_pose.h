@@ -12,7 +12,7 @@ struct RootPose {
 };
 
 // Where `body` stands and looks, with the facing nearest to `last_facing` (radians).
-RootPose ground_of(const BodyPose& body, float last_facing) noexcept;
+RootPose root_pose_of(const BodyPose& body, float last_facing) noexcept;
 
 // The equivalent of `angle` (radians) nearest to `reference`.
 float unwrap_angle(float angle, float reference) noexcept;
@@ -21,10 +21,10 @@ float unwrap_angle(float angle, float reference) noexcept;
 RootPose interpolate(const RootPose& a, const RootPose& b, float t) noexcept;
 
 // `world` (Y up, metres) in the body frame: seen from the ground point under the hips, facing +z.
-void to_body_frame(const HumanPositions& world, const RootPose& ground,
+void to_body_frame(const HumanPositions& world, const RootPose& root,
                    HumanPositions& body) noexcept;
 // The reverse.
-HumanPositions to_world(const HumanPositions& body, const RootPose& ground) noexcept;
-Vec3 to_world(Vec3 point, const RootPose& ground) noexcept;
+HumanPositions to_world(const HumanPositions& body, const RootPose& root) noexcept;
+Vec3 to_world(Vec3 point, const RootPose& root) noexcept;
 
 }  // namespace panache

@@ -153,7 +153,7 @@ void LiveStylizer::pose_at(double ahead, const RootOffset& offset, Pose out) noe
     p.ring.pose(p.time + ahead, out);
   }
   // The whole body, by its root joints: turned where it stands, and moved.
-  p.input.rig().place(offset.turn, root_at(ahead).position, offset.translation, out);
+  p.input.rig().transform_root(offset.turn, root_at(ahead).position, offset.translation, out);
 }
 
 // Leaves out a cycle, or plays one again, where that is due and the motion has one.

@@ -34,7 +34,7 @@ void RootMotion::step(const StyleDelta& delta, float gate, const Observer& obser
   const float speed = window.forward_speed();
   const float share =
       gate * delta.velocity_forward * speed / (speed * speed + kSlowSpeed * kSlowSpeed);
-  const Vec3 way = observer.now().root.position - observer.last_ground().position;
+  const Vec3 way = observer.now().root.position - observer.last_root().position;
   drift_ += rotate(rotation_y(turn_), way) - way;
   const float most = speed > 0 ? kMaxStretched : 0.0f;  // Backwards, or the way would not close.
   drift_ += rotate(rotation_y(turn_), way) * std::clamp(share, -kMaxShortened, most);
