@@ -22,6 +22,12 @@
  * of its kind, in any order: characters keep the model and skeleton that they need. The library
  * keeps no pointer that it was given. Stepping allocates nothing, locks nothing, and cannot fail.
  *
+ * Versions. Options, shapes and reports begin with struct_size, their size in the header that the
+ * program was compiled with: start them with the macro of their name. Fields are only ever added at
+ * their ends, so programs keep running with newer libraries (docs/abi.md). A struct_size that is 0,
+ * or fields that the library does not know and that are not 0, are a PANACHE_BAD_ARGUMENT. All
+ * other structs never change.
+ *
  * Threads. Models and skeletons may be used by any number of threads at once, a character by one at
  * a time. Equal inputs give the same bits on every instruction set.
  */
@@ -39,6 +45,8 @@
 #else
 #define PANACHE_API
 #endif
+#elif defined(__EMSCRIPTEN__)
+#define PANACHE_API __attribute__((visibility("default"), used))
 #else
 #define PANACHE_API __attribute__((visibility("default")))
 #endif
@@ -52,7 +60,7 @@ extern "C" {
 /* The version of this header. Programs run with any library of the same major version (of the same
  * minor version while the major one is 0) that is no older. */
 #define PANACHE_VERSION_MAJOR 0
-#define PANACHE_VERSION_MINOR 1
+#define PANACHE_VERSION_MINOR 2
 #define PANACHE_VERSION_PATCH 0
 
 /* The library's own version: 10000 major + 100 minor + patch. */
@@ -65,12 +73,24 @@ typedef enum panache_status {
   PANACHE_BAD_ARGUMENT = 3, /* An option is out of its range. */
   PANACHE_BAD_STATE = 4,    /* The bytes are no state of such a character. */
   PANACHE_NO_MEMORY = 5,
-  PANACHE_BAD_CLIP = 6 /* The clips are no pairs that a style can be learnt from. */
+  PANACHE_BAD_CLIP = 6, /* A clip has bad numbers, or pairs are none to learn a style from. */
+  PANACHE_BAD_STYLE = 7 /* The bytes are no style file, or none that goes with the model. */
 } panache_status;
 
 /* What was wrong when a function of this thread last failed, in one line; "" if none has. Valid
  * until the next failure in the same thread. */
-PANACHE_API const char *panache_last_error(void);
+PANACHE_API const char* panache_last_error(void);
+
+/* ---- Bytes ---------------------------------------------------------------------------------- */
+
+/* The content of a file that the library made. */
+typedef struct panache_bytes panache_bytes;
+
+/* Valid as long as `bytes`. */
+PANACHE_API const void* panache_bytes_data(const panache_bytes* bytes);
+PANACHE_API size_t panache_bytes_size(const panache_bytes* bytes);
+/* Does nothing with NULL. */
+PANACHE_API void panache_bytes_destroy(panache_bytes* bytes);
 
 /* ---- Models --------------------------------------------------------------------------------- */
 
@@ -78,17 +98,17 @@ PANACHE_API const char *panache_last_error(void);
 typedef struct panache_model panache_model;
 
 /* Reads a model from the bytes of its file (.safetensors), which may go afterwards. */
-PANACHE_API panache_status panache_model_create(const void *bytes, size_t size,
-                                                panache_model **out);
+PANACHE_API panache_status panache_model_create(const void* bytes, size_t size,
+                                                panache_model** out);
 /* Does nothing with NULL. */
-PANACHE_API void panache_model_destroy(panache_model *model);
+PANACHE_API void panache_model_destroy(panache_model* model);
 
 /* Number of styles; they are told apart by their places, from 0. */
-PANACHE_API int32_t panache_model_style_count(const panache_model *model);
+PANACHE_API int32_t panache_model_style_count(const panache_model* model);
 /* The name of a style ("old"), valid as long as the model; NULL where none is at that place. */
-PANACHE_API const char *panache_model_style_name(const panache_model *model, int32_t style);
+PANACHE_API const char* panache_model_style_name(const panache_model* model, int32_t style);
 /* The place of the style of that name, or -1. */
-PANACHE_API int32_t panache_model_find_style(const panache_model *model, const char *name);
+PANACHE_API int32_t panache_model_find_style(const panache_model* model, const char* name);
 
 /* ---- Skeletons ------------------------------------------------------------------------------ */
 
@@ -97,34 +117,47 @@ typedef struct panache_skeleton panache_skeleton;
 
 /* One joint as the caller has it. */
 typedef struct panache_joint {
-  const char *name;     /* "LeftHand", "mixamorig:LeftHand", "hand_l", ...; may be "". */
+  const char* name;     /* "LeftHand", "mixamorig:LeftHand", "hand_l", ...; may be "". */
   int32_t parent;       /* Place of the parent, smaller than the joint's own; -1 for a root. */
   float rotation[4];    /* At rest, relative to the parent. */
   float translation[3]; /* Likewise. */
 } panache_joint;
 
-/* What may be told about a rig instead of having it found. Start with all zero. */
+/* Which joint of a skeleton is a joint of the humanoid. */
+typedef struct panache_human_joint {
+  const char* vrm_name; /* "leftHand", "hips", ...: the names of VRM 1.0. */
+  int32_t joint;        /* Its place in the skeleton; -1: the rig has none. */
+} panache_human_joint;
+
+/* What may be told about a rig instead of having it found. Start with PANACHE_SKELETON_OPTIONS. */
 typedef struct panache_skeleton_options {
+  uint32_t struct_size;
   float metres_per_unit; /* 0: judged by the length of the legs. */
-  const char *up_axis;   /* "+Y", "-Z", ...; NULL: found. */
+  const char* up_axis;   /* "+Y", "-Z", ...; NULL: found. */
   /* A few poses of the rig's ordinary motion; they tell the axes, the floor and the sides of joints
    * without names better than the rest pose alone, which stands in where there are none. */
-  const float *rotations;    /* [pose_count][joint_count][4] */
-  const float *translations; /* [pose_count][joint_count][3] */
+  const float* rotations;    /* [pose_count][joint_count][4] */
+  const float* translations; /* [pose_count][joint_count][3] */
   int32_t pose_count;
+  /* The joint map, where names and shape are not enough: what is listed is taken as it is, all
+   * other joints are found. */
+  int32_t human_joint_count;
+  const panache_human_joint* human_joints; /* [human_joint_count] */
 } panache_skeleton_options;
+#define PANACHE_SKELETON_OPTIONS \
+  { sizeof(panache_skeleton_options), 0, NULL, NULL, NULL, 0, 0, NULL }
 
 /* Finds the humanoid among the joints, by their names and their shape. `options` may be NULL. */
-PANACHE_API panache_status panache_skeleton_create(const panache_joint *joints, int32_t joint_count,
-                                                   const panache_skeleton_options *options,
-                                                   panache_skeleton **out);
+PANACHE_API panache_status panache_skeleton_create(const panache_joint* joints, int32_t joint_count,
+                                                   const panache_skeleton_options* options,
+                                                   panache_skeleton** out);
 /* Does nothing with NULL. */
-PANACHE_API void panache_skeleton_destroy(panache_skeleton *skeleton);
+PANACHE_API void panache_skeleton_destroy(panache_skeleton* skeleton);
 
-PANACHE_API int32_t panache_skeleton_joint_count(const panache_skeleton *skeleton);
+PANACHE_API int32_t panache_skeleton_joint_count(const panache_skeleton* skeleton);
 /* The place of the joint that a VRM humanoid joint was found to be ("leftHand", "hips", ...), or -1
  * where the rig has none or there is no such name. */
-PANACHE_API int32_t panache_skeleton_find(const panache_skeleton *skeleton, const char *vrm_name);
+PANACHE_API int32_t panache_skeleton_find(const panache_skeleton* skeleton, const char* vrm_name);
 
 /* ---- Characters ----------------------------------------------------------------------------- */
 
@@ -133,88 +166,171 @@ typedef struct panache_character panache_character;
 
 /* How a character is styled. Start with PANACHE_CHARACTER_OPTIONS. */
 typedef struct panache_character_options {
+  uint32_t struct_size;
   float ease_seconds;      /* A change of strength takes about this long; 0 to 10. */
   float smoothing_seconds; /* Time constant of the filter on what a style adds; 0 to 10. */
   int32_t hold_feet;       /* 1: planted feet are held in place. */
   int32_t style_root;      /* 1: root motion is styled too. */
-  /* A style's own tempo needs time: the maximum lag behind the input (0 to 4 seconds) and the
-   * maximum lead (0 to 0.25; missing input is predicted, if the model can). With both at 0 no
-   * latency is added, and the tempo stays the input's. */
-  double max_lag, max_lead;
   /* 1: skip or repeat whole cycles of a walk (or other repetitive motion) to stay within the
    * limits, so that the style's tempo lasts. Needs a max_lag longer than a cycle, say 1.5 seconds.
    * The character is then at another place than its input. */
   int32_t skip_cycles;
+  /* The tempo of a style needs time: how far behind its input the character may be shown (0 to 4
+   * seconds), and how far ahead (0 to 0.25; what has not come yet is foreseen, if the model can).
+   * With both at 0 nothing is late, and the tempo stays the input's. */
+  double max_lag, max_lead;
 } panache_character_options;
-#define PANACHE_CHARACTER_OPTIONS {0.15f, 0.04f, 1, 1, 0, 0, 0}
+#define PANACHE_CHARACTER_OPTIONS \
+  { sizeof(panache_character_options), 0.15f, 0.04f, 1, 1, 0, 0, 0 }
 
 /* `options` may be NULL. */
-PANACHE_API panache_status panache_character_create(const panache_model *model,
-                                                    const panache_skeleton *skeleton,
-                                                    const panache_character_options *options,
-                                                    panache_character **out);
+PANACHE_API panache_status panache_character_create(const panache_model* model,
+                                                    const panache_skeleton* skeleton,
+                                                    const panache_character_options* options,
+                                                    panache_character** out);
 /* Does nothing with NULL. */
-PANACHE_API void panache_character_destroy(panache_character *character);
+PANACHE_API void panache_character_destroy(panache_character* character);
 
 /* Sets how strongly a style acts from now on: 0 not at all, 1 as captured, more exaggerates; held
  * within -4 to 4, and eased over a few frames. Styles add up. A place without a style and numbers
  * that are not finite are ignored. */
-PANACHE_API void panache_character_set_strength(panache_character *character, int32_t style,
+PANACHE_API void panache_character_set_strength(panache_character* character, int32_t style,
                                                 float strength);
+
+/* How much is given of what the styles do, and where. 1 is the style as the model has it; each is
+ * held within 0 to 2, and numbers that are not finite count as 1. Start with PANACHE_SHAPE. */
+typedef struct panache_shape {
+  uint32_t struct_size;
+  float strength; /* Of all styles together. */
+  float posture;  /* Of the lasting part of the change: its mean over the last second or so. */
+  float dynamics; /* Of what the change is beyond that, and of the root motion. */
+  float timing;   /* Of the change of tempo. */
+  /* Parts of the body, each relative to what it is attached to. Legs include hips, height and root
+   * motion; the torso includes the head. */
+  float legs, torso, left_arm, right_arm;
+  float foot_lock; /* How firmly planted feet are held, 0 to 1. */
+} panache_shape;
+#define PANACHE_SHAPE \
+  { sizeof(panache_shape), 1, 1, 1, 1, 1, 1, 1, 1, 1 }
+
+/* Sets the shape from now on; eased as strengths are. NULL: all of it at 1. */
+PANACHE_API panache_status panache_character_set_shape(panache_character* character,
+                                                       const panache_shape* shape);
 
 /* An instant of a rig, to be read and to be written. */
 typedef struct panache_input_pose {
-  const float *rotations;    /* [joint_count][4] */
-  const float *translations; /* [joint_count][3] */
+  const float* rotations;    /* [joint_count][4] */
+  const float* translations; /* [joint_count][3] */
 } panache_input_pose;
 typedef struct panache_output_pose {
-  float *rotations;    /* [joint_count][4] */
-  float *translations; /* [joint_count][3] */
+  float* rotations;    /* [joint_count][4] */
+  float* translations; /* [joint_count][3] */
 } panache_output_pose;
 
 /* Styles the next pose of a character; `seconds` have gone by since the last. Both poses may be the
  * same arrays. With all strengths at 0, `out` is `in` bit for bit (models of recipe panache).
  * Poses that are not finite are replaced by the last good one; after half a second without a step,
  * or a jump, the past is forgotten. */
-PANACHE_API void panache_character_step(panache_character *character, panache_input_pose in,
+PANACHE_API void panache_character_step(panache_character* character, panache_input_pose in,
                                         double seconds, panache_output_pose out);
-/* Does the same for many characters at once: in[i] becomes out[i], bit for bit as alone, in less time
- * where characters of one model stand side by side. A character that comes twice is stepped twice.
- * No out[i] may be part of another character's pose. Works in about 180 KB of the stack. */
-PANACHE_API void panache_step_many(panache_character *const *characters, int32_t count,
-                                   const panache_input_pose *in, double seconds,
-                                   const panache_output_pose *out);
+/* Does the same for many characters at once: in[i] becomes out[i], bit for bit as alone, in less
+ * time where characters of one model stand side by side. A character that comes twice is stepped
+ * twice. No out[i] may be part of another character's pose. Works in about 180 KB of the stack. */
+PANACHE_API void panache_step_many(panache_character* const* characters, int32_t count,
+                                   const panache_input_pose* in, double seconds,
+                                   const panache_output_pose* out);
 /* Forgets the motion so far; strengths stay. */
-PANACHE_API void panache_character_reset(panache_character *character);
+PANACHE_API void panache_character_reset(panache_character* character);
 
-/* What went on at the last step. */
+/* What went on at the last step. Start with PANACHE_REPORT. */
 typedef struct panache_report {
-  double rate;       /* Seconds of input that the style would take per second: 0.5 to 2. */
-  double ahead;      /* Seconds from the newest input to what is shown; below 0: it is late. */
+  uint32_t struct_size;
   float gate;        /* 1: motion like what the model knows; 0: unlike, the style's mean is used. */
   float contacts[2]; /* Probability that the left and the right foot are planted. */
+  double rate;       /* Seconds of input that the style would take per second: 0.5 to 2. */
+  double ahead;      /* Seconds from the newest input to what is shown; below 0: it is late. */
 } panache_report;
-PANACHE_API panache_report panache_character_report(const panache_character *character);
+#define PANACHE_REPORT \
+  { sizeof(panache_report), 0, {0, 0}, 0, 0 }
+
+/* Fills the report as far as its struct_size goes. */
+PANACHE_API panache_status panache_character_get_report(const panache_character* character,
+                                                        panache_report* report);
 
 /* A character's memory, to return to a moment (rollback, rewind): bytes for memory, not for files.
  * save() writes panache_character_state_size() bytes. restore() takes them into any character of
  * the same model, skeleton and options, which then goes on bit for bit; strengths as they were set
  * are not part of it. On failure the character is as before. */
-PANACHE_API size_t panache_character_state_size(const panache_character *character);
-PANACHE_API void panache_character_save(const panache_character *character, void *out);
-PANACHE_API panache_status panache_character_restore(panache_character *character,
-                                                     const void *bytes, size_t size);
+PANACHE_API size_t panache_character_state_size(const panache_character* character);
+PANACHE_API void panache_character_save(const panache_character* character, void* out);
+PANACHE_API panache_status panache_character_restore(panache_character* character,
+                                                     const void* bytes, size_t size);
 
-/* ---- Learning a style ------------------------------------------------------------------------- */
+/* ---- Clips ---------------------------------------------------------------------------------- */
 
 /* Motion of a rig at a constant rate. */
 typedef struct panache_clip {
-  const panache_skeleton *skeleton;
+  const panache_skeleton* skeleton;
   int32_t frame_count;
   double frame_seconds;      /* From one frame to the next. */
-  const float *rotations;    /* [frame_count][joint_count][4] */
-  const float *translations; /* [frame_count][joint_count][3] */
+  const float* rotations;    /* [frame_count][joint_count][4] */
+  const float* translations; /* [frame_count][joint_count][3] */
 } panache_clip;
+
+/* The strength of one style along a clip: straight lines between the keys, held before the first
+ * and after the last. One key is a constant strength. */
+typedef struct panache_strength_key {
+  double seconds; /* Of the input; each key is later than the one before it. */
+  float strength; /* As in panache_character_set_strength(). */
+} panache_strength_key;
+typedef struct panache_strength_track {
+  int32_t style;
+  int32_t key_count; /* At least 1. */
+  const panache_strength_key* keys;
+} panache_strength_track;
+
+/* How a clip is styled. Start with PANACHE_STYLIZE_OPTIONS. */
+typedef struct panache_stylize_options {
+  uint32_t struct_size;
+  /* As in panache_character_options. */
+  float ease_seconds;
+  float smoothing_seconds;
+  int32_t hold_feet;
+  int32_t style_root;
+  int32_t style_timing;       /* 1: the clip gets the tempo of the style; 0: frame by frame. */
+  const panache_shape* shape; /* NULL: all of it at 1. */
+} panache_stylize_options;
+#define PANACHE_STYLIZE_OPTIONS \
+  { sizeof(panache_stylize_options), 0.15f, 0.04f, 1, 1, 1, NULL }
+
+/* A clip that was styled. */
+typedef struct panache_styled_clip panache_styled_clip;
+
+/* Styles a whole clip, with the tempo of the style: the result may have more frames than the clip,
+ * or fewer, at the same rate. Strengths of tracks of the same style add up. With all strengths at 0
+ * the result is the clip bit for bit (models of recipe panache). `options` may be NULL. */
+PANACHE_API panache_status panache_stylize_clip(
+    const panache_model* model, const panache_clip* clip, const panache_strength_track* tracks,
+    int32_t track_count, const panache_stylize_options* options, panache_styled_clip** out);
+/* Does nothing with NULL. */
+PANACHE_API void panache_styled_clip_destroy(panache_styled_clip* styled);
+
+PANACHE_API int32_t panache_styled_clip_frame_count(const panache_styled_clip* styled);
+/* What follows is valid as long as `styled`. */
+/* [frame_count][joint_count][4] */
+PANACHE_API const float* panache_styled_clip_rotations(const panache_styled_clip* styled);
+/* [frame_count][joint_count][3] */
+PANACHE_API const float* panache_styled_clip_translations(const panache_styled_clip* styled);
+/* The frame of the input that each frame shows, with fractions. [frame_count] */
+PANACHE_API const double* panache_styled_clip_source_frames(const panache_styled_clip* styled);
+/* 1 where the left and the right foot are planted, else 0. [frame_count][2] */
+PANACHE_API const uint8_t* panache_styled_clip_contacts(const panache_styled_clip* styled);
+/* As panache_report.gate. [frame_count] */
+PANACHE_API const float* panache_styled_clip_gates(const panache_styled_clip* styled);
+
+/* ---- Learning a style -------------------------------------------------------------------------
+ */
+
 /* One action, done neutrally and in the style, by the same skeleton. 2 to 3 seconds of a walk, or
  * the whole of a gesture, are enough. */
 typedef struct panache_pair {
@@ -227,25 +343,51 @@ typedef struct panache_learnt panache_learnt;
 /* Learns the style `name` from pairs of clips, in about 0.3 s, on the features of the model
  * in these bytes. A style of this name is replaced where `replace` is 1, else it is an error. The
  * same input gives the same bytes. */
-PANACHE_API panache_status panache_learn(const void *model_bytes, size_t model_size,
-                                         const panache_pair *pairs, int32_t pair_count,
-                                         const char *name, int32_t replace, panache_learnt **out);
+PANACHE_API panache_status panache_learn(const void* model_bytes, size_t model_size,
+                                         const panache_pair* pairs, int32_t pair_count,
+                                         const char* name, int32_t replace, panache_learnt** out);
 /* Does nothing with NULL. */
-PANACHE_API void panache_learnt_destroy(panache_learnt *learnt);
+PANACHE_API void panache_learnt_destroy(panache_learnt* learnt);
 
 /* The bytes of the model with the style, valid as long as `learnt`: for panache_model_create() or a
  * file. All its other styles are as they were, bit for bit. */
-PANACHE_API const void *panache_learnt_model(const panache_learnt *learnt, size_t *size);
+PANACHE_API const void* panache_learnt_model(const panache_learnt* learnt, size_t* size);
 
-/* How well it went. */
+/* How well it went. Start with PANACHE_LEARNT_REPORT. */
 typedef struct panache_learnt_report {
+  uint32_t struct_size;
+  int32_t was_tested;   /* 0: the clips are too short to hold some back; the distances are 0. */
+  const char* warnings; /* One sentence a line, "" if there are none; valid as long as `learnt`. */
   /* Mean distance of the joints on the last quarters of the styled clips, held back from a first
    * try, in centimetres on a body of 1.6 metres: of the style, of its mean posture alone, and of
    * the neutral motion as it is. */
   double held_back_cm, mean_posture_cm, untouched_cm;
-  const char *warnings; /* One message a line, "" if there are none; valid as long as `learnt`. */
 } panache_learnt_report;
-PANACHE_API panache_learnt_report panache_learnt_get_report(const panache_learnt *learnt);
+#define PANACHE_LEARNT_REPORT \
+  { sizeof(panache_learnt_report), 0, NULL, 0, 0, 0 }
+
+/* Fills the report as far as its struct_size goes. */
+PANACHE_API panache_status panache_learnt_get_report(const panache_learnt* learnt,
+                                                     panache_learnt_report* report);
+
+/* ---- Styles as files --------------------------------------------------------------------------
+ */
+
+/* A style file holds one style, which can be added to every model with the same networks. Each of
+ * these makes new bytes and leaves what it is given as it is; all other styles of the model stay as
+ * they are, bit for bit. */
+
+/* The model with the style of a style file. A style of its name is replaced where `replace` is 1,
+ * else it is an error. */
+PANACHE_API panache_status panache_styles_add(const void* model_bytes, size_t model_size,
+                                              const void* style_bytes, size_t style_size,
+                                              int32_t replace, panache_bytes** out);
+/* The model without a style. Its last style stays. */
+PANACHE_API panache_status panache_styles_remove(const void* model_bytes, size_t model_size,
+                                                 const char* name, panache_bytes** out);
+/* The style file of a style of the model. */
+PANACHE_API panache_status panache_styles_extract(const void* model_bytes, size_t model_size,
+                                                  const char* name, panache_bytes** out);
 
 #ifdef __cplusplus
 }

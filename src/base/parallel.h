@@ -13,8 +13,12 @@ namespace panache {
 // Calls work(i) for each i in [0, count) from as many threads as there are cores (or `threads`; 1
 // is the caller's own alone). Items are handed out in order. Where threads cannot be started, those
 // that could do the work, the caller's own at least. If work(i) throws, no further item begins, and
-// the caller gets the first exception.
+// the caller gets the first exception. WebAssembly has no threads: the caller does it all.
 inline void parallel_for(int count, const std::function<void(int)>& work, int threads = 0) {
+#if defined(__EMSCRIPTEN__) && !defined(__EMSCRIPTEN_PTHREADS__)
+  static_cast<void>(threads);
+  for (int i = 0; i < count; ++i) work(i);
+#else
   if (threads <= 0) threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   std::atomic<int> next = 0;
   std::atomic_flag failed;
@@ -36,6 +40,7 @@ inline void parallel_for(int count, const std::function<void(int)>& work, int th
   run();
   for (std::thread& thread : others) thread.join();
   if (first) std::rethrow_exception(first);
+#endif
 }
 
 }  // namespace panache

@@ -56,9 +56,9 @@ std::string key_in_model(const std::string& key, bool learnt, size_t index) {
 template <class Visit>
 void for_each_tensor(bool learnt, Visit&& visit) {
   if (learnt) {
-    std::ranges::for_each(kLearntTensors, visit);
+    for (const char* key : kLearntTensors) visit(key);
   } else {
-    std::ranges::for_each(kBuiltInTensors, visit);
+    for (const char* key : kBuiltInTensors) visit(key);
   }
 }
 
@@ -140,7 +140,8 @@ std::string metadata_of(const TensorFile& file, const std::string& key) {
 // Where the styles of this kind end.
 auto end_of_kind(std::vector<Style>& styles, bool learnt) {
   if (learnt) return styles.end();
-  return std::ranges::find_if(styles, [](const Style& style) { return style.info.learnt; });
+  return std::find_if(styles.begin(), styles.end(),
+                      [](const Style& style) { return style.info.learnt; });
 }
 
 }  // namespace
@@ -263,8 +264,9 @@ Result<TensorFile> add_style(const TensorFile& model, const std::string& name,
   Parts parts = take_apart(model, **parsed);
   std::vector<Style>& styles = parts.styles;
   Style added{*info, style.tensors};
-  const auto taken = std::ranges::find_if(
-      styles, [&](const Style& other) { return other.info.name == info->name; });
+  const auto taken = std::find_if(styles.begin(), styles.end(), [&](const Style& other) {
+    return other.info.name == info->name;
+  });
   if (taken != styles.end() && !replace) {
     return Error{name + ": has a style '" + info->name +
                  "' already; replace it or give one of the two another name"};

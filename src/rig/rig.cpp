@@ -32,10 +32,11 @@ std::vector<JointPositions> some_poses(const Clip& clip) {
   return poses;
 }
 
-// The skeleton's joints of those names.
-Result<KnownJoints> find_joints(const Skeleton& skeleton, const std::map<int, std::string>& names) {
-  KnownJoints known;
-  for (const auto& [human, name] : names) {
+// The skeleton's joints that the options say.
+Result<KnownJoints> find_joints(const Skeleton& skeleton, const RigOptions& options) {
+  KnownJoints known = options.joint_places;
+  for (const auto& [human, name] : options.joints) {
+    if (options.joint_places.contains(human)) continue;
     int& found = known[human] = -1;
     if (name.empty()) continue;
     for (size_t j = 0; j < skeleton.joints.size(); ++j) {
@@ -59,7 +60,7 @@ Result<KnownJoints> find_joints(const Skeleton& skeleton, const std::map<int, st
 Result<Rig> Rig::create(const Clip& clip, const RigOptions& options) {
   if (clip.joints() == 0) return Error{"no humanoid found: the skeleton has no joints"};
   if (clip.frames < 1) return Error{"expected at least one frame of motion, found none"};
-  Result<KnownJoints> known = find_joints(clip.skeleton, options.joints);
+  Result<KnownJoints> known = find_joints(clip.skeleton, options);
   if (!known) return known.error();
   const std::vector<JointPositions> poses = some_poses(clip);
   if (poses.empty()) return Error{"no frame of the motion has finite numbers only"};

@@ -14,6 +14,7 @@
 #include "rig/body_pose.h"
 #include "rig/calibration.h"
 #include "rig/humanoid.h"
+#include "rig/mapping.h"
 
 namespace panache {
 
@@ -32,6 +33,9 @@ struct RigOptions {
   // The name of the skeleton's joint for a human joint; empty says that the skeleton has none. All
   // others are found as ever.
   std::map<int, std::string> joints;
+  // The same by the joint's place in the skeleton, -1 says that it has none; for names that are not
+  // unique. Goes before a name.
+  KnownJoints joint_places;
 };
 
 // What was found out about a skeleton. Never changes; copies share it. A PosedRig brings poses from

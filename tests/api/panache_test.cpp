@@ -3,8 +3,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <string>
 #include <thread>
@@ -12,52 +10,14 @@
 
 #include <gtest/gtest.h>
 
-#include "../../samples/common/stick_figure.h"
+#include "stick_api.h"
 
 namespace {
 
-std::string model_bytes() {
-  std::ifstream file(PANACHE_SOURCE_DIR "/models/panache.safetensors", std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-class Api : public testing::Test {
- protected:
-  void SetUp() override {
-    const std::string bytes = model_bytes();
-    ASSERT_EQ(panache_model_create(bytes.data(), bytes.size(), &model_), PANACHE_OK)
-        << panache_last_error();
-    ASSERT_EQ(panache_skeleton_create(stick_figure, STICK_JOINTS, nullptr, &skeleton_), PANACHE_OK)
-        << panache_last_error();
-  }
-  void TearDown() override {
-    panache_skeleton_destroy(skeleton_);
-    panache_model_destroy(model_);
-  }
-  panache_character* character(const char* style = nullptr, float strength = 1) const {
-    panache_character* out = nullptr;
-    EXPECT_EQ(panache_character_create(model_, skeleton_, nullptr, &out), PANACHE_OK);
-    if (style) {
-      panache_character_set_strength(out, panache_model_find_style(model_, style), strength);
-    }
-    return out;
-  }
-  static std::vector<stick_pose> walk(panache_character* character, int frames, double phase = 0) {
-    std::vector<stick_pose> out(static_cast<size_t>(frames));
-    for (int f = 0; f < frames; ++f) {
-      stick_pose in;
-      stick_walk(f / 60.0, phase, &in);
-      panache_character_step(character, stick_input(&in), 1 / 60.0, stick_output(&out[f]));
-    }
-    return out;
-  }
-  static bool same(const std::vector<stick_pose>& a, const std::vector<stick_pose>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
-  }
-
-  panache_model* model_ = nullptr;
-  panache_skeleton* skeleton_ = nullptr;
-};
+using panache::test::model_bytes;
+using panache::test::report_of;
+using panache::test::Walk;
+using Api = panache::test::StickApi;
 
 TEST_F(Api, knows_its_styles_by_name_and_place) {
   const int count = panache_model_style_count(model_);
@@ -68,7 +28,7 @@ TEST_F(Api, knows_its_styles_by_name_and_place) {
   EXPECT_EQ(panache_model_find_style(model_, "no such style"), -1);
   EXPECT_EQ(panache_model_style_name(model_, -1), nullptr);
   EXPECT_EQ(panache_model_style_name(model_, count), nullptr);
-  EXPECT_EQ(panache_version(), 100);
+  EXPECT_EQ(panache_version(), 200);
 }
 
 TEST_F(Api, finds_the_humanoid_in_the_skeleton) {
@@ -87,7 +47,7 @@ TEST_F(Api, strength_zero_is_the_input_bit_for_bit_and_one_is_not) {
   for (int f = 0; f < 60; ++f) stick_walk(f / 60.0, 0, &input[f]);
   EXPECT_TRUE(same(walk(plain, 60), input));
   EXPECT_FALSE(same(walk(old, 60), input));
-  const panache_report report = panache_character_report(old);
+  const panache_report report = report_of(old);
   EXPECT_GT(report.rate, 0.5);
   EXPECT_LT(report.rate, 2);
   EXPECT_GE(report.gate, 0);
@@ -210,17 +170,17 @@ TEST_F(Api, what_is_wrong_is_said_in_a_message_and_nothing_is_created) {
   EXPECT_EQ(panache_skeleton_create(joints.data(), 0, nullptr, &skeleton), PANACHE_BAD_SKELETON);
   EXPECT_STREQ(panache_last_error(), "0 joints; expected 1 to 10000");
 
-  panache_skeleton_options given = {};
+  panache_skeleton_options given = PANACHE_SKELETON_OPTIONS;
   given.up_axis = "up";
   EXPECT_EQ(panache_skeleton_create(joints.data(), STICK_JOINTS, &given, &skeleton),
             PANACHE_BAD_ARGUMENT);
   EXPECT_STREQ(panache_last_error(), "expected an up axis from +X to -Z, found 'up'");
-  given = {};
+  given = PANACHE_SKELETON_OPTIONS;
   given.metres_per_unit = -1;
   EXPECT_EQ(panache_skeleton_create(joints.data(), STICK_JOINTS, &given, &skeleton),
             PANACHE_BAD_ARGUMENT);
   EXPECT_STREQ(panache_last_error(), "expected metres per unit above 0, found -1.000000");
-  given = {};
+  given = PANACHE_SKELETON_OPTIONS;
   given.pose_count = -1;
   EXPECT_EQ(panache_skeleton_create(joints.data(), STICK_JOINTS, &given, &skeleton),
             PANACHE_BAD_ARGUMENT);
@@ -245,10 +205,10 @@ TEST_F(Api, a_character_may_be_late_and_says_by_how_much) {
   panache_character_set_strength(timed, panache_model_find_style(model_, "childlike"), 1);
   walk(timed, 600);
   walk(plain, 600);
-  EXPECT_NE(panache_character_report(timed).ahead, 0);
-  EXPECT_GE(panache_character_report(timed).ahead, -0.5);
-  EXPECT_LE(panache_character_report(timed).ahead, 0.25);
-  EXPECT_EQ(panache_character_report(plain).ahead, 0);
+  EXPECT_NE(report_of(timed).ahead, 0);
+  EXPECT_GE(report_of(timed).ahead, -0.5);
+  EXPECT_LE(report_of(timed).ahead, 0.25);
+  EXPECT_EQ(report_of(plain).ahead, 0);
 
   // Beside others in a crowd he has the same time.
   panache_character* again = nullptr;
@@ -263,7 +223,7 @@ TEST_F(Api, a_character_may_be_late_and_says_by_how_much) {
                                       stick_output(&out[2])};
     panache_step_many(crowd, 3, from, 1 / 60.0, to);
   }
-  EXPECT_EQ(panache_character_report(again).ahead, panache_character_report(timed).ahead);
+  EXPECT_EQ(report_of(again).ahead, report_of(timed).ahead);
 
   options.max_lag = -1;
   panache_character* none = nullptr;
@@ -295,26 +255,6 @@ TEST_F(Api, two_threads_style_two_characters_of_one_model) {
   panache_character_destroy(other);
 }
 
-// A walk of the stick figure, and the same bent forward at its first joint above the hips.
-struct Walk {
-  std::vector<float> rotations, translations;
-  panache_clip clip{};
-  Walk(const panache_skeleton* skeleton, int frames, bool bent) {
-    for (int f = 0; f < frames; ++f) {
-      stick_pose pose;
-      stick_walk(f / 60.0, 0, &pose);
-      const panache_input_pose in = stick_input(&pose);
-      rotations.insert(rotations.end(), in.rotations, in.rotations + 4 * STICK_JOINTS);
-      translations.insert(translations.end(), in.translations, in.translations + 3 * STICK_JOINTS);
-      if (bent) {  // By 0.4 radians about x; the walk leaves this joint alone.
-        float* q = &rotations[rotations.size() - 4 * (STICK_JOINTS - 1)];
-        q[0] = std::sin(0.2f), q[1] = 0, q[2] = 0, q[3] = std::cos(0.2f);
-      }
-    }
-    clip = {skeleton, frames, 1 / 60.0, rotations.data(), translations.data()};
-  }
-};
-
 TEST_F(Api, learns_a_style_from_a_pair_of_clips) {
   const std::string bytes = model_bytes();
   const Walk neutral(skeleton_, 180, false), bent(skeleton_, 180, true);
@@ -322,7 +262,9 @@ TEST_F(Api, learns_a_style_from_a_pair_of_clips) {
   panache_learnt* learnt = nullptr;
   ASSERT_EQ(panache_learn(bytes.data(), bytes.size(), &pair, 1, "bent", 0, &learnt), PANACHE_OK)
       << panache_last_error();
-  const panache_learnt_report report = panache_learnt_get_report(learnt);
+  panache_learnt_report report = PANACHE_LEARNT_REPORT;
+  ASSERT_EQ(panache_learnt_get_report(learnt, &report), PANACHE_OK);
+  EXPECT_EQ(report.was_tested, 1);
   EXPECT_STREQ(report.warnings, "");
   EXPECT_LT(report.held_back_cm, 0.25 * report.untouched_cm);
 
@@ -339,7 +281,7 @@ TEST_F(Api, learns_a_style_from_a_pair_of_clips) {
   // The joint that was bent is, by nearly as much.
   EXPECT_NEAR(stick_output(const_cast<stick_pose*>(&out.back())).rotations[4], std::sin(0.2f),
               0.06);
-  EXPECT_GT(panache_character_report(learner).gate, 0.9f);
+  EXPECT_GT(report_of(learner).gate, 0.9f);
   panache_character_destroy(learner);
 
   // The same again, in the same bytes; and the name is taken now.

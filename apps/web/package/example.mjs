@@ -10,12 +10,12 @@ const panache = await Panache.create({
 });
 try {
   const file = panache.openFile(await readFile(path), path);
-  const actor = file.createActor();
+  const player = file.createPlayer();
   for (const style of styles) {
     const [name, strength] = style.split('=');
-    actor.setStrength(name, Number(strength));
+    player.setStrength(name, Number(strength));
   }
-  process.stdout.write(actor.exportAs(file.ending));
+  process.stdout.write(player.exportAs(file.ending));
 } catch (error) {
   console.error(error.message);
   process.exitCode = 1;

@@ -14,18 +14,122 @@ export interface Style {
   description: string;
 }
 
-/** How much of a style is given, 0 to 2; 1 is as trained. Posture is the lasting part of the
- * change, dynamics what goes beyond it; the parts of the body are relative to what they hang on. */
+/** How much is given of what the styles do, 0 to 2; 1 is the style as the model has it. Posture is
+ * the lasting part of the change, dynamics what goes beyond it; the parts of the body are relative
+ * to what they are attached to. */
 export interface Shape {
+  strength: number;
   posture: number;
   dynamics: number;
   timing: number;
+  /** With the hips, their height and the root motion. */
   legs: number;
-  spine: number;
-  arms: number;
-  head: number;
+  /** With the head. */
+  torso: number;
+  leftArm: number;
+  rightArm: number;
   /** 0 to 1. */
   footLock: number;
+}
+
+/** One joint of a skeleton of yours. */
+export interface Joint {
+  name: string;
+  /** Index of the parent, smaller than the joint's own; -1 for a root. */
+  parent: number;
+  /** At rest, relative to the parent: x y z w, and a translation in any unit. */
+  rotation: ArrayLike<number>;
+  translation: ArrayLike<number>;
+}
+
+/** Local rotations [joints][4] and translations [joints][3], in the skeleton's own units and axes. */
+export interface Pose {
+  rotations: Float32Array;
+  translations: Float32Array;
+}
+
+export interface SkeletonOptions {
+  /** 0 (the default): judged by the length of the legs. */
+  metresPerUnit?: number;
+  /** "+Y", "-Z", ...; null (the default): found. */
+  upAxis?: string | null;
+  /** The joint map, where names and shape are not enough: index of the joint by the name of the
+   * humanoid's ("leftHand", as in VRM), -1 where there is none. */
+  humanJoints?: Record<string, number>;
+  /** A few poses of ordinary motion; they tell axes and floor better than the rest pose alone. */
+  poses?: readonly Pose[];
+}
+
+interface StylizingOptions {
+  /** A change of strength takes about this long; 0.15. */
+  easeSeconds?: number;
+  /** Time constant of the filter on what a style adds; 0.04. */
+  smoothingSeconds?: number;
+  /** Planted feet are held in place; true. */
+  holdFeet?: boolean;
+  /** The root motion is styled too; true. */
+  styleRoot?: boolean;
+}
+export interface CharacterOptions extends StylizingOptions {
+  /** How far the character may be shown behind its input, and ahead of it, seconds; 0. */
+  maxLag?: number;
+  maxLead?: number;
+  /** Leave out or repeat whole cycles to stay within them; false. */
+  skipCycles?: boolean;
+}
+export interface StylizeOptions extends StylizingOptions {
+  /** The clip gets the tempo of the style; true. */
+  styleTiming?: boolean;
+  shape?: Partial<Shape>;
+}
+
+/** What went on at the last step. */
+export interface Report {
+  /** 1 where the styles know a motion like this one, towards 0 they give their mean posture. */
+  gate: number;
+  /** Probability that each foot is planted: left, right. */
+  contacts: [number, number];
+  /** Input seconds per output second that the style asks for. */
+  rate: number;
+  /** Seconds from the newest input to what is shown; below 0: it is late. */
+  ahead: number;
+}
+
+export interface Clip extends Pose {
+  frameSeconds: number;
+}
+export interface StyledClip extends Clip {
+  frameCount: number;
+  /** The frame of the input that each frame shows, with fractions. */
+  sourceFrames: Float64Array;
+  /** [frames][2]: 1 where the left and the right foot are planted. */
+  contacts: Uint8Array;
+  gates: Float32Array;
+}
+
+/** A rig of yours, shared by all its characters. */
+export class Skeleton {
+  private constructor();
+  readonly jointCount: number;
+  /** Index of the joint that a human joint was found to be, or -1. */
+  find(humanJoint: string): number;
+  /** Characters keep what they need of it. */
+  free(): void;
+}
+
+/** One character of yours in motion. */
+export class Character {
+  private constructor();
+  /** 0 is neutral, 1 the style as captured, more exaggerates it (-4 to 4). Eased in. */
+  setStrength(style: string, strength: number): void;
+  /** What is left out is 1. Eased in. */
+  setShape(shape: Partial<Shape>): void;
+  /** Styles the next pose; `seconds` have gone by since the last. Both may be the same arrays. */
+  step(input: Pose, output: Pose, seconds: number): void;
+  report(): Report;
+  /** Forgets the motion so far. */
+  reset(): void;
+  free(): void;
 }
 
 export class Panache {
@@ -41,6 +145,14 @@ export class Panache {
   openFile(bytes: ArrayBuffer | Uint8Array, name: string): MotionFile;
   /** Somebody who walks as she is steered, on a skeleton of humanJoints. */
   createWalker(): Walk;
+  /** Finds the humanoid among the joints of a skeleton of yours, or throws. */
+  createSkeleton(joints: readonly Joint[], options?: SkeletonOptions): Skeleton;
+  createCharacter(skeleton: Skeleton, options?: CharacterOptions): Character;
+  /** Styles a whole clip, with the tempo of the style. Strengths by style: a number, or keys
+   * [seconds, strength] with straight lines between them. */
+  stylizeClip(skeleton: Skeleton, clip: Clip,
+    strengths: Record<string, number | readonly [seconds: number, strength: number][]>,
+    options?: StylizeOptions): StyledClip;
   /** The hash of 300 styled frames, 16 hexadecimal digits: the same on every machine. */
   goldenHash(): string;
   /** After everything that was made with it. */
@@ -65,12 +177,12 @@ export class MotionFile {
   /** Parents before children; -1 above a root. */
   readonly joints: readonly { name: string; parent: number }[];
   /** Fails where the skeleton is no humanoid. The file may be freed first. */
-  createActor(clip?: number): Playback;
+  createPlayer(clip?: number): Playback;
   free(): void;
 }
 
 /** A source of motion and the character that it moves. */
-declare class Actor {
+declare class Player {
   /** 0 is neutral, 1 the style as captured, more exaggerates it (-4 to 4). Eased in. */
   setStrength(style: string, strength: number): void;
   /** What is left out is 1. Eased in. */
@@ -101,12 +213,12 @@ declare class Actor {
   free(): void;
 }
 
-export class Walk extends Actor {
+export class Walk extends Player {
   /** m/s, 0 to 4.5, and rad/s, to the left. Eased. */
   steer(speed: number, turn: number): void;
 }
 
-export class Playback extends Actor {
+export class Playback extends Player {
   /** To so many seconds after the first frame; shown by the next step. */
   seek(seconds: number): void;
   set loop(loop: boolean);

@@ -1,12 +1,11 @@
 // Panache for JavaScript: a thin hand over the WebAssembly module. See index.d.ts for what it
 // promises.
 
+import { Character, Skeleton, stylizeClip, writeShape } from './character.js';
+import { Arena, PanacheError } from './memory.js';
+
 const kHumanJoints = 21;
 const kPartNumbers = 7;
-// In the order in which the module takes them.
-const kShape = {
-  posture: 1, dynamics: 1, timing: 1, legs: 1, spine: 1, arms: 1, head: 1, footLock: 1,
-};
 
 export const humanJoints = [
   'hips', 'spine', 'chest', 'neck', 'head',
@@ -16,7 +15,7 @@ export const humanJoints = [
   'rightUpperLeg', 'rightLowerLeg', 'rightFoot', 'rightToes',
 ];
 
-export class PanacheError extends Error {}
+export { Character, PanacheError, Skeleton };
 
 // The module asks for a file system, which it never gets to use: whatever is not given fails.
 function importsOf(module, given) {
@@ -47,11 +46,23 @@ export class Panache {
 
   constructor(wasm, model, walker) {
     this.#wasm = wasm;
-    this.#model = this._with(model, (at, size) => wasm.panache_model_create(at, size));
+    this.#model = this._arena((arena) => arena.create(
+      (out) => wasm.panache_model_create(arena.copy(model), model.byteLength, out)));
     if (walker) {
-      this.#walker = this._with(walker, (at, size) => wasm.panache_walker_create(at, size));
+      this.#walker = this._arena((arena) => this._checked(
+        wasm.panache_page_walker_create(arena.copy(walker), walker.byteLength)));
     }
-    this.styles = JSON.parse(this._text(wasm.panache_model_describe(this.#model)));
+    const count = wasm.panache_model_style_count(this.#model);
+    this.styles = Array.from({ length: count }, (_, style) => ({
+      name: this._text(wasm.panache_model_style_name(this.#model, style)),
+      description: this._text(wasm.panache_page_style_description(this.#model, style)),
+    }));
+  }
+
+  createSkeleton(joints, options = {}) { return new Skeleton(this, joints, options); }
+  createCharacter(skeleton, options = {}) { return new Character(this, skeleton, options); }
+  stylizeClip(skeleton, clip, strengths, options = {}) {
+    return stylizeClip(this, skeleton, clip, strengths, options);
   }
 
   openFile(bytes, name) {
@@ -66,65 +77,48 @@ export class Panache {
 
   createWalker() {
     if (!this.#walker) throw new PanacheError('no walker was given to Panache.create');
-    const actor = this.#wasm.panache_actor_walk(this.#model, this.#walker);
-    return new Walk(this, this.#wasm, this._checked(actor), '');
+    const player = this.#wasm.panache_page_player_walk(this.#model, this.#walker);
+    return new Walk(this, this.#wasm, this._checked(player), '');
   }
 
   goldenHash() {
-    return this._scratch(8, (at) => {
-      this.#wasm.panache_model_golden(this.#model, at);
+    return this._arena((arena) => {
+      const at = arena.allocate(8);
+      this.#wasm.panache_page_golden(this.#model, at);
       const [low, high] = new Uint32Array(this.#wasm.memory.buffer, at, 2);
       return high.toString(16).padStart(8, '0') + low.toString(16).padStart(8, '0');
     });
   }
 
   free() {
-    this.#wasm.panache_model_free(this.#model);
-    this.#wasm.panache_walker_free(this.#walker);
+    this.#wasm.panache_model_destroy(this.#model);
+    this.#wasm.panache_page_walker_free(this.#walker);
     this.#model = this.#walker = 0;
   }
 
-  // For the classes below.
+  // For the other classes.
+  get _wasm() { return this.#wasm; }
   _model() { return this.#model; }
+  _styleIndex(name) {
+    const index = this.styles.findIndex((style) => style.name === name);
+    if (index < 0) throw new PanacheError(`there is no style '${name}'`);
+    return index;
+  }
   _checked(handle) {
     if (handle) return handle;
-    throw new PanacheError(this._read(this.#wasm.panache_error()));
+    throw new PanacheError(this._text(this.#wasm.panache_last_error()));
   }
-  _scratch(size, use) {
-    const at = this.#wasm.malloc(Math.max(size, 1));
-    if (!at) throw new PanacheError('there is not enough memory for this file');
-    try {
-      return use(at);
-    } catch (error) {
-      if (!(error instanceof WebAssembly.RuntimeError)) throw error;
-      throw new PanacheError('there is not enough memory for this file; reload the page');
-    } finally {
-      this.#wasm.free(at);
-    }
+  _arena(use) { return Arena.use(this.#wasm, use); }
+  _text(at) {
+    const bytes = new Uint8Array(this.#wasm.memory.buffer, at);
+    return new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)));
   }
-  _with(bytes, create) {
-    return this._scratch(bytes.byteLength, (at) => {
-      new Uint8Array(this.#wasm.memory.buffer, at, bytes.byteLength).set(new Uint8Array(
-        bytes.buffer ?? bytes, bytes.byteOffset ?? 0, bytes.byteLength));
-      return this._checked(create(at, bytes.byteLength));
-    });
-  }
-  _withText(text, use) {
-    const bytes = new TextEncoder().encode(text + '\0');
-    return this._scratch(bytes.length, (at) => {
-      new Uint8Array(this.#wasm.memory.buffer, at, bytes.length).set(bytes);
-      return use(at);
-    });
-  }
-  _bytes(handle) {
+  // What a panache_bytes holds, which goes.
+  _take(handle) {
     const at = this.#wasm.panache_bytes_data(handle), size = this.#wasm.panache_bytes_size(handle);
-    return new Uint8Array(this.#wasm.memory.buffer, at, size).slice();
-  }
-  _read(handle) { return new TextDecoder().decode(this._bytes(handle)); }
-  _text(handle) {
-    const text = this._read(handle);
-    this.#wasm.panache_bytes_free(handle);
-    return text;
+    const bytes = new Uint8Array(this.#wasm.memory.buffer, at, size).slice();
+    this.#wasm.panache_bytes_destroy(handle);
+    return bytes;
   }
 }
 
@@ -135,10 +129,11 @@ export class MotionFile {
     this.#panache = panache;
     this.#wasm = wasm;
     this.#ending = ending;
-    this.#file = panache._with(bytes, (at, size) => panache._withText(
-      name.slice(0, name.length - ending.length) + ending,
-      (text) => wasm.panache_file_create(at, size, text)));
-    const { clips, joints } = JSON.parse(panache._text(wasm.panache_file_describe(this.#file)));
+    this.#file = panache._arena((arena) => panache._checked(wasm.panache_page_file_create(
+      arena.copy(bytes), bytes.byteLength,
+      arena.text(name.slice(0, name.length - ending.length) + ending))));
+    const { clips, joints } = JSON.parse(new TextDecoder().decode(
+      panache._take(wasm.panache_page_file_describe(this.#file))));
     this.name = name;
     this.ending = ending;
     this.joints = joints;
@@ -146,90 +141,85 @@ export class MotionFile {
       { name: title, frames, frameTime, seconds: Math.max(0, frames - 1) * frameTime }));
   }
 
-  createActor(clip = 0) {
-    const actor = this.#wasm.panache_actor_clip(this.#panache._model(), this.#file, clip);
-    return new Playback(this.#panache, this.#wasm, this.#panache._checked(actor), this.#ending);
+  createPlayer(clip = 0) {
+    const player = this.#wasm.panache_page_player_clip(this.#panache._model(), this.#file, clip);
+    return new Playback(this.#panache, this.#wasm, this.#panache._checked(player), this.#ending);
   }
 
   free() {
-    this.#wasm.panache_file_free(this.#file);
+    this.#wasm.panache_page_file_free(this.#file);
     this.#file = 0;
   }
 }
 
-class Actor {
+class Player {
   #panache; #ending;
 
-  constructor(panache, wasm, actor, ending) {
+  constructor(panache, wasm, player, ending) {
     this.#panache = panache;
     this.#ending = ending;
     this._wasm = wasm;
-    this._actor = actor;
-    this.styleCount = panache.styles.length;
-    this.styles = new Map(panache.styles.map(({ name }, index) => [name, index]));
+    this._player = player;
   }
 
   setStrength(style, strength) {
-    const index = this.styles.get(style);
-    if (index === undefined) throw new PanacheError(`there is no style '${style}'`);
-    const at = this._wasm.panache_actor_strengths(this._actor);
-    this._floats(at, this.styleCount)[index] = strength;
+    const index = this.#panache._styleIndex(style);
+    const at = this._wasm.panache_page_player_strengths(this._player);
+    this._floats(at, index + 1)[index] = strength;
   }
   setShape(shape) {
-    const all = { ...kShape, ...shape };
-    this._wasm.panache_actor_shape(this._actor, ...Object.keys(kShape).map((key) => all[key]));
+    this.#panache._arena((arena) => arena.check(
+      this._wasm.panache_page_player_set_shape(this._player, writeShape(arena, shape))));
   }
-  step(seconds) { this._wasm.panache_actor_step(this._actor, seconds); }
-  measure(count) { this._wasm.panache_actor_measure(this._actor, count); }
+  step(seconds) { this._wasm.panache_page_player_step(this._player, seconds); }
+  measure(count) { this._wasm.panache_page_player_measure(this._player, count); }
 
-  get rate() { return this._wasm.panache_actor_rate(this._actor); }
-  get gate() { return this._wasm.panache_actor_gate(this._actor); }
+  get rate() { return this._wasm.panache_page_player_rate(this._player); }
+  get gate() { return this._wasm.panache_page_player_gate(this._player); }
   get contacts() {
-    return [0, 1].map((foot) => this._wasm.panache_actor_contact(this._actor, foot));
+    return [0, 1].map((foot) => this._wasm.panache_page_player_contact(this._player, foot));
   }
   pose(which, joints) {
-    const at = this._wasm.panache_actor_pose(this._actor, which === 'styled' ? 1 : 0);
+    const at = this._wasm.panache_page_player_pose(this._player, which === 'styled' ? 1 : 0);
     return this._floats(at, joints * kPartNumbers);
   }
   parts(which) {
-    const at = this._wasm.panache_actor_parts(this._actor, which === 'styled' ? 1 : 0);
+    const at = this._wasm.panache_page_player_parts(this._player, which === 'styled' ? 1 : 0);
     return this._floats(at, kHumanJoints * kPartNumbers);
   }
   get offsets() {
-    return this._floats(this._wasm.panache_actor_offsets(this._actor), kHumanJoints * 3).slice();
+    return this._floats(this._wasm.panache_page_player_offsets(this._player), kHumanJoints * 3).slice();
   }
   get placement() {
-    return this.#panache._scratch(24, (at) => {
-      this._wasm.panache_actor_placement(this._actor, at);
+    return this.#panache._arena((arena) => {
+      const at = arena.allocate(24);
+      this._wasm.panache_page_player_placement(this._player, at);
       const [x, y, z, w, scale, floor] = this._floats(at, 6);
       return { toYUp: [x, y, z, w], scale, floor };
     });
   }
 
   exportAs(ending) {
-    const file = this.#panache._withText(ending, (wanted) => this.#panache._withText(
-      this.#ending, (own) => this._wasm.panache_actor_export(this._actor, wanted, own)));
-    this.#panache._checked(file);
-    const bytes = this.#panache._bytes(file);
-    this._wasm.panache_bytes_free(file);
-    return bytes;
+    return this.#panache._arena((arena) => this.#panache._take(this.#panache._checked(
+      this._wasm.panache_page_player_export(
+        this._player, arena.text(ending), arena.text(this.#ending)))));
   }
 
   free() {
-    this._wasm.panache_actor_free(this._actor);
-    this._actor = 0;
+    this._wasm.panache_page_player_free(this._player);
+    this._player = 0;
   }
 
   // A view of the module's memory; good until the next call into it.
   _floats(at, count) { return new Float32Array(this._wasm.memory.buffer, at, count); }
 }
 
-export class Walk extends Actor {
-  steer(speed, turn) { this._wasm.panache_actor_steer(this._actor, speed, turn); }
+export class Walk extends Player {
+  steer(speed, turn) { this._wasm.panache_page_player_steer(this._player, speed, turn); }
 }
 
-export class Playback extends Actor {
-  seek(seconds) { this._wasm.panache_actor_seek(this._actor, seconds); }
-  set loop(loop) { this._wasm.panache_actor_loop(this._actor, loop ? 1 : 0); }
-  get seconds() { return this._wasm.panache_actor_seconds(this._actor); }
+export class Playback extends Player {
+  seek(seconds) { this._wasm.panache_page_player_seek(this._player, seconds); }
+  set loop(loop) { this._wasm.panache_page_player_loop(this._player, loop ? 1 : 0); }
+  get seconds() { return this._wasm.panache_page_player_seconds(this._player); }
 }

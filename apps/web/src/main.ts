@@ -53,7 +53,7 @@ class Page {
     this.#transport = new TransportBar({
       onSeek: (seconds) => this.#seek(seconds),
       onClip: (clip) => void this.#attempt(() => this.#playClip(clip)),
-      onLoop: (loop) => this.#source.kind === 'clip' && (this.#source.actor.loop = loop),
+      onLoop: (loop) => this.#source.kind === 'clip' && (this.#source.player.loop = loop),
     });
     this.#source = walkSource(panache);
     buildPanel(this.#store, panache.styles);
@@ -81,7 +81,7 @@ class Page {
     this.#last = now;
     this.#cross.step(seconds);
     this.#advance(seconds);
-    this.#stage.update(this.#source.actor, this.#source.joints, this.#cut);
+    this.#stage.update(this.#source.player, this.#source.joints, this.#cut);
     this.#cut = false;
     this.#stage.draw(seconds);
     this.#report();
@@ -92,54 +92,54 @@ class Page {
     const source = this.#source;
     if (source.kind === 'walk') {
       const { speed, turn } = this.#steering.wish(seconds);
-      source.actor.steer(speed, turn);
-      source.actor.step(seconds);
+      source.player.steer(speed, turn);
+      source.player.step(seconds);
       this.#seconds += seconds;
       return;
     }
     const { playing, speed } = this.#transport.state;
     if (playing) {
-      const before = source.actor.seconds;
+      const before = source.player.seconds;
       // The library takes a tenth of a second at once.
-      source.actor.step(seconds * speed);
-      this.#cut ||= source.actor.seconds < before;
+      source.player.step(seconds * speed);
+      this.#cut ||= source.player.seconds < before;
       this.#seconds += seconds * speed;
     } else {
-      source.actor.step(0);  // What is pushed is seen when the clip goes on, or is scrubbed.
+      source.player.step(0);  // What is pushed is seen when the clip goes on, or is scrubbed.
     }
-    this.#transport.at(source.actor.seconds);
+    this.#transport.at(source.player.seconds);
   }
 
   #report() {
-    const actor = this.#source.actor;
+    const player = this.#source.player;
     const { styles, strength } = this.#store.settings;
     this.#plots.add({
       time: this.#seconds,
       strengths: Object.entries(styles).map(([name, value]) => [name, value * strength]),
-      gate: actor.gate,
-      rate: actor.rate,
-      contacts: actor.contacts,
+      gate: player.gate,
+      rate: player.rate,
+      contacts: player.contacts,
     });
     if (this.#frames % kMeasureEvery === 0) {
       const begin = performance.now();
-      actor.measure(kMeasuredSteps);
+      player.measure(kMeasuredSteps);
       this.#plots.addStep(((performance.now() - begin) * 1000) / kMeasuredSteps);
     }
     if (this.#frames % kPlotEvery !== 0) return;
     this.#plots.draw();
-    find('#gate-now').textContent = actor.gate.toFixed(2);
-    find('#rate-now').textContent = `${actor.rate.toFixed(2)}×`;
+    find('#gate-now').textContent = player.gate.toFixed(2);
+    find('#rate-now').textContent = `${player.rate.toFixed(2)}×`;
     find('#step-now').textContent = `median ${Math.round(this.#plots.stepMedian)}`;
   }
 
   // ---- Settings ----
 
   #apply(settings: Settings) {
-    const actor = this.#source.actor;
+    const player = this.#source.player;
     for (const { name } of this.#panache.styles) {
-      actor.setStrength(name, (settings.styles[name] ?? 0) * settings.strength);
+      player.setStrength(name, (settings.styles[name] ?? 0) * settings.strength);
     }
-    actor.setShape(shapeOf(settings));
+    player.setShape(shapeOf(settings));
     this.#stage.view = settings.view;
     this.#stage.trail = settings.trail;
   }
@@ -178,7 +178,7 @@ class Page {
       if (old.kind === 'clip' && (source.kind !== 'clip' || source.file !== old.file)) {
         old.file.free();
       }
-      old.actor.free();
+      old.player.free();
     }
     this.#source = source;
     document.body.dataset.source = source.kind;
@@ -189,18 +189,18 @@ class Page {
     if (source.kind === 'clip') {
       this.#transport.show(source.file, source.clip);
       this.#transport.setPlaying(true);
-      source.actor.loop = this.#transport.state.loop;
+      source.player.loop = this.#transport.state.loop;
     }
     this.#apply(this.#store.settings);
-    source.actor.step(0);
-    this.#stage.show(source.actor, source.own);
+    source.player.step(0);
+    this.#stage.show(source.player, source.own);
     this.#plots.clear();
     this.#cut = true;
   }
 
   #seek(seconds: number) {
     if (this.#source.kind !== 'clip') return;
-    this.#source.actor.seek(seconds);
+    this.#source.player.seek(seconds);
     this.#cut = true;
   }
 
@@ -284,7 +284,7 @@ class Page {
       if (file) void this.#attempt(() => this.#open(file));
     });
     const save = (ending: string) => () => {
-      saveBytes(this.#source.actor.exportAs(ending) as BlobPart, `panache${ending}`);
+      saveBytes(this.#source.player.exportAs(ending) as BlobPart, `panache${ending}`);
     };
     find('#file-controls').append(
       button('back', 'Walker', 'Close the file and steer the walker again',

@@ -121,7 +121,7 @@ export class Mannequin {
     this.mesh.castShadow = solid;
   }
 
-  /** Takes the pose that Actor.parts() gives, moved by `shift`. */
+  /** Takes the pose that Player.parts() gives, moved by `shift`. */
   pose(parts: Float32Array, shift: THREE.Vector3) {
     const place = new THREE.Vector3(), turn = new THREE.Quaternion();
     const one = new THREE.Vector3(1, 1, 1);

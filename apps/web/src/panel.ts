@@ -5,7 +5,7 @@ import { element, find } from './dom';
 import { buildPad } from './pad';
 import { kCorners, kPresets } from './presets';
 import {
-  kAmounts, kLeast, kMost, kRegions, type Settings, type Store, type View,
+  kAmounts, kLeast, kMost, kRegions, type Region, type Settings, type Store, type View,
 } from './settings';
 import { Slider } from './slider';
 
@@ -14,6 +14,15 @@ const kAmountHints = {
   posture: 'Slow part of the change: how the body is held',
   dynamics: 'Fast part of the change: swing, bounce, step length',
   timing: 'Change of tempo',
+};
+const kRegionTitles: Record<Region, string> = {
+  legs: 'Legs', torso: 'Torso', leftArm: 'Left arm', rightArm: 'Right arm',
+};
+const kRegionHints: Record<Region, string> = {
+  legs: 'Style the legs and the way they go, or not',
+  torso: 'Style the torso and the head, or not',
+  leftArm: 'Style the left arm, or not',
+  rightArm: 'Style the right arm, or not',
 };
 const kViewTitles: Record<View, string> = {
   styled: 'Styled', side: 'Side by side', over: 'Overlaid',
@@ -69,7 +78,7 @@ function amountSliders(store: Store) {
 
 export function buildPanel(store: Store, styles: readonly Style[]) {
   const names = styles.map((style) => style.name);
-  const regions = kRegions.map((key) => toggle(title(key), `Style the ${key}, or leave it as it is`,
+  const regions = kRegions.map((key) => toggle(kRegionTitles[key], kRegionHints[key],
     (s) => s[key], store, (s) => ({ [key]: !s[key] })));
   const feet = toggle('Feet lock', 'Planted feet stay in place', (s) => s.feet, store,
     (s) => ({ feet: !s.feet }));

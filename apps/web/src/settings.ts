@@ -5,7 +5,7 @@ import type { Shape } from '../package/index.js';
 export const kLeast = -0.5;
 export const kMost = 2;
 
-export const kRegions = ['legs', 'spine', 'arms', 'head'] as const;
+export const kRegions = ['legs', 'torso', 'leftArm', 'rightArm'] as const;
 export const kAmounts = ['strength', 'posture', 'dynamics', 'timing'] as const;
 export const kViews = ['styled', 'side', 'over'] as const;
 export type Region = (typeof kRegions)[number];
@@ -20,9 +20,9 @@ export interface Settings {
   dynamics: number;
   timing: number;
   legs: boolean;
-  spine: boolean;
-  arms: boolean;
-  head: boolean;
+  torso: boolean;
+  leftArm: boolean;
+  rightArm: boolean;
   feet: boolean;
   view: View;
   trail: boolean;
@@ -31,7 +31,7 @@ export interface Settings {
 export const kDefaults: Readonly<Settings> = {
   styles: {},
   strength: 1, posture: 1, dynamics: 1, timing: 1,
-  legs: true, spine: true, arms: true, head: true, feet: true,
+  legs: true, torso: true, leftArm: true, rightArm: true, feet: true,
   view: 'styled',
   trail: true,
 };
@@ -81,12 +81,12 @@ export function fromAddress(text: string, styles: readonly string[]): Settings {
 }
 
 /** What the library is asked for. */
-export function shapeOf(settings: Settings): Shape {
+export function shapeOf(settings: Settings): Partial<Shape> {
   const { posture, dynamics, timing } = settings;
   const on = (key: Region) => (settings[key] ? 1 : 0);
   return {
     posture, dynamics, timing,
-    legs: on('legs'), spine: on('spine'), arms: on('arms'), head: on('head'),
+    legs: on('legs'), torso: on('torso'), leftArm: on('leftArm'), rightArm: on('rightArm'),
     footLock: settings.feet ? 1 : 0,
   };
 }

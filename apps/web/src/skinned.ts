@@ -33,7 +33,7 @@ export class SkinnedCharacter {
   #moved: Moved[] = [];
   #joints: number;
 
-  constructor(scene: THREE.Object3D, file: MotionFile, actor: Playback) {
+  constructor(scene: THREE.Object3D, file: MotionFile, player: Playback) {
     this.#scene = scene;
     this.#joints = file.joints.length;
     const nodes: THREE.Object3D[] = [], parents: number[] = [];
@@ -53,7 +53,7 @@ export class SkinnedCharacter {
       const above = nodes[index].parent?.getWorldScale(new THREE.Vector3()).x ?? 1;
       this.#moved.push({ node: nodes[index], joint, scale: above || 1 });
     }
-    const { toYUp, scale, floor } = actor.placement;
+    const { toYUp, scale, floor } = player.placement;
     this.group.add(scene);
     scene.quaternion.fromArray(toYUp);
     scene.scale.setScalar(scale);
@@ -86,7 +86,7 @@ export class SkinnedCharacter {
 }
 
 /** The file's character twice, for input and output; nothing where it has no skin. */
-export async function loadSkinned(bytes: ArrayBuffer, file: MotionFile, actor: Playback):
+export async function loadSkinned(bytes: ArrayBuffer, file: MotionFile, player: Playback):
     Promise<[SkinnedCharacter, SkinnedCharacter] | null> {
   const { scene, parser } = await new GLTFLoader().parseAsync(bytes, '');
   let skinned = false;
@@ -99,6 +99,6 @@ export async function loadSkinned(bytes: ArrayBuffer, file: MotionFile, actor: P
   });
   if (!skinned) return null;
   const pair: [SkinnedCharacter, SkinnedCharacter] = [
-    new SkinnedCharacter(clone(scene), file, actor), new SkinnedCharacter(scene, file, actor)];
+    new SkinnedCharacter(clone(scene), file, player), new SkinnedCharacter(scene, file, player)];
   return pair.every((character) => character.complete) ? pair : null;
 }

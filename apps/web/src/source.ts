@@ -7,12 +7,12 @@ import { loadSkinned, type SkinnedCharacter } from './skinned';
 const kLargestFile = 256 << 20;  // Bytes; a page has about four times that to work in.
 
 export type Source =
-  | { kind: 'walk'; actor: Walk; joints: number; own: null }
-  | { kind: 'clip'; actor: Playback; joints: number; file: MotionFile; clip: number;
+  | { kind: 'walk'; player: Walk; joints: number; own: null }
+  | { kind: 'clip'; player: Playback; joints: number; file: MotionFile; clip: number;
       own: [SkinnedCharacter, SkinnedCharacter] | null };
 
 export function walkSource(panache: Panache): Source {
-  return { kind: 'walk', actor: panache.createWalker(), joints: 21, own: null };
+  return { kind: 'walk', player: panache.createWalker(), joints: 21, own: null };
 }
 
 /** Rejects with the library's message. */
@@ -28,11 +28,11 @@ export async function openFile(panache: Panache, file: File): Promise<{ file: Mo
 
 export async function clipSource(file: MotionFile, bytes: ArrayBuffer, clip: number):
     Promise<Source> {
-  const actor = file.createActor(clip);
+  const player = file.createPlayer(clip);
   let own: [SkinnedCharacter, SkinnedCharacter] | null = null;
   if (file.ending !== '.bvh') {
     // What three.js cannot show is shown as a mannequin.
-    own = await loadSkinned(bytes, file, actor).catch(() => null);
+    own = await loadSkinned(bytes, file, player).catch(() => null);
   }
-  return { kind: 'clip', actor, joints: file.joints.length, file, clip, own };
+  return { kind: 'clip', player, joints: file.joints.length, file, clip, own };
 }

@@ -92,13 +92,13 @@ export class Stage {
     this.#marks.paint(colour('accent'));
   }
 
-  /** Shows the bodies of another actor: its own meshes where it has some, else mannequins. */
-  show(actor: Walk | Playback, own: [SkinnedCharacter, SkinnedCharacter] | null) {
+  /** Shows the bodies of another player: its own meshes where it has some, else mannequins. */
+  show(player: Walk | Playback, own: [SkinnedCharacter, SkinnedCharacter] | null) {
     this.#bodies?.input.free();
     this.#bodies?.styled.free();
     this.#ghost?.free();
     const input = { body: '#b9c6d6', accent: '#5d7087' };
-    const offsets = actor.offsets;
+    const offsets = player.offsets;
     const place = (object: THREE.Object3D, layer: number) => {
       this.#onLayer(object, layer);
       this.#scene.add(object);
@@ -117,14 +117,14 @@ export class Stage {
       place(styled.mesh, kStyledLayer);
     }
     this.#marks.clear();
-    this.#follow(groundUnder(actor.parts('styled')), true);
+    this.#follow(groundUnder(player.parts('styled')), true);
   }
 
-  /** Brings the actor's last step into view. */
-  update(actor: Walk | Playback, joints: number, cut: boolean) {
+  /** Brings the player's last step into view. */
+  update(player: Walk | Playback, joints: number, cut: boolean) {
     if (!this.#bodies || !this.#ghost) return;
     if (cut) this.#marks.clear();
-    const input = actor.parts('input').slice(), styled = actor.parts('styled').slice();
+    const input = player.parts('input').slice(), styled = player.parts('styled').slice();
     const here = groundUnder(styled);
     const still = new THREE.Vector3();
     // Where both are seen at once, the input walks where the output does.
@@ -132,14 +132,14 @@ export class Stage {
     const inputShift = this.view === 'over' ? beside : still;
     this.#ghost.pose(input, inputShift);
     if (this.#bodies.skinned) {
-      this.#bodies.input.pose(actor.pose('input', joints).slice(), inputShift);
-      this.#bodies.styled.pose(actor.pose('styled', joints).slice(), still);
+      this.#bodies.input.pose(player.pose('input', joints).slice(), inputShift);
+      this.#bodies.styled.pose(player.pose('styled', joints).slice(), still);
     } else {
       this.#bodies.input.pose(input, inputShift);
       this.#bodies.styled.pose(styled, still);
     }
     const feet = (name: string) => ['left', 'right'].map((side) => jointAt(styled, side + name));
-    this.#marks.show(feet('Foot'), feet('Toes'), actor.contacts, this.trail);
+    this.#marks.show(feet('Foot'), feet('Toes'), player.contacts, this.trail);
     this.#follow(here, cut);
     this.#inputPlace.copy(groundUnder(input)).add(inputShift);
   }

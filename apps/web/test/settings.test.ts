@@ -44,8 +44,8 @@ describe('the store', () => {
 
 describe('the shape', () => {
   it('turns switches into weights', () => {
-    expect(shapeOf({ ...kDefaults, arms: false, feet: false, dynamics: 0.5 })).toEqual({
-      posture: 1, dynamics: 0.5, timing: 1, legs: 1, spine: 1, arms: 0, head: 1, footLock: 0,
+    expect(shapeOf({ ...kDefaults, leftArm: false, feet: false, dynamics: 0.5 })).toEqual({
+      posture: 1, dynamics: 0.5, timing: 1, legs: 1, torso: 1, leftArm: 0, rightArm: 1, footLock: 0,
     });
   });
 });

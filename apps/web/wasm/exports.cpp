@@ -1,5 +1,6 @@
-// What JavaScript sees of it: functions of numbers and addresses. Who creates a thing frees it. A
-// function that fails gives null, and panache_error() says why.
+// What only the page needs beside panache.h, which the module exports whole: functions of numbers
+// and addresses, with the prefix panache_page_. Who creates a thing frees it. A function that fails
+// gives null, and panache_last_error() says why.
 
 #include <cstdint>
 #include <cstring>
@@ -8,10 +9,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "actor.h"
+#include "api/errors.h"
+#include "api/objects.h"
+#include "api/shape.h"
 #include "clip/bvh.h"
 #include "clip/gltf.h"
 #include "golden.h"
+#include "player.h"
 
 using namespace panache;
 using namespace panache::web;
@@ -20,66 +24,53 @@ using namespace panache::web;
 
 namespace {
 
-using ModelHandle = std::shared_ptr<const Model>;
 using WalkerHandle = std::shared_ptr<const WalkerModel>;
 using FileHandle = std::shared_ptr<const MotionFile>;
 
-std::string last_error;
+// Who fails has no other status to tell than null.
+std::nullptr_t fail(const Error& error) {
+  api::fail(PANACHE_BAD_ARGUMENT, error.message);
+  return nullptr;
+}
 
 template <class T>
 T* keep(Result<T> result) {
   if (result) return new T(*std::move(result));
-  last_error = result.error().message;
-  return nullptr;
+  return fail(result.error());
 }
 
 std::string_view bytes_at(const char* data, uint32_t size) { return {data, size}; }
 
 }  // namespace
 
-// Strings and files on their way out: where their bytes are, and how many.
-PANACHE_EXPORT const char* panache_bytes_data(const std::string* bytes) { return bytes->data(); }
-PANACHE_EXPORT uint32_t panache_bytes_size(const std::string* bytes) {
-  return static_cast<uint32_t>(bytes->size());
-}
-PANACHE_EXPORT void panache_bytes_free(std::string* bytes) { delete bytes; }
-PANACHE_EXPORT const std::string* panache_error() { return &last_error; }
-
-PANACHE_EXPORT ModelHandle* panache_model_create(const char* data, uint32_t size) {
-  return keep(Model::parse(bytes_at(data, size), "the model"));
-}
-PANACHE_EXPORT void panache_model_free(ModelHandle* model) { delete model; }
-PANACHE_EXPORT std::string* panache_model_describe(ModelHandle* model) {
-  nlohmann::json styles = nlohmann::json::array();
-  for (const StyleInfo& style : (*model)->styles()) {
-    styles.push_back({{"name", style.name}, {"description", style.description}});
-  }
-  return new std::string(styles.dump());
+PANACHE_EXPORT const char* panache_page_style_description(const panache_model* model,
+                                                          int32_t style) {
+  return model->model->styles()[static_cast<size_t>(style)].description.c_str();
 }
 // Two halves of the number, the lower first.
-PANACHE_EXPORT void panache_model_golden(ModelHandle* model, uint32_t* out) {
-  const uint64_t hash = golden_hash(*model);
+PANACHE_EXPORT void panache_page_golden(const panache_model* model, uint32_t* out) {
+  const uint64_t hash = golden_hash(model->model);
   out[0] = static_cast<uint32_t>(hash);
   out[1] = static_cast<uint32_t>(hash >> 32);
 }
 
-PANACHE_EXPORT WalkerHandle* panache_walker_create(const char* data, uint32_t size) {
+PANACHE_EXPORT WalkerHandle* panache_page_walker_create(const char* data, uint32_t size) {
   return keep(WalkerModel::parse(bytes_at(data, size), "the walker's model"));
 }
-PANACHE_EXPORT void panache_walker_free(WalkerHandle* walker) { delete walker; }
+PANACHE_EXPORT void panache_page_walker_free(WalkerHandle* walker) { delete walker; }
 
 // `name` ends in .bvh, or is taken for a glTF file.
-PANACHE_EXPORT FileHandle* panache_file_create(const char* data, uint32_t size, const char* name) {
+PANACHE_EXPORT FileHandle* panache_page_file_create(const char* data, uint32_t size,
+                                                    const char* name) {
   const std::string path = name;
   const bool bvh = path.ends_with(".bvh");
   std::string bytes(data, size);
   auto file = bvh ? parse_bvh(std::move(bytes), path) : parse_gltf(std::move(bytes), path);
   if (file) return new FileHandle(*std::move(file));
-  last_error = file.error().message;
-  return nullptr;
+  return fail(file.error());
 }
-PANACHE_EXPORT void panache_file_free(FileHandle* file) { delete file; }
-PANACHE_EXPORT std::string* panache_file_describe(FileHandle* file) {
+PANACHE_EXPORT void panache_page_file_free(FileHandle* file) { delete file; }
+PANACHE_EXPORT panache_bytes* panache_page_file_describe(FileHandle* file) {
   nlohmann::json clips = nlohmann::json::array(), joints = nlohmann::json::array();
   const std::vector<std::string> names = (*file)->clip_names();
   for (size_t i = 0; i < names.size(); ++i) {
@@ -91,75 +82,85 @@ PANACHE_EXPORT std::string* panache_file_describe(FileHandle* file) {
   }
   const nlohmann::json all = {{"clips", clips}, {"joints", joints}};
   // Names are the file's, and may be no UTF-8.
-  return new std::string(all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  return new panache_bytes{all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
 }
 
 namespace {
 
-Actor* make_actor(ModelHandle* model, std::unique_ptr<Source> source) {
-  Result<std::unique_ptr<Actor>> actor = Actor::create(*model, std::move(source));
-  if (actor) return actor->release();
-  last_error = actor.error().message;
-  return nullptr;
+Player* make_player(const panache_model* model, std::unique_ptr<Source> source) {
+  Result<std::unique_ptr<Player>> player = Player::create(model->model, std::move(source));
+  if (player) return player->release();
+  return fail(player.error());
 }
 
 }  // namespace
 
-PANACHE_EXPORT Actor* panache_actor_walk(ModelHandle* model, WalkerHandle* walker) {
-  return make_actor(model, std::make_unique<WalkerSource>(*walker));
+PANACHE_EXPORT Player* panache_page_player_walk(const panache_model* model, WalkerHandle* walker) {
+  return make_player(model, std::make_unique<WalkerSource>(*walker));
 }
-PANACHE_EXPORT Actor* panache_actor_clip(ModelHandle* model, FileHandle* file, int32_t which) {
+PANACHE_EXPORT Player* panache_page_player_clip(const panache_model* model, FileHandle* file,
+                                                int32_t which) {
   Result<std::unique_ptr<ClipSource>> source = ClipSource::create(*file, which);
-  if (source) return make_actor(model, *std::move(source));
-  last_error = source.error().message;
-  return nullptr;
+  if (source) return make_player(model, *std::move(source));
+  return fail(source.error());
 }
-PANACHE_EXPORT void panache_actor_free(Actor* actor) { delete actor; }
+PANACHE_EXPORT void panache_page_player_free(Player* player) { delete player; }
 
-PANACHE_EXPORT float* panache_actor_strengths(Actor* actor) { return actor->strengths().data(); }
-// Posture, dynamics, timing, legs, torso, left arm, right arm, foot lock.
-PANACHE_EXPORT void panache_actor_shape(Actor* actor, float posture, float dynamics, float timing,
-                                        float legs, float torso, float left_arm, float right_arm,
-                                        float foot_lock) {
-  actor->shape() = {1, posture, dynamics, timing, {legs, torso, left_arm, right_arm}, foot_lock};
+PANACHE_EXPORT float* panache_page_player_strengths(Player* player) {
+  return player->strengths().data();
 }
-PANACHE_EXPORT void panache_actor_step(Actor* actor, double seconds) { actor->step(seconds); }
-PANACHE_EXPORT void panache_actor_measure(Actor* actor, int32_t count) { actor->measure(count); }
+PANACHE_EXPORT panache_status panache_page_player_set_shape(Player* player,
+                                                            const panache_shape* shape) {
+  const Result<Shape> read = api::read_shape(shape);
+  if (!read) return api::fail(PANACHE_BAD_ARGUMENT, read.error().message);
+  player->shape() = *read;
+  return PANACHE_OK;
+}
+PANACHE_EXPORT void panache_page_player_step(Player* player, double seconds) {
+  player->step(seconds);
+}
+PANACHE_EXPORT void panache_page_player_measure(Player* player, int32_t count) {
+  player->measure(count);
+}
 
 // The four below do nothing, or give 0, where the source is of the other kind.
-PANACHE_EXPORT void panache_actor_steer(Actor* actor, float speed, float turn) {
-  if (auto* walk = dynamic_cast<WalkerSource*>(&actor->source())) walk->steer(speed, turn);
+PANACHE_EXPORT void panache_page_player_steer(Player* player, float speed, float turn) {
+  if (auto* walk = dynamic_cast<WalkerSource*>(&player->source())) walk->steer(speed, turn);
 }
-PANACHE_EXPORT void panache_actor_seek(Actor* actor, double seconds) {
-  if (auto* clip = dynamic_cast<ClipSource*>(&actor->source())) clip->seek(seconds);
+PANACHE_EXPORT void panache_page_player_seek(Player* player, double seconds) {
+  if (auto* clip = dynamic_cast<ClipSource*>(&player->source())) clip->seek(seconds);
 }
-PANACHE_EXPORT void panache_actor_loop(Actor* actor, int32_t loop) {
-  if (auto* clip = dynamic_cast<ClipSource*>(&actor->source())) clip->set_loop(loop != 0);
+PANACHE_EXPORT void panache_page_player_loop(Player* player, int32_t loop) {
+  if (auto* clip = dynamic_cast<ClipSource*>(&player->source())) clip->set_loop(loop != 0);
 }
-PANACHE_EXPORT double panache_actor_seconds(Actor* actor) {
-  auto* clip = dynamic_cast<ClipSource*>(&actor->source());
+PANACHE_EXPORT double panache_page_player_seconds(Player* player) {
+  auto* clip = dynamic_cast<ClipSource*>(&player->source());
   return clip ? clip->seconds() : 0;
 }
 
-PANACHE_EXPORT double panache_actor_rate(Actor* actor) { return actor->stylizer().rate(); }
-PANACHE_EXPORT float panache_actor_gate(Actor* actor) { return actor->stylizer().gate(); }
-PANACHE_EXPORT float panache_actor_contact(Actor* actor, int32_t foot) {
-  return actor->stylizer().contacts()[static_cast<size_t>(foot)];
+PANACHE_EXPORT double panache_page_player_rate(Player* player) { return player->stylizer().rate(); }
+PANACHE_EXPORT float panache_page_player_gate(Player* player) { return player->stylizer().gate(); }
+PANACHE_EXPORT float panache_page_player_contact(Player* player, int32_t foot) {
+  return player->stylizer().contacts()[static_cast<size_t>(foot)];
 }
-PANACHE_EXPORT const float* panache_actor_pose(Actor* actor, int32_t styled) {
-  return actor->pose(styled != 0).data();
+PANACHE_EXPORT const float* panache_page_player_pose(Player* player, int32_t styled) {
+  return player->pose(styled != 0).data();
 }
-PANACHE_EXPORT const float* panache_actor_parts(Actor* actor, int32_t styled) {
-  return actor->parts(styled != 0).data();
+PANACHE_EXPORT const float* panache_page_player_parts(Player* player, int32_t styled) {
+  return player->parts(styled != 0).data();
 }
-PANACHE_EXPORT const float* panache_actor_offsets(Actor* actor) { return &actor->offsets()[0].x; }
+PANACHE_EXPORT const float* panache_page_player_offsets(Player* player) {
+  return &player->offsets()[0].x;
+}
 // As Placement: x y z w, scale, floor.
-PANACHE_EXPORT void panache_actor_placement(Actor* actor, float* out) {
-  const Placement placement = actor->placement();
+PANACHE_EXPORT void panache_page_player_placement(Player* player, float* out) {
+  const Placement placement = player->placement();
   std::memcpy(out, &placement, sizeof placement);
 }
 
-PANACHE_EXPORT std::string* panache_actor_export(Actor* actor, const char* extension,
-                                                 const char* file_extension) {
-  return keep(actor->export_as(extension, file_extension));
+PANACHE_EXPORT panache_bytes* panache_page_player_export(Player* player, const char* extension,
+                                                         const char* file_extension) {
+  Result<std::string> bytes = player->export_as(extension, file_extension);
+  if (bytes) return new panache_bytes{*std::move(bytes)};
+  return fail(bytes.error());
 }

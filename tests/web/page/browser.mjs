@@ -91,26 +91,26 @@ export async function frames(tab, count = 3) {
 
 /** Where the styled body is, and how each of its parts is turned. */
 export function styledParts(tab) {
-  return tab.evaluate(() => [...window.page.source.actor.parts('styled')]);
+  return tab.evaluate(() => [...window.page.source.player.parts('styled')]);
 }
 
 /** Listens to what the page asks of the library from now on; told() has the last of it. */
 export async function listen(tab) {
   await tab.evaluate(() => {
-    const actor = window.page.source.actor, told = { strengths: {} };
-    const { setStrength, setShape } = actor;
-    actor.setStrength = (name, value) => {
+    const player = window.page.source.player, told = { strengths: {} };
+    const { setStrength, setShape } = player;
+    player.setStrength = (name, value) => {
       told.strengths[name] = value;
-      setStrength.call(actor, name, value);
+      setStrength.call(player, name, value);
     };
-    actor.setShape = (shape) => {
+    player.setShape = (shape) => {
       told.shape = shape;
-      setShape.call(actor, shape);
+      setShape.call(player, shape);
     };
-    actor.steer &&= ((steer) => (speed, turn) => {
+    player.steer &&= ((steer) => (speed, turn) => {
       told.steer = { speed, turn };
-      steer.call(actor, speed, turn);
-    })(actor.steer);
+      steer.call(player, speed, turn);
+    })(player.steer);
     window.told = told;
   });
 }

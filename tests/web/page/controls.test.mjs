@@ -53,8 +53,8 @@ test('an amount counts for all styles, or for what it says', async () => {
 });
 
 test('a part of the body is switched off and on', async () => {
-  for (const [name, key] of [['Legs', 'legs'], ['Spine', 'spine'], ['Arms', 'arms'],
-    ['Head', 'head'], ['Feet lock', 'footLock']]) {
+  for (const [name, key] of [['Legs', 'legs'], ['Torso', 'torso'], ['Left arm', 'leftArm'],
+    ['Right arm', 'rightArm'], ['Feet lock', 'footLock']]) {
     await button(name).click();
     assert.equal((await told(tab)).shape[key], 0);
     assert.equal(await button(name).getAttribute('aria-pressed'), 'false');
@@ -94,7 +94,7 @@ test('the pad blends four styles, by mouse and by keys', async () => {
 });
 
 test('what is set is in the address, and comes back from it', async () => {
-  const link = 'old=1.2&sad=-0.3&strength=0.8&posture=0.5&arms=off&trail=off&view=over';
+  const link = 'old=1.2&sad=-0.3&strength=0.8&posture=0.5&leftArm=off&trail=off&view=over';
   const other = await site.open(link);
   const settings = await other.evaluate(() => ({
     old: document.querySelector('#style-old').value,
@@ -170,14 +170,14 @@ test('every plot shows what it says', async () => {
   const captions = await tab.locator('figcaption').allTextContents();
   assert.deepEqual(captions.map((text) => text.replace(/[\d.×]+$/, '').trim()), ['Strengths',
     'Known motion', 'Playback rate', 'Feet planted, left and right', 'µs per step median']);
-  const gate = await tab.evaluate(() => window.page.source.actor.gate);
+  const gate = await tab.evaluate(() => window.page.source.player.gate);
   assert.ok(gate > 0.5 && gate <= 1, `a walk is known: ${gate}`);
 
   // From now on the styles know a quarter of the motion, and the rest is made up as well.
   await tab.evaluate(() => {
     const own = { gate: 0.25, rate: 1.25, contacts: [1, 0] };
     for (const [name, value] of Object.entries(own)) {
-      Object.defineProperty(window.page.source.actor, name,
+      Object.defineProperty(window.page.source.player, name,
         { get: () => value, configurable: true });
     }
   });
@@ -204,7 +204,7 @@ test('every plot shows what it says', async () => {
     assert.ok(Math.abs(inks[name] - value) < 0.04, `${name}: ${inks[name]}`);
   }
   await tab.evaluate((names) => {
-    for (const name of names) delete window.page.source.actor[name];
+    for (const name of names) delete window.page.source.player[name];
   }, ['gate', 'rate', 'contacts']);
 });
 

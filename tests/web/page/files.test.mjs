@@ -64,20 +64,20 @@ test('a dropped BVH plays, pauses, is scrubbed and loops', async () => {
   await button('Pause').click();
   await tab.locator('#scrub').fill('0.5');
   await frames(tab);
-  const seconds = await tab.evaluate(() => window.page.source.actor.seconds);
+  const seconds = await tab.evaluate(() => window.page.source.player.seconds);
   // Half of 3 s less a frame, to the thousandth that the slider goes by.
   assert.ok(Math.abs(seconds - (3 - 1 / 60) / 2) < 0.002, `${seconds}`);
   await frames(tab);
-  assert.equal(await tab.evaluate(() => window.page.source.actor.seconds), seconds);
+  assert.equal(await tab.evaluate(() => window.page.source.player.seconds), seconds);
   await button('Loop').click();
   await tab.locator('#scrub').fill('0.98');
   await tab.locator('#speed').selectOption('2');
   await button('Play').click();
-  await tab.waitForFunction(() => window.page.source.actor.seconds > 2.98);
+  await tab.waitForFunction(() => window.page.source.player.seconds > 2.98);
   await frames(tab, 4);
-  assert.ok(await tab.evaluate(() => window.page.source.actor.seconds > 2.98));
+  assert.ok(await tab.evaluate(() => window.page.source.player.seconds > 2.98));
   await button('Loop').click();
-  await tab.waitForFunction(() => window.page.source.actor.seconds < 2);
+  await tab.waitForFunction(() => window.page.source.player.seconds < 2);
 });
 
 test('what is saved reads back: BVH, GLB, a picture and a film', async () => {

@@ -56,27 +56,27 @@ test('a step takes at most 60 microseconds, and twenty characters half of a fram
   const tab = await site.open('old=1');
   // Best of some medians: other work on the machine only ever adds.
   const step = await tab.evaluate(() => {
-    const actor = window.page.source.actor;
+    const player = window.page.source.player;
     const middle = (list) => list.sort((a, b) => a - b)[list.length >> 1];
     const medians = Array.from({ length: 12 }, () => middle(Array.from({ length: 40 }, () => {
       const begin = performance.now();
-      actor.measure(64);
+      player.measure(64);
       return ((performance.now() - begin) * 1000) / 64;
     })));
     return Math.min(...medians);
   });
   const crowd = await tab.evaluate(() => {
-    const actors = Array.from({ length: 20 }, () => window.page.panache.createWalker());
-    for (const actor of actors) {
-      actor.setStrength('old', 1);
-      actor.steer(1.3, 0);
+    const players = Array.from({ length: 20 }, () => window.page.panache.createWalker());
+    for (const player of players) {
+      player.setStrength('old', 1);
+      player.steer(1.3, 0);
     }
     const times = Array.from({ length: 240 }, () => {
       const begin = performance.now();
-      for (const actor of actors) actor.step(1 / 60);
+      for (const player of players) player.step(1 / 60);
       return performance.now() - begin;
     });
-    for (const actor of actors) actor.free();
+    for (const player of players) player.free();
     return times.sort((a, b) => a - b)[120];
   });
   console.log(`one step: ${step.toFixed(1)} us; twenty characters, walkers and all: ` +

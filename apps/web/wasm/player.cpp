@@ -1,4 +1,4 @@
-#include "actor.h"
+#include "player.h"
 
 #include <algorithm>
 
@@ -25,15 +25,16 @@ void put_numbers(ConstPose pose, std::vector<float>& out) {
 
 }  // namespace
 
-Result<std::unique_ptr<Actor>> Actor::create(std::shared_ptr<const Model> model,
-                                             std::unique_ptr<Source> source) {
+Result<std::unique_ptr<Player>> Player::create(std::shared_ptr<const Model> model,
+                                               std::unique_ptr<Source> source) {
   Result<Stylizer> stylizer = Stylizer::create(model, source->rig());
   if (!stylizer) return stylizer.error();
-  return std::unique_ptr<Actor>(
-      new Actor(std::move(model), *std::move(stylizer), std::move(source)));
+  return std::unique_ptr<Player>(
+      new Player(std::move(model), *std::move(stylizer), std::move(source)));
 }
 
-Actor::Actor(std::shared_ptr<const Model> model, Stylizer stylizer, std::unique_ptr<Source> source)
+Player::Player(std::shared_ptr<const Model> model, Stylizer stylizer,
+               std::unique_ptr<Source> source)
     : model_(std::move(model)),
       source_(std::move(source)),
       stylizer_(std::move(stylizer)),
@@ -54,7 +55,7 @@ Actor::Actor(std::shared_ptr<const Model> model, Stylizer stylizer, std::unique_
   step(0);
 }
 
-void Actor::step(double seconds) {
+void Player::step(double seconds) {
   seconds = std::clamp(seconds, 0.0, kLongestStep);
   const double input_seconds = seconds * rate_;
   if (source_->advance(input_seconds, {in_rotations_, in_translations_})) stylizer_.reset();
@@ -69,20 +70,20 @@ void Actor::step(double seconds) {
   if (dynamic_cast<WalkerSource*>(source_.get())) recording_.add(out, seconds);
 }
 
-void Actor::measure(int count) {
+void Player::measure(int count) {
   twin_ = stylizer_;
   for (int i = 0; i < count; ++i) {
     twin_.step(input(), strengths_, 1.0 / 60, {twin_rotations_, twin_translations_});
   }
 }
 
-Placement Actor::placement() const {
+Placement Player::placement() const {
   const Rig& rig = source_->rig();
   return {turn_up(rig.up_axis()).value_or(Quat{}), rig.scale(), rig.floor()};
 }
 
-Result<std::string> Actor::export_as(const std::string& extension,
-                                     const std::string& file_extension) const {
+Result<std::string> Player::export_as(const std::string& extension,
+                                      const std::string& file_extension) const {
   const auto* from_file = dynamic_cast<const ClipSource*>(source_.get());
   if (!from_file) return format_clip(recording_.clip(kRecordedFps), source_->rig(), extension);
   std::vector<StrengthTrack> tracks;

@@ -19,10 +19,10 @@ struct Placement {
   float scale, floor;  // Metres per file unit; metres.
 };
 
-class Actor {
+class Player {
  public:
-  static Result<std::unique_ptr<Actor>> create(std::shared_ptr<const Model> model,
-                                               std::unique_ptr<Source> source);
+  static Result<std::unique_ptr<Player>> create(std::shared_ptr<const Model> model,
+                                                std::unique_ptr<Source> source);
 
   // What is asked for from the next step on.
   std::vector<float>& strengths() { return strengths_; }  // [styles]
@@ -51,7 +51,7 @@ class Actor {
                                 const std::string& file_extension) const;
 
  private:
-  Actor(std::shared_ptr<const Model> model, Stylizer stylizer, std::unique_ptr<Source> source);
+  Player(std::shared_ptr<const Model> model, Stylizer stylizer, std::unique_ptr<Source> source);
   ConstPose input() const { return {in_rotations_, in_translations_}; }
 
   std::shared_ptr<const Model> model_;

@@ -1,0 +1,203 @@
+// Styling poses of the caller's own: panache.h for JavaScript. See index.d.ts.
+import { PanacheError, struct } from './memory.js';
+
+const kJoint = struct(['name', 'i32'], ['parent', 'i32'], ['rotation', 'f32', 4],
+  ['translation', 'f32', 3]);
+const kHumanJoint = struct(['name', 'i32'], ['joint', 'i32']);
+const kSkeletonOptions = struct(['size', 'i32'], ['metresPerUnit', 'f32'], ['upAxis', 'i32'],
+  ['rotations', 'i32'], ['translations', 'i32'], ['poseCount', 'i32'], ['humanJointCount', 'i32'],
+  ['humanJoints', 'i32']);
+const kCharacterOptions = struct(['size', 'i32'], ['easeSeconds', 'f32'],
+  ['smoothingSeconds', 'f32'], ['holdFeet', 'i32'], ['styleRoot', 'i32'], ['skipCycles', 'i32'],
+  ['maxLag', 'f64'], ['maxLead', 'f64']);
+const kStylizeOptions = struct(['size', 'i32'], ['easeSeconds', 'f32'],
+  ['smoothingSeconds', 'f32'], ['holdFeet', 'i32'], ['styleRoot', 'i32'], ['styleTiming', 'i32'],
+  ['shape', 'i32']);
+const kShape = struct(['size', 'i32'], ['strength', 'f32'], ['posture', 'f32'],
+  ['dynamics', 'f32'], ['timing', 'f32'], ['legs', 'f32'], ['torso', 'f32'], ['leftArm', 'f32'],
+  ['rightArm', 'f32'], ['footLock', 'f32']);
+const kReport = struct(['size', 'i32'], ['gate', 'f32'], ['contacts', 'f32', 2], ['rate', 'f64'],
+  ['ahead', 'f64']);
+const kPose = struct(['rotations', 'i32'], ['translations', 'i32']);
+const kClip = struct(['skeleton', 'i32'], ['frameCount', 'i32'], ['frameSeconds', 'f64'],
+  ['rotations', 'i32'], ['translations', 'i32']);
+const kKey = struct(['seconds', 'f64'], ['strength', 'f32']);
+const kTrack = struct(['style', 'i32'], ['keyCount', 'i32'], ['keys', 'i32']);
+
+const kNeutralShape = {
+  strength: 1, posture: 1, dynamics: 1, timing: 1, legs: 1, torso: 1, leftArm: 1, rightArm: 1,
+  footLock: 1,
+};
+const kStylizing = { easeSeconds: 0.15, smoothingSeconds: 0.04, holdFeet: true, styleRoot: true };
+
+// A caller's options over the defaults, of which there is one for each that is known.
+function optionsOf(defaults, given) {
+  const unknown = Object.keys(given).find((key) => !(key in defaults));
+  if (unknown) throw new PanacheError(`there is no option '${unknown}'`);
+  return { ...defaults, ...given };
+}
+
+export function writeShape(arena, shape) {
+  return arena.write(kShape, { size: kShape.size, ...optionsOf(kNeutralShape, shape) });
+}
+
+function check(array, type, length, what) {
+  if (array instanceof type && array.length === length) return;
+  throw new PanacheError(`${what}: expected a ${type.name} of ${length} numbers, found ` +
+    (array instanceof type ? `one of ${array.length}` : 'something else'));
+}
+function checkPose({ rotations, translations }, joints, what) {
+  check(rotations, Float32Array, 4 * joints, `${what}.rotations`);
+  check(translations, Float32Array, 3 * joints, `${what}.translations`);
+}
+
+export class Skeleton {
+  #wasm; #panache;
+
+  constructor(panache, joints, options) {
+    const { metresPerUnit, upAxis, humanJoints, poses } = optionsOf(
+      { metresPerUnit: 0, upAxis: null, humanJoints: {}, poses: [] }, options);
+    this.#panache = panache;
+    this.#wasm = panache._wasm;
+    this.jointCount = joints.length;
+    this._skeleton = panache._arena((arena) => {
+      const list = arena.array(kJoint, joints.map((joint) => ({
+        name: arena.text(joint.name), parent: joint.parent, rotation: joint.rotation,
+        translation: joint.translation,
+      })));
+      const map = Object.entries(humanJoints).map(([name, joint]) => (
+        { name: arena.text(name), joint }));
+      poses.forEach((pose, i) => checkPose(pose, joints.length, `poses[${i}]`));
+      const all = (key) => arena.copy(
+        Float32Array.from(poses.flatMap((pose) => Array.from(pose[key]))));
+      const told = arena.write(kSkeletonOptions, {
+        size: kSkeletonOptions.size, metresPerUnit,
+        upAxis: upAxis === null ? 0 : arena.text(upAxis),
+        rotations: all('rotations'), translations: all('translations'), poseCount: poses.length,
+        humanJointCount: map.length, humanJoints: arena.array(kHumanJoint, map),
+      });
+      return arena.create(
+        (out) => this.#wasm.panache_skeleton_create(list, joints.length, told, out));
+    });
+  }
+
+  find(humanJoint) {
+    return this.#panache._arena((arena) => this.#wasm.panache_skeleton_find(
+      this._skeleton, arena.text(humanJoint)));
+  }
+
+  free() {
+    this.#wasm.panache_skeleton_destroy(this._skeleton);
+    this._skeleton = 0;
+  }
+}
+
+export class Character {
+  #wasm; #panache; #joints; #character; #block; #pose;
+
+  constructor(panache, skeleton, options) {
+    const told = optionsOf({ ...kStylizing, skipCycles: false, maxLag: 0, maxLead: 0 }, options);
+    this.#panache = panache;
+    this.#wasm = panache._wasm;
+    this.#joints = skeleton.jointCount;
+    this.#character = panache._arena((arena) => {
+      const at = arena.write(kCharacterOptions, { size: kCharacterOptions.size, ...told });
+      return arena.create((out) => this.#wasm.panache_character_create(
+        panache._model(), skeleton._skeleton, at, out));
+    });
+    // A pose, styled in place, and where it is.
+    this.#block = this.#wasm.malloc(28 * this.#joints + kPose.size);
+    if (!this.#block) {
+      this.free();
+      throw new PanacheError('there is not enough memory');
+    }
+    this.#pose = this.#block + 28 * this.#joints;
+    new Uint32Array(this.#wasm.memory.buffer, this.#pose, 2).set(
+      [this.#block, this.#block + 16 * this.#joints]);
+  }
+
+  setStrength(style, strength) {
+    this.#wasm.panache_character_set_strength(
+      this.#character, this.#panache._styleIndex(style), strength);
+  }
+  setShape(shape) {
+    this.#panache._arena((arena) => arena.check(this.#wasm.panache_character_set_shape(
+      this.#character, writeShape(arena, shape))));
+  }
+
+  step(input, output, seconds) {
+    checkPose(input, this.#joints, 'input');
+    checkPose(output, this.#joints, 'output');
+    const { buffer } = this.#wasm.memory;
+    const rotations = new Float32Array(buffer, this.#block, 4 * this.#joints);
+    const translations = new Float32Array(
+      buffer, this.#block + 16 * this.#joints, 3 * this.#joints);
+    rotations.set(input.rotations);
+    translations.set(input.translations);
+    this.#wasm.panache_character_step(this.#character, this.#pose, seconds, this.#pose);
+    output.rotations.set(rotations);
+    output.translations.set(translations);
+  }
+
+  report() {
+    return this.#panache._arena((arena) => {
+      const at = arena.write(kReport, { size: kReport.size });
+      arena.check(this.#wasm.panache_character_get_report(this.#character, at));
+      const [gate, contacts, rate, ahead] = ['gate', 'contacts', 'rate', 'ahead'].map(
+        (name) => arena.read(kReport, name, at));
+      return { gate, contacts, rate, ahead };
+    });
+  }
+  reset() { this.#wasm.panache_character_reset(this.#character); }
+
+  free() {
+    this.#wasm.panache_character_destroy(this.#character);
+    this.#wasm.free(this.#block);
+    this.#character = this.#block = 0;
+  }
+}
+
+// A number, or keys [seconds, strength].
+function writeTrack(arena, panache, name, strength) {
+  const keys = typeof strength === 'number' ? [[0, strength]] : strength;
+  return {
+    style: panache._styleIndex(name), keyCount: keys.length,
+    keys: arena.array(kKey, keys.map(([seconds, value]) => ({ seconds, strength: value }))),
+  };
+}
+
+export function stylizeClip(panache, skeleton, clip, strengths, options) {
+  const wasm = panache._wasm;
+  const { shape, ...told } = optionsOf({ ...kStylizing, styleTiming: true, shape: {} }, options);
+  const joints = skeleton.jointCount;
+  const frameCount = Math.floor(clip.rotations.length / (4 * joints));
+  checkPose(clip, frameCount * joints, 'clip');
+  const styled = panache._arena((arena) => {
+    const from = arena.write(kClip, {
+      skeleton: skeleton._skeleton, frameCount, frameSeconds: clip.frameSeconds,
+      rotations: arena.copy(clip.rotations), translations: arena.copy(clip.translations),
+    });
+    const tracks = Object.entries(strengths).map(
+      ([name, strength]) => writeTrack(arena, panache, name, strength));
+    const how = arena.write(kStylizeOptions, {
+      size: kStylizeOptions.size, ...told, shape: writeShape(arena, shape),
+    });
+    const list = arena.array(kTrack, tracks);
+    return arena.create((out) => wasm.panache_stylize_clip(
+      panache._model(), from, list, tracks.length, how, out));
+  });
+  const frames = wasm.panache_styled_clip_frame_count(styled);
+  const copy = (type, at, count) => new type(wasm.memory.buffer, at, count).slice();
+  const out = {
+    frameCount: frames,
+    frameSeconds: clip.frameSeconds,
+    rotations: copy(Float32Array, wasm.panache_styled_clip_rotations(styled), 4 * joints * frames),
+    translations: copy(
+      Float32Array, wasm.panache_styled_clip_translations(styled), 3 * joints * frames),
+    sourceFrames: copy(Float64Array, wasm.panache_styled_clip_source_frames(styled), frames),
+    contacts: copy(Uint8Array, wasm.panache_styled_clip_contacts(styled), 2 * frames),
+    gates: copy(Float32Array, wasm.panache_styled_clip_gates(styled), frames),
+  };
+  wasm.panache_styled_clip_destroy(styled);
+  return out;
+}

@@ -1,0 +1,122 @@
+#include <array>
+#include <cmath>
+
+#include "api/errors.h"
+#include "api/objects.h"
+#include "api/poses.h"
+#include "api/shape.h"
+#include "api/sized_struct.h"
+#include "style/crowd.h"
+
+using namespace panache;
+using namespace panache::api;
+
+panache_status panache_character_create(const panache_model* model,
+                                        const panache_skeleton* skeleton,
+                                        const panache_character_options* options,
+                                        panache_character** out) {
+  start(out);
+  return guarded([&] {
+    const auto given = read_struct<panache_character_options>(options, PANACHE_CHARACTER_OPTIONS,
+                                                              "panache_character_options");
+    if (!given) return fail(PANACHE_BAD_ARGUMENT, given.error().message);
+    LiveOptions how;
+    how.stylizer.ease_seconds = given->ease_seconds;
+    how.stylizer.smoothing_seconds = given->smoothing_seconds;
+    how.stylizer.foot_lock = given->hold_feet != 0;
+    how.stylizer.root = given->style_root != 0;
+    how.max_lag = given->max_lag;
+    how.max_lead = given->max_lead;
+    how.skip_cycles = given->skip_cycles != 0;
+    Result<LiveStylizer> live = LiveStylizer::create(model->model, skeleton->rig, how);
+    if (!live) return fail(PANACHE_BAD_ARGUMENT, live.error().message);
+    *out =
+        new panache_character{*std::move(live), std::vector<float>(model->model->styles().size())};
+    return PANACHE_OK;
+  });
+}
+
+void panache_character_destroy(panache_character* character) { delete character; }
+
+void panache_character_set_strength(panache_character* character, int32_t style, float strength) {
+  const auto place = static_cast<size_t>(style);
+  if (style < 0 || place >= character->strengths.size() || !std::isfinite(strength)) return;
+  character->strengths[place] = strength;
+}
+
+panache_status panache_character_set_shape(panache_character* character,
+                                           const panache_shape* shape) {
+  return guarded([&] {
+    const Result<Shape> read = read_shape(shape);
+    if (!read) return fail(PANACHE_BAD_ARGUMENT, read.error().message);
+    character->live.stylizer().set_shape(*read);
+    return PANACHE_OK;
+  });
+}
+
+void panache_character_step(panache_character* character, panache_input_pose in, double seconds,
+                            panache_output_pose out) {
+  const size_t joints = character->live.stylizer().rig().joint_count();
+  character->live.step(view(in, joints), character->strengths, seconds, view(out, joints));
+}
+
+void panache_step_many(panache_character* const* characters, int32_t count,
+                       const panache_input_pose* in, double seconds,
+                       const panache_output_pose* out) {
+  // As many at a time as have a place on the stack.
+  std::array<CrowdMember, 64> members;
+  int32_t done = 0;
+  while (done < count) {
+    size_t taken = 0;
+    for (; taken < members.size() && done < count; ++taken, ++done) {
+      panache_character& character = *characters[done];
+      // Who has a time of his own goes alone.
+      if (!character.live.is_pass_through()) break;
+      Stylizer& stylizer = character.live.stylizer();
+      const size_t joints = stylizer.rig().joint_count();
+      members[taken] = {&stylizer, view(in[done], joints), character.strengths,
+                        view(out[done], joints)};
+    }
+    step_crowd(std::span(members).first(taken), seconds);
+    for (; done < count && !characters[done]->live.is_pass_through(); ++done) {
+      panache_character_step(characters[done], in[done], seconds, out[done]);
+    }
+  }
+}
+
+void panache_character_reset(panache_character* character) { character->live.reset(); }
+
+panache_status panache_character_get_report(const panache_character* character,
+                                            panache_report* report) {
+  return guarded([&] {
+    const Stylizer& stylizer = character->live.stylizer();
+    panache_report now = PANACHE_REPORT;
+    now.gate = stylizer.gate();
+    now.contacts[0] = stylizer.contacts()[0];
+    now.contacts[1] = stylizer.contacts()[1];
+    now.rate = stylizer.rate();
+    now.ahead = character->live.ahead();
+    auto written = write_struct(now, report, "panache_report");
+    return written ? PANACHE_OK : fail(PANACHE_BAD_ARGUMENT, written.error().message);
+  });
+}
+
+size_t panache_character_state_size(const panache_character* character) {
+  return character->live.state_size();
+}
+
+void panache_character_save(const panache_character* character, void* out) {
+  const size_t size = character->live.state_size();
+  character->live.save({static_cast<std::byte*>(out), size});
+}
+
+panache_status panache_character_restore(panache_character* character, const void* bytes,
+                                         size_t size) {
+  if (character->live.restore({static_cast<const std::byte*>(bytes), size})) return PANACHE_OK;
+  return guarded([&] {
+    return fail(PANACHE_BAD_STATE, "expected the " + std::to_string(character->live.state_size()) +
+                                       " bytes of a state saved by a character of the same model, "
+                                       "skeleton and options; found " +
+                                       std::to_string(size) + " bytes that are none");
+  });
+}

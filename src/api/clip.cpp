@@ -1,0 +1,115 @@
+#include <cmath>
+
+#include "api/errors.h"
+#include "api/objects.h"
+#include "api/poses.h"
+#include "api/shape.h"
+#include "api/sized_struct.h"
+
+using namespace panache;
+using namespace panache::api;
+
+namespace {
+
+Result<StrengthTrack> read_track(const panache_strength_track& from, int32_t styles) {
+  if (from.style < 0 || from.style >= styles) {
+    return Error{"there is no style " + std::to_string(from.style) + "; the model has " +
+                 std::to_string(styles)};
+  }
+  if (from.key_count < 1 || !from.keys) return Error{"expected at least one key, found none"};
+  StrengthTrack out{from.style, {}};
+  for (int32_t k = 0; k < from.key_count; ++k) {
+    const panache_strength_key& key = from.keys[k];
+    const std::string place = "key " + std::to_string(k) + ": ";
+    if (!std::isfinite(key.seconds) || !std::isfinite(key.strength)) {
+      return Error{place + "is not finite"};
+    }
+    if (k > 0 && !(key.seconds > from.keys[k - 1].seconds)) {
+      return Error{place + "is not later than the one before it"};
+    }
+    out.points.push_back({key.seconds, key.strength});
+  }
+  return out;
+}
+
+Result<std::vector<StrengthTrack>> read_tracks(const panache_strength_track* from, int32_t count,
+                                               int32_t styles) {
+  std::vector<StrengthTrack> out;
+  if (count < 0 || (count > 0 && !from)) {
+    return Error{std::to_string(count) + " tracks; expected an array of 0 or more"};
+  }
+  for (int32_t t = 0; t < count; ++t) {
+    Result<StrengthTrack> track = read_track(from[t], styles);
+    if (!track) return Error{"track " + std::to_string(t) + ": " + track.error().message};
+    out.push_back(*std::move(track));
+  }
+  return out;
+}
+
+Result<RestyleOptions> read_options(const panache_stylize_options* options) {
+  const auto given = read_struct<panache_stylize_options>(options, PANACHE_STYLIZE_OPTIONS,
+                                                          "panache_stylize_options");
+  if (!given) return given.error();
+  const Result<Shape> shape = read_shape(given->shape);
+  if (!shape) return shape.error();
+  RestyleOptions out;
+  out.stylizer.ease_seconds = given->ease_seconds;
+  out.stylizer.smoothing_seconds = given->smoothing_seconds;
+  out.stylizer.foot_lock = given->hold_feet != 0;
+  out.stylizer.root = given->style_root != 0;
+  out.timing = given->style_timing != 0;
+  out.stylizer.shape = *shape;
+  return out;
+}
+
+}  // namespace
+
+panache_status panache_stylize_clip(const panache_model* model, const panache_clip* clip,
+                                    const panache_strength_track* tracks, int32_t track_count,
+                                    const panache_stylize_options* options,
+                                    panache_styled_clip** out) {
+  start(out);
+  return guarded([&] {
+    const auto how = read_options(options);
+    if (!how) return fail(PANACHE_BAD_ARGUMENT, how.error().message);
+    const auto strengths = read_tracks(tracks, track_count, panache_model_style_count(model));
+    if (!strengths) return fail(PANACHE_BAD_ARGUMENT, strengths.error().message);
+    const Result<Clip> input = read_clip(*clip, Rotations::as_given, "clip");
+    if (!input) return fail(PANACHE_BAD_CLIP, input.error().message);
+    if (input->frames == 0) return fail(PANACHE_BAD_CLIP, "clip: has no frames");
+    Result<Restyled> styled = restyle(*input, clip->skeleton->rig, model->model, *strengths, *how);
+    if (!styled) return fail(PANACHE_BAD_ARGUMENT, styled.error().message);
+    std::vector<uint8_t> contacts;
+    for (const FootContacts& feet : styled->contacts) {
+      contacts.insert(contacts.end(), feet.begin(), feet.end());
+    }
+    *out = new panache_styled_clip{*std::move(styled), std::move(contacts)};
+    return PANACHE_OK;
+  });
+}
+
+void panache_styled_clip_destroy(panache_styled_clip* styled) { delete styled; }
+
+int32_t panache_styled_clip_frame_count(const panache_styled_clip* styled) {
+  return styled->restyled.clip.frames;
+}
+
+const float* panache_styled_clip_rotations(const panache_styled_clip* styled) {
+  return &styled->restyled.clip.rotations.data()->x;
+}
+
+const float* panache_styled_clip_translations(const panache_styled_clip* styled) {
+  return &styled->restyled.clip.translations.data()->x;
+}
+
+const double* panache_styled_clip_source_frames(const panache_styled_clip* styled) {
+  return styled->restyled.source_frames.data();
+}
+
+const uint8_t* panache_styled_clip_contacts(const panache_styled_clip* styled) {
+  return styled->contacts.data();
+}
+
+const float* panache_styled_clip_gates(const panache_styled_clip* styled) {
+  return styled->restyled.gates.data();
+}

@@ -1,0 +1,31 @@
+#pragma once
+// How functions of the C interface fail: a status, and a message that is kept per thread.
+
+#include <string>
+
+#include "panache/panache.h"
+
+namespace panache::api {
+
+// Keeps the message for panache_last_error(), and gives back `status`.
+panache_status fail(panache_status status, const std::string& message);
+// PANACHE_NO_MEMORY, with its message. Needs no memory.
+panache_status fail_without_memory() noexcept;
+
+// Runs `work`, which may allocate; C knows no exceptions.
+template <class Work>
+panache_status guarded(Work&& work) noexcept {
+  try {
+    return work();
+  } catch (...) {  // std::bad_alloc, or what containers throw for sizes beyond any memory.
+    return fail_without_memory();
+  }
+}
+
+// What a function creates is NULL until it succeeds.
+template <class T>
+void start(T** out) {
+  *out = nullptr;
+}
+
+}  // namespace panache::api

@@ -1,0 +1,81 @@
+#include "api/errors.h"
+#include "api/model_file.h"
+#include "api/objects.h"
+#include "api/poses.h"
+#include "api/sized_struct.h"
+#include "learn/style_file.h"
+
+using namespace panache;
+using namespace panache::api;
+
+namespace {
+
+Result<LearnPair> read_pair(const panache_pair& pair, int32_t number) {
+  const std::string name = "pair " + std::to_string(number);
+  const std::string neutral_name = name + ", neutral", styled_name = name + ", styled";
+  Result<Clip> neutral = read_clip(pair.neutral, Rotations::unit, neutral_name);
+  if (!neutral) return neutral.error();
+  Result<Clip> styled = read_clip(pair.styled, Rotations::unit, styled_name);
+  if (!styled) return styled.error();
+  return make_learn_pair({*neutral, pair.neutral.skeleton->rig, neutral_name},
+                         {*styled, pair.styled.skeleton->rig, styled_name});
+}
+
+}  // namespace
+
+panache_status panache_learn(const void* model_bytes, size_t model_size, const panache_pair* pairs,
+                             int32_t pair_count, const char* name, int32_t replace,
+                             panache_learnt** out) {
+  start(out);
+  return guarded([&] {
+    const Result<ModelFile> model = ModelFile::parse(model_bytes, model_size);
+    if (!model) return fail(PANACHE_BAD_MODEL, model.error().message);
+    if (!model->model->can_learn()) {
+      return fail(PANACHE_BAD_MODEL, cannot_learn(kModelName).message);
+    }
+    if (auto free = model->check_free(name, replace != 0); !free) {
+      return fail(PANACHE_BAD_ARGUMENT, free.error().message);
+    }
+    if (auto good = check_style_name(name); !good) {
+      return fail(PANACHE_BAD_ARGUMENT, good.error().message);
+    }
+    std::vector<LearnPair> learnt_from;
+    for (int32_t p = 0; p < pair_count; ++p) {
+      Result<LearnPair> pair = read_pair(pairs[p], p + 1);
+      if (!pair) return fail(PANACHE_BAD_CLIP, pair.error().message);
+      learnt_from.push_back(*std::move(pair));
+    }
+    Result<LearntStyle> style = learn_style(model->file, kModelName, learnt_from, name, "");
+    if (!style) return fail(PANACHE_BAD_CLIP, style.error().message);
+    Result<TensorFile> merged = add_style(model->file, kModelName, style->file, name, true);
+    if (!merged) return fail(PANACHE_BAD_MODEL, merged.error().message);
+    std::string warnings;
+    for (const PairReport& pair : style->pairs) {
+      for (const std::string& warning : pair.warnings) warnings += warning + "\n";
+    }
+    *out = new panache_learnt{format_safetensors(*merged), *std::move(style), std::move(warnings)};
+    return PANACHE_OK;
+  });
+}
+
+void panache_learnt_destroy(panache_learnt* learnt) { delete learnt; }
+
+const void* panache_learnt_model(const panache_learnt* learnt, size_t* size) {
+  *size = learnt->model.size();
+  return learnt->model.data();
+}
+
+panache_status panache_learnt_get_report(const panache_learnt* learnt,
+                                         panache_learnt_report* report) {
+  return guarded([&] {
+    const LearntStyle& style = learnt->style;
+    panache_learnt_report found = PANACHE_LEARNT_REPORT;
+    found.was_tested = style.judged ? 1 : 0;
+    found.warnings = learnt->warnings.c_str();
+    found.held_back_cm = style.held_back_cm;
+    found.mean_posture_cm = style.mean_posture_cm;
+    found.untouched_cm = style.untouched_cm;
+    auto written = write_struct(found, report, "panache_learnt_report");
+    return written ? PANACHE_OK : fail(PANACHE_BAD_ARGUMENT, written.error().message);
+  });
+}

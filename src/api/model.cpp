@@ -1,0 +1,33 @@
+#include "api/errors.h"
+#include "api/objects.h"
+
+using namespace panache;
+using namespace panache::api;
+
+panache_status panache_model_create(const void* bytes, size_t size, panache_model** out) {
+  start(out);
+  return guarded([&] {
+    auto model = Model::parse({static_cast<const char*>(bytes), size}, "model");
+    if (!model) return fail(PANACHE_BAD_MODEL, model.error().message);
+    *out = new panache_model{*std::move(model)};
+    return PANACHE_OK;
+  });
+}
+
+void panache_model_destroy(panache_model* model) { delete model; }
+
+int32_t panache_model_style_count(const panache_model* model) {
+  return static_cast<int32_t>(model->model->styles().size());
+}
+
+const char* panache_model_style_name(const panache_model* model, int32_t style) {
+  if (style < 0 || style >= panache_model_style_count(model)) return nullptr;
+  return model->model->styles()[static_cast<size_t>(style)].name.c_str();
+}
+
+int32_t panache_model_find_style(const panache_model* model, const char* name) {
+  for (int32_t i = 0; i < panache_model_style_count(model); ++i) {
+    if (model->model->styles()[static_cast<size_t>(i)].name == name) return i;
+  }
+  return -1;
+}

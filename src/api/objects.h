@@ -1,0 +1,37 @@
+#pragma once
+// What the handles of panache.h are.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "learn/learn_style.h"
+#include "panache/panache.h"
+#include "rig/rig.h"
+#include "style/live_stylizer.h"
+#include "style/model.h"
+#include "style/restyle.h"
+
+struct panache_bytes {
+  std::string bytes;
+};
+struct panache_model {
+  std::shared_ptr<const panache::Model> model;
+};
+struct panache_skeleton {
+  panache::Rig rig;
+  panache::Skeleton joints;
+};
+struct panache_character {
+  panache::LiveStylizer live;
+  std::vector<float> strengths;  // As set.
+};
+struct panache_styled_clip {
+  panache::Restyled restyled;
+  std::vector<uint8_t> contacts;  // [frames][2]
+};
+struct panache_learnt {
+  std::string model;
+  panache::LearntStyle style;
+  std::string warnings;
+};

@@ -1,0 +1,23 @@
+#include "api/shape.h"
+
+#include "api/sized_struct.h"
+
+namespace panache::api {
+
+Result<Shape> read_shape(const panache_shape* given) {
+  const auto read = read_struct<panache_shape>(given, PANACHE_SHAPE, "panache_shape");
+  if (!read) return read.error();
+  Shape out;
+  out.strength = read->strength;
+  out.posture = read->posture;
+  out.dynamics = read->dynamics;
+  out.timing = read->timing;
+  out.regions[static_cast<size_t>(Region::legs)] = read->legs;
+  out.regions[static_cast<size_t>(Region::torso)] = read->torso;
+  out.regions[static_cast<size_t>(Region::left_arm)] = read->left_arm;
+  out.regions[static_cast<size_t>(Region::right_arm)] = read->right_arm;
+  out.foot_lock = read->foot_lock;
+  return out;
+}
+
+}  // namespace panache::api

@@ -1,0 +1,53 @@
+#pragma once
+// Structs that begin with their own size, so that fields can be added at their ends: a program that
+// was compiled with an older header passes fewer bytes, one with a newer header more.
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+#include "base/result.h"
+
+namespace panache::api {
+
+// No struct will ever be larger; what claims to be was never set.
+inline constexpr uint32_t kMaxStructBytes = 4096;
+
+// Whether the struct's size is possible, and all of its bytes beyond the `known` ones are 0. `name`
+// is its type.
+inline Result<void> check_struct(const void* given, size_t known, const std::string& name) {
+  uint32_t size;
+  std::memcpy(&size, given, sizeof size);
+  if (size < sizeof size || size > kMaxStructBytes || size % sizeof size != 0) {
+    return Error{name + ": its struct_size is " + std::to_string(size) + ", expected sizeof(" +
+                 name + ")"};
+  }
+  const auto* bytes = static_cast<const unsigned char*>(given);
+  if (std::any_of(bytes + std::min<size_t>(known, size), bytes + size,
+                  [](unsigned char byte) { return byte != 0; })) {
+    return Error{name + ": has fields that this library is too old for; leave them at 0"};
+  }
+  return {};
+}
+
+// What was given, and `defaults` for the fields that it has not got; `given` may be null.
+template <class T>
+Result<T> read_struct(const T* given, const T& defaults, const std::string& name) {
+  T out = defaults;
+  if (!given) return out;
+  if (auto good = check_struct(given, sizeof(T), name); !good) return good.error();
+  std::memcpy(&out, given, std::min<size_t>(given->struct_size, sizeof(T)));
+  return out;
+}
+
+// Puts `from` into a struct of the caller's, as far as that goes.
+template <class T>
+Result<void> write_struct(T from, T* out, const std::string& name) {
+  if (auto good = check_struct(out, sizeof(T), name); !good) return good.error();
+  from.struct_size = out->struct_size;
+  std::memcpy(out, &from, std::min<size_t>(out->struct_size, sizeof(T)));
+  return {};
+}
+
+}  // namespace panache::api
