@@ -154,7 +154,7 @@ int run(const Options& options) {
   Result<EvaluateOptions> evaluation = read_options(options);
   if (!evaluation) return fail(evaluation.error(), kBadInput);
   if (!options.requests.empty()) {
-    const std::string csv = recorded_requests(judgeable(*evaluation));
+    const std::string csv = recorded_requests(rows_to_evaluate(*evaluation));
     if (Result<void> written = write_file(options.requests, csv, true); !written) {
       return fail(written.error(), kBadInput);
     }

@@ -3,10 +3,9 @@
 namespace panache::api {
 
 Result<ModelFile> ModelFile::parse(const void* bytes, size_t size) {
-  const std::string_view view(static_cast<const char*>(bytes), size);
-  Result<TensorFile> file = parse_safetensors(view, kModelName);
+  Result<TensorFile> file = parse_safetensors({static_cast<const char*>(bytes), size}, kModelName);
   if (!file) return file.error();
-  auto model = Model::parse(view, kModelName);
+  auto model = Model::create(*file, kModelName);
   if (!model) return model.error();
   return ModelFile{*std::move(file), *std::move(model)};
 }

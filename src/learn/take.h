@@ -25,8 +25,8 @@ struct Take {
   std::vector<std::array<Quat, kHumanJoints>> rotations;  // [frames], world rotations in the
                                                           // heading frame; only changes between
                                                           // takes of one rig mean anything
-  std::vector<FootContacts> contacts;  // [frames]
-  std::vector<float> pose_features;    // [frames][pose_feature_count(layout)]
+  std::vector<FootContacts> contacts;                     // [frames]
+  std::vector<float> pose_features;                       // [frames][pose_feature_count(layout)]
 
   int frames() const { return static_cast<int>(body.size()); }
 };

@@ -13,7 +13,7 @@ namespace panache {
 // One instant of a character.
 struct Observation {
   BodyPose world;               // In the world.
-  RootPose root;              // Where it stands and looks.
+  RootPose root;                // Where it stands and looks.
   HumanPositions body_frame{};  // Its canonical joints seen from there, metres.
 };
 

@@ -4,8 +4,8 @@
 #include <cassert>
 #include <cmath>
 
-#include "rig/canonical_skeleton.h"
 #include "style/cycle_search.h"
+#include "style/pose_change.h"
 #include "style/state_bytes.h"
 
 namespace panache {
@@ -18,25 +18,6 @@ constexpr float kLeadSeconds = 0.04f;
 constexpr float kTurnFades = 1.5f;  // Seconds, as a style's own turns do.
 
 float smooth(double t) { return static_cast<float>(t * t * (3 - 2 * t)); }
-
-Vec3 mid_hip_of(const HumanPositions& body, const RootPose& root) {
-  const Vec3 middle =
-      (body[index(HumanJoint::left_upper_leg)] + body[index(HumanJoint::right_upper_leg)]) * 0.5f;
-  return to_world(middle, root);
-}
-
-// What turns the body of `before` into a predicted one.
-BodyChange change_between(const HumanPositions& before, const RootPose& root,
-                          const PredictedPose& after) {
-  std::array<Quat, kHumanJoints> from, to;
-  canonical_frames(before, 0, from);
-  canonical_frames(after.body, 0, to);
-  BodyChange change;
-  for (size_t j = 0; j < kHumanJoints; ++j) change.rotations[j] = to[j] * conjugate(from[j]);
-  change.turn = after.root.facing - root.facing;
-  change.translation = mid_hip_of(after.body, after.root) - mid_hip_of(before, root);
-  return change;
-}
 
 }  // namespace
 
@@ -148,7 +129,7 @@ void LiveStylizer::pose_at(double ahead, const RootOffset& offset, Pose out) noe
   if (ahead > 0) {
     PredictedPose predicted{now.body_frame, root_at(ahead)};
     for (size_t j = 0; j < kHumanJoints; ++j) predicted.body[j] += p.ahead.body[j];
-    p.input.write(change_between(now.body_frame, now.root, predicted), out);
+    p.input.write(change_between({now.body_frame, now.root}, predicted), out);
   } else {
     p.ring.pose(p.time + ahead, out);
   }

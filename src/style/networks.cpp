@@ -1,44 +1,10 @@
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 
 #include "base/elementary.h"
-#include "net/dense.h"
-#include "style/model.h"
+#include "style/networks_scratch.h"
 
 namespace panache {
-namespace {
-
-// Beyond strength 1 the heads are driven this share as fast: at twice its size a style's change
-// tears the motion apart, and the upper half of the slider would be of no use.
-constexpr float kExaggeration = 0.3f;
-
-float exaggerated(float strength) {
-  const float size = std::abs(strength);
-  return size <= 1 ? strength : std::copysign(1 + kExaggeration * (size - 1), strength);
-}
-
-}  // namespace
-
-// Room on the stack, handed out in parts that begin on a cache line.
-class StyleNetworks::ScratchArena {
- public:
-  explicit ScratchArena(std::span<float> numbers) : remaining_(numbers) {}
-  std::span<float> take(size_t numbers) {
-    const std::span<float> part = remaining_.first(padded(numbers));
-    remaining_ = remaining_.subspan(part.size());
-    return part;
-  }
-  // So many rows of so many numbers.
-  Rows<float> rows(size_t count, size_t numbers) {
-    return {take(count * padded(numbers)).data(), count, padded(numbers)};
-  }
-  // What is there by now, to be handed out again by a copy.
-  std::span<float> remaining() const { return remaining_; }
-
- private:
-  std::span<float> remaining_;
-};
 
 StyleNetworks::StyleNetworks(std::shared_ptr<const Model> model)
     : model_(std::move(model)),
@@ -76,80 +42,6 @@ void StyleNetworks::add_heads(std::span<const Pass> passes, int network, Rows<co
       add_scaled(strength, {from, heads.outputs}, out(*passes[p].networks));
     }
   }
-}
-
-float StyleNetworks::gate() const noexcept {
-  if (learnt_gates_.empty()) return gate_;
-  const size_t built_in = model_->built_in();
-  float total = 0, sum = 0;
-  for (size_t s = 0; s < strengths_.size(); ++s) {
-    const float strength = std::abs(strengths_[s]);
-    total += strength;
-    sum += strength * (s < built_in ? gate_ : learnt_gates_[s - built_in]);
-  }
-  return total > 0 ? std::min(sum / total, 1.0f) : gate_;
-}
-
-void StyleNetworks::add_learnt(std::span<const Pass> passes, std::span<const float> scratch,
-                               ScratchArena& arena) {
-  const Model& m = *passes.front().networks->model_;
-  if (m.learnt_.empty()) return;
-  ScratchArena room = arena;
-  const size_t count = m.activation_count(), first = m.built_in();
-  const std::span<float> activations = room.take(count).first(count);
-  const std::span<float> drawn = room.take(count).first(count);
-  for (size_t p = 0; p < passes.size(); ++p) {
-    StyleNetworks& self = *passes[p].networks;
-    bool gathered = false;
-    for (size_t k = 0; k < m.learnt_.size(); ++k) {
-      const float strength = exaggerated(self.strengths_[first + k]);
-      if (strength == 0) continue;
-      if (!gathered) m.trunks_.all_layers(Model::kPose, p, passes.size(), scratch, activations);
-      gathered = true;
-      const Model::Learnt& learnt = m.learnt_[k];
-      ScratchArena rest = room;
-      const float far = self.leverage(learnt, activations, drawn, rest);
-      const float wanted = far > 1 ? 1 / far : 1.0f;
-      float& open = self.learnt_gates_[k];
-      if (std::isfinite(far)) open += passes[p].gate_share * (wanted - open);
-      for (size_t i = 0; i < count; ++i) {
-        drawn[i] = learnt.mean[i] + open * (activations[i] - learnt.mean[i]);
-      }
-      const std::span<float> answer = rest.take(learnt.head.width());
-      learnt.head.forward({drawn.data(), 1, 0}, {answer.data(), 1, 0});
-      constexpr int kChange = StyleDelta::kSize;
-      add_scaled(strength, answer.first<kChange>(), self.pose_out_);
-      add_scaled(strength, answer.subspan<kChange, 1>(), self.timing_out_);
-      add_scaled(strength, answer.subspan<kChange + 1, 2>(), self.contact_out_);
-    }
-  }
-}
-
-float StyleNetworks::leverage(const Model::Learnt& learnt, std::span<const float> activations,
-                              std::span<float> apart, ScratchArena& arena) const noexcept {
-  const std::vector<float>& factor = model_->activation_factor_;
-  for (size_t i = 0; i < activations.size(); ++i) {
-    apart[i] = (activations[i] - learnt.mean[i]) * factor[i];
-  }
-  ScratchArena room = arena;
-  const std::span<float> along = room.take(learnt.gate.width());
-  learnt.gate.forward({activations.data(), 1, 0}, {along.data(), 1, 0});
-  float sum = learnt.gate_residual * square_length(apart);
-  for (size_t d = 0; d < learnt.gate_weights.size(); ++d)
-    sum += learnt.gate_weights[d] * along[d] * along[d];
-  return sum;
-}
-
-void StyleNetworks::activations(std::span<const float> window,
-                                std::span<float> out) const noexcept {
-  alignas(kCacheLine) std::array<float, Model::kMaxScratch> numbers;
-  ScratchArena arena(numbers);
-  const size_t inputs = static_cast<size_t>(model_->trunks_.inputs());
-  const Rows<float> input = arena.rows(1, inputs);
-  write_input(window, {input.row(0), inputs});
-  const std::span<float> scratch = arena.take(model_->trunks_.scratch_size(1));
-  model_->trunks_.forward(Rows<const float>(input), scratch);
-  model_->trunks_.all_layers(Model::kPose, 0, 1, scratch, out);
 }
 
 Rows<const float> StyleNetworks::shrink(std::span<const Pass> passes, Rows<const float> hidden,

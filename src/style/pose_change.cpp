@@ -1,6 +1,18 @@
 #include "style/pose_change.h"
 
+#include "rig/canonical_skeleton.h"
+
 namespace panache {
+namespace {
+
+Vec3 mid_hip_of(const PredictedPose& pose) {
+  const Vec3 middle = (pose.body[index(HumanJoint::left_upper_leg)] +
+                       pose.body[index(HumanJoint::right_upper_leg)]) *
+                      0.5f;
+  return to_world(middle, pose.root);
+}
+
+}  // namespace
 
 Quat joint_rotation(const StyleDelta& change, int joint) noexcept {
   const Vec3 r = change.rotations[joint];
@@ -25,6 +37,17 @@ HumanPositions change_body(const HumanPositions& body, const StyleDelta& change)
     out[j] = out[parent] + rotate(joint_rotation(change, parent), body[j] - body[parent]);
   }
   return out;
+}
+
+BodyChange change_between(const PredictedPose& before, const PredictedPose& after) noexcept {
+  std::array<Quat, kHumanJoints> from, to;
+  canonical_frames(before.body, 0, from);
+  canonical_frames(after.body, 0, to);
+  BodyChange change;
+  for (size_t j = 0; j < kHumanJoints; ++j) change.rotations[j] = to[j] * conjugate(from[j]);
+  change.turn = after.root.facing - before.root.facing;
+  change.translation = mid_hip_of(after) - mid_hip_of(before);
+  return change;
 }
 
 }  // namespace panache

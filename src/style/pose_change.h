@@ -3,6 +3,8 @@
 
 #include "base/quat.h"
 #include "pose/style_delta.h"
+#include "rig/body_pose.h"
+#include "style/predictor_network.h"
 
 namespace panache {
 
@@ -11,5 +13,8 @@ Quat joint_rotation(const StyleDelta& change, int joint) noexcept;
 
 // The canonical body (body frame, metres) with the change's rotations and hips height on it.
 HumanPositions change_body(const HumanPositions& body, const StyleDelta& change) noexcept;
+
+// What turns the body `before` into the body `after`, both canonical.
+BodyChange change_between(const PredictedPose& before, const PredictedPose& after) noexcept;
 
 }  // namespace panache

@@ -10,11 +10,12 @@ Clip breadth_first_clip() {
   Clip clip;
   clip.skeleton.joints.resize(5);
   auto& joints = clip.skeleton.joints;
-  joints[0] = {"hips", -1, {0, 0.9f, 0}, {}, true, true, {}};
-  joints[1] = {"left leg", 0, {0.1f, 0, 0}, {}, true, false, {}};
-  joints[2] = {"right leg", 0, {-0.1f, 0, 0}, {}, true, false, {{0, -0.4f, 0}, {0, -0.4f, 0.1f}}};
-  joints[3] = {"left foot", 1, {0, -0.4f, 0}, {}, true, true, {{0, 0, 0.2f}}};
-  joints[4] = {"prop", -1, {}, {}, true, true, {}};
+  joints[0] = {"hips", -1, {0, 0.9f, 0}, {}, true, true, {}, ""};
+  joints[1] = {"left leg", 0, {0.1f, 0, 0}, {}, true, false, {}, ""};
+  joints[2] = {"right leg", 0, {-0.1f, 0, 0}, {}, true, false, {{0, -0.4f, 0}, {0, -0.4f, 0.1f}},
+               ""};
+  joints[3] = {"left foot", 1, {0, -0.4f, 0}, {}, true, true, {{0, 0, 0.2f}}, ""};
+  joints[4] = {"prop", -1, {}, {}, true, true, {}, ""};
   clip.frame_time = 1.0 / 30;
   clip.resize(40);
   for (int i = 0; i < clip.frames; ++i) {

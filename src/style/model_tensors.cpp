@@ -1,0 +1,205 @@
+// Reading the networks of a model: its tensors, and the numbers in its metadata.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "style/model.h"
+#include "style/predictor_network.h"
+
+namespace panache {
+namespace {
+
+// What the tensors of a learnt style begin with.
+std::string learnt_prefix(size_t learnt) { return "learnt." + std::to_string(learnt) + "."; }
+
+}  // namespace
+
+Result<void> Model::read_networks(const TensorFile& file, const std::string& name) {
+  const bool per_style = recipe_->style_heads;
+  size_t learnt = 0;  // The last styles.
+  while (file.tensors.contains(learnt_prefix(learnt) + "head.weight")) ++learnt;
+  if (learnt > (recipe_->learns_styles ? styles_.size() : 0)) {
+    return Error{name + ": has " + std::to_string(learnt) + " learnt styles and lists " +
+                 std::to_string(styles_.size()) + " in all; expected a model written by panache"};
+  }
+  const int styles = static_cast<int>(styles_.size() - learnt);
+  const int inputs = kWindowPoses * pose_feature_count(layout()) + recipe_->style_inputs(styles);
+  const struct {
+    const char* prefix;
+    int outputs, heads;
+  } networks[kNetworks] = {{"pose", recipe_->outputs, per_style ? styles : 1},
+                           {"timing", 1, per_style ? styles : 1},
+                           {"contact", 2, per_style ? styles + 1 : 1}};
+  std::array<Trunk, kNetworks> trunks;
+  for (size_t n = 0; n < kNetworks; ++n) {
+    const std::string prefix = networks[n].prefix;
+    Result<Trunk> trunk = Trunk::read(file, prefix + ".trunk", inputs, name);
+    if (!trunk) return trunk.error();
+    if (static_cast<size_t>(trunk->widest()) > kMaxUnits) {
+      return Error{name + ": the layers of '" + prefix + ".trunk' have up to " +
+                   std::to_string(trunk->widest()) + " units; expected at most " +
+                   std::to_string(kMaxUnits)};
+    }
+    std::vector<DenseLayer> heads;
+    for (int h = 0; h < networks[n].heads; ++h) {
+      Result<DenseLayer> head = read_layer(file, prefix + ".head." + std::to_string(h),
+                                           trunk->outputs(), networks[n].outputs, name);
+      if (!head) return head.error();
+      heads.push_back(*std::move(head));
+    }
+    heads_[n].count = heads.size();
+    heads_[n].outputs = static_cast<size_t>(networks[n].outputs);
+    if (heads.empty()) {
+      // All styles are learnt ones.
+    } else if (heads_[n].outputs < kPadding) {
+      heads_[n].layers.emplace_back(side_by_side(heads));
+    } else {
+      for (const DenseLayer& head : heads) heads_[n].layers.emplace_back(head);
+    }
+    trunks[n] = *std::move(trunk);
+  }
+  if (static_cast<size_t>(inputs) > kMaxInputs) {
+    return Error{name + ": has " + std::to_string(styles) + " styles; expected at most " +
+                 std::to_string(kMaxInputs - 800) + " with this recipe"};
+  }
+  trunks_ = TrunkTrio(std::move(trunks));
+  if (auto read = read_activations(file, name); !read) return read.error();
+  for (size_t k = 0; k < learnt; ++k) {
+    Result<Learnt> style = read_learnt(file, learnt_prefix(k), name);
+    if (!style) return style.error();
+    learnt_.push_back(*std::move(style));
+    styles_[static_cast<size_t>(styles) + k].learnt = true;
+  }
+  return {};
+}
+
+Result<void> Model::read_activations(const TensorFile& file, const std::string& name) {
+  if (!file.tensors.contains("learn.mean") && !file.tensors.contains("learn.scale")) return {};
+  const int activations = static_cast<int>(activation_count());
+  Result<std::vector<float>> mean = read_vector(file, "learn.mean", activations, name);
+  if (!mean) return mean.error();
+  Result<std::vector<float>> scale = read_vector(file, "learn.scale", activations, name);
+  if (!scale) return scale.error();
+  for (const float s : *scale) {
+    if (!(s > 0) || std::isinf(1 / s)) {
+      return Error{name + ": tensor 'learn.scale' must be above zero throughout"};
+    }
+    activation_factor_.push_back(1 / s);
+  }
+  activation_mean_ = *std::move(mean);
+  activation_scale_ = *std::move(scale);
+  return {};
+}
+
+Result<Model::Learnt> Model::read_learnt(const TensorFile& file, const std::string& prefix,
+                                         const std::string& name) const {
+  if (!can_learn()) {
+    return Error{name + ": has tensors '" + prefix +
+                 "*' of a learnt style, but no 'learn.mean' and 'learn.scale'"};
+  }
+  const int activations = static_cast<int>(activation_count());
+  Learnt learnt;
+  Result<DenseLayer> head = read_layer(file, prefix + "head", activations, kLearntOutputs, name);
+  if (!head) return head.error();
+  learnt.head = PackedLayer(*head);
+  Result<std::vector<float>> mean = read_vector(file, prefix + "mean", activations, name);
+  if (!mean) return mean.error();
+  learnt.mean = *std::move(mean);
+  Result<DenseLayer> gate = read_layer(file, prefix + "gate", activations, -1, name);
+  if (!gate) return gate.error();
+  if (gate->outputs > activations) {
+    return Error{name + ": tensor '" + prefix + "gate.weight' has " +
+                 std::to_string(gate->outputs) + " directions; expected at most " +
+                 std::to_string(activations)};
+  }
+  learnt.gate = PackedLayer(*gate);
+  Result<std::vector<float>> gate_weights =
+      read_vector(file, prefix + "gate.worth", gate->outputs, name);
+  if (!gate_weights) return gate_weights.error();
+  learnt.gate_weights = *std::move(gate_weights);
+  Result<std::vector<float>> rest = read_vector(file, prefix + "gate.rest", 1, name);
+  if (!rest) return rest.error();
+  learnt.gate_residual = rest->front();
+  return learnt;
+}
+
+Result<void> Model::measure_scratch(const std::string& name) {
+  size_t answers = padded(kLearntOutputs);
+  for (const Heads& heads : heads_) {
+    for (const PackedLayer& layer : heads.layers) answers = std::max(answers, layer.width());
+  }
+  const size_t activations = padded(can_learn() ? activation_count() : trunks_.outputs(kPose));
+  scratch_size_ = padded(static_cast<size_t>(trunks_.inputs())) + trunks_.scratch_size() +
+                  3 * activations + answers;
+  if (scratch_size_ <= kMaxScratch) return {};
+  return Error{name + ": a step works in " + std::to_string(scratch_size_) +
+               " numbers; expected trunks of fewer layers, so that it takes at most " +
+               std::to_string(kMaxScratch)};
+}
+
+Result<void> Model::read_numbers(const TensorFile& file, const std::string& name) {
+  const int numbers = pose_feature_count(layout()), outputs = recipe_->outputs;
+  std::vector<float> input_mean, input_scale;
+  const struct {
+    const char* key;
+    int size;
+    std::vector<float>* to;
+  } vectors[] = {{"input.mean", numbers, &input_mean},
+                 {"input.scale", numbers, &input_scale},
+                 {"output.scale", outputs, &output_scale_}};
+  for (const auto& [key, size, to] : vectors) {
+    Result<std::vector<float>> read = read_vector(file, key, size, name);
+    if (!read) return read.error();
+    *to = *std::move(read);
+  }
+  output_mean_.assign(outputs, 0.0f);
+  if (!recipe_->output_scale) {
+    Result<std::vector<float>> mean = read_vector(file, "output.mean", outputs, name);
+    if (!mean) return mean.error();
+    output_mean_ = *std::move(mean);
+  }
+  Result<std::vector<float>> clip = read_vector(file, "input.clip", 1, name);
+  if (!clip) return clip.error();
+  input_clip_ = clip->front() > 0 ? clip->front() : std::numeric_limits<float>::infinity();
+  for (const float scale : input_scale) {
+    if (!(scale > 0) || std::isinf(1 / scale)) {
+      return Error{name + ": tensor 'input.scale' must be above zero throughout"};
+    }
+  }
+  for (int k = 0; k < kWindowPoses; ++k) {
+    input_mean_.insert(input_mean_.end(), input_mean.begin(), input_mean.end());
+    for (const float scale : input_scale) input_factor_.push_back(1 / scale);
+  }
+  if (auto read = read_networks(file, name); !read) return read.error();
+  if (PredictorNetwork::is_in(file)) {
+    Result<PredictorNetwork> predictor = PredictorNetwork::read(file, name);
+    if (!predictor) return predictor.error();
+    predictor_ = std::make_shared<const PredictorNetwork>(*std::move(predictor));
+  }
+  if (auto read = read_gate(file, name); !read) return read.error();
+  return measure_scratch(name);
+}
+
+Result<void> Model::read_gate(const TensorFile& file, const std::string& name) {
+  const int hidden = trunks_.outputs(kPose);
+  gate_.mean.assign(hidden, 0.0f);
+  const bool gated = std::any_of(file.tensors.begin(), file.tensors.end(), [](const auto& tensor) {
+    return tensor.first.starts_with("gate.");
+  });
+  if (gated) {
+    Result<std::vector<float>> mean = read_vector(file, "gate.mean", hidden, name);
+    if (!mean) return mean.error();
+    gate_.mean = *std::move(mean);
+    Result<DenseLayer> whitening = read_layer(file, "gate.whitening", hidden, hidden, name);
+    if (!whitening) return whitening.error();
+    gate_.whitening = PackedLayer(*whitening);
+    Result<std::vector<float>> limit = read_vector(file, "gate.limit", 1, name);
+    if (!limit) return limit.error();
+    gate_.limit = limit->front();
+    if (gate_.limit <= 0) return Error{name + ": tensor 'gate.limit' must be above zero"};
+  }
+  return {};
+}
+
+}  // namespace panache

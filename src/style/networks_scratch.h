@@ -1,0 +1,41 @@
+#pragma once
+// What the sources of StyleNetworks share. Private to them.
+
+#include <cmath>
+#include <span>
+
+#include "net/dense.h"
+#include "style/model.h"
+
+namespace panache {
+
+// Beyond strength 1 the heads are driven this share as fast: at twice its size a style's change
+// tears the motion apart, and the upper half of the slider would be of no use.
+inline constexpr float kExaggeration = 0.3f;
+
+inline float exaggerated(float strength) {
+  const float size = std::abs(strength);
+  return size <= 1 ? strength : std::copysign(1 + kExaggeration * (size - 1), strength);
+}
+
+// Room on the stack, handed out in parts that begin on a cache line.
+class StyleNetworks::ScratchArena {
+ public:
+  explicit ScratchArena(std::span<float> numbers) : remaining_(numbers) {}
+  std::span<float> take(size_t numbers) {
+    const std::span<float> part = remaining_.first(padded(numbers));
+    remaining_ = remaining_.subspan(part.size());
+    return part;
+  }
+  // So many rows of so many numbers.
+  Rows<float> rows(size_t count, size_t numbers) {
+    return {take(count * padded(numbers)).data(), count, padded(numbers)};
+  }
+  // What is there by now, to be handed out again by a copy.
+  std::span<float> remaining() const { return remaining_; }
+
+ private:
+  std::span<float> remaining_;
+};
+
+}  // namespace panache
