@@ -175,9 +175,9 @@ typedef struct panache_character_options {
    * limits, so that the style's tempo lasts. Needs a max_lag longer than a cycle, say 1.5 seconds.
    * The character is then at another place than its input. */
   int32_t skip_cycles;
-  /* The tempo of a style needs time: how far behind its input the character may be shown (0 to 4
-   * seconds), and how far ahead (0 to 0.25; what has not come yet is foreseen, if the model can).
-   * With both at 0 nothing is late, and the tempo stays the input's. */
+  /* A style's own tempo needs time: the maximum lag behind the input (0 to 4 seconds) and the
+   * maximum lead (0 to 0.25; missing input is predicted, if the model can). With both at 0 no
+   * latency is added, and the tempo stays the input's. */
   double max_lag, max_lead;
 } panache_character_options;
 #define PANACHE_CHARACTER_OPTIONS \

@@ -11,13 +11,6 @@ namespace {
 constexpr int kEvery = 3;    // Frames between two instants that are judged.
 constexpr int kMargin = 15;  // Frames.
 
-HumanPositions in_world(const HumanPositions& body, const RootPose& root) {
-  HumanPositions world;
-  const Quat turn = rotation_y(root.facing);
-  for (size_t j = 0; j < world.size(); ++j) world[j] = root.position + rotate(turn, body[j]);
-  return world;
-}
-
 HumanPositions between(const HumanPositions& a, const HumanPositions& b, float t) {
   HumanPositions out;
   for (size_t j = 0; j < out.size(); ++j) out[j] = lerp(a[j], b[j], t);
@@ -48,7 +41,7 @@ void add_take(PosePredictor prediction, const Take& take, PredictionRow& row) {
       const double ahead = kPredictionSeconds[h];
       const HumanPositions truth = world_at(now + ahead);
       const PredictedPose predicted = prediction.predict(ahead);
-      row.predicted_cm[h] += distance_cm(in_world(predicted.body, predicted.root), truth);
+      row.predicted_cm[h] += distance_cm(to_world(predicted.body, predicted.root), truth);
       row.held_cm[h] += distance_cm(world[f], truth);
       const auto steps = static_cast<float>(1 + ahead / kWindowSpacing);
       row.velocity_cm[h] += distance_cm(between(before, world[f], steps), truth);
