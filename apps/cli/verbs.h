@@ -13,7 +13,7 @@
   verb(info) \
   verb(walker) \
   verb(strip) \
-  verb(halve) \
+  verb(quantize) \
   verb(view) \
   verb(live) \
   verb(send) \

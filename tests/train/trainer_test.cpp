@@ -7,6 +7,7 @@
 
 #include "known_recipes.h"
 #include "make_manifest.h"
+#include "style/model.h"
 #include "temporary_folder.h"
 #include "train/checkpoint.h"
 

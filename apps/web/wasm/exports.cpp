@@ -47,7 +47,7 @@ PANACHE_EXPORT const char* panache_page_style_description(const panache_model* m
                                                           int32_t style) {
   return model->model->styles()[static_cast<size_t>(style)].description.c_str();
 }
-// Two halves of the number, the lower first.
+// The two words of the number, the lower first.
 PANACHE_EXPORT void panache_page_golden(const panache_model* model, uint32_t* out) {
   const uint64_t hash = golden_hash(model->model);
   out[0] = static_cast<uint32_t>(hash);
