@@ -17,7 +17,7 @@ panache_status fail(panache_status status, const std::string& message) {
 }
 
 panache_status fail_without_memory() noexcept {
-  last_error = "there is not enough memory";
+  last_error = "out of memory";
   return PANACHE_NO_MEMORY;
 }
 
