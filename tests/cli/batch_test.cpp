@@ -125,7 +125,7 @@ TEST_F(Batch, a_report_tells_of_each_file) {
   const Ran again = stylize({"takes/a.bvh", "-o", "x.bvh", "--report", "report.json"});
   EXPECT_EQ(again.err, "panache: report.json: exists already; --force overwrites it\n");
   const Ran same = stylize({"takes/a.bvh", "-o", "x.bvh", "--report", "x.bvh"});
-  EXPECT_EQ(same.err, "panache: --report: x.bvh is an output too; expected a file of its own\n");
+  EXPECT_EQ(same.err, "panache: --report: x.bvh is an output too; expected a separate file\n");
   EXPECT_EQ(same.exit, 2);
 }
 

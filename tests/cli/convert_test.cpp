@@ -143,7 +143,7 @@ TEST_F(Convert, one_of_several_motions_must_be_named) {
   expect_rejected({"hero.glb", "--clip", "Run", "-o", "out.bvh"}, 1,
                   "hero.glb: holds no motion 'Run'; expected one of 'Walk', 'Wave'");
   expect_rejected({"hero.glb", "--clip", "Walk", "-o", "out.glb"}, 1,
-                  "hero.glb: all its motions go into out.glb; expected no --clip, which is for "
+                  "hero.glb: all its motions are written to out.glb; expected no --clip, which is for "
                   "formats that hold one motion");
   expect_rejected(
       {"walk.bvh", "--clip", "Walk", "-o", "out.glb"}, 1,

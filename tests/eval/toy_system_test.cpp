@@ -21,7 +21,8 @@ class ToySystemTest : public testing::Test {
   ToySystemTest() {
     test::keep_libraries_single_threaded();
     test::write_styles(folder_.path(), {"neutral", "old", "proud"}, 2);
-    for (const ManifestRow& row : *read_manifest(folder_.path() + "takes.csv", 0)) {
+    const auto rows = read_manifest(folder_.path() + "takes.csv", 0);
+    for (const ManifestRow& row : *rows) {
       options_.training.push_back(row);
       if (row.test) options_.test.push_back(row);
     }
