@@ -57,6 +57,11 @@ function bend(bone, angle) {
 export function walk(root, seconds) {
   const turn = 6.283185307179586 * seconds * 0.9;
   const bone = (name) => root.getObjectByName(name);
+  // All bones, as an animation mixer would: a style turns those too that the walk leaves at rest.
+  for (const [name, , translation] of kBones) {
+    bone(name).quaternion.identity();
+    bone(name).position.set(...translation);
+  }
   root.position.set(0, Math.fround(Math.fround(0.95) + Math.fround(0.02 * Math.cos(2 * turn))),
     Math.fround(1.2 * seconds));
   bend(bone('Wing_L'), 0.4 * Math.sin(turn));

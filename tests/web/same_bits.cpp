@@ -94,8 +94,8 @@ uint64_t by_library(const char* path, const std::vector<stick_pose>& poses) {
   }
   RestyleOptions options;
   options.timing = false;
-  options.shape.posture = 0.75f;
-  options.shape.regions[static_cast<size_t>(Region::left_arm)] = 0.5f;
+  options.stylizer.shape.posture = 0.75f;
+  options.stylizer.shape.regions[static_cast<size_t>(Region::left_arm)] = 0.5f;
   const auto track = [&](const char* style, float strength) {
     return StrengthTrack{*(*model)->find_style(style), {{0, strength}}};
   };
