@@ -82,8 +82,9 @@ Result<std::unique_ptr<MotionFile>> read_motion(const std::string& path,
   const std::string extension = extension_of(path);
   const MotionFormat* format = find_format(formats, extension);
   if (!format) {
-    return Error{path + ": expected a motion file (" + list_extensions(formats) + "), found " +
-                 (extension.empty() ? "no ending" : "the ending " + panache::quoted(extension))};
+    return Error{
+        path + ": expected a motion file (" + list_extensions(formats) + "), found " +
+        (extension.empty() ? "no extension" : "the extension " + panache::quoted(extension))};
   }
   if (format->read) return format->read(path);
   auto bytes = read_file(path);

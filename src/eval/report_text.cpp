@@ -221,8 +221,9 @@ std::string report_text(const Report& report) {
   text += titled("Out-of-distribution motion: every clip in every style", ood(report));
   text += titled("Disturbed windows: pose error in cm", disturbances(report));
   for (const SystemReport& system : report.systems) {
-    text += titled(cut_text("Input prediction, constant velocity, held: " + system.name, kTextWidth),
-                   prediction(system));
+    text +=
+        titled(cut_text("Input prediction, constant velocity, held: " + system.name, kTextWidth),
+               prediction(system));
   }
   return text;
 }

@@ -142,9 +142,10 @@ TEST_F(Convert, one_of_several_motions_must_be_named) {
                   "picks it");
   expect_rejected({"hero.glb", "--clip", "Run", "-o", "out.bvh"}, 1,
                   "hero.glb: holds no motion 'Run'; expected one of 'Walk', 'Wave'");
-  expect_rejected({"hero.glb", "--clip", "Walk", "-o", "out.glb"}, 1,
-                  "hero.glb: all its motions are written to out.glb; expected no --clip, which is for "
-                  "formats that hold one motion");
+  expect_rejected(
+      {"hero.glb", "--clip", "Walk", "-o", "out.glb"}, 1,
+      "hero.glb: all its motions are written to out.glb; expected no --clip, which is for "
+      "formats that hold one motion");
   expect_rejected(
       {"walk.bvh", "--clip", "Walk", "-o", "out.glb"}, 1,
       "walk.bvh: holds one motion, which has no name; expected no --clip, found 'Walk'");

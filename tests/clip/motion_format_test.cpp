@@ -43,7 +43,7 @@ TEST(MotionFormat, a_format_of_a_program_of_its_own_is_read_like_the_others) {
   EXPECT_EQ(read_motion("nowhere/walk.OWN", kOwn).error().message, "nowhere/walk.OWN: is none");
   EXPECT_EQ(asked, "nowhere/walk.OWN");
   EXPECT_EQ(read_motion("walk.bvh", kOwn).error().message,
-            "walk.bvh: expected a motion file (.own), found the ending '.bvh'");
+            "walk.bvh: expected a motion file (.own), found the extension '.bvh'");
 }
 
 }  // namespace
