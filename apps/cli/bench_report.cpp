@@ -94,7 +94,7 @@ std::string steps_table(const Measurements& m) {
     rest -= stage.median;
     add(stage.name, stage.median);
   }
-  add("everything else (easing, root motion)", rest);
+  add("everything else", rest);
   add("together", steps.whole);
   return text + "\n" + columns(rows);
 }

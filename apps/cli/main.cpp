@@ -5,7 +5,9 @@
 #include <new>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "base/one_of.h"
 #include "fbx.h"
 #include "messages.h"
 #include "verbs.h"
@@ -15,14 +17,12 @@ namespace {
 
 // The library's own message for a verb that does not exist names no verb that does.
 Result<void> check_verb(const CLI::App& app, const std::string& verb) {
-  std::string list;
-  const auto known = app.get_subcommands([](const CLI::App*) { return true; });
-  for (size_t i = 0; i < known.size(); ++i) {
-    if (known[i]->get_name() == verb) return {};
-    if (i) list += i + 1 == known.size() ? " or " : ", ";
-    list += known[i]->get_name();
+  std::vector<std::string> names;
+  for (const CLI::App* known : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (known->get_name() == verb) return {};
+    names.push_back(known->get_name());
   }
-  return Error{"there is no command '" + verb + "'; expected " + list};
+  return Error{"there is no command '" + verb + "'; expected " + one_of(names)};
 }
 
 std::string one_line(std::string text) {

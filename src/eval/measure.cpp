@@ -1,8 +1,8 @@
 #include "eval/measure.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <algorithm>
 #include <numeric>
 
 #include "eval/measures/table.h"

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "base/one_of.h"
+
 // The table. A recipe called NAME is a folder of that name which defines NAME_recipe(), and one
 // line here.
 // clang-format off
@@ -15,19 +17,6 @@ namespace panache {
 #define DECLARE_RECIPE(name) const Recipe& name##_recipe() noexcept;
 PANACHE_RECIPES(DECLARE_RECIPE)
 #undef DECLARE_RECIPE
-
-namespace {
-
-std::string one_of(const std::vector<const char*>& names) {
-  std::string text;
-  for (size_t i = 0; i < names.size(); ++i) {
-    text += i == 0 ? "" : i + 1 < names.size() ? ", " : " or ";
-    text += names[i];
-  }
-  return text;
-}
-
-}  // namespace
 
 std::span<const Recipe* const> recipes() noexcept {
 #define RECIPE_ADDRESS(name) &name##_recipe(),
@@ -46,13 +35,13 @@ const Recipe* find_recipe(std::string_view name) noexcept {
 const Recipe& default_recipe() noexcept { return *recipes().front(); }
 
 std::string recipe_names() {
-  std::vector<const char*> names;
+  std::vector<std::string> names;
   for (const Recipe* recipe : recipes()) names.push_back(recipe->name);
   return one_of(names);
 }
 
 std::string learning_recipe_names() {
-  std::vector<const char*> names;
+  std::vector<std::string> names;
   for (const Recipe* recipe : recipes()) {
     if (recipe->learns_styles) names.push_back(recipe->name);
   }

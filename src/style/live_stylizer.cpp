@@ -15,7 +15,6 @@ constexpr double kSearchEvery = 0.06;  // Seconds.
 constexpr double kBlend = 0.2;         // Seconds from the old head to the new one.
 // Time constant of what is predicted beyond the newest pose: guesses tremble more than motion does.
 constexpr float kLeadSeconds = 0.04f;
-constexpr float kTurnFades = 1.5f;  // Seconds, as a style's own turns do.
 
 float smooth(double t) { return static_cast<float>(t * t * (3 - 2 * t)); }
 
@@ -187,7 +186,7 @@ void LiveStylizer::step(ConstPose in, std::span<const float> strengths, double s
 
   const double rate = stylizer_.rate();
   const double played = head_.advance(seconds, rate, stylizer_.amount() > 0);
-  p.offset.turn *= exponential(-static_cast<float>(seconds) / kTurnFades);
+  p.offset.turn *= exponential(-static_cast<float>(seconds) / kCourseSeconds);
   look_ahead(seconds);
   skip_cycle(rate);
 

@@ -54,14 +54,16 @@ void Stylizer::forget() noexcept {
 void Stylizer::step(ConstPose in, std::span<const float> strengths, double input_seconds,
                     double output_seconds, Pose out) noexcept {
   const StepTime time = take_in(in, strengths, input_seconds, output_seconds, nullptr);
-  networks_.forward(pass(time).window, pass(time).gate_share);
+  const StyleNetworks::Pass networks = pass(time);
+  networks_.forward(networks.window, networks.gate_share);
   give_out(time, out, nullptr);
 }
 
 void Stylizer::step(ConstPose in, std::span<const float> strengths, double seconds, Pose out,
                     StageClock& clock) noexcept {
   const StepTime time = take_in(in, strengths, seconds, seconds, &clock);
-  networks_.forward(pass(time).window, pass(time).gate_share);
+  const StyleNetworks::Pass networks = pass(time);
+  networks_.forward(networks.window, networks.gate_share);
   clock.done(Stage::networks);
   give_out(time, out, &clock);
 }

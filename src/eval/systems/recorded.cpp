@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/csv.h"
+#include "base/one_of.h"
 #include "base/parallel.h"
 #include "eval/motion_metrics.h"
 
@@ -38,14 +39,6 @@ Result<std::string> find_input(const std::string& cell, const std::vector<std::s
                  "; expected more of the path"};
   }
   return *found.begin();
-}
-
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (size_t i = 0; i < names.size(); ++i) {
-    text += (i == 0 ? "" : i + 1 < names.size() ? ", " : " or ") + names[i];
-  }
-  return text;
 }
 
 Result<float> read_strength(const std::string& cell) {
@@ -101,7 +94,7 @@ Result<void> Recorded::read_manifest(const std::string& folder, const RecordedSc
     if (!input) return Error{where + ": " + input.error().message};
     if (std::find(scope.styles.begin(), scope.styles.end(), style) == scope.styles.end()) {
       return Error{where + ": style '" + style + "' is shown by no test take; expected " +
-                   joined(scope.styles)};
+                   one_of(scope.styles)};
     }
     Result<float> strength = read_strength(cells.values[2]);
     if (!strength) return Error{where + ": " + strength.error().message};

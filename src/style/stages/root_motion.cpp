@@ -7,9 +7,6 @@
 namespace panache {
 namespace {
 
-// A style may sway and turn within a step, but not leave the input's course: what it adds sideways
-// and to the heading fades with this time constant.
-constexpr float kCourseSeconds = 1.5f;
 // Below this speed a character stands, or walks in place: the style may not carry it away.
 constexpr float kStandingSpeed = 0.3f;  // m/s
 // Well above this speed the root motion changes by the style's full share, below it by less.

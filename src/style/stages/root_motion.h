@@ -8,6 +8,10 @@
 
 namespace panache {
 
+// A style may sway and turn within a step, but not leave the input's course: what it adds sideways
+// and to the heading fades with this time constant.
+inline constexpr float kCourseSeconds = 1.5f;
+
 // What a style has added to the root motion since the start.
 struct RootOffset {
   Vec3 translation;  // World, metres, y = 0.
