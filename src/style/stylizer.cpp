@@ -47,6 +47,7 @@ void Stylizer::forget() noexcept {
   filter_.reset();
   root_.reset();
   shaping_.reset();
+  anatomy_.reset();
   floor_.reset();
   fall_.reset();
   foot_lock_.reset();
@@ -107,8 +108,12 @@ void Stylizer::give_out(const StepTime& time, Pose out, StageClock* clock) noexc
   tell(clock, Stage::root);
   shaping_.step(shape, filter_.delta(), root_.offset(now.root), time, change_);
   tell(clock, Stage::shape);
+  anatomy_.step(now.world, rig(), time, change_);
+  tell(clock, Stage::anatomy);
   HumanPositions joints;
   changed_joints(now.world, change_, joints);
+  keep_balance(now.world, joints, change_);
+  tell(clock, Stage::balance);
   floor_.step(now.world, joints, amount, time, change_);
   tell(clock, Stage::floor);
   fall_.step(flight_, time, change_);
@@ -143,6 +148,7 @@ void Stylizer::visit_state(Self& self, Visit&& visit) {
   OutputFilter::visit_state(self.filter_, visit);
   RootMotion::visit_state(self.root_, visit);
   Shaping::visit_state(self.shaping_, visit);
+  Anatomy::visit_state(self.anatomy_, visit);
   FloorClearance::visit_state(self.floor_, visit);
   FreeFall::visit_state(self.fall_, visit);
   FootLock::visit_state(self.foot_lock_, visit);

@@ -10,6 +10,8 @@
 #include "pose/observer.h"
 #include "style/model.h"
 #include "style/shape.h"
+#include "style/stages/anatomy.h"
+#include "style/stages/balance.h"
 #include "style/stages/fall.h"
 #include "style/stages/filter.h"
 #include "style/stages/flight.h"
@@ -43,18 +45,22 @@ enum class Stage {
   filter,     // OutputFilter
   root,       // RootMotion
   shape,      // Shaping
+  anatomy,    // Anatomy
+  balance,    // keep_balance()
   floor,      // FloorClearance
   fall,       // FreeFall
   feet,       // FootLock
   write,      // PosedRig
 };
-inline constexpr std::array<const char*, 11> kStageNames = {"observe the pose",
+inline constexpr std::array<const char*, 13> kStageNames = {"observe the pose",
                                                             "ease strengths and shape",
                                                             "history and window",
                                                             "networks, heads and gate",
                                                             "filter",
                                                             "root motion",
                                                             "shape",
+                                                            "keep joints in range",
+                                                            "keep the balance",
                                                             "keep above the floor",
                                                             "fall as the input does",
                                                             "hold the feet",
@@ -151,6 +157,7 @@ class Stylizer {
   OutputFilter filter_;
   RootMotion root_;
   Shaping shaping_;
+  Anatomy anatomy_;
   FloorClearance floor_;
   FreeFall fall_;
   FootLock foot_lock_;

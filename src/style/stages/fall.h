@@ -1,5 +1,5 @@
 #pragma once
-// Eighth stage: a style takes no hand in the fall of a body.
+// Tenth stage: a style takes no hand in the fall of a body.
 
 #include "rig/body_pose.h"
 #include "style/stages/step_time.h"
