@@ -27,14 +27,15 @@ constexpr float kMargin = deg(10);
 struct Range {
   float front, back;  // Flexion, extension.
   float out, in;      // Abduction, adduction; both sides alike for the torso.
+  float safe;         // Cosine of the narrowest of them: no closer look is needed up to it.
 };
-constexpr Range kTorso = {deg(80), deg(30), deg(35), deg(35)};       // Chest on hips, from up.
-constexpr Range kHead = {deg(45), deg(45), deg(45), deg(45)};        // Head on chest, from up.
-constexpr Range kShoulder = {deg(180), deg(60), deg(180), deg(75)};  // On chest, from down.
-constexpr Range kHip = {deg(120), deg(30), deg(45), deg(30)};        // On hips, from down.
+constexpr Range kTorso = {deg(80), deg(30), deg(35), deg(35), .8660f};    // Chest on hips, from up.
+constexpr Range kHead = {deg(45), deg(45), deg(45), deg(45), .7071f};     // Head on chest, from up.
+constexpr Range kShoulder = {deg(180), deg(60), deg(180), deg(75), .5f};  // On chest, from down.
+constexpr Range kHip = {deg(120), deg(30), deg(45), deg(30), .8660f};     // On hips, from down.
 // Bends of a hinge, and how far it goes the wrong way. No margin there: it is seen at once.
 constexpr float kElbow = deg(150), kElbowBack = deg(10), kKnee = deg(140), kKneeBack = deg(2);
-constexpr float kWrist = deg(70);
+constexpr float kWrist = deg(70), kSafeWrist = .3420f;
 // A hand whose direction is not known turns no further on its forearm than this. Radians.
 constexpr float kUnknownWrist = deg(40);
 
@@ -75,12 +76,13 @@ float arm_beyond(Vec3 now, Vec3 rest, const Range& range) {
 struct Hinge {
   Vec3 bends_to;  // Where the lower limb goes as it bends, with the upper one hanging down.
   float most, back;
+  float safe;  // As in Range, of the right way.
 };
-constexpr Hinge kElbowHinge = {{0, 0, 1}, kElbow + kMargin, kElbowBack};
-constexpr Hinge kKneeHinge = {{0, 0, -1}, kKnee + kMargin, kKneeBack};
+constexpr Hinge kElbowHinge = {{0, 0, 1}, kElbow + kMargin, kElbowBack, -.8660f};
+constexpr Hinge kKneeHinge = {{0, 0, -1}, kKnee + kMargin, kKneeBack, -.7660f};
 
 struct Bend {
-  float angle = 0;  // Radians,
+  float angle = 0;  // Radians; 0 where it is safe,
   float wrong = 0;  // and of it the wrong way.
 };
 // A hinge bends the wrong way within 35 to 75 degrees of the exactly wrong direction: the rest of
@@ -88,8 +90,11 @@ struct Bend {
 Bend bend_of(Vec3 upper, Vec3 lower, const Hinge& hinge) {
   const Vec3 to = rotate(rotation_between(Vec3{0, -1, 0}, upper), hinge.bends_to);
   const Vec3 bend = lower - upper * dot(upper, lower);
-  const float off = length(bend), angle = arc_tangent(off, dot(upper, lower));
-  return {angle, off > 1e-6f ? angle * smooth(0.26f, 0.82f, -dot(bend, to) / off) : 0.0f};
+  const float off = length(bend), along = dot(upper, lower);
+  const float wrong = off > 1e-6f ? smooth(0.26f, 0.82f, -dot(bend, to) / off) : 0.0f;
+  if (wrong == 0 && along > hinge.safe) return {};
+  const float angle = arc_tangent(off, along);
+  return {angle, angle * wrong};
 }
 
 class Limits {
@@ -140,9 +145,10 @@ class Limits {
   // Turns all joints from one to the other by that share of what takes the direction `from` to
   // `to`, both seen from the base.
   void turn(const Base& base, Vec3 from, Vec3 to, float share, HumanJoint first, HumanJoint last) {
+    if (share == 0) return;
     const Vec3 about = cross(from, to);
     const float sine = length(about);
-    if (!(share > 0 && sine > 1e-6f)) return;
+    if (!(sine > 1e-6f)) return;
     const Vec3 axis = rotate(of(base.joint), base.frame(about / sine));
     const Quat back = axis_angle(axis, share * arc_tangent(sine, dot(from, to)));
     for (int j = index(first); j <= index(last); ++j) {
@@ -160,7 +166,7 @@ class Limits {
     };
     const Vec3 now = changed(base, joint, direction);
     const Vec3 before = seen_in(base.frame, direction);
-    const float out = beyond(now);
+    const float out = dot(now, rest) < range.safe ? beyond(now) : -kSoft;
     const float share = eased(out > -kSoft ? share_back(out, beyond(before)) : 0.0f);
     turn(base, now, before, share, first, last);
   }
@@ -171,8 +177,10 @@ class Limits {
     const Bend out = bend_of(above, below, hinge);
     float share = 0;
     if (out.wrong > 0 || out.angle > hinge.most - kSoft) {
+      Hinge exact = hinge;
+      exact.safe = 2;
       const Bend in =
-          bend_of(seen_in(base.frame, upper_way), seen_in(base.frame, lower_way), hinge);
+          bend_of(seen_in(base.frame, upper_way), seen_in(base.frame, lower_way), exact);
       const float wrong = std::max(0.0f, out.wrong - in.wrong);
       share = std::max(share_back(out.angle - hinge.most, in.angle - hinge.most),
                        wrong / (wrong + hinge.back));
@@ -191,9 +199,12 @@ class Limits {
     if (local == Vec3{}) return keep_unknown_wrist(lower, hand);
     const Vec3 hand_way = in_heading(rotate(body_.rotations[index(hand)], local));
     const Vec3 above = changed(base, lower, lower_way), now = changed(base, hand, hand_way);
-    const float out = angle_between(above, now) - kWrist - kMargin;
-    const float in = angle_between(lower_way, hand_way) - kWrist - kMargin;
-    const float share = eased(out > -kSoft ? share_back(out, in) : 0.0f);
+    float share = 0;
+    if (dot(above, now) < kSafeWrist) {
+      const float out = angle_between(above, now), in = angle_between(lower_way, hand_way);
+      share = share_back(out - kWrist - kMargin, in - kWrist - kMargin);
+    }
+    share = eased(share);
     turn(base, now, changed(base, lower, hand_way), share, hand, hand);
   }
 
