@@ -22,7 +22,7 @@ class FlightWatch {
   void push(double time, const HumanPositions& world) noexcept;
   // How much of a flight the moment `time` is part of, 0 (the style has its tempo) to 1 (the input
   // has). It eases in before a flight, as far as poses pushed show it coming, and out after the
-  // landing. Whoever plays at the newest pose learns of a flight a tenth of a second into it.
+  // landing. Whoever plays at the newest pose learns of a flight some 0.2 s after take-off.
   float amount(double time) const noexcept;
 
   // Calls visit(member) for everything that tells one character from another.
