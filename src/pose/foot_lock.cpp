@@ -25,6 +25,13 @@ constexpr float kMaxReach = 0.995f;
 // are let go later.
 constexpr float kBent = 0.6f;
 
+// A knee that a style or noise bends backwards by a few degrees may not be bent on that way: a leg
+// that is nearly straight bends to where its foot points. In force in full from this shift on.
+constexpr float kFirm = 0.05f, kFirmShift = 0.02f;  // Metres.
+
+// Where a knee points: where the foot does, and ahead where that points down.
+Vec3 knee_way(Vec3 ankle, Vec3 toe) { return normalized(toe - ankle) + Vec3{0, 0, 0.5f}; }
+
 // Where the ankle goes in place of `target`.
 Vec3 easy_target(Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 target) {
   const float leg = length(knee - hip) + length(ankle - knee);
@@ -38,7 +45,8 @@ Vec3 easy_target(Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 target) {
 
 }  // namespace
 
-TwoBoneTurn two_bone_ik(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 bend_hint) noexcept {
+TwoBoneTurn two_bone_ik(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 bend_hint,
+                        float firm) noexcept {
   const float upper = length(middle - root), lower = length(end - middle);
   const Vec3 old_way = end - root, way = target - root;
   const float old_reach = length(old_way);
@@ -52,6 +60,10 @@ TwoBoneTurn two_bone_ik(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 bend
   const Vec3 old_axis = normalized(old_way, axis);
   const Quat swing = rotation_between(old_axis, axis);
   Vec3 bend = (middle - root) - old_axis * dot(middle - root, old_axis);
+  if (firm > 0) {
+    const Vec3 hint = normalized(bend_hint - old_axis * dot(bend_hint, old_axis));
+    bend += hint * std::max(0.0f, firm - length(bend) / 2);
+  }
   if (length(bend) < 1e-3f * upper) bend = bend_hint - old_axis * dot(bend_hint, old_axis);
   bend = normalized(rotate(swing, bend));
 
@@ -142,8 +154,9 @@ void FootLock::step(const BodyPose& body, const HumanPositions& joints,
     const Vec3 shift = rotate(conjugate(to_world), offset) * amount;
     const Vec3 target =
         easy_target(joints[hip], joints[knee], joints[ankle], joints[ankle] + shift);
-    const TwoBoneTurn turn =
-        two_bone_ik(joints[hip], joints[knee], joints[ankle], target, Vec3{0, 0, 1});
+    const float firm = kFirm * std::min(1.0f, length(shift) / kFirmShift);
+    const TwoBoneTurn turn = two_bone_ik(joints[hip], joints[knee], joints[ankle], target,
+                                         knee_way(joints[ankle], joints[index(kToes[f])]), firm);
     change.rotations[hip] = turn.upper * change.rotations[hip];
     change.rotations[knee] = turn.lower * change.rotations[knee];
   }

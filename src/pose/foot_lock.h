@@ -17,8 +17,11 @@ struct TwoBoneTurn {
 };
 // `root`, `middle`, `end`: where hip, knee and ankle (or shoulder, elbow, wrist) are; any one
 // space. A target beyond reach is approached as far as the chain's length allows; the bend stays in
-// the plane it has, or towards `bend_hint` where the chain is straight.
-TwoBoneTurn two_bone_ik(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 bend_hint) noexcept;
+// the plane it has, or towards `bend_hint` where the chain is straight. `firm`: a middle that is
+// nearer than twice this to the line from root to end (metres) goes the more towards the hint, the
+// nearer it is; two thirds of it on the wrong side do not make the chain bend that way.
+TwoBoneTurn two_bone_ik(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 bend_hint,
+                        float firm = 0) noexcept;
 
 // Positions of the user's joints with the rotations of `change` on them, in the heading frame of
 // the input: origin midway between the hip joints, axes turned so that the body faces +z. Turn and

@@ -51,6 +51,8 @@ class Calibrator {
     }
     find_wrist(0);
     find_wrist(1);
+    find_hand(0);
+    find_hand(1);
     find_toes(0);
     find_toes(1);
     find_torso();
@@ -118,6 +120,27 @@ class Calibrator {
     }
     out_.notes.push_back(std::string(side ? "the right" : "the left") + " wrist is " +
                          (shown ? "the lower arm's End Site" : "estimated from the upper arm"));
+  }
+
+  // Fills the direction of one hand: in the rest pose, to what of it is farthest from the wrist.
+  void find_hand(int side) {
+    const int hand = joint_of_[index(side ? right_hand : left_hand)];
+    if (hand < 0) return;
+    const Vec3 wrist = rest_translations_[hand];
+    Vec3 longest;
+    const auto note = [&](Vec3 tip) {
+      if (length(tip - wrist) > length(longest)) longest = tip - wrist;
+    };
+    std::vector<bool> below(clip_.joints());
+    for (size_t j = static_cast<size_t>(hand); j < clip_.joints(); ++j) {
+      const Joint& joint = clip_.skeleton.joints[j];
+      below[j] = j == static_cast<size_t>(hand) || (joint.parent >= 0 && below[joint.parent]);
+      if (!below[j]) continue;
+      note(rest_translations_[j]);
+      for (Vec3 end : joint.ends) note(rest_translations_[j] + rotate(rest_rotations_[j], end));
+    }
+    if (!(length(longest) * out_.scale > kShortestToe)) return;
+    out_.hands[side] = normalized(rotate(conjugate(rest_rotations_[hand]), longest));
   }
 
   // Fills the direction of one foot: its toe joint, its End Site, or where it must point in stance.

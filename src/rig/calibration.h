@@ -32,6 +32,9 @@ struct Calibration {
   // [left, right]: where the wrist is in the lower arm's own axes, file units, where there is no
   // hand.
   std::array<Vec3, 2> wrists;
+  // [left, right]: unit direction of the fingers in the hand's own axes; zero where there is no
+  // hand or nothing below it.
+  std::array<Vec3, 2> hands;
   std::vector<std::string> notes;
 };
 

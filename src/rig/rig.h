@@ -62,6 +62,10 @@ class Rig {
   int first_frame() const { return shared_->calibration.first_frame; }
   const std::vector<std::string>& notes() const { return shared_->notes; }
 
+  // Unit direction from the wrist to the fingertips in the hand's own axes (those of
+  // BodyPose::rotations); zero where the skeleton does not show it. `side`: 0 left, 1 right.
+  Vec3 hand_direction(int side) const noexcept { return shared_->calibration.hands[side]; }
+
   // Turns a whole pose by `turn` (radians, about +y through `about`), then moves it by `move`, both
   // world, Y up, metres: by its root joints, whatever they are. With neither it stays bit for bit.
   void transform_root(float turn, Vec3 about, Vec3 move, Pose pose) const noexcept;

@@ -83,6 +83,7 @@ void LiveStylizer::forget() noexcept {
   if (!playback_) return;
   Playback& p = *playback_;
   p.ring.clear();
+  p.flights.reset();
   if (p.predictor) p.predictor->reset();
   p.ahead = {};
   p.time = p.searched = 0;
@@ -96,6 +97,7 @@ void LiveStylizer::take_input(ConstPose in, double seconds) noexcept {
   p.time += seconds;
   const Observation& now = p.input.now();
   p.ring.push(p.time, p.input.pose(), now.body_frame, now.root);
+  p.flights.push(p.time, now.world.positions);
   if (p.predictor) p.predictor->push(p.time, now.body_frame, now.root);
 }
 
@@ -193,6 +195,7 @@ void LiveStylizer::step(ConstPose in, std::span<const float> strengths, double s
   const Pose shown{p.shown_rotations, p.shown_translations};
   pose_at(head_.ahead(), p.offset, shown);
   blend_from_old(seconds, played, shown);
+  stylizer_.set_flight(p.flights.amount(p.time + head_.ahead()));
   stylizer_.step(shown, strengths, played, seconds, out);
 }
 
@@ -203,6 +206,7 @@ void LiveStylizer::visit_state(Self& self, Visit&& visit) {
   auto& p = *self.playback_;
   Observer::visit_state(p.input, visit);
   InputRing::visit_state(p.ring, visit);
+  FlightWatch::visit_state(p.flights, visit);
   if (p.predictor) PosePredictor::visit_state(*p.predictor, visit);
   visit(p.ahead), visit(p.time), visit(p.searched), visit(p.offset), visit(p.old_offset);
   visit(p.old_ahead), visit(p.blended);

@@ -65,6 +65,7 @@ class LiveStylizer {
 
     Observer input;  // The newest pose; the stylizer's own is that of the play head.
     InputRing ring;
+    FlightWatch flights;  // Of the newest poses, which the play head may still be behind.
     std::optional<PosePredictor> predictor;
     // What the play head's body is ahead of the newest, smoothed.
     PredictedPose ahead;

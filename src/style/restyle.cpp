@@ -1,6 +1,9 @@
 #include "style/restyle.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "base/elementary.h"
 
 namespace panache {
 namespace {
@@ -10,6 +13,37 @@ void append(Clip& clip, std::span<const Quat> rotations, std::span<const Vec3> t
   clip.translations.insert(clip.translations.end(), translations.begin(), translations.end());
   ++clip.frames;
 }
+
+// Between two frames an impact is a mean of both and loses its edge: where a flight takes the rate
+// to 1, the head is drawn to whole frames. By how many frames, and by none at whole ones.
+double to_whole_frame(double frame, float flight) {
+  constexpr float kMost = 0.06f, kTurn = 6.2831853f;
+  const float share = std::max(0.0f, 2 * flight - 1);
+  return static_cast<double>(-kMost * share *
+                             sine(kTurn * static_cast<float>(frame - std::round(frame))));
+}
+
+// Looks for flights ahead of the play head.
+class Lookout {
+ public:
+  Lookout(const Clip& clip, const Rig& rig) : clip_(clip), rig_(rig), next_(rig.first_frame()) {}
+
+  float flight(double frame) {
+    const double until = frame + kFlightAhead / clip_.frame_time;
+    for (; next_ < clip_.frames && next_ <= until; ++next_) {
+      BodyPose body;
+      rig_.read(clip_.pose(next_), body);
+      flights_.push(next_ * clip_.frame_time, body.positions);
+    }
+    return flights_.amount(frame * clip_.frame_time);
+  }
+
+ private:
+  const Clip& clip_;
+  PosedRig rig_;
+  FlightWatch flights_;
+  int next_;
+};
 
 }  // namespace
 
@@ -45,6 +79,7 @@ Result<Restyled> restyle(const Clip& clip, const Rig& rig, std::shared_ptr<const
   std::vector<Vec3> translations(clip.joints());
   const Pose pose{rotations, translations};
   std::vector<float> strengths(model->styles().size());
+  Lookout lookout(clip, rig);
   double frame = first, advance = 0;
   // The head may stop between the last two frames; the end of the input is never overrun.
   while (frame <= clip.frames - 1 + 1e-6) {
@@ -53,6 +88,8 @@ Result<Restyled> restyle(const Clip& clip, const Rig& rig, std::shared_ptr<const
       strengths[track.style] += track.at(frame * clip.frame_time);
     }
     sample(clip, frame, pose);
+    const float flight = lookout.flight(frame);
+    stylizer->set_flight(flight);
     stylizer->step(pose, strengths, advance * clip.frame_time, clip.frame_time, pose);
     append(result.clip, rotations, translations);
     result.source_frames.push_back(frame);
@@ -60,6 +97,7 @@ Result<Restyled> restyle(const Clip& clip, const Rig& rig, std::shared_ptr<const
     result.contacts.push_back({planted[0] > 0.5f, planted[1] > 0.5f});
     result.gates.push_back(stylizer->gate());
     advance = options.timing ? stylizer->rate() : 1.0;
+    if (options.timing) advance += to_whole_frame(frame + advance, flight);
     frame += advance;
     if (progress && result.clip.frames % 64 == 0) progress(frame / clip.frames);
   }

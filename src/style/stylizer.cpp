@@ -47,8 +47,12 @@ void Stylizer::forget() noexcept {
   filter_.reset();
   root_.reset();
   shaping_.reset();
+  anatomy_.reset();
   floor_.reset();
+  fall_.reset();
   foot_lock_.reset();
+  flights_.reset();
+  flight_ = 0;
 }
 
 void Stylizer::step(ConstPose in, std::span<const float> strengths, double input_seconds,
@@ -81,6 +85,9 @@ StepTime Stylizer::take_in(ConstPose in, std::span<const float> strengths, doubl
   networks_.set_strengths(strengths_.now());
   tell(clock, Stage::strengths);
   window_.step(observer_.now(), time);
+  flights_.push(window_.time(), observer_.now().world.positions);
+  flight_ = seen_flight_ >= 0 ? seen_flight_ : flights_.amount(window_.time());
+  seen_flight_ = -1;
   tell(clock, Stage::window);
   return time;
 }
@@ -101,10 +108,16 @@ void Stylizer::give_out(const StepTime& time, Pose out, StageClock* clock) noexc
   tell(clock, Stage::root);
   shaping_.step(shape, filter_.delta(), root_.offset(now.root), time, change_);
   tell(clock, Stage::shape);
+  anatomy_.step(now.world, rig(), time, change_);
+  tell(clock, Stage::anatomy);
   HumanPositions joints;
   changed_joints(now.world, change_, joints);
+  keep_balance(now.world, joints, change_);
+  tell(clock, Stage::balance);
   floor_.step(now.world, joints, amount, time, change_);
   tell(clock, Stage::floor);
+  fall_.step(flight_, time, change_);
+  tell(clock, Stage::fall);
   for (size_t f = 0; f < kFeet; ++f) {
     const float height = now.world.positions[index(kToes[f])].y;
     contacts_[f] = planted_near_floor(networks_.contact()[f], height);
@@ -119,13 +132,15 @@ void Stylizer::give_out(const StepTime& time, Pose out, StageClock* clock) noexc
 }
 
 double Stylizer::rate() const noexcept {
-  const float log_rate = strengths_.shape().timing * filter_.log_rate();
-  return static_cast<double>(exponential(bounded_log_rate(log_rate)));
+  const float log_rate = bounded_log_rate(strengths_.shape().timing * filter_.log_rate());
+  return static_cast<double>(exponential(log_rate * (1 - flight_)));
 }
 
 template <class Self, class Visit>
 void Stylizer::visit_state(Self& self, Visit&& visit) {
-  visit(self.started_), visit(self.contacts_), visit(self.change_);
+  visit(self.started_), visit(self.contacts_), visit(self.change_), visit(self.flight_);
+  visit(self.seen_flight_);
+  FlightWatch::visit_state(self.flights_, visit);
   Observer::visit_state(self.observer_, visit);
   EasedStrengths::visit_state(self.strengths_, visit);
   InputWindow::visit_state(self.window_, visit);
@@ -133,7 +148,9 @@ void Stylizer::visit_state(Self& self, Visit&& visit) {
   OutputFilter::visit_state(self.filter_, visit);
   RootMotion::visit_state(self.root_, visit);
   Shaping::visit_state(self.shaping_, visit);
+  Anatomy::visit_state(self.anatomy_, visit);
   FloorClearance::visit_state(self.floor_, visit);
+  FreeFall::visit_state(self.fall_, visit);
   FootLock::visit_state(self.foot_lock_, visit);
 }
 

@@ -10,7 +10,11 @@
 #include "pose/observer.h"
 #include "style/model.h"
 #include "style/shape.h"
+#include "style/stages/anatomy.h"
+#include "style/stages/balance.h"
+#include "style/stages/fall.h"
 #include "style/stages/filter.h"
+#include "style/stages/flight.h"
 #include "style/stages/floor.h"
 #include "style/stages/root_motion.h"
 #include "style/stages/shaping.h"
@@ -41,18 +45,24 @@ enum class Stage {
   filter,     // OutputFilter
   root,       // RootMotion
   shape,      // Shaping
+  anatomy,    // Anatomy
+  balance,    // keep_balance()
   floor,      // FloorClearance
+  fall,       // FreeFall
   feet,       // FootLock
   write,      // PosedRig
 };
-inline constexpr std::array<const char*, 10> kStageNames = {"observe the pose",
+inline constexpr std::array<const char*, 13> kStageNames = {"observe the pose",
                                                             "ease strengths and shape",
                                                             "history and window",
                                                             "networks, heads and gate",
                                                             "filter",
                                                             "root motion",
                                                             "shape",
+                                                            "keep joints in range",
+                                                            "keep the balance",
                                                             "keep above the floor",
+                                                            "fall as the input does",
                                                             "hold the feet",
                                                             "write the pose (rig)"};
 
@@ -91,6 +101,10 @@ class Stylizer {
   void step(ConstPose in, std::span<const float> strengths, double seconds, Pose out,
             StageClock& clock) noexcept;
 
+  // How much of a flight the next step's pose is part of, see FlightWatch::amount(): for a play
+  // head that has seen poses to come. Otherwise a step learns of flights from the poses so far.
+  void set_flight(float amount) noexcept { seen_flight_ = amount; }
+
   // The character's memory as bytes, to go back to a moment (rollback, rewind): after restore() the
   // next step gives what it gave after save(), bit for bit, on a stylizer of the same model,
   // skeleton and options, and on the same kind of machine. Neither allocates.
@@ -101,7 +115,7 @@ class Stylizer {
   bool restore(std::span<const std::byte> in) noexcept;
 
   // Input seconds per output second that style and shape ask for at the last step; 1 without a
-  // style.
+  // style, and while the body is in the air: it falls as its input does.
   double rate() const noexcept;
   // How much any style is in force: 0 without one, 1 from a quarter strength on; at the last step.
   float amount() const noexcept { return strengths_.amount(); }
@@ -143,10 +157,15 @@ class Stylizer {
   OutputFilter filter_;
   RootMotion root_;
   Shaping shaping_;
+  Anatomy anatomy_;
   FloorClearance floor_;
+  FreeFall fall_;
   FootLock foot_lock_;
   std::array<float, kFeet> contacts_{};
   BodyChange change_;
+  FlightWatch flights_;
+  float flight_ = 0;        // Of FlightWatch::amount(), at the last step.
+  float seen_flight_ = -1;  // By set_flight(), for the next step; below 0 for none.
 };
 
 }  // namespace panache

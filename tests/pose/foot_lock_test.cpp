@@ -45,6 +45,24 @@ TEST(TwoBoneIk, a_target_out_of_reach_is_approached_and_stays_finite) {
   }
 }
 
+// A leg whose knee goes through straight and a little backwards, its foot held 5 cm higher.
+TEST(TwoBoneIk, a_knee_that_is_nearly_straight_bends_to_its_hint_and_never_flips) {
+  constexpr float kFirm = 0.05f;
+  Vec3 last;
+  for (float bend = 0.2f; bend > -0.12f; bend -= 0.01f) {
+    const Vec3 knee = kHip + Vec3{0, -0.4f * cosine(bend / 2), 0.4f * sine(bend / 2)};
+    const Vec3 ankle = kHip + Vec3{0, -0.8f * cosine(bend / 2), 0};
+    const TwoBoneTurn turn =
+        two_bone_ik(kHip, knee, ankle, ankle + Vec3{0, 0.05f, 0}, {0.1f, 0, 1}, kFirm);
+    const Vec3 now = kHip + rotate(turn.upper, knee - kHip);
+    EXPECT_GT(now.z, kHip.z + 0.1f) << bend;
+    if (last != Vec3{}) {
+      EXPECT_LT(length(now - last), 0.01f) << bend;
+    }
+    last = now;
+  }
+}
+
 // A standing body whose style pushes the hips sideways: the planted foot must stay.
 class Sliding {
  public:

@@ -1,5 +1,5 @@
 #pragma once
-// Seventh stage: no toe below the floor.
+// Ninth stage: no toe below the floor.
 
 #include "pose/foot_lock.h"
 #include "style/stages/step_time.h"

@@ -18,6 +18,7 @@ class InputWindow {
   void reset() noexcept;
   void step(const Observation& now, const StepTime& time) noexcept;
 
+  double time() const noexcept { return time_; }  // Input seconds since the start.
   // As PoseHistory::window() gives it.
   std::span<const float> window() const noexcept { return window_; }
   // The newest pose's root activations.
@@ -37,7 +38,7 @@ class InputWindow {
  private:
   std::span<const float, kRootFeatures> root(int pose) const noexcept;
 
-  double time_ = 0;  // Input seconds since the start.
+  double time_ = 0;
   PoseHistory history_;
   std::vector<float> window_;  // [kWindowPoses][pose numbers], newest first.
 };

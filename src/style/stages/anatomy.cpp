@@ -1,0 +1,241 @@
+#include "style/stages/anatomy.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "base/elementary.h"
+#include "rig/canonical_body.h"
+
+namespace panache {
+namespace {
+
+using enum HumanJoint;
+
+constexpr float deg(float degrees) { return degrees * std::numbers::pi_v<float> / 180; }
+
+// A change is taken back over this much before a limit; where the input is beyond its limit, or
+// near it, over at least kLeast beyond the input.
+constexpr float kSoft = deg(10), kLeast = deg(2);
+constexpr float kShareSeconds = 0.08f;  // Time constant of the shares.
+
+// The limits are the normal ranges of motion that tables of goniometry print (American Academy of
+// Orthopaedic Surgeons), and 10 degrees more, as several joints share a movement. Radians.
+constexpr float kMargin = deg(10);
+// Ranges of a swing from the neutral direction.
+struct Range {
+  float front, back;  // Flexion, extension.
+  float out, in;      // Abduction, adduction; both sides alike for the torso.
+  float safe;         // Cosine of the narrowest of them: no closer look is needed up to it.
+};
+constexpr Range kTorso = {deg(80), deg(30), deg(35), deg(35), .8660f};    // Chest on hips, from up.
+constexpr Range kHead = {deg(45), deg(45), deg(45), deg(45), .7071f};     // Head on chest, from up.
+constexpr Range kShoulder = {deg(180), deg(60), deg(180), deg(75), .5f};  // On chest, from down.
+constexpr Range kHip = {deg(120), deg(30), deg(45), deg(30), .8660f};     // On hips, from down.
+// Bends of a hinge, and how far it goes the wrong way. No margin there: it is seen at once.
+constexpr float kElbow = deg(150), kElbowBack = deg(10), kKnee = deg(140), kKneeBack = deg(2);
+constexpr float kWrist = deg(70), kSafeWrist = .3420f;
+// A hand whose direction is not known turns no further on its forearm than this. Radians.
+constexpr float kUnknownWrist = deg(40);
+
+// The share of a change to take back where it brings something from `in` to `out`, both radians
+// beyond a limit, below zero within it. What is left of it, t -> t room / (t + room), stays within
+// `room` of where it begins, and begins without a kink.
+float share_back(float out, float in) {
+  const float from = std::max(in, -kSoft), room = std::max(kLeast, -from), over = out - from;
+  return over > 0 ? over / (over + room) * (over / (out - in)) : 0.0f;
+}
+
+float smooth(float from, float to, float value) {
+  const float t = std::clamp((value - from) / (to - from), 0.0f, 1.0f);
+  return t * t * (3 - 2 * t);
+}
+
+float angle_between(Vec3 a, Vec3 b) { return arc_tangent(length(cross(a, b)), dot(a, b)); }
+
+Vec3 seen_in(const Frame& frame, Vec3 v) {
+  return {dot(v, frame.x), dot(v, frame.y), dot(v, frame.z)};
+}
+
+// How far a unit direction (x out, y up, z ahead) swings beyond its range from `rest`, up or down.
+float swing_beyond(Vec3 now, Vec3 rest, const Range& range) {
+  const float across = std::sqrt(now.x * now.x + now.z * now.z);
+  if (across < 1e-6f) return -deg(90);
+  const float ahead = now.z / across / (now.z > 0 ? range.front : range.back);
+  const float out = now.x / across / (now.x > 0 ? range.out : range.in);
+  const float most = 1 / std::sqrt(ahead * ahead + out * out) + kMargin;
+  return arc_tangent(across, dot(now, rest)) - most;
+}
+
+// The same of an arm: straight up flexion and abduction meet, and all directions are in range.
+float arm_beyond(Vec3 now, Vec3 rest, const Range& range) {
+  return std::min(swing_beyond(now, rest, range), deg(200) * (0.6f - now.y));
+}
+
+struct Hinge {
+  Vec3 bends_to;  // Where the lower limb goes as it bends, with the upper one hanging down.
+  float most, back;
+  float safe;  // As in Range, of the right way.
+};
+constexpr Hinge kElbowHinge = {{0, 0, 1}, kElbow + kMargin, kElbowBack, -.8660f};
+constexpr Hinge kKneeHinge = {{0, 0, -1}, kKnee + kMargin, kKneeBack, -.7660f};
+
+struct Bend {
+  float angle = 0;  // Radians; 0 where it is safe,
+  float wrong = 0;  // and of it the wrong way.
+};
+// A hinge bends the wrong way within 35 to 75 degrees of the exactly wrong direction: the rest of
+// the circle is in reach of a twist of the upper limb.
+Bend bend_of(Vec3 upper, Vec3 lower, const Hinge& hinge) {
+  const Vec3 to = rotate(rotation_between(Vec3{0, -1, 0}, upper), hinge.bends_to);
+  const Vec3 bend = lower - upper * dot(upper, lower);
+  const float off = length(bend), along = dot(upper, lower);
+  const float wrong = off > 1e-6f ? smooth(0.26f, 0.82f, -dot(bend, to) / off) : 0.0f;
+  if (wrong == 0 && along > hinge.safe) return {};
+  const float angle = arc_tangent(off, along);
+  return {angle, angle * wrong};
+}
+
+class Limits {
+ public:
+  Limits(const BodyPose& body, const Rig& rig, float gain, float* shares, BodyChange& change)
+      : body_(body),
+        rig_(rig),
+        gain_(gain),
+        share_(shares),
+        change_(change),
+        to_heading_(rotation_y(-body.facing)) {}
+
+  void keep() {
+    const Vec3 shoulders = (at(left_upper_arm) + at(right_upper_arm)) * 0.5f;
+    hips_ = frame_of(in_heading(at(left_upper_leg) - at(right_upper_leg)),
+                     in_heading(at(spine) - at(hips)));
+    chest_ = frame_of(in_heading(at(left_upper_arm) - at(right_upper_arm)),
+                      in_heading(shoulders - at(chest)));
+    keep_swing({hips, hips_}, chest, chest_.y, {0, 1, 0}, kTorso, 1, spine, right_hand);
+    keep_swing({chest, chest_}, neck, way(neck, head), {0, 1, 0}, kHead, 1, neck, head);
+    keep_arm(0, left_upper_arm, left_lower_arm, left_hand);
+    keep_arm(1, right_upper_arm, right_lower_arm, right_hand);
+    keep_leg(1, left_upper_leg, left_lower_leg, left_foot, left_toes);
+    keep_leg(-1, right_upper_leg, right_lower_leg, right_foot, right_toes);
+  }
+
+ private:
+  // What a limb is seen from: a joint, and its frame in the input.
+  struct Base {
+    HumanJoint joint;
+    const Frame& frame;
+  };
+  Vec3 at(HumanJoint joint) const { return body_.positions[index(joint)]; }
+  Vec3 in_heading(Vec3 world) const { return rotate(to_heading_, world); }
+  Vec3 way(HumanJoint from, HumanJoint to) const {
+    return normalized(in_heading(at(to) - at(from)));
+  }
+  Quat of(HumanJoint joint) const { return change_.rotations[index(joint)]; }
+  // A direction of `joint` in the input, heading frame, as the change has it, seen from the base.
+  Vec3 changed(const Base& base, HumanJoint joint, Vec3 direction) const {
+    return seen_in(base.frame, rotate(conjugate(of(base.joint)), rotate(of(joint), direction)));
+  }
+  // Eases the next of the shares to `wanted`.
+  float eased(float wanted) {
+    approach(*share_, wanted, gain_, 1e-4f);
+    return *share_++;
+  }
+  // Turns all joints from one to the other by that share of what takes the direction `from` to
+  // `to`, both seen from the base.
+  void turn(const Base& base, Vec3 from, Vec3 to, float share, HumanJoint first, HumanJoint last) {
+    if (share == 0) return;
+    const Vec3 about = cross(from, to);
+    const float sine = length(about);
+    if (!(sine > 1e-6f)) return;
+    const Vec3 axis = rotate(of(base.joint), base.frame(about / sine));
+    const Quat back = axis_angle(axis, share * arc_tangent(sine, dot(from, to)));
+    for (int j = index(first); j <= index(last); ++j) {
+      change_.rotations[j] = normalized(back * change_.rotations[j]);
+    }
+  }
+
+  // `side`: 1 or -1 where x is outward for the limb that `joint` turns.
+  void keep_swing(const Base& base, HumanJoint joint, Vec3 direction, Vec3 rest, const Range& range,
+                  float side, HumanJoint first, HumanJoint last) {
+    const bool is_arm = &range == &kShoulder, both = rest.y > 0;
+    const auto beyond = [&](Vec3 v) {
+      const Vec3 outward = {both ? std::abs(v.x) : v.x * side, v.y, v.z};
+      return is_arm ? arm_beyond(outward, rest, range) : swing_beyond(outward, rest, range);
+    };
+    const Vec3 now = changed(base, joint, direction);
+    const Vec3 before = seen_in(base.frame, direction);
+    const float out = dot(now, rest) < range.safe ? beyond(now) : -kSoft;
+    const float share = eased(out > -kSoft ? share_back(out, beyond(before)) : 0.0f);
+    turn(base, now, before, share, first, last);
+  }
+
+  void keep_hinge(const Base& base, HumanJoint upper, Vec3 upper_way, HumanJoint lower,
+                  Vec3 lower_way, const Hinge& hinge, HumanJoint last) {
+    const Vec3 above = changed(base, upper, upper_way), below = changed(base, lower, lower_way);
+    const Bend out = bend_of(above, below, hinge);
+    float share = 0;
+    if (out.wrong > 0 || out.angle > hinge.most - kSoft) {
+      Hinge exact = hinge;
+      exact.safe = 2;
+      const Bend in =
+          bend_of(seen_in(base.frame, upper_way), seen_in(base.frame, lower_way), exact);
+      const float wrong = std::max(0.0f, out.wrong - in.wrong);
+      share = std::max(share_back(out.angle - hinge.most, in.angle - hinge.most),
+                       wrong / (wrong + hinge.back));
+    }
+    // To the bend that it has in the input.
+    turn(base, below, changed(base, upper, lower_way), eased(share), lower, last);
+  }
+
+  void keep_arm(int side, HumanJoint upper, HumanJoint lower, HumanJoint hand) {
+    const Base base{chest, chest_};
+    const Vec3 upper_way = way(upper, lower), lower_way = way(lower, hand);
+    keep_swing(base, upper, upper_way, {0, -1, 0}, kShoulder, side ? -1.0f : 1.0f, upper, hand);
+    keep_hinge(base, upper, upper_way, lower, lower_way, kElbowHinge, hand);
+
+    const Vec3 local = rig_.hand_direction(side);
+    if (local == Vec3{}) return keep_unknown_wrist(lower, hand);
+    const Vec3 hand_way = in_heading(rotate(body_.rotations[index(hand)], local));
+    const Vec3 above = changed(base, lower, lower_way), now = changed(base, hand, hand_way);
+    float share = 0;
+    if (dot(above, now) < kSafeWrist) {
+      const float out = angle_between(above, now), in = angle_between(lower_way, hand_way);
+      share = share_back(out - kWrist - kMargin, in - kWrist - kMargin);
+    }
+    share = eased(share);
+    turn(base, now, changed(base, lower, hand_way), share, hand, hand);
+  }
+
+  void keep_unknown_wrist(HumanJoint lower, HumanJoint hand) {
+    const Vec3 own = log_rotation(conjugate(of(lower)) * of(hand));
+    const float share = eased(share_back(length(own) - kUnknownWrist, -kUnknownWrist));
+    if (share == 0) return;
+    change_.rotations[index(hand)] = normalized(of(lower) * exp_rotation(own * (1 - share)));
+  }
+
+  void keep_leg(float side, HumanJoint upper, HumanJoint lower, HumanJoint foot, HumanJoint toes) {
+    const Base base{hips, hips_};
+    const Vec3 upper_way = way(upper, lower);
+    keep_swing(base, upper, upper_way, {0, -1, 0}, kHip, side, upper, toes);
+    keep_hinge(base, upper, upper_way, lower, way(lower, foot), kKneeHinge, toes);
+  }
+
+  const BodyPose& body_;
+  const Rig& rig_;
+  float gain_;    // Of the shares,
+  float* share_;  // and the next of them.
+  BodyChange& change_;
+  Quat to_heading_;
+  Frame hips_, chest_;  // Of the input, heading frame.
+};
+
+}  // namespace
+
+void Anatomy::step(const BodyPose& body, const Rig& rig, const StepTime& time,
+                   BodyChange& change) noexcept {
+  Limits(body, rig, time.gain(kShareSeconds), shares_.data(), change).keep();
+}
+
+}  // namespace panache

@@ -1,0 +1,34 @@
+#pragma once
+// Seventh stage: no joint bends further than people can.
+
+#include <array>
+
+#include "rig/body_pose.h"
+#include "rig/rig.h"
+#include "style/stages/step_time.h"
+
+namespace panache {
+
+// Takes back a share of what a change bends torso, neck, shoulders, elbows, wrists, hips and knees
+// where that goes beyond the range of motion of people and the input itself does not: from nothing
+// of it 10 degrees before the limit to nearly all. So a limb is always between where the input has
+// it and where the style wants it. The shares come and go gradually, so that nothing pops. Where a
+// change leaves a joint as it is, this does, too, to the bit.
+class Anatomy {
+ public:
+  void reset() noexcept { shares_ = {}; }
+  void step(const BodyPose& body, const Rig& rig, const StepTime& time,
+            BodyChange& change) noexcept;
+
+  // Calls visit(member) for everything that tells one character from another.
+  template <class Self, class Visit>
+  static void visit_state(Self& self, Visit&& visit) {
+    visit(self.shares_);
+  }
+
+ private:
+  // Of torso, neck, then shoulder, elbow, wrist and hip, knee of either side: 0 to 1.
+  std::array<float, 12> shares_{};
+};
+
+}  // namespace panache

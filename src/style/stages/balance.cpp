@@ -1,0 +1,59 @@
+#include "style/stages/balance.h"
+
+#include <algorithm>
+
+namespace panache {
+namespace {
+
+using enum HumanJoint;
+
+// What a change may move the centre, and how much more it may come to at most; metres.
+constexpr float kFree = 0.08f, kRoom = 0.05f;
+// Upper bodies whose centre is not this high over the hips cannot be righted by turning; metres.
+constexpr float kLever = 0.05f;
+
+constexpr float kJoints = kHumanJoints;
+
+// From the middle of the feet to that of the joints.
+Vec3 centre_over_feet(const HumanPositions& joints) {
+  Vec3 sum, feet;
+  for (const Vec3& joint : joints) sum += joint;
+  for (size_t f = 0; f < kFeet; ++f) {
+    feet += joints[index(kAnkles[f])] + joints[index(kToes[f])];
+  }
+  return sum / kJoints - feet / (2.0f * kFeet);
+}
+
+// From mid-hip to mid-shoulder, unit.
+Vec3 torso(const HumanPositions& joints) {
+  return normalized(joints[index(left_upper_arm)] + joints[index(right_upper_arm)] -
+                    joints[index(left_upper_leg)] - joints[index(right_upper_leg)]);
+}
+
+}  // namespace
+
+void keep_balance(const BodyPose& body, HumanPositions& joints, BodyChange& change) noexcept {
+  const Quat to_heading = rotation_y(-body.facing);
+  Vec3 moved = centre_over_feet(joints) - rotate(to_heading, centre_over_feet(body.joints));
+  moved.y = 0;
+  const float far = length(moved), over = far - kFree;
+  if (!(over > 0)) return;
+  const Vec3 way = moved / far;
+  // What is left of `over`, t -> t room / (t + room), begins without a kink.
+  const float back = over * over / (over + kRoom);
+
+  Vec3 upper;  // The part of the centre that turns, from mid-hip.
+  for (int j = index(hips); j <= index(right_hand); ++j) upper += joints[j] / kJoints;
+  const float height = std::max(upper.y, 0.0f);
+  const float wanted = back * height / (height * height + kLever * kLever);
+  const float leans = dot(torso(joints) - rotate(to_heading, torso(body.joints)), way);
+  const float angle = std::min(wanted, leans);
+  if (!(angle > 0)) return;
+  const Quat turn = axis_angle(Vec3{-way.z, 0, way.x}, angle);
+  for (int j = index(hips); j <= index(right_hand); ++j) {
+    change.rotations[j] = normalized(turn * change.rotations[j]);
+  }
+  changed_joints(body, change, joints);
+}
+
+}  // namespace panache

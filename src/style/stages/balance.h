@@ -1,0 +1,14 @@
+#pragma once
+// Eighth stage: a style does not lean until the body would fall.
+
+#include "pose/foot_lock.h"
+
+namespace panache {
+
+// Where a change takes the body's centre (the mean of its joints) further from over its feet than
+// the input has it, the upper body turns back about the hips, by no more than the style leans it
+// that way: from 8 cm on softly, so that some 12 cm are left of 20. `joints`: changed_joints(),
+// which it keeps up. Up to 8 cm nothing happens, to the bit.
+void keep_balance(const BodyPose& body, HumanPositions& joints, BodyChange& change) noexcept;
+
+}  // namespace panache

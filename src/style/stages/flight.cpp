@@ -1,0 +1,107 @@
+#include "style/stages/flight.h"
+
+#include <algorithm>
+
+#include "pose/contacts.h"
+
+namespace panache {
+namespace {
+
+// The second derivative of the height is that of a parabola through this much before and after.
+constexpr double kHalfFit = 0.06;  // Seconds.
+// In captured jumps the centre falls at 8 to 11 m/s^2, as limbs weigh otherwise than ours; whoever
+// crouches or walks downstairs reaches 5 for a moment, but has a foot on the floor.
+constexpr double kFalls = -6, kFallsOn = -4;       // m/s^2; to begin and to last.
+constexpr float kOffFloor = 0.05f, kNear = 0.03f;  // Metres; likewise.
+// The fit blurs both ends of a flight: found are about 0.04 s less than it lasts. Runs show 0.05 to
+// 0.12 s, hops 0.15 s and more.
+constexpr double kTooShort = 0.12, kWhole = 0.18;  // Seconds.
+// A flight begins this much before it is found, and the impact of its landing is part of it.
+constexpr double kBefore = 0.06, kAfter = 0.14;
+constexpr double kEaseIn = 0.25, kEaseOut = 0.2;
+
+constexpr float kAnkleHeight = 0.07f;  // Of a standing foot, at least; metres.
+
+// Shares of the body's mass, by the joints that it is near (Winter, Biomechanics and Motor Control
+// of Human Movement: trunk .50, head .08, arm .05, leg .16).
+constexpr std::array<float, kHumanJoints> kMass = {.15f, .15f,  .20f,  0,
+                                                   .08f,  // hips, spine, chest, neck, head
+                                                   0,    .02f,  .02f,  .01f,  // left arm
+                                                   0,    .02f,  .02f,  .01f,  // right arm
+                                                   .06f, .065f, .035f, 0,     // left leg
+                                                   .06f, .065f, .035f, 0};    // right leg
+
+float smooth(double t) {
+  const float s = static_cast<float>(std::clamp(t, 0.0, 1.0));
+  return s * s * (3 - 2 * s);
+}
+
+}  // namespace
+
+void FlightWatch::push(double time, const HumanPositions& world) noexcept {
+  if (count_ > 0 && time - samples_[count_ - 1].time < kMinGap) return;
+  if (count_ == kSamples) {
+    std::copy(samples_.begin() + 1, samples_.end(), samples_.begin());
+    --count_;
+    judged_ = std::max(0, judged_ - 1);
+  }
+  Sample& now = samples_[count_++];
+  now = {time, 0, world[index(kToes[0])].y};
+  for (size_t j = 0; j < kHumanJoints; ++j) now.height += kMass[j] * world[j].y;
+  for (size_t f = 0; f < kFeet; ++f) {
+    now.feet =
+        std::min({now.feet, world[index(kToes[f])].y, world[index(kAnkles[f])].y - kAnkleHeight});
+  }
+  // Those that have as much after them as before.
+  while (judged_ + 1 < count_ && samples_[judged_].time + kHalfFit <= time) judge(judged_++);
+}
+
+// Least squares: height = a + b x + c x^2 with x from the mean of the times. Nothing where there
+// are too few.
+double FlightWatch::acceleration(int sample) const noexcept {
+  const double middle = samples_[sample].time;
+  int first = std::max(sample - 1, 0), last = std::min(sample + 1, count_ - 1);
+  while (first > 0 && samples_[first - 1].time >= middle - kHalfFit) --first;
+  while (last + 1 < count_ && samples_[last + 1].time <= middle + kHalfFit) ++last;
+  const int n = last - first + 1;
+  if (n < 3) return 0;
+  double mean = 0;
+  for (int i = first; i <= last; ++i) mean += (samples_[i].time - middle) / n;
+  double s2 = 0, s3 = 0, s4 = 0, y0 = 0, y1 = 0, y2 = 0;
+  for (int i = first; i <= last; ++i) {
+    const double x = samples_[i].time - middle - mean, y = static_cast<double>(samples_[i].height);
+    s2 += x * x, s3 += x * x * x, s4 += x * x * x * x;
+    y0 += y, y1 += x * y, y2 += x * x * y;
+  }
+  const double below = s4 - s2 * s2 / n - s3 * s3 / s2;
+  return below > 0 ? 2 * (y2 - s2 * y0 / n - s3 * y1 / s2) / below : 0.0;
+}
+
+void FlightWatch::judge(int sample) noexcept {
+  const Sample& now = samples_[sample];
+  const bool flies =
+      now.feet > (open_ ? kNear : kOffFloor) && acceleration(sample) < (open_ ? kFallsOn : kFalls);
+  if (flies && !open_) {
+    // One that was too short to count makes room.
+    const Flight& last = flights_[newest_];
+    if (last.end - last.start > kTooShort) newest_ = (newest_ + 1) % flights_.size();
+    flights_[newest_] = {now.time, now.time};
+  }
+  open_ = flies;
+  if (flies) flights_[newest_].end = now.time;
+}
+
+float FlightWatch::amount(double time) const noexcept {
+  float most = 0;
+  for (const Flight& flight : flights_) {
+    const double lasts = flight.end - flight.start;
+    if (lasts <= kTooShort) continue;
+    const double before = (flight.start - kBefore - time) / kEaseIn,
+                 after = (time - flight.end - kAfter) / kEaseOut;
+    const float near = smooth(1 - std::max(before, after));
+    most = std::max(most, near * smooth((lasts - kTooShort) / (kWhole - kTooShort)));
+  }
+  return most;
+}
+
+}  // namespace panache

@@ -1,0 +1,161 @@
+#include "style/stages/anatomy.h"
+
+#include <gtest/gtest.h>
+
+#include "make_clip.h"
+#include "pose/foot_lock.h"
+#include "rig/posed_rig.h"
+#include "style/stages/balance.h"
+
+namespace panache {
+namespace {
+
+using enum HumanJoint;
+
+constexpr float kDegree = 3.14159265f / 180;
+constexpr Vec3 kLeft = {1, 0, 0};
+
+float degrees_between(Vec3 a, Vec3 b) {
+  return arc_tangent(length(cross(a, b)), dot(a, b)) / kDegree;
+}
+
+// The walk at a moment, and changes of it.
+class AnatomyTest : public testing::Test {
+ protected:
+  AnatomyTest() : clip_(test::walking_clip(31)), rig_(*Rig::create(clip_)) { read(clip_.pose(0)); }
+
+  void read(ConstPose pose) { rig_.read(pose, body_); }
+  static BodyChange turned(HumanJoint first, HumanJoint last, Quat by) {
+    BodyChange change{};
+    for (int j = index(first); j <= index(last); ++j) change.rotations[j] = by;
+    return change;
+  }
+  // What a character has that asks for this change from its first step on.
+  BodyChange kept(BodyChange change) const {
+    Anatomy anatomy;
+    anatomy.step(body_, rig_.rig(), {}, change);
+    return change;
+  }
+  Vec3 way(const BodyChange& change, HumanJoint from, HumanJoint to) const {
+    HumanPositions joints;
+    changed_joints(body_, change, joints);
+    return normalized(joints[index(to)] - joints[index(from)]);
+  }
+  float wrist(const BodyChange& change) const {
+    const Vec3 fingers = rotate(body_.rotations[index(left_hand)], rig_.rig().hand_direction(0));
+    const Vec3 now =
+        rotate(change.rotations[index(left_hand)], rotate(rotation_y(-body_.facing), fingers));
+    return degrees_between(way(change, left_lower_arm, left_hand), now);
+  }
+
+  Clip clip_;
+  PosedRig rig_;
+  BodyPose body_;
+};
+
+TEST_F(AnatomyTest, no_change_stays_none_to_the_bit) {
+  for (int f = 0; f < clip_.frames; ++f) {
+    read(clip_.pose(f));
+    const BodyChange none = kept({});
+    for (const Quat q : none.rotations) EXPECT_EQ(q, Quat{});
+  }
+  // Nor does it touch the input's own: a hand bent as no hand can be.
+  clip_.pose(0).rotations[static_cast<size_t>(index(left_hand))] = axis_angle(Vec3{0, 0, 1}, -2.0f);
+  read(clip_.pose(0));
+  for (const Quat q : kept({}).rotations) EXPECT_EQ(q, Quat{});
+}
+
+TEST_F(AnatomyTest, a_wrist_bends_as_far_as_a_wrist_can_and_gets_there_softly) {
+  ASSERT_LT(wrist({}), 5);
+  float last = wrist({});
+  for (int degrees = 0; degrees <= 170; ++degrees) {
+    const BodyChange asked =
+        turned(left_hand, left_hand, axis_angle(kLeft, static_cast<float>(degrees) * kDegree));
+    const BodyChange given = kept(asked);
+    if (degrees < 65) {
+      EXPECT_EQ(given.rotations, asked.rotations) << degrees;
+    }
+    EXPECT_LT(wrist(given), 80) << degrees;
+    EXPECT_LT(std::abs(wrist(given) - last), 1.1f) << degrees;
+    last = wrist(given);
+  }
+  EXPECT_GT(last, 70);
+}
+
+TEST_F(AnatomyTest, a_wrist_that_the_input_bends_too_far_bends_no_further) {
+  clip_.pose(0).rotations[static_cast<size_t>(index(left_hand))] =
+      axis_angle(Vec3{0, 0, 1}, -100 * kDegree);
+  read(clip_.pose(0));
+  const float before = wrist({});
+  ASSERT_NEAR(before, 100, 8);
+  // Some way further, about the axis of the bend.
+  const Vec3 fingers = rotate(body_.rotations[index(left_hand)], rig_.rig().hand_direction(0));
+  const Vec3 about = normalized(cross(way({}, left_lower_arm, left_hand), fingers));
+  const BodyChange asked = turned(left_hand, left_hand, axis_angle(about, 40 * kDegree));
+  ASSERT_GT(wrist(asked), before + 35);
+  const BodyChange given = kept(asked);
+  EXPECT_GT(wrist(given), before - 0.1f);
+  EXPECT_LT(wrist(given), before + 2);
+}
+
+TEST_F(AnatomyTest, knees_do_not_bend_forward_nor_elbows_back) {
+  const BodyChange knee = kept(turned(left_lower_leg, left_toes, axis_angle(kLeft, -0.6f)));
+  const BodyChange elbow = kept(turned(left_lower_arm, left_hand, axis_angle(kLeft, 0.9f)));
+  const auto bend = [&](const BodyChange& change, HumanJoint upper, HumanJoint lower,
+                        HumanJoint end) {
+    const Vec3 above = way(change, upper, lower), below = way(change, lower, end);
+    return dot(cross(above, below), kLeft) > 0 ? degrees_between(above, below)
+                                               : -degrees_between(above, below);
+  };
+  EXPECT_GT(bend(knee, left_upper_leg, left_lower_leg, left_foot), -3);
+  EXPECT_LT(bend(elbow, left_upper_arm, left_lower_arm, left_hand), 15);
+}
+
+TEST_F(AnatomyTest, a_limit_comes_and_goes_gradually) {
+  Anatomy anatomy;
+  const StepTime later{0.02, 0.02, false};
+  const BodyChange asked = turned(left_hand, left_hand, axis_angle(kLeft, 150 * kDegree));
+  BodyChange given = {};
+  anatomy.step(body_, rig_.rig(), {}, given);
+  float last = wrist(asked);
+  for (int i = 0; i < 40; ++i) {
+    given = asked;
+    anatomy.step(body_, rig_.rig(), later, given);
+    EXPECT_LT(last - wrist(given), 25) << i;
+    last = wrist(given);
+  }
+  EXPECT_LT(last, 81);
+}
+
+TEST_F(AnatomyTest, a_lean_stops_before_the_body_falls) {
+  const auto moved = [&](const BodyChange& change) {
+    HumanPositions joints, before;
+    changed_joints(body_, change, joints);
+    changed_joints(body_, {}, before);
+    Vec3 centre, feet;
+    for (int j = 0; j < kHumanJoints; ++j) centre += (joints[j] - before[j]) / 21.0f;
+    for (const HumanJoint j : {left_foot, left_toes, right_foot, right_toes}) {
+      feet += (joints[index(j)] - before[index(j)]) / 4.0f;
+    }
+    return std::hypot(centre.x - feet.x, centre.z - feet.z);
+  };
+  for (int degrees = 0; degrees <= 75; degrees += 5) {
+    const Quat lean = axis_angle(kLeft, static_cast<float>(degrees) * kDegree);
+    BodyChange change = turned(hips, right_hand, lean);
+    const BodyChange asked = change;
+    HumanPositions joints;
+    changed_joints(body_, change, joints);
+    keep_balance(body_, joints, change);
+    EXPECT_LE(moved(change), moved(asked)) << degrees;
+    EXPECT_LT(moved(change), 0.135f) << degrees;
+    if (moved(asked) < 0.08f) {
+      EXPECT_EQ(change.rotations, asked.rotations) << degrees;
+    }
+    HumanPositions kept_up;
+    changed_joints(body_, change, kept_up);
+    EXPECT_EQ(joints, kept_up);
+  }
+}
+
+}  // namespace
+}  // namespace panache
