@@ -15,7 +15,7 @@ try {
     const [name, strength] = style.split('=');
     player.setStrength(name, Number(strength));
   }
-  process.stdout.write(player.exportAs(file.ending));
+  process.stdout.write(player.exportAs(file.extension));
 } catch (error) {
   console.error(error.message);
   process.exitCode = 1;

@@ -171,7 +171,7 @@ export interface ClipInfo {
 export class MotionFile {
   readonly name: string;
   /** ".bvh", lower case. */
-  readonly ending: string;
+  readonly extension: string;
   /** Empty where the file has a skeleton and no motion; clip 0 is then its rest pose. */
   readonly clips: readonly ClipInfo[];
   /** Parents before children; -1 above a root. */
@@ -209,7 +209,7 @@ declare class Player {
   readonly placement: { toYUp: number[]; scale: number; floor: number };
   /** A file with this extension (".bvh", ".glb", or that of the file played): the whole clip as styled
    * now, or the last twenty seconds of a walk. */
-  exportAs(ending: string): Uint8Array;
+  exportAs(extension: string): Uint8Array;
   free(): void;
 }
 

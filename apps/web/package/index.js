@@ -66,13 +66,13 @@ export class Panache {
   }
 
   openFile(bytes, name) {
-    const ending = (/\.[^.]*$/.exec(name)?.[0] ?? '').toLowerCase();
-    if (!['.bvh', '.glb', '.gltf', '.vrm'].includes(ending)) {
+    const extension = (/\.[^.]*$/.exec(name)?.[0] ?? '').toLowerCase();
+    if (!['.bvh', '.glb', '.gltf', '.vrm'].includes(extension)) {
       throw new PanacheError(
         `${name}: expected a motion file (.bvh, .glb, .gltf, .vrm), found ` +
-          (ending ? `the extension '${ending}'` : 'no extension'));
+          (extension ? `the extension '${extension}'` : 'no extension'));
     }
-    return new MotionFile(this, this.#wasm, bytes, name, ending);
+    return new MotionFile(this, this.#wasm, bytes, name, extension);
   }
 
   createWalker() {
@@ -123,19 +123,19 @@ export class Panache {
 }
 
 export class MotionFile {
-  #panache; #wasm; #file; #ending;
+  #panache; #wasm; #file; #extension;
 
-  constructor(panache, wasm, bytes, name, ending) {
+  constructor(panache, wasm, bytes, name, extension) {
     this.#panache = panache;
     this.#wasm = wasm;
-    this.#ending = ending;
+    this.#extension = extension;
     this.#file = panache._arena((arena) => panache._checked(wasm.panache_page_file_create(
       arena.copy(bytes), bytes.byteLength,
-      arena.text(name.slice(0, name.length - ending.length) + ending))));
+      arena.text(name.slice(0, name.length - extension.length) + extension))));
     const { clips, joints } = JSON.parse(new TextDecoder().decode(
       panache._take(wasm.panache_page_file_describe(this.#file))));
     this.name = name;
-    this.ending = ending;
+    this.extension = extension;
     this.joints = joints;
     this.clips = clips.map(({ name: title, frames, frameTime }) => (
       { name: title, frames, frameTime, seconds: Math.max(0, frames - 1) * frameTime }));
@@ -143,7 +143,7 @@ export class MotionFile {
 
   createPlayer(clip = 0) {
     const player = this.#wasm.panache_page_player_clip(this.#panache._model(), this.#file, clip);
-    return new Playback(this.#panache, this.#wasm, this.#panache._checked(player), this.#ending);
+    return new Playback(this.#panache, this.#wasm, this.#panache._checked(player), this.#extension);
   }
 
   free() {
@@ -153,11 +153,11 @@ export class MotionFile {
 }
 
 class Player {
-  #panache; #ending;
+  #panache; #extension;
 
-  constructor(panache, wasm, player, ending) {
+  constructor(panache, wasm, player, extension) {
     this.#panache = panache;
-    this.#ending = ending;
+    this.#extension = extension;
     this._wasm = wasm;
     this._player = player;
   }
@@ -199,10 +199,10 @@ class Player {
     });
   }
 
-  exportAs(ending) {
+  exportAs(extension) {
     return this.#panache._arena((arena) => this.#panache._take(this.#panache._checked(
       this._wasm.panache_page_player_export(
-        this._player, arena.text(ending), arena.text(this.#ending)))));
+        this._player, arena.text(extension), arena.text(this.#extension)))));
   }
 
   free() {

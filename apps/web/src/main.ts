@@ -283,8 +283,8 @@ class Page {
       input.value = '';
       if (file) void this.#attempt(() => this.#open(file));
     });
-    const save = (ending: string) => () => {
-      saveBytes(this.#source.player.exportAs(ending) as BlobPart, `panache${ending}`);
+    const save = (extension: string) => () => {
+      saveBytes(this.#source.player.exportAs(extension) as BlobPart, `panache${extension}`);
     };
     find('#file-controls').append(
       button('back', 'Walker', 'Close the file and steer the walker again',

@@ -30,7 +30,7 @@ export async function clipSource(file: MotionFile, bytes: ArrayBuffer, clip: num
     Promise<Source> {
   const player = file.createPlayer(clip);
   let own: [SkinnedCharacter, SkinnedCharacter] | null = null;
-  if (file.ending !== '.bvh') {
+  if (file.extension !== '.bvh') {
     // What three.js cannot show is shown as a mannequin.
     own = await loadSkinned(bytes, file, player).catch(() => null);
   }

@@ -50,10 +50,10 @@ async function drop(name) {
 }
 
 /** Presses a button that saves a file, and puts that beside the others. */
-async function save(name, ending) {
+async function save(name, extension) {
   const download = tab.waitForEvent('download');
   await button(name).click();
-  const path = at(`saved${ending}`);
+  const path = at(`saved${extension}`);
   await (await download).saveAs(path);
   return path;
 }
@@ -82,8 +82,8 @@ test('a dropped BVH plays, pauses, is scrubbed and loops', async () => {
 
 test('what is saved reads back: BVH, GLB, a picture and a film', async () => {
   await tab.locator('#style-old').fill('1');
-  for (const ending of ['.bvh', '.glb']) {
-    const info = panache('info', await save(ending.slice(1).toUpperCase(), ending));
+  for (const extension of ['.bvh', '.glb']) {
+    const info = panache('info', await save(extension.slice(1).toUpperCase(), extension));
     assert.match(info, /joints  2[12], of which/);  // A GLB has a node above them.
     assert.match(info, /leftUpperArm   leftUpperArm/);
     const kept = Number(/(\d+) frames/.exec(info)[1]);
