@@ -107,6 +107,7 @@ Result<EvaluateOptions> read_options(const Options& options) {
     evaluation.test = *std::move(rows);
   }
   evaluation.training = std::move(data->rows);
+  evaluation.unlabelled = std::move(data->unlabelled);
   for (const std::string& path : options.models) {
     Result<std::shared_ptr<const Model>> model = Model::load(path);
     if (!model) return model.error();

@@ -11,6 +11,11 @@ void add_manifest_options(CLI::App& verb, ManifestOptions& options) {
   verb.add_option("--styles", options.styles,
                   "CSV with the columns name, from, description: which styles of the manifests to "
                   "use, under which names");
+  verb.add_option("--unlabelled", options.unlabelled,
+                  "A manifest of motion without styles, of other people and actions, on which "
+                  "training tries the styles too, so that they hold on any motion; may be given "
+                  "several times")
+      ->allow_extra_args(false);
 }
 
 Result<Manifests> read_manifests(const ManifestOptions& options) {
@@ -19,6 +24,11 @@ Result<Manifests> read_manifests(const ManifestOptions& options) {
     Result<std::vector<ManifestRow>> rows = read_manifest(options.paths[i], static_cast<int>(i));
     if (!rows) return rows.error();
     data.rows.insert(data.rows.end(), rows->begin(), rows->end());
+  }
+  for (const std::string& path : options.unlabelled) {
+    Result<std::vector<ManifestRow>> rows = read_manifest(path, 0);
+    if (!rows) return rows.error();
+    data.unlabelled.insert(data.unlabelled.end(), rows->begin(), rows->end());
   }
   if (!options.styles.empty()) {
     Result<std::vector<StyleName>> styles = read_style_names(options.styles);

@@ -14,12 +14,14 @@ namespace panache::cli {
 struct ManifestOptions {
   std::vector<std::string> paths;
   std::string styles;  // CSV of style names, or empty.
+  std::vector<std::string> unlabelled;
 };
 void add_manifest_options(CLI::App& verb, ManifestOptions& options);
 
 struct Manifests {
   std::vector<ManifestRow> rows;  // Styles renamed.
   std::vector<StyleName> styles;
+  std::vector<ManifestRow> unlabelled;  // Motion without styles, for training.
 };
 Result<Manifests> read_manifests(const ManifestOptions& options);
 

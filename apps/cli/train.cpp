@@ -27,11 +27,17 @@ struct Options {
 int run(const Options& options) {
   Result<Manifests> data = read_manifests(options.data);
   if (!data) return fail(data.error(), kBadInput);
+  const Recipe& recipe = *find_recipe(options.recipe);
+  if (!data->unlabelled.empty() && recipe.training.guidance.sequences == 0) {
+    return fail({"--unlabelled: recipe " + options.recipe +
+                 " learns from styled takes alone; leave the option out"},
+                kBadInput);
+  }
   // Training takes minutes: what stands in the way of its result is said before.
   if (Result<void> free = check_free(options.output, options.force); !free) {
     return fail(free.error(), kBadInput);
   }
-  TrainOptions train_options(*find_recipe(options.recipe));
+  TrainOptions train_options(recipe);
   if (options.steps > 0) {
     TrainingSettings& settings = train_options.settings;
     settings.steps = options.steps;
@@ -41,7 +47,7 @@ int run(const Options& options) {
   train_options.data = options.data_name;
   train_options.licence = options.licence;
   train_options.checkpoint = options.output;
-  Result<Trained> trained = train(data->rows, data->styles, train_options);
+  Result<Trained> trained = train(data->rows, data->styles, train_options, data->unlabelled);
   if (!trained) return fail(trained.error(), kBadInput);
 
   const std::string bytes = format_safetensors(trained->model);

@@ -80,7 +80,7 @@ int fit(const WalkerVerb& verb) {
   if (auto free = check_free(verb.output, verb.force); !free) {
     return fail(free.error(), kBadInput);
   }
-  Result<Manifests> data = read_manifests({verb.fit, ""});
+  Result<Manifests> data = read_manifests({verb.fit, "", {}});
   if (!data) return fail(data.error(), kBadInput);
   Result<FittedWalker> fitted = fit_walker(data->rows, verb.data, verb.licence);
   if (!fitted) return fail(fitted.error(), kBadInput);

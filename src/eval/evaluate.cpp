@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <optional>
 #include <set>
 
+#include "base/parallel.h"
 #include "base/progress.h"
 #include "eval/disturbances.h"
 #include "eval/motion_metrics.h"
 #include "eval/ood.h"
 #include "eval/prediction.h"
+#include "eval/style_judges.h"
 #include "eval/systems/model_system.h"
 #include "eval/systems/recorded.h"
 #include "net/safetensors.h"
@@ -18,7 +21,8 @@ namespace panache {
 namespace {
 
 Result<TestSet> prepare(const EvaluateOptions& options) {
-  Result<TrainingData> training = prepare_training(options.training, PoseLayout::positions);
+  Result<TrainingData> training =
+      prepare_training(options.training, PoseLayout::positions, options.unlabelled);
   if (!training) return training.error();
   std::vector<ManifestRow> neutral, styled;
   for (const ManifestRow& row : rows_to_evaluate(options))
@@ -120,14 +124,14 @@ Result<Systems> make_comparisons(const EvaluateOptions& options, const TestSet& 
 }
 
 Result<SystemReport> judge_in_every_way(const System& system, const TestSet& test_set,
-                                        const EvaluateOptions& options) {
+                                        const StyleJudges* judges, const EvaluateOptions& options) {
   Result<SystemReport> report = evaluate_system(system, test_set);
   if (!report) return report;
   report->disturbances = measure_disturbances(test_set.aligned, system);
   if (!options.ood.empty()) {
     Progress progress("foreign motion, " + system.name());
     Result<std::vector<OodRow>> ood =
-        measure_ood(options.ood, system, [&](double share) { progress.update(share); });
+        measure_ood(options.ood, system, judges, [&](double share) { progress.update(share); });
     if (!ood) return ood.error();
     report->ood = *std::move(ood);
   }
@@ -142,6 +146,44 @@ Result<SystemReport> judge_in_every_way(const System& system, const TestSet& tes
   report->parameters = facts.parameters;
   report->recorded = facts.recorded;
   return report;
+}
+
+// What the judges of out-of-distribution motion say of real test takes, and of the clips
+// themselves.
+Result<void> judge_ood_references(const TestSet& test_set, const StyleJudges& judges,
+                                  const EvaluateOptions& options, Report& report) {
+  std::vector<OodRow> real;
+  for (const Take& take : test_set.evaluator.test()) {
+    OodRow& row = real.emplace_back();
+    row.verdict = judges.judge_real(take);
+  }
+  report.ood_real = summarize_styles(real);
+  // They are no outputs of one clip in all styles.
+  report.ood_real.forced_mlp = report.ood_real.forced_lda = kNotMeasured;
+  SignatureMatch left_out;
+  for (const StyleName& style : options.styles) {
+    const Signature* signature = judges.signature(style.name);
+    if (!signature) continue;
+    report.signatures.push_back({style.name, *signature, judges.real_signature(style.name)});
+    left_out += report.signatures.back().left_out;
+  }
+  report.ood_real.signature_sign = left_out.sign_share();
+  report.ood_real.signature_amount = left_out.amount_share();
+
+  std::vector<ManifestRow> rows;
+  for (const std::string& file : options.ood) rows.emplace_back().path = file;
+  Result<std::vector<Take>> clips = load_takes(rows, PoseLayout::positions);
+  if (!clips) return clips.error();
+  std::vector<OodRow> input(clips->size() * options.styles.size());
+  parallel_for(static_cast<int>(input.size()), [&](int i) {
+    const Take& clip = (*clips)[i / options.styles.size()];
+    const std::string& style = options.styles[i % options.styles.size()].name;
+    input[i].clip = clip.row.path;
+    input[i].style = style;
+    input[i].verdict = judges.judge(clip, clip, 0, style);
+  });
+  report.ood_input = summarize_styles(input);
+  return {};
 }
 
 // The lines that stand beside all systems: real takes, and the neutral takes themselves.
@@ -225,8 +267,17 @@ Result<Report> evaluate(const EvaluateOptions& options) {
   report.style_floor = options.floor.style;
   report.content_floor = options.floor.content;
   judge_references(*test_set, report);
+  std::optional<StyleJudges> judges;
+  if (!options.ood.empty()) {
+    Progress progress("training the judges of out-of-distribution motion");
+    judges.emplace(test_set->training.takes, test_set->training.pairings, options.seed + 5);
+    if (Result<void> done = judge_ood_references(*test_set, *judges, options, report); !done) {
+      return done.error();
+    }
+  }
   for (const std::unique_ptr<System>& system : systems) {
-    Result<SystemReport> evaluated = judge_in_every_way(*system, *test_set, options);
+    Result<SystemReport> evaluated =
+        judge_in_every_way(*system, *test_set, judges ? &*judges : nullptr, options);
     if (!evaluated) return evaluated.error();
     report.systems.push_back(*std::move(evaluated));
   }

@@ -31,10 +31,11 @@ struct NamedModel {
 };
 
 struct EvaluateOptions {
-  std::vector<ManifestRow> training;  // Styles renamed; rows marked test are not learnt from.
-  std::vector<ManifestRow> test;      // Real held-out takes, neutral and styled.
-  std::vector<StyleName> styles;      // Of `training`.
-  std::vector<NamedModel> models;     // Where there are none, all recipes are trained.
+  std::vector<ManifestRow> training;    // Styles renamed; rows marked test are not learnt from.
+  std::vector<ManifestRow> unlabelled;  // For recipes that guidance trains.
+  std::vector<ManifestRow> test;        // Real held-out takes, neutral and styled.
+  std::vector<StyleName> styles;        // Of `training`.
+  std::vector<NamedModel> models;       // Where there are none, all recipes are trained.
   // What the models are compared with.
   std::vector<SystemEntry> systems = comparison_systems();
   std::vector<std::string> recorded;  // Folders of outputs of other programs, see Recorded.

@@ -9,7 +9,7 @@
 
 #include "base/result.h"
 #include "eval/aligned_takes.h"
-#include "eval/classifier.h"
+#include "train/classifier.h"
 #include "eval/measure.h"
 #include "eval/system.h"
 #include "learn/take.h"

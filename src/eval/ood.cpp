@@ -25,13 +25,23 @@ constexpr float kFloorTolerance = 0.03f;    // Metres.
 constexpr double kStill = 0.01;             // m/s: a coordinate that deviates less does not move.
 
 Result<OodRow> style_input(const System& system, const TestInput& input,
-                           const StyleRequest& request) {
+                           const StyleRequest& request, const OodJudge* judge) {
   Result<RunResult> run_result = system.run(input, request);
   if (!run_result) return run_result.error();
   OodRow row = compare_ood(input.take, run_result->output.take);
   row.clip = fs::path(input.take.row.path).stem().string();
   row.style = request.style;
   row.gate = run_result->gate;
+  if (!judge) return row;
+  StyleRequest timed = request;
+  timed.timing = true;
+  if (system.can_run(input, timed)) {
+    run_result = system.run(input, timed);
+    if (!run_result) return run_result.error();
+  }
+  const Take& output = run_result->output.take;
+  const double log_rate = std::log(static_cast<double>(input.take.frames()) / output.frames());
+  row.verdict = judge->judge(input.take, output, log_rate, request.style);
   return row;
 }
 
@@ -49,11 +59,13 @@ std::vector<std::string> unstyled_files(const std::vector<ManifestRow>& rows) {
   for (const ManifestRow& row : rows) {
     if (!row.neutral) styled.insert(row.content);
   }
-  std::vector<std::string> files;
+  std::vector<std::string> files, tests;
   for (const ManifestRow& row : rows) {
-    if (!styled.contains(row.content)) files.push_back(row.path);
+    if (styled.contains(row.content)) continue;
+    files.push_back(row.path);
+    if (row.test) tests.push_back(row.path);
   }
-  return files;
+  return tests.empty() ? files : tests;
 }
 
 double mean_of(const std::vector<float>& values) {
@@ -137,6 +149,7 @@ OodRow compare_ood(const Take& input, const Take& output) {
 }
 
 Result<std::vector<OodRow>> measure_ood(const std::vector<std::string>& files, const System& system,
+                                        const OodJudge* judge,
                                         const std::function<void(double)>& progress) {
   std::vector<ManifestRow> named;
   for (const std::string& file : files) named.emplace_back().path = file;
@@ -153,7 +166,7 @@ Result<std::vector<OodRow>> measure_ood(const std::vector<std::string>& files, c
   std::vector<std::optional<Result<OodRow>>> rows(jobs.size());
   std::atomic<int> done = 0;
   parallel_for(count, [&](int job) {
-    rows[job] = style_input(system, *jobs[job].first, jobs[job].second);
+    rows[job] = style_input(system, *jobs[job].first, jobs[job].second, judge);
     const int finished = ++done;
     if (progress) progress(static_cast<double>(finished) / count);
   });

@@ -6,10 +6,33 @@
 #include <vector>
 
 #include "base/result.h"
+#include "eval/metrics.h"
+#include "learn/signature.h"
 #include "eval/system.h"
 #include "learn/take.h"
 
 namespace panache {
+
+// What judges of the styles say of an output; NaN and empty where they do not know the style.
+struct OodVerdict {
+  // Share of the windows recognised as the style asked for: by an ensemble of networks that learnt
+  // from disturbed takes, and by linear discriminant analysis.
+  double style_robust = kNotMeasured, style_lda = kNotMeasured;
+  // What speaks for each style, mean over the windows, in the order of the judge's styles: choices
+  // among the outputs of one clip in all styles are made from it.
+  std::vector<double> robust_scores, lda_scores;
+  int style = -1;  // The place of the style asked for in the scores.
+  SignatureMatch signature;
+};
+
+// Knows the styles from real takes. May be asked by several threads at once.
+class OodJudge {
+ public:
+  virtual ~OodJudge() = default;
+  // `output`: with the style's own tempo, `log_rate` of which is the mean logarithm.
+  virtual OodVerdict judge(const Take& input, const Take& output, double log_rate,
+                           const std::string& style) const = 0;
+};
 
 // One clip in one style at strength 1, frame by frame in the input's own time. Speeds, heights and
 // joints are those of the canonical body as read from the character's own skeleton.
@@ -29,6 +52,7 @@ struct OodRow {
   double skating_ratio = 0, input_skating_ratio = 0;
   double drift_m = 0;  // How far the hips end from where the input's do, along the ground.
   double gate = 1;     // Mean of the stylizer's gate.
+  OodVerdict verdict;  // Of the same clip and style with the style's own tempo.
 };
 
 // What became of `input` in `output`, frame by frame; both have the same frames and numbers in
@@ -37,14 +61,17 @@ OodRow compare_ood(const Take& input, const Take& output);
 
 // Asks for every clip of `files` (any motion file) in every style that the system has, at strength
 // 1 and the input's tempo, and compares what comes out with the input, both read at 30 frames a
-// second from the first frame that is motion. Rows are in order of files, then styles; what the
+// second from the first frame that is motion. With a judge, asks for the style's own tempo as well,
+// and has that judged. Rows are in order of files, then styles; what the
 // system cannot be asked for is left out. Files that cannot be read or mapped fail it with their
 // message. `progress` gets the share done, from any thread.
 Result<std::vector<OodRow>> measure_ood(const std::vector<std::string>& files, const System& system,
+                                        const OodJudge* judge = nullptr,
                                         const std::function<void(double)>& progress = {});
 
 // The motion files of a file, a folder (with its subfolders) or a manifest (.csv; those of contents
-// that it holds in no style but neutral), in order of the alphabet. Fails where there is none.
+// that it holds in no style but neutral; of these, where some are marked test, only they), in order
+// of the alphabet. Fails where there is none.
 Result<std::vector<std::string>> list_ood(const std::string& path);
 
 }  // namespace panache

@@ -12,6 +12,7 @@
 #include "eval/metrics.h"
 #include "eval/ood.h"
 #include "eval/prediction.h"
+#include "eval/report_ood.h"
 #include "pose/contacts.h"
 #include "pose/strip.h"
 
@@ -72,6 +73,13 @@ struct ContactReport {
   std::vector<ContactRow> rows;
 };
 
+// What a style's real takes agree on, and how well each of their actions does when it is left out.
+struct SignatureReport {
+  std::string style;
+  Signature real;
+  SignatureMatch left_out;
+};
+
 struct Report {
   std::vector<std::string> trained_on, tested_on;  // Manifests, as they were given.
   std::vector<std::string> styles, contents;
@@ -81,6 +89,10 @@ struct Report {
   MetricsTable real_by_content, real_by_style;
   MetricsTable input_by_content;
   double cc_floor = kNotMeasured, sc_floor = kNotMeasured;  // Real takes against real takes.
+  // The judges of out-of-distribution motion: what they say of real test takes, and of the clips
+  // themselves, as if they were the output.
+  StyleSummary ood_real, ood_input;
+  std::vector<SignatureReport> signatures;
   std::vector<SystemReport> systems;
   std::vector<StripReport> strips;
   std::vector<ContactReport> contacts;

@@ -76,8 +76,38 @@ Json unseen_splits_json(const std::vector<UnseenReport>& splits) {
   return out;
 }
 
+Json style_summary_json(const StyleSummary& summary) {
+  return {{"style_robust", number(summary.style_robust)},
+          {"style_lda", number(summary.style_lda)},
+          {"forced_mlp", number(summary.forced_mlp)},
+          {"forced_lda", number(summary.forced_lda)},
+          {"signature_sign", number(summary.signature_sign)},
+          {"signature_amount", number(summary.signature_amount)}};
+}
+
+// A change of each trait; of a signature only those that it is certain of.
+Json traits_json(const Traits& change, const Signature* signature = nullptr) {
+  Json out = Json::object();
+  for (size_t t = 0; t < kTraits.size(); ++t) {
+    const bool told = !signature || signature->certain[t];
+    out[kTraits[t].key] = number(told ? change[t] : kNotMeasured);
+  }
+  return out;
+}
+
+// Mean change per style.
+Json signatures_json(const std::vector<OodRow>& rows) {
+  Json out = Json::object();
+  for (const auto& [style, match] : signatures_by_style(rows)) {
+    out[style] = traits_json(match.mean_change());
+    out[style]["sign"] = number(match.sign_share());
+    out[style]["amount"] = number(match.amount_share());
+  }
+  return out;
+}
+
 Json ood_summary_json(const OodSummary& summary) {
-  return {
+  Json out = {
       {"rows", summary.rows},
       {"clips", summary.clips},
       {"jerk_ratio",
@@ -101,6 +131,8 @@ Json ood_summary_json(const OodSummary& summary) {
       {"drift_m", {{"max", number(summary.drift_m_max)}}},
       {"gate", {{"mean", number(summary.gate_mean)}}},
   };
+  out.update(style_summary_json(summary.styles));
+  return out;
 }
 
 Json ood_json(const std::vector<OodRow>& rows) {
@@ -116,10 +148,13 @@ Json ood_json(const std::vector<OodRow>& rows) {
                     {"skating_ratio", number(row.skating_ratio)},
                     {"input_skating_ratio", number(row.input_skating_ratio)},
                     {"drift_m", number(row.drift_m)},
-                    {"gate", number(row.gate)}});
+                    {"gate", number(row.gate)},
+                    {"style_robust", number(row.verdict.style_robust)},
+                    {"style_lda", number(row.verdict.style_lda)}});
   }
   Json out;
   out["summary"] = ood_summary_json(summarize_ood(rows));
+  out["signatures"] = signatures_json(rows);
   out["rows"] = std::move(list);
   return out;
 }
@@ -190,6 +225,15 @@ std::string report_json(const Report& report) {
   out["input_by_content"] = table_json(report.input_by_content);
   out["cc_floor"] = number(report.cc_floor);
   out["sc_floor"] = number(report.sc_floor);
+  out["foreign_reference"] = {{"real", style_summary_json(report.ood_real)},
+                              {"input", style_summary_json(report.ood_input)}};
+  out["signatures"] = Json::object();
+  for (const SignatureReport& signature : report.signatures) {
+    Json& style = out["signatures"][signature.style];
+    style = traits_json(signature.real.change, &signature.real);
+    style["left_out_sign"] = number(signature.left_out.sign_share());
+    style["left_out_amount"] = number(signature.left_out.amount_share());
+  }
   out["systems"] = Json::object();
   for (const SystemReport& system : report.systems) {
     assert(!out["systems"].contains(system.name));

@@ -18,7 +18,67 @@ size_t above_zero(const std::vector<double>& values) {
       std::count_if(values.begin(), values.end(), [](double v) { return v > 0; }));
 }
 
+// Share of the outputs of one clip that are taken for the style that they were asked for, and how
+// many there are. scores: of OodVerdict.
+void choose(const std::vector<OodRow>& clip, std::vector<double> OodVerdict::*scores, double& right,
+            double& outputs) {
+  std::vector<const OodVerdict*> verdicts;
+  for (const OodRow& row : clip) {
+    if (row.verdict.style >= 0) verdicts.push_back(&row.verdict);
+  }
+  if (verdicts.size() < 2) return;
+  std::vector<double> liking((verdicts.front()->*scores).size());
+  for (const OodVerdict* verdict : verdicts) {
+    for (size_t s = 0; s < liking.size(); ++s) {
+      liking[s] += (verdict->*scores)[s] / static_cast<double>(verdicts.size());
+    }
+  }
+  for (const OodVerdict* verdict : verdicts) {
+    // The choice is among the styles that were asked for.
+    const OodVerdict* best = verdicts.front();
+    const auto speaks_for = [&](const OodVerdict* style) {
+      return (verdict->*scores)[style->style] - liking[style->style];
+    };
+    for (const OodVerdict* other : verdicts) {
+      if (speaks_for(other) > speaks_for(best)) best = other;
+    }
+    right += best == verdict;
+    ++outputs;
+  }
+}
+
 }  // namespace
+
+StyleSummary summarize_styles(const std::vector<OodRow>& rows) {
+  StyleSummary out;
+  std::vector<double> robust, lda;
+  SignatureMatch signature;
+  for (const OodRow& row : rows) {
+    robust.push_back(row.verdict.style_robust);
+    lda.push_back(row.verdict.style_lda);
+    signature += row.verdict.signature;
+  }
+  out.style_robust = finite_mean(robust);
+  out.style_lda = finite_mean(lda);
+  out.signature_sign = signature.sign_share();
+  out.signature_amount = signature.amount_share();
+  double mlp = 0, mlp_outputs = 0, lda_right = 0, lda_outputs = 0;
+  for (const auto& [clip, of_clip] : ood_by_clip(rows)) {
+    choose(of_clip, &OodVerdict::robust_scores, mlp, mlp_outputs);
+    choose(of_clip, &OodVerdict::lda_scores, lda_right, lda_outputs);
+  }
+  if (mlp_outputs > 0) out.forced_mlp = mlp / mlp_outputs;
+  if (lda_outputs > 0) out.forced_lda = lda_right / lda_outputs;
+  return out;
+}
+
+std::map<std::string, SignatureMatch> signatures_by_style(const std::vector<OodRow>& rows) {
+  std::map<std::string, SignatureMatch> styles;
+  for (const OodRow& row : rows) {
+    if (row.verdict.signature.takes > 0) styles[row.style] += row.verdict.signature;
+  }
+  return styles;
+}
 
 OodSummary summarize_ood(const std::vector<OodRow>& rows) {
   OodSummary out;
@@ -44,6 +104,7 @@ OodSummary summarize_ood(const std::vector<OodRow>& rows) {
   out.input_skating_ratio_mean = finite_mean(values_of(rows, &OodRow::input_skating_ratio));
   out.drift_m_max = quantile(values_of(rows, &OodRow::drift_m), 1);
   out.gate_mean = finite_mean(values_of(rows, &OodRow::gate));
+  out.styles = summarize_styles(rows);
   return out;
 }
 

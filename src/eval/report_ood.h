@@ -2,6 +2,7 @@
 // Many clips in many styles in a few numbers.
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +11,19 @@
 #include "eval/ood.h"
 
 namespace panache {
+
+// What the judges of the styles say of many outputs, see OodVerdict; NaN where there is nothing.
+struct StyleSummary {
+  double style_robust = kNotMeasured, style_lda = kNotMeasured;  // Means over outputs.
+  // Share of the outputs that speak more for the style asked for than for any other, when one clip
+  // is put out in all styles and each judge's liking for a style, as the mean over those outputs
+  // shows it, is taken off.
+  double forced_mlp = kNotMeasured, forced_lda = kNotMeasured;
+  // Of the changes that a style's real takes agree on: share with the right sign, share by half to
+  // double of the real change.
+  double signature_sign = kNotMeasured, signature_amount = kNotMeasured;
+};
+StyleSummary summarize_styles(const std::vector<OodRow>& rows);
 
 // Over the rows of one system; NaN where there are none. See OodRow for units.
 struct OodSummary {
@@ -24,9 +38,13 @@ struct OodSummary {
   double skating_ratio_mean = kNotMeasured, input_skating_ratio_mean = kNotMeasured;
   double drift_m_max = kNotMeasured;
   double gate_mean = kNotMeasured;
+  StyleSummary styles;
 };
 
 OodSummary summarize_ood(const std::vector<OodRow>& rows);
+
+// What became of the traits in each style, styles in order of the alphabet.
+std::map<std::string, SignatureMatch> signatures_by_style(const std::vector<OodRow>& rows);
 
 // The rows of each clip, in order of their first one.
 std::vector<std::pair<std::string, std::vector<OodRow>>> ood_by_clip(

@@ -1,6 +1,7 @@
 // Sections of the page: how the systems do on what they were not trained for.
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "base/xml.h"
@@ -91,6 +92,67 @@ std::string ood_table(const std::vector<const SystemReport*>& systems) {
   return table.str();
 }
 
+std::string ood_styles_table(const Report& report,
+                             const std::vector<const SystemReport*>& systems) {
+  HtmlTable table("");
+  table.add_columns("style recognised by", {"networks", "LDA"});
+  table.add_columns("chosen among all styles by", {"networks", "LDA"});
+  table.add_columns("signature", {"right sign", "right amount"});
+  const auto add = [&](const std::string& name, const StyleSummary& of) {
+    std::vector<HtmlCell> cells;
+    for (const double share : {of.style_robust, of.style_lda, of.forced_mlp, of.forced_lda,
+                               of.signature_sign, of.signature_amount}) {
+      cells.push_back({number_text(share, 3), false, share});
+    }
+    table.add_row(name, std::move(cells), name == "input");
+  };
+  add("real takes", report.ood_real);
+  for (const SystemReport* system : systems) add(system->name, summarize_styles(system->ood));
+  add("input", report.ood_input);
+  return table.str();
+}
+
+// What a style changes: in real takes, and in a system's outputs. A bar of full length is the
+// largest of a column; a dash is a trait that real takes do not agree on.
+std::string signatures_table(const Report& report, const SystemReport& system) {
+  const auto outputs = signatures_by_style(system.ood);
+  HtmlTable table("style");
+  std::vector<std::string> sources = {"real", system.name};
+  for (const Trait& trait : kTraits) table.add_columns(trait.label, sources);
+  table.add_columns("outputs", {"right sign", "right amount"});
+  table.add_columns("real, left out", {"right sign", "right amount"});
+  Traits largest{};
+  for (const SignatureReport& signature : report.signatures) {
+    const auto made = outputs.find(signature.style);
+    for (size_t t = 0; t < kTraits.size(); ++t) {
+      largest[t] = std::max(largest[t], std::abs(signature.real.change[t]));
+      if (made != outputs.end())
+        largest[t] = std::max(largest[t], std::abs(made->second.mean_change()[t]));
+    }
+  }
+  for (const SignatureReport& signature : report.signatures) {
+    const auto made = outputs.find(signature.style);
+    if (made == outputs.end()) continue;
+    std::vector<HtmlCell> cells;
+    const Traits change = made->second.mean_change();
+    for (size_t t = 0; t < kTraits.size(); ++t) {
+      const bool certain = signature.real.certain[t];
+      const double real = certain ? signature.real.change[t] : kNotMeasured;
+      const double unit = std::max(largest[t], 1e-9);
+      cells.push_back({number_text(real, 1), false, std::abs(real) / unit});
+      cells.push_back({number_text(change[t], 1), false, std::abs(change[t]) / unit});
+    }
+    for (const SignatureMatch* match : {&made->second, &signature.left_out}) {
+      for (const double share : {match->sign_share(), match->amount_share()}) {
+        cells.push_back({number_text(share, 2), false, share});
+      }
+    }
+    table.add_row(signature.style, std::move(cells));
+  }
+  return table.str("Signatures: what a style changes, in real takes and in the outputs of " +
+                   system.name);
+}
+
 // The first rows by `worse`.
 std::string worst_rows(std::vector<OodRow> rows,
                        const std::function<bool(const OodRow&, const OodRow&)>& worse,
@@ -168,7 +230,8 @@ std::string page_ood(const Report& report) {
   const auto systems =
       systems_with(report, [](const SystemReport& system) { return !system.ood.empty(); });
   if (systems.empty()) return "";
-  std::string out = ood_table(systems);
+  std::string out = ood_table(systems) + ood_styles_table(report, systems);
+  for (const SystemReport* system : systems) out += signatures_table(report, *system);
   for (const SystemReport* system : systems) {
     out += heading("Worst of " + system->name);
     out += worst_rows(

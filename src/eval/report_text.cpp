@@ -142,6 +142,27 @@ std::string ood(const Report& report) {
   return table.str();
 }
 
+std::string ood_styles(const Report& report) {
+  TextTable table("");
+  table.add_columns("style recognised", {"networks", "LDA"});
+  table.add_columns("forced choice", {"networks", "LDA"});
+  table.add_columns("signature", {"sign", "amount"});
+  const auto add = [&](const std::string& name, const StyleSummary& of) {
+    table.add_row(name, {number_text(of.style_robust, 3), number_text(of.style_lda, 3),
+                         number_text(of.forced_mlp, 3), number_text(of.forced_lda, 3),
+                         number_text(of.signature_sign, 3), number_text(of.signature_amount, 3)});
+  };
+  bool any = false;
+  for (const SystemReport& system : report.systems) any = any || !system.ood.empty();
+  if (!any) return "";
+  add("real takes", report.ood_real);
+  add("input", report.ood_input);
+  for (const SystemReport& system : report.systems) {
+    if (!system.ood.empty()) add(system.name, summarize_styles(system.ood));
+  }
+  return table.str();
+}
+
 std::string disturbances(const Report& report) {
   TextTable table("disturbance");
   std::vector<const SystemReport*> systems;
@@ -219,6 +240,7 @@ std::string report_text(const Report& report) {
     }
   }
   text += titled("Out-of-distribution motion: every clip in every style", ood(report));
+  text += titled("The same: how much of the style there is", ood_styles(report));
   text += titled("Disturbed windows: pose error in cm", disturbances(report));
   for (const SystemReport& system : report.systems) {
     text +=

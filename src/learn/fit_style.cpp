@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "learn/disturbance.h"
 #include "learn/ridge.h"
 
 namespace panache {
@@ -45,9 +46,9 @@ Table make_table(const std::shared_ptr<const Model>& model, const SampleSet& set
       if (copy == 0) {
         set.window(i, window);
       } else {
-        const Disturbed draw = set.draw(how, random);
+        const Disturbed draw = draw_disturbance(how, set.scale(), random);
         set.window(i, window, draw.tempo);
-        set.disturb(draw, how, random, window);
+        disturb(draw, how, random, window);
       }
       networks.forward(window);
       networks.activations(window, activations);

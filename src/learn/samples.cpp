@@ -178,47 +178,4 @@ void SampleSet::window(size_t i, std::span<float> out, float tempo) const {
   }
 }
 
-void SampleSet::mirror_window(std::span<float> window) const {
-  for (size_t at = 0; at < window.size(); at += numbers()) {
-    mirror_pose(recipe_.layout, window.subspan(at, numbers()));
-  }
-}
-
-Disturbed SampleSet::draw(const Disturbance& how, Random& random) const {
-  Disturbed draw;
-  draw.scale = 1 + how.scale * random.normal();
-  draw.floor = how.floor * random.normal();
-  draw.tempo = std::exp(how.tempo * random.normal());
-  const float angle = how.heading * random.normal();
-  draw.cos = std::cos(angle);
-  draw.sin = std::sin(angle);
-  draw.posture.resize(3 * kHumanJoints);
-  for (int i = 0; i < 3 * kHumanJoints; ++i) {
-    draw.posture[i] = how.posture * scale_[i] * random.normal();
-  }
-  return draw;
-}
-
-void SampleSet::disturb(const Disturbed& draw, const Disturbance& how, Random& random,
-                        std::span<float> window) const {
-  for (size_t at = 0; at < window.size(); at += numbers()) {
-    float* pose = &window[at];
-    for (int j = 0; j < kHumanJoints; ++j) {
-      float* p = pose + 3 * j;
-      const float x = p[0] * draw.scale, z = p[2] * draw.scale;
-      p[0] = draw.cos * x + draw.sin * z + draw.posture[3 * j] + how.jitter * random.normal();
-      p[1] =
-          p[1] * draw.scale + draw.floor + draw.posture[3 * j + 1] + how.jitter * random.normal();
-      p[2] = draw.cos * z - draw.sin * x + draw.posture[3 * j + 2] + how.jitter * random.normal();
-    }
-    float* v = pose + 3 * kHumanJoints;
-    const float x = v[0] * draw.scale, z = v[1] * draw.scale;
-    v[0] = draw.cos * x + draw.sin * z;
-    v[1] = draw.cos * z - draw.sin * x;
-    v[0] += how.velocity * random.normal();
-    v[1] += how.velocity * random.normal();
-    v[2] += how.turn_rate * random.normal();
-  }
-}
-
 }  // namespace panache

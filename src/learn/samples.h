@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "base/random.h"
 #include "learn/pairing.h"
 #include "learn/take.h"
 #include "recipes/recipe.h"
@@ -31,12 +30,6 @@ struct Sample {
   float log_rate = 0;                 // Logarithm of neutral seconds per styled second.
   std::array<float, kFeet> contacts;  // Of the styled frame: 0 or 1.
   bool has_next = false;              // The next sample is the next frame of the same window.
-};
-
-// The draw of one disturbance: shared by two neighbouring samples whose difference is compared.
-struct Disturbed {
-  float scale = 1, floor = 0, cos = 1, sin = 0, tempo = 1;
-  std::vector<float> posture;  // [numbers], in the numbers' units
 };
 
 class SampleSet {
@@ -65,14 +58,6 @@ class SampleSet {
 
   // Writes the window of sample i as it is, or played `tempo` times as fast. [inputs]
   void window(size_t i, std::span<float> out, float tempo = 1) const;
-
-  // Left for right, in place. Windows of any number of poses.
-  void mirror_window(std::span<float> window) const;
-
-  // Disturbs a window in place (layout positions only).
-  Disturbed draw(const Disturbance& how, Random& random) const;
-  void disturb(const Disturbed& draw, const Disturbance& how, Random& random,
-               std::span<float> window) const;
 
  private:
   void add_pairing(const Pairing& pairing, int style);

@@ -44,4 +44,11 @@ void mirror_pose(PoseLayout layout, std::span<float> numbers) noexcept {
   root[kTurnRate] = -root[kTurnRate];
 }
 
+void mirror_poses(PoseLayout layout, std::span<float> numbers) noexcept {
+  const size_t count = pose_feature_count(layout);
+  for (size_t at = 0; at < numbers.size(); at += count) {
+    mirror_pose(layout, numbers.subspan(at, count));
+  }
+}
+
 }  // namespace panache

@@ -38,13 +38,37 @@ struct OptimizerSettings {
   float dropout = 0;       // Share of hidden units left out.
 };
 
+// How the pose network is trained on motion without styles, under a style classifier: see
+// src/train/guidance.h. Weights are of the losses that are added to that of the pairs.
+struct GuidanceSettings {
+  int sequences = 0;        // Drawn at each step, each in one style; 0: no guidance.
+  int guide_steps = 2500;   // Of training the classifier.
+  float style = 0.1f;       // Of not being recognised as the style asked for.
+  float velocity = 0.5f;    // Of hands and feet that no longer move as the input's.
+  float smoothness = 0.5f;  // Of the change from one instant to the next.
+  float balance = 1;        // Of leaving the feet's support, or sinking through the floor.
+  float prior = 0.05f;      // Of changes that the pairs never show.
+  float signature = 0.2f;   // Of posture and speed that change otherwise than in real takes.
+  float ramp = 0.2f;        // Share of the training until all of it counts in full.
+  float spliced = 0.4f;     // Share of the sequences with arms of another take.
+  Disturbance disturbance = {.scale = 0.06f,
+                             .floor = 0.01f,
+                             .heading = 0,
+                             .posture = 0.15f,
+                             .jitter = 0,
+                             .velocity = 0,
+                             .turn_rate = 0,
+                             .tempo = 0};
+};
+
 struct TrainingSettings {
   int64_t steps = 0;
   bool neutral_samples = false;  // Neutral takes are shown too, with themselves as the target.
   BatchSettings batch = {};
   OptimizerSettings optimizer = {};
-  float smoothness = 0;         // Weight of the loss on the change from one frame to the next.
-  int64_t predictor_steps = 0;  // Of the network that predicts input; 0: the model has none.
+  float smoothness = 0;            // Weight of the loss on the change from one frame to the next.
+  GuidanceSettings guidance = {};  // Where there is motion without styles.
+  int64_t predictor_steps = 0;     // Of the network that predicts input; 0: the model has none.
 };
 
 }  // namespace panache

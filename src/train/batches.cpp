@@ -5,6 +5,8 @@
 #include <map>
 #include <string>
 
+#include "pose/mirror.h"
+
 namespace panache {
 
 OutputUnits output_units(const SampleSet& set, const std::vector<int>& samples) {
@@ -82,7 +84,7 @@ Batch BatchMaker::make(Random& random) const {
       int draw = -1;
       if (settings_.disturbed) {
         draw = static_cast<int>(draws.size());
-        draws.push_back(set_.draw(settings_.disturbance, random));
+        draws.push_back(draw_disturbance(settings_.disturbance, set_.scale(), random));
       }
       rows.push_back({sample, flip, draw});
       rows.push_back({sample + 1, flip, draw});
@@ -118,9 +120,9 @@ Batch BatchMaker::fill(const std::vector<Row>& rows, const std::vector<Disturbed
     float* input = batch.inputs.data_ptr<float>() + r * inputs;
     const std::span<float> seen(input, window);
     set_.window(row.sample, seen, row.disturbed >= 0 ? draws[row.disturbed].tempo : 1);
-    if (row.mirrored) set_.mirror_window(seen);
+    if (row.mirrored) mirror_poses(recipe.layout, seen);
     if (row.disturbed >= 0) {
-      set_.disturb(draws[row.disturbed], settings_.disturbance, *random, seen);
+      disturb(draws[row.disturbed], settings_.disturbance, *random, seen);
     }
     for (int i = 0; i < window; ++i) {
       const int n = i % numbers;

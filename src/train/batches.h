@@ -6,6 +6,7 @@
 
 #include <torch/torch.h>
 
+#include "learn/disturbance.h"
 #include "learn/samples.h"
 
 namespace panache {

@@ -33,13 +33,13 @@ class Hash {
   uint64_t value_ = 14695981039346656037u;
 };
 
-uint64_t hash_data(const std::vector<Take>& takes, const SampleSet& set,
-                   const std::vector<int>& choice) {
+uint64_t hash_data(const TrainingData& data, const SampleSet& set, const std::vector<int>& choice) {
   Hash hash;
-  for (const Take& take : takes) {
+  for (const Take& take : data.takes) {
     hash.add_text(take.row.content);
     hash.add_list(take.pose_features);
   }
+  for (const Take& take : data.unlabelled) hash.add_list(take.pose_features);
   for (size_t i = 0; i < set.samples().size(); ++i) {
     const Sample& sample = set.samples()[i];
     hash.add(sample.take);
@@ -59,6 +59,12 @@ uint64_t hash_styles(const std::vector<StyleName>& styles) {
   return hash.value();
 }
 
+void hash_disturbance(const Disturbance& disturbance, Hash& hash) {
+  hash.add_list(std::to_array({disturbance.scale, disturbance.floor, disturbance.heading,
+                               disturbance.posture, disturbance.jitter, disturbance.velocity,
+                               disturbance.turn_rate, disturbance.tempo}));
+}
+
 uint64_t hash_settings(const TrainOptions& options) {
   const TrainingSettings& settings = options.settings;
   Hash hash;
@@ -74,10 +80,14 @@ uint64_t hash_settings(const TrainOptions& options) {
   hash.add(batch.mirrored);
   hash.add(batch.disturbed);
   hash.add(batch.input_clip);
-  const Disturbance& disturbance = batch.disturbance;
-  hash.add_list(std::to_array({disturbance.scale, disturbance.floor, disturbance.heading,
-                               disturbance.posture, disturbance.jitter, disturbance.velocity,
-                               disturbance.turn_rate, disturbance.tempo}));
+  hash_disturbance(batch.disturbance, hash);
+  const GuidanceSettings& guidance = settings.guidance;
+  hash.add(guidance.sequences);
+  hash.add(guidance.guide_steps);
+  hash.add_list(
+      std::to_array({guidance.style, guidance.velocity, guidance.smoothness, guidance.balance,
+                     guidance.prior, guidance.signature, guidance.ramp, guidance.spliced}));
+  hash_disturbance(guidance.disturbance, hash);
   const OptimizerSettings& optimizer = settings.optimizer;
   hash.add(optimizer.learning_rate);
   hash.add(optimizer.epsilon);
@@ -89,10 +99,10 @@ uint64_t hash_settings(const TrainOptions& options) {
 
 }  // namespace
 
-Fingerprint fingerprint(const std::vector<Take>& takes, const SampleSet& set,
+Fingerprint fingerprint(const TrainingData& data, const SampleSet& set,
                         const std::vector<int>& choice, const std::vector<StyleName>& styles,
                         const TrainOptions& options) {
-  return {hash_data(takes, set, choice), hash_styles(styles), hash_settings(options)};
+  return {hash_data(data, set, choice), hash_styles(styles), hash_settings(options)};
 }
 
 }  // namespace panache

@@ -17,8 +17,8 @@ struct Fingerprint {
   uint64_t settings = 0;  // The recipe's, and the seed.
 };
 
-// `set`: the samples of `takes`; `choice`: those of them that are trained on.
-Fingerprint fingerprint(const std::vector<Take>& takes, const SampleSet& set,
+// `set`: the samples of the takes; `choice`: those of them that are trained on.
+Fingerprint fingerprint(const TrainingData& data, const SampleSet& set,
                         const std::vector<int>& choice, const std::vector<StyleName>& styles,
                         const TrainOptions& options);
 

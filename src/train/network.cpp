@@ -136,6 +136,13 @@ void NetworkTrainer::learn(const torch::Tensor& loss) {
   numbers_.addcdiv_(mean_, root, -rate / correct1);
 }
 
+void NetworkTrainer::freeze() {
+  for (torch::Tensor& weight : weights_) weight.set_requires_grad(false);
+  for (torch::Tensor& bias : biases_) bias.set_requires_grad(false);
+  heads_.set_requires_grad(false);
+  head_biases_.set_requires_grad(false);
+}
+
 std::vector<torch::Tensor> NetworkTrainer::save() const {
   return {numbers_.clone(), mean_.clone(), square_.clone(), torch::tensor(step_)};
 }

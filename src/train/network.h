@@ -42,6 +42,9 @@ class NetworkTrainer {
   // One step of Adam (Kingma and Ba 2015) down the gradient of `loss`.
   void learn(const torch::Tensor& loss);
 
+  // From now on its numbers stay: gradients go through it to its inputs alone.
+  void freeze();
+
   int64_t step() const { return step_; }
   const NetworkShape& shape() const { return shape_; }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <functional>
 #include <mutex>
+#include <optional>
+#include <set>
 
 #include <dlfcn.h>
 
@@ -15,6 +17,7 @@
 #include "train/export.h"
 #include "train/fingerprint.h"
 #include "train/gate.h"
+#include "train/guidance.h"
 #include "train/train_predictor.h"
 
 namespace panache {
@@ -83,11 +86,13 @@ torch::Tensor loss_of(const std::string& network, const torch::Tensor& out, cons
 
 class Training {
  public:
-  // `validation`: samples in order of their style; `groups`: how many of them each style has.
-  Training(const BatchMaker& batches, std::vector<int> validation, std::vector<int64_t> groups,
-           const TrainOptions& options, const Fingerprint& training)
+  // `guidance`: of the pose network, or null. `validation`: samples in order of their style;
+  // `groups`: how many of them each style has.
+  Training(const BatchMaker& batches, const Guidance* guidance, std::vector<int> validation,
+           std::vector<int64_t> groups, const TrainOptions& options, const Fingerprint& training)
       : settings_(options.settings),
         batches_(batches),
+        guidance_(guidance),
         validation_(std::move(validation)),
         validation_groups_(std::move(groups)),
         options_(options),
@@ -116,8 +121,12 @@ class Training {
         NetworkTrainer& network = *job.networks[n];
         const torch::Tensor out = network.forward(batch.inputs, batch.group_sizes, &random);
         if (network.step() > step) continue;  // Its units were drawn, so the others' are as ever.
-        const torch::Tensor loss = loss_of(network.shape().name, out, batch, settings_.smoothness);
+        torch::Tensor loss = loss_of(network.shape().name, out, batch, settings_.smoothness);
         sums[n] += loss.item<float>();
+        if (guidance_ && network.shape().name == "pose") {
+          const double share = static_cast<double>(step) / static_cast<double>(settings_.steps);
+          loss = loss + guidance_->loss(network, share, random);
+        }
         network.learn(loss);
       }
       const int64_t done = ++done_;
@@ -187,6 +196,7 @@ class Training {
 
   const TrainingSettings& settings_;
   const BatchMaker& batches_;
+  const Guidance* guidance_;
   std::vector<int> validation_;
   std::vector<int64_t> validation_groups_;
   const TrainOptions& options_;
@@ -213,10 +223,11 @@ std::vector<int> pick_validation(const SampleSet& set, const std::vector<int>& s
   return picked;
 }
 
-// What the pose network makes of training windows as they are, both sides mirrored.
+// What the pose network makes of training windows as they are, both sides mirrored; with guidance,
+// every third row is of the motion that it guides.
 torch::Tensor clean_features(const SampleSet& set, const std::vector<int>& choice, int styles,
                              BatchSettings batch, const OutputUnits& units,
-                             const NetworkTrainer& pose, uint64_t seed) {
+                             const Guidance* guidance, const NetworkTrainer& pose, uint64_t seed) {
   constexpr int kBatches = 100;
   torch::NoGradGuard no_gradients;
   batch.disturbed = false;
@@ -226,26 +237,39 @@ torch::Tensor clean_features(const SampleSet& set, const std::vector<int>& choic
   for (int b = 0; b < kBatches; ++b) {
     rows.push_back(pose.hidden(batches.make(random).inputs, nullptr));
   }
+  if (guidance) {
+    const int sequences = kBatches * batch.size / 2 / kSequenceInstants;
+    rows.push_back(pose.hidden(guidance->windows(sequences, random), nullptr));
+  }
   return torch::cat(rows);
+}
+
+// The neutral takes of pairs whose samples are trained on: what the unlabelled motion is mixed
+// with.
+std::vector<int> neutral_takes_of(const SampleSet& set, const std::vector<int>& choice) {
+  std::set<int> takes;
+  for (const int i : choice) takes.insert(set.samples()[i].take);
+  return {takes.begin(), takes.end()};
 }
 
 }  // namespace
 
-Result<TrainingData> prepare_training(const std::vector<ManifestRow>& rows, PoseLayout layout) {
+Result<TrainingData> prepare_training(const std::vector<ManifestRow>& rows, PoseLayout layout,
+                                      const std::vector<ManifestRow>& unlabelled) {
   keep_libraries_single_threaded();
   TrainingData data;
-  std::vector<ManifestRow> used;
-  for (const ManifestRow& row : rows) {
-    if (!row.test) used.push_back(row);
-  }
   const Clock::time_point begin = Clock::now();
-  {
-    Progress progress("reading");
+  for (const auto& [part, to] : {std::pair{&rows, &data.takes}, {&unlabelled, &data.unlabelled}}) {
+    std::vector<ManifestRow> used;
+    for (const ManifestRow& row : *part) {
+      if (!row.test) used.push_back(row);
+    }
+    Progress progress(part == &rows ? "reading" : "reading unlabelled motion");
     Result<std::vector<Take>> takes = load_takes(used, layout, [&](int done) {
       progress.update(static_cast<double>(done) / static_cast<double>(used.size()));
     });
     if (!takes) return takes.error();
-    data.takes = *std::move(takes);
+    *to = *std::move(takes);
   }
   data.read_seconds = seconds_since(begin);
   std::vector<int> styled, neutral;
@@ -266,8 +290,8 @@ Result<TrainingData> prepare_training(const std::vector<ManifestRow>& rows, Pose
 }
 
 Result<Trained> train(const std::vector<ManifestRow>& rows, const std::vector<StyleName>& styles,
-                      const TrainOptions& options) {
-  Result<TrainingData> data = prepare_training(rows, PoseLayout::positions);
+                      const TrainOptions& options, const std::vector<ManifestRow>& unlabelled) {
+  Result<TrainingData> data = prepare_training(rows, PoseLayout::positions, unlabelled);
   if (!data) return data.error();
   return train(*std::move(data), styles, options);
 }
@@ -277,6 +301,7 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
   const Recipe& recipe = *options.recipe;
   const TrainingSettings& settings = options.settings;
   for (Take& take : data.takes) write_numbers(recipe.layout, take);
+  for (Take& take : data.unlabelled) write_numbers(recipe.layout, take);
 
   std::vector<std::string> names;
   for (const StyleName& style : styles) names.push_back(style.name);
@@ -300,7 +325,7 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
   trained.samples = choice.size();
   trained.read_seconds = data.read_seconds;
   trained.pair_seconds = data.pair_seconds;
-  const Fingerprint training_print = fingerprint(data.takes, set, choice, styles, options);
+  const Fingerprint training_print = fingerprint(data, set, choice, styles, options);
   if (!options.checkpoint.empty()) {
     for (NetworkTrainer& network : networks) {
       Result<void> loaded =
@@ -309,10 +334,27 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
     }
   }
   const Clock::time_point begin = Clock::now();
+  std::optional<UnlabelledMotion> motion;
+  std::optional<Guidance> guidance;
+  if (settings.guidance.sequences > 0 && !data.unlabelled.empty()) {
+    motion.emplace(data.unlabelled, data.takes, neutral_takes_of(set, choice));
+    if (motion->empty()) {
+      return Error{"the unlabelled motion is too short; expected a take of more than 1.5 seconds"};
+    }
+    Classifier guide = train_guide(data.takes, set, choice, names, settings.guidance.guide_steps,
+                                   options.seed + 2);
+    const Signatures found(data.takes, data.pairings);
+    std::vector<const Signature*> signatures;
+    for (const std::string& style : names) signatures.push_back(found.find(style));
+    guidance.emplace(set, choice, units, *motion, std::move(guide), signatures, settings.guidance,
+                     settings.batch.input_clip);
+  }
+  const Guidance* guide = guidance ? &*guidance : nullptr;
   {
     std::vector<int64_t> groups;
     std::vector<int> validation = pick_validation(set, held, count, groups);
-    Training training(batches, std::move(validation), std::move(groups), options, training_print);
+    Training training(batches, guide, std::move(validation), std::move(groups), options,
+                      training_print);
     // The pose network costs as much as the other two together: one thread each.
     training.run({{{&networks[0]}, 1}, {{&networks[1], &networks[2]}, 2}}, trained.losses);
   }
@@ -323,8 +365,9 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
   trained.export_error = *error;
   // After the comparison, because libtorch's forward pass has no gate.
   if (recipe.learns_styles) {
-    fit_gate(clean_features(set, choice, count, settings.batch, units, networks[0], options.seed),
-             trained.model);
+    fit_gate(
+        clean_features(set, choice, count, settings.batch, units, guide, networks[0], options.seed),
+        trained.model);
     if (auto added = add_activation_statistics(data.takes, trained.model); !added) {
       return added.error();
     }

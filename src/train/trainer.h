@@ -47,17 +47,20 @@ struct Trained {
 struct TrainingData {
   std::vector<Take> takes;
   std::vector<Pairing> pairings;
+  std::vector<Take> unlabelled;  // Motion without styles: for recipes that guidance trains.
   double read_seconds = 0, pair_seconds = 0;
 };
-Result<TrainingData> prepare_training(const std::vector<ManifestRow>& rows, PoseLayout layout);
+Result<TrainingData> prepare_training(const std::vector<ManifestRow>& rows, PoseLayout layout,
+                                      const std::vector<ManifestRow>& unlabelled = {});
 
 // Trains on prepared takes, in whatever layout.
 Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
                       const TrainOptions& options);
 
-// Trains on the training split of `rows`, whose styles are already renamed to those of `styles`.
+// Trains on the training split of `rows`, whose styles are already renamed to those of `styles`,
+// and of `unlabelled`, whose styles do not matter.
 Result<Trained> train(const std::vector<ManifestRow>& rows, const std::vector<StyleName>& styles,
-                      const TrainOptions& options);
+                      const TrainOptions& options, const std::vector<ManifestRow>& unlabelled = {});
 
 // "step,network,train,validation" lines, and the same as a picture.
 std::string losses_csv(const std::vector<LossPoint>& losses);

@@ -134,6 +134,13 @@ TEST_F(OodFiles, a_file_a_folder_and_a_manifest_are_listed) {
       "old.bvh,old,walk,001,0,train\nmore/A.BVH,normal,bow,001,1,train\n";
   ASSERT_TRUE(write_file(folder_ + "bow.csv", rows, true).ok());
   EXPECT_EQ(*list_ood(folder_ + "bow.csv"), std::vector{folder_ + "more/A.BVH"});
+
+  // What is trained on is not out of distribution where a manifest says what is kept for tests.
+  const std::string split =
+      "path,style,content,take,neutral,split\nneutral.bvh,normal,jump,001,1,train\n"
+      "more/A.BVH,normal,jump,002,1,test\n";
+  ASSERT_TRUE(write_file(folder_ + "jump.csv", split, true).ok());
+  EXPECT_EQ(*list_ood(folder_ + "jump.csv"), std::vector{folder_ + "more/A.BVH"});
 }
 
 TEST_F(OodFiles, where_nothing_is_out_of_distribution_a_message_says_so) {
@@ -150,7 +157,7 @@ TEST_F(OodFiles, every_file_is_styled_in_every_style) {
   const auto model = *Model::parse(format_safetensors(test::make_model({"old", "sad"})), "m");
   double shown = 0;
   const auto rows =
-      measure_ood({folder_ + "old.bvh", folder_ + "neutral.bvh"}, test::as_system(model),
+      measure_ood({folder_ + "old.bvh", folder_ + "neutral.bvh"}, test::as_system(model), nullptr,
                   [&](double share) { shown = std::max(shown, share); });
   ASSERT_TRUE(rows.ok()) << rows.error().message;
   ASSERT_EQ(rows->size(), 4u);
@@ -164,6 +171,40 @@ TEST_F(OodFiles, every_file_is_styled_in_every_style) {
     EXPECT_GT(row.velocity_correlation, 0.3);
   }
   EXPECT_NE((*rows)[0].distance_cm, (*rows)[1].distance_cm);
+}
+
+// Notes what it is shown.
+class NotingJudge : public OodJudge {
+ public:
+  OodVerdict judge(const Take& input, const Take& output, double log_rate,
+                   const std::string& style) const override {
+    OodVerdict verdict;
+    verdict.style_robust = input.frames();
+    verdict.style_lda = output.frames() * std::exp(log_rate);
+    verdict.style = style == "old" ? 0 : 1;
+    verdict.signature.takes = static_cast<size_t>(output.frames());
+    return verdict;
+  }
+};
+
+TEST_F(OodFiles, a_judge_sees_the_output_with_its_own_tempo) {
+  TensorFile file = test::make_model({"old", "sad"});
+  // Sad is half as fast.
+  for (const char* key : {"timing.head.0.weight", "timing.head.1.weight"}) {
+    for (float& weight : file.tensors[key].values) weight = 0;
+  }
+  file.tensors["timing.head.0.bias"].values[0] = 0;
+  file.tensors["timing.head.1.bias"].values[0] = std::log(0.5f);
+  const auto model = *Model::parse(format_safetensors(file), "m");
+  const NotingJudge judge;
+  const auto rows = measure_ood({folder_ + "neutral.bvh"}, test::as_system(model), &judge);
+  ASSERT_TRUE(rows.ok()) << rows.error().message;
+  for (const OodRow& row : *rows) {
+    EXPECT_NEAR(row.verdict.style_robust, 150, 1);
+    EXPECT_NEAR(row.verdict.style_lda, row.verdict.style_robust, 1);
+    EXPECT_NEAR(row.verdict.signature.takes, row.style == "old" ? 150 : 300, 4);
+    EXPECT_EQ(row.verdict.style, row.style == "old" ? 0 : 1);
+  }
 }
 
 TEST_F(OodFiles, a_bend_moves_joints_and_leaves_the_legs_and_the_way_alone) {

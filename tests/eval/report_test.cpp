@@ -114,6 +114,44 @@ TEST(ReportJson, out_of_distribution_rows_are_kept_and_summed_up) {
   EXPECT_DOUBLE_EQ(summary["gate"]["mean"], 0.5);
 }
 
+OodRow judged(const std::string& clip, int style, std::vector<double> scores) {
+  OodRow row;
+  row.clip = clip;
+  row.style = style == 0 ? "old" : "proud";
+  row.verdict.style = style;
+  row.verdict.style_robust = 0.25;
+  row.verdict.style_lda = 0.75;
+  row.verdict.robust_scores = scores;
+  row.verdict.lda_scores = {scores[1], scores[0]};
+  row.verdict.signature.traits = 4;
+  row.verdict.signature.sign = 3;
+  row.verdict.signature.amount = 2;
+  row.verdict.signature.takes = 1;
+  row.verdict.signature.change[0] = 5 + style;
+  return row;
+}
+
+TEST(ReportJson, styles_of_out_of_distribution_rows_are_judged_in_four_ways_and_by_signature) {
+  Report report = made_up_report();
+  // Both judges like "old" best throughout; beyond that the first tells the outputs apart, and the
+  // second takes each for the other.
+  report.systems[0].ood = {judged("box", 0, {5, 1}), judged("box", 1, {4, 2}),
+                           judged("jump", 0, {3, 1}), judged("jump", 1, {2.5, 1})};
+  Json json = Json::parse(report_json(report));
+  Json& summary = json["systems"]["panache"]["foreign"]["summary"];
+  EXPECT_EQ(summary["style_robust"], 0.25);
+  EXPECT_EQ(summary["style_lda"], 0.75);
+  EXPECT_EQ(summary["forced_mlp"], 1);
+  EXPECT_EQ(summary["forced_lda"], 0);
+  EXPECT_EQ(summary["signature_sign"], 0.75);
+  EXPECT_EQ(summary["signature_amount"], 0.5);
+  Json& signatures = json["systems"]["panache"]["foreign"]["signatures"];
+  EXPECT_EQ(signatures["old"]["lean"], 5);
+  EXPECT_EQ(signatures["proud"]["lean"], 6);
+  EXPECT_EQ(signatures["proud"]["sign"], 0.75);
+  EXPECT_TRUE(json["systems"][kRude]["foreign"]["summary"]["forced_lda"].is_null());
+}
+
 TEST(ReportJson, what_was_not_measured_is_null) {
   Report report = made_up_report();
   report.real["fmd"] = kNotMeasured;

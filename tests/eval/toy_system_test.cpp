@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "eval/evaluate.h"
-#include "eval/one_thread.h"
+#include "one_thread.h"
 #include "make_model.h"
 #include "make_styles.h"
 #include "temporary_folder.h"

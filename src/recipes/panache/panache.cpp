@@ -55,7 +55,7 @@ const Recipe& panache_recipe() noexcept {
                                 .mirror_target = mirror_target,
                                 .to_change = to_change,
                                 .output_scale = output_scale,
-                                .training = {.steps = 20000,
+                                .training = {.steps = 12000,
                                              .batch = {.size = 256,
                                                        .by_style = true,
                                                        .mirrored = true,
@@ -66,6 +66,7 @@ const Recipe& panache_recipe() noexcept {
                                                            .weight_decay = 0.2f,
                                                            .dropout = 0.02f},
                                              .smoothness = 0.3f,
+                                             .guidance = {.sequences = 20},
                                              .predictor_steps = 6000}};
   return recipe;
 }

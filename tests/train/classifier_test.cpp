@@ -1,4 +1,4 @@
-#include "eval/classifier.h"
+#include "train/classifier.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,112 @@
+#include "eval/discriminant.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace panache {
+namespace {
+
+// A window is a second; as many frames lie between the first ones of two windows.
+constexpr int kFrames = 30, kLearntHop = 15, kHop = 10;
+constexpr int kBones = kHumanJoints - 1;
+// Directions of the bones, their deviations, speeds of the joints, height of the hips.
+constexpr int kStatistics = 3 * kBones + 3 * kBones + kHumanJoints + 2;
+constexpr float kStillSpeed = 0.05f;                   // m/s, added before the logarithm.
+constexpr float kHeightUnit = 0.2f, kBobUnit = 0.03f;  // Metres.
+constexpr float kLeastDeviation = 0.02f;               // Of a statistic.
+constexpr double kShrinkage = 0.15;  // Of the covariance, towards a multiple of the identity.
+constexpr double kOutlier = 4;       // Deviations.
+
+std::vector<HumanPositions> mirrored_body(const Take& take) {
+  std::vector<HumanPositions> body;
+  for (const HumanPositions& pose : take.body) body.push_back(mirrored(pose));
+  return body;
+}
+
+void write_statistics(const std::vector<HumanPositions>& body, int first, float* out) {
+  const int last = std::min(first + kFrames, static_cast<int>(body.size()));
+  const float frames = static_cast<float>(last - first);
+  float* mean = out;
+  float* deviation = out + 3 * kBones;
+  float* speed = out + 6 * kBones;
+  std::fill_n(out, kStatistics, 0.0f);
+  float height = 0, squared_height = 0;
+  for (int f = first; f < last; ++f) {
+    for (int j = 1; j < kHumanJoints; ++j) {
+      const Vec3 bone = body[f][j] - body[f][kHumanParent[j]];
+      const Vec3 direction = bone / std::max(length(bone), 1e-6f);
+      const float numbers[3] = {direction.x, direction.y, direction.z};
+      for (int n = 0; n < 3; ++n) {
+        mean[3 * (j - 1) + n] += numbers[n] / frames;
+        deviation[3 * (j - 1) + n] += numbers[n] * numbers[n] / frames;
+      }
+    }
+    height += body[f][0].y / frames;
+    squared_height += body[f][0].y * body[f][0].y / frames;
+    if (f == first) continue;
+    for (int j = 0; j < kHumanJoints; ++j) {
+      speed[j] +=
+          length(body[f][j] - body[f - 1][j]) * static_cast<float>(kTakeRate) / (frames - 1);
+    }
+  }
+  for (int n = 0; n < 3 * kBones; ++n) {
+    deviation[n] = std::sqrt(std::max(deviation[n] - mean[n] * mean[n], 0.0f));
+  }
+  for (int j = 0; j < kHumanJoints; ++j) speed[j] = std::log(kStillSpeed + speed[j]);
+  out[kStatistics - 2] = height / kHeightUnit;
+  out[kStatistics - 1] = std::sqrt(std::max(squared_height - height * height, 0.0f)) / kBobUnit;
+}
+
+// Of the windows of a second, or of a take that is shorter. [windows][kStatistics]
+torch::Tensor statistics(const std::vector<HumanPositions>& body, int hop) {
+  const int windows = 1 + std::max(0, static_cast<int>(body.size()) - kFrames) / hop;
+  torch::Tensor rows = torch::empty({windows, kStatistics});
+  for (int w = 0; w < windows; ++w) {
+    write_statistics(body, w * hop, rows.data_ptr<float>() + size_t(w) * kStatistics);
+  }
+  return rows.to(torch::kFloat64);
+}
+
+}  // namespace
+
+Discriminant::Discriminant(const std::vector<Take>& takes, const std::vector<std::string>& labels,
+                           const std::vector<std::string>& classes) {
+  torch::NoGradGuard no_gradients;
+  std::vector<std::vector<torch::Tensor>> of_class(classes.size());
+  std::vector<torch::Tensor> all;
+  for (size_t t = 0; t < takes.size(); ++t) {
+    const auto label = std::find(classes.begin(), classes.end(), labels[t]);
+    if (label == classes.end()) continue;
+    for (const auto& body : {takes[t].body, mirrored_body(takes[t])}) {
+      all.push_back(statistics(body, kLearntHop));
+      of_class[label - classes.begin()].push_back(all.back());
+    }
+  }
+  const torch::Tensor rows = torch::cat(all);
+  mean_ = rows.mean(0);
+  scale_ = rows.std(0, false) + kLeastDeviation;
+  std::vector<torch::Tensor> means;
+  torch::Tensor covariance = torch::zeros({kStatistics, kStatistics}, torch::kFloat64);
+  for (const std::vector<torch::Tensor>& parts : of_class) {
+    const torch::Tensor own = parts.empty() ? torch::zeros({1, kStatistics}, torch::kFloat64)
+                                            : (torch::cat(parts) - mean_) / scale_;
+    means.push_back(own.mean(0));
+    const torch::Tensor centred = own - means.back();
+    covariance += torch::mm(centred.t(), centred) /
+                  static_cast<double>(own.size(0) * static_cast<int64_t>(classes.size()));
+  }
+  const torch::Tensor level = covariance.trace() / kStatistics;
+  covariance =
+      (1 - kShrinkage) * covariance + kShrinkage * level * torch::eye(kStatistics, torch::kFloat64);
+  const torch::Tensor centres = torch::stack(means);
+  weights_ = torch::linalg_solve(covariance, centres.t());
+  bias_ = -0.5 * (centres * weights_.t()).sum(1);
+}
+
+torch::Tensor Discriminant::scores(const Take& take) const {
+  torch::NoGradGuard no_gradients;
+  const torch::Tensor rows = (statistics(take.body, kHop) - mean_) / scale_;
+  return torch::mm(rows.clamp(-kOutlier, kOutlier), weights_) + bias_;
+}
+
+}  // namespace panache

@@ -1,0 +1,39 @@
+#pragma once
+// Judges of different families for motion that has no real counterpart: they must not be fooled
+// together.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "eval/discriminant.h"
+#include "eval/ood.h"
+#include "learn/signature.h"
+#include "train/classifier.h"
+
+namespace panache {
+
+class StyleJudges : public OodJudge {
+ public:
+  // Styles and neutral as `takes` (numbers in layout positions) show them.
+  StyleJudges(const std::vector<Take>& takes, const std::vector<Pairing>& pairings, uint64_t seed);
+
+  OodVerdict judge(const Take& input, const Take& output, double log_rate,
+                   const std::string& style) const override;
+  // The same for a real take: how well the judges know what a style is. Nothing is compared.
+  OodVerdict judge_real(const Take& take) const;
+  // What real takes agree on, left out one action at a time.
+  SignatureMatch real_signature(const std::string& style) const { return signatures_.real(style); }
+  const Signature* signature(const std::string& style) const { return signatures_.find(style); }
+
+ private:
+  StyleJudges(const std::vector<Take>& takes, const std::vector<Pairing>& pairings, uint64_t seed,
+              std::vector<std::string> styles, const std::vector<std::string>& labels);
+
+  std::vector<std::string> styles_;  // Neutral is not among them, but the last class of both.
+  Classifier robust_;
+  Discriminant lda_;
+  Signatures signatures_;
+};
+
+}  // namespace panache

@@ -1,0 +1,80 @@
+#pragma once
+// What a style looks like in words: how posture, speed and tempo of its real takes differ from
+// neutral takes of the same action. It tells what is missing where a classifier only tells that it
+// is.
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "learn/pairing.h"
+#include "learn/take.h"
+
+namespace panache {
+
+// What is measured of a take, in order.
+struct Trait {
+  const char* key;    // In report.json.
+  const char* label;  // For people, with the unit.
+  double least;       // A smaller difference is none.
+};
+inline constexpr std::array kTraits = std::to_array<Trait>({
+    {"lean", "lean forward, degrees", 3},
+    {"head", "head pitched forward, degrees", 3},
+    {"knees", "knees bent, degrees", 4},
+    {"elbows", "elbows bent, degrees", 5},
+    {"stance", "feet apart sideways, cm", 2},
+    {"hands", "hands above the hips, cm", 3},
+    {"speed", "speed of the hands, %", 10},
+    {"sharpness", "sharpness of the hands, %", 10},
+    {"clearance", "feet lifted, cm", 1},
+    {"tempo", "tempo, %", 5},
+});
+inline constexpr size_t kTempoTrait = kTraits.size() - 1;
+using Traits = std::array<double, kTraits.size()>;
+
+// Means over the frames of a take; percentages as 100 log, so that differences of them are changes.
+// The tempo is not in a take: 0.
+Traits traits(const Take& take);
+
+// The changes of one style that its real takes agree on.
+struct Signature {
+  Traits change{}, deviation{};                // Mean and deviation over the actions.
+  std::array<bool, kTraits.size()> certain{};  // Most actions agree in the sign, and it is enough.
+};
+
+// What is made of the traits of outputs that a signature is certain of.
+struct SignatureMatch {
+  size_t traits = 0;  // That were compared,
+  size_t sign = 0;    // changed to the right side,
+  size_t amount = 0;  // and by half to double of the real change.
+  Traits change{};    // Sum over the outputs, of all traits.
+  size_t takes = 0;   // Outputs.
+
+  void add(const Signature& signature, const Traits& change);
+  SignatureMatch& operator+=(const SignatureMatch& other);
+  // NaN where nothing was compared.
+  double sign_share() const;
+  double amount_share() const;
+  Traits mean_change() const;
+};
+
+class Signatures {
+ public:
+  // From real takes: each style against the neutral takes of the same set and content. The tempo is
+  // that of the pairings.
+  Signatures(const std::vector<Take>& takes, const std::vector<Pairing>& pairings);
+
+  // Null where the style has no takes of two actions at least.
+  const Signature* find(const std::string& style) const;
+  // How each real action matches what the others agree on: as good as it gets.
+  SignatureMatch real(const std::string& style) const;
+
+ private:
+  static Signature agree(const std::vector<Traits>& actions);
+  std::map<std::string, std::vector<Traits>> actions_;  // Changes of a style, one for each action.
+  std::map<std::string, Signature> signatures_;
+};
+
+}  // namespace panache

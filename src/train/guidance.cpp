@@ -1,0 +1,304 @@
+#include "train/guidance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "learn/disturbance.h"
+
+namespace panache {
+namespace {
+
+constexpr int kNumbers = pose_feature_count(PoseLayout::positions);
+constexpr int kBones = kHumanJoints - 1;
+constexpr int kHipsHeight = 3 * kHumanJoints;  // Its place in a packed StyleDelta.
+constexpr float kLabelSmoothing = 0.1f;
+// What all bodies have of a style differs: a change within the style's own deviation, with this
+// added, is as likely as any other. In output units.
+constexpr float kLeastDeviation = 0.15f;
+constexpr float kLeanUnit = 0.1f, kFreeLean = 0.3f;   // Metres; units that cost nothing.
+constexpr float kFloorUnit = 0.05f, kFloor = 0.045f;  // Metres; no toe of the input is lower.
+constexpr double kTolerated = 0.4;                    // Of a change that real takes agree on.
+constexpr float kStill = 0.02f;  // Metres: joints that cover less in a sequence do not count.
+
+torch::Tensor joints(std::initializer_list<HumanJoint> list) {
+  std::vector<int64_t> numbers;
+  for (const HumanJoint joint : list) numbers.push_back(index(joint));
+  return torch::tensor(numbers);
+}
+const torch::Tensor& moving_joints() {
+  using enum HumanJoint;
+  static const torch::Tensor list =
+      joints({left_hand, right_hand, left_lower_arm, right_lower_arm, left_foot, right_foot});
+  return list;
+}
+const torch::Tensor& foot_joints() {
+  using enum HumanJoint;
+  static const torch::Tensor list = joints({left_foot, right_foot, left_toes, right_toes});
+  return list;
+}
+
+// The joint at the upper end of each bone; bone j - 1 leads to joint j. [20]
+const torch::Tensor& bone_parents() {
+  static const torch::Tensor parents = [] {
+    std::vector<int64_t> list;
+    for (int j = 1; j < kHumanJoints; ++j) list.push_back(kHumanParent[j]);
+    return torch::tensor(list);
+  }();
+  return parents;
+}
+// 1 where a bone is between the hips and a joint. [21][20]
+const torch::Tensor& bones_above() {
+  static const torch::Tensor above = [] {
+    torch::Tensor matrix = torch::zeros({kHumanJoints, kBones});
+    for (int j = 1; j < kHumanJoints; ++j) {
+      for (int bone = j; bone > 0; bone = kHumanParent[bone]) matrix[j][bone - 1] = 1;
+    }
+    return matrix;
+  }();
+  return above;
+}
+
+// Vectors turned by rotation vectors (Rodrigues). [...][3]
+torch::Tensor rotated(const torch::Tensor& rotation, const torch::Tensor& vector) {
+  const torch::Tensor square = rotation.square().sum(-1, true) + 1e-8;
+  const torch::Tensor angle = square.sqrt();
+  const torch::Tensor once = torch::linalg_cross(rotation, vector);
+  const torch::Tensor twice = torch::linalg_cross(rotation, once);
+  return vector + angle.sin() / angle * once + (1 - angle.cos()) / square * twice;
+}
+
+// 1 - correlation of how hands, forearms and feet move in and out; those that move more count more.
+// [sequences][instants][21][3]
+torch::Tensor velocity_loss(const torch::Tensor& in, const torch::Tensor& out) {
+  const auto velocity = [](const torch::Tensor& positions) {
+    const torch::Tensor some = positions.index_select(2, moving_joints());
+    return some.slice(1, 1) - some.slice(1, 0, -1);
+  };
+  const torch::Tensor a = velocity(in), b = velocity(out);
+  const torch::Tensor in_square = a.square().sum({1, 3}), out_square = b.square().sum({1, 3});
+  const torch::Tensor root = (in_square * out_square + std::pow(kStill, 4.0f)).sqrt();
+  const torch::Tensor weight = in_square.sqrt();
+  return ((1 - (a * b).sum({1, 3}) / root) * weight).sum() / (weight.sum() + 1e-5);
+}
+
+// The body stays over its feet as the input's does, and above the floor. [rows][21][3]
+torch::Tensor balance_loss(const torch::Tensor& in, const torch::Tensor& out) {
+  const auto lean = [](const torch::Tensor& positions) {
+    return positions.mean(1) - positions.index_select(1, foot_joints()).mean(1);
+  };
+  const torch::Tensor both = (lean(out) - lean(in)) / kLeanUnit;
+  const torch::Tensor sideways = torch::cat({both.slice(1, 0, 1), both.slice(1, 2, 3)}, 1);
+  const auto lowest = [](const torch::Tensor& positions) {
+    return std::get<0>(positions.index_select(1, foot_joints()).select(2, 1).min(1));
+  };
+  const torch::Tensor depth = (lowest(in).clamp_max(kFloor) - lowest(out)) / kFloorUnit;
+  return (sideways.abs() - kFreeLean).relu().square().mean() + depth.relu().square().mean();
+}
+
+// See traits(): means over the instants. [sequences][instants][21][3] -> [sequences][kGuidedTraits]
+torch::Tensor traits_of(const torch::Tensor& bodies) {
+  using enum HumanJoint;
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  const auto at = [&](HumanJoint joint) { return bodies.select(2, index(joint)); };
+  const auto pitch = [&](HumanJoint from, HumanJoint to) {
+    const torch::Tensor up = at(to) - at(from);
+    return kDegrees * torch::atan2(up.select(2, 2), up.select(2, 1));
+  };
+  const auto bend = [&](HumanJoint upper, HumanJoint middle, HumanJoint end) {
+    const torch::Tensor a = at(middle) - at(upper), b = at(end) - at(middle);
+    // The root has no slope at a straight limb.
+    const torch::Tensor across = (torch::linalg_cross(a, b).square().sum(2) + 1e-8).sqrt();
+    return kDegrees / 2 * torch::atan2(across, (a * b).sum(2));
+  };
+  const torch::Tensor knees = bend(left_upper_leg, left_lower_leg, left_foot) +
+                              bend(right_upper_leg, right_lower_leg, right_foot);
+  const torch::Tensor elbows = bend(left_upper_arm, left_lower_arm, left_hand) +
+                               bend(right_upper_arm, right_lower_arm, right_hand);
+  const torch::Tensor stance = 100 * (at(left_foot) - at(right_foot)).select(2, 0).abs();
+  const torch::Tensor hands = 100 * ((at(left_hand) + at(right_hand)) / 2 - at(hips)).select(2, 1);
+  torch::Tensor speed = torch::zeros({bodies.size(0)});
+  for (const HumanJoint hand : {left_hand, right_hand}) {
+    const torch::Tensor step = at(hand).slice(1, 1) - at(hand).slice(1, 0, -1);
+    speed = speed +
+            (step.square().sum(2) + 1e-10).sqrt().mean(1) * (kTakeRate / kClassifiedSpacing / 2);
+  }
+  return torch::stack({pitch(hips, neck).mean(1), pitch(neck, head).mean(1), knees.mean(1),
+                       elbows.mean(1), stance.mean(1), hands.mean(1), 100 * (speed + 0.05).log()},
+                      1);
+}
+
+// How far changes are from what real takes show, beyond what is tolerated; no sequence alone
+// decides. All [sequences][kGuidedTraits].
+torch::Tensor signature_loss(const torch::Tensor& changes, const torch::Tensor& real,
+                             const torch::Tensor& tolerance) {
+  const torch::Tensor off = ((changes - real).abs() / tolerance - 1).relu();
+  return (off.square() / (1 + off)).mean();
+}
+
+}  // namespace
+
+torch::Tensor styled_bodies(const torch::Tensor& bodies, const torch::Tensor& changes) {
+  // A change turns the bones that hang on a joint, and lifts the hips.
+  const int64_t rows = bodies.size(0);
+  const torch::Tensor bones = bodies.slice(1, 1) - bodies.index_select(1, bone_parents());
+  const torch::Tensor rotations = changes.slice(1, 0, kHipsHeight)
+                                      .reshape({rows, kHumanJoints, 3})
+                                      .index_select(1, bone_parents());
+  const torch::Tensor nothing = torch::zeros({rows, 1});
+  const torch::Tensor lift =
+      torch::cat({nothing, changes.slice(1, kHipsHeight, kHipsHeight + 1), nothing}, 1);
+  return (bodies.select(1, 0) + lift).unsqueeze(1) +
+         torch::matmul(bones_above(), rotated(rotations, bones));
+}
+
+torch::Tensor trait_changes(const torch::Tensor& before, const torch::Tensor& after) {
+  return traits_of(after) - traits_of(before);
+}
+
+Classifier train_guide(const std::vector<Take>& takes, const SampleSet& set,
+                       const std::vector<int>& choice, const std::vector<std::string>& styles,
+                       int steps, uint64_t seed) {
+  std::set<int> used;
+  for (const int i : choice) {
+    const Sample& sample = set.samples()[i];
+    used.insert(sample.take);
+    if (sample.styled >= 0) used.insert(sample.styled);
+  }
+  std::vector<Take> known;
+  std::vector<std::string> labels;
+  for (const int t : used) {
+    known.push_back(takes[t]);
+    labels.push_back(takes[t].row.style);
+  }
+  std::vector<std::string> classes = styles;
+  classes.push_back("neutral");
+  const ClassifierSettings settings = {
+      .hidden = 128, .networks = 2, .steps = steps, .disturbed = true};
+  return Classifier(known, labels, std::move(classes), seed, settings);
+}
+
+Guidance::Guidance(const SampleSet& set, const std::vector<int>& choice, const OutputUnits& units,
+                   const UnlabelledMotion& motion, Classifier guide,
+                   const std::vector<const Signature*>& signatures,
+                   const GuidanceSettings& settings, float input_clip)
+    : motion_(motion),
+      guide_(std::move(guide)),
+      settings_(settings),
+      styles_(static_cast<int>(signatures.size())),
+      input_clip_(input_clip > 0 ? input_clip : INFINITY),
+      deviation_(set.scale()) {
+  input_mean_ = torch::tensor(set.mean()).repeat({kWindowPoses});
+  input_factor_ = 1 / torch::tensor(set.scale()).repeat({kWindowPoses});
+  output_scale_ = torch::tensor(units.scale);
+
+  const int64_t outputs = set.outputs();
+  std::map<std::pair<int, std::string>, std::vector<int>> cells;
+  for (const int i : choice) {
+    const Sample& sample = set.samples()[i];
+    if (sample.style >= 0) cells[{sample.style, set.content(sample)}].push_back(i);
+  }
+  torch::Tensor sum = torch::zeros({styles_, outputs}), squares = torch::zeros({styles_, outputs});
+  torch::Tensor count = torch::zeros({styles_, 1});
+  for (const auto& [cell, samples] : cells) {
+    torch::Tensor rows = torch::empty({2 * static_cast<int64_t>(samples.size()), outputs});
+    float* row = rows.data_ptr<float>();
+    for (const int i : samples) {
+      for (const bool mirrored : {false, true}) {
+        std::copy_n(set.target(i).begin(), outputs, row);
+        if (mirrored) set.recipe().mirror_target({row, static_cast<size_t>(outputs)});
+        row += outputs;
+      }
+    }
+    rows = rows / output_scale_;
+    sum[cell.first] += rows.mean(0);
+    squares[cell.first] += rows.square().mean(0);
+    count[cell.first] += 1;
+  }
+  count.clamp_min_(1);
+  style_mean_ = sum / count;
+  style_deviation_ =
+      ((squares / count - style_mean_.square()).clamp_min(0) + kLeastDeviation * kLeastDeviation)
+          .sqrt();
+
+  signature_ = torch::zeros({styles_, kGuidedTraits});
+  tolerance_ = torch::full({styles_, kGuidedTraits}, INFINITY);
+  for (int s = 0; s < styles_; ++s) {
+    for (int t = 0; signatures[s] && t < kGuidedTraits; ++t) {
+      const Signature& real = *signatures[s];
+      signature_[s][t] = real.change[t];
+      const double least = kTraits[t].least, share = kTolerated * std::abs(real.change[t]);
+      tolerance_[s][t] = real.certain[t] ? std::max(least / 2, std::min(real.deviation[t], share))
+                                         : std::max(least, real.deviation[t]);
+    }
+  }
+}
+
+torch::Tensor Guidance::normalised(const torch::Tensor& windows) const {
+  return ((windows - input_mean_) * input_factor_).clamp(-input_clip_, input_clip_);
+}
+
+torch::Tensor Guidance::windows(int sequences, Random& random) const {
+  const torch::Tensor raw =
+      torch::empty({int64_t{sequences} * kSequenceInstants, kWindowPoses * kNumbers});
+  for (int s = 0; s < sequences; ++s) {
+    float* first = raw.data_ptr<float>() + size_t(s) * kSequenceNumbers;
+    motion_.draw(settings_.spliced, random,
+                 std::span<float, kSequenceNumbers>(first, kSequenceNumbers));
+  }
+  return normalised(raw);
+}
+
+torch::Tensor Guidance::loss(const NetworkTrainer& pose, double share, Random& random) const {
+  const int64_t n = settings_.sequences, rows = n * kSequenceInstants;
+  std::vector<int64_t> styles(n);
+  for (int64_t& style : styles) style = random.below(static_cast<uint32_t>(styles_));
+  std::sort(styles.begin(), styles.end());  // As the heads want it.
+  std::vector<int64_t> groups(styles_), of_row;
+  for (const int64_t style : styles) groups[style] += kSequenceInstants;
+  of_row.reserve(rows);
+  for (const int64_t style : styles) of_row.insert(of_row.end(), kSequenceInstants, style);
+
+  const torch::Tensor raw = torch::empty({rows, kWindowPoses * kNumbers});
+  for (int64_t s = 0; s < n; ++s) {
+    const std::span<float, kSequenceNumbers> sequence(raw.data_ptr<float>() + s * kSequenceNumbers,
+                                                      kSequenceNumbers);
+    motion_.draw(settings_.spliced, random, sequence);
+    disturb(draw_disturbance(settings_.disturbance, deviation_, random), settings_.disturbance,
+            random, sequence);
+  }
+  const torch::Tensor answer = pose.forward(normalised(raw), groups, &random);
+  const torch::Tensor change = answer * output_scale_;
+
+  const torch::Tensor in = raw.slice(1, 0, 3 * kHumanJoints).view({rows, kHumanJoints, 3});
+  const torch::Tensor out = styled_bodies(in, change);
+  const torch::Tensor root =
+      raw.slice(1, 3 * kHumanJoints, kNumbers) + change.slice(1, kHipsHeight + 1);
+
+  const torch::Tensor seen =
+      torch::cat({out.reshape({rows, 3 * kHumanJoints}), root}, 1).view({n, kClassifiedInputs});
+  const torch::Tensor style = guide_.loss(seen, torch::tensor(styles), kLabelSmoothing, random);
+  const auto sequences = [&](const torch::Tensor& positions) {
+    return positions.view({n, kSequenceInstants, kHumanJoints, 3});
+  };
+  const torch::Tensor velocity = velocity_loss(sequences(in), sequences(out));
+  const torch::Tensor asked = torch::tensor(styles);
+  const torch::Tensor signature =
+      signature_loss(trait_changes(sequences(in), sequences(out)),
+                     signature_.index_select(0, asked), tolerance_.index_select(0, asked));
+  const torch::Tensor by_time = answer.view({n, kSequenceInstants, -1});
+  const torch::Tensor smooth = (by_time.slice(1, 1) - by_time.slice(1, 0, -1)).square().mean();
+  const torch::Tensor index = torch::tensor(of_row);
+  const torch::Tensor apart =
+      (answer - style_mean_.index_select(0, index)).abs() / style_deviation_.index_select(0, index);
+  const torch::Tensor prior = (apart - 1).relu().square().mean();
+
+  const double ramp = std::min(1.0, share / settings_.ramp);
+  return ramp * (settings_.style * style + settings_.velocity * velocity +
+                 settings_.smoothness * smooth + settings_.balance * balance_loss(in, out) +
+                 settings_.prior * prior + settings_.signature * signature);
+}
+
+}  // namespace panache

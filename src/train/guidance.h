@@ -1,0 +1,67 @@
+#pragma once
+// Training on motion that has no styled counterpart. A classifier that learnt the styles tells
+// whether what the pose network makes of it looks like the style; other losses keep it the motion
+// that it was: docs/design.md says why each of them is there.
+
+#include <vector>
+
+#include <torch/torch.h>
+
+#include "learn/samples.h"
+#include "learn/signature.h"
+#include "train/batches.h"
+#include "train/classifier.h"
+#include "train/network.h"
+#include "train/unlabelled.h"
+
+namespace panache {
+
+// The guide: it knows the styles (classes in this order) and, last, neutral, from the takes that
+// the samples were made of.
+Classifier train_guide(const std::vector<Take>& takes, const SampleSet& set,
+                       const std::vector<int>& choice, const std::vector<std::string>& styles,
+                       int steps, uint64_t seed);
+
+// What bodies become by changes, with gradients: the change_body() of training.
+// bodies[rows][21][3], changes[rows][StyleDelta::kSize] -> [rows][21][3]
+torch::Tensor styled_bodies(const torch::Tensor& bodies, const torch::Tensor& changes);
+
+// The change of the first traits of kTraits, those that a second of motion shows, in their units.
+// before, after: [sequences][instants][21][3] -> [sequences][kGuidedTraits]
+inline constexpr int64_t kGuidedTraits = 7;
+torch::Tensor trait_changes(const torch::Tensor& before, const torch::Tensor& after);
+
+class Guidance {
+ public:
+  // Of recipes with layout positions that answer with a packed StyleDelta without a mean.
+  // `signatures`: of the styles in their order; null where a style has none.
+  Guidance(const SampleSet& set, const std::vector<int>& choice, const OutputUnits& units,
+           const UnlabelledMotion& motion, Classifier guide,
+           const std::vector<const Signature*>& signatures, const GuidanceSettings& settings,
+           float input_clip);
+
+  // What to add to the pose network's loss, after this share of the training.
+  torch::Tensor loss(const NetworkTrainer& pose, double share, Random& random) const;
+
+  // Undisturbed windows of the motion as networks see them. [sequences * instants][inputs]
+  torch::Tensor windows(int sequences, Random& random) const;
+
+ private:
+  torch::Tensor normalised(const torch::Tensor& windows) const;
+
+  const UnlabelledMotion& motion_;
+  const Classifier guide_;
+  const GuidanceSettings settings_;
+  const int styles_;
+  const float input_clip_;
+  const std::vector<float> deviation_;       // Of each pose number. [66]
+  torch::Tensor input_mean_, input_factor_;  // [inputs]
+  torch::Tensor output_scale_;               // [outputs]
+  // Of the style's change in the pairs, actions weighted alike. [styles][outputs]
+  torch::Tensor style_mean_, style_deviation_;
+  // What each style changes of the guided traits, and what it may be off; infinite where there is
+  // no signature.
+  torch::Tensor signature_, tolerance_;  // [styles][kGuidedTraits]
+};
+
+}  // namespace panache

@@ -1,0 +1,61 @@
+#include "eval/style_judges.h"
+
+#include <gtest/gtest.h>
+
+#include "make_styled_takes.h"
+#include "one_thread.h"
+
+namespace panache {
+namespace {
+
+class StyleJudgesTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    test::keep_libraries_single_threaded();
+    const std::vector<Take> takes = test::styled_takes({"neutral", "old", "proud"}, {0, 1, 2});
+    std::vector<int> styled, neutral;
+    for (size_t i = 0; i < takes.size(); ++i) {
+      (takes[i].row.neutral ? neutral : styled).push_back(static_cast<int>(i));
+    }
+    judges_ = std::make_unique<StyleJudges>(takes, pair_takes(takes, styled, neutral), 1);
+  }
+  static void TearDownTestSuite() { judges_.reset(); }
+
+  static std::unique_ptr<StyleJudges> judges_;
+};
+std::unique_ptr<StyleJudges> StyleJudgesTest::judges_;
+
+TEST_F(StyleJudgesTest, both_know_real_takes_that_they_have_not_seen) {
+  for (const Take& take : test::styled_takes({"old", "proud"}, {4}, 60)) {
+    const OodVerdict verdict = judges_->judge_real(take);
+    EXPECT_GT(verdict.style_robust, 0.9) << take.row.path;
+    EXPECT_GT(verdict.style_lda, 0.9) << take.row.path;
+    ASSERT_EQ(verdict.robust_scores.size(), 2u);  // Neutral cannot be asked for.
+    EXPECT_EQ(verdict.style, take.row.style == "old" ? 0 : 1);
+    const size_t own = static_cast<size_t>(verdict.style);
+    EXPECT_GT(verdict.robust_scores[own], verdict.robust_scores[1 - own]);
+    EXPECT_GT(verdict.lda_scores[own], verdict.lda_scores[1 - own]);
+  }
+}
+
+TEST_F(StyleJudgesTest, an_output_is_judged_as_the_style_that_was_asked_for) {
+  const Take neutral = test::styled_take("neutral", "walk", 5);
+  const Take old = test::styled_take("old", "walk", 5);
+  const OodVerdict right = judges_->judge(neutral, old, 0, "old");
+  EXPECT_GT(right.style_lda, 0.9);
+  EXPECT_EQ(right.signature.sign, right.signature.traits);
+  EXPECT_EQ(right.signature.amount, right.signature.traits);
+  EXPECT_GT(right.signature.traits, 0u);
+  const OodVerdict wrong = judges_->judge(neutral, old, 0, "proud");
+  EXPECT_LT(wrong.style_lda, 0.1);
+  EXPECT_LT(wrong.style_robust, 0.1);
+  EXPECT_LT(wrong.signature.sign_share(), 0.5);
+  // The input itself has no style, and is no signature.
+  const OodVerdict nothing = judges_->judge(neutral, neutral, 0, "old");
+  EXPECT_LT(nothing.style_robust, 0.1);
+  EXPECT_EQ(nothing.signature.sign, 0u);
+  EXPECT_EQ(judges_->judge(neutral, old, 0, "jolly").style, -1);
+}
+
+}  // namespace
+}  // namespace panache
