@@ -179,7 +179,7 @@ int run(const Options& options) {
 void add_eval(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   CLI::App* verb = app.add_subcommand("eval", "Evaluate models against real motion");
-  add_manifest_options(*verb, options->data);
+  add_manifest_options(*verb, options->data)->required();
   verb->add_option("--test", options->tests,
                    "A manifest of test takes, instead of the test takes of the manifests; "
                    "may be given several times")

@@ -1,6 +1,5 @@
 // panache learn: a new style from a few seconds of motion.
 
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "base/file.h"
+#include "base/stopwatch.h"
 #include "input.h"
 #include "learn/learn_style.h"
 #include "learn/style_file.h"
@@ -24,7 +24,7 @@ struct LearnVerb {
   std::vector<std::string> clips;
   std::string name, model, description, action;
   RigFlags rig;
-  bool force = false, json = false;
+  bool base = false, force = false, json = false;
 };
 
 // A motion file and its rig.
@@ -150,18 +150,34 @@ Result<void> check_usage(const LearnVerb& verb) {
   return check_rig_flags(verb.rig);
 }
 
+// A model that is there already, and of which --base says that it is on the base.
+Result<void> check_on_base(const TensorFile& model, const std::string& name) {
+  Result<std::string> path = find_shipped(kBaseModel);
+  if (!path) return path.error();
+  Result<TensorFile> base = read_tensors(*path);
+  if (!base) return base.error();
+  if (trunk_fingerprint(model) == trunk_fingerprint(*base)) return {};
+  return Error{"--base: " + name + " exists and is not made on the base; expected one that is, " +
+               "or a new name"};
+}
+
 int learn(const LearnVerb& verb) {
   if (auto usage = check_usage(verb); !usage) return fail(usage.error(), kBadUsage);
-  // A model that is not there yet begins as a copy of the one shipped.
+  // A model that is not there yet begins as a copy of one shipped.
   std::error_code unknown;
   const bool is_new = !std::filesystem::exists(verb.model, unknown);
-  Result<std::string> base = is_new ? find_model("") : Result<std::string>(verb.model);
+  Result<std::string> base = !is_new     ? Result<std::string>(verb.model)
+                             : verb.base ? find_shipped(kBaseModel)
+                                         : find_model("");
   if (!base) return fail(base.error(), kBadInput);
   if (!is_new) {
     if (auto open = check_writable(verb.model); !open) return fail(open.error(), kBadInput);
   }
   Result<TensorFile> model = read_tensors(*base);
   if (!model) return fail(model.error(), kBadInput);
+  if (verb.base && !is_new) {
+    if (auto same = check_on_base(*model, verb.model); !same) return fail(same.error(), kBadInput);
+  }
   // Before the work: a name that is taken.
   Result<std::shared_ptr<const Model>> read = Model::create(*model, *base);
   if (!read) return fail(read.error(), kBadInput);
@@ -170,13 +186,12 @@ int learn(const LearnVerb& verb) {
                  "' already; give another --name, or --force to replace it"},
                 kBadInput);
   }
-  using Clock = std::chrono::steady_clock;
   Result<std::vector<LearnPair>> pairs = open_pairs(verb);
   if (!pairs) return fail(pairs.error(), kBadInput);
-  const Clock::time_point begin = Clock::now();
+  const Stopwatch watch;
   Result<LearntStyle> learnt = learn_style(*model, *base, *pairs, verb.name, verb.description);
   if (!learnt) return fail(learnt.error(), kBadInput);
-  const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  const double seconds = watch.seconds();
   Result<TensorFile> merged = add_style(*model, *base, learnt->file, verb.name, verb.force);
   if (!merged) return fail(merged.error(), kBadInput);
   auto written = is_new ? write_file(verb.model, format_safetensors(*merged), false)
@@ -219,6 +234,9 @@ void add_learn(CLI::App& app, int& exit_code) {
                    "All CLIPS are styled clips of this action, walk or run; a\n"
                    "built-in neutral clip is paired with them")
       ->type_name("ACTION");
+  verb->add_flag("--base", options->base,
+                 "Start a new MODEL as a copy of the base instead: it has\n"
+                 "no styles of its own, and may be used for anything");
   add_rig_options(*verb, options->rig);
   verb->add_flag("--force", options->force, "Replace a style of the same name");
   verb->add_flag("--json", options->json, "Print what was learnt as JSON");
@@ -227,6 +245,7 @@ void add_learn(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  panache learn walk.bvh drunk.bvh --name drunk --into mine.safetensors\n"
       "  panache learn drunk.bvh --action walk --name drunk --into mine.safetensors\n"
+      "  panache learn walk.bvh drunk.bvh --name drunk --into free.safetensors --base\n"
       "  panache stylize run.bvh --model mine.safetensors --style drunk=1 -o out.bvh");
   verb->callback([options, &exit_code] { exit_code = learn(*options); });
 }

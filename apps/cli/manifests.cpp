@@ -4,10 +4,10 @@
 
 namespace panache::cli {
 
-void add_manifest_options(CLI::App& verb, ManifestOptions& options) {
-  verb.add_option("manifests", options.paths,
-                  "CSV files with the columns path, style, content, take, neutral, split")
-      ->required();
+CLI::Option* add_manifest_options(CLI::App& verb, ManifestOptions& options) {
+  CLI::Option* manifests =
+      verb.add_option("manifests", options.paths,
+                      "CSV files with the columns path, style, content, take, neutral, split");
   verb.add_option("--styles", options.styles,
                   "CSV with the columns name, from, description: which styles of the manifests to "
                   "use, under which names");
@@ -16,6 +16,7 @@ void add_manifest_options(CLI::App& verb, ManifestOptions& options) {
                   "training tries the styles too, so that they hold on any motion; may be given "
                   "several times")
       ->allow_extra_args(false);
+  return manifests;
 }
 
 Result<Manifests> read_manifests(const ManifestOptions& options) {

@@ -16,7 +16,8 @@ struct ManifestOptions {
   std::string styles;  // CSV of style names, or empty.
   std::vector<std::string> unlabelled;
 };
-void add_manifest_options(CLI::App& verb, ManifestOptions& options);
+// Returns the positional option of the manifests themselves.
+CLI::Option* add_manifest_options(CLI::App& verb, ManifestOptions& options);
 
 struct Manifests {
   std::vector<ManifestRow> rows;  // Styles renamed.

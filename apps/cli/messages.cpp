@@ -24,6 +24,7 @@ std::string with_hint(const std::string& message) {
       Hint{"or learn it again with this one", " (panache learn)"},
       Hint{"'learn.mean' and 'learn.scale'", ", as panache train writes it"},
       Hint{"'; rename them", " with --styles"},
+      Hint{"the model has no styles yet", "; panache learn adds one"},
   };
   for (const Hint& one : kHints) {
     if (message.ends_with(one.end)) return message + std::string(one.hint);

@@ -8,6 +8,7 @@
 namespace panache::cli {
 
 inline constexpr const char* kDefaultModel = "panache.safetensors";
+inline constexpr const char* kBaseModel = "panache-base.safetensors";
 inline constexpr const char* kWalkerModel = "walker.safetensors";
 
 // The path of the shipped model called `file_name`: in share/panache/models beside an installed

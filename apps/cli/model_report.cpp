@@ -68,6 +68,7 @@ std::string describe(const LoadedModel& loaded) {
   text += describe_data(model.metadata()) + "\n";
   size_t width = 0;
   for (const StyleInfo& style : model.styles()) width = std::max(width, style.name.size());
+  if (model.styles().empty()) return text + "no styles yet: panache learn adds them\n";
   text += plural(model.styles().size(), "style") + ":\n";
   for (const StyleInfo& style : model.styles()) {
     text += describe(style, width + 2);

@@ -182,7 +182,8 @@ Result<std::vector<StrengthWish>> collect_wishes(const StylizeOptions& options, 
                                                  int& exit_code) {
   exit_code = kBadUsage;
   if (options.styles.empty() && options.strengths.empty()) {
-    return Error{"expected a style, as in --style " + model.styles().front().name +
+    const std::string example = model.styles().empty() ? "old" : model.styles().front().name;
+    return Error{"expected a style, as in --style " + example +
                  "=1, or a table of strengths (--strengths)"};
   }
   Result<std::vector<StrengthWish>> wishes = parse_styles(options.styles, model);

@@ -4,12 +4,11 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include <torch/torch.h>
-
 #include "base/file.h"
 #include "manifests.h"
 #include "messages.h"
 #include "train/checkpoint.h"
+#include "train/train_base.h"
 #include "train/trainer.h"
 #include "verbs.h"
 
@@ -25,14 +24,22 @@ struct Options {
 };
 
 int run(const Options& options) {
-  Result<Manifests> data = read_manifests(options.data);
-  if (!data) return fail(data.error(), kBadInput);
+  const bool is_base = options.data.paths.empty();
+  if (is_base && options.data.unlabelled.empty()) {
+    return fail({"expected manifests of styled motion, or --unlabelled alone for a base that "
+                 "styles are learnt on"},
+                kBadUsage);
+  }
   const Recipe& recipe = *find_recipe(options.recipe);
-  if (!data->unlabelled.empty() && recipe.training.guidance.sequences == 0) {
+  const bool uses_unlabelled =
+      is_base ? recipe.training.base_steps > 0 : recipe.training.guidance.sequences > 0;
+  if (!options.data.unlabelled.empty() && !uses_unlabelled) {
     return fail({"--unlabelled: recipe " + options.recipe +
                  " learns from styled takes alone; leave the option out"},
                 kBadInput);
   }
+  Result<Manifests> data = read_manifests(options.data);
+  if (!data) return fail(data.error(), kBadInput);
   // Training takes minutes: what stands in the way of its result is said before.
   if (Result<void> free = check_free(options.output, options.force); !free) {
     return fail(free.error(), kBadInput);
@@ -40,14 +47,16 @@ int run(const Options& options) {
   TrainOptions train_options(recipe);
   if (options.steps > 0) {
     TrainingSettings& settings = train_options.settings;
-    settings.steps = options.steps;
+    settings.steps = settings.base_steps = options.steps;
     settings.predictor_steps = std::min(settings.predictor_steps, options.steps);
   }
   train_options.seed = options.seed;
   train_options.data = options.data_name;
   train_options.licence = options.licence;
   train_options.checkpoint = options.output;
-  Result<Trained> trained = train(data->rows, data->styles, train_options, data->unlabelled);
+  Result<Trained> trained = is_base
+                                ? train_base(data->unlabelled, train_options)
+                                : train(data->rows, data->styles, train_options, data->unlabelled);
   if (!trained) return fail(trained.error(), kBadInput);
 
   const std::string bytes = format_safetensors(trained->model);
@@ -75,8 +84,11 @@ int run(const Options& options) {
         plural(data->styles.size(), "style") + ") on " + std::to_string(trained->samples) +
         " samples: reading " + fixed(trained->read_seconds, 1) + " s, pairing " +
         fixed(trained->pair_seconds, 1) + " s, training " + fixed(trained->train_seconds, 1) +
-        " s\nlosses: " + options.output + ".losses.csv and .losses.svg; the export differs from " +
-        "libtorch's forward pass by at most " + brief(trained->export_error) + "\n");
+        " s\nlosses: " + options.output + ".losses.csv and .losses.svg" +
+        (is_base ? ""
+                 : "; the export differs from libtorch's forward pass by at most " +
+                       brief(trained->export_error)) +
+        "\n");
   return kDone;
 }
 
@@ -105,8 +117,12 @@ void add_train(CLI::App& app, int& exit_code) {
   verb->add_flag("--force", options->force, "Overwrite the model if it exists");
   verb->add_flag("--json", options->json, "Print the result as JSON");
   verb->footer(
-      "Interrupted training resumes from its last checkpoint when it is run again.\n\n"
-      "Example:\n  panache train mine.csv -o mine.safetensors");
+      "Interrupted training resumes from its last checkpoint when it is run again. Without a\n"
+      "manifest of styled motion, but with --unlabelled, a base is trained: a model without\n"
+      "styles that panache learn adds styles to.\n\n"
+      "Examples:\n"
+      "  panache train mine.csv -o mine.safetensors\n"
+      "  panache train --unlabelled walks.csv -o base.safetensors");
   verb->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -13,9 +13,6 @@ constexpr int kBones = kHumanJoints - 1;
 constexpr int kStatistics = 3 * kBones + 3 * kBones + kHumanJoints + 2;
 constexpr float kStillSpeed = 0.05f;                   // m/s, added before the logarithm.
 constexpr float kHeightUnit = 0.2f, kBobUnit = 0.03f;  // Metres.
-constexpr float kLeastDeviation = 0.02f;               // Of a statistic.
-constexpr double kShrinkage = 0.15;  // Of the covariance, towards a multiple of the identity.
-constexpr double kOutlier = 4;       // Deviations.
 
 std::vector<HumanPositions> mirrored_body(const Take& take) {
   std::vector<HumanPositions> body;
@@ -67,46 +64,33 @@ torch::Tensor statistics(const std::vector<HumanPositions>& body, int hop) {
   return rows.to(torch::kFloat64);
 }
 
+// Of all windows of each class. [classes] of [windows][kStatistics]
+std::vector<torch::Tensor> statistics_of(const std::vector<Take>& takes,
+                                         const std::vector<std::string>& labels,
+                                         const std::vector<std::string>& classes) {
+  std::vector<torch::Tensor> rows(classes.size());
+  for (size_t c = 0; c < classes.size(); ++c) {
+    std::vector<torch::Tensor> parts = {torch::empty({0, kStatistics}, torch::kFloat64)};
+    for (size_t t = 0; t < takes.size(); ++t) {
+      if (labels[t] != classes[c]) continue;
+      for (const auto& body : {takes[t].body, mirrored_body(takes[t])}) {
+        parts.push_back(statistics(body, kLearntHop));
+      }
+    }
+    rows[c] = torch::cat(parts);
+  }
+  return rows;
+}
+
 }  // namespace
 
 Discriminant::Discriminant(const std::vector<Take>& takes, const std::vector<std::string>& labels,
-                           const std::vector<std::string>& classes) {
-  torch::NoGradGuard no_gradients;
-  std::vector<std::vector<torch::Tensor>> of_class(classes.size());
-  std::vector<torch::Tensor> all;
-  for (size_t t = 0; t < takes.size(); ++t) {
-    const auto label = std::find(classes.begin(), classes.end(), labels[t]);
-    if (label == classes.end()) continue;
-    for (const auto& body : {takes[t].body, mirrored_body(takes[t])}) {
-      all.push_back(statistics(body, kLearntHop));
-      of_class[label - classes.begin()].push_back(all.back());
-    }
-  }
-  const torch::Tensor rows = torch::cat(all);
-  mean_ = rows.mean(0);
-  scale_ = rows.std(0, false) + kLeastDeviation;
-  std::vector<torch::Tensor> means;
-  torch::Tensor covariance = torch::zeros({kStatistics, kStatistics}, torch::kFloat64);
-  for (const std::vector<torch::Tensor>& parts : of_class) {
-    const torch::Tensor own = parts.empty() ? torch::zeros({1, kStatistics}, torch::kFloat64)
-                                            : (torch::cat(parts) - mean_) / scale_;
-    means.push_back(own.mean(0));
-    const torch::Tensor centred = own - means.back();
-    covariance += torch::mm(centred.t(), centred) /
-                  static_cast<double>(own.size(0) * static_cast<int64_t>(classes.size()));
-  }
-  const torch::Tensor level = covariance.trace() / kStatistics;
-  covariance =
-      (1 - kShrinkage) * covariance + kShrinkage * level * torch::eye(kStatistics, torch::kFloat64);
-  const torch::Tensor centres = torch::stack(means);
-  weights_ = torch::linalg_solve(covariance, centres.t());
-  bias_ = -0.5 * (centres * weights_.t()).sum(1);
-}
+                           const std::vector<std::string>& classes)
+    : discriminant_(statistics_of(takes, labels, classes)) {}
 
 torch::Tensor Discriminant::scores(const Take& take) const {
   torch::NoGradGuard no_gradients;
-  const torch::Tensor rows = (statistics(take.body, kHop) - mean_) / scale_;
-  return torch::mm(rows.clamp(-kOutlier, kOutlier), weights_) + bias_;
+  return discriminant_.scores(statistics(take.body, kHop));
 }
 
 }  // namespace panache

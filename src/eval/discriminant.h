@@ -9,6 +9,7 @@
 #include <torch/torch.h>
 
 #include "learn/take.h"
+#include "train/linear_discriminant.h"
 
 namespace panache {
 
@@ -23,9 +24,7 @@ class Discriminant {
   torch::Tensor scores(const Take& take) const;
 
  private:
-  torch::Tensor mean_, scale_;  // [statistics]
-  torch::Tensor weights_;       // [statistics][classes]
-  torch::Tensor bias_;          // [classes]
+  LinearDiscriminant discriminant_;
 };
 
 }  // namespace panache

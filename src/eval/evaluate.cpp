@@ -1,13 +1,13 @@
 #include "eval/evaluate.h"
 
 #include <algorithm>
-#include <chrono>
 #include <iterator>
 #include <optional>
 #include <set>
 
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "base/stopwatch.h"
 #include "eval/disturbances.h"
 #include "eval/motion_metrics.h"
 #include "eval/ood.h"
@@ -233,7 +233,7 @@ Result<NamedModel> train_system(const Recipe& recipe, const std::string& name,
 }
 
 Result<Report> evaluate(const EvaluateOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   // First, as it takes no time to tell what is wrong with them.
   Result<Systems> recorded = read_recorded(options);
   if (!recorded) return recorded.error();
@@ -288,7 +288,7 @@ Result<Report> evaluate(const EvaluateOptions& options) {
     }
   }
   if (Result<void> done = add_pictures(drawn, *test_set, report); !done) return done.error();
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  report.seconds = watch.seconds();
   return report;
 }
 

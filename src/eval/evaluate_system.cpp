@@ -210,9 +210,10 @@ Result<SystemReport> evaluate_system(const System& system, const TestSet& test_s
   report.name = system.name();
   const std::vector<std::string> styles = common_styles(system, test_set);
   if (styles.empty()) {
-    return Error{system.name() + ": knows none of the styles that the test takes show; it has '" +
-                 system.styles().front() + "', they show '" + test_set.styles.front() +
-                 "'; rename them with --styles"};
+    const std::string has =
+        system.styles().empty() ? "no styles" : "'" + system.styles().front() + "'";
+    return Error{system.name() + ": knows none of the styles that the test takes show; it has " +
+                 has + ", they show '" + test_set.styles.front() + "'; rename them with --styles"};
   }
   Progress progress("judging " + system.name());
   if (Result<void> done = judge_strengths(system, test_set, styles, progress, report); !done) {

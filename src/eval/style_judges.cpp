@@ -52,8 +52,12 @@ StyleJudges::StyleJudges(const std::vector<Take>& takes, const std::vector<Pairi
       signatures_(takes, pairings) {}
 
 OodVerdict StyleJudges::judge_real(const Take& take) const {
+  return recognise(take, take.row.style);
+}
+
+OodVerdict StyleJudges::recognise(const Take& take, const std::string& wanted) const {
   OodVerdict verdict;
-  const auto style = std::find(styles_.begin(), styles_.end(), take.row.style);
+  const auto style = std::find(styles_.begin(), styles_.end(), wanted);
   if (style == styles_.end()) return verdict;
   verdict.style = static_cast<int>(style - styles_.begin());
   const torch::Tensor probabilities = robust_.classify(take).probabilities;
@@ -69,9 +73,7 @@ OodVerdict StyleJudges::judge_real(const Take& take) const {
 
 OodVerdict StyleJudges::judge(const Take& input, const Take& output, double log_rate,
                               const std::string& style) const {
-  Take asked = output;
-  asked.row.style = style;
-  OodVerdict verdict = judge_real(asked);
+  OodVerdict verdict = recognise(output, style);
   const Signature* signature = signatures_.find(style);
   if (!signature) return verdict;
   const Traits before = traits(input), after = traits(output);

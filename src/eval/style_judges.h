@@ -30,6 +30,9 @@ class StyleJudges : public OodJudge {
   StyleJudges(const std::vector<Take>& takes, const std::vector<Pairing>& pairings, uint64_t seed,
               std::vector<std::string> styles, const std::vector<std::string>& labels);
 
+  // How well a take is recognised as of this style, but for its signature.
+  OodVerdict recognise(const Take& take, const std::string& wanted) const;
+
   std::vector<std::string> styles_;  // Neutral is not among them, but the last class of both.
   Classifier robust_;
   Discriminant lda_;

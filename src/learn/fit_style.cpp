@@ -38,7 +38,7 @@ Table make_table(const std::shared_ptr<const Model>& model, const SampleSet& set
   Table table;
   table.activations = model->activation_count();
   Random random(1);
-  const Disturbance how;
+  const Disturbance how = kUsualDisturbance;
   std::vector<float> window(set.inputs()), activations(table.activations);
   for (const size_t i : samples) {
     const Sample& sample = set.samples()[i];

@@ -80,6 +80,36 @@ StyleDelta change_between(const Take& styled, int frame, const Take& neutral, fl
   return change;
 }
 
+InputUnits input_units(const std::vector<Take>& takes, const std::vector<int>& which,
+                       PoseLayout layout) {
+  const int count = pose_feature_count(layout);
+  std::vector<double> sum(count), squares(count);
+  double poses = 0;
+  std::vector<float> pose(count);
+  for (const int t : which) {
+    const Take& take = takes[t];
+    for (int f = 0; f < take.frames(); ++f) {
+      std::copy_n(&take.pose_features[size_t(f) * count], count, pose.begin());
+      for (const bool mirrored : {false, true}) {
+        if (mirrored) mirror_pose(layout, pose);
+        for (int i = 0; i < count; ++i) {
+          sum[i] += pose[i];
+          squares[i] += double(pose[i]) * pose[i];
+        }
+        ++poses;
+      }
+    }
+  }
+  InputUnits units;
+  for (int i = 0; i < count; ++i) {
+    const double mean = poses > 0 ? sum[i] / poses : 0;
+    units.mean.push_back(static_cast<float>(mean));
+    const double variance = poses > 0 ? squares[i] / poses - mean * mean : 1;
+    units.scale.push_back(floored_deviation(layout, i, std::max(variance, 0.0)));
+  }
+  return units;
+}
+
 SampleSet::SampleSet(const std::vector<Take>& takes, const std::vector<Pairing>& pairings,
                      const std::vector<std::string>& styles, const Recipe& recipe,
                      bool with_neutral)
@@ -96,7 +126,7 @@ SampleSet::SampleSet(const std::vector<Take>& takes, const std::vector<Pairing>&
   if (with_neutral) {
     for (const int t : neutral_takes) add_neutral(t);
   }
-  measure_inputs(neutral_takes);
+  units_ = input_units(takes, neutral_takes, recipe.layout);
 }
 
 void SampleSet::add_target(const Take& styled, int frame, const Take& neutral, float at,
@@ -138,33 +168,6 @@ void SampleSet::add_neutral(int take) {
     sample.has_next = f + 1 < neutral.frames();
     samples_.push_back(sample);
     add_target(neutral, f, neutral, sample.frame, 1);
-  }
-}
-
-void SampleSet::measure_inputs(const std::vector<int>& neutral_takes) {
-  const int count = numbers();
-  std::vector<double> sum(count), squares(count);
-  double poses = 0;
-  std::vector<float> pose(count);
-  for (const int t : neutral_takes) {
-    const Take& take = takes_[t];
-    for (int f = 0; f < take.frames(); ++f) {
-      std::copy_n(&take.pose_features[size_t(f) * count], count, pose.begin());
-      for (const bool mirrored : {false, true}) {
-        if (mirrored) mirror_pose(recipe_.layout, pose);
-        for (int i = 0; i < count; ++i) {
-          sum[i] += pose[i];
-          squares[i] += double(pose[i]) * pose[i];
-        }
-        ++poses;
-      }
-    }
-  }
-  for (int i = 0; i < count; ++i) {
-    const double mean = poses > 0 ? sum[i] / poses : 0;
-    mean_.push_back(static_cast<float>(mean));
-    const double variance = poses > 0 ? squares[i] / poses - mean * mean : 1;
-    scale_.push_back(floored_deviation(recipe_.layout, i, std::max(variance, 0.0)));
   }
 }
 

@@ -32,6 +32,15 @@ struct Sample {
   bool has_next = false;              // The next sample is the next frame of the same window.
 };
 
+// How the numbers of a pose are normalised: less the mean, divided by the scale, which is their
+// deviation with a floor under it. [pose_feature_count(layout)]
+struct InputUnits {
+  std::vector<float> mean, scale;
+};
+// Measured on all frames of takes[which], both sides mirrored.
+InputUnits input_units(const std::vector<Take>& takes, const std::vector<int>& which,
+                       PoseLayout layout);
+
 class SampleSet {
  public:
   // Samples of the pairings, and of the neutral takes themselves where `with_neutral`. `styles`:
@@ -48,10 +57,9 @@ class SampleSet {
   std::span<const float> target(size_t i) const {
     return {&targets_[i * outputs()], static_cast<size_t>(outputs())};
   }
-  // Mean of each pose number over the neutral takes, both sides mirrored, and the scale that it is
-  // divided by: its deviation, with a floor under it.
-  const std::vector<float>& mean() const { return mean_; }
-  const std::vector<float>& scale() const { return scale_; }
+  // Of each pose number, measured on the neutral takes: see InputUnits.
+  const std::vector<float>& mean() const { return units_.mean; }
+  const std::vector<float>& scale() const { return units_.scale; }
 
   // The action that a sample shows.
   const std::string& content(const Sample& sample) const { return takes_[sample.take].row.content; }
@@ -63,13 +71,12 @@ class SampleSet {
   void add_pairing(const Pairing& pairing, int style);
   void add_neutral(int take);
   void add_target(const Take& styled, int frame, const Take& neutral, float at, float rate);
-  void measure_inputs(const std::vector<int>& neutral_takes);
 
   const std::vector<Take>& takes_;
   const Recipe& recipe_;
   std::vector<Sample> samples_;
   std::vector<float> targets_;
-  std::vector<float> mean_, scale_;
+  InputUnits units_;
 };
 
 // The change that turns the neutral take at frame `at` into frame `frame` of the styled one, `rate`

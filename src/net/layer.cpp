@@ -33,7 +33,7 @@ PackedLayer::PackedLayer(std::span<const DenseLayer> layers) {
   }
   inputs_ = static_cast<size_t>(layers.front().inputs);
   const bool is_int8 = std::all_of(layers.begin(), layers.end(), [](const DenseLayer& layer) {
-    return !layer.int8_weights.empty();
+    return layer.outputs == 0 || !layer.int8_weights.empty();
   });
   bias_.resize(width);
   if (is_int8) {

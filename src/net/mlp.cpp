@@ -127,6 +127,15 @@ Result<Trunk> Trunk::read(const TensorFile& file, const std::string& prefix, int
   return trunk;
 }
 
+Trunk Trunk::none(int inputs) {
+  DenseLayer layer;
+  layer.inputs = inputs;
+  Trunk trunk;
+  trunk.layers_.emplace_back(layer);
+  trunk.plain_.push_back(std::move(layer));
+  return trunk;
+}
+
 int Trunk::inputs() const { return plain_.empty() ? 0 : plain_.front().inputs; }
 int Trunk::outputs() const { return plain_.empty() ? 0 : plain_.back().outputs; }
 bool Trunk::is_int8() const { return !plain_.empty() && !plain_.front().int8_weights.empty(); }

@@ -28,6 +28,8 @@ class Trunk {
   // Reads `prefix`.0, `prefix`.1, ... while they are there; the first takes `inputs`.
   static Result<Trunk> read(const TensorFile& file, const std::string& prefix, int inputs,
                             const std::string& name);
+  // A trunk without a unit, for a network that is not there.
+  static Trunk none(int inputs);
   int inputs() const;
   int outputs() const;
   int widest() const;    // The outputs of its widest layer.

@@ -6,18 +6,28 @@
 namespace panache {
 
 // How a window is disturbed in training, so that the networks hold on bodies and captures they
-// never saw. Each a standard deviation; all but the jitter are the same for the six poses of a
-// window.
+// never saw. Each a standard deviation; all but the jitter and what is per pose are the same for
+// the six poses of a window.
 struct Disturbance {
-  float scale = 0.08f;      // Of body size.
-  float floor = 0.015f;     // Height of the floor, metres.
-  float heading = 0.12f;    // Radians.
-  float posture = 0.25f;    // Constant offset of each number, in deviations.
-  float jitter = 0.005f;    // Per pose and joint, metres.
-  float velocity = 0.03f;   // Per pose, m/s.
-  float turn_rate = 0.27f;  // Per pose, rad/s.
-  float tempo = 0.1f;       // Logarithm of how fast the window is played.
+  float scale = 0;      // Of body size.
+  float floor = 0;      // Height of the floor, metres.
+  float heading = 0;    // Radians.
+  float posture = 0;    // Constant offset of each number, in deviations.
+  float jitter = 0;     // Per pose and joint, metres.
+  float velocity = 0;   // Per pose, m/s.
+  float turn_rate = 0;  // Per pose, rad/s.
+  float tempo = 0;      // Logarithm of how fast the window is played.
 };
+
+// What other people, captures and files do to a window.
+inline constexpr Disturbance kUsualDisturbance = {.scale = 0.08f,
+                                                  .floor = 0.015f,
+                                                  .heading = 0.12f,
+                                                  .posture = 0.25f,
+                                                  .jitter = 0.005f,
+                                                  .velocity = 0.03f,
+                                                  .turn_rate = 0.27f,
+                                                  .tempo = 0.1f};
 
 struct BatchSettings {
   int size = 256;
@@ -26,7 +36,7 @@ struct BatchSettings {
   bool by_style = false;
   bool mirrored = false;   // Half of the rows left for right.
   bool disturbed = false;  // Layout positions only.
-  Disturbance disturbance = {};
+  Disturbance disturbance = kUsualDisturbance;
   float input_clip = 0;  // Normalised inputs are held within this many deviations; 0: not.
 };
 
@@ -41,24 +51,19 @@ struct OptimizerSettings {
 // How the pose network is trained on motion without styles, under a style classifier: see
 // src/train/guidance.h. Weights are of the losses that are added to that of the pairs.
 struct GuidanceSettings {
-  int sequences = 0;        // Drawn at each step, each in one style; 0: no guidance.
-  int guide_steps = 2500;   // Of training the classifier.
-  float style = 0.1f;       // Of not being recognised as the style asked for.
-  float velocity = 0.5f;    // Of hands and feet that no longer move as the input's.
-  float smoothness = 0.5f;  // Of the change from one instant to the next.
-  float balance = 1;        // Of leaving the feet's support, or sinking through the floor.
-  float prior = 0.05f;      // Of changes that the pairs never show.
-  float signature = 0.2f;   // Of posture and speed that change otherwise than in real takes.
-  float ramp = 0.2f;        // Share of the training until all of it counts in full.
-  float spliced = 0.4f;     // Share of the sequences with arms of another take.
-  Disturbance disturbance = {.scale = 0.06f,
-                             .floor = 0.01f,
-                             .heading = 0,
-                             .posture = 0.15f,
-                             .jitter = 0,
-                             .velocity = 0,
-                             .turn_rate = 0,
-                             .tempo = 0};
+  int sequences = 0;         // Drawn at each step, each in one style; 0: no guidance.
+  int guides = 4;            // Networks of the guide,
+  int guide_steps = 2500;    // and steps of training each.
+  float style = 0.1f;        // Of not being recognised by them as the style asked for,
+  float statistics = 0.15f;  // and of not being so by a discriminant of statistics.
+  float velocity = 0.5f;     // Of hands and feet that no longer move as the input's.
+  float smoothness = 0.5f;   // Of the change from one instant to the next.
+  float balance = 1;         // Of leaving the feet's support, or sinking through the floor.
+  float prior = 0.05f;       // Of changes that the pairs never show.
+  float signature = 0.3f;    // Of posture and speed that change otherwise than in real takes.
+  float ramp = 0.2f;         // Share of the training until all of it counts in full.
+  float spliced = 0.4f;      // Share of the sequences with arms of another take.
+  Disturbance disturbance = {.scale = 0.06f, .floor = 0.01f, .posture = 0.15f};
 };
 
 struct TrainingSettings {
@@ -69,6 +74,7 @@ struct TrainingSettings {
   float smoothness = 0;            // Weight of the loss on the change from one frame to the next.
   GuidanceSettings guidance = {};  // Where there is motion without styles.
   int64_t predictor_steps = 0;     // Of the network that predicts input; 0: the model has none.
+  int64_t base_steps = 0;          // Of a base, see train_base(); 0: the recipe has none.
 };
 
 }  // namespace panache

@@ -119,7 +119,8 @@ Result<void> Model::read_metadata(const TensorFile& file, const std::string& nam
     styles_.push_back(
         {style, i < texts.size() ? texts[i] : "", i < sources.size() ? sources[i] : "", false});
   }
-  if (styles_.empty()) return Error{name + ": has no styles"};
+  // Styles may be learnt on it.
+  if (styles_.empty() && !recipe_->learns_styles) return Error{name + ": has no styles"};
   if (styles_.size() > kMaxStyles) {
     return Error{name + ": has " + std::to_string(styles_.size()) + " styles; expected at most " +
                  std::to_string(kMaxStyles)};
@@ -133,6 +134,9 @@ Result<int> Model::find_style(std::string_view style) const {
   for (size_t i = 0; i < styles_.size(); ++i) {
     if (styles_[i].name == style) return static_cast<int>(i);
     names.push_back(styles_[i].name);
+  }
+  if (names.empty()) {
+    return Error{"unknown style '" + std::string(style) + "'; the model has no styles yet"};
   }
   return Error{"unknown style '" + std::string(style) + "'; the nearest are " +
                list_nearest(style, names, 3)};

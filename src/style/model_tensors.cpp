@@ -34,7 +34,10 @@ Result<void> Model::read_networks(const TensorFile& file, const std::string& nam
   std::array<Trunk, kNetworks> trunks;
   for (size_t n = 0; n < kNetworks; ++n) {
     const std::string prefix = networks[n].prefix;
-    Result<Trunk> trunk = Trunk::read(file, prefix + ".trunk", inputs, name);
+    // Styles are learnt on the pose network's; others that no style asks may be missing.
+    const bool needed = networks[n].heads > 0 || n == kPose;
+    Result<Trunk> trunk =
+        needed ? Trunk::read(file, prefix + ".trunk", inputs, name) : Trunk::none(inputs);
     if (!trunk) return trunk.error();
     if (static_cast<size_t>(trunk->widest()) > kMaxUnits) {
       return Error{name + ": the layers of '" + prefix + ".trunk' have up to " +

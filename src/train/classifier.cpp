@@ -17,14 +17,8 @@ constexpr int kRows = 256;
 // Rounds through the windows, and how many steps that may be.
 constexpr int kRounds = 12, kMinSteps = 400, kMaxSteps = 2500;
 constexpr float kNoise = 0.1f;  // Added to each number in training, in its deviations.
-constexpr Disturbance kDisturbance = {.scale = 0.06f,
-                                      .floor = 0.015f,
-                                      .heading = 0.1f,
-                                      .posture = 0.3f,
-                                      .jitter = 0,
-                                      .velocity = 0,
-                                      .turn_rate = 0,
-                                      .tempo = 0};
+constexpr Disturbance kDisturbance = {
+    .scale = 0.06f, .floor = 0.015f, .heading = 0.1f, .posture = 0.3f};
 
 void copy_window(const Take& take, int first, std::span<float> out) {
   for (int p = 0; p < kClassifiedPoses; ++p) {

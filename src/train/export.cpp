@@ -43,21 +43,31 @@ std::map<std::string, std::string> model_metadata(const Recipe& recipe,
   };
 }
 
-TensorFile export_model(const SampleSet& set, const OutputUnits& units,
-                        const std::vector<StyleName>& styles,
-                        const std::vector<NetworkTrainer>& networks, const TrainOptions& options) {
+TensorFile model_header(const Recipe& recipe, const std::vector<StyleName>& styles,
+                        const TrainOptions& options, const InputUnits& inputs, float input_clip) {
   TensorFile file;
-  file.metadata = model_metadata(set.recipe(), styles);
+  file.metadata = model_metadata(recipe, styles);
   file.metadata["data"] = options.data;
   file.metadata["licence"] = options.licence;
   file.metadata["seed"] = std::to_string(options.seed);
+  file.tensors["input.mean"] = vector_tensor(inputs.mean);
+  file.tensors["input.scale"] = vector_tensor(inputs.scale);
+  file.tensors["input.clip"] = vector_tensor({input_clip});
+  if (recipe.output_scale) file.tensors["output.scale"] = vector_tensor(recipe.output_scale());
+  return file;
+}
+
+TensorFile export_model(const SampleSet& set, const OutputUnits& units,
+                        const std::vector<StyleName>& styles,
+                        const std::vector<NetworkTrainer>& networks, const TrainOptions& options) {
+  TensorFile file = model_header(set.recipe(), styles, options, {set.mean(), set.scale()},
+                                 options.settings.batch.input_clip);
   file.metadata["steps"] = std::to_string(options.settings.steps);
   file.metadata["samples"] = std::to_string(set.samples().size());
-  file.tensors["input.mean"] = vector_tensor(set.mean());
-  file.tensors["input.scale"] = vector_tensor(set.scale());
-  file.tensors["input.clip"] = vector_tensor({options.settings.batch.input_clip});
-  file.tensors["output.scale"] = vector_tensor(units.scale);
-  if (!set.recipe().output_scale) file.tensors["output.mean"] = vector_tensor(units.mean);
+  if (!set.recipe().output_scale) {
+    file.tensors["output.mean"] = vector_tensor(units.mean);
+    file.tensors["output.scale"] = vector_tensor(units.scale);
+  }
   for (const NetworkTrainer& network : networks) network.write(file);
   return file;
 }

@@ -158,9 +158,9 @@ torch::Tensor trait_changes(const torch::Tensor& before, const torch::Tensor& af
   return traits_of(after) - traits_of(before);
 }
 
-Classifier train_guide(const std::vector<Take>& takes, const SampleSet& set,
-                       const std::vector<int>& choice, const std::vector<std::string>& styles,
-                       int steps, uint64_t seed) {
+Guides train_guides(const std::vector<Take>& takes, const SampleSet& set,
+                    const std::vector<int>& choice, const std::vector<std::string>& styles,
+                    const GuidanceSettings& settings, uint64_t seed) {
   std::set<int> used;
   for (const int i : choice) {
     const Sample& sample = set.samples()[i];
@@ -175,17 +175,18 @@ Classifier train_guide(const std::vector<Take>& takes, const SampleSet& set,
   }
   std::vector<std::string> classes = styles;
   classes.push_back("neutral");
-  const ClassifierSettings settings = {
-      .hidden = 128, .networks = 2, .steps = steps, .disturbed = true};
-  return Classifier(known, labels, std::move(classes), seed, settings);
+  const ClassifierSettings networks = {
+      .hidden = 128, .networks = settings.guides, .steps = settings.guide_steps, .disturbed = true};
+  return {Classifier(known, labels, classes, seed, networks),
+          StatisticsGuide(known, labels, classes)};
 }
 
 Guidance::Guidance(const SampleSet& set, const std::vector<int>& choice, const OutputUnits& units,
-                   const UnlabelledMotion& motion, Classifier guide,
+                   const UnlabelledMotion& motion, Guides guides,
                    const std::vector<const Signature*>& signatures,
                    const GuidanceSettings& settings, float input_clip)
     : motion_(motion),
-      guide_(std::move(guide)),
+      guides_(std::move(guides)),
       settings_(settings),
       styles_(static_cast<int>(signatures.size())),
       input_clip_(input_clip > 0 ? input_clip : INFINITY),
@@ -279,12 +280,13 @@ torch::Tensor Guidance::loss(const NetworkTrainer& pose, double share, Random& r
 
   const torch::Tensor seen =
       torch::cat({out.reshape({rows, 3 * kHumanJoints}), root}, 1).view({n, kClassifiedInputs});
-  const torch::Tensor style = guide_.loss(seen, torch::tensor(styles), kLabelSmoothing, random);
+  const torch::Tensor asked = torch::tensor(styles);
+  const torch::Tensor style = guides_.networks.loss(seen, asked, kLabelSmoothing, random);
   const auto sequences = [&](const torch::Tensor& positions) {
     return positions.view({n, kSequenceInstants, kHumanJoints, 3});
   };
   const torch::Tensor velocity = velocity_loss(sequences(in), sequences(out));
-  const torch::Tensor asked = torch::tensor(styles);
+  const torch::Tensor statistics = guides_.statistics.loss(sequences(out), asked, kLabelSmoothing);
   const torch::Tensor signature =
       signature_loss(trait_changes(sequences(in), sequences(out)),
                      signature_.index_select(0, asked), tolerance_.index_select(0, asked));
@@ -296,9 +298,10 @@ torch::Tensor Guidance::loss(const NetworkTrainer& pose, double share, Random& r
   const torch::Tensor prior = (apart - 1).relu().square().mean();
 
   const double ramp = std::min(1.0, share / settings_.ramp);
-  return ramp * (settings_.style * style + settings_.velocity * velocity +
-                 settings_.smoothness * smooth + settings_.balance * balance_loss(in, out) +
-                 settings_.prior * prior + settings_.signature * signature);
+  return ramp * (settings_.style * style + settings_.statistics * statistics +
+                 settings_.velocity * velocity + settings_.smoothness * smooth +
+                 settings_.balance * balance_loss(in, out) + settings_.prior * prior +
+                 settings_.signature * signature);
 }
 
 }  // namespace panache

@@ -1,7 +1,7 @@
 #pragma once
 // Training on motion that has no styled counterpart. A classifier that learnt the styles tells
 // whether what the pose network makes of it looks like the style; other losses keep it the motion
-// that it was: docs/design.md says why each of them is there.
+// that it was: docs/method.md, "Styles on actions that nobody captured", says why each is there.
 
 #include <vector>
 
@@ -12,15 +12,21 @@
 #include "train/batches.h"
 #include "train/classifier.h"
 #include "train/network.h"
+#include "train/statistics_guide.h"
 #include "train/unlabelled.h"
 
 namespace panache {
 
-// The guide: it knows the styles (classes in this order) and, last, neutral, from the takes that
-// the samples were made of.
-Classifier train_guide(const std::vector<Take>& takes, const SampleSet& set,
-                       const std::vector<int>& choice, const std::vector<std::string>& styles,
-                       int steps, uint64_t seed);
+// The guides know the styles (classes in this order) and, last, neutral. They are of two families,
+// so that what they agree on is the style and not a weakness of one of them.
+struct Guides {
+  Classifier networks;
+  StatisticsGuide statistics;
+};
+// From the takes that the samples were made of.
+Guides train_guides(const std::vector<Take>& takes, const SampleSet& set,
+                    const std::vector<int>& choice, const std::vector<std::string>& styles,
+                    const GuidanceSettings& settings, uint64_t seed);
 
 // What bodies become by changes, with gradients: the change_body() of training.
 // bodies[rows][21][3], changes[rows][StyleDelta::kSize] -> [rows][21][3]
@@ -36,7 +42,7 @@ class Guidance {
   // Of recipes with layout positions that answer with a packed StyleDelta without a mean.
   // `signatures`: of the styles in their order; null where a style has none.
   Guidance(const SampleSet& set, const std::vector<int>& choice, const OutputUnits& units,
-           const UnlabelledMotion& motion, Classifier guide,
+           const UnlabelledMotion& motion, Guides guides,
            const std::vector<const Signature*>& signatures, const GuidanceSettings& settings,
            float input_clip);
 
@@ -50,7 +56,7 @@ class Guidance {
   torch::Tensor normalised(const torch::Tensor& windows) const;
 
   const UnlabelledMotion& motion_;
-  const Classifier guide_;
+  const Guides guides_;
   const GuidanceSettings settings_;
   const int styles_;
   const float input_clip_;

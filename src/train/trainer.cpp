@@ -1,17 +1,15 @@
 #include "train/trainer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <mutex>
 #include <optional>
 #include <set>
 
-#include <dlfcn.h>
-
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "base/stopwatch.h"
 #include "learn/fit_style.h"
 #include "train/checkpoint.h"
 #include "train/export.h"
@@ -22,31 +20,6 @@
 
 namespace panache {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-// Our own threads share the cores: the libraries below must not start more. OpenBLAS asks for this
-// through a function of its own, which is there only where libtorch came with it.
-void keep_libraries_single_threaded() {
-  torch::set_num_threads(1);
-  using SetThreads = void (*)(int);
-  if (void* found = ::dlsym(RTLD_DEFAULT, "openblas_set_num_threads")) {
-    reinterpret_cast<SetThreads>(found)(1);
-  }
-}
-
-// A twentieth of the styled takes is kept for validation. Whole takes: neighbouring frames are
-// nearly copies of each other.
-bool is_validation_take(const std::string& path) {
-  uint32_t hash = 2166136261u;  // FNV-1a of the file's name.
-  for (const char c : path.substr(path.find_last_of('/') + 1)) {
-    hash = (hash ^ static_cast<uint8_t>(c)) * 16777619u;
-  }
-  return hash % 20 == 0;
-}
 
 // Networks that share their batches, trained one step after the other on one thread.
 struct Job {
@@ -254,41 +227,6 @@ std::vector<int> neutral_takes_of(const SampleSet& set, const std::vector<int>& 
 
 }  // namespace
 
-Result<TrainingData> prepare_training(const std::vector<ManifestRow>& rows, PoseLayout layout,
-                                      const std::vector<ManifestRow>& unlabelled) {
-  keep_libraries_single_threaded();
-  TrainingData data;
-  const Clock::time_point begin = Clock::now();
-  for (const auto& [part, to] : {std::pair{&rows, &data.takes}, {&unlabelled, &data.unlabelled}}) {
-    std::vector<ManifestRow> used;
-    for (const ManifestRow& row : *part) {
-      if (!row.test) used.push_back(row);
-    }
-    Progress progress(part == &rows ? "reading" : "reading unlabelled motion");
-    Result<std::vector<Take>> takes = load_takes(used, layout, [&](int done) {
-      progress.update(static_cast<double>(done) / static_cast<double>(used.size()));
-    });
-    if (!takes) return takes.error();
-    *to = *std::move(takes);
-  }
-  data.read_seconds = seconds_since(begin);
-  std::vector<int> styled, neutral;
-  for (size_t i = 0; i < data.takes.size(); ++i) {
-    (data.takes[i].row.neutral ? neutral : styled).push_back(static_cast<int>(i));
-  }
-  if (neutral.empty()) return Error{"no neutral take to learn from; expected rows with neutral 1"};
-  if (styled.empty()) return Error{"no styled take to learn from; expected rows with neutral 0"};
-  const Clock::time_point paired = Clock::now();
-  Progress progress("pairing");
-  data.pairings =
-      pair_takes(data.takes, styled, neutral, {}, [&](double share) { progress.update(share); });
-  data.pair_seconds = seconds_since(paired);
-  if (data.pairings.empty()) {
-    return Error{"no styled take has a neutral take of the same content in its manifest"};
-  }
-  return data;
-}
-
 Result<Trained> train(const std::vector<ManifestRow>& rows, const std::vector<StyleName>& styles,
                       const TrainOptions& options, const std::vector<ManifestRow>& unlabelled) {
   Result<TrainingData> data = prepare_training(rows, PoseLayout::positions, unlabelled);
@@ -333,7 +271,7 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
       if (!loaded) return loaded.error();
     }
   }
-  const Clock::time_point begin = Clock::now();
+  const Stopwatch watch;
   std::optional<UnlabelledMotion> motion;
   std::optional<Guidance> guidance;
   if (settings.guidance.sequences > 0 && !data.unlabelled.empty()) {
@@ -341,12 +279,12 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
     if (motion->empty()) {
       return Error{"the unlabelled motion is too short; expected a take of more than 1.5 seconds"};
     }
-    Classifier guide = train_guide(data.takes, set, choice, names, settings.guidance.guide_steps,
-                                   options.seed + 2);
+    Guides guides =
+        train_guides(data.takes, set, choice, names, settings.guidance, options.seed + 2);
     const Signatures found(data.takes, data.pairings);
     std::vector<const Signature*> signatures;
     for (const std::string& style : names) signatures.push_back(found.find(style));
-    guidance.emplace(set, choice, units, *motion, std::move(guide), signatures, settings.guidance,
+    guidance.emplace(set, choice, units, *motion, std::move(guides), signatures, settings.guidance,
                      settings.batch.input_clip);
   }
   const Guidance* guide = guidance ? &*guidance : nullptr;
@@ -378,7 +316,7 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
         data.takes, settings.predictor_steps, options.seed,
         [&](double share) { progress.update(share); }, trained.model, trained.losses);
   }
-  trained.train_seconds = seconds_since(begin);
+  trained.train_seconds = watch.seconds();
   return trained;
 }
 

@@ -10,8 +10,7 @@
 #include "learn/samples.h"
 #include "net/safetensors.h"
 #include "recipes/recipes.h"
-#include "train/batches.h"
-#include "train/network.h"
+#include "train/training_data.h"
 
 namespace panache {
 
@@ -42,16 +41,6 @@ struct Trained {
   float export_error =
       0;  // Largest difference between the exported model's outputs and libtorch's.
 };
-
-// Takes of the training split, read and paired: what all recipes learn from.
-struct TrainingData {
-  std::vector<Take> takes;
-  std::vector<Pairing> pairings;
-  std::vector<Take> unlabelled;  // Motion without styles: for recipes that guidance trains.
-  double read_seconds = 0, pair_seconds = 0;
-};
-Result<TrainingData> prepare_training(const std::vector<ManifestRow>& rows, PoseLayout layout,
-                                      const std::vector<ManifestRow>& unlabelled = {});
 
 // Trains on prepared takes, in whatever layout.
 Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,

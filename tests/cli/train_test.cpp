@@ -40,5 +40,34 @@ TEST_F(Train, motion_without_styles_is_only_for_recipes_that_can_use_it) {
   EXPECT_FALSE(exists("mine.safetensors"));
 }
 
+TEST_F(Train, motion_without_styles_alone_makes_a_base) {
+  test::write_manifest(path(""));
+  write("pool.csv", "path,style,content,take,neutral,split\nneutral.bvh,any,walk,001,1,train\n");
+  const std::vector<std::string> command = {"train", "--unlabelled", "pool.csv",        "--steps",
+                                            "5",     "-o",           "base.safetensors"};
+  test::Ran ran = run(command);
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_NE(ran.out.find("0 styles"), std::string::npos) << ran.out;
+  ran = run({"styles", "base.safetensors"});
+  EXPECT_NE(ran.out.find("no styles yet: panache learn adds them\n"), std::string::npos) << ran.out;
+  EXPECT_EQ(run({"stylize", "neutral.bvh", "--model", "base.safetensors", "--style", "old=1", "-o",
+                 "out.bvh"})
+                .err,
+            "panache: unknown style 'old'; the model has no styles yet; panache learn adds one\n");
+  std::vector<std::string> smith = command;
+  smith.insert(smith.end(), {"--recipe", "smith2019", "--force"});
+  EXPECT_EQ(run(smith).err,
+            "panache: --unlabelled: recipe smith2019 learns from styled takes alone; leave the "
+            "option out\n");
+}
+
+TEST_F(Train, motion_of_any_kind_is_needed) {
+  const test::Ran ran = run({"train", "-o", "mine.safetensors"});
+  EXPECT_EQ(ran.exit, 2);
+  EXPECT_EQ(ran.err,
+            "panache: expected manifests of styled motion, or --unlabelled alone for a base that "
+            "styles are learnt on\n");
+}
+
 }  // namespace
 }  // namespace panache

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "net/dense.h"
+#include "net/quantize.h"
 
 namespace panache {
 namespace {
@@ -87,6 +88,26 @@ TEST(TrunkTrio, gives_bit_for_bit_what_each_of_its_trunks_gives) {
     EXPECT_EQ(trio.outputs(t), trunks[t].outputs());
     EXPECT_EQ(std::vector<float>(outputs[t].begin(), outputs[t].end()),
               std::vector<float>(expected.begin(), expected.end()));
+  }
+}
+
+TEST(TrunkTrio, does_without_a_trunk_that_is_not_there) {
+  const TensorFile floats = small_file({5, 40, 20, 3});
+  TensorFile bytes;
+  for (const auto& [key, tensor] : floats.tensors) bytes.tensors[key] = tensor;
+  for (const TensorFile& file : {floats, quantize(bytes)}) {
+    const Trunk trunk = *Trunk::read(file, "pose", 5, kName);
+    const TrunkTrio trio({trunk, Trunk::none(5), trunk});
+    EXPECT_EQ(trio.outputs(1), 0);
+    EXPECT_EQ(trio.all_outputs(1), 0u);
+    const std::vector<float> x = ramp({5}).values;
+    std::vector<float> scratch(trio.scratch_size()), alone(trunk.scratch_size());
+    const auto outputs = trio.forward(x, scratch);
+    const auto expected = trunk.forward(x, alone);
+    for (const size_t t : {0, 2}) {
+      EXPECT_EQ(std::vector(outputs[t].begin(), outputs[t].end()),
+                std::vector(expected.begin(), expected.end()));
+    }
   }
 }
 

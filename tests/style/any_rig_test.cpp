@@ -236,9 +236,9 @@ TEST(AnyRig, missing_joints_are_lived_with) {
   const std::vector<std::pair<std::vector<std::string>, double>> cases = {
       {{"Toe"}, 0.02},
       {{"Hand"}, 0.02},
-      {{"Shoulder"}, 0.7},
-      {{"Neck"}, 0.7},
-      {{"Head"}, 1.8},
+      {{"Shoulder"}, 0.8},
+      {{"Neck"}, 1.1},
+      {{"Head"}, 2.7},
       {{"Spine1", "Spine2"}, 1.5},
       {{"Toe", "Neck", "Head", "Shoulder", "Spine", "Hand"}, 6}};
   for (const auto& [words, most] : cases) {

@@ -103,9 +103,12 @@ TEST_F(GuidanceTest, what_it_adds_falls_when_it_is_learnt) {
   for (size_t i = 0; i < choice.size(); ++i) choice[i] = static_cast<int>(i);
   const OutputUnits units = output_units(set, choice);
   const UnlabelledMotion motion(data_.unlabelled, data_.takes, {});
-  const Guidance guidance(
-      set, choice, units, motion, train_guide(data_.takes, set, choice, {"old", "proud"}, 100, 5),
-      {nullptr, nullptr}, recipe.training.guidance, recipe.training.batch.input_clip);
+  GuidanceSettings guides = recipe.training.guidance;
+  guides.guide_steps = 100;
+  const Guidance guidance(set, choice, units, motion,
+                          train_guides(data_.takes, set, choice, {"old", "proud"}, guides, 5),
+                          {nullptr, nullptr}, recipe.training.guidance,
+                          recipe.training.batch.input_clip);
   NetworkTrainer pose(network_shapes(set, 2)[0], recipe.training.optimizer, 150, 1);
   const auto mean_loss = [&] {
     torch::NoGradGuard no_gradients;

@@ -55,7 +55,7 @@ const Recipe& panache_recipe() noexcept {
                                 .mirror_target = mirror_target,
                                 .to_change = to_change,
                                 .output_scale = output_scale,
-                                .training = {.steps = 12000,
+                                .training = {.steps = 16000,
                                              .batch = {.size = 256,
                                                        .by_style = true,
                                                        .mirrored = true,
@@ -67,7 +67,8 @@ const Recipe& panache_recipe() noexcept {
                                                            .dropout = 0.02f},
                                              .smoothness = 0.3f,
                                              .guidance = {.sequences = 20},
-                                             .predictor_steps = 6000}};
+                                             .predictor_steps = 6000,
+                                             .base_steps = 4000}};
   return recipe;
 }
 

@@ -1,0 +1,39 @@
+#include "train/linear_discriminant.h"
+
+namespace panache {
+namespace {
+
+constexpr double kLeastDeviation = 0.02;  // Of a number.
+constexpr double kShrinkage = 0.15;       // Of the covariance, towards a multiple of the identity.
+constexpr double kOutlier = 4;            // Deviations.
+
+}  // namespace
+
+LinearDiscriminant::LinearDiscriminant(const std::vector<torch::Tensor>& rows_of_class) {
+  torch::NoGradGuard no_gradients;
+  const torch::Tensor all = torch::cat(rows_of_class);
+  mean_ = all.mean(0);
+  scale_ = all.std(0, false) + kLeastDeviation;
+  const int64_t size = all.size(1), classes = static_cast<int64_t>(rows_of_class.size());
+  std::vector<torch::Tensor> means;
+  torch::Tensor covariance = torch::zeros({size, size}, torch::kFloat64);
+  for (const torch::Tensor& rows : rows_of_class) {
+    const torch::Tensor own =
+        rows.size(0) ? (rows - mean_) / scale_ : torch::zeros({1, size}, torch::kFloat64);
+    means.push_back(own.mean(0));
+    const torch::Tensor centred = own - means.back();
+    covariance += torch::mm(centred.t(), centred) / static_cast<double>(own.size(0) * classes);
+  }
+  const torch::Tensor level = covariance.trace() / size;
+  covariance =
+      (1 - kShrinkage) * covariance + kShrinkage * level * torch::eye(size, torch::kFloat64);
+  const torch::Tensor centres = torch::stack(means);
+  weights_ = torch::linalg_solve(covariance, centres.t());
+  bias_ = -0.5 * (centres * weights_.t()).sum(1);
+}
+
+torch::Tensor LinearDiscriminant::scores(const torch::Tensor& rows) const {
+  return torch::mm(((rows - mean_) / scale_).clamp(-kOutlier, kOutlier), weights_) + bias_;
+}
+
+}  // namespace panache

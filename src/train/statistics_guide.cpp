@@ -1,0 +1,87 @@
+#include "train/statistics_guide.h"
+
+#include <algorithm>
+
+#include "train/classifier.h"
+
+namespace panache {
+namespace {
+
+constexpr int kHop = 5;               // Frames between the first ones of two windows.
+constexpr float kStillSpeed = 0.05f;  // m/s, added before the logarithm.
+constexpr float kHeightUnit = 0.2f, kBobUnit = 0.03f;  // Metres.
+constexpr double kTemperature = 4;  // What scores are divided by: they are far too sure.
+// Directions of the bones, their deviations, speeds of the joints, height of the hips.
+constexpr int kStatistics = 6 * (kHumanJoints - 1) + kHumanJoints + 2;
+
+// Windows of a take, left as right too. [windows][kClassifiedPoses][21][3]
+torch::Tensor windows_of(const Take& take) {
+  const int span = (kClassifiedPoses - 1) * kClassifiedSpacing;
+  const int count = 1 + std::max(0, take.frames() - 1 - span) / kHop;
+  torch::Tensor bodies = torch::empty({2 * count, kClassifiedPoses, kHumanJoints, 3});
+  float* to = bodies.data_ptr<float>();
+  for (const bool flipped : {false, true}) {
+    for (int w = 0; w < count; ++w) {
+      for (int p = 0; p < kClassifiedPoses; ++p) {
+        const int frame = std::min(w * kHop + p * kClassifiedSpacing, take.frames() - 1);
+        const HumanPositions body = flipped ? mirrored(take.body[frame]) : take.body[frame];
+        for (const Vec3& joint : body) *to++ = joint.x, *to++ = joint.y, *to++ = joint.z;
+      }
+    }
+  }
+  return bodies;
+}
+
+torch::Tensor deviation(const torch::Tensor& rows) {
+  const torch::Tensor variance = rows.square().mean(1) - rows.mean(1).square();
+  return (variance.clamp_min(0) + 1e-6).sqrt();
+}
+
+// Of all windows of each class. [classes] of [windows][statistics]
+std::vector<torch::Tensor> statistics_of(const std::vector<Take>& takes,
+                                         const std::vector<std::string>& labels,
+                                         const std::vector<std::string>& classes) {
+  std::vector<torch::Tensor> rows(classes.size());
+  for (size_t c = 0; c < classes.size(); ++c) {
+    std::vector<torch::Tensor> parts = {torch::empty({0, kStatistics}, torch::kFloat64)};
+    for (size_t t = 0; t < takes.size(); ++t) {
+      if (labels[t] != classes[c]) continue;
+      parts.push_back(motion_statistics(windows_of(takes[t])).to(torch::kFloat64));
+    }
+    rows[c] = torch::cat(parts);
+  }
+  return rows;
+}
+
+}  // namespace
+
+torch::Tensor motion_statistics(const torch::Tensor& bodies) {
+  const int64_t n = bodies.size(0);
+  std::vector<int64_t> parents;
+  for (int j = 1; j < kHumanJoints; ++j) parents.push_back(kHumanParent[j]);
+  const torch::Tensor bones = bodies.slice(2, 1) - bodies.index_select(2, torch::tensor(parents));
+  const torch::Tensor directions = bones / (bones.square().sum(3, true) + 1e-8).sqrt();
+  const torch::Tensor step = bodies.slice(1, 1) - bodies.slice(1, 0, -1);
+  const torch::Tensor speed =
+      (step.square().sum(3) + 1e-10).sqrt().mean(1) * (kTakeRate / kClassifiedSpacing);
+  const torch::Tensor height = bodies.select(2, 0).select(2, 1);
+  return torch::cat({directions.mean(1).reshape({n, -1}), deviation(directions).reshape({n, -1}),
+                     (speed + kStillSpeed).log(), height.mean(1, true) / kHeightUnit,
+                     deviation(height).unsqueeze(1) / kBobUnit},
+                    1);
+}
+
+StatisticsGuide::StatisticsGuide(const std::vector<Take>& takes,
+                                 const std::vector<std::string>& labels,
+                                 const std::vector<std::string>& classes)
+    : discriminant_(statistics_of(takes, labels, classes)) {}
+
+torch::Tensor StatisticsGuide::loss(const torch::Tensor& bodies, const torch::Tensor& wanted,
+                                    float smoothing) const {
+  const torch::Tensor scores = discriminant_.scores(motion_statistics(bodies).to(torch::kFloat64));
+  return torch::nn::functional::cross_entropy(
+      (scores / kTemperature).to(torch::kFloat32), wanted,
+      torch::nn::functional::CrossEntropyFuncOptions().label_smoothing(smoothing));
+}
+
+}  // namespace panache

@@ -1,0 +1,73 @@
+#include "train/training_data.h"
+
+#include <dlfcn.h>
+#include <torch/torch.h>
+
+#include "base/progress.h"
+#include "base/stopwatch.h"
+
+namespace panache {
+namespace {
+
+// Our own threads share the cores: the libraries below must not start more. OpenBLAS asks for this
+// through a function of its own, which is there only where libtorch came with it.
+void keep_libraries_single_threaded() {
+  torch::set_num_threads(1);
+  using SetThreads = void (*)(int);
+  if (void* found = ::dlsym(RTLD_DEFAULT, "openblas_set_num_threads")) {
+    reinterpret_cast<SetThreads>(found)(1);
+  }
+}
+
+}  // namespace
+
+bool is_validation_take(const std::string& path) {
+  uint32_t hash = 2166136261u;  // FNV-1a of the file's name.
+  for (const char c : path.substr(path.find_last_of('/') + 1)) {
+    hash = (hash ^ static_cast<uint8_t>(c)) * 16777619u;
+  }
+  return hash % 20 == 0;
+}
+
+Result<std::vector<Take>> read_training_takes(const std::vector<ManifestRow>& rows,
+                                              PoseLayout layout, const std::string& what) {
+  keep_libraries_single_threaded();
+  std::vector<ManifestRow> used;
+  for (const ManifestRow& row : rows) {
+    if (!row.test) used.push_back(row);
+  }
+  Progress progress(what);
+  return load_takes(used, layout, [&](int done) {
+    progress.update(static_cast<double>(done) / static_cast<double>(used.size()));
+  });
+}
+
+Result<TrainingData> prepare_training(const std::vector<ManifestRow>& rows, PoseLayout layout,
+                                      const std::vector<ManifestRow>& unlabelled) {
+  TrainingData data;
+  const Stopwatch reading;
+  Result<std::vector<Take>> takes = read_training_takes(rows, layout, "reading");
+  if (!takes) return takes.error();
+  data.takes = *std::move(takes);
+  takes = read_training_takes(unlabelled, layout, "reading unlabelled motion");
+  if (!takes) return takes.error();
+  data.unlabelled = *std::move(takes);
+  data.read_seconds = reading.seconds();
+  std::vector<int> styled, neutral;
+  for (size_t i = 0; i < data.takes.size(); ++i) {
+    (data.takes[i].row.neutral ? neutral : styled).push_back(static_cast<int>(i));
+  }
+  if (neutral.empty()) return Error{"no neutral take to learn from; expected rows with neutral 1"};
+  if (styled.empty()) return Error{"no styled take to learn from; expected rows with neutral 0"};
+  const Stopwatch pairing;
+  Progress progress("pairing");
+  data.pairings =
+      pair_takes(data.takes, styled, neutral, {}, [&](double share) { progress.update(share); });
+  data.pair_seconds = pairing.seconds();
+  if (data.pairings.empty()) {
+    return Error{"no styled take has a neutral take of the same content in its manifest"};
+  }
+  return data;
+}
+
+}  // namespace panache
