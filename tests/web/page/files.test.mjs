@@ -81,13 +81,13 @@ test('a dropped BVH plays, pauses, is scrubbed and loops', async () => {
 });
 
 test('what is saved reads back: BVH, GLB, a picture and a film', async () => {
-  await tab.locator('#style-old').fill('1');
+  await tab.locator('#style-proud').fill('1');
   for (const extension of ['.bvh', '.glb']) {
     const info = panache('info', await save(extension.slice(1).toUpperCase(), extension));
     assert.match(info, /joints  2[12], of which/);  // A GLB has a node above them.
     assert.match(info, /leftUpperArm   leftUpperArm/);
     const kept = Number(/(\d+) frames/.exec(info)[1]);
-    assert.notEqual(kept, 180);  // Who is old takes another time for the same way.
+    assert.notEqual(kept, 180);  // Who is proud takes another time for the same way.
   }
   const picture = readFileSync(await save('PNG', '.png'));
   assert.equal(picture.subarray(1, 4).toString(), 'PNG');
@@ -99,8 +99,8 @@ test('what is saved reads back: BVH, GLB, a picture and a film', async () => {
 });
 
 test('a clip that is saved is what the program makes of it, byte for byte', async () => {
-  panache('stylize', 'walk.bvh', '--style', 'old=1', '-o', 'old.bvh');
-  assert.deepEqual(readFileSync(await save('BVH', '.bvh')), readFileSync(at('old.bvh')));
+  panache('stylize', 'walk.bvh', '--style', 'proud=1', '-o', 'proud.bvh');
+  assert.deepEqual(readFileSync(await save('BVH', '.bvh')), readFileSync(at('proud.bvh')));
 });
 
 test('a clip that no style changes is saved as it was, byte for byte', async () => {
