@@ -77,7 +77,7 @@ int run(const Options& options) {
                {"read_seconds", trained->read_seconds},
                {"pair_seconds", trained->pair_seconds},
                {"train_seconds", trained->train_seconds},
-               {"export_error", trained->export_error}});
+               {"export_error", is_base ? Json() : Json(trained->export_error)}});
     return kDone;
   }
   print("trained " + options.output + " (" + std::to_string(bytes.size()) + " bytes, " +

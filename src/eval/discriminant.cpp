@@ -64,29 +64,17 @@ torch::Tensor statistics(const std::vector<HumanPositions>& body, int hop) {
   return rows.to(torch::kFloat64);
 }
 
-// Of all windows of each class. [classes] of [windows][kStatistics]
-std::vector<torch::Tensor> statistics_of(const std::vector<Take>& takes,
-                                         const std::vector<std::string>& labels,
-                                         const std::vector<std::string>& classes) {
-  std::vector<torch::Tensor> rows(classes.size());
-  for (size_t c = 0; c < classes.size(); ++c) {
-    std::vector<torch::Tensor> parts = {torch::empty({0, kStatistics}, torch::kFloat64)};
-    for (size_t t = 0; t < takes.size(); ++t) {
-      if (labels[t] != classes[c]) continue;
-      for (const auto& body : {takes[t].body, mirrored_body(takes[t])}) {
-        parts.push_back(statistics(body, kLearntHop));
-      }
-    }
-    rows[c] = torch::cat(parts);
-  }
-  return rows;
+// Of all windows of a take, left as right too. [windows][kStatistics]
+torch::Tensor statistics_of(const Take& take) {
+  return torch::cat(
+      {statistics(take.body, kLearntHop), statistics(mirrored_body(take), kLearntHop)});
 }
 
 }  // namespace
 
 Discriminant::Discriminant(const std::vector<Take>& takes, const std::vector<std::string>& labels,
                            const std::vector<std::string>& classes)
-    : discriminant_(statistics_of(takes, labels, classes)) {}
+    : discriminant_(rows_of_classes(takes, labels, classes, kStatistics, statistics_of)) {}
 
 torch::Tensor Discriminant::scores(const Take& take) const {
   torch::NoGradGuard no_gradients;

@@ -40,15 +40,6 @@ const torch::Tensor& foot_joints() {
   return list;
 }
 
-// The joint at the upper end of each bone; bone j - 1 leads to joint j. [20]
-const torch::Tensor& bone_parents() {
-  static const torch::Tensor parents = [] {
-    std::vector<int64_t> list;
-    for (int j = 1; j < kHumanJoints; ++j) list.push_back(kHumanParent[j]);
-    return torch::tensor(list);
-  }();
-  return parents;
-}
 // 1 where a bone is between the hips and a joint. [21][20]
 const torch::Tensor& bones_above() {
   static const torch::Tensor above = [] {

@@ -9,6 +9,21 @@ constexpr double kOutlier = 4;            // Deviations.
 
 }  // namespace
 
+std::vector<torch::Tensor> rows_of_classes(
+    const std::vector<Take>& takes, const std::vector<std::string>& labels,
+    const std::vector<std::string>& classes, int64_t size,
+    const std::function<torch::Tensor(const Take&)>& rows_of) {
+  std::vector<torch::Tensor> rows;
+  for (const std::string& label : classes) {
+    std::vector<torch::Tensor> parts = {torch::empty({0, size}, torch::kFloat64)};
+    for (size_t t = 0; t < takes.size(); ++t) {
+      if (labels[t] == label) parts.push_back(rows_of(takes[t]));
+    }
+    rows.push_back(torch::cat(parts));
+  }
+  return rows;
+}
+
 LinearDiscriminant::LinearDiscriminant(const std::vector<torch::Tensor>& rows_of_class) {
   torch::NoGradGuard no_gradients;
   const torch::Tensor all = torch::cat(rows_of_class);

@@ -1,11 +1,22 @@
 #pragma once
 // Linear discriminant analysis: classes told apart by their means, with one covariance for all.
 
+#include <functional>
+#include <string>
 #include <vector>
 
 #include <torch/torch.h>
 
+#include "learn/take.h"
+
 namespace panache {
+
+// The rows that rows_of() makes of the takes of each class, labels[i] being that of takes[i]; takes
+// of no class are left out. [classes] of [rows][size], 64 bits
+std::vector<torch::Tensor> rows_of_classes(
+    const std::vector<Take>& takes, const std::vector<std::string>& labels,
+    const std::vector<std::string>& classes, int64_t size,
+    const std::function<torch::Tensor(const Take&)>& rows_of);
 
 class LinearDiscriminant {
  public:

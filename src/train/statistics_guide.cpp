@@ -37,29 +37,25 @@ torch::Tensor deviation(const torch::Tensor& rows) {
   return (variance.clamp_min(0) + 1e-6).sqrt();
 }
 
-// Of all windows of each class. [classes] of [windows][statistics]
-std::vector<torch::Tensor> statistics_of(const std::vector<Take>& takes,
-                                         const std::vector<std::string>& labels,
-                                         const std::vector<std::string>& classes) {
-  std::vector<torch::Tensor> rows(classes.size());
-  for (size_t c = 0; c < classes.size(); ++c) {
-    std::vector<torch::Tensor> parts = {torch::empty({0, kStatistics}, torch::kFloat64)};
-    for (size_t t = 0; t < takes.size(); ++t) {
-      if (labels[t] != classes[c]) continue;
-      parts.push_back(motion_statistics(windows_of(takes[t])).to(torch::kFloat64));
-    }
-    rows[c] = torch::cat(parts);
-  }
-  return rows;
+// Of all windows of a take. [windows][kStatistics]
+torch::Tensor statistics_of(const Take& take) {
+  return motion_statistics(windows_of(take)).to(torch::kFloat64);
 }
 
 }  // namespace
 
+const torch::Tensor& bone_parents() {
+  static const torch::Tensor parents = [] {
+    std::vector<int64_t> list;
+    for (int j = 1; j < kHumanJoints; ++j) list.push_back(kHumanParent[j]);
+    return torch::tensor(list);
+  }();
+  return parents;
+}
+
 torch::Tensor motion_statistics(const torch::Tensor& bodies) {
   const int64_t n = bodies.size(0);
-  std::vector<int64_t> parents;
-  for (int j = 1; j < kHumanJoints; ++j) parents.push_back(kHumanParent[j]);
-  const torch::Tensor bones = bodies.slice(2, 1) - bodies.index_select(2, torch::tensor(parents));
+  const torch::Tensor bones = bodies.slice(2, 1) - bodies.index_select(2, bone_parents());
   const torch::Tensor directions = bones / (bones.square().sum(3, true) + 1e-8).sqrt();
   const torch::Tensor step = bodies.slice(1, 1) - bodies.slice(1, 0, -1);
   const torch::Tensor speed =
@@ -74,7 +70,7 @@ torch::Tensor motion_statistics(const torch::Tensor& bodies) {
 StatisticsGuide::StatisticsGuide(const std::vector<Take>& takes,
                                  const std::vector<std::string>& labels,
                                  const std::vector<std::string>& classes)
-    : discriminant_(statistics_of(takes, labels, classes)) {}
+    : discriminant_(rows_of_classes(takes, labels, classes, kStatistics, statistics_of)) {}
 
 torch::Tensor StatisticsGuide::loss(const torch::Tensor& bodies, const torch::Tensor& wanted,
                                     float smoothing) const {

@@ -12,6 +12,9 @@
 
 namespace panache {
 
+// The joint at the upper end of each bone; bone j - 1 leads to joint j. [20]
+const torch::Tensor& bone_parents();
+
 // Of sequences of bodies: mean and deviation of each bone's direction, how fast each joint moves,
 // how high the hips are and how much they bob. bodies[sequences][kSequenceInstants][21][3] ->
 // [sequences][statistics]

@@ -30,14 +30,11 @@ constexpr int kBatch = 256;  // Rows: pairs of neighbouring instants.
 constexpr float kInputClip = 3;
 constexpr float kSmoothness = 0.1f;  // Weight of the loss on the change between the two of a pair.
 constexpr float kHidden = 0.15f;     // Share of the windows without a limb, for each limb.
-constexpr Disturbance kDisturbance = {.scale = 0.08f,
-                                      .floor = 0.015f,
-                                      .heading = 0.12f,
-                                      .posture = 0.5f,
-                                      .jitter = 0.007f,
-                                      .velocity = 0.03f,
-                                      .turn_rate = 0.27f,
-                                      .tempo = 0.15f};
+constexpr Disturbance kDisturbance = [] {
+  Disturbance how = kUsualDisturbance;
+  how.posture = 0.5f, how.jitter = 0.007f, how.tempo = 0.15f;
+  return how;
+}();
 
 // What the trunk must tell, in this order. Poses at these frames from now, normalised and halved:
 constexpr std::array<float, 6> kTimes = {0, 3, 7.5f, 13.5f, -12, -18};
@@ -98,16 +95,6 @@ std::vector<std::array<Vec3, kHumanJoints>> turns_from_mean(const Take& take) {
   return turns;
 }
 
-// Left for right: axes of rotation are mirrored as such.
-void mirror_turns(std::span<float> turns) {
-  std::array<float, kJointNumbers> other;
-  for (int j = 0; j < kHumanJoints; ++j) {
-    const float* from = &turns[3 * kHumanMirror[j]];
-    other[3 * j] = from[0], other[3 * j + 1] = -from[1], other[3 * j + 2] = -from[2];
-  }
-  std::ranges::copy(other, turns.begin());
-}
-
 // Where takes may be looked at: actions by the square root of their frames, frames of one alike.
 class Places {
  public:
@@ -141,8 +128,9 @@ class Places {
 
 class BaseTraining {
  public:
-  BaseTraining(const std::vector<Take>& takes, InputUnits units, int64_t steps, uint64_t seed)
-      : takes_(takes), units_(std::move(units)), steps_(steps), seed_(seed) {
+  BaseTraining(const std::vector<Take>& takes, InputUnits units, const TrainingSettings& settings,
+               uint64_t seed)
+      : takes_(takes), units_(std::move(units)), steps_(settings.base_steps), seed_(seed) {
     for (size_t t = 0; t < takes.size(); ++t) {
       const ManifestRow& row = takes[t].row;
       (is_validation_take(row.path) ? held_ : places_)
@@ -151,12 +139,10 @@ class BaseTraining {
     }
     parallel_for(static_cast<int>(takes.size()),
                  [&](int t) { turns_[t] = turns_from_mean(takes_[t]); });
-    OptimizerSettings optimizer = {
-        .learning_rate = 0.004f, .one_cycle = true, .weight_decay = 0.2f, .dropout = 0.02f};
-    networks_.emplace_back(NetworkShape{"pose", kInputs, 128, 3, kTargets}, optimizer, steps,
-                           seed * 31);
-    networks_.emplace_back(NetworkShape{"contact", kInputs, 32, 3, kFeet}, optimizer, steps,
-                           seed * 31 + 1);
+    networks_.emplace_back(NetworkShape{"pose", kInputs, 128, 3, kTargets}, settings.optimizer,
+                           steps_, seed * 31);
+    networks_.emplace_back(NetworkShape{"contact", kInputs, 32, 3, kFeet}, settings.optimizer,
+                           steps_, seed * 31 + 1);
   }
 
   bool has_motion() const { return !places_.empty(); }
@@ -203,7 +189,7 @@ class BaseTraining {
   };
 
   // The pose of a take at a fractional frame, as far as it reaches, played `tempo` times as fast.
-  void write_pose(const Take& take, float frame, float tempo, bool mirrored,
+  void write_pose(const Take& take, float frame, float tempo, bool flipped,
                   std::span<float, kNumbers> out) const {
     frame = std::clamp(frame, 0.0f, static_cast<float>(take.frames() - 1));
     const HumanPositions body = body_at(take, frame);
@@ -212,7 +198,7 @@ class BaseTraining {
     }
     const auto root = root_at(take, frame);
     for (int r = 0; r < kRootFeatures; ++r) out[kJointNumbers + r] = tempo * root[r];
-    if (mirrored) mirror_pose(PoseLayout::positions, out);
+    if (flipped) mirror_pose(PoseLayout::positions, out);
   }
 
   float normalised(float value, int number) const {
@@ -220,16 +206,16 @@ class BaseTraining {
                       kInputClip);
   }
 
-  void write_targets(int t, float frame, float tempo, bool mirrored, float* out) const {
+  void write_targets(int t, float frame, float tempo, bool flipped, float* out) const {
     const Take& take = takes_[t];
     std::array<float, kNumbers> now, pose;
     for (const float time : kTimes) {
-      write_pose(take, frame + tempo * time, tempo, mirrored, pose);
+      write_pose(take, frame + tempo * time, tempo, flipped, pose);
       if (time == 0) now = pose;
       for (int n = 0; n < kNumbers; ++n) *out++ = normalised(pose[n], n) / 2;
     }
     constexpr auto kSpacing = static_cast<float>(kWindowSpacing * kTakeRate);
-    write_pose(take, frame - tempo * kSpacing, tempo, mirrored, pose);
+    write_pose(take, frame - tempo * kSpacing, tempo, flipped, pose);
     for (int n = 0; n < kJointNumbers; ++n) {
       *out++ = std::clamp((now[n] - pose[n]) / kStepUnit, -kInputClip, kInputClip);
     }
@@ -239,12 +225,14 @@ class BaseTraining {
     }
     const float held = std::clamp(frame, 0.0f, static_cast<float>(take.frames() - 1));
     const int a = static_cast<int>(held), b = std::min(a + 1, take.frames() - 1);
+    StyleDelta turn;
     for (int j = 0; j < kHumanJoints; ++j) {
-      const Vec3 turn = lerp(turns_[t][a][j], turns_[t][b][j], held - static_cast<float>(a));
-      out[3 * j] = turn.x, out[3 * j + 1] = turn.y, out[3 * j + 2] = turn.z;
+      turn.rotations[j] = lerp(turns_[t][a][j], turns_[t][b][j], held - static_cast<float>(a));
     }
-    if (mirrored) mirror_turns({out, kJointNumbers});
-    for (int n = 0; n < kJointNumbers; ++n) out[n] *= kTurnWeight;
+    if (flipped) turn = mirrored(turn);
+    for (const Vec3& r : turn.rotations) {
+      for (const float axis : {r.x, r.y, r.z}) *out++ = kTurnWeight * axis;
+    }
   }
 
   Rows draw(const Places& places, Random& random, bool disturbed) const {
@@ -330,7 +318,7 @@ Result<Trained> train_base(std::vector<Take> takes, const TrainOptions& options)
     takes[t].row.neutral = true;  // Whatever it shows: nobody asked for a style.
   }
   const InputUnits units = input_units(takes, all, recipe.layout);
-  BaseTraining training(takes, units, options.settings.base_steps, options.seed);
+  BaseTraining training(takes, units, options.settings, options.seed);
   if (!training.has_motion()) {
     return Error{"there is no motion to train a base on; expected a take of several frames"};
   }
