@@ -87,8 +87,7 @@ int fit(const WalkerVerb& verb) {
   auto written = write_file(verb.output, fitted->model.format(), verb.force);
   if (!written) return fail(written.error(), kBadInput);
   print("fitted " + verb.output + " to " + std::to_string(fitted->walk_frames) +
-        " frames of walk, " + std::to_string(fitted->run_frames) + " of run and " +
-        std::to_string(fitted->stand_frames) + " of standing in " +
+        " frames of walk and " + std::to_string(fitted->run_frames) + " of run in " +
         plural(static_cast<size_t>(fitted->takes), "take") + "; residual " +
         brief(fitted->walk_residual, 3) + " rad walking, " + brief(fitted->run_residual, 3) +
         " running\n");

@@ -5,9 +5,57 @@
 #include "pose/features.h"
 
 namespace panache {
+namespace {
 
-Disturbed draw_disturbance(const Disturbance& how, std::span<const float> deviation,
-                           Random& random) {
+using enum HumanJoint;
+
+constexpr int kPositions = 3 * kHumanJoints;
+
+// The deviation of one joint's turn about each axis.
+float turn_of(const Disturbance& how, int joint) {
+  if (joint <= index(chest)) return how.torso;
+  if (joint <= index(head)) return how.head;
+  if (joint >= index(left_upper_leg)) return how.legs;
+  const bool collar = joint == index(left_shoulder) || joint == index(right_shoulder);
+  return collar ? how.torso : how.arms;
+}
+
+void draw_person(const Disturbance& how, const InputUnits& units, Random& random, Disturbed& draw) {
+  if (how.torso == 0 && how.head == 0 && how.arms == 0 && how.legs == 0 && how.amplitude == 0) {
+    return;
+  }
+  for (int j = 0; j < kHumanJoints; ++j) {
+    const float deviation = turn_of(how, j);
+    const float x = random.normal(), y = random.normal(), z = random.normal();
+    draw.turns[j] = exp_rotation(Vec3{x, y, z} * deviation);
+  }
+  draw.amplitude = 1 + how.amplitude * random.normal();
+  draw.centre = units.mean;
+}
+
+// One pose as that person would take it.
+void put_person(const Disturbed& draw, float* pose) {
+  HumanPositions wide, turned;
+  for (int i = 0; i < kPositions; ++i) {
+    pose[i] = draw.centre[i] + draw.amplitude * (pose[i] - draw.centre[i]);
+  }
+  for (int j = 0; j < kHumanJoints; ++j) wide[j] = {pose[3 * j], pose[3 * j + 1], pose[3 * j + 2]};
+  std::array<Quat, kHumanJoints> turns = draw.turns;
+  turned[0] = wide[0];
+  for (int j = 1; j < kHumanJoints; ++j) {
+    const int parent = kHumanParent[j];
+    turned[j] = turned[parent] + rotate(turns[parent], wide[j] - wide[parent]);
+    turns[j] = turns[parent] * turns[j];
+  }
+  write_pose_features(PoseLayout::positions, turned, {pose, kPositions});
+  float* root = pose + kPositions;
+  root[kVelocityLeft] *= draw.amplitude;
+  root[kVelocityForward] *= draw.amplitude;
+}
+
+}  // namespace
+
+Disturbed draw_disturbance(const Disturbance& how, const InputUnits& units, Random& random) {
   Disturbed draw;
   draw.scale = 1 + how.scale * random.normal();
   draw.floor = how.floor * random.normal();
@@ -15,10 +63,11 @@ Disturbed draw_disturbance(const Disturbance& how, std::span<const float> deviat
   const float angle = how.heading * random.normal();
   draw.cos = std::cos(angle);
   draw.sin = std::sin(angle);
-  draw.posture.resize(3 * kHumanJoints);
-  for (int i = 0; i < 3 * kHumanJoints; ++i) {
-    draw.posture[i] = how.posture * deviation[i] * random.normal();
+  draw.posture.resize(kPositions);
+  for (int i = 0; i < kPositions; ++i) {
+    draw.posture[i] = how.posture * units.scale[i] * random.normal();
   }
+  draw_person(how, units, random, draw);
   return draw;
 }
 
@@ -27,6 +76,7 @@ void disturb(const Disturbed& draw, const Disturbance& how, Random& random,
   const size_t numbers = pose_feature_count(PoseLayout::positions);
   for (size_t at = 0; at < poses.size(); at += numbers) {
     float* pose = &poses[at];
+    if (!draw.centre.empty()) put_person(draw, pose);
     for (int j = 0; j < kHumanJoints; ++j) {
       float* p = pose + 3 * j;
       const float x = p[0] * draw.scale, z = p[2] * draw.scale;

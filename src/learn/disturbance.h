@@ -1,11 +1,15 @@
 #pragma once
 // What other bodies, captures and files do to a window: drawn at random in training.
 
+#include <array>
 #include <span>
 #include <vector>
 
+#include "base/quat.h"
 #include "base/random.h"
+#include "learn/samples.h"
 #include "recipes/training_settings.h"
+#include "rig/humanoid.h"
 
 namespace panache {
 
@@ -13,11 +17,15 @@ namespace panache {
 struct Disturbed {
   float scale = 1, floor = 0, cos = 1, sin = 0, tempo = 1;
   std::vector<float> posture;  // Added to the joint positions. [63] metres
+  // Of another person: how each joint is turned, body frame, and how wide everything moves about
+  // `centre` ([66], or empty where nobody else is meant).
+  std::array<Quat, kHumanJoints> turns{};
+  float amplitude = 1;
+  std::vector<float> centre;
 };
 
-// `deviation`: of each pose number in layout positions. [66]
-Disturbed draw_disturbance(const Disturbance& how, std::span<const float> deviation,
-                           Random& random);
+// `units`: of each pose number in layout positions.
+Disturbed draw_disturbance(const Disturbance& how, const InputUnits& units, Random& random);
 
 // Disturbs poses in place, any number of them in layout positions. The tempo is for whoever cuts
 // the window.

@@ -38,7 +38,6 @@ Table make_table(const std::shared_ptr<const Model>& model, const SampleSet& set
   Table table;
   table.activations = model->activation_count();
   Random random(1);
-  const Disturbance how = kUsualDisturbance;
   std::vector<float> window(set.inputs()), activations(table.activations);
   for (const size_t i : samples) {
     const Sample& sample = set.samples()[i];
@@ -46,9 +45,9 @@ Table make_table(const std::shared_ptr<const Model>& model, const SampleSet& set
       if (copy == 0) {
         set.window(i, window);
       } else {
-        const Disturbed draw = draw_disturbance(how, set.scale(), random);
+        const Disturbed draw = draw_disturbance(kOtherPeople, set.units(), random);
         set.window(i, window, draw.tempo);
-        disturb(draw, how, random, window);
+        disturb(draw, kOtherPeople, random, window);
       }
       networks.forward(window);
       networks.activations(window, activations);

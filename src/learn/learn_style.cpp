@@ -20,9 +20,13 @@ namespace {
 // Less teaches nothing: the ends of a warped window are left out.
 constexpr int kMinFrames = 15;
 constexpr double kShort = 1;  // Seconds.
-// Mean squared distances of takes of one action are below the first, of different ones mostly above
-// the second; beyond the third nothing was laid together at all. Found on takes of 22 styles.
-constexpr double kGoodMatch = 0.35, kPoorMatch = 0.6, kNoMatch = 1.6;
+// Mean squared distances of takes of one action are below kGoodMatch, of different ones mostly
+// above the first of these; beyond the second nothing was laid together at all. Found on takes of
+// 22 styles.
+constexpr double kPoorMatch = 0.6, kNoMatch = 1.6;
+// Pairs of one action that are in step agree to 0.88 and more, those half a cycle off to 0.6 and
+// less. See step_agreement().
+constexpr double kInStep = 0.85;
 // A clip that matches so much better when left and right are exchanged is mirrored, or a cycle that
 // begins with the other foot and is too short to find its beginning. Found on 242 pairs, of which
 // none that is not so comes below 0.75. Below the second it matches anyway.
@@ -138,7 +142,7 @@ Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& p
     return Error{both + ": no match was found between them" +
                  (pairings.empty() ? ", as the neutral one is too short for the styled one"
                                    : " (distance " + number(report.match) + ", good is below " +
-                                         number(kGoodMatch) + ")") +
+                                         number(double(kGoodMatch)) + ")") +
                  "; a pair shows one action, done neutrally and in the style"};
   }
   report.tempo = mean_tempo(pairings);
@@ -153,8 +157,14 @@ Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& p
                               "with the same hand or foot first in both");
   } else if (report.match > kPoorMatch) {
     report.warnings.push_back(both + ": match badly (distance " + number(report.match) +
-                              ", good is below " + number(kGoodMatch) +
+                              ", good is below " + number(double(kGoodMatch)) +
                               "); are they of the same action, from its beginning to its end?");
+  }
+  const std::optional<double> in_step = step_agreement(takes, pairings);
+  if (!is_mirrored && in_step && *in_step < kInStep) {
+    report.warnings.push_back(both +
+                              ": are out of step, left feet were paired with right ones in part; "
+                              "give a neutral clip of four steps or more");
   }
   if (report.tempo < kSlowest || report.tempo > kFastest) {
     report.warnings.push_back(both + ": the style takes " + number(1 / report.tempo) +
@@ -210,7 +220,7 @@ void measure(const std::shared_ptr<const Model>& model, const std::string& style
 }  // namespace
 
 const char* PairReport::judgement() const {
-  return match < kGoodMatch ? "good" : match <= kPoorMatch ? "fair" : "poor";
+  return match < double(kGoodMatch) ? "good" : match <= kPoorMatch ? "fair" : "poor";
 }
 
 Result<void> check_action(const std::string& action) {

@@ -57,7 +57,8 @@ class SampleSet {
   std::span<const float> target(size_t i) const {
     return {&targets_[i * outputs()], static_cast<size_t>(outputs())};
   }
-  // Of each pose number, measured on the neutral takes: see InputUnits.
+  // Measured on the neutral takes.
+  const InputUnits& units() const { return units_; }
   const std::vector<float>& mean() const { return units_.mean; }
   const std::vector<float>& scale() const { return units_.scale; }
 

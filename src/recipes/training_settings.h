@@ -17,6 +17,10 @@ struct Disturbance {
   float velocity = 0;   // Per pose, m/s.
   float turn_rate = 0;  // Per pose, rad/s.
   float tempo = 0;      // Logarithm of how fast the window is played.
+  // Other people hold and move themselves otherwise: constant turns of the joints about each axis
+  // of the body frame, radians, and the share by which all movement is wider or narrower.
+  float torso = 0, head = 0, arms = 0, legs = 0;
+  float amplitude = 0;
 };
 
 // What other people, captures and files do to a window.
@@ -28,6 +32,17 @@ inline constexpr Disturbance kUsualDisturbance = {.scale = 0.08f,
                                                   .velocity = 0.03f,
                                                   .turn_rate = 0.27f,
                                                   .tempo = 0.1f};
+
+// What a style learnt from one person must hold on: the usual, and other people. Found on walks of
+// four performers that a style of a fifth was put on (docs/learning.md).
+inline constexpr Disturbance kOtherPeople = [] {
+  Disturbance how = kUsualDisturbance;
+  how.torso = how.legs = 0.09f;
+  how.head = 0.14f;
+  how.arms = 0.21f;
+  how.amplitude = 0.3f;
+  return how;
+}();
 
 struct BatchSettings {
   int size = 256;
@@ -71,6 +86,8 @@ struct TrainingSettings {
   bool neutral_samples = false;  // Neutral takes are shown too, with themselves as the target.
   BatchSettings batch = {};
   OptimizerSettings optimizer = {};
+  // The tempo is taught by the squared error of its logarithm, not by Poisson's loss.
+  bool squared_tempo = false;
   float smoothness = 0;            // Weight of the loss on the change from one frame to the next.
   GuidanceSettings guidance = {};  // Where there is motion without styles.
   int64_t predictor_steps = 0;     // Of the network that predicts input; 0: the model has none.

@@ -23,29 +23,26 @@ static_assert(mirror_is_its_own_inverse());
 
 }  // namespace
 
-// Measured on the neutral takes ("normal", split "train") of Bandai Namco Research Motiondataset 2:
-// means over every fifth frame of every third take, 2,828 frames of 123 takes of one actor, rounded
-// to 0.1 mm and made the same on both sides. The vectors are means in their frame: left is x, z is
-// at right angles to it and to the line from mid-hip (of the chest: from the chest) to
-// mid-shoulder. The toe pitch is the mean slope of the 30 % of the frames in which the foot is
-// lowest.
+// A body of no one in particular, in round numbers, so that models may be free of any data set's
+// figures. Of an adult's proportions, legs of 0.8 m; narrow shoulders and short collar bones, so
+// that a rig without collar bones loses little. The distances of torso joints, collar bones and hip
+// joints follow from the numbers below them.
 constinit const Proportions kProportions = {
     // hips, spine, chest, neck, head; then shoulder, upper arm, lower arm, hand of either side;
     // then upper leg, lower leg, foot, toes of either side.
-    {0.0f,    0.1574f, 0.0899f, 0.1638f, 0.0646f, 0.1392f, 0.0535f,
-     0.2433f, 0.2229f, 0.1392f, 0.0535f, 0.2433f, 0.2229f, 0.0683f,
-     0.3908f, 0.4099f, 0.1175f, 0.0683f, 0.3908f, 0.4099f, 0.1175f},
-    0.8007f,
-    0.4007f,
-    0.4474f,
-    0.6719f,
-    0.0647f,
-    0.1002f,
-    {0, -0.0219f, 0},
-    {0, 0.0304f, 0.0245f},
-    {0.0498f, -0.0027f, 0.0170f},
-    {-0.0498f, -0.0027f, 0.0170f},
-    0.691f};
+    {0,     0.148f, 0.105f,  0.1831f, 0.065f, 0.1556f, 0.0559f, 0.25f, 0.22f, 0.1556f, 0.0559f,
+     0.25f, 0.22f,  0.0825f, 0.4f,    0.4f,   0.12f,   0.0825f, 0.4f,  0.4f,  0.12f},
+    0.8f,
+    0.42f,
+    0.4f,
+    0.65f,
+    0.08f,
+    0.105f,
+    {0, -0.02f, 0},
+    {0, 0.035f, 0.02f},
+    {0.05f, 0, 0.01f},
+    {-0.05f, 0, 0.01f},
+    0.6f};
 
 std::string_view human_joint_name(int joint) {
   return joint >= 0 && joint < kHumanJoints ? kNames[joint] : std::string_view{};

@@ -15,7 +15,7 @@ struct Usual {
 };
 constexpr float kRatioDeviation = 0.2f;
 constexpr float kBeyondFork = 9;
-constexpr Usual kArm = {1.1f, 0.42f, 0.2f, 0.6f, 0.5f, 1.0f};
+constexpr Usual kArm = {1.1f, 0.42f, 0.2f, 0.55f, 0.55f, 1.4f};
 constexpr Usual kLeg = {1.0f, 0.13f, 0.12f, 0.45f, 0.6f, 1.2f};
 
 // The square of a deviation; straight on beyond three of them, since some makers put a wrist or a

@@ -63,7 +63,7 @@ Rows<const float> StyleNetworks::shrink(std::span<const Pass> passes, Rows<const
     const float near = square > limit ? limit / square : 1.0f;
     const float wanted = near * near;  // Falls with the fourth power of the distance.
     float& open = passes[p].networks->gate_;
-    if (std::isfinite(wanted)) open += passes[p].gate_share * (wanted - open);
+    if (std::isfinite(wanted)) ease_gate(wanted, passes[p].gate_share, open);
     const std::span<float> out(activations.row(p), size);
     if (open == 1) {
       std::copy_n(hidden.row(p), size, out.begin());

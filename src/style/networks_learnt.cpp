@@ -40,7 +40,7 @@ void StyleNetworks::add_learnt(std::span<const Pass> passes, std::span<const flo
       const float far = self.leverage(learnt, activations, drawn, rest);
       const float wanted = far > 1 ? 1 / far : 1.0f;
       float& open = self.learnt_gates_[k];
-      if (std::isfinite(far)) open += passes[p].gate_share * (wanted - open);
+      if (std::isfinite(far)) ease_gate(wanted, passes[p].gate_share, open);
       for (size_t i = 0; i < count; ++i) {
         drawn[i] = learnt.mean[i] + open * (activations[i] - learnt.mean[i]);
       }

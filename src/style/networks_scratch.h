@@ -18,6 +18,11 @@ inline float exaggerated(float strength) {
   return size <= 1 ? strength : std::copysign(1 + kExaggeration * (size - 1), strength);
 }
 
+// Moves a gate by `share` of the way; at 1 to the very bit, wherever it was.
+inline void ease_gate(float wanted, float share, float& open) {
+  open = share < 1 ? open + share * (wanted - open) : wanted;
+}
+
 // Room on the stack, handed out in parts that begin on a cache line.
 class StyleNetworks::ScratchArena {
  public:

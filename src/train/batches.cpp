@@ -84,7 +84,7 @@ Batch BatchMaker::make(Random& random) const {
       int draw = -1;
       if (settings_.disturbed) {
         draw = static_cast<int>(draws.size());
-        draws.push_back(draw_disturbance(settings_.disturbance, set_.scale(), random));
+        draws.push_back(draw_disturbance(settings_.disturbance, set_.units(), random));
       }
       rows.push_back({sample, flip, draw});
       rows.push_back({sample + 1, flip, draw});

@@ -47,7 +47,7 @@ int Classifier::find(const std::string& label) const {
 
 void Classifier::normalise(std::span<float> window) const {
   for (size_t i = 0; i < window.size(); ++i) {
-    window[i] = (window[i] - mean_[i % kNumbers]) / scale_[i % kNumbers];
+    window[i] = (window[i] - units_.mean[i % kNumbers]) / units_.scale[i % kNumbers];
   }
 }
 
@@ -66,8 +66,8 @@ void Classifier::measure(const std::vector<Take>& takes, const std::vector<int>&
     const double mean = sum[i] / std::max(1.0, poses);
     const double variance = squares[i] / std::max(1.0, poses) - mean * mean;
     const double floor = i < root_offset(PoseLayout::positions) ? 0.02 : 0.1;
-    mean_.push_back(static_cast<float>(mean));
-    scale_.push_back(static_cast<float>(std::sqrt(std::max(variance, 0.0) + floor * floor)));
+    units_.mean.push_back(static_cast<float>(mean));
+    units_.scale.push_back(static_cast<float>(std::sqrt(std::max(variance, 0.0) + floor * floor)));
   }
 }
 
@@ -114,7 +114,7 @@ void Classifier::learn(const std::vector<Take>& takes, const std::vector<int>& l
         copy_window(takes[take], first, out);
         if (settings_.disturbed) {
           if (random.bits() & 1) mirror_poses(PoseLayout::positions, out);
-          disturb(draw_disturbance(kDisturbance, scale_, random), kDisturbance, random, out);
+          disturb(draw_disturbance(kDisturbance, units_, random), kDisturbance, random, out);
         }
         normalise(out);
         for (float& number : out) number += kNoise * random.normal();
@@ -133,7 +133,7 @@ torch::Tensor Classifier::loss(const torch::Tensor& windows, const torch::Tensor
   const auto repeated = [](const std::vector<float>& numbers) {
     return torch::tensor(numbers).repeat({kClassifiedPoses});
   };
-  const torch::Tensor normalised = (windows - repeated(mean_)) / repeated(scale_);
+  const torch::Tensor normalised = (windows - repeated(units_.mean)) / repeated(units_.scale);
   torch::Tensor noise = torch::empty_like(normalised, torch::TensorOptions().requires_grad(false));
   float* number = noise.data_ptr<float>();
   for (int64_t i = 0; i < noise.numel(); ++i) number[i] = kNoise * random.normal();

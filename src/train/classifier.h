@@ -8,6 +8,7 @@
 
 #include <torch/torch.h>
 
+#include "learn/samples.h"
 #include "learn/take.h"
 #include "train/network.h"
 
@@ -63,7 +64,7 @@ class Classifier {
 
   ClassifierSettings settings_;
   std::vector<std::string> classes_;
-  std::vector<float> mean_, scale_;  // [pose numbers]
+  InputUnits units_;
   std::vector<NetworkTrainer> networks_;
 };
 

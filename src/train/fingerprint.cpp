@@ -60,9 +60,11 @@ uint64_t hash_styles(const std::vector<StyleName>& styles) {
 }
 
 void hash_disturbance(const Disturbance& disturbance, Hash& hash) {
-  hash.add_list(std::to_array({disturbance.scale, disturbance.floor, disturbance.heading,
-                               disturbance.posture, disturbance.jitter, disturbance.velocity,
-                               disturbance.turn_rate, disturbance.tempo}));
+  hash.add_list(
+      std::to_array({disturbance.scale, disturbance.floor, disturbance.heading, disturbance.posture,
+                     disturbance.jitter, disturbance.velocity, disturbance.turn_rate,
+                     disturbance.tempo, disturbance.torso, disturbance.head, disturbance.arms,
+                     disturbance.legs, disturbance.amplitude}));
 }
 
 uint64_t hash_settings(const TrainOptions& options) {
@@ -72,6 +74,7 @@ uint64_t hash_settings(const TrainOptions& options) {
   hash.add_text(options.recipe->name);
   hash.add(settings.steps);
   hash.add(settings.neutral_samples);
+  hash.add(settings.squared_tempo);
   hash.add(settings.predictor_steps);
   hash.add(settings.smoothness);
   const BatchSettings& batch = settings.batch;

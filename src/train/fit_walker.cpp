@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
+#include <span>
 
+#include "base/quat.h"
 #include "learn/ridge.h"
 #include "learn/take.h"
+#include "rig/canonical_skeleton.h"
 #include "train/gait_take.h"
 
 namespace panache {
@@ -14,7 +16,7 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
-enum class Use { none, walk, run, stand };
+enum class Use { none, walk, run };
 
 Use use_of(const ManifestRow& row) {
   if (!row.neutral || row.test) return Use::none;
@@ -23,7 +25,6 @@ Use use_of(const ManifestRow& row) {
     return Use::walk;
   }
   if (content == "run" || content == "dash") return Use::run;
-  if (content.starts_with("raise-") || content.starts_with("wave-")) return Use::stand;
   return Use::none;
 }
 
@@ -33,11 +34,12 @@ struct GaitRules {
   // Penalties of the terms 1, u, u^2, turn, turn^2, acceleration: the squared change per term
   // counts as that many frames' squared error.
   std::array<double, kTerms> penalties;
+  float least_stance;  // Of a foot at the reference speed, radians of the cycle.
 };
 // The walks lie so close together in speed that their curvature would be noise; the runs do not
 // turn at all.
-constexpr GaitRules kWalkRules = {1.1f, 0.6f, 1.5f, {1e-3, 1, 1e5, 3, 3, 100}};
-constexpr GaitRules kRunRules = {2.8f, 1.9f, 4.5f, {1e-3, 3, 30, 300, 300, 100}};
+constexpr GaitRules kWalkRules = {1.1f, 0.6f, 1.5f, {1e-3, 1, 1e5, 30, 30, 100}, 3.8f};
+constexpr GaitRules kRunRules = {2.8f, 1.9f, 4.5f, {1e-3, 3, 30, 300, 300, 100}, 0};
 
 constexpr int kMargin = 3;              // Frames at the ends whose speed is least certain.
 constexpr double kMaxSideways = 0.3;    // m/s
@@ -59,6 +61,82 @@ bool is_usable(const GaitTake& take, int f, const GaitRules& rules) {
   return frame.going.speed > rules.slowest && frame.going.speed < rules.fastest &&
          std::abs(frame.sideways) < kMaxSideways && std::abs(frame.going.turn) < kMaxGaitTurn &&
          std::abs(frame.going.acceleration) < kMaxGaitChange && frame.cadence > 0.3;
+}
+
+// Where in the channels a driven joint's rotation is.
+std::span<float, 3> rotation_of(Channels& channels, HumanJoint joint) {
+  const auto at = std::ranges::find(kDriven, joint) - kDriven.begin();
+  return std::span<float, 3>(&channels[static_cast<size_t>(3 + 3 * at)], 3);
+}
+Quat get(std::span<const float, 3> rotation) {
+  return exp_rotation(Vec3{rotation[0], rotation[1], rotation[2]});
+}
+void set(std::span<float, 3> rotation, Quat q) {
+  const Vec3 r = log_rotation(q);
+  std::ranges::copy(std::array{r.x, r.y, r.z}, rotation.begin());
+}
+Quat bend(float angle) { return axis_angle(Vec3{1, 0, 0}, angle); }
+
+// Where a skeleton has its ankles and toes decides how steep its feet are in standing. The walker
+// stands on the canonical body's: all feet of these takes are turned by what the planted ones are
+// off in the mean, and the hips are as much higher.
+void level_feet(std::vector<GaitTake>& takes) {
+  double slope = 0, count = 0;
+  for (const GaitTake& take : takes) {
+    for (int f = 0; f < take.take->frames(); ++f) {
+      for (int foot = 0; foot < kFeet; ++foot) {
+        if (!take.take->contacts[f][foot]) continue;
+        const HumanPositions& body = take.take->body[f];
+        const Vec3 toes = body[index(kToes[foot])] - body[index(kAnkles[foot])];
+        slope += std::asin(static_cast<double>(-toes.y / length(toes)));
+        ++count;
+      }
+    }
+  }
+  if (count == 0) return;
+  const float pitch = kProportions.toe_pitch, own = static_cast<float>(slope / count);
+  const float higher =
+      (std::sin(pitch) - std::sin(own)) * kProportions.length[index(HumanJoint::left_toes)];
+  for (GaitTake& take : takes) {
+    for (GaitFrame& frame : take.frames) {
+      for (const HumanJoint foot : {HumanJoint::left_foot, HumanJoint::right_foot}) {
+        const std::span<float, 3> rotation = rotation_of(frame.channels, foot);
+        set(rotation, get(rotation) * bend(pitch - own));
+      }
+      frame.channels[1] += higher;
+    }
+  }
+}
+
+// Nor does a skeleton's spine say how its owner stood: the torso of these walks is straight and
+// upright in the mean, and runs lean ahead of that as they did.
+void straighten(std::vector<GaitTake>& walks, std::vector<GaitTake>& runs) {
+  constexpr std::array kTorso = {HumanJoint::hips, HumanJoint::spine, HumanJoint::chest,
+                                 HumanJoint::neck};
+  std::array<float, kTorso.size()> mean{};
+  float frames = 0;
+  for (GaitTake& take : walks) {
+    for (GaitFrame& frame : take.frames) {
+      for (size_t i = 0; i < kTorso.size(); ++i) {
+        mean[i] += rotation_of(frame.channels, kTorso[i])[0];
+      }
+      ++frames;
+    }
+  }
+  for (std::vector<GaitTake>* takes : {&walks, &runs}) {
+    for (GaitTake& take : *takes) {
+      for (GaitFrame& frame : take.frames) {
+        for (size_t i = 0; i < kTorso.size(); ++i) {
+          const std::span<float, 3> rotation = rotation_of(frame.channels, kTorso[i]);
+          set(rotation, get(rotation) * bend(-mean[i] / frames));
+        }
+        for (const HumanJoint leg : {HumanJoint::left_upper_leg, HumanJoint::right_upper_leg}) {
+          const std::span<float, 3> rotation = rotation_of(frame.channels, leg);
+          set(rotation, bend(mean[0] / frames) * get(rotation));
+        }
+      }
+    }
+  }
 }
 
 constexpr int kUnknowns = kWaves * kTerms;
@@ -147,15 +225,30 @@ void fit_gaze(const std::vector<GaitTake>& takes, const GaitRules& rules, float 
   gait.gaze_lead = static_cast<float>(weights[0]);
 }
 
-// Whether a foot carries weight: its toe is low and slow beside the body's speed. The contacts of
-// the take are stricter, and hardly know the foot of a fast runner.
-bool is_down(const Take& take, int f, int foot, float speed) {
-  constexpr float kMaxHeight = 0.05f;  // Metres.
-  const Vec3 before = world_positions(take, f - 1)[index(kToes[foot])];
-  const Vec3 after = world_positions(take, f + 1)[index(kToes[foot])];
-  const float toe_speed = length(after - before) * static_cast<float>(kTakeRate) / 2;
-  return take.body[f][index(kToes[foot])].y < kMaxHeight &&
-         toe_speed < std::max(0.45f, 0.25f * speed);
+// Whether a foot carries weight: its toe or, where it lands heel first, its ankle is low and slow
+// beside the body's speed. The contacts of the take are stricter, and hardly know the foot of a
+// fast runner. `ankle`: how high it is in the middle of the stance.
+bool is_down(const Take& take, int f, int foot, float speed, float ankle) {
+  constexpr float kMaxHeight = 0.05f, kMaxLift = 0.02f;  // Metres, of the toe and the ankle.
+  const float slow = std::max(0.45f, 0.25f * speed);
+  const auto rests = [&](HumanJoint joint, float height) {
+    const Vec3 before = world_positions(take, f - 1)[index(joint)];
+    const Vec3 after = world_positions(take, f + 1)[index(joint)];
+    return take.body[f][index(joint)].y < height &&
+           length(after - before) * static_cast<float>(kTakeRate) / 2 < slow;
+  };
+  return rests(kToes[foot], kMaxHeight) || rests(kAnkles[foot], ankle + kMaxLift);
+}
+
+// The ankle's height in the planted frames of a take, the mean; 0 where there is none.
+float standing_ankle(const Take& take, int foot) {
+  float sum = 0, count = 0;
+  for (int f = 0; f < take.frames(); ++f) {
+    if (!take.contacts[f][foot]) continue;
+    sum += take.body[f][index(kAnkles[foot])].y;
+    ++count;
+  }
+  return count > 0 ? sum / count : 0;
 }
 
 // The phases at which feet land and lift, as lines over the speed.
@@ -168,12 +261,14 @@ void fit_contacts(const std::vector<GaitTake>& takes, const GaitRules& rules, Ga
     fit.add(std::array{1.0, speed}, std::array{around + std::remainder(phase - around, kTurn)});
   };
   for (const GaitTake& take : takes) {
+    const std::array<float, kFeet> ankles = {standing_ankle(*take.take, 0),
+                                             standing_ankle(*take.take, 1)};
     for (int f = 1; f < take.take->frames(); ++f) {
       if (!is_usable(take, f, rules) || !is_straight(take.frames[f])) continue;
       for (int foot = 0; foot < kFeet; ++foot) {
         const float body = take.frames[f].going.speed;
-        const bool now = is_down(*take.take, f, foot, body);
-        const bool before = is_down(*take.take, f - 1, foot, body);
+        const bool now = is_down(*take.take, f, foot, body, ankles[foot]);
+        const bool before = is_down(*take.take, f - 1, foot, body, ankles[foot]);
         if (now && !before) add(lands, take, f, foot, 0.0);
         if (before && !now) add(lifts, take, f, foot, kTurn / 2);
       }
@@ -183,6 +278,11 @@ void fit_contacts(const std::vector<GaitTake>& takes, const GaitRules& rules, Ga
   const std::vector<double> on = lands.solve(penalties), off = lifts.solve(penalties);
   gait.lands = {static_cast<float>(on[0]), static_cast<float>(on[1])};
   gait.lifts = {static_cast<float>(off[0]), static_cast<float>(off[1])};
+  // A toe joint leaves the ground before the tip of the toes does. People who walk stand on each
+  // foot for about six tenths of the cycle, less as they go faster.
+  if (rules.least_stance > 0 && gait.lifts[0] - gait.lands[0] < rules.least_stance) {
+    gait.lifts = {gait.lands[0] + rules.least_stance, gait.lands[1] - 0.44f};
+  }
 }
 
 struct FittedGait {
@@ -229,46 +329,41 @@ FittedGait fit_gait(const std::vector<GaitTake>& takes, const GaitRules& rules, 
   return out;
 }
 
-// Frames at the ends of a gesture in which the arms hang. The takes are cut so close that the hands
-// are on their way already.
-bool is_standing(const Take& take, int f) {
-  if (f + 1 >= take.frames()) return false;
-  for (const HumanJoint hand : {HumanJoint::left_hand, HumanJoint::right_hand}) {
-    if (take.body[f][index(hand)].y > take.body[f][0].y) return false;
-  }
-  for (int j = 0; j < kHumanJoints; ++j) {
-    if (length(take.body[f + 1][j] - take.body[f][j]) > 0.5f / static_cast<float>(kTakeRate))
-      return false;
-  }
-  return take.contacts[f][0] && take.contacts[f][1];
-}
+// In standing: bend of the knees, and how far the legs lean ahead over the feet. Radians.
+constexpr float kKnee = 0.33f, kAhead = 0.08f;
 
-// The mean of the standing frames and their reflections.
-int fit_stand(const std::vector<const Take*>& takes, Channels& stand) {
-  std::array<double, kChannels> sum{};
-  int frames = 0;
-  for (const Take* take : takes) {
-    for (int f = 0; f < take->frames(); ++f) {
-      if (!is_standing(*take, f)) continue;
-      const HumanPositions& body = take->body[f];
-      // Over the middle of the feet, with which the hips need not be in line.
-      const Vec3 feet = (body[index(kToes[0])] + body[index(kToes[1])] + body[index(kAnkles[0])] +
-                         body[index(kAnkles[1])]) *
-                        0.25f;
-      const RootPose& root = take->root[f];
-      const Vec3 origin = to_world(Vec3{feet.x, 0, feet.z}, root);
-      const Channels channels = gait_channels(*take, f, origin, root.facing);
-      const Channels other = mirrored(channels);
-      for (int c = 0; c < kChannels; ++c) {
-        sum[c] += static_cast<double>(channels[c] + other[c]) / 2;
-      }
-      ++frames;
-    }
+// How the walker stands: its upper body as in the middle of a walk, on legs that carry it, feet
+// flat and under the hip joints.
+Channels make_stand(const Gait& walk) {
+  constexpr int kPhases = 64;
+  Channels stand{};
+  for (int i = 0; i < kPhases; ++i) {
+    Channels now;
+    evaluate(walk, static_cast<float>(kTurn * i / kPhases), {walk.reference, 0, 0}, now);
+    const Channels other = mirrored(now);
+    for (int c = 0; c < kChannels; ++c) stand[c] += (now[c] + other[c]) / (2 * kPhases);
   }
-  for (int c = 0; c < kChannels && frames > 0; ++c) {
-    stand[c] = static_cast<float>(sum[c] / frames);
+  const Quat hips = get(rotation_of(stand, HumanJoint::hips));
+  const Quat upper = bend(kAhead - kKnee / 2), lower = bend(kAhead + kKnee / 2);
+  for (const HumanJoint leg : {HumanJoint::left_upper_leg, HumanJoint::right_upper_leg}) {
+    set(rotation_of(stand, leg), conjugate(hips) * upper);
   }
-  return frames;
+  for (const HumanJoint leg : {HumanJoint::left_lower_leg, HumanJoint::right_lower_leg}) {
+    set(rotation_of(stand, leg), bend(kKnee));
+  }
+  for (const HumanJoint foot : {HumanJoint::left_foot, HumanJoint::right_foot}) {
+    set(rotation_of(stand, foot), conjugate(lower));
+  }
+  const std::vector<Joint> joints = canonical_skeleton().joints;
+  const auto offset = [&](HumanJoint joint) { return joints[index(joint)].offset; };
+  const Vec3 ankle = rotate(hips, offset(HumanJoint::left_upper_leg)) +
+                     rotate(upper, offset(HumanJoint::left_lower_leg)) +
+                     rotate(lower, offset(HumanJoint::left_foot));
+  const Vec3 toes = ankle + offset(HumanJoint::left_toes);
+  stand[0] = 0;
+  stand[1] = -toes.y;
+  stand[2] = -(ankle.z + toes.z) / 2;  // Over the middle of the feet.
+  return stand;
 }
 
 }  // namespace
@@ -281,16 +376,14 @@ Result<FittedWalker> fit_walker(const std::vector<ManifestRow>& rows, const std:
   Result<std::vector<Take>> takes = load_takes(used, PoseLayout::positions);
   if (!takes) return takes.error();
   std::vector<GaitTake> walks, runs;
-  std::vector<const Take*> stands;
   for (const Take& take : *takes) {
-    if (use_of(take.row) == Use::stand) {
-      stands.push_back(&take);
-      continue;
-    }
     std::vector<GaitFrame> frames = gait_frames(take);
     if (frames.empty()) continue;
     (use_of(take.row) == Use::walk ? walks : runs).push_back({&take, std::move(frames)});
   }
+  level_feet(walks);
+  level_feet(runs);
+  straighten(walks, runs);
   const FittedGait walk = fit_gait(walks, kWalkRules, nullptr);
   if (walk.frames < 2 * kUnknowns) {
     return Error{"the manifests hold " + std::to_string(walk.frames) +
@@ -301,21 +394,13 @@ Result<FittedWalker> fit_walker(const std::vector<ManifestRow>& rows, const std:
     return Error{"the manifests hold " + std::to_string(run.frames) +
                  " frames of neutral running that are not held out; expected some hundreds"};
   }
-  Channels stand{};
-  const int stand_frames = fit_stand(stands, stand);
-  if (stand_frames == 0) {
-    return Error{
-        "the manifests hold no neutral gesture (raise-*, wave-*) that starts or ends "
-        "standing still with hanging arms"};
-  }
   std::map<std::string, std::string> metadata;
   metadata["data"] = data;
   metadata["licence"] = licence;
-  return FittedWalker{WalkerModel(walk.gait, run.gait, stand, metadata),
+  return FittedWalker{WalkerModel(walk.gait, run.gait, make_stand(walk.gait), metadata),
                       static_cast<int>(takes->size()),
                       walk.frames,
                       run.frames,
-                      stand_frames,
                       walk.residual,
                       run.residual};
 }

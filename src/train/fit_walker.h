@@ -13,14 +13,14 @@ namespace panache {
 struct FittedWalker {
   WalkerModel model;
   // What it was fitted to: takes and frames (mirrored ones not counted).
-  int takes = 0, walk_frames = 0, run_frames = 0, stand_frames = 0;
+  int takes = 0, walk_frames = 0, run_frames = 0;
   // Root mean square of what is left of the rotation vectors, radians.
   double walk_residual = 0, run_residual = 0;
 };
 
 // Uses the neutral takes of `rows` that are not held out: contents walk, walk-turn-left and
-// walk-turn-right for the walk; run and dash for the run; the standing ends of gestures (raise-*,
-// wave-*) for the stand. Each counts twice, the second time mirrored.
+// walk-turn-right for the walk; run and dash for the run. Each counts twice, the second time
+// mirrored. It stands as it walks in the mean, on straight legs.
 Result<FittedWalker> fit_walker(const std::vector<ManifestRow>& rows, const std::string& data,
                                 const std::string& licence);
 

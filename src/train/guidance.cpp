@@ -181,7 +181,7 @@ Guidance::Guidance(const SampleSet& set, const std::vector<int>& choice, const O
       settings_(settings),
       styles_(static_cast<int>(signatures.size())),
       input_clip_(input_clip > 0 ? input_clip : INFINITY),
-      deviation_(set.scale()) {
+      input_units_(set.units()) {
   input_mean_ = torch::tensor(set.mean()).repeat({kWindowPoses});
   input_factor_ = 1 / torch::tensor(set.scale()).repeat({kWindowPoses});
   output_scale_ = torch::tensor(units.scale);
@@ -258,7 +258,7 @@ torch::Tensor Guidance::loss(const NetworkTrainer& pose, double share, Random& r
     const std::span<float, kSequenceNumbers> sequence(raw.data_ptr<float>() + s * kSequenceNumbers,
                                                       kSequenceNumbers);
     motion_.draw(settings_.spliced, random, sequence);
-    disturb(draw_disturbance(settings_.disturbance, deviation_, random), settings_.disturbance,
+    disturb(draw_disturbance(settings_.disturbance, input_units_, random), settings_.disturbance,
             random, sequence);
   }
   const torch::Tensor answer = pose.forward(normalised(raw), groups, &random);

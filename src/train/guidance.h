@@ -60,7 +60,7 @@ class Guidance {
   const GuidanceSettings settings_;
   const int styles_;
   const float input_clip_;
-  const std::vector<float> deviation_;       // Of each pose number. [66]
+  const InputUnits input_units_;
   torch::Tensor input_mean_, input_factor_;  // [inputs]
   torch::Tensor output_scale_;               // [outputs]
   // Of the style's change in the pairs, actions weighted alike. [styles][outputs]

@@ -243,7 +243,7 @@ class BaseTraining {
       const Take& take = takes_[t];
       const bool mirrored = random.bits() & 1;
       const Disturbance& how = disturbed ? kDisturbance : Disturbance{};
-      const Disturbed draw = draw_disturbance(how, units_.scale, random);
+      const Disturbed draw = draw_disturbance(how, units_, random);
       std::array<bool, kLimbs.size()> hidden{};
       for (bool& limb : hidden) limb = disturbed && random.uniform() < kHidden;
       const float first = static_cast<float>(place) + random.uniform();

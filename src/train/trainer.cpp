@@ -36,13 +36,15 @@ struct Job {
 };
 
 torch::Tensor loss_of(const std::string& network, const torch::Tensor& out, const Batch& batch,
-                      float smoothness) {
+                      bool squared_tempo, float smoothness) {
   if (network == "contact") {
     return torch::binary_cross_entropy_with_logits(out, batch.contacts);
   }
   torch::Tensor loss;
   if (network == "pose") {
     loss = (out - batch.pose).square().mean();
+  } else if (squared_tempo) {
+    loss = (out - batch.log_rate).square().mean();
   } else {
     // The network answers with the logarithm of the rate, but what must be right is the mean of the
     // rate itself: a styled take of n frames covers the sum of its n rates, whatever their
@@ -94,7 +96,8 @@ class Training {
         NetworkTrainer& network = *job.networks[n];
         const torch::Tensor out = network.forward(batch.inputs, batch.group_sizes, &random);
         if (network.step() > step) continue;  // Its units were drawn, so the others' are as ever.
-        torch::Tensor loss = loss_of(network.shape().name, out, batch, settings_.smoothness);
+        torch::Tensor loss = loss_of(network.shape().name, out, batch, settings_.squared_tempo,
+                                     settings_.smoothness);
         sums[n] += loss.item<float>();
         if (guidance_ && network.shape().name == "pose") {
           const double share = static_cast<double>(step) / static_cast<double>(settings_.steps);
@@ -164,7 +167,7 @@ class Training {
     Batch batch = batches_.plain(validation_);
     batch.group_sizes = validation_groups_;
     const torch::Tensor out = network.forward(batch.inputs, batch.group_sizes, nullptr);
-    return loss_of(network.shape().name, out, batch, 0).item<float>();
+    return loss_of(network.shape().name, out, batch, settings_.squared_tempo, 0).item<float>();
   }
 
   const TrainingSettings& settings_;

@@ -58,6 +58,49 @@ TEST(Pairing, without_a_long_enough_neutral_take_there_is_no_pair) {
   EXPECT_TRUE(pair_takes(takes, {1}, {0}).empty());
 }
 
+// make_take()'s cycle of 31 frames, on feet that step in turn.
+Take stepping(const std::string& style, int frames, float start, float rate) {
+  Take take = test::make_take(style, frames, start, rate, 0.4f);
+  for (int f = 0; f < frames; ++f) {
+    const float ahead = 0.3f * std::sin(start + rate * 0.2f * static_cast<float>(f));
+    for (const HumanJoint joint : {HumanJoint::left_foot, HumanJoint::left_toes}) {
+      take.body[f][index(joint)].z = ahead;
+    }
+    for (const HumanJoint joint : {HumanJoint::right_foot, HumanJoint::right_toes}) {
+      take.body[f][index(joint)].z = -ahead;
+    }
+  }
+  write_numbers(PoseLayout::positions, take);
+  return take;
+}
+
+TEST(Pairing, a_run_shorter_than_a_window_is_paired_in_step) {
+  // One cycle and a third of it: 45 frames find no place there that is in step to their end.
+  for (const float start : {1.0f, 2.0f, 3.0f, 4.0f, 5.0f}) {
+    const std::vector<Take> takes = {stepping("neutral", 41, 0, 1), stepping("old", 60, start, 1)};
+    const std::vector<Pairing> pairings = pair_takes(takes, {1}, {0});
+    ASSERT_FALSE(pairings.empty());
+    EXPECT_GT(*step_agreement(takes, pairings), 0.95) << start;
+    EXPECT_EQ(pairings.front().first, 0);
+    EXPECT_EQ(pairings.back().first + static_cast<int>(pairings.back().neutral_frames.size()), 60);
+  }
+}
+
+TEST(Pairing, step_agreement_tells_left_from_right) {
+  const std::vector<Take> takes = {stepping("neutral", 60, 0, 1), stepping("old", 60, 0, 1),
+                                   stepping("old", 60, std::numbers::pi_v<float>, 1),
+                                   test::make_take("old", 60, 0, 1, 0)};
+  Pairing same;
+  for (int f = 0; f < 60; ++f) same.neutral_frames.push_back(static_cast<float>(f));
+  const auto agreement = [&](int styled) {
+    same.styled = styled;
+    return step_agreement(takes, {same});
+  };
+  EXPECT_NEAR(*agreement(1), 1, 1e-6);
+  EXPECT_NEAR(*agreement(2), -1, 1e-6);
+  EXPECT_FALSE(agreement(3).has_value());  // Its feet move together.
+}
+
 TEST(Pairing, styles_are_compared_within_their_own_set_only) {
   std::vector<Take> takes = {test::make_take("neutral", 200, 0, 1, 0),
                              test::make_take("old", 90, 1, 1, 0.4f)};

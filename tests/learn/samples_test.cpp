@@ -107,11 +107,43 @@ TEST(Samples, an_undisturbing_disturbance_leaves_the_window_alone) {
   std::vector<float> window(set.inputs());
   set.window(5, window);
   std::vector<float> same = window;
-  disturb(draw_disturbance(none, set.scale(), random), none, random, same);
+  disturb(draw_disturbance(none, set.units(), random), none, random, same);
   EXPECT_EQ(same, window);
   const Disturbance& usual = kUsualDisturbance;
-  disturb(draw_disturbance(usual, set.scale(), random), usual, random, same);
+  disturb(draw_disturbance(usual, set.units(), random), usual, random, same);
   EXPECT_NE(same, window);
+}
+
+TEST(Samples, another_person_has_the_same_limbs_held_otherwise) {
+  const std::vector<Take> takes = {test::make_take("neutral", 200, 0, 1, 0),
+                                   test::make_take("old", 90, 1.7f, 1.3f, 0.4f)};
+  const SampleSet set(takes, pair_takes(takes, {1}, {0}), {"old"}, test::kPanache, false);
+  Disturbance other;
+  other.torso = other.head = other.legs = 0.1f;
+  other.arms = 0.2f;
+  Random random(4);
+  std::vector<float> window(set.inputs());
+  set.window(5, window);
+  std::vector<float> turned = window, wider = window;
+  disturb(draw_disturbance(other, set.units(), random), other, random, turned);
+  for (int pose = 0; pose < kWindowPoses; ++pose) {
+    const auto before = read_positions(std::span(window).subspan(size_t(pose) * 66, 66));
+    const auto after = read_positions(std::span(turned).subspan(size_t(pose) * 66, 66));
+    for (int j = 1; j < kHumanJoints; ++j) {
+      const Vec3 limb = before[j] - before[kHumanParent[j]],
+                 now = after[j] - after[kHumanParent[j]];
+      EXPECT_NEAR(length(now), length(limb), 1e-5);
+      EXPECT_GT(length(now - limb), 1e-3f * length(limb)) << j;
+    }
+  }
+  other = {};
+  other.amplitude = 0.3f;
+  const Disturbed draw = draw_disturbance(other, set.units(), random);
+  disturb(draw, other, random, wider);
+  for (size_t i = 0; i < 63; ++i) {
+    EXPECT_NEAR(wider[i] - set.mean()[i], draw.amplitude * (window[i] - set.mean()[i]), 1e-5);
+  }
+  EXPECT_NEAR(wider[63 + kVelocityForward], draw.amplitude * window[63 + kVelocityForward], 1e-5);
 }
 
 }  // namespace

@@ -82,7 +82,8 @@ const Recipe& smith2019_recipe() noexcept {
       .training = {.steps = 20 * 550000 / 64,
                    .neutral_samples = true,
                    .batch = {.size = 64},
-                   .optimizer = {.learning_rate = 0.01f, .epsilon = 0.01f}}};
+                   .optimizer = {.learning_rate = 0.01f, .epsilon = 0.01f},
+                   .squared_tempo = true}};
   return recipe;
 }
 

@@ -1,6 +1,7 @@
 #include "style/stages/root_motion.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/quat.h"
 
@@ -12,6 +13,9 @@ constexpr float kStandingSpeed = 0.3f;  // m/s
 // Well above this speed the root motion changes by the style's full share, below it by less.
 constexpr float kSlowSpeed = 0.4f;  // m/s
 constexpr float kMaxShortened = 0.8f, kMaxStretched = 1.5f;
+// Who goes back and forth over this many seconds, as a boxer does, goes nowhere.
+constexpr float kTravelSeconds = 3;
+constexpr float kNoSpeed = 0.01f;  // m/s
 
 }  // namespace
 
@@ -27,10 +31,15 @@ void RootMotion::step(const StyleDelta& delta, float gate, const Observer& obser
 
   // Forward the style stretches or shortens the input's own way, by the share that its velocity is
   // of the input's: what comes back in the input comes back in the output, and what stands stays.
-  // Each term is exactly zero without a style.
+  // Each term is exactly zero without a style. Steps that lead nowhere keep their length: stretched
+  // ahead and not back, they would carry the body away.
   const float speed = window.forward_speed();
-  const float share =
-      gate * delta.velocity_forward * speed / (speed * speed + kSlowSpeed * kSlowSpeed);
+  const float follow = 1 - exponential(-dt / kTravelSeconds);
+  mean_forward_ += follow * (speed - mean_forward_);
+  mean_speed_ += follow * (window.ground_speed() - mean_speed_);
+  const float travel = std::min(1.0f, std::abs(mean_forward_) / (mean_speed_ + kNoSpeed));
+  const float share = gate * travel * travel * delta.velocity_forward * speed /
+                      (speed * speed + kSlowSpeed * kSlowSpeed);
   const Vec3 way = observer.now().root.position - observer.last_root().position;
   drift_ += rotate(rotation_y(turn_), way) - way;
   const float most = speed > 0 ? kMaxStretched : 0.0f;  // Backwards, or the way would not close.

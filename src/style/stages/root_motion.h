@@ -21,7 +21,7 @@ struct RootOffset {
 // Adds up what a style changes of the speed and of the heading.
 class RootMotion {
  public:
-  void reset() noexcept { drift_ = {}, sway_ = 0, turn_ = 0; }
+  void reset() noexcept { *this = RootMotion(); }
   // `gate`: how well the motion is known, 0 to 1.
   void step(const StyleDelta& delta, float gate, const Observer& observer,
             const InputWindow& window, const StepTime& time) noexcept;
@@ -31,12 +31,15 @@ class RootMotion {
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
     visit(self.drift_), visit(self.sway_), visit(self.turn_);
+    visit(self.mean_forward_), visit(self.mean_speed_);
   }
 
  private:
   Vec3 drift_;      // Along the way; world, metres.
   float sway_ = 0;  // To the left, metres,
   float turn_ = 0;  // and to the heading, radians; both fade.
+  // Of the input over the last seconds, m/s: forward, and in whatever direction.
+  float mean_forward_ = 0, mean_speed_ = 0;
 };
 
 }  // namespace panache
