@@ -4,12 +4,14 @@
 
 #include "base/one_of.h"
 #include "eval/systems/xia2015/xia2015.h"
+#include "eval/systems/yumer2016/yumer2016.h"
 
 namespace panache {
 
 const std::vector<SystemEntry>& published_systems() {
   static const std::vector<SystemEntry> systems = {
       {"xia2015", make_xia2015},
+      {"yumer2016", make_yumer2016},
   };
   return systems;
 }
