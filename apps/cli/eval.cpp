@@ -196,7 +196,7 @@ void add_eval(CLI::App& app, int& exit_code) {
       ->allow_extra_args(false);
   verb->add_option("--system", options->systems,
                    "A system of another paper to build from the same takes and evaluate beside the "
-                   "models: xia2015, yumer2016 or all; may be given several times")
+                   "models: xia2015, yumer2016, holden2017 or all; may be given several times")
       ->allow_extra_args(false);
   verb->add_option("--unseen", options->unseen,
                    "A content to leave out of training and then evaluate on; may be given "

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/one_of.h"
+#include "eval/systems/holden2017/holden2017.h"
 #include "eval/systems/xia2015/xia2015.h"
 #include "eval/systems/yumer2016/yumer2016.h"
 
@@ -12,6 +13,7 @@ const std::vector<SystemEntry>& published_systems() {
   static const std::vector<SystemEntry> systems = {
       {"xia2015", make_xia2015},
       {"yumer2016", make_yumer2016},
+      {"holden2017", make_holden2017},
   };
   return systems;
 }
