@@ -40,75 +40,92 @@ Examples gather(const Database& database, const std::vector<Database::Neighbour>
   return out;
 }
 
-// Which of `components` each neighbour belongs to: by k-means of the outputs, that begins with the
-// nearest neighbour and those farthest from the ones before.
-std::vector<int> cluster(const Examples& examples, int components) {
+// How far each neighbour belongs to each component: [neighbours][components], rows add up to 1. By
+// expectation maximisation of a mixture of Gaussians, all as wide, on what the style made of them;
+// it begins with the nearest neighbour and those farthest from the ones before. Nobody belongs to
+// one component alone, so that the answer does not jump from frame to frame.
+MatrixXf cluster(const Examples& examples, int components) {
   const Index count = examples.outputs.rows();
-  std::vector<int> member(static_cast<size_t>(count), 0);
-  if (components < 2 || count < 2 * components) return member;
+  if (count < 2 * components) components = 1;
+  MatrixXf members = MatrixXf::Ones(count, components);
+  if (components == 1) return members;
   MatrixXf centres(components, kOutputs);
-  centres.row(0) = examples.outputs.row(0);
+  centres.row(0) = examples.weights.transpose() * examples.outputs;
   VectorXf away = (examples.outputs.rowwise() - centres.row(0)).rowwise().squaredNorm();
-  for (int c = 1; c < components; ++c) {
+  float width = std::max(examples.weights.dot(away), 1e-9f);
+  for (int c = 0; c < components; ++c) {
     Index far = 0;
-    away.maxCoeff(&far);
+    away.cwiseProduct(examples.weights).maxCoeff(&far);
     centres.row(c) = examples.outputs.row(far);
     away = away.cwiseMin((examples.outputs.rowwise() - centres.row(c)).rowwise().squaredNorm());
   }
   for (int round = 0; round < kClusterRounds; ++round) {
-    for (Index k = 0; k < count; ++k) {
-      Index best = 0;
-      (centres.rowwise() - examples.outputs.row(k)).rowwise().squaredNorm().minCoeff(&best);
-      member[static_cast<size_t>(k)] = static_cast<int>(best);
+    MatrixXf square(count, components);
+    for (Index c = 0; c < components; ++c) {
+      square.col(c) = (examples.outputs.rowwise() - centres.row(c)).rowwise().squaredNorm();
     }
-    for (int c = 0; c < components; ++c) {
-      RowVectorXf sum = RowVectorXf::Zero(kOutputs);
-      float weight = 0;
-      for (Index k = 0; k < count; ++k) {
-        if (member[static_cast<size_t>(k)] != c) continue;
-        sum += examples.weights[k] * examples.outputs.row(k);
-        weight += examples.weights[k];
-      }
-      if (weight > 0) centres.row(c) = sum / weight;
-    }
+    const VectorXf nearest = square.rowwise().minCoeff();
+    members = ((square.colwise() - nearest) / (-2 * width)).array().exp();
+    const VectorXf sums = members.rowwise().sum();
+    members = members.array().colwise() / sums.array();
+    const MatrixXf weighted = examples.weights.asDiagonal() * members;
+    const Eigen::RowVectorXf totals = weighted.colwise().sum().cwiseMax(1e-9f);
+    centres = totals.cwiseInverse().asDiagonal() * (weighted.transpose() * examples.outputs);
+    width = std::max(weighted.cwiseProduct(square).sum(), 1e-9f);
   }
-  return member;
+  return members;
+}
+
+// Products of what the linear maps look at, for all components at once.
+struct Products {
+  MatrixXf own;   // [neighbours][neighbours]
+  VectorXf with;  // Of each neighbour with the query.
+  float query;    // Of the query with itself.
+};
+Products products_of(const MatrixXf& rows, const RowVectorXf& query) {
+  return {rows * rows.transpose(), rows * query.transpose(), query.squaredNorm()};
+}
+
+// The same of what is left of rows and query without the rows' weighted mean, and divided by their
+// mean square.
+Products standardised(const Products& from, const VectorXf& weights, float share) {
+  const VectorXf with_mean = from.own * weights;
+  const float mean = weights.dot(with_mean), query_mean = weights.dot(from.with);
+  Products out{from.own, from.with - with_mean, from.query - 2 * query_mean + mean};
+  out.own.colwise() -= with_mean;
+  out.own.rowwise() -= with_mean.transpose();
+  out.own.array() += mean;
+  out.with.array() += mean - query_mean;
+  const float factor = share / std::max(weights.dot(out.own.diagonal()), 1e-6f);
+  out.own *= factor;
+  out.with *= factor;
+  out.query *= factor;
+  return out;
 }
 
 // One autoregressive model: the output is linear in key and recent output. Least squares with a
 // penalty, in its dual form, as there are fewer neighbours than numbers; with R the roots of the
 // weights on a diagonal, y = mean(y) + dY^T R (R dU dU^T R + penalty)^-1 R dU du.
-RowVectorXf regress(const Examples& examples, const VectorXf& weights, const RowVectorXf& key,
-                    const RowVectorXf* recent, const LocalSettings& settings) {
-  const RowVectorXf key_mean = weights.transpose() * examples.keys;
-  const RowVectorXf output_mean = weights.transpose() * examples.outputs;
-  const Index width = kKeySize + (recent ? kOutputs : 0);
-  MatrixXf inputs(examples.keys.rows(), width);
-  RowVectorXf input(width);
-  const auto put = [&](Index at, const MatrixXf& rows, const RowVectorXf& mean,
-                       const RowVectorXf& query, float share) {
-    auto block = inputs.middleCols(at, rows.cols());
-    block = rows.rowwise() - mean;
-    const float square = weights.dot(block.rowwise().squaredNorm());
-    const float factor = std::sqrt(share / std::max(square, 1e-9f));
-    block *= factor;
-    input.segment(at, rows.cols()) = (query - mean) * factor;
-  };
-  put(0, examples.keys, key_mean, key, recent ? 1 - settings.recent : 1.0f);
+// `recent`: null where there is none.
+RowVectorXf regress(const Examples& examples, const VectorXf& weights, const Products& key,
+                    const Products* recent, const LocalSettings& settings) {
+  Products inputs = standardised(key, weights, recent ? 1 - settings.recent : 1.0f);
   if (recent) {
-    const RowVectorXf recent_mean = weights.transpose() * examples.recent;
-    put(kKeySize, examples.recent, recent_mean, *recent, settings.recent);
+    const Products more = standardised(*recent, weights, settings.recent);
+    inputs.own += more.own;
+    inputs.with += more.with;
+    inputs.query += more.query;
   }
   // Beyond its neighbours a linear map knows nothing.
-  const float reach =
-      std::sqrt((weights.array() > 0).select(inputs.rowwise().squaredNorm(), 0.0f).maxCoeff());
-  if (const float far = input.norm(); far > reach && far > 0) input *= reach / far;
+  const float reach = inputs.own.diagonal().maxCoeff();
+  if (inputs.query > reach) inputs.with *= std::sqrt(reach / inputs.query);
   const VectorXf roots = weights.cwiseSqrt();
-  inputs = roots.asDiagonal() * inputs;
-  MatrixXf gram = inputs * inputs.transpose();
+  MatrixXf gram = roots.asDiagonal() * inputs.own * roots.asDiagonal();
   gram.diagonal().array() += settings.penalty;
-  const VectorXf shares = roots.cwiseProduct(gram.llt().solve(inputs * input.transpose()));
-  return output_mean + shares.transpose() * (examples.outputs.rowwise() - output_mean);
+  const VectorXf shares =
+      roots.cwiseProduct(gram.llt().solve(roots.cwiseProduct(inputs.with).eval()));
+  // Those of dY: what they add up to is taken off the mean.
+  return (shares + (1 - shares.sum()) * weights).transpose() * examples.outputs;
 }
 
 // How much of the say each component has: by the weight of its members, and by how well the recent
@@ -142,24 +159,23 @@ LocalAnswer answer_locally(const Database& database,
                            std::span<const float, kKeySize> key, const Output* recent,
                            const LocalSettings& settings) {
   const Examples examples = gather(database, neighbours);
-  const std::vector<int> member = cluster(examples, settings.components);
+  const MatrixXf members = cluster(examples, settings.components);
   std::vector<VectorXf> weights;
-  for (int c = 0; c < settings.components; ++c) {
-    VectorXf own = VectorXf::Zero(examples.weights.size());
-    for (Index k = 0; k < own.size(); ++k) {
-      if (member[static_cast<size_t>(k)] == c) own[k] = examples.weights[k];
-    }
-    if (own.sum() > 0) weights.push_back(std::move(own));
+  for (Index c = 0; c < members.cols(); ++c) {
+    weights.push_back(examples.weights.cwiseProduct(members.col(c)));
   }
   const RowVectorXf query = Eigen::Map<const RowVectorXf>(key.data(), kKeySize);
   RowVectorXf recent_row;
   if (recent) recent_row = Eigen::Map<const RowVectorXf>(recent->data(), kOutputs);
   const RowVectorXf* last = recent ? &recent_row : nullptr;
   const VectorXf say = say_of(examples, weights, last);
+  const Products keys = products_of(examples.keys, query);
+  Products recents;
+  if (last) recents = products_of(examples.recent, *last);
   RowVectorXf output = RowVectorXf::Zero(kOutputs);
   for (size_t c = 0; c < weights.size(); ++c) {
-    output += say[static_cast<Index>(c)] *
-              regress(examples, weights[c] / weights[c].sum(), query, last, settings);
+    output += say[static_cast<Index>(c)] * regress(examples, weights[c] / weights[c].sum(), keys,
+                                                   last ? &recents : nullptr, settings);
   }
   LocalAnswer answer;
   Eigen::Map<RowVectorXf>(answer.output.data(), kOutputs) = output;

@@ -11,12 +11,12 @@
 namespace panache::xia2015 {
 
 struct LocalSettings {
-  size_t neighbours = 40;
+  size_t neighbours = 80;  // A fifth of the examples at most.
   int components = 2;
   // Penalty on the linear maps, as a share of the neighbours' mean square deviation.
-  float penalty = 0.5f;
+  float penalty = 0.2f;
   // Weight of the recent output against the window in what the maps look at.
-  float recent = 0.5f;
+  float recent = 0.8f;
 };
 
 using Output = std::array<float, kOutputs>;  // As in Database::Example.

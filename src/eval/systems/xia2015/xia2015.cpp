@@ -72,7 +72,8 @@ class LocalSource : public ChangeSource {
     if (!styles_.empty()) key_.project(window, key);
     float total = 0;
     for (Style& style : styles_) {
-      style.database->find(key, settings_.neighbours, neighbours_);
+      const size_t most = std::max<size_t>(1, style.database->examples().size() / 5);
+      style.database->find(key, std::min(settings_.neighbours, most), neighbours_);
       const std::optional<Output> recent = style.recent.before_next(seconds);
       const LocalAnswer local =
           answer_locally(*style.database, neighbours_, key, recent ? &*recent : nullptr, settings_);
