@@ -53,8 +53,8 @@ void WindowKey::project(std::span<const float> window, std::span<float> out) con
       Eigen::Map<const Eigen::MatrixXf>(axes_.data(), inputs, kKeySize);
 }
 
-// Searched by nanoflann: with the whole set of bandai-2 (50,000 examples a style) a search takes a
-// thirtieth of what a look at every example does.
+// Searched by nanoflann: among the 37,582 examples of the first style of bandai-2 the nearest 80
+// take 0.4 ms; a look at every example takes 1.7 ms.
 struct Database::Tree {
   struct Points {
     const std::vector<Example>& examples;
