@@ -61,6 +61,35 @@ TEST_F(Xia, with_one_pair_it_returns_the_styled_take) {
   EXPECT_LT(error_cm(*system_->instants(1), "wild", neutral, pairs_.takes[2]), 0.15 * untouched);
 }
 
+TEST_F(Xia, linear_maps_come_nearer_than_the_mean_of_the_neighbours) {
+  LocalSettings means;
+  means.penalty = 1e6f;
+  const auto system = *Xia2015::create("xia2015", pairs_.data(), means);
+  const double mean = error_cm(*system->instants(1), "wild", pairs_.takes[0], pairs_.takes[2]);
+  const double maps = error_cm(*system_->instants(1), "wild", pairs_.takes[0], pairs_.takes[2]);
+  EXPECT_LT(maps, 0.9 * mean);
+}
+
+TEST_F(Xia, motion_that_does_not_move_is_answered_too) {
+  std::vector<Take> takes = {test::swinging_take("neutral", 90, 0),
+                             test::swinging_take("old", 90, 0)};
+  for (Take& take : takes) {
+    for (int f = 0; f < take.frames(); ++f) {
+      take.body[f] = take.body[0], take.root[f] = take.root[0];
+      take.rotations[f] = take.rotations[0];
+    }
+    write_numbers(PoseLayout::positions, take);
+  }
+  const std::vector<Pairing> pairings = pair_takes(takes, {1}, {0});
+  const auto system = *Xia2015::create("xia2015", {takes, pairings, kStyles});
+  const auto answers = system->instants(1);
+  for (float at = 0; at < 60; ++at) {
+    std::array<float, StyleDelta::kSize> change;
+    pack(*answers->change("old", takes[0], at, takes[0], at), change);
+    for (const float number : change) ASSERT_NEAR(number, 0, 1e-4) << at;
+  }
+}
+
 TEST_F(Xia, half_of_a_style_is_half_its_change_and_none_is_none) {
   const Take& neutral = pairs_.takes[0];
   const auto whole = system_->instants(1), half = system_->instants(0.5),

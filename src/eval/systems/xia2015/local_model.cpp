@@ -15,6 +15,7 @@ using Eigen::RowVectorXf;
 using Eigen::VectorXf;
 
 constexpr int kClusterRounds = 5;
+constexpr float kNobody = 1e-4f;  // A component with less of the neighbours' weight has none.
 
 // The neighbours as matrices, one a row.
 struct Examples {
@@ -96,7 +97,9 @@ Products standardised(const Products& from, const VectorXf& weights, float share
   out.own.rowwise() -= with_mean.transpose();
   out.own.array() += mean;
   out.with.array() += mean - query_mean;
-  const float factor = share / std::max(weights.dot(out.own.diagonal()), 1e-6f);
+  // Differences of sums in single precision are nothing but noise below this share of the sums.
+  const float noise = 1e-4f * weights.dot(from.own.diagonal()) + 1e-6f;
+  const float factor = share / std::max(weights.dot(out.own.diagonal()), noise);
   out.own *= factor;
   out.with *= factor;
   out.query *= factor;
@@ -163,6 +166,7 @@ LocalAnswer answer_locally(const Database& database,
   std::vector<VectorXf> weights;
   for (Index c = 0; c < members.cols(); ++c) {
     weights.push_back(examples.weights.cwiseProduct(members.col(c)));
+    if (weights.back().sum() < kNobody) weights.pop_back();
   }
   const RowVectorXf query = Eigen::Map<const RowVectorXf>(key.data(), kKeySize);
   RowVectorXf recent_row;
