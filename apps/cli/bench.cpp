@@ -6,6 +6,7 @@
 #include "base/progress.h"
 #include "bench/run.h"
 #include "bench_report.h"
+#include "bench_systems.h"
 #include "messages.h"
 #include "model_path.h"
 #include "verbs.h"
@@ -16,7 +17,7 @@ namespace {
 constexpr int64_t kQuickSteps = 100'000;
 
 struct Options {
-  std::string model;
+  std::string model, systems, styles;
   int64_t steps = 1'000'000;
   bool quick = false, json = false;
 };
@@ -34,15 +35,24 @@ int run(const Options& options) {
   how.model = *model;
   how.walker_model = *walker;
   how.steps = options.quick ? kQuickSteps : options.steps;
+  // Before the process is tied to a core.
+  std::unique_ptr<BuiltSystems> systems;
+  if (!options.systems.empty()) {
+    auto built = build_systems(options.systems, options.styles, *model);
+    if (!built) return fail(built.error(), kBadInput);
+    systems = *std::move(built);
+  }
   Result<bench::Measurements> measured = [&] {
     Progress progress("measuring");
     return bench::measure_all(how, [&](double share) { progress.update(share); });
   }();
   if (!measured) return fail(measured.error(), kBadInput);
+  std::vector<SystemTime> times;
+  if (systems) times = systems->time();
   if (options.json) {
-    print(to_json(*measured));
+    print(to_json(*measured, times));
   } else {
-    print(describe(*measured));
+    print(describe(*measured, times));
   }
   return kDone;
 }
@@ -57,6 +67,11 @@ void add_bench(CLI::App& app, int& exit_code) {
   verb->add_option("--steps", options->steps, "Steps to time; other measurements scale with it")
       ->capture_default_str();
   verb->add_flag("--quick", options->quick, "A tenth of everything")->excludes("--steps");
+  CLI::Option* systems = verb->add_option(
+      "--systems", options->systems,
+      "A manifest: builds the systems of other papers from its takes, and times a frame of each");
+  verb->add_option("--styles", options->styles, "For --systems: which styles, as in panache train")
+      ->needs(systems);
   verb->add_flag("--json", options->json, "Print JSON");
   verb->footer(
       "Everything runs on one core; nothing else should run meanwhile. Libraries to compare with "

@@ -118,6 +118,19 @@ std::string memory_table(const Measurements& m) {
                   {"a character", bytes_text(m.character_bytes)}});
 }
 
+std::string systems_table(const std::vector<SystemTime>& systems) {
+  if (systems.empty()) return "";
+  std::vector<std::vector<std::string>> rows = {
+      {"system", "a frame", "frames a second", "of ours", "memory"}};
+  for (const SystemTime& system : systems) {
+    rows.push_back({system.name, us(system.frame_us),
+                    grouped(static_cast<int64_t>(1e6 / system.frame_us)),
+                    times(system.frame_us / systems.front().frame_us),
+                    bytes_text(static_cast<double>(system.bytes))});
+  }
+  return "\n" + columns(rows);
+}
+
 std::string missing_text(const Measurements& m) {
   std::string text;
   for (const bench::ForwardPass& pass : m.forward_passes) {
@@ -135,7 +148,7 @@ int characters_at_60hz(const bench::CrowdTime& crowd) {
   return static_cast<int>(1e6 / 60 / crowd.us_per_character);
 }
 
-Json to_json(const Measurements& m) {
+Json to_json(const Measurements& m, const std::vector<SystemTime>& systems) {
   Json forward, cold, spread, names, missing = Json::object(), peers, published, peer_bytes;
   for (const bench::ForwardPass& pass : m.forward_passes) {
     forward[pass.key] = or_null(m.forward_us(pass.key));
@@ -170,6 +183,11 @@ Json to_json(const Measurements& m) {
     at_60hz_int8 = characters_at_60hz(int8);
   }
   const bench::Histogram& steps = m.steps.steps;
+  Json frames = Json::object(), memory = Json::object();
+  for (const SystemTime& system : systems) {
+    frames[system.name] = system.frame_us;
+    memory[system.name] = system.bytes;
+  }
   return {{"machine",
            {{"processor", m.limits.processor},
             {"kernels", m.kernels},
@@ -207,10 +225,12 @@ Json to_json(const Measurements& m) {
           {"names", names},
           {"peers_bytes", peer_bytes},
           {"peers_published", published},
+          {"systems_frame_us", frames},
+          {"systems_bytes", memory},
           {"missing", missing}};
 }
 
-std::string describe(const Measurements& m) {
+std::string describe(const Measurements& m, const std::vector<SystemTime>& systems) {
   const double ours = *m.forward_us("panache");
   const double reading = *m.forward_us("read_limit");
   const double bytes = static_cast<double>(m.network_bytes);
@@ -220,7 +240,7 @@ std::string describe(const Measurements& m) {
          fixed(m.limits.memory_gb_s, 1) + " GB/s from memory; multiplies and adds " +
          fixed(m.limits.apart_gflops, 0) + " GFLOP/s, fused " + fixed(m.limits.fused_gflops, 0) +
          "\n\n" + forward_table(m, ours) + "\n" + others_table(m, ours) + "\n" + steps_table(m) +
-         "\n" + crowd_table(m) + "\n" + memory_table(m) + missing_text(m);
+         "\n" + crowd_table(m) + "\n" + memory_table(m) + systems_table(systems) + missing_text(m);
 }
 
 }  // namespace panache::cli

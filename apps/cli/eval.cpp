@@ -9,6 +9,7 @@
 #include "eval/evaluate.h"
 #include "eval/ood.h"
 #include "eval/report.h"
+#include "eval/systems/published.h"
 #include "eval/systems/recorded.h"
 #include "manifests.h"
 #include "messages.h"
@@ -24,6 +25,7 @@ struct Options {
   std::vector<std::string> models;
   std::vector<std::string> unseen, splits;
   std::vector<std::string> ood;
+  std::vector<std::string> systems;
   std::vector<std::string> recorded;
   std::string requests;
   std::string report;
@@ -116,6 +118,10 @@ Result<EvaluateOptions> read_options(const Options& options) {
     evaluation.models.push_back(
         {std::filesystem::path(path).stem().string(), *model, status ? 0 : bytes});
   }
+  Result<std::vector<SystemEntry>> published = find_published(options.systems);
+  if (!published) return Error{"--system: " + published.error().message};
+  evaluation.train_recipes = options.systems.empty();
+  evaluation.systems.insert(evaluation.systems.end(), published->begin(), published->end());
   evaluation.recorded = options.recorded;
   if (Result<void> unique = check_names(options, evaluation); !unique) return unique.error();
   if (!options.unseen.empty()) {
@@ -185,8 +191,12 @@ void add_eval(CLI::App& app, int& exit_code) {
                    "may be given several times")
       ->allow_extra_args(false);
   verb->add_option("--model", options->models,
-                   "A model to evaluate; may be given several times; without any, all recipes are "
-                   "trained first")
+                   "A model to evaluate; may be given several times; without any, and without "
+                   "--system, all recipes are trained first")
+      ->allow_extra_args(false);
+  verb->add_option("--system", options->systems,
+                   "A system of another paper to build from the same takes and evaluate beside the "
+                   "models: xia2015, yumer2016, holden2017 or all; may be given several times")
       ->allow_extra_args(false);
   verb->add_option("--unseen", options->unseen,
                    "A content to leave out of training and then evaluate on; may be given "

@@ -1,5 +1,6 @@
-// panache train and panache eval where the program was built without them.
+// panache train, panache eval and panache bench --systems where the program was built without them.
 
+#include "bench_systems.h"
 #include "messages.h"
 #include "verbs.h"
 
@@ -29,6 +30,13 @@ void add_train(CLI::App& app, int& exit_code) {
 
 void add_eval(CLI::App& app, int& exit_code) {
   add_missing(app, exit_code, "eval", "Evaluate models against real motion");
+}
+
+Result<std::unique_ptr<BuiltSystems>> build_systems(const std::string&, const std::string&,
+                                                    const std::string&) {
+  return Error{
+      "--systems: this program was built without the systems of other papers, which need "
+      "libtorch; use build/dev/panache, which ./run train builds"};
 }
 
 }  // namespace panache::cli

@@ -13,6 +13,7 @@
 #include "eval/ood.h"
 #include "eval/prediction.h"
 #include "eval/style_judges.h"
+#include "eval/systems/mean_posture.h"
 #include "eval/systems/model_system.h"
 #include "eval/systems/recorded.h"
 #include "net/safetensors.h"
@@ -61,7 +62,7 @@ Result<TestSet> prepare(const EvaluateOptions& options) {
 
 Result<std::vector<NamedModel>> find_models(const EvaluateOptions& options,
                                             const TestSet& test_set) {
-  if (!options.models.empty()) return options.models;
+  if (!options.models.empty() || !options.train_recipes) return options.models;
   std::vector<NamedModel> models;
   for (const Recipe* recipe : recipes()) {
     Result<NamedModel> model = train_system(*recipe, recipe->name, test_set.training, options);
@@ -113,8 +114,7 @@ Result<Systems> read_recorded(const EvaluateOptions& options) {
 
 Result<Systems> make_comparisons(const EvaluateOptions& options, const TestSet& test_set) {
   Systems systems;
-  const SystemData data{test_set.training.takes, test_set.training.pairings, options.styles,
-                        options.seed};
+  const SystemData data = system_data(test_set.training, options);
   for (const SystemEntry& entry : options.systems) {
     Result<std::unique_ptr<System>> system = entry.make(entry.name, data);
     if (!system) return system.error();
@@ -219,6 +219,10 @@ std::vector<ManifestRow> rows_to_evaluate(const EvaluateOptions& options) {
   return rows;
 }
 
+SystemData system_data(const TrainingData& training, const EvaluateOptions& options) {
+  return {training.takes, training.pairings, options.styles, options.seed, training.unlabelled};
+}
+
 Result<NamedModel> train_system(const Recipe& recipe, const std::string& name,
                                 const TrainingData& data, const EvaluateOptions& options) {
   TrainOptions training(recipe);
@@ -255,6 +259,9 @@ Result<Report> evaluate(const EvaluateOptions& options) {
   for (const NamedModel& model : *models) {
     systems.push_back(std::make_unique<ModelSystem>(model.name, model.model, model.bytes));
     drawn.push_back(systems.back().get());
+  }
+  for (size_t s = 0; s < comparisons->size(); ++s) {
+    if (options.systems[s].make != make_mean_posture) drawn.push_back((*comparisons)[s].get());
   }
   for (const std::unique_ptr<System>& system : *recorded) drawn.push_back(system.get());
   for (Systems* part : {&*comparisons, &*recorded}) {

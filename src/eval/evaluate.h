@@ -35,7 +35,8 @@ struct EvaluateOptions {
   std::vector<ManifestRow> unlabelled;  // For recipes that guidance trains.
   std::vector<ManifestRow> test;        // Real held-out takes, neutral and styled.
   std::vector<StyleName> styles;        // Of `training`.
-  std::vector<NamedModel> models;       // Where there are none, all recipes are trained.
+  std::vector<NamedModel> models;
+  bool train_recipes = true;  // All of them, where there are no models.
   // What the models are compared with.
   std::vector<SystemEntry> systems = comparison_systems();
   std::vector<std::string> recorded;  // Folders of outputs of other programs, see Recorded.
@@ -64,6 +65,9 @@ struct TestSet {
   double units_per_metre = 1;       // Of the first test file: the unit of CC and SC++.
 };
 
+// What the systems that models are compared with may learn from.
+SystemData system_data(const TrainingData& training, const EvaluateOptions& options);
+
 // A recipe's networks, trained on `data` with the steps and seed of `options`.
 Result<NamedModel> train_system(const Recipe& recipe, const std::string& name,
                                 const TrainingData& data, const EvaluateOptions& options);
@@ -76,8 +80,9 @@ Result<SystemReport> evaluate_system(const System& system, const TestSet& test_s
 Result<StyleContentTable> evaluate_contents(const System& system, const TestSet& test_set,
                                             const std::vector<std::string>& contents);
 
-// Trains the recipes of `models` without the contents of `split`, which have test takes, judges
-// them, and adds what was found to the first reports, in the same order.
+// Trains the recipes of `models` and builds the systems of `options` without the contents of
+// `split`, which have test takes, judges them, and adds what was found to the first reports, in the
+// same order. The mean posture stands beside each of them instead.
 Result<void> evaluate_unseen(const UnseenSplit& split, const EvaluateOptions& options,
                              const TestSet& test_set, const std::vector<NamedModel>& models,
                              std::vector<SystemReport>& reports);

@@ -175,7 +175,8 @@ Result<void> judge_strengths(const System& system, const TestSet& test_set,
     const StyleContentTable cells =
         test_set.evaluator.evaluate(run->outputs, takes, test_set.aligned.errors(system, strength));
     report.strength.push_back({number(strength), mean_metrics(cells)});
-    for (const auto& [style, metrics] : by_style(cells)) {
+    report.strength_by_style.push_back({number(strength), by_style(cells)});
+    for (const auto& [style, metrics] : report.strength_by_style.back().second) {
       probability[style].push_back(metrics["style_probability"]);
       distance[style].push_back(metrics["distance_cm"]);
     }

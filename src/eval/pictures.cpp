@@ -14,7 +14,8 @@ StripRow strip_row(const std::string& label, const Take& take) {
   StripRow row{label, {}, ""};
   const double step = kSpacing * kTakeRate;
   for (int i = 0; i < kFigures && i * step < take.frames(); ++i) {
-    row.frames.push_back(world_positions(take, static_cast<int>(std::lround(i * step))));
+    const int frame = std::min(static_cast<int>(std::lround(i * step)), take.frames() - 1);
+    row.frames.push_back(world_positions(take, frame));
   }
   return row;
 }

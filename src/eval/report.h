@@ -41,7 +41,8 @@ struct SystemReport {
   std::string recipe;  // Of the model; empty where there is none.
   Metrics seen;
   MetricsTable by_content, by_style;
-  std::vector<std::pair<std::string, Metrics>> strength;  // "0" to "2", in order.
+  std::vector<std::pair<std::string, Metrics>> strength;                // "0" to "2", in order,
+  std::vector<std::pair<std::string, MetricsTable>> strength_by_style;  // and each style's.
   double slider_style = kNotMeasured;     // Rank correlation of strength 0..1 with P(style).
   double slider_distance = kNotMeasured;  // Of strength 0..2 with the distance from the input.
   std::vector<MixReport> mixes;

@@ -39,6 +39,14 @@ Json strength_json(const SystemReport& system) {
   return out;
 }
 
+Json strength_by_style_json(const SystemReport& system) {
+  Json out = Json::object();
+  for (const auto& [strength, styles] : system.strength_by_style) {
+    out[strength] = table_json(styles);
+  }
+  return out;
+}
+
 Json mixes_json(const std::vector<MixReport>& mixes) {
   Json out = Json::array();
   for (const MixReport& mix : mixes) {
@@ -186,6 +194,7 @@ Json system_json(const SystemReport& system) {
   out["seen_by_content"] = table_json(system.by_content);
   out["seen_by_style"] = table_json(system.by_style);
   out["strength"] = strength_json(system);
+  out["strength_by_style"] = strength_by_style_json(system);
   out["slider"] = {{"style", number(system.slider_style)},
                    {"distance", number(system.slider_distance)}};
   out["mixes"] = mixes_json(system.mixes);

@@ -63,11 +63,24 @@ Result<void> evaluate_unseen(const UnseenSplit& split, const EvaluateOptions& op
     return is_among(split.contents, test_set.training.takes[pairing.styled].row.content);
   });
   const MetricsTable blind = evaluate_blind(split, test_set, options.seed);
-  Result<std::unique_ptr<System>> posture = make_mean_posture(
-      "mean posture", {training_data.takes, training_data.pairings, options.styles, options.seed});
+  const SystemData data = system_data(training_data, options);
+  Result<std::unique_ptr<System>> posture = make_mean_posture("mean posture", data);
   if (!posture) return posture.error();
   Result<StyleContentTable> posture_cells = evaluate_contents(**posture, test_set, split.contents);
   if (!posture_cells) return posture_cells.error();
+  const auto add = [&](SystemReport& system, const StyleContentTable& cells) {
+    UnseenReport report;
+    report.name = split.name;
+    report.mean = mean_metrics(cells);
+    report.by_content = by_content(cells);
+    for (const std::string& content : split.contents) {
+      const auto seen = system.by_content.find(content);
+      if (seen != system.by_content.end()) report.seen_by_content.insert(*seen);
+    }
+    report.blind_by_content = blind;
+    report.mean_posture_by_content = by_content(*posture_cells);
+    system.unseen.push_back(std::move(report));
+  };
 
   std::map<const Recipe*, StyleContentTable>
       evaluated;  // A recipe trained once serves all models of it.
@@ -81,17 +94,15 @@ Result<void> evaluate_unseen(const UnseenSplit& split, const EvaluateOptions& op
       if (!cells) return cells.error();
       evaluated[recipe] = *std::move(cells);
     }
-    UnseenReport report;
-    report.name = split.name;
-    report.mean = mean_metrics(evaluated[recipe]);
-    report.by_content = by_content(evaluated[recipe]);
-    for (const std::string& content : split.contents) {
-      const auto seen = reports[s].by_content.find(content);
-      if (seen != reports[s].by_content.end()) report.seen_by_content.insert(*seen);
-    }
-    report.blind_by_content = blind;
-    report.mean_posture_by_content = by_content(*posture_cells);
-    reports[s].unseen.push_back(std::move(report));
+    add(reports[s], evaluated[recipe]);
+  }
+  for (size_t s = 0; s < options.systems.size(); ++s) {
+    if (options.systems[s].make == make_mean_posture) continue;
+    Result<std::unique_ptr<System>> system = options.systems[s].make(options.systems[s].name, data);
+    if (!system) return Error{"unseen " + split.name + ": " + system.error().message};
+    Result<StyleContentTable> cells = evaluate_contents(**system, test_set, split.contents);
+    if (!cells) return cells.error();
+    add(reports[models.size() + s], *cells);
   }
   return {};
 }

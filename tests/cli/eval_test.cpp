@@ -53,6 +53,8 @@ void expect_system(const Json& system) {
   for (const char* style : {"old", "proud"}) expect_metrics(system["seen_by_style"][style]);
   // At strength 1, it is the same number by both names.
   EXPECT_EQ(system["strength"]["1"], system["seen"]);
+  EXPECT_EQ(system["strength_by_style"].size(), 9u);
+  EXPECT_EQ(system["strength_by_style"]["1"], system["seen_by_style"]);
   ASSERT_EQ(system["mixes"].size(), 1u);
   EXPECT_EQ(system["mixes"][0]["first"], "old");
   // No joint is ever drawn out: the clip's positions are single precision.
@@ -61,8 +63,9 @@ void expect_system(const Json& system) {
 
 // One run answers all questions: to train the judges takes long.
 TEST_F(Eval, judges_models_by_real_takes_it_holds_out_and_says_so_in_a_report) {
-  const Ran ran = run({"eval", "takes.csv", "--model", "model.safetensors", "--unseen", "wave",
-                       "--steps", "20", "--report", "report", "--json"});
+  const Ran ran =
+      run({"eval", "takes.csv", "--model", "model.safetensors", "--system", "xia2015", "--system",
+           "yumer2016", "--unseen", "wave", "--steps", "20", "--report", "report", "--json"});
   ASSERT_EQ(ran.exit, 0) << ran.err;
   EXPECT_EQ(ran.err, "");
   EXPECT_EQ(entries("report"), (std::vector<std::string>{"index.html", "report.json"}));
@@ -84,10 +87,18 @@ TEST_F(Eval, judges_models_by_real_takes_it_holds_out_and_says_so_in_a_report) {
   EXPECT_LT(report["input"]["style_accuracy"], 0.1);
   EXPECT_EQ(report["input"]["distance_cm"], 0.0);
 
-  ASSERT_EQ(report["systems"].size(), 2u);
-  for (const char* name : {"model", "mean posture"}) {
+  ASSERT_EQ(report["systems"].size(), 4u);
+  for (const char* name : {"model", "mean posture", "xia2015", "yumer2016"}) {
     ASSERT_TRUE(report["systems"].contains(name)) << name;
     expect_system(report["systems"][name]);
+  }
+  for (const char* name : {"xia2015", "yumer2016"}) {
+    const Json& system = report["systems"][name];
+    EXPECT_GT(system["seen"]["style_accuracy"], 0.9) << name;
+    EXPECT_LT(system["seen"]["pose_error_cm"], report["input"]["pose_error_cm"]) << name;
+    EXPECT_EQ(system["strength"]["0"]["distance_cm"], 0.0) << name;
+    EXPECT_TRUE(system["step_us"].is_number() && system["model_bytes"].is_number()) << name;
+    expect_metrics(system["unseen_splits"]["wave"]["mean"]);
   }
   const Json& model = report["systems"]["model"];
   // Strength 0 is the input.
@@ -108,6 +119,11 @@ TEST_F(Eval, judges_models_by_real_takes_it_holds_out_and_says_so_in_a_report) {
   expect_metrics(split["seen"]["wave"]);
   EXPECT_TRUE(split["blind"]["wave"]["style_accuracy"].is_number());
   expect_metrics(split["mean_posture"]["wave"]);
+}
+
+TEST_F(Eval, a_system_that_nobody_knows_is_rejected_with_those_that_there_are) {
+  expect_rejected({"eval", "takes.csv", "--system", "xia2016"},
+                  "--system: no system 'xia2016'; expected all, xia2015, yumer2016 or holden2017");
 }
 
 // Our own outputs, made by the program as anybody's would be, judged beside the model itself.

@@ -1,11 +1,10 @@
 #include "eval/systems/model_system.h"
 
 #include <algorithm>
-#include <cmath>
 #include <ctime>
 #include <numeric>
 
-#include "eval/motion_metrics.h"
+#include "eval/systems/styled_clip.h"
 #include "learn/samples.h"
 #include "style/restyle.h"
 
@@ -44,21 +43,6 @@ class ModelInstants : public InstantAnswers {
   std::vector<float> window_;
 };
 
-// The input's frame (of its take) for each frame of the take of an output.
-std::vector<float> take_sources(const TestInput& input, const std::vector<double>& source_frames,
-                                int frames) {
-  std::vector<float> sources;
-  for (int f = 0; f < frames; ++f) {
-    const double at = input.rig.first_frame() + f / (kTakeRate * input.clip.frame_time);
-    const size_t a = std::min(static_cast<size_t>(at), source_frames.size() - 1);
-    const size_t b = std::min(a + 1, source_frames.size() - 1);
-    const double source =
-        std::lerp(source_frames[a], source_frames[b], at - static_cast<double>(a));
-    sources.push_back(static_cast<float>(input.take_frame(source)));
-  }
-  return sources;
-}
-
 }  // namespace
 
 ModelSystem::ModelSystem(std::string name, std::shared_ptr<const Model> model, size_t bytes)
@@ -86,18 +70,10 @@ Result<RunResult> ModelSystem::run(const TestInput& input, const StyleRequest& r
   Result<Restyled> restyled = restyle(input.clip, input.rig, model_, tracks, options);
   if (!restyled) return Error{input.take.row.path + ": " + restyled.error().message};
 
-  RunResult run_result;
-  run_result.bone_length_error = bone_length_error(restyled->clip, input.clip,
-                                                   restyled->source_frames, input.rig.joints()[0]) *
-                                 input.rig.scale();
+  RunResult run_result =
+      styled_result(input, request.style, restyled->clip, restyled->source_frames);
   run_result.gate = std::accumulate(restyled->gates.begin(), restyled->gates.end(), 0.0) /
                     static_cast<double>(restyled->gates.size());
-  StyledTake& output = run_result.output;
-  output.take = make_take(restyled->clip, input.rig, PoseLayout::positions);
-  output.take.row = input.take.row;
-  output.take.row.style = request.style;
-  output.take.row.neutral = false;
-  output.source_frames = take_sources(input, restyled->source_frames, output.take.frames());
   return run_result;
 }
 

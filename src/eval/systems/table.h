@@ -2,6 +2,7 @@
 // The systems that models are compared with, each a file or folder of eval/systems.
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct SystemData {
   const std::vector<Pairing>& pairings;  // Of them.
   const std::vector<StyleName>& styles;
   uint64_t seed = 1;
+  std::span<const Take> unlabelled = {};  // Motion without styles, where there is some.
 };
 
 struct SystemEntry {
@@ -24,7 +26,7 @@ struct SystemEntry {
   Result<std::unique_ptr<System>> (*make)(const std::string& name, const SystemData& data);
 };
 
-// In the order of the report.
+// Those that stand in every report, in its order.
 const std::vector<SystemEntry>& comparison_systems();
 
 }  // namespace panache

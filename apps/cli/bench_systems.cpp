@@ -1,0 +1,68 @@
+#include "bench_systems.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "eval/systems/model_system.h"
+#include "eval/systems/published.h"
+#include "manifests.h"
+#include "train/training_data.h"
+
+namespace panache::cli {
+namespace {
+
+class Systems : public BuiltSystems {
+ public:
+  Systems(TestInput input, std::vector<std::unique_ptr<System>> systems)
+      : input_(std::move(input)), systems_(std::move(systems)) {}
+
+  std::vector<SystemTime> time() const override {
+    std::vector<SystemTime> times;
+    for (const std::unique_ptr<System>& system : systems_) {
+      times.push_back({system->name(), system->step_us(input_), system->facts().bytes});
+    }
+    return times;
+  }
+
+ private:
+  TestInput input_;
+  std::vector<std::unique_ptr<System>> systems_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<BuiltSystems>> build_systems(const std::string& manifest,
+                                                    const std::string& styles,
+                                                    const std::string& model) {
+  ManifestOptions options;
+  options.paths = {manifest};
+  options.styles = styles;
+  Result<Manifests> data = read_manifests(options);
+  if (!data) return data.error();
+  // What moves while they are timed: a neutral take that they do not know, where there is one.
+  const auto neutral = std::find_if(data->rows.begin(), data->rows.end(),
+                                    [](const ManifestRow& r) { return r.neutral && r.test; });
+  const ManifestRow& row = neutral == data->rows.end() ? data->rows.front() : *neutral;
+  Result<TestInput> input = load_input(row);
+  if (!input) return input.error();
+  Result<TrainingData> training = prepare_training(data->rows, PoseLayout::positions);
+  if (!training) return training.error();
+
+  std::vector<std::unique_ptr<System>> systems;
+  Result<std::shared_ptr<const Model>> ours = Model::load(model);
+  if (!ours) return ours.error();
+  std::error_code status;
+  const size_t bytes = std::filesystem::file_size(model, status);
+  systems.push_back(std::make_unique<ModelSystem>(std::filesystem::path(model).stem().string(),
+                                                  *ours, status ? 0 : bytes));
+  for (const SystemEntry& entry : published_systems()) {
+    Result<std::unique_ptr<System>> system =
+        entry.make(entry.name, {training->takes, training->pairings, data->styles, 1, {}});
+    if (!system) return system.error();
+    systems.push_back(*std::move(system));
+  }
+  return std::unique_ptr<BuiltSystems>(
+      std::make_unique<Systems>(*std::move(input), std::move(systems)));
+}
+
+}  // namespace panache::cli

@@ -1,0 +1,41 @@
+#pragma once
+// One style's feed-forward network, trained against the loss network.
+
+#include <vector>
+
+#include <torch/torch.h>
+
+#include "eval/systems/holden2017/autoencoder.h"
+
+namespace panache::holden2017 {
+
+struct TransferSettings {
+  int units = 96;  // Of each of the two hidden layers.
+  int steps = 600;
+  int batch = 8;
+  // Weights of the terms of the loss.
+  double content = 1, style = 30, bones = 20, feet = 1, trajectory = 1, smoothness = 5;
+};
+
+// What a style looks like: neutral motion of some actions, and the style's own motion of the same.
+struct StyleMotion {
+  struct Action {
+    std::vector<torch::Tensor> neutral, styled;  // Normalised rows, [kRows][frames].
+  };
+  std::vector<Action> actions;
+};
+
+class Transfer {
+ public:
+  Transfer(const Autoencoder& loss_network, const RowUnits& units, const StyleMotion& motion,
+           uint64_t seed, const TransferSettings& settings = {});
+
+  // Normalised rows, [windows][kRows][frames]: what the style makes of them.
+  torch::Tensor operator()(const torch::Tensor& rows) const;
+  size_t parameters() const;
+
+ private:
+  Convolution first_, second_, last_;
+};
+
+}  // namespace panache::holden2017

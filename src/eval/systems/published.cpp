@@ -1,0 +1,39 @@
+#include "eval/systems/published.h"
+
+#include <algorithm>
+
+#include "base/one_of.h"
+#include "eval/systems/holden2017/holden2017.h"
+#include "eval/systems/xia2015/xia2015.h"
+#include "eval/systems/yumer2016/yumer2016.h"
+
+namespace panache {
+
+const std::vector<SystemEntry>& published_systems() {
+  static const std::vector<SystemEntry> systems = {
+      {"xia2015", make_xia2015},
+      {"yumer2016", make_yumer2016},
+      {"holden2017", make_holden2017},
+  };
+  return systems;
+}
+
+Result<std::vector<SystemEntry>> find_published(const std::vector<std::string>& names) {
+  std::vector<std::string> known = {"all"};
+  for (const SystemEntry& entry : published_systems()) known.push_back(entry.name);
+  for (const std::string& name : names) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      return Error{"no system '" + name + "'; expected " + one_of(known)};
+    }
+  }
+  std::vector<SystemEntry> found;
+  for (const SystemEntry& entry : published_systems()) {
+    const auto asked = [&](const char* name) {
+      return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    if (asked("all") || asked(entry.name)) found.push_back(entry);
+  }
+  return found;
+}
+
+}  // namespace panache

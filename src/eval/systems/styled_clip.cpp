@@ -1,0 +1,43 @@
+#include "eval/systems/styled_clip.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "eval/motion_metrics.h"
+
+namespace panache {
+namespace {
+
+// The input's frame (of its take) for each frame of the take of an output.
+std::vector<float> take_sources(const TestInput& input, const std::vector<double>& source_frames,
+                                int frames) {
+  std::vector<float> sources;
+  for (int f = 0; f < frames; ++f) {
+    const double at = input.rig.first_frame() + f / (kTakeRate * input.clip.frame_time);
+    const size_t a = std::min(static_cast<size_t>(at), source_frames.size() - 1);
+    const size_t b = std::min(a + 1, source_frames.size() - 1);
+    const double source =
+        std::lerp(source_frames[a], source_frames[b], at - static_cast<double>(a));
+    sources.push_back(static_cast<float>(input.take_frame(source)));
+  }
+  return sources;
+}
+
+}  // namespace
+
+RunResult styled_result(const TestInput& input, const std::string& style, const Clip& output,
+                        const std::vector<double>& source_frames) {
+  RunResult run_result;
+  run_result.bone_length_error =
+      bone_length_error(output, input.clip, source_frames, input.rig.joints()[0]) *
+      input.rig.scale();
+  StyledTake& styled = run_result.output;
+  styled.take = make_take(output, input.rig, PoseLayout::positions);
+  styled.take.row = input.take.row;
+  styled.take.row.style = style;
+  styled.take.row.neutral = false;
+  styled.source_frames = take_sources(input, source_frames, styled.take.frames());
+  return run_result;
+}
+
+}  // namespace panache

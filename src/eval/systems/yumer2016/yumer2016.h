@@ -1,0 +1,34 @@
+#pragma once
+// Yumer and Mitra 2016, "Spectral style transfer for human motion between independent actions", as
+// we read it: docs/comparison-systems.md.
+
+#include "eval/systems/change_system.h"
+#include "eval/systems/table.h"
+#include "eval/systems/yumer2016/spectrum.h"
+
+namespace panache {
+
+class Yumer2016 : public ChangeSystem {
+ public:
+  // References: the training takes of each action in the style and neutral, in the sets of `data`
+  // whose pairs are given. Fails where no style has any.
+  static Result<std::unique_ptr<Yumer2016>> create(const std::string& name, const SystemData& data);
+
+  SystemFacts facts() const override;  // Bytes: of the references.
+  std::unique_ptr<ChangeSource> make_source(const Take& take,
+                                            const Strengths& strengths) const override;
+
+ private:
+  // An action in one style and neutral.
+  struct Action {
+    yumer2016::Reference neutral, styled;
+  };
+  Yumer2016(std::string name, std::vector<std::string> styles,
+            std::vector<std::vector<Action>> actions);
+
+  std::vector<std::vector<Action>> actions_;  // Of each style.
+};
+
+Result<std::unique_ptr<System>> make_yumer2016(const std::string& name, const SystemData& data);
+
+}  // namespace panache
