@@ -71,9 +71,9 @@ Result<void> CharacterFile::check_outputs(const std::vector<FileJob>& files) con
 
 Result<Clip> CharacterFile::put(const Clip& motion, const Rig& rig, const std::string& place,
                                 const RetargetOptions& options) const {
-  Result<Clip> clip = retarget(motion, rig, clip_, rig_, options);
-  if (!clip) return Error{place + " onto " + path_ + ": " + clip.error().message};
-  return clip;
+  Result<Retargeted> done = retarget(motion, rig, clip_, rig_, options);
+  if (!done) return Error{place + " onto " + path_ + ": " + done.error().message};
+  return std::move(done->clip);
 }
 
 Result<Rig> CharacterFile::rig_of(const Clip& clip, const std::string& place) const {

@@ -58,7 +58,7 @@ class Retargeter {
     measure_rest();
   }
 
-  Clip run() {
+  Retargeted run() {
     std::vector<HumanPositions> joints;
     for (int f = first_; f < motion_.frames; ++f) {
       BodyPose body;
@@ -67,15 +67,13 @@ class Retargeter {
       frames_.push_back(follow(body));
     }
     const auto seconds = static_cast<float>(motion_.frame_time);
-    if (options_.feet) {
-      const std::vector<FootContacts> contacts = detect_contacts(joints, 1 / motion_.frame_time);
-      for (size_t f = 0; f < frames_.size(); ++f) frames_[f].contacts = contacts[f];
-      hold_feet(body_, seconds, frames_);
-    }
+    std::vector<FootContacts> contacts = detect_contacts(joints, 1 / motion_.frame_time);
+    for (size_t f = 0; f < frames_.size(); ++f) frames_[f].contacts = contacts[f];
+    if (options_.feet) hold_feet(body_, seconds, frames_);
     Clip out{character_.skeleton, motion_.frame_time, 0, {}, {}};
     out.resize(static_cast<int>(frames_.size()));
     for (int f = 0; f < out.frames; ++f) write(frames_[static_cast<size_t>(f)].change, f, out);
-    return out;
+    return {std::move(out), std::move(contacts)};
   }
 
  private:
@@ -221,8 +219,8 @@ class Retargeter {
 
 }  // namespace
 
-Result<Clip> retarget(const Clip& motion, const Rig& rig, const Clip& character, const Rig& onto,
-                      const RetargetOptions& options) {
+Result<Retargeted> retarget(const Clip& motion, const Rig& rig, const Clip& character,
+                            const Rig& onto, const RetargetOptions& options) {
   int moved = onto.joints()[index(hips)];
   while (moved >= 0 && !character.skeleton.joints[static_cast<size_t>(moved)].can_translate) {
     moved = character.skeleton.joints[static_cast<size_t>(moved)].parent;

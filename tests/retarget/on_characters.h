@@ -35,9 +35,9 @@ inline Clip put(const Clip& motion, const Clip& character, const RetargetOptions
   const Result<Rig> rig = Rig::create(motion), onto = Rig::create(character);
   EXPECT_TRUE(rig.ok()) << rig.error().message;
   EXPECT_TRUE(onto.ok()) << onto.error().message;
-  Result<Clip> out = retarget(motion, *rig, character, *onto, options);
+  Result<Retargeted> out = retarget(motion, *rig, character, *onto, options);
   EXPECT_TRUE(out.ok()) << out.error().message;
-  return *std::move(out);
+  return std::move(out->clip);
 }
 
 // Poses from the rig's first frame on, by the rig of `of`, whose skeleton the clip has.

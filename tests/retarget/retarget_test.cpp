@@ -218,7 +218,7 @@ TEST(Retarget, a_character_that_cannot_move_is_rejected) {
   Clip character = character_of(makers().front());
   for (Joint& joint : character.skeleton.joints) joint.can_translate = false;
   const Clip motion = neutral_walk(1);
-  const Result<Clip> out =
+  const Result<Retargeted> out =
       retarget(motion, *Rig::create(motion), character, *Rig::create(character));
   ASSERT_FALSE(out.ok());
   EXPECT_EQ(out.error().message,
