@@ -187,6 +187,11 @@ Result<void> stylize_file(FileJob& file, const Wanted& wanted, const StylizeOpti
     }
   }
   if (clips.empty()) return failures.front();
+  // All motions of a file have the same joints: what is no person in one of them is none.
+  for (const Error& failure : failures) {
+    if (failure.message.find(": no humanoid found: ") == std::string::npos) continue;
+    return Error{failure.message + "; so its other motions are not restyled either"};
+  }
   for (const Error& failure : failures) {
     file.notes.push_back(failure.message + "; this motion is left unchanged");
   }
