@@ -146,6 +146,9 @@ int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::st
     print(results);
   } else {
     print(summary(files, done, spent));
+    if (files.size() == 1 && all_good) {
+      for (const std::string& line : files[0].added) print("  " + line + "\n");
+    }
     for (const FileJob& file : files) {
       for (const std::string& line : file.details) print("  " + line + "\n");
     }

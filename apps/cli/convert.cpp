@@ -11,6 +11,8 @@
 #include "formats.h"
 #include "input.h"
 #include "messages.h"
+#include "onto.h"
+#include "retarget_file.h"
 #include "rig_options.h"
 #include "rig_report.h"
 #include "verbs.h"
@@ -21,6 +23,7 @@ namespace {
 struct ConvertVerb {
   BatchFlags batch;
   RigFlags rig;
+  OntoFlags onto;
   std::string to;    // An extension without its point, or empty.
   std::string clip;  // The motion to take, or empty.
 };
@@ -95,8 +98,30 @@ Result<std::string> wanted_extension(const ConvertVerb& verb) {
   return Error{"--to: expected " + list_writable_names() + ", found " + panache::quoted(verb.to)};
 }
 
+// The motions on a character.
+int convert_onto(const ConvertVerb& verb) {
+  if (!verb.to.empty()) {
+    return fail({"--to " + verb.to + ": expected none with --onto, whose file decides the format"},
+                kBadUsage);
+  }
+  Result<CharacterFile> character = CharacterFile::open(verb.onto);
+  if (!character) return fail(character.error(), kBadInput);
+  int exit_code = kDone;
+  Result<std::vector<FileJob>> files = plan_batch(verb.batch, character->extension(), exit_code);
+  if (!files) return fail(files.error(), exit_code);
+  if (auto fit = character->check_outputs(*files); !fit) return fail(fit.error(), kBadUsage);
+  Result<RigOptions> rig = read_rig_options(verb.rig);
+  if (!rig) return fail(rig.error(), kBadInput);
+  return run_batch(*std::move(files), verb.batch, "converting", "converted",
+                   [&](FileJob& file, const std::function<void(double)>&) {
+                     return retarget_file(file, *character, verb.clip, *rig, {}, {},
+                                          verb.batch.force);
+                   });
+}
+
 int convert(const ConvertVerb& verb) {
   if (auto rig = check_rig_flags(verb.rig); !rig) return fail(rig.error(), kBadUsage);
+  if (!verb.onto.file.empty()) return convert_onto(verb);
   Result<std::string> extension = wanted_extension(verb);
   if (!extension) return fail(extension.error(), kBadUsage);
   int exit_code = kDone;
@@ -134,6 +159,7 @@ void add_convert(CLI::App& app, int& exit_code) {
       ->type_name("FORMAT");
   verb->add_option("--clip", options->clip, "Motion to convert, if a file has several")
       ->type_name("NAME");
+  add_onto_options(*verb, options->onto);
   add_rig_options(*verb, options->rig);
   verb->footer(
       "docs/formats.md lists what each conversion keeps and loses.\n\n"

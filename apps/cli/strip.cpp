@@ -12,6 +12,7 @@
 #include "input.h"
 #include "messages.h"
 #include "outputs.h"
+#include "png.h"
 #include "pose/strip.h"
 #include "rig/posed_rig.h"
 #include "rig_options.h"
@@ -33,6 +34,7 @@ struct StripVerb {
   double from = 0;
   double to = std::numeric_limits<double>::quiet_NaN();  // Not given.
   bool travel = false;
+  bool front = false;
   bool force = false;
 };
 
@@ -58,8 +60,8 @@ Result<void> check(StripVerb& verb) {
     return Error{"--label: expected one for each of the " + plural(verb.inputs.size(), "file") +
                  ", found " + std::to_string(verb.labels.size())};
   }
-  if (!verb.output.ends_with(".svg")) {
-    return Error{verb.output + ": expected a name that ends in .svg"};
+  if (!verb.output.ends_with(".svg") && !verb.output.ends_with(".png")) {
+    return Error{verb.output + ": expected a name that ends in .svg or .png"};
   }
   return {};
 }
@@ -113,7 +115,11 @@ int strip(StripVerb verb) {
   StripOptions options;
   options.seconds_between = verb.every;
   options.travel = verb.travel;
-  auto written = write_file(verb.output, draw_strip(rows, options), verb.force);
+  if (verb.front) options.yaw_deg = 90;
+  Result<std::string> picture = draw_strip(rows, options);
+  if (verb.output.ends_with(".png")) picture = svg_to_png(*picture, verb.output);
+  if (!picture) return fail(picture.error(), kBadInput);
+  auto written = write_file(verb.output, *picture, verb.force);
   if (!written) return fail(written.error(), kBadInput);
   print("drew " + plural(rows.size(), "row") + " into " + verb.output + "\n");
   return kDone;
@@ -128,7 +134,7 @@ void add_strip(CLI::App& app, int& exit_code) {
                    "Motion files (" + motion_extensions() + "),\none row each")
       ->required()
       ->type_name("");
-  verb->add_option("-o,--output", options->output, "Picture to write (.svg)")
+  verb->add_option("-o,--output", options->output, "Picture to write (.svg or .png)")
       ->required()
       ->type_name("OUT");
   verb->add_option("--every", options->every, "Time between figures; default: 0.25")
@@ -143,7 +149,9 @@ void add_strip(CLI::App& app, int& exit_code) {
                    "Motion to draw, if a file has several;\ndefault: the first")
       ->type_name("NAME");
   add_rig_options(*verb, options->rig);
-  verb->add_flag("--travel", options->travel, "Draw figures where they are along the path");
+  CLI::Option* travel =
+      verb->add_flag("--travel", options->travel, "Draw figures where they are along the path");
+  verb->add_flag("--front", options->front, "Draw figures from the front")->excludes(travel);
   verb->add_flag("--force", options->force, "Overwrite the picture");
   verb->footer(
       "Example:\n"

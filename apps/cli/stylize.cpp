@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,9 +11,12 @@
 #include "base/file.h"
 #include "batch.h"
 #include "formats.h"
+#include "gate_report.h"
 #include "input.h"
 #include "messages.h"
 #include "model_path.h"
+#include "new_motions.h"
+#include "onto.h"
 #include "rig_options.h"
 #include "rig_report.h"
 #include "shape_options.h"
@@ -31,7 +35,8 @@ struct StylizeOptions {
   std::string strengths;  // A CSV, or empty.
   std::string model;
   std::string clip;  // The motion to restyle, or empty for all.
-  bool replace = false;
+  OntoFlags onto;
+  PlaceFlags place;
   bool no_timing = false;
   bool no_feet = false;
   bool verbose = false;
@@ -43,6 +48,7 @@ struct Wanted {
   std::vector<StrengthWish> wishes;
   RigOptions rig;
   RestyleOptions how;
+  std::optional<CharacterFile> onto;
 };
 
 // A motion of a file, and what became of it.
@@ -66,30 +72,6 @@ Json to_json(const std::vector<StrengthTrack>& tracks, const Model& model) {
   return styles;
 }
 
-// How much of the styles' answers to this very motion a clip got, see Stylizer::gate().
-struct GateReport {
-  double mean = 0, least = 1;
-  double eased = 0;  // The share of frames that got more of the mean posture than of that.
-};
-
-GateReport report_gate(std::span<const float> gates) {
-  GateReport report;
-  for (const float open : gates) {
-    const double gate = static_cast<double>(open);
-    report.mean += gate;
-    report.least = std::min(report.least, gate);
-    report.eased += gate < 0.5;
-  }
-  report.mean /= static_cast<double>(gates.size());
-  report.eased /= static_cast<double>(gates.size());
-  return report;
-}
-
-std::string describe(const GateReport& gate) {
-  return "gate " + fixed(gate.mean, 2) + " (least " + fixed(gate.least, 2) + "; " +
-         fixed(100 * gate.eased, 0) + " % of frames eased to the mean posture)";
-}
-
 // "walk (old 1)".
 std::string result_name(const std::string& title, const Wanted& wanted) {
   std::string styles;
@@ -102,11 +84,21 @@ std::string result_name(const std::string& title, const Wanted& wanted) {
 
 Result<RestyledClip> restyle_clip(const MotionFile& motion, int which, const Wanted& wanted,
                                   FileJob& file, const std::function<void(double)>& progress) {
-  const Clip& clip = motion.clip(which);
   const std::string name = motion.clip_names()[static_cast<size_t>(which)];
   const std::string place = name.empty() ? file.input : file.input + ": " + name;
-  Result<Rig> rig = make_rig(clip, wanted.rig, place);
+  Result<Rig> rig = make_rig(motion.clip(which), wanted.rig, place);
   if (!rig) return rig.error();
+  if (file.mapping.is_null()) file.mapping = mapping_json(*rig);
+  // On a character first, then styled there: as two runs of the program would do it.
+  Clip put;
+  if (wanted.onto) {
+    Result<Clip> done = wanted.onto->put(motion.clip(which), *rig, place);
+    if (!done) return done.error();
+    put = *std::move(done);
+    rig = wanted.onto->rig_of(put, place);
+    if (!rig) return rig.error();
+  }
+  const Clip& clip = wanted.onto ? put : motion.clip(which);
   const std::vector<StrengthTrack> tracks = tracks_for(
       wanted.wishes, rig->first_frame() * clip.frame_time, (clip.frames - 1) * clip.frame_time);
   Result<Restyled> restyled = restyle(clip, *rig, wanted.model, tracks, wanted.how, progress);
@@ -116,36 +108,59 @@ Result<RestyledClip> restyle_clip(const MotionFile& motion, int which, const Wan
   // A calibration pose in front is no motion, and is not restyled.
   const auto first = static_cast<size_t>(std::min(out.rig.first_frame(), clip.frames - 1));
   const GateReport gate = report_gate(std::span(out.result.gates).subspan(first));
-  file.clips.push_back(
-      {{"name", name},
-       {"result", out.name},
-       {"frames_in", clip.frames},
-       {"frames_out", out.result.clip.frames},
-       {"seconds", out.result.clip.duration()},
-       {"styles", to_json(tracks, *wanted.model)},
-       {"gate", {{"mean", gate.mean}, {"least", gate.least}, {"eased", gate.eased}}}});
+  file.clips.push_back({{"name", name},
+                        {"result", out.name},
+                        {"frames_in", motion.clip(which).frames},
+                        {"frames_out", out.result.clip.frames},
+                        {"seconds", out.result.clip.duration()},
+                        {"styles", to_json(tracks, *wanted.model)},
+                        {"gate", to_json(gate)}});
   file.details.push_back(place + ": " + describe(gate));
   file.frames += out.result.clip.frames;
   file.seconds += out.result.clip.duration();
-  if (file.mapping.is_null()) file.mapping = mapping_json(out.rig);
   return out;
 }
 
 // The bytes of the result: the file with its new motions, or a new file of another format that
 // holds the only one.
 Result<std::string> encode(const MotionFile& motion, const std::vector<RestyledClip>& clips,
-                           const FileJob& file, bool replace) {
+                           const FileJob& file, const StylizeOptions& options) {
   if (keeps_format(extension_of(file.input), extension_of(file.output))) {
     std::vector<ClipEdit> edits;
     for (const RestyledClip& clip : clips) {
       edits.push_back({clip.clip, &clip.result.clip, clip.result.source_frames, clip.name});
     }
-    return in_container(motion.encode(edits, replace ? EditMode::replace : EditMode::add_beside),
-                        file.input, file.output);
+    return in_container(motion.encode(edits, edit_mode(options.place)), file.input, file.output);
   }
   const RestyledClip& only = clips.front();
   return format_clip(only.result.clip, only.name, placement_of(only.rig),
                      extension_of(file.output));
+}
+
+// Gives the results names that are free in the file that they go into.
+void name_results(std::vector<RestyledClip>& clips, const Wanted& wanted, const MotionFile& motion,
+                  FileJob& file, const PlaceFlags& place) {
+  std::vector<std::string> has, names;
+  if (wanted.onto) {
+    has = wanted.onto->clip_names();
+  } else if (keeps_format(extension_of(file.input), extension_of(file.output))) {
+    has = motion.clip_names();
+  }
+  for (const RestyledClip& clip : clips) names.push_back(clip.name);
+  name_new_motions(file, has, place, names);
+  for (size_t i = 0; i < clips.size(); ++i) {
+    clips[i].name = names[i];
+    file.clips[i]["result"] = names[i];
+  }
+}
+
+// The character with the new motions.
+Result<std::string> encode_onto(const CharacterFile& character,
+                                const std::vector<RestyledClip>& clips, const FileJob& file,
+                                const StylizeOptions& options) {
+  std::vector<NewMotion> motions;
+  for (const RestyledClip& clip : clips) motions.push_back({clip.result.clip, clip.name});
+  return character.encode(motions, edit_mode(options.place), file.output);
 }
 
 Result<void> stylize_file(FileJob& file, const Wanted& wanted, const StylizeOptions& options,
@@ -154,7 +169,10 @@ Result<void> stylize_file(FileJob& file, const Wanted& wanted, const StylizeOpti
   if (!motion) return motion.error();
   Result<std::vector<int>> picked = pick_clips(**motion, options.clip, file.input);
   if (!picked) return picked.error();
-  if (auto fits = check_fits(**motion, *picked, file.input, file.output); !fits) return fits;
+  if (!wanted.onto) {
+    auto fits = check_fits(**motion, *picked, file.input, file.output);
+    if (!fits) return fits;
+  }
   std::vector<RestyledClip> clips;
   std::vector<Error> failures;
   for (size_t i = 0; i < picked->size(); ++i) {
@@ -169,10 +187,17 @@ Result<void> stylize_file(FileJob& file, const Wanted& wanted, const StylizeOpti
     }
   }
   if (clips.empty()) return failures.front();
+  // All motions of a file have the same joints: what is no person in one of them is none.
+  for (const Error& failure : failures) {
+    if (failure.message.find(": no humanoid found: ") == std::string::npos) continue;
+    return Error{failure.message + "; so its other motions are not restyled either"};
+  }
   for (const Error& failure : failures) {
     file.notes.push_back(failure.message + "; this motion is left unchanged");
   }
-  Result<std::string> bytes = encode(**motion, clips, file, options.replace);
+  name_results(clips, wanted, **motion, file, options.place);
+  Result<std::string> bytes = wanted.onto ? encode_onto(*wanted.onto, clips, file, options)
+                                          : encode(**motion, clips, file, options);
   if (!bytes) return bytes.error();
   return write_file(file.output, *bytes, options.batch.force);
 }
@@ -205,16 +230,31 @@ Result<std::vector<StrengthWish>> collect_wishes(const StylizeOptions& options, 
   return wishes;
 }
 
+Result<void> check_formats(const std::vector<FileJob>& files,
+                           const std::optional<CharacterFile>& onto) {
+  if (onto) return onto->check_outputs(files);
+  for (const FileJob& file : files) {
+    if (auto format = check_format(file.input, file.output); !format) return format;
+  }
+  return {};
+}
+
 int stylize(const StylizeOptions& options) {
   if (auto rig = check_rig_flags(options.rig); !rig) return fail(rig.error(), kBadUsage);
   Result<Shape> shape = read_shape(options.shape);
   if (!shape) return fail(shape.error(), kBadUsage);
+  std::optional<CharacterFile> onto;
+  if (!options.onto.file.empty()) {
+    Result<CharacterFile> character = CharacterFile::open(options.onto);
+    if (!character) return fail(character.error(), kBadInput);
+    onto = *std::move(character);
+  }
   int exit_code = kDone;
-  Result<std::vector<FileJob>> files = plan_batch(options.batch, "", exit_code);
+  Result<std::vector<FileJob>> files =
+      plan_batch(options.batch, onto ? onto->extension() : "", exit_code);
   if (!files) return fail(files.error(), exit_code);
-  for (const FileJob& file : *files) {
-    auto format = check_format(file.input, file.output);
-    if (!format) return fail(format.error(), kBadUsage);
+  if (auto formats = check_formats(*files, onto); !formats) {
+    return fail(formats.error(), kBadUsage);
   }
   Result<std::string> path = find_model(options.model);
   if (!path) return fail(path.error(), kBadInput);
@@ -225,7 +265,7 @@ int stylize(const StylizeOptions& options) {
   Result<RigOptions> rig = read_rig_options(options.rig);
   if (!rig) return fail(rig.error(), kBadInput);
 
-  Wanted wanted{*std::move(model), *std::move(wishes), *std::move(rig), {}};
+  Wanted wanted{*std::move(model), *std::move(wishes), *std::move(rig), {}, std::move(onto)};
   wanted.how.timing = !options.no_timing;
   wanted.how.stylizer.foot_lock = !options.no_feet;
   wanted.how.stylizer.shape = *shape;
@@ -259,9 +299,8 @@ void add_stylize(CLI::App& app, int& exit_code) {
   verb->add_option("--clip", options->clip,
                    "Motion to restyle, if a file has several;\ndefault: all of them")
       ->type_name("NAME");
-  verb->add_flag(
-      "--replace", options->replace,
-      "Replace the original animations instead of adding\nnew ones (a BVH file holds only one)");
+  add_onto_options(*verb, options->onto);
+  add_place_options(*verb, options->place, "the original animations");
   add_shape_options(*verb, options->shape);
   verb->add_flag("--no-timing", options->no_timing, "Keep the tempo and the number of frames");
   verb->add_flag("--no-feet", options->no_feet, "Do not hold planted feet in place");

@@ -8,6 +8,7 @@
 #define PANACHE_VERBS(verb) \
   verb(stylize) \
   verb(convert) \
+  verb(retarget) \
   verb(learn) \
   verb(styles) \
   verb(info) \

@@ -328,6 +328,25 @@ PANACHE_API const uint8_t* panache_styled_clip_contacts(const panache_styled_cli
 /* As panache_report.gate. [frame_count] */
 PANACHE_API const float* panache_styled_clip_gates(const panache_styled_clip* styled);
 
+/* How a clip is put on another skeleton. Start with PANACHE_RETARGET_OPTIONS. */
+typedef struct panache_retarget_options {
+  uint32_t struct_size;
+  int32_t hold_feet;  /* 1: feet on the floor, and planted where the motion plants them. */
+  int32_t meet_hands; /* 1: hands that met meet again, as far as arms reach. */
+} panache_retarget_options;
+#define PANACHE_RETARGET_OPTIONS \
+  { sizeof(panache_retarget_options), 1, 1 }
+
+/* Puts a clip on another skeleton, in its rest pose, proportions, units and axes: directions of
+ * limbs, hips by the length of the legs; fingers and twist joints where both have them. A
+ * calibration pose in front of the clip is left out. The floor is where the toes of `onto` are at
+ * rest. The result is read as a styled clip is, with the joints of `onto`; its gates are 1.
+ * `options` may be NULL. */
+PANACHE_API panache_status panache_retarget_clip(const panache_clip* clip,
+                                                 const panache_skeleton* onto,
+                                                 const panache_retarget_options* options,
+                                                 panache_styled_clip** out);
+
 /* ---- Learning a style -------------------------------------------------------------------------
  */
 

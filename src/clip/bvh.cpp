@@ -14,8 +14,10 @@ class BvhFile final : public MotionFile {
 
   std::vector<std::string> clip_names() const override { return {""}; }
   const Clip& clip(int) const override { return document_.clip; }
+  Clip rest() const override { return rest_clip(document_.clip.skeleton); }
   std::string encode(std::span<const ClipEdit> edits, EditMode) const override {
     assert(edits.size() == 1);
+    if (edits.front().clip == kNewClip) return format_bvh(*edits.front().changed);
     return encode_bvh(document_, *edits.front().changed, edits.front().source_frames);
   }
 

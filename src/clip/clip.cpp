@@ -26,6 +26,15 @@ void Clip::resize(int count) {
   frames = count;
 }
 
+Clip rest_clip(const Skeleton& skeleton) {
+  Clip out{skeleton, 1.0 / 30, 1, {}, {}};
+  for (const Joint& joint : skeleton.joints) {
+    out.rotations.push_back(joint.rest);
+    out.translations.push_back(joint.offset);
+  }
+  return out;
+}
+
 void sample(const Clip& clip, double frame, Pose out) {
   assert(clip.frames > 0);
   assert(out.rotations.size() == clip.joints() && out.translations.size() == clip.joints());

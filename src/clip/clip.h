@@ -54,6 +54,9 @@ struct Clip {
   void resize(int count);
 };
 
+// One frame of the skeleton at rest.
+Clip rest_clip(const Skeleton& skeleton);
+
 // The pose at `frame` (fractional, clamped to the clip): rotations along the shorter arc,
 // translations straight. Whole frames come back bit for bit, and so does a joint that is the same
 // in the frames on both sides. The clip has a frame at least; `out` has the clip's joints.

@@ -23,6 +23,11 @@ class GltfFile final : public MotionFile {
     if (document_.animations.empty()) return document_.rest;
     return document_.animations[static_cast<size_t>(which)].clip;
   }
+  Clip rest() const override {
+    Clip out = document_.rest;
+    for (Joint& joint : out.skeleton.joints) joint.can_translate = joint.can_rotate;
+    return out;
+  }
   std::string encode(std::span<const ClipEdit> edits, EditMode mode) const override {
     return encode_gltf(document_, edits, mode);
   }

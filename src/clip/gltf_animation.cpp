@@ -96,7 +96,7 @@ class ChannelReader {
 
   GltfDocument& document_;
   GltfChecker& checker_;
-  GltfNames names_;
+  TakenNames names_;
 };
 
 class ClipReader {
@@ -239,16 +239,6 @@ class ClipReader {
 };
 
 }  // namespace
-
-std::string unique_name(const std::string& name, GltfNames& taken) {
-  int& asked = taken[name];  // Insertions move nothing in a map.
-  std::string result = name;
-  while (++asked > 1) {
-    result = name + " (" + std::to_string(asked) + ")";
-    if (taken.emplace(result, 1).second) break;
-  }
-  return result;
-}
 
 bool read_gltf_track(const GltfDocument& document, size_t which, const GltfChannel& channel,
                      GltfChecker& checker, GltfTrack& out) {

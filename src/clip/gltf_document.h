@@ -2,13 +2,13 @@
 // What is kept of a glTF file: its JSON and data, untouched, and what they mean for motion. Private
 // to the folder.
 
-#include <map>
 #include <string>
 #include <vector>
 
 #include "clip/clip.h"
 #include "clip/gltf_container.h"
 #include "clip/gltf_track.h"
+#include "clip/unique_name.h"
 
 namespace panache {
 
@@ -78,11 +78,6 @@ bool read_gltf_track(const GltfDocument& document, size_t which, const GltfChann
                      GltfChecker& checker, GltfTrack& out);
 // The same for a joint that no channel moves: where it rests.
 GltfTrack rest_gltf_track(const GltfNode& node, GltfPath path);
-
-// Names that are taken, each with the number of times that it was asked for.
-using GltfNames = std::map<std::string, int>;
-// `name`, or where it is taken the same with the next free " (2)", " (3)", ...; then taken too.
-std::string unique_name(const std::string& name, GltfNames& taken);
 
 // A number of the file as the clip has it: unit rotations, translations that the scale of the nodes
 // above multiplies.

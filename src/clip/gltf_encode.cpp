@@ -23,11 +23,19 @@ class AnimationWriter {
         changed_(*edit.changed),
         source_frames_(edit.source_frames),
         data_(data),
-        animation_(static_cast<size_t>(edit.clip)),
-        clip_(document.animations.empty() ? document.rest : document.animations[animation_].clip) {
+        // What has no animation of the file behind it is a change of the rest pose.
+        animation_(edit.clip == kNewClip || document.animations.empty()
+                       ? nullptr
+                       : &document.animations[static_cast<size_t>(edit.clip)]),
+        clip_(animation_ ? animation_->clip : document.rest),
+        frame_time_(edit.clip == kNewClip ? changed_.frame_time : clip_.frame_time) {
+    if (edit.clip == kNewClip) {
+      at_rest_.assign(static_cast<size_t>(changed_.frames), 0.0);
+      source_frames_ = at_rest_;
+    }
     assert(changed_.joints() == clip_.joints() && changed_.frames > 0);
     assert(source_frames_.size() == static_cast<size_t>(changed_.frames));
-    if (!document.animations.empty()) start_ = document.animations[animation_].start;
+    if (animation_) start_ = animation_->start;
     keeps_time_ = changed_.frames == clip_.frames;
     for (int i = 0; i < changed_.frames; ++i) {
       keeps_time_ = keeps_time_ && source_frames_[static_cast<size_t>(i)] == i;
@@ -38,9 +46,9 @@ class AnimationWriter {
   // The animation's JSON; no channels in it where the file has no animation and nothing moves.
   GltfJson write() {
     GltfJson result = GltfJson::object();
-    if (!document_.animations.empty()) {
-      result = document_.container.json["animations"][animation_];
-      const std::vector<GltfChannel>& channels = document_.animations[animation_].channels;
+    if (animation_) {
+      result = document_.container.json["animations"][place()];
+      const std::vector<GltfChannel>& channels = animation_->channels;
       kept_samplers_.assign(result["samplers"].size(), -1);
       for (size_t c = 0; c < channels.size(); ++c) write_channel(result, c, channels[c]);
     }
@@ -82,12 +90,12 @@ class AnimationWriter {
     return true;
   }
 
-  double seconds(double frame) const { return start_ + frame * clip_.frame_time; }
+  double seconds(double frame) const { return start_ + frame * frame_time_; }
+  size_t place() const { return static_cast<size_t>(animation_ - document_.animations.data()); }
 
   bool has_channel(int node, GltfPath path) const {
-    if (document_.animations.empty()) return false;
-    const std::vector<GltfChannel>& channels = document_.animations[animation_].channels;
-    return std::ranges::any_of(channels, [&](const GltfChannel& channel) {
+    if (!animation_) return false;
+    return std::ranges::any_of(animation_->channels, [&](const GltfChannel& channel) {
       return channel.node == node && channel.path == path;
     });
   }
@@ -103,8 +111,7 @@ class AnimationWriter {
 
     GltfChecker checker("");
     GltfTrack track;
-    [[maybe_unused]] const bool read =
-        read_gltf_track(document_, animation_, channel, checker, track);
+    [[maybe_unused]] const bool read = read_gltf_track(document_, place(), channel, checker, track);
     assert(read);  // It was read before.
     // A single key holds at all times, unless it is beyond the new end.
     const bool holds = track.times.size() == 1 &&
@@ -162,7 +169,7 @@ class AnimationWriter {
         const double frame = source_frames_[static_cast<size_t>(i)];
         const double last = clip_.frames - 1;
         const double at = seconds(frame > 0 ? std::min(frame, last) : 0.0);
-        track.evaluate(at, key_tolerance(at, clip_.frame_time), out);
+        track.evaluate(at, key_tolerance(at, frame_time_), out);
       } else if (path == GltfPath::translation) {
         const Vec3d place = changed_.pose(i).translations[joint].as<double>();
         const Vec3 v = (place / document_.scales[joint]).as<float>();
@@ -196,8 +203,10 @@ class AnimationWriter {
   const Clip& changed_;
   std::span<const double> source_frames_;
   GltfDataWriter data_;
-  size_t animation_;
-  const Clip& clip_;  // As it was read.
+  const GltfAnimation* animation_;  // Of the file; null where there is none behind the new one.
+  const Clip& clip_;                // As it was read.
+  double frame_time_;
+  std::vector<double> at_rest_;  // [frames] of a new clip, 0.
   double start_ = 0;
   bool keeps_time_ = false;
   Clip sampled_;                    // Empty where the time is kept.
@@ -241,20 +250,36 @@ std::string encode_gltf(const GltfDocument& document, std::span<const ClipEdit> 
                         EditMode mode) {
   GltfJson json = document.container.json;
   std::string added;
-  GltfNames names;
-  for (const GltfAnimation& animation : document.animations) unique_name(animation.name, names);
+  TakenNames names;
+  const bool only_new =
+      mode == EditMode::replace &&
+      std::ranges::any_of(edits, [](const ClipEdit& edit) { return edit.clip == kNewClip; });
+  if (only_new) {
+    json.erase("animations");
+  } else {
+    for (const GltfAnimation& animation : document.animations) unique_name(animation.name, names);
+  }
+  std::vector<GltfJson> new_animations;
   for (const ClipEdit& edit : edits) {
     const GltfDataWriter data(gltf_added_at(document.container), json, added);
     GltfJson animation = AnimationWriter(document, edit, data).write();
     if (animation["channels"].empty()) continue;  // glTF has no animation that moves nothing.
-    if (mode == EditMode::replace && !document.animations.empty()) {
+    if (mode == EditMode::replace && edit.clip != kNewClip && !document.animations.empty()) {
       json["animations"][static_cast<size_t>(edit.clip)] = std::move(animation);
       continue;
     }
-    const size_t number = json["animations"].size() + 1;
+    const size_t number = document.animations.size() + new_animations.size() + 1;
     animation["name"] =
         unique_name(edit.name.empty() ? "animation " + std::to_string(number) : edit.name, names);
-    json["animations"].push_back(std::move(animation));
+    new_animations.push_back(std::move(animation));
+  }
+  if (!new_animations.empty()) {
+    GltfJson& all = json["animations"];
+    if (all.is_null()) all = GltfJson::array();
+    size_t at = mode == EditMode::add_first ? 0 : all.size();
+    for (GltfJson& animation : new_animations) {
+      all.insert(all.begin() + static_cast<std::ptrdiff_t>(at++), std::move(animation));
+    }
   }
   return write_gltf_container(document.container, std::move(json), added);
 }

@@ -296,15 +296,7 @@ class SkeletonBuilder {
     return true;
   }
 
-  void build_rest() {
-    Clip& rest = document_.rest;
-    rest.skeleton = document_.skeleton;
-    rest.resize(1);
-    for (size_t j = 0; j < rest.joints(); ++j) {
-      rest.rotations[j] = rest.skeleton.joints[j].rest;
-      rest.translations[j] = rest.skeleton.joints[j].offset;
-    }
-  }
+  void build_rest() { document_.rest = rest_clip(document_.skeleton); }
 
   GltfDocument& document_;
   std::vector<GltfNode>& nodes_;

@@ -11,19 +11,25 @@
 
 namespace panache {
 
-// New frames for one clip of a file.
+// In ClipEdit::clip: a motion that is none of the file's own.
+inline constexpr int kNewClip = -1;
+
+// New frames for one clip of a file, or a new clip.
 struct ClipEdit {
-  int clip = 0;  // Which of the file's clips.
-  // With that clip's skeleton and frame time, and any number of frames above zero.
+  int clip = 0;  // Which of the file's clips, or kNewClip.
+  // With that clip's skeleton and frame time, and any number of frames above zero. A new clip has
+  // the skeleton of MotionFile::rest() and any frame time.
   const Clip* changed = nullptr;
-  // [frames]: which frame of the file's clip (fractional) each one came from.
+  // [frames]: which frame of the file's clip (fractional) each one came from. None of a new clip.
   std::span<const double> source_frames;
   // Of the clip that results, in formats whose clips have names; made unique where it is taken.
   std::string name;
 };
 
-// What becomes of the clip that an edit came from.
-enum class EditMode { replace, add_beside };
+// What becomes of the clip that an edit came from: it goes, or stays, with the edits at the end or
+// at the beginning of the list of motions, where viewers look first. In `replace` a new clip takes
+// the place of all motions of the file.
+enum class EditMode { replace, add_beside, add_first };
 
 class MotionFile {
  public:
@@ -35,6 +41,9 @@ class MotionFile {
   // A motion, with the file's own joints, order, units and rate. The clips of one file have the
   // same joints; what the file animates of them may differ.
   virtual const Clip& clip(int which = 0) const = 0;
+  // The skeleton at rest in one frame, its joints as free as a new motion of the file may have
+  // them.
+  virtual Clip rest() const = 0;
 
   // The bytes of the same file with the edited clips in it; those of different edits differ. A
   // joint that equals the pose of the frame that it came from keeps the very numbers of the file;

@@ -12,6 +12,7 @@ namespace {
 // Pixels.
 constexpr double kMargin = 20, kRowGap = 22, kTitleHeight = 30, kTimeHeight = 24;
 constexpr double kLabelSize = 15, kTimeSize = 11;
+constexpr double kLabelWidth = 190, kLabelLine = 19;  // The widest line of a label; line to line.
 // Metres: how thick the parts of a figure are.
 constexpr double kArm = 0.062, kLeg = 0.085, kTorso = 0.15, kNeck = 0.07, kHalo = 0.022;
 constexpr double kHeadRadius = 0.1, kHeadRise = 0.09;
@@ -59,6 +60,51 @@ Vec3d facing(const HumanPositions& body) {
   const Vec3d left = (body[index(left_upper_leg)] - body[index(right_upper_leg)]).as<double>() +
                      (body[index(left_upper_arm)] - body[index(right_upper_arm)]).as<double>();
   return normalized(cross(Vec3d{left.x, 0, left.z}, Vec3d{0, 1, 0}), Vec3d{0, 0, 1});
+}
+
+// Where a row goes, horizontal and of unit length: see StripOptions.
+Vec3d way_of(const StripRow& row) {
+  constexpr double kGoes = 0.7;  // Metres.
+  Vec3d faced;
+  const HumanPositions* first = nullptr;
+  const HumanPositions* last = nullptr;
+  for (const HumanPositions& body : row.frames) {
+    if (!all_finite(body)) continue;
+    if (!first) first = &body;
+    last = &body;
+    faced += facing(body);
+  }
+  if (!first) return {0, 0, 1};
+  faced = normalized(faced, facing(*first));
+  Vec3d way = ((*last)[index(HumanJoint::hips)] - (*first)[index(HumanJoint::hips)]).as<double>();
+  way.y = 0;
+  const bool goes = length(way) > kGoes && dot(normalized(way), faced) > 0.5;
+  return goes ? normalized(way) : faced;
+}
+
+// A label in lines that are not too wide: parted between words, or after what joins them in the
+// names of files, or anywhere where a word alone is too wide.
+std::vector<std::string> label_lines(const std::string& label) {
+  std::vector<std::string> lines;
+  std::string line, word;
+  const auto put = [&] {
+    if (!line.empty() && text_width(line + word, kLabelSize) > kLabelWidth) {
+      lines.push_back(line);
+      line.clear();
+    }
+    line += word;
+    word.clear();
+  };
+  for (const char c : label) {
+    // Bytes of one letter stay together.
+    const bool inside = (static_cast<unsigned char>(c) & 0xc0) == 0x80;
+    if (!inside && text_width(word + c, kLabelSize) > kLabelWidth) put();
+    word += c;
+    if (c == ' ' || c == '-' || c == '_' || c == '/') put();
+  }
+  put();
+  lines.push_back(line);
+  return lines;
 }
 
 // One figure, already in the drawing's own metres: to the right and up from its row's origin.
@@ -150,12 +196,12 @@ struct Layout {
 };
 
 // The widest that any figure reaches to one side of its hips.
-double widest_reach(const std::vector<StripRow>& rows, const Camera& camera) {
+double widest_reach(const std::vector<StripRow>& rows, const std::vector<Camera>& cameras) {
   double reach = 0.3;
-  for (const StripRow& row : rows) {
-    for (const HumanPositions& body : row.frames) {
+  for (size_t r = 0; r < rows.size(); ++r) {
+    for (const HumanPositions& body : rows[r].frames) {
       if (!all_finite(body)) continue;
-      for (const Seen& s : make_figure(body, camera, 0).joints) {
+      for (const Seen& s : make_figure(body, cameras[r], 0).joints) {
         reach = std::max(reach, std::abs(s.right));
       }
     }
@@ -163,13 +209,16 @@ double widest_reach(const std::vector<StripRow>& rows, const Camera& camera) {
   return reach;
 }
 
-Layout lay_out(const std::vector<StripRow>& rows, const Camera& camera,
+// cameras: [rows].
+Layout lay_out(const std::vector<StripRow>& rows, const std::vector<Camera>& cameras,
                const StripOptions& options) {
   constexpr double kGapShare = 1.7;  // Neighbours rarely reach out to each other at once.
-  const double apart = widest_reach(rows, camera) * kGapShare;
+  const double apart = widest_reach(rows, cameras) * kGapShare;
   Layout layout;
   bool first = true;
-  for (const StripRow& row : rows) {
+  for (size_t r = 0; r < rows.size(); ++r) {
+    const StripRow& row = rows[r];
+    const Camera& camera = cameras[r];
     std::vector<Figure>& figures = layout.rows.emplace_back();
     double start = 0;
     for (size_t f = 0; f < row.frames.size(); ++f) {
@@ -233,18 +282,19 @@ void draw_ground(Svg& svg, const Layout& layout, Point origin, const StripOption
 }  // namespace
 
 std::string draw_strip(const std::vector<StripRow>& rows, const StripOptions& options) {
-  Vec3d ahead{0, 0, 1};
+  std::vector<Camera> cameras;
+  std::vector<std::vector<std::string>> labels;
   for (const StripRow& row : rows) {
-    const auto body = std::find_if(row.frames.begin(), row.frames.end(), all_finite);
-    if (body == row.frames.end()) continue;
-    ahead = facing(*body);
-    break;
+    cameras.emplace_back(way_of(row), options);
+    labels.push_back(label_lines(row.label));
   }
-  const Layout layout = lay_out(rows, Camera(ahead, options), options);
+  const Layout layout = lay_out(rows, cameras, options);
   const double scale = options.pixels_per_metre;
   double label_width = 0;
-  for (const StripRow& row : rows) {
-    label_width = std::max(label_width, text_width(row.label, kLabelSize) + 16);
+  for (const auto& lines : labels) {
+    for (const std::string& line : lines) {
+      label_width = std::max(label_width, text_width(line, kLabelSize) + 16);
+    }
   }
   const double title = options.title.empty() ? 0 : kTitleHeight;
   const double marks = options.travel ? kTimeHeight : 0;
@@ -261,8 +311,12 @@ std::string draw_strip(const std::vector<StripRow>& rows, const StripOptions& op
         kMargin + label_width - layout.left * scale,
         kMargin + title + row_height * static_cast<double>(r) + layout.top * scale};
     draw_ground(svg, layout, origin, options);
-    svg.text({kMargin, origin.y - layout.top * scale * 0.45}, rows[r].label,
-             {kLabelSize, tinted(colour, -0.15), {}, true});
+    const double middle = origin.y - layout.top * scale * 0.45;
+    const double above = kLabelLine * static_cast<double>(labels[r].size() - 1) / 2;
+    for (size_t i = 0; i < labels[r].size(); ++i) {
+      svg.text({kMargin, middle - above + kLabelLine * static_cast<double>(i)}, labels[r][i],
+               {kLabelSize, tinted(colour, -0.15), {}, true});
+    }
     for (const Figure& figure : layout.rows[r]) {
       draw_figure(svg, figure, colour, origin, scale);
     }

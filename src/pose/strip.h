@@ -9,7 +9,7 @@
 namespace panache {
 
 struct StripRow {
-  std::string label;
+  std::string label;  // Long ones take several lines.
   // In the world, metres; one every StripOptions::seconds_between. Figures that are not finite are
   // left out.
   std::vector<HumanPositions> frames;
@@ -19,8 +19,9 @@ struct StripRow {
 struct StripOptions {
   std::string title;
   double seconds_between = 0.25;  // From one frame to the next, for the labels.
-  // How far the figures turn from the side view towards the viewer, and how far the camera looks
-  // down; degrees. Straight ahead is where the first row's first figure faces.
+  // How far the figures turn from the side view towards the viewer (90: they come towards it), and
+  // how far the camera looks down; degrees. Straight ahead is each row's own way: where it goes, or
+  // where its figures face on average, if it goes nowhere or not that way.
   double yaw_deg = 32, pitch_deg = 8;
   double pixels_per_metre = 84;
   // Whether each figure stands where it is, on a ground marked in metres, instead of at equal

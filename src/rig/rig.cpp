@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "clip/fk.h"
+#include "rig/doubtful.h"
 #include "rig/posed_rig.h"
 
 namespace panache {
@@ -66,6 +67,9 @@ Result<Rig> Rig::create(const Clip& clip, const RigOptions& options) {
   if (poses.empty()) return Error{"no frame of the motion has finite numbers only"};
   Result<Mapping> mapping = map_humanoid(clip.skeleton, poses, *known);
   if (!mapping) return mapping.error();
+  if (const std::optional<Error> doubt = find_doubt(clip.skeleton, *mapping, *known)) {
+    return *doubt;
+  }
   Result<Calibration> calibration =
       calibrate(clip, *mapping, options.metres_per_unit, options.up_axis);
   if (!calibration) return calibration.error();

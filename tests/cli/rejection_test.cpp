@@ -229,10 +229,10 @@ TEST_F(Rejection, a_model_that_is_none) {
 }
 
 TEST_F(Rejection, a_verb_that_does_not_exist) {
-  expect_rejected(
-      {"stylise", "walk.bvh"}, 2,
-      "there is no command 'stylise'; expected stylize, convert, learn, styles, info, walker, "
-      "strip, quantize, view, live, send, train, eval or bench");
+  expect_rejected({"stylise", "walk.bvh"}, 2,
+                  "there is no command 'stylise'; expected stylize, convert, retarget, learn, "
+                  "styles, info, walker, "
+                  "strip, quantize, view, live, send, train, eval or bench");
 }
 
 TEST_F(Rejection, a_command_that_is_incomplete) {

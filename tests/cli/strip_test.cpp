@@ -66,8 +66,31 @@ TEST_F(Strip, draws_any_format_and_believes_what_is_said_of_the_rig) {
                   "walk.bvh: holds one motion, which has no name; expected no --clip, found 'run'");
 }
 
+TEST_F(Strip, writes_pixels_where_the_name_says_png) {
+  ASSERT_EQ(run({"strip", "walk.bvh", "-o", "out.svg"}).exit, 0);
+  const Ran ran = run({"strip", "walk.bvh", "-o", "out.png"});
+  if (ran.err.find("this build cannot draw PNG") != std::string::npos) GTEST_SKIP() << ran.err;
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const std::string png = read("out.png");
+  ASSERT_TRUE(png.starts_with("\x89PNG\r\n")) << png.size();
+  // The width stands at byte 16, two pixels for each of the drawing's.
+  const auto byte = [&](size_t i) { return static_cast<unsigned char>(png[i]); };
+  const int width = byte(16) << 24 | byte(17) << 16 | byte(18) << 8 | byte(19);
+  const std::string svg = read("out.svg");
+  const double drawn = std::stod(svg.substr(svg.find("width=\"") + 7));
+  EXPECT_NEAR(width, 2 * drawn, 2);
+}
+
+TEST_F(Strip, draws_from_the_front_when_asked) {
+  ASSERT_EQ(run({"strip", "walk.bvh", "-o", "out.svg"}).exit, 0);
+  const std::string side = read("out.svg");
+  ASSERT_EQ(run({"strip", "walk.bvh", "--front", "-o", "out.svg", "--force"}).exit, 0);
+  EXPECT_FALSE(side == read("out.svg"));
+  EXPECT_EQ(run({"strip", "walk.bvh", "--front", "--travel", "-o", "out.svg", "--force"}).exit, 2);
+}
+
 TEST_F(Strip, rejects_what_makes_no_picture) {
-  expect_rejected({"-o", "out.png"}, 2, "out.png: expected a name that ends in .svg");
+  expect_rejected({"-o", "out.jpg"}, 2, "out.jpg: expected a name that ends in .svg or .png");
   expect_rejected({"-o", "out.svg", "--every", "0"}, 2,
                   "--every: expected a number from 0.01 to 60, found 0");
   expect_rejected({"-o", "out.svg", "--every", "nan"}, 2,

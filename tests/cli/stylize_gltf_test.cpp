@@ -4,7 +4,9 @@
 
 #include "cli/program.h"
 #include "cli/same_positions.h"
+#include "clip/gltf.h"
 #include "clip/make_character.h"
+#include "rig/made_up.h"
 
 namespace panache::test {
 namespace {
@@ -82,6 +84,38 @@ TEST_F(StylizeGltf, a_gltf_goes_into_a_glb_with_all_it_holds) {
   ASSERT_TRUE(file);
   EXPECT_EQ(file->clip_names().size(), 4u);
   EXPECT_EQ(glb_parts(read("out.glb")).json["meshes"], character().json["meshes"]);
+}
+
+// A beast without telling names, one of whose motions could be a person's.
+TEST_F(StylizeGltf, a_file_that_one_motion_shows_to_be_no_humanoid_is_rejected_as_a_whole) {
+  Clip walk = anonymous(walking_clip(20), 3).clip;
+  write("beast.glb", format_glb(walk, "Run", 1, {}));
+  Clip bark = walk;
+  for (size_t i = 0; i < bark.translations.size(); ++i) {
+    // All that hung below its parents folds up over them.
+    bark.translations[i].y = std::abs(bark.translations[i].y);
+    bark.translations[i].x = 0;
+  }
+  const auto file = read_motion(path("beast.glb"));
+  ASSERT_TRUE(file.ok());
+  // Below the node that the file has above the joints.
+  Clip beside = (*file)->rest();
+  const size_t above = beside.joints() - bark.joints();
+  beside.resize(bark.frames);
+  for (int f = 0; f < bark.frames; ++f) {
+    for (size_t j = 0; j < beside.joints(); ++j) {
+      beside.pose(f).rotations[j] = j < above ? Quat{} : bark.pose(f).rotations[j - above];
+      beside.pose(f).translations[j] = j < above ? Vec3{} : bark.pose(f).translations[j - above];
+    }
+  }
+  const ClipEdit edit = {kNewClip, &beside, {}, "Bark"};
+  write("beast.glb", (*file)->encode({&edit, 1}, EditMode::add_beside));
+  const Ran ran = stylize({"beast.glb", "--style", "old=1", "-o", "out.glb"});
+  EXPECT_EQ(ran.exit, 1) << ran.err;
+  EXPECT_TRUE(ran.err.starts_with("panache: beast.glb: Bark: no humanoid found: ")) << ran.err;
+  EXPECT_TRUE(ran.err.ends_with("; so its other motions are not restyled either\n")) << ran.err;
+  EXPECT_FALSE(exists("out.glb"));
+  EXPECT_EQ(stylize({"beast.glb", "--clip", "Run", "--style", "old=1", "-o", "out.glb"}).exit, 0);
 }
 
 TEST_F(StylizeGltf, a_motion_that_cannot_be_restyled_stays_with_a_note) {

@@ -129,6 +129,26 @@ TEST(Strip, looks_the_same_whichever_way_the_motion_heads) {
   for (size_t i = 0; i < xa.size(); ++i) EXPECT_NEAR(xa[i], xb[i], 0.02);
 }
 
+TEST(Strip, each_row_is_seen_along_its_own_way) {
+  const StripRow a = made_up_row("walk", 1, 0.4f, 0), b = made_up_row("walk", 1, 0.4f, 2.5f);
+  const std::vector<double> x = head_numbers(draw_strip({a, b}, {}), "cx");
+  ASSERT_EQ(x.size(), 18u);
+  for (size_t i = 0; i < 9; ++i) EXPECT_NEAR(x[i], x[i + 9], 0.02);
+}
+
+TEST(Strip, a_long_name_takes_lines_and_no_width) {
+  const std::string name = "dataset-1_walk_normal_001 on a character with a very long name";
+  const std::string svg = draw_strip({made_up_row(name, 1, 0)}, {});
+  keep(svg, "long.svg");
+  EXPECT_EQ(xml_problem(svg), "");
+  const auto width = [](const std::string& drawing) {
+    return std::stod(drawing.substr(drawing.find("width=\"") + 7));
+  };
+  EXPECT_LT(width(svg) - width(draw_strip({made_up_row("walk", 1, 0)}, {})), 190);
+  EXPECT_EQ(svg.find(name), svg.npos);
+  EXPECT_NE(svg.find(">dataset-1_walk_"), svg.npos);
+}
+
 TEST(Strip, a_jump_is_seen_as_height) {
   StripRow row = made_up_row("jump", 0, 0);
   for (Vec3& p : row.frames[4]) p.y += 0.5f;

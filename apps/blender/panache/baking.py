@@ -1,0 +1,136 @@
+"""Writes a styled motion as a new action, and keeps the old one as a muted NLA track."""
+
+import json
+
+from . import controls, sampling
+
+_SAME = 1e-6  # Metres and parts of quaternions: what evaluation loses.
+
+
+def source_action(armature):
+    """What the armature plays, or what that was baked from; None without an action."""
+    import bpy
+    data = armature.animation_data
+    action = data.action if data else None
+    if action is None:
+        return None
+    return bpy.data.actions.get(action.get(sampling.SOURCE, ''), action)
+
+
+def bake(context, armature, sampled, styled, action, name):
+    """Makes the styled motion the armature's action; returns it."""
+    plan = controls.Plan(armature, sampled.joints)
+    new = action.copy()
+    new.name = name
+    new.use_fake_user = True
+    if not sampled.is_same(styled):
+        frames = [sampled.first + i for i in range(styled.frame_count)]
+        values, unkeyed = _solve(context, armature, sampled, styled, action, plan)
+        new[sampling.UNKEYED] = json.dumps(unkeyed)
+        sources = [sampled.first + f for f in styled.source_frames]
+        keeps_time = sources == frames
+        if not keeps_time:
+            _retime(new, sources, frames)
+        for target, tracks in values.items():
+            _write_tracks(new, target, tracks, frames, keeps_time)
+    new[sampling.SOURCE] = action.name
+    _keep_as_track(armature, action)
+    armature.animation_data.action = new
+    return new
+
+
+class _Track:
+    """A control's numbers in every frame, styled and not."""
+
+    def __init__(self, rotation):
+        self.rotation = rotation  # The name of the property, or None.
+        self.new = {'location': [], 'rotation': []}
+        self.old = {'location': [], 'rotation': []}
+
+    def note(self, which, bone):
+        which['location'].append(tuple(bone.location))
+        which['rotation'].append(tuple(getattr(bone, self.rotation)))
+
+    def has_changed(self, kind):
+        return any(abs(a - b) > _SAME for new, old in zip(self.new[kind], self.old[kind])
+                   for a, b in zip(new, old))
+
+
+# {None or name of a bone: _Track}, None is the object; and what UNKEYED holds.
+def _solve(context, armature, sampled, styled, action, plan):
+    targets = {None: armature}
+    targets.update((name, armature.pose.bones[name]) for name in plan.controls())
+    tracks = {name: _Track(controls.rotation_property(target)) for name, target in targets.items()}
+    with sampling.shown_alone(context, armature, action):
+        solver = controls.Solver(context, armature, plan, action)
+        for i, source in enumerate(styled.source_frames):
+            solver.restore()
+            sampling.set_frame(context.scene, sampled.first + source)
+            for name, target in targets.items():
+                tracks[name].note(tracks[name].old, target)
+            solver.put(sampled.world_pose(styled, i))
+            for name, target in targets.items():
+                tracks[name].note(tracks[name].new, target)
+                _keep_sign(tracks[name])
+        solver.restore()
+    return tracks, solver.unkeyed_values()
+
+
+# A quaternion and its negative are one rotation: the one nearer to the frame before is written.
+def _keep_sign(track):
+    numbers = track.new['rotation']
+    if track.rotation != 'rotation_quaternion' or len(numbers) < 2:
+        return
+    if sum(a * b for a, b in zip(numbers[-1], numbers[-2])) < 0:
+        numbers[-1] = tuple(-a for a in numbers[-1])
+
+
+def _path(bone, name):
+    return name if bone is None else 'pose.bones["%s"].%s' % (
+        bone.replace('\\', '\\\\').replace('"', '\\"'), name)
+
+
+def _write_tracks(action, bone, track, frames, keeps_time):
+    for kind, name in (('location', 'location'), ('rotation', track.rotation)):
+        if not track.has_changed(kind):
+            continue  # The channels are those of the old action, at their new times.
+        path = _path(bone, name)
+        for index in range(len(track.new[kind][0])):
+            curve = action.fcurves.find(path, index=index)
+            if curve:
+                action.fcurves.remove(curve)
+            curve = action.fcurves.new(path, index=index, action_group=bone or 'Object Transforms')
+            _set_keys(curve, frames, [numbers[index] for numbers in track.new[kind]])
+
+
+def _set_keys(curve, frames, values):
+    points = curve.keyframe_points
+    points.add(len(frames))
+    points.foreach_set('co', [x for pair in zip(frames, values) for x in pair])
+    for point in points:
+        point.interpolation = 'LINEAR'
+    curve.update()
+
+
+# All channels at the times that a style's tempo gives them.
+def _retime(action, sources, frames):
+    for curve in action.fcurves:
+        values = [curve.evaluate(frame) for frame in sources]
+        stepped = all(p.interpolation == 'CONSTANT' for p in curve.keyframe_points)
+        while len(curve.keyframe_points):
+            curve.keyframe_points.remove(curve.keyframe_points[-1], fast=True)
+        _set_keys(curve, frames, values)
+        if stepped:
+            for point in curve.keyframe_points:
+                point.interpolation = 'CONSTANT'
+
+
+def _keep_as_track(armature, action):
+    data = armature.animation_data
+    for track in data.nla_tracks:
+        if any(strip.action == action for strip in track.strips):
+            return
+    track = data.nla_tracks.new()
+    track.name = action.name
+    track.strips.new(action.name, int(round(action.frame_range[0])), action)
+    track.mute = True

@@ -1,0 +1,330 @@
+"""Which bones carry the pose of an armature, and how they are moved so that its joints come to
+where they are wanted: directly, or through IK targets, poles and the controls of Rigify."""
+
+import math
+
+from mathutils import Matrix, Quaternion
+
+from . import sampling
+
+# Rigify: control, and the bone (without ORG-) that follows it. Parents first. The other controls
+# of a limb are those of IK or of FK, as the limb's own switch says.
+_RIGIFY_SPINE = [('chest', 'spine.003'), ('neck', 'spine.004'), ('head', 'spine.006')]
+_RIGIFY_LIMBS = [
+    # parent with the switch, FK, (IK control, what follows it), pole, IK root, joints
+    ('upper_arm_parent', ['upper_arm_fk', 'forearm_fk', 'hand_fk'], 'hand_ik',
+     'upper_arm_ik_target', 'upper_arm_ik', ['upper_arm', 'forearm', 'hand']),
+    ('thigh_parent', ['thigh_fk', 'shin_fk', 'foot_fk'], 'foot_ik', 'thigh_ik_target', 'thigh_ik',
+     ['thigh', 'shin', 'foot'])]
+_MOST_ROUNDS = 8  # Of moving controls and looking where the joints went.
+
+
+class Follow:
+    """A control that a joint follows rigidly."""
+
+    def __init__(self, control, joint):
+        self.control, self.joint = control, joint
+
+
+class Lead:
+    """A control that a joint follows in its own way: it is turned, and moved if it `moves`, until
+    the joint is there."""
+
+    def __init__(self, control, joint, moves):
+        self.control, self.joint, self.moves = control, joint, moves
+
+
+class Knee:
+    """A control that turns the plane of a limb about the line from its root to its end."""
+
+    def __init__(self, control, upper, lower, end):
+        self.control, self.joints = control, (upper, lower, end)
+
+
+class Pole:
+    """A control that a knee or an elbow points to."""
+
+    def __init__(self, control, upper, lower, end):
+        self.control, self.joints = control, (upper, lower, end)
+
+
+class Plan:
+    """How the pose of an armature is put on its bones."""
+
+    def __init__(self, armature, joints):
+        self.joints = joints
+        self.place = {joint.bone: i for i, joint in enumerate(joints) if joint.bone}
+        self.direct = []  # Bones that are put where they are wanted, parents first.
+        self.moves = []   # Of the kinds above, in the order in which they act on each other.
+        self.notes = []
+        if sampling.is_rigify(armature):
+            self._plan_rigify(armature.pose.bones)
+        else:
+            self._plan_bones(armature)
+
+    def controls(self):
+        names = list(self.direct)
+        return names + [m.control for m in self.moves if m.control not in names]
+
+    # Rigs with constraints: a bone that one moves is moved through the target.
+    def _plan_bones(self, armature):
+        bones = armature.pose.bones
+        driven, targets, poles = set(), {}, {}
+        for bone in bones:
+            for constraint in bone.constraints:
+                if constraint.mute or not constraint.influence:
+                    continue
+                if constraint.type == 'IK':
+                    chain = [bone] + list(bone.parent_recursive)
+                    chain = chain[:constraint.chain_count or len(chain)]
+                    driven.update(b.name for b in chain)
+                    self._add_target(armature, constraint, self._end_of(bone), targets)
+                    if constraint.pole_target == armature and len(chain) > 1:
+                        poles[constraint.pole_subtarget] = Pole(
+                            constraint.pole_subtarget, chain[1].name, bone.name,
+                            self._end_of(bone))
+                elif constraint.type in ('COPY_ROTATION', 'COPY_TRANSFORMS', 'COPY_LOCATION'):
+                    driven.add(bone.name)
+                    self._add_target(armature, constraint, bone.name, targets)
+                elif constraint.type not in ('LIMIT_ROTATION', 'LIMIT_LOCATION', 'LIMIT_SCALE'):
+                    self.notes.append('%s has a constraint %s, which is left alone' % (
+                        bone.name, constraint.type.replace('_', ' ').lower()))
+        carried = set(targets) | set(poles)
+        self.direct = [b.name for b in bones if b.name not in driven and b.name not in carried]
+        order = {bone.name: i for i, bone in enumerate(bones)}
+        for name in sorted(targets, key=order.get):
+            self.moves.append(Follow(name, targets[name]))
+        self.moves += [poles[name] for name in sorted(poles, key=order.get)]
+
+    # The bone at the tip of a chain, which the IK target stands for: a foot or a hand.
+    def _end_of(self, bone):
+        for child in bone.children:
+            if (child.bone.head_local - bone.bone.tail_local).length < 1e-3 * bone.bone.length:
+                return child.name
+        return bone.name
+
+    def _add_target(self, armature, constraint, joint, targets):
+        if constraint.target == armature and constraint.subtarget:
+            # A foot that turns with its target says more of it than the shin's end.
+            targets.setdefault(constraint.subtarget, joint)
+        elif constraint.target:
+            self.notes.append('%s is moved by %s, which is no bone of the armature and is left '
+                              'alone' % (joint, constraint.target.name))
+
+    def _plan_rigify(self, bones):
+        def add(control, joint, kind=Follow, *rest):
+            if control in bones and 'ORG-' + joint in self.place:
+                self.moves.append(kind(control, 'ORG-' + joint, *rest))
+        add('torso', 'spine')
+        for control, joint in _RIGIFY_SPINE:
+            add(control, joint, Lead, control == 'chest')
+        for side in ('.L', '.R'):
+            add('shoulder' + side, 'shoulder' + side)
+            for parent, fk, ik, pole, root, joints in _RIGIFY_LIMBS:
+                switch = bones.get(parent + side)
+                if switch is None:
+                    continue
+                if switch.get('IK_FK', 0.0) > 0.5:
+                    for control, joint in zip(fk, joints):
+                        add(control + side, joint + side)
+                else:
+                    add(ik + side, joints[2] + side)
+                    limb = ['ORG-' + joint + side for joint in joints]
+                    if switch.get('pole_vector', 0):
+                        self.moves.append(Pole(pole + side, *limb))
+                    else:
+                        self.moves.append(Knee(root + side, *limb))
+            for toe in ('toe_ik', 'toe_fk', 'toe'):
+                if toe + side in bones:
+                    add(toe + side, 'toe' + side)
+                    break
+
+
+def _rigid(pose):
+    turn, place = pose
+    return Matrix.Translation(place) @ turn.to_matrix().to_4x4()
+
+
+class Solver:
+    """Puts poses on an armature, one at a time: the pose bones are left as they come out."""
+
+    def __init__(self, context, armature, plan, action):
+        self.context, self.armature, self.plan = context, armature, plan
+        # What the action does not key stays where it was put, beyond the next change of the frame.
+        keyed = {curve.data_path for curve in action.fcurves}
+        targets = [(armature, '')] + [(armature.pose.bones[name], 'pose.bones["%s"].' % name)
+                                      for name in plan.controls()]
+        self.unkeyed = [(target, path + name, name, tuple(getattr(target, name)))
+                        for target, path in targets
+                        for name in ('location', rotation_property(target))
+                        if path + name not in keyed]
+
+    def restore(self):
+        """Puts back what no key puts back, before the next frame is set."""
+        for target, _, name, value in self.unkeyed:
+            setattr(target, name, value)
+
+    def unkeyed_values(self):
+        """[[data path, numbers], ...] of what restore() puts back."""
+        return [[path, value] for _, path, _, value in self.unkeyed]
+
+    def put(self, wanted):
+        """wanted: [joints] (rotation, place), world. The armature is in the unstyled pose of that
+        moment."""
+        to_armature = self.armature.matrix_world.inverted()
+        self._put_object(wanted)
+        current = self._current()
+        goal = [self._goal(to_armature, now, pose) for now, pose in zip(current, wanted)]
+        # What joints and controls have to do with each other shows in the unstyled pose: while IK
+        # cannot reach, the styled one would mislead.
+        before = {move.control: self._bones()[move.control].matrix.copy()
+                  for move in self.plan.moves}
+        self._put_direct(goal)
+        for _ in range(_MOST_ROUNDS if self.plan.moves else 0):
+            moved = 0
+            for move in self.plan.moves:
+                self.context.view_layer.update()
+                if isinstance(move, Lead):
+                    moved = max(moved, self._lead(move, goal))
+                elif isinstance(move, Knee):
+                    moved = max(moved, self._turn_knee(move, goal))
+                else:
+                    self._place(move, before[move.control], current, goal)
+            if moved < 2e-4:
+                return
+
+    def _bones(self):
+        return self.armature.pose.bones
+
+    # [joints] matrices of the armature's own space, None for the object.
+    def _current(self):
+        evaluated = self.armature.evaluated_get(self.context.evaluated_depsgraph_get())
+        bones = evaluated.pose.bones
+        return [bones[j.bone].matrix.copy() if j.bone else None for j in self.plan.joints]
+
+    # The wanted pose in the armature's space, with the scale that the bone has.
+    def _goal(self, to_armature, now, pose):
+        if now is None:
+            return None
+        moved = to_armature @ _rigid(pose)
+        place, turn, _ = moved.decompose()
+        return Matrix.LocRotScale(place, turn, now.to_scale())
+
+    def _put_object(self, wanted):
+        turn, place = wanted[0]
+        now, now_turn, scale = self.armature.matrix_world.decompose()
+        if (place - now).length < 1e-6 and turn.rotation_difference(now_turn).angle < 1e-6:
+            return
+        self.armature.matrix_world = Matrix.LocRotScale(place, turn, scale)
+
+    def _put_direct(self, goal):
+        for name in self.plan.direct:
+            bone = self._bones()[name]
+            at = self.plan.place[name]
+            if bone.parent:
+                above = goal[self.plan.place[bone.parent.name]]
+                basis = bone.bone.convert_local_to_pose(
+                    goal[at], bone.bone.matrix_local, parent_matrix=above,
+                    parent_matrix_local=bone.parent.bone.matrix_local, invert=True)
+            else:
+                basis = bone.bone.convert_local_to_pose(goal[at], bone.bone.matrix_local,
+                                                        invert=True)
+            _set_basis(bone, basis)
+
+    def _place(self, move, before, current, goal):
+        if isinstance(move, Pole):
+            after = self._pole_place(move, before, current, goal)
+        else:
+            at = self.plan.place[move.joint]
+            after = goal[at] @ current[at].inverted() @ before
+        _set_matrix(self._bones()[move.control], after)
+
+    # These two return by how much the control turned or moved, radians and metres.
+    def _lead(self, move, goal):
+        bone = self._bones()[move.control]
+        at = self.plan.place[move.joint]
+        now = self._current()[at]
+        turn = goal[at].to_quaternion() @ now.to_quaternion().inverted()
+        shift = goal[at].translation - now.translation
+        place, old, scale = bone.matrix.decompose()
+        if move.moves:
+            # It turns the joint about somewhere else, so half of the way is on the safe side.
+            place = place + 0.7 * shift
+        _set_matrix(bone, Matrix.LocRotScale(place, turn @ old, scale), stays=not move.moves)
+        return max(abs(_signed(turn.angle)), shift.length if move.moves else 0)
+
+    def _turn_knee(self, move, goal):
+        bone = self._bones()[move.control]
+        places = [self.plan.place[name] for name in move.joints]
+        now = self._current()
+        old = _bend_frame(*[now[i].translation for i in places])
+        new = _bend_frame(*[goal[i].translation for i in places])
+        if old is None or new is None:
+            return 0
+        along, bend = new.col[0].to_3d(), new.col[1].to_3d()
+        before = old.col[1].to_3d()
+        before = (before - along * before.dot(along)).normalized()
+        angle = math.atan2(before.cross(bend).dot(along), before.dot(bend))
+        place, turn, scale = bone.matrix.decompose()
+        turn = Quaternion(along, angle) @ turn
+        _set_matrix(bone, Matrix.LocRotScale(place, turn, scale), stays=True)
+        return abs(angle)
+
+    # The pole keeps its place against the plane of hip, knee and ankle.
+    def _pole_place(self, move, before, current, goal):
+        places = [self.plan.place[name] for name in move.joints]
+        old = _bend_frame(*[current[i].translation for i in places])
+        new = _bend_frame(*[goal[i].translation for i in places])
+        if old is None or new is None:
+            # A straight limb points nowhere: the pole goes along with its upper part.
+            old, new = current[places[0]], goal[places[0]]
+        return Matrix.Translation(new @ old.inverted() @ before.translation -
+                                  before.translation) @ before
+
+
+def _bend_frame(root, middle, end):
+    along = (end - root).normalized()
+    bend = (middle - root) - along * (middle - root).dot(along)
+    if bend.length < 0.01 * (middle - root).length:
+        return None
+    bend.normalize()
+    frame = Matrix((along, bend, along.cross(bend))).transposed().to_4x4()
+    frame.translation = root
+    return frame
+
+
+def _set_basis(bone, basis):
+    """Sets rotation and location; scale is no style's to change."""
+    place, turn, _ = basis.decompose()
+    bone.location = place
+    set_rotation(bone, turn)
+
+
+def _signed(angle):
+    return angle if angle < math.pi else angle - 2 * math.pi
+
+
+def _set_matrix(bone, matrix, stays=False):
+    """The bone comes to `matrix`, as far as it can without being scaled; or only turns."""
+    place, scale = tuple(bone.location), tuple(bone.scale)
+    bone.matrix = matrix
+    bone.scale = scale
+    if stays:
+        bone.location = place
+
+
+def rotation_property(target):
+    return {'QUATERNION': 'rotation_quaternion', 'AXIS_ANGLE': 'rotation_axis_angle'}.get(
+        target.rotation_mode, 'rotation_euler')
+
+
+def set_rotation(bone, turn):
+    if bone.rotation_mode == 'QUATERNION':
+        bone.rotation_quaternion = turn
+    elif bone.rotation_mode == 'AXIS_ANGLE':
+        axis, angle = turn.to_axis_angle()
+        bone.rotation_axis_angle = (angle, *axis)
+    else:
+        bone.rotation_euler = turn.to_euler(bone.rotation_mode, bone.rotation_euler)
+
+

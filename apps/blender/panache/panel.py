@@ -1,0 +1,87 @@
+"""The panel in the sidebar of the 3D view."""
+
+import bpy
+
+from . import settings
+
+
+class _Panel:
+    bl_space_type = 'VIEW_3D'
+    bl_region_type = 'UI'
+    bl_category = 'Panache'
+
+    @classmethod
+    def poll(cls, context):
+        return context.object is not None and context.object.type == 'ARMATURE'
+
+
+class PANACHE_PT_style(_Panel, bpy.types.Panel):
+    bl_label = 'Style'
+
+    def draw(self, context):
+        layout, found = self.layout, context.object.panache
+        data = context.object.animation_data
+        if not data or not data.action:
+            layout.label(text='This armature plays no action', icon='INFO')
+        column = layout.column(align=True)
+        for name in settings.model().styles:
+            column.prop(found.styles, name, slider=True)
+        layout.prop(found, 'preview', toggle=True, icon='HIDE_OFF')
+        row = layout.row()
+        row.scale_y = 1.4
+        row.operator('panache.bake', icon='ACTION')
+
+
+class PANACHE_PT_shape(_Panel, bpy.types.Panel):
+    bl_label = 'Shape and Tempo'
+    bl_parent_id = 'PANACHE_PT_style'
+
+    def draw(self, context):
+        column = self.layout.column(align=True)
+        for name in settings.SHAPE:
+            column.prop(context.object.panache, name, slider=True)
+
+
+class PANACHE_PT_rig(_Panel, bpy.types.Panel):
+    bl_label = 'Rig'
+    bl_parent_id = 'PANACHE_PT_style'
+
+    def draw(self, context):
+        layout, found = self.layout, context.object.panache
+        layout.operator('panache.look', icon='VIEWZOOM')
+        if found.known:
+            layout.label(text='This motion is known to ' + found.known)
+        for note in found.notes.splitlines():
+            layout.label(text=note, icon='INFO')
+        column = layout.column(align=True)
+        for line in found.mapping.splitlines():
+            human, name = line.split('\t')
+            row = column.split(factor=0.45)
+            row.label(text=human)
+            row.label(text=name)
+
+
+class PANACHE_PT_learn(_Panel, bpy.types.Panel):
+    bl_label = 'Learn a Style'
+    bl_parent_id = 'PANACHE_PT_style'
+    bl_options = {'DEFAULT_CLOSED'}
+
+    def draw(self, context):
+        layout, found = self.layout, context.object.panache
+        layout.prop(found, 'neutral')
+        layout.prop(found, 'styled')
+        layout.prop(found, 'style_name')
+        layout.operator('panache.learn', icon='IMPORT')
+
+
+_classes = (PANACHE_PT_style, PANACHE_PT_shape, PANACHE_PT_rig, PANACHE_PT_learn)
+
+
+def register():
+    for cls in _classes:
+        bpy.utils.register_class(cls)
+
+
+def unregister():
+    for cls in reversed(_classes):
+        bpy.utils.unregister_class(cls)

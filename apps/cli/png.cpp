@@ -1,0 +1,52 @@
+#include "png.h"
+
+#include <memory>
+
+#include <librsvg/rsvg.h>
+
+namespace panache::cli {
+namespace {
+
+constexpr double kPixels = 2;  // Of the PNG for one of the drawing, for sharp screens.
+
+template <auto destroy>
+struct Destroy {
+  template <class T>
+  void operator()(T* object) const {
+    destroy(object);
+  }
+};
+using Handle = std::unique_ptr<RsvgHandle, Destroy<g_object_unref>>;
+using Surface = std::unique_ptr<cairo_surface_t, Destroy<cairo_surface_destroy>>;
+using Context = std::unique_ptr<cairo_t, Destroy<cairo_destroy>>;
+
+cairo_status_t append(void* out, const unsigned char* bytes, unsigned int size) {
+  static_cast<std::string*>(out)->append(reinterpret_cast<const char*>(bytes), size);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+}  // namespace
+
+Result<std::string> svg_to_png(const std::string& svg, const std::string& path) {
+  const Error failure{path +
+                      ": the picture could not be drawn; a name that ends in .svg writes it "
+                      "undrawn"};
+  const Handle drawing(
+      rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(svg.data()), svg.size(), nullptr));
+  double width = 0, height = 0;
+  if (!drawing || !rsvg_handle_get_intrinsic_size_in_pixels(drawing.get(), &width, &height)) {
+    return failure;
+  }
+  const Surface surface(cairo_image_surface_create(
+      CAIRO_FORMAT_ARGB32, static_cast<int>(width * kPixels), static_cast<int>(height * kPixels)));
+  const Context context(cairo_create(surface.get()));
+  cairo_scale(context.get(), kPixels, kPixels);
+  const RsvgRectangle all = {0, 0, width, height};
+  if (!rsvg_handle_render_document(drawing.get(), context.get(), &all, nullptr)) return failure;
+  std::string png;
+  const cairo_status_t written = cairo_surface_write_to_png_stream(surface.get(), append, &png);
+  if (written != CAIRO_STATUS_SUCCESS) return failure;
+  return png;
+}
+
+}  // namespace panache::cli

@@ -1,0 +1,55 @@
+#include "retarget_file.h"
+
+#include <utility>
+
+#include "base/file.h"
+#include "input.h"
+#include "rig_report.h"
+
+namespace panache::cli {
+
+Result<void> retarget_file(FileJob& file, const CharacterFile& character, const std::string& clip,
+                           const RigOptions& rig_options, const RetargetOptions& options,
+                           const PlaceFlags& flags, bool force) {
+  Result<std::unique_ptr<MotionFile>> motion = open_motion(file.input);
+  if (!motion) return motion.error();
+  Result<std::vector<int>> picked = pick_clips(**motion, clip, file.input);
+  if (!picked) return picked.error();
+  std::vector<NewMotion> motions;
+  std::vector<std::string> names;
+  std::vector<Error> failures;
+  for (const int which : *picked) {
+    const std::string name = (*motion)->clip_names()[static_cast<size_t>(which)];
+    const std::string place = name.empty() ? file.input : file.input + ": " + name;
+    const Clip& from = (*motion)->clip(which);
+    const Result<Rig> rig = make_rig(from, rig_options, place);
+    Result<Clip> put = rig ? character.put(from, *rig, place, options) : Result<Clip>(rig.error());
+    if (!put) {
+      failures.push_back(put.error());
+      continue;
+    }
+    file.clips.push_back({{"name", name},
+                          {"frames_in", from.frames},
+                          {"frames", put->frames},
+                          {"seconds", put->duration()}});
+    names.push_back(title_of(name, file.input));
+    file.frames += put->frames;
+    file.seconds += put->duration();
+    if (file.mapping.is_null()) file.mapping = mapping_json(*rig);
+    motions.push_back({*std::move(put), ""});
+  }
+  if (motions.empty()) return failures.front();
+  for (const Error& failure : failures) {
+    file.notes.push_back(failure.message + "; this motion is left out");
+  }
+  name_new_motions(file, character.clip_names(), flags, names);
+  for (size_t i = 0; i < motions.size(); ++i) {
+    motions[i].name = names[i];
+    file.clips[i]["result"] = names[i];
+  }
+  Result<std::string> bytes = character.encode(motions, edit_mode(flags), file.output);
+  if (!bytes) return bytes.error();
+  return write_file(file.output, *bytes, force);
+}
+
+}  // namespace panache::cli

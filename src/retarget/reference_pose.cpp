@@ -1,0 +1,251 @@
+#include "retarget/reference_pose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "pose/contacts.h"
+#include "rig/canonical_body.h"
+#include "rig/canonical_skeleton.h"
+#include "rig/posed_rig.h"
+
+namespace panache {
+namespace {
+
+using enum HumanJoint;
+
+constexpr int kMaxFrames = 400;  // Of the motion, evenly spread.
+// Cosines of what a rest pose may be off a standing body's: torso and legs from the vertical, the
+// forearm from the line of the upper arm.
+constexpr float kUpright = 0.8f, kUprightLeg = 0.75f, kStraightArm = 0.5f;
+// A foot is flat in the frames of this share in which its ankle is lowest.
+constexpr float kFlatShare = 0.2f;
+// Toes are on the floor in the frames of this share in which they are lowest.
+constexpr float kFloorShare = 0.02f;
+// A rest pose stands where its toes are this near to the plane, in lengths of a leg.
+constexpr float kNearPlane = 0.25f;
+
+struct Arm {
+  int upper, lower, hand;
+  Vec3 along;  // In T-pose.
+};
+constexpr std::array<Arm, 2> kArms = {
+    {{index(left_upper_arm), index(left_lower_arm), index(left_hand), {1, 0, 0}},
+     {index(right_upper_arm), index(right_lower_arm), index(right_hand), {-1, 0, 0}}}};
+
+// The sum of rotations that are near to each other, whatever their signs.
+class MeanRotation {
+ public:
+  void add(Quat q) {
+    const float sign = dot(sum_, q) < 0 ? -1.0f : 1.0f;
+    sum_ = {sum_.x + sign * q.x, sum_.y + sign * q.y, sum_.z + sign * q.z, sum_.w + sign * q.w};
+    ++count_;
+  }
+  std::optional<Quat> mean() const {
+    return count_ ? std::optional(normalized(sum_)) : std::nullopt;
+  }
+
+ private:
+  Quat sum_ = {0, 0, 0, 0};
+  int count_ = 0;
+};
+
+Vec3 way(const HumanPositions& joints, int from, int to) {
+  return normalized(joints[to] - joints[from]);
+}
+
+float toes_height(const HumanPositions& joints) {
+  return std::min(joints[index(kToes[0])].y, joints[index(kToes[1])].y);
+}
+
+// Where a foot points, about +y; nothing where it points up or down.
+std::optional<float> foot_heading(const HumanPositions& joints, int foot) {
+  const Vec3 ahead = way(joints, index(kAnkles[foot]), index(kToes[foot]));
+  if (std::abs(ahead.y) > 0.95f) return std::nullopt;
+  return arc_tangent(ahead.x, ahead.z);
+}
+
+class Finder {
+ public:
+  Finder(const Clip& clip, const Rig& rig) : clip_(clip), rig_(rig) {
+    PosedRig reader(rig);
+    std::vector<Quat> rotations;
+    std::vector<Vec3> translations;
+    for (const Joint& joint : clip.skeleton.joints) {
+      rotations.push_back(joint.rest);
+      translations.push_back(joint.offset);
+    }
+    reader.read({rotations, translations}, rest_);
+    const int first = std::min(rig.first_frame(), clip.frames - 1);
+    const int step = (clip.frames - first + kMaxFrames - 1) / kMaxFrames;
+    for (int f = first; f < clip.frames; f += std::max(step, 1)) {
+      BodyPose body;
+      if (reader.read(clip.pose(f), body)) motion_.push_back(body);
+    }
+    if (motion_.empty()) motion_.push_back(rest_);
+  }
+
+  ReferencePose find() {
+    measure();
+    turn_rest();
+    out_.from_rest = stands();
+    if (out_.from_rest) {
+      take_rest();
+    } else {
+      take_motion();
+      flatten_feet();
+    }
+    for (int j = 1; j < kHumanJoints; ++j) {
+      if (rig_.joints()[j] < 0) out_.rotations[j] = out_.rotations[kHumanParent[j]];
+    }
+    return out_;
+  }
+
+ private:
+  void measure() {
+    const HumanPositions& joints = motion_.front().joints;
+    for (const Arm& arm : kArms) {
+      out_.arm += (length(joints[arm.lower] - joints[arm.upper]) +
+                   length(joints[arm.hand] - joints[arm.lower])) /
+                  2;
+    }
+    std::vector<float> heights;
+    for (int f = 0; f < kFeet; ++f) {
+      out_.leg += (length(joints[index(kLowerLegs[f])] - joints[index(kUpperLegs[f])]) +
+                   length(joints[index(kAnkles[f])] - joints[index(kLowerLegs[f])])) /
+                  2;
+    }
+    for (const BodyPose& body : motion_) heights.push_back(toes_height(body.joints));
+    const auto low = static_cast<long>(kFloorShare * static_cast<float>(heights.size() - 1));
+    std::nth_element(heights.begin(), heights.begin() + low, heights.end());
+    out_.motion_toes = heights[static_cast<size_t>(low)];
+    const float plane = -rig_.floor();
+    const float rest = toes_height(rest_.joints);
+    const bool near_plane = std::abs(rest - plane) < kNearPlane * out_.leg;
+    out_.rest_toes = near_plane ? rest : clip_.frames > 1 ? out_.motion_toes : plane;
+  }
+
+  // The rest pose, turned to face +z.
+  void turn_rest() {
+    const Quat turn = rotation_y(-rest_.facing);
+    for (Vec3& p : rest_.joints) p = rotate(turn, p);
+    for (Vec3& p : rest_.positions) p = rotate(turn, p);
+    for (Quat& q : rest_.rotations) q = turn * q;
+  }
+
+  float steepest_leg() const {
+    float least = 1;
+    for (int f = 0; f < kFeet; ++f) {
+      const int upper = index(kUpperLegs[f]), lower = index(kLowerLegs[f]);
+      least = std::min({least, -way(rest_.joints, upper, lower).y,
+                        -way(rest_.joints, lower, index(kAnkles[f])).y});
+    }
+    return least;
+  }
+
+  bool stands() const {
+    if (torso().y < kUpright || steepest_leg() < kUprightLeg) return false;
+    return std::all_of(kArms.begin(), kArms.end(), [&](const Arm& arm) {
+      const Vec3 upper = way(rest_.joints, arm.upper, arm.lower);
+      const Vec3 lower = way(rest_.joints, arm.lower, arm.hand);
+      return dot(upper, lower) > kStraightArm && dot(upper, arm.along) > -0.3f && upper.y < 0.7f;
+    });
+  }
+
+  // From the middle of the hip joints to that of the shoulders, in the rest pose.
+  Vec3 torso() const {
+    const auto at = [&](HumanJoint joint) { return rest_.joints[index(joint)]; };
+    return normalized((at(left_upper_arm) + at(right_upper_arm)) -
+                      (at(left_upper_leg) + at(right_upper_leg)));
+  }
+
+  // The torso comes upright joint by joint, as rest poses lean and curve as their makers built
+  // them; head and shoulders stay as they rest. Whole limbs turn about shoulder and hip, then what
+  // is below elbow and knee once more.
+  void take_rest() {
+    out_.rotations = rest_.rotations;
+    const TorsoFrames torso = torso_frames(rest_.positions, 0);
+    out_.rotations[index(hips)] = conjugate(torso.hips) * rest_.rotations[index(hips)];
+    out_.rotations[index(spine)] =
+        rotation_between(torso.spine, {0, 1, 0}) * rest_.rotations[index(spine)];
+    out_.rotations[index(chest)] =
+        rotation_between(torso.chest, {0, 1, 0}) * rest_.rotations[index(chest)];
+    out_.rotations[index(neck)] =
+        rotation_between(torso.neck, {0, 1, 0}) * rest_.rotations[index(neck)];
+    const auto limb = [&](int upper, int lower, int end, Vec3 along) {
+      const Quat first = rotation_between(way(rest_.joints, upper, lower), along);
+      const Vec3 rest = rotate(first, way(rest_.joints, lower, end));
+      const Quat second = rotation_between(rest, along) * first;
+      out_.rotations[upper] = first * rest_.rotations[upper];
+      out_.rotations[lower] = second * rest_.rotations[lower];
+      return second;
+    };
+    for (const Arm& arm : kArms) {
+      const Quat turn = limb(arm.upper, arm.lower, arm.hand, arm.along);
+      out_.rotations[arm.hand] = turn * rest_.rotations[arm.hand];
+    }
+    for (int f = 0; f < kFeet; ++f) {
+      limb(index(kUpperLegs[f]), index(kLowerLegs[f]), index(kAnkles[f]), {0, -1, 0});
+      const Quat ahead = rotation_y(-foot_heading(rest_.joints, f).value_or(0));
+      for (const HumanJoint joint : {kAnkles[f], kToes[f]}) {
+        out_.rotations[index(joint)] = ahead * rest_.rotations[index(joint)];
+      }
+    }
+  }
+
+  // canonical_frames() are those of the same body in local axes that are the world's in T-pose.
+  void take_motion() {
+    std::array<MeanRotation, kHumanJoints> means;
+    for (const BodyPose& body : motion_) {
+      std::array<Quat, kHumanJoints> frames;
+      canonical_frames(body.positions, body.facing, frames);
+      for (int j = 0; j < kHumanJoints; ++j) means[j].add(conjugate(frames[j]) * body.rotations[j]);
+    }
+    for (int j = 0; j < kHumanJoints; ++j) out_.rotations[j] = *means[j].mean();
+  }
+
+  // Feet and toes as they are while the ankle is low.
+  void flatten_feet() {
+    for (int f = 0; f < kFeet; ++f) {
+      const int ankle = index(kAnkles[f]);
+      std::vector<const BodyPose*> lowest;
+      for (const BodyPose& body : motion_) lowest.push_back(&body);
+      std::sort(lowest.begin(), lowest.end(), [&](const BodyPose* a, const BodyPose* b) {
+        return a->joints[ankle].y < b->joints[ankle].y;
+      });
+      lowest.resize(1 + static_cast<size_t>(kFlatShare * static_cast<float>(lowest.size() - 1)));
+      for (const HumanJoint joint : {kAnkles[f], kToes[f]}) {
+        MeanRotation mean;
+        for (const BodyPose* body : lowest) {
+          const std::optional<float> heading = foot_heading(body->joints, f);
+          if (heading) mean.add(rotation_y(-*heading) * body->rotations[index(joint)]);
+        }
+        if (mean.mean()) out_.rotations[index(joint)] = *mean.mean();
+      }
+    }
+  }
+
+  const Clip& clip_;
+  const Rig& rig_;
+  BodyPose rest_;  // Facing +z, once it was turned.
+  std::vector<BodyPose> motion_;
+  ReferencePose out_;
+};
+
+}  // namespace
+
+TorsoFrames torso_frames(const HumanPositions& positions, float facing) {
+  const auto at = [&](HumanJoint joint) { return positions[index(joint)]; };
+  std::array<Quat, kHumanJoints> frames;
+  canonical_frames(positions, facing, frames);
+  const Vec3 shoulders = (at(left_upper_arm) + at(right_upper_arm)) * 0.5f;
+  return {frames[index(hips)], normalized(at(chest) - at(spine), {0, 1, 0}),
+          normalized(shoulders - at(chest), {0, 1, 0}), normalized(at(head) - at(neck), {0, 1, 0})};
+}
+
+ReferencePose find_reference_pose(const Clip& clip, const Rig& rig) {
+  return Finder(clip, rig).find();
+}
+
+}  // namespace panache

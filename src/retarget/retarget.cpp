@@ -1,0 +1,236 @@
+#include "retarget/retarget.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "clip/fk.h"
+#include "pose/contacts.h"
+#include "pose/foot_lock.h"
+#include "retarget/further_joints.h"
+#include "retarget/ground.h"
+#include "retarget/meeting_hands.h"
+#include "retarget/reference_pose.h"
+#include "rig/posed_rig.h"
+
+namespace panache {
+namespace {
+
+using enum HumanJoint;
+
+// Room for one pose, at rest.
+struct PoseRoom {
+  explicit PoseRoom(const Skeleton& skeleton) {
+    for (const Joint& joint : skeleton.joints) {
+      rotations.push_back(joint.rest);
+      translations.push_back(joint.offset);
+    }
+  }
+  Pose pose() { return {rotations, translations}; }
+
+  std::vector<Quat> rotations;
+  std::vector<Vec3> translations;
+};
+
+class Retargeter {
+ public:
+  Retargeter(const Clip& motion, const Rig& rig, const Clip& character, const Rig& onto,
+             const RetargetOptions& options)
+      : motion_(motion),
+        character_(character),
+        onto_rig_(onto),
+        options_(options),
+        from_(rig),
+        onto_(onto),
+        look_(onto),
+        seen_pose_(character.skeleton),
+        from_reference_(find_reference_pose(motion, rig)),
+        onto_reference_(find_reference_pose(character, onto)),
+        scale_(onto_reference_.leg / from_reference_.leg),
+        rest_(character.skeleton),
+        further_(find_further_joints(motion.skeleton, rig, character.skeleton, onto)) {
+    onto_.read(rest_.pose(), body_);
+    toes_at_rest_ = std::min(body_.joints[index(kToes[0])].y, body_.joints[index(kToes[1])].y);
+    // From here on the floor is where these toes are.
+    for (Vec3& p : body_.joints) p.y -= toes_at_rest_;
+    first_ = std::min(rig.first_frame(), motion.frames - 1);
+    measure_rest();
+  }
+
+  Retargeted run() {
+    std::vector<HumanPositions> joints;
+    for (int f = first_; f < motion_.frames; ++f) {
+      BodyPose body;
+      from_.read(motion_.pose(f), body);
+      joints.push_back(body.joints);
+      frames_.push_back(follow(body));
+    }
+    const auto seconds = static_cast<float>(motion_.frame_time);
+    std::vector<FootContacts> contacts = detect_contacts(joints, 1 / motion_.frame_time);
+    for (size_t f = 0; f < frames_.size(); ++f) frames_[f].contacts = contacts[f];
+    if (options_.feet) hold_feet(body_, seconds, frames_);
+    Clip out{character_.skeleton, motion_.frame_time, 0, {}, {}};
+    out.resize(static_cast<int>(frames_.size()));
+    for (int f = 0; f < out.frames; ++f) write(frames_[static_cast<size_t>(f)].change, f, out);
+    return {std::move(out), std::move(contacts)};
+  }
+
+ private:
+  // The rotations that the rest poses have below each human joint, relative to it.
+  void measure_rest() {
+    PoseRoom from(motion_.skeleton);
+    world_pose(motion_.skeleton, from.pose(), from.pose());
+    from_rest_ = std::move(from.rotations);
+  }
+
+  // How each joint of the motion is turned against the T-pose. Torsos bend elsewhere in other rigs:
+  // theirs points where the joints are, and twists as the motion's own joints do.
+  std::array<Quat, kHumanJoints> turns_of(const BodyPose& from) const {
+    std::array<Quat, kHumanJoints> turns;
+    for (int j = 0; j < kHumanJoints; ++j) {
+      turns[j] = from.rotations[j] * conjugate(from_reference_.rotations[j]);
+    }
+    const TorsoFrames torso = torso_frames(from.positions, from.facing);
+    turns[index(hips)] = torso.hips;
+    const auto point = [&](HumanJoint joint, Vec3 to) {
+      Quat& turn = turns[index(joint)];
+      turn = rotation_between(normalized(rotate(turn, Vec3{0, 1, 0})), to) * turn;
+    };
+    point(spine, torso.spine);
+    point(chest, torso.chest);
+    point(neck, torso.neck);
+    return turns;
+  }
+
+  // The body in the pose of the motion's, feet not yet held.
+  GroundedFrame follow(const BodyPose& from) {
+    GroundedFrame frame;
+    BodyChange& change = frame.change;
+    const Quat to_front = rotation_y(-body_.facing);
+    const std::array<Quat, kHumanJoints> turns = turns_of(from);
+    for (int j = 0; j < kHumanJoints; ++j) {
+      const Quat turned = turns[j];
+      const Quat rest = to_front * body_.rotations[j];
+      change.rotations[j] = normalized(turned * onto_reference_.rotations[j] * conjugate(rest));
+      if (onto_rig_.joints()[j] < 0) change.rotations[j] = change.rotations[kHumanParent[j]];
+    }
+    change.turn = -body_.facing;
+    bend_torso(torso_frames(from.positions, from.facing), change);
+    const auto in_size = [&](Vec3 p) {
+      return Vec3{p.x, p.y - from_reference_.motion_toes, p.z} * scale_;
+    };
+    change.translation = in_size(mid_hip(from)) - mid_hip(body_);
+    for (int f = 0; f < kFeet; ++f) frame.toes[f] = in_size(from.joints[index(kToes[f])]);
+    if (options_.hands) {
+      HumanPositions joints;
+      changed_joints(body_, change, joints);
+      const Vec3 between = from.joints[index(right_hand)] - from.joints[index(left_hand)];
+      meet_hands(body_, between / from_reference_.arm, onto_reference_.arm, joints, change);
+    }
+    if (options_.feet) match_heights(body_, frame);
+    return frame;
+  }
+
+  // A torso with other joints than the motion's comes near to its shape at once, and to it in a few
+  // steps.
+  void bend_torso(const TorsoFrames& wanted, BodyChange& change) {
+    constexpr int kSteps = 3;
+    for (int step = 0; step < kSteps; ++step) {
+      onto_.write(rest_.pose(), body_, change, seen_pose_.pose());
+      BodyPose seen;
+      look_.read(seen_pose_.pose(), seen);
+      const TorsoFrames got = torso_frames(seen.positions, seen.facing);
+      const auto turn = [&](HumanJoint joint, Quat by) {
+        Quat& rotation = change.rotations[index(joint)];
+        if (onto_rig_.joints()[index(joint)] >= 0) rotation = normalized(by * rotation);
+      };
+      turn(hips, wanted.hips * conjugate(got.hips));
+      turn(spine, rotation_between(got.spine, wanted.spine));
+      turn(chest, rotation_between(got.chest, wanted.chest));
+      turn(neck, rotation_between(got.neck, wanted.neck));
+      for (int j = 1; j < kHumanJoints; ++j) {
+        if (onto_rig_.joints()[j] < 0) change.rotations[j] = change.rotations[kHumanParent[j]];
+      }
+    }
+  }
+
+  void write(const BodyChange& change, int frame, Clip& out) {
+    BodyChange moved = change;
+    moved.translation.y += onto_reference_.rest_toes - toes_at_rest_;
+    const Pose pose = out.pose(frame);
+    onto_.write(rest_.pose(), body_, moved, pose);
+    if (!further_.empty()) turn_further_joints(frame, pose);
+  }
+
+  // Each turns against its human joint as in the motion, both seen in T-pose. Its parent may be
+  // another of them, or a joint that rests.
+  void turn_further_joints(int frame, const Pose& pose) {
+    PoseRoom from(motion_.skeleton);
+    world_pose(motion_.skeleton, motion_.pose(first_ + frame), from.pose());
+    for (const JointPair& pair : further_) {
+      const int from_human = joint_of(from_.rig(), pair.human);
+      const int onto_human = joint_of(onto_rig_, pair.human);
+      const auto relative = [&](const std::vector<Quat>& world, int joint) {
+        return conjugate(world[static_cast<size_t>(from_human)]) *
+               world[static_cast<size_t>(joint)];
+      };
+      const Quat turned =
+          relative(from.rotations, pair.from) * conjugate(relative(from_rest_, pair.from));
+      const Quat in_t_pose = in_axes(from_reference_.rotations[pair.human], turned);
+      const Quat in_onto = in_axes(conjugate(onto_reference_.rotations[pair.human]), in_t_pose);
+      // The joint against its human joint, and what lies between them.
+      Quat above, rest;
+      chain(pair.onto, onto_human, pose, above, rest);
+      pose.rotations[static_cast<size_t>(pair.onto)] =
+          normalized(conjugate(above) * in_onto * rest);
+    }
+  }
+  static int joint_of(const Rig& rig, int human) { return rig.joints()[human]; }
+
+  // above: from the human joint to the joint's parent in the pose; rest: to the joint, at rest.
+  void chain(int joint, int human, const Pose& pose, Quat& above, Quat& rest) const {
+    const auto& joints = character_.skeleton.joints;
+    rest = joints[static_cast<size_t>(joint)].rest;
+    for (int up = joints[static_cast<size_t>(joint)].parent; up != human && up >= 0;
+         up = joints[static_cast<size_t>(up)].parent) {
+      above = pose.rotations[static_cast<size_t>(up)] * above;
+      rest = joints[static_cast<size_t>(up)].rest * rest;
+    }
+  }
+
+  const Clip& motion_;
+  const Clip& character_;
+  const Rig& onto_rig_;
+  RetargetOptions options_;
+  PosedRig from_, onto_;
+  PosedRig look_;  // At what was written, into
+  PoseRoom seen_pose_;
+  ReferencePose from_reference_, onto_reference_;
+  float scale_;  // Lengths of a leg: the character's against the motion's.
+  PoseRoom rest_;
+  std::vector<JointPair> further_;
+  std::vector<Quat> from_rest_;  // [joints of the motion], world.
+  BodyPose body_;                // At rest, its toes at 0.
+  float toes_at_rest_ = 0;       // Where they were.
+  int first_ = 0;                // Frame of the motion.
+  std::vector<GroundedFrame> frames_;
+};
+
+}  // namespace
+
+Result<Retargeted> retarget(const Clip& motion, const Rig& rig, const Clip& character,
+                            const Rig& onto, const RetargetOptions& options) {
+  int moved = onto.joints()[index(hips)];
+  while (moved >= 0 && !character.skeleton.joints[static_cast<size_t>(moved)].can_translate) {
+    moved = character.skeleton.joints[static_cast<size_t>(moved)].parent;
+  }
+  if (moved < 0) {
+    return Error{
+        "neither the hips of the character nor a joint above them can move; expected translation "
+        "channels at one of them"};
+  }
+  return Retargeter(motion, rig, character, onto, options).run();
+}
+
+}  // namespace panache

@@ -1,0 +1,70 @@
+"""A plain rig: baked in Blender it is what panache stylize makes of its GLB, at strength 0 it is
+what it was, and the style learnt from two of its actions is a slider."""
+
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(__file__))
+import bpy  # noqa: E402
+
+import checks  # noqa: E402
+import glb  # noqa: E402
+import rigs  # noqa: E402
+
+MOST_APART = 0.001  # Metres.
+
+checks.run('walker', '-o', 'walk.bvh', '--seconds', '2', '--turn', '20', '--force')
+rigs.empty_scene()
+checks.install()
+armature = rigs.plain(os.path.join(checks.folder, 'walk.bvh'))
+walk = armature.animation_data.action
+walk.name = 'walk'
+
+bpy.ops.export_scene.gltf(filepath=os.path.join(checks.folder, 'walk.glb'), export_format='GLB')
+checks.run('stylize', 'walk.glb', '--style', 'old=1', '-o', 'old.glb', '--force')
+styled = glb.Glb(os.path.join(checks.folder, 'old.glb'))
+
+# Strength 0: a new action with every channel as it was.
+before = checks.channels(walk)
+assert bpy.ops.panache.bake() == {'FINISHED'}
+baked = armature.animation_data.action
+assert baked != walk and baked.name == 'walk (no style)', baked.name
+assert checks.channels(baked) == before
+assert checks.channels(walk) == before
+
+# Old: from the same source, whatever was baked before.
+armature.panache.styles.old = 1
+assert bpy.ops.panache.bake() == {'FINISHED'}
+baked = armature.animation_data.action
+assert baked.name == 'walk (old 1)', baked.name
+assert checks.channels(walk) == before, 'the old action has changed'
+tracks = armature.animation_data.nla_tracks
+assert [(t.name, t.mute, t.strips[0].action) for t in tracks] == [('walk', True, walk)]
+
+first, last = checks.span(baked)
+name = [n for n in styled.names if 'old 1' in n][0]
+rate = bpy.context.scene.render.fps / bpy.context.scene.render.fps_base
+start = checks.span(walk)[0]
+frames = range(first, last + 1)
+in_glb = styled.places(name, [frame / rate for frame in frames])
+worst = (0, '')
+for frame, places in zip(frames, in_glb):
+    for bone, head in checks.heads(armature, frame).items():
+        worst = max(worst, ((head - places[bone]).length, '%s in frame %d' % (bone, frame)))
+print('plain rig: %.2f mm at most between Blender and panache stylize, %s' % (1000 * worst[0],
+                                                                           worst[1]))
+assert worst[0] < MOST_APART, worst
+assert armature.panache.known.endswith('%')
+assert 'leftFoot\tleftFoot' in armature.panache.mapping, armature.panache.mapping
+
+# A style learnt from the two actions.
+armature.panache.neutral, armature.panache.styled = walk, baked
+armature.panache.style_name = 'limp'
+assert bpy.ops.panache.learn() == {'FINISHED'}
+assert 'limp' in armature.panache.styles.bl_rna.properties
+armature.animation_data.action = walk
+armature.panache.styles.old, armature.panache.styles.limp = 0, 1
+assert bpy.ops.panache.bake() == {'FINISHED'}
+assert armature.animation_data.action.name == 'walk (limp 1)'
+assert checks.channels(armature.animation_data.action) != before
+print('ok')

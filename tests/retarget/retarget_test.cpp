@@ -1,0 +1,230 @@
+#include "retarget/retarget.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "clip/motion_file.h"
+#include "retarget/on_characters.h"
+
+namespace panache {
+namespace {
+
+using namespace test;
+namespace fs = std::filesystem;
+using enum HumanJoint;
+
+// Short legs, long arms, a broad torso: a goblin.
+Maker other_proportions() {
+  Maker maker = makers().front();
+  maker.legs = 0.6f;
+  maker.arms = 1.3f;
+  maker.torso = 1.15f;
+  return maker;
+}
+
+// The takes of other makers, of which a few seconds each.
+std::vector<Clip> real_motion() {
+  std::vector<Clip> out;
+  const char* data = std::getenv("PANACHE_DATA");
+  if (!data) return out;
+  for (const char* name : {"formats/cmu/05_02.bvh", "formats/cmu21/kick.bvh", "cmu/01_01.bvh",
+                           "bandai-1/dataset-1_run_normal_001.bvh"}) {
+    const auto file = read_motion((fs::path(data) / name).string());
+    if (!file.ok()) continue;
+    Clip clip = (*file)->clip();
+    clip.resize(std::min(clip.frames, 400));
+    out.push_back(std::move(clip));
+  }
+  return out;
+}
+
+// Two rigs that need more in deep bends: this one's arms hang on its neck and its legs on its
+// spine,
+constexpr const char* kArmsOnNeck = "3ds Max Biped";
+constexpr double kArmsOnNeckDeg = 2.2;
+// and this one has no toes. Where a dancer's foot is never flat, its direction is a guess.
+constexpr const char* kNoToes = "Perception Neuron";
+constexpr double kNoToesDeg = 4.5;
+
+void expect_round_trips(const Clip& motion, double usual_deg) {
+  const std::vector<BodyPose> want = bodies(motion);
+  for (const Maker& maker : makers()) {
+    const Clip there = put(motion, character_of(maker));
+    const Clip back = put(there, motion);
+    const Rig rig = *Rig::create(motion);
+    const double on_it = mean_direction_deg(want, bodies(there), false);
+    const double returned = mean_direction_deg(want, bodies(back, rig, 0));
+    std::printf("%-18s there %.2f deg, and back %.2f deg\n", maker.name, on_it, returned);
+    const double most_deg = maker.name == std::string(kArmsOnNeck) ? kArmsOnNeckDeg
+                            : maker.name == std::string(kNoToes)   ? kNoToesDeg
+                                                                   : usual_deg;
+    EXPECT_LT(on_it, most_deg) << maker.name;
+    EXPECT_LT(returned, most_deg) << maker.name;
+  }
+}
+
+TEST(Retarget, a_walk_keeps_its_directions_on_every_makers_rig_and_back) {
+  expect_round_trips(neutral_walk(), 2);
+}
+
+TEST(Retarget, real_motion_keeps_its_directions_on_every_makers_rig_and_back) {
+  const std::vector<Clip> motions = real_motion();
+  if (motions.empty()) GTEST_SKIP() << "PANACHE_DATA is not set: no real motion to read";
+  for (const Clip& motion : motions) expect_round_trips(motion, 2);
+}
+
+void expect_grounded(const Clip& motion, const Maker& maker) {
+  const Clip character = character_of(maker);
+  const Clip out = put(motion, character);
+  const Rig rig = *Rig::create(motion), onto = *Rig::create(character);
+  const std::vector<BodyPose> from = bodies(motion, rig, std::min(rig.first_frame(), 1));
+  const std::vector<BodyPose> there = bodies(out, onto, 0);
+  const std::vector<FootContacts> contacts = contacts_of(from, motion.frame_time);
+  BodyPose rest;
+  PosedRig(onto).read(character.pose(0), rest);
+  float deepest = 0;
+  for (const BodyPose& body : there)
+    deepest = std::max(deepest, lowest_toe(rest) - lowest_toe(body));
+  const double before = slide(from, contacts, motion.frame_time);
+  const double after = slide(there, contacts, motion.frame_time);
+  std::printf("%-18s slides %.1f cm/s, in the motion %.1f; deepest toe %.2f mm\n", maker.name,
+              100 * after, 100 * before, 1000 * static_cast<double>(deepest));
+  // As far as floats go: the same places, scaled.
+  EXPECT_LE(after, 1.01 * before + 1e-4) << maker.name;
+  // A rig whose legs hang on its spine is followed by another chain than the humanoid's.
+  EXPECT_LT(deepest, 1e-3f) << maker.name;
+}
+
+TEST(Retarget, feet_slide_no_more_than_in_the_motion_and_no_toe_is_under_the_floor) {
+  expect_grounded(neutral_walk(), other_proportions());
+  for (const Maker& maker : makers()) expect_grounded(neutral_walk(), maker);
+}
+
+TEST(Retarget, feet_of_real_motion_keep_to_the_floor_of_another_body) {
+  const std::vector<Clip> motions = real_motion();
+  if (motions.empty()) GTEST_SKIP() << "PANACHE_DATA is not set: no real motion to read";
+  for (const Clip& motion : motions) {
+    for (const Maker& maker : {other_proportions(), makers()[1], makers()[3]}) {
+      expect_grounded(motion, maker);
+    }
+  }
+}
+
+TEST(Retarget, units_axes_and_heading_of_the_character_make_no_difference) {
+  const Clip motion = neutral_walk(2);
+  const std::vector<BodyPose> want = bodies(put(motion, character_of(makers().front())));
+  for (const double units : {1.0, 39.37}) {
+    for (const bool z_up : {false, true}) {
+      const Clip character = character_of(makers().front(), 0, units, z_up);
+      const std::vector<BodyPose> got = bodies(put(motion, character));
+      EXPECT_LT(mean_direction_deg(want, got), 0.01) << units << z_up;
+      for (size_t f = 0; f < want.size(); ++f) {
+        EXPECT_LT(length(got[f].positions[0] - want[f].positions[0]), 1e-3f) << units << z_up;
+      }
+    }
+  }
+}
+
+// Arms stretched ahead, wrists together.
+Clip clap() {
+  Clip out{canonical_skeleton(), 1.0 / 30, 20, {}, {}};
+  for (int f = 0; f < out.frames; ++f) {
+    for (int j = 0; j < kHumanJoints; ++j) {
+      // In T-pose shoulders are 17 cm from the middle and arms some 50 cm long.
+      const float in = 1.5708f + 0.33f * static_cast<float>(f) / 19;
+      Quat q;
+      if (j == index(left_upper_arm)) q = rotation_y(-in);
+      if (j == index(right_upper_arm)) q = rotation_y(in);
+      out.rotations.push_back(q);
+      out.translations.push_back(out.skeleton.joints[j].offset);
+    }
+  }
+  return out;
+}
+
+double wrists_apart(const BodyPose& body) {
+  return static_cast<double>(
+      length(body.joints[index(left_hand)] - body.joints[index(right_hand)]));
+}
+
+TEST(Retarget, hands_that_meet_meet_on_longer_arms) {
+  Maker maker = other_proportions();
+  const Clip character = character_of(maker);
+  const Rig onto = *Rig::create(character);
+  const BodyPose from = bodies(clap()).back();
+  const BodyPose met = bodies(put(clap(), character), onto, 0).back();
+  const BodyPose missed = bodies(put(clap(), character, {true, false}), onto, 0).back();
+  ASSERT_LT(wrists_apart(from), 0.12);
+  EXPECT_GT(wrists_apart(missed), 0.2);
+  // As far in lengths of an arm, and the rig scales short legs up to ours.
+  const double ratio = 1.3 / 0.6;
+  EXPECT_NEAR(wrists_apart(met), wrists_apart(from) * ratio, 0.01);
+}
+
+// Turns one joint of every frame by `turn` in its own axes.
+void turn_joint(Clip& clip, const std::string& name, Quat turn) {
+  for (size_t j = 0; j < clip.joints(); ++j) {
+    if (clip.skeleton.joints[j].name != name) continue;
+    for (int f = 0; f < clip.frames; ++f) {
+      clip.pose(f).rotations[j] = normalized(clip.pose(f).rotations[j] * turn);
+    }
+  }
+}
+
+// The angle of a joint against its rest, degrees.
+double bent_deg(const Clip& clip, const std::string& name) {
+  for (size_t j = 0; j < clip.joints(); ++j) {
+    const Joint& joint = clip.skeleton.joints[j];
+    if (joint.name != name) continue;
+    const Quat off = conjugate(joint.rest) * clip.pose(clip.frames - 1).rotations[j];
+    return static_cast<double>(length(log_rotation(off))) * 180 / 3.14159265;
+  }
+  ADD_FAILURE() << "no joint " << name;
+  return 0;
+}
+
+TEST(Retarget, fingers_bend_as_in_the_motion_where_both_rigs_have_them) {
+  Clip motion = put_on(makers()[0], neutral_walk(1)).clip;  // Mixamo.
+  turn_joint(motion, "mixamorig5:LeftHandIndex1", exp_rotation(Vec3{0, 0, -0.7f}));
+  turn_joint(motion, "mixamorig5:LeftHandThumb1", exp_rotation(Vec3{0, 0.5f, 0}));
+  const Clip on_unreal = put(motion, character_of(makers()[1]));
+  EXPECT_NEAR(bent_deg(on_unreal, "index_01_l"), 0.7 * 180 / 3.14159265, 0.1);
+  EXPECT_NEAR(bent_deg(on_unreal, "index_01_r"), 0, 0.1);
+  const Clip back = put(on_unreal, rest_clip(motion.skeleton));
+  EXPECT_NEAR(bent_deg(back, "mixamorig5:LeftHandIndex1"), 0.7 * 180 / 3.14159265, 0.1);
+  EXPECT_NEAR(bent_deg(back, "mixamorig5:LeftHandThumb1"), 0, 1e-3) << "Unreal here has no thumb";
+}
+
+TEST(Retarget, twist_joints_follow_those_of_the_motion_and_rest_without) {
+  Clip motion = put_on(makers()[1], neutral_walk(1)).clip;  // Unreal 4.
+  turn_joint(motion, "lowerarm_twist_01_l", exp_rotation(Vec3{0.6f, 0, 0}));
+  const Clip same = put(motion, rest_clip(motion.skeleton));
+  EXPECT_NEAR(bent_deg(same, "lowerarm_twist_01_l"), 0.6 * 180 / 3.14159265, 0.1);
+  const Clip other = put(neutral_walk(1), rest_clip(motion.skeleton));
+  EXPECT_LT(bent_deg(other, "lowerarm_twist_01_l"), 1e-3);
+}
+
+TEST(Retarget, a_motion_on_its_own_rig_is_itself) {
+  for (const size_t which : {0u, 1u, 10u}) {
+    const Clip motion = put_on(makers()[which], neutral_walk(2)).clip;
+    const Clip same = put(motion, rest_clip(motion.skeleton), {false, false});
+    ASSERT_EQ(same.frames, motion.frames);
+    EXPECT_LT(mean_direction_deg(bodies(motion), bodies(same)), 0.1) << makers()[which].name;
+  }
+}
+
+TEST(Retarget, a_character_that_cannot_move_is_rejected) {
+  Clip character = character_of(makers().front());
+  for (Joint& joint : character.skeleton.joints) joint.can_translate = false;
+  const Clip motion = neutral_walk(1);
+  const Result<Retargeted> out =
+      retarget(motion, *Rig::create(motion), character, *Rig::create(character));
+  ASSERT_FALSE(out.ok());
+  EXPECT_EQ(out.error().message,
+            "neither the hips of the character nor a joint above them can move; expected "
+            "translation channels at one of them");
+}
+
+}  // namespace
+}  // namespace panache
