@@ -120,7 +120,8 @@ RowVectorXf regress(const Examples& examples, const VectorXf& weights, const Pro
     inputs.query += more.query;
   }
   // Beyond its neighbours a linear map knows nothing.
-  const float reach = inputs.own.diagonal().maxCoeff();
+  // Nothing of what hardly moves: rounding may leave less than zero.
+  const float reach = std::max(inputs.own.diagonal().maxCoeff(), 0.0f);
   if (inputs.query > reach) inputs.with *= std::sqrt(reach / inputs.query);
   const VectorXf roots = weights.cwiseSqrt();
   MatrixXf gram = roots.asDiagonal() * inputs.own * roots.asDiagonal();
