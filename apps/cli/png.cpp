@@ -4,6 +4,12 @@
 
 #include <librsvg/rsvg.h>
 
+#ifdef __SANITIZE_ADDRESS__
+// What fontconfig keeps of the machine's fonts until the end of the program is no leak of ours.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig\n"; }
+#endif
+
 namespace panache::cli {
 namespace {
 
