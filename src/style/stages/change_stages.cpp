@@ -23,7 +23,7 @@ void ChangeStages::step(const AskedChange& asked, const ChangeControl& control,
   tell(clock, Stage::filter);
   if (control.root) root_.step(filter_.delta(), asked.gate, observer, window, time);
   tell(clock, Stage::root);
-  shaping_.step(control.shape, filter_.delta(), root_.offset(now.root), time, change_);
+  shaping_.step(control.shape, filter_.delta(), root_.offset(), time, change_);
   tell(clock, Stage::shape);
   anatomy_.step(now.world, observer.rig(), time, change_);
   tell(clock, Stage::anatomy);

@@ -27,7 +27,9 @@ void RootMotion::step(const StyleDelta& delta, float gate, const Observer& obser
   const float moving = gate * std::min(1.0f, window.ground_speed() / kStandingSpeed);
   const float back = exponential(-dt / kCourseSeconds);
   turn_ = turn_ * back + delta.turn_rate * moving * dt;
-  sway_ = sway_ * back + delta.velocity_left * moving * dt;
+  // In the world: where a body that sways to one side looks about, it does not swing around.
+  const Quat heading = rotation_y(observer.now().root.facing + turn_);
+  sway_ = sway_ * back + rotate(heading, Vec3{delta.velocity_left * moving * dt, 0, 0});
 
   // Forward the style stretches or shortens the input's own way, by the share that its velocity is
   // of the input's: what comes back in the input comes back in the output, and what stands stays.
@@ -44,11 +46,6 @@ void RootMotion::step(const StyleDelta& delta, float gate, const Observer& obser
   drift_ += rotate(rotation_y(turn_), way) - way;
   const float most = speed > 0 ? kMaxStretched : 0.0f;  // Backwards, or the way would not close.
   drift_ += rotate(rotation_y(turn_), way) * std::clamp(share, -kMaxShortened, most);
-}
-
-RootOffset RootMotion::offset(const RootPose& root) const noexcept {
-  const Vec3 side = rotate(rotation_y(root.facing + turn_), Vec3{sway_, 0, 0});
-  return {drift_ + side, turn_};
 }
 
 }  // namespace panache

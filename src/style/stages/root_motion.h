@@ -25,7 +25,7 @@ class RootMotion {
   // `gate`: how well the motion is known, 0 to 1.
   void step(const StyleDelta& delta, float gate, const Observer& observer,
             const InputWindow& window, const StepTime& time) noexcept;
-  RootOffset offset(const RootPose& root) const noexcept;
+  RootOffset offset() const noexcept { return {drift_ + sway_, turn_}; }
 
   // Calls visit(member) for everything that tells one character from another.
   template <class Self, class Visit>
@@ -36,7 +36,7 @@ class RootMotion {
 
  private:
   Vec3 drift_;      // Along the way; world, metres.
-  float sway_ = 0;  // To the left, metres,
+  Vec3 sway_;       // To the side, likewise,
   float turn_ = 0;  // and to the heading, radians; both fade.
   // Of the input over the last seconds, m/s: forward, and in whatever direction.
   float mean_forward_ = 0, mean_speed_ = 0;
