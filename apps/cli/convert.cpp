@@ -104,19 +104,8 @@ int convert_onto(const ConvertVerb& verb) {
     return fail({"--to " + verb.to + ": expected none with --onto, whose file decides the format"},
                 kBadUsage);
   }
-  Result<CharacterFile> character = CharacterFile::open(verb.onto);
-  if (!character) return fail(character.error(), kBadInput);
-  int exit_code = kDone;
-  Result<std::vector<FileJob>> files = plan_batch(verb.batch, character->extension(), exit_code);
-  if (!files) return fail(files.error(), exit_code);
-  if (auto fit = character->check_outputs(*files); !fit) return fail(fit.error(), kBadUsage);
-  Result<RigOptions> rig = read_rig_options(verb.rig);
-  if (!rig) return fail(rig.error(), kBadInput);
-  return run_batch(*std::move(files), verb.batch, "converting", "converted",
-                   [&](FileJob& file, const std::function<void(double)>&) {
-                     return retarget_file(file, *character, verb.clip, *rig, {}, {},
-                                          verb.batch.force);
-                   });
+  return retarget_files({verb.batch, verb.rig, verb.onto, {}, verb.clip}, {}, "converting",
+                        "converted");
 }
 
 int convert(const ConvertVerb& verb) {

@@ -1,19 +1,22 @@
 #include "retarget_file.h"
 
+#include <functional>
 #include <utility>
 
 #include "base/file.h"
 #include "input.h"
+#include "messages.h"
 #include "rig_report.h"
 
 namespace panache::cli {
+namespace {
 
-Result<void> retarget_file(FileJob& file, const CharacterFile& character, const std::string& clip,
-                           const RigOptions& rig_options, const RetargetOptions& options,
-                           const PlaceFlags& flags, bool force) {
+Result<void> retarget_file(FileJob& file, const CharacterFile& character,
+                           const RetargetFlags& flags, const RigOptions& rig_options,
+                           const RetargetOptions& options) {
   Result<std::unique_ptr<MotionFile>> motion = open_motion(file.input);
   if (!motion) return motion.error();
-  Result<std::vector<int>> picked = pick_clips(**motion, clip, file.input);
+  Result<std::vector<int>> picked = pick_clips(**motion, flags.clip, file.input);
   if (!picked) return picked.error();
   std::vector<NewMotion> motions;
   std::vector<std::string> names;
@@ -42,14 +45,33 @@ Result<void> retarget_file(FileJob& file, const CharacterFile& character, const 
   for (const Error& failure : failures) {
     file.notes.push_back(failure.message + "; this motion is left out");
   }
-  name_new_motions(file, character.clip_names(), flags, names);
+  name_new_motions(file, character.clip_names(), flags.place, names);
   for (size_t i = 0; i < motions.size(); ++i) {
     motions[i].name = names[i];
     file.clips[i]["result"] = names[i];
   }
-  Result<std::string> bytes = character.encode(motions, edit_mode(flags), file.output);
+  Result<std::string> bytes = character.encode(motions, edit_mode(flags.place), file.output);
   if (!bytes) return bytes.error();
-  return write_file(file.output, *bytes, force);
+  return write_file(file.output, *bytes, flags.batch.force);
+}
+
+}  // namespace
+
+int retarget_files(const RetargetFlags& flags, const RetargetOptions& options,
+                   const std::string& doing, const std::string& done) {
+  if (auto rig = check_rig_flags(flags.rig); !rig) return fail(rig.error(), kBadUsage);
+  Result<CharacterFile> character = CharacterFile::open(flags.onto);
+  if (!character) return fail(character.error(), kBadInput);
+  int exit_code = kDone;
+  Result<std::vector<FileJob>> files = plan_batch(flags.batch, character->extension(), exit_code);
+  if (!files) return fail(files.error(), exit_code);
+  if (auto fit = character->check_outputs(*files); !fit) return fail(fit.error(), kBadUsage);
+  Result<RigOptions> rig = read_rig_options(flags.rig);
+  if (!rig) return fail(rig.error(), kBadInput);
+  return run_batch(*std::move(files), flags.batch, doing, done,
+                   [&](FileJob& file, const std::function<void(double)>&) {
+                     return retarget_file(file, *character, flags, *rig, options);
+                   });
 }
 
 }  // namespace panache::cli

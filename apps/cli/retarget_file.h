@@ -6,14 +6,21 @@
 #include "batch.h"
 #include "new_motions.h"
 #include "onto.h"
-#include "rig/rig.h"
+#include "rig_options.h"
 
 namespace panache::cli {
 
-// Writes file.output: the character with the motions of file.input, or with the one called `clip`
-// where that is not empty. `rig`: what the user says of the motion's rig.
-Result<void> retarget_file(FileJob& file, const CharacterFile& character, const std::string& clip,
-                           const RigOptions& rig, const RetargetOptions& options,
-                           const PlaceFlags& flags, bool force);
+struct RetargetFlags {
+  BatchFlags batch;
+  RigFlags rig;
+  OntoFlags onto;
+  PlaceFlags place;
+  std::string clip;  // The motion to take, or empty for all.
+};
+
+// Writes the character with the motions of each input. `doing`, `done`: as for run_batch(). The
+// exit code.
+int retarget_files(const RetargetFlags& flags, const RetargetOptions& options,
+                   const std::string& doing, const std::string& done);
 
 }  // namespace panache::cli

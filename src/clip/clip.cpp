@@ -26,6 +26,13 @@ void Clip::resize(int count) {
   frames = count;
 }
 
+void Clip::append(ConstPose pose) {
+  assert(pose.rotations.size() == joints() && pose.translations.size() == joints());
+  rotations.insert(rotations.end(), pose.rotations.begin(), pose.rotations.end());
+  translations.insert(translations.end(), pose.translations.begin(), pose.translations.end());
+  ++frames;
+}
+
 Clip rest_clip(const Skeleton& skeleton) {
   Clip out{skeleton, 1.0 / 30, 1, {}, {}};
   for (const Joint& joint : skeleton.joints) {

@@ -52,6 +52,8 @@ struct Clip {
   Pose pose(int frame);
   // Makes room for `count` frames; new ones are undefined.
   void resize(int count);
+  // Adds a frame.
+  void append(ConstPose pose);
 };
 
 // One frame of the skeleton at rest.

@@ -8,10 +8,12 @@ namespace panache {
 
 Result<std::pair<Clip, Rig>> find_body(Clip rest, const Clip* motion, const RigOptions& options) {
   Result<Rig> at_rest = Rig::create(rest, options);
-  const bool stands = at_rest && find_reference_pose(rest, *at_rest).from_rest;
-  // A rest pose that hangs in the air, as in BVH files, does not tell the floor.
-  const bool on_floor =
-      stands && std::abs(at_rest->floor()) < 0.25f * find_reference_pose(rest, *at_rest).leg;
+  bool on_floor = false;
+  if (at_rest && motion) {
+    // A rest pose that hangs in the air, as in BVH files, does not tell the floor.
+    const ReferencePose standing = find_reference_pose(rest, *at_rest);
+    on_floor = standing.from_rest && std::abs(at_rest->floor()) < 0.25f * standing.leg;
+  }
   if (!motion || on_floor) {
     if (!at_rest) return at_rest.error();
     return std::pair{std::move(rest), *std::move(at_rest)};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "base/smooth_step.h"
 #include "base/elementary.h"
 #include "pose/foot_lock.h"
 
@@ -96,10 +97,7 @@ std::vector<Plant> find_plants(const std::vector<GroundedFrame>& frames,
 }
 
 // How much of the way to a plant that is `away` seconds off a foot has: 1 to 0.
-float nearness(float away) {
-  const float t = std::clamp(1 - away / kBlendSeconds, 0.0f, 1.0f);
-  return t * t * (3 - 2 * t);
-}
+float nearness(float away) { return smooth_step(1 - away / kBlendSeconds); }
 
 // How each frame's foot has to be moved. toes: [frames] where it is.
 std::vector<Vec3> find_shifts(const std::vector<GroundedFrame>& frames,

@@ -1,7 +1,6 @@
 #include "retarget/meeting_hands.h"
 
-#include <algorithm>
-
+#include "base/smooth_step.h"
 #include "pose/foot_lock.h"
 
 namespace panache {
@@ -12,10 +11,7 @@ using enum HumanJoint;
 // Lengths of an arm: hands in each other, and hands that have nothing to do with each other.
 constexpr float kNear = 0.3f, kFar = 0.6f;
 
-float nearness(float distance) {
-  const float t = std::clamp((kFar - distance) / (kFar - kNear), 0.0f, 1.0f);
-  return t * t * (3 - 2 * t);
-}
+float nearness(float distance) { return smooth_step((kFar - distance) / (kFar - kNear)); }
 
 }  // namespace
 

@@ -70,13 +70,8 @@ class Finder {
  public:
   Finder(const Clip& clip, const Rig& rig) : clip_(clip), rig_(rig) {
     PosedRig reader(rig);
-    std::vector<Quat> rotations;
-    std::vector<Vec3> translations;
-    for (const Joint& joint : clip.skeleton.joints) {
-      rotations.push_back(joint.rest);
-      translations.push_back(joint.offset);
-    }
-    reader.read({rotations, translations}, rest_);
+    const Clip rest = rest_clip(clip.skeleton);
+    reader.read(rest.pose(0), rest_);
     const int first = std::min(rig.first_frame(), clip.frames - 1);
     const int step = (clip.frames - first + kMaxFrames - 1) / kMaxFrames;
     for (int f = first; f < clip.frames; f += std::max(step, 1)) {

@@ -19,20 +19,6 @@ namespace {
 
 using enum HumanJoint;
 
-// Room for one pose, at rest.
-struct PoseRoom {
-  explicit PoseRoom(const Skeleton& skeleton) {
-    for (const Joint& joint : skeleton.joints) {
-      rotations.push_back(joint.rest);
-      translations.push_back(joint.offset);
-    }
-  }
-  Pose pose() { return {rotations, translations}; }
-
-  std::vector<Quat> rotations;
-  std::vector<Vec3> translations;
-};
-
 class Retargeter {
  public:
   Retargeter(const Clip& motion, const Rig& rig, const Clip& character, const Rig& onto,
@@ -44,13 +30,14 @@ class Retargeter {
         from_(rig),
         onto_(onto),
         look_(onto),
-        seen_pose_(character.skeleton),
+        seen_(rest_clip(character.skeleton)),
         from_reference_(find_reference_pose(motion, rig)),
         onto_reference_(find_reference_pose(character, onto)),
         scale_(onto_reference_.leg / from_reference_.leg),
-        rest_(character.skeleton),
+        rest_(rest_clip(character.skeleton)),
+        world_(rest_clip(motion.skeleton)),
         further_(find_further_joints(motion.skeleton, rig, character.skeleton, onto)) {
-    onto_.read(rest_.pose(), body_);
+    onto_.read(rest_.pose(0), body_);
     toes_at_rest_ = std::min(body_.joints[index(kToes[0])].y, body_.joints[index(kToes[1])].y);
     // From here on the floor is where these toes are.
     for (Vec3& p : body_.joints) p.y -= toes_at_rest_;
@@ -79,9 +66,8 @@ class Retargeter {
  private:
   // The rotations that the rest poses have below each human joint, relative to it.
   void measure_rest() {
-    PoseRoom from(motion_.skeleton);
-    world_pose(motion_.skeleton, from.pose(), from.pose());
-    from_rest_ = std::move(from.rotations);
+    world_pose(motion_.skeleton, world_.pose(0), world_.pose(0));
+    from_rest_ = world_.rotations;
   }
 
   // How each joint of the motion is turned against the T-pose. Torsos bend elsewhere in other rigs:
@@ -137,9 +123,9 @@ class Retargeter {
   void bend_torso(const TorsoFrames& wanted, BodyChange& change) {
     constexpr int kSteps = 3;
     for (int step = 0; step < kSteps; ++step) {
-      onto_.write(rest_.pose(), body_, change, seen_pose_.pose());
+      onto_.write(rest_.pose(0), body_, change, seen_.pose(0));
       BodyPose seen;
-      look_.read(seen_pose_.pose(), seen);
+      look_.read(seen_.pose(0), seen);
       const TorsoFrames got = torso_frames(seen.positions, seen.facing);
       const auto turn = [&](HumanJoint joint, Quat by) {
         Quat& rotation = change.rotations[index(joint)];
@@ -159,15 +145,14 @@ class Retargeter {
     BodyChange moved = change;
     moved.translation.y += onto_reference_.rest_toes - toes_at_rest_;
     const Pose pose = out.pose(frame);
-    onto_.write(rest_.pose(), body_, moved, pose);
+    onto_.write(rest_.pose(0), body_, moved, pose);
     if (!further_.empty()) turn_further_joints(frame, pose);
   }
 
   // Each turns against its human joint as in the motion, both seen in T-pose. Its parent may be
   // another of them, or a joint that rests.
   void turn_further_joints(int frame, const Pose& pose) {
-    PoseRoom from(motion_.skeleton);
-    world_pose(motion_.skeleton, motion_.pose(first_ + frame), from.pose());
+    world_pose(motion_.skeleton, motion_.pose(first_ + frame), world_.pose(0));
     for (const JointPair& pair : further_) {
       const int from_human = joint_of(from_.rig(), pair.human);
       const int onto_human = joint_of(onto_rig_, pair.human);
@@ -176,7 +161,7 @@ class Retargeter {
                world[static_cast<size_t>(joint)];
       };
       const Quat turned =
-          relative(from.rotations, pair.from) * conjugate(relative(from_rest_, pair.from));
+          relative(world_.rotations, pair.from) * conjugate(relative(from_rest_, pair.from));
       const Quat in_t_pose = in_axes(from_reference_.rotations[pair.human], turned);
       const Quat in_onto = in_axes(conjugate(onto_reference_.rotations[pair.human]), in_t_pose);
       // The joint against its human joint, and what lies between them.
@@ -205,10 +190,11 @@ class Retargeter {
   RetargetOptions options_;
   PosedRig from_, onto_;
   PosedRig look_;  // At what was written, into
-  PoseRoom seen_pose_;
+  Clip seen_;
   ReferencePose from_reference_, onto_reference_;
   float scale_;  // Lengths of a leg: the character's against the motion's.
-  PoseRoom rest_;
+  Clip rest_;    // Of the character.
+  Clip world_;   // A pose of the motion's skeleton, world.
   std::vector<JointPair> further_;
   std::vector<Quat> from_rest_;  // [joints of the motion], world.
   BodyPose body_;                // At rest, its toes at 0.
@@ -221,11 +207,7 @@ class Retargeter {
 
 Result<Retargeted> retarget(const Clip& motion, const Rig& rig, const Clip& character,
                             const Rig& onto, const RetargetOptions& options) {
-  int moved = onto.joints()[index(hips)];
-  while (moved >= 0 && !character.skeleton.joints[static_cast<size_t>(moved)].can_translate) {
-    moved = character.skeleton.joints[static_cast<size_t>(moved)].parent;
-  }
-  if (moved < 0) {
+  if (!onto.can_move()) {
     return Error{
         "neither the hips of the character nor a joint above them can move; expected translation "
         "channels at one of them"};

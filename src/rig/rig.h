@@ -60,6 +60,8 @@ class Rig {
   float floor() const { return shared_->calibration.floor; }  // Its height, Y up, metres.
   // 1: the first is for calibration.
   int first_frame() const { return shared_->calibration.first_frame; }
+  // Whether the hips, or a joint above them, can be moved.
+  bool can_move() const { return shared_->moved_joint >= 0; }
   const std::vector<std::string>& notes() const { return shared_->notes; }
 
   // Unit direction from the wrist to the fingertips in the hand's own axes (those of

@@ -4,15 +4,10 @@
 #include <cmath>
 
 #include "base/elementary.h"
+#include "style/flight_lookout.h"
 
 namespace panache {
 namespace {
-
-void append(Clip& clip, std::span<const Quat> rotations, std::span<const Vec3> translations) {
-  clip.rotations.insert(clip.rotations.end(), rotations.begin(), rotations.end());
-  clip.translations.insert(clip.translations.end(), translations.begin(), translations.end());
-  ++clip.frames;
-}
 
 // Between two frames an impact is a mean of both and loses its edge: where a flight takes the rate
 // to 1, the head is drawn to whole frames. By how many frames, and by none at whole ones.
@@ -22,28 +17,6 @@ double to_whole_frame(double frame, float flight) {
   return static_cast<double>(-kMost * share *
                              sine(kTurn * static_cast<float>(frame - std::round(frame))));
 }
-
-// Looks for flights ahead of the play head.
-class Lookout {
- public:
-  Lookout(const Clip& clip, const Rig& rig) : clip_(clip), rig_(rig), next_(rig.first_frame()) {}
-
-  float flight(double frame) {
-    const double until = frame + kFlightAhead / clip_.frame_time;
-    for (; next_ < clip_.frames && next_ <= until; ++next_) {
-      BodyPose body;
-      rig_.read(clip_.pose(next_), body);
-      flights_.push(next_ * clip_.frame_time, body.positions);
-    }
-    return flights_.amount(frame * clip_.frame_time);
-  }
-
- private:
-  const Clip& clip_;
-  PosedRig rig_;
-  FlightWatch flights_;
-  int next_;
-};
 
 }  // namespace
 
@@ -69,7 +42,7 @@ Result<Restyled> restyle(const Clip& clip, const Rig& rig, std::shared_ptr<const
   // A calibration pose in front is no motion: it stays what it is.
   const int first = std::min(rig.first_frame(), clip.frames - 1);
   for (int f = 0; f < first; ++f) {
-    append(result.clip, clip.pose(f).rotations, clip.pose(f).translations);
+    result.clip.append(clip.pose(f));
     result.source_frames.push_back(f);
     result.contacts.push_back({});
     result.gates.push_back(1);
@@ -79,7 +52,7 @@ Result<Restyled> restyle(const Clip& clip, const Rig& rig, std::shared_ptr<const
   std::vector<Vec3> translations(clip.joints());
   const Pose pose{rotations, translations};
   std::vector<float> strengths(model->styles().size());
-  Lookout lookout(clip, rig);
+  FlightLookout lookout(clip, rig);
   double frame = first, advance = 0;
   // The head may stop between the last two frames; the end of the input is never overrun.
   while (frame <= clip.frames - 1 + 1e-6) {
@@ -91,7 +64,7 @@ Result<Restyled> restyle(const Clip& clip, const Rig& rig, std::shared_ptr<const
     const float flight = lookout.flight(frame);
     stylizer->set_flight(flight);
     stylizer->step(pose, strengths, advance * clip.frame_time, clip.frame_time, pose);
-    append(result.clip, rotations, translations);
+    result.clip.append(pose);
     result.source_frames.push_back(frame);
     const std::span<const float> planted = stylizer->contacts();
     result.contacts.push_back({planted[0] > 0.5f, planted[1] > 0.5f});

@@ -1,18 +1,14 @@
 #include "style/stylizer.h"
 
+#include <algorithm>
 #include <cassert>
 
-#include "style/rate.h"
 #include "style/state_bytes.h"
 
 namespace panache {
 namespace {
 
 constexpr float kGateSeconds = 0.15f;  // Time constant of the gate.
-
-void tell(StageClock* clock, Stage stage) noexcept {
-  if (clock) clock->done(stage);
-}
 
 }  // namespace
 
@@ -34,7 +30,7 @@ Stylizer::Stylizer(std::shared_ptr<const Model> model, Rig rig, const StylizerOp
       strengths_(model->styles().size(), options.ease_seconds),
       window_(model->layout()),
       networks_(std::move(model)),
-      filter_(options.smoothing_seconds) {}
+      stages_(options.smoothing_seconds) {}
 
 void Stylizer::reset() noexcept {
   observer_.reset();
@@ -44,13 +40,7 @@ void Stylizer::reset() noexcept {
 void Stylizer::forget() noexcept {
   started_ = false;
   window_.reset();
-  filter_.reset();
-  root_.reset();
-  shaping_.reset();
-  anatomy_.reset();
-  floor_.reset();
-  fall_.reset();
-  foot_lock_.reset();
+  stages_.reset();
   flights_.reset();
   flight_ = 0;
 }
@@ -97,61 +87,31 @@ StyleNetworks::Pass Stylizer::pass(const StepTime& time) noexcept {
 }
 
 void Stylizer::give_out(const StepTime& time, Pose out, StageClock* clock) noexcept {
-  const Observation& now = observer_.now();
-  const Shape& shape = strengths_.shape();
-  const float amount = strengths_.amount();
-  const StyleDelta delta =
-      model().recipe().to_change(networks_.pose(), now.body_frame, window_.root());
-  filter_.step(delta, networks_.log_rate(), time);
-  tell(clock, Stage::filter);
-  if (options_.root) root_.step(filter_.delta(), networks_.gate(), observer_, window_, time);
-  tell(clock, Stage::root);
-  shaping_.step(shape, filter_.delta(), root_.offset(now.root), time, change_);
-  tell(clock, Stage::shape);
-  anatomy_.step(now.world, rig(), time, change_);
-  tell(clock, Stage::anatomy);
-  HumanPositions joints;
-  changed_joints(now.world, change_, joints);
-  keep_balance(now.world, joints, change_);
-  tell(clock, Stage::balance);
-  floor_.step(now.world, joints, amount, time, change_);
-  tell(clock, Stage::floor);
-  fall_.step(flight_, time, change_);
-  tell(clock, Stage::fall);
-  for (size_t f = 0; f < kFeet; ++f) {
-    const float height = now.world.positions[index(kToes[f])].y;
-    contacts_[f] = planted_near_floor(networks_.contact()[f], height);
-  }
-  if (options_.foot_lock) {
-    foot_lock_.step(now.world, joints, contacts_, amount * shape.foot_lock, time.output, change_);
-  }
-  tell(clock, Stage::feet);
-  observer_.write(change_, out);
+  AskedChange asked;
+  asked.delta =
+      model().recipe().to_change(networks_.pose(), observer_.now().body_frame, window_.root());
+  asked.log_rate = networks_.log_rate();
+  std::ranges::copy(networks_.contact(), asked.contacts.begin());
+  asked.gate = networks_.gate();
+  stages_.step(
+      asked, {strengths_.shape(), strengths_.amount(), flight_, options_.root, options_.foot_lock},
+      observer_, window_, time, clock);
+  observer_.write(stages_.change(), out);
   tell(clock, Stage::write);
   started_ = true;
 }
 
-double Stylizer::rate() const noexcept {
-  const float log_rate = bounded_log_rate(strengths_.shape().timing * filter_.log_rate());
-  return static_cast<double>(exponential(log_rate * (1 - flight_)));
-}
+double Stylizer::rate() const noexcept { return stages_.rate(strengths_.shape().timing, flight_); }
 
 template <class Self, class Visit>
 void Stylizer::visit_state(Self& self, Visit&& visit) {
-  visit(self.started_), visit(self.contacts_), visit(self.change_), visit(self.flight_);
-  visit(self.seen_flight_);
+  visit(self.started_), visit(self.flight_), visit(self.seen_flight_);
   FlightWatch::visit_state(self.flights_, visit);
   Observer::visit_state(self.observer_, visit);
   EasedStrengths::visit_state(self.strengths_, visit);
   InputWindow::visit_state(self.window_, visit);
   StyleNetworks::visit_state(self.networks_, visit);
-  OutputFilter::visit_state(self.filter_, visit);
-  RootMotion::visit_state(self.root_, visit);
-  Shaping::visit_state(self.shaping_, visit);
-  Anatomy::visit_state(self.anatomy_, visit);
-  FloorClearance::visit_state(self.floor_, visit);
-  FreeFall::visit_state(self.fall_, visit);
-  FootLock::visit_state(self.foot_lock_, visit);
+  ChangeStages::visit_state(self.stages_, visit);
 }
 
 size_t Stylizer::state_size() const noexcept {

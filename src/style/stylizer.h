@@ -6,18 +6,12 @@
 #include <span>
 
 #include "base/result.h"
-#include "pose/foot_lock.h"
 #include "pose/observer.h"
 #include "style/model.h"
 #include "style/shape.h"
-#include "style/stages/anatomy.h"
-#include "style/stages/balance.h"
-#include "style/stages/fall.h"
-#include "style/stages/filter.h"
+#include "style/stage_clock.h"
+#include "style/stages/change_stages.h"
 #include "style/stages/flight.h"
-#include "style/stages/floor.h"
-#include "style/stages/root_motion.h"
-#include "style/stages/shaping.h"
 #include "style/stages/strengths.h"
 #include "style/stages/window.h"
 
@@ -33,44 +27,6 @@ struct StylizerOptions {
   bool foot_lock = true;
   bool root = true;  // Style the root motion, not only the pose.
   Shape shape;       // At first, see Stylizer::set_shape().
-};
-
-// What a step consists of, in this order. Each is a type of its own, in style/stages or where it is
-// named here.
-enum class Stage {
-  observe,    // Observer
-  strengths,  // EasedStrengths
-  window,     // InputWindow
-  networks,   // StyleNetworks
-  filter,     // OutputFilter
-  root,       // RootMotion
-  shape,      // Shaping
-  anatomy,    // Anatomy
-  balance,    // keep_balance()
-  floor,      // FloorClearance
-  fall,       // FreeFall
-  feet,       // FootLock
-  write,      // PosedRig
-};
-inline constexpr std::array<const char*, 13> kStageNames = {"observe the pose",
-                                                            "ease strengths and shape",
-                                                            "history and window",
-                                                            "networks, heads and gate",
-                                                            "filter",
-                                                            "root motion",
-                                                            "shape",
-                                                            "keep joints in range",
-                                                            "keep the balance",
-                                                            "keep above the floor",
-                                                            "fall as the input does",
-                                                            "hold the feet",
-                                                            "write the pose (rig)"};
-
-// Told when each stage of a step is done, to time them.
-class StageClock {
- public:
-  virtual ~StageClock() = default;
-  virtual void done(Stage stage) noexcept = 0;
 };
 
 // One character's memory. create() allocates everything and may fail; step() does neither.
@@ -124,9 +80,9 @@ class Stylizer {
   // See StyleNetworks::gate(); smoothed, at the last step.
   float gate() const noexcept { return networks_.gate(); }
   // Probability that each foot is planted, at the last step.
-  std::span<const float, kFeet> contacts() const noexcept { return contacts_; }
+  std::span<const float, kFeet> contacts() const noexcept { return stages_.contacts(); }
   // What was done to the input at the last step.
-  const BodyChange& change() const noexcept { return change_; }
+  const BodyChange& change() const noexcept { return stages_.change(); }
   const Rig& rig() const noexcept { return observer_.rig(); }
   const Model& model() const noexcept { return networks_.model(); }
 
@@ -154,15 +110,7 @@ class Stylizer {
   EasedStrengths strengths_;
   InputWindow window_;
   StyleNetworks networks_;
-  OutputFilter filter_;
-  RootMotion root_;
-  Shaping shaping_;
-  Anatomy anatomy_;
-  FloorClearance floor_;
-  FreeFall fall_;
-  FootLock foot_lock_;
-  std::array<float, kFeet> contacts_{};
-  BodyChange change_;
+  ChangeStages stages_;
   FlightWatch flights_;
   float flight_ = 0;        // Of FlightWatch::amount(), at the last step.
   float seen_flight_ = -1;  // By set_flight(), for the next step; below 0 for none.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/smooth_step.h"
+
 namespace panache {
 namespace {
 
@@ -25,10 +27,6 @@ constexpr float kGaitChangeSeconds = 0.45f;
 
 constexpr float kSlowestCadence = 0.6f;
 
-float smooth_step(float x) {
-  x = std::clamp(x, 0.0f, 1.0f);
-  return x * x * (3 - 2 * x);
-}
 float approach(float value, float target, float dt, float seconds) {
   return value + (target - value) * (1 - std::exp(-dt / seconds));
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/smooth_step.h"
 #include "pose/foot_lock.h"
 
 namespace panache {
@@ -16,10 +17,6 @@ constexpr float kStepLift = 0.05f;   // Height of a step on the spot.
 constexpr float kMaxReach = 0.995f;  // Of the length of the leg.
 constexpr float kMaxDrop = 0.1f;
 
-float smooth_step(float x) {
-  x = std::clamp(x, 0.0f, 1.0f);
-  return x * x * (3 - 2 * x);
-}
 // What is left of an offset at a share of the swing; it is gone before the foot lands.
 float left_at(float swing) { return 1 - smooth_step(swing / 0.92f); }
 

@@ -114,9 +114,9 @@ TEST_F(Xia, two_styles_at_once_are_mixed_in_their_parameters) {
   for (float at = 10; at < 40; ++at) {
     take_window(pairs_.takes[0], at, pose_feature_count(PoseLayout::positions), window);
     std::array<float, StyleDelta::kSize> both, a, b;
-    pack(mixed->answer(window, at, 1 / 30.0f).change, both);
-    pack(old->answer(window, at, 1 / 30.0f).change, a);
-    pack(wild->answer(window, at, 1 / 30.0f).change, b);
+    pack(mixed->answer(window, at, 1 / 30.0f).delta, both);
+    pack(old->answer(window, at, 1 / 30.0f).delta, a);
+    pack(wild->answer(window, at, 1 / 30.0f).delta, b);
     for (int n = 0; n < StyleDelta::kSize; ++n) {
       ASSERT_NEAR(both[n], 0.25f * a[n] + 0.75f * b[n], 1e-5) << n;
     }

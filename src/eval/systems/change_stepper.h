@@ -7,20 +7,13 @@
 #include "clip/clip.h"
 #include "eval/systems/change_source.h"
 #include "eval/test_input.h"
-#include "pose/foot_lock.h"
 #include "pose/observer.h"
-#include "style/stages/anatomy.h"
-#include "style/stages/fall.h"
-#include "style/stages/filter.h"
-#include "style/stages/flight.h"
-#include "style/stages/floor.h"
-#include "style/stages/root_motion.h"
-#include "style/stages/shaping.h"
+#include "style/stages/change_stages.h"
 #include "style/stages/window.h"
 
 namespace panache {
 
-// One character. The stages and their order are those of Stylizer.
+// One character.
 class ChangeStepper {
  public:
   // `amount`: how much of any style is in force, 0 to 1, see EasedStrengths::amount().
@@ -40,13 +33,7 @@ class ChangeStepper {
   bool started_ = false;
   Observer observer_;
   InputWindow window_;
-  OutputFilter filter_;
-  RootMotion root_;
-  Shaping shaping_;
-  Anatomy anatomy_;
-  FloorClearance floor_;
-  FreeFall fall_;
-  FootLock foot_lock_;
+  ChangeStages stages_;
 };
 
 struct ChangedClip {

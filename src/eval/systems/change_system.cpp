@@ -42,7 +42,7 @@ class SourceInstants : public InstantAnswers {
     last_at_ = seen_at;
     take_window(seen, seen_at, kNumbers, window_);
     // An output frame follows each other one: that is how the judge goes through them.
-    return source->answer(window_, seen_at, 1 / static_cast<float>(kTakeRate)).change;
+    return source->answer(window_, seen_at, 1 / static_cast<float>(kTakeRate)).delta;
   }
 
  private:

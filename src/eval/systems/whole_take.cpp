@@ -17,8 +17,8 @@ WholeTakeSource::WholeTakeSource(const Take& take, std::vector<StyleDelta> chang
   contacts_ = detect_contacts(world, kTakeRate);
 }
 
-StyleAnswer WholeTakeSource::answer(std::span<const float>, float frame, float) {
-  StyleAnswer out;
+AskedChange WholeTakeSource::answer(std::span<const float>, float frame, float) {
+  AskedChange out;
   if (changes_.empty()) return out;
   const float last = static_cast<float>(changes_.size() - 1);
   const float at = std::clamp(frame, 0.0f, last);
@@ -28,7 +28,7 @@ StyleAnswer WholeTakeSource::answer(std::span<const float>, float frame, float) 
   for (size_t n = 0; n < change.size(); ++n) {
     change[n] = std::lerp(changes_[a][n], changes_[b][n], t);
   }
-  out.change = unpack(change);
+  out.delta = unpack(change);
   const FootContacts& planted = contacts_[t < 0.5f ? a : b];
   for (size_t f = 0; f < kFeet; ++f) out.contacts[f] = planted[f] ? 1.0f : 0.0f;
   return out;

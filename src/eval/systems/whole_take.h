@@ -15,7 +15,7 @@ class WholeTakeSource : public ChangeSource {
   WholeTakeSource(const Take& take, std::vector<StyleDelta> changes);
 
   void reset() override {}
-  StyleAnswer answer(std::span<const float> window, float frame, float seconds) override;
+  AskedChange answer(std::span<const float> window, float frame, float seconds) override;
 
  private:
   std::vector<std::array<float, StyleDelta::kSize>> changes_;  // [frames]

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/smooth_step.h"
 #include "base/elementary.h"
 #include "rig/canonical_body.h"
 
@@ -47,11 +48,6 @@ float share_back(float out, float in) {
   return over > 0 ? over / (over + room) * (over / (out - in)) : 0.0f;
 }
 
-float smooth(float from, float to, float value) {
-  const float t = std::clamp((value - from) / (to - from), 0.0f, 1.0f);
-  return t * t * (3 - 2 * t);
-}
-
 float angle_between(Vec3 a, Vec3 b) { return arc_tangent(length(cross(a, b)), dot(a, b)); }
 
 Vec3 seen_in(const Frame& frame, Vec3 v) {
@@ -91,7 +87,8 @@ Bend bend_of(Vec3 upper, Vec3 lower, const Hinge& hinge) {
   const Vec3 to = rotate(rotation_between(Vec3{0, -1, 0}, upper), hinge.bends_to);
   const Vec3 bend = lower - upper * dot(upper, lower);
   const float off = length(bend), along = dot(upper, lower);
-  const float wrong = off > 1e-6f ? smooth(0.26f, 0.82f, -dot(bend, to) / off) : 0.0f;
+  const float wrong =
+      off > 1e-6f ? smooth_step((-dot(bend, to) / off - 0.26f) / (0.82f - 0.26f)) : 0.0f;
   if (wrong == 0 && along > hinge.safe) return {};
   const float angle = arc_tangent(off, along);
   return {angle, angle * wrong};

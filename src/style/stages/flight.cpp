@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/smooth_step.h"
 #include "pose/contacts.h"
 
 namespace panache {
@@ -30,11 +31,6 @@ constexpr std::array<float, kHumanJoints> kMass = {.15f, .15f,  .20f,  0,
                                                    0,    .02f,  .02f,  .01f,  // right arm
                                                    .06f, .065f, .035f, 0,     // left leg
                                                    .06f, .065f, .035f, 0};    // right leg
-
-float smooth(double t) {
-  const float s = static_cast<float>(std::clamp(t, 0.0, 1.0));
-  return s * s * (3 - 2 * s);
-}
 
 }  // namespace
 
@@ -98,8 +94,10 @@ float FlightWatch::amount(double time) const noexcept {
     if (lasts <= kTooShort) continue;
     const double before = (flight.start - kBefore - time) / kEaseIn,
                  after = (time - flight.end - kAfter) / kEaseOut;
-    const float near = smooth(1 - std::max(before, after));
-    most = std::max(most, near * smooth((lasts - kTooShort) / (kWhole - kTooShort)));
+    const double near = 1 - std::max(before, after);
+    const double whole = (lasts - kTooShort) / (kWhole - kTooShort);
+    most = std::max(most,
+                    smooth_step(static_cast<float>(near)) * smooth_step(static_cast<float>(whole)));
   }
   return most;
 }

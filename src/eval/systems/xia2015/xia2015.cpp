@@ -64,9 +64,9 @@ class LocalSource : public ChangeSource {
     for (Style& style : styles_) style.recent.clear();
   }
 
-  StyleAnswer answer(std::span<const float> window, float, float seconds) override {
+  AskedChange answer(std::span<const float> window, float, float seconds) override {
     static const std::vector<float> units = default_recipe().output_scale();
-    StyleAnswer out;
+    AskedChange out;
     std::array<float, kOutputs> change{};
     std::array<float, kKeySize> key;
     if (!styles_.empty()) key_.project(window, key);
@@ -87,7 +87,7 @@ class LocalSource : public ChangeSource {
       }
       total += std::abs(style.strength);
     }
-    out.change = unpack(change);
+    out.delta = unpack(change);
     for (float& contact : out.contacts) contact = total > 0 ? contact / total : 0;
     return out;
   }

@@ -1,0 +1,51 @@
+#pragma once
+// The stages of a step by name, and who times them.
+
+#include <array>
+
+namespace panache {
+
+// What a step consists of, in this order. Each is a type of its own, in style/stages or where it is
+// named here.
+enum class Stage {
+  observe,    // Observer
+  strengths,  // EasedStrengths
+  window,     // InputWindow
+  networks,   // StyleNetworks
+  filter,     // OutputFilter
+  root,       // RootMotion
+  shape,      // Shaping
+  anatomy,    // Anatomy
+  balance,    // keep_balance()
+  floor,      // FloorClearance
+  fall,       // FreeFall
+  feet,       // FootLock
+  write,      // PosedRig
+};
+inline constexpr std::array<const char*, 13> kStageNames = {"observe the pose",
+                                                            "ease strengths and shape",
+                                                            "history and window",
+                                                            "networks, heads and gate",
+                                                            "filter",
+                                                            "root motion",
+                                                            "shape",
+                                                            "keep joints in range",
+                                                            "keep the balance",
+                                                            "keep above the floor",
+                                                            "fall as the input does",
+                                                            "hold the feet",
+                                                            "write the pose (rig)"};
+
+// Told when each stage of a step is done, to time them.
+class StageClock {
+ public:
+  virtual ~StageClock() = default;
+  virtual void done(Stage stage) noexcept = 0;
+};
+
+// `clock` may be null.
+inline void tell(StageClock* clock, Stage stage) noexcept {
+  if (clock) clock->done(stage);
+}
+
+}  // namespace panache

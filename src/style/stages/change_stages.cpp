@@ -1,0 +1,54 @@
+#include "style/stages/change_stages.h"
+
+#include "style/rate.h"
+#include "style/stages/balance.h"
+
+namespace panache {
+
+void ChangeStages::reset() noexcept {
+  filter_.reset();
+  root_.reset();
+  shaping_.reset();
+  anatomy_.reset();
+  floor_.reset();
+  fall_.reset();
+  foot_lock_.reset();
+}
+
+void ChangeStages::step(const AskedChange& asked, const ChangeControl& control,
+                        const Observer& observer, const InputWindow& window, const StepTime& time,
+                        StageClock* clock) noexcept {
+  const Observation& now = observer.now();
+  filter_.step(asked.delta, asked.log_rate, time);
+  tell(clock, Stage::filter);
+  if (control.root) root_.step(filter_.delta(), asked.gate, observer, window, time);
+  tell(clock, Stage::root);
+  shaping_.step(control.shape, filter_.delta(), root_.offset(now.root), time, change_);
+  tell(clock, Stage::shape);
+  anatomy_.step(now.world, observer.rig(), time, change_);
+  tell(clock, Stage::anatomy);
+  HumanPositions joints;
+  changed_joints(now.world, change_, joints);
+  keep_balance(now.world, joints, change_);
+  tell(clock, Stage::balance);
+  floor_.step(now.world, joints, control.amount, time, change_);
+  tell(clock, Stage::floor);
+  fall_.step(control.flight, time, change_);
+  tell(clock, Stage::fall);
+  for (size_t f = 0; f < kFeet; ++f) {
+    const float height = now.world.positions[index(kToes[f])].y;
+    contacts_[f] = planted_near_floor(asked.contacts[f], height);
+  }
+  if (control.foot_lock) {
+    foot_lock_.step(now.world, joints, contacts_, control.amount * control.shape.foot_lock,
+                    time.output, change_);
+  }
+  tell(clock, Stage::feet);
+}
+
+double ChangeStages::rate(float timing, float flight) const noexcept {
+  const float log_rate = bounded_log_rate(timing * filter_.log_rate());
+  return static_cast<double>(exponential(log_rate * (1 - flight)));
+}
+
+}  // namespace panache

@@ -1,0 +1,80 @@
+#pragma once
+// The stages of a step that carry out a change, whoever asks for it: from the filter to the feet.
+
+#include <array>
+#include <span>
+
+#include "pose/foot_lock.h"
+#include "pose/observer.h"
+#include "pose/style_delta.h"
+#include "style/shape.h"
+#include "style/stage_clock.h"
+#include "style/stages/anatomy.h"
+#include "style/stages/fall.h"
+#include "style/stages/filter.h"
+#include "style/stages/floor.h"
+#include "style/stages/root_motion.h"
+#include "style/stages/shaping.h"
+#include "style/stages/step_time.h"
+#include "style/stages/window.h"
+
+namespace panache {
+
+// What is asked for at one step.
+struct AskedChange {
+  StyleDelta delta;
+  float log_rate = 0;                   // Logarithm of input seconds per output second.
+  std::array<float, kFeet> contacts{};  // Probability that each foot is planted.
+  float gate = 1;                       // How well the motion is known, 0 to 1.
+};
+
+// How it is carried out.
+struct ChangeControl {
+  const Shape& shape;
+  float amount = 1;  // How much of any style is in force, see EasedStrengths::amount().
+  float flight = 0;  // See FlightWatch::amount().
+  bool root = true, foot_lock = true;
+};
+
+class ChangeStages {
+ public:
+  explicit ChangeStages(float smoothing_seconds) : filter_(smoothing_seconds) {}
+
+  // Forgets the motion so far.
+  void reset() noexcept;
+  // `clock` may be null.
+  void step(const AskedChange& asked, const ChangeControl& control, const Observer& observer,
+            const InputWindow& window, const StepTime& time, StageClock* clock) noexcept;
+
+  // At the last step: what is to be done to the input, the probability that each foot is planted,
+  // and input seconds per output second, `timing` of the change's own tempo; 1 in a flight.
+  const BodyChange& change() const noexcept { return change_; }
+  std::span<const float, kFeet> contacts() const noexcept { return contacts_; }
+  double rate(float timing, float flight) const noexcept;
+
+  // Calls visit(member) for everything that tells one character from another.
+  template <class Self, class Visit>
+  static void visit_state(Self& self, Visit&& visit) {
+    visit(self.contacts_), visit(self.change_);
+    OutputFilter::visit_state(self.filter_, visit);
+    RootMotion::visit_state(self.root_, visit);
+    Shaping::visit_state(self.shaping_, visit);
+    Anatomy::visit_state(self.anatomy_, visit);
+    FloorClearance::visit_state(self.floor_, visit);
+    FreeFall::visit_state(self.fall_, visit);
+    FootLock::visit_state(self.foot_lock_, visit);
+  }
+
+ private:
+  OutputFilter filter_;
+  RootMotion root_;
+  Shaping shaping_;
+  Anatomy anatomy_;
+  FloorClearance floor_;
+  FreeFall fall_;
+  FootLock foot_lock_;
+  std::array<float, kFeet> contacts_{};
+  BodyChange change_;
+};
+
+}  // namespace panache
