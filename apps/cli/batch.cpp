@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
+#include <filesystem>
 #include <mutex>
 #include <new>
 
@@ -39,6 +41,7 @@ Json to_json(const FileJob& file) {
   return {{"in", file.input},
           {"out", file.output},
           {"ok", ok},
+          {"skipped", file.skipped},
           {"error", ok ? Json() : Json(file.error)},
           {"clips", file.clips},
           {"frames", file.frames},
@@ -49,18 +52,39 @@ Json to_json(const FileJob& file) {
 
 std::string summary(const std::vector<FileJob>& files, const std::string& done, double spent) {
   const std::string in = " in " + fixed(spent, 1) + " s\n";
-  const auto failed = static_cast<size_t>(std::count_if(
-      files.begin(), files.end(), [](const FileJob& file) { return !file.error.empty(); }));
+  const auto failed = std::count_if(files.begin(), files.end(),
+                                    [](const FileJob& file) { return !file.error.empty(); });
+  const auto skipped =
+      std::count_if(files.begin(), files.end(), [](const FileJob& file) { return file.skipped; });
   if (files.size() > 1) {
-    return done + " " + std::to_string(files.size() - failed) + " of " +
-           plural(files.size(), "file") +
-           (failed ? ", " + std::to_string(failed) + " failed," : "") + in;
+    const auto good = static_cast<std::ptrdiff_t>(files.size()) - failed - skipped;
+    return done + " " + std::to_string(good) + " of " + plural(files.size(), "file") +
+           (failed ? ", " + std::to_string(failed) + " failed," : "") +
+           (skipped ? ", " + std::to_string(skipped) + " skipped," : "") + in;
   }
   if (failed) return "";
   const FileJob& file = files[0];
+  if (skipped) return "skipped " + file.input + ": " + file.output + " exists already\n";
   return done + " " + file.input + " into " + file.output + " (" +
          plural(static_cast<size_t>(file.frames), "frame") + ", " + fixed(file.seconds, 1) + " s)" +
          in;
+}
+
+int tell_plan(const std::vector<FileJob>& files, bool json) {
+  Json plan = Json::array();
+  std::string text;
+  for (const FileJob& file : files) {
+    plan.push_back({{"in", file.input}, {"out", file.output}, {"skipped", file.skipped}});
+    text += (file.skipped ? "would skip " + file.input + ": " + file.output + " exists already"
+                          : "would write " + file.output + " from " + file.input) +
+            "\n";
+  }
+  if (json) {
+    print(plan);
+  } else {
+    print(text);
+  }
+  return kDone;
 }
 
 }  // namespace
@@ -76,10 +100,16 @@ void add_batch_options(CLI::App& verb, BatchFlags& flags) {
                   "its end, a folder")
       ->required()
       ->type_name("OUT");
-  verb.add_flag("--force", flags.force, "Overwrite files");
+  CLI::Option* force = verb.add_flag("--force", flags.force, "Overwrite files");
+  verb.add_flag("--skip-existing", flags.skip_existing,
+                "Leave out what has an output already, as to go on\nwith a batch")
+      ->excludes(force);
+  verb.add_flag("--dry-run", flags.dry_run, "Only show what would be written; reads no motion");
   verb.add_option("--jobs", flags.jobs, "Files processed in parallel; default: one per core")
       ->type_name("N");
-  verb.add_flag("--json", flags.json, "Print the result for each file as JSON");
+  CLI::Option* quiet =
+      verb.add_flag("--quiet", flags.quiet, "Print nothing but errors, and show no progress");
+  verb.add_flag("--json", flags.json, "Print the result for each file as JSON")->excludes(quiet);
   verb.add_option("--report", flags.report, "Also write this JSON to a file")->type_name("FILE");
 }
 
@@ -108,12 +138,18 @@ Result<std::vector<FileJob>> plan_batch(const BatchFlags& flags, const std::stri
   if (!flags.report.empty()) {
     if (auto free = check_output("", flags.report, flags.force); !free) return free.error();
   }
-  if (auto free = check_outputs(*pairs, flags.force); !free) return free.error();
+  if (flags.skip_existing) {
+    std::error_code status;
+    for (FileJob& file : files) file.skipped = std::filesystem::exists(file.output, status);
+  } else if (auto free = check_outputs(*pairs, flags.force); !free) {
+    return free.error();
+  }
   return files;
 }
 
 int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::string& doing,
               const std::string& done, const FileWork& work) {
+  if (flags.dry_run) return tell_plan(files, flags.json);
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
   {
@@ -121,14 +157,18 @@ int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::st
     const auto run = [&](int i) {
       const auto n = static_cast<size_t>(i);
       FileJob& file = files[n];
+      const auto show = [&](double part) {
+        if (!flags.quiet) progress.update(n, part);
+      };
+      if (file.skipped) return show(1);
       try {
-        const auto share = [&](double part) { progress.update(n, std::min(part, 0.99)); };
+        const auto share = [&](double part) { show(std::min(part, 0.99)); };
         if (auto worked = work(file, share); !worked)
           file.error = with_hint(worked.error().message);
       } catch (const std::bad_alloc&) {
         file.error = file.input + ": out of memory";
       }
-      progress.update(n, 1);
+      show(1);
     };
     parallel_for(static_cast<int>(files.size()), run, flags.jobs);
   }
@@ -137,14 +177,16 @@ int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::st
   Json results = Json::array();
   bool all_good = true;
   for (const FileJob& file : files) {
-    for (const std::string& note : file.notes) print_message(note);
+    for (const std::string& note : file.notes) {
+      if (!flags.quiet) print_message(note);
+    }
     if (!file.error.empty()) print_message(file.error);
     all_good = all_good && file.error.empty();
     results.push_back(to_json(file));
   }
   if (flags.json) {
     print(results);
-  } else {
+  } else if (!flags.quiet) {
     print(summary(files, done, spent));
     if (files.size() == 1 && all_good) {
       for (const std::string& line : files[0].added) print("  " + line + "\n");

@@ -18,16 +18,21 @@ struct BatchFlags {
   std::string output;
   std::string report;  // A file to write, or empty.
   bool force = false;
+  bool skip_existing = false;
+  bool dry_run = false;
+  bool quiet = false;
   bool json = false;
   int jobs = 0;  // 0: one per core.
 };
 
-// Gives `verb` inputs, --output, --force, --jobs, --json and --report; `flags` must outlive it.
+// Gives `verb` inputs, --output, --force, --skip-existing, --dry-run, --jobs, --quiet, --json and
+// --report; `flags` must outlive it.
 void add_batch_options(CLI::App& verb, BatchFlags& flags);
 
 // One file on its way.
 struct FileJob {
   std::string input, output;
+  bool skipped = false;            // Its output is there, and stays.
   std::string error;               // Empty where all went well.
   std::vector<std::string> notes;  // What a careful user would want to know; for stderr.
   // Lines that name the motions that are new beside others; printed where there is one file.

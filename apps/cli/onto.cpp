@@ -5,37 +5,10 @@
 #include "formats.h"
 #include "input.h"
 #include "messages.h"
-#include "retarget/reference_pose.h"
+#include "retarget/find_body.h"
 #include "rig_options.h"
 
 namespace panache::cli {
-namespace {
-
-// The clip that tells most of a character: its rest pose, where that is a body that stands; else
-// its first motion.
-Result<std::pair<Clip, Rig>> find_body(const MotionFile& file, const RigOptions& options) {
-  Clip rest = file.rest();
-  Result<Rig> at_rest = Rig::create(rest, options);
-  const bool has_motion = !file.clip_names().empty();
-  bool on_floor = false;
-  if (at_rest && has_motion) {
-    // A rest pose that hangs in the air, as in BVH files, does not tell the floor.
-    const ReferencePose standing = find_reference_pose(rest, *at_rest);
-    on_floor = standing.from_rest && std::abs(at_rest->floor()) < 0.25f * standing.leg;
-  }
-  if (!has_motion || on_floor) {
-    if (!at_rest) return at_rest.error();
-    return std::pair{std::move(rest), *std::move(at_rest)};
-  }
-  Clip motion = file.clip(0);
-  motion.skeleton = std::move(rest.skeleton);
-  Result<Rig> rig = Rig::create(motion, options);
-  if (!rig) return rig.error();
-  return std::pair{std::move(motion), *std::move(rig)};
-}
-
-}  // namespace
-
 CLI::Option* add_onto_options(CLI::App& verb, OntoFlags& flags) {
   CLI::Option* onto = verb.add_option("--onto", flags.file,
                                       "Character to put the motion on (" + motion_extensions() +
@@ -52,7 +25,8 @@ Result<CharacterFile> CharacterFile::open(const OntoFlags& flags) {
   if (!file) return file.error();
   Result<RigOptions> options = read_rig_options({{}, "", flags.map});
   if (!options) return options.error();
-  Result<std::pair<Clip, Rig>> body = find_body(**file, *options);
+  const Clip* motion = (*file)->clip_names().empty() ? nullptr : &(*file)->clip(0);
+  Result<std::pair<Clip, Rig>> body = find_body((*file)->rest(), motion, *options);
   if (!body) return Error{flags.file + ": " + body.error().message};
   return CharacterFile(flags.file, *std::move(file), *std::move(options), std::move(body->first),
                        std::move(body->second));

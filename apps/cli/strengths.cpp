@@ -32,13 +32,30 @@ std::optional<float> parse_strength(std::string_view text) {
   return static_cast<float>(*value);
 }
 
+// The style of that name, in any case where that tells it.
+Result<int> find_style(const std::string& name, const Model& model) {
+  Result<int> exact = model.find_style(name);
+  if (exact) return exact;
+  const auto lower = [](std::string text) {
+    for (char& c : text) {
+      if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    return text;
+  };
+  std::vector<int> alike;
+  for (size_t i = 0; i < model.styles().size(); ++i) {
+    if (lower(model.styles()[i].name) == lower(name)) alike.push_back(static_cast<int>(i));
+  }
+  return alike.size() == 1 ? Result<int>(alike[0]) : exact;
+}
+
 // "NAME=STRENGTH" or "NAME=STRENGTH..STRENGTH".
 Result<StrengthWish> parse_style(const std::string& text, const Model& model) {
   const size_t equals = text.find('=');
   if (equals == std::string::npos) {
     return Error{"--style " + text + ": expected a name and a strength, as in '" + text + "=1'"};
   }
-  Result<int> style = model.find_style(text.substr(0, equals));
+  Result<int> style = find_style(text.substr(0, equals), model);
   if (!style) return style.error();
   const std::string value = text.substr(equals + 1);
   const size_t dots = value.find("..");
@@ -84,7 +101,7 @@ Result<StrengthColumns> read_columns(const CsvTable& table, const std::string& w
     if (std::count(names.begin(), names.end(), names[c]) > 1) {
       return Error{where + "column " + panache::quoted(names[c]) + " is there twice"};
     }
-    Result<int> style = c == out.seconds ? Result<int>(-1) : model.find_style(names[c]);
+    Result<int> style = c == out.seconds ? Result<int>(-1) : find_style(names[c], model);
     if (!style) return Error{where + style.error().message};
     out.styles.push_back(*style);
   }

@@ -15,6 +15,7 @@
   verb(walker) \
   verb(strip) \
   verb(quantize) \
+  verb(export) \
   verb(view) \
   verb(live) \
   verb(send) \

@@ -74,7 +74,8 @@ typedef enum panache_status {
   PANACHE_BAD_STATE = 4,    /* The bytes are no state of such a character. */
   PANACHE_NO_MEMORY = 5,
   PANACHE_BAD_CLIP = 6, /* A clip has bad numbers, or pairs are none to learn a style from. */
-  PANACHE_BAD_STYLE = 7 /* The bytes are no style file, or none that goes with the model. */
+  PANACHE_BAD_STYLE = 7, /* The bytes are no style file, or none that goes with the model. */
+  PANACHE_BAD_FILE = 8   /* The bytes are no motion file that this library reads. */
 } panache_status;
 
 /* What was wrong when a function of this thread last failed, in one line; "" if none has. Valid
@@ -407,6 +408,96 @@ PANACHE_API panache_status panache_styles_remove(const void* model_bytes, size_t
 /* The style file of a style of the model. */
 PANACHE_API panache_status panache_styles_extract(const void* model_bytes, size_t model_size,
                                                   const char* name, panache_bytes** out);
+
+/* ---- Motion files ---------------------------------------------------------------------------- */
+
+/* BVH, GLB, glTF and VRM files, as the program reads and writes them. Not in the WebAssembly
+ * module. */
+
+/* A motion file as a whole: its joints, its motions, and all else that stays when it is written
+ * again. Never changes. */
+typedef struct panache_motion_file panache_motion_file;
+
+/* Reads a file from its bytes, which may go afterwards. The extension of `name` tells the format;
+ * the name stands in front of messages, and a .gltf may have data in files beside it. */
+PANACHE_API panache_status panache_motion_file_create(const void* bytes, size_t size,
+                                                      const char* name, panache_motion_file** out);
+/* Does nothing with NULL. */
+PANACHE_API void panache_motion_file_destroy(panache_motion_file* file);
+
+PANACHE_API int32_t panache_motion_file_joint_count(const panache_motion_file* file);
+/* The joint at this place, 0 to joint_count - 1; its name is valid as long as the file. */
+PANACHE_API void panache_motion_file_get_joint(const panache_motion_file* file, int32_t joint,
+                                               panache_joint* out);
+/* Number of motions; 0 where the file has a skeleton alone. */
+PANACHE_API int32_t panache_motion_file_clip_count(const panache_motion_file* file);
+/* The name of a motion, "" where it has none, valid as long as the file; NULL where there is no
+ * motion at that place. */
+PANACHE_API const char* panache_motion_file_clip_name(const panache_motion_file* file,
+                                                      int32_t clip);
+/* A motion, or one frame at rest where `clip` is -1. Its arrays are valid as long as the file; its
+ * skeleton is NULL, for the caller to set. */
+PANACHE_API panache_status panache_motion_file_get_clip(const panache_motion_file* file,
+                                                        int32_t clip, panache_clip* out);
+/* The skeleton of a motion: the very one that the program finds, from all that the file says of its
+ * joints. Where `clip` is -1, that of the character, to put motion on with panache_retarget_clip():
+ * of the rest pose, where that stands on the floor, else of the first motion. Poses among the
+ * options are not read: they are the file's. `options` may be NULL. */
+PANACHE_API panache_status panache_motion_file_create_skeleton(
+    const panache_motion_file* file, int32_t clip, const panache_skeleton_options* options,
+    panache_skeleton** out);
+
+/* New frames for a motion of a file, or a new motion. */
+typedef struct panache_clip_edit {
+  int32_t clip;        /* The motion whose frames these are; -1: a new one. */
+  const char* name;    /* Of what results, where the format has names; may be NULL. */
+  panache_clip frames; /* Of the file's joints, at least one; the skeleton is not read. Those of a
+                          motion of the file have its frame_seconds. */
+  /* The frame of the motion that each comes from, with fractions; NULL: frame by frame, as many as
+   * the motion has. Not read of a new one. [frame_count] */
+  const double* source_frames;
+} panache_clip_edit;
+
+/* What becomes of the file's own motions. A BVH file holds one, which is always replaced. */
+typedef enum panache_edit_mode {
+  PANACHE_REPLACE = 0,   /* The new frames replace the motion; a new motion replaces all. */
+  PANACHE_ADD_LAST = 1,  /* They are added after the file's own, */
+  PANACHE_ADD_FIRST = 2  /* or before. */
+} panache_edit_mode;
+
+/* The bytes of the file with the edits in it. What they leave as it was keeps the very numbers of
+ * the file. */
+PANACHE_API panache_status panache_motion_file_write(const panache_motion_file* file,
+                                                     const panache_clip_edit* edits,
+                                                     int32_t edit_count, panache_edit_mode mode,
+                                                     panache_bytes** out);
+
+/* ---- Training samples -------------------------------------------------------------------------- */
+
+/* What the networks of recipe panache are trained on, for training of your own. */
+typedef struct panache_samples panache_samples;
+
+#define PANACHE_WINDOW_SIZE 396 /* 6 poses, newest first, of 66 features: docs/conventions.md. */
+#define PANACHE_CHANGE_SIZE 67  /* 21 rotation vectors, height, velocities: as there. */
+
+/* The samples of pairs of clips: a window of the neutral clip for each instant of the styled one,
+ * at 30 a second, laid together as panache_learn() does it. A pair whose styled clip has no frames
+ * gives a window of each instant of the neutral clip, and changes of 0. */
+PANACHE_API panache_status panache_samples_create(const panache_pair* pairs, int32_t pair_count,
+                                                  panache_samples** out);
+/* Does nothing with NULL. */
+PANACHE_API void panache_samples_destroy(panache_samples* samples);
+
+PANACHE_API int32_t panache_samples_count(const panache_samples* samples);
+/* What follows is valid as long as `samples`. */
+/* In metres, metres and radians per second, body frame. [count][PANACHE_WINDOW_SIZE] */
+PANACHE_API const float* panache_samples_windows(const panache_samples* samples);
+/* What the style does there. [count][PANACHE_CHANGE_SIZE] */
+PANACHE_API const float* panache_samples_changes(const panache_samples* samples);
+/* Logarithm of neutral seconds per styled second. [count] */
+PANACHE_API const float* panache_samples_log_rates(const panache_samples* samples);
+/* 1 where the left and the right foot of the styled clip are planted, else 0. [count][2] */
+PANACHE_API const float* panache_samples_contacts(const panache_samples* samples);
 
 #ifdef __cplusplus
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "clip/motion_file.h"
 #include "learn/learn_style.h"
 #include "panache/panache.h"
 #include "rig/rig.h"
@@ -21,6 +22,7 @@ struct panache_model {
 struct panache_skeleton {
   panache::Rig rig;
   panache::Skeleton joints;
+  panache::Clip body;  // What retarget() puts motion on.
 };
 struct panache_character {
   panache::LiveStylizer live;
@@ -34,4 +36,14 @@ struct panache_learnt {
   std::string model;
   panache::LearntStyle style;
   std::string warnings;
+};
+struct panache_motion_file {
+  std::unique_ptr<panache::MotionFile> file;
+  std::string path;
+  std::vector<std::string> names;  // Of its motions.
+  panache::Clip rest;
+};
+struct panache_samples {
+  int32_t count = 0;
+  std::vector<float> windows, changes, log_rates, contacts;
 };

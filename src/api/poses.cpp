@@ -8,13 +8,15 @@ namespace panache::api {
 namespace {
 
 constexpr int32_t kMaxFrames = 1'000'000;
+constexpr float kUnit = 1e-6f;
 
 }  // namespace
 
 bool make_unit(Quat& q) {
   const float square = dot(q, q);
   if (!is_finite(q) || std::abs(square - 1) > 0.1f) return false;
-  q = normalized(q);
+  // What is unit but for the last bits of its numbers, as files give it, keeps them.
+  if (std::abs(square - 1) > kUnit) q = normalized(q);
   return true;
 }
 
@@ -43,6 +45,11 @@ Result<void> read_frames(const float* rotations, const float* translations, int3
 }
 
 Result<Clip> read_clip(const panache_clip& from, Rotations kept, const std::string& name) {
+  return read_clip(from, from.skeleton->joints, kept, name);
+}
+
+Result<Clip> read_clip(const panache_clip& from, const Skeleton& joints, Rotations kept,
+                       const std::string& name) {
   if (from.frame_count < 0 || from.frame_count > kMaxFrames) {
     return Error{name + ": has " + std::to_string(from.frame_count) + " frames; expected up to " +
                  std::to_string(kMaxFrames)};
@@ -51,7 +58,7 @@ Result<Clip> read_clip(const panache_clip& from, Rotations kept, const std::stri
     return Error{name + ": has frames " + std::to_string(from.frame_seconds) +
                  " seconds apart; expected more than 0 and at most 1"};
   }
-  Clip clip{from.skeleton->joints, from.frame_seconds, 0, {}, {}};
+  Clip clip{joints, from.frame_seconds, 0, {}, {}};
   auto read = read_frames(from.rotations, from.translations, from.frame_count, kept, clip);
   if (!read) return Error{name + ": " + read.error().message};
   return clip;

@@ -14,8 +14,8 @@ static_assert(sizeof(Quat) == 4 * sizeof(float) && sizeof(Vec3) == 3 * sizeof(fl
 inline Quat quat(const float* q) { return {q[0], q[1], q[2], q[3]}; }
 inline Vec3 vec(const float* v) { return {v[0], v[1], v[2]}; }
 
-// Makes a rotation that is nearly of unit length exactly so. Returns false, and leaves it alone,
-// where it is not.
+// Makes a rotation that is nearly of unit length exactly so; to within a float's rounding it is
+// already. Returns false, and leaves it alone, where it is far from it.
 bool make_unit(Quat& q);
 
 // Whether rotations stay bit for bit as they were given, or are made exactly unit.
@@ -26,6 +26,9 @@ Result<void> read_frames(const float* rotations, const float* translations, int3
                          Rotations kept, Clip& clip);
 // `name` stands in front of the message of a failure.
 Result<Clip> read_clip(const panache_clip& from, Rotations kept, const std::string& name);
+// The same of other joints than those of the clip's skeleton, which is not read.
+Result<Clip> read_clip(const panache_clip& from, const Skeleton& joints, Rotations kept,
+                       const std::string& name);
 
 inline ConstPose view(const panache_input_pose& pose, size_t joints) {
   return {{reinterpret_cast<const Quat*>(pose.rotations), joints},

@@ -22,7 +22,7 @@ panache_status panache_retarget_clip(const panache_clip* clip, const panache_ske
     if (!motion) return fail(PANACHE_BAD_CLIP, motion.error().message);
     if (motion->frames == 0) return fail(PANACHE_BAD_CLIP, "clip: has no frames");
     const Rig& rig = clip->skeleton->rig;
-    Result<Retargeted> done = retarget(*motion, rig, rest_clip(onto->joints), onto->rig,
+    Result<Retargeted> done = retarget(*motion, rig, onto->body, onto->rig,
                                        {given->hold_feet != 0, given->meet_hands != 0});
     if (!done) return fail(PANACHE_BAD_SKELETON, done.error().message);
     auto result = std::make_unique<panache_styled_clip>();

@@ -1,6 +1,7 @@
 #include "api/errors.h"
 #include "api/objects.h"
 #include "api/poses.h"
+#include "api/rig_options.h"
 #include "api/sized_struct.h"
 #include "rig/calibration.h"
 
@@ -83,6 +84,10 @@ Result<KnownJoints> read_map(const panache_skeleton_options& options, int32_t jo
   return known;
 }
 
+}  // namespace
+
+namespace panache::api {
+
 Result<RigOptions> read_rig_options(const panache_skeleton_options& options, int32_t joint_count) {
   RigOptions out;
   if (options.metres_per_unit != 0) out.metres_per_unit = options.metres_per_unit;
@@ -94,7 +99,7 @@ Result<RigOptions> read_rig_options(const panache_skeleton_options& options, int
   return out;
 }
 
-}  // namespace
+}  // namespace panache::api
 
 panache_status panache_skeleton_create(const panache_joint* joints, int32_t joint_count,
                                        const panache_skeleton_options* options,
@@ -112,7 +117,8 @@ panache_status panache_skeleton_create(const panache_joint* joints, int32_t join
     if (!how) return fail(PANACHE_BAD_ARGUMENT, how.error().message);
     Result<Rig> rig = Rig::create(*clip, *how);
     if (!rig) return fail(PANACHE_BAD_SKELETON, rig.error().message);
-    *out = new panache_skeleton{*std::move(rig), std::move(clip->skeleton)};
+    Clip body = rest_clip(clip->skeleton);
+    *out = new panache_skeleton{*std::move(rig), std::move(clip->skeleton), std::move(body)};
     return PANACHE_OK;
   });
 }

@@ -50,6 +50,15 @@ constexpr MotionFormat kFormats[] = {
     {.extension = ".vrm", .parse = parse_gltf, .encoded_as = ".vrm", .fits_into = ".glb"},
 };
 
+Result<const MotionFormat*> format_of(const std::string& path,
+                                      std::span<const MotionFormat> formats) {
+  const std::string extension = extension_of(path);
+  if (const MotionFormat* format = find_format(formats, extension)) return format;
+  return Error{
+      path + ": expected a motion file (" + list_extensions(formats) + "), found " +
+      (extension.empty() ? "no extension" : "the extension " + panache::quoted(extension))};
+}
+
 }  // namespace
 
 std::span<const MotionFormat> motion_formats() { return kFormats; }
@@ -79,17 +88,18 @@ std::string list_extensions(std::span<const MotionFormat> formats) {
 
 Result<std::unique_ptr<MotionFile>> read_motion(const std::string& path,
                                                 std::span<const MotionFormat> formats) {
-  const std::string extension = extension_of(path);
-  const MotionFormat* format = find_format(formats, extension);
-  if (!format) {
-    return Error{
-        path + ": expected a motion file (" + list_extensions(formats) + "), found " +
-        (extension.empty() ? "no extension" : "the extension " + panache::quoted(extension))};
-  }
-  if (format->read) return format->read(path);
+  Result<const MotionFormat*> format = format_of(path, formats);
+  if (!format) return format.error();
+  if ((*format)->read) return (*format)->read(path);
   auto bytes = read_file(path);
   if (!bytes) return bytes.error();
-  return format->parse(std::move(*bytes), path);
+  return (*format)->parse(std::move(*bytes), path);
+}
+
+Result<std::unique_ptr<MotionFile>> parse_motion(std::string bytes, const std::string& path) {
+  Result<const MotionFormat*> format = format_of(path, kFormats);
+  if (!format) return format.error();
+  return (*format)->parse(std::move(bytes), path);
 }
 
 }  // namespace panache

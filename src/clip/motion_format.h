@@ -58,4 +58,7 @@ std::string list_extensions(std::span<const MotionFormat> formats);
 Result<std::unique_ptr<MotionFile>> read_motion(const std::string& path,
                                                 std::span<const MotionFormat> formats);
 
+// The same from the bytes of a file of the library's formats.
+Result<std::unique_ptr<MotionFile>> parse_motion(std::string bytes, const std::string& path);
+
 }  // namespace panache

@@ -74,6 +74,60 @@ TEST_F(Batch, results_are_no_inputs) {
   EXPECT_EQ(pairs({"takes", "-o", "takes/old", "--force"}).size(), 4u);
 }
 
+TEST_F(Batch, what_is_done_already_can_be_skipped) {
+  ASSERT_EQ(stylize({"takes/a.bvh", "-o", "out/"}).exit, 0);
+  write("out/b.bvh", "mine");
+  const std::string a = read("out/a.bvh");
+  const Ran rest = stylize({"takes", "-o", "out", "--skip-existing"});
+  EXPECT_EQ(rest.exit, 0) << rest.err;
+  EXPECT_TRUE(rest.out.starts_with("restyled 2 of 4 files, 2 skipped, in ")) << rest.out;
+  EXPECT_EQ(read("out/a.bvh"), a);
+  EXPECT_EQ(read("out/b.bvh"), "mine");
+  EXPECT_TRUE(exists("out/day 2/deep/C.BVH"));
+  const Ran one = stylize({"takes/b.bvh", "-o", "out/b.bvh", "--skip-existing"});
+  EXPECT_EQ(one.out, "skipped takes/b.bvh: out/b.bvh exists already\n");
+  EXPECT_EQ(one.exit, 0);
+  EXPECT_EQ(stylize({"takes", "-o", "out", "--skip-existing", "--force"}).exit, 2);
+}
+
+TEST_F(Batch, a_dry_run_shows_what_would_be_written_and_writes_nothing) {
+  const Ran ran = stylize({"takes/a.bvh", "takes/b.bvh", "-o", "out", "--dry-run"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_EQ(ran.out,
+            "would write out/a.bvh from takes/a.bvh\nwould write out/b.bvh from takes/b.bvh\n");
+  EXPECT_FALSE(exists("out"));
+  write("out/b.bvh", "mine");
+  EXPECT_EQ(stylize({"takes/b.bvh", "-o", "out/", "--dry-run", "--skip-existing"}).out,
+            "would skip takes/b.bvh: out/b.bvh exists already\n");
+  const Ran taken = stylize({"takes/b.bvh", "-o", "out/", "--dry-run"});
+  EXPECT_EQ(taken.err, "panache: out/b.bvh: exists already; --force overwrites it\n");
+  const auto plan =
+      nlohmann::json::parse(stylize({"takes/a.bvh", "-o", "out/", "--dry-run", "--json"}).out);
+  EXPECT_EQ(plan[0]["out"], "out/a.bvh");
+}
+
+TEST_F(Batch, quiet_prints_errors_alone) {
+  write("takes/bad.bvh", "HIERARCHY");
+  const Ran ran = stylize({"takes", "-o", "out", "--quiet"});
+  EXPECT_EQ(ran.exit, 1);
+  EXPECT_EQ(ran.out, "");
+  EXPECT_TRUE(ran.err.starts_with("panache: takes/bad.bvh:")) << ran.err;
+  EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+  EXPECT_TRUE(exists("out/a.bvh"));
+  const Ran good = stylize({"takes/a.bvh", "-o", "a.bvh", "--quiet"});
+  EXPECT_EQ(good.out + good.err, "");
+}
+
+TEST_F(Batch, a_style_is_named_in_any_case) {
+  ASSERT_EQ(stylize({"takes/a.bvh", "-o", "lower.bvh"}).exit, 0);
+  const Ran ran = run({"stylize", "takes/a.bvh", "--style", "OLD=1", "-o", "upper.bvh"});
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_EQ(read("upper.bvh"), read("lower.bvh"));
+  const Ran unknown = run({"stylize", "takes/a.bvh", "--style", "OLDD=1", "-o", "no.bvh"});
+  EXPECT_TRUE(unknown.err.starts_with("panache: unknown style 'OLDD'; the nearest are "))
+      << unknown.err;
+}
+
 TEST_F(Batch, a_link_to_a_folder_is_not_followed) {
   std::filesystem::create_directory_symlink("..", path("takes/up"));
   EXPECT_EQ(pairs({"takes", "-o", "out"}).size(), 4u);

@@ -24,6 +24,16 @@ TEST_F(Program, every_verb_has_help_with_an_example) {
   }
 }
 
+TEST_F(Program, help_is_a_verb_too) {
+  EXPECT_EQ(run({"help"}).out, run({"--help"}).out);
+  EXPECT_EQ(run({"help", "stylize"}).out, run({"stylize", "--help"}).out);
+  EXPECT_EQ(run({"help", "stylize"}).exit, 0);
+  const Ran unknown = run({"help", "stilyze"});
+  EXPECT_EQ(unknown.exit, 2);
+  EXPECT_TRUE(unknown.err.starts_with("panache: there is no command 'stilyze'; the nearest is "))
+      << unknown.err;
+}
+
 TEST_F(Program, it_tells_its_version) {
   const Ran ran = run({"--version"});
   EXPECT_EQ(ran.exit, 0);

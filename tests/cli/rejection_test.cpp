@@ -230,9 +230,21 @@ TEST_F(Rejection, a_model_that_is_none) {
 
 TEST_F(Rejection, a_verb_that_does_not_exist) {
   expect_rejected({"stylise", "walk.bvh"}, 2,
-                  "there is no command 'stylise'; expected stylize, convert, retarget, learn, "
+                  "there is no command 'stylise'; the nearest is stylize; expected stylize, "
+                  "convert, retarget, learn, "
                   "styles, info, walker, "
-                  "strip, quantize, view, live, send, train, eval or bench");
+                  "strip, quantize, export, view, live, send, train, eval or bench");
+}
+
+TEST_F(Rejection, an_option_that_does_not_exist) {
+  expect_rejected({"stylize", "walk.bvh", "-o", "out.bvh", "--style", "old=1", "--froce"}, 2,
+                  "The following argument was not expected: --froce; the nearest is --force; see "
+                  "panache stylize --help");
+  expect_rejected({"info", "walk.bvh", "--jsn=1"}, 2,
+                  "The following argument was not expected: --jsn=1; the nearest is --json; see "
+                  "panache info --help");
+  expect_rejected({"info", "walk.bvh", "--xyz"}, 2,
+                  "The following argument was not expected: --xyz; see panache info --help");
 }
 
 TEST_F(Rejection, a_command_that_is_incomplete) {

@@ -1,0 +1,132 @@
+"""Characters, live: one step a frame."""
+
+import ctypes
+from dataclasses import dataclass
+from typing import Sequence, Tuple
+
+import numpy as np
+
+from . import _library as c
+from ._library import Handle, check, floats, lib, sized
+from .clips import Skeleton
+from .model import Model
+
+
+@dataclass
+class Report:
+    """What went on at the last step.
+
+    gate:     1: motion like what the model knows; 0: unlike it, the style's mean is used.
+    contacts: probability that the left and the right foot are planted.
+    rate:     seconds of input that the style would take per second, 0.5 to 2.
+    ahead:    seconds from the newest input to what is shown; below 0 it is late.
+    """
+    gate: float
+    contacts: Tuple[float, float]
+    rate: float
+    ahead: float
+
+
+class Character:
+    """One character in motion.
+
+        character.set_strength('old', 1)
+        each frame:
+            character.input_rotations[:] = ...
+            character.input_translations[:] = ...
+            character.step(1 / 60)
+            use(character.rotations, character.translations)
+
+    These arrays are the character's own for good: float32, rotations [joints, 4] and translations
+    [joints, 3]. A step allocates nothing in the library.
+
+    ease_seconds:      a change of strength takes about this long; 0 to 10.
+    smoothing_seconds: time constant of the filter on what a style adds; 0 to 10.
+    hold_feet:         planted feet are held in place.
+    style_root:        root motion is styled too.
+    max_lag, max_lead: seconds that a style's own tempo may take behind the input (to 4) or ahead of
+                       it (to 0.25); with both at 0 the tempo stays the input's.
+    skip_cycles:       whole cycles are skipped or repeated to stay within these limits.
+    """
+
+    def __init__(self, model: Model, skeleton: Skeleton, *, ease_seconds: float = 0.15,
+                 smoothing_seconds: float = 0.04, hold_feet: bool = True, style_root: bool = True,
+                 skip_cycles: bool = False, max_lag: float = 0, max_lead: float = 0):
+        self.model, self.skeleton = model, skeleton
+        options = sized(c.CharacterOptions, ease_seconds=ease_seconds,
+                        smoothing_seconds=smoothing_seconds, hold_feet=hold_feet,
+                        style_root=style_root, skip_cycles=skip_cycles, max_lag=max_lag,
+                        max_lead=max_lead)
+        self._handle = Handle('character', lib.character_create, model._handle.pointer,
+                              skeleton._handle.pointer, options)
+        self._pointer = self._handle.pointer
+        joints = len(skeleton)
+        self.input_rotations = np.tile(np.float32([0, 0, 0, 1]), (joints, 1))
+        self.input_translations = np.zeros((joints, 3), np.float32)
+        self.rotations = self.input_rotations.copy()
+        self.translations = self.input_translations.copy()
+        # Made once: what a step costs beyond the library's own time is one call.
+        self._in = c.Pose(self.input_rotations.ctypes.data, self.input_translations.ctypes.data)
+        self._out = c.Pose(self.rotations.ctypes.data, self.translations.ctypes.data)
+        self._step = lib.character_step
+
+    def step(self, seconds: float) -> None:
+        """Styles the pose in `input_rotations` and `input_translations` into `rotations` and
+        `translations`; `seconds` have gone by since the last step. Cannot fail: numbers that are
+        not finite are replaced by the last good pose."""
+        self._step(self._pointer, self._in, seconds, self._out)
+
+    def stylize(self, rotations: np.ndarray, translations: np.ndarray,
+                seconds: float) -> Tuple[np.ndarray, np.ndarray]:
+        """The same for a pose in other arrays, [joints, 4] and [joints, 3]: copies them in, and
+        copies of the result out."""
+        joints = len(self.skeleton)
+        self.input_rotations[:] = floats(rotations, (joints, 4), 'rotations')
+        self.input_translations[:] = floats(translations, (joints, 3), 'translations')
+        self.step(seconds)
+        return self.rotations.copy(), self.translations.copy()
+
+    def set_strength(self, style: str, strength: float) -> None:
+        """How strongly a style acts from now on: 0 not at all, 1 as captured; -4 to 4, eased."""
+        lib.character_set_strength(self._pointer, self.model.find_style(style), strength)
+
+    def set_shape(self, **amounts: float) -> None:
+        """How much is given of what the styles do, 0 to 2 each; what is not named is 1:
+        `set_shape(posture=0.5, left_arm=0)`. See panache_shape."""
+        check(lib.character_set_shape(self._pointer, c.shape_of(amounts)))
+
+    def reset(self) -> None:
+        """Forgets the motion so far; strengths stay."""
+        lib.character_reset(self._pointer)
+
+    def report(self) -> Report:
+        report = sized(c.Report)
+        check(lib.character_get_report(self._pointer, report))
+        return Report(report.gate, tuple(report.contacts), report.rate, report.ahead)
+
+    def save(self) -> bytes:
+        """The character's memory, to return to this moment: for memory, not for files."""
+        state = ctypes.create_string_buffer(lib.character_state_size(self._pointer))
+        lib.character_save(self._pointer, state)
+        return state.raw
+
+    def restore(self, state: bytes) -> None:
+        """Goes on bit for bit from where a character of the same model, skeleton and options was
+        saved."""
+        check(lib.character_restore(self._pointer, state, len(state)))
+
+
+class Crowd:
+    """Many characters that are stepped together, which takes less time where they share a model:
+    each bit for bit as alone. None may come twice."""
+
+    def __init__(self, characters: Sequence[Character]):
+        self.characters = list(characters)
+        count = len(self.characters)
+        self._handles = (ctypes.c_void_p * count)(*[one._pointer.value for one in self.characters])
+        self._in = (c.Pose * count)(*[one._in for one in self.characters])
+        self._out = (c.Pose * count)(*[one._out for one in self.characters])
+
+    def step(self, seconds: float) -> None:
+        """`Character.step()` of all."""
+        lib.step_many(self._handles, len(self.characters), self._in, seconds, self._out)

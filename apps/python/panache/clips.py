@@ -1,0 +1,188 @@
+"""Skeletons, clips, and what is done to whole clips."""
+
+import ctypes
+from dataclasses import dataclass
+from typing import Dict, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _library as c
+from ._library import Handle, PanacheError, floats, lib, sized
+from .model import Model
+
+HUMAN_JOINTS = ('hips', 'spine', 'chest', 'neck', 'head') + tuple(
+    side + joint for side in ('left', 'right')
+    for joint in ('Shoulder', 'UpperArm', 'LowerArm', 'Hand', 'UpperLeg', 'LowerLeg', 'Foot',
+                  'Toes'))
+Strength = Union[float, Sequence[Tuple[float, float]]]
+
+
+class Skeleton:
+    """A rig, and which of its joints are a humanoid's. Never changes; shared by any number of
+    characters and clips.
+
+    names:         of the joints, parents before children.
+    parents:       [joints], the place of each joint's parent, smaller than its own; -1 for a root.
+    rotations:     [joints, 4], at rest, relative to the parent.
+    translations:  [joints, 3], likewise, in the units of the rig.
+    poses:         a few poses of its ordinary motion, (rotations [n, joints, 4], translations
+                   [n, joints, 3]); they tell axes, floor and sides better than the rest pose.
+    metres_per_unit, up_axis: told instead of found: 0.01, '+Z'.
+    human_joints:  {'leftHand': place, ...}: joints that are told instead of found, by the names of
+                   VRM 1.0; -1 says that the rig has none.
+    """
+
+    def __init__(self, names: Sequence[str], parents: Sequence[int], rotations: np.ndarray,
+                 translations: np.ndarray, *,
+                 poses: Optional[Tuple[np.ndarray, np.ndarray]] = None,
+                 metres_per_unit: float = 0, up_axis: Optional[str] = None,
+                 human_joints: Optional[Mapping[str, int]] = None):
+        count = len(names)
+        if len(parents) != count:
+            raise PanacheError(f'parents: expected {count}, as many as names, found '
+                               f'{len(parents)}')
+        rotations = floats(rotations, (count, 4), 'rotations')
+        translations = floats(translations, (count, 3), 'translations')
+        array = (c.Joint * max(count, 1))()
+        for j, name in enumerate(names):
+            array[j].name, array[j].parent = name.encode(), int(parents[j])
+            array[j].rotation[:] = rotations[j].tolist()
+            array[j].translation[:] = translations[j].tolist()
+        options, kept = _options(metres_per_unit, up_axis, human_joints)
+        if poses is not None:
+            turns = floats(poses[0], (None, count, 4), 'poses, rotations')
+            moves = floats(poses[1], (len(turns), count, 3), 'poses, translations')
+            kept += [turns, moves]
+            options.rotations, options.translations = turns.ctypes.data, moves.ctypes.data
+            options.pose_count = len(turns)
+        self._adopt(Handle('skeleton', lib.skeleton_create, array, count, options), names, parents)
+
+    def _adopt(self, handle: Handle, names, parents) -> 'Skeleton':
+        self._handle = handle
+        self.joint_names = list(names)
+        self.parents = [int(parent) for parent in parents]
+        return self
+
+    def __len__(self) -> int:
+        return len(self.joint_names)
+
+    def __repr__(self) -> str:
+        return f'<panache.Skeleton of {len(self)} joints>'
+
+    def find(self, human_joint: str) -> int:
+        """The place of the joint that is this joint of the humanoid ('leftHand'), or -1."""
+        return lib.skeleton_find(self._handle.pointer, human_joint.encode())
+
+    def mapping(self) -> Dict[str, Optional[str]]:
+        """The name of each human joint's joint, None where the rig has none."""
+        places = {human: self.find(human) for human in HUMAN_JOINTS}
+        return {human: self.joint_names[j] if j >= 0 else None for human, j in places.items()}
+
+
+def _options(metres_per_unit=0.0, up_axis=None, human_joints=None):
+    """The struct, and what it points to."""
+    human = [c.HumanJoint(name.encode(), joint) for name, joint in (human_joints or {}).items()]
+    array = (c.HumanJoint * max(len(human), 1))(*human)
+    options = sized(c.SkeletonOptions, metres_per_unit=metres_per_unit,
+                    up_axis=up_axis.encode() if up_axis else None, human_joint_count=len(human),
+                    human_joints=array)
+    return options, [array]
+
+
+@dataclass
+class Clip:
+    """Motion of a rig at a constant rate.
+
+    rotations:     float32 [frames, joints, 4], unit, x y z w, relative to the parent.
+    translations:  float32 [frames, joints, 3], relative to the parent, in the rig's units.
+    frame_seconds: from one frame to the next.
+
+    Arrays that are contiguous float32 are kept as they are, others converted.
+    """
+    skeleton: Skeleton
+    rotations: np.ndarray
+    translations: np.ndarray
+    frame_seconds: float
+
+    def __post_init__(self):
+        joints = len(self.skeleton)
+        self.rotations = floats(self.rotations, (None, joints, 4), 'rotations')
+        self.translations = floats(self.translations, (len(self.rotations), joints, 3),
+                                   'translations')
+
+    def __len__(self) -> int:
+        return len(self.rotations)
+
+    @property
+    def seconds(self) -> float:
+        return len(self) * self.frame_seconds
+
+    def _struct(self) -> c.Clip:
+        """Points into the arrays."""
+        return c.Clip(self.skeleton._handle.pointer, len(self), self.frame_seconds,
+                      self.rotations.ctypes.data, self.translations.ctypes.data)
+
+
+@dataclass
+class StyledClip(Clip):
+    """A clip that the library made. Its arrays are read-only views of the library's memory.
+
+    source_frames: float64 [frames], the frame of the input that each shows, with fractions.
+    contacts:      uint8 [frames, 2], 1 where the left and the right foot are planted.
+    gates:         float32 [frames]; 1: motion like what the model knows, 0: unlike it.
+    """
+    source_frames: np.ndarray
+    contacts: np.ndarray
+    gates: np.ndarray
+
+
+def _styled(handle: Handle, skeleton: Skeleton, frame_seconds: float) -> StyledClip:
+    at = handle.pointer
+    frames, joints = lib.styled_clip_frame_count(at), len(skeleton)
+    return StyledClip(
+        skeleton, handle.view(lib.styled_clip_rotations(at), (frames, joints, 4)),
+        handle.view(lib.styled_clip_translations(at), (frames, joints, 3)), frame_seconds,
+        handle.view(lib.styled_clip_source_frames(at), (frames,), np.float64),
+        handle.view(lib.styled_clip_contacts(at), (frames, 2), np.uint8),
+        handle.view(lib.styled_clip_gates(at), (frames,)))
+
+
+def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *, timing: bool = True,
+            hold_feet: bool = True, style_root: bool = True, ease_seconds: float = 0.15,
+            smoothing_seconds: float = 0.04,
+            shape: Optional[Mapping[str, float]] = None) -> StyledClip:
+    """A clip in a style, or a mix of styles.
+
+    styles: {name: strength}; 0 is neutral, 1 the style as captured, -4 to 4. A list of
+            (seconds, strength) instead is followed in straight lines.
+    timing: the clip gets the tempo of the style, and so other frames than the input.
+    shape:  how much is given of what the styles do, 0 to 2 each: {'posture': 0.5, 'left_arm': 0},
+            see panache_shape.
+
+    With all strengths at 0 the result is the clip bit for bit (models of recipe panache).
+    """
+    tracks = (c.Track * max(len(styles), 1))()
+    for track, (name, strength) in zip(tracks, styles.items()):
+        keys = [(0.0, strength)] if np.isscalar(strength) else list(strength)
+        track.style, track.key_count = model.find_style(name), len(keys)
+        track.keys = (c.Key * max(len(keys), 1))(*keys)
+    options = sized(c.StylizeOptions, ease_seconds=ease_seconds,
+                    smoothing_seconds=smoothing_seconds, hold_feet=hold_feet,
+                    style_root=style_root, style_timing=timing,
+                    shape=ctypes.pointer(c.shape_of(shape or {})))
+    handle = Handle('styled_clip', lib.stylize_clip, model._handle.pointer, clip._struct(), tracks,
+                    len(styles), options)
+    return _styled(handle, clip.skeleton, clip.frame_seconds)
+
+
+def retarget(clip: Clip, onto: Skeleton, *, hold_feet: bool = True,
+             meet_hands: bool = True) -> StyledClip:
+    """A clip on another skeleton, in its rest pose, proportions, units and axes.
+
+    hold_feet:  feet are put on the floor, and planted where the motion plants them.
+    meet_hands: hands that met meet again, as far as arms reach.
+    """
+    options = sized(c.RetargetOptions, hold_feet=hold_feet, meet_hands=meet_hands)
+    handle = Handle('styled_clip', lib.retarget_clip, clip._struct(), onto._handle.pointer,
+                    options)
+    return _styled(handle, onto, clip.frame_seconds)

@@ -1,0 +1,206 @@
+"""Motion files: BVH, GLB, glTF and VRM."""
+
+import os
+import pathlib
+from ctypes import byref
+from dataclasses import dataclass
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Union
+
+import numpy as np
+
+from . import _library as c
+from ._files import check_free, read_bytes, write
+from ._library import Handle, PanacheError, check, lib, take_bytes
+from .clips import Clip, Skeleton, Strength, StyledClip, _options, retarget, stylize
+from .model import Model, model_of
+
+Path = Union[str, os.PathLike]
+_MODES = ('replace', 'last', 'first')
+
+
+class MotionFile:
+    """A motion file as a whole: its joints, its motions, and all else that stays when it is written
+    again. Never changes.
+
+    joint_names, parents: of its joints, parents before children.
+    clip_names:           of its motions, '' where they have none (BVH).
+    """
+
+    def __init__(self, path: Path):
+        self.path = str(path)
+        content = read_bytes(path)
+        self._handle = Handle('motion_file', lib.motion_file_create, content, len(content),
+                              self.path.encode())
+        at, joint = self._handle.pointer, c.Joint()
+        self.joint_names: List[str] = []
+        self.parents: List[int] = []
+        for j in range(lib.motion_file_joint_count(at)):
+            lib.motion_file_get_joint(at, j, byref(joint))
+            self.joint_names.append(joint.name.decode(errors='replace'))
+            self.parents.append(joint.parent)
+        self.clip_names: List[str] = [
+            lib.motion_file_clip_name(at, i).decode(errors='replace')
+            for i in range(lib.motion_file_clip_count(at))]
+
+    def __repr__(self) -> str:
+        return (f'<panache.MotionFile {self.path!r}: {len(self.joint_names)} joints, '
+                f'{len(self.clip_names)} motions>')
+
+    def skeleton(self, clip: int = 0, *, metres_per_unit: float = 0,
+                 up_axis: Optional[str] = None,
+                 human_joints: Optional[Mapping[str, int]] = None) -> Skeleton:
+        """The skeleton that a motion shows; with clip=-1 that of the character at rest, to
+        `retarget()` motion on. Options as those of `Skeleton`."""
+        options, kept = _options(metres_per_unit, up_axis, human_joints)
+        handle = Handle('skeleton', lib.motion_file_create_skeleton, self._handle.pointer, clip,
+                        options)
+        return Skeleton.__new__(Skeleton)._adopt(handle, self.joint_names, self.parents)
+
+    def clip(self, which: Union[int, str] = 0, skeleton: Optional[Skeleton] = None) -> Clip:
+        """A motion, by its place or name. Its arrays are read-only views of the file as read."""
+        which = self._place(which)
+        found = c.Clip()
+        check(lib.motion_file_get_clip(self._handle.pointer, which, found))
+        shape = (found.frame_count, len(self.joint_names))
+        return Clip(skeleton or self.skeleton(which),
+                    self._handle.view(found.rotations, (*shape, 4)),
+                    self._handle.view(found.translations, (*shape, 3)), found.frame_seconds)
+
+    def _place(self, which: Union[int, str]) -> int:
+        if not self.clip_names:
+            raise PanacheError(f'{self.path}: holds a skeleton and no motion; expected a file with '
+                               'an animation')
+        if isinstance(which, str) and which not in self.clip_names:
+            raise PanacheError(f'{self.path}: holds no motion {which!r}; expected one of '
+                               f'{", ".join(map(repr, self.clip_names))}')
+        return self.clip_names.index(which) if isinstance(which, str) else which
+
+    def encode(self, edits: Sequence['Edit'], mode: str = 'last') -> bytes:
+        """The bytes of the file with other frames in it. What they leave as it was keeps the very
+        numbers of the file.
+
+        mode: 'replace', 'last' or 'first': whether the edits take the place of the file's own
+              motions, or come after or before them. A BVH file holds one, which is replaced.
+        """
+        if mode not in _MODES:
+            raise PanacheError(f'there is no mode {mode!r}; expected one of {", ".join(_MODES)}')
+        array = (c.ClipEdit * max(len(edits), 1))()
+        kept = []
+        for slot, edit in zip(array, edits):
+            slot.clip, slot.name = edit.which, edit.name.encode()
+            slot.frames = edit.clip._struct()
+            if len(edit.clip.skeleton) != len(self.joint_names):
+                raise PanacheError(f'{self.path}: has {len(self.joint_names)} joints, and the clip '
+                                   f'{len(edit.clip.skeleton)}')
+            if edit.source_frames is not None:
+                source = np.ascontiguousarray(edit.source_frames, np.float64)
+                if source.shape != (len(edit.clip),):
+                    raise PanacheError(f'source_frames: expected an array of shape '
+                                       f'({len(edit.clip)},), found {source.shape}')
+                kept.append(source)
+                slot.source_frames = source.ctypes.data
+        return take_bytes(lib.motion_file_write, self._handle.pointer, array, len(edits),
+                          _MODES.index(mode))
+
+    def write(self, path: Path, clip: Clip, which: int = 0, name: str = '', mode: str = 'last',
+              force: bool = False) -> None:
+        """Writes the file with `clip` in it, whole or not at all: frames of the motion `which`, or
+        a new motion where that is -1. Over an existing file only with `force`."""
+        self.write_all(path, [Edit(clip, which, name)], mode, force)
+
+    def write_all(self, path: Path, edits: Sequence['Edit'], mode: str = 'last',
+                  force: bool = False) -> None:
+        """The same for several motions."""
+        self._check_output(path, force)
+        write(path, self.encode(edits, mode), force)
+
+    def _check_output(self, path: Path, force: bool) -> None:
+        extension = pathlib.Path(self.path).suffix
+        if pathlib.Path(path).suffix.lower() != extension.lower():
+            raise PanacheError(f'{path}: expected a name that ends in {extension}, as that of '
+                               f'{self.path}; panache convert writes other formats')
+        check_free(path, force)
+
+
+@dataclass
+class Edit:
+    """New frames for the motion `which` of a file, or a new motion where that is -1.
+
+    source_frames: [frames], which frame of the motion each comes from; those of a StyledClip are
+                   known, and None stands for frame by frame.
+    """
+    clip: Clip
+    which: int = 0
+    name: str = ''
+    source_frames: Optional[np.ndarray] = None
+
+    def __post_init__(self):
+        if self.source_frames is None and isinstance(self.clip, StyledClip):
+            self.source_frames = self.clip.source_frames
+
+
+def read(path: Path, which: Union[int, str] = 0) -> Clip:
+    """A motion of a file, by its place or name."""
+    return MotionFile(path).clip(which)
+
+
+def _title(name: str, path: str) -> str:
+    return name or pathlib.Path(path).stem
+
+
+def _amount(strength: Strength) -> str:
+    if np.isscalar(strength):
+        return f'{strength:g}'
+    amounts = {amount for _, amount in strength}
+    return f'{amounts.pop():g}' if len(amounts) == 1 else 'varies'
+
+
+def stylize_file(source: Path, output: Path, styles: Mapping[str, Strength],
+                 model: Optional[Model] = None, *, mode: str = 'last', force: bool = False,
+                 **options: Any) -> None:
+    """Restyles all motions of a file into another of the same format, as `panache stylize` does:
+    the same bytes. Options are those of `stylize()`; the model is the shipped default."""
+    file = MotionFile(source)
+    file._place(0)
+    file._check_output(output, force)
+    model = model_of(model)
+    text = ', '.join(f'{name} {_amount(strength)}' for name, strength in styles.items())
+    edits = [Edit(stylize(model, file.clip(i), styles, **options), i,
+                  f'{_title(name, file.path)} ({text})')
+             for i, name in enumerate(file.clip_names)]
+    write(output, file.encode(edits, mode), force)
+
+
+def retarget_file(source: Path, character: Path, output: Path, *, mode: str = 'last',
+                  force: bool = False, **options: Any) -> None:
+    """Puts all motions of a file on the character of another, as `panache retarget` does: the
+    output is the character's file with the motions in it. Options are those of `retarget()`."""
+    file, onto = MotionFile(source), MotionFile(character)
+    file._place(0)
+    onto._check_output(output, force)
+    skeleton = onto.skeleton(-1)
+    edits = [Edit(retarget(file.clip(i), skeleton, **options), -1, _title(name, file.path))
+             for i, name in enumerate(file.clip_names)]
+    write(output, onto.encode(edits, mode), force)
+
+
+def info(path: Path) -> Dict[str, Any]:
+    """What a file is. Of a motion file: 'joints' (names), 'clips' (name, frames, seconds), 'mapping'
+    (the joint of each human joint; None where there is no humanoid, with 'error' for the reason).
+    Of a model: 'styles' and 'metadata'."""
+    if pathlib.Path(path).suffix == '.safetensors':
+        model = Model(path)
+        return {'styles': model.styles, 'metadata': model.metadata}
+    file = MotionFile(path)
+    clips = []
+    for i, name in enumerate(file.clip_names):
+        clip = c.Clip()
+        check(lib.motion_file_get_clip(file._handle.pointer, i, clip))
+        clips.append({'name': name, 'frames': clip.frame_count,
+                      'seconds': clip.frame_count * clip.frame_seconds})
+    out: Dict[str, Any] = {'joints': file.joint_names, 'clips': clips, 'mapping': None}
+    try:
+        out['mapping'] = file.skeleton(0 if clips else -1).mapping()
+    except PanacheError as error:
+        out['error'] = str(error)
+    return out

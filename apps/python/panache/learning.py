@@ -1,0 +1,91 @@
+"""New styles, and samples for training of your own."""
+
+import ctypes
+from ctypes import c_size_t
+from dataclasses import dataclass
+from typing import List, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _library as c
+from ._library import Handle, check, lib, sized
+from .clips import Clip
+from .files import Path, read
+from .model import Model
+
+ClipOrPath = Union[Clip, Path]
+
+
+@dataclass
+class Learnt:
+    """A model with a style that was learnt, and how well it went.
+
+    warnings: sentences about the clips.
+    held_back_cm, mean_posture_cm, untouched_cm: mean distance of the joints on the last quarters of
+              the styled clips, held back from a first try, on a body of 1.6 metres: of the style, of
+              its mean posture alone, and of the neutral motion; None where the clips are too short.
+    """
+    model: Model
+    warnings: List[str]
+    held_back_cm: Optional[float]
+    mean_posture_cm: Optional[float]
+    untouched_cm: Optional[float]
+
+
+@dataclass
+class Samples:
+    """What the networks of recipe panache are trained on; read-only views, float32.
+
+    windows:   [samples, 396]: 6 poses 0.05 s apart, newest first, of 66 features: 21 joint positions
+               in the body frame (m), velocity to the left and ahead (m/s), turn rate (rad/s).
+    changes:   [samples, 67]: 21 rotation vectors (rad), height of the hips (m), velocity to the left
+               and ahead (m/s), turn rate (rad/s).
+    log_rates: [samples], logarithm of neutral seconds per styled second.
+    contacts:  [samples, 2], 1 where the left and the right foot of the styled clip are planted.
+    """
+    windows: np.ndarray
+    changes: np.ndarray
+    log_rates: np.ndarray
+    contacts: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.windows)
+
+
+def _clip(source: ClipOrPath) -> Clip:
+    return source if isinstance(source, Clip) else read(source)
+
+
+def learn(model: Model, pairs: Sequence[Tuple[ClipOrPath, ClipOrPath]], name: str,
+          replace: bool = False) -> Learnt:
+    """Learns the style `name` from pairs of one action, (neutral, styled), by the same skeleton: 2
+    to 3 seconds of a walk, or the whole of a gesture. Clips, or paths of files. The model stays as
+    it is; a style of this name is replaced only with `replace`."""
+    clips = [(_clip(neutral), _clip(styled)) for neutral, styled in pairs]
+    array = (c.Pair * max(len(clips), 1))(*[(a._struct(), b._struct()) for a, b in clips])
+    handle = Handle('learnt', lib.learn, model.content, len(model.content), array, len(clips),
+                    name.encode(), replace)
+    size = c_size_t()
+    data = lib.learnt_model(handle.pointer, size)
+    report = sized(c.LearntReport)
+    check(lib.learnt_get_report(handle.pointer, report))
+    distances = [report.held_back_cm, report.mean_posture_cm, report.untouched_cm]
+    return Learnt(Model(ctypes.string_at(data, size.value)),
+                  (report.warnings or b'').decode().splitlines(),
+                  *(distances if report.was_tested else [None] * 3))
+
+
+def training_samples(*sources: Union[ClipOrPath, Tuple[ClipOrPath, ClipOrPath]]) -> Samples:
+    """The samples of clips or files, 30 a second, one source after another. A pair (neutral,
+    styled) gives the windows of the neutral clip for each instant of the styled one, and what the
+    style does there; a clip alone gives its windows, and changes of 0."""
+    pairs = [source if isinstance(source, tuple) else (source, None) for source in sources]
+    clips = [(_clip(a), None if b is None else _clip(b)) for a, b in pairs]
+    array = (c.Pair * max(len(clips), 1))(
+        *[(a._struct(), c.Clip() if b is None else b._struct()) for a, b in clips])
+    handle = Handle('samples', lib.samples_create, array, len(clips))
+    at, count = handle.pointer, lib.samples_count(handle.pointer)
+    return Samples(handle.view(lib.samples_windows(at), (count, 396)),
+                   handle.view(lib.samples_changes(at), (count, 67)),
+                   handle.view(lib.samples_log_rates(at), (count,)),
+                   handle.view(lib.samples_contacts(at), (count, 2)))

@@ -1,0 +1,101 @@
+"""Models."""
+
+import json
+import os
+import pathlib
+from typing import Dict, List, Optional, Union
+
+import numpy as np
+
+from ._files import write
+from ._library import HERE, Handle, PanacheError, lib, take_bytes
+
+_MODELS = HERE / 'models'
+_DEFAULT = 'panache'  # As the program's.
+_TYPES = {'F32': np.float32, 'F16': np.float16, 'I8': np.int8}
+
+
+def shipped_models() -> List[str]:
+    """The names of the models that come with the package, for `Model(name)`."""
+    return sorted(path.stem for path in _MODELS.glob('*.safetensors'))
+
+
+class Model:
+    """A trained model: its styles and networks. Never changes; shared by any number of characters
+    and threads.
+
+    `source` is the path of a .safetensors file, the name of a shipped model ('panache',
+    'panache-int8', ...), the bytes of a file, or None for the shipped default.
+    """
+
+    def __init__(self, source: Union[str, os.PathLike, bytes, None] = None):
+        if isinstance(source, bytes):
+            self.content = source
+        else:
+            shipped = _MODELS / f'{source or _DEFAULT}.safetensors'
+            path = shipped if shipped.exists() else pathlib.Path(source)
+            try:
+                self.content = path.read_bytes()
+            except OSError as error:
+                raise PanacheError(f'{path}: cannot be read: {error.strerror}; the shipped models '
+                                   f'are {", ".join(shipped_models())}') from error
+        self._handle = Handle('model', lib.model_create, self.content, len(self.content))
+        count = lib.model_style_count(self._handle.pointer)
+        self.styles: List[str] = [
+            lib.model_style_name(self._handle.pointer, i).decode() for i in range(count)]
+        """The names of the styles, in the model's order."""
+
+    def __repr__(self) -> str:
+        return f'<panache.Model of {len(self.styles)} styles>'
+
+    def find_style(self, name: str) -> int:
+        """The place of a style. Raises PanacheError where the model has none of that name."""
+        place = lib.model_find_style(self._handle.pointer, name.encode())
+        if place < 0:
+            raise PanacheError(f'unknown style {name!r}; the model has '
+                               f'{", ".join(self.styles) or "no styles yet"}')
+        return place
+
+    def _header(self) -> dict:
+        size = int.from_bytes(self.content[:8], 'little')
+        return json.loads(self.content[8:8 + size])
+
+    @property
+    def metadata(self) -> Dict[str, str]:
+        """What the file says of itself: recipe, data, licence, ..."""
+        return self._header().get('__metadata__', {})
+
+    def tensors(self) -> Dict[str, np.ndarray]:
+        """The tensors of the file by their names, weights as [inputs, outputs]: float32, float16,
+        or int8 with a `.scale` beside. Read-only views of `content`; no copies."""
+        begin = 8 + int.from_bytes(self.content[:8], 'little')
+        out = {}
+        for name, entry in self._header().items():
+            if name != '__metadata__':
+                first, last = entry['data_offsets']
+                data = memoryview(self.content)[begin + first:begin + last]
+                out[name] = np.frombuffer(data, _TYPES[entry['dtype']]).reshape(entry['shape'])
+        return out
+
+    def save(self, path: Union[str, os.PathLike], force: bool = False) -> None:
+        """Writes the model's file, whole or not at all; over an existing one only with `force`."""
+        write(path, self.content, force)
+
+    def extract(self, style: str) -> bytes:
+        """The style file of a style, for `add()` and `panache styles --add`."""
+        return take_bytes(lib.styles_extract, self.content, len(self.content), style.encode())
+
+    def add(self, style_file: bytes, replace: bool = False) -> 'Model':
+        """A model with the style of a style file too. All others stay bit for bit."""
+        return Model(take_bytes(lib.styles_add, self.content, len(self.content), style_file,
+                                len(style_file), replace))
+
+    def remove(self, style: str) -> 'Model':
+        """A model without a style."""
+        return Model(take_bytes(lib.styles_remove, self.content, len(self.content),
+                                style.encode()))
+
+
+def model_of(model: Optional[Model]) -> Model:
+    """The model, or the shipped default."""
+    return Model() if model is None else model

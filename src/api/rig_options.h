@@ -1,0 +1,13 @@
+#pragma once
+// What a program tells about a rig.
+
+#include "base/result.h"
+#include "panache/panache.h"
+#include "rig/rig.h"
+
+namespace panache::api {
+
+// Units, axes and human joints of the options, checked; not their poses.
+Result<RigOptions> read_rig_options(const panache_skeleton_options& options, int32_t joint_count);
+
+}  // namespace panache::api

@@ -1,0 +1,250 @@
+// Motion files in memory.
+#include <memory>
+#include <sstream>
+
+#include "stick_api.h"
+
+namespace {
+
+constexpr int kFrames = 60;
+
+// The stick figure's walk as a BVH file in centimetres; its joints turn about x alone.
+std::string walk_bvh(int frames = kFrames) {
+  std::ostringstream out;
+  out << std::fixed << "HIERARCHY\n";
+  int open = 0;
+  const auto depth = [](int joint) {
+    int d = 0;
+    while ((joint = stick_figure[joint].parent) >= 0) ++d;
+    return d;
+  };
+  for (int j = 0; j < STICK_JOINTS; ++j) {
+    for (; open > depth(j); --open) out << "}\n";
+    const float* v = stick_figure[j].translation;
+    out << (j ? "JOINT " : "ROOT ") << stick_figure[j].name << "\n{\nOFFSET " << 100 * v[0] << ' '
+        << 100 * v[1] << ' ' << 100 * v[2] << "\nCHANNELS "
+        << (j ? "3 " : "6 Xposition Yposition Zposition ") << "Xrotation Yrotation Zrotation\n";
+    ++open;
+    if (j + 1 == STICK_JOINTS || stick_figure[j + 1].parent != j) {
+      out << "End Site\n{\nOFFSET 0 0 5\n}\n";
+    }
+  }
+  for (; open > 0; --open) out << "}\n";
+  out << "MOTION\nFrames: " << frames << "\nFrame Time: 0.016667\n";
+  for (int f = 0; f < frames; ++f) {
+    stick_pose pose;
+    stick_walk(f / 60.0, 0, &pose);
+    for (const float x : pose.translations[0]) out << 100 * x << ' ';
+    for (int j = 0; j < STICK_JOINTS; ++j) {
+      const double angle = 2 * std::atan2(pose.rotations[j][0], pose.rotations[j][3]);
+      out << angle * 180 / M_PI << " 0 0" << (j + 1 < STICK_JOINTS ? " " : "\n");
+    }
+  }
+  return out.str();
+}
+
+struct Destroy {
+  void operator()(panache_motion_file* file) const { panache_motion_file_destroy(file); }
+};
+using File = std::unique_ptr<panache_motion_file, Destroy>;
+
+File open(const std::string& bytes, const char* name = "walk.bvh") {
+  panache_motion_file* out = nullptr;
+  EXPECT_EQ(panache_motion_file_create(bytes.data(), bytes.size(), name, &out), PANACHE_OK)
+      << panache_last_error();
+  return File(out);
+}
+
+panache_clip clip_of(const File& file, int32_t clip = 0) {
+  panache_clip out{};
+  EXPECT_EQ(panache_motion_file_get_clip(file.get(), clip, &out), PANACHE_OK)
+      << panache_last_error();
+  return out;
+}
+
+std::string write(const File& file, const panache_clip_edit& edit) {
+  panache_bytes* out = nullptr;
+  EXPECT_EQ(panache_motion_file_write(file.get(), &edit, 1, PANACHE_REPLACE, &out), PANACHE_OK)
+      << panache_last_error();
+  if (!out) return "";
+  const std::string bytes(static_cast<const char*>(panache_bytes_data(out)),
+                          panache_bytes_size(out));
+  panache_bytes_destroy(out);
+  return bytes;
+}
+
+class MotionFileApi : public panache::test::StickApi {};
+
+TEST_F(MotionFileApi, a_file_tells_its_joints_and_motions) {
+  const File file = open(walk_bvh());
+  ASSERT_EQ(panache_motion_file_joint_count(file.get()), STICK_JOINTS);
+  panache_joint joint;
+  panache_motion_file_get_joint(file.get(), 14, &joint);
+  EXPECT_STREQ(joint.name, "LeftToes");
+  EXPECT_EQ(joint.parent, 13);
+  EXPECT_EQ(joint.rotation[3], 1);
+  EXPECT_EQ(joint.translation[2], 14);
+  EXPECT_EQ(panache_motion_file_clip_count(file.get()), 1);
+  EXPECT_STREQ(panache_motion_file_clip_name(file.get(), 0), "");
+  EXPECT_EQ(panache_motion_file_clip_name(file.get(), 1), nullptr);
+  EXPECT_EQ(panache_motion_file_clip_name(file.get(), -1), nullptr);
+  const panache_clip clip = clip_of(file);
+  EXPECT_EQ(clip.frame_count, kFrames);
+  EXPECT_EQ(clip.frame_seconds, 0.016667);
+  stick_pose pose;
+  stick_walk(9 / 60.0, 0, &pose);
+  for (int k = 0; k < 4; ++k) {  // Degrees have six digits in the file.
+    EXPECT_NEAR(clip.rotations[4 * (9 * STICK_JOINTS + 11) + k], pose.rotations[11][k], 1e-6);
+  }
+  const panache_clip rest = clip_of(file, -1);
+  EXPECT_EQ(rest.frame_count, 1);
+  EXPECT_EQ(rest.rotations[4 * 11 + 3], 1);
+}
+
+TEST_F(MotionFileApi, what_is_not_changed_keeps_its_bytes) {
+  const std::string text = walk_bvh();
+  const File file = open(text);
+  panache_clip_edit edit = {0, nullptr, clip_of(file), nullptr};
+  EXPECT_EQ(write(file, edit), text);
+  std::vector<double> twice;  // Each frame two times: other frames, the same lines.
+  std::vector<float> rotations, translations;
+  for (int f = 0; f < 2 * kFrames; ++f) {
+    const panache_clip& from = edit.frames;
+    twice.push_back(f / 2);
+    const float* q = from.rotations + 4 * STICK_JOINTS * (f / 2);
+    const float* v = from.translations + 3 * STICK_JOINTS * (f / 2);
+    rotations.insert(rotations.end(), q, q + 4 * STICK_JOINTS);
+    translations.insert(translations.end(), v, v + 3 * STICK_JOINTS);
+  }
+  edit.frames = {nullptr, 2 * kFrames, edit.frames.frame_seconds, rotations.data(),
+                 translations.data()};
+  edit.source_frames = twice.data();
+  const std::string written = write(file, edit);
+  std::istringstream lines(text.substr(text.find("Frame Time"))),
+      doubled(written.substr(written.find("Frame Time")));
+  std::string line, first, second;
+  std::getline(lines, line), std::getline(doubled, first);
+  for (int f = 0; f < kFrames; ++f) {
+    std::getline(lines, line), std::getline(doubled, first), std::getline(doubled, second);
+    EXPECT_EQ(first, line) << f;
+    EXPECT_EQ(second, line) << f;
+  }
+}
+
+TEST_F(MotionFileApi, a_motion_is_styled_and_written) {
+  const File file = open(walk_bvh());
+  panache_skeleton* skeleton = nullptr;
+  ASSERT_EQ(panache_motion_file_create_skeleton(file.get(), 0, nullptr, &skeleton), PANACHE_OK)
+      << panache_last_error();
+  EXPECT_EQ(panache_skeleton_find(skeleton, "leftToes"), 14);
+  panache_clip clip = clip_of(file);
+  clip.skeleton = skeleton;
+  const panache_strength_key key = {0, 1};
+  const panache_strength_track old = {panache_model_find_style(model_, "old"), 1, &key};
+  panache_styled_clip* styled = nullptr;
+  ASSERT_EQ(panache_stylize_clip(model_, &clip, &old, 1, nullptr, &styled), PANACHE_OK);
+  const int32_t frames = panache_styled_clip_frame_count(styled);
+  const panache_clip_edit edit = {
+      0,
+      "old",
+      {nullptr, frames, clip.frame_seconds, panache_styled_clip_rotations(styled),
+       panache_styled_clip_translations(styled)},
+      panache_styled_clip_source_frames(styled)};
+  const File written = open(write(file, edit));
+  const panache_clip again = clip_of(written);
+  ASSERT_EQ(again.frame_count, frames);
+  double difference = 0, change = 0;
+  for (int i = 0; i < 4 * STICK_JOINTS; ++i) {
+    const int at = 4 * STICK_JOINTS * (frames - 1) + i;
+    difference = std::max<double>(
+        difference, std::abs(std::abs(again.rotations[at]) - std::abs(edit.frames.rotations[at])));
+    change = std::max<double>(change, std::abs(again.rotations[at] - clip.rotations[at % 1000]));
+  }
+  EXPECT_LT(difference, 1e-5);  // Of six digits of a degree, and of a float.
+  EXPECT_GT(change, 0.05);
+  panache_styled_clip_destroy(styled);
+  panache_skeleton_destroy(skeleton);
+}
+
+TEST_F(MotionFileApi, a_new_motion_takes_the_place_of_a_bvh_files_own) {
+  const File file = open(walk_bvh());
+  panache_clip frames = clip_of(file);
+  frames.frame_count = 5;
+  frames.frame_seconds = 0.05;
+  const panache_clip again = clip_of(open(write(file, {-1, "new", frames, nullptr})));
+  EXPECT_EQ(again.frame_count, 5);
+  EXPECT_EQ(again.frame_seconds, 0.05);
+}
+
+TEST_F(MotionFileApi, what_is_wrong_with_a_file_is_said) {
+  const auto rejection = [](const std::string& bytes, const char* name) {
+    panache_motion_file* none = nullptr;
+    EXPECT_EQ(panache_motion_file_create(bytes.data(), bytes.size(), name, &none),
+              PANACHE_BAD_FILE);
+    EXPECT_EQ(none, nullptr);
+    return std::string(panache_last_error());
+  };
+  EXPECT_EQ(rejection(walk_bvh(), "walk"),
+            "walk: expected a motion file (.bvh, .glb, .gltf, .vrm), found no extension");
+  EXPECT_EQ(rejection(walk_bvh(), "walk.fbx"),
+            "walk.fbx: expected a motion file (.bvh, .glb, .gltf, .vrm), found the extension "
+            "'.fbx'");
+  EXPECT_EQ(rejection("HIERARCHY\nROOF", "a.BVH").substr(0, 9), "a.BVH:2:1");
+  const std::string hinge =
+      "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\nEnd Site\n{\nOFFSET 0 1 0\n}\n}\n"
+      "MOTION\nFrames: 1\nFrame Time: 0.1\n0\n";
+  panache_skeleton* none = nullptr;
+  EXPECT_EQ(panache_motion_file_create_skeleton(open(hinge).get(), 0, nullptr, &none),
+            PANACHE_BAD_SKELETON);
+  EXPECT_EQ(none, nullptr);
+  EXPECT_EQ(std::string(panache_last_error()).substr(0, 10), "walk.bvh: ");
+  EXPECT_EQ(panache_motion_file_create_skeleton(open(hinge).get(), 1, nullptr, &none),
+            PANACHE_BAD_ARGUMENT);
+  EXPECT_STREQ(panache_last_error(), "walk.bvh: there is no motion 1; it has 1");
+  const panache_skeleton_options zeros{};
+  EXPECT_EQ(panache_motion_file_create_skeleton(open(walk_bvh()).get(), 0, &zeros, &none),
+            PANACHE_BAD_ARGUMENT);
+}
+
+TEST_F(MotionFileApi, what_is_wrong_with_an_edit_is_said) {
+  const File file = open(walk_bvh());
+  const panache_clip clip = clip_of(file);
+  const auto rejection = [&](std::vector<panache_clip_edit> edits, int mode = 0) {
+    panache_bytes* none = nullptr;
+    EXPECT_EQ(
+        panache_motion_file_write(file.get(), edits.data(), static_cast<int32_t>(edits.size()),
+                                  static_cast<panache_edit_mode>(mode), &none),
+        PANACHE_BAD_ARGUMENT);
+    EXPECT_EQ(none, nullptr);
+    return std::string(panache_last_error());
+  };
+  const panache_clip_edit good = {0, nullptr, clip, nullptr};
+  EXPECT_EQ(rejection({good}, 3), "there is no edit mode 3; expected 0 to 2");
+  EXPECT_EQ(rejection({}), "walk.bvh: 0 edits; expected 1, as a BVH file holds one motion");
+  EXPECT_EQ(rejection({good, good}),
+            "walk.bvh: 2 edits; expected 1, as a BVH file holds one motion");
+  panache_clip_edit edit = good;
+  edit.clip = 2;
+  EXPECT_EQ(rejection({edit}), "walk.bvh: there is no motion 2; it has 1");
+  edit = good;
+  edit.frames.frame_count = 0;
+  EXPECT_EQ(rejection({edit}), "edit 0: has no frames");
+  edit = good;
+  edit.frames.frame_count = 7;
+  EXPECT_EQ(rejection({edit}), "edit 0: has 7 frames and no source_frames; the motion has 60");
+  const std::vector<double> late(7, 60.0);
+  edit.source_frames = late.data();
+  EXPECT_EQ(rejection({edit}), "edit 0: source frame 0 is 60.000000; expected 0 to 59");
+  edit = good;
+  edit.frames.frame_seconds = 0.5;
+  EXPECT_EQ(rejection({edit}),
+            "edit 0: has frames 0.500000 seconds apart; those of the motion are 0.016667");
+  std::vector<float> rotations(clip.rotations, clip.rotations + 4 * kFrames * STICK_JOINTS);
+  rotations[4 * STICK_JOINTS + 3] = NAN;
+  edit = good;
+  edit.frames.rotations = rotations.data();
+  EXPECT_EQ(rejection({edit}),
+            "edit 0: frames: pose 1, joint 0: its rotation is no unit quaternion (x, y, z, w)");
+}
+
+}  // namespace

@@ -1,0 +1,162 @@
+// Test.exe MODEL NEUTRAL.bvh STYLED.bvh POSES: C# against the C interface. POSES is what c_step
+// wrote of NEUTRAL.bvh.
+
+using System;
+using System.Collections.Generic;
+using System.Diagnostics;
+using System.IO;
+using System.Linq;
+using Panache;
+
+static class Test {
+  static void Expect(bool holds, string what) {
+    if (holds) return;
+    Console.Error.WriteLine("failed: " + what);
+    Environment.Exit(1);
+  }
+  static string Rejection(Action action) {
+    try {
+      action();
+    } catch (PanacheException error) {
+      return error.Message;
+    }
+    return "(accepted)";
+  }
+  static void ExpectRejection(string begin, Action action) {
+    string found = Rejection(action);
+    Expect(found.StartsWith(begin), "expected '" + begin + "...', found '" + found + "'");
+  }
+
+  static void Load(Character character, Clip clip, int frame) {
+    int rotations = character.InputRotations.Length, moves = character.InputTranslations.Length;
+    Array.Copy(clip.Rotations, frame * rotations, character.InputRotations, 0, rotations);
+    Array.Copy(clip.Translations, frame * moves, character.InputTranslations, 0, moves);
+  }
+  static byte[] Play(Character character, Clip clip, int begin, int end, List<double> times = null) {
+    var bytes = new MemoryStream();
+    var writer = new BinaryWriter(bytes);
+    for (int f = begin; f < end; ++f) {
+      Load(character, clip, f);
+      long before = Stopwatch.GetTimestamp();
+      character.Step(clip.FrameSeconds);
+      times?.Add(1e6 * (Stopwatch.GetTimestamp() - before) / Stopwatch.Frequency);
+      foreach (float x in character.Rotations) writer.Write(x);
+      foreach (float x in character.Translations) writer.Write(x);
+    }
+    return bytes.ToArray();
+  }
+
+  static void StepsHaveTheBitsOfC(Model model, Clip walk, byte[] expected) {
+    using (var character = new Character(model, walk.Skeleton)) {
+      character.SetStrength("old", 1);
+      var times = new List<double>();
+      byte[] found = null;
+      for (int turn = 0; turn < 20; ++turn) {
+        character.Reset();
+        found = Play(character, walk, 0, walk.FrameCount, times);
+        GC.Collect();  // The arrays stay where they are.
+      }
+      Expect(found.SequenceEqual(expected), "the bits of C");
+      times.Sort();
+      Console.WriteLine("a step from Mono: {0:F2} us (median)", times[times.Count / 2]);
+    }
+  }
+
+  static void ACharacterIsSavedShapedAndReports(Model model, Clip walk) {
+    var options = new CharacterOptions { HoldFeet = 0, MaxLag = 1 };
+    using (var character = new Character(model, walk.Skeleton, options)) {
+      character.SetStrength("old", 1);
+      Play(character, walk, 0, 120);
+      byte[] state = character.Save();
+      byte[] first = Play(character, walk, 120, 150);
+      Report report = character.Report();
+      Expect(report.Gate > 0 && report.Gate <= 1, "a gate");
+      Expect(report.LeftContact > 0 && report.LeftContact < 1, "a contact");
+      Expect(report.Rate >= 0.5 && report.Rate <= 2 && report.Rate != 1, "a rate");
+      Expect(report.Ahead < 0 && report.Ahead >= -1, "late, as the style is slower");
+      character.Restore(state);
+      Expect(Play(character, walk, 120, 150).SequenceEqual(first), "the same after restore");
+      character.Restore(state);
+      character.SetShape(new Shape { LeftArm = 0 });
+      Expect(!Play(character, walk, 120, 150).SequenceEqual(first), "another with a shape");
+      ExpectRejection("expected the ", () => character.Restore(new byte[9]));
+    }
+    ExpectRejection("max_lag", () => new Character(model, walk.Skeleton,
+                                                   new CharacterOptions { MaxLag = 9 }));
+  }
+
+  static void ASkeletonIsFoundAmongJoints(Model model) {
+    string[] names = { "Hips", "Spine", "Chest", "Neck", "Head", "LeftUpperArm", "LeftLowerArm",
+                       "LeftHand", "RightUpperArm", "RightLowerArm", "RightHand", "LeftUpperLeg",
+                       "LeftLowerLeg", "LeftFoot", "LeftToes", "RightUpperLeg", "RightLowerLeg",
+                       "RightFoot", "RightToes" };
+    int[] parents = { -1, 0, 1, 2, 3, 2, 5, 6, 2, 8, 9, 0, 11, 12, 13, 0, 15, 16, 17 };
+    float[] places = { 0, .95f, 0, 0, .15f, 0, 0, .15f, 0, 0, .22f, 0, 0, .1f, .02f,
+                       .19f, .16f, 0, .02f, -.28f, 0, 0, -.25f, .02f,
+                       -.19f, .16f, 0, -.02f, -.28f, 0, 0, -.25f, .02f,
+                       .09f, -.04f, 0, 0, -.42f, 0, 0, -.41f, -.02f, 0, -.07f, .14f,
+                       -.09f, -.04f, 0, 0, -.42f, 0, 0, -.41f, -.02f, 0, -.07f, .14f };
+    var joints = names.Select((name, j) => new Joint {
+      Name = name, Parent = parents[j], Translation = places.Skip(3 * j).Take(3).ToArray()
+    }).ToArray();
+    using (var skeleton = new Skeleton(joints, "+Y", 1)) {
+      Expect(skeleton.JointCount == 19 && skeleton.Find("leftHand") == 7, "the left hand");
+      Expect(skeleton.Find("leftShoulder") == -1, "no clavicle");
+      using (var character = new Character(model, skeleton)) {
+        Array.Copy(places, character.InputTranslations, places.Length);
+        character.Step(1.0 / 60);
+        Expect(character.Rotations.SequenceEqual(character.InputRotations), "unchanged without style");
+        Expect(character.Translations.SequenceEqual(places), "unchanged without style");
+      }
+    }
+    joints[3].Parent = 9;
+    ExpectRejection("joint 3 'Neck': parent is 9; expected a joint before it, or -1",
+                    () => new Skeleton(joints));
+    joints[3].Parent = 2;
+    ExpectRejection("expected an up axis from +X to -Z, found 'up'",
+                    () => new Skeleton(joints, "up"));
+  }
+
+  static void AStyleIsLearnt(Model model, Clip neutral, Clip styled) {
+    Learnt learnt = Learnt.Learn(model, "mine", neutral, styled);
+    Expect(learnt.WasTested && learnt.HeldBackCm < learnt.UntouchedCm, "nearer with the style");
+    using (var mine = new Model(learnt.ModelFile)) {
+      Expect(mine.Styles.SequenceEqual(model.Styles.Concat(new[] { "mine" })), "one style more");
+      using (var character = new Character(mine, neutral.Skeleton)) {
+        character.SetStrength("mine", 1);
+        Play(character, neutral, 0, 30);
+        Expect(!character.Rotations.SequenceEqual(character.InputRotations), "a change");
+      }
+      ExpectRejection("the model", () => Learnt.Learn(mine, "mine", neutral, styled));
+      Expect(Learnt.Learn(mine, "mine", neutral, styled, true).ModelFile.Length > 0, "replaced");
+    }
+    var brief = new Clip { Skeleton = neutral.Skeleton, Rotations = neutral.Rotations,
+                           Translations = new float[3] };
+    ExpectRejection("clip: has ", () => Learnt.Learn(model, "brief", brief, styled));
+  }
+
+  static void ErrorsAreTheLibrarysSentences(Model model, string walk) {
+    Expect(model.Styles.Contains("old"), "a style");
+    ExpectRejection("model: has 3 bytes; expected a safetensors file", () => new Model(new byte[] { 1, 2, 3 }));
+    ExpectRejection("unknown style 'odl'; the model has active, ", () => model.FindStyle("odl"));
+    string broken = walk + ".broken.bvh";
+    File.WriteAllText(broken, File.ReadAllText(walk).Substring(0, 300));
+    ExpectRejection(broken + ":", () => Clip.Load(broken));
+    ExpectRejection(walk + ": there is no motion 3; it has 1", () => Clip.Load(walk, 3));
+  }
+
+  static int Main(string[] arguments) {
+    var model = Model.Load(arguments[0]);
+    Clip walk = Clip.Load(arguments[1]), styled = Clip.Load(arguments[2]);
+    StepsHaveTheBitsOfC(model, walk, File.ReadAllBytes(arguments[3]));
+    ACharacterIsSavedShapedAndReports(model, walk);
+    ASkeletonIsFoundAmongJoints(model);
+    AStyleIsLearnt(model, walk, styled);
+    ErrorsAreTheLibrarysSentences(model, arguments[1]);
+    for (int i = 0; i < 200; ++i) new Character(model, walk.Skeleton);  // Given back by themselves.
+    GC.Collect();
+    GC.WaitForPendingFinalizers();
+    Console.WriteLine("ok");
+    return 0;
+  }
+}

@@ -1,0 +1,306 @@
+"""The Python package against the program and the library."""
+
+import ctypes
+import os
+import pathlib
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+import panache
+from conftest import angles
+from panache import _library
+
+
+def test_the_package_comes_from_the_wheel():
+    assert pathlib.Path(panache.__file__).is_relative_to(sys.prefix)
+    assert (pathlib.Path(panache.__file__).parent / 'py.typed').exists()
+    assert panache.__version__.startswith('0.')
+
+
+def test_it_took_less_than_ten_seconds_from_nothing_to_a_restyled_file():
+    assert int(os.environ['PANACHE_INSTALL_MS']) < 10000
+
+
+def test_structs_are_those_of_the_header():
+    seen = 0
+    lines = subprocess.run([os.environ['PANACHE_STRUCT_SIZES']], check=True, capture_output=True,
+                           text=True).stdout.split('\n')
+    names = {'input_pose': 'Pose', 'output_pose': 'Pose', 'strength_key': 'Key',
+             'strength_track': 'Track'}
+    for line in filter(None, lines):
+        name, size, *places = line.split()
+        struct = getattr(_library, names.get(name, name.title().replace('_', '')))
+        assert ctypes.sizeof(struct) == int(size), name
+        assert [text for field, _ in struct._fields_
+                for text in (field, str(getattr(struct, field).offset))] == places, name
+        seen += 1
+    own = [value for value in vars(_library).values()
+           if isinstance(value, type) and issubclass(value, ctypes.Structure)]
+    assert seen == len(set(own) - {ctypes.Structure}) + 1  # Two of the header are one here.
+
+
+def test_shipped_models_load_and_their_tensors_are_arrays():
+    assert {'panache', 'panache-base', 'panache-int8', 'smith2019'} <= set(panache.shipped_models())
+    for name in panache.shipped_models():
+        model = panache.Model(name)
+        tensors = model.tensors()
+        assert model.metadata['format'] == 'panache'
+        assert tensors['input.mean'].dtype == np.float32
+        assert len(tensors['input.mean']) == (130 if name == 'smith2019' else 66)
+        weight = tensors['pose.trunk.0.weight']
+        assert weight.dtype == (np.int8 if name == 'panache-int8' else np.float32)
+        assert weight.shape[0] >= 396
+        with pytest.raises(ValueError):
+            weight[0, 0] = 1
+    assert 'old' in panache.Model('panache').styles
+
+
+def test_a_clip_is_read_without_copies_and_strength_0_is_it(model, walk):
+    assert walk.rotations.dtype == np.float32 and len(walk) == 240
+    assert not walk.rotations.flags.owndata and not walk.rotations.flags.writeable
+    same = panache.stylize(model, walk, {'old': 0})
+    assert same.rotations.tobytes() == walk.rotations.tobytes()
+    assert same.translations.tobytes() == walk.translations.tobytes()
+    assert same.source_frames.tolist() == list(range(240))
+    own = np.array(walk.rotations)
+    assert panache.Clip(walk.skeleton, own, walk.translations, 1 / 60).rotations is own
+
+
+@pytest.mark.parametrize('styles', [{'old': 1}, {'proud': 0.7, 'angry': 0.25}])
+def test_a_file_is_restyled_to_the_programs_bytes(styles, walk_file, shipped, run, tmp_path):
+    panache.stylize_file(walk_file, tmp_path / 'a.bvh', styles)
+    wishes = [f'--style={name}={strength}' for name, strength in styles.items()]
+    run('stylize', walk_file, '--model', shipped, *wishes, '-o', tmp_path / 'b.bvh')
+    assert (tmp_path / 'a.bvh').read_bytes() == (tmp_path / 'b.bvh').read_bytes()
+    assert (tmp_path / 'a.bvh').read_bytes() != walk_file.read_bytes()
+
+
+def test_a_glb_with_two_motions_is_restyled_to_the_programs_bytes(walk_file, shipped, run,
+                                                                  tmp_path):
+    run('convert', walk_file, '-o', tmp_path / 'one.glb')
+    run('stylize', tmp_path / 'one.glb', '--model', shipped, '--style', 'sad=1', '-o',
+        tmp_path / 'two.glb')
+    assert panache.MotionFile(tmp_path / 'two.glb').clip_names == ['walk', 'walk (sad 1)']
+    panache.stylize_file(tmp_path / 'two.glb', tmp_path / 'a.glb', {'old': 1.5}, timing=False)
+    run('stylize', tmp_path / 'two.glb', '--model', shipped, '--style', 'old=1.5', '--no-timing',
+        '-o', tmp_path / 'b.glb')
+    assert (tmp_path / 'a.glb').read_bytes() == (tmp_path / 'b.glb').read_bytes()
+    assert len(panache.MotionFile(tmp_path / 'a.glb').clip_names) == 4
+
+
+def test_a_file_is_retargeted_to_the_programs_bytes(walk_file, run, tmp_path):
+    larger = tmp_path / 'larger.bvh'
+    lines = walk_file.read_text().split('\n')
+    head = lines.index('MOTION')
+    for i, line in enumerate(lines[:head]):
+        if 'OFFSET' in line:
+            before, numbers = line.split('OFFSET')
+            lines[i] = f'{before}OFFSET ' + ' '.join(f'{1.3 * float(x):g}' for x in numbers.split())
+    larger.write_text('\n'.join(lines))
+    for character in (larger, walk_file):
+        panache.retarget_file(walk_file, character, tmp_path / 'a.bvh', force=True)
+        run('retarget', walk_file, '--onto', character, '-o', tmp_path / 'b.bvh', '--force')
+        assert (tmp_path / 'a.bvh').read_bytes() == (tmp_path / 'b.bvh').read_bytes()
+    run('convert', larger, '-o', tmp_path / 'hero.glb')
+    panache.retarget_file(walk_file, tmp_path / 'hero.glb', tmp_path / 'a.glb')
+    run('retarget', walk_file, '--onto', tmp_path / 'hero.glb', '-o', tmp_path / 'b.glb')
+    assert (tmp_path / 'a.glb').read_bytes() == (tmp_path / 'b.glb').read_bytes()
+
+
+def test_steps_have_the_bits_of_c_and_cost_at_most_5_us_more(model, walk_file, shipped, walk,
+                                                             tmp_path):
+    character = panache.Character(model, walk.skeleton)
+    character.set_strength('old', 1)
+    times, poses = [], []
+    for turn in range(20):
+        character.reset()
+        poses.clear()
+        for rotations, translations in zip(walk.rotations, walk.translations):
+            character.input_rotations[:] = rotations
+            character.input_translations[:] = translations
+            begin = time.perf_counter_ns()
+            character.step(walk.frame_seconds)
+            times.append(time.perf_counter_ns() - begin)
+            poses += [character.rotations.tobytes(), character.translations.tobytes()]
+    in_c = float(subprocess.run([os.environ['PANACHE_C_STEP'], shipped, walk_file, tmp_path / 'c'],
+                                check=True, capture_output=True, text=True).stdout)
+    here = np.median(times) / 1000
+    print(f'\na step: {here:.2f} us from Python, {in_c:.2f} us from C')
+    assert b''.join(poses) == (tmp_path / 'c').read_bytes()
+    assert here - in_c <= 5
+
+
+def test_a_crowd_and_a_pose_in_other_arrays_are_as_alone(model, walk):
+    characters = [panache.Character(model, walk.skeleton) for _ in range(12)]
+    alone = panache.Character(model, walk.skeleton)
+    for character in (*characters, alone):
+        character.set_strength('proud', 0.8)
+    crowd = panache.Crowd(characters)
+    for rotations, translations in zip(walk.rotations[:40], walk.translations):
+        for character in characters:
+            character.input_rotations[:] = rotations
+            character.input_translations[:] = translations
+        crowd.step(walk.frame_seconds)
+        one = alone.stylize(rotations.astype(np.float64), translations, walk.frame_seconds)
+    for character in characters:
+        assert character.rotations.tobytes() == one[0].tobytes()
+        assert character.translations.tobytes() == one[1].tobytes()
+    assert one[0].tobytes() != rotations.tobytes()
+
+
+def test_a_character_is_saved_shaped_and_reports(model, walk):
+    def play(character, frames):
+        return b''.join(character.stylize(walk.rotations[f], walk.translations[f], 1 / 60)[0]
+                        .tobytes() for f in frames)
+    character = panache.Character(model, walk.skeleton, hold_feet=False)
+    character.set_strength('old', 1)
+    play(character, range(60))
+    state = character.save()
+    first = play(character, range(60, 90))
+    report = character.report()
+    assert 0 < report.gate <= 1 and 0.5 <= report.rate <= 2 and report.ahead == 0
+    character.restore(state)
+    assert play(character, range(60, 90)) == first
+    character.restore(state)
+    character.set_shape(left_arm=0)
+    assert play(character, range(60, 90)) != first
+    with pytest.raises(panache.PanacheError, match='state'):
+        character.restore(state[:-4])
+    with pytest.raises(panache.PanacheError, match="there is no amount 'arm' of a shape"):
+        character.set_shape(arm=1)
+
+
+def test_a_skeleton_is_made_of_arrays(model, walk_file):
+    file = panache.MotionFile(walk_file)
+    rest = panache.MotionFile(walk_file).clip(0)
+    count = len(file.joint_names)
+    identity = np.tile([0.0, 0, 0, 1], (count, 1))
+    skeleton = panache.Skeleton(file.joint_names, file.parents, identity, rest.translations[0],
+                                poses=(rest.rotations[:9], rest.translations[:9]))
+    assert skeleton.mapping()['leftHand'] == rest.skeleton.mapping()['leftHand'] is not None
+    told = panache.Skeleton(file.joint_names, file.parents, identity, rest.translations[0],
+                            poses=(rest.rotations[:9], rest.translations[:9]),
+                            human_joints={'chest': -1})
+    assert told.mapping()['chest'] is None
+    clip = panache.Clip(skeleton, rest.rotations, rest.translations, rest.frame_seconds)
+    assert angles(panache.stylize(model, clip, {'old': 1}, timing=False).rotations,
+                  rest.rotations).max() > 0.1
+
+
+def test_a_strength_follows_its_keys(model, walk):
+    styled = panache.stylize(model, walk, {'old': [(1, 0), (3, 1)]}, timing=False, hold_feet=False)
+    assert np.array_equal(styled.rotations[:55], walk.rotations[:55])
+    assert angles(styled.rotations, walk.rotations).max(1)[-30:].min() > 0.1
+
+
+def test_a_style_is_learnt_from_clips_and_from_files(model, walk, walk_file, shipped, run,
+                                                     tmp_path):
+    styled = panache.stylize(model, walk, {'old': 1})
+    learnt = panache.learn(model, [(walk, styled)], 'mine')
+    assert learnt.model.styles == model.styles + ['mine']
+    assert learnt.held_back_cm < learnt.untouched_cm
+    mine = panache.stylize(learnt.model, walk, {'mine': 1}, timing=False)
+    same = panache.stylize(model, walk, {'old': 1}, timing=False)
+    assert angles(mine.rotations, same.rotations).mean() < \
+        angles(walk.rotations, same.rotations).mean() / 2
+    # From files, and by the program: the same numbers, but for the origin that names the files.
+    panache.stylize_file(walk_file, tmp_path / 'old.bvh', {'old': 1})
+    by_files = panache.learn(model, [(walk_file, tmp_path / 'old.bvh')], 'mine').model
+    (tmp_path / 'm.safetensors').write_bytes(model.content)
+    run('learn', walk_file, tmp_path / 'old.bvh', '--name', 'mine', '--into',
+        tmp_path / 'm.safetensors')
+    of_program = panache.Model(tmp_path / 'm.safetensors').tensors()
+    for name, tensor in by_files.tensors().items():
+        assert tensor.tobytes() == of_program[name].tobytes(), name
+    again = by_files.remove('mine').add(by_files.extract('mine'))
+    assert again.styles == by_files.styles
+    with pytest.raises(panache.PanacheError, match='mine'):
+        panache.learn(by_files, [(walk_file, tmp_path / 'old.bvh')], 'mine')
+
+
+def test_training_samples_are_windows_and_what_the_style_does(model, walk, walk_file):
+    neutral = panache.training_samples(walk_file)
+    assert neutral.windows.shape == (120, 396) and not neutral.changes.any()
+    assert np.array_equal(neutral.windows[57, :66], neutral.windows[60, 132:198])
+    styled = panache.stylize(model, walk, {'old': 1})
+    pair = panache.training_samples((walk, styled))
+    assert pair.windows.shape[1:] == (396,) and pair.changes.shape == (len(pair), 67)
+    assert np.abs(pair.changes).mean() > 0.03
+    assert pair.log_rates.any() and np.abs(pair.log_rates).max() < 1.11  # The logarithm of 3.
+    assert set(np.unique(pair.contacts)) == {0, 1}
+    both = panache.training_samples(walk_file, (walk, styled))
+    assert len(both) == len(neutral) + len(pair)
+
+
+def test_info_tells_of_motions_and_models(walk_file, shipped, tmp_path):
+    walk = panache.info(walk_file)
+    assert walk['clips'] == [{'name': '', 'frames': 240, 'seconds': pytest.approx(4, abs=0.01)}]
+    assert walk['mapping']['hips'] in walk['joints']
+    assert panache.info(shipped)['metadata']['recipe'] == 'panache'
+    (tmp_path / 'rod.bvh').write_text(
+        'HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\nEnd Site\n{\nOFFSET 0 1 0\n}\n}\n'
+        'MOTION\nFrames: 1\nFrame Time: 0.1\n0\n')
+    rod = panache.info(tmp_path / 'rod.bvh')
+    assert rod['mapping'] is None and 'rod.bvh: ' in rod['error']
+
+
+def test_errors_are_the_librarys_sentences(model, walk, walk_file, shipped, tmp_path):
+    def rejection(function, *arguments, **options):
+        with pytest.raises(panache.PanacheError) as caught:
+            function(*arguments, **options)
+        return str(caught.value)
+    broken = tmp_path / 'broken.bvh'
+    broken.write_text(walk_file.read_text()[:400])
+    assert rejection(panache.read, broken).startswith(f'{broken}:')
+    assert rejection(panache.read, tmp_path / 'none.bvh') == \
+        f'{tmp_path}/none.bvh: cannot be read: No such file or directory'
+    assert rejection(panache.read, shipped).startswith(
+        f'{shipped}: expected a motion file (.bvh, .glb, .gltf, .vrm), found')
+    assert 'safetensors' in rejection(panache.Model, b'nothing')
+    assert rejection(panache.Model, 'no-such').startswith('no-such: cannot be read')
+    assert rejection(panache.stylize, model, walk, {'odl': 1}).startswith(
+        "unknown style 'odl'; the model has active, ")
+    bad = np.array(walk.rotations)
+    bad[3, 1] = np.nan
+    assert rejection(panache.stylize, model, panache.Clip(
+        walk.skeleton, bad, walk.translations, 1 / 60), {'old': 1}) == \
+        'clip: pose 3, joint 1: its rotation is no unit quaternion (x, y, z, w)'
+    assert rejection(panache.Clip, walk.skeleton, bad[:, :5], walk.translations, 1 / 60).startswith(
+        'rotations: expected an array of shape (any, ')
+    assert rejection(panache.stylize_file, walk_file, tmp_path / 'o.glb', {'old': 1}).startswith(
+        f'{tmp_path}/o.glb: expected a name that ends in .bvh')
+    (tmp_path / 'o.bvh').write_text('mine')
+    assert rejection(panache.stylize_file, walk_file, tmp_path / 'o.bvh', {'old': 1}) == \
+        f'{tmp_path}/o.bvh: exists already; force=True overwrites it'
+    assert (tmp_path / 'o.bvh').read_text() == 'mine'
+    panache.stylize_file(walk_file, tmp_path / 'o.bvh', {'old': 1}, force=True)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ['broken.bvh', 'o.bvh']
+
+
+def test_memory_of_the_library_outlives_what_made_it(model, walk_file):
+    rotations = panache.stylize(model, panache.read(walk_file), {'old': 1}).rotations
+    before = rotations.tobytes()
+    for _ in range(20):
+        panache.stylize(model, panache.read(walk_file), {'sad': 1})
+    assert rotations.tobytes() == before
+
+
+def test_the_code_of_the_page_runs(walk_file, run, tmp_path, monkeypatch):
+    """Its blocks in their order, as in one notebook; what is after '# ->' is what a line gives."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / 'walk.bvh').write_bytes(walk_file.read_bytes())
+    run('convert', walk_file, '-o', 'hero.glb')
+    text = pathlib.Path(os.environ['PANACHE_PAGE']).read_text()
+    blocks = [part.split('```')[0] for part in text.split('```python\n')[1:]]
+    assert len(blocks) >= 6
+    names = {}
+    for block in blocks:
+        exec(compile(block, 'docs/python.md', 'exec'), names)
+        for line in block.split('\n'):
+            if '  # -> ' in line:
+                code, expected = line.split('  # -> ')
+                assert repr(eval(code, names)) == expected.strip(), line
