@@ -21,6 +21,7 @@ struct GltfNode {
   double scale = 1;      // Of its children, as one number.
   bool matrix = false;   // Placed by a matrix, so that nothing may animate it.
   bool skinned = false;  // A joint of a skin.
+  bool carrier = false;  // Its transform is the weight of an expression or a gaze: no joint.
   bool moves = false;    // In a skin, named in a humanoid, animated, or above such a node.
   int joint = -1;        // In the clips' skeleton; -1 for one that does not move.
   std::string role;      // As in Joint.

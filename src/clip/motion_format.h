@@ -39,6 +39,7 @@ struct MotionFormat {
   // A format that also holds all that such a file holds beside motion; none but its own where
   // empty.
   std::string_view fits_into = {};
+  bool one_motion = false;  // Holds one, whose place an edit takes in any mode.
   bool in_one_file = true;  // Else it points to others, which are inside of what encode() gives.
 };
 

@@ -13,7 +13,7 @@ TEST(MotionFormat, each_is_found_by_its_extension_and_named_once) {
     EXPECT_TRUE(format.parse) << format.extension;
   }
   EXPECT_EQ(find_format(motion_formats(), ".fbx"), nullptr);
-  EXPECT_EQ(list_extensions(motion_formats()), ".bvh, .glb, .gltf, .vrm");
+  EXPECT_EQ(list_extensions(motion_formats()), ".bvh, .glb, .gltf, .vrm, .vrma");
 }
 
 TEST(MotionFormat, what_one_writes_it_reads) {
