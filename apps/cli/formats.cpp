@@ -3,10 +3,12 @@
 #include <vector>
 
 #include "clip/gltf.h"
+#include "clip/smpl.h"
 #include "fbx.h"
 #include "glb.h"
 #include "input.h"
 #include "messages.h"
+#include "npz.h"
 #include "retarget/retarget.h"
 #include "retarget/t_pose_body.h"
 #include "rig/up_axis.h"
@@ -29,6 +31,7 @@ struct OwnBody {
 constexpr OwnBody kOwnBodies[] = {
     // As long in arms and legs as the rig: directions alone bring feet and hands to their places.
     {".vrma", t_pose_body, {.feet = false, .hands = false}},
+    {".npz", [](const Clip&, const Rig&) { return smpl_body(); }, {}},
 };
 
 std::string write_vrma(const Clip& clip, const std::string& name, const Placement&) {
@@ -37,6 +40,12 @@ std::string write_vrma(const Clip& clip, const std::string& name, const Placemen
 
 constexpr MotionFormat kFbx = {
     .extension = ".fbx", .read = read_fbx, .encoded_as = ".glb", .fits_into = ".glb"};
+
+const MotionFormat kNpz = {.extension = ".npz",
+                           .parse = parse_npz,
+                           .write = kWriteNpz,
+                           .encoded_as = ".npz",
+                           .one_motion = true};
 
 // The extensions of the writable formats, the first `skipped` letters left out.
 std::string list_without(size_t skipped) {
@@ -74,6 +83,7 @@ std::span<const MotionFormat> formats() {
       if (format.extension == ".vrma") format.write = write_vrma;
     }
     list.push_back(kFbx);
+    list.push_back(kNpz);
     return list;
   }();
   return all;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/file.h"
+#include "clip/acclaim.h"
 #include "clip/bvh.h"
 #include "clip/gltf.h"
 #include "clip/rest_axes.h"
@@ -56,6 +57,11 @@ constexpr MotionFormat kFormats[] = {
      .parse = parse_vrma,
      .encoded_as = ".vrma",
      .fits_into = ".glb",
+     .one_motion = true},
+    {.extension = ".amc",
+     .parse = parse_amc,
+     .encoded_as = ".bvh",
+     .fits_into = ".bvh",
      .one_motion = true},
 };
 

@@ -127,27 +127,28 @@ TEST_F(Rejection, an_unreadable_path) {
   expect_rejected(
       {"stylize", "folder.bvh", "--style", "old=1", "-o", "out.bvh"}, 1,
       "folder.bvh: holds no motion file, and neither do its folders (.bvh, .glb, .gltf, "
-      ".vrm, .vrma, .fbx)");
+      ".vrm, .vrma, .amc, .fbx, .npz)");
   expect_rejected({"info", "folder.bvh"}, 1, "folder.bvh: is a folder; expected a file");
   expect_rejected({"info", "none.bvh"}, 1, "none.bvh: cannot be read: No such file or directory");
 }
 
 TEST_F(Rejection, an_unknown_extension) {
   write("walk.c3d", "");
-  expect_rejected({"stylize", "walk.c3d", "--style", "old=1", "-o", "out.bvh"}, 1,
-                  "walk.c3d: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .fbx), found "
-                  "the extension "
-                  "'.c3d'");
   expect_rejected(
-      {"stylize", "walk", "--style", "old=1", "-o", "out.bvh"}, 1,
-      "walk: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .fbx), found no extension");
+      {"stylize", "walk.c3d", "--style", "old=1", "-o", "out.bvh"}, 1,
+      "walk.c3d: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc, .fbx, .npz), found "
+      "the extension "
+      "'.c3d'");
+  expect_rejected({"stylize", "walk", "--style", "old=1", "-o", "out.bvh"}, 1,
+                  "walk: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc, .fbx, "
+                  ".npz), found no extension");
   expect_rejected(
       {"stylize", "walk.bvh", "--style", "old=1", "-o", "out.fbx"}, 2,
-      "out.fbx: expected a name that ends in .bvh, .glb or .vrma, or a folder (with a '/' at "
+      "out.fbx: expected a name that ends in .bvh, .glb, .vrma or .npz, or a folder (with a '/' at "
       "its end)");
   expect_rejected(
       {"stylize", "walk.vrm", "--style", "old=1", "-o", "out.gltf"}, 2,
-      "out.gltf: expected a name that ends in .vrm, .bvh, .glb or .vrma, or a folder (with a "
+      "out.gltf: expected a name that ends in .vrm, .bvh, .glb, .vrma or .npz, or a folder (with a "
       "'/' at its end)");
 }
 
