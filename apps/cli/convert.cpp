@@ -76,7 +76,7 @@ Result<std::string> convert_motion(const MotionFile& motion, FileJob& file, cons
     return with_path(file.input, format_clip(clip, &*rig, title, placement_of(*rig), extension));
   }
   // What the user says of joints is meant for a humanoid.
-  if (!options.joints.empty()) return rig.error();
+  if (!options.joints.empty() || holds_humanoids(extension)) return rig.error();
   if (find_format(formats(), extension)->in_metres &&
       !(options.metres_per_unit && options.up_axis)) {
     file.notes.push_back(file.input +

@@ -1,5 +1,8 @@
 #include "formats.h"
 
+#include <algorithm>
+#include <cassert>
+#include <iterator>
 #include <vector>
 
 #include "clip/gltf.h"
@@ -61,15 +64,11 @@ std::string list_without(size_t skipped) {
 }
 
 // The motion on the body that the format has.
-Result<Clip> put_on(const OwnBody& own, const Clip& clip, const Rig* rig) {
-  if (!rig) {
-    return Error{"a " + std::string(own.extension) +
-                 " file holds the motion of a humanoid, and the joints of this one are none's"};
-  }
-  const Clip body = own.make(clip, *rig);
+Result<Clip> put_on(const OwnBody& own, const Clip& clip, const Rig& rig) {
+  const Clip body = own.make(clip, rig);
   Result<Rig> onto = Rig::create(body);
   if (!onto) return onto.error();
-  Result<Retargeted> done = retarget(clip, *rig, body, *onto, own.how);
+  Result<Retargeted> done = retarget(clip, rig, body, *onto, own.how);
   if (!done) return done.error();
   return std::move(done->clip);
 }
@@ -132,11 +131,16 @@ Result<void> check_fits(const MotionFile& file, std::span<const int> clips,
                ") and " + output + " takes one; --clip NAME picks it"};
 }
 
-Placement placement_of(const Rig& rig) { return {rig.scale(), *turn_up(rig.up_axis())}; }
+Placement placement_of(const Rig& rig) { return {rig.unit(), *turn_up(rig.up_axis())}; }
 
 Placement placement_of(const RigOptions& options) {
   return {options.metres_per_unit.value_or(1),
           turn_up(options.up_axis.value_or("+Y")).value_or(Quat{})};
+}
+
+bool holds_humanoids(const std::string& extension) {
+  return std::any_of(std::begin(kOwnBodies), std::end(kOwnBodies),
+                     [&](const OwnBody& own) { return own.extension == extension; });
 }
 
 bool holds_one_motion(const std::string& extension) {
@@ -149,7 +153,8 @@ Result<std::string> format_clip(const Clip& clip, const Rig* rig, const std::str
   const MotionFormat* format = find_format(formats(), extension);
   for (const OwnBody& own : kOwnBodies) {
     if (own.extension != extension) continue;
-    Result<Clip> put = put_on(own, clip, rig);
+    assert(rig);
+    Result<Clip> put = put_on(own, clip, *rig);
     if (!put) return put.error();
     return format->write(*put, name, {});
   }

@@ -44,9 +44,11 @@ Placement placement_of(const RigOptions& options);
 // Whether files with this extension hold one motion.
 bool holds_one_motion(const std::string& extension);
 
-// A new file of this motion alone, with an extension that is_writable(). Formats of a body of their
-// own get the motion on that; `rig` is null where the clip's skeleton is no humanoid, which they
-// reject.
+// Whether files with this extension hold the motion of humanoids and nothing else.
+bool holds_humanoids(const std::string& extension);
+
+// A new file of this motion alone, with an extension that is_writable(). Formats that hold
+// humanoids get the motion on a body of their own; `rig` may be null for others.
 Result<std::string> format_clip(const Clip& clip, const Rig* rig, const std::string& name,
                                 const Placement& placement, const std::string& extension);
 

@@ -42,8 +42,11 @@ Result<GltfDocument> read_document(std::string bytes, const std::string& name) {
   GltfChecker checker(name);
   GltfDocument document;
   if (!read_gltf_container(std::move(bytes), name, checker, document.container) ||
-      !read_gltf_nodes(document, checker) || !read_gltf_channels(document, checker) ||
-      !build_gltf_skeleton(document, checker) || !read_gltf_clips(document, checker)) {
+      !read_gltf_nodes(document, checker) || !read_gltf_channels(document, checker)) {
+    return checker.error();
+  }
+  read_gltf_weights(document);
+  if (!build_gltf_skeleton(document, checker) || !read_gltf_clips(document, checker)) {
     return checker.error();
   }
   return document;

@@ -308,6 +308,8 @@ class SkeletonBuilder {
     Joint joint;
     joint.name = node.name;
     joint.role = node.role;
+    joint.skin = node.skin;
+    joint.skin_weight = node.skin_weight;
     joint.can_rotate = !node.matrix;
     double scale = 1;
     bool below_skin = false;

@@ -62,7 +62,8 @@ void add_finger(Skeleton& body, int hand, const Finger& finger, float size) {
 }  // namespace
 
 Clip t_pose_body(const Clip& clip, const Rig& rig) {
-  const HumanPositions joints = joints_at_rest(clip, rig);
+  HumanPositions joints = joints_at_rest(clip, rig);
+  for (Vec3& p : joints) p *= rig.unit() / rig.scale();
   const auto length_of = [&](int joint) {
     return length(joints[joint] - joints[kHumanParent[joint]]);
   };

@@ -186,8 +186,9 @@ TEST_F(Npz, what_is_no_humanoid_stays_out) {
   const Ran ran = run({"convert", "small.glb", "-o", "small.npz"});
   EXPECT_EQ(
       ran.err,
-      "panache: small.glb: a .npz file holds the motion of a humanoid, and the joints of this "
-      "one are none's\n");
+      "panache: small.glb: no humanoid found: leftHand, rightHand, leftFoot, rightFoot are "
+      "missing among 'Armature', 'Hips', 'Head' (3 joints); expected a person's joints: hips, "
+      "two legs down to the feet and two arms down to the forearms\n");
   EXPECT_FALSE(exists("small.npz"));
 }
 

@@ -160,9 +160,8 @@ TEST_F(Rejection, an_unmapped_rig) {
   write("box.bvh", format_bvh(clip));
   const std::string message =
       "box.bvh: no humanoid found: leftHand, rightHand, leftFoot, rightFoot, head are missing "
-      "among 'Box', 'Lid' (2 joints); expected names such as LeftHand or hand_L, the shape of a "
-      "person, "
-      "or a map that says which joint is which";
+      "among 'Box', 'Lid' (2 joints); expected a person's joints: hips, two legs down to the "
+      "feet and two arms down to the forearms";
   expect_rejected({"stylize", "box.bvh", "--style", "old=1", "-o", "out.bvh"}, 1, message);
 }
 

@@ -273,9 +273,11 @@ TEST_F(Vrma, what_is_none_gets_a_sentence) {
                   "hero.vrma: extensions.VRMC_vrm_animation: expected a humanoid with hips, found "
                   "none; a file without it is a .glb");
   write("small.glb", to_glb(small_gltf()));
-  expect_rejected({"convert", "small.glb", "-o", "small.vrma"},
-                  "small.glb: a .vrma file holds the motion of a humanoid, and the joints of this "
-                  "one are none's");
+  expect_rejected(
+      {"convert", "small.glb", "-o", "small.vrma"},
+      "small.glb: no humanoid found: leftHand, rightHand, leftFoot, rightFoot are missing "
+      "among 'Armature', 'Hips', 'Head' (3 joints); expected a person's joints: hips, "
+      "two legs down to the feet and two arms down to the forearms");
   EXPECT_FALSE(exists("small.vrma"));
 }
 
