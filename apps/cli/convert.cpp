@@ -42,6 +42,11 @@ Result<std::string> whole_file(const MotionFile& motion, const FileJob& file) {
   return read_file(file.input);
 }
 
+Result<std::string> with_path(const std::string& path, Result<std::string> bytes) {
+  if (!bytes) return Error{path + ": " + bytes.error().message};
+  return bytes;
+}
+
 Result<std::string> convert_whole(const MotionFile& motion, FileJob& file,
                                   const ConvertVerb& verb) {
   if (!verb.clip.empty()) {
@@ -68,17 +73,17 @@ Result<std::string> convert_motion(const MotionFile& motion, FileJob& file, cons
   const Result<Rig> rig = make_rig(clip, options, file.input);
   if (rig) {
     file.mapping = mapping_json(*rig);
-    return format_clip(clip, title, placement_of(*rig), extension);
+    return with_path(file.input, format_clip(clip, &*rig, title, placement_of(*rig), extension));
   }
   // What the user says of joints is meant for a humanoid.
-  if (!options.joints.empty()) return rig.error();
+  if (!options.joints.empty() || holds_humanoids(extension)) return rig.error();
   if (find_format(formats(), extension)->in_metres &&
       !(options.metres_per_unit && options.up_axis)) {
     file.notes.push_back(file.input +
                          ": is not a humanoid, so unit and up axis cannot be inferred; taken as "
                          "metres and +Y unless --scale and --up are given");
   }
-  return format_clip(clip, title, placement_of(options), extension);
+  return with_path(file.input, format_clip(clip, nullptr, title, placement_of(options), extension));
 }
 
 Result<void> convert_file(FileJob& file, const ConvertVerb& verb, const RigOptions& options) {
@@ -122,7 +127,7 @@ int convert(const ConvertVerb& verb) {
   }
   if (extension->empty() && files->front().output != verb.batch.output) {
     return fail(
-        {"--output " + verb.batch.output + ": is a folder; expected --to bvh or --to glb with it"},
+        {"--output " + verb.batch.output + ": is a folder; expected --to with it, as in --to bvh"},
         kBadUsage);
   }
   if (!extension->empty() && extension_of(files->front().output) != *extension) {

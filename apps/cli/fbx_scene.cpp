@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace panache::cli {
@@ -162,6 +163,95 @@ void share_bind_pose(aiScene& scene) {
   }
 }
 
+// glTF wants weights that sum to one, in sets of four. The heaviest four of each corner are kept; a
+// corner without any goes with the mesh's first joint.
+void fit_weights(aiMesh& mesh) {
+  constexpr size_t kMost = 4;
+  if (mesh.mNumBones == 0) return;
+  std::vector<std::vector<std::pair<float, unsigned>>> corners(mesh.mNumVertices);
+  for (unsigned b = 0; b < mesh.mNumBones; ++b) {
+    const aiBone& bone = *mesh.mBones[b];
+    for (unsigned i = 0; i < bone.mNumWeights; ++i) {
+      const aiVertexWeight& weight = bone.mWeights[i];
+      if (weight.mVertexId >= corners.size() || !(weight.mWeight > 0)) continue;
+      corners[weight.mVertexId].emplace_back(weight.mWeight, b);
+    }
+  }
+  std::vector<std::vector<aiVertexWeight>> weights(mesh.mNumBones);
+  for (unsigned v = 0; v < corners.size(); ++v) {
+    auto& corner = corners[v];
+    if (corner.empty()) corner.emplace_back(1.0f, 0u);
+    std::stable_sort(corner.begin(), corner.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    corner.resize(std::min(corner.size(), kMost));
+    float sum = 0;
+    for (const auto& [weight, bone] : corner) sum += weight;
+    for (const auto& [weight, bone] : corner) weights[bone].emplace_back(v, weight / sum);
+  }
+  for (unsigned b = 0; b < mesh.mNumBones; ++b) {
+    aiBone& bone = *mesh.mBones[b];
+    delete[] bone.mWeights;
+    bone.mNumWeights = static_cast<unsigned>(weights[b].size());
+    bone.mWeights = new aiVertexWeight[weights[b].size()];
+    std::copy(weights[b].begin(), weights[b].end(), bone.mWeights);
+  }
+}
+
+// Programs count in centimetres below a node that makes them metres, and some scale those up again.
+// Where no scale is animated or differs between axes, nodes get none: it goes into the places of
+// what is below them. Only a mesh without a skin keeps it, in its own node.
+void remove_scales(const aiScene& scene) {
+  for (unsigned a = 0; a < scene.mNumAnimations; ++a) {
+    const aiAnimation& animation = *scene.mAnimations[a];
+    for (unsigned c = 0; c < animation.mNumChannels; ++c) {
+      if (animation.mChannels[c]->mNumScalingKeys > 0) return;
+    }
+  }
+  const std::vector<aiNode*> nodes = all_nodes(scene);
+  aiVector3D scale, place;
+  aiQuaternion turn;
+  for (const aiNode* node : nodes) {
+    node->mTransformation.Decompose(scale, turn, place);
+    const bool even = std::abs(scale.y - scale.x) <= 1e-4f * scale.x &&
+                      std::abs(scale.z - scale.x) <= 1e-4f * scale.x;
+    if (!even || !std::isnormal(scale.x)) return;
+  }
+  std::map<std::string, float> above, removed;  // By the node's name: what it lost, and its parent.
+  for (aiNode* node : nodes) {
+    const std::string name = node->mName.C_Str();
+    above[name] = node->mParent ? removed[node->mParent->mName.C_Str()] : 1.0f;
+    node->mTransformation.Decompose(scale, turn, place);
+    const float all = above[name] * scale.x;
+    const bool keeps =
+        std::any_of(node->mMeshes, node->mMeshes + node->mNumMeshes,
+                    [&](unsigned mesh) { return scene.mMeshes[mesh]->mNumBones == 0; });
+    const float own = keeps ? all : 1.0f;
+    node->mTransformation = aiMatrix4x4({own, own, own}, turn, place * above[name]);
+    removed[name] = all / own;
+  }
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    for (unsigned b = 0; b < scene.mMeshes[m]->mNumBones; ++b) {
+      aiBone& bone = *scene.mMeshes[m]->mBones[b];
+      const auto lost = removed.find(bone.mName.C_Str());
+      if (lost == removed.end()) continue;
+      aiMatrix4x4 grow;
+      aiMatrix4x4::Scaling({lost->second, lost->second, lost->second}, grow);
+      bone.mOffsetMatrix = grow * bone.mOffsetMatrix;
+    }
+  }
+  for (unsigned a = 0; a < scene.mNumAnimations; ++a) {
+    const aiAnimation& animation = *scene.mAnimations[a];
+    for (unsigned c = 0; c < animation.mNumChannels; ++c) {
+      const aiNodeAnim& channel = *animation.mChannels[c];
+      const auto lost = above.find(channel.mNodeName.C_Str());
+      if (lost == above.end()) continue;
+      for (unsigned k = 0; k < channel.mNumPositionKeys; ++k) {
+        channel.mPositionKeys[k].mValue *= lost->second;
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void repair_scene(aiScene& scene) {
@@ -177,6 +267,8 @@ void repair_scene(aiScene& scene) {
   }
   share_bind_pose(scene);
   scene.mRootNode->mTransformation = to_metres_y_up(scene) * scene.mRootNode->mTransformation;
+  remove_scales(scene);
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) fit_weights(*scene.mMeshes[m]);
 }
 
 }  // namespace panache::cli

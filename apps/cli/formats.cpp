@@ -1,12 +1,19 @@
 #include "formats.h"
 
+#include <algorithm>
+#include <cassert>
+#include <iterator>
 #include <vector>
 
 #include "clip/gltf.h"
+#include "clip/smpl.h"
 #include "fbx.h"
 #include "glb.h"
 #include "input.h"
 #include "messages.h"
+#include "npz.h"
+#include "retarget/retarget.h"
+#include "retarget/t_pose_body.h"
 #include "rig/up_axis.h"
 
 namespace panache::cli {
@@ -18,17 +25,52 @@ Result<std::unique_ptr<MotionFile>> read_fbx(const std::string& path) {
   return parse_gltf(*std::move(glb), path);
 }
 
+// The formats that hold a body of their own in T-pose, which a motion has to be put on.
+struct OwnBody {
+  std::string_view extension;
+  Clip (*make)(const Clip& clip, const Rig& rig);
+  RetargetOptions how;
+};
+constexpr OwnBody kOwnBodies[] = {
+    // As long in arms and legs as the rig: directions alone bring feet and hands to their places.
+    {".vrma", t_pose_body, {.feet = false, .hands = false}},
+    {".npz", [](const Clip&, const Rig&) { return smpl_body(); }, {}},
+};
+
+std::string write_vrma(const Clip& clip, const std::string& name, const Placement&) {
+  return format_vrma(clip, name);
+}
+
 constexpr MotionFormat kFbx = {
     .extension = ".fbx", .read = read_fbx, .encoded_as = ".glb", .fits_into = ".glb"};
 
+const MotionFormat kNpz = {.extension = ".npz",
+                           .parse = parse_npz,
+                           .write = kWriteNpz,
+                           .encoded_as = ".npz",
+                           .one_motion = true};
+
 // The extensions of the writable formats, the first `skipped` letters left out.
 std::string list_without(size_t skipped) {
-  std::string list;
+  std::vector<std::string> names;
   for (const MotionFormat& format : formats()) {
-    if (!format.write) continue;
-    list += (list.empty() ? "" : " or ") + std::string(format.extension.substr(skipped));
+    if (format.write) names.emplace_back(format.extension.substr(skipped));
+  }
+  std::string list;
+  for (size_t i = 0; i < names.size(); ++i) {
+    list += (i == 0 ? "" : i + 1 < names.size() ? ", " : " or ") + names[i];
   }
   return list;
+}
+
+// The motion on the body that the format has.
+Result<Clip> put_on(const OwnBody& own, const Clip& clip, const Rig& rig) {
+  const Clip body = own.make(clip, rig);
+  Result<Rig> onto = Rig::create(body);
+  if (!onto) return onto.error();
+  Result<Retargeted> done = retarget(clip, rig, body, *onto, own.how);
+  if (!done) return done.error();
+  return std::move(done->clip);
 }
 
 }  // namespace
@@ -36,7 +78,11 @@ std::string list_without(size_t skipped) {
 std::span<const MotionFormat> formats() {
   static const std::vector<MotionFormat> all = [] {
     std::vector<MotionFormat> list(motion_formats().begin(), motion_formats().end());
+    for (MotionFormat& format : list) {
+      if (format.extension == ".vrma") format.write = write_vrma;
+    }
     list.push_back(kFbx);
+    list.push_back(kNpz);
     return list;
   }();
   return all;
@@ -85,16 +131,34 @@ Result<void> check_fits(const MotionFile& file, std::span<const int> clips,
                ") and " + output + " takes one; --clip NAME picks it"};
 }
 
-Placement placement_of(const Rig& rig) { return {rig.scale(), *turn_up(rig.up_axis())}; }
+Placement placement_of(const Rig& rig) { return {rig.unit(), *turn_up(rig.up_axis())}; }
 
 Placement placement_of(const RigOptions& options) {
   return {options.metres_per_unit.value_or(1),
           turn_up(options.up_axis.value_or("+Y")).value_or(Quat{})};
 }
 
-std::string format_clip(const Clip& clip, const std::string& name, const Placement& placement,
-                        const std::string& extension) {
-  return find_format(formats(), extension)->write(clip, name, placement);
+bool holds_humanoids(const std::string& extension) {
+  return std::any_of(std::begin(kOwnBodies), std::end(kOwnBodies),
+                     [&](const OwnBody& own) { return own.extension == extension; });
+}
+
+bool holds_one_motion(const std::string& extension) {
+  const MotionFormat* format = find_format(formats(), extension);
+  return format && format->one_motion;
+}
+
+Result<std::string> format_clip(const Clip& clip, const Rig* rig, const std::string& name,
+                                const Placement& placement, const std::string& extension) {
+  const MotionFormat* format = find_format(formats(), extension);
+  for (const OwnBody& own : kOwnBodies) {
+    if (own.extension != extension) continue;
+    assert(rig);
+    Result<Clip> put = put_on(own, clip, *rig);
+    if (!put) return put.error();
+    return format->write(*put, name, {});
+  }
+  return format->write(clip, name, placement);
 }
 
 }  // namespace panache::cli

@@ -10,7 +10,7 @@
 
 namespace panache::cli {
 
-// Those of the library, and FBX.
+// Those of the library, and those that only the program reads.
 std::span<const MotionFormat> formats();
 
 // Whether a file with the extension `input` keeps its format where it is written with the extension
@@ -24,7 +24,7 @@ Result<std::string> in_container(std::string bytes, const std::string& input,
 // MotionFile::encode gives those.
 bool must_be_encoded(const std::string& extension);
 
-// The formats that any motion can be written in: ".bvh or .glb", "bvh or glb".
+// The formats that motion of another format can be written in: ".bvh, .glb or .vrma".
 std::string list_writable();
 std::string list_writable_names();
 // Whether a motion can be written with this extension.
@@ -41,8 +41,15 @@ Placement placement_of(const Rig& rig);
 // Of a skeleton that is no humanoid; what is not given is metres and +Y.
 Placement placement_of(const RigOptions& options);
 
-// A new file of this motion alone, with an extension that is_writable().
-std::string format_clip(const Clip& clip, const std::string& name, const Placement& placement,
-                        const std::string& extension);
+// Whether files with this extension hold one motion.
+bool holds_one_motion(const std::string& extension);
+
+// Whether files with this extension hold the motion of humanoids and nothing else.
+bool holds_humanoids(const std::string& extension);
+
+// A new file of this motion alone, with an extension that is_writable(). Formats that hold
+// humanoids get the motion on a body of their own; `rig` may be null for others.
+Result<std::string> format_clip(const Clip& clip, const Rig* rig, const std::string& name,
+                                const Placement& placement, const std::string& extension);
 
 }  // namespace panache::cli

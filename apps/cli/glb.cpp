@@ -81,6 +81,23 @@ std::string percent_encoded(const std::string& path) {
   return out;
 }
 
+// An extension that is no longer supported. The metallic-roughness material says the same.
+void drop_specular_glossiness(OrderedJson& json) {
+  constexpr const char* kName = "KHR_materials_pbrSpecularGlossiness";
+  if (!json.contains("extensionsUsed") || !json.contains("materials")) return;
+  for (OrderedJson& material : json["materials"]) {
+    if (!material.contains("extensions")) continue;
+    material["extensions"].erase(kName);
+    if (material["extensions"].empty()) material.erase("extensions");
+  }
+  OrderedJson used = OrderedJson::array();
+  for (const OrderedJson& name : json["extensionsUsed"]) {
+    if (name != kName) used.push_back(name);
+  }
+  json["extensionsUsed"] = used;
+  if (used.empty()) json.erase("extensionsUsed");
+}
+
 }  // namespace
 
 std::string with_pictures(std::string glb, const std::string& path) {
@@ -90,8 +107,10 @@ std::string with_pictures(std::string glb, const std::string& path) {
   const auto text = glb.begin() + static_cast<ptrdiff_t>(begin);
   OrderedJson json =
       OrderedJson::parse(text, text + static_cast<ptrdiff_t>(length), nullptr, false);
-  if (!json.is_object() || !json.contains("images")) return glb;
-  for (OrderedJson& image : json["images"]) {
+  if (!json.is_object()) return glb;
+  drop_specular_glossiness(json);
+  OrderedJson no_images = OrderedJson::array();
+  for (OrderedJson& image : json.contains("images") ? json["images"] : no_images) {
     if (!image.contains("uri") || !image["uri"].is_string()) continue;
     const std::string uri = image["uri"];
     if (uri.starts_with("data:")) continue;

@@ -10,6 +10,7 @@
 
 #include "base/one_of.h"
 #include "fbx.h"
+#include "formats.h"
 #include "messages.h"
 #include "style/names.h"
 #include "verbs.h"
@@ -62,6 +63,7 @@ std::string one_line(std::string text) {
 
 int run(int argc, char** argv) {
   if (argc == 3 && argv[1] == std::string_view(kFbxReader)) return read_fbx_as_child(argv[2]);
+  set_motion_formats(formats());  // Those of manifests, too.
   int exit_code = kDone;
   CLI::App app(
       "Panache changes the style of motion: neutral motion in, the same motion in an angry, old or "

@@ -3,6 +3,7 @@
 #include "clip/motion_format.h"
 #include "clip/text_cursor.h"
 #include "clip/unique_name.h"
+#include "formats.h"
 
 namespace panache::cli {
 namespace {
@@ -37,7 +38,7 @@ EditMode edit_mode(const PlaceFlags& flags) {
 
 void name_new_motions(FileJob& file, const std::vector<std::string>& has, const PlaceFlags& flags,
                       std::vector<std::string>& names) {
-  if (extension_of(file.output) == ".bvh" || flags.replace) return;
+  if (holds_one_motion(extension_of(file.output)) || flags.replace) return;
   TakenNames taken;
   for (const std::string& name : has) unique_name(name, taken);
   for (std::string& name : names) name = unique_name(name, taken);

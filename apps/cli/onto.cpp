@@ -60,12 +60,14 @@ Result<std::string> CharacterFile::encode(const std::vector<NewMotion>& motions,
                                           const std::string& output) const {
   const std::string to = extension_of(output);
   const bool whole = keeps_format(extension_of(path_), to);
-  if (motions.size() > 1 && (!whole || to == ".bvh")) {
+  if (motions.size() > 1 && (!whole || holds_one_motion(to))) {
     return Error{output + ": takes one motion, found " + plural(motions.size(), "motion") +
                  "; --clip NAME picks one"};
   }
   if (!whole) {
-    return format_clip(motions.front().clip, motions.front().name, placement_of(rig_), to);
+    const NewMotion& only = motions.front();
+    const Result<Rig> rig = rig_of(only.clip, only.name);
+    return format_clip(only.clip, rig ? &*rig : &rig_, only.name, placement_of(rig_), to);
   }
   std::vector<ClipEdit> edits;
   for (const NewMotion& motion : motions)

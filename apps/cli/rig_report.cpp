@@ -1,32 +1,13 @@
 #include "rig_report.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
+#include "rig/usual_unit.h"
+
 namespace panache::cli {
 namespace {
-
-// What the file's unit may be; empty where nothing comes close.
-std::string likely_unit(double metres) {
-  struct Unit {
-    const char* name;
-    double metres;
-  };
-  static constexpr std::array<Unit, 6> kUnits = {{{"metres", 1},
-                                                  {"feet", 0.3048},
-                                                  {"CMU units", 0.0564},
-                                                  {"inches", 0.0254},
-                                                  {"centimetres", 0.01},
-                                                  {"millimetres", 0.001}}};
-  // The scale is that of canonical legs, and people differ: 1.35 lies half-way between the
-  // neighbours in this list that are nearest to each other.
-  for (const Unit& unit : kUnits) {
-    if (std::abs(std::log(metres / unit.metres)) < std::log(1.35)) return unit.name;
-  }
-  return "";
-}
 
 std::string percent(const JointMatch& match) {
   return match.joint.empty() ? "-" : fixed(100.0 * static_cast<double>(match.confidence), 0) + "%";
@@ -52,13 +33,13 @@ std::string table(const std::vector<JointMatch>& matches) {
 }  // namespace
 
 std::string describe_mapping(const Rig& rig, const RigOptions& given) {
-  const auto scale = static_cast<double>(rig.scale());
-  const std::string unit = likely_unit(scale);
-  std::string text = "  unit    " + brief(scale, 3) + " m";
+  const auto usual = usual_unit(static_cast<double>(rig.scale()));
+  std::string text = "  unit    " + brief(static_cast<double>(rig.unit()), 3) + " m";
   if (given.metres_per_unit) {
     text += ", as given\n";
   } else {
-    text += (unit.empty() ? "" : " (" + unit + ", most likely)") + ", inferred from the legs\n";
+    text += (usual ? " (" + std::string(usual->name) + ", most likely)" : "") +
+            ", inferred from the legs\n";
   }
   text += "  up      " + rig.up_axis() + (given.up_axis ? ", as given\n" : "\n");
   text += std::string("  start   ") +
@@ -80,11 +61,13 @@ Json mapping_json(const Rig& rig) {
          {"confidence", std::round(100.0 * static_cast<double>(match.confidence)) / 100},
          {"reason", match.reason}});
   }
-  const auto scale = static_cast<double>(rig.scale());
-  const std::string unit = likely_unit(scale);
-  return {{"metres_per_unit", scale}, {"likely_unit", unit.empty() ? Json() : Json(unit)},
-          {"up_axis", rig.up_axis()}, {"first_frame", rig.first_frame()},
-          {"joints", joints},         {"notes", rig.notes()}};
+  const auto usual = usual_unit(static_cast<double>(rig.scale()));
+  return {{"metres_per_unit", static_cast<double>(rig.unit())},
+          {"likely_unit", usual ? Json(usual->name) : Json()},
+          {"up_axis", rig.up_axis()},
+          {"first_frame", rig.first_frame()},
+          {"joints", joints},
+          {"notes", rig.notes()}};
 }
 
 }  // namespace panache::cli

@@ -133,7 +133,7 @@ Result<std::string> encode(const MotionFile& motion, const std::vector<RestyledC
     return in_container(motion.encode(edits, edit_mode(options.place)), file.input, file.output);
   }
   const RestyledClip& only = clips.front();
-  return format_clip(only.result.clip, only.name, placement_of(only.rig),
+  return format_clip(only.result.clip, &only.rig, only.name, placement_of(only.rig),
                      extension_of(file.output));
 }
 
@@ -309,7 +309,7 @@ void add_stylize(CLI::App& app, int& exit_code) {
   add_rig_options(*verb, options->rig);
   verb->footer(
       "Rig, joint names, channel order and frame rate are kept. An FBX file is written\n"
-      "as GLB. The output may be .bvh or .glb whatever the format of the input.\n\n"
+      "as GLB. The output may be of another format (docs/formats.md).\n\n"
       "Examples:\n"
       "  panache stylize walk.bvh --style old=1 -o old.bvh\n"
       "  panache stylize takes/ --style proud=0.7 --style angry=0..1 -o restyled/\n"

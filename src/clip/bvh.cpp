@@ -16,6 +16,7 @@ class BvhFile final : public MotionFile {
   const Clip& clip(int) const override { return document_.clip; }
   Clip rest() const override { return rest_clip(document_.clip.skeleton); }
   std::string encode(std::span<const ClipEdit> edits, EditMode) const override {
+    if (edits.empty()) return document_.text;
     assert(edits.size() == 1);
     if (edits.front().clip == kNewClip) return format_bvh(*edits.front().changed);
     return encode_bvh(document_, *edits.front().changed, edits.front().source_frames);

@@ -20,6 +20,8 @@ struct Joint {
   bool can_translate = false;  // The file animates its translation.
   std::vector<Vec3> ends;      // End Sites: points fixed to the joint, file units.
   std::string role;            // What the file itself says the joint is ("leftHand"), or empty.
+  int skin = -1;          // Which of the file's skins has vertices that follow it; -1 for none.
+  float skin_weight = 0;  // Vertices of that skin that follow it, by weight.
 };
 
 struct Skeleton {

@@ -11,7 +11,8 @@ namespace {
 
 class GltfFile final : public MotionFile {
  public:
-  explicit GltfFile(GltfDocument document) : document_(std::move(document)) {}
+  GltfFile(GltfDocument document, bool one_motion)
+      : document_(std::move(document)), one_motion_(one_motion) {}
 
   std::vector<std::string> clip_names() const override {
     std::vector<std::string> names;
@@ -29,24 +30,51 @@ class GltfFile final : public MotionFile {
     return out;
   }
   std::string encode(std::span<const ClipEdit> edits, EditMode mode) const override {
-    return encode_gltf(document_, edits, mode);
+    return encode_gltf(document_, edits, one_motion_ ? EditMode::replace : mode);
   }
 
  private:
   GltfDocument document_;
+  bool one_motion_;
 };
+
+Result<GltfDocument> read_document(std::string bytes, const std::string& name) {
+  GltfChecker checker(name);
+  GltfDocument document;
+  if (!read_gltf_container(std::move(bytes), name, checker, document.container) ||
+      !read_gltf_nodes(document, checker) || !read_gltf_channels(document, checker)) {
+    return checker.error();
+  }
+  read_gltf_weights(document);
+  if (!build_gltf_skeleton(document, checker) || !read_gltf_clips(document, checker)) {
+    return checker.error();
+  }
+  return document;
+}
+
+std::unique_ptr<MotionFile> make_file(GltfDocument document, bool one_motion) {
+  return std::make_unique<GltfFile>(std::move(document), one_motion);
+}
 
 }  // namespace
 
 Result<std::unique_ptr<MotionFile>> parse_gltf(std::string bytes, const std::string& name) {
-  GltfChecker checker(name);
-  GltfDocument document;
-  if (!read_gltf_container(std::move(bytes), name, checker, document.container) ||
-      !read_gltf_nodes(document, checker) || !read_gltf_channels(document, checker) ||
-      !build_gltf_skeleton(document, checker) || !read_gltf_clips(document, checker)) {
-    return checker.error();
+  Result<GltfDocument> document = read_document(std::move(bytes), name);
+  if (!document) return document.error();
+  return make_file(*std::move(document), false);
+}
+
+Result<std::unique_ptr<MotionFile>> parse_vrma(std::string bytes, const std::string& name) {
+  Result<GltfDocument> document = read_document(std::move(bytes), name);
+  if (!document) return document.error();
+  const GltfJson& json = document->container.json;
+  const GltfJson::json_pointer hips("/extensions/VRMC_vrm_animation/humanoid/humanBones/hips/node");
+  if (!json.contains(hips)) {
+    return Error{name +
+                 ": extensions.VRMC_vrm_animation: expected a humanoid with hips, found none; a "
+                 "file without it is a .glb"};
   }
-  return std::unique_ptr<MotionFile>(std::make_unique<GltfFile>(std::move(document)));
+  return make_file(*std::move(document), true);
 }
 
 }  // namespace panache

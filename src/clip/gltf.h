@@ -1,5 +1,6 @@
 #pragma once
-// The formats glTF 2.0, GLB and VRM: a tree of nodes, animations of them, and a scene around it.
+// The formats glTF 2.0, GLB, VRM and VRMA: a tree of nodes, animations of them, and a scene around
+// it.
 //
 // Conventions: metres and Y up are what glTF wants, but the numbers of a clip are those of the
 // file's nodes, so a scale or a turn of a node above the body is the parent joints' and counts as
@@ -11,6 +12,10 @@
 // Read are LINEAR, STEP and CUBICSPLINE keys of floats and of normalised whole numbers, sparse or
 // not, at the rate at which the keys of the densest channel lie. Keys at less than 20 a second get
 // frames between them, keys that lie on no rate are read at 24 to 120 frames a second.
+//
+// A VRM animation (.vrma, the extension VRMC_vrm_animation) is a GLB whose nodes stand in T-pose,
+// of which a humanoid names the joints, and one animation. Nodes that carry the weights of
+// expressions or the gaze are no joints; their keys follow the frames.
 //
 // Everything else in a file stays: the JSON is edited in place, and new data goes to its end.
 
@@ -36,6 +41,10 @@ namespace panache {
 // their own, all channels but those of unknown extensions follow, scale and morph weights too.
 Result<std::unique_ptr<MotionFile>> parse_gltf(std::string bytes, const std::string& name);
 
+// The same for a .vrma, which has to name a humanoid with hips. encode() puts an edit in the place
+// of its motion whatever the mode: players take the first animation.
+Result<std::unique_ptr<MotionFile>> parse_vrma(std::string bytes, const std::string& name);
+
 // A new GLB for a clip that came from no glTF file, with a figure of sticks that any viewer shows.
 // Above the clip's roots stands a node named `clip_name`, which is also the animation's name, with
 // the scale `metres_per_unit` (above zero) and the rotation `to_y_up`; so the numbers of the joints
@@ -43,5 +52,10 @@ Result<std::unique_ptr<MotionFile>> parse_gltf(std::string bytes, const std::str
 // file, whatever the poses say. End Sites become nodes without children.
 std::string format_glb(const Clip& clip, const std::string& clip_name, double metres_per_unit,
                        Quat to_y_up);
+
+// A new VRM animation, whose humanoid are the joints that have a role. The skeleton stands in
+// T-pose with rest rotations of the identity, in metres, with +Y up and facing +z; there are hips,
+// and of the joints with a role only they translate.
+std::string format_vrma(const Clip& clip, const std::string& clip_name);
 
 }  // namespace panache

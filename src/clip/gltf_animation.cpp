@@ -90,7 +90,8 @@ class ChannelReader {
     channel.path = path_named(moved);
     // glTF has no animation of a node that a matrix places.
     if (node.matrix && channel.path != GltfPath::weights) channel.path = GltfPath::other;
-    if (channel.path != GltfPath::weights && channel.path != GltfPath::other) node.moves = true;
+    const bool moves = channel.path != GltfPath::weights && channel.path != GltfPath::other;
+    if (moves && !node.carrier) node.moves = true;
     return true;
   }
 
@@ -142,6 +143,7 @@ class ClipReader {
     for (size_t c = 0; c < tracks_.size(); ++c) {
       const GltfPath path = animation.channels[c].path;
       if (path != GltfPath::rotation && path != GltfPath::translation) continue;
+      if (joint_of(animation.channels[c]) < 0) continue;
       const GltfTrack& track = tracks_[c];
       if (track.times.size() <= 2 && track.is_constant()) continue;
       if (!most || track.times.size() > most->times.size()) most = &track;
@@ -187,6 +189,7 @@ class ClipReader {
     }
     for (size_t c = 0; c < tracks_.size(); ++c) {
       const GltfChannel& channel = animation.channels[c];
+      if (channel.path == GltfPath::other || joint_of(channel) < 0) continue;
       if (channel.path == GltfPath::rotation) fill_rotations(animation, channel, tracks_[c]);
       if (channel.path != GltfPath::translation) continue;
       if (!fill_translations(animation, channel, tracks_[c])) {
@@ -197,14 +200,15 @@ class ClipReader {
     return true;
   }
 
-  size_t joint_of(const GltfChannel& channel) const {
-    return static_cast<size_t>(document_.nodes[static_cast<size_t>(channel.node)].joint);
+  // -1 of a node that carries an expression or a gaze.
+  int joint_of(const GltfChannel& channel) const {
+    return document_.nodes[static_cast<size_t>(channel.node)].joint;
   }
 
   void fill_rotations(GltfAnimation& animation, const GltfChannel& channel,
                       const GltfTrack& track) const {
     Clip& clip = animation.clip;
-    const size_t joint = joint_of(channel);
+    const auto joint = static_cast<size_t>(joint_of(channel));
     for (int f = 0; f < clip.frames; ++f) {
       const double seconds = animation.start + f * clip.frame_time;
       float v[4];
@@ -216,7 +220,7 @@ class ClipReader {
   bool fill_translations(GltfAnimation& animation, const GltfChannel& channel,
                          const GltfTrack& track) const {
     Clip& clip = animation.clip;
-    const size_t joint = joint_of(channel);
+    const auto joint = static_cast<size_t>(joint_of(channel));
     clip.skeleton.joints[joint].can_translate = true;
     for (int f = 0; f < clip.frames; ++f) {
       const double seconds = animation.start + f * clip.frame_time;

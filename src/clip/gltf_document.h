@@ -21,9 +21,12 @@ struct GltfNode {
   double scale = 1;      // Of its children, as one number.
   bool matrix = false;   // Placed by a matrix, so that nothing may animate it.
   bool skinned = false;  // A joint of a skin.
+  bool carrier = false;  // Its transform is the weight of an expression or a gaze: no joint.
   bool moves = false;    // In a skin, named in a humanoid, animated, or above such a node.
   int joint = -1;        // In the clips' skeleton; -1 for one that does not move.
   std::string role;      // As in Joint.
+  int skin = -1;         // As in Joint.
+  float skin_weight = 0;
 };
 
 // What a channel of an animation moves.
@@ -65,6 +68,8 @@ inline constexpr size_t kGltfMaxValues = 100'000'000;   // Numbers read, all cha
 
 // gltf_nodes.cpp: the tree of nodes, with what skins and humanoids say of them.
 bool read_gltf_nodes(GltfDocument& document, GltfChecker& checker);
+// gltf_weights.cpp: what of the meshes follows each node.
+void read_gltf_weights(GltfDocument& document);
 // gltf_animation.cpp: what the animations move.
 bool read_gltf_channels(GltfDocument& document, GltfChecker& checker);
 // gltf_nodes.cpp: the joints and the rest pose, once it is known which nodes move.

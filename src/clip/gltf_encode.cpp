@@ -55,7 +55,7 @@ class AnimationWriter {
     for (size_t j = 0; j < clip_.joints(); ++j) {
       const int node = document_.joint_nodes[j];
       for (const GltfPath path : {GltfPath::rotation, GltfPath::translation}) {
-        if (!has_channel(node, path)) add_channel(node, j, path);
+        if (!has_channel(node, path)) add_channel(node, static_cast<int>(j), path);
       }
     }
     result["channels"] = std::move(channels_);
@@ -73,16 +73,18 @@ class AnimationWriter {
     }
   }
 
-  // Whether the joint of a channel is at `frame` what it was in the file; scale and weights are
-  // nobody's to change.
-  bool is_same(int frame, size_t joint, GltfPath path) const {
+  // Whether the joint of a channel is at `frame` what it was in the file; scale, weights and nodes
+  // that are no joints (-1) are nobody's to change.
+  bool is_same(int frame, int which, GltfPath path) const {
+    if (which < 0) return true;
+    const auto joint = static_cast<size_t>(which);
     const ConstPose now = changed_.pose(frame);
     const ConstPose then = keeps_time_ ? clip_.pose(frame) : sampled_.pose(frame);
     if (path == GltfPath::rotation) return now.rotations[joint] == then.rotations[joint];
     if (path == GltfPath::translation) return now.translations[joint] == then.translations[joint];
     return true;
   }
-  bool is_same(size_t joint, GltfPath path) const {
+  bool is_same(int joint, GltfPath path) const {
     if (path != GltfPath::rotation && path != GltfPath::translation) return true;
     for (int i = 0; i < changed_.frames; ++i) {
       if (!is_same(i, joint, path)) return false;
@@ -104,9 +106,10 @@ class AnimationWriter {
     GltfJson json = animation["channels"][which];
     const GltfJson& sampler = animation["samplers"][static_cast<size_t>(channel.sampler)];
     if (channel.path == GltfPath::other) return keep(std::move(json), channel, sampler);
-    // A node whose mesh has weights need not be a joint.
+    // A node whose mesh has weights need not be a joint, and one that carries an expression is
+    // none.
     const int joint = document_.nodes[static_cast<size_t>(channel.node)].joint;
-    const bool same = is_same(static_cast<size_t>(std::max(joint, 0)), channel.path);
+    const bool same = is_same(joint, channel.path);
     if (same && keeps_time_) return keep(std::move(json), channel, sampler);
 
     GltfChecker checker("");
@@ -117,8 +120,7 @@ class AnimationWriter {
     const bool holds = track.times.size() == 1 &&
                        static_cast<double>(track.times[0]) <= seconds(changed_.frames - 1);
     if (same && holds) return keep(std::move(json), channel, sampler);
-    json["sampler"] =
-        add_sampler(sampler, track, static_cast<size_t>(std::max(joint, 0)), channel.path, same);
+    json["sampler"] = add_sampler(sampler, track, joint, channel.path, same);
     channels_.push_back(std::move(json));
   }
 
@@ -133,7 +135,7 @@ class AnimationWriter {
     channels_.push_back(std::move(channel));
   }
 
-  void add_channel(int node, size_t joint, GltfPath path) {
+  void add_channel(int node, int joint, GltfPath path) {
     const GltfNode& placed = document_.nodes[static_cast<size_t>(node)];
     if (placed.matrix || is_same(joint, path)) return;
     const size_t sampler =
@@ -143,8 +145,7 @@ class AnimationWriter {
   }
 
   // A sampler with a key per frame, in other things like `like`; its index in the animation.
-  size_t add_sampler(GltfJson like, const GltfTrack& track, size_t joint, GltfPath path,
-                     bool same) {
+  size_t add_sampler(GltfJson like, const GltfTrack& track, int joint, GltfPath path, bool same) {
     const std::vector<float> numbers = new_numbers(track, joint, path);
     const bool vectors = path == GltfPath::translation || path == GltfPath::scale;
     like["input"] = times_accessor();
@@ -160,12 +161,13 @@ class AnimationWriter {
   }
 
   // A value per frame: where nothing changed the file's own at that time, and so a key's own bits.
-  std::vector<float> new_numbers(const GltfTrack& track, size_t joint, GltfPath path) const {
+  std::vector<float> new_numbers(const GltfTrack& track, int which, GltfPath path) const {
+    const auto joint = static_cast<size_t>(which);
     const size_t n = track.components;
     std::vector<float> numbers(static_cast<size_t>(changed_.frames) * n);
     for (int i = 0; i < changed_.frames; ++i) {
       const std::span<float> out = std::span(numbers).subspan(static_cast<size_t>(i) * n, n);
-      if (is_same(i, joint, path)) {
+      if (is_same(i, which, path)) {
         const double frame = source_frames_[static_cast<size_t>(i)];
         const double last = clip_.frames - 1;
         const double at = seconds(frame > 0 ? std::min(frame, last) : 0.0);

@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kUnsignedShort = 5123;
 constexpr int kVertexData = 34962;
+constexpr const char* kVrmAnimation = "VRMC_vrm_animation";
 // Where an octahedron is widest, and how wide it is there, in lengths of its stick.
 constexpr float kWaist = 0.2f, kHalfWidth = 0.08f;
 
@@ -36,13 +37,29 @@ class GlbFormatter {
   }
 
   std::string format() {
+    begin();
+    add_skin();
+    add_figure();
+    return end();
+  }
+
+  // As a VRM animation: without a figure, but with a humanoid.
+  std::string format_vrma() {
+    begin();
+    add_humanoid();
+    return end();
+  }
+
+ private:
+  void begin() {
     json_["asset"] = {{"version", "2.0"}, {"generator", "Panache"}};
     json_["scene"] = 0;
     json_["scenes"][0]["nodes"].push_back(0);
     add_nodes();
     json_["buffers"][0]["byteLength"] = 0;
-    add_skin();
-    add_figure();
+  }
+
+  std::string end() {
     add_animation();
 
     GltfContainer container;
@@ -52,7 +69,6 @@ class GlbFormatter {
     return write_gltf_container(container, std::move(json_), bytes_);
   }
 
- private:
   // The node above all, the joints, then the End Sites.
   void add_nodes() {
     const Skeleton& skeleton = clip_.skeleton;
@@ -76,6 +92,16 @@ class GlbFormatter {
         json_["nodes"].push_back(
             {{"name", skeleton.joints[j].name + " end"}, {"translation", {end.x, end.y, end.z}}});
       }
+    }
+  }
+
+  void add_humanoid() {
+    json_["extensionsUsed"].push_back(kVrmAnimation);
+    GltfJson& animation = json_["extensions"][kVrmAnimation];
+    animation["specVersion"] = "1.0";
+    for (size_t j = 0; j < clip_.joints(); ++j) {
+      const std::string& role = clip_.skeleton.joints[j].role;
+      if (!role.empty()) animation["humanoid"]["humanBones"][role]["node"] = j + 1;
     }
   }
 
@@ -287,6 +313,10 @@ class GlbFormatter {
 std::string format_glb(const Clip& clip, const std::string& clip_name, double metres_per_unit,
                        Quat to_y_up) {
   return GlbFormatter(clip, clip_name, metres_per_unit, to_y_up).format();
+}
+
+std::string format_vrma(const Clip& clip, const std::string& clip_name) {
+  return GlbFormatter(clip, clip_name, 1, {}).format_vrma();
 }
 
 }  // namespace panache

@@ -47,7 +47,8 @@ class NodeReader {
     for (size_t i = 0; i < nodes_.size(); ++i) {
       if (!read_node((*list)[i], i)) return false;
     }
-    return read_skins() && read_vrm1() && read_vrm0();
+    return read_skins() && read_vrm1("VRMC_vrm") && read_vrm1("VRMC_vrm_animation") &&
+           read_vrm0() && read_carriers();
   }
 
  private:
@@ -163,10 +164,11 @@ class NodeReader {
     return true;
   }
 
-  bool read_vrm1() {
+  // VRM 1.0, and the animations for it, which name their own nodes in the same way.
+  bool read_vrm1(const char* extension) {
     std::string path;
     const GltfJson *humanoid = nullptr, *bones = nullptr;
-    if (!find_humanoid("VRMC_vrm", path, humanoid)) return false;
+    if (!find_humanoid(extension, path, humanoid)) return false;
     if (!humanoid) return true;
     if (!checker_.object(*humanoid, path, "humanBones", bones)) return false;
     if (!bones) return true;
@@ -174,6 +176,44 @@ class NodeReader {
     for (const auto& [role, bone] : bones->items()) {
       const std::string bone_path = member_path(path, role.substr(0, 40));
       if (!checker_.is_object(bone, bone_path) || !set_role(bone, bone_path, role)) return false;
+    }
+    return true;
+  }
+
+  // The nodes of a VRM animation whose places and rotations are weights of expressions and the
+  // gaze: extensions.VRMC_vrm_animation.expressions.{preset,custom}.NAME.node and .lookAt.node.
+  bool read_carriers() {
+    std::string path = "extensions.VRMC_vrm_animation";
+    const GltfJson *extensions = nullptr, *animation = nullptr, *expressions = nullptr;
+    if (!checker_.object(json_, "", "extensions", extensions)) return false;
+    if (!extensions) return true;
+    if (!checker_.object(*extensions, "extensions", "VRMC_vrm_animation", animation)) return false;
+    if (!animation) return true;
+    if (!checker_.object(*animation, path, "expressions", expressions)) return false;
+    if (!read_carrier(*animation, path, "lookAt")) return false;
+    if (!expressions) return true;
+    path += ".expressions";
+    for (const char* kind : {"preset", "custom"}) {
+      const GltfJson* list = nullptr;
+      if (!checker_.object(*expressions, path, kind, list)) return false;
+      if (!list) continue;
+      for (const auto& [name, expression] : list->items()) {
+        if (!read_carrier(*list, member_path(path, kind), name.c_str())) return false;
+      }
+    }
+    return true;
+  }
+
+  bool read_carrier(const GltfJson& object, const std::string& path, const char* key) {
+    const GltfJson* carrier = nullptr;
+    int node = -1;
+    if (!checker_.object(object, path, key, carrier)) return false;
+    if (!carrier) return true;
+    const std::string carrier_path = member_path(path, std::string(key).substr(0, 40));
+    if (!checker_.index(*carrier, carrier_path, "node", nodes_.size(), node)) return false;
+    // What is a joint as well stays one.
+    if (node >= 0 && !nodes_[static_cast<size_t>(node)].moves) {
+      nodes_[static_cast<size_t>(node)].carrier = true;
     }
     return true;
   }
@@ -268,6 +308,8 @@ class SkeletonBuilder {
     Joint joint;
     joint.name = node.name;
     joint.role = node.role;
+    joint.skin = node.skin;
+    joint.skin_weight = node.skin_weight;
     joint.can_rotate = !node.matrix;
     double scale = 1;
     bool below_skin = false;

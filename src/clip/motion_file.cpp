@@ -3,9 +3,16 @@
 #include "clip/motion_format.h"
 
 namespace panache {
+namespace {
+
+std::span<const MotionFormat> known_formats = motion_formats();
+
+}  // namespace
+
+void set_motion_formats(std::span<const MotionFormat> formats) { known_formats = formats; }
 
 Result<std::unique_ptr<MotionFile>> read_motion(const std::string& path) {
-  return read_motion(path, motion_formats());
+  return read_motion(path, known_formats);
 }
 
 }  // namespace panache

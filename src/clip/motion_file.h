@@ -57,8 +57,9 @@ class MotionFile {
   }
 };
 
-// Reads the motion file at `path`, whose extension decides which of motion_formats() it has
-// (clip/motion_format.h). A .gltf may have its data in files beside and below it.
+// Reads the motion file at `path`, whose extension decides which format it has: one of
+// motion_formats(), or of those that a program has set (clip/motion_format.h). A .gltf may have its
+// data in files beside and below it.
 Result<std::unique_ptr<MotionFile>> read_motion(const std::string& path);
 
 }  // namespace panache

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/file.h"
+#include "clip/acclaim.h"
 #include "clip/bvh.h"
 #include "clip/gltf.h"
 #include "clip/rest_axes.h"
@@ -36,7 +37,11 @@ std::string write_glb(const Clip& clip, const std::string& name, const Placement
 }
 
 constexpr MotionFormat kFormats[] = {
-    {.extension = ".bvh", .parse = parse_bvh, .write = write_bvh, .encoded_as = ".bvh"},
+    {.extension = ".bvh",
+     .parse = parse_bvh,
+     .write = write_bvh,
+     .encoded_as = ".bvh",
+     .one_motion = true},
     {.extension = ".glb",
      .parse = parse_gltf,
      .write = write_glb,
@@ -48,6 +53,16 @@ constexpr MotionFormat kFormats[] = {
      .fits_into = ".glb",
      .in_one_file = false},
     {.extension = ".vrm", .parse = parse_gltf, .encoded_as = ".vrm", .fits_into = ".glb"},
+    {.extension = ".vrma",
+     .parse = parse_vrma,
+     .encoded_as = ".vrma",
+     .fits_into = ".glb",
+     .one_motion = true},
+    {.extension = ".amc",
+     .parse = parse_amc,
+     .encoded_as = ".bvh",
+     .fits_into = ".bvh",
+     .one_motion = true},
 };
 
 Result<const MotionFormat*> format_of(const std::string& path,

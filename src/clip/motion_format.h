@@ -39,11 +39,16 @@ struct MotionFormat {
   // A format that also holds all that such a file holds beside motion; none but its own where
   // empty.
   std::string_view fits_into = {};
+  bool one_motion = false;  // Holds one, whose place an edit takes in any mode.
   bool in_one_file = true;  // Else it points to others, which are inside of what encode() gives.
 };
 
 // The formats that the library reads.
 std::span<const MotionFormat> motion_formats();
+
+// Those that read_motion(path) knows from here on, for a program that reads more of them; manifests
+// may name such files then. Called before any thread reads; `formats` outlive everything.
+void set_motion_formats(std::span<const MotionFormat> formats);
 
 // The extension of a file's name in lower case, with its point: ".bvh"; empty where it has none.
 std::string extension_of(const std::string& path);

@@ -24,7 +24,10 @@ bool has_any(const JointName& name, std::initializer_list<std::string_view> word
 std::string finger_of(const JointName& name) {
   static constexpr std::array<std::string_view, 5> kFingers = {"thumb", "index", "middle", "ring",
                                                                "little"};
-  if (has_any(name, {"metacarpal", "carpal", "palm", "ik", "target"})) return "";
+  if (has_any(name, {"ik", "target"})) return "";
+  // A thumb begins in the palm, the other fingers after it.
+  if (name.has("thumb")) return "thumb";
+  if (has_any(name, {"metacarpal", "carpal", "palm"})) return "";
   for (const std::string_view finger : kFingers) {
     if (name.has(finger)) return std::string(finger);
   }
@@ -62,6 +65,14 @@ std::map<Row, std::vector<int>> find_rows(const Skeleton& skeleton, const Rig& r
 }
 
 }  // namespace
+
+std::vector<std::pair<int, std::string>> find_fingers(const Skeleton& skeleton, const Rig& rig) {
+  std::vector<std::pair<int, std::string>> fingers;
+  for (const auto& [row, joints] : find_rows(skeleton, rig)) {
+    if (row.second != "twist") fingers.push_back(row);
+  }
+  return fingers;
+}
 
 std::vector<JointPair> find_further_joints(const Skeleton& from, const Rig& from_rig,
                                            const Skeleton& onto, const Rig& onto_rig) {

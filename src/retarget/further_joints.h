@@ -2,6 +2,8 @@
 // Joints beyond the humanoid that two rigs have in common: fingers, and those that spread a twist
 // over the skin.
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "clip/clip.h"
@@ -20,5 +22,9 @@ struct JointPair {
 // the joints of `onto`.
 std::vector<JointPair> find_further_joints(const Skeleton& from, const Rig& from_rig,
                                            const Skeleton& onto, const Rig& onto_rig);
+
+// The fingers that the rig has, as pairs of the human joint of the hand and "thumb", "index",
+// "middle", "ring" or "little".
+std::vector<std::pair<int, std::string>> find_fingers(const Skeleton& skeleton, const Rig& rig);
 
 }  // namespace panache

@@ -1,6 +1,7 @@
 #include "rig/doubtful.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,40 @@ std::vector<int> path_up(const Skeleton& skeleton, int joint, int end) {
   return path;
 }
 
+bool is_at_or_below(const Skeleton& skeleton, int above, int joint) {
+  while (joint > above) joint = skeleton.joints[static_cast<size_t>(joint)].parent;
+  return joint == above;
+}
+
+// Where the skin of the arms also hangs on joints that do not follow the hips: moving those would
+// tear it.
+std::optional<Error> find_tear(const Skeleton& skeleton, int hips_joint, int arm) {
+  constexpr float kMostLeft = 0.25f;  // Share of the skin: a prop, a hem that hangs on the root.
+  const std::vector<Joint>& joints = skeleton.joints;
+  int skin = -1;
+  for (size_t j = 0; j < joints.size() && skin < 0; ++j) {
+    if (is_at_or_below(skeleton, arm, static_cast<int>(j))) skin = joints[j].skin;
+  }
+  if (skin < 0) return std::nullopt;
+  float all = 0, left = 0;
+  int most = -1;
+  for (size_t j = 0; j < joints.size(); ++j) {
+    if (joints[j].skin != skin) continue;
+    all += joints[j].skin_weight;
+    if (is_at_or_below(skeleton, hips_joint, static_cast<int>(j))) continue;
+    left += joints[j].skin_weight;
+    if (most < 0 || joints[j].skin_weight > joints[static_cast<size_t>(most)].skin_weight) {
+      most = static_cast<int>(j);
+    }
+  }
+  if (!(left > kMostLeft * all)) return std::nullopt;
+  const auto percent = static_cast<int>(std::lround(100 * left / all));
+  return Error{"doubtful: hips would be " + quoted_name(skeleton, hips_joint) +
+               ", which does not move " + std::to_string(percent) +
+               " % of the mesh of leftUpperArm " + quoted_name(skeleton, arm) +
+               ", such as what follows " + quoted_name(skeleton, most) + kCure};
+}
+
 }  // namespace
 
 std::optional<Error> find_doubt(const Skeleton& skeleton, const Mapping& mapping,
@@ -47,6 +82,7 @@ std::optional<Error> find_doubt(const Skeleton& skeleton, const Mapping& mapping
                  ", a control, and leftUpperArm " + quoted_name(skeleton, arm) +
                  ", which deforms the mesh and does not follow it in the file" + kCure};
   }
+  if (auto tear = find_tear(skeleton, joint(hips), arm)) return tear;
   // A spine of at least so many joints that does not carry the arms is no neck.
   constexpr size_t kSpineJoints = 4;
   const int top = joint(head) >= 0 ? joint(head) : joint(neck);

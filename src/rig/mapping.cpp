@@ -30,7 +30,14 @@ Error rejection(const std::vector<Joint>& joints, const std::vector<HumanJoint>&
     text += (i ? ", '" : " among '") + joints[i].name + "'";
   }
   if (joints.size() > kNamed) text += ", ...";
+  // Hips, and of each limb the joints down to the foot or forearm.
+  constexpr size_t kFewest = 11;
   text += " (" + std::to_string(joints.size()) + (joints.size() == 1 ? " joint)" : " joints)");
+  if (joints.size() < kFewest) {
+    return {text +
+            "; expected a person's joints: hips, two legs down to the feet and two arms down to "
+            "the forearms"};
+  }
   return {text +
           "; expected names such as LeftHand or hand_L, the shape of a person, or a map "
           "that says which joint is which"};

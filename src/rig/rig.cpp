@@ -6,6 +6,7 @@
 #include "clip/fk.h"
 #include "rig/doubtful.h"
 #include "rig/posed_rig.h"
+#include "rig/usual_unit.h"
 
 namespace panache {
 namespace {
@@ -78,6 +79,9 @@ Result<Rig> Rig::create(const Clip& clip, const RigOptions& options) {
   shared->skeleton = clip.skeleton;
   shared->mapping = *std::move(mapping);
   shared->calibration = *std::move(calibration);
+  shared->unit = shared->calibration.scale;
+  const auto usual = usual_unit(static_cast<double>(shared->unit));
+  if (usual && !options.metres_per_unit) shared->unit = static_cast<float>(usual->metres);
   shared->notes = shared->mapping.notes;
   shared->notes.insert(shared->notes.end(), shared->calibration.notes.begin(),
                        shared->calibration.notes.end());

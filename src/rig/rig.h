@@ -56,7 +56,11 @@ class Rig {
   // All of the above in the order of the human joints, for showing.
   std::vector<JointMatch> matches() const;
   const std::string& up_axis() const { return shared_->calibration.up_axis; }  // "+Y", "-Z", ...
-  float scale() const { return shared_->calibration.scale; }  // Metres per file unit.
+  // Metres per file unit for legs as long as the canonical body's, unless it was given.
+  float scale() const { return shared_->calibration.scale; }
+  // Metres per file unit as the file most likely means them: a usual unit near scale(), so that a
+  // short person stays short; scale() where none is near, or where it was given.
+  float unit() const { return shared_->unit; }
   float floor() const { return shared_->calibration.floor; }  // Its height, Y up, metres.
   // 1: the first is for calibration.
   int first_frame() const { return shared_->calibration.first_frame; }
@@ -80,6 +84,7 @@ class Rig {
     Skeleton skeleton;
     Mapping mapping;
     Calibration calibration;
+    float unit = 1;
     std::vector<std::string> notes;
     // Human joint of each skeleton joint that a change may rotate, or -1.
     std::vector<int> human_of;

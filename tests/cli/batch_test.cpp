@@ -186,7 +186,7 @@ TEST_F(Batch, a_report_tells_of_each_file) {
 TEST_F(Batch, nothing_found_is_said) {
   EXPECT_EQ(stylize({"takes/*.glb", "-o", "out"}).err,
             "panache: takes/*.glb: no motion file has a name that matches this (.bvh, .glb, .gltf, "
-            ".vrm, .fbx)\n");
+            ".vrm, .vrma, .amc, .fbx, .npz)\n");
   const Ran none = stylize({"none/**/*.bvh", "-o", "out"});
   EXPECT_EQ(none.exit, 1);
   EXPECT_EQ(none.err, "panache: none: cannot be read: No such file or directory\n");

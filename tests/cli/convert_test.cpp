@@ -172,9 +172,9 @@ TEST_F(Convert, a_folder_needs_a_format) {
   write_walk("takes/a.bvh");
   write("takes/b.glb", to_glb(small_gltf()));
   expect_rejected({"takes", "-o", "out"}, 2,
-                  "--output out: is a folder; expected --to bvh or --to glb with it");
+                  "--output out: is a folder; expected --to with it, as in --to bvh");
   expect_rejected({"takes", "-o", "out", "--to", "fbx"}, 2,
-                  "--to: expected bvh or glb, found 'fbx'");
+                  "--to: expected bvh, glb, vrma or npz, found 'fbx'");
   expect_rejected({"walk.bvh", "-o", "out.glb", "--to", "bvh"}, 2,
                   "--to bvh: out.glb has another format");
   convert({"takes", "-o", "out", "--to", "bvh"});

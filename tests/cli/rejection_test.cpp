@@ -127,7 +127,7 @@ TEST_F(Rejection, an_unreadable_path) {
   expect_rejected(
       {"stylize", "folder.bvh", "--style", "old=1", "-o", "out.bvh"}, 1,
       "folder.bvh: holds no motion file, and neither do its folders (.bvh, .glb, .gltf, "
-      ".vrm, .fbx)");
+      ".vrm, .vrma, .amc, .fbx, .npz)");
   expect_rejected({"info", "folder.bvh"}, 1, "folder.bvh: is a folder; expected a file");
   expect_rejected({"info", "none.bvh"}, 1, "none.bvh: cannot be read: No such file or directory");
 }
@@ -136,19 +136,20 @@ TEST_F(Rejection, an_unknown_extension) {
   write("walk.c3d", "");
   expect_rejected(
       {"stylize", "walk.c3d", "--style", "old=1", "-o", "out.bvh"}, 1,
-      "walk.c3d: expected a motion file (.bvh, .glb, .gltf, .vrm, .fbx), found the extension "
+      "walk.c3d: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc, .fbx, .npz), found "
+      "the extension "
       "'.c3d'");
-  expect_rejected(
-      {"stylize", "walk", "--style", "old=1", "-o", "out.bvh"}, 1,
-      "walk: expected a motion file (.bvh, .glb, .gltf, .vrm, .fbx), found no extension");
+  expect_rejected({"stylize", "walk", "--style", "old=1", "-o", "out.bvh"}, 1,
+                  "walk: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc, .fbx, "
+                  ".npz), found no extension");
   expect_rejected(
       {"stylize", "walk.bvh", "--style", "old=1", "-o", "out.fbx"}, 2,
-      "out.fbx: expected a name that ends in .bvh or .glb, or a folder (with a '/' at its "
-      "end)");
+      "out.fbx: expected a name that ends in .bvh, .glb, .vrma or .npz, or a folder (with a '/' at "
+      "its end)");
   expect_rejected(
       {"stylize", "walk.vrm", "--style", "old=1", "-o", "out.gltf"}, 2,
-      "out.gltf: expected a name that ends in .vrm, .bvh or .glb, or a folder (with a '/' "
-      "at its end)");
+      "out.gltf: expected a name that ends in .vrm, .bvh, .glb, .vrma or .npz, or a folder (with a "
+      "'/' at its end)");
 }
 
 TEST_F(Rejection, an_unmapped_rig) {
@@ -159,9 +160,8 @@ TEST_F(Rejection, an_unmapped_rig) {
   write("box.bvh", format_bvh(clip));
   const std::string message =
       "box.bvh: no humanoid found: leftHand, rightHand, leftFoot, rightFoot, head are missing "
-      "among 'Box', 'Lid' (2 joints); expected names such as LeftHand or hand_L, the shape of a "
-      "person, "
-      "or a map that says which joint is which";
+      "among 'Box', 'Lid' (2 joints); expected a person's joints: hips, two legs down to the "
+      "feet and two arms down to the forearms";
   expect_rejected({"stylize", "box.bvh", "--style", "old=1", "-o", "out.bvh"}, 1, message);
 }
 

@@ -118,9 +118,10 @@ TEST_F(RetargetVerb, many_motions_go_into_files_of_the_characters_format) {
 }
 
 TEST_F(RetargetVerb, bad_wishes_are_rejected) {
-  expect_rejected({"retarget", "walk.bvh", "--onto", "hero.glb", "-o", "out.fbx"}, 2,
-                  "out.fbx: expected a name that ends in .bvh or .glb, or a folder (with a '/' at "
-                  "its end)");
+  expect_rejected(
+      {"retarget", "walk.bvh", "--onto", "hero.glb", "-o", "out.fbx"}, 2,
+      "out.fbx: expected a name that ends in .bvh, .glb, .vrma or .npz, or a folder (with a "
+      "'/' at its end)");
   expect_rejected({"retarget", "walk.bvh", "--onto", "none.glb", "-o", "out.glb"}, 1,
                   "none.glb: cannot be read: No such file or directory");
   expect_rejected({"retarget", "hero.glb", "--onto", "walk.bvh", "-o", "out.bvh"}, 1,

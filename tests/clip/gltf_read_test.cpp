@@ -327,5 +327,24 @@ TEST(GltfRead, only_the_top_of_the_skin_moves_where_nothing_else_is_animated_to_
   }
 }
 
+TEST(GltfRead, skins_say_what_follows_each_joint) {
+  test::GltfParts parts = test::character();
+  const auto weight_of = [](const test::GltfParts& from, const std::string& name) {
+    const Clip clip = must_read(from)->clip();
+    const Joint& joint = clip.skeleton.joints[joint_named(clip, name)];
+    EXPECT_EQ(joint.skin, joint.skin_weight > 0 ? 0 : -1) << name;
+    return joint.skin_weight;
+  };
+  // A box has 24 corners; half of them hang half on the bone above, and those of the next one
+  // likewise on this.
+  EXPECT_EQ(weight_of(parts, "LeftHandIndex3"), 18);
+  EXPECT_EQ(weight_of(parts, "LeftHandIndex2"), 24);
+  EXPECT_EQ(weight_of(parts, "Armature"), 0);
+  EXPECT_EQ(weight_of(parts, "Sword"), 0);
+  // What cannot be read says nothing.
+  parts.json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"] = 999;
+  EXPECT_EQ(weight_of(parts, "LeftHandIndex3"), 0);
+}
+
 }  // namespace
 }  // namespace panache

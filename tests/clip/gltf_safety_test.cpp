@@ -12,7 +12,7 @@ using test::GltfParts;
 using test::Json;
 
 // A small file with a little of everything that is read: keys of each kind, whole numbers, a
-// stride, a sparse accessor, a matrix, a humanoid.
+// stride, a sparse accessor, a matrix, a humanoid, an expression, a skinned mesh.
 GltfParts rich_gltf() {
   GltfParts parts = test::small_gltf();
   const size_t times = parts.add_bounded({0.5f, 1}, "SCALAR", 1);
@@ -35,6 +35,18 @@ GltfParts rich_gltf() {
   parts.add_channel(1, 3, "weights", "LINEAR", times, times);
   parts.json["nodes"][0]["matrix"] = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 1, 2, 3, 1};
   parts.json["extensions"]["VRMC_vrm"]["humanoid"]["humanBones"]["hips"]["node"] = 1;
+  Json& vrma = parts.json["extensions"]["VRMC_vrm_animation"];
+  vrma["humanoid"]["humanBones"]["hips"]["node"] = 1;
+  vrma["expressions"]["preset"]["happy"]["node"] = 4;
+  vrma["lookAt"]["node"] = 4;
+  const size_t joints = parts.add(std::vector<uint16_t>{0, 1, 0, 0, 1, 0, 0, 0}, "VEC4", 4);
+  const size_t weights = parts.add(std::vector<float>{0.5f, 0.5f, 0, 0, 1, 0, 0, 0}, "VEC4", 4);
+  parts.json["meshes"][0]["primitives"][0]["attributes"] = {{"JOINTS_0", joints},
+                                                            {"WEIGHTS_0", weights}};
+  parts.json["nodes"][3]["mesh"] = 0;
+  parts.json["nodes"][3]["skin"] = 0;
+  parts.json["nodes"].push_back({{"name", "happy"}});
+  parts.add_channel(0, 4, "translation", "LINEAR", 0, 2);
   parts.json["extensions"]["VRM"]["humanoid"]["humanBones"].push_back(
       {{"bone", "head"}, {"node", 2}});
   return parts;

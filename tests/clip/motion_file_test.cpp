@@ -22,11 +22,12 @@ TEST(MotionFile, the_extension_decides_the_format_in_any_case) {
 }
 
 TEST(MotionFile, an_unknown_extension_is_answered_with_the_known_ones) {
-  EXPECT_EQ(
-      read_rejection("a/walk.fbx"),
-      "a/walk.fbx: expected a motion file (.bvh, .glb, .gltf, .vrm), found the extension '.fbx'");
+  EXPECT_EQ(read_rejection("a/walk.fbx"),
+            "a/walk.fbx: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc), found the "
+            "extension '.fbx'");
   EXPECT_EQ(read_rejection("a.b/walk"),
-            "a.b/walk: expected a motion file (.bvh, .glb, .gltf, .vrm), found no extension");
+            "a.b/walk: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc), found no "
+            "extension");
 }
 
 TEST(MotionFile, a_file_that_cannot_be_read_says_why) {

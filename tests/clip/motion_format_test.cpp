@@ -13,7 +13,7 @@ TEST(MotionFormat, each_is_found_by_its_extension_and_named_once) {
     EXPECT_TRUE(format.parse) << format.extension;
   }
   EXPECT_EQ(find_format(motion_formats(), ".fbx"), nullptr);
-  EXPECT_EQ(list_extensions(motion_formats()), ".bvh, .glb, .gltf, .vrm");
+  EXPECT_EQ(list_extensions(motion_formats()), ".bvh, .glb, .gltf, .vrm, .vrma, .amc");
 }
 
 TEST(MotionFormat, what_one_writes_it_reads) {
@@ -44,6 +44,11 @@ TEST(MotionFormat, a_format_of_a_program_of_its_own_is_read_like_the_others) {
   EXPECT_EQ(asked, "nowhere/walk.OWN");
   EXPECT_EQ(read_motion("walk.bvh", kOwn).error().message,
             "walk.bvh: expected a motion file (.own), found the extension '.bvh'");
+  // As a manifest is read.
+  set_motion_formats(kOwn);
+  EXPECT_EQ(read_motion("nowhere/run.own").error().message, "nowhere/run.own: is none");
+  set_motion_formats(motion_formats());
+  EXPECT_EQ(asked, "nowhere/run.own");
 }
 
 }  // namespace

@@ -59,6 +59,44 @@ TEST(Doubtful, arms_beside_the_spine_are_rejected) {
             "that says which these are, or the motion styled where its controls are");
 }
 
+// The same without names that tell: the skin does.
+TEST(Doubtful, a_skin_that_the_hips_do_not_move_is_rejected) {
+  const std::vector<Line> lines = {{"root", "", hips, 0},
+                                   {"torso", "root", hips},
+                                   {"spine control", "torso", spine},
+                                   {"chest control", "spine control", chest},
+                                   {"head control", "chest control", head},
+                                   {"belly", "root", spine},
+                                   {"breast", "belly", chest},
+                                   {"arm.*", "chest control", left_upper_arm},
+                                   {"forearm.*", "arm.*", left_lower_arm},
+                                   {"hand.*", "forearm.*", left_hand},
+                                   {"thigh.*", "torso", left_upper_leg},
+                                   {"shin.*", "thigh.*", left_lower_leg},
+                                   {"foot.*", "shin.*", left_foot}};
+  const auto with_weights = [&](float torso, int skin) {
+    Clip clip = make_up(lines, "L", "R").clip();
+    for (Joint& joint : clip.skeleton.joints) {
+      const bool on_limb = joint.name.ends_with("L") || joint.name.ends_with("R");
+      const bool on_torso = joint.name == "belly" || joint.name == "breast";
+      if (!on_limb && !on_torso) continue;
+      joint.skin = on_torso ? skin : 0;
+      joint.skin_weight = on_torso ? torso : 100;
+    }
+    const Result<Rig> rig = Rig::create(clip);
+    return rig ? "" : rig.error().message;
+  };
+  // 1200 on twelve joints of limbs.
+  EXPECT_EQ(
+      with_weights(400, 0),
+      "doubtful: hips would be 'torso', which does not move 40 % of the mesh of leftUpperArm "
+      "'arm.L', such as what follows 'belly'; expected the joints that deform the mesh in one "
+      "hierarchy, a map that says which these are, or the motion styled where its controls "
+      "are");
+  EXPECT_EQ(with_weights(180, 0), "");  // Less than a quarter.
+  EXPECT_EQ(with_weights(400, 1), "");  // Another mesh.
+}
+
 TEST(Doubtful, rigs_that_deform_in_one_hierarchy_are_not) {
   const std::vector<Line> lines = {{"rig", "", hips, 0},
                                    {"DEF-spine", "rig", hips},

@@ -213,8 +213,19 @@ std::string rejection(const std::vector<Line>& lines) {
 TEST(Mapping, a_robot_arm_is_rejected_by_name) {
   EXPECT_EQ(rejection({{"Base", "", hips}, {"Arm1", "Base", chest}, {"Arm2", "Arm1", head}}),
             "no humanoid found: leftHand, rightHand, leftFoot, rightFoot, head are missing among "
-            "'Base', 'Arm1', 'Arm2' (3 joints); expected names such as LeftHand or hand_L, the "
-            "shape of a person, or a map that says which joint is which");
+            "'Base', 'Arm1', 'Arm2' (3 joints); expected a person's joints: hips, two legs down "
+            "to the feet and two arms down to the forearms");
+}
+
+// As in packs of small figures: no names and no map make legs of these.
+TEST(Mapping, a_figure_without_legs_is_rejected_with_what_it_lacks) {
+  EXPECT_EQ(rejection({{"Body", "", hips},
+                       {"Head", "Body", head},
+                       {"arm*", "Body", left_upper_arm},
+                       {"handSlot*", "arm*", left_hand}}),
+            "no humanoid found: leftFoot, rightFoot are missing among 'Body', 'Head', 'armLeft', "
+            "'armRight', 'handSlotLeft', 'handSlotRight' (6 joints); expected a person's "
+            "joints: hips, two legs down to the feet and two arms down to the forearms");
 }
 
 TEST(Mapping, a_hand_without_an_arm_is_rejected) {

@@ -10,7 +10,7 @@ namespace panache::web {
 std::string format_clip(const Clip& clip, const Rig& rig, const std::string& extension) {
   if (extension != ".bvh") {
     const Quat to_y_up = turn_up(rig.up_axis()).value_or(Quat{});
-    return format_glb(clip, "styled", static_cast<double>(rig.scale()), to_y_up);
+    return format_glb(clip, "styled", static_cast<double>(rig.unit()), to_y_up);
   }
   Clip out = in_rest_axes(clip);
   add_end_sites(out.skeleton);

@@ -1,0 +1,131 @@
+#include "npz.h"
+
+#include <algorithm>
+#include <cassert>
+#include <vector>
+
+#include <zip.h>
+
+#include "clip/smpl.h"
+
+namespace panache::cli {
+namespace {
+
+constexpr size_t kLargest = size_t{1} << 30;  // Bytes of all members, unpacked.
+constexpr zip_int64_t kMostMembers = 1000;
+
+// What libzip opened, closed again without a change.
+class Archive {
+ public:
+  explicit Archive(const std::string& bytes) {
+    zip_error_t error;
+    zip_error_init(&error);
+    zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
+    if (source) zip_ = zip_open_from_source(source, ZIP_RDONLY, &error);
+    if (!zip_) {
+      message_ = zip_error_strerror(&error);
+      if (source) zip_source_free(source);
+    }
+    zip_error_fini(&error);
+  }
+  ~Archive() {
+    if (zip_) zip_discard(zip_);
+  }
+  Archive(const Archive&) = delete;
+  Archive& operator=(const Archive&) = delete;
+
+  zip_t* get() const { return zip_; }
+  const std::string& message() const { return message_; }
+
+ private:
+  zip_t* zip_ = nullptr;
+  std::string message_;
+};
+
+// The bytes of a member; what its header says of their number is not trusted.
+Result<std::string> unpack(zip_t* zip, zip_uint64_t which, size_t most, const std::string& place) {
+  zip_file_t* file = zip_fopen_index(zip, which, 0);
+  if (!file) return Error{place + ": cannot be unpacked: " + zip_strerror(zip)};
+  std::string out;
+  std::vector<char> block(1 << 16);
+  zip_int64_t got = 0;
+  while ((got = zip_fread(file, block.data(), block.size())) > 0 && out.size() <= most) {
+    out.append(block.data(), static_cast<size_t>(got));
+  }
+  const std::string message = got < 0 ? zip_file_strerror(file) : "";
+  zip_fclose(file);
+  if (!message.empty()) return Error{place + ": cannot be unpacked: " + message};
+  if (out.size() > most) return Error{place + ": expected at most 1 GB unpacked, found more"};
+  return out;
+}
+
+Result<std::vector<NpzMember>> unpack_all(const std::string& bytes, const std::string& path) {
+  const Archive archive(bytes);
+  if (!archive.get()) {
+    return Error{path + ": expected an archive as numpy.savez writes it, found none (" +
+                 archive.message() + ")"};
+  }
+  const zip_int64_t count = zip_get_num_entries(archive.get(), 0);
+  if (count > kMostMembers) {
+    return Error{path + ": expected at most " + std::to_string(kMostMembers) + " arrays, found " +
+                 std::to_string(count)};
+  }
+  std::vector<NpzMember> members;
+  size_t left = kLargest;
+  for (zip_int64_t i = 0; i < count; ++i) {
+    const auto which = static_cast<zip_uint64_t>(i);
+    const char* name = zip_get_name(archive.get(), which, ZIP_FL_ENC_RAW);
+    const std::string known = name ? name : "";
+    Result<std::string> unpacked =
+        unpack(archive.get(), which, left, path + ": " + known.substr(0, 40));
+    if (!unpacked) return unpacked.error();
+    left -= unpacked->size();
+    members.push_back({known, *std::move(unpacked)});
+  }
+  return members;
+}
+
+// Writing to memory fails only where memory does.
+std::string pack(const std::vector<NpzMember>& members) {
+  zip_error_t error;
+  zip_error_init(&error);
+  zip_source_t* target = zip_source_buffer_create(nullptr, 0, 0, &error);
+  zip_source_keep(target);
+  zip_t* zip = zip_open_from_source(target, ZIP_TRUNCATE, &error);
+  assert(zip);
+  for (const NpzMember& member : members) {
+    zip_source_t* source = zip_source_buffer(zip, member.bytes.data(), member.bytes.size(), 0);
+    const zip_int64_t at = zip_file_add(zip, member.name.c_str(), source, ZIP_FL_OVERWRITE);
+    assert(at >= 0);
+    const auto which = static_cast<zip_uint64_t>(at);
+    zip_set_file_compression(zip, which, ZIP_CM_STORE, 0);
+    zip_file_set_dostime(zip, which, 0, 1 << 5 | 1, 0);  // 1980-01-01, as numpy has it.
+  }
+  [[maybe_unused]] const int closed = zip_close(zip);
+  assert(closed == 0);
+  zip_source_open(target);
+  zip_source_seek(target, 0, SEEK_END);
+  std::string out(static_cast<size_t>(zip_source_tell(target)), '\0');
+  zip_source_seek(target, 0, SEEK_SET);
+  zip_source_read(target, out.data(), out.size());
+  zip_source_close(target);
+  zip_source_free(target);
+  zip_error_fini(&error);
+  return out;
+}
+
+std::string write_npz(const Clip& clip, const std::string&, const Placement&) {
+  return pack(format_smpl(clip));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<MotionFile>> parse_npz(std::string bytes, const std::string& path) {
+  Result<std::vector<NpzMember>> members = unpack_all(bytes, path);
+  if (!members) return members.error();
+  return parse_smpl(*std::move(members), std::move(bytes), pack, path);
+}
+
+std::string (*const kWriteNpz)(const Clip&, const std::string&, const Placement&) = write_npz;
+
+}  // namespace panache::cli

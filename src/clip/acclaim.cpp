@@ -1,0 +1,487 @@
+#include "clip/acclaim.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "base/file.h"
+#include "clip/bvh.h"
+#include "clip/text_cursor.h"
+
+namespace panache {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t kMaxBones = 10'000;
+constexpr int kMaxDepth = 1'000;
+constexpr size_t kMaxPoses = 50'000'000;  // Joints times frames.
+
+constexpr double kDegree = 3.14159265358979323846 / 180;
+
+// A number of a frame: what it moves.
+struct Channel {
+  bool rotates = false;
+  int axis = 0;  // 0 x, 1 y, 2 z.
+};
+
+struct Bone {
+  std::string name;
+  Vec3d tip;   // From its beginning to its end, file units.
+  Quatd axes;  // C.
+  std::vector<Channel> channels;
+  int parent = -1;
+};
+
+// The first is the root.
+struct Acclaim {
+  std::vector<Bone> bones;  // Parents before children.
+  Vec3d root_place;
+  double per_degree = kDegree;  // Radians of an angle in the file; 1 where it has radians.
+};
+
+Quatd turn_about(int axis, double angle) {
+  Vec3d v;
+  (axis == 0 ? v.x : axis == 1 ? v.y : v.z) = 1;
+  return axis_angle(v, angle);
+}
+
+// Reads the words of a text, without comments from '#' to the end of a line.
+class Words {
+ public:
+  Words(std::string_view text, const std::string& name) : cursor_(text, name) { next(); }
+
+  TextCursor& cursor() { return cursor_; }
+  bool at_end() const { return cursor_.at_end(); }
+  // To the next word, on whatever line it is.
+  void next() {
+    cursor_.skip_space();
+    while (!at_end() && cursor_.word().starts_with('#')) skip_line();
+  }
+  bool take(std::string_view keyword) {
+    if (!cursor_.take(keyword)) return false;
+    next();
+    return true;
+  }
+  std::string take_word() {
+    const std::string word(cursor_.word());
+    cursor_.take(word);
+    next();
+    return word;
+  }
+  // Whether the line goes on; words of a line are read with these two.
+  bool more_on_line() {
+    cursor_.skip_spaces();
+    return !cursor_.at_line_end();
+  }
+  std::string take_on_line() {
+    const std::string word(cursor_.word());
+    cursor_.take(word);
+    return word;
+  }
+  void skip_line() {
+    while (!cursor_.at_line_end()) take_on_line_or_space();
+    cursor_.skip_space();
+  }
+  Result<void> number(double& out, const std::string& of_what) {
+    cursor_.skip_spaces();
+    if (!cursor_.take_number(out)) return cursor_.number_error(of_what);
+    return {};
+  }
+  Result<void> vector(Vec3d& out, const std::string& of_what) {
+    for (double* x : {&out.x, &out.y, &out.z}) {
+      if (auto done = number(*x, of_what); !done) return done;
+    }
+    return {};
+  }
+
+ private:
+  void take_on_line_or_space() {
+    if (more_on_line()) take_on_line();
+  }
+
+  TextCursor cursor_;
+};
+
+// "XYZ", as an order of axes.
+bool read_order(const std::string& word, std::array<int, 3>& order) {
+  if (word.size() != 3) return false;
+  for (size_t i = 0; i < 3; ++i) {
+    const char c = static_cast<char>(word[i] | 0x20);
+    if (c < 'x' || c > 'z') return false;
+    order[i] = c - 'x';
+  }
+  return order[0] != order[1] && order[1] != order[2] && order[0] != order[2];
+}
+
+class AsfReader {
+ public:
+  AsfReader(std::string_view text, const std::string& name) : name_(name), words_(text, name) {}
+
+  Result<Acclaim> read() {
+    while (!words_.at_end()) {
+      if (auto done = read_section(); !done) return done.error();
+    }
+    if (!has_root_) return Error{name_ + ": expected ':root', found the end of the file"};
+    if (!has_hierarchy_) return Error{name_ + ": expected ':hierarchy', found the end of the file"};
+    return order();
+  }
+
+ private:
+  Result<void> read_section() {
+    if (words_.take(":units")) return read_units();
+    if (words_.take(":root")) return read_root();
+    if (words_.take(":bonedata")) return read_bones();
+    if (words_.take(":hierarchy")) return read_hierarchy();
+    if (!words_.cursor().word().starts_with(':')) {
+      return words_.cursor().error("a section such as ':root'");
+    }
+    skip_section();
+    return {};
+  }
+  void skip_section() {
+    do {
+      words_.skip_line();
+      words_.next();
+    } while (!in_next_section());
+  }
+  bool in_next_section() { return words_.at_end() || words_.cursor().word().starts_with(':'); }
+
+  Result<void> read_units() {
+    while (!in_next_section()) {
+      if (words_.cursor().take("angle")) {
+        words_.more_on_line();
+        const bool radians = words_.cursor().is_at("rad");
+        if (!radians && !words_.cursor().is_at("deg")) return words_.cursor().error("deg or rad");
+        file_.per_degree = radians ? 1 : kDegree;
+      }
+      words_.skip_line();
+      words_.next();
+    }
+    return {};
+  }
+
+  Result<void> read_root() {
+    has_root_ = true;
+    root_.name = "root";
+    Vec3d orientation;
+    std::array<int, 3> order = {0, 1, 2};
+    while (!in_next_section()) {
+      if (words_.cursor().take("order")) {
+        if (auto done = read_channels(root_); !done) return done;
+      } else if (words_.cursor().take("axis")) {
+        if (auto done = read_axis_order(order); !done) return done;
+      } else if (words_.cursor().take("position")) {
+        if (auto done = words_.vector(file_.root_place, "the position"); !done) return done;
+      } else if (words_.cursor().take("orientation")) {
+        if (auto done = words_.vector(orientation, "the orientation"); !done) return done;
+      } else {
+        return words_.cursor().error("order, axis, position or orientation");
+      }
+      words_.next();
+    }
+    root_.axes = turned(order, orientation);
+    return {};
+  }
+
+  // The word at the end of an "axis".
+  Result<void> read_axis_order(std::array<int, 3>& order) {
+    words_.more_on_line();
+    const std::string word(words_.cursor().word());
+    if (!read_order(word, order)) return words_.cursor().error("an order of axes such as XYZ");
+    words_.take_on_line();
+    return {};
+  }
+
+  Quatd turned(const std::array<int, 3>& order, Vec3d angles) const {
+    const double by[] = {angles.x, angles.y, angles.z};
+    Quatd q;
+    for (const int axis : order) q = turn_about(axis, by[axis] * file_.per_degree) * q;
+    return normalized(q);
+  }
+
+  Result<void> read_channels(Bone& bone) {
+    while (words_.more_on_line()) {
+      const std::string_view word = words_.cursor().word();
+      const char kind = word.empty() ? ' ' : static_cast<char>(word[0] | 0x20);
+      const char axis = word.size() == 2 ? static_cast<char>(word[1] | 0x20) : ' ';
+      if ((kind != 't' && kind != 'r') || axis < 'x' || axis > 'z' || bone.channels.size() == 6) {
+        return words_.cursor().error("degrees of freedom: tx, ty, tz, rx, ry or rz");
+      }
+      bone.channels.push_back({kind == 'r', axis - 'x'});
+      words_.take_on_line();
+    }
+    return {};
+  }
+
+  Result<void> read_bones() {
+    while (words_.take("begin")) {
+      if (bones_.size() == kMaxBones) {
+        return words_.cursor().error("at most " + std::to_string(kMaxBones) + " bones");
+      }
+      Bone bone;
+      if (auto done = read_bone(bone); !done) return done;
+      if (bone.name.empty()) return words_.cursor().error("a bone with a name before this");
+      const std::string name = bone.name;
+      if (name == "root" || !bones_.emplace(name, std::move(bone)).second) {
+        return words_.cursor().error("another name than '" + name + "' for the bone before this");
+      }
+    }
+    if (!in_next_section()) return words_.cursor().error("'begin' or the next section");
+    return {};
+  }
+
+  Result<void> read_bone(Bone& bone) {
+    Vec3d direction, angles;
+    double size = 0;
+    std::array<int, 3> order = {0, 1, 2};
+    while (!words_.take("end")) {
+      TextCursor& cursor = words_.cursor();
+      Result<void> done;
+      if (cursor.take("name")) {
+        words_.more_on_line();
+        bone.name = words_.take_on_line();
+      } else if (cursor.take("direction")) {
+        done = words_.vector(direction, "the direction of a bone");
+      } else if (cursor.take("length")) {
+        done = words_.number(size, "the length of a bone");
+      } else if (cursor.take("axis")) {
+        done = words_.vector(angles, "the axis of a bone");
+        if (done && words_.more_on_line()) done = read_axis_order(order);
+      } else if (cursor.take("dof")) {
+        done = read_channels(bone);
+      } else if (words_.at_end() || cursor.word().starts_with(':')) {
+        done = cursor.error("'end' of a bone");
+      } else {
+        words_.skip_line();  // Of no meaning for the motion: id, limits, mass, ...
+      }
+      if (!done) return done;
+      words_.next();
+    }
+    bone.tip = direction * size;
+    if (!(length(bone.tip) <= 1e9)) return words_.cursor().error("a shorter bone before this");
+    bone.axes = turned(order, angles);
+    return {};
+  }
+
+  Result<void> read_hierarchy() {
+    has_hierarchy_ = true;
+    if (!words_.take("begin")) return words_.cursor().error("'begin'");
+    while (!words_.cursor().is_at("end")) {
+      if (words_.at_end()) return words_.cursor().error("'end' of the hierarchy");
+      const std::string parent(words_.cursor().word());
+      if (parent != "root" && !bones_.contains(parent)) {
+        return words_.cursor().error("'root' or the name of a bone");
+      }
+      words_.take_on_line();
+      while (words_.more_on_line()) {
+        const auto child = bones_.find(std::string(words_.cursor().word()));
+        if (child == bones_.end()) return words_.cursor().error("the name of a bone");
+        if (!parents_.emplace(child->first, parent).second) {
+          return words_.cursor().error("a bone that has no parent yet");
+        }
+        children_[parent].push_back(child->first);
+        words_.take_on_line();
+      }
+      words_.next();
+    }
+    words_.take("end");
+    return {};
+  }
+
+  // Depth first from the root; bones that it does not lead to are in a circle or alone.
+  Result<Acclaim> order() {
+    struct Visit {
+      std::string name;
+      int parent;
+      int depth;
+    };
+    std::vector<Visit> waiting = {{"root", -1, 1}};
+    while (!waiting.empty()) {
+      const Visit visit = std::move(waiting.back());
+      waiting.pop_back();
+      if (visit.depth > kMaxDepth) {
+        return Error{name_ + ": expected at most " + std::to_string(kMaxDepth) +
+                     " bones one below the other, found more"};
+      }
+      Bone bone = visit.parent < 0 ? root_ : bones_.at(visit.name);
+      bone.parent = visit.parent;
+      const int index = static_cast<int>(file_.bones.size());
+      file_.bones.push_back(std::move(bone));
+      const std::vector<std::string>& below = children_[visit.name];
+      for (size_t i = below.size(); i-- > 0;) waiting.push_back({below[i], index, visit.depth + 1});
+    }
+    if (file_.bones.size() == bones_.size() + 1) return std::move(file_);
+    return Error{name_ + ": expected every bone below the root, found " +
+                 std::to_string(bones_.size() + 1 - file_.bones.size()) + " that are not"};
+  }
+
+  const std::string& name_;
+  Words words_;
+  bool has_root_ = false, has_hierarchy_ = false;
+  Bone root_;
+  std::map<std::string, Bone> bones_;
+  std::map<std::string, std::string> parents_;
+  std::map<std::string, std::vector<std::string>> children_;
+  Acclaim file_;
+};
+
+Skeleton skeleton_of(const Acclaim& file) {
+  Skeleton out;
+  std::vector<bool> has_child(file.bones.size());
+  for (const Bone& bone : file.bones) {
+    Joint joint;
+    joint.name = bone.name;
+    joint.parent = bone.parent;
+    if (bone.parent >= 0) {
+      joint.offset = file.bones[static_cast<size_t>(bone.parent)].tip.as<float>();
+      has_child[static_cast<size_t>(bone.parent)] = true;
+    } else {
+      joint.offset = file.root_place.as<float>();
+    }
+    joint.can_rotate = true;
+    joint.can_translate = std::any_of(bone.channels.begin(), bone.channels.end(),
+                                      [](const Channel& channel) { return !channel.rotates; });
+    out.joints.push_back(std::move(joint));
+  }
+  for (size_t i = 0; i < has_child.size(); ++i) {
+    if (!has_child[i]) out.joints[i].ends.push_back(file.bones[i].tip.as<float>());
+  }
+  return out;
+}
+
+class AmcReader {
+ public:
+  AmcReader(const std::string& text, const std::string& name, const Acclaim& file)
+      : words_(text, name), file_(file), per_degree_(file.per_degree) {
+    for (size_t i = 0; i < file.bones.size(); ++i) places_.emplace(file.bones[i].name, i);
+  }
+
+  Result<Clip> read() {
+    clip_.skeleton = skeleton_of(file_);
+    clip_.frame_time = 1 / kAmcFrameRate;
+    const Clip rest = rest_clip(clip_.skeleton);
+    while (words_.cursor().word().starts_with(':')) {
+      if (words_.cursor().is_at(":RADIANS")) per_degree_ = 1;
+      if (words_.cursor().is_at(":DEGREES")) per_degree_ = kDegree;
+      words_.skip_line();
+      words_.next();
+    }
+    while (!words_.at_end()) {
+      if (auto done = begin_frame(rest); !done) return done.error();
+      uint64_t unused = 0;
+      TextCursor ahead = words_.cursor();
+      while (!words_.at_end() && !(ahead = words_.cursor()).take_count(unused)) {
+        if (auto done = read_bone(); !done) return done.error();
+      }
+    }
+    if (clip_.frames == 0) return words_.cursor().error("a frame: its number, then its bones");
+    return std::move(clip_);
+  }
+
+ private:
+  // Every frame begins as the one before it.
+  Result<void> begin_frame(const Clip& rest) {
+    uint64_t number = 0;
+    TextCursor& cursor = words_.cursor();
+    if (!cursor.take_count(number) || words_.more_on_line()) {
+      return cursor.error("the number of a frame on a line of its own");
+    }
+    if (static_cast<size_t>(clip_.frames) >= kMaxPoses / clip_.joints()) {
+      return cursor.error("at most " + std::to_string(kMaxPoses / clip_.joints()) + " frames");
+    }
+    words_.next();
+    const ConstPose before = clip_.frames ? clip_.pose(clip_.frames - 1) : rest.pose(0);
+    const std::vector<Quat> rotations(before.rotations.begin(), before.rotations.end());
+    const std::vector<Vec3> places(before.translations.begin(), before.translations.end());
+    clip_.resize(clip_.frames + 1);
+    const Pose pose = clip_.pose(clip_.frames - 1);
+    std::copy(rotations.begin(), rotations.end(), pose.rotations.begin());
+    std::copy(places.begin(), places.end(), pose.translations.begin());
+    return {};
+  }
+
+  Result<void> read_bone() {
+    TextCursor& cursor = words_.cursor();
+    const auto place = places_.find(std::string(cursor.word()));
+    if (place == places_.end()) return cursor.error("the name of a bone of the .asf");
+    words_.take_on_line();
+    const Bone& bone = file_.bones[place->second];
+    const Pose pose = clip_.pose(clip_.frames - 1);
+    Quatd turn;
+    Vec3d move;
+    for (const Channel& channel : bone.channels) {
+      double value = 0;
+      if (auto done = words_.number(value, "a degree of freedom of " + bone.name); !done) {
+        return done;
+      }
+      if (channel.rotates) {
+        turn = turn_about(channel.axis, value * per_degree_) * turn;
+      } else {
+        (channel.axis == 0 ? move.x : channel.axis == 1 ? move.y : move.z) = value;
+      }
+    }
+    if (words_.more_on_line()) {
+      return cursor.error("the end of the line after " + std::to_string(bone.channels.size()) +
+                          " numbers of " + bone.name);
+    }
+    pose.rotations[place->second] = normalized(bone.axes * turn * conjugate(bone.axes)).as<float>();
+    const Vec3d rest = clip_.skeleton.joints[place->second].offset.as<double>();
+    pose.translations[place->second] = (rest + move).as<float>();
+    words_.next();
+    return {};
+  }
+
+  Words words_;
+  const Acclaim& file_;
+  double per_degree_;
+  std::map<std::string, size_t> places_;
+  Clip clip_;
+};
+
+// The skeleton's file of an .amc.
+Result<std::string> find_asf(const std::string& path) {
+  const fs::path amc(path), folder = amc.parent_path();
+  const std::string stem = amc.stem().string();
+  std::error_code status;
+  const std::string subject = stem.substr(0, stem.rfind('_'));
+  for (const std::string& name : {subject, stem}) {
+    const fs::path asf = folder / (name + ".asf");
+    if (fs::is_regular_file(asf, status)) return asf.string();
+  }
+  std::vector<std::string> found;
+  const fs::path where = folder.empty() ? "." : folder;
+  for (const auto& entry : fs::directory_iterator(where, status)) {
+    if (entry.path().extension() == ".asf")
+      found.push_back((folder / entry.path().filename()).string());
+  }
+  if (found.size() == 1) return found.front();
+  return Error{path + ": expected its skeleton beside it as " + subject + ".asf, found " +
+               (found.empty() ? "no .asf" : std::to_string(found.size()) + " others")};
+}
+
+}  // namespace
+
+Result<Skeleton> parse_asf(const std::string& text, const std::string& name) {
+  Result<Acclaim> file = AsfReader(text, name).read();
+  if (!file) return file.error();
+  return skeleton_of(*file);
+}
+
+Result<std::unique_ptr<MotionFile>> parse_amc(std::string text, const std::string& path) {
+  Result<std::string> asf = find_asf(path);
+  if (!asf) return asf.error();
+  Result<std::string> bytes = read_file(*asf);
+  if (!bytes) return bytes.error();
+  Result<Acclaim> skeleton = AsfReader(*bytes, *asf).read();
+  if (!skeleton) return skeleton.error();
+  Result<Clip> clip = AmcReader(text, path, *skeleton).read();
+  if (!clip) return clip.error();
+  return parse_bvh(format_bvh(*clip), path);
+}
+
+}  // namespace panache

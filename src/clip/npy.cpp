@@ -1,0 +1,241 @@
+#include "clip/npy.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "clip/decimal.h"
+#include "clip/text_cursor.h"
+
+namespace panache {
+namespace {
+
+constexpr std::string_view kMagic = "\x93NUMPY";
+constexpr size_t kMaxDimensions = 8;
+
+uint64_t little(std::string_view bytes) {
+  uint64_t value = 0;
+  for (size_t i = bytes.size(); i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[i]);
+  return value;
+}
+
+// Bytes of an element; 0 for what is none of ours.
+size_t size_of(std::string_view type) {
+  if (type.size() < 3 || type.size() > 6) return 0;
+  if (std::string_view("<>|=").find(type[0]) == std::string_view::npos) return 0;
+  if (std::string_view("bifuSU").find(type[1]) == std::string_view::npos) return 0;
+  size_t size = 0;
+  for (const char c : type.substr(2)) {
+    if (c < '0' || c > '9') return 0;
+    size = 10 * size + static_cast<size_t>(c - '0');
+  }
+  return type[1] == 'U' ? 4 * size : size;
+}
+
+// The text of a header: "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }".
+class HeaderReader {
+ public:
+  HeaderReader(std::string_view text, const std::string& name) : text_(text), name_(name) {}
+
+  Result<void> read(NpyArray& out) {
+    if (!take("{")) return fail("'{'");
+    while (!take("}")) {
+      if (auto done = read_entry(out); !done) return done;
+      if (!take(",") && !is_at("}")) return fail("',' or '}'");
+    }
+    if (out.type.empty() || !has_shape_) return fail("'descr' and 'shape'");
+    return {};
+  }
+
+ private:
+  Result<void> read_entry(NpyArray& out) {
+    std::string key;
+    if (!take_string(key) || !take(":")) return fail("a name and ':'");
+    if (key == "descr") {
+      if (!take_string(out.type)) return fail("a type");
+      if (size_of(out.type) == 0) {
+        return Error{name_ + ": expected an array of numbers or text, found the type " +
+                     quoted(out.type)};
+      }
+    } else if (key == "fortran_order") {
+      out.by_columns = take("True");
+      if (!out.by_columns && !take("False")) return fail("True or False");
+    } else if (key == "shape") {
+      return read_shape(out.shape);
+    } else {
+      return fail("descr, fortran_order or shape");
+    }
+    return {};
+  }
+
+  Result<void> read_shape(std::vector<size_t>& shape) {
+    shape.clear();
+    has_shape_ = true;
+    if (!take("(")) return fail("'('");
+    while (!take(")")) {
+      uint64_t size = 0;
+      if (!take_number(size) || shape.size() == kMaxDimensions) {
+        return fail("at most 8 sizes of dimensions");
+      }
+      shape.push_back(size);
+      if (!take(",") && !is_at(")")) return fail("',' or ')'");
+    }
+    return {};
+  }
+
+  void skip_space() {
+    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\n')) ++at_;
+  }
+  bool is_at(std::string_view word) {
+    skip_space();
+    return text_.substr(at_).starts_with(word);
+  }
+  bool take(std::string_view word) {
+    if (!is_at(word)) return false;
+    at_ += word.size();
+    return true;
+  }
+  bool take_string(std::string& out) {
+    if (!is_at("'") && !is_at("\"")) return false;
+    const size_t end = text_.find(text_[at_], at_ + 1);
+    if (end == std::string_view::npos) return false;
+    out = text_.substr(at_ + 1, end - at_ - 1);
+    at_ = end + 1;
+    return true;
+  }
+  bool take_number(uint64_t& out) {
+    skip_space();
+    const size_t begin = at_;
+    for (out = 0; at_ < text_.size() && text_[at_] >= '0' && text_[at_] <= '9'; ++at_) {
+      if (out > (uint64_t{1} << 50)) return false;  // More than any file has.
+      out = 10 * out + static_cast<uint64_t>(text_[at_] - '0');
+    }
+    return at_ > begin;
+  }
+  Error fail(const std::string& expected) const {
+    return Error{name_ + ": expected " + expected + " in the header of an array, found " +
+                 quoted(text_.substr(std::min(at_, text_.size())))};
+  }
+
+  std::string_view text_;
+  const std::string& name_;
+  size_t at_ = 0;
+  bool has_shape_ = false;
+};
+
+double number_at(const char* bytes, char kind, size_t size, bool swap) {
+  std::string in(bytes, size);
+  if (swap) std::reverse(in.begin(), in.end());
+  const uint64_t bits = little(in);
+  if (kind == 'f' && size == 8) return std::bit_cast<double>(bits);
+  if (kind == 'f') return static_cast<double>(std::bit_cast<float>(static_cast<uint32_t>(bits)));
+  if (kind != 'i' || size == 8) {
+    return kind == 'i' ? static_cast<double>(static_cast<int64_t>(bits))
+                       : static_cast<double>(bits);
+  }
+  const uint64_t sign = uint64_t{1} << (8 * size - 1);
+  return static_cast<double>(static_cast<int64_t>(bits ^ sign) - static_cast<int64_t>(sign));
+}
+
+}  // namespace
+
+size_t NpyArray::count() const {
+  size_t product = 1;
+  for (const size_t size : shape) product *= size;
+  return product;
+}
+
+Result<NpyArray> parse_npy(std::string_view bytes, const std::string& name) {
+  if (!bytes.starts_with(kMagic) || bytes.size() < 12) {
+    return Error{name + ": expected an array as numpy.save writes it, found " +
+                 quoted(bytes.substr(0, 8))};
+  }
+  const int version = bytes[6];
+  if (version < 1 || version > 3) {
+    return Error{name + ": expected version 1, 2 or 3 of numpy's format, found " +
+                 std::to_string(version)};
+  }
+  const size_t field = version == 1 ? 2 : 4, begin = 8 + field;
+  const uint64_t length = little(bytes.substr(8, field));
+  if (length > bytes.size() - begin) {
+    return Error{name + ": expected a header of " + std::to_string(length) + " bytes, found " +
+                 std::to_string(bytes.size() - begin) + " to the end"};
+  }
+  NpyArray out;
+  if (auto done = HeaderReader(bytes.substr(begin, length), name).read(out); !done) {
+    return done.error();
+  }
+  out.elements = bytes.substr(begin + length);
+  // Compared without a product that might overflow.
+  size_t left = out.elements.size() / size_of(out.type);
+  const bool none = std::ranges::count(out.shape, size_t{0}) > 0;
+  for (const size_t size : out.shape) left = none ? 0 : left / size;
+  const bool enough = none || left > 0;
+  if (enough && out.elements.size() == out.count() * size_of(out.type)) return out;
+  return Error{name + ": expected as many bytes as its shape says, found " +
+               std::to_string(out.elements.size())};
+}
+
+std::string format_npy(const NpyArray& array) {
+  std::string shape;
+  for (const size_t size : array.shape) shape += std::to_string(size) + ", ";
+  // A single size keeps its comma: "(5,)".
+  if (array.shape.size() > 1) shape.resize(shape.size() - 2);
+  if (array.shape.size() == 1) shape.pop_back();
+  std::string header = "{'descr': '" + array.type +
+                       "', 'fortran_order': " + (array.by_columns ? "True" : "False") +
+                       ", 'shape': (" + shape + "), }";
+  // With what stands before it a multiple of 64, as numpy wants it.
+  const size_t unpadded = 10 + header.size() + 1;
+  header.append((unpadded + 63) / 64 * 64 - unpadded, ' ');
+  header += '\n';
+  std::string out(kMagic);
+  out += {'\1', '\0', static_cast<char>(header.size() & 0xff),
+          static_cast<char>(header.size() >> 8 & 0xff)};
+  return out + header + array.elements;
+}
+
+Result<std::vector<double>> npy_numbers(const NpyArray& array, const std::string& name) {
+  const char kind = array.type[1];
+  const size_t size = size_of(array.type);
+  const bool readable =
+      kind == 'f' ? size == 4 || size == 8
+                  : (kind == 'i' || kind == 'u') && std::has_single_bit(size) && size <= 8;
+  if (!readable) {
+    return Error{name + ": expected floats of 4 or 8 bytes or whole numbers, found the type " +
+                 quoted(array.type)};
+  }
+  const size_t count = array.count();
+  std::vector<double> in_file(count);
+  for (size_t i = 0; i < count; ++i) {
+    in_file[i] = number_at(&array.elements[i * size], kind, size, array.type[0] == '>');
+    if (std::abs(in_file[i]) <= kLargestNumber) continue;
+    return Error{name + ": expected numbers within a thousand million, found one beyond or none"};
+  }
+  if (!array.by_columns || array.shape.size() != 2) return in_file;
+  std::vector<double> out(count);
+  const size_t rows = array.shape[0], columns = array.shape[1];
+  for (size_t r = 0; r < rows; ++r) {
+    for (size_t c = 0; c < columns; ++c) out[r * columns + c] = in_file[c * rows + r];
+  }
+  return out;
+}
+
+NpyArray npy_array(std::span<const double> numbers, std::vector<size_t> shape,
+                   const std::string& type) {
+  const bool single = type == "<f4";
+  NpyArray out{single ? "<f4" : "<f8", false, std::move(shape), {}};
+  assert(out.count() == numbers.size());
+  for (const double number : numbers) {
+    const auto small = static_cast<float>(number);
+    const auto* bytes =
+        single ? reinterpret_cast<const char*>(&small) : reinterpret_cast<const char*>(&number);
+    out.elements.append(bytes, single ? 4 : 8);  // Panache runs where numbers are little-endian.
+  }
+  return out;
+}
+
+}  // namespace panache

@@ -1,0 +1,28 @@
+#include "rig/usual_unit.h"
+
+#include <array>
+#include <cmath>
+
+namespace panache {
+namespace {
+
+// CMU's lengths are inches times 0.45.
+constexpr std::array<UsualUnit, 6> kUnits = {{{"metres", 1},
+                                              {"feet", 0.3048},
+                                              {"CMU units", 0.0254 / 0.45},
+                                              {"inches", 0.0254},
+                                              {"centimetres", 0.01},
+                                              {"millimetres", 0.001}}};
+
+}  // namespace
+
+std::optional<UsualUnit> usual_unit(double metres) {
+  // The scale is that of canonical legs, and people differ: 1.35 lies half-way between the
+  // neighbours in this list that are nearest to each other.
+  for (const UsualUnit& unit : kUnits) {
+    if (std::abs(std::log(metres / unit.metres)) < std::log(1.35)) return unit;
+  }
+  return std::nullopt;
+}
+
+}  // namespace panache

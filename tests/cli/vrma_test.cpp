@@ -1,0 +1,285 @@
+// VRM animations: what three-vrm makes of those that we write, and what becomes of those of others.
+
+#include <cmath>
+#include <cstdlib>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+#include "clip/gltf.h"
+#include "clip/make_character.h"
+#include "rig/posed_rig.h"
+#include "rig/put_on.h"
+
+namespace panache::test {
+namespace {
+
+using enum HumanJoint;
+
+const std::string kWeb = PANACHE_SOURCE_DIR "/tests/web/";
+
+// Seconds at which characters are looked at.
+constexpr double kTimes[] = {0, 0.4, 1};
+
+// An avatar as a VRM 1.0 file, with an expression.
+GltfParts avatar() {
+  GltfParts parts = character({.vrm = CharacterOptions::Vrm::vrm1});
+  Json& vrm = parts.json["extensions"]["VRMC_vrm"];
+  vrm["meta"] = {
+      {"name", "boxes"}, {"authors", {"nobody"}}, {"licenseUrl", "https://vrm.dev/licenses/1.0/"}};
+  vrm["expressions"]["preset"]["happy"] = Json::object();
+  return parts;
+}
+
+// The body of a .vrma, with two nodes more that carry a happy face and a gaze.
+GltfParts with_expression(const std::string& vrma) {
+  GltfParts parts = glb_parts(vrma);
+  Json& json = parts.json;
+  const size_t happy = json["nodes"].size(), gaze = happy + 1;
+  json["nodes"].push_back({{"name", "happy"}});
+  json["nodes"].push_back({{"name", "gaze"}});
+  json["scenes"][0]["nodes"].push_back(happy);
+  json["scenes"][0]["nodes"].push_back(gaze);
+  Json& extension = json["extensions"]["VRMC_vrm_animation"];
+  extension["expressions"]["preset"]["happy"]["node"] = happy;
+  extension["lookAt"] = {{"node", gaze}, {"offsetFromHeadBone", {0, 0.06, 0}}};
+  const size_t times = parts.add_bounded({0, 1}, "SCALAR", 1);
+  parts.add_channel(0, happy, "translation", "LINEAR", times,
+                    parts.add(std::vector<float>{0, 0, 0, 1, 0, 0}, "VEC3", 3));
+  parts.add_channel(0, gaze, "rotation", "LINEAR", times,
+                    parts.add(std::vector<float>{0, 0, 0, 1, 0, 0.6f, 0, 0.8f}, "VEC4", 4));
+  return parts;
+}
+
+class Vrma : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write_walk("walk.bvh", 31);
+    must({"convert", "walk.bvh", "-o", "walk.vrma"});
+  }
+  void must(const std::vector<std::string>& arguments) {
+    const Ran ran = run(arguments);
+    EXPECT_EQ(ran.exit, 0) << ran.err;
+    EXPECT_EQ(ran.err, "");
+  }
+  void expect_rejected(const std::vector<std::string>& arguments, const std::string& message) {
+    const Ran ran = run(arguments);
+    EXPECT_EQ(ran.err, "panache: " + message + "\n");
+    EXPECT_EQ(ran.exit, 1);
+  }
+  std::unique_ptr<MotionFile> open(const std::string& name) {
+    Result<std::unique_ptr<MotionFile>> file = read_motion(path(name));
+    EXPECT_TRUE(file.ok()) << file.error().message;
+    return file ? *std::move(file) : nullptr;
+  }
+
+  // Whether Node and the packages are there; else says why not.
+  std::string missing() {
+    if (std::system("command -v node > /dev/null 2>&1") != 0) return "there is no node";
+    const bool installed =
+        std::filesystem::exists(kWeb + "node_modules/@pixiv/three-vrm-animation");
+    return installed ? "" : "npm ci was not run in tests/web";
+  }
+  bool node(const std::string& arguments) {
+    return std::system(
+               ("cd '" + path("") + "' && node " + arguments + " > out.txt 2> err.txt").c_str()) ==
+           0;
+  }
+  // What three-vrm shows of a file at kTimes.
+  Json played(const std::string& name) {
+    write("avatar.vrm", to_glb(avatar()));
+    std::string times;
+    for (const double seconds : kTimes) times += " " + std::to_string(seconds);
+    EXPECT_TRUE(node("'" + kWeb + "play-vrma.mjs' " + name + " avatar.vrm" + times))
+        << read("err.txt");
+    return Json::parse(read("out.txt"), nullptr, false);
+  }
+
+  // Limbs of the avatar point where those of the motion do, and its hips go as far in lengths of
+  // their height.
+  void expect_seen(const Clip& motion, const std::string& name) {
+    const Json seen = played(name);
+    ASSERT_TRUE(seen.is_object());
+    const Rig rig = *Rig::create(motion);
+    PosedRig reader(rig);
+    Vec3 start, avatar_start;
+    double worst_deg = 0;
+    for (size_t i = 0; i < std::size(kTimes); ++i) {
+      BodyPose body;
+      reader.read(motion.pose(static_cast<int>(std::lround(kTimes[i] / motion.frame_time))), body);
+      const Json& joints = seen["poses"][i]["joints"];
+      const auto at = [&](int joint) {
+        const Json& p = joints[std::string(human_joint_name(joint))];
+        return Vec3{p[0].get<float>(), p[1].get<float>(), p[2].get<float>()};
+      };
+      for (const HumanJoint joint : {left_lower_arm, left_hand, right_lower_arm, right_hand,
+                                     left_lower_leg, left_foot, right_lower_leg, right_foot}) {
+        const int j = index(joint), parent = kHumanParent[j];
+        // The rigs of makers without a hand have another wrist.
+        if (rig.joints()[j] < 0) continue;
+        const Vec3 want = normalized(body.joints[j] - body.joints[parent]);
+        const Vec3 got = normalized(at(j) - at(parent));
+        const double off_deg = angle_deg(want, got);
+        worst_deg = std::max(worst_deg, off_deg);
+        // Floats along a chain of eight joints.
+        EXPECT_LT(off_deg, 0.1) << name << " " << human_joint_name(j) << " " << i;
+      }
+      const Vec3 middle =
+          mid_of(body.joints[index(left_upper_leg)], body.joints[index(right_upper_leg)]);
+      const Vec3 avatar_middle = mid_of(at(index(left_upper_leg)), at(index(right_upper_leg)));
+      if (i == 0) start = middle, avatar_start = avatar_middle;
+      const float leg =
+          length(body.joints[index(left_foot)] - body.joints[index(left_lower_leg)]) +
+          length(body.joints[index(left_lower_leg)] - body.joints[index(left_upper_leg)]);
+      const float avatar_leg = length(at(index(left_foot)) - at(index(left_lower_leg))) +
+                               length(at(index(left_lower_leg)) - at(index(left_upper_leg)));
+      const Vec3 way = (middle - start) / leg,
+                 avatar_way = (avatar_middle - avatar_start) / avatar_leg;
+      // Players scale by the height of the hips, and the avatar's are not as high as ours above
+      // legs of the same length.
+      EXPECT_LT(length(way - avatar_way), 0.1f * length(way) + 0.01f) << name << " " << i;
+    }
+    std::printf("%s: worst limb %.4f deg\n", name.c_str(), worst_deg);
+  }
+  static Vec3 mid_of(Vec3 a, Vec3 b) { return (a + b) * 0.5f; }
+};
+
+TEST_F(Vrma, a_bvh_becomes_one_that_its_player_shows_alike) {
+  if (const std::string what = missing(); !what.empty()) GTEST_SKIP() << what;
+  expect_seen(walking_clip(31), "walk.vrma");
+}
+
+// Rest poses with arms half or wholly down, local axes anywhere, centimetres, Z up.
+TEST_F(Vrma, motion_of_every_makers_rig_is_shown_as_it_is) {
+  if (const std::string what = missing(); !what.empty()) GTEST_SKIP() << what;
+  for (const Maker& maker : makers()) {
+    SCOPED_TRACE(maker.name);
+    const Clip clip = put_on(maker, walking_clip(31)).clip;
+    const Rig rig = *Rig::create(clip);
+    const Quat y_up = maker.z_up ? exp_rotation(Vec3{-3.14159265f / 2, 0, 0}) : Quat{};
+    write("maker.glb", format_glb(clip, "walk", static_cast<double>(rig.scale()), y_up));
+    must({"convert", "maker.glb", "--force", "-o", "maker.vrma"});
+    expect_seen(clip, "maker.vrma");
+  }
+}
+
+TEST_F(Vrma, fingers_come_along) {
+  write("hero.glb", to_glb(character()));
+  // A thumb that bends in the palm, beside what the motion does with the right index.
+  const auto hero = open("hero.glb");
+  ASSERT_TRUE(hero);
+  Clip clip_of_hero = hero->clip(1);
+  for (size_t j = 0; j < clip_of_hero.joints(); ++j) {
+    if (clip_of_hero.skeleton.joints[j].name != "LeftHandThumb1") continue;
+    for (int f = 0; f < clip_of_hero.frames; ++f) {
+      Quat& q = clip_of_hero.pose(f).rotations[j];
+      q = normalized(q * axis_angle(Vec3{0, 0, 1}, 0.5f));
+    }
+  }
+  std::vector<double> frames;
+  for (int f = 0; f < clip_of_hero.frames; ++f) frames.push_back(f);
+  const ClipEdit edit = {1, &clip_of_hero, frames, ""};
+  write("hero.glb", hero->encode({&edit, 1}, EditMode::replace));
+  must({"convert", "hero.glb", "--clip", "Wave", "-o", "wave.vrma"});
+  const auto wave = open("wave.vrma");
+  ASSERT_TRUE(wave);
+  const Clip& clip = wave->clip();
+  int fingers = 0, bent = 0;
+  for (size_t j = 0; j < clip.joints(); ++j) {
+    const Joint& joint = clip.skeleton.joints[j];
+    const bool finger = joint.parent >= 0 && !find_human_joint(joint.role);
+    if (!finger) continue;
+    ++fingers;
+    // The motion bends the first joint of the right index by 0.6 radians from a second on.
+    const float angle = length(log_rotation(clip.pose(45).rotations[j]));
+    const float want = joint.role == "rightIndexProximal"    ? 0.6f
+                       : joint.role == "leftThumbMetacarpal" ? 0.5f
+                                                             : 0.0f;
+    EXPECT_NEAR(angle, want, 1e-3f) << joint.role;
+    bent += want > 0;
+  }
+  EXPECT_EQ(fingers, 30);
+  EXPECT_EQ(bent, 2);
+}
+
+TEST_F(Vrma, the_validator_finds_no_error) {
+  if (const std::string what = missing(); !what.empty()) GTEST_SKIP() << what;
+  write("face.vrma", to_glb(with_expression(read("walk.vrma"))));
+  must({"stylize", "walk.vrma", "--style", "old=1", "-o", "old.vrma"});
+  must({"stylize", "face.vrma", "--style", "old=1", "-o", "old-face.vrma"});
+  must({"convert", "walk.vrma", "-o", "walk.glb"});
+  EXPECT_TRUE(node("'" + kWeb + "validate.mjs' walk.vrma old.vrma old-face.vrma walk.glb"))
+      << read("out.txt");
+}
+
+TEST_F(Vrma, a_style_takes_the_place_of_the_motion) {
+  must({"stylize", "walk.vrma", "--style", "old=1", "-o", "old.vrma"});
+  const auto walk = open("walk.vrma"), old = open("old.vrma");
+  ASSERT_TRUE(walk && old);
+  EXPECT_EQ(old->clip_names(), std::vector<std::string>{"walk"});
+  EXPECT_FALSE(walk->clip().rotations == old->clip().rotations);
+  const Json json = glb_parts(read("old.vrma")).json, before = glb_parts(read("walk.vrma")).json;
+  EXPECT_EQ(json["extensions"], before["extensions"]);
+  EXPECT_EQ(json["nodes"], before["nodes"]);
+}
+
+TEST_F(Vrma, strength_0_is_the_file_itself) {
+  write("face.vrma", to_glb(with_expression(read("walk.vrma"))));
+  for (const std::string name : {"walk.vrma", "face.vrma"}) {
+    must({"stylize", name, "--style", "old=0", "--force", "-o", "same.vrma"});
+    EXPECT_TRUE(glb_parts(read("same.vrma")).json == glb_parts(read(name)).json) << name;
+    EXPECT_TRUE(glb_parts(read("same.vrma")).bin == glb_parts(read(name)).bin) << name;
+  }
+}
+
+TEST_F(Vrma, expressions_and_gaze_are_no_joints_and_follow_the_tempo) {
+  write("face.vrma", to_glb(with_expression(read("walk.vrma"))));
+  const auto face = open("face.vrma");
+  ASSERT_TRUE(face);
+  EXPECT_EQ(face->clip().joints(), open("walk.vrma")->clip().joints());
+  must({"stylize", "face.vrma", "--style", "old=1", "-o", "old.vrma"});
+  if (const std::string what = missing(); !what.empty()) GTEST_SKIP() << what;
+  // The weight at the end is still that of the end, whenever that is.
+  const Json before = played("face.vrma"), after = played("old.vrma");
+  ASSERT_TRUE(before.is_object() && after.is_object());
+  EXPECT_NEAR(before["poses"][1]["weights"]["happy"].get<double>(), 0.4, 1e-6);
+  const double stretched = after["seconds"].get<double>() / before["seconds"].get<double>();
+  EXPECT_NEAR(after["poses"][1]["weights"]["happy"].get<double>(), 0.4 / stretched, 0.05);
+}
+
+TEST_F(Vrma, it_goes_on_a_character_and_to_other_formats) {
+  write("hero.glb", to_glb(character()));
+  must({"convert", "walk.vrma", "-o", "back.bvh"});
+  must({"stylize", "walk.vrma", "--onto", "hero.glb", "--style", "old=1", "-o", "hero-old.glb"});
+  const auto walk = open("walk.bvh"), back = open("back.bvh");
+  ASSERT_TRUE(walk && back);
+  const Rig rig = *Rig::create(walk->clip()), back_rig = *Rig::create(back->clip());
+  PosedRig reader(rig), back_reader(back_rig);
+  for (int f = 0; f < 31; f += 10) {
+    BodyPose a, b;
+    reader.read(walk->clip().pose(f), a);
+    back_reader.read(back->clip().pose(f), b);
+    // Canonical positions, metres; angles in BVH have six decimals of a degree.
+    for (int j = 0; j < kHumanJoints; ++j) {
+      EXPECT_LT(length(a.positions[j] - b.positions[j]), 1e-3f) << f << human_joint_name(j);
+    }
+  }
+}
+
+TEST_F(Vrma, what_is_none_gets_a_sentence) {
+  write("hero.vrma", to_glb(character()));
+  expect_rejected({"info", "hero.vrma"},
+                  "hero.vrma: extensions.VRMC_vrm_animation: expected a humanoid with hips, found "
+                  "none; a file without it is a .glb");
+  write("small.glb", to_glb(small_gltf()));
+  expect_rejected(
+      {"convert", "small.glb", "-o", "small.vrma"},
+      "small.glb: no humanoid found: leftHand, rightHand, leftFoot, rightFoot are missing "
+      "among 'Armature', 'Hips', 'Head' (3 joints); expected a person's joints: hips, "
+      "two legs down to the feet and two arms down to the forearms");
+  EXPECT_FALSE(exists("small.vrma"));
+}
+
+}  // namespace
+}  // namespace panache::test
