@@ -19,9 +19,7 @@ constexpr float deg(float degrees) { return degrees * std::numbers::pi_v<float> 
 // A change is taken back over this much before a limit; where the input is beyond its limit, or
 // near it, over at least kLeast beyond the input.
 constexpr float kSoft = deg(10), kLeast = deg(2);
-// Time constants of the shares. A limb that comes and goes at its limit is held back steadily: the
-// share is given up slowly, as one that follows every frame shakes the limb.
-constexpr float kTakeSeconds = 0.12f, kGiveUpSeconds = 1.2f;
+constexpr float kShareSeconds = 0.08f;  // Time constant of the shares.
 
 // The limits are the normal ranges of motion that tables of goniometry print (American Academy of
 // Orthopaedic Surgeons), and 10 degrees more, as several joints share a movement. Radians.
@@ -98,12 +96,10 @@ Bend bend_of(Vec3 upper, Vec3 lower, const Hinge& hinge) {
 
 class Limits {
  public:
-  Limits(const BodyPose& body, const Rig& rig, const StepTime& time, float* shares,
-         BodyChange& change)
+  Limits(const BodyPose& body, const Rig& rig, float gain, float* shares, BodyChange& change)
       : body_(body),
         rig_(rig),
-        take_(time.gain(kTakeSeconds)),
-        give_up_(time.gain(kGiveUpSeconds)),
+        gain_(gain),
         share_(shares),
         change_(change),
         to_heading_(rotation_y(-body.facing)) {}
@@ -140,7 +136,7 @@ class Limits {
   }
   // Eases the next of the shares to `wanted`.
   float eased(float wanted) {
-    approach(*share_, wanted, wanted > *share_ ? take_ : give_up_, 1e-4f);
+    approach(*share_, wanted, gain_, 1e-4f);
     return *share_++;
   }
   // Turns all joints from one to the other by that share of what takes the direction `from` to
@@ -225,8 +221,8 @@ class Limits {
 
   const BodyPose& body_;
   const Rig& rig_;
-  float take_, give_up_;  // Gains of the shares,
-  float* share_;          // and the next of them.
+  float gain_;    // Of the shares,
+  float* share_;  // and the next of them.
   BodyChange& change_;
   Quat to_heading_;
   Frame hips_, chest_;  // Of the input, heading frame.
@@ -236,7 +232,7 @@ class Limits {
 
 void Anatomy::step(const BodyPose& body, const Rig& rig, const StepTime& time,
                    BodyChange& change) noexcept {
-  Limits(body, rig, time, shares_.data(), change).keep();
+  Limits(body, rig, time.gain(kShareSeconds), shares_.data(), change).keep();
 }
 
 }  // namespace panache
