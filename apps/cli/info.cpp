@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "find_inputs.h"
 #include "input.h"
 #include "learn/style_file.h"
 #include "messages.h"
@@ -96,73 +98,101 @@ Json skeleton_json(const Skeleton& skeleton) {
 }
 
 struct InfoVerb {
-  std::string file, clip;
+  std::vector<std::string> files;
+  std::string clip;
   RigFlags rig;
   bool tree = false;
   bool json = false;
 };
 
-int motion_info(const InfoVerb& verb) {
-  if (auto flags = check_rig_flags(verb.rig); !flags) return fail(flags.error(), kBadUsage);
-  Result<RigOptions> options = read_rig_options(verb.rig);
-  if (!options) return fail(options.error(), kBadInput);
-  Result<std::unique_ptr<MotionFile>> file = open_motion(verb.file);
-  if (!file) return fail(file.error(), kBadInput);
+// What is known of a file, and what is wrong with it all the same.
+struct Info {
+  std::string text;
+  Json json;
+  Result<void> good = {};
+};
+
+Result<Info> motion_info(const std::string& path, const InfoVerb& verb, const RigOptions& options) {
+  Result<std::unique_ptr<MotionFile>> file = open_motion(path);
+  if (!file) return file.error();
   size_t shown = 0;
   if (!verb.clip.empty() || !(*file)->clip_names().empty()) {
-    Result<std::vector<int>> picked = pick_clips(**file, verb.clip, verb.file);
-    if (!picked) return fail(picked.error(), kBadInput);
+    Result<std::vector<int>> picked = pick_clips(**file, verb.clip, path);
+    if (!picked) return picked.error();
     shown = static_cast<size_t>(picked->front());
   }
   const Clip& clip = (*file)->clip(static_cast<int>(shown));
   // A file that is no humanoid is still a file that one may want to look at.
-  const Result<Rig> rig = make_rig(clip, *options, verb.file);
-  if (verb.json) {
-    print(Json{{"file", verb.file},
+  const Result<Rig> rig = make_rig(clip, options, path);
+  Info info;
+  info.json = {{"file", path},
                {"clips", clips_json(**file)},
                {"skeleton", skeleton_json(clip.skeleton)},
                {"mapping", rig ? mapping_json(*rig) : Json()},
-               {"error", rig ? Json() : Json(rig.error().message)}});
-  } else {
-    print(describe(verb.file, **file, shown));
-    if (rig) print(describe_mapping(*rig, *options));
-    if (verb.tree) print("\nSkeleton:\n" + draw_tree(clip.skeleton));
-  }
-  return rig ? kDone : fail(rig.error(), kBadInput);
+               {"error", rig ? Json() : Json(rig.error().message)}};
+  info.text = describe(path, **file, shown);
+  if (rig) info.text += describe_mapping(*rig, options);
+  if (verb.tree) info.text += "\nSkeleton:\n" + draw_tree(clip.skeleton);
+  if (!rig) info.good = rig.error();
+  return info;
 }
 
 // As styles, and all else that the file says of itself.
-int model_info(const std::string& path, bool json) {
+Result<Info> model_info(const std::string& path) {
   const Result<TensorFile> file = read_tensors(path);
-  if (file && is_style_file(*file)) return report(load_style(path), json);
-  Result<LoadedModel> loaded = load_model(path);
-  if (!loaded) return fail(loaded.error(), kBadInput);
-  const auto& metadata = loaded->model->metadata();
-  if (json) {
-    Json out = to_json(*loaded);
-    out["metadata"] = metadata;
-    print(out);
-    return kDone;
+  if (file && is_style_file(*file)) {
+    const Result<LoadedStyle> style = load_style(path);
+    if (!style) return style.error();
+    return Info{describe(*style), to_json(*style)};
   }
-  std::string text = describe(*loaded) + "\nMetadata:\n";
+  Result<LoadedModel> loaded = load_model(path);
+  if (!loaded) return loaded.error();
+  const auto& metadata = loaded->model->metadata();
+  Info info{describe(*loaded) + "\nMetadata:\n", to_json(*loaded)};
+  info.json["metadata"] = metadata;
   for (const auto& [key, value] : metadata) {
     // These stand above.
     if (key == "styles" || key == "style_descriptions" || key == "style_origins") continue;
-    text += "  " + padded(key, 16) + value + "\n";
+    info.text += "  " + padded(key, 16) + value + "\n";
   }
-  print(text);
-  return kDone;
+  return info;
+}
+
+// Several files are told of one after another, in JSON as a list.
+int show(const InfoVerb& verb) {
+  if (auto flags = check_rig_flags(verb.rig); !flags) return fail(flags.error(), kBadUsage);
+  const Result<RigOptions> options = read_rig_options(verb.rig);
+  if (!options) return fail(options.error(), kBadInput);
+  const Result<FoundFiles> found = find_inputs(verb.files, "");
+  if (!found) return fail(found.error(), kBadInput);
+  const bool many = found->is_batch || found->files.size() > 1;
+  int exit_code = kDone;
+  Json list = Json::array();
+  std::string between;
+  for (const FoundFile& file : found->files) {
+    const Result<Info> info = file.path.ends_with(".safetensors")
+                                  ? model_info(file.path)
+                                  : motion_info(file.path, verb, *options);
+    if (info && !verb.json) print(std::exchange(between, "\n") + info->text);
+    if (info && verb.json && !many) print(info->json);
+    const Result<void> good = info ? info->good : Result<void>(info.error());
+    if (!good) exit_code = fail(good.error(), kBadInput);
+    list.push_back(info ? info->json : Json{{"file", file.path}, {"error", good.error().message}});
+  }
+  if (verb.json && many) print(list);
+  return exit_code;
 }
 
 }  // namespace
 
 void add_info(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("info",
-                                      "Show a motion file, how its rig was mapped, or a "
-                                      "model");
+                                      "Show motion files, how their rigs were mapped, or "
+                                      "models");
   auto options = std::make_shared<InfoVerb>();
-  verb->add_option("FILE", options->file,
-                   "Motion file (" + motion_extensions() + ")\nor model (.safetensors)")
+  verb->add_option("FILE", options->files,
+                   "Motion files (" + motion_extensions() +
+                       "), folders\nof them, patterns, or models (.safetensors)")
       ->required()
       ->type_name("");
   verb->add_option("--clip", options->clip,
@@ -175,11 +205,9 @@ void add_info(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  panache info walk.bvh\n"
       "  panache info hero.glb --json > hero.json   (edit it, then: --map hero.json)\n"
+      "  panache info takes/ --json\n"
       "  panache info models/panache.safetensors");
-  verb->callback([options, &exit_code] {
-    exit_code = options->file.ends_with(".safetensors") ? model_info(options->file, options->json)
-                                                        : motion_info(*options);
-  });
+  verb->callback([options, &exit_code] { exit_code = show(*options); });
 }
 
 }  // namespace panache::cli

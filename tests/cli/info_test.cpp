@@ -148,6 +148,24 @@ TEST_F(Info, rejects_a_map_that_is_none) {
   EXPECT_EQ(none.err, "panache: none.json: cannot be read: No such file or directory\n");
 }
 
+TEST_F(Info, tells_of_several_files_and_folders_and_goes_on_after_a_bad_one) {
+  write_walk("takes/b.bvh");
+  write("takes/a.bvh", "HIERARCHY");
+  const Ran ran = run({"info", "takes", "walk.bvh", "model.safetensors"});
+  EXPECT_EQ(ran.exit, 1);
+  EXPECT_TRUE(ran.err.starts_with("panache: takes/a.bvh:")) << ran.err;
+  EXPECT_EQ(ran.out, run({"info", "takes/b.bvh"}).out + "\n" + run({"info", "walk.bvh"}).out +
+                         "\n" + run({"info", "model.safetensors"}).out);
+  const nlohmann::json list = json_of({"takes", "walk.bvh", "model.safetensors"});
+  ASSERT_EQ(list.size(), 4u);
+  EXPECT_EQ(list[0]["file"], "takes/a.bvh");
+  EXPECT_TRUE(contains(list[0]["error"], "takes/a.bvh:"));
+  EXPECT_EQ(list[1], json_of({"takes/b.bvh"}));
+  EXPECT_EQ(list[3]["metadata"]["format_version"], "1");
+  EXPECT_TRUE(json_of({"takes/b.bvh"}).is_object());
+  EXPECT_EQ(json_of({"takes/*.bvh"}).size(), 2u);
+}
+
 TEST_F(Info, rejects_a_map_to_a_joint_that_there_is_not) {
   write("map.json", R"({"leftHand": "Hand_L"})");
   const Ran ran = run({"info", "walk.bvh", "--map", "map.json"});

@@ -128,7 +128,9 @@ TEST_F(Rejection, an_unreadable_path) {
       {"stylize", "folder.bvh", "--style", "old=1", "-o", "out.bvh"}, 1,
       "folder.bvh: holds no motion file, and neither do its folders (.bvh, .glb, .gltf, "
       ".vrm, .vrma, .amc, .fbx, .npz)");
-  expect_rejected({"info", "folder.bvh"}, 1, "folder.bvh: is a folder; expected a file");
+  expect_rejected({"info", "folder.bvh"}, 1,
+                  "folder.bvh: holds no motion file, and neither do its folders (.bvh, .glb, "
+                  ".gltf, .vrm, .vrma, .amc, .fbx, .npz)");
   expect_rejected({"info", "none.bvh"}, 1, "none.bvh: cannot be read: No such file or directory");
 }
 
