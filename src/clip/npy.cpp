@@ -171,7 +171,7 @@ Result<NpyArray> parse_npy(std::string_view bytes, const std::string& name) {
   out.elements = bytes.substr(begin + length);
   // Compared without a product that might overflow.
   size_t left = out.elements.size() / size_of(out.type);
-  const bool none = std::count(out.shape.begin(), out.shape.end(), size_t{0}) > 0;
+  const bool none = std::find(out.shape.begin(), out.shape.end(), size_t{0}) != out.shape.end();
   for (const size_t size : out.shape) left = none ? 0 : left / size;
   const bool enough = none || left > 0;
   if (enough && out.elements.size() == out.count() * size_of(out.type)) return out;
