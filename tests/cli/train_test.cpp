@@ -40,6 +40,17 @@ TEST_F(Train, motion_without_styles_is_only_for_recipes_that_can_use_it) {
   EXPECT_FALSE(exists("mine.safetensors"));
 }
 
+TEST_F(Train, manifests_may_name_files_that_only_the_program_reads) {
+  test::write_manifest(path(""));
+  const test::Ran converted = run({"convert", "neutral.bvh", "-o", "neutral.npz"});
+  if (converted.exit != 0) GTEST_SKIP() << "this build has no libzip";
+  write("pool.csv", "path,style,content,take,neutral,split\nneutral.npz,any,walk,001,1,train\n");
+  const test::Ran ran =
+      run({"train", "--unlabelled", "pool.csv", "--steps", "5", "-o", "base.safetensors"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_TRUE(exists("base.safetensors"));
+}
+
 TEST_F(Train, motion_without_styles_alone_makes_a_base) {
   test::write_manifest(path(""));
   write("pool.csv", "path,style,content,take,neutral,split\nneutral.bvh,any,walk,001,1,train\n");
