@@ -6,7 +6,7 @@ import { defineConfig, type Plugin } from 'vite';
 const root = fileURLToPath(new URL('../..', import.meta.url));
 const files = {
   wasm: process.env.PANACHE_WASM ?? `${root}build/wasm/panache.wasm`,
-  model: `${root}models/panache.safetensors`,
+  model: `${root}models/panache-int8.safetensors`,
   walker: `${root}models/walker.safetensors`,
 };
 

@@ -184,10 +184,12 @@ TEST_F(MotionFileApi, what_is_wrong_with_a_file_is_said) {
     EXPECT_EQ(none, nullptr);
     return std::string(panache_last_error());
   };
-  EXPECT_EQ(rejection(walk_bvh(), "walk"),
-            "walk: expected a motion file (.bvh, .glb, .gltf, .vrm), found no extension");
+  EXPECT_EQ(
+      rejection(walk_bvh(), "walk"),
+      "walk: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc), found no extension");
   EXPECT_EQ(rejection(walk_bvh(), "walk.fbx"),
-            "walk.fbx: expected a motion file (.bvh, .glb, .gltf, .vrm), found the extension "
+            "walk.fbx: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc), found the "
+            "extension "
             "'.fbx'");
   EXPECT_EQ(rejection("HIERARCHY\nROOF", "a.BVH").substr(0, 9), "a.BVH:2:1");
   const std::string hinge =

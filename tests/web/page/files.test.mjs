@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { frames, start } from './browser.mjs';
+import { frames, models, start } from './browser.mjs';
 
 const program = process.env.PANACHE_PROGRAM;
 const folder = mkdtempSync(join(tmpdir(), 'panache-page-'));
@@ -99,7 +99,8 @@ test('what is saved reads back: BVH, GLB, a picture and a film', async () => {
 });
 
 test('a clip that is saved is what the program makes of it, byte for byte', async () => {
-  panache('stylize', 'walk.bvh', '--style', 'proud=1', '-o', 'proud.bvh');
+  const model = join(models, 'panache-int8.safetensors');
+  panache('stylize', 'walk.bvh', '--model', model, '--style', 'proud=1', '-o', 'proud.bvh');
   assert.deepEqual(readFileSync(await save('BVH', '.bvh')), readFileSync(at('proud.bvh')));
 });
 
