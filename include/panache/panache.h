@@ -411,15 +411,16 @@ PANACHE_API panache_status panache_styles_extract(const void* model_bytes, size_
 
 /* ---- Motion files ---------------------------------------------------------------------------- */
 
-/* BVH, GLB, glTF and VRM files, as the program reads and writes them. Not in the WebAssembly
- * module. */
+/* BVH, GLB, glTF, VRM and VRMA files, as the program reads and writes them, and AMC files, which
+ * are written as BVH. Not in the WebAssembly module. */
 
 /* A motion file as a whole: its joints, its motions, and all else that stays when it is written
  * again. Never changes. */
 typedef struct panache_motion_file panache_motion_file;
 
 /* Reads a file from its bytes, which may go afterwards. The extension of `name` tells the format;
- * the name stands in front of messages, and a .gltf may have data in files beside it. */
+ * the name stands in front of messages, and a .gltf may have data, an .amc has its .asf, in files
+ * beside it. */
 PANACHE_API panache_status panache_motion_file_create(const void* bytes, size_t size,
                                                       const char* name, panache_motion_file** out);
 /* Does nothing with NULL. */
@@ -458,7 +459,8 @@ typedef struct panache_clip_edit {
   const double* source_frames;
 } panache_clip_edit;
 
-/* What becomes of the file's own motions. A BVH file holds one, which is always replaced. */
+/* What becomes of the file's own motions. A BVH or VRMA file holds one, which is always
+ * replaced. */
 typedef enum panache_edit_mode {
   PANACHE_REPLACE = 0,   /* The new frames replace the motion; a new motion replaces all. */
   PANACHE_ADD_LAST = 1,  /* They are added after the file's own, */

@@ -81,10 +81,13 @@ Result<Edit> read_edit(const panache_motion_file& file, const panache_clip_edit&
 
 Result<std::vector<Edit>> read_edits(const panache_motion_file& file, const panache_clip_edit* from,
                                      int32_t count) {
-  const bool holds_one = extension_of(file.path) == ".bvh";
+  const MotionFormat* format = find_format(motion_formats(), extension_of(file.path));
+  const bool holds_one = format->one_motion;
+  const char* kind = format->encoded_as == ".bvh" ? "BVH" : "VRMA";
   if (count < 1 || (holds_one && count > 1)) {
-    return Error{file.path + ": " + std::to_string(count) + " edits; expected " +
-                 (holds_one ? "1, as a BVH file holds one motion" : "1 or more")};
+    return Error{
+        file.path + ": " + std::to_string(count) + " edits; expected " +
+        (holds_one ? std::string("1, as a ") + kind + " file holds one motion" : "1 or more")};
   }
   std::vector<Edit> edits;
   for (int32_t e = 0; e < count; ++e) {

@@ -208,6 +208,31 @@ TEST_F(MotionFileApi, what_is_wrong_with_a_file_is_said) {
             PANACHE_BAD_ARGUMENT);
 }
 
+TEST_F(MotionFileApi, a_vrm_animation_takes_one_edit) {
+  const std::string bytes = R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}],
+    "nodes": [{"name": "hips"}], "extensions": {"VRMC_vrm_animation": {"specVersion": "1.0",
+      "humanoid": {"humanBones": {"hips": {"node": 0}}}}},
+    "animations": [{"channels": [{"sampler": 0, "target": {"node": 0, "path": "rotation"}}],
+      "samplers": [{"input": 0, "output": 1}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 2, "type": "SCALAR"},
+      {"bufferView": 1, "componentType": 5126, "count": 2, "type": "VEC4"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 8},
+      {"buffer": 0, "byteOffset": 8, "byteLength": 32}],
+    "buffers": [{"byteLength": 40, "uri": "data:application/octet-stream;base64,AAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAAAAAACAPw=="}]})";
+  panache_motion_file* read = nullptr;
+  ASSERT_EQ(panache_motion_file_create(bytes.data(), bytes.size(), "walk.vrma", &read), PANACHE_OK)
+      << panache_last_error();
+  panache_clip_edit edit{};
+  ASSERT_EQ(panache_motion_file_get_clip(read, 0, &edit.frames), PANACHE_OK);
+  const panache_clip_edit edits[] = {edit, edit};
+  panache_bytes* none = nullptr;
+  EXPECT_EQ(panache_motion_file_write(read, edits, 2, PANACHE_ADD_LAST, &none),
+            PANACHE_BAD_ARGUMENT);
+  EXPECT_STREQ(panache_last_error(),
+               "walk.vrma: 2 edits; expected 1, as a VRMA file holds one motion");
+  panache_motion_file_destroy(read);
+}
+
 TEST_F(MotionFileApi, what_is_wrong_with_an_edit_is_said) {
   const File file = open(walk_bvh());
   const panache_clip clip = clip_of(file);
