@@ -7,7 +7,7 @@
 
 namespace panache::cli {
 
-inline constexpr const char* kDefaultModel = "panache.safetensors";
+inline constexpr const char* kDefaultModel = "panache-int8.safetensors";
 inline constexpr const char* kBaseModel = "panache-base.safetensors";
 inline constexpr const char* kWalkerModel = "walker.safetensors";
 

@@ -1,7 +1,7 @@
 // Panache for C#: gives the motion of a character a style, live. One file over the shared library
 // (libpanache.so, panache.dll or libpanache.dylib where the runtime looks for native libraries).
 //
-//     var model = Panache.Model.Load("panache.safetensors");      // shared by all characters
+//     var model = Panache.Model.Load("panache-int8.safetensors");      // shared by all characters
 //     var skeleton = new Panache.Skeleton(joints);                // shared by one rig's characters
 //     var character = new Panache.Character(model, skeleton);
 //     character.SetStrength("old", 1);

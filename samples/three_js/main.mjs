@@ -15,7 +15,7 @@ if (!folder) {
 const { Panache } = await import(pathToFileURL(resolve(folder, 'index.js')).href);
 const panache = await Panache.create({
   wasm: await readFile(resolve(folder, 'panache.wasm')),
-  model: await readFile(resolve(folder, 'panache.safetensors')),
+  model: await readFile(resolve(folder, 'panache-int8.safetensors')),
 });
 const figure = createFigure();
 const styled = new StyledBones(panache, figure, humanBones);

@@ -7,7 +7,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 cmake --install "$build" --prefix "$work/panache" >"$work/install.log"
-[[ -f $work/panache/share/panache/models/panache.safetensors ]] || {
+[[ -f $work/panache/share/panache/models/panache-int8.safetensors ]] || {
   echo "installed.sh: the models were not installed" >&2
   exit 1
 }

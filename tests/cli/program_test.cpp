@@ -82,18 +82,18 @@ TEST_F(Program, the_shipped_model_is_found_where_the_program_is) {
   for (const std::string folder :
        {"prefix/share/panache/models/", "prefix/bin/models/", "models/"}) {
     if (!looked.empty()) looked += ", ";
-    looked += path(folder) + "panache.safetensors";
+    looked += path(folder) + "panache-int8.safetensors";
   }
-  EXPECT_EQ(none.err, "panache: the model panache.safetensors was not found; searched " + looked +
+  EXPECT_EQ(none.err, "panache: the model panache-int8.safetensors was not found; searched " + looked +
                           "; --model FILE or the environment variable PANACHE_MODEL names "
                           "another\n");
   // From the last place to look to the first.
   for (const std::string folder :
        {"models/", "prefix/bin/models/", "prefix/share/panache/models/"}) {
-    write(folder + "panache.safetensors", read("model.safetensors"));
+    write(folder + "panache-int8.safetensors", read("model.safetensors"));
     const Ran found = styles();
     EXPECT_EQ(found.exit, 0) << found.err;
-    EXPECT_TRUE(found.out.starts_with(path(folder) + "panache.safetensors\n")) << found.out;
+    EXPECT_TRUE(found.out.starts_with(path(folder) + "panache-int8.safetensors\n")) << found.out;
   }
 }
 

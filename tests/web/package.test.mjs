@@ -17,7 +17,7 @@ before(async () => {
   folder = await mkdtemp(join(tmpdir(), 'panache-'));
   await cp(join(root, 'apps/web/package'), join(folder, 'package'), { recursive: true });
   await cp(join(root, 'build/wasm/panache.wasm'), join(folder, 'package/panache.wasm'));
-  await cp(join(root, 'models/panache.safetensors'), join(folder, 'package/panache.safetensors'));
+  await cp(join(root, 'models/panache-int8.safetensors'), join(folder, 'package/panache-int8.safetensors'));
   await mkdir(join(folder, 'three_js'));
   for (const name of ['main.mjs', 'package.json', 'stick_figure.mjs', 'styled_bones.mjs']) {
     await cp(join(root, 'samples/three_js', name), join(folder, 'three_js', name));
@@ -29,7 +29,7 @@ before(async () => {
   const module = await load('package/index.js');
   PanacheError = module.PanacheError;
   wasm = await WebAssembly.compile(await readFile(join(folder, 'package/panache.wasm')));
-  panache = await module.Panache.create({ wasm, model: await read('models/panache.safetensors') });
+  panache = await module.Panache.create({ wasm, model: await read('models/panache-int8.safetensors') });
 });
 after(async () => {
   panache?.free();
@@ -61,7 +61,7 @@ class Hash {  // FNV-1a of the bits.
 
 test('a three.js skeleton, C and the library give the same bits', async () => {
   const file = join(folder, 'poses');
-  const model = join(root, 'models/panache.safetensors');
+  const model = join(root, 'models/panache-int8.safetensors');
   const [byC, byLibrary] =
     execFileSync(process.env.PANACHE_SAME_BITS, [model, file]).toString().trim().split(' ');
   const bytes = await readFile(file);

@@ -8,7 +8,7 @@ from bpy.props import (BoolProperty, FloatProperty, PointerProperty, StringPrope
 
 from . import library, preview
 
-SHIPPED = os.path.join(os.path.dirname(__file__), 'models', 'panache.safetensors')
+SHIPPED = os.path.join(os.path.dirname(__file__), 'models', 'panache-int8.safetensors')
 # name: (label, what it says, default)
 SHAPE = {
     'posture': ('Posture', 'Of the lasting part of the style', 1.0),

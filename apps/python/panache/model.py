@@ -11,7 +11,7 @@ from ._files import write
 from ._library import HERE, Handle, PanacheError, lib, take_bytes
 
 _MODELS = HERE / 'models'
-_DEFAULT = 'panache'  # As the program's.
+_DEFAULT = 'panache-int8'  # As the program's.
 _TYPES = {'F32': np.float32, 'F16': np.float16, 'I8': np.int8}
 
 

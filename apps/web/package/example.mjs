@@ -6,7 +6,7 @@ const here = (name) => readFile(new URL(name, import.meta.url));
 const [path, ...styles] = process.argv.slice(2);
 const panache = await Panache.create({
   wasm: await here('panache.wasm'),
-  model: await here('panache.safetensors'),
+  model: await here('panache-int8.safetensors'),
 });
 try {
   const file = panache.openFile(await readFile(path), path);
