@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <cstdio>
 #include <filesystem>
 #include <mutex>
 #include <new>
@@ -10,7 +11,10 @@
 #include "base/file.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "formats.h"
 #include "input.h"
+#include "standard_streams.h"
+#include "stop_signal.h"
 
 namespace panache::cli {
 namespace {
@@ -36,13 +40,16 @@ class JointProgress {
   int done_ = 0;
 };
 
+// Ends the work on a file that Ctrl-C came upon.
+struct Stopped {};
+
 Json to_json(const FileJob& file) {
-  const bool ok = file.error.empty();
+  const bool ok = file.error.empty() && !file.stopped;
   return {{"in", file.input},
           {"out", file.output},
           {"ok", ok},
           {"skipped", file.skipped},
-          {"error", ok ? Json() : Json(file.error)},
+          {"error", ok ? Json() : Json(file.stopped ? "stopped" : file.error)},
           {"clips", file.clips},
           {"frames", file.frames},
           {"seconds", file.seconds},
@@ -56,8 +63,15 @@ std::string summary(const std::vector<FileJob>& files, const std::string& done, 
                                     [](const FileJob& file) { return !file.error.empty(); });
   const auto skipped =
       std::count_if(files.begin(), files.end(), [](const FileJob& file) { return file.skipped; });
+  const auto stopped =
+      std::count_if(files.begin(), files.end(), [](const FileJob& file) { return file.stopped; });
+  const auto good = static_cast<std::ptrdiff_t>(files.size()) - failed - skipped - stopped;
+  if (stopped) {
+    return "stopped: " + done + " " + std::to_string(good) + " of " + plural(files.size(), "file") +
+           in.substr(0, in.size() - 1) +
+           (good ? "; --skip-existing goes on with the rest\n" : "\n");
+  }
   if (files.size() > 1) {
-    const auto good = static_cast<std::ptrdiff_t>(files.size()) - failed - skipped;
     return done + " " + std::to_string(good) + " of " + plural(files.size(), "file") +
            (failed ? ", " + std::to_string(failed) + " failed," : "") +
            (skipped ? ", " + std::to_string(skipped) + " skipped," : "") + in;
@@ -92,13 +106,14 @@ int tell_plan(const std::vector<FileJob>& files, bool json) {
 void add_batch_options(CLI::App& verb, BatchFlags& flags) {
   verb.add_option("IN", flags.inputs,
                   "Motion files (" + motion_extensions() +
-                      "),\nfolders of them, or patterns such as 'takes/**/*.bvh'")
+                      "),\nfolders of them, or patterns such as 'takes/**/*.bvh';\n"
+                      "- is stdin")
       ->required()
       ->type_name("");
   verb.add_option("-o,--output", flags.output,
                   "File to write; for several files, or with a '/' at\n"
-                  "its end, a folder")
-      ->required()
+                  "its end, a folder; - is stdout. Default for one file:\n"
+                  "a new name beside it")
       ->type_name("OUT");
   CLI::Option* force = verb.add_flag("--force", flags.force, "Overwrite files");
   verb.add_flag("--skip-existing", flags.skip_existing,
@@ -113,24 +128,99 @@ void add_batch_options(CLI::App& verb, BatchFlags& flags) {
   verb.add_option("--report", flags.report, "Also write this JSON to a file")->type_name("FILE");
 }
 
-Result<std::vector<FileJob>> plan_batch(const BatchFlags& flags, const std::string& extension,
-                                        int& exit_code) {
-  exit_code = kBadUsage;
-  if (auto jobs = check_range("--jobs", flags.jobs, 0, 1024); !jobs) return jobs.error();
-  Result<FoundFiles> found = find_inputs(flags.inputs, flags.output);
+namespace {
+
+// The name of a result that the user did not name: "takes/walk-old.bvh" of "takes/walk.bvh".
+Result<std::string> default_output(const FoundFiles& found, const OutputNaming& naming) {
+  if (found.is_batch) {
+    return Error{"--output is required: a folder for the results of " +
+                 plural(found.files.size(), "file")};
+  }
+  const std::filesystem::path input = found.files[0].path;
+  const std::string name = input.stem().string() +
+                           (naming.suffix.empty() ? "" : "-" + naming.suffix) +
+                           input.extension().string();
+  const std::string output = with_extension(input.parent_path() / name, naming.extension).string();
+  if (output != input.string()) return output;
+  return Error{"--output is required: " + output + " is the input itself"};
+}
+
+// A job whose input or output, or both, are standard streams.
+Result<FileJob> plan_stream(const BatchFlags& flags, const OutputNaming& naming) {
+  if (flags.inputs.size() != 1) {
+    return Error{"- stands for one file, and comes without others; found " +
+                 plural(flags.inputs.size(), "input")};
+  }
+  FileJob file;
+  file.input = flags.inputs[0];
+  file.to_stdout = flags.output.value_or(std::string(kStandardStream)) == kStandardStream;
+  if (file.to_stdout && flags.json) {
+    return Error{"--json: stdout takes the motion; --report FILE writes the same"};
+  }
+  if (file.input == kStandardStream && !flags.dry_run) {
+    Result<StdinMotion> motion = read_stdin();
+    if (!motion) return motion.error();
+    file.input = motion->name;
+    file.bytes = std::move(motion->bytes);
+  }
+  const FoundFiles found{{{file.input, file.input}}, false};
+  const std::string output = file.to_stdout ? "stdout" + extension_of(file.input) : *flags.output;
+  if (file.to_stdout) {
+    file.output = with_extension(output, naming.extension).string();
+    return file;
+  }
+  Result<std::vector<FilePair>> pairs = name_outputs(found, output, naming.extension);
+  if (!pairs) return pairs.error();
+  file.output = pairs->front().output;
+  return file;
+}
+
+bool uses_streams(const BatchFlags& flags) {
+  return flags.output == kStandardStream ||
+         std::find(flags.inputs.begin(), flags.inputs.end(), kStandardStream) != flags.inputs.end();
+}
+
+// The jobs without a look at what exists.
+Result<std::vector<FileJob>> name_jobs(const BatchFlags& flags, const OutputNaming& naming,
+                                       int& exit_code) {
+  std::vector<FileJob> files;
+  if (uses_streams(flags)) {
+    Result<FileJob> file = plan_stream(flags, naming);
+    if (!file) return file.error();
+    files.push_back(*std::move(file));
+    return files;
+  }
+  Result<FoundFiles> found = find_inputs(flags.inputs, flags.output.value_or(""));
   if (!found) {
     exit_code = kBadInput;
     return found.error();
   }
-  Result<std::vector<FilePair>> pairs = name_outputs(*found, flags.output, extension);
+  Result<std::string> output =
+      flags.output ? Result<std::string>(*flags.output) : default_output(*found, naming);
+  if (!output) return output.error();
+  Result<std::vector<FilePair>> pairs = name_outputs(*found, *output, naming.extension);
   if (!pairs) return pairs.error();
-  std::vector<FileJob> files;
   for (const FilePair& pair : *pairs) {
     FileJob file;
     file.input = pair.input;
     file.output = pair.output;
     files.push_back(std::move(file));
-    if (!flags.report.empty() && pair.output == flags.report) {
+  }
+  return files;
+}
+
+}  // namespace
+
+Result<std::vector<FileJob>> plan_batch(const BatchFlags& flags, const OutputNaming& naming,
+                                        int& exit_code) {
+  exit_code = kBadUsage;
+  if (auto jobs = check_range("--jobs", flags.jobs, 0, 1024); !jobs) return jobs.error();
+  Result<std::vector<FileJob>> files = name_jobs(flags, naming, exit_code);
+  if (!files) return files.error();
+  std::vector<FilePair> pairs;
+  for (const FileJob& file : *files) {
+    if (!file.to_stdout) pairs.push_back({file.input, file.output});
+    if (!flags.report.empty() && file.output == flags.report) {
       return Error{"--report: " + flags.report + " is an output too; expected a separate file"};
     }
   }
@@ -140,16 +230,28 @@ Result<std::vector<FileJob>> plan_batch(const BatchFlags& flags, const std::stri
   }
   if (flags.skip_existing) {
     std::error_code status;
-    for (FileJob& file : files) file.skipped = std::filesystem::exists(file.output, status);
-  } else if (auto free = check_outputs(*pairs, flags.force); !free) {
+    for (FileJob& file : *files) {
+      file.skipped = !file.to_stdout && std::filesystem::exists(file.output, status);
+    }
+  } else if (auto free = check_outputs(pairs, flags.force); !free) {
     return free.error();
   }
   return files;
 }
 
+Result<std::unique_ptr<MotionFile>> open_input(const FileJob& file) {
+  if (!file.bytes) return open_motion(file.input);
+  return find_format(formats(), extension_of(file.input))->parse(*file.bytes, file.input);
+}
+
+Result<void> write_output(const FileJob& file, std::string_view bytes, bool force) {
+  return file.to_stdout ? write_stdout(bytes) : write_file(file.output, bytes, force);
+}
+
 int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::string& doing,
               const std::string& done, const FileWork& work) {
   if (flags.dry_run) return tell_plan(files, flags.json);
+  watch_stop_signals();
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
   {
@@ -161,12 +263,21 @@ int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::st
         if (!flags.quiet) progress.update(n, part);
       };
       if (file.skipped) return show(1);
+      const auto share = [&](double part) {
+        if (stop_asked()) throw Stopped();
+        show(std::min(part, 0.99));
+      };
       try {
-        const auto share = [&](double part) { show(std::min(part, 0.99)); };
-        if (auto worked = work(file, share); !worked)
+        share(0);
+        if (auto worked = work(file, share); !worked) {
+          if (stop_asked()) throw Stopped();  // A wait that Ctrl-C ended, or a child process.
           file.error = with_hint(worked.error().message);
+        }
       } catch (const std::bad_alloc&) {
         file.error = file.input + ": out of memory";
+      } catch (const Stopped&) {
+        file.stopped = true;
+        return;
       }
       show(1);
     };
@@ -175,31 +286,40 @@ int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::st
   const double spent = std::chrono::duration<double>(Clock::now() - begin).count();
 
   Json results = Json::array();
-  bool all_good = true;
+  bool all_good = true, stopped = false;
+  // Where the motion goes to stdout, what is told of it does not.
+  const auto tell = [&](const std::string& text) {
+    if (files[0].to_stdout) {
+      std::fputs(text.c_str(), stderr);
+    } else {
+      print(text);
+    }
+  };
   for (const FileJob& file : files) {
     for (const std::string& note : file.notes) {
       if (!flags.quiet) print_message(note);
     }
     if (!file.error.empty()) print_message(file.error);
-    all_good = all_good && file.error.empty();
+    all_good = all_good && file.error.empty() && !file.stopped;
+    stopped = stopped || file.stopped;
     results.push_back(to_json(file));
   }
   if (flags.json) {
     print(results);
   } else if (!flags.quiet) {
-    print(summary(files, done, spent));
+    tell(summary(files, done, spent));
     if (files.size() == 1 && all_good) {
-      for (const std::string& line : files[0].added) print("  " + line + "\n");
+      for (const std::string& line : files[0].added) tell("  " + line + "\n");
     }
     for (const FileJob& file : files) {
-      for (const std::string& line : file.details) print("  " + line + "\n");
+      for (const std::string& line : file.details) tell("  " + line + "\n");
     }
   }
   if (!flags.report.empty()) {
     auto written = write_file(flags.report, dump(results), flags.force);
     if (!written) return fail(written.error(), kBadInput);
   }
-  return all_good ? kDone : kBadInput;
+  return stopped ? kStopped : all_good ? kDone : kBadInput;
 }
 
 }  // namespace panache::cli

@@ -2,20 +2,24 @@
 // Many files, one after the other or side by side, and one account of them all at the end.
 
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "clip/motion_file.h"
 #include "find_inputs.h"
-#include "outputs.h"
 #include "messages.h"
+#include "outputs.h"
 
 namespace panache::cli {
 
 struct BatchFlags {
   std::vector<std::string> inputs;
-  std::string output;
+  std::optional<std::string> output;
   std::string report;  // A file to write, or empty.
   bool force = false;
   bool skip_existing = false;
@@ -32,6 +36,10 @@ void add_batch_options(CLI::App& verb, BatchFlags& flags);
 // One file on its way.
 struct FileJob {
   std::string input, output;
+  // Of an input that came through stdin; it is called "stdin.bvh", say.
+  std::optional<std::string> bytes;
+  bool to_stdout = false;          // It is called "stdout.bvh", say.
+  bool stopped = false;            // Ctrl-C came before it was done.
   bool skipped = false;            // Its output is there, and stays.
   std::string error;               // Empty where all went well.
   std::vector<std::string> notes;  // What a careful user would want to know; for stderr.
@@ -44,15 +52,27 @@ struct FileJob {
   Json mapping;                      // Of the rig, null where there was none.
 };
 
-// Checks the flags, finds the files and names their outputs, with `extension` where it is not
-// empty. A failure sets `exit_code`.
-Result<std::vector<FileJob>> plan_batch(const BatchFlags& flags, const std::string& extension,
+// How outputs are called that the user did not name.
+struct OutputNaming {
+  std::string extension;  // In place of the input's own, where it is not empty.
+  std::string suffix;     // Between the input's name and its extension, where no --output is given.
+};
+
+// Checks the flags, finds the files and names their outputs; reads stdin where that is the input. A
+// failure sets `exit_code`.
+Result<std::vector<FileJob>> plan_batch(const BatchFlags& flags, const OutputNaming& naming,
                                         int& exit_code);
+
+// The motion file of a job.
+Result<std::unique_ptr<MotionFile>> open_input(const FileJob& file);
+// Puts the result of a job where it goes.
+Result<void> write_output(const FileJob& file, std::string_view bytes, bool force);
 
 // Does `work` for each file, several at once, under a bar titled DOING, and tells of it: errors and
 // notes to stderr, to stdout "DONE walk.bvh into old.bvh ..." or "DONE 18 of 19 files, 1 failed,
 // in 3.2 s", or JSON, which also goes into the report. `work` gets a function to call with the
-// share of the file that is done. The exit code is 1 where a file failed.
+// share of the file that is done. The exit code is 1 where a file failed, and kStopped where Ctrl-C
+// came: files that are not done then are left out.
 using FileWork = std::function<Result<void>(FileJob&, const std::function<void(double)>&)>;
 int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::string& doing,
               const std::string& done, const FileWork& work);

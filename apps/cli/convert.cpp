@@ -39,7 +39,7 @@ Result<std::string> whole_file(const MotionFile& motion, const FileJob& file) {
   if (must_be_encoded(extension_of(file.input))) {
     return in_container(motion.encode({}, EditMode::replace), file.input, file.output);
   }
-  return read_file(file.input);
+  return file.bytes ? *file.bytes : read_file(file.input);
 }
 
 Result<std::string> with_path(const std::string& path, Result<std::string> bytes) {
@@ -87,13 +87,13 @@ Result<std::string> convert_motion(const MotionFile& motion, FileJob& file, cons
 }
 
 Result<void> convert_file(FileJob& file, const ConvertVerb& verb, const RigOptions& options) {
-  Result<std::unique_ptr<MotionFile>> motion = open_motion(file.input);
+  Result<std::unique_ptr<MotionFile>> motion = open_input(file);
   if (!motion) return motion.error();
   Result<std::string> bytes = keeps_format(extension_of(file.input), extension_of(file.output))
                                   ? convert_whole(**motion, file, verb)
                                   : convert_motion(**motion, file, verb, options);
   if (!bytes) return bytes.error();
-  return write_file(file.output, *bytes, verb.batch.force);
+  return write_output(file, *bytes, verb.batch.force);
 }
 
 // The extension of files in an output folder. A single output file says its format itself.
@@ -119,16 +119,17 @@ int convert(const ConvertVerb& verb) {
   Result<std::string> extension = wanted_extension(verb);
   if (!extension) return fail(extension.error(), kBadUsage);
   int exit_code = kDone;
-  Result<std::vector<FileJob>> files = plan_batch(verb.batch, *extension, exit_code);
+  Result<std::vector<FileJob>> files = plan_batch(verb.batch, {*extension, ""}, exit_code);
   if (!files) return fail(files.error(), exit_code);
   for (const FileJob& file : *files) {
     auto format = check_format(file.input, file.output);
     if (!format) return fail(format.error(), kBadUsage);
   }
-  if (extension->empty() && files->front().output != verb.batch.output) {
-    return fail(
-        {"--output " + verb.batch.output + ": is a folder; expected --to with it, as in --to bvh"},
-        kBadUsage);
+  const FileJob& first = files->front();
+  const std::string output = verb.batch.output.value_or(first.output);
+  if (extension->empty() && !first.to_stdout && first.output != output) {
+    return fail({"--output " + output + ": is a folder; expected --to with it, as in --to bvh"},
+                kBadUsage);
   }
   if (!extension->empty() && extension_of(files->front().output) != *extension) {
     return fail({"--to " + verb.to + ": " + files->front().output + " has another format"},

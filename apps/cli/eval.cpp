@@ -14,6 +14,7 @@
 #include "manifests.h"
 #include "messages.h"
 #include "outputs.h"
+#include "usage_error.h"
 #include "verbs.h"
 
 namespace panache::cli {
@@ -219,7 +220,7 @@ void add_eval(CLI::App& app, int& exit_code) {
                    "strength 1, for the other program to go through");
   verb->add_option("--report", options->report, "A folder for report.json and the page index.html");
   verb->add_option("--steps", options->steps, "Train this many steps instead of the recipes' own")
-      ->check(CLI::Range(1, 1000000000));
+      ->check(in_range(1, 1000000000));
   verb->add_option("--seed", options->seed, "Seed of classifiers and training");
   verb->add_flag("--force", options->force, "Overwrite an existing report");
   verb->add_flag("--json", options->json, "Print the report as JSON");

@@ -22,6 +22,12 @@ std::string describe(const GateReport& gate) {
          fixed(100 * gate.eased, 0) + " % of frames eased to the mean posture)";
 }
 
+std::string describe_eased(const GateReport& gate) {
+  return fixed(100 * gate.eased, 0) +
+         " % of its frames are unlike the motion that the styles were trained on; those were eased "
+         "towards the mean posture of the style";
+}
+
 Json to_json(const GateReport& gate) {
   return {{"mean", gate.mean}, {"least", gate.least}, {"eased", gate.eased}};
 }

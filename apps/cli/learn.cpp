@@ -182,7 +182,9 @@ int learn(const LearnVerb& verb) {
   Result<std::shared_ptr<const Model>> read = Model::create(*model, *base);
   if (!read) return fail(read.error(), kBadInput);
   if ((*read)->find_style(verb.name) && !verb.force) {
-    return fail({*base + ": has a style '" + verb.name +
+    const std::string owner =
+        is_new ? "the shipped model, which " + verb.model + " starts from," : *base + ":";
+    return fail({owner + " has a style '" + verb.name +
                  "' already; give another --name, or --force to replace it"},
                 kBadInput);
   }

@@ -14,6 +14,7 @@
 #include "shape_options.h"
 #include "stop_signal.h"
 #include "strengths.h"
+#include "usage_error.h"
 #include "verbs.h"
 #include "vmc_relay.h"
 
@@ -161,12 +162,12 @@ void add_live(CLI::App& app, int& exit_code) {
       ->type_name("FILE");
   verb->add_option("--max-lag", options->time.max_lag,
                    "Maximum lag for slower styles, 0 to 4 seconds;\ndefault: 0")
-      ->check(CLI::Range(0.0, panache::LiveOptions::kMaxLag).description(""))
+      ->check(in_range(0.0, panache::LiveOptions::kMaxLag))
       ->type_name("SECONDS");
   verb->add_option(
           "--max-lead", options->time.max_lead,
           "Maximum lead for faster styles, using predicted\ninput, 0 to 0.25 seconds; default: 0")
-      ->check(CLI::Range(0.0, PredictorNetwork::kMaxSeconds).description(""))
+      ->check(in_range(0.0, PredictorNetwork::kMaxSeconds))
       ->type_name("SECONDS");
   verb->add_flag("--skip-cycles", options->time.skip_cycles,
                  "Skip or repeat whole gait cycles to stay within the\n"

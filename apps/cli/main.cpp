@@ -8,26 +8,18 @@
 #include <string_view>
 #include <vector>
 
+#include "base/nearest_names.h"
 #include "base/one_of.h"
 #include "fbx.h"
 #include "formats.h"
 #include "messages.h"
-#include "style/names.h"
+#include "usage_error.h"
 #include "verbs.h"
 
 namespace panache::cli {
 namespace {
 
 constexpr std::string_view kHelp = "help";
-
-// "; the nearest is stylize", with `dashes` before the name; empty where no name begins alike.
-std::string nearest(const std::string& wanted, const std::vector<std::string>& names,
-                    const std::string& dashes = "") {
-  constexpr size_t kAlike = 1;
-  const std::string found = list_nearest(wanted, names, 1);
-  return found.substr(0, kAlike) == wanted.substr(0, kAlike) ? "; the nearest is " + dashes + found
-                                                             : "";
-}
 
 // The library's own message for a verb that does not exist names no verb that does.
 Result<void> check_verb(const CLI::App& app, const std::string& verb) {
@@ -36,29 +28,10 @@ Result<void> check_verb(const CLI::App& app, const std::string& verb) {
     if (known->get_name() == verb) return {};
     names.push_back(known->get_name());
   }
-  return Error{"there is no command '" + verb + "'" + nearest(verb, names) + "; expected " +
+  const std::vector<std::string> nearest = nearest_names(verb, names, 1);
+  return Error{"there is no command '" + verb + "'" +
+               (nearest.empty() ? "" : "; the nearest " + is_or_are(nearest)) + "; expected " +
                one_of(names)};
-}
-
-// The same of the first option that a verb does not have; empty where there is none.
-std::string nearest_option(const CLI::App& app, const std::string& verb) {
-  for (const std::string& argument : app.remaining(true)) {
-    if (!argument.starts_with("--")) continue;
-    std::vector<std::string> names;
-    for (const CLI::Option* option : app.get_subcommand(verb)->get_options()) {
-      for (const std::string& name : option->get_lnames()) names.push_back(name);
-    }
-    return nearest(argument.substr(2, argument.find('=') - 2), names, "--");
-  }
-  return "";
-}
-
-std::string one_line(std::string text) {
-  while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
-  for (char& c : text) {
-    if (c == '\n') c = ' ';
-  }
-  return text;
 }
 
 int run(int argc, char** argv) {
@@ -97,9 +70,8 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help and --version.
     const bool named = verb[0] != '-';
-    const bool extra = named && dynamic_cast<const CLI::ExtrasError*>(&error);
-    return fail({one_line(error.what()) + (extra ? nearest_option(app, verb) : "") +
-                 "; see panache " + (named ? verb + " " : "") + "--help"},
+    return fail({describe(error, named ? *app.get_subcommand(verb) : app) + "; see panache " +
+                 (named ? verb + " " : "") + "--help"},
                 kBadUsage);
   }
   return exit_code;

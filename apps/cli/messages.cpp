@@ -12,7 +12,7 @@ void print_message(const std::string& message) {
 }
 
 std::string with_hint(const std::string& message) {
-  constexpr std::string_view kUnknown = "unknown style '",
+  constexpr std::string_view kUnknown = "unknown style '", kNearest = "; the nearest ",
                              kModel = ": is a model; expected a style file";
   struct Hint {
     std::string_view end, hint;
@@ -34,6 +34,7 @@ std::string with_hint(const std::string& message) {
            " --extract NAME -o FILE makes one";
   }
   if (message.find(kUnknown) == std::string::npos || message.ends_with(')')) return message;
+  if (message.find(kNearest) == std::string::npos) return message;  // It lists all itself.
   return message + " (panache styles lists all)";
 }
 

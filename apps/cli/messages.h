@@ -10,8 +10,9 @@
 namespace panache::cli {
 
 inline constexpr int kDone = 0;
-inline constexpr int kBadInput = 1;  // A file is not what it should be, or cannot be written.
-inline constexpr int kBadUsage = 2;  // The command line asks for something that there is not.
+inline constexpr int kBadInput = 1;   // A file is not what it should be, or cannot be written.
+inline constexpr int kBadUsage = 2;   // The command line asks for something that there is not.
+inline constexpr int kStopped = 130;  // By Ctrl-C, as shells count it.
 
 // "panache: MESSAGE" on stderr.
 void print_message(const std::string& message);

@@ -15,6 +15,8 @@ namespace {
 // Existing files that a message names before it says how many more there are.
 constexpr size_t kNamed = 3;
 
+}  // namespace
+
 fs::path with_extension(fs::path name, const std::string& extension) {
   const std::string own = extension_of(name.string());
   if (!extension.empty() && extension != own) return name.replace_extension(extension);
@@ -22,8 +24,6 @@ fs::path with_extension(fs::path name, const std::string& extension) {
   const bool has_another = extension.empty() && format && format->encoded_as != own;
   return has_another ? name.replace_extension(format->encoded_as) : name;
 }
-
-}  // namespace
 
 Result<std::vector<FilePair>> name_outputs(const FoundFiles& inputs, const std::string& output,
                                            const std::string& extension) {

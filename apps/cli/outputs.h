@@ -1,6 +1,7 @@
 #pragma once
 // Where results go.
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -14,10 +15,13 @@ struct FilePair {
   std::string input, output;
 };
 
+// `name` with `extension` for its own where that is not empty, and with .glb for .fbx, which nobody
+// writes here.
+std::filesystem::path with_extension(std::filesystem::path name, const std::string& extension);
+
 // The output file of each input. `output` is a folder where the inputs are a batch, where it ends
-// in '/' and where it is one; files in it are called as the inputs, with `extension` for their own
-// where that is not empty and with .glb for .fbx, which nobody writes here. Two inputs with one
-// output are rejected.
+// in '/' and where it is one; files in it are called as the inputs, see with_extension(). Two
+// inputs with one output are rejected.
 Result<std::vector<FilePair>> name_outputs(const FoundFiles& inputs, const std::string& output,
                                            const std::string& extension = "");
 

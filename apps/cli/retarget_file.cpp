@@ -1,20 +1,23 @@
 #include "retarget_file.h"
 
+#include <filesystem>
 #include <functional>
 #include <utility>
 
-#include "base/file.h"
 #include "input.h"
 #include "messages.h"
 #include "rig_report.h"
 
 namespace panache::cli {
+
+namespace fs = std::filesystem;
+
 namespace {
 
 Result<void> retarget_file(FileJob& file, const CharacterFile& character,
                            const RetargetFlags& flags, const RigOptions& rig_options,
                            const RetargetOptions& options) {
-  Result<std::unique_ptr<MotionFile>> motion = open_motion(file.input);
+  Result<std::unique_ptr<MotionFile>> motion = open_input(file);
   if (!motion) return motion.error();
   Result<std::vector<int>> picked = pick_clips(**motion, flags.clip, file.input);
   if (!picked) return picked.error();
@@ -52,7 +55,7 @@ Result<void> retarget_file(FileJob& file, const CharacterFile& character,
   }
   Result<std::string> bytes = character.encode(motions, edit_mode(flags.place), file.output);
   if (!bytes) return bytes.error();
-  return write_file(file.output, *bytes, flags.batch.force);
+  return write_output(file, *bytes, flags.batch.force);
 }
 
 }  // namespace
@@ -63,7 +66,9 @@ int retarget_files(const RetargetFlags& flags, const RetargetOptions& options,
   Result<CharacterFile> character = CharacterFile::open(flags.onto);
   if (!character) return fail(character.error(), kBadInput);
   int exit_code = kDone;
-  Result<std::vector<FileJob>> files = plan_batch(flags.batch, character->extension(), exit_code);
+  Result<std::vector<FileJob>> files = plan_batch(
+      flags.batch, {character->extension(), "on-" + fs::path(character->path()).stem().string()},
+      exit_code);
   if (!files) return fail(files.error(), exit_code);
   if (auto fit = character->check_outputs(*files); !fit) return fail(fit.error(), kBadUsage);
   Result<RigOptions> rig = read_rig_options(flags.rig);

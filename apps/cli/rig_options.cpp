@@ -1,10 +1,10 @@
 #include "rig_options.h"
 
-#include <algorithm>
 #include <string_view>
 #include <vector>
 
 #include "base/file.h"
+#include "base/nearest_names.h"
 #include "clip/text_cursor.h"
 #include "messages.h"
 #include "rig/humanoid.h"
@@ -26,35 +26,14 @@ std::string axis_name(std::string text) {
   return good ? text : "";
 }
 
-// How many letters must be put in, taken out or exchanged to turn `a` into `b`.
-size_t letters_apart(std::string_view a, std::string_view b) {
-  std::vector<size_t> row(b.size() + 1);
-  for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (size_t i = 1; i <= a.size(); ++i) {
-    size_t diagonal = row[0]++;
-    for (size_t j = 1; j <= b.size(); ++j) {
-      const size_t exchanged = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, exchanged});
-    }
-  }
-  return row[b.size()];
-}
-
 Result<int> parse_human_joint(const std::string& joint, const std::string& name) {
   if (const std::optional<int> known = find_human_joint(joint)) return *known;
-  int nearest = 0;
-  for (int j = 1; j < kHumanJoints; ++j) {
-    // A name of any length may stand in a file; what is beyond a joint's own length is not read.
-    const std::string_view start = std::string_view(joint).substr(0, 64);
-    if (letters_apart(start, human_joint_name(j)) <
-        letters_apart(start, human_joint_name(nearest))) {
-      nearest = j;
-    }
-  }
-  return Error{name + ": unknown human joint " + panache::quoted(joint) + "; the nearest is " +
-               std::string(human_joint_name(nearest)) + " (panache info lists all " +
-               std::to_string(kHumanJoints) + ")"};
+  std::vector<std::string> names;
+  for (int j = 0; j < kHumanJoints; ++j) names.emplace_back(human_joint_name(j));
+  const std::vector<std::string> nearest = nearest_names(joint, names, 1);
+  return Error{name + ": unknown human joint " + panache::quoted(joint) +
+               (nearest.empty() ? "" : "; the nearest " + is_or_are(nearest)) +
+               " (panache info lists all " + std::to_string(kHumanJoints) + ")"};
 }
 
 Result<void> put(const std::string& human_joint, const Json& joint, const std::string& name,

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "clip/text_cursor.h"
+#include "usage_error.h"
 
 namespace panache::cli {
 namespace {
@@ -27,7 +28,7 @@ std::optional<float> amount(const std::string& text) {
 void add_shape_options(CLI::App& verb, ShapeFlags& flags) {
   const auto add = [&](const char* name, float& value, const char* description) {
     verb.add_option(name, value, description)
-        ->check(CLI::Range(0.0f, Shape::kMax).description(""))
+        ->check(in_range(0, static_cast<double>(Shape::kMax)))
         ->type_name("AMOUNT");
   };
   add("--posture", flags.shape.posture,

@@ -1,6 +1,7 @@
 // panache stylize: motion files in, the same motion in another style out.
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -8,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "base/file.h"
 #include "batch.h"
 #include "formats.h"
 #include "gate_report.h"
@@ -116,6 +116,7 @@ Result<RestyledClip> restyle_clip(const MotionFile& motion, int which, const Wan
                         {"styles", to_json(tracks, *wanted.model)},
                         {"gate", to_json(gate)}});
   file.details.push_back(place + ": " + describe(gate));
+  if (gate.eased > 0.5) file.notes.push_back(place + ": " + describe_eased(gate));
   file.frames += out.result.clip.frames;
   file.seconds += out.result.clip.duration();
   return out;
@@ -165,7 +166,7 @@ Result<std::string> encode_onto(const CharacterFile& character,
 
 Result<void> stylize_file(FileJob& file, const Wanted& wanted, const StylizeOptions& options,
                           const std::function<void(double)>& progress) {
-  Result<std::unique_ptr<MotionFile>> motion = open_motion(file.input);
+  Result<std::unique_ptr<MotionFile>> motion = open_input(file);
   if (!motion) return motion.error();
   Result<std::vector<int>> picked = pick_clips(**motion, options.clip, file.input);
   if (!picked) return picked.error();
@@ -199,7 +200,7 @@ Result<void> stylize_file(FileJob& file, const Wanted& wanted, const StylizeOpti
   Result<std::string> bytes = wanted.onto ? encode_onto(*wanted.onto, clips, file, options)
                                           : encode(**motion, clips, file, options);
   if (!bytes) return bytes.error();
-  return write_file(file.output, *bytes, options.batch.force);
+  return write_output(file, *bytes, options.batch.force);
 }
 
 // What the user wants of which style, from both sources. A failure sets `exit_code`.
@@ -239,6 +240,19 @@ Result<void> check_formats(const std::vector<FileJob>& files,
   return {};
 }
 
+// "old-proud": what a result is called that the user did not name.
+std::string name_styles(const StylizeOptions& options) {
+  std::vector<std::string> parts;
+  for (const std::string& style : options.styles) parts.push_back(style.substr(0, style.find('=')));
+  if (!options.strengths.empty()) {
+    parts.push_back(std::filesystem::path(options.strengths).stem().string());
+  }
+  std::string name;
+  for (const std::string& part : parts) name += (name.empty() ? "" : "-") + part;
+  std::replace(name.begin(), name.end(), '/', '-');
+  return name;
+}
+
 int stylize(const StylizeOptions& options) {
   if (auto rig = check_rig_flags(options.rig); !rig) return fail(rig.error(), kBadUsage);
   Result<Shape> shape = read_shape(options.shape);
@@ -251,7 +265,7 @@ int stylize(const StylizeOptions& options) {
   }
   int exit_code = kDone;
   Result<std::vector<FileJob>> files =
-      plan_batch(options.batch, onto ? onto->extension() : "", exit_code);
+      plan_batch(options.batch, {onto ? onto->extension() : "", name_styles(options)}, exit_code);
   if (!files) return fail(files.error(), exit_code);
   if (auto formats = check_formats(*files, onto); !formats) {
     return fail(formats.error(), kBadUsage);
@@ -312,6 +326,7 @@ void add_stylize(CLI::App& app, int& exit_code) {
       "as GLB. The output may be of another format (docs/formats.md).\n\n"
       "Examples:\n"
       "  panache stylize walk.bvh --style old=1 -o old.bvh\n"
+      "  panache stylize walk.bvh --style old=1           (into walk-old.bvh)\n"
       "  panache stylize takes/ --style proud=0.7 --style angry=0..1 -o restyled/\n"
       "  panache stylize hero.glb --clip walk --style sad=1 -o sad-hero.glb");
   verb->callback([options, &exit_code] { exit_code = stylize(*options); });

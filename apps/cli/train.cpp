@@ -10,6 +10,7 @@
 #include "train/checkpoint.h"
 #include "train/train_base.h"
 #include "train/trainer.h"
+#include "usage_error.h"
 #include "verbs.h"
 
 namespace panache::cli {
@@ -112,7 +113,7 @@ void add_train(CLI::App& app, int& exit_code) {
   verb->add_option("--licence", options->licence,
                    "Licence of the data, kept in the model's metadata");
   verb->add_option("--steps", options->steps, "Steps of training instead of the recipe's own")
-      ->check(CLI::Range(1, 1000000000));
+      ->check(in_range(1, 1000000000));
   verb->add_option("--seed", options->seed, "Seed of all random numbers")->capture_default_str();
   verb->add_flag("--force", options->force, "Overwrite the model if it exists");
   verb->add_flag("--json", options->json, "Print the result as JSON");

@@ -11,6 +11,7 @@
 #include "messages.h"
 #include "model_path.h"
 #include "outputs.h"
+#include "standard_streams.h"
 #include "verbs.h"
 #include "walker/walker.h"
 
@@ -44,7 +45,7 @@ Result<void> check(const WalkerVerb& verb) {
   if (auto turn = check_range("--turn", verb.turn_deg, -sharpest, sharpest); !turn) {
     return Error{turn.error().message + " at --speed " + brief(verb.speed)};
   }
-  if (!verb.output.ends_with(".bvh")) {
+  if (verb.output != kStandardStream && !verb.output.ends_with(".bvh")) {
     return Error{verb.output + ": expected a name that ends in .bvh"};
   }
   return {};
@@ -52,7 +53,8 @@ Result<void> check(const WalkerVerb& verb) {
 
 int walk(const WalkerVerb& verb) {
   if (auto good = check(verb); !good) return fail(good.error(), kBadUsage);
-  if (auto free = check_output("", verb.output, verb.force); !free) {
+  const bool to_stdout = verb.output == kStandardStream;
+  if (auto free = check_output("", verb.output, verb.force); !free && !to_stdout) {
     return fail(free.error(), kBadInput);
   }
   Result<std::string> path =
@@ -68,8 +70,10 @@ int walk(const WalkerVerb& verb) {
   options.start = verb.start;
   options.stop = verb.stop;
   const Clip clip = walk_clip(*model, options);
-  auto written = write_file(verb.output, format_bvh(clip), verb.force);
+  auto written = to_stdout ? write_stdout(format_bvh(clip))
+                           : write_file(verb.output, format_bvh(clip), verb.force);
   if (!written) return fail(written.error(), kBadInput);
+  if (to_stdout) return kDone;
   print("walked " + fixed(clip.duration(), 1) + " s (" +
         plural(static_cast<size_t>(clip.frames), "frame") + ") into " + verb.output + "\n");
   return kDone;
@@ -100,7 +104,7 @@ int fit(const WalkerVerb& verb) {
 void add_walker(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("walker", "Generate a neutral walk as sample input");
   auto options = std::make_shared<WalkerVerb>();
-  verb->add_option("-o,--output", options->output, "File to write (.bvh)")
+  verb->add_option("-o,--output", options->output, "File to write (.bvh); - is stdout")
       ->required()
       ->type_name("OUT");
   verb->add_option("--seconds", options->seconds, "Duration; default: 8")->type_name("SECONDS");

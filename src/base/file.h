@@ -12,8 +12,11 @@ namespace panache {
 // read: No such file or directory").
 Result<std::string> read_file(const std::string& path);
 
-// Puts `bytes` at `path`, whole or not at all: writes beside it, then renames. An existing file is
-// left alone and rejected unless `force`. Missing folders on the way are made.
+// Puts `bytes` at `path`, whole or not at all: writes PATH.part beside it, then renames. An
+// existing file is left alone and rejected unless `force`, which keeps its permissions and writes
+// to where a link points. What is not a regular file (a device, a pipe, a folder) is never
+// replaced. Missing folders on the way are made. A .part that a killed process left behind is used
+// up; one that another process is writing is rejected.
 Result<void> write_file(const std::string& path, std::string_view bytes, bool force);
 
 }  // namespace panache

@@ -30,6 +30,8 @@ constexpr double kInStep = 0.85;
 // A clip that matches so much better when left and right are exchanged is mirrored, or a cycle that
 // begins with the other foot and is too short to find its beginning. Found on 242 pairs, of which
 // none that is not so comes below 0.75. Below the second it matches anyway.
+// Of two clips that differ by rounding alone.
+constexpr double kSameMotion = 0.001;
 constexpr double kMirrored = 0.6, kNearlyEqual = 0.1;
 constexpr double kSlowest = 0.5, kFastest = 2;  // Tempo.
 // Rests that are further apart than this are two rigs'.
@@ -146,6 +148,11 @@ Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& p
                  "; a pair shows one action, done neutrally and in the style"};
   }
   report.tempo = mean_tempo(pairings);
+  if (report.match < kSameMotion) {
+    report.warnings.push_back(both +
+                              ": are the same motion, so that the style changes nothing; give a "
+                              "clip in the style as the second one");
+  }
   std::vector<Take> exchanged = {takes[neutral], takes[styled]};
   for (HumanPositions& body : exchanged[1].body) body = mirrored(body);
   const std::vector<Pairing> other = pair_takes(exchanged, {1}, {0});

@@ -3,6 +3,8 @@
 #include <sstream>
 
 #include "base/file.h"
+#include "base/nearest_names.h"
+#include "base/one_of.h"
 #include "recipes/recipes.h"
 #include "style/names.h"
 #include "style/predictor_network.h"
@@ -138,8 +140,10 @@ Result<int> Model::find_style(std::string_view style) const {
   if (names.empty()) {
     return Error{"unknown style '" + std::string(style) + "'; the model has no styles yet"};
   }
-  return Error{"unknown style '" + std::string(style) + "'; the nearest are " +
-               list_nearest(style, names, 3)};
+  const std::vector<std::string> nearest = nearest_names(style, names);
+  return Error{
+      "unknown style '" + std::string(style) + "'; " +
+      (nearest.empty() ? "expected " + one_of(names) : "the nearest " + is_or_are(nearest))};
 }
 
 }  // namespace panache

@@ -1,5 +1,9 @@
 // Many files at once: folders, patterns, and the account at the end.
 
+#include <csignal>
+
+#include <sys/stat.h>
+
 #include <nlohmann/json.hpp>
 
 #include "cli/program.h"
@@ -124,7 +128,7 @@ TEST_F(Batch, a_style_is_named_in_any_case) {
   ASSERT_EQ(ran.exit, 0) << ran.err;
   EXPECT_EQ(read("upper.bvh"), read("lower.bvh"));
   const Ran unknown = run({"stylize", "takes/a.bvh", "--style", "OLDD=1", "-o", "no.bvh"});
-  EXPECT_TRUE(unknown.err.starts_with("panache: unknown style 'OLDD'; the nearest are "))
+  EXPECT_TRUE(unknown.err.starts_with("panache: unknown style 'OLDD'; the nearest is old"))
       << unknown.err;
 }
 
@@ -181,6 +185,50 @@ TEST_F(Batch, a_report_tells_of_each_file) {
   const Ran same = stylize({"takes/a.bvh", "-o", "x.bvh", "--report", "x.bvh"});
   EXPECT_EQ(same.err, "panache: --report: x.bvh is an output too; expected a separate file\n");
   EXPECT_EQ(same.exit, 2);
+}
+
+TEST_F(Batch, one_file_needs_no_output_name) {
+  const Ran ran = stylize({"takes/a.bvh", "--style", "proud=0.5"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_TRUE(ran.out.starts_with("restyled takes/a.bvh into takes/a-old-proud.bvh (")) << ran.out;
+  EXPECT_TRUE(exists("takes/a-old-proud.bvh"));
+  EXPECT_EQ(stylize({"takes/a.bvh", "--style", "proud=0.5"}).err,
+            "panache: takes/a-old-proud.bvh: exists already; --force overwrites it\n");
+  write("table.csv", "seconds,proud\n0,1\n");
+  EXPECT_EQ(stylize({"takes/a.bvh", "--strengths", "table.csv", "--dry-run"}).out,
+            "would write takes/a-old-table.bvh from takes/a.bvh\n");
+  EXPECT_EQ(run({"convert", "takes/a.bvh", "--to", "glb", "--dry-run"}).out,
+            "would write takes/a.glb from takes/a.bvh\n");
+  EXPECT_EQ(run({"convert", "takes/a.bvh"}).err,
+            "panache: --output is required: takes/a.bvh is the input itself\n");
+  EXPECT_EQ(run({"retarget", "takes/a.bvh", "--onto", "takes/b.bvh", "--dry-run"}).out,
+            "would write takes/a-on-b.bvh from takes/a.bvh\n");
+  const Ran many = stylize({"takes"});
+  EXPECT_EQ(many.exit, 2);
+  EXPECT_EQ(many.err, "panache: --output is required: a folder for the results of 5 files\n");
+}
+
+TEST_F(Batch, ctrl_c_leaves_whole_files_and_says_how_far_it_came) {
+  // Nobody writes into this pipe, so the batch is caught in the middle of its second file.
+  ASSERT_EQ(::mkfifo(path("pipe.bvh").c_str(), 0600), 0);
+  const pid_t batch = start({"stylize", "takes/a.bvh", "pipe.bvh", "takes/b.bvh", "--style",
+                             "old=1", "-o", "out", "--jobs", "1"});
+  while (!exists("out/a.bvh")) ::usleep(1000);
+  ::kill(batch, SIGINT);
+  // Where the signal came just before it opened the pipe, an end of file gets it out.
+  siginfo_t info{};
+  while (::waitid(P_PID, static_cast<id_t>(batch), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+         info.si_pid == 0) {
+    const int end = ::open(path("pipe.bvh").c_str(), O_WRONLY | O_NONBLOCK);
+    if (end >= 0) ::close(end);
+    ::usleep(1000);
+  }
+  const Ran ran = finish(batch);
+  EXPECT_EQ(ran.exit, 130);
+  EXPECT_EQ(ran.err, "");
+  EXPECT_TRUE(ran.out.starts_with("stopped: restyled 1 of 3 files in ")) << ran.out;
+  EXPECT_TRUE(ran.out.ends_with(" s; --skip-existing goes on with the rest\n")) << ran.out;
+  EXPECT_EQ(entries("out"), Lines{"a.bvh"});
 }
 
 TEST_F(Batch, nothing_found_is_said) {

@@ -67,8 +67,23 @@ class ProgramTest : public testing::Test {
   // Runs the program in the folder. `model` goes into PANACHE_MODEL.
   Ran run(const std::vector<std::string>& arguments, const std::string& model = "model.safetensors",
           const std::string& program = PANACHE_PROGRAM) const {
+    return finish(start(arguments, model, program));
+  }
+  // The same with a file as its stdin.
+  Ran run_on(const std::string& name, const std::vector<std::string>& arguments) const {
+    return finish(start(arguments, "model.safetensors", PANACHE_PROGRAM, name));
+  }
+
+  // The two halves of run().
+  pid_t start(const std::vector<std::string>& arguments,
+              const std::string& model = "model.safetensors",
+              const std::string& program = PANACHE_PROGRAM,
+              const std::string& input = "/dev/null") const {
     const pid_t child = ::fork();
-    if (child == 0) become(program, arguments, model);
+    if (child == 0) become(program, arguments, model, input);
+    return child;
+  }
+  Ran finish(pid_t child) const {
     int status = 0;
     ::waitpid(child, &status, 0);
     Ran ran{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".out"), read(".err")};
@@ -79,9 +94,10 @@ class ProgramTest : public testing::Test {
 
  private:
   [[noreturn]] void become(const std::string& program, const std::vector<std::string>& arguments,
-                           const std::string& model) const {
+                           const std::string& model, const std::string& input) const {
     constexpr int kCreate = O_WRONLY | O_CREAT | O_TRUNC;
     const bool ready = ::chdir(folder_.c_str()) == 0 &&
+                       ::dup2(::open(input.c_str(), O_RDONLY), STDIN_FILENO) >= 0 &&
                        ::dup2(::open(".out", kCreate, 0600), STDOUT_FILENO) >= 0 &&
                        ::dup2(::open(".err", kCreate, 0600), STDERR_FILENO) >= 0 &&
                        ::setenv("PANACHE_MODEL", model.c_str(), 1) == 0;

@@ -126,7 +126,7 @@ TEST_F(ModelSystemTest, a_style_that_the_model_lacks_is_rejected) {
   EXPECT_FALSE(system.can_run(inputs_[0], {"old", {{"old", 0.5f}, {"sad", 0.5f}}}));
   const Result<RunResult> run_result = system.run(inputs_[0], request);
   ASSERT_FALSE(run_result.ok());
-  EXPECT_EQ(run_result.error().message, "unknown style 'sad'; the nearest are old");
+  EXPECT_EQ(run_result.error().message, "unknown style 'sad'; expected old");
 }
 
 TEST_F(ModelSystemTest, a_test_take_that_cannot_be_read_is_named) {

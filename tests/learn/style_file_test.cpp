@@ -243,11 +243,12 @@ TEST(StyleFile, a_model_may_keep_learnt_styles_only) {
 
 TEST(StyleFile, one_that_was_made_with_another_model_is_rejected_with_the_cure) {
   const TensorFile model = mixed_model(), other = mixed_model(2);
-  EXPECT_EQ(rejection(model, extract(other, "limping"), true),
-            "s.safetensors: rests on trunk '" + trunk_fingerprint(other) +
-                "', m.safetensors has '" + trunk_fingerprint(model) +
-                "'; use it with the model that it was made with or the int8 version of that model, "
-                "or learn it again with this one");
+  EXPECT_EQ(
+      rejection(model, extract(other, "limping"), true),
+      "s.safetensors: is a style of another model (its trunk is '" + trunk_fingerprint(other) +
+          "', that of m.safetensors is '" + trunk_fingerprint(model) +
+          "'); use it with the model that it was made with or the int8 version of that model, "
+          "or learn it again with this one");
 }
 
 TEST(StyleFile, a_model_that_cannot_learn_takes_no_learnt_style) {
@@ -277,7 +278,7 @@ TEST(StyleFile, a_model_without_heads_gives_and_takes_no_styles) {
 }
 
 TEST(StyleFile, a_style_that_is_not_there_is_neither_extracted_nor_removed) {
-  const std::string message = "unknown style 'prou'; the nearest are proud, old and limping";
+  const std::string message = "unknown style 'prou'; the nearest is proud";
   EXPECT_EQ(extract_style(mixed_model(), "prou", "m").error().message, message);
   EXPECT_EQ(remove_style(mixed_model(), "prou", "m").error().message, message);
   EXPECT_EQ(rename_style(mixed_model(), "prou", "sad", "m").error().message, message);

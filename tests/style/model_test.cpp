@@ -159,7 +159,9 @@ TEST(Model, an_unknown_style_gets_the_nearest_names) {
       format_safetensors(test::make_model({"angry", "old", "proud", "sad"})), "m.safetensors");
   EXPECT_EQ(*model->find_style("proud"), 2);
   EXPECT_EQ(model->find_style("prod").error().message,
-            "unknown style 'prod'; the nearest are proud, old and sad");
+            "unknown style 'prod'; the nearest is proud");
+  EXPECT_EQ(model->find_style("drunk").error().message,
+            "unknown style 'drunk'; expected angry, old, proud or sad");
 }
 
 }  // namespace

@@ -1,0 +1,73 @@
+#include "usage_error.h"
+
+#include <vector>
+
+#include "base/nearest_names.h"
+#include "clip/text_cursor.h"
+#include "messages.h"
+
+namespace panache::cli {
+namespace {
+
+// CLI11 ends some of its messages in a line end, and tells of what CLI::App::exit() prints.
+std::string one_line(std::string text) {
+  while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
+  for (char& c : text) {
+    if (c == '\n') c = ' ';
+  }
+  return text;
+}
+
+// Of arguments that no option takes, the first one. CLI11 keeps them last first where an option is
+// among them.
+std::string describe_extra(const CLI::App& verb) {
+  const std::vector<std::string> extras = verb.remaining(true);
+  std::string option;
+  for (const std::string& extra : extras) {
+    if (extra.size() > 1 && extra[0] == '-' && option.empty()) option = extra;
+  }
+  if (option.empty()) return "unexpected argument " + panache::quoted(extras.front());
+  option = option.substr(0, option.find('='));
+  std::vector<std::string> names;
+  for (const CLI::Option* known : verb.get_options()) {
+    for (const std::string& name : known->get_lnames()) names.push_back("--" + name);
+  }
+  const std::vector<std::string> nearest =
+      option.starts_with("--") ? nearest_names(option, names, 1) : std::vector<std::string>();
+  return "there is no option " + panache::quoted(option) +
+         (nearest.empty() ? "" : "; the nearest " + is_or_are(nearest));
+}
+
+}  // namespace
+
+std::string describe(const CLI::ParseError& error, const CLI::App& verb) {
+  const std::string text = one_line(error.what());
+  if (dynamic_cast<const CLI::ExtrasError*>(&error)) return describe_extra(verb);
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) {
+    // "--style: 1 required STYLE missing".
+    return text.substr(0, text.find(':')) + ": expected a value after it";
+  }
+  constexpr std::string_view kNoNumber = "Could not convert: ";
+  if (text.starts_with(kNoNumber)) {  // "Could not convert: --speed = abc".
+    const size_t equals = text.find(" = ");
+    return text.substr(kNoNumber.size(), equals - kNoNumber.size()) +
+           ": expected a number, found " + panache::quoted(text.substr(equals + 3));
+  }
+  return text;
+}
+
+CLI::Validator in_range(double low, double high) {
+  return CLI::Validator(
+      [=](std::string& text) {
+        double value = 0;
+        if (!CLI::detail::lexical_cast(text, value)) {
+          return "expected a number from " + brief(low) + " to " + brief(high) + ", found " +
+                 panache::quoted(text);
+        }
+        const auto good = check_range("", value, low, high);
+        return good ? std::string() : good.error().message.substr(2);
+      },
+      "");
+}
+
+}  // namespace panache::cli
