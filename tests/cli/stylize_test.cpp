@@ -197,6 +197,22 @@ TEST_F(Stylize, tells_how_far_the_styles_know_the_motion_when_asked) {
                 mean, least, 100 * eased);
   const Ran closed = run(verbose);
   EXPECT_EQ(closed.out, summary(closed) + line);
+  EXPECT_EQ(closed.err, "");
+}
+
+TEST_F(Stylize, tells_unasked_where_most_of_a_motion_is_unlike_the_training_data) {
+  write_walk("walk.bvh");
+  TensorFile model = *parse_safetensors(read("model.safetensors"), "model");
+  add_gate(model, 1);
+  for (float& mean : model.tensors["gate.mean"].values) mean += 100;
+  write("model.safetensors", format_safetensors(model));
+  const std::vector<std::string> arguments = {"stylize", "walk.bvh", "--style", "old=1", "--json"};
+  const Ran ran = run(arguments);
+  EXPECT_EQ(ran.err,
+            "panache: walk.bvh: 100 % of its frames are unlike the motion that the styles were "
+            "trained on; those were eased towards the mean posture of the style\n");
+  EXPECT_EQ("panache: " + nlohmann::json::parse(ran.out)[0]["notes"][0].get<std::string>() + "\n",
+            ran.err);
 }
 
 TEST_F(Stylize, leaves_nothing_half_written) {
