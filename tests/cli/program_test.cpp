@@ -84,7 +84,8 @@ TEST_F(Program, the_shipped_model_is_found_where_the_program_is) {
     if (!looked.empty()) looked += ", ";
     looked += path(folder) + "panache-int8.safetensors";
   }
-  EXPECT_EQ(none.err, "panache: the model panache-int8.safetensors was not found; searched " + looked +
+  EXPECT_EQ(none.err, "panache: the model panache-int8.safetensors was not found; searched " +
+                          looked +
                           "; --model FILE or the environment variable PANACHE_MODEL names "
                           "another\n");
   // From the last place to look to the first.
