@@ -3,6 +3,7 @@
 #include <cassert>
 #include <utility>
 
+#include "clip/deform_skeleton.h"
 #include "clip/gltf_document.h"
 #include "clip/gltf_encode.h"
 
@@ -61,7 +62,7 @@ std::unique_ptr<MotionFile> make_file(GltfDocument document, bool one_motion) {
 Result<std::unique_ptr<MotionFile>> parse_gltf(std::string bytes, const std::string& name) {
   Result<GltfDocument> document = read_document(std::move(bytes), name);
   if (!document) return document.error();
-  return make_file(*std::move(document), false);
+  return join_deforming_joints(make_file(*std::move(document), false));
 }
 
 Result<std::unique_ptr<MotionFile>> parse_vrma(std::string bytes, const std::string& name) {

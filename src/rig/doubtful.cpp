@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -69,6 +70,24 @@ std::optional<Error> find_tear(const Skeleton& skeleton, int hips_joint, int arm
                ", such as what follows " + quoted_name(skeleton, most) + kCure};
 }
 
+// Where a mesh follows another skeleton of the file: nobody would see the style.
+std::optional<Error> find_bare(const Skeleton& skeleton, int hips_joint) {
+  constexpr std::ptrdiff_t kFewest = 11;  // Joints of a person; fewer carry a prop.
+  const std::vector<Joint>& joints = skeleton.joints;
+  const auto carries = [](const Joint& joint) { return joint.skin >= 0; };
+  if (std::count_if(joints.begin(), joints.end(), carries) < kFewest) return std::nullopt;
+  for (size_t j = 0; j < joints.size(); ++j) {
+    const bool above = is_at_or_below(skeleton, static_cast<int>(j), hips_joint);
+    const bool below = is_at_or_below(skeleton, hips_joint, static_cast<int>(j));
+    if (carries(joints[j]) && (above || below)) return std::nullopt;
+  }
+  const auto first = std::find_if(joints.begin(), joints.end(), carries) - joints.begin();
+  return Error{"doubtful: hips would be " + quoted_name(skeleton, hips_joint) +
+               ", which moves no mesh; the mesh follows other joints, such as " +
+               quoted_name(skeleton, static_cast<int>(first)) +
+               "; expected a file without the skeleton that moves none, or a map"};
+}
+
 }  // namespace
 
 std::optional<Error> find_doubt(const Skeleton& skeleton, const Mapping& mapping,
@@ -83,6 +102,7 @@ std::optional<Error> find_doubt(const Skeleton& skeleton, const Mapping& mapping
                  ", which deforms the mesh and does not follow it in the file" + kCure};
   }
   if (auto tear = find_tear(skeleton, joint(hips), arm)) return tear;
+  if (auto bare = find_bare(skeleton, joint(hips))) return bare;
   // A spine of at least so many joints that does not carry the arms is no neck.
   constexpr size_t kSpineJoints = 4;
   const int top = joint(head) >= 0 ? joint(head) : joint(neck);

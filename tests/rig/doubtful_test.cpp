@@ -97,6 +97,42 @@ TEST(Doubtful, a_skin_that_the_hips_do_not_move_is_rejected) {
   EXPECT_EQ(with_weights(400, 1), "");  // Another mesh.
 }
 
+// Rigify's metarig, left in the file beside a rig that deforms in one hierarchy.
+TEST(Doubtful, a_skeleton_that_moves_no_mesh_beside_one_that_does_is_rejected) {
+  const std::vector<Line> lines = {{"metarig", "", hips, 0},
+                                   {"spine", "metarig", hips},
+                                   {"spine.003", "spine", chest},
+                                   {"head", "spine.003", head},
+                                   {"upper_arm.*", "spine.003", left_upper_arm},
+                                   {"forearm.*", "upper_arm.*", left_lower_arm},
+                                   {"hand.*", "forearm.*", left_hand},
+                                   {"thigh.*", "spine", left_upper_leg},
+                                   {"shin.*", "thigh.*", left_lower_leg},
+                                   {"foot.*", "shin.*", left_foot},
+                                   {"rig", "", hips, 0}};
+  Clip clip = make_up(lines, "L", "R").clip();
+  const auto rejection = [&] {
+    const Result<Rig> rig = Rig::create(clip);
+    return rig ? "" : rig.error().message;
+  };
+  const auto add = [&](const std::string& name) {
+    Joint joint;
+    joint.name = name;
+    joint.parent = static_cast<int>(clip.joints()) - 1;
+    joint.skin = 0;
+    joint.skin_weight = 10;
+    clip.skeleton.joints.push_back(joint);
+    clip.resize(0);
+    clip.append(rest_clip(clip.skeleton).pose(0));
+  };
+  for (int i = 0; i < 10; ++i) add("tail." + std::to_string(i));
+  EXPECT_EQ(rejection(), "");  // A prop.
+  add("tail.10");
+  EXPECT_EQ(rejection(),
+            "doubtful: hips would be 'spine', which moves no mesh; the mesh follows other joints, "
+            "such as 'tail.0'; expected a file without the skeleton that moves none, or a map");
+}
+
 TEST(Doubtful, rigs_that_deform_in_one_hierarchy_are_not) {
   const std::vector<Line> lines = {{"rig", "", hips, 0},
                                    {"DEF-spine", "rig", hips},

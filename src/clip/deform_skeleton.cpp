@@ -1,0 +1,399 @@
+#include "clip/deform_skeleton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "clip/fk.h"
+
+namespace panache {
+namespace {
+
+// As many joints as a person has at the least: what is smaller is a prop.
+constexpr size_t kFewestJoints = 11;
+// No character has more, and no file shall take long.
+constexpr size_t kMostJoints = 1000;
+// Share of the vertices that may hang beside its main tree: a prop, a hem.
+constexpr float kMostBeside = 0.25f;
+// Frames that are looked at for what moves together.
+constexpr int kFramesLookedAt = 16;
+
+// Where a joint is, in the space that the roots are in.
+struct Placed {
+  Quat rotation;
+  Vec3 position;
+};
+
+Placed below(const Placed& parent, Quat rotation, Vec3 translation) {
+  return {normalized(parent.rotation * rotation),
+          parent.position + rotate(parent.rotation, translation)};
+}
+
+std::vector<Placed> place(const Skeleton& skeleton, ConstPose pose) {
+  std::vector<Quat> rotations(skeleton.joints.size());
+  std::vector<Vec3> positions(skeleton.joints.size());
+  world_pose(skeleton, pose, {rotations, positions});
+  std::vector<Placed> placed;
+  for (size_t j = 0; j < positions.size(); ++j) placed.push_back({rotations[j], positions[j]});
+  return placed;
+}
+
+// The place of `to` as seen from `from`.
+Vec3 seen_from(const Placed& from, Vec3 to) {
+  return rotate(conjugate(from.rotation), to - from.position);
+}
+
+float to_segment(Vec3 point, Vec3 begin, Vec3 end) {
+  const Vec3 along = end - begin;
+  const float square = dot(along, along);
+  const float share = square > 0 ? std::clamp(dot(point - begin, along) / square, 0.0f, 1.0f) : 0;
+  return length(point - (begin + along * share));
+}
+
+// Left or right by the last letter or a word: .L, _R, Left.
+char side_of(const std::string& name) {
+  if (name.size() > 2 && (name[name.size() - 2] == '.' || name[name.size() - 2] == '_')) {
+    const char last = name.back();
+    if (last == 'L' || last == 'l') return 'l';
+    if (last == 'R' || last == 'r') return 'r';
+  }
+  if (name.find("eft") != std::string::npos) return 'l';
+  return name.find("ight") != std::string::npos ? 'r' : '-';
+}
+
+bool is_shoulder(const std::string& name) {
+  for (const char* part : {"houlder", "HOULDER", "lavic", "LAVIC"}) {
+    if (name.find(part) != std::string::npos) return true;
+  }
+  return false;
+}
+
+// The tree of the deforming joints.
+struct DeformTree {
+  std::vector<int> joints;   // Of the file, parents first.
+  std::vector<int> parents;  // [joints]: place in `joints`, or -1.
+};
+
+class TreeFinder {
+ public:
+  // clip: motion or rest of the file.
+  explicit TreeFinder(const Clip& clip) : joints_(clip.skeleton.joints) {
+    const int step = std::max(1, clip.frames / kFramesLookedAt);
+    for (int f = 0; f < clip.frames; f += step) {
+      poses_.push_back(place(clip.skeleton, clip.pose(f)));
+    }
+  }
+
+  // Nothing where the joints hang together as they are.
+  std::optional<DeformTree> find() {
+    if (!pick_joints()) return std::nullopt;
+    find_pieces();
+    if (!is_in_pieces()) return std::nullopt;
+    join_pieces();
+    return in_order();
+  }
+
+ private:
+  size_t count() const { return joints_.size(); }
+
+  // Those that have vertices, of the character with the most of them: what hangs on one root.
+  bool pick_joints() {
+    std::vector<int> root(count());
+    std::map<int, float> weights;  // By root.
+    for (size_t j = 0; j < count(); ++j) {
+      const int up = joints_[j].parent;
+      root[j] = up < 0 ? static_cast<int>(j) : root[static_cast<size_t>(up)];
+      if (joints_[j].skin >= 0) weights[root[j]] += joints_[j].skin_weight;
+    }
+    const auto heaviest = std::max_element(weights.begin(), weights.end(),
+                                           [](auto& a, auto& b) { return a.second < b.second; });
+    if (heaviest == weights.end()) return false;
+    picked_.resize(count());
+    for (size_t j = 0; j < count(); ++j) {
+      picked_[j] = joints_[j].skin >= 0 && root[j] == heaviest->first;
+    }
+    const auto picked = static_cast<size_t>(std::count(picked_.begin(), picked_.end(), true));
+    return picked >= kFewestJoints && picked <= kMostJoints;
+  }
+
+  // parent_ and piece_: the nearest picked joint above each, and the highest.
+  void find_pieces() {
+    parent_.assign(count(), -1);
+    piece_.assign(count(), -1);
+    std::vector<int> nearest(count(), -1);  // Itself where picked.
+    for (size_t j = 0; j < count(); ++j) {
+      const int up = joints_[j].parent;
+      const int above = up < 0 ? -1 : nearest[static_cast<size_t>(up)];
+      nearest[j] = picked_[j] ? static_cast<int>(j) : above;
+      if (!picked_[j]) continue;
+      parent_[j] = above;
+      piece_[j] = above < 0 ? static_cast<int>(j) : piece_[static_cast<size_t>(above)];
+    }
+  }
+
+  bool is_in_pieces() const {
+    std::map<int, float> weights;
+    float all = 0;
+    for (size_t j = 0; j < count(); ++j) {
+      if (!picked_[j]) continue;
+      weights[piece_[j]] += joints_[j].skin_weight;
+      all += joints_[j].skin_weight;
+    }
+    float most = 0;
+    for (const auto& [piece, weight] : weights) most = std::max(most, weight);
+    return all - most > kMostBeside * all;
+  }
+
+  // How far the root of a piece is from following joint `above`, in the file's units: by how much
+  // its place varies as seen from there, and how far off the limb it is.
+  float cost(size_t root, size_t above) const {
+    Vec3 mean{};
+    for (const auto& pose : poses_) mean = mean + seen_from(pose[above], pose[root].position);
+    mean = mean * (1.0f / static_cast<float>(poses_.size()));
+    float varies = 0;
+    for (const auto& pose : poses_) {
+      varies += length(seen_from(pose[above], pose[root].position) - mean);
+    }
+    varies /= static_cast<float>(poses_.size());
+    const std::vector<Placed>& first = poses_.front();
+    float off = length(first[root].position - first[above].position);
+    for (const int child : children_[above]) {
+      off = std::min(off, to_segment(first[root].position, first[above].position,
+                                     first[static_cast<size_t>(child)].position));
+    }
+    constexpr float kDistance = 0.25f, kSameSide = 0.7f, kUnlikely = 3;
+    const char side = side_of(joints_[root].name), other = side_of(joints_[above].name);
+    const bool same = side != '-' && side == other, across = side != '-' && other != '-' && !same;
+    // A joint alone (a breast, half a pelvis, a lip) carries no others, but for a shoulder.
+    const bool alone = piece_[above] == static_cast<int>(above) && children_[above].empty();
+    const bool carries = !alone || (same && is_shoulder(joints_[above].name));
+    const float weight = !carries || across ? kUnlikely : same ? kSameSide : 1;
+    return varies + kDistance * off * weight;
+  }
+
+  // Grows the main piece by the one that follows it best, until all are in.
+  void join_pieces() {
+    children_.assign(count(), {});
+    std::vector<size_t> roots;
+    for (size_t j = 0; j < count(); ++j) {
+      if (!picked_[j]) continue;
+      if (parent_[j] >= 0)
+        children_[static_cast<size_t>(parent_[j])].push_back(static_cast<int>(j));
+      else
+        roots.push_back(j);
+    }
+    const size_t main = find_main(roots);
+    // For each root, the best joint in the tree so far.
+    struct Best {
+      float cost = INFINITY;
+      size_t above = 0;
+    };
+    std::vector<Best> best(count());
+    std::vector<size_t> waiting, added = members(main);
+    std::copy_if(roots.begin(), roots.end(), std::back_inserter(waiting),
+                 [&](size_t root) { return root != main; });
+    while (!waiting.empty()) {
+      for (const size_t root : waiting) {
+        for (const size_t above : added) {
+          const float now = cost(root, above);
+          if (now < best[root].cost) best[root] = {now, above};
+        }
+      }
+      const auto next = std::min_element(waiting.begin(), waiting.end(), [&](size_t a, size_t b) {
+        return best[a].cost < best[b].cost;
+      });
+      const size_t root = *next;
+      waiting.erase(next);
+      parent_[root] = static_cast<int>(best[root].above);
+      added = members(root);
+    }
+  }
+
+  std::vector<size_t> members(size_t root) const {
+    std::vector<size_t> list;
+    for (size_t j = 0; j < count(); ++j) {
+      if (picked_[j] && piece_[j] == static_cast<int>(root)) list.push_back(j);
+    }
+    return list;
+  }
+
+  // The piece that most others follow better than any third: the spine.
+  size_t find_main(const std::vector<size_t>& roots) const {
+    std::map<int, size_t> followers;
+    for (const size_t root : roots) {
+      float least = INFINITY;
+      int followed = piece_[root];
+      for (size_t above = 0; above < count(); ++above) {
+        if (!picked_[above] || piece_[above] == piece_[root]) continue;
+        const float now = cost(root, above);
+        if (now < least) least = now, followed = piece_[above];
+      }
+      ++followers[followed];
+    }
+    return *std::max_element(roots.begin(), roots.end(), [&](size_t a, size_t b) {
+      return followers[static_cast<int>(a)] < followers[static_cast<int>(b)];
+    });
+  }
+
+  // Parents before children, and otherwise as in the file.
+  DeformTree in_order() const {
+    DeformTree tree;
+    std::vector<int> place(count(), -1);
+    const auto total = static_cast<size_t>(std::count(picked_.begin(), picked_.end(), true));
+    while (tree.joints.size() < total) {
+      for (size_t j = 0; j < count(); ++j) {
+        if (!picked_[j] || place[j] >= 0) continue;
+        const int above = parent_[j] < 0 ? -1 : place[static_cast<size_t>(parent_[j])];
+        if (parent_[j] >= 0 && above < 0) continue;
+        place[j] = static_cast<int>(tree.joints.size());
+        tree.joints.push_back(static_cast<int>(j));
+        tree.parents.push_back(above);
+      }
+    }
+    return tree;
+  }
+
+  const std::vector<Joint>& joints_;
+  std::vector<std::vector<Placed>> poses_;
+  std::vector<char> picked_;                // [joints]
+  std::vector<int> parent_, piece_;         // [joints]
+  std::vector<std::vector<int>> children_;  // [joints] In the pieces.
+};
+
+// A clip of the file on the tree.
+Clip on_tree(const Clip& clip, const DeformTree& tree) {
+  Clip out;
+  out.frame_time = clip.frame_time;
+  const auto local = [&](const std::vector<Placed>& placed, size_t j) {
+    const Placed& own = placed[static_cast<size_t>(tree.joints[j])];
+    if (tree.parents[j] < 0) return own;
+    const auto above = static_cast<size_t>(tree.joints[static_cast<size_t>(tree.parents[j])]);
+    return Placed{normalized(conjugate(placed[above].rotation) * own.rotation),
+                  seen_from(placed[above], own.position)};
+  };
+  const Clip rest = rest_clip(clip.skeleton);
+  const std::vector<Placed> at_rest = place(clip.skeleton, rest.pose(0));
+  for (size_t j = 0; j < tree.joints.size(); ++j) {
+    Joint joint = clip.skeleton.joints[static_cast<size_t>(tree.joints[j])];
+    joint.parent = tree.parents[j];
+    joint.can_translate = joint.parent < 0 && joint.can_rotate;
+    const Placed placed = local(at_rest, j);
+    joint.rest = placed.rotation;
+    joint.offset = placed.position;
+    out.skeleton.joints.push_back(std::move(joint));
+  }
+  out.resize(clip.frames);
+  for (int f = 0; f < clip.frames; ++f) {
+    const std::vector<Placed> placed = place(clip.skeleton, clip.pose(f));
+    const Pose pose = out.pose(f);
+    for (size_t j = 0; j < tree.joints.size(); ++j) {
+      const Placed now = local(placed, j);
+      pose.rotations[j] = now.rotation;
+      pose.translations[j] = now.position;
+    }
+  }
+  return out;
+}
+
+class JoinedFile final : public MotionFile {
+ public:
+  JoinedFile(std::unique_ptr<MotionFile> file, DeformTree tree)
+      : file_(std::move(file)), tree_(std::move(tree)), own_rest_(file_->rest()) {
+    const size_t count = std::max<size_t>(1, file_->clip_names().size());
+    for (size_t i = 0; i < count; ++i) {
+      clips_.push_back(on_tree(file_->clip(static_cast<int>(i)), tree_));
+    }
+    rest_ = on_tree(own_rest_, tree_);
+  }
+
+  std::vector<std::string> clip_names() const override { return file_->clip_names(); }
+  const Clip& clip(int which) const override { return clips_[static_cast<size_t>(which)]; }
+  Clip rest() const override { return rest_; }
+  std::string encode(std::span<const ClipEdit> edits, EditMode mode) const override {
+    std::vector<Clip> changed;
+    changed.reserve(edits.size());
+    std::vector<ClipEdit> own;
+    for (const ClipEdit& edit : edits) {
+      changed.push_back(in_file(edit));
+      own.push_back(edit);
+      own.back().changed = &changed.back();
+    }
+    return file_->encode(own, mode);
+  }
+
+ private:
+  // An edited clip on the file's own skeleton.
+  Clip in_file(const ClipEdit& edit) const {
+    const bool is_new = edit.clip == kNewClip;
+    const Clip& before = is_new ? own_rest_ : file_->clip(edit.clip);
+    const Clip& joined = is_new ? rest_ : clip(edit.clip);
+    Clip out;
+    out.skeleton = before.skeleton;
+    out.frame_time = edit.changed->frame_time;
+    out.resize(edit.changed->frames);
+    std::vector<Quat> rotations(joined.joints());
+    std::vector<Vec3> translations(joined.joints());
+    const Pose joined_before{rotations, translations};
+    for (int f = 0; f < out.frames; ++f) {
+      const double source = is_new ? 0 : edit.source_frames[static_cast<size_t>(f)];
+      sample(before, source, out.pose(f));
+      sample(joined, source, joined_before);
+      write_frame(edit.changed->pose(f), joined_before, out.skeleton, out.pose(f));
+    }
+    return out;
+  }
+
+  // `pose` comes as the frame of the file; joints from the first on that differs from
+  // `joined_before`, and all that are below it in the tree, are put where `joined` has them.
+  void write_frame(ConstPose joined, ConstPose joined_before, const Skeleton& skeleton,
+                   Pose pose) const {
+    const size_t count = tree_.joints.size();
+    std::vector<Placed> wanted(count);
+    std::vector<int> place_in_tree(skeleton.joints.size(), -1);
+    bool any = false;
+    for (size_t j = 0; j < count; ++j) {
+      const int parent = tree_.parents[j];
+      wanted[j] = below(parent < 0 ? Placed{} : wanted[static_cast<size_t>(parent)],
+                        joined.rotations[j], joined.translations[j]);
+      place_in_tree[static_cast<size_t>(tree_.joints[j])] = static_cast<int>(j);
+      any = any || !(joined.rotations[j] == joined_before.rotations[j]) ||
+            !(joined.translations[j] == joined_before.translations[j]);
+    }
+    if (!any) return;
+    std::vector<Placed> placed(skeleton.joints.size());
+    for (size_t j = 0; j < placed.size(); ++j) {
+      const int up = skeleton.joints[j].parent, in_tree = place_in_tree[j];
+      const Placed parent = up < 0 ? Placed{} : placed[static_cast<size_t>(up)];
+      if (in_tree >= 0 && skeleton.joints[j].can_rotate) {
+        const Placed& want = wanted[static_cast<size_t>(in_tree)];
+        pose.rotations[j] = normalized(conjugate(parent.rotation) * want.rotation);
+        pose.translations[j] = seen_from(parent, want.position);
+      }
+      placed[j] = below(parent, pose.rotations[j], pose.translations[j]);
+    }
+  }
+
+  std::unique_ptr<MotionFile> file_;
+  DeformTree tree_;
+  Clip own_rest_, rest_;
+  std::vector<Clip> clips_;
+};
+
+}  // namespace
+
+std::unique_ptr<MotionFile> join_deforming_joints(std::unique_ptr<MotionFile> file) {
+  // A file that says which joint is which has them in a tree.
+  const std::vector<Joint>& joints = file->clip(0).skeleton.joints;
+  if (std::any_of(joints.begin(), joints.end(), [](auto& joint) { return !joint.role.empty(); })) {
+    return file;
+  }
+  // What moves together is seen in the first motion.
+  std::optional<DeformTree> tree = TreeFinder(file->clip(0)).find();
+  if (!tree) return file;
+  return std::make_unique<JoinedFile>(std::move(file), *std::move(tree));
+}
+
+}  // namespace panache
