@@ -117,6 +117,10 @@ Result<std::map<int, std::string>> parse_joint_map(const std::string& text,
   } catch (const Json::parse_error& error) {
     return Error{name + ":" + place_in(text, error.byte) +
                  ": expected JSON such as {\"leftHand\": \"Hand_L\", \"neck\": null}"};
+  } catch (const Json::out_of_range&) {
+    return Error{name +
+                 ": expected JSON such as {\"leftHand\": \"Hand_L\", \"neck\": null}, found a "
+                 "number that is too large"};
   }
   std::map<int, std::string> joints;
   const bool from_info = map.is_object() && map.contains("mapping");

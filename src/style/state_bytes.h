@@ -1,6 +1,7 @@
 #pragma once
 // Members of a character's memory as bytes, for those who save and restore it.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -48,8 +49,7 @@ void write_state(std::span<std::byte> out, VisitAll&& visit_all) {
   std::byte* to = out.data() + sizeof(uint64_t);
   visit_all([&](const auto& member) {
     const std::span<const std::byte> bytes = bytes_of(member);
-    std::memcpy(to, bytes.data(), bytes.size());
-    to += bytes.size();
+    to = std::copy(bytes.begin(), bytes.end(), to);
   });
   const uint64_t hash = hash_of(out.subspan(sizeof(uint64_t)));
   std::memcpy(out.data(), &hash, sizeof hash);
@@ -65,7 +65,7 @@ void read_state(std::span<const std::byte> in, VisitAll&& visit_all) {
   const std::byte* from = in.data() + sizeof(uint64_t);
   visit_all([&](auto& member) {
     const std::span<std::byte> bytes = bytes_of(member);
-    std::memcpy(bytes.data(), from, bytes.size());
+    std::copy_n(from, bytes.size(), bytes.begin());
     from += bytes.size();
   });
 }

@@ -18,13 +18,18 @@ namespace {
 std::atomic<int> threads_left = -1;
 }  // namespace
 
+// What Clang's address sanitizer has in its place, inside of the program.
+extern "C" int __attribute__((weak))
+__interceptor_pthread_create(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*);
+
 // Stands before the C library's own function, which it calls unless no more threads may start.
 extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attributes,
                               void* (*routine)(void*), void* argument) {
   if (threads_left == 0) return EAGAIN;
   if (threads_left > 0) --threads_left;
-  static const auto real =
+  static const auto next =
       reinterpret_cast<decltype(&pthread_create)>(::dlsym(RTLD_NEXT, "pthread_create"));
+  static const auto real = __interceptor_pthread_create ? &__interceptor_pthread_create : next;
   return real(thread, attributes, routine, argument);
 }
 

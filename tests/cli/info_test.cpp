@@ -139,6 +139,8 @@ TEST_F(Info, rejects_a_map_that_is_none) {
       "all 21)");
   expect_map_rejected("{\"leftHand\": 3}",
                       ": leftHand: expected the name of a joint or null, found 3");
+  expect_map_rejected("{\"leftHand\": 1e999}",
+                      ": " + example + ", found a number that is too large");
   expect_map_rejected("{\"mapping\": null}",
                       ": holds no mapping, because that file has no humanoid; " + example);
   expect_map_rejected("{\"mapping\": {\"joints\": [{\"humanoid\": \"neck\"}]}}",

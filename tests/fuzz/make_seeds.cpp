@@ -1,0 +1,86 @@
+// make_seeds FOLDER: the inputs that fuzzing starts from, FOLDER/TARGET/NAME: small files of each
+// kind as the library writes them.
+
+#include <cstdio>
+
+#include "base/file.h"
+#include "clip/bvh.h"
+#include "clip/gltf.h"
+#include "clip/smpl.h"
+#include "framed_json.h"
+#include "learn/style_file.h"
+#include "make_clip.h"
+#include "make_model.h"
+#include "net/quantize.h"
+#include "net/safetensors.h"
+
+extern "C" size_t LLVMFuzzerMutate(uint8_t*, size_t size, size_t) {
+  return size;
+}  // Not used here.
+
+namespace {
+
+using namespace panache;
+
+std::string folder;
+
+void add(const std::string& name, const std::string& bytes) {
+  const auto written = write_file(folder + "/" + name, bytes, true);
+  if (written) return;
+  std::fprintf(stderr, "make_seeds: %s\n", written.error().message.c_str());
+  std::exit(1);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  folder = argv[1];
+  const Clip walk = test::walking_clip(8);
+  add("bvh/walk", format_bvh(walk));
+  add("gltf/walk", format_glb(walk, "walk", 1, Quat{}));
+  add("gltf/avatar", format_vrma(walk, "walk"));
+  add("gltf/text",
+      R"({"asset":{"version":"2.0"},"nodes":[{"name":"a","children":[1]},{"name":"b","matrix":[1,0,0,0,)"
+      R"(0,1,0,0,0,0,1,0,0,0,0,1]}],"skins":[{"joints":[0,1]}],"meshes":[{"primitives":[{"attributes":{)"
+      R"("JOINTS_0":0,"WEIGHTS_0":1}}]}],"accessors":[{"componentType":5121,"count":1,"type":"VEC4"},{)"
+      R"("componentType":5126,"count":1,"type":"VEC4","sparse":{"count":1,"indices":{"bufferView":0,)"
+      R"("componentType":5123},"values":{"bufferView":0}}}],"bufferViews":[{"buffer":0,"byteLength":24}],)"
+      R"("buffers":[{"byteLength":24,"uri":"data:;base64,AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"}],"animations":)"
+      R"([{"samplers":[{"input":0,"output":1,"interpolation":"CUBICSPLINE"}],"channels":[{"sampler":0,)"
+      R"("target":{"node":0,"path":"rotation"}}]}],"extensions":{"VRM":{"humanoid":{"humanBones":[{"bone":)"
+      R"("hips","node":0}]}}}})");
+  std::string arrays;
+  for (const char* wanted : {"poses", "trans", "mocap_framerate", "betas", "gender"}) {
+    for (const NpzMember& member : format_smpl(smpl_body())) {
+      if (member.name != std::string(wanted) + ".npy") continue;
+      arrays += fuzz::bytes_of(static_cast<uint32_t>(member.bytes.size())) + member.bytes;
+    }
+  }
+  add("smpl/walk", arrays);
+  add("acclaim/skeleton",
+      ":version 1.10\n:name s\n:units\nlength 0.45\nangle deg\n:root\norder TX TY TZ RX RY "
+      "RZ\naxis "
+      "XYZ\nposition 0 0 0\norientation 0 0 0\n:bonedata\nbegin\nid 1\nname a\ndirection 0 -1 "
+      "0\nlength 7\naxis 0 0 20 XYZ\ndof rx ry rz\nlimits (-10 10)\n(-10 10)\n(-10 "
+      "10)\nend\n:hierarchy\nbegin\nroot a\nend\n");
+  add("acclaim/motion", std::string("\0#!OML:ASF\n:FULLY-SPECIFIED\n:DEGREES\n1\nroot 0 1 0 0 0 "
+                                    "0\nthigh 1 2 3\nshin 4\n2\nroot 0 1 0 0 0 0\nthigh 1 2 3\n",
+                                    97));
+  const TensorFile model = test::make_model({"old", "proud"});
+  add("model/floats", format_safetensors(model));
+  add("model/int8", format_safetensors(quantize(model)));
+  add("model/recipe", format_safetensors(test::make_model({"old"}, 1, test::kSmith2019)));
+  if (const auto style = extract_style(model, "old", "model")) {
+    add("model/style", format_safetensors(*style));
+  }
+  add("step/calls", std::string(200, '\x37') + std::string(100, '\x01'));
+  add("text/map", std::string("\0", 1) + R"({"leftHand": "Hand_L", "neck": null})");
+  std::string bone("\1/VMC/Ext/Bone/Pos\0\0\0,sfffffff\0\0\0Hips\0\0\0\0", 41);
+  add("text/bone", bone + std::string(28, '\0'));
+  add("text/bundle",
+      std::string("\1#bundle\0\0\0\0\0\0\0\0\1\0\0\0\20/VMC/Ext/OK\0,i\0\0\0\0\0\1", 41));
+  add("text/table", "\2path,style,content,take,neutral,split\r\n\"a,\"\"b\",old,walk,1,0,train\n");
+  add("text/strengths", "\3seconds,old\n0,0\n1.5,1e0\n");
+  return 0;
+}
