@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdio>
-#include <filesystem>
 #include <mutex>
 #include <new>
 
@@ -126,117 +125,6 @@ void add_batch_options(CLI::App& verb, BatchFlags& flags) {
       verb.add_flag("--quiet", flags.quiet, "Print nothing but errors, and show no progress");
   verb.add_flag("--json", flags.json, "Print the result for each file as JSON")->excludes(quiet);
   verb.add_option("--report", flags.report, "Also write this JSON to a file")->type_name("FILE");
-}
-
-namespace {
-
-// The name of a result that the user did not name: "takes/walk-old.bvh" of "takes/walk.bvh".
-Result<std::string> default_output(const FoundFiles& found, const OutputNaming& naming) {
-  if (found.is_batch) {
-    return Error{"--output is required: a folder for the results of " +
-                 plural(found.files.size(), "file")};
-  }
-  const std::filesystem::path input = found.files[0].path;
-  const std::string name = input.stem().string() +
-                           (naming.suffix.empty() ? "" : "-" + naming.suffix) +
-                           input.extension().string();
-  const std::string output = with_extension(input.parent_path() / name, naming.extension).string();
-  if (output != input.string()) return output;
-  return Error{"--output is required: " + output + " is the input itself"};
-}
-
-// A job whose input or output, or both, are standard streams.
-Result<FileJob> plan_stream(const BatchFlags& flags, const OutputNaming& naming) {
-  if (flags.inputs.size() != 1) {
-    return Error{"- stands for one file, and comes without others; found " +
-                 plural(flags.inputs.size(), "input")};
-  }
-  FileJob file;
-  file.input = flags.inputs[0];
-  file.to_stdout = flags.output.value_or(std::string(kStandardStream)) == kStandardStream;
-  if (file.to_stdout && flags.json) {
-    return Error{"--json: stdout takes the motion; --report FILE writes the same"};
-  }
-  if (file.input == kStandardStream && !flags.dry_run) {
-    Result<StdinMotion> motion = read_stdin();
-    if (!motion) return motion.error();
-    file.input = motion->name;
-    file.bytes = std::move(motion->bytes);
-  }
-  const FoundFiles found{{{file.input, file.input}}, false};
-  const std::string output = file.to_stdout ? "stdout" + extension_of(file.input) : *flags.output;
-  if (file.to_stdout) {
-    file.output = with_extension(output, naming.extension).string();
-    return file;
-  }
-  Result<std::vector<FilePair>> pairs = name_outputs(found, output, naming.extension);
-  if (!pairs) return pairs.error();
-  file.output = pairs->front().output;
-  return file;
-}
-
-bool uses_streams(const BatchFlags& flags) {
-  return flags.output == kStandardStream ||
-         std::find(flags.inputs.begin(), flags.inputs.end(), kStandardStream) != flags.inputs.end();
-}
-
-// The jobs without a look at what exists.
-Result<std::vector<FileJob>> name_jobs(const BatchFlags& flags, const OutputNaming& naming,
-                                       int& exit_code) {
-  std::vector<FileJob> files;
-  if (uses_streams(flags)) {
-    Result<FileJob> file = plan_stream(flags, naming);
-    if (!file) return file.error();
-    files.push_back(*std::move(file));
-    return files;
-  }
-  Result<FoundFiles> found = find_inputs(flags.inputs, flags.output.value_or(""));
-  if (!found) {
-    exit_code = kBadInput;
-    return found.error();
-  }
-  Result<std::string> output =
-      flags.output ? Result<std::string>(*flags.output) : default_output(*found, naming);
-  if (!output) return output.error();
-  Result<std::vector<FilePair>> pairs = name_outputs(*found, *output, naming.extension);
-  if (!pairs) return pairs.error();
-  for (const FilePair& pair : *pairs) {
-    FileJob file;
-    file.input = pair.input;
-    file.output = pair.output;
-    files.push_back(std::move(file));
-  }
-  return files;
-}
-
-}  // namespace
-
-Result<std::vector<FileJob>> plan_batch(const BatchFlags& flags, const OutputNaming& naming,
-                                        int& exit_code) {
-  exit_code = kBadUsage;
-  if (auto jobs = check_range("--jobs", flags.jobs, 0, 1024); !jobs) return jobs.error();
-  Result<std::vector<FileJob>> files = name_jobs(flags, naming, exit_code);
-  if (!files) return files.error();
-  std::vector<FilePair> pairs;
-  for (const FileJob& file : *files) {
-    if (!file.to_stdout) pairs.push_back({file.input, file.output});
-    if (!flags.report.empty() && file.output == flags.report) {
-      return Error{"--report: " + flags.report + " is an output too; expected a separate file"};
-    }
-  }
-  exit_code = kBadInput;
-  if (!flags.report.empty()) {
-    if (auto free = check_output("", flags.report, flags.force); !free) return free.error();
-  }
-  if (flags.skip_existing) {
-    std::error_code status;
-    for (FileJob& file : *files) {
-      file.skipped = !file.to_stdout && std::filesystem::exists(file.output, status);
-    }
-  } else if (auto free = check_outputs(pairs, flags.force); !free) {
-    return free.error();
-  }
-  return files;
 }
 
 Result<std::unique_ptr<MotionFile>> open_input(const FileJob& file) {

@@ -60,7 +60,8 @@ HWY_INLINE void tile(const Task& task, size_t row, size_t first) {
     const Vector bias = hn::LoadU(d, task.bias + first + v * lanes);
     for (size_t r = 0; r < kRows; ++r) sums[r][v] = bias;
   }
-  const float* HWY_RESTRICT weights = task.weights + first;
+  // Without inputs there are no weights to point at.
+  const float* HWY_RESTRICT weights = task.inputs > 0 ? task.weights + first : nullptr;
   for (size_t i = 0; i < task.inputs; ++i) {
     Vector column[kVectors];
     for (size_t v = 0; v < kVectors; ++v) {

@@ -124,7 +124,8 @@ HWY_INLINE void byte_tile(const ByteTask& task, size_t first) {
   for (size_t r = 0; r < kRows; ++r) {
     for (size_t v = 0; v < kVectors; ++v) sums[r][v] = others[r][v] = hn::Zero(di);
   }
-  const int8_t* HWY_RESTRICT weights = layer.weights + 2 * first;
+  // Without inputs there are no weights to point at.
+  const int8_t* HWY_RESTRICT weights = layer.inputs > 0 ? layer.weights + 2 * first : nullptr;
   for (size_t i = 0; i < layer.inputs; i += 2) {
     hn::Vec<Shorts> column[kVectors];
     for (size_t v = 0; v < kVectors; ++v) {
