@@ -45,16 +45,17 @@ struct Base {
 
 class OnnxRuntime : public Evaluation {
  public:
-  OnnxRuntime(const Base& base, std::span<const Network> networks)
+  OnnxRuntime(const Base& base, std::span<const Network> networks, bool int8)
       : functions_(base.get_functions(kVersion)),
         version_(base.get_version()),
+        int8_(int8),
         x_(kSlidesInputs),
         y_(kSlidesOutputs) {
     if (!functions_) {
       problem_ = "ONNX Runtime " + version_ + " has no interface of version 1";
       return;
     }
-    const std::string file = format_onnx(networks);
+    const std::string file = format_onnx(networks, int8_);
     Handle options = nullptr;
     call<int, const char*, Handle*>(kCreateEnv, kWarnings, "panache", &environment_);
     call<Handle*>(kCreateSessionOptions, &options);
@@ -93,7 +94,9 @@ class OnnxRuntime : public Evaluation {
                   outputs_.size(), outputs_.data());
     std::copy(y_.begin(), y_.end(), y.begin());
   }
-  std::string library() const override { return "ONNX Runtime " + version_; }
+  std::string library() const override {
+    return "ONNX Runtime " + version_ + (int8_ ? ", int8" : "");
+  }
   const std::string& problem() const { return problem_; }
 
  private:
@@ -122,6 +125,7 @@ class OnnxRuntime : public Evaluation {
 
   void* const* functions_;
   std::string version_, problem_;
+  bool int8_;
   std::vector<float> x_, y_;
   Handle environment_ = nullptr, session_ = nullptr, memory_ = nullptr, input_ = nullptr;
   std::vector<Handle> outputs_;
@@ -132,7 +136,7 @@ class OnnxRuntime : public Evaluation {
 }  // namespace
 
 std::unique_ptr<Evaluation> open_onnxruntime(const std::string& path,
-                                             std::span<const Network> networks,
+                                             std::span<const Network> networks, bool int8,
                                              std::string& problem) {
   void* library = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!library) {
@@ -144,7 +148,7 @@ std::unique_ptr<Evaluation> open_onnxruntime(const std::string& path,
     problem = path + " is no ONNX Runtime";
     return nullptr;
   }
-  auto evaluation = std::make_unique<OnnxRuntime>(*get_base(), networks);
+  auto evaluation = std::make_unique<OnnxRuntime>(*get_base(), networks, int8);
   problem = evaluation->problem();
   if (!problem.empty()) return nullptr;
   return evaluation;

@@ -29,5 +29,8 @@ std::vector<Peer> make_peers(std::span<const Network> networks, const std::strin
 // What a module has instead: makes the evaluation, or returns null and says why.
 extern "C" Evaluation* panache_bench_peer(const Network* networks, size_t count,
                                           std::string* problem);
+// The same in int8, where the library has that.
+extern "C" Evaluation* panache_bench_peer_int8(const Network* networks, size_t count,
+                                               std::string* problem);
 
 }  // namespace panache::bench

@@ -64,7 +64,7 @@ void panache_step_many(panache_character* const* characters, int32_t count,
                        const panache_input_pose* in, double seconds,
                        const panache_output_pose* out) {
   // As many at a time as have a place on the stack.
-  std::array<CrowdMember, 64> members;
+  std::array<CrowdMember, 256> members;
   int32_t done = 0;
   while (done < count) {
     size_t taken = 0;

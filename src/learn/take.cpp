@@ -47,7 +47,8 @@ Take make_take(const Clip& clip, const Rig& rig, PoseLayout layout) {
     const Quat to_heading = rotation_y(-now.world.facing);
     take.rotations.emplace_back();
     for (int j = 0; j < kHumanJoints; ++j) {
-      take.rotations.back()[j] = to_heading * now.world.rotations[j];
+      const Quat rotation = reader.world_rotation(j);
+      take.rotations.back()[j] = to_heading * (is_finite(rotation) ? rotation : Quat{});
     }
     world[f] = now.world.positions;
   }

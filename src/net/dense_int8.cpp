@@ -64,22 +64,21 @@ float round_row(const float* x, size_t inputs, int16_t* out) {
   const size_t whole = inputs / lanes * lanes;
   HWY_ALIGN float rest[hn::MaxLanes(d)] = {};
   for (size_t i = whole; i < inputs; ++i) rest[i - whole] = x[i];
+  const auto size_bits = [&](hn::Vec<Floats> v) {
+    return hn::And(hn::BitCast(di, v), hn::Set(di, int32_t{kSizeBits}));
+  };
   const auto finite_size = [&](hn::Vec<Floats> v) {
-    const Sums size = hn::And(hn::BitCast(di, v), hn::Set(di, int32_t{kSizeBits}));
+    const Sums size = size_bits(v);
     return hn::IfThenZeroElse(hn::Gt(size, hn::Set(di, int32_t{kLargestFinite})), size);
   };
   Sums sizes = finite_size(hn::Load(d, rest));
   for (size_t i = 0; i < whole; i += lanes) {
     sizes = hn::Max(sizes, finite_size(hn::LoadU(d, x + i)));
   }
-  HWY_ALIGN int32_t each[hn::MaxLanes(di)];
-  hn::Store(sizes, di, each);
-  uint32_t largest = 0;
-  for (size_t k = 0; k < lanes; ++k) largest = HWY_MAX(largest, static_cast<uint32_t>(each[k]));
-  const Step step = step_for(largest);
+  const Step step = step_for(static_cast<uint32_t>(hn::GetLane(hn::MaxOfLanes(di, sizes))));
 
   const auto rounded = [&](hn::Vec<Floats> v) {
-    const auto nothing = hn::Eq(finite_size(v), hn::Zero(di));
+    const auto nothing = hn::Gt(size_bits(v), hn::Set(di, int32_t{kLargestFinite}));
     const hn::Vec<Floats> shifted =
         hn::Add(hn::Mul(v, hn::Set(d, step.reciprocal)), hn::Set(d, kRound));
     const Sums n = hn::Sub(hn::BitCast(di, shifted), hn::Set(di, int32_t{kRoundBits}));

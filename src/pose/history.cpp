@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "base/prefetch.h"
+
 namespace panache {
 
 void PoseHistory::push(double time, const HumanPositions& body, const RootPose& root) noexcept {
@@ -36,7 +38,7 @@ RootPose PoseHistory::root(const Between& between) const noexcept {
   return interpolate(ring_[a].root, ring_[b].root, t);
 }
 
-void PoseHistory::window(std::span<float> out) const noexcept {
+float PoseHistory::window(std::span<float> out) const noexcept {
   assert(count_ > 0 && out.size() == size_t(kWindowPoses * pose_feature_count(layout_)));
   const int count = stored_features(layout_);
   float* number = out.data();
@@ -55,29 +57,22 @@ void PoseHistory::window(std::span<float> out) const noexcept {
     now = before;
     number += count + kRootFeatures;
   }
+  constexpr double kSeconds = kWindowPoses * kWindowSpacing;
+  return length(newest(0).root.position - now.position) / static_cast<float>(kSeconds);
 }
 
 void PoseHistory::fetch_window(double seconds) const noexcept {
   if (count_ == 0) return;
-  constexpr size_t kCacheLine = 64;
   int age = 0, fetched = 0;  // Poses younger than `fetched` were asked for.
   for (int k = 0; k < kWindowPoses; ++k) {
     const double time = newest(0).time + seconds - k * kWindowSpacing;
     while (age + 1 < count_ && newest(age).time > time) ++age;
     // The pose before that time and the one after it.
     for (fetched = std::max(fetched, age - 1); fetched <= age && fetched < count_; ++fetched) {
-      const auto bytes = std::as_bytes(features(index_of(fetched)));
-      for (size_t i = 0; i < bytes.size(); i += kCacheLine) __builtin_prefetch(&bytes[i]);
+      const std::span<const float> pose = features(index_of(fetched));
+      prefetch(pose.data(), pose.size_bytes());
     }
   }
-}
-
-float PoseHistory::ground_speed() const noexcept {
-  const double seconds = kWindowPoses * kWindowSpacing;
-  int age = 0;
-  const Between then = find(newest(0).time - seconds, age);
-  const Vec3 way = newest(0).root.position - root(then).position;
-  return length(way) / static_cast<float>(seconds);
 }
 
 }  // namespace panache

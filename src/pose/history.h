@@ -19,13 +19,11 @@ class PoseHistory {
   void push(double time, const HumanPositions& body, const RootPose& root) noexcept;
   // Writes the window that ends at the newest pose: kWindowPoses times pose_feature_count(layout),
   // newest first. Times before the first pose show the first pose at rest. At least one pose was
-  // pushed.
-  void window(std::span<float> out) const noexcept;
+  // pushed. Returns the mean speed over the ground in it, m/s.
+  float window(std::span<float> out) const noexcept;
   // Asks the caches for what window() reads after a push `seconds` from now, which in a crowd is
   // far away by then. Changes nothing.
   void fetch_window(double seconds) const noexcept;
-  // Mean speed over the ground in the window, m/s.
-  float ground_speed() const noexcept;
 
   // Calls visit(member) for everything that tells one history from another of its layout.
   template <class Self, class Visit>

@@ -28,16 +28,22 @@ bool Observer::observe(ConstPose in, double seconds) noexcept {
   return continues;
 }
 
+void Observer::add_memory(Prefetch& prefetch) const noexcept {
+  prefetch.add(std::span(rotations_));
+  prefetch.add(std::span(translations_));
+  rig_.add_memory(prefetch);
+}
+
 // Also guards against numbers so large that products overflow.
 void Observer::sanitize_pose(ConstPose in) noexcept {
+  constexpr float kFar = 1e9f;
   assert(in.rotations.size() == rotations_.size());
   for (size_t j = 0; j < rotations_.size(); ++j) {
     const Quat q = in.rotations[j];
     const Vec3 t = in.translations[j];
-    if (is_finite(q) && std::abs(dot(q, q) - 1) < 0.1f) rotations_[j] = q;
-    if (is_finite(t) && std::max({std::abs(t.x), std::abs(t.y), std::abs(t.z)}) < 1e9f) {
-      translations_[j] = t;
-    }
+    // False of what is not finite, too.
+    if (std::abs(dot(q, q) - 1) < 0.1f) rotations_[j] = q;
+    if (std::abs(t.x) < kFar && std::abs(t.y) < kFar && std::abs(t.z) < kFar) translations_[j] = t;
   }
 }
 

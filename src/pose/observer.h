@@ -50,6 +50,9 @@ class Observer {
     rig_.write(pose(), now_.world, change, out);
   }
 
+  // Names the arrays that observe() and write() work on.
+  void add_memory(Prefetch& prefetch) const noexcept;
+
   // Calls visit(member) for everything that tells one character from another of this rig.
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {

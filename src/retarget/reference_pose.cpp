@@ -75,7 +75,7 @@ class Finder {
     const int first = std::min(rig.first_frame(), clip.frames - 1);
     const int step = (clip.frames - first + kMaxFrames - 1) / kMaxFrames;
     for (int f = first; f < clip.frames; f += std::max(step, 1)) {
-      BodyPose body;
+      RotatedBodyPose body;
       if (reader.read(clip.pose(f), body)) motion_.push_back(body);
     }
     if (motion_.empty()) motion_.push_back(rest_);
@@ -192,7 +192,7 @@ class Finder {
   // canonical_frames() are those of the same body in local axes that are the world's in T-pose.
   void take_motion() {
     std::array<MeanRotation, kHumanJoints> means;
-    for (const BodyPose& body : motion_) {
+    for (const RotatedBodyPose& body : motion_) {
       std::array<Quat, kHumanJoints> frames;
       canonical_frames(body.positions, body.facing, frames);
       for (int j = 0; j < kHumanJoints; ++j) means[j].add(conjugate(frames[j]) * body.rotations[j]);
@@ -204,15 +204,16 @@ class Finder {
   void flatten_feet() {
     for (int f = 0; f < kFeet; ++f) {
       const int ankle = index(kAnkles[f]);
-      std::vector<const BodyPose*> lowest;
-      for (const BodyPose& body : motion_) lowest.push_back(&body);
-      std::sort(lowest.begin(), lowest.end(), [&](const BodyPose* a, const BodyPose* b) {
-        return a->joints[ankle].y < b->joints[ankle].y;
-      });
+      std::vector<const RotatedBodyPose*> lowest;
+      for (const RotatedBodyPose& body : motion_) lowest.push_back(&body);
+      std::sort(lowest.begin(), lowest.end(),
+                [&](const RotatedBodyPose* a, const RotatedBodyPose* b) {
+                  return a->joints[ankle].y < b->joints[ankle].y;
+                });
       lowest.resize(1 + static_cast<size_t>(kFlatShare * static_cast<float>(lowest.size() - 1)));
       for (const HumanJoint joint : {kAnkles[f], kToes[f]}) {
         MeanRotation mean;
-        for (const BodyPose* body : lowest) {
+        for (const RotatedBodyPose* body : lowest) {
           const std::optional<float> heading = foot_heading(body->joints, f);
           if (heading) mean.add(rotation_y(-*heading) * body->rotations[index(joint)]);
         }
@@ -223,8 +224,8 @@ class Finder {
 
   const Clip& clip_;
   const Rig& rig_;
-  BodyPose rest_;  // Facing +z, once it was turned.
-  std::vector<BodyPose> motion_;
+  RotatedBodyPose rest_;  // Facing +z, once it was turned.
+  std::vector<RotatedBodyPose> motion_;
   ReferencePose out_;
 };
 

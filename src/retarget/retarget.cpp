@@ -48,7 +48,7 @@ class Retargeter {
   Retargeted run() {
     std::vector<HumanPositions> joints;
     for (int f = first_; f < motion_.frames; ++f) {
-      BodyPose body;
+      RotatedBodyPose body;
       from_.read(motion_.pose(f), body);
       joints.push_back(body.joints);
       frames_.push_back(follow(body));
@@ -72,7 +72,7 @@ class Retargeter {
 
   // How each joint of the motion is turned against the T-pose. Torsos bend elsewhere in other rigs:
   // theirs points where the joints are, and twists as the motion's own joints do.
-  std::array<Quat, kHumanJoints> turns_of(const BodyPose& from) const {
+  std::array<Quat, kHumanJoints> turns_of(const RotatedBodyPose& from) const {
     std::array<Quat, kHumanJoints> turns;
     for (int j = 0; j < kHumanJoints; ++j) {
       turns[j] = from.rotations[j] * conjugate(from_reference_.rotations[j]);
@@ -90,7 +90,7 @@ class Retargeter {
   }
 
   // The body in the pose of the motion's, feet not yet held.
-  GroundedFrame follow(const BodyPose& from) {
+  GroundedFrame follow(const RotatedBodyPose& from) {
     GroundedFrame frame;
     BodyChange& change = frame.change;
     const Quat to_front = rotation_y(-body_.facing);
@@ -197,7 +197,7 @@ class Retargeter {
   Clip world_;   // A pose of the motion's skeleton, world.
   std::vector<JointPair> further_;
   std::vector<Quat> from_rest_;  // [joints of the motion], world.
-  BodyPose body_;                // At rest, its toes at 0.
+  RotatedBodyPose body_;         // At rest, its toes at 0.
   float toes_at_rest_ = 0;       // Where they were.
   int first_ = 0;                // Frame of the motion.
   std::vector<GroundedFrame> frames_;

@@ -12,15 +12,21 @@ namespace panache {
 struct BodyPose {
   // World, Y up, metres, canonical proportions, floor at 0.
   HumanPositions positions;
-  // World rotations of the user's joints turned Y up, in their raw local axes: only their changes
-  // mean anything. A missing joint carries its nearest mapped ancestor's.
-  std::array<Quat, kHumanJoints> rotations;
+  // World rotations of the user's left and right hand turned Y up, in their raw local axes: only
+  // their changes mean anything. A missing hand carries its nearest mapped ancestor's.
+  std::array<Quat, 2> hands;
   // World positions of the user's own joints, Y up, metres (own proportions, scaled), above the
   // same floor; mid-hip is that of `positions`. Missing hands and toes are where they would be; any
   // other missing joint carries its nearest mapped ancestor's.
   HumanPositions joints;
   // Heading about +y, radians; 0 faces +z. Not unwrapped.
   float facing = 0;
+};
+
+// The same with what retargeting and learning read beyond it, and no step does.
+struct RotatedBodyPose : BodyPose {
+  // Of each joint what `hands` are of the hands.
+  std::array<Quat, kHumanJoints> rotations;
 };
 
 // What a style does to one instant.

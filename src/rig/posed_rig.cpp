@@ -15,12 +15,9 @@ bool is_identity(Quat q) { return q.x == 0 && q.y == 0 && q.z == 0; }
 bool is_finite_body(const BodyPose& body) {
   if (!std::isfinite(body.facing)) return false;
   for (int j = 0; j < kHumanJoints; ++j) {
-    if (!is_finite(body.positions[j]) || !is_finite(body.rotations[j]) ||
-        !is_finite(body.joints[j])) {
-      return false;
-    }
+    if (!is_finite(body.positions[j]) || !is_finite(body.joints[j])) return false;
   }
-  return true;
+  return is_finite(body.hands[0]) && is_finite(body.hands[1]);
 }
 
 }  // namespace
@@ -29,8 +26,14 @@ PosedRig::PosedRig(Rig rig)
     : rig_(std::move(rig)),
       last_(rig_.shared_->first_body),
       world_rotations_(rig_.joint_count()),
-      world_translations_(rig_.joint_count()),
-      effective_(rig_.joint_count()) {}
+      world_translations_(rig_.joint_count()) {}
+
+Quat PosedRig::world_rotation(int human_joint) const noexcept {
+  const Rig::Shared& shared = *rig_.shared_;
+  int j = human_joint;
+  while (shared.mapping.joint_of[j] < 0) j = kHumanParent[j];  // Every mapping has hips.
+  return shared.calibration.y_up * world_rotations_[shared.mapping.joint_of[j]];
+}
 
 bool PosedRig::read(ConstPose pose, BodyPose& out) noexcept {
   const Rig::Shared& shared = *rig_.shared_;
@@ -40,11 +43,7 @@ bool PosedRig::read(ConstPose pose, BodyPose& out) noexcept {
   out.joints = mapped.positions;
   out.positions = canonical_positions(mapped.positions, shared.calibration.shape, mapped.toes);
   out.facing = facing_of(mapped.positions).value_or(last_.facing);
-  for (int j = 0; j < kHumanJoints; ++j) {
-    const int joint = shared.mapping.joint_of[j];
-    out.rotations[j] = joint < 0 ? out.rotations[kHumanParent[j]]
-                                 : shared.calibration.y_up * world_rotations_[joint];
-  }
+  out.hands = {world_rotation(index(left_hand)), world_rotation(index(right_hand))};
   const bool finite = is_finite_body(out);
   if (finite) {
     last_ = out;
@@ -54,41 +53,63 @@ bool PosedRig::read(ConstPose pose, BodyPose& out) noexcept {
   return finite;
 }
 
+bool PosedRig::read(ConstPose pose, RotatedBodyPose& out) noexcept {
+  if (!read(pose, static_cast<BodyPose&>(out))) return false;
+  std::array<Quat, kHumanJoints> rotations;
+  for (int j = 0; j < kHumanJoints; ++j) {
+    rotations[j] = world_rotation(j);
+    // A rotation at the end of a limb moves no joint.
+    if (!is_finite(rotations[j])) return false;
+  }
+  out.rotations = rotations;
+  return true;
+}
+
 void PosedRig::write(ConstPose in, const BodyPose& body, const BodyChange& change,
                      Pose out) noexcept {
   const Rig::Shared& shared = *rig_.shared_;
   const Quat file_axes = conjugate(shared.calibration.y_up);
   const Quat from_heading = file_axes * rotation_y(body.facing);
   const Quat turn = in_axes(file_axes, rotation_y(change.turn));
+  Deltas deltas;
   for (int j = 0; j < kHumanJoints; ++j) {
-    deltas_[j] = turn * in_axes(from_heading, change.rotations[j]);
+    deltas[j] = turn * in_axes(from_heading, change.rotations[j]);
   }
-  write_rotations(in, out);
-  write_translation(in, change, out);
+  write_rotations(in, deltas, out);
+  write_translation(in, deltas, change, out);
+}
+
+Quat PosedRig::delta_of(const Deltas& deltas, int joint) const noexcept {
+  const int human = joint < 0 ? -1 : rig_.shared_->moved_by[joint];
+  return human < 0 ? Quat{} : deltas[human];
+}
+
+void PosedRig::add_memory(Prefetch& prefetch) const noexcept {
+  prefetch.add(std::span(world_rotations_));
+  prefetch.add(std::span(world_translations_));
 }
 
 // With E the world delta of a joint, E_p that of its parent and P its parent's world rotation in
 // the input, the joint's new world rotation E P q and its parent's E_p P give the local rotation
 // P^-1 E_p^-1 E P q. At E = E_p = 1 the factor before q is exactly 1.
-void PosedRig::write_rotations(ConstPose in, Pose out) noexcept {
+void PosedRig::write_rotations(ConstPose in, const Deltas& deltas, Pose out) noexcept {
   const Rig::Shared& shared = *rig_.shared_;
   for (size_t j = 0; j < shared.skeleton.joints.size(); ++j) {
     const int parent = shared.skeleton.joints[j].parent;
-    const Quat inherited = parent < 0 ? Quat{} : effective_[parent];
     const Quat q = in.rotations[j];
     out.rotations[j] = q;
-    effective_[j] = inherited;
     if (shared.human_of[j] < 0) continue;
-    effective_[j] = deltas_[shared.human_of[j]];
+    const Quat inherited = delta_of(deltas, parent);
     const Quat world = parent < 0 ? Quat{} : world_rotations_[parent];
-    const Quat local = in_axes(conjugate(world), conjugate(inherited) * effective_[j]);
+    const Quat local = in_axes(conjugate(world), conjugate(inherited) * deltas[shared.human_of[j]]);
     // Even a product with 1 could change the sign of a zero, and making it unit the last bit.
     if (is_identity(local) || !is_finite(local)) continue;
     out.rotations[j] = normalized(local * q);
   }
 }
 
-void PosedRig::write_translation(ConstPose in, const BodyChange& change, Pose out) noexcept {
+void PosedRig::write_translation(ConstPose in, const Deltas& deltas, const BodyChange& change,
+                                 Pose out) noexcept {
   const Rig::Shared& shared = *rig_.shared_;
   std::copy(in.translations.begin(), in.translations.end(), out.translations.begin());
   if (shared.moved_joint < 0) return;
@@ -100,7 +121,7 @@ void PosedRig::write_translation(ConstPose in, const BodyChange& change, Pose ou
   const Vec3 wanted =
       rotate(conjugate(shared.calibration.y_up), change.translation) / shared.calibration.scale;
   // The new rotation carries mid-hip about the hips; the hips give way so that it stays.
-  const Vec3 move = wanted - rotate_offset(effective_[hips_joint], mid_hip - at(hips));
+  const Vec3 move = wanted - rotate_offset(delta_of(deltas, hips_joint), mid_hip - at(hips));
   if (move == Vec3{} || !is_finite(move)) return;
   const int parent = shared.skeleton.joints[shared.moved_joint].parent;
   const Quat world = parent < 0 ? Quat{} : world_rotations_[parent];

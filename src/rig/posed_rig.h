@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "base/prefetch.h"
 #include "rig/body_pose.h"
 #include "rig/rig.h"
 
@@ -20,6 +21,11 @@ class PosedRig {
   // The user's pose on the canonical body. A heading that the pose does not show is the last one. A
   // pose that is not finite is read as the last one that was; returns whether it was finite.
   bool read(ConstPose pose, BodyPose& out) noexcept;
+  // The same with all rotations, which stay as they were where the pose is not finite.
+  bool read(ConstPose pose, RotatedBodyPose& out) noexcept;
+
+  // A joint's rotation in the last pose, see RotatedBodyPose; not finite where the pose is not.
+  Quat world_rotation(int human_joint) const noexcept;
 
   // The user's pose with `change` on it. `in` and `body` are those of the last read(), whose
   // forward kinematics it reuses. Where the change is the identity, `out` is `in` bit for bit.
@@ -28,6 +34,9 @@ class PosedRig {
   // the translation, if the hips or a joint above them can. `in` and `out` may be the same arrays.
   void write(ConstPose in, const BodyPose& body, const BodyChange& change, Pose out) noexcept;
 
+  // Names the arrays that read() and write() work on.
+  void add_memory(Prefetch& prefetch) const noexcept;
+
   // Calls visit(member) for what is remembered from one read() to the next.
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
@@ -35,16 +44,20 @@ class PosedRig {
   }
 
  private:
-  void write_rotations(ConstPose in, Pose out) noexcept;
-  void write_translation(ConstPose in, const BodyChange& change, Pose out) noexcept;
+  // What write() puts on each human joint, file axes.
+  using Deltas = std::array<Quat, kHumanJoints>;
+
+  // The delta that a joint of the skeleton has or inherits; -1 stands for the world.
+  Quat delta_of(const Deltas& deltas, int joint) const noexcept;
+  void write_rotations(ConstPose in, const Deltas& deltas, Pose out) noexcept;
+  void write_translation(ConstPose in, const Deltas& deltas, const BodyChange& change,
+                         Pose out) noexcept;
 
   Rig rig_;
   BodyPose last_;  // The last finite one.
 
-  std::vector<Quat> world_rotations_;      // [joints], of the last read(), file axes.
-  std::vector<Vec3> world_translations_;   // [joints], likewise, file units.
-  std::array<Quat, kHumanJoints> deltas_;  // What write() puts on each human joint, file axes.
-  std::vector<Quat> effective_;            // [joints]: the delta that each joint has or inherits.
+  std::vector<Quat> world_rotations_;     // [joints], of the last read(), file axes.
+  std::vector<Vec3> world_translations_;  // [joints], likewise, file units.
 };
 
 }  // namespace panache

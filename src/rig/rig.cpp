@@ -95,6 +95,11 @@ Result<Rig> Rig::create(const Clip& clip, const RigOptions& options) {
       shared->notes.push_back(std::string(human_joint_name(j)) + " cannot rotate in this file");
     }
   }
+  for (size_t j = 0; j < clip.joints(); ++j) {
+    const int parent = clip.skeleton.joints[j].parent;
+    const int inherited = parent < 0 ? -1 : shared->moved_by[parent];
+    shared->moved_by.push_back(shared->human_of[j] < 0 ? inherited : shared->human_of[j]);
+  }
   int moved = joint_of[index(hips)];
   while (moved >= 0 && !clip.skeleton.joints[moved].can_translate) {
     moved = clip.skeleton.joints[moved].parent;

@@ -69,7 +69,7 @@ class Rig {
   const std::vector<std::string>& notes() const { return shared_->notes; }
 
   // Unit direction from the wrist to the fingertips in the hand's own axes (those of
-  // BodyPose::rotations); zero where the skeleton does not show it. `side`: 0 left, 1 right.
+  // BodyPose::hands); zero where the skeleton does not show it. `side`: 0 left, 1 right.
   Vec3 hand_direction(int side) const noexcept { return shared_->calibration.hands[side]; }
 
   // Turns a whole pose by `turn` (radians, about +y through `about`), then moves it by `move`, both
@@ -88,6 +88,8 @@ class Rig {
     std::vector<std::string> notes;
     // Human joint of each skeleton joint that a change may rotate, or -1.
     std::vector<int> human_of;
+    // The human joint whose change each skeleton joint has or inherits, or -1.
+    std::vector<int> moved_by;
     int moved_joint = -1;  // The skeleton joint that carries the translation, or -1.
     BodyPose first_body;   // The first of the clip that is finite.
   };

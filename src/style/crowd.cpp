@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace panache {
 namespace {
@@ -18,23 +19,51 @@ size_t count_together(std::span<const CrowdMember> members) {
   return most;
 }
 
+// Asks for the memory of a character that is stepped later, a part at each stage of this one.
+class FetchLater final : public StageClock {
+ public:
+  void begin(const CrowdMember& later, void (*add_memory)(const CrowdMember&, Prefetch&)) {
+    prefetch_.emplace();
+    add_memory(later, *prefetch_);
+  }
+  void done(Stage) noexcept override {
+    constexpr int kLines = 14;
+    if (prefetch_) prefetch_->fetch(kLines);
+  }
+
+ private:
+  std::optional<Prefetch> prefetch_;
+};
+
 }  // namespace
 
 void step_crowd(std::span<const CrowdMember> members, double seconds) noexcept {
+  const auto add_memory = [](const CrowdMember& member, Prefetch& prefetch) {
+    prefetch.add(member.in.rotations);
+    prefetch.add(member.in.translations);
+    member.character->add_memory(prefetch);
+    prefetch.add(member.out.rotations);
+    prefetch.add(member.out.translations);
+  };
   while (!members.empty()) {
     const size_t count = count_together(members);
+    std::array<std::array<float, InputWindow::kMaxNumbers>, kRowsAtOnce> windows;
     std::array<StepTime, kRowsAtOnce> times;
     std::array<StyleNetworks::Pass, kRowsAtOnce> passes;
+    std::array<FetchLater, kRowsAtOnce> fetches;
     for (size_t i = 0; i < count; ++i) {
       const auto& [character, in, strengths, out] = members[i];
+      if (count + i < members.size()) fetches[i].begin(members[count + i], add_memory);
       // By its turn the next one's past has come from a far cache.
-      if (i + 1 < members.size()) members[i + 1].character->window_.fetch(seconds);
-      times[i] = character->take_in(in, strengths, seconds, seconds, nullptr);
-      passes[i] = character->pass(times[i]);
+      if (i + 1 < members.size()) members[i + 1].character->window_.fetch_poses(seconds);
+      const auto [time, pass] =
+          character->take_in(in, strengths, seconds, seconds, windows[i], &fetches[i]);
+      times[i] = time;
+      passes[i] = pass;
     }
     StyleNetworks::forward_all(std::span(passes).first(count));
     for (size_t i = 0; i < count; ++i) {
-      members[i].character->give_out(times[i], members[i].out, nullptr);
+      members[i].character->give_out(times[i], members[i].out, &fetches[i]);
     }
     members = members.subspan(count);
   }

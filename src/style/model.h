@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/prefetch.h"
 #include "base/result.h"
 #include "net/mlp.h"
 #include "pose/features.h"
@@ -176,6 +177,8 @@ class StyleNetworks {
   std::span<const float> contact() const { return contact_out_; }  // Probability per foot [2].
 
   const Model& model() const { return *model_; }
+  // Names strengths and results.
+  void add_memory(Prefetch& prefetch) const noexcept;
 
   // Calls visit(member) for everything that tells one character from another of this model.
   template <class Self, class Visit>
@@ -205,8 +208,6 @@ class StyleNetworks {
   // the standardised difference of the activations from their mean in `apart`.
   float leverage(const Model::Learnt& learnt, std::span<const float> activations,
                  std::span<float> apart, ScratchArena& arena) const noexcept;
-  // The strength of a network's head, after exaggeration; 0 if it is not in force.
-  float head_strength(const Model::Heads& heads, size_t head) const noexcept;
 
   std::shared_ptr<const Model> model_;
   std::vector<float> strengths_;

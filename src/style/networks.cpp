@@ -17,29 +17,57 @@ void StyleNetworks::set_strengths(std::span<const float> strengths) noexcept {
   std::copy(strengths.begin(), strengths.end(), strengths_.begin());
 }
 
-float StyleNetworks::head_strength(const Model::Heads& heads, size_t head) const noexcept {
-  // Heads that are in force whatever the styles: the only one, or that of no style.
-  const size_t always = heads.count > model_->built_in() || !model_->recipe().style_heads;
-  return head < always ? 1.0f : exaggerated(strengths_[head - always]);
+void StyleNetworks::add_memory(Prefetch& prefetch) const noexcept {
+  prefetch.add(std::span(strengths_));
+  prefetch.add(std::span(pose_out_));
 }
 
 template <class Out>
 void StyleNetworks::add_heads(std::span<const Pass> passes, int network, Rows<const float> hidden,
                               ScratchArena& arena, Out out) noexcept {
-  const Model::Heads& heads = passes.front().networks->model_->heads_[network];
+  const Model& m = *passes.front().networks->model_;
+  const Model::Heads& heads = m.heads_[network];
   for (const Pass& pass : passes) std::ranges::fill(out(*pass.networks), 0.0f);
   if (heads.layers.empty()) return;
+  // Heads that are active whatever the styles: the only one, or that of no style.
+  const size_t always = heads.count > m.built_in() || !m.recipe().style_heads;
+  const auto strength = [&](size_t p, size_t h) {
+    return h < always ? 1.0f : exaggerated(passes[p].networks->strengths_[h - always]);
+  };
   ScratchArena room = arena;
   const Rows<float> answers = room.rows(passes.size(), heads.layers.front().width());
-  if (heads.joined()) heads.layers.front().forward(hidden, answers);
-  for (size_t h = 0; h < heads.count; ++h) {
+  if (heads.joined()) {
+    heads.layers.front().forward(hidden, answers);
     for (size_t p = 0; p < passes.size(); ++p) {
-      const float strength = passes[p].networks->head_strength(heads, h);
-      if (strength == 0) continue;
-      const Rows<float> answer{answers.row(p), 1, 0};
-      if (!heads.joined()) heads.layers[h].forward({hidden.row(p), 1, 0}, answer);
-      const float* from = answer.first + (heads.joined() ? h * heads.outputs : 0);
-      add_scaled(strength, {from, heads.outputs}, out(*passes[p].networks));
+      for (size_t h = 0; h < heads.count; ++h) {
+        const float* from = answers.row(p) + h * heads.outputs;
+        if (strength(p, h) == 0) continue;
+        add_scaled(strength(p, h), {from, heads.outputs}, out(*passes[p].networks));
+      }
+    }
+    return;
+  }
+  const size_t inputs = heads.layers.front().inputs();
+  const Rows<float> gathered = room.rows(passes.size(), inputs);
+  std::array<size_t, kRowsAtOnce> who;
+  for (size_t h = 0; h < heads.count; ++h) {
+    // The characters of this style share the reading of its weights.
+    size_t count = 0;
+    for (size_t p = 0; p < passes.size(); ++p) {
+      if (strength(p, h) != 0) who[count++] = p;
+    }
+    if (count == 0) continue;
+    Rows<const float> from{hidden.row(who[0]), count, hidden.stride};
+    if (who[count - 1] - who[0] + 1 != count) {
+      for (size_t k = 0; k < count; ++k) {
+        std::copy_n(hidden.row(who[k]), inputs, gathered.row(k));
+      }
+      from = Rows<float>{gathered.first, count, gathered.stride};
+    }
+    heads.layers[h].forward(from, {answers.first, count, answers.stride});
+    for (size_t k = 0; k < count; ++k) {
+      add_scaled(strength(who[k], h), {answers.row(k), heads.outputs},
+                 out(*passes[who[k]].networks));
     }
   }
 }
@@ -51,8 +79,9 @@ Rows<const float> StyleNetworks::shrink(std::span<const Pass> passes, Rows<const
   if (!gate.present()) return hidden;
   const size_t size = gate.mean.size();
   const Rows<float> activations = arena.rows(passes.size(), size);
-  const Rows<float> centred = arena.rows(passes.size(), size);
-  const Rows<float> white = arena.rows(passes.size(), size);
+  ScratchArena room = arena;
+  const Rows<float> centred = room.rows(passes.size(), size);
+  const Rows<float> white = room.rows(passes.size(), size);
   for (size_t p = 0; p < passes.size(); ++p) {
     for (size_t i = 0; i < size; ++i) centred.row(p)[i] = hidden.row(p)[i] - gate.mean[i];
   }

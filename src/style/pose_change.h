@@ -1,6 +1,8 @@
 #pragma once
 // A style's change and the body that it changes.
 
+#include <array>
+
 #include "base/quat.h"
 #include "pose/style_delta.h"
 #include "rig/body_pose.h"
@@ -10,6 +12,8 @@ namespace panache {
 
 // World rotation that the change puts on a joint, in the heading frame.
 Quat joint_rotation(const StyleDelta& change, int joint) noexcept;
+// Of all joints.
+std::array<Quat, kHumanJoints> joint_rotations(const StyleDelta& change) noexcept;
 
 // The canonical body (body frame, metres) with the change's rotations and hips height on it.
 HumanPositions change_body(const HumanPositions& body, const StyleDelta& change) noexcept;

@@ -37,6 +37,12 @@ void Stylizer::reset() noexcept {
   forget();
 }
 
+void Stylizer::add_memory(Prefetch& prefetch) const noexcept {
+  prefetch.add(this, sizeof *this);
+  observer_.add_memory(prefetch);
+  networks_.add_memory(prefetch);
+}
+
 void Stylizer::forget() noexcept {
   started_ = false;
   window_.reset();
@@ -47,23 +53,26 @@ void Stylizer::forget() noexcept {
 
 void Stylizer::step(ConstPose in, std::span<const float> strengths, double input_seconds,
                     double output_seconds, Pose out) noexcept {
-  const StepTime time = take_in(in, strengths, input_seconds, output_seconds, nullptr);
-  const StyleNetworks::Pass networks = pass(time);
-  networks_.forward(networks.window, networks.gate_share);
-  give_out(time, out, nullptr);
+  step(in, strengths, input_seconds, output_seconds, out, nullptr);
 }
 
 void Stylizer::step(ConstPose in, std::span<const float> strengths, double seconds, Pose out,
                     StageClock& clock) noexcept {
-  const StepTime time = take_in(in, strengths, seconds, seconds, &clock);
-  const StyleNetworks::Pass networks = pass(time);
-  networks_.forward(networks.window, networks.gate_share);
-  clock.done(Stage::networks);
-  give_out(time, out, &clock);
+  step(in, strengths, seconds, seconds, out, &clock);
 }
 
-StepTime Stylizer::take_in(ConstPose in, std::span<const float> strengths, double input_seconds,
-                           double output_seconds, StageClock* clock) noexcept {
+void Stylizer::step(ConstPose in, std::span<const float> strengths, double input_seconds,
+                    double output_seconds, Pose out, StageClock* clock) noexcept {
+  std::array<float, InputWindow::kMaxNumbers> room;
+  const auto [time, pass] = take_in(in, strengths, input_seconds, output_seconds, room, clock);
+  networks_.forward(pass.window, pass.gate_share);
+  tell(clock, Stage::networks);
+  give_out(time, out, clock);
+}
+
+Stylizer::TakenIn Stylizer::take_in(ConstPose in, std::span<const float> strengths,
+                                    double input_seconds, double output_seconds,
+                                    std::span<float> room, StageClock* clock) noexcept {
   if (!(input_seconds >= 0)) input_seconds = 0;
   if (!(output_seconds >= 0)) output_seconds = 0;
   if (output_seconds > Observer::kMaxGap) observer_.reset();
@@ -74,16 +83,12 @@ StepTime Stylizer::take_in(ConstPose in, std::span<const float> strengths, doubl
   strengths_.step(strengths, shape_, time);
   networks_.set_strengths(strengths_.now());
   tell(clock, Stage::strengths);
-  window_.step(observer_.now(), time);
+  const std::span<const float> window = window_.step(observer_.now(), time, room);
   flights_.push(window_.time(), observer_.now().world.positions);
   flight_ = seen_flight_ >= 0 ? seen_flight_ : flights_.amount(window_.time());
   seen_flight_ = -1;
   tell(clock, Stage::window);
-  return time;
-}
-
-StyleNetworks::Pass Stylizer::pass(const StepTime& time) noexcept {
-  return {&networks_, window_.window(), time.gain(kGateSeconds)};
+  return {time, {&networks_, window, time.gain(kGateSeconds)}};
 }
 
 void Stylizer::give_out(const StepTime& time, Pose out, StageClock* clock) noexcept {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 
+#include "base/prefetch.h"
 #include "base/result.h"
 #include "pose/observer.h"
 #include "style/model.h"
@@ -95,9 +96,17 @@ class Stylizer {
   // A step is three parts, so that a crowd's networks can be evaluated together in the middle.
   // `clock` may be null.
   friend void step_crowd(std::span<const CrowdMember> members, double seconds) noexcept;
-  StepTime take_in(ConstPose in, std::span<const float> strengths, double input_seconds,
-                   double output_seconds, StageClock* clock) noexcept;
-  StyleNetworks::Pass pass(const StepTime& time) noexcept;
+  struct TakenIn {
+    StepTime time;
+    StyleNetworks::Pass pass;
+  };
+  // `room`: where the window is written, InputWindow::kMaxNumbers.
+  TakenIn take_in(ConstPose in, std::span<const float> strengths, double input_seconds,
+                  double output_seconds, std::span<float> room, StageClock* clock) noexcept;
+  void step(ConstPose in, std::span<const float> strengths, double input_seconds,
+            double output_seconds, Pose out, StageClock* clock) noexcept;
+  // Names what a step reads and writes, but for the poses of the window.
+  void add_memory(Prefetch& prefetch) const noexcept;
   void forget() noexcept;  // Of the motion so far, all but the observer's part.
   void give_out(const StepTime& time, Pose out, StageClock* clock) noexcept;
 

@@ -6,12 +6,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bench/int8_layer.h"
 #include "bench/measure.h"
 #include "bench/networks.h"
 #include "bench/onnx_file.h"
 #include "bench/published.h"
 #include "cli/program.h"
 #include "net/dense.h"
+#include "net/quantize.h"
 
 namespace panache::test {
 namespace {
@@ -41,7 +43,8 @@ TEST_F(BenchVerb, prints_every_number_that_it_promises) {
   // The sanitizers' allocator does not tell what is in use.
   EXPECT_TRUE(json.at("bytes").at("character").is_number());
   // Libraries of others are there or not, and if not it is said why.
-  for (const char* key : {"eigen", "openblas", "onednn", "onnxruntime", "libtorch"}) {
+  for (const char* key : {"eigen", "openblas", "onednn", "onednn_int8", "onnxruntime",
+                          "onnxruntime_int8", "libtorch"}) {
     const auto& time = json.at("forward_pass_us").at(key);
     EXPECT_TRUE(time.is_number() ? time > 0 : json.at("missing").at(key).is_string()) << key;
   }
@@ -258,6 +261,50 @@ TEST(BenchNetworks, the_onnx_file_is_what_the_format_says) {
       "\x62\x14\x0a\x02y0"s +  // and its output.
       one_by_one;
   EXPECT_EQ(format_onnx({&network, 1}), wanted);
+}
+
+TEST(BenchNetworks, the_onnx_file_in_int8_is_what_the_format_says) {
+  using namespace std::string_literals;
+  const Network network{{{1, 1, {2}, {0.5f}}}};
+  // Of fewer than 128 bytes; the numbers are those of onnx.proto, times eight and 2.
+  const auto part = [](char field, const std::string& bytes) {
+    return field + std::string(1, static_cast<char>(bytes.size())) + bytes;
+  };
+  const auto node = [&](const std::string& type, const std::vector<std::string>& inputs,
+                        const std::vector<std::string>& outputs, const std::string& more = "") {
+    std::string all;
+    for (const std::string& input : inputs) all += part(0x0a, input);
+    for (const std::string& output : outputs) all += part(0x12, output);
+    return part(0x0a, all + part(0x22, type) + more);
+  };
+  const std::string one_by_one =
+      "\x12\x0e\x0a\x0c\x08\x01\x12\x08\x0a\x02\x08\x01\x0a\x02\x08\x01"s;
+  const std::string wanted =
+      "\x08\x07\x42\x02\x10\x0b\x3a\xf5\x02\x12\x08networks\x5a\x13\x0a\x01x"s + one_by_one +
+      node("DynamicQuantizeLinear", {"x"}, {"x_bytes", "x_scale", "x_zero"}) +
+      // 127, which is worth 2 / 127.
+      "\x2a\x14\x08\x01\x08\x01\x10\x03\x42\x09weight0_0\x4a\x01\x7f"s
+      "\x2a\x14\x08\x01\x10\x01\x42\x08scale0_0\x4a\x04\x04\x02\x81\x3c"s
+      "\x2a\x13\x08\x01\x10\x01\x42\x07"s
+      "bias0_0\x4a\x04\0\0\0\x3f"s +
+      node("MatMulInteger", {"x_bytes", "weight0_0", "x_zero"}, {"whole0_0"}) +
+      node("Cast", {"whole0_0"}, {"product0_0"}, "\x2a\x09\x0a\x02to\x18\x01\xa0\x01\x02"s) +
+      node("Mul", {"x_scale", "scale0_0"}, {"unit0_0"}) +
+      node("Mul", {"product0_0", "unit0_0"}, {"scaled0_0"}) +
+      node("Add", {"scaled0_0", "bias0_0"}, {"y0"}) + "\x62\x14\x0a\x02y0"s + one_by_one;
+  EXPECT_EQ(format_onnx({&network, 1}, true), wanted);
+}
+
+TEST(BenchNetworks, others_get_the_int8_weights_that_ours_have) {
+  const Layer layer = random_layer(20, 32, 5);
+  TensorFile file;
+  file.tensors["a.weight"] = {{20, 32}, layer.weights};
+  file.tensors["a.bias"] = {{32}, layer.bias};
+  const TensorFile ours = quantize(file);
+  const Int8Layer theirs = quantized(layer);
+  EXPECT_EQ(Numbers(theirs.weights.begin(), theirs.weights.end()),
+            ours.tensors.at("a.weight").values);
+  EXPECT_EQ(theirs.scale, ours.tensors.at("a.scale").values);
 }
 
 }  // namespace

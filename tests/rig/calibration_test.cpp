@@ -233,7 +233,7 @@ TEST(Calibration, missing_toes_are_taken_from_end_sites) {
   EXPECT_EQ(rig.rig().joints()[index(left_toes)], -1);
   EXPECT_TRUE(has_note(rig.rig().notes(), "the left foot's direction is taken from the End Site"));
   for (int f = 0; f < clip.frames; ++f) {
-    BodyPose want, got;
+    RotatedBodyPose want, got;
     whole.read(clip.pose(f), want);
     rig.read(other.pose(f), got);
     for (int j = 0; j < kHumanJoints; ++j) {

@@ -77,7 +77,7 @@ struct Deviation {
 // Writes `change` and compares, in double, with what it must do to the body.
 inline Deviation deviation(PosedRig& rig, const Clip& clip, ConstPose in, const BodyChange& change,
                            Pose out) {
-  BodyPose before, after;
+  RotatedBodyPose before, after;
   rig.read(in, before);
   rig.write(in, before, change, out);
   rig.read(out, after);

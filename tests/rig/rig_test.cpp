@@ -302,7 +302,7 @@ TEST(Rig, a_joint_that_the_file_does_not_rotate_follows_its_parent) {
 TEST(Rig, poses_that_are_not_finite_are_read_as_the_last_one_that_was) {
   const Clip clip = random_clip(awkward().skeleton, 2, 0.5f, 16);
   PosedRig rig(rig_of(clip));
-  BodyPose good, got;
+  RotatedBodyPose good, got;
   rig.read(clip.pose(1), good);
   const float bad[] = {NAN, INFINITY, -INFINITY, std::numeric_limits<float>::max()};
   PoseBuffer in(clip.joints()), out(clip.joints());

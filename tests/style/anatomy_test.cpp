@@ -42,7 +42,7 @@ class AnatomyTest : public testing::Test {
     return normalized(joints[index(to)] - joints[index(from)]);
   }
   float wrist(const BodyChange& change) const {
-    const Vec3 fingers = rotate(body_.rotations[index(left_hand)], rig_.rig().hand_direction(0));
+    const Vec3 fingers = rotate(body_.hands[0], rig_.rig().hand_direction(0));
     const Vec3 now =
         rotate(change.rotations[index(left_hand)], rotate(rotation_y(-body_.facing), fingers));
     return degrees_between(way(change, left_lower_arm, left_hand), now);
@@ -89,7 +89,7 @@ TEST_F(AnatomyTest, a_wrist_that_the_input_bends_too_far_bends_no_further) {
   const float before = wrist({});
   ASSERT_NEAR(before, 100, 8);
   // Some way further, about the axis of the bend.
-  const Vec3 fingers = rotate(body_.rotations[index(left_hand)], rig_.rig().hand_direction(0));
+  const Vec3 fingers = rotate(body_.hands[0], rig_.rig().hand_direction(0));
   const Vec3 about = normalized(cross(way({}, left_lower_arm, left_hand), fingers));
   const BodyChange asked = turned(left_hand, left_hand, axis_angle(about, 40 * kDegree));
   ASSERT_GT(wrist(asked), before + 35);

@@ -28,7 +28,7 @@ class Mannequin {
 
  private:
   PosedRig rig_;
-  BodyPose body_;
+  RotatedBodyPose body_;
   std::array<Quat, kHumanJoints> to_part_;  // From the rig's local axes to those of the part.
   HumanPositions offsets_;
 };

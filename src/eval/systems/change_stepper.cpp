@@ -32,8 +32,9 @@ void ChangeStepper::step(ConstPose in, float frame, float flight, double input_s
   if (!observer_.observe(in, input_seconds)) forget();
   const StepTime time{input_seconds, static_cast<float>(output_seconds), !started_};
   started_ = true;
-  window_.step(observer_.now(), time);
-  const AskedChange asked = source_.answer(window_.window(), frame, time.output);
+  std::array<float, InputWindow::kMaxNumbers> room;
+  const std::span<const float> seen = window_.step(observer_.now(), time, room);
+  const AskedChange asked = source_.answer(seen, frame, time.output);
   stages_.step(asked, {kShape, amount_, flight_}, observer_, window_, time, nullptr);
   observer_.write(stages_.change(), out);
 }

@@ -194,7 +194,7 @@ class Limits {
 
     const Vec3 local = rig_.hand_direction(side);
     if (local == Vec3{}) return keep_unknown_wrist(lower, hand);
-    const Vec3 hand_way = in_heading(rotate(body_.rotations[index(hand)], local));
+    const Vec3 hand_way = in_heading(rotate(body_.hands[side], local));
     const Vec3 above = changed(base, lower, lower_way), now = changed(base, hand, hand_way);
     float share = 0;
     if (dot(above, now) < kSafeWrist) {

@@ -73,7 +73,7 @@ void Shaping::step(const Shape& shape, const StyleDelta& delta, const RootOffset
                    const StepTime& time, BodyChange& out) noexcept {
   const RootOffset given = hold_back(shape, root, time);
   const StyleDelta shaped = weigh_in_time(shape, delta, time);
-  for (int j = 0; j < kHumanJoints; ++j) out.rotations[j] = joint_rotation(shaped, j);
+  out.rotations = joint_rotations(shaped);
   weigh_regions(shape, out.rotations);
   out.turn = given.turn;
   out.translation = given.translation + Vec3{0, shaped.hips_height * legs_of(shape), 0};

@@ -1,5 +1,7 @@
 #include "style/stages/window.h"
 
+#include <algorithm>
+
 namespace panache {
 
 void InputWindow::reset() noexcept {
@@ -7,22 +9,22 @@ void InputWindow::reset() noexcept {
   history_.clear();
 }
 
-void InputWindow::step(const Observation& now, const StepTime& time) noexcept {
+std::span<const float> InputWindow::step(const Observation& now, const StepTime& time,
+                                         std::span<float> room) noexcept {
   time_ += time.input;
   history_.push(time_, now.body_frame, now.root);
-  history_.window(window_);
+  const std::span<float> window = room.first(numbers_);
+  ground_speed_ = history_.window(window);
+  const size_t pose = numbers_ / kWindowPoses;
+  for (size_t k = 0; k < kWindowPoses; ++k) {
+    std::ranges::copy(window.subspan(k * pose, pose).last<kRootFeatures>(), roots_[k].begin());
+  }
+  return window;
 }
-
-std::span<const float, kRootFeatures> InputWindow::root(int pose) const noexcept {
-  const size_t numbers = window_.size() / kWindowPoses;
-  return window().subspan(static_cast<size_t>(pose) * numbers, numbers).last<kRootFeatures>();
-}
-
-std::span<const float, kRootFeatures> InputWindow::root() const noexcept { return root(0); }
 
 float InputWindow::forward_speed() const noexcept {
   float sum = 0;
-  for (int k = 0; k < kWindowPoses; ++k) sum += root(k)[kVelocityForward];
+  for (const auto& root : roots_) sum += root[kVelocityForward];
   return sum / kWindowPoses;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 // Second stage: the window that the networks see.
 
+#include <array>
 #include <span>
-#include <vector>
 
 #include "pose/history.h"
 #include "pose/observer.h"
@@ -12,35 +12,42 @@ namespace panache {
 
 class InputWindow {
  public:
+  // Numbers of a window in any layout, at most.
+  static constexpr size_t kMaxNumbers =
+      size_t{kWindowPoses} * pose_feature_count(PoseLayout::rotations);
+
   explicit InputWindow(PoseLayout layout)
-      : history_(layout), window_(size_t{kWindowPoses} * pose_feature_count(layout)) {}
+      : history_(layout), numbers_(size_t{kWindowPoses} * pose_feature_count(layout)) {}
 
   void reset() noexcept;
-  void step(const Observation& now, const StepTime& time) noexcept;
+  // Takes in a pose, and returns the window that ends at it, as PoseHistory::window() gives it: the
+  // first part of `room`, which has kMaxNumbers. A crowd's characters share such room: what no step
+  // remembers needs no memory of each.
+  std::span<const float> step(const Observation& now, const StepTime& time,
+                              std::span<float> room) noexcept;
 
   double time() const noexcept { return time_; }  // Input seconds since the start.
-  // As PoseHistory::window() gives it.
-  std::span<const float> window() const noexcept { return window_; }
-  // The newest pose's root activations.
-  std::span<const float, kRootFeatures> root() const noexcept;
-  float ground_speed() const noexcept { return history_.ground_speed(); }
-  // Mean over the window, m/s; below zero backwards.
-  float forward_speed() const noexcept;
-  void fetch(double seconds) const noexcept { history_.fetch_window(seconds); }
+  // The newest pose's root features.
+  std::span<const float, kRootFeatures> root() const noexcept { return roots_[0]; }
+  // Mean over the window, m/s.
+  float ground_speed() const noexcept { return ground_speed_; }
+  float forward_speed() const noexcept;  // Below zero backwards.
+  // Asks the caches for the poses that the next window is made of.
+  void fetch_poses(double seconds) const noexcept { history_.fetch_window(seconds); }
 
   // Calls visit(member) for everything that tells one character from another.
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
-    visit(self.time_), visit(self.window_);
+    visit(self.time_), visit(self.roots_), visit(self.ground_speed_);
     PoseHistory::visit_state(self.history_, visit);
   }
 
  private:
-  std::span<const float, kRootFeatures> root(int pose) const noexcept;
-
   double time_ = 0;
+  float ground_speed_ = 0;
+  std::array<std::array<float, kRootFeatures>, kWindowPoses> roots_{};  // Newest first.
   PoseHistory history_;
-  std::vector<float> window_;  // [kWindowPoses][pose numbers], newest first.
+  size_t numbers_;  // Of a window.
 };
 
 }  // namespace panache
