@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <memory>
 
-#include <unistd.h>
+#include "base/os/os.h"
 
 namespace panache {
 
@@ -39,13 +39,17 @@ Result<void> write_file(const std::string& path, std::string_view bytes, bool fo
   const fs::path parent = fs::path(path).parent_path();
   if (!parent.empty()) fs::create_directories(parent, status);
 
-  const std::string part = path + ".part" + std::to_string(::getpid());
+  const std::string part = path + ".part" + std::to_string(process_id());
   std::FILE* file = std::fopen(part.c_str(), "wb");
   if (!file) return Error{path + ": cannot be written: " + std::strerror(errno)};
   const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
   const bool closed = std::fclose(file) == 0;
-  if (!written || !closed || std::rename(part.c_str(), path.c_str()) != 0) {
-    const std::string cause = std::strerror(errno);
+  std::string cause = std::strerror(errno);
+  if (written && closed) {
+    fs::rename(part, path, status);  // On Windows, too, it replaces a file that is there.
+    cause = status.message();
+  }
+  if (!written || !closed || status) {
     std::remove(part.c_str());
     return Error{path + ": cannot be written: " + cause};
   }
