@@ -6,8 +6,7 @@
 #include <set>
 #include <utility>
 
-#include <fnmatch.h>
-
+#include "base/os/os.h"
 #include "input.h"
 
 namespace panache::cli {
@@ -105,7 +104,7 @@ class Finder {
       return is_folder ? match(entry, part, depth + 1) : Result<void>();
     }
     const std::string name = entry.filename().string();
-    if (::fnmatch(pattern_[part].c_str(), name.c_str(), FNM_PERIOD) != 0) return {};
+    if (!fits_pattern(name, pattern_[part])) return {};
     if (part + 1 < pattern_.size()) {
       return is_folder ? match(entry, part + 1, depth + 1) : Result<void>();
     }

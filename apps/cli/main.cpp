@@ -13,6 +13,7 @@
 #include "fbx.h"
 #include "formats.h"
 #include "messages.h"
+#include "option_table.h"
 #include "usage_error.h"
 #include "verbs.h"
 
@@ -51,6 +52,9 @@ int run(int argc, char** argv) {
 #define PANACHE_ADD_VERB(name) add_##name(app, exit_code);
   PANACHE_VERBS(PANACHE_ADD_VERB)
 #undef PANACHE_ADD_VERB
+  if (argc == 3 && argv[1] == std::string_view(kPrintReference)) {
+    return print_reference(app, argv[2], PANACHE_VERSION);
+  }
   if (argc < 2) {
     std::fputs(app.help().c_str(), stderr);
     return kBadUsage;

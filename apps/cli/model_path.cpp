@@ -3,13 +3,15 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "base/os/os.h"
+
 namespace panache::cli {
 
 namespace fs = std::filesystem;
 
 Result<std::string> find_shipped(const std::string& file_name) {
   std::error_code status;
-  const fs::path folder = fs::read_symlink("/proc/self/exe", status).parent_path();
+  const fs::path folder = fs::path(program_path()).parent_path();
   std::string looked;
   for (const char* models : {"../share/panache/models", "models", "../../models"}) {
     const fs::path path = (folder / models / file_name).lexically_normal();

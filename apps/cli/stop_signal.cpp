@@ -2,6 +2,8 @@
 
 #include <csignal>
 
+#include "base/os/os.h"
+
 namespace panache::cli {
 namespace {
 
@@ -10,12 +12,7 @@ volatile std::sig_atomic_t asked = 0;
 }  // namespace
 
 void watch_stop_signals() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { asked = 1; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  // Without SA_RESTART, so that a wait ends at once.
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
+  on_stop_signal([](int) { asked = 1; });
 }
 
 bool stop_asked() { return asked != 0; }

@@ -9,6 +9,7 @@
 #include <httplib.h>
 
 #include "base/file.h"
+#include "base/os/os.h"
 #include "formats.h"
 #include "input.h"
 #include "messages.h"
@@ -29,7 +30,7 @@ struct Served {
 // The folder that ./run web makes: beside an installed program's folder or beside the build's.
 Result<std::string> find_page() {
   std::error_code status;
-  const fs::path folder = fs::read_symlink("/proc/self/exe", status).parent_path();
+  const fs::path folder = fs::path(program_path()).parent_path();
   std::string looked;
   for (const char* web : {"../share/panache/web", "../web"}) {
     const fs::path page = (folder / web).lexically_normal();

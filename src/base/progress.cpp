@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include <unistd.h>
+#include "base/os/os.h"
 
 namespace panache {
 namespace {
@@ -18,7 +18,7 @@ std::string clock_text(double seconds) {
 }  // namespace
 
 Progress::Progress(std::string title)
-    : title_(std::move(title)), shown_(::isatty(STDERR_FILENO)), begin_(Clock::now()) {}
+    : title_(std::move(title)), shown_(is_terminal_stderr()), begin_(Clock::now()) {}
 
 Progress::~Progress() {
   if (any_) std::fputc('\n', stderr);

@@ -1,0 +1,163 @@
+// Completions for shells. Each completes commands and their options; what is neither is a file.
+
+#include "option_table.h"
+
+namespace panache::cli {
+namespace {
+
+// In single quotes of a POSIX shell or, as '"'"' reads the same there, of fish.
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\"'\"'") : std::string(1, c);
+  return out + "'";
+}
+
+std::string names_of(const std::vector<VerbEntry>& verbs) {
+  std::string names;
+  for (const VerbEntry& verb : verbs) {
+    if (!verb.name.empty()) names += verb.name + " ";
+  }
+  return names + "help";
+}
+
+// The names of the options of `verb`: all, or those that take a value.
+std::string options_of(const VerbEntry& verb, bool with_value) {
+  std::string out;
+  for (const OptionEntry& option : verb.options) {
+    if (with_value && option.value.empty()) continue;
+    for (const std::string& name : option.names) out += (out.empty() ? "" : " ") + name;
+  }
+  return out;
+}
+
+// The text of a message or description within a specification of _arguments.
+std::string zsh_text(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '[' || c == ']' || c == ':' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out;
+}
+
+// The specifications of an option, one for each name. A value is completed as a file: the shell
+// cannot know the styles of a model.
+void add_zsh_option(std::string& out, const OptionEntry& option) {
+  const std::string value = option.value.empty() ? "" : ":" + zsh_text(option.value) + ":_files";
+  const std::string begin = " \\\n        ";
+  if (option.is_positional()) {
+    const std::string count = option.repeated ? "*" : option.required ? "" : ":";
+    out += begin + quoted(count + value);
+    return;
+  }
+  for (const std::string& name : option.names) {
+    const std::string how = option.value.empty() ? "" : name.starts_with("--") ? "=" : "+";
+    out += begin + quoted("*" + name + how + "[" + zsh_text(option.description) + "]" + value);
+  }
+}
+
+}  // namespace
+
+std::string bash_completion(const std::vector<VerbEntry>& verbs) {
+  std::string out =
+      "# bash completion for panache. Generated from the options of the program.\n"
+      "_panache() {\n"
+      "  local current=${COMP_WORDS[COMP_CWORD]} verb=${COMP_WORDS[1]} options values\n"
+      "  COMPREPLY=()\n"
+      "  if ((COMP_CWORD == 1)); then\n"
+      "    COMPREPLY=($(compgen -W '" +
+      names_of(verbs) + " " + options_of(verbs.front(), false) +
+      "' -- \"$current\"))\n"
+      "    return\n"
+      "  fi\n"
+      "  case $verb in\n"
+      "    help)\n"
+      "      ((COMP_CWORD > 2)) || COMPREPLY=($(compgen -W '" +
+      names_of(verbs) +
+      "' -- \"$current\"))\n"
+      "      return\n"
+      "      ;;\n";
+  for (const VerbEntry& verb : verbs) {
+    if (verb.name.empty()) continue;
+    out += "    " + verb.name + ")\n      options='" + options_of(verb, false) +
+           "'\n      values='" + options_of(verb, true) + "'\n      ;;\n";
+  }
+  // Without a reply, "-o default" completes the name of a file.
+  return out +
+         "    *) return ;;\n"
+         "  esac\n"
+         "  [[ \" $values \" != *\" ${COMP_WORDS[COMP_CWORD - 1]} \"* ]] || return\n"
+         "  [[ $current != -* ]] || COMPREPLY=($(compgen -W \"$options\" -- \"$current\"))\n"
+         "}\n"
+         "complete -o default -F _panache panache\n";
+}
+
+std::string zsh_completion(const std::vector<VerbEntry>& verbs) {
+  std::string commands;
+  std::string cases;
+  for (const VerbEntry& verb : verbs) {
+    if (verb.name.empty()) continue;
+    commands += "    " + quoted(verb.name + ":" + verb.description) + "\n";
+    cases += "    " + verb.name + ")\n      _arguments";
+    for (const OptionEntry& option : verb.options) add_zsh_option(cases, option);
+    cases += "\n      ;;\n";
+  }
+  std::string own;
+  for (const OptionEntry& option : verbs.front().options) add_zsh_option(own, option);
+  return "#compdef panache\n"
+         "# zsh completion for panache. Generated from the options of the program.\n"
+         "_panache() {\n"
+         "  local -a commands=(\n" +
+         commands +
+         "    'help:Show the help of a command'\n"
+         "  )\n"
+         "  if ((CURRENT == 2)); then\n"
+         "    _describe command commands\n"
+         "    _arguments" +
+         own +
+         "\n    return\n"
+         "  fi\n"
+         "  local verb=$words[2]\n"
+         "  shift words\n"
+         "  ((CURRENT--))\n"
+         "  case $verb in\n" +
+         cases +
+         "    help) ((CURRENT > 2)) || _describe command commands ;;\n"
+         "  esac\n"
+         "}\n"
+         "if [[ $zsh_eval_context[-1] == loadautofunc ]]; then\n"
+         "  _panache \"$@\"\n"
+         "else\n"
+         "  compdef _panache panache\n"
+         "fi\n";
+}
+
+std::string fish_completion(const std::vector<VerbEntry>& verbs) {
+  std::string out = "# fish completion for panache. Generated from the options of the program.\n";
+  const std::string start = "complete -c panache -n __fish_use_subcommand";
+  for (const VerbEntry& verb : verbs) {
+    if (verb.name.empty()) continue;
+    out += start + " -f -a " + verb.name + " -d " + quoted(verb.description) + "\n";
+  }
+  out += start + " -f -a help -d 'Show the help of a command'\n";
+  out +=
+      "complete -c panache -n '__fish_seen_subcommand_from help' -f -a '" + names_of(verbs) + "'\n";
+  for (const VerbEntry& verb : verbs) {
+    const std::string when =
+        verb.name.empty()
+            ? start
+            : "complete -c panache -n '__fish_seen_subcommand_from " + verb.name + "'";
+    for (const OptionEntry& option : verb.options) {
+      if (option.is_positional()) continue;
+      out += when;
+      for (const std::string& name : option.names) {
+        const bool is_long = name.starts_with("--");
+        out += (is_long ? " -l " : " -s ") + name.substr(is_long ? 2 : 1);
+      }
+      out += (option.value.empty() ? "" : " -r") + (" -d " + quoted(option.description)) + "\n";
+    }
+  }
+  return out;
+}
+
+}  // namespace panache::cli

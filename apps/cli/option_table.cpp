@@ -1,0 +1,66 @@
+#include "option_table.h"
+
+#include "messages.h"
+
+namespace panache::cli {
+namespace {
+
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (c == '\n') c = ' ';
+  }
+  return text;
+}
+
+OptionEntry entry_of(const CLI::Option& option) {
+  OptionEntry entry;
+  for (const std::string& name : option.get_snames()) entry.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) entry.names.push_back("--" + name);
+  // A flag takes no value. A positional argument without a type of its own goes by its name.
+  if (option.get_items_expected_max() > 0) {
+    entry.value = option.get_type_name();
+    const bool own_type =
+        !entry.value.empty() && entry.value != CLI::detail::type_name<std::string>();
+    if (entry.is_positional() && !own_type) entry.value = option.get_name(true);
+  }
+  entry.description = one_line(option.get_description());
+  entry.required = option.get_required();
+  entry.repeated = entry.is_positional() && option.get_items_expected_max() > 1;
+  return entry;
+}
+
+VerbEntry entry_of(const CLI::App& app, const std::string& name) {
+  VerbEntry entry{name, app.get_description(), app.get_footer(), {}};
+  for (const CLI::Option* option : app.get_options()) {
+    if (!option->get_group().empty()) entry.options.push_back(entry_of(*option));
+  }
+  return entry;
+}
+
+}  // namespace
+
+std::vector<VerbEntry> option_table(const CLI::App& app) {
+  std::vector<VerbEntry> verbs = {entry_of(app, "")};
+  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (!verb->get_group().empty()) verbs.push_back(entry_of(*verb, verb->get_name()));
+  }
+  return verbs;
+}
+
+int print_reference(const CLI::App& app, const std::string& what, const std::string& version) {
+  const std::vector<VerbEntry> verbs = option_table(app);
+  if (what == "man") {
+    print(manual_page(verbs, version));
+  } else if (what == "bash") {
+    print(bash_completion(verbs));
+  } else if (what == "zsh") {
+    print(zsh_completion(verbs));
+  } else if (what == "fish") {
+    print(fish_completion(verbs));
+  } else {
+    return fail({"no reference for '" + what + "'; expected man, bash, zsh or fish"}, kBadUsage);
+  }
+  return kDone;
+}
+
+}  // namespace panache::cli

@@ -1,0 +1,102 @@
+"""reference_test.py PROGRAM FOLDER: the manual page and the completions in FOLDER, which the build
+made of PROGRAM, have every command and option of --help, and the shells take them."""
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+program, folder = sys.argv[1:]
+failures = []
+
+
+def expect(holds, message):
+    if not holds:
+        failures.append(message)
+
+
+def output(*command, **more):
+    return subprocess.run(command, capture_output=True, text=True, timeout=60, **more).stdout
+
+
+def read(name):
+    with open(os.path.join(folder, name), encoding='utf-8') as file:
+        return file.read()
+
+
+man = read('panache.1').replace('\\-', '-')
+bash, zsh, fish = os.path.join(folder, 'panache'), read('_panache'), read('panache.fish')
+
+
+def options_in_help(verb):
+    """The names of the options that --help lists: '-o', '--output'."""
+    text = output(program, *verb, '--help')
+    lines = re.findall(r'^ +(-[^ ]+)', text, re.MULTILINE)
+    return [name for line in lines for name in line.split(',') if name.startswith('-')]
+
+
+def complete_in_bash(*words):
+    """What bash offers for a command line of these words."""
+    script = ('source "$0"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _panache\n'
+              'printf "%s\\n" "${COMPREPLY[@]}"')
+    return output('bash', '--norc', '-c', script, bash, *words).split()
+
+
+# Every command and option.
+listed = output(program, '--help').partition('Subcommands:\n')[2].partition('\n\n')[0]
+verbs = re.findall(r'^  ([a-z]+)', listed, re.MULTILINE)
+expect(len(verbs) >= 10, f'--help lists only these commands: {verbs}')
+count = 0
+for verb in [None, *verbs]:
+    names = options_in_help([verb] if verb else [])
+    expect('--help' in names, f'{verb}: --help lists no options')
+    start = f'.SS panache {verb}\n' if verb else '.SH OPTIONS\n'
+    section = re.split(r'^\.S[HS]', man.partition(start)[2], flags=re.MULTILINE)[0]
+    of_bash = complete_in_bash('panache', *([verb] if verb else []), '-')
+    start = f'\n    {verb})\n' if verb else '\n    _describe command'
+    of_zsh = re.split(r';;|return', zsh.partition(start)[2])[0]
+    condition = f"'__fish_seen_subcommand_from {verb}'" if verb else '__fish_use_subcommand'
+    of_fish = [line for line in fish.splitlines() if f'-n {condition} ' in line]
+    if verb:
+        expect(verb in complete_in_bash('panache', ''), f'bash: no {verb}')
+        expect(f"'{verb}:" in zsh, f'zsh: no {verb}')
+        expect(f' -f -a {verb} ' in fish, f'fish: no {verb}')
+    for name in names:
+        count += 1
+        expect(f'\\fB{name}\\fR' in section, f'manual page, {verb}: no {name}')
+        expect(name in of_bash, f'bash, {verb}: no {name}')
+        expect(re.search(rf"'\*{name}[=+]?\[", of_zsh), f'zsh, {verb}: no {name}')
+        flag = f' -l {name[2:]} ' if name.startswith('--') else f' -s {name[1:]} '
+        expect(any(flag in line for line in of_fish), f'fish, {verb}: no {name}')
+print(f'{count} options of {len(verbs)} commands were compared')
+expect(count > 100, f'only {count} options were compared')
+
+# In the shells themselves.
+expect(complete_in_bash('panache', 'styli') == ['stylize'], 'bash completes no command')
+expect(complete_in_bash('panache', 'help', 'styli') == ['stylize'], 'bash completes no help')
+expect(complete_in_bash('panache', 'stylize', '--no-t') == ['--no-timing'], 'bash: no option')
+expect(complete_in_bash('panache', 'stylize', '-o', '--no-t') == [], 'bash: an option as a value')
+with tempfile.TemporaryDirectory() as home:
+    clean = {'HOME': home, 'PATH': os.environ['PATH'], 'TERM': 'dumb', 'LC_ALL': 'C.UTF-8'}
+    if shutil.which('fish'):
+        line = f'source {folder}/panache.fish; complete -C "panache stylize --no-t"'
+        offered = output('fish', '--no-config', '-c', line, env=clean)
+        expect(offered.startswith('--no-timing\t'), f'fish offers {offered!r}')
+    else:
+        print('not run: there is no fish')
+    if shutil.which('zsh'):
+        script = os.path.join(os.path.dirname(__file__), 'complete.zsh')
+        offered = output('zsh', '-f', script, f'{folder}/_panache', 'panache stylize --no-t', env=clean)
+        expect('--no-timing' in offered, f'zsh offers {offered!r}')
+    else:
+        print('not run: there is no zsh')
+    if shutil.which('man') and shutil.which('groff'):
+        shown = subprocess.run(['man', '--warnings', '-E', 'UTF-8', '-l', f'{folder}/panache.1'],
+                               capture_output=True, text=True, env={**clean, 'MANWIDTH': '80'})
+        expect(shown.stderr == '', f'man warns: {shown.stderr}')
+        expect('panache stylize' in shown.stdout, 'man shows no command')
+    else:
+        print('not run: there is no man')
+
+sys.exit('\n'.join(failures) or 0)
