@@ -181,6 +181,23 @@ export class MotionFile {
   free(): void;
 }
 
+/** A skinned mesh of a person, moved by `parts`. */
+export interface Body {
+  /** [21][3], [21][4]: the pose that the vertices stand in. */
+  bindPositions: Float32Array;
+  bindRotations: Float32Array;
+  /** [vertices][3], metres. */
+  positions: Float32Array;
+  normals: Float32Array;
+  /** [vertices][4]: human joints, and their weights, which add up to 255. */
+  joints: Uint8Array;
+  weights: Uint8Array;
+  /** [vertices]: 255 where the body has its second colour. */
+  accents: Uint8Array;
+  /** Three vertices each. */
+  triangles: Uint16Array;
+}
+
 /** A source of motion and the character that it moves. */
 declare class Player {
   /** 0 is neutral, 1 the style as captured, more exaggerates it (-4 to 4). Eased in. */
@@ -203,8 +220,8 @@ declare class Player {
   /** View, [21][7]: world position (metres, Y up) and orientation x y z w of each human joint. In
    * its own frame a part lies as in the T-pose: left arm along +x, legs along -y, feet along +z. */
   parts(which: 'input' | 'styled'): Float32Array;
-  /** [21][3]: where each joint is in its parent's frame, metres; zero where the rig has none. */
-  readonly offsets: Float32Array;
+  /** A body to the measure of the rig; takes some tenths of a second the first time. */
+  readonly body: Body;
   /** world = scale * rotate(toYUp, point of the file) - {0, floor, 0}. */
   readonly placement: { toYUp: number[]; scale: number; floor: number };
   /** A file with this extension (".bvh", ".glb", or that of the file played): the whole clip as styled

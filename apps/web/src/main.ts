@@ -3,8 +3,11 @@
 import * as files from 'virtual:panache-files';
 
 import { Panache, PanacheError } from '../package/index.js';
+import { kAngles, type Angle } from './camera';
 import { element, find } from './dom';
+import { Figures } from './figures';
 import { Cross } from './gamepad';
+import { buildHelp } from './help';
 import { buildPanel } from './panel';
 import { Plots } from './plots';
 import { Film, saveBytes, savePicture } from './saving';
@@ -36,6 +39,8 @@ class Page {
   #steering = new Steering(find('#stick'));
   #cross = new Cross();
   #transport: TransportBar;
+  #figures: Figures;
+  #help = buildHelp();
   #film = new Film(this.#stage.canvas);
   #source: Source;
   #bytes = new ArrayBuffer(0);  // Of the file that is open.
@@ -54,9 +59,11 @@ class Page {
       onSeek: (seconds) => this.#seek(seconds),
       onClip: (clip) => void this.#attempt(() => this.#playClip(clip)),
       onLoop: (loop) => this.#source.kind === 'clip' && (this.#source.player.loop = loop),
+      onStep: (frames) => this.#stepFrames(frames),
     });
     this.#source = walkSource(panache);
-    buildPanel(this.#store, panache.styles);
+    this.#figures = new Figures(panache, buildPanel(this.#store, panache.styles));
+    this.#buildViewControls();
     this.#buildWalkerControls();
     this.#buildFileControls();
     this.#listenToDrops();
@@ -64,8 +71,20 @@ class Page {
     this.#store.listen((settings) => this.#apply(settings));
     this.#rememberInAddress();
     matchMedia('(prefers-color-scheme: dark)')
-      .addEventListener('change', () => this.#stage.paint());
+      .addEventListener('change', () => {
+        this.#stage.paint();
+        this.#figures.paint();
+      });
     addEventListener('keydown', (event) => this.#key(event));
+    addEventListener('keyup', (event) => {
+      if (event.code === 'KeyX') this.#stage.comparing = false;
+    });
+    addEventListener('blur', () => (this.#stage.comparing = false));
+    // A button that was clicked gives the keys back to the view; one reached by Tab keeps them.
+    addEventListener('click', (event) => {
+      const button = (event.target as HTMLElement).closest('button');
+      if (button && event.detail > 0 && !button.closest('dialog')) button.blur();
+    });
     find('#wait').hidden = true;
     requestAnimationFrame((now) => {
       this.#last = now;
@@ -81,7 +100,8 @@ class Page {
     this.#last = now;
     this.#cross.step(seconds);
     this.#advance(seconds);
-    this.#stage.update(this.#source.player, this.#source.joints, this.#cut);
+    this.#figures.step(seconds);
+    this.#stage.update(this.#source.player, this.#source.joints, this.#cut, seconds);
     this.#cut = false;
     this.#stage.draw(seconds);
     this.#report();
@@ -102,6 +122,14 @@ class Page {
       const before = source.player.seconds;
       // The library takes a tenth of a second at once.
       source.player.step(seconds * speed);
+      const [begin, end] = this.#transport.range;
+      const { loop } = this.#transport.state;
+      const whole = end >= source.file.clips[source.clip]?.seconds;
+      if (source.player.seconds < begin || (loop && !whole && source.player.seconds >= end)) {
+        this.#seek(begin);
+      } else if (!loop && source.player.seconds >= end) {
+        this.#transport.setPlaying(false);
+      }
       this.#cut ||= source.player.seconds < before;
       this.#seconds += seconds * speed;
     } else {
@@ -142,6 +170,7 @@ class Page {
     player.setShape(shapeOf(settings));
     this.#stage.view = settings.view;
     this.#stage.trail = settings.trail;
+    this.#stage.onion = settings.onion;
   }
 
   #rememberInAddress() {
@@ -161,13 +190,47 @@ class Page {
 
   #key(event: KeyboardEvent) {
     const target = event.target as HTMLElement;
-    if (target.matches('input, select, button') || event.ctrlKey || event.metaKey) return;
-    if (event.code === 'Space') {
+    const typing = target.matches('input:not([type=range]), textarea');
+    if (event.ctrlKey || event.metaKey) {
+      const undo = event.code === 'KeyZ' && !event.shiftKey;
+      const redo = event.code === 'KeyY' || (event.code === 'KeyZ' && event.shiftKey);
+      if (typing || event.altKey || (!undo && !redo)) return;
       event.preventDefault();
-      if (this.#source.kind === 'clip') this.#transport.setPlaying(!this.#transport.state.playing);
-      else this.#setPace(this.#steering.pace === 'stand' ? 'walk' : 'stand');
+      if (undo) this.#store.undo();
+      else this.#store.redo();
+      return;
     }
-    if (event.code === 'Digit0') this.#store.set({ styles: {} });
+    if (typing || event.altKey || this.#help.open) return;
+    if (event.key === '?') return this.#help.showModal();
+    // A button or a menu that has the focus takes the space bar.
+    if (event.code === 'Space' && target.matches('button, select')) return;
+    const action = this.#keys[event.code];
+    if (!action) return;
+    event.preventDefault();
+    if (!event.repeat || event.code === 'Comma' || event.code === 'Period') action();
+  }
+
+  #keys: Record<string, () => void> = {
+    Space: () => {
+      if (this.#source.kind === 'clip') this.#transport.setPlaying(!this.#transport.state.playing);
+      else this.#setPace(this.#steering.pace === 'idle' ? 'walk' : 'idle');
+    },
+    Digit0: () => this.#store.set({ styles: {} }),
+    Digit1: () => this.#look('front'),
+    Digit2: () => this.#look('side'),
+    Digit3: () => this.#look('top'),
+    Digit4: () => this.#look('orbit'),
+    KeyF: () => this.#look('face'),
+    KeyX: () => (this.#stage.comparing = true),
+    KeyN: () => this.#store.set({ onion: !this.#store.settings.onion }),
+    KeyI: () => this.#source.kind === 'clip' && this.#transport.setIn(),
+    KeyO: () => this.#source.kind === 'clip' && this.#transport.setOut(),
+    Comma: () => this.#stepFrames(-1),
+    Period: () => this.#stepFrames(1),
+  };
+
+  #look(angle: Angle) {
+    this.#stage.look(angle, this.#source.player);
   }
 
   // ---- Sources ----
@@ -202,6 +265,16 @@ class Page {
     if (this.#source.kind !== 'clip') return;
     this.#source.player.seek(seconds);
     this.#cut = true;
+  }
+
+  #stepFrames(frames: number) {
+    if (this.#source.kind !== 'clip') return;
+    const { file, clip, player } = this.#source;
+    const { frameTime, seconds } = file.clips[clip] ?? { frameTime: 0, seconds: 0 };
+    this.#transport.setPlaying(false);
+    if (frameTime <= 0) return;
+    const at = Math.round(player.seconds / frameTime) + frames;
+    this.#seek(Math.min(seconds, Math.max(0, at * frameTime)));
   }
 
   async #open(file: File) {
@@ -241,6 +314,15 @@ class Page {
     this.#alertTimer = window.setTimeout(() => (alert.hidden = true), kAlertSeconds * 1000);
   }
 
+  /** "walk-old.bvh": the source, the styles, the extension. */
+  #nameOf(extension: string): string {
+    const { styles, strength } = this.#store.settings;
+    const source = this.#source.kind === 'clip'
+      ? this.#source.file.name.replace(/\.[^.]*$/, '') : this.#steering.pace;
+    const named = Object.keys(styles).filter((name) => styles[name] * strength !== 0);
+    return `${[source, ...(named.length ? named : ['neutral'])].join('-')}${extension}`;
+  }
+
   // ---- Controls under the view ----
 
   #setPace(pace: Pace) {
@@ -248,6 +330,42 @@ class Page {
     for (const button of document.querySelectorAll<HTMLElement>('[data-pace]')) {
       button.setAttribute('aria-pressed', String(button.dataset.pace === pace));
     }
+  }
+
+  #buildViewControls() {
+    const button = (id: string, text: string, hint: string, press: () => void) => {
+      const out = element('button', { type: 'button', id, title: hint, 'aria-label': hint }, text);
+      out.addEventListener('click', press);
+      return out;
+    };
+    const names = { face: 'Camera', front: 'Front', side: 'Side', top: 'Top', orbit: 'Orbit' };
+    const menu = element('select', { id: 'angle', 'aria-label': 'Camera', title: 'Camera (1 to 4)' },
+      ...kAngles.map((angle) => element('option', { value: angle }, names[angle])));
+    menu.addEventListener('change', () => {
+      this.#look(menu.value as Angle);
+      menu.blur();
+    });
+    const compare = button('compare', 'Hold: input', 'Hold to see the input alone (X)', () => {});
+    compare.addEventListener('pointerdown', () => (this.#stage.comparing = true));
+    for (const end of ['pointerup', 'pointerleave', 'pointercancel']) {
+      compare.addEventListener(end, () => (this.#stage.comparing = false));
+    }
+    const whole = button('fullscreen', 'Full screen', 'The view alone, on the whole screen', () => {
+      if (document.fullscreenElement) void document.exitFullscreen();
+      else void find('.stage').requestFullscreen();
+    });
+    whole.hidden = !document.fullscreenEnabled;
+    const more = find('#more');
+    more.addEventListener('click', () => {
+      const open = find('#plots').classList.toggle('open');
+      more.setAttribute('aria-pressed', String(open));
+    });
+    find('#camera').append(menu,
+      button('fit', 'Fit', 'Face the character and fit it in (F)', () => {
+        menu.value = 'face';
+        this.#look('face');
+      }),
+      compare, whole, button('show-help', '?', 'Help: keys and more', () => this.#help.showModal()));
   }
 
   #buildWalkerControls() {
@@ -273,7 +391,7 @@ class Page {
     };
     const film = button('save-webm', 'WebM', 'Record a video of the view; press again to stop', () => {
       if (this.#film.running) this.#film.stop();
-      else this.#film.start('panache.webm');
+      else this.#film.start(this.#nameOf('.webm'));
       film.setAttribute('aria-pressed', String(this.#film.running));
       film.textContent = this.#film.running ? 'Stop recording' : 'WebM';
     });
@@ -284,20 +402,20 @@ class Page {
       if (file) void this.#attempt(() => this.#open(file));
     });
     const save = (extension: string) => () => {
-      saveBytes(this.#source.player.exportAs(extension) as BlobPart, `panache${extension}`);
+      saveBytes(this.#source.player.exportAs(extension) as BlobPart, this.#nameOf(extension));
     };
     find('#file-controls').append(
       button('back', 'Walker', 'Close the file and steer the walker again',
         () => this.#use(walkSource(this.#panache))),
       button('open', 'Open …', 'A BVH, GLB, glTF or VRM file; or drop one on the view',
         () => input.click()),
-      element('span', { class: 'keys' }, 'Save'),
+      element('span', { class: 'word' }, 'Save'),
       button('save-bvh', 'BVH', 'The motion, as a BVH file', save('.bvh')),
       button('save-glb', 'GLB', 'The motion, as a GLB file', save('.glb')),
       button('save-png', 'PNG', 'Save the view as a picture',
         () => {
         this.#stage.draw(0);  // What was drawn before is gone once it was shown.
-        savePicture(this.#stage.canvas, 'panache.png');
+        savePicture(this.#stage.canvas, this.#nameOf('.png'));
       }),
       film);
   }
@@ -332,6 +450,9 @@ class Page {
   /** For tests: what is going on. */
   get panache() {
     return this.#panache;
+  }
+  get stage() {
+    return this.#stage;
   }
   get source() {
     return this.#source;

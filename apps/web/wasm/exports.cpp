@@ -2,8 +2,10 @@
 // and addresses, with the prefix panache_page_. Who creates a thing frees it. A function that fails
 // gives null, and panache_last_error() says why.
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <memory>
 #include <string>
 
@@ -149,8 +151,24 @@ PANACHE_EXPORT const float* panache_page_player_pose(Player* player, int32_t sty
 PANACHE_EXPORT const float* panache_page_player_parts(Player* player, int32_t styled) {
   return player->parts(styled != 0).data();
 }
-PANACHE_EXPORT const float* panache_page_player_offsets(Player* player) {
-  return &player->offsets()[0].x;
+// Counts of vertices and of corners of triangles, then where the arrays of BodyMesh lie in their
+// order there, the bind pose as positions and rotations. Good as long as the player.
+PANACHE_EXPORT void panache_page_player_body(Player* player, uint32_t* out) {
+  const BodyMesh& body = player->body();
+  const auto address = [](const void* data) {
+    return static_cast<uint32_t>(reinterpret_cast<uintptr_t>(data));
+  };
+  const uint32_t all[] = {static_cast<uint32_t>(body.positions.size()),
+                          static_cast<uint32_t>(body.triangles.size()),
+                          address(&body.bind.positions),
+                          address(&body.bind.rotations),
+                          address(body.positions.data()),
+                          address(body.normals.data()),
+                          address(body.joints.data()),
+                          address(body.weights.data()),
+                          address(body.accents.data()),
+                          address(body.triangles.data())};
+  std::copy(std::begin(all), std::end(all), out);
 }
 // As Placement: x y z w, scale, floor.
 PANACHE_EXPORT void panache_page_player_placement(Player* player, float* out) {

@@ -49,12 +49,17 @@ async function drop(name) {
   }, [bytes, name]);
 }
 
+/** What the page called the files that it saved. */
+const saved = [];
+
 /** Presses a button that saves a file, and puts that beside the others. */
 async function save(name, extension) {
   const download = tab.waitForEvent('download');
   await button(name).click();
   const path = at(`saved${extension}`);
-  await (await download).saveAs(path);
+  const file = await download;
+  saved.push(file.suggestedFilename());
+  await file.saveAs(path);
   return path;
 }
 
@@ -73,11 +78,54 @@ test('a dropped BVH plays, pauses, is scrubbed and loops', async () => {
   await tab.locator('#scrub').fill('0.98');
   await tab.locator('#speed').selectOption('2');
   await button('Play').click();
-  await tab.waitForFunction(() => window.page.source.player.seconds > 2.98);
+  // At the end it stops; playing again begins again.
+  await button('Play').waitFor();
   await frames(tab, 4);
   assert.ok(await tab.evaluate(() => window.page.source.player.seconds > 2.98));
+  await button('Play').click();
+  await tab.waitForFunction(() => window.page.source.player.seconds < 1);
   await button('Loop').click();
-  await tab.waitForFunction(() => window.page.source.player.seconds < 2);
+});
+
+test('a clip goes frame by frame, and from an in point to an out point', async () => {
+  await button('Pause').click();
+  const seconds = () => tab.evaluate(() => window.page.source.player.seconds);
+  const seek = async (share) => {
+    await tab.locator('#scrub').fill(String(share));
+    await frames(tab, 2);
+  };
+  await seek(0.4);
+  const frame = Math.round((await seconds()) * 60);
+  await tab.keyboard.press('.');
+  await frames(tab, 2);
+  assert.ok(Math.abs((await seconds()) - (frame + 1) / 60) < 1e-6);
+  await tab.keyboard.press(',');
+  await tab.keyboard.press(',');
+  await frames(tab, 2);
+  const begin = await seconds();
+  await tab.keyboard.press('i');
+  await seek(0.6);
+  const end = await seconds();
+  await tab.keyboard.press('o');
+  await tab.locator('#speed').selectOption('1');
+  await button('Play').click();
+  const seen = await tab.evaluate(() => new Promise((done) => {
+    const player = window.page.source.player, all = [];
+    const look = () => {
+      all.push(player.seconds);
+      if (all.length < 40) requestAnimationFrame(look);
+      else done(all);
+    };
+    look();
+  }));
+  // A frame of a slow machine is at most a tenth of a second, which is how far it may overshoot.
+  assert.ok(Math.max(...seen) < end + 0.101 && Math.min(...seen.slice(1)) >= begin - 1e-6,
+    `${begin} ${end}: ${seen}`);
+  assert.ok(seen.some((s, i) => i > 0 && s < seen[i - 1]), 'it begins again');
+  await seek(0);
+  await tab.keyboard.press('i');
+  await seek(1);
+  await tab.keyboard.press('o');
 });
 
 test('what is saved reads back: BVH, GLB, a picture and a film', async () => {
@@ -96,6 +144,7 @@ test('what is saved reads back: BVH, GLB, a picture and a film', async () => {
   await tab.waitForTimeout(1200);
   const film = statSync(await save('Stop recording', '.webm'));
   assert.ok(film.size > 2000, `${film.size}`);
+  assert.deepEqual(saved, ['.bvh', '.glb', '.png', '.webm'].map((e) => `walk-proud${e}`));
 });
 
 test('a clip that is saved is what the program makes of it, byte for byte', async () => {
@@ -163,7 +212,7 @@ test('panache view serves the page to this machine alone, with the file open in 
   });
   if (said === '') return t.skip('this build has no server for the page');
   assert.match(said, /^http:\/\/127\.0\.0\.1:\d+\/\?open=walk\.bvh\n$/);
-  const served = await site.open('', { url: said.trim() });
+  const served = await site.open('neutral', { url: said.trim() });
   await served.waitForFunction(() => window.page.source.file?.name === 'walk.bvh');
   assert.ok(await served.evaluate(() => window.crossOriginIsolated));
   await served.close();
