@@ -141,7 +141,7 @@ export class Panache {
     walker?: ArrayBuffer | Uint8Array;
   }): Promise<Panache>;
   readonly styles: readonly Style[];
-  /** Reads a .bvh, .glb, .gltf (self-contained) or .vrm; the extension of `name` decides. */
+  /** Reads a .bvh, .glb, .gltf (self-contained), .vrm or .vrma; the extension of `name` decides. */
   openFile(bytes: ArrayBuffer | Uint8Array, name: string): MotionFile;
   /** Somebody who walks as she is steered, on a skeleton of humanJoints. */
   createWalker(): Walk;
@@ -178,6 +178,8 @@ export class MotionFile {
   readonly joints: readonly { name: string; parent: number }[];
   /** Fails where the skeleton is no humanoid. The file may be freed first. */
   createPlayer(clip?: number): Playback;
+  /** The bytes of the character's file with this motion put on it, in place of its own. */
+  putOn(character: MotionFile, clip?: number): Uint8Array;
   free(): void;
 }
 

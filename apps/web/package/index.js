@@ -67,9 +67,9 @@ export class Panache {
 
   openFile(bytes, name) {
     const extension = (/\.[^.]*$/.exec(name)?.[0] ?? '').toLowerCase();
-    if (!['.bvh', '.glb', '.gltf', '.vrm'].includes(extension)) {
+    if (!['.bvh', '.glb', '.gltf', '.vrm', '.vrma'].includes(extension)) {
       throw new PanacheError(
-        `${name}: expected a motion file (.bvh, .glb, .gltf, .vrm), found ` +
+        `${name}: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma), found ` +
           (extension ? `the extension '${extension}'` : 'no extension'));
     }
     return new MotionFile(this, this.#wasm, bytes, name, extension);
@@ -144,6 +144,11 @@ export class MotionFile {
   createPlayer(clip = 0) {
     const player = this.#wasm.panache_page_player_clip(this.#panache._model(), this.#file, clip);
     return new Playback(this.#panache, this.#wasm, this.#panache._checked(player), this.#extension);
+  }
+
+  putOn(character, clip = 0) {
+    return this.#panache._take(this.#panache._checked(
+      this.#wasm.panache_page_file_put_on(this.#file, clip, character.#file)));
   }
 
   free() {

@@ -26,7 +26,8 @@ export function buildHelp(): HTMLDialogElement {
     element('h2', { id: 'help-title' }, 'What can be done here'),
     element('p', {}, 'Move a slider: the same motion in another style, computed in this browser. ' +
       'Drag the view to look around, scroll to come nearer. Drop a motion or a character ' +
-      '(BVH, GLB, glTF, VRM) on the view and style it; save it as BVH or GLB. ' +
+      '(BVH, GLB, glTF, VRM, VRMA) on the view and style it; a motion and a character together ' +
+      'are put together. Save the result as BVH or GLB. ' +
       'Nothing is uploaded.'),
     list, close);
   close.addEventListener('click', () => dialog.close());

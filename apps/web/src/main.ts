@@ -12,7 +12,7 @@ import { buildPanel } from './panel';
 import { Plots } from './plots';
 import { Film, saveBytes, savePicture } from './saving';
 import { fromAddress, shapeOf, Store, toAddress, type Settings } from './settings';
-import { clipSource, openFile, walkSource, type Source } from './source';
+import { clipSource, openFile, putTogether, walkSource, type Source } from './source';
 import { Stage } from './stage';
 import { kPaces, Steering, type Pace } from './steering';
 import { TransportBar } from './transport';
@@ -43,6 +43,7 @@ class Page {
   #help = buildHelp();
   #film = new Film(this.#stage.canvas);
   #source: Source;
+  #files: File[] = [];  // That were opened together.
   #bytes = new ArrayBuffer(0);  // Of the file that is open.
   #cut = true;
   #last = 0;
@@ -248,6 +249,7 @@ class Page {
     find('#walker-controls').hidden = source.kind !== 'walk';
     find('#clip-controls').hidden = source.kind !== 'clip';
     find('#back').hidden = source.kind === 'walk';
+    if (source.kind === 'walk') find('#files').hidden = true;
     find('#file-name').textContent = source.kind === 'clip' ? source.file.name : '';
     if (source.kind === 'clip') {
       this.#transport.show(source.file, source.clip);
@@ -275,6 +277,17 @@ class Page {
     if (frameTime <= 0) return;
     const at = Math.round(player.seconds / frameTime) + frames;
     this.#seek(Math.min(seconds, Math.max(0, at * frameTime)));
+  }
+
+  /** Opens the first of some files, and lists them where there are several. */
+  async #openAll(files: File[]) {
+    if (files.length === 0) return;
+    const list = await putTogether(this.#panache, files);
+    await this.#open(list[0]);
+    this.#files = list;
+    const menu = find<HTMLSelectElement>('#files');
+    menu.replaceChildren(...list.map(({ name }, i) => element('option', { value: i }, name)));
+    menu.hidden = list.length < 2;
   }
 
   async #open(file: File) {
@@ -384,7 +397,7 @@ class Page {
 
   #buildFileControls() {
     const input = find<HTMLInputElement>('#file');
-    const button = (id: string, text: string, hint: string, press: () => void) => {
+    const button = (id: string, text: string, hint: string, press: () => void | Promise<void>) => {
       const out = element('button', { type: 'button', id, title: hint }, text);
       out.addEventListener('click', () => void this.#attempt(press));
       return out;
@@ -397,17 +410,27 @@ class Page {
     });
     film.hidden = !Film.possible;
     input.addEventListener('change', () => {
-      const [file] = input.files ?? [];
+      const files = [...(input.files ?? [])];
       input.value = '';
-      if (file) void this.#attempt(() => this.#open(file));
+      void this.#attempt(() => this.#openAll(files));
     });
     const save = (extension: string) => () => {
       saveBytes(this.#source.player.exportAs(extension) as BlobPart, this.#nameOf(extension));
     };
-    find('#file-controls').append(
+    const menu = element('select', { id: 'files', 'aria-label': 'Opened files', hidden: true });
+    menu.addEventListener('change', () =>
+      void this.#attempt(() => this.#open(this.#files[Number(menu.value)])));
+    const link = button('copy-link', 'Copy link', 'A link to this page with these settings',
+      async () => {
+        await navigator.clipboard.writeText(this.#link());
+        link.textContent = 'Copied';
+        setTimeout(() => (link.textContent = 'Copy link'), 1500);
+      });
+    link.hidden = !navigator.clipboard;
+    find('#file-controls').append(menu,
       button('back', 'Walker', 'Close the file and steer the walker again',
         () => this.#use(walkSource(this.#panache))),
-      button('open', 'Open …', 'A BVH, GLB, glTF or VRM file; or drop one on the view',
+      button('open', 'Open …', 'BVH, GLB, glTF, VRM or VRMA files; or drop them on the view',
         () => input.click()),
       element('span', { class: 'word' }, 'Save'),
       button('save-bvh', 'BVH', 'The motion, as a BVH file', save('.bvh')),
@@ -417,7 +440,11 @@ class Page {
         this.#stage.draw(0);  // What was drawn before is gone once it was shown.
         savePicture(this.#stage.canvas, this.#nameOf('.png'));
       }),
-      film);
+      film, link);
+  }
+
+  #link(): string {
+    return location.href.replace(/#.*$/, '') + `#${toAddress(this.#store.settings)}`;
   }
 
   #listenToDrops() {
@@ -433,8 +460,8 @@ class Page {
       event.preventDefault();
       depth = 0;
       drop.hidden = true;
-      const file = event.dataTransfer?.files[0];
-      if (file) void this.#attempt(() => this.#open(file));
+      const files = [...(event.dataTransfer?.files ?? [])];
+      void this.#attempt(() => this.#openAll(files));
     });
     // `panache view FILE` names a file that it serves beside the page.
     const served = new URLSearchParams(location.search).get('open');
@@ -442,7 +469,7 @@ class Page {
       void this.#attempt(async () => {
         const answer = await fetch(`open/${encodeURIComponent(served)}`);
         if (!answer.ok) throw new PanacheError(`${served}: the server has no such file`);
-        await this.#open(new File([await answer.blob()], served));
+        await this.#openAll([new File([await answer.blob()], served)]);
       });
     }
   }

@@ -14,10 +14,11 @@
 #include "api/errors.h"
 #include "api/objects.h"
 #include "api/shape.h"
-#include "clip/bvh.h"
-#include "clip/gltf.h"
+#include "clip/motion_format.h"
 #include "golden.h"
 #include "player.h"
+#include "retarget/find_body.h"
+#include "retarget/retarget.h"
 
 using namespace panache;
 using namespace panache::web;
@@ -61,15 +62,30 @@ PANACHE_EXPORT WalkerHandle* panache_page_walker_create(const char* data, uint32
 }
 PANACHE_EXPORT void panache_page_walker_free(WalkerHandle* walker) { delete walker; }
 
-// `name` ends in .bvh, or is taken for a glTF file.
+// The extension of `name` decides.
 PANACHE_EXPORT FileHandle* panache_page_file_create(const char* data, uint32_t size,
                                                     const char* name) {
-  const std::string path = name;
-  const bool bvh = path.ends_with(".bvh");
-  std::string bytes(data, size);
-  auto file = bvh ? parse_bvh(std::move(bytes), path) : parse_gltf(std::move(bytes), path);
+  auto file = parse_motion(std::string(bytes_at(data, size)), name);
   if (file) return new FileHandle(*std::move(file));
   return fail(file.error());
+}
+// The bytes of the character's file with one motion of the other on it, in place of its own.
+PANACHE_EXPORT panache_bytes* panache_page_file_put_on(FileHandle* motion, int32_t which,
+                                                       FileHandle* character) {
+  const Clip& clip = (*motion)->clip(which);
+  const Result<Rig> rig = Rig::create(clip);
+  if (!rig) return fail(rig.error());
+  const Clip* own = (*character)->clip_names().empty() ? nullptr : &(*character)->clip(0);
+  const Result<std::pair<Clip, Rig>> body = find_body((*character)->rest(), own, {});
+  if (!body) return fail(body.error());
+  const Result<Retargeted> done = retarget(clip, *rig, body->first, body->second);
+  if (!done) return fail(done.error());
+  const std::vector<std::string> names = (*motion)->clip_names();
+  const std::string name = names.empty() || names[static_cast<size_t>(which)].empty()
+                               ? "motion"
+                               : names[static_cast<size_t>(which)];
+  const ClipEdit edit = {kNewClip, &done->clip, {}, name};
+  return new panache_bytes{(*character)->encode({&edit, 1}, EditMode::replace)};
 }
 PANACHE_EXPORT void panache_page_file_free(FileHandle* file) { delete file; }
 PANACHE_EXPORT panache_bytes* panache_page_file_describe(FileHandle* file) {
@@ -172,7 +188,7 @@ PANACHE_EXPORT void panache_page_player_body(Player* player, uint32_t* out) {
 }
 // As Placement: x y z w, scale, floor.
 PANACHE_EXPORT void panache_page_player_placement(Player* player, float* out) {
-  const Placement placement = player->placement();
+  const web::Placement placement = player->placement();
   std::memcpy(out, &placement, sizeof placement);
 }
 

@@ -167,6 +167,28 @@ test('a GLB is shown with its own meshes', async () => {
   assert.match(info, /joints  22, of which.*\n.*180 frames at 60 a second/);
 });
 
+test('a motion and a character that are chosen together are put together', async () => {
+  panache('walker', '-o', 'short.bvh', '--seconds', '1', '--speed', '0.6');
+  await tab.setInputFiles('#file', [at('short.bvh'), at('walk.glb')]);
+  await tab.waitForFunction(() => window.page.source.file?.name === 'short-on-walk.glb');
+  assert.ok(await tab.evaluate(() => window.page.source.own !== null), 'the character is shown');
+  // The motion that was put on, and no longer the character's own of three seconds.
+  const clips = await tab.evaluate(() => window.page.source.file.clips.map((c) => c.frames));
+  assert.deepEqual(clips, [60]);
+  assert.ok(await tab.evaluate(() => window.page.source.file.joints.length === 22));
+});
+
+test('a .vrma opens, and several files become a list', async () => {
+  panache('convert', 'short.bvh', '-o', 'short.vrma');
+  await tab.setInputFiles('#file', [at('short.vrma'), at('walk.bvh'), at('short.bvh')]);
+  await tab.waitForFunction(() => window.page.source.file?.name === 'short.vrma');
+  assert.deepEqual(await tab.locator('#files option').allTextContents(),
+    ['short.vrma', 'walk.bvh', 'short.bvh']);
+  await tab.locator('#files').selectOption('walk.bvh');
+  await tab.waitForFunction(() => window.page.source.file?.name === 'walk.bvh');
+  await frames(tab);
+});
+
 test('a wrong file is refused with the library\'s sentence, and the old one goes on', async () => {
   await drop('damaged.bvh');
   assert.match(await alertText(), /^damaged\.bvh:\d+:\d+: expected .*OFSET/);
@@ -174,7 +196,7 @@ test('a wrong file is refused with the library\'s sentence, and the old one goes
   writeFileSync(at('notes.txt'), 'no motion');
   await choose('notes.txt');
   await tab.waitForFunction(() => document.querySelector('#alert').textContent.startsWith('notes'));
-  assert.equal(await alertText(), 'notes.txt: expected a motion file (.bvh, .glb, .gltf, .vrm), ' +
+  assert.equal(await alertText(), 'notes.txt: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma), ' +
     'found the extension \'.txt\'');
   writeFileSync(at('cut.glb'), readFileSync(at('walk.glb')).subarray(0, 500));
   await choose('cut.glb');
@@ -204,6 +226,7 @@ test('the walk itself is saved as it was steered', async () => {
 });
 
 test('panache view serves the page to this machine alone, with the file open in it', async (t) => {
+  await tab.close();  // Two pages that draw without a graphics card take each other's time.
   const server = spawn(program, ['view', 'walk.bvh'], { cwd: folder });
   t.after(() => server.kill());
   const said = await new Promise((done) => {
