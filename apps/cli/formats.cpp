@@ -14,6 +14,7 @@
 #include "npz.h"
 #include "retarget/retarget.h"
 #include "retarget/t_pose_body.h"
+#include "rig/rig_body.h"
 #include "rig/up_axis.h"
 
 namespace panache::cli {
@@ -37,7 +38,8 @@ constexpr OwnBody kOwnBodies[] = {
     {".npz", [](const Clip&, const Rig&) { return smpl_body(); }, {}},
 };
 
-std::string write_vrma(const Clip& clip, const std::string& name, const Placement&) {
+std::string write_vrma(const Clip& clip, const std::string& name, const Placement&,
+                       const SkinnedBody*) {
   return format_vrma(clip, name);
 }
 
@@ -156,9 +158,12 @@ Result<std::string> format_clip(const Clip& clip, const Rig* rig, const std::str
     assert(rig);
     Result<Clip> put = put_on(own, clip, *rig);
     if (!put) return put.error();
-    return format->write(*put, name, {});
+    return format->write(*put, name, {}, nullptr);
   }
-  return format->write(clip, name, placement);
+  if (!rig || !format->has_meshes) return format->write(clip, name, placement, nullptr);
+  const int reference = std::min(rig->first_frame(), clip.frames - 1);
+  const SkinnedBody body = make_rig_body(*rig, clip.pose(reference));
+  return format->write(clip, name, placement, &body);
 }
 
 }  // namespace panache::cli

@@ -8,6 +8,7 @@ Result<std::unique_ptr<MotionFile>> parse_npz(std::string, const std::string& pa
   return Error{path + ": this build reads no .npz files; build with libzip-dev"};
 }
 
-std::string (*const kWriteNpz)(const Clip&, const std::string&, const Placement&) = nullptr;
+std::string (*const kWriteNpz)(const Clip&, const std::string&, const Placement&,
+                               const SkinnedBody*) = nullptr;
 
 }  // namespace panache::cli

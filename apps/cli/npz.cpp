@@ -114,7 +114,7 @@ std::string pack(const std::vector<NpzMember>& members) {
   return out;
 }
 
-std::string write_npz(const Clip& clip, const std::string&, const Placement&) {
+std::string write_npz(const Clip& clip, const std::string&, const Placement&, const SkinnedBody*) {
   return pack(format_smpl(clip));
 }
 
@@ -126,6 +126,7 @@ Result<std::unique_ptr<MotionFile>> parse_npz(std::string bytes, const std::stri
   return parse_smpl(*std::move(members), std::move(bytes), pack, path);
 }
 
-std::string (*const kWriteNpz)(const Clip&, const std::string&, const Placement&) = write_npz;
+std::string (*const kWriteNpz)(const Clip&, const std::string&, const Placement&,
+                               const SkinnedBody*) = write_npz;
 
 }  // namespace panache::cli

@@ -17,6 +17,6 @@ Result<std::unique_ptr<MotionFile>> parse_npz(std::string bytes, const std::stri
 // A new archive, stored as numpy.savez does it, of a motion of smpl_body(). The same motion gives
 // the same bytes. Null in a build without libzip.
 extern std::string (*const kWriteNpz)(const Clip& clip, const std::string& name,
-                                      const Placement& placement);
+                                      const Placement& placement, const SkinnedBody* body);
 
 }  // namespace panache::cli

@@ -26,6 +26,7 @@
 #include "base/result.h"
 #include "clip/clip.h"
 #include "clip/motion_file.h"
+#include "clip/skinned_body.h"
 
 namespace panache {
 
@@ -45,13 +46,14 @@ Result<std::unique_ptr<MotionFile>> parse_gltf(std::string bytes, const std::str
 // of its motion whatever the mode: players take the first animation.
 Result<std::unique_ptr<MotionFile>> parse_vrma(std::string bytes, const std::string& name);
 
-// A new GLB for a clip that came from no glTF file, with a figure of sticks that any viewer shows.
+// A new GLB for a clip that came from no glTF file, with a figure that any viewer shows: `body`, or
+// sticks where that is null.
 // Above the clip's roots stands a node named `clip_name`, which is also the animation's name, with
 // the scale `metres_per_unit` (above zero) and the rotation `to_y_up`; so the numbers of the joints
 // stay the clip's own. The translation of a joint with can_translate false is its offset in the
 // file, whatever the poses say. End Sites become nodes without children.
 std::string format_glb(const Clip& clip, const std::string& clip_name, double metres_per_unit,
-                       Quat to_y_up);
+                       Quat to_y_up, const SkinnedBody* body = nullptr);
 
 // A new VRM animation, whose humanoid are the joints that have a role. The skeleton stands in
 // T-pose with rest rotations of the identity, in metres, with +Y up and facing +z; there are hips,

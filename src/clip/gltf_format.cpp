@@ -2,6 +2,9 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
+#include <initializer_list>
+#include <span>
 #include <vector>
 
 #include "clip/fk.h"
@@ -11,8 +14,8 @@
 namespace panache {
 namespace {
 
-constexpr int kUnsignedShort = 5123;
-constexpr int kVertexData = 34962;
+constexpr int kUnsignedByte = 5121, kUnsignedShort = 5123;
+constexpr int kVertexData = 34962, kTriangleData = 34963;
 constexpr const char* kVrmAnimation = "VRMC_vrm_animation";
 // Where an octahedron is widest, and how wide it is there, in lengths of its stick.
 constexpr float kWaist = 0.2f, kHalfWidth = 0.08f;
@@ -36,10 +39,14 @@ class GlbFormatter {
     }
   }
 
-  std::string format() {
+  std::string format(const SkinnedBody* body) {
     begin();
-    add_skin();
-    add_figure();
+    if (body) {
+      add_body(*body);
+    } else {
+      add_skin();
+      add_figure();
+    }
     return end();
   }
 
@@ -151,31 +158,87 @@ class GlbFormatter {
     }
     if (positions_.empty()) return;
     GltfJson attributes;
-    attributes["POSITION"] = add_vertex_data(positions_, "VEC3", 3);
-    GltfJson& accessor = json_["accessors"][attributes["POSITION"].get<size_t>()];
+    attributes["POSITION"] = add_positions(positions_);
+    attributes["NORMAL"] = add_vertex_data(normals_, "VEC3", 3);
+    attributes["JOINTS_0"] = add_joint_numbers();
+    attributes["WEIGHTS_0"] = add_vertex_data(weights_, "VEC4", 4);
+    add_mesh("sticks", {0.85, 0.6, 0.35, 1.0}, {{"attributes", std::move(attributes)}});
+  }
+
+  void add_body(const SkinnedBody& body) {
+    std::vector<float> matrices;
+    GltfJson joints = GltfJson::array();
+    for (const SkinnedBody::Bind& bind : body.binds) {
+      for (const Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+        append(matrices, (rotate(bind.rotation, axis) * bind.scale).as<double>(), 0);
+      }
+      append(matrices, bind.translation.as<double>(), 1);
+      joints.push_back(bind.joint + 1);
+    }
+    const size_t accessor = writer().add(matrices, "MAT4", 16);
+    json_["skins"][0]["inverseBindMatrices"] = accessor;
+    json_["skins"][0]["joints"] = std::move(joints);
+
+    std::vector<float> positions, normals;
+    for (const Vec3 v : body.positions) positions.insert(positions.end(), {v.x, v.y, v.z});
+    for (const Vec3 v : body.normals) normals.insert(normals.end(), {v.x, v.y, v.z});
+    GltfJson attributes;
+    attributes["POSITION"] = add_positions(positions);
+    attributes["NORMAL"] = add_vertex_data(normals, "VEC3", 3);
+    attributes["JOINTS_0"] = add_bytes(body.joints, false);
+    attributes["WEIGHTS_0"] = add_bytes(body.weights, true);
+    attributes["COLOR_0"] = add_bytes(body.colours, true);
+    const size_t indices = add_triangles(body.triangles);
+    add_mesh("body", {1.0, 1.0, 1.0, 1.0},
+             {{"attributes", std::move(attributes)}, {"indices", indices}});
+  }
+
+  void add_mesh(const std::string& what, std::initializer_list<double> colour, GltfJson primitive) {
+    GltfJson& material = json_["materials"][0];
+    material["name"] = what;
+    material["pbrMetallicRoughness"] = {
+        {"baseColorFactor", colour}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.8}};
+    primitive["material"] = 0;
+    GltfJson& mesh = json_["meshes"][0];
+    mesh["name"] = what;
+    mesh["primitives"][0] = std::move(primitive);
+    // A skinned mesh stands where its joints are, whatever is above its node.
+    json_["scenes"][0]["nodes"].push_back(json_["nodes"].size());
+    json_["nodes"].push_back({{"name", name_ + " " + what}, {"mesh", 0}, {"skin", 0}});
+  }
+
+  // With the bounds that a file has to say.
+  size_t add_positions(const std::vector<float>& positions) {
+    const size_t index = add_vertex_data(positions, "VEC3", 3);
+    GltfJson& accessor = json_["accessors"][index];
     for (size_t axis = 0; axis < 3; ++axis) {
-      float least = positions_[axis], most = least;
-      for (size_t i = axis; i < positions_.size(); i += 3) {
-        least = std::min(least, positions_[i]);
-        most = std::max(most, positions_[i]);
+      float least = positions[axis], most = least;
+      for (size_t i = axis; i < positions.size(); i += 3) {
+        least = std::min(least, positions[i]);
+        most = std::max(most, positions[i]);
       }
       accessor["min"].push_back(least);
       accessor["max"].push_back(most);
     }
-    attributes["NORMAL"] = add_vertex_data(normals_, "VEC3", 3);
-    attributes["JOINTS_0"] = add_joint_numbers();
-    attributes["WEIGHTS_0"] = add_vertex_data(weights_, "VEC4", 4);
-    GltfJson& material = json_["materials"][0];
-    material["name"] = "sticks";
-    material["pbrMetallicRoughness"] = {{"baseColorFactor", {0.85, 0.6, 0.35, 1.0}},
-                                        {"metallicFactor", 0.0},
-                                        {"roughnessFactor", 0.8}};
-    GltfJson& mesh = json_["meshes"][0];
-    mesh["name"] = "sticks";
-    mesh["primitives"][0] = {{"attributes", std::move(attributes)}, {"material", 0}};
-    // A skinned mesh stands where its joints are, whatever is above its node.
-    json_["scenes"][0]["nodes"].push_back(json_["nodes"].size());
-    json_["nodes"].push_back({{"name", name_ + " sticks"}, {"mesh", 0}, {"skin", 0}});
+    return index;
+  }
+
+  size_t add_bytes(std::span<const std::array<uint8_t, 4>> vertices, bool normalized) {
+    const size_t begin = bytes_.size();
+    for (const auto& vertex : vertices) bytes_.append(vertex.begin(), vertex.end());
+    const size_t accessor =
+        add_accessor(begin, kUnsignedByte, vertices.size(), "VEC4", kVertexData);
+    if (normalized) json_["accessors"][accessor]["normalized"] = true;
+    return accessor;
+  }
+
+  size_t add_triangles(std::span<const uint16_t> corners) {
+    const size_t begin = bytes_.size();
+    for (const uint16_t corner : corners) append_short(corner);
+    const size_t accessor =
+        add_accessor(begin, kUnsignedShort, corners.size(), "SCALAR", kTriangleData);
+    bytes_.resize((bytes_.size() + 3) / 4 * 4, '\0');
+    return accessor;
   }
 
   // Whether the joint keeps to its place. A stick to one that wanders off, such as the hips over
@@ -228,18 +291,27 @@ class GlbFormatter {
   size_t add_joint_numbers() {
     const size_t begin = bytes_.size();
     for (const size_t joint : joint_numbers_) {
-      bytes_ += static_cast<char>(joint & 0xff);
-      bytes_ += static_cast<char>(joint >> 8 & 0xff);
+      append_short(joint);
       bytes_.append(6, '\0');  // The three joints without weight.
     }
+    return add_accessor(begin, kUnsignedShort, joint_numbers_.size(), "VEC4", kVertexData);
+  }
+
+  void append_short(size_t number) {
+    bytes_ += static_cast<char>(number & 0xff);
+    bytes_ += static_cast<char>(number >> 8 & 0xff);
+  }
+
+  // An accessor of all bytes from `begin` on, with a view of its own.
+  size_t add_accessor(size_t begin, int component, size_t count, const char* type, int target) {
     json_["accessors"].push_back({{"bufferView", json_["bufferViews"].size()},
-                                  {"componentType", kUnsignedShort},
-                                  {"count", joint_numbers_.size()},
-                                  {"type", "VEC4"}});
+                                  {"componentType", component},
+                                  {"count", count},
+                                  {"type", type}});
     json_["bufferViews"].push_back({{"buffer", 0},
                                     {"byteOffset", begin},
                                     {"byteLength", bytes_.size() - begin},
-                                    {"target", kVertexData}});
+                                    {"target", target}});
     return json_["accessors"].size() - 1;
   }
 
@@ -311,8 +383,8 @@ class GlbFormatter {
 }  // namespace
 
 std::string format_glb(const Clip& clip, const std::string& clip_name, double metres_per_unit,
-                       Quat to_y_up) {
-  return GlbFormatter(clip, clip_name, metres_per_unit, to_y_up).format();
+                       Quat to_y_up, const SkinnedBody* body) {
+  return GlbFormatter(clip, clip_name, metres_per_unit, to_y_up).format(body);
 }
 
 std::string format_vrma(const Clip& clip, const std::string& clip_name) {

@@ -26,14 +26,16 @@ bool rests_as_it_starts(const Clip& clip) {
 
 // The rest pose is the skeleton's, units and axes are the clip's. Axes stay where the rest is not
 // known.
-std::string write_bvh(const Clip& clip, const std::string&, const Placement&) {
+std::string write_bvh(const Clip& clip, const std::string&, const Placement&, const SkinnedBody*) {
   Clip out = rests_as_it_starts(clip) ? clip : in_rest_axes(clip);
   add_end_sites(out.skeleton);
   return format_bvh(out);
 }
 
-std::string write_glb(const Clip& clip, const std::string& name, const Placement& placement) {
-  return format_glb(clip, name, static_cast<double>(placement.metres_per_unit), placement.y_up);
+std::string write_glb(const Clip& clip, const std::string& name, const Placement& placement,
+                      const SkinnedBody* body) {
+  return format_glb(clip, name, static_cast<double>(placement.metres_per_unit), placement.y_up,
+                    body);
 }
 
 constexpr MotionFormat kFormats[] = {
@@ -45,6 +47,7 @@ constexpr MotionFormat kFormats[] = {
     {.extension = ".glb",
      .parse = parse_gltf,
      .write = write_glb,
+     .has_meshes = true,
      .in_metres = true,
      .encoded_as = ".glb"},
     {.extension = ".gltf",

@@ -9,6 +9,7 @@
 #include "base/quat.h"
 #include "base/result.h"
 #include "clip/motion_file.h"
+#include "clip/skinned_body.h"
 
 namespace panache {
 
@@ -28,10 +29,11 @@ struct MotionFormat {
   // Instead of `parse`, where it is not this process that may read the bytes.
   Result<std::unique_ptr<MotionFile>> (*read)(const std::string& path) = nullptr;
 
-  // A new file of one motion alone, called `name` where the format has names; none where such files
-  // are only written as they were read.
-  std::string (*write)(const Clip& clip, const std::string& name,
-                       const Placement& placement) = nullptr;
+  // A new file of one motion alone, called `name` where the format has names, shown on `body` (may
+  // be null) where it has meshes; none where such files are only written as they were read.
+  std::string (*write)(const Clip& clip, const std::string& name, const Placement& placement,
+                       const SkinnedBody* body) = nullptr;
+  bool has_meshes = false;
   bool in_metres = false;  // What `write` makes is in metres with +Y up, and so needs a placement.
 
   // Of what MotionFile::encode gives.

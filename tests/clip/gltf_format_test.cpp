@@ -1,6 +1,8 @@
 // GLB files for clips that came from elsewhere.
 
 #include "gltf_checks.h"
+#include "make_clip.h"
+#include "rig/rig_body.h"
 
 namespace panache {
 namespace {
@@ -62,6 +64,24 @@ TEST(GltfFormat, end_sites_are_nodes_without_children) {
     }
   }
   EXPECT_GT(ends, 0u);
+}
+
+TEST(GltfFormat, a_body_is_one_mesh_on_the_joints_of_the_clip) {
+  const Clip clip = test::walking_clip(2);
+  const SkinnedBody body = make_rig_body(*Rig::create(clip), clip.pose(0));
+  const GltfParts parts = test::glb_parts(format_glb(clip, "walk", 1, {}, &body));
+  ASSERT_EQ(parts.json["meshes"].size(), 1u);
+  const test::Json& primitive = parts.json["meshes"][0]["primitives"][0];
+  const auto count = [&](const test::Json& accessor) {
+    return parts.json["accessors"][accessor.get<size_t>()]["count"].get<size_t>();
+  };
+  EXPECT_EQ(count(primitive["indices"]), body.triangles.size());
+  for (const char* what : {"POSITION", "NORMAL", "JOINTS_0", "WEIGHTS_0", "COLOR_0"}) {
+    EXPECT_EQ(count(primitive["attributes"][what]), body.positions.size()) << what;
+  }
+  const test::Json& joints = parts.json["skins"][0]["joints"];
+  ASSERT_EQ(joints.size(), body.binds.size());
+  for (size_t b = 0; b < body.binds.size(); ++b) EXPECT_EQ(joints[b], body.binds[b].joint + 1);
 }
 
 TEST(GltfFormat, a_clip_with_nothing_to_see_is_written_too) {

@@ -4,6 +4,8 @@
 #include <cstdlib>
 
 #include "gltf_checks.h"
+#include "make_clip.h"
+#include "rig/rig_body.h"
 #include "temporary_folder.h"
 
 namespace panache {
@@ -105,6 +107,9 @@ TEST_F(GltfPrograms, the_khronos_validator_finds_no_error) {
     const auto bvh = must_parse(read_fixture(fixture));
     add(std::string(fixture) + ".glb", format_glb(bvh->clip(), "a walk", 0.01, {}));
   }
+  const Clip walk = test::walking_clip(10);
+  const SkinnedBody body = make_rig_body(*Rig::create(walk), walk.pose(0));
+  add("body.glb", format_glb(walk, "a walk", 1, {}, &body));
   EXPECT_EQ(run("validate.mjs", names), "");
 }
 

@@ -22,7 +22,7 @@ TEST(MotionFormat, what_one_writes_it_reads) {
   for (const MotionFormat& format : motion_formats()) {
     if (!format.write) continue;
     ++written;
-    const std::string bytes = format.write(clip, "walk", {});
+    const std::string bytes = format.write(clip, "walk", {}, nullptr);
     const auto file = format.parse(bytes, "walk");
     ASSERT_TRUE(file.ok()) << file.error().message;
     EXPECT_EQ((*file)->clip().frames, 20) << format.extension;

@@ -9,7 +9,7 @@ const [clip] = process.argv.slice(2);
 const out = fileURLToPath(new URL('../../docs/pictures', import.meta.url));
 const phone = { viewport: { width: 390, height: 844 }, deviceScaleFactor: 1.5, isMobile: true,
   hasTouch: true };
-const looks = [['web', 'old=1&view=side'], ['web-phone', 'old=2', phone],
+const looks = [['web', ''], ['web-phone', 'old=2&view=styled', phone],
   ['web-dark', 'giant=0.8&proud=0.6&view=over', { colorScheme: 'dark' }]];
 if (clip) looks.push(['web-clip', 'tired=1&view=side', {}, clip]);
 

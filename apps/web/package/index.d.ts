@@ -141,7 +141,7 @@ export class Panache {
     walker?: ArrayBuffer | Uint8Array;
   }): Promise<Panache>;
   readonly styles: readonly Style[];
-  /** Reads a .bvh, .glb, .gltf (self-contained) or .vrm; the extension of `name` decides. */
+  /** Reads a .bvh, .glb, .gltf (self-contained), .vrm or .vrma; the extension of `name` decides. */
   openFile(bytes: ArrayBuffer | Uint8Array, name: string): MotionFile;
   /** Somebody who walks as she is steered, on a skeleton of humanJoints. */
   createWalker(): Walk;
@@ -178,7 +178,26 @@ export class MotionFile {
   readonly joints: readonly { name: string; parent: number }[];
   /** Fails where the skeleton is no humanoid. The file may be freed first. */
   createPlayer(clip?: number): Playback;
+  /** The bytes of the character's file with this motion put on it, in place of its own. */
+  putOn(character: MotionFile, clip?: number): Uint8Array;
   free(): void;
+}
+
+/** A skinned mesh of a person, moved by `parts`. */
+export interface Body {
+  /** [21][3], [21][4]: the pose that the vertices stand in. */
+  bindPositions: Float32Array;
+  bindRotations: Float32Array;
+  /** [vertices][3], metres. */
+  positions: Float32Array;
+  normals: Float32Array;
+  /** [vertices][4]: human joints, and their weights, which add up to 255. */
+  joints: Uint8Array;
+  weights: Uint8Array;
+  /** [vertices]: 255 where the body has its second colour. */
+  accents: Uint8Array;
+  /** Three vertices each. */
+  triangles: Uint16Array;
 }
 
 /** A source of motion and the character that it moves. */
@@ -203,8 +222,8 @@ declare class Player {
   /** View, [21][7]: world position (metres, Y up) and orientation x y z w of each human joint. In
    * its own frame a part lies as in the T-pose: left arm along +x, legs along -y, feet along +z. */
   parts(which: 'input' | 'styled'): Float32Array;
-  /** [21][3]: where each joint is in its parent's frame, metres; zero where the rig has none. */
-  readonly offsets: Float32Array;
+  /** A body to the measure of the rig; takes some tenths of a second the first time. */
+  readonly body: Body;
   /** world = scale * rotate(toYUp, point of the file) - {0, floor, 0}. */
   readonly placement: { toYUp: number[]; scale: number; floor: number };
   /** A file with this extension (".bvh", ".glb", or that of the file played): the whole clip as styled

@@ -67,9 +67,9 @@ export class Panache {
 
   openFile(bytes, name) {
     const extension = (/\.[^.]*$/.exec(name)?.[0] ?? '').toLowerCase();
-    if (!['.bvh', '.glb', '.gltf', '.vrm'].includes(extension)) {
+    if (!['.bvh', '.glb', '.gltf', '.vrm', '.vrma'].includes(extension)) {
       throw new PanacheError(
-        `${name}: expected a motion file (.bvh, .glb, .gltf, .vrm), found ` +
+        `${name}: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma), found ` +
           (extension ? `the extension '${extension}'` : 'no extension'));
     }
     return new MotionFile(this, this.#wasm, bytes, name, extension);
@@ -146,6 +146,11 @@ export class MotionFile {
     return new Playback(this.#panache, this.#wasm, this.#panache._checked(player), this.#extension);
   }
 
+  putOn(character, clip = 0) {
+    return this.#panache._take(this.#panache._checked(
+      this.#wasm.panache_page_file_put_on(this.#file, clip, character.#file)));
+  }
+
   free() {
     this.#wasm.panache_page_file_free(this.#file);
     this.#file = 0;
@@ -187,8 +192,20 @@ class Player {
     const at = this._wasm.panache_page_player_parts(this._player, which === 'styled' ? 1 : 0);
     return this._floats(at, kHumanJoints * kPartNumbers);
   }
-  get offsets() {
-    return this._floats(this._wasm.panache_page_player_offsets(this._player), kHumanJoints * 3).slice();
+  get body() {
+    return this.#panache._arena((arena) => {
+      const at = arena.allocate(40);
+      this._wasm.panache_page_player_body(this._player, at);
+      const { buffer } = this._wasm.memory;
+      const [vertices, corners, ...places] = new Uint32Array(buffer, at, 10);
+      const sizes = [[Float32Array, 3 * kHumanJoints], [Float32Array, 4 * kHumanJoints],
+        [Float32Array, 3 * vertices], [Float32Array, 3 * vertices], [Uint8Array, 4 * vertices],
+        [Uint8Array, 4 * vertices], [Uint8Array, vertices], [Uint16Array, corners]];
+      const [bindPositions, bindRotations, positions, normals, joints, weights, accents, triangles] =
+        sizes.map(([type, count], i) => new type(buffer, places[i], count).slice());
+      return { bindPositions, bindRotations, positions, normals, joints, weights, accents,
+        triangles };
+    });
   }
   get placement() {
     return this.#panache._arena((arena) => {

@@ -6,68 +6,117 @@ import * as THREE from 'three';
 const kSize = 24;       // Metres; the grid fades before.
 const kShadowSize = 5;  // Metres.
 
-/** Lines every metre, finer ones every quarter, fading with the distance from `middle`. */
-function gridMaterial(): THREE.ShaderMaterial {
+const kTile = 256;  // Pixels of a square metre of lines.
+
+/** A square metre: a line along its edges, finer ones every quarter. */
+function lineTexture(sharp: boolean): THREE.Texture {
+  const canvas = document.createElement('canvas');
+  canvas.width = canvas.height = kTile;
+  const context = canvas.getContext('2d')!;
+  for (let i = 0; i <= 4; ++i) {
+    const edge = i % 4 === 0;
+    const at = (i * kTile) / 4, wide = edge ? 5 : 1.5;
+    context.fillStyle = edge ? '#bfbfbf' : '#5a5a5a';
+    context.fillRect(at - wide / 2, 0, wide, kTile);
+    context.fillRect(0, at - wide / 2, kTile, wide);
+  }
+  const texture = new THREE.CanvasTexture(canvas);
+  texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
+  texture.anisotropy = sharp ? 8 : 1;
+  return texture;
+}
+
+/** Lines that fade with the distance. One look into a texture: shaders that compute lines, or
+ * colours, for each pixel cost half of a frame where no graphics card draws. */
+function gridMaterial(sharp: boolean): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
-    transparent: true,
     depthWrite: false,
     uniforms: {
       line: { value: new THREE.Color() },
       ground: { value: new THREE.Color() },
-      middle: { value: new THREE.Vector3() },
+      lines: { value: lineTexture(sharp) },
     },
     vertexShader: `
       varying vec2 place;
+      varying float shown;
       void main() {
         vec4 world = modelMatrix * vec4(position, 1.0);
         place = world.xz;
+        shown = 1.0 - smoothstep(2.5, 10.5, length(position.xz));
         gl_Position = projectionMatrix * viewMatrix * world;
       }`,
     fragmentShader: `
-      uniform vec3 line, ground, middle;
+      uniform vec3 line, ground;
+      uniform sampler2D lines;
       varying vec2 place;
-      float lines(float spacing, float width) {
-        vec2 at = place / spacing;
-        vec2 soft = fwidth(at);
-        vec2 away = abs(fract(at - 0.5) - 0.5);
-        vec2 on = 1.0 - smoothstep(vec2(0.5 * width), 0.5 * width + 1.5 * soft, away);
-        return max(on.x, on.y) * (1.0 - smoothstep(0.15, 0.5, max(soft.x, soft.y)));
-      }
+      varying float shown;
       void main() {
-        float far = length(place - middle.xz);
-        float shown = max(0.75 * lines(1.0, 0.014), 0.3 * lines(0.25, 0.02));
-        float fade = 1.0 - smoothstep(2.5, 11.0, far);
-        gl_FragColor = vec4(mix(ground, line, shown), fade);
-        #include <colorspace_fragment>
+        gl_FragColor = vec4(mix(ground, line, shown * texture2D(lines, place).r), 1.0);
+      }`,
+  });
+}
+
+/** Dark in the middle, nothing at the edge. */
+function spotMaterial(): THREE.ShaderMaterial {
+  return new THREE.ShaderMaterial({
+    transparent: true,
+    depthWrite: false,
+    uniforms: { strength: { value: 0 } },
+    vertexShader: `
+      varying vec2 place;
+      void main() {
+        place = 2.0 * uv - 1.0;
+        gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+      }`,
+    fragmentShader: `
+      uniform float strength;
+      varying vec2 place;
+      void main() {
+        float dark = 1.0 - min(1.0, dot(place, place));
+        gl_FragColor = vec4(0.06, 0.05, 0.04, strength * dark * dark);
       }`,
   });
 }
 
 export class Ground {
+  #spots = [1.1, 0.42, 0.42].map((size) => new THREE.Mesh(
+    new THREE.PlaneGeometry(size, size).rotateX(-Math.PI / 2), spotMaterial()));
   readonly group = new THREE.Group();
   #grid: THREE.Mesh<THREE.PlaneGeometry, THREE.ShaderMaterial>;
   #shadow: THREE.Mesh;
 
-  constructor() {
-    const plane = new THREE.PlaneGeometry(kSize, kSize).rotateX(-Math.PI / 2);
-    this.#grid = new THREE.Mesh(plane, gridMaterial());
+  /** `spots`: without a cast shadow, and with lines that cost little. */
+  constructor(private spots: boolean) {
+    const plane = new THREE.PlaneGeometry(kSize, kSize, 24, 24).rotateX(-Math.PI / 2);
+    this.#grid = new THREE.Mesh(plane, gridMaterial(!spots));
     this.#grid.renderOrder = -2;
     const under = new THREE.PlaneGeometry(kShadowSize, kShadowSize).rotateX(-Math.PI / 2);
     this.#shadow = new THREE.Mesh(under, new THREE.ShadowMaterial({ opacity: 0.32 }));
     this.#shadow.receiveShadow = true;
     this.#shadow.position.y = 0.001;
     this.#shadow.renderOrder = -1;
-    this.group.add(this.#grid, this.#shadow);
+    this.group.add(this.#grid, this.#shadow, ...this.#spots);
+    for (const spot of this.#spots) spot.renderOrder = -1;
   }
 
   paint(ground: string, line: string) {
-    this.#grid.material.uniforms.ground.value.set(ground);
-    this.#grid.material.uniforms.line.value.set(line);
+    // As they are on the screen.
+    const { uniforms } = this.#grid.material;
+    uniforms.ground.value.set(ground).convertLinearToSRGB();
+    uniforms.line.value.set(line).convertLinearToSRGB();
   }
 
-  /** Keeps the ground under the body; the lines stay where they are. */
-  follow(place: THREE.Vector3) {
+  /** Keeps the ground under the body; the lines stay where they are. `feet` are the toes. */
+  follow(place: THREE.Vector3, feet: readonly THREE.Vector3[]) {
+    this.#shadow.visible = !this.spots;
+    this.#spots.forEach((spot, i) => {
+      const over = i === 0 ? place : feet[i - 1];
+      spot.visible = this.spots && over !== undefined;
+      if (!spot.visible) return;
+      spot.position.set(over.x - place.x, 0.002 + 0.001 * i, over.z - place.z);
+      const near = i === 0 ? 0.6 : Math.exp(-6 * Math.max(0, over.y - 0.03));
+      spot.material.uniforms.strength.value = 0.5 * near;
+    });
     this.group.position.set(place.x, 0, place.z);
-    this.#grid.material.uniforms.middle.value.copy(place);
   }
 }

@@ -3,13 +3,16 @@
 import * as files from 'virtual:panache-files';
 
 import { Panache, PanacheError } from '../package/index.js';
+import { kAngles, type Angle } from './camera';
 import { element, find } from './dom';
+import { Figures } from './figures';
 import { Cross } from './gamepad';
+import { buildHelp } from './help';
 import { buildPanel } from './panel';
 import { Plots } from './plots';
 import { Film, saveBytes, savePicture } from './saving';
 import { fromAddress, shapeOf, Store, toAddress, type Settings } from './settings';
-import { clipSource, openFile, walkSource, type Source } from './source';
+import { clipSource, openFile, putTogether, walkSource, type Source } from './source';
 import { Stage } from './stage';
 import { kPaces, Steering, type Pace } from './steering';
 import { TransportBar } from './transport';
@@ -36,8 +39,11 @@ class Page {
   #steering = new Steering(find('#stick'));
   #cross = new Cross();
   #transport: TransportBar;
+  #figures: Figures;
+  #help = buildHelp();
   #film = new Film(this.#stage.canvas);
   #source: Source;
+  #files: File[] = [];  // That were opened together.
   #bytes = new ArrayBuffer(0);  // Of the file that is open.
   #cut = true;
   #last = 0;
@@ -54,9 +60,11 @@ class Page {
       onSeek: (seconds) => this.#seek(seconds),
       onClip: (clip) => void this.#attempt(() => this.#playClip(clip)),
       onLoop: (loop) => this.#source.kind === 'clip' && (this.#source.player.loop = loop),
+      onStep: (frames) => this.#stepFrames(frames),
     });
     this.#source = walkSource(panache);
-    buildPanel(this.#store, panache.styles);
+    this.#figures = new Figures(panache, buildPanel(this.#store, panache.styles));
+    this.#buildViewControls();
     this.#buildWalkerControls();
     this.#buildFileControls();
     this.#listenToDrops();
@@ -64,8 +72,20 @@ class Page {
     this.#store.listen((settings) => this.#apply(settings));
     this.#rememberInAddress();
     matchMedia('(prefers-color-scheme: dark)')
-      .addEventListener('change', () => this.#stage.paint());
+      .addEventListener('change', () => {
+        this.#stage.paint();
+        this.#figures.paint();
+      });
     addEventListener('keydown', (event) => this.#key(event));
+    addEventListener('keyup', (event) => {
+      if (event.code === 'KeyX') this.#stage.comparing = false;
+    });
+    addEventListener('blur', () => (this.#stage.comparing = false));
+    // A button that was clicked gives the keys back to the view; one reached by Tab keeps them.
+    addEventListener('click', (event) => {
+      const button = (event.target as HTMLElement).closest('button');
+      if (button && event.detail > 0 && !button.closest('dialog')) button.blur();
+    });
     find('#wait').hidden = true;
     requestAnimationFrame((now) => {
       this.#last = now;
@@ -81,7 +101,8 @@ class Page {
     this.#last = now;
     this.#cross.step(seconds);
     this.#advance(seconds);
-    this.#stage.update(this.#source.player, this.#source.joints, this.#cut);
+    this.#figures.step(seconds);
+    this.#stage.update(this.#source.player, this.#source.joints, this.#cut, seconds);
     this.#cut = false;
     this.#stage.draw(seconds);
     this.#report();
@@ -102,6 +123,14 @@ class Page {
       const before = source.player.seconds;
       // The library takes a tenth of a second at once.
       source.player.step(seconds * speed);
+      const [begin, end] = this.#transport.range;
+      const { loop } = this.#transport.state;
+      const whole = end >= source.file.clips[source.clip]?.seconds;
+      if (source.player.seconds < begin || (loop && !whole && source.player.seconds >= end)) {
+        this.#seek(begin);
+      } else if (!loop && source.player.seconds >= end) {
+        this.#transport.setPlaying(false);
+      }
       this.#cut ||= source.player.seconds < before;
       this.#seconds += seconds * speed;
     } else {
@@ -142,6 +171,7 @@ class Page {
     player.setShape(shapeOf(settings));
     this.#stage.view = settings.view;
     this.#stage.trail = settings.trail;
+    this.#stage.onion = settings.onion;
   }
 
   #rememberInAddress() {
@@ -161,13 +191,47 @@ class Page {
 
   #key(event: KeyboardEvent) {
     const target = event.target as HTMLElement;
-    if (target.matches('input, select, button') || event.ctrlKey || event.metaKey) return;
-    if (event.code === 'Space') {
+    const typing = target.matches('input:not([type=range]), textarea');
+    if (event.ctrlKey || event.metaKey) {
+      const undo = event.code === 'KeyZ' && !event.shiftKey;
+      const redo = event.code === 'KeyY' || (event.code === 'KeyZ' && event.shiftKey);
+      if (typing || event.altKey || (!undo && !redo)) return;
       event.preventDefault();
-      if (this.#source.kind === 'clip') this.#transport.setPlaying(!this.#transport.state.playing);
-      else this.#setPace(this.#steering.pace === 'stand' ? 'walk' : 'stand');
+      if (undo) this.#store.undo();
+      else this.#store.redo();
+      return;
     }
-    if (event.code === 'Digit0') this.#store.set({ styles: {} });
+    if (typing || event.altKey || this.#help.open) return;
+    if (event.key === '?') return this.#help.showModal();
+    // A button or a menu that has the focus takes the space bar.
+    if (event.code === 'Space' && target.matches('button, select')) return;
+    const action = this.#keys[event.code];
+    if (!action) return;
+    event.preventDefault();
+    if (!event.repeat || event.code === 'Comma' || event.code === 'Period') action();
+  }
+
+  #keys: Record<string, () => void> = {
+    Space: () => {
+      if (this.#source.kind === 'clip') this.#transport.setPlaying(!this.#transport.state.playing);
+      else this.#setPace(this.#steering.pace === 'idle' ? 'walk' : 'idle');
+    },
+    Digit0: () => this.#store.set({ styles: {} }),
+    Digit1: () => this.#look('front'),
+    Digit2: () => this.#look('side'),
+    Digit3: () => this.#look('top'),
+    Digit4: () => this.#look('orbit'),
+    KeyF: () => this.#look('face'),
+    KeyX: () => (this.#stage.comparing = true),
+    KeyN: () => this.#store.set({ onion: !this.#store.settings.onion }),
+    KeyI: () => this.#source.kind === 'clip' && this.#transport.setIn(),
+    KeyO: () => this.#source.kind === 'clip' && this.#transport.setOut(),
+    Comma: () => this.#stepFrames(-1),
+    Period: () => this.#stepFrames(1),
+  };
+
+  #look(angle: Angle) {
+    this.#stage.look(angle, this.#source.player);
   }
 
   // ---- Sources ----
@@ -185,6 +249,7 @@ class Page {
     find('#walker-controls').hidden = source.kind !== 'walk';
     find('#clip-controls').hidden = source.kind !== 'clip';
     find('#back').hidden = source.kind === 'walk';
+    if (source.kind === 'walk') find('#files').hidden = true;
     find('#file-name').textContent = source.kind === 'clip' ? source.file.name : '';
     if (source.kind === 'clip') {
       this.#transport.show(source.file, source.clip);
@@ -202,6 +267,27 @@ class Page {
     if (this.#source.kind !== 'clip') return;
     this.#source.player.seek(seconds);
     this.#cut = true;
+  }
+
+  #stepFrames(frames: number) {
+    if (this.#source.kind !== 'clip') return;
+    const { file, clip, player } = this.#source;
+    const { frameTime, seconds } = file.clips[clip] ?? { frameTime: 0, seconds: 0 };
+    this.#transport.setPlaying(false);
+    if (frameTime <= 0) return;
+    const at = Math.round(player.seconds / frameTime) + frames;
+    this.#seek(Math.min(seconds, Math.max(0, at * frameTime)));
+  }
+
+  /** Opens the first of some files, and lists them where there are several. */
+  async #openAll(files: File[]) {
+    if (files.length === 0) return;
+    const list = await putTogether(this.#panache, files);
+    await this.#open(list[0]);
+    this.#files = list;
+    const menu = find<HTMLSelectElement>('#files');
+    menu.replaceChildren(...list.map(({ name }, i) => element('option', { value: i }, name)));
+    menu.hidden = list.length < 2;
   }
 
   async #open(file: File) {
@@ -241,6 +327,15 @@ class Page {
     this.#alertTimer = window.setTimeout(() => (alert.hidden = true), kAlertSeconds * 1000);
   }
 
+  /** "walk-old.bvh": the source, the styles, the extension. */
+  #nameOf(extension: string): string {
+    const { styles, strength } = this.#store.settings;
+    const source = this.#source.kind === 'clip'
+      ? this.#source.file.name.replace(/\.[^.]*$/, '') : this.#steering.pace;
+    const named = Object.keys(styles).filter((name) => styles[name] * strength !== 0);
+    return `${[source, ...(named.length ? named : ['neutral'])].join('-')}${extension}`;
+  }
+
   // ---- Controls under the view ----
 
   #setPace(pace: Pace) {
@@ -248,6 +343,42 @@ class Page {
     for (const button of document.querySelectorAll<HTMLElement>('[data-pace]')) {
       button.setAttribute('aria-pressed', String(button.dataset.pace === pace));
     }
+  }
+
+  #buildViewControls() {
+    const button = (id: string, text: string, hint: string, press: () => void) => {
+      const out = element('button', { type: 'button', id, title: hint, 'aria-label': hint }, text);
+      out.addEventListener('click', press);
+      return out;
+    };
+    const names = { face: 'Camera', front: 'Front', side: 'Side', top: 'Top', orbit: 'Orbit' };
+    const menu = element('select', { id: 'angle', 'aria-label': 'Camera', title: 'Camera (1 to 4)' },
+      ...kAngles.map((angle) => element('option', { value: angle }, names[angle])));
+    menu.addEventListener('change', () => {
+      this.#look(menu.value as Angle);
+      menu.blur();
+    });
+    const compare = button('compare', 'Hold: input', 'Hold to see the input alone (X)', () => {});
+    compare.addEventListener('pointerdown', () => (this.#stage.comparing = true));
+    for (const end of ['pointerup', 'pointerleave', 'pointercancel']) {
+      compare.addEventListener(end, () => (this.#stage.comparing = false));
+    }
+    const whole = button('fullscreen', 'Full screen', 'The view alone, on the whole screen', () => {
+      if (document.fullscreenElement) void document.exitFullscreen();
+      else void find('.stage').requestFullscreen();
+    });
+    whole.hidden = !document.fullscreenEnabled;
+    const more = find('#more');
+    more.addEventListener('click', () => {
+      const open = find('#plots').classList.toggle('open');
+      more.setAttribute('aria-pressed', String(open));
+    });
+    find('#camera').append(menu,
+      button('fit', 'Fit', 'Face the character and fit it in (F)', () => {
+        menu.value = 'face';
+        this.#look('face');
+      }),
+      compare, whole, button('show-help', '?', 'Help: keys and more', () => this.#help.showModal()));
   }
 
   #buildWalkerControls() {
@@ -266,40 +397,54 @@ class Page {
 
   #buildFileControls() {
     const input = find<HTMLInputElement>('#file');
-    const button = (id: string, text: string, hint: string, press: () => void) => {
+    const button = (id: string, text: string, hint: string, press: () => void | Promise<void>) => {
       const out = element('button', { type: 'button', id, title: hint }, text);
       out.addEventListener('click', () => void this.#attempt(press));
       return out;
     };
     const film = button('save-webm', 'WebM', 'Record a video of the view; press again to stop', () => {
       if (this.#film.running) this.#film.stop();
-      else this.#film.start('panache.webm');
+      else this.#film.start(this.#nameOf('.webm'));
       film.setAttribute('aria-pressed', String(this.#film.running));
       film.textContent = this.#film.running ? 'Stop recording' : 'WebM';
     });
     film.hidden = !Film.possible;
     input.addEventListener('change', () => {
-      const [file] = input.files ?? [];
+      const files = [...(input.files ?? [])];
       input.value = '';
-      if (file) void this.#attempt(() => this.#open(file));
+      void this.#attempt(() => this.#openAll(files));
     });
     const save = (extension: string) => () => {
-      saveBytes(this.#source.player.exportAs(extension) as BlobPart, `panache${extension}`);
+      saveBytes(this.#source.player.exportAs(extension) as BlobPart, this.#nameOf(extension));
     };
-    find('#file-controls').append(
+    const menu = element('select', { id: 'files', 'aria-label': 'Opened files', hidden: true });
+    menu.addEventListener('change', () =>
+      void this.#attempt(() => this.#open(this.#files[Number(menu.value)])));
+    const link = button('copy-link', 'Copy link', 'A link to this page with these settings',
+      async () => {
+        await navigator.clipboard.writeText(this.#link());
+        link.textContent = 'Copied';
+        setTimeout(() => (link.textContent = 'Copy link'), 1500);
+      });
+    link.hidden = !navigator.clipboard;
+    find('#file-controls').append(menu,
       button('back', 'Walker', 'Close the file and steer the walker again',
         () => this.#use(walkSource(this.#panache))),
-      button('open', 'Open …', 'A BVH, GLB, glTF or VRM file; or drop one on the view',
+      button('open', 'Open …', 'BVH, GLB, glTF, VRM or VRMA files; or drop them on the view',
         () => input.click()),
-      element('span', { class: 'keys' }, 'Save'),
+      element('span', { class: 'word' }, 'Save'),
       button('save-bvh', 'BVH', 'The motion, as a BVH file', save('.bvh')),
       button('save-glb', 'GLB', 'The motion, as a GLB file', save('.glb')),
       button('save-png', 'PNG', 'Save the view as a picture',
         () => {
         this.#stage.draw(0);  // What was drawn before is gone once it was shown.
-        savePicture(this.#stage.canvas, 'panache.png');
+        savePicture(this.#stage.canvas, this.#nameOf('.png'));
       }),
-      film);
+      film, link);
+  }
+
+  #link(): string {
+    return location.href.replace(/#.*$/, '') + `#${toAddress(this.#store.settings)}`;
   }
 
   #listenToDrops() {
@@ -315,8 +460,8 @@ class Page {
       event.preventDefault();
       depth = 0;
       drop.hidden = true;
-      const file = event.dataTransfer?.files[0];
-      if (file) void this.#attempt(() => this.#open(file));
+      const files = [...(event.dataTransfer?.files ?? [])];
+      void this.#attempt(() => this.#openAll(files));
     });
     // `panache view FILE` names a file that it serves beside the page.
     const served = new URLSearchParams(location.search).get('open');
@@ -324,7 +469,7 @@ class Page {
       void this.#attempt(async () => {
         const answer = await fetch(`open/${encodeURIComponent(served)}`);
         if (!answer.ok) throw new PanacheError(`${served}: the server has no such file`);
-        await this.#open(new File([await answer.blob()], served));
+        await this.#openAll([new File([await answer.blob()], served)]);
       });
     }
   }
@@ -332,6 +477,9 @@ class Page {
   /** For tests: what is going on. */
   get panache() {
     return this.#panache;
+  }
+  get stage() {
+    return this.#stage;
   }
   get source() {
     return this.#source;

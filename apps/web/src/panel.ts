@@ -5,7 +5,7 @@ import { element, find } from './dom';
 import { buildPad } from './pad';
 import { kCorners, kPresets } from './presets';
 import {
-  kAmounts, kLeast, kMost, kRegions, type Region, type Settings, type Store, type View,
+  kAmounts, kDefaults, kLeast, kMost, kRegions, type Region, type Settings, type Store, type View,
 } from './settings';
 import { Slider } from './slider';
 
@@ -61,7 +61,8 @@ function styleSliders(store: Store, styles: readonly Style[]) {
       onChange: (value) => store.setStyle(name, value),
     });
     store.listen((settings) => slider.show(settings.styles[name] ?? 0));
-    return slider.row;
+    slider.row.append(element('p', { class: 'words' }, description));
+    return [name, slider.row] as const;
   });
 }
 
@@ -76,7 +77,27 @@ function amountSliders(store: Store) {
   });
 }
 
-export function buildPanel(store: Store, styles: readonly Style[]) {
+/** A field that leaves the styles whose name or description holds all its words. */
+function search(rows: Map<string, HTMLElement>, styles: readonly Style[]) {
+  const field = element('input', { type: 'search', id: 'search', placeholder: 'Search: slow, arms …',
+    'aria-label': 'Search the styles' });
+  const none = element('p', { class: 'hint', role: 'status' });
+  field.addEventListener('input', () => {
+    const words = field.value.toLowerCase().split(/\s+/);
+    let found = 0;
+    for (const { name, description } of styles) {
+      const text = `${name} ${description}`.toLowerCase();
+      const shown = words.every((word) => text.includes(word));
+      rows.get(name)!.hidden = !shown;
+      found += Number(shown);
+    }
+    none.textContent = found ? '' : 'No style is described like that.';
+  });
+  return [field, none];
+}
+
+/** Puts the panel together; the rows of the styles, by name. */
+export function buildPanel(store: Store, styles: readonly Style[]): Map<string, HTMLElement> {
   const names = styles.map((style) => style.name);
   const regions = kRegions.map((key) => toggle(kRegionTitles[key], kRegionHints[key],
     (s) => s[key], store, (s) => ({ [key]: !s[key] })));
@@ -84,11 +105,25 @@ export function buildPanel(store: Store, styles: readonly Style[]) {
     (s) => ({ feet: !s.feet }));
   const trail = toggle('Foot trails', 'Paths of the toes', (s) => s.trail, store,
     (s) => ({ trail: !s.trail }));
+  const onion = toggle('Onion skin', 'Poses of the last second (N)', (s) => s.onion, store,
+    (s) => ({ onion: !s.onion }));
+  const rows = new Map(styleSliders(store, styles));
+  const act = (id: string, text: string, hint: string, press: () => void, can: () => boolean) => {
+    const button = element('button', { type: 'button', id, title: hint }, text);
+    button.addEventListener('click', press);
+    store.listen(() => (button.disabled = !can()));
+    return button;
+  };
   find('#panel').append(
+    element('div', { class: 'chips', id: 'history', role: 'group', 'aria-label': 'Changes' },
+      act('undo', 'Undo', 'Undo (Ctrl Z)', () => store.undo(), () => store.canUndo),
+      act('redo', 'Redo', 'Redo (Ctrl Shift Z)', () => store.redo(), () => store.canRedo),
+      act('reset-all', 'Reset all', 'Everything as it was, without a style',
+        () => store.set({ ...kDefaults, styles: {} }), () => true)),
     element('h2', {}, 'Presets'), presets(store),
     element('h2', { id: 'styles', tabindex: -1 }, 'Styles'),
     element('p', { class: 'hint' }, '0 is neutral, 1 as captured; beyond that it is exaggerated.'),
-    ...styleSliders(store, styles),
+    ...search(rows, styles), ...rows.values(),
     element('h2', {}, 'Blend of four'),
     buildPad(store, names,
       kCorners.map((corner, i) => (names.includes(corner) ? corner : names[i]))),
@@ -97,13 +132,15 @@ export function buildPanel(store: Store, styles: readonly Style[]) {
     element('div', { class: 'chips', role: 'group', 'aria-label': 'Body parts' },
       ...regions),
     element('h2', {}, 'Ground'),
-    element('div', { class: 'chips', role: 'group', 'aria-label': 'Ground' }, feet, trail));
+    element('div', { class: 'chips', role: 'group', 'aria-label': 'Ground' }, feet, trail,
+      onion));
   find('#views').append(...(Object.keys(kViewTitles) as View[]).map((view) =>
     toggle(kViewTitles[view], 'View', (s) => s.view === view, store, () => ({ view }))));
   store.listen((settings) => {
     document.body.dataset.view = settings.view;
     find('#caption').textContent = captionOf(settings);
   });
+  return rows;
 }
 
 /** "old 1.00 + proud 0.50" */

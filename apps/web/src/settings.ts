@@ -26,17 +26,22 @@ export interface Settings {
   feet: boolean;
   view: View;
   trail: boolean;
+  onion: boolean;
 }
 
+/** What "Reset all" goes back to. */
 export const kDefaults: Readonly<Settings> = {
   styles: {},
   strength: 1, posture: 1, dynamics: 1, timing: 1,
   legs: true, torso: true, leftArm: true, rightArm: true, feet: true,
-  view: 'styled',
+  view: 'side',
   trail: true,
+  onion: false,
 };
+/** What a visitor sees first. */
+export const kOpening: Readonly<Settings> = { ...kDefaults, styles: { old: 1 } };
 
-const kSwitches = [...kRegions, 'feet', 'trail'] as const;
+const kSwitches = [...kRegions, 'feet', 'trail', 'onion'] as const;
 
 /** To two decimals within the bounds; `otherwise` where it is no number. */
 export function bounded(value: number, least: number, most: number, otherwise: number): number {
@@ -44,8 +49,10 @@ export function bounded(value: number, least: number, most: number, otherwise: n
   return Math.round(Math.min(most, Math.max(least, value)) * 100) / 100 || 0;
 }
 
-/** "old=1&view=side": what differs from the defaults. */
+/** "old=0.5&view=over": what differs from the defaults; "neutral" where nothing does, and nothing
+ * for what a visitor sees first. */
 export function toAddress(settings: Settings): string {
+  if (same(settings, kOpening)) return '';
   const out = new URLSearchParams();
   for (const [name, value] of Object.entries(settings.styles)) {
     if (value !== 0) out.set(name, String(value));
@@ -55,12 +62,15 @@ export function toAddress(settings: Settings): string {
     if (settings[key] !== kDefaults[key]) out.set(key, settings[key] ? 'on' : 'off');
   }
   if (settings.view !== kDefaults.view) out.set('view', settings.view);
-  return out.toString();
+  return out.toString() || 'neutral';
 }
+
+const same = (a: object, b: object): boolean => JSON.stringify(a) === JSON.stringify(b);
 
 /** The settings of an address; what it says that is unknown or wrong counts as not said. */
 export function fromAddress(text: string, styles: readonly string[]): Settings {
   const given = new URLSearchParams(text.replace(/^#/, ''));
+  if (given.size === 0) return { ...kOpening, styles: { ...kOpening.styles } };
   const settings: Settings = { ...kDefaults, styles: {} };
   for (const [key, value] of given) {
     const number = value.trim() === '' ? NaN : Number(value);
@@ -91,9 +101,15 @@ export function shapeOf(settings: Settings): Partial<Shape> {
   };
 }
 
-/** Holds the settings; tells everybody who listens of every change. */
+const kTogether = 500;  // Milliseconds in which changes count as one: a drag, a typed number.
+const kMostSteps = 200;
+
+/** Holds the settings; tells everybody who listens of every change, and takes changes back. */
 export class Store {
   #listeners: ((settings: Settings) => void)[] = [];
+  #done: Settings[] = [];
+  #undone: Settings[] = [];
+  #lastChange = -kTogether;
   constructor(public settings: Settings) {}
 
   listen(listener: (settings: Settings) => void) {
@@ -101,12 +117,36 @@ export class Store {
     listener(this.settings);
   }
   set(patch: Partial<Settings>) {
-    this.settings = { ...this.settings, ...patch };
-    for (const listener of this.#listeners) listener(this.settings);
+    const next = { ...this.settings, ...patch };
+    if (same(next, this.settings)) return;
+    const now = performance.now();
+    if (now - this.#lastChange >= kTogether) {
+      this.#done.push(this.settings);
+      if (this.#done.length > kMostSteps) this.#done.shift();
+    }
+    this.#lastChange = now;
+    this.#undone = [];
+    this.#tell(next);
   }
   setStyle(name: string, value: number) {
     const styles = { ...this.settings.styles, [name]: value };
     if (value === 0) delete styles[name];
     this.set({ styles });
+  }
+  get canUndo() { return this.#done.length > 0; }
+  get canRedo() { return this.#undone.length > 0; }
+  undo() { this.#step(this.#done, this.#undone); }
+  redo() { this.#step(this.#undone, this.#done); }
+
+  #step(from: Settings[], to: Settings[]) {
+    const next = from.pop();
+    if (!next) return;
+    to.push(this.settings);
+    this.#lastChange = -kTogether;
+    this.#tell(next);
+  }
+  #tell(settings: Settings) {
+    this.settings = settings;
+    for (const listener of this.#listeners) listener(settings);
   }
 }

@@ -26,11 +26,34 @@ export async function openFile(panache: Panache, file: File): Promise<{ file: Mo
   return { file: panache.openFile(bytes, file.name), bytes };
 }
 
+const isCharacter = (name: string) => /\.(glb|gltf|vrm)$/i.test(name);
+const isMotionAlone = (name: string) => /\.(bvh|vrma)$/i.test(name);
+
+/** A motion and a character that were dropped together as one file: the motion on the character.
+ * Anything else stays as it is. */
+export async function putTogether(panache: Panache, files: File[]): Promise<File[]> {
+  const motion = files.find(({ name }) => isMotionAlone(name));
+  const character = files.find(({ name }) => isCharacter(name));
+  if (files.length !== 2 || !motion || !character) return files;
+  const from = (await openFile(panache, motion)).file;
+  try {
+    const onto = (await openFile(panache, character)).file;
+    try {
+      const title = `${motion.name.replace(/\.[^.]*$/, '')}-on-${character.name}`;
+      return [new File([from.putOn(onto) as BlobPart], title)];
+    } finally {
+      onto.free();
+    }
+  } finally {
+    from.free();
+  }
+}
+
 export async function clipSource(file: MotionFile, bytes: ArrayBuffer, clip: number):
     Promise<Source> {
   const player = file.createPlayer(clip);
   let own: [SkinnedCharacter, SkinnedCharacter] | null = null;
-  if (file.extension !== '.bvh') {
+  if (!['.bvh', '.vrma'].includes(file.extension)) {
     // What three.js cannot show is shown as a mannequin.
     own = await loadSkinned(bytes, file, player).catch(() => null);
   }

@@ -1,20 +1,20 @@
 // The view: two bodies on a ground, in good light, side by side, overlaid or the output alone.
 
 import * as THREE from 'three';
-import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 
 import type { Playback, Walk } from '../package/index.js';
 import { humanJoints } from '../package/index.js';
+import { Camera, type Angle } from './camera';
 import { colour } from './dom';
 import { Ground } from './ground';
-import { Mannequin } from './mannequin';
+import { bodyGeometry, Mannequin } from './mannequin';
 import { Marks } from './marks';
 import type { View } from './settings';
 import type { SkinnedCharacter } from './skinned';
 
 const kInputLayer = 1, kStyledLayer = 2;
-const kGazeHeight = 0.8;  // Metres.
-const kNearest = 1.5, kFarthest = 12;
+const kOnions = 3;            // Poses before this one.
+const kOnionSeconds = 0.3;    // Between them.
 
 interface Body {
   pose(numbers: Float32Array, shift: THREE.Vector3): void;
@@ -38,18 +38,27 @@ export class Stage {
   readonly canvas: HTMLCanvasElement;
   view: View = 'styled';
   trail = true;
+  onion = false;
+  /** The input alone, whatever the view is: for comparing. */
+  comparing = false;
   #renderer: THREE.WebGLRenderer;
   #scene = new THREE.Scene();
-  #camera = new THREE.PerspectiveCamera(30, 1, 0.1, 80);
+  #camera: Camera;
   #otherCamera = new THREE.PerspectiveCamera(30, 1, 0.1, 80);
-  #controls: OrbitControls;
   #sun = new THREE.DirectionalLight(0xffffff, 2.4);
   #sky = new THREE.HemisphereLight(0xffffff, 0x9a8f85, 1.5);
-  #ground = new Ground();
+  #ground: Ground;
   #marks = new Marks();
   #bodies: { input: Body; styled: Body; skinned: boolean } | null = null;
   #ghost: Mannequin | null = null;
-  #followed = new THREE.Vector3();
+  #inputPlace = new THREE.Vector3();
+  #styledPlace = new THREE.Vector3();
+  #inputFeet: THREE.Vector3[] = [];
+  #styledFeet: THREE.Vector3[] = [];
+  #geometry: THREE.BufferGeometry | null = null;
+  #onions: Mannequin[] = [];
+  #past: { time: number; parts: Float32Array }[] = [];
+  #time = 0;
   #size = { width: 0, height: 0, ratio: 0 };
   #slowness = 0;
   #sharpest = 2;  // Pixels drawn for one of the page's.
@@ -59,11 +68,13 @@ export class Stage {
     const fast = hasGraphicsCard();
     this.#sharpest = fast ? 2 : 0.75;
     this.#renderer = new THREE.WebGLRenderer({ canvas, antialias: fast });
-    this.#renderer.shadowMap.enabled = true;
-    this.#renderer.shadowMap.type = fast ? THREE.PCFSoftShadowMap : THREE.PCFShadowMap;
+    // Without a card a shadow map takes longer than all the rest: soft spots stand in for it.
+    this.#renderer.shadowMap.enabled = fast;
+    this.#renderer.shadowMap.type = THREE.PCFSoftShadowMap;
+    this.#ground = new Ground(!fast);
     this.#renderer.autoClear = false;
-    this.#sun.castShadow = true;
-    this.#sun.shadow.mapSize.setScalar(fast ? 1024 : 512);
+    this.#sun.castShadow = fast;
+    this.#sun.shadow.mapSize.setScalar(1024);
     this.#sun.shadow.radius = 5;
     this.#sun.shadow.bias = -0.0004;
     this.#sun.shadow.normalBias = 0.01;
@@ -75,13 +86,7 @@ export class Stage {
       this.#marks.group);
     for (const light of [this.#sun, this.#sky, rim]) light.layers.enableAll();
     this.#onLayer(this.#marks.group, kStyledLayer);
-    this.#camera.position.set(1.75, 1.35, 3.75);
-    this.#controls = new OrbitControls(this.#camera, canvas);
-    this.#controls.target.set(0, kGazeHeight, 0);
-    Object.assign(this.#controls, {
-      enablePan: false, enableDamping: true, dampingFactor: 0.12, minDistance: kNearest,
-      maxDistance: kFarthest, minPolarAngle: 0.15, maxPolarAngle: 1.56,
-    });
+    this.#camera = new Camera(canvas);
     this.paint();
   }
 
@@ -97,31 +102,44 @@ export class Stage {
     this.#bodies?.input.free();
     this.#bodies?.styled.free();
     this.#ghost?.free();
-    const input = { body: '#b9c6d6', accent: '#5d7087' };
-    const offsets = player.offsets;
+    for (const onion of this.#onions) onion.free();
+    this.#geometry?.dispose();
+    const input = { body: '#a9b9cc', accent: '#4d6480' };
+    const body = player.body;
+    const geometry = (this.#geometry = bodyGeometry(body));
     const place = (object: THREE.Object3D, layer: number) => {
       this.#onLayer(object, layer);
       this.#scene.add(object);
     };
-    this.#ghost = new Mannequin(offsets, { ...input, opacity: 0.36 });
+    this.#ghost = new Mannequin(geometry, body, { ...input, opacity: 0.36 });
     place(this.#ghost.mesh, kInputLayer);
+    const styledLook = { body: '#efe6d8', accent: '#d9622b' };
+    this.#onions = Array.from({ length: kOnions }, (_, i) => new Mannequin(geometry, body,
+      { ...styledLook, opacity: 0.4 - 0.1 * i }));
+    for (const onion of this.#onions) place(onion.mesh, kStyledLayer);
     if (own) {
       this.#bodies = { input: own[0], styled: own[1], skinned: true };
       place(own[0].group, kInputLayer);
       place(own[1].group, kStyledLayer);
     } else {
-      const solid = new Mannequin(offsets, { ...input, opacity: 1 });
-      const styled = new Mannequin(offsets, { body: '#efe6d8', accent: '#d9622b', opacity: 1 });
+      const solid = new Mannequin(geometry, body, { ...input, opacity: 1 });
+      const styled = new Mannequin(geometry, body, { ...styledLook, opacity: 1 });
       this.#bodies = { input: solid, styled, skinned: false };
       place(solid.mesh, kInputLayer);
       place(styled.mesh, kStyledLayer);
     }
     this.#marks.clear();
-    this.#follow(groundUnder(player.parts('styled')), true);
+    this.#past = [];
+    this.look('face', player);
+  }
+
+  /** Turns the camera: it faces the body and fits it, or stands at its side, over it, .... */
+  look(angle: Angle, player: Walk | Playback) {
+    this.#camera.look(angle, player.parts('styled'));
   }
 
   /** Brings the player's last step into view. */
-  update(player: Walk | Playback, joints: number, cut: boolean) {
+  update(player: Walk | Playback, joints: number, cut: boolean, seconds: number) {
     if (!this.#bodies || !this.#ghost) return;
     if (cut) this.#marks.clear();
     const input = player.parts('input').slice(), styled = player.parts('styled').slice();
@@ -140,28 +158,61 @@ export class Stage {
     }
     const feet = (name: string) => ['left', 'right'].map((side) => jointAt(styled, side + name));
     this.#marks.show(feet('Foot'), feet('Toes'), player.contacts, this.trail);
-    this.#follow(here, cut);
+    this.#showOnions(styled, cut, seconds);
+    this.#camera.follow(here, cut ? 0 : seconds);
     this.#inputPlace.copy(groundUnder(input)).add(inputShift);
+    this.#styledPlace.copy(here);
+    const ankles = (parts: Float32Array) =>
+      ['leftToes', 'rightToes'].map((name) => jointAt(parts, name));
+    this.#inputFeet = ankles(input).map((foot) => foot.add(inputShift));
+    this.#styledFeet = ankles(styled);
   }
-  #inputPlace = new THREE.Vector3();
+
+  #showOnions(parts: Float32Array, cut: boolean, seconds: number) {
+    if (cut) this.#past = [];
+    this.#time += seconds;
+    if (seconds > 0) this.#past.push({ time: this.#time, parts });
+    while (this.#past[0]?.time < this.#time - kOnionSeconds * (kOnions + 0.5)) this.#past.shift();
+    this.#onions.forEach((onion, i) => {
+      const then = this.#time - kOnionSeconds * (i + 1);
+      const moment = this.#past.filter(({ time }) => time <= then).pop();
+      onion.mesh.visible = this.onion && !this.#bodies?.skinned && moment !== undefined;
+      if (onion.mesh.visible && moment) onion.pose(moment.parts, new THREE.Vector3());
+    });
+  }
+
+  /** For tests: where the view is seen from, and how many poses of the past are shown. */
+  get eye() {
+    return this.#camera.camera.position.toArray();
+  }
+  get onionsShown() {
+    return this.#onions.filter((onion) => onion.mesh.visible).length;
+  }
 
   draw(seconds: number) {
     this.#fit(seconds);
-    this.#controls.update();
     this.#renderer.setScissorTest(false);
     this.#renderer.clear();
     const { width } = this.#size;
-    if (this.view === 'side') {
+    const camera = this.#camera.camera;
+    if (this.comparing) {
+      this.#seeInput(camera);
+      this.#drawPart(this.#otherCamera, 0, width, [kInputLayer], this.#inputPlace);
+    } else if (this.view === 'side') {
       // Each half has its own body in the middle, seen from the same side.
       const half = Math.floor(width / 2);
-      this.#otherCamera.copy(this.#camera);
-      this.#otherCamera.position.sub(this.#followed).add(this.#inputPlace);
+      this.#seeInput(camera);
       this.#drawPart(this.#otherCamera, 0, half, [kInputLayer], this.#inputPlace);
-      this.#drawPart(this.#camera, half, width - half, [kStyledLayer], this.#followed);
+      this.#drawPart(camera, half, width - half, [kStyledLayer], this.#styledPlace);
     } else {
       const layers = this.view === 'over' ? [kInputLayer, kStyledLayer] : [kStyledLayer];
-      this.#drawPart(this.#camera, 0, width, layers, this.#followed);
+      this.#drawPart(camera, 0, width, layers, this.#styledPlace);
     }
+  }
+
+  #seeInput(camera: THREE.PerspectiveCamera) {
+    this.#otherCamera.copy(camera);
+    this.#otherCamera.position.sub(this.#styledPlace).add(this.#inputPlace);
   }
 
   #drawPart(camera: THREE.PerspectiveCamera, left: number, width: number, layers: number[],
@@ -173,7 +224,8 @@ export class Stage {
     camera.updateProjectionMatrix();
     camera.layers.set(0);
     for (const layer of layers) camera.layers.enable(layer);
-    this.#ground.follow(middle);
+    const input = middle === this.#inputPlace;
+    this.#ground.follow(middle, input ? this.#inputFeet : this.#styledFeet);
     this.#sun.position.set(middle.x + 1.6, 4.2, middle.z + 2);
     this.#sun.target.position.set(middle.x, 0.6, middle.z);
     if (this.#ghost && this.#bodies) {
@@ -187,15 +239,6 @@ export class Stage {
     this.#renderer.setScissor(left, 0, width, height);
     this.#renderer.setScissorTest(true);
     this.#renderer.render(this.#scene, camera);
-  }
-
-  /** Camera and light go where the body goes. */
-  #follow(place: THREE.Vector3, at_once: boolean) {
-    const step = place.clone().sub(this.#followed);
-    if (!at_once && step.length() > 5) at_once = true;
-    this.#followed.add(step);
-    this.#camera.position.add(step);
-    this.#controls.target.set(place.x, kGazeHeight, place.z);
   }
 
   // Takes the size of the place that the page gives it, and gives up sharpness where drawing is too

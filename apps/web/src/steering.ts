@@ -1,9 +1,18 @@
 // Where the walker is to go: keys, a stick on the screen, a gamepad; nobody at the helm lets her
 // wander.
 
-const kWalk = 1.35, kJog = 3, kTurn = 1.5;  // m/s, m/s, rad/s.
+const kWalk = 1.35, kRun = 3, kTurn = 1.5;  // m/s, m/s, rad/s.
 const kFastest = 4;
-export const kPaces = { stand: 0, walk: kWalk, jog: kJog } as const;
+
+/** Samples of what the walker can do: m/s, and rad/s to the left. */
+export const kPaces = {
+  idle: { speed: 0, turn: 0 },
+  creep: { speed: 0.45, turn: 0 },
+  stroll: { speed: 0.85, turn: 0 },
+  walk: { speed: kWalk, turn: 0 },
+  run: { speed: kRun, turn: 0 },
+  turn: { speed: 1.1, turn: 0.8 },
+} as const;
 export type Pace = keyof typeof kPaces;
 
 export interface Wish {
@@ -23,11 +32,11 @@ export function stickWish(x: number, y: number): Wish {
 export function keyWish(held: ReadonlySet<string>, pace: Pace): Wish {
   const on = (...codes: string[]) => codes.some((code) => held.has(code));
   const turn = (on('KeyA', 'ArrowLeft') ? kTurn : 0) - (on('KeyD', 'ArrowRight') ? kTurn : 0);
-  let speed: number = kPaces[pace];
+  let speed: number = kPaces[pace].speed;
   if (on('KeyW', 'ArrowUp')) speed = Math.max(speed, kWalk);
-  if (on('ShiftLeft', 'ShiftRight') && speed > 0) speed = kJog;
+  if (on('ShiftLeft', 'ShiftRight') && speed > 0) speed = kRun;
   if (on('KeyS', 'ArrowDown')) speed = 0;
-  return { speed, turn };
+  return { speed, turn: turn || kPaces[pace].turn };
 }
 
 const kSteeringKeys = ['KeyW', 'KeyA', 'KeyS', 'KeyD', 'ArrowUp', 'ArrowDown', 'ArrowLeft',
@@ -73,7 +82,7 @@ export class Steering {
       return stickWish(pad.axes[0], -pad.axes[1]);
     }
     const wish = keyWish(this.#held, this.pace);
-    if (this.#free && wish.speed > 0) wish.turn = 0.22 * Math.sin(0.35 * this.#seconds);
+    if (this.#free && this.pace !== 'turn' && wish.speed > 0) wish.turn = 0.22 * Math.sin(0.35 * this.#seconds);
     return wish;
   }
 

@@ -22,6 +22,8 @@ export interface TransportEvents {
   onSeek(seconds: number): void;
   onClip(clip: number): void;
   onLoop(loop: boolean): void;
+  /** One frame on, or back. */
+  onStep(frames: number): void;
 }
 
 export class TransportBar {
@@ -31,14 +33,30 @@ export class TransportBar {
     'aria-label': 'Time in the clip' });
   #time = element('output', { 'aria-live': 'off' });
   #clips = element('select', { id: 'clips', 'aria-label': 'Motion of the file' });
+  #range = element('span', { class: 'range', title: 'From the in point to the out point' });
   #loop = element('button', { type: 'button', id: 'loop', 'aria-pressed': 'true' }, 'Loop');
   #seconds = 0;
+  #now = 0;
+  #in = 0;
+  #out: number | null = null;
 
   constructor(private events: TransportEvents) {
+    const button = (id: string, text: string, hint: string, press: () => void) => {
+      const out = element('button', { type: 'button', id, title: hint, 'aria-label': hint }, text);
+      out.addEventListener('click', press);
+      return out;
+    };
     const speed = element('select', { id: 'speed', 'aria-label': 'Speed' },
       ...kSpeeds.map((s) => element('option', { value: s, selected: s === 1 }, `${s}×`)));
     find('#clip-controls').append(
-      this.#play, this.#scrub, this.#time, this.#clips, this.#loop, speed);
+      button('back-frame', '‹', 'One frame back (comma)', () => this.events.onStep(-1)), this.#play,
+      button('next-frame', '›', 'One frame on (full stop)', () => this.events.onStep(1)),
+      element('span', { class: 'track' }, this.#scrub, this.#range), this.#time,
+      button('in', 'In', 'Begin here (I); again at the same place: at the beginning',
+        () => this.setIn()),
+      button('out', 'Out', 'End here (O); again at the same place: at the end',
+        () => this.setOut()),
+      this.#clips, this.#loop, speed);
     this.#play.addEventListener('click', () => this.setPlaying(!this.state.playing));
     this.#scrub.addEventListener('input', () => {
       this.events.onSeek(Number(this.#scrub.value) * this.#seconds);
@@ -53,7 +71,34 @@ export class TransportBar {
     this.setPlaying(true);
   }
 
+  /** Where playing begins and ends, seconds. */
+  get range(): [number, number] {
+    return [this.#in, this.#out ?? this.#seconds];
+  }
+  setIn() {
+    this.#in = Math.abs(this.#in - this.#now) < 1e-3 ? 0 : Math.min(this.#now, this.range[1]);
+    this.#showRange();
+  }
+  setOut() {
+    const same = Math.abs(this.range[1] - this.#now) < 1e-3;
+    this.#out = same || this.#now <= this.#in ? null : this.#now;
+    this.#showRange();
+  }
+  clearRange() {
+    this.#in = 0;
+    this.#out = null;
+    this.#showRange();
+  }
+  #showRange() {
+    const [begin, end] = this.range.map((s) => (this.#seconds > 0 ? (100 * s) / this.#seconds : 0));
+    this.#range.hidden = begin === 0 && this.#out === null;
+    this.#range.style.cssText = `left: ${begin}%; right: ${100 - end}%`;
+  }
+
   setPlaying(playing: boolean) {
+    // Who stands at the end begins again.
+    const [begin, end] = this.range;
+    if (playing && !this.state.loop && this.#now >= end - 1e-3) this.events.onSeek(begin);
     this.state.playing = playing;
     this.#play.textContent = playing ? 'Pause' : 'Play';
   }
@@ -63,9 +108,12 @@ export class TransportBar {
     this.#clips.replaceChildren(...file.clips.map(({ name }, i) =>
       element('option', { value: i, selected: i === clip }, name || `motion ${i + 1}`)));
     this.#clips.hidden = file.clips.length < 2;
+    this.#now = 0;
+    this.clearRange();
   }
 
   at(seconds: number) {
+    this.#now = seconds;
     const share = this.#seconds > 0 ? seconds / this.#seconds : 0;
     this.#scrub.value = String(share);
     this.#scrub.style.setProperty('--to', String(share));

@@ -25,17 +25,19 @@ describe('the pad', () => {
 
 describe('steering', () => {
   it('goes at the pace when no key is down, and faster or not at all with one', () => {
-    expect(keyWish(new Set(), 'walk')).toEqual({ speed: kPaces.walk, turn: 0 });
+    expect(keyWish(new Set(), 'walk')).toEqual(kPaces.walk);
     expect(keyWish(new Set(['ArrowDown']), 'walk').speed).toBe(0);
-    expect(keyWish(new Set(['KeyW', 'ShiftLeft']), 'stand').speed).toBe(kPaces.jog);
+    expect(keyWish(new Set(['KeyW', 'ShiftLeft']), 'idle').speed).toBe(kPaces.run.speed);
   });
   it('turns to the left by what is on the left', () => {
-    expect(keyWish(new Set(['KeyA']), 'stand').turn).toBeGreaterThan(0);
+    expect(keyWish(new Set(['KeyA']), 'idle').turn).toBeGreaterThan(0);
+    expect(keyWish(new Set(), 'turn').turn).toBeGreaterThan(0);
+    expect(keyWish(new Set(['KeyD']), 'turn').turn).toBeLessThan(0);
     expect(stickWish(-1, 0).turn).toBeGreaterThan(0);
   });
   it('takes a stick that barely moves for one at rest', () => {
     expect(stickWish(0.05, 0.05)).toEqual({ speed: 0, turn: 0 });
-    expect(stickWish(0, 1).speed).toBeGreaterThan(kPaces.jog);
+    expect(stickWish(0, 1).speed).toBeGreaterThan(kPaces.run.speed);
   });
 });
 

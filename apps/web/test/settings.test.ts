@@ -1,18 +1,20 @@
-import { describe, expect, it } from 'vitest';
+import { afterEach, describe, expect, it, vi } from 'vitest';
 
-import { bounded, fromAddress, kDefaults, shapeOf, Store, toAddress } from '../src/settings';
+import { bounded, fromAddress, kDefaults, kOpening, shapeOf, Store, toAddress } from '../src/settings';
 
 const kStyles = ['old', 'proud'];
 
 describe('the address', () => {
   it('says nothing of what is as it always is', () => {
-    expect(toAddress(kDefaults)).toBe('');
-    expect(fromAddress('', kStyles)).toEqual(kDefaults);
+    expect(toAddress(kOpening)).toBe('');
+    expect(fromAddress('', kStyles)).toEqual(kOpening);
+    expect(toAddress(kDefaults)).toBe('neutral');
+    expect(fromAddress('#neutral', kStyles)).toEqual(kDefaults);
   });
   it('brings back whatever was set', () => {
     const set = {
       ...kDefaults, styles: { old: 1.25, proud: -0.5 }, strength: 0.5, posture: 0, timing: 2,
-      legs: false, feet: false, trail: false, view: 'side' as const,
+      legs: false, feet: false, trail: false, view: 'over' as const,
     };
     expect(fromAddress(`#${toAddress(set)}`, kStyles)).toEqual(set);
   });
@@ -36,9 +38,39 @@ describe('the store', () => {
     const store = new Store({ ...kDefaults });
     const heard: string[] = [];
     store.listen((settings) => heard.push(toAddress(settings)));
-    store.setStyle('old', 1);
+    store.setStyle('old', 0.5);
     store.setStyle('old', 0);
-    expect(heard).toEqual(['', 'old=1', '']);
+    expect(heard).toEqual(['neutral', 'old=0.5', 'neutral']);
+  });
+});
+
+describe('undo', () => {
+  afterEach(() => vi.restoreAllMocks());
+  it('takes back what was done in one go, and does it again', () => {
+    let now = 0;
+    vi.spyOn(performance, 'now').mockImplementation(() => now);
+    const store = new Store({ ...kDefaults });
+    store.setStyle('old', 0.2);
+    now = 100;
+    store.setStyle('old', 0.6);  // The same drag.
+    now = 2000;
+    store.set({ legs: false });
+    store.undo();
+    expect(store.settings).toEqual({ ...kDefaults, styles: { old: 0.6 } });
+    store.undo();
+    expect(store.settings).toEqual(kDefaults);
+    expect(store.canUndo).toBe(false);
+    store.redo();
+    store.redo();
+    expect(store.settings).toEqual({ ...kDefaults, styles: { old: 0.6 }, legs: false });
+    store.undo();
+    store.set({ feet: false });  // What was undone is gone.
+    expect(store.canRedo).toBe(false);
+  });
+  it('does not count what changes nothing', () => {
+    const store = new Store({ ...kDefaults });
+    store.set({ legs: true });
+    expect(store.canUndo).toBe(false);
   });
 });
 

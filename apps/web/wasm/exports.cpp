@@ -2,8 +2,10 @@
 // and addresses, with the prefix panache_page_. Who creates a thing frees it. A function that fails
 // gives null, and panache_last_error() says why.
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <memory>
 #include <string>
 
@@ -12,10 +14,11 @@
 #include "api/errors.h"
 #include "api/objects.h"
 #include "api/shape.h"
-#include "clip/bvh.h"
-#include "clip/gltf.h"
+#include "clip/motion_format.h"
 #include "golden.h"
 #include "player.h"
+#include "retarget/find_body.h"
+#include "retarget/retarget.h"
 
 using namespace panache;
 using namespace panache::web;
@@ -59,15 +62,30 @@ PANACHE_EXPORT WalkerHandle* panache_page_walker_create(const char* data, uint32
 }
 PANACHE_EXPORT void panache_page_walker_free(WalkerHandle* walker) { delete walker; }
 
-// `name` ends in .bvh, or is taken for a glTF file.
+// The extension of `name` decides.
 PANACHE_EXPORT FileHandle* panache_page_file_create(const char* data, uint32_t size,
                                                     const char* name) {
-  const std::string path = name;
-  const bool bvh = path.ends_with(".bvh");
-  std::string bytes(data, size);
-  auto file = bvh ? parse_bvh(std::move(bytes), path) : parse_gltf(std::move(bytes), path);
+  auto file = parse_motion(std::string(bytes_at(data, size)), name);
   if (file) return new FileHandle(*std::move(file));
   return fail(file.error());
+}
+// The bytes of the character's file with one motion of the other on it, in place of its own.
+PANACHE_EXPORT panache_bytes* panache_page_file_put_on(FileHandle* motion, int32_t which,
+                                                       FileHandle* character) {
+  const Clip& clip = (*motion)->clip(which);
+  const Result<Rig> rig = Rig::create(clip);
+  if (!rig) return fail(rig.error());
+  const Clip* own = (*character)->clip_names().empty() ? nullptr : &(*character)->clip(0);
+  const Result<std::pair<Clip, Rig>> body = find_body((*character)->rest(), own, {});
+  if (!body) return fail(body.error());
+  const Result<Retargeted> done = retarget(clip, *rig, body->first, body->second);
+  if (!done) return fail(done.error());
+  const std::vector<std::string> names = (*motion)->clip_names();
+  const std::string name = names.empty() || names[static_cast<size_t>(which)].empty()
+                               ? "motion"
+                               : names[static_cast<size_t>(which)];
+  const ClipEdit edit = {kNewClip, &done->clip, {}, name};
+  return new panache_bytes{(*character)->encode({&edit, 1}, EditMode::replace)};
 }
 PANACHE_EXPORT void panache_page_file_free(FileHandle* file) { delete file; }
 PANACHE_EXPORT panache_bytes* panache_page_file_describe(FileHandle* file) {
@@ -149,12 +167,28 @@ PANACHE_EXPORT const float* panache_page_player_pose(Player* player, int32_t sty
 PANACHE_EXPORT const float* panache_page_player_parts(Player* player, int32_t styled) {
   return player->parts(styled != 0).data();
 }
-PANACHE_EXPORT const float* panache_page_player_offsets(Player* player) {
-  return &player->offsets()[0].x;
+// Counts of vertices and of corners of triangles, then where the arrays of BodyMesh lie in their
+// order there, the bind pose as positions and rotations. Good as long as the player.
+PANACHE_EXPORT void panache_page_player_body(Player* player, uint32_t* out) {
+  const BodyMesh& body = player->body();
+  const auto address = [](const void* data) {
+    return static_cast<uint32_t>(reinterpret_cast<uintptr_t>(data));
+  };
+  const uint32_t all[] = {static_cast<uint32_t>(body.positions.size()),
+                          static_cast<uint32_t>(body.triangles.size()),
+                          address(&body.bind.positions),
+                          address(&body.bind.rotations),
+                          address(body.positions.data()),
+                          address(body.normals.data()),
+                          address(body.joints.data()),
+                          address(body.weights.data()),
+                          address(body.accents.data()),
+                          address(body.triangles.data())};
+  std::copy(std::begin(all), std::end(all), out);
 }
 // As Placement: x y z w, scale, floor.
 PANACHE_EXPORT void panache_page_player_placement(Player* player, float* out) {
-  const Placement placement = player->placement();
+  const web::Placement placement = player->placement();
   std::memcpy(out, &placement, sizeof placement);
 }
 

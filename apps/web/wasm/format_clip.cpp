@@ -3,14 +3,17 @@
 #include "clip/bvh.h"
 #include "clip/gltf.h"
 #include "clip/rest_axes.h"
+#include "rig/rig_body.h"
 #include "rig/up_axis.h"
 
 namespace panache::web {
 
-std::string format_clip(const Clip& clip, const Rig& rig, const std::string& extension) {
+std::string format_clip(const Clip& clip, const Rig& rig, ConstPose reference,
+                        const std::string& extension) {
   if (extension != ".bvh") {
     const Quat to_y_up = turn_up(rig.up_axis()).value_or(Quat{});
-    return format_glb(clip, "styled", static_cast<double>(rig.unit()), to_y_up);
+    const SkinnedBody body = make_rig_body(rig, reference);
+    return format_glb(clip, "styled", static_cast<double>(rig.unit()), to_y_up, &body);
   }
   Clip out = in_rest_axes(clip);
   add_end_sites(out.skeleton);

@@ -8,7 +8,9 @@
 
 namespace panache::web {
 
-// The bytes of a new file: BVH for ".bvh", else GLB.
-std::string format_clip(const Clip& clip, const Rig& rig, const std::string& extension);
+// The bytes of a new file: BVH for ".bvh", else GLB with a body. In the pose `reference` nothing is
+// twisted.
+std::string format_clip(const Clip& clip, const Rig& rig, ConstPose reference,
+                        const std::string& extension);
 
 }  // namespace panache::web

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "format_clip.h"
+#include "rig/rig_body.h"
 #include "rig/up_axis.h"
 #include "style/restyle.h"
 
@@ -77,6 +78,11 @@ void Player::measure(int count) {
   }
 }
 
+const BodyMesh& Player::body() {
+  if (!body_) body_ = make_body_mesh(in_mannequin_.offsets(), moving_joints(source_->rig()));
+  return *body_;
+}
+
 Placement Player::placement() const {
   const Rig& rig = source_->rig();
   return {turn_up(rig.up_axis()).value_or(Quat{}), rig.scale(), rig.floor()};
@@ -85,7 +91,10 @@ Placement Player::placement() const {
 Result<std::string> Player::export_as(const std::string& extension,
                                       const std::string& file_extension) const {
   const auto* from_file = dynamic_cast<const ClipSource*>(source_.get());
-  if (!from_file) return format_clip(recording_.clip(kRecordedFps), source_->rig(), extension);
+  const auto written = [&](const Clip& clip) {
+    return format_clip(clip, source_->rig(), source_->reference(), extension);
+  };
+  if (!from_file) return written(recording_.clip(kRecordedFps));
   std::vector<StrengthTrack> tracks;
   for (size_t s = 0; s < strengths_.size(); ++s) {
     if (strengths_[s] != 0) tracks.push_back({static_cast<int>(s), {{0, strengths_[s]}}});
@@ -94,7 +103,7 @@ Result<std::string> Player::export_as(const std::string& extension,
   options.stylizer.shape = shape_;
   Result<Restyled> restyled = restyle(source_->clip(), source_->rig(), model_, tracks, options);
   if (!restyled) return restyled.error();
-  if (extension != file_extension) return format_clip(restyled->clip, source_->rig(), extension);
+  if (extension != file_extension) return written(restyled->clip);
   const ClipEdit edit = {from_file->which(), &restyled->clip, restyled->source_frames, "styled"};
   return from_file->file().encode({&edit, 1}, EditMode::replace);
 }

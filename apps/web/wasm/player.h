@@ -3,11 +3,13 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "mannequin.h"
 #include "recording.h"
+#include "rig/body_mesh.h"
+#include "rig/mannequin.h"
 #include "source.h"
 #include "style/stylizer.h"
 
@@ -42,7 +44,8 @@ class Player {
   const std::array<float, kMannequinNumbers>& parts(bool styled) const {
     return styled ? out_parts_ : in_parts_;
   }
-  const HumanPositions& offsets() const { return in_mannequin_.offsets(); }
+  // A body to the measure of the source, for both; made when it is first asked for.
+  const BodyMesh& body();
   Placement placement() const;
 
   // The bytes of a file of this `extension` (".bvh", ".glb", or that of the file that the clip is
@@ -58,6 +61,7 @@ class Player {
   std::unique_ptr<Source> source_;
   Stylizer stylizer_, twin_;
   Mannequin in_mannequin_, out_mannequin_;
+  std::optional<BodyMesh> body_;
   Recording recording_;
   std::vector<float> strengths_;
   Shape shape_;

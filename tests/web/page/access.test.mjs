@@ -86,7 +86,7 @@ test('all of it can be done with the keyboard, and one sees where one is', async
   assert.equal(await tab.locator('#style-old').inputValue(), '2');
   await tab.evaluate(() => document.activeElement.blur());
   await tab.keyboard.press('Space');
-  const stand = tab.getByRole('button', { name: 'Stand', exact: true });
+  const stand = tab.getByRole('button', { name: 'Idle', exact: true });
   assert.equal(await stand.getAttribute('aria-pressed'), 'true');
   await tab.close();
 });
@@ -108,6 +108,31 @@ test('a phone shows all of it, large enough for a finger', async () => {
   await tab.close();
 });
 
+test('small screens: nothing overlaps, and the view keeps half', async () => {
+  for (const [width, height] of [[844, 390], [320, 640], [390, 844]]) {
+    const tab = await site.open('', { viewport: { width, height }, steady: true });
+    const { wide, view, overlaps } = await tab.evaluate(() => {
+      const boxes = [...document.querySelectorAll('h1, .stage button, .stage select, .bar button')]
+        .filter((e) => e.checkVisibility() && e.getBoundingClientRect().width)
+        .map((e) => [e.id || e.textContent, e.getBoundingClientRect()]);
+      const out = [];
+      boxes.forEach(([a, p], i) => boxes.slice(i + 1).forEach(([b, q]) => {
+        const apart = p.right <= q.left + 0.5 || q.right <= p.left + 0.5 ||
+          p.bottom <= q.top + 0.5 || q.bottom <= p.top + 0.5;
+        if (!apart) out.push(`${a} over ${b}`);
+      }));
+      const view = document.querySelector('#view').getBoundingClientRect();
+      return { wide: document.documentElement.scrollWidth, overlaps: out,
+        view: (view.width * view.height) / (innerWidth * innerHeight) };
+    });
+    assert.deepEqual(overlaps, [], `${width} x ${height}`);
+    assert.equal(wide, width);
+    assert.ok(view >= 0.49, `${width} x ${height}: ${view}`);
+    await tab.screenshot({ path: join(pictures, `${width}x${height}.png`) });
+    await tab.close();
+  }
+});
+
 test('pictures for a person to look at', async () => {
   const folder = mkdtempSync(join(tmpdir(), 'panache-page-'));
   const panache = (...given) => execFileSync(process.env.PANACHE_PROGRAM, given, { cwd: folder });
@@ -116,7 +141,7 @@ test('pictures for a person to look at', async () => {
   const looks = [['default', ''], ['old', 'old=1&view=side'], ['very-old', 'old=2'],
     ['mix', 'proud=0.8&giant=0.6&view=over'], ['dark', 'angry=1', { colorScheme: 'dark' }],
     ['bvh', 'tired=1&view=side', {}, 'walk.bvh'], ['glb', 'happy=1', {}, 'walk.glb'],
-    ['phone', '', phone], ['phone-old', 'old=1', phone],
+    ['dark-default', '', { colorScheme: 'dark' }], ['phone', '', phone], ['phone-old', 'old=1', phone],
     ['phone-very-old', 'old=2&view=side', phone]];
   for (const [name, hash, options, file] of looks) {
     const tab = await site.open(hash, { ...options, steady: true });

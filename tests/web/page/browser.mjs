@@ -58,7 +58,8 @@ export async function start() {
   await mkdir(pictures, { recursive: true });
   const complaints = [], requests = [];
 
-  async function open(hash = '', options = {}) {
+  // Without a hash as a visitor sees it first; most tests want a neutral start.
+  async function open(hash = 'neutral', options = {}) {
     const { url = address, steady, card, ...look } = options;
     const tab = await browser.newPage({ viewport: { width: 1280, height: 800 }, ...look });
     if (steady) await tab.addInitScript(steadyFrames);

@@ -1,7 +1,8 @@
 import assert from 'node:assert/strict';
+import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { frames, listen, start, styledParts, told } from './browser.mjs';
+import { frames, listen, pictures, start, styledParts, told } from './browser.mjs';
 
 let site, tab;
 before(async () => {
@@ -110,7 +111,7 @@ test('what is set is in the address, and comes back from it', async () => {
 
 test('each view shows something else', async () => {
   await tab.locator('#style-old').fill('2');
-  await button('Stand').click();
+  await button('Idle').click();
   await frames(tab, 20);
   const pictures = new Set();
   for (const view of ['Styled', 'Side by side', 'Overlaid']) {
@@ -128,9 +129,9 @@ test('the walker stands, walks and jogs, and turns by keys, stick and gamepad', 
     await frames(tab, 2);
     return (await told(tab)).steer;
   };
-  await button('Stand').click();
+  await button('Idle').click();
   assert.deepEqual(await steer(), { speed: 0, turn: 0 });
-  await button('Jog').click();
+  await button('Run').click();
   assert.equal((await steer()).speed, 3);
   await button('Walk').click();
   await tab.locator('#view').click({ position: { x: 300, y: 300 } });
@@ -167,9 +168,10 @@ test('the walker stands, walks and jogs, and turns by keys, stick and gamepad', 
 test('every plot shows what it says', async () => {
   await button('Walk').click();
   await tab.locator('#style-old').fill('1');
+  await button('More').click();
   const captions = await tab.locator('figcaption').allTextContents();
-  assert.deepEqual(captions.map((text) => text.replace(/[\d.×]+$/, '').trim()), ['Strengths',
-    'Known motion', 'Playback rate', 'Feet planted, left and right', 'µs per step median']);
+  assert.deepEqual(captions.map((text) => text.replace(/[\d.×]+$/, '').trim()), ['Style strength',
+    'Tempo', 'Feet on the ground, left and right', 'Known motion', 'µs per step median']);
   const gate = await tab.evaluate(() => window.page.source.player.gate);
   assert.ok(gate > 0.5 && gate <= 1, `a walk is known: ${gate}`);
 
@@ -208,8 +210,123 @@ test('every plot shows what it says', async () => {
   }, ['gate', 'rate', 'contacts']);
 });
 
+test('every change is undone and redone, and Reset all resets all', async () => {
+  await button('Reset all').click();
+  await tab.waitForTimeout(550);  // What is done within half a second counts as one.
+  await tab.locator('#style-old').fill('1.5');
+  await tab.waitForTimeout(550);
+  await button('Legs').click();
+  await tab.keyboard.press('Control+z');
+  assert.equal((await told(tab)).shape.legs, 1);
+  assert.equal((await told(tab)).strengths.old, 1.5);
+  await button('Undo').click();
+  assert.equal((await told(tab)).strengths.old, 0);
+  await tab.keyboard.press('Control+Shift+z');
+  await button('Redo').click();
+  assert.equal((await told(tab)).strengths.old, 1.5);
+  assert.equal((await told(tab)).shape.legs, 0);
+  await tab.locator('#amount-posture').fill('0.3');
+  await button('Overlaid').click();
+  await button('Reset all').click();
+  const { strengths, shape } = await told(tab);
+  assert.deepEqual(Object.values(strengths).filter((s) => s !== 0), []);
+  assert.deepEqual(Object.values(shape).filter((s) => s !== 1), []);
+  await settle();
+  assert.equal(await address(), '#neutral');
+});
+
+test('styles are found by their words', async () => {
+  const shown = () => tab.locator('.slider:has(.figure):visible label').allTextContents();
+  const all = await shown();
+  await tab.locator('#search').fill('head slow');
+  assert.deepEqual(await shown(), ['Sad']);
+  await tab.locator('#search').fill('xyzzy');
+  assert.deepEqual(await shown(), []);
+  assert.ok(await tab.getByText('No style is described like that.').isVisible());
+  await tab.locator('#search').fill('');
+  assert.deepEqual(await shown(), all);
+});
+
+test('a style shows itself as a figure, which moves while it is pointed at', async () => {
+  const look = (style) => tab.evaluate((name) =>
+    document.querySelector(`.slider:has(#style-${name}) .figure`).toDataURL(), style);
+  await tab.waitForFunction(() => [...document.querySelectorAll('.figure')].every((canvas) =>
+    canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data.some((v) => v)));
+  assert.notEqual(await look('old'), await look('proud'));
+  const still = await look('proud');
+  await frames(tab, 5);
+  assert.equal(await look('proud'), still);
+  await tab.locator('#style-proud').hover();
+  await frames(tab, 5);
+  assert.notEqual(await look('proud'), still);
+  await tab.locator('#view').hover();
+});
+
+test('a key that is held shows the input, and keys work after a click on a button', async () => {
+  await button('Very old').click();
+  const comparing = () => tab.evaluate(() => window.page.stage.comparing);
+  await tab.keyboard.down('x');
+  assert.equal(await comparing(), true);
+  await frames(tab, 2);
+  await tab.screenshot({ path: join(pictures, 'comparing.png') });
+  await tab.keyboard.up('x');
+  assert.equal(await comparing(), false);
+  await tab.keyboard.press('0');
+  assert.equal((await told(tab)).strengths.old, 0);
+});
+
+test('the camera faces the body, stands in front, beside and over it, and follows', async () => {
+  await button('Walk').click();
+  const camera = () => tab.evaluate(() => {
+    const { eye, parts } = { eye: window.page.stage.eye, parts: window.page.source.player.parts('styled') };
+    const [x, y, z, w] = parts.slice(3, 7);
+    // The body's +z, on the ground.
+    const ahead = [2 * (x * z + w * y), 1 - 2 * (x * x + y * y)];
+    const from = [eye[0] - parts[0], eye[2] - parts[2]];
+    const far = Math.hypot(...from);
+    return { front: (from[0] * ahead[0] + from[1] * ahead[1]) / far / Math.hypot(...ahead),
+      up: Math.atan2(eye[1], far), far };
+  });
+  const after = async (key) => {
+    await tab.keyboard.press(key);
+    await frames(tab, 1);
+    return camera();
+  };
+  const front = await after('1');
+  assert.ok(front.front > 0.95, JSON.stringify(front));
+  const side = await after('2');
+  assert.ok(Math.abs(side.front) < 0.3, JSON.stringify(side));
+  const top = await after('3');
+  assert.ok(top.up > 1.1, JSON.stringify(top));
+  const face = await after('f');
+  assert.ok(face.front > 0.7, JSON.stringify(face));
+  await frames(tab, 30);
+  const later = await camera();
+  // It lags by a seventh of a second of a walk, and keeps its distance else.
+  assert.ok(Math.abs(later.far - face.far) < 0.4, `${face.far} ${later.far}`);
+});
+
+test('the help opens by its key and closes', async () => {
+  await tab.keyboard.press('?');
+  assert.ok(await tab.locator('#help').isVisible());
+  assert.match(await tab.locator('#help').textContent(), /Nothing is uploaded/);
+  await tab.keyboard.press('Escape');
+  assert.ok(!(await tab.locator('#help').isVisible()));
+});
+
+test('the onion skin shows where the body was', async () => {
+  await frames(tab, 40);
+  const seen = () => tab.evaluate(() => window.page.stage.onionsShown);
+  assert.equal(await seen(), 0);
+  await tab.keyboard.press('n');
+  await frames(tab, 2);
+  assert.ok((await seen()) >= 2);
+  await tab.screenshot({ path: join(pictures, 'onion.png') });
+  await tab.keyboard.press('n');
+});
+
 test('a style reaches the body', async () => {
-  await button('Stand').click();
+  await button('Idle').click();
   await button('Neutral').click();
   await frames(tab, 30);
   const hips = (parts) => parts[1], head = (parts) => parts[7 * 4 + 1] - hips(parts);

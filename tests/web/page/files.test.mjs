@@ -49,12 +49,17 @@ async function drop(name) {
   }, [bytes, name]);
 }
 
+/** What the page called the files that it saved. */
+const saved = [];
+
 /** Presses a button that saves a file, and puts that beside the others. */
 async function save(name, extension) {
   const download = tab.waitForEvent('download');
   await button(name).click();
   const path = at(`saved${extension}`);
-  await (await download).saveAs(path);
+  const file = await download;
+  saved.push(file.suggestedFilename());
+  await file.saveAs(path);
   return path;
 }
 
@@ -73,11 +78,54 @@ test('a dropped BVH plays, pauses, is scrubbed and loops', async () => {
   await tab.locator('#scrub').fill('0.98');
   await tab.locator('#speed').selectOption('2');
   await button('Play').click();
-  await tab.waitForFunction(() => window.page.source.player.seconds > 2.98);
+  // At the end it stops; playing again begins again.
+  await button('Play').waitFor();
   await frames(tab, 4);
   assert.ok(await tab.evaluate(() => window.page.source.player.seconds > 2.98));
+  await button('Play').click();
+  await tab.waitForFunction(() => window.page.source.player.seconds < 1);
   await button('Loop').click();
-  await tab.waitForFunction(() => window.page.source.player.seconds < 2);
+});
+
+test('a clip goes frame by frame, and from an in point to an out point', async () => {
+  await button('Pause').click();
+  const seconds = () => tab.evaluate(() => window.page.source.player.seconds);
+  const seek = async (share) => {
+    await tab.locator('#scrub').fill(String(share));
+    await frames(tab, 2);
+  };
+  await seek(0.4);
+  const frame = Math.round((await seconds()) * 60);
+  await tab.keyboard.press('.');
+  await frames(tab, 2);
+  assert.ok(Math.abs((await seconds()) - (frame + 1) / 60) < 1e-6);
+  await tab.keyboard.press(',');
+  await tab.keyboard.press(',');
+  await frames(tab, 2);
+  const begin = await seconds();
+  await tab.keyboard.press('i');
+  await seek(0.6);
+  const end = await seconds();
+  await tab.keyboard.press('o');
+  await tab.locator('#speed').selectOption('1');
+  await button('Play').click();
+  const seen = await tab.evaluate(() => new Promise((done) => {
+    const player = window.page.source.player, all = [];
+    const look = () => {
+      all.push(player.seconds);
+      if (all.length < 40) requestAnimationFrame(look);
+      else done(all);
+    };
+    look();
+  }));
+  // A frame of a slow machine is at most a tenth of a second, which is how far it may overshoot.
+  assert.ok(Math.max(...seen) < end + 0.101 && Math.min(...seen.slice(1)) >= begin - 1e-6,
+    `${begin} ${end}: ${seen}`);
+  assert.ok(seen.some((s, i) => i > 0 && s < seen[i - 1]), 'it begins again');
+  await seek(0);
+  await tab.keyboard.press('i');
+  await seek(1);
+  await tab.keyboard.press('o');
 });
 
 test('what is saved reads back: BVH, GLB, a picture and a film', async () => {
@@ -96,6 +144,7 @@ test('what is saved reads back: BVH, GLB, a picture and a film', async () => {
   await tab.waitForTimeout(1200);
   const film = statSync(await save('Stop recording', '.webm'));
   assert.ok(film.size > 2000, `${film.size}`);
+  assert.deepEqual(saved, ['.bvh', '.glb', '.png', '.webm'].map((e) => `walk-proud${e}`));
 });
 
 test('a clip that is saved is what the program makes of it, byte for byte', async () => {
@@ -118,6 +167,28 @@ test('a GLB is shown with its own meshes', async () => {
   assert.match(info, /joints  22, of which.*\n.*180 frames at 60 a second/);
 });
 
+test('a motion and a character that are chosen together are put together', async () => {
+  panache('walker', '-o', 'short.bvh', '--seconds', '1', '--speed', '0.6');
+  await tab.setInputFiles('#file', [at('short.bvh'), at('walk.glb')]);
+  await tab.waitForFunction(() => window.page.source.file?.name === 'short-on-walk.glb');
+  assert.ok(await tab.evaluate(() => window.page.source.own !== null), 'the character is shown');
+  // The motion that was put on, and no longer the character's own of three seconds.
+  const clips = await tab.evaluate(() => window.page.source.file.clips.map((c) => c.frames));
+  assert.deepEqual(clips, [60]);
+  assert.ok(await tab.evaluate(() => window.page.source.file.joints.length === 22));
+});
+
+test('a .vrma opens, and several files become a list', async () => {
+  panache('convert', 'short.bvh', '-o', 'short.vrma');
+  await tab.setInputFiles('#file', [at('short.vrma'), at('walk.bvh'), at('short.bvh')]);
+  await tab.waitForFunction(() => window.page.source.file?.name === 'short.vrma');
+  assert.deepEqual(await tab.locator('#files option').allTextContents(),
+    ['short.vrma', 'walk.bvh', 'short.bvh']);
+  await tab.locator('#files').selectOption('walk.bvh');
+  await tab.waitForFunction(() => window.page.source.file?.name === 'walk.bvh');
+  await frames(tab);
+});
+
 test('a wrong file is refused with the library\'s sentence, and the old one goes on', async () => {
   await drop('damaged.bvh');
   assert.match(await alertText(), /^damaged\.bvh:\d+:\d+: expected .*OFSET/);
@@ -125,7 +196,7 @@ test('a wrong file is refused with the library\'s sentence, and the old one goes
   writeFileSync(at('notes.txt'), 'no motion');
   await choose('notes.txt');
   await tab.waitForFunction(() => document.querySelector('#alert').textContent.startsWith('notes'));
-  assert.equal(await alertText(), 'notes.txt: expected a motion file (.bvh, .glb, .gltf, .vrm), ' +
+  assert.equal(await alertText(), 'notes.txt: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma), ' +
     'found the extension \'.txt\'');
   writeFileSync(at('cut.glb'), readFileSync(at('walk.glb')).subarray(0, 500));
   await choose('cut.glb');
@@ -155,6 +226,7 @@ test('the walk itself is saved as it was steered', async () => {
 });
 
 test('panache view serves the page to this machine alone, with the file open in it', async (t) => {
+  await tab.close();  // Two pages that draw without a graphics card take each other's time.
   const server = spawn(program, ['view', 'walk.bvh'], { cwd: folder });
   t.after(() => server.kill());
   const said = await new Promise((done) => {
@@ -163,7 +235,7 @@ test('panache view serves the page to this machine alone, with the file open in 
   });
   if (said === '') return t.skip('this build has no server for the page');
   assert.match(said, /^http:\/\/127\.0\.0\.1:\d+\/\?open=walk\.bvh\n$/);
-  const served = await site.open('', { url: said.trim() });
+  const served = await site.open('neutral', { url: said.trim() });
   await served.waitForFunction(() => window.page.source.file?.name === 'walk.bvh');
   assert.ok(await served.evaluate(() => window.crossOriginIsolated));
   await served.close();

@@ -29,8 +29,31 @@ test('the page moves soon after opening, from any path', async () => {
 });
 
 test('the page runs from a disk, without any server', async () => {
-  const tab = await site.open('', { url: pathToFileURL(join(pageFolder, 'index.html')).href });
+  const tab = await site.open('neutral', { url: pathToFileURL(join(pageFolder, 'index.html')).href });
   await frames(tab);
+  await tab.close();
+});
+
+test('a visitor first sees a neutral walk and an old one, side by side, and what to do', async () => {
+  const tab = await site.open('', { steady: true });
+  assert.equal(await tab.locator('#style-old').inputValue(), '1');
+  assert.equal(await tab.evaluate(() => document.body.dataset.view), 'side');
+  assert.match(await tab.locator('#hint').textContent(), /move a slider/);
+  assert.ok(await tab.locator('#hint').isVisible());
+  await frames(tab, 20);
+  const heads = [0, 0];
+  for (let i = 0; i < 10; ++i) {
+    await frames(tab, 4);
+    const now = await tab.evaluate(() => ['input', 'styled'].map((which) =>
+      window.page.source.player.parts(which)[7 * 4 + 1]));
+    now.forEach((height, which) => (heads[which] += height / 10));
+  }
+  assert.ok(heads[1] < heads[0] - 0.01, `who is old is bowed: ${heads}`);
+  const pose = () => tab.evaluate(() => [...window.page.source.player.parts('input')]);
+  const before = await pose();
+  await frames(tab, 5);
+  assert.notDeepEqual(await pose(), before);
+  assert.equal(await tab.evaluate(() => location.hash), '');
   await tab.close();
 });
 

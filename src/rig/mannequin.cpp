@@ -1,8 +1,10 @@
-#include "mannequin.h"
+#include "rig/mannequin.h"
+
+#include <algorithm>
 
 #include "rig/canonical_skeleton.h"
 
-namespace panache::web {
+namespace panache {
 
 Mannequin::Mannequin(const Rig& rig, ConstPose reference) : rig_(rig) {
   rig_.read(reference, body_);
@@ -29,4 +31,4 @@ void Mannequin::read(ConstPose pose, std::span<float, kMannequinNumbers> out) no
   }
 }
 
-}  // namespace panache::web
+}  // namespace panache

@@ -1,13 +1,13 @@
 #pragma once
-// What a figure of solid parts needs to be drawn as a rig is posed: a place and a full orientation
-// per human joint, twist included, whatever the local axes of the rig are.
+// What a figure needs to be drawn as a rig is posed: a place and a full orientation per human
+// joint, twist included, whatever the local axes of the rig are.
 
 #include <array>
 #include <span>
 
 #include "rig/posed_rig.h"
 
-namespace panache::web {
+namespace panache {
 
 // Per human joint a world position (metres, Y up) and a world rotation x y z w.
 inline constexpr int kPartNumbers = 7;
@@ -24,7 +24,8 @@ class Mannequin {
   // Where each joint is in the frame of its parent, metres; zero where the rig has none. The hips
   // have their height above the floor instead.
   const HumanPositions& offsets() const { return offsets_; }
-  const BodyPose& body() const { return body_; }  // Of the last read().
+  // From the axes of each human joint's part to the raw local axes of the rig's joint.
+  const std::array<Quat, kHumanJoints>& to_part() const { return to_part_; }
 
  private:
   PosedRig rig_;
@@ -33,4 +34,4 @@ class Mannequin {
   HumanPositions offsets_;
 };
 
-}  // namespace panache::web
+}  // namespace panache

@@ -1,16 +1,12 @@
-#include "mannequin.h"
+#include "rig/mannequin.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "clip/bvh.h"
-#include "clip/fk.h"
-#include "format_clip.h"
 #include "make_clip.h"
-#include "recording.h"
 
-namespace panache::web {
+namespace panache {
 namespace {
 
 TEST(MannequinTest, stands_where_the_rig_stands_and_shows_twist) {
@@ -49,18 +45,5 @@ TEST(MannequinTest, stands_where_the_rig_stands_and_shows_twist) {
   }
 }
 
-TEST(RecordingTest, keeps_the_last_seconds_at_an_even_rate) {
-  const Clip clip = test::walking_clip(300, 100);
-  Recording recording(clip.skeleton, 1.0);
-  EXPECT_EQ(recording.clip(60).frames, 0);
-  for (int f = 0; f < clip.frames; ++f) recording.add(clip.pose(f), f % 2 ? 0.015 : 0.005);
-  const Clip out = recording.clip(50);
-  EXPECT_EQ(out.frames, 51);
-  // 1.2 m/s, of which each frame takes a hundredth of a second: a metre and a fifth in the last
-  // second, to the unevenness of a frame.
-  const Vec3 way = out.pose(50).translations[0] - out.pose(0).translations[0];
-  EXPECT_NEAR(way.z, 1.2f, 0.012f);
-}
-
 }  // namespace
-}  // namespace panache::web
+}  // namespace panache

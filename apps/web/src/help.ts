@@ -1,0 +1,36 @@
+// What keys do, and what the page is.
+
+import { element, find } from './dom';
+
+const kKeys: [string, string][] = [
+  ['W A S D, arrows', 'steer the walker; Shift runs'],
+  ['Space', 'play and pause, or walk and stand'],
+  ['X (hold)', 'show the input alone'],
+  ['F', 'face the character and fit it in'],
+  ['1 2 3 4', 'front, side, top, orbit'],
+  [', and .', 'one frame back, one frame on'],
+  ['I and O', 'play from here, play to here'],
+  ['N', 'poses of the last second (onion skin)'],
+  ['0', 'no style'],
+  ['Ctrl Z, Ctrl Shift Z', 'undo, redo'],
+  ['?', 'this page'],
+];
+
+export function buildHelp(): HTMLDialogElement {
+  const list = element('dl', {});
+  for (const [keys, what] of kKeys) {
+    list.append(element('dt', {}, keys), element('dd', {}, what));
+  }
+  const close = element('button', { type: 'button' }, 'Close');
+  const dialog = element('dialog', { id: 'help', 'aria-labelledby': 'help-title' },
+    element('h2', { id: 'help-title' }, 'What can be done here'),
+    element('p', {}, 'Move a slider: the same motion in another style, computed in this browser. ' +
+      'Drag the view to look around, scroll to come nearer. Drop a motion or a character ' +
+      '(BVH, GLB, glTF, VRM, VRMA) on the view and style it; a motion and a character together ' +
+      'are put together. Save the result as BVH or GLB. ' +
+      'Nothing is uploaded.'),
+    list, close);
+  close.addEventListener('click', () => dialog.close());
+  find('main').append(dialog);
+  return dialog;
+}

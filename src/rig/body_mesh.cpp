@@ -1,0 +1,103 @@
+#include "rig/body_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "rig/surface_net.h"
+
+namespace panache {
+namespace {
+
+constexpr float kCell = 0.0165f;  // Metres: fingers are seen, and there are about 7000 vertices.
+constexpr float kSharpness = 0.014f;  // Metres of distance by which a joint's share falls to 1/e.
+constexpr int kWeightSteps = 5;       // Of smoothing; each reaches one cell further.
+
+using Shares = std::array<float, kHumanJoints>;
+
+// Shares of the joints by how near their own parts are.
+Shares shares_at(const BodySurface& surface, Vec3 point,
+                 const std::array<int, kHumanJoints>& movers) {
+  Shares distances;
+  surface.joint_distances(point, distances);
+  const float nearest = *std::min_element(distances.begin(), distances.end());
+  Shares out{};
+  float sum = 0;
+  for (size_t j = 0; j < kHumanJoints; ++j) {
+    const float share = std::exp((nearest - distances[j]) / kSharpness);
+    out[static_cast<size_t>(movers[j])] += share;
+    sum += share;
+  }
+  for (float& share : out) share /= sum;
+  return out;
+}
+
+// Shares spread over the surface, not through the air: what is near across a gap stays apart.
+void smooth(const TriangleMesh& mesh, std::vector<Shares>& shares) {
+  std::vector<Shares> sums(shares.size());
+  std::vector<float> counts(shares.size());
+  for (int step = 0; step < kWeightSteps; ++step) {
+    sums = shares;
+    std::fill(counts.begin(), counts.end(), 1.0f);
+    for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
+      for (size_t k = 0; k < 3; ++k) {
+        const size_t a = mesh.triangles[t + k], b = mesh.triangles[t + (k + 1) % 3];
+        for (size_t j = 0; j < kHumanJoints; ++j) sums[a][j] += shares[b][j];
+        ++counts[a];
+      }
+    }
+    for (size_t v = 0; v < shares.size(); ++v) {
+      for (size_t j = 0; j < kHumanJoints; ++j) shares[v][j] = sums[v][j] / counts[v];
+    }
+  }
+}
+
+// The largest shares as bytes that add up to 255.
+void add_weights(const Shares& shares, BodyMesh& out) {
+  std::array<int, kHumanJoints> order;
+  for (int j = 0; j < kHumanJoints; ++j) order[static_cast<size_t>(j)] = j;
+  const auto share = [&](int j) { return shares[static_cast<size_t>(j)]; };
+  std::partial_sort(order.begin(), order.begin() + kSkinJoints, order.end(),
+                    [&](int a, int b) { return share(a) > share(b); });
+  float sum = 0;
+  for (size_t i = 0; i < kSkinJoints; ++i) sum += share(order[i]);
+  std::array<uint8_t, kSkinJoints> joints{}, weights{};
+  int rest = 255;
+  for (size_t i = kSkinJoints; i-- > 1;) {
+    const int weight = static_cast<int>(std::lround(255 * share(order[i]) / sum));
+    // A joint without a share is named 0, as glTF wants it.
+    joints[i] = static_cast<uint8_t>(weight > 0 ? order[i] : 0);
+    weights[i] = static_cast<uint8_t>(weight);
+    rest -= weight;
+  }
+  joints[0] = static_cast<uint8_t>(order[0]);
+  weights[0] = static_cast<uint8_t>(rest);
+  out.joints.push_back(joints);
+  out.weights.push_back(weights);
+}
+
+}  // namespace
+
+BodyMesh make_body_mesh(const HumanPositions& offsets,
+                        const std::array<int, kHumanJoints>& movers) {
+  const BodySurface surface(offsets);
+  TriangleMesh mesh = surface_net([&](Vec3 p) { return surface.distance(p); }, surface.low(),
+                                  surface.high(), kCell);
+  BodyMesh out;
+  out.bind = surface.bind();
+  std::vector<Shares> shares;
+  for (Vec3& vertex : mesh.vertices) {
+    // Onto the surface, which the net only comes near.
+    surface.approach(vertex);
+    out.normals.push_back(surface.approach(vertex));
+    out.accents.push_back(static_cast<uint8_t>(std::lround(255 * surface.accent(vertex))));
+    shares.push_back(shares_at(surface, vertex, movers));
+  }
+  smooth(mesh, shares);
+  for (const Shares& share : shares) add_weights(share, out);
+  out.positions = std::move(mesh.vertices);
+  out.triangles = std::move(mesh.triangles);
+  return out;
+}
+
+}  // namespace panache

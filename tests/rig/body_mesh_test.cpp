@@ -1,0 +1,180 @@
+#include "rig/body_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "make_clip.h"
+#include "rig/canonical_skeleton.h"
+#include "rig/mannequin.h"
+#include "rig/rig_body.h"
+
+namespace panache {
+namespace {
+
+std::array<int, kHumanJoints> every_joint() {
+  std::array<int, kHumanJoints> out;
+  for (size_t j = 0; j < kHumanJoints; ++j) out[j] = static_cast<int>(j);
+  return out;
+}
+
+HumanPositions canonical_offsets() {
+  HumanPositions out;
+  const Skeleton skeleton = canonical_skeleton();
+  for (size_t j = 0; j < kHumanJoints; ++j) out[j] = skeleton.joints[j].offset;
+  return out;
+}
+
+// The torso this much longer, legs as they are.
+HumanPositions with_torso(float factor) {
+  HumanPositions out = canonical_offsets();
+  for (const HumanJoint joint : {HumanJoint::spine, HumanJoint::chest, HumanJoint::neck,
+                                 HumanJoint::left_shoulder, HumanJoint::right_shoulder}) {
+    out[static_cast<size_t>(index(joint))].y *= factor;
+  }
+  return out;
+}
+
+// How many separate pieces the triangles make.
+size_t pieces_of(const BodyMesh& mesh) {
+  std::vector<size_t> above(mesh.positions.size());
+  for (size_t v = 0; v < above.size(); ++v) above[v] = v;
+  const auto root = [&](size_t v) {
+    while (above[v] != v) v = above[v] = above[above[v]];
+    return v;
+  };
+  for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    above[root(mesh.triangles[t + 1])] = root(mesh.triangles[t]);
+    above[root(mesh.triangles[t + 2])] = root(mesh.triangles[t]);
+  }
+  std::set<size_t> roots;
+  for (size_t v = 0; v < above.size(); ++v) roots.insert(root(v));
+  return roots.size();
+}
+
+float share_of(const BodyMesh& mesh, size_t vertex, size_t joint) {
+  float out = 0;
+  for (size_t k = 0; k < kSkinJoints; ++k) {
+    if (mesh.joints[vertex][k] == joint) out += static_cast<float>(mesh.weights[vertex][k]) / 255;
+  }
+  return out;
+}
+
+TEST(BodyMesh, is_one_closed_surface_whatever_the_proportions) {
+  for (const float torso : {0.5f, 1.0f, 1.6f, 2.2f}) {
+    const BodyMesh mesh = make_body_mesh(with_torso(torso), every_joint());
+    EXPECT_EQ(pieces_of(mesh), 1u) << torso;
+    std::map<std::pair<int, int>, int> edges;  // Each way once: closed, and turned one way.
+    for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
+      for (size_t k = 0; k < 3; ++k) {
+        ++edges[{mesh.triangles[t + k], mesh.triangles[t + (k + 1) % 3]}];
+      }
+    }
+    size_t open = 0;
+    for (const auto& [edge, count] : edges) open += edges.count({edge.second, edge.first}) == 0;
+    EXPECT_EQ(open, 0u) << torso;
+  }
+}
+
+TEST(BodyMesh, normals_point_out_of_the_triangles) {
+  const BodyMesh mesh = make_body_mesh(canonical_offsets(), every_joint());
+  size_t wrong = 0;
+  for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    const size_t a = mesh.triangles[t], b = mesh.triangles[t + 1], c = mesh.triangles[t + 2];
+    const Vec3 flat =
+        cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
+    wrong += dot(flat, mesh.normals[a] + mesh.normals[b] + mesh.normals[c]) < 0;
+  }
+  // Slivers in the deepest creases may turn over.
+  EXPECT_LT(wrong, mesh.triangles.size() / 3 / 200);
+  for (const Vec3 normal : mesh.normals) EXPECT_NEAR(length(normal), 1, 1e-5f);
+}
+
+// What a seam is: neighbours that go different ways. Between two vertices a cell apart a joint's
+// share changes by at most a third.
+TEST(BodyMesh, weights_add_up_and_change_softly_from_vertex_to_vertex) {
+  const BodyMesh mesh = make_body_mesh(canonical_offsets(), every_joint());
+  float largest = 0;
+  for (size_t v = 0; v < mesh.weights.size(); ++v) {
+    int sum = 0;
+    for (const uint8_t weight : mesh.weights[v]) sum += weight;
+    ASSERT_EQ(sum, 255);
+  }
+  for (size_t t = 0; t + 1 < mesh.triangles.size(); ++t) {
+    if (t % 3 == 2) continue;
+    const size_t a = mesh.triangles[t], b = mesh.triangles[t + 1];
+    for (size_t j = 0; j < kHumanJoints; ++j) {
+      largest = std::max(largest, std::abs(share_of(mesh, a, j) - share_of(mesh, b, j)));
+    }
+  }
+  EXPECT_LT(largest, 0.34f);
+}
+
+TEST(BodyMesh, one_leg_does_not_move_the_other) {
+  const BodyMesh mesh = make_body_mesh(canonical_offsets(), every_joint());
+  const auto left = static_cast<size_t>(index(HumanJoint::left_upper_leg));
+  const auto right = static_cast<size_t>(index(HumanJoint::right_lower_leg));
+  size_t seen = 0;
+  for (size_t v = 0; v < mesh.positions.size(); ++v) {
+    if (share_of(mesh, v, right) > 0.5f) {
+      ++seen;
+      EXPECT_EQ(share_of(mesh, v, left), 0);
+    }
+  }
+  EXPECT_GT(seen, 100u);
+}
+
+TEST(BodyMesh, a_joint_that_a_rig_lacks_moves_nothing) {
+  std::array<int, kHumanJoints> movers = every_joint();
+  const auto chest = static_cast<size_t>(index(HumanJoint::chest));
+  movers[chest] = index(HumanJoint::spine);
+  HumanPositions offsets = canonical_offsets();
+  offsets[chest] = {};
+  const BodyMesh mesh = make_body_mesh(offsets, movers);
+  for (size_t v = 0; v < mesh.positions.size(); ++v) ASSERT_EQ(share_of(mesh, v, chest), 0);
+}
+
+// In a file the same vertices are where the page shows them: the file's joints times the binds
+// give the mannequin's parts.
+TEST(RigBody, stands_on_the_joints_of_the_clip_where_the_mannequin_stands) {
+  const Clip clip = test::walking_clip(3);
+  const Rig rig = *Rig::create(clip);
+  const SkinnedBody body = make_rig_body(rig, clip.pose(0));
+  Mannequin mannequin(rig, clip.pose(0));
+  const BodyMesh mesh = make_body_mesh(mannequin.offsets(), moving_joints(rig));
+  std::array<float, kMannequinNumbers> parts;
+  mannequin.read(clip.pose(2), parts);
+  std::vector<Quat> turns(clip.joints());
+  std::vector<Vec3> places(clip.joints());
+  const ConstPose pose = clip.pose(2);
+  for (size_t j = 0; j < clip.joints(); ++j) {  // Parents come first.
+    const int parent = clip.skeleton.joints[j].parent;
+    const auto above = static_cast<size_t>(std::max(parent, 0));
+    turns[j] = parent < 0 ? pose.rotations[j] : turns[above] * pose.rotations[j];
+    places[j] = parent < 0 ? pose.translations[j]
+                           : places[above] + rotate(turns[above], pose.translations[j]);
+  }
+  const float scale = rig.unit() / rig.scale();
+  for (size_t v = 0; v < mesh.positions.size(); v += 37) {
+    const size_t joint = mesh.joints[v][0];
+    const float* part = &parts[kPartNumbers * joint];
+    const Vec3 local = rotate(conjugate(mesh.bind.rotations[joint]),
+                              mesh.positions[v] - mesh.bind.positions[joint]);
+    const Vec3 shown =
+        Vec3{part[0], part[1], part[2]} + rotate(Quat{part[3], part[4], part[5], part[6]}, local);
+    const SkinnedBody::Bind& bind = body.binds[body.joints[v][0]];
+    const Vec3 own = rotate(bind.rotation, body.positions[v]) * bind.scale + bind.translation;
+    const Vec3 written = (places[bind.joint] + rotate(turns[bind.joint], own)) * rig.unit();
+    // Rounding, of metres, and the floor, which files keep.
+    const Vec3 apart = written - shown * scale;
+    EXPECT_NEAR(apart.x, 0, 1e-4f);
+    EXPECT_NEAR(apart.y, rig.floor() * scale, 1e-4f);
+    EXPECT_NEAR(apart.z, 0, 1e-4f);
+  }
+}
+
+}  // namespace
+}  // namespace panache
