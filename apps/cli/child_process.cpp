@@ -90,7 +90,7 @@ Result<std::string> run_in_child(const std::vector<std::string>& arguments,
 int answer_as_child(const std::function<Result<std::string>()>& work, int seconds) {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, static_cast<rlim_t>(seconds));
-#ifndef __SANITIZE_ADDRESS__  // It reserves more addresses than there is memory.
+#ifndef PANACHE_SANITIZED  // It reserves more addresses than there is memory.
   limit(RLIMIT_AS, rlim_t{8} << 30);
 #endif
   // What a library says on its way is not the answer, nor the program's message.

@@ -4,7 +4,7 @@
 
 #include <librsvg/rsvg.h>
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef PANACHE_SANITIZED
 // What fontconfig keeps of the machine's fonts until the end of the program is no leak of ours.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig\n"; }

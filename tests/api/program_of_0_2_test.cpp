@@ -46,9 +46,9 @@ TEST(ProgramOf02, runs_on_the_library_of_today) {
     stick_walk(f / 60.0, 0, &in);
     panache_character_step(character, stick_input(&in), 1 / 60.0, stick_output(&out));
     ASSERT_TRUE(std::isfinite(out.rotations[4][0]));
-    rotations.insert(rotations.end(), in.rotations[0], in.rotations[0] + 4 * STICK_JOINTS);
-    translations.insert(translations.end(), in.translations[0],
-                        in.translations[0] + 3 * STICK_JOINTS);
+    const float *q = &in.rotations[0][0], *t = &in.translations[0][0];
+    rotations.insert(rotations.end(), q, q + 4 * STICK_JOINTS);
+    translations.insert(translations.end(), t, t + 3 * STICK_JOINTS);
   }
   // A proud one is slow: with time to spare it is late, so every field is where it was in 0.2.
   panache_report report = PANACHE_REPORT;

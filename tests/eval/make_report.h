@@ -1,6 +1,7 @@
 #pragma once
 // A report whose numbers tell where they come from.
 
+#include <algorithm>
 #include <string>
 
 #include "eval/measure.h"
@@ -15,7 +16,7 @@ inline const std::string kRudeEscaped = "a&lt;b&gt; &amp; &quot;c&quot;'s";
 // All numbers of it are different, and tell where they come from.
 inline Metrics numbers(double seed) {
   Metrics metrics;
-  metrics.takes = static_cast<size_t>(seed * 100);
+  metrics.takes = static_cast<size_t>(std::max(seed, 0.0) * 100);
   metrics.windows = metrics.takes * 5;
   double step = 0;
   for (const Measure& measure : measures()) metrics[measure.key] = seed + 0.001 * ++step;
