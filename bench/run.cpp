@@ -153,10 +153,11 @@ Result<Measurements> measure_all(const Options& options, const ProgressCall& pro
   // What may fail comes first.
   const Result<std::string> bytes = read_file(options.model);
   if (!bytes) return bytes.error();
-  const auto model = Model::parse(*bytes, options.model);
-  if (!model) return model.error();
   const Result<TensorFile> tensors = parse_safetensors(*bytes, options.model);
   if (!tensors) return tensors.error();
+  const std::string int8_bytes = format_safetensors(quantize(*tensors));
+  const auto model = Model::parse(int8_bytes, options.model);
+  if (!model) return model.error();
   const Result<Clip> walk = make_walk(options.walker_model);
   if (!walk) return walk.error();
 
@@ -174,7 +175,6 @@ Result<Measurements> measure_all(const Options& options, const ProgressCall& pro
     race.run(out, out.rounds, part_of(progress, kAfterLimits, kAfterRace));
   }
   out.model_bytes = bytes->size();
-  const std::string int8_bytes = format_safetensors(quantize(*tensors));
   out.int8_model_bytes = int8_bytes.size();
   const Result<double> character = bytes_per_character(*bytes, *walk);
   if (!character) return character.error();

@@ -13,7 +13,7 @@
 namespace panache::bench {
 
 struct Options {
-  std::string model;         // Path of the model whose steps are timed.
+  std::string model;         // Path of the model: steps are timed in int8, crowds in both.
   std::string walker_model;  // Path of the walker's model, which makes the motion.
   int64_t steps = 1'000'000;
   // How often the other measurements are repeated follows from the number of steps.

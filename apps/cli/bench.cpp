@@ -27,7 +27,7 @@ int run(const Options& options) {
       !steps) {
     return fail(steps.error(), kBadUsage);
   }
-  Result<std::string> model = find_model(options.model);
+  Result<std::string> model = find_model(options.model, kFloatModel);
   if (!model) return fail(model.error(), kBadInput);
   Result<std::string> walker = find_shipped(kWalkerModel);
   if (!walker) return fail(walker.error(), kBadInput);
@@ -63,7 +63,8 @@ void add_bench(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   CLI::App* verb = app.add_subcommand("bench", "Measure the speed of networks and steps");
   verb->add_option("--model", options->model,
-                   "Model whose steps are timed; default: $PANACHE_MODEL, else the one shipped");
+                   "Model as floats, timed as it is and in int8; default:\n$PANACHE_MODEL, else "
+                   "the one shipped");
   verb->add_option("--steps", options->steps, "Steps to time; other measurements scale with it")
       ->capture_default_str();
   verb->add_flag("--quick", options->quick, "A tenth of everything")->excludes("--steps");

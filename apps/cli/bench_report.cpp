@@ -79,7 +79,7 @@ std::string steps_table(const Measurements& m) {
   const bench::StepTimes& steps = m.steps;
   const auto quantile = [&](double at) { return us(steps.steps.quantile(at) / 1e3); };
   std::string text = columns(
-      {{"one step, " + m.model, "p50", "p99", "p99.9", "worst", "cold"},
+      {{"one step, " + m.model + ", int8", "p50", "p99", "p99.9", "worst", "cold"},
        {grouped(steps.steps.count()) + " steps", quantile(0.5), quantile(0.99), quantile(0.999),
         us(static_cast<double>(steps.steps.worst()) / 1e3), us(steps.cold / 1e3)}});
   text += "other programs took the core " + grouped(steps.interruptions) +

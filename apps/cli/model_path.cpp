@@ -22,11 +22,11 @@ Result<std::string> find_shipped(const std::string& file_name) {
   return Error{"the model " + file_name + " was not found; searched " + looked};
 }
 
-Result<std::string> find_model(const std::string& given) {
+Result<std::string> find_model(const std::string& given, const std::string& file_name) {
   if (!given.empty()) return given;
   const char* named = std::getenv("PANACHE_MODEL");
   if (named && *named) return std::string(named);
-  Result<std::string> shipped = find_shipped(kDefaultModel);
+  Result<std::string> shipped = find_shipped(file_name);
   if (shipped) return shipped;
   return Error{shipped.error().message +
                "; --model FILE or the environment variable PANACHE_MODEL names another"};

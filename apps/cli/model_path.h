@@ -8,6 +8,7 @@
 namespace panache::cli {
 
 inline constexpr const char* kDefaultModel = "panache-int8.safetensors";
+inline constexpr const char* kFloatModel = "panache.safetensors";  // The default as floats.
 inline constexpr const char* kBaseModel = "panache-base.safetensors";
 inline constexpr const char* kWalkerModel = "walker.safetensors";
 
@@ -17,7 +18,8 @@ inline constexpr const char* kWalkerModel = "walker.safetensors";
 Result<std::string> find_shipped(const std::string& file_name);
 
 // The path of the model to use: `given` (--model) if not empty, else the one that the environment
-// variable PANACHE_MODEL names, else the shipped default. Nothing is read yet.
-Result<std::string> find_model(const std::string& given);
+// variable PANACHE_MODEL names, else the shipped one called `file_name`. Nothing is read yet.
+Result<std::string> find_model(const std::string& given,
+                               const std::string& file_name = kDefaultModel);
 
 }  // namespace panache::cli
