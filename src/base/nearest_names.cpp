@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "base/lower_case.h"
+
 namespace panache {
 namespace {
 
@@ -13,9 +15,7 @@ constexpr size_t kCompared = 64;
 
 std::string folded(std::string_view name) {
   std::string text(name.substr(0, kCompared));
-  for (char& c : text) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
+  for (char& c : text) c = lower_case(c);
   return text;
 }
 

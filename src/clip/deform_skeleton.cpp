@@ -80,18 +80,14 @@ struct DeformTree {
 class TreeFinder {
  public:
   // clip: motion or rest of the file.
-  explicit TreeFinder(const Clip& clip) : joints_(clip.skeleton.joints) {
-    const int step = std::max(1, clip.frames / kFramesLookedAt);
-    for (int f = 0; f < clip.frames; f += step) {
-      poses_.push_back(place(clip.skeleton, clip.pose(f)));
-    }
-  }
+  explicit TreeFinder(const Clip& clip) : clip_(clip), joints_(clip.skeleton.joints) {}
 
   // Nothing where the joints hang together as they are.
   std::optional<DeformTree> find() {
     if (!pick_joints()) return std::nullopt;
     find_pieces();
     if (!is_in_pieces()) return std::nullopt;
+    look_at_motion();
     join_pieces();
     return in_order();
   }
@@ -145,6 +141,13 @@ class TreeFinder {
     float most = 0;
     for (const auto& [piece, weight] : weights) most = std::max(most, weight);
     return all - most > kMostBeside * all;
+  }
+
+  void look_at_motion() {
+    const int step = std::max(1, clip_.frames / kFramesLookedAt);
+    for (int f = 0; f < clip_.frames; f += step) {
+      poses_.push_back(place(clip_.skeleton, clip_.pose(f)));
+    }
   }
 
   // How far the root of a piece is from following joint `above`, in the file's units: by how much
@@ -256,8 +259,9 @@ class TreeFinder {
     return tree;
   }
 
+  const Clip& clip_;
   const std::vector<Joint>& joints_;
-  std::vector<std::vector<Placed>> poses_;
+  std::vector<std::vector<Placed>> poses_;  // Of some frames.
   std::vector<char> picked_;                // [joints]
   std::vector<int> parent_, piece_;         // [joints]
   std::vector<std::vector<int>> children_;  // [joints] In the pieces.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/file.h"
+#include "base/lower_case.h"
 #include "clip/acclaim.h"
 #include "clip/bvh.h"
 #include "clip/gltf.h"
@@ -83,9 +84,7 @@ std::span<const MotionFormat> motion_formats() { return kFormats; }
 
 std::string extension_of(const std::string& path) {
   std::string text = std::filesystem::path(path).extension().string();
-  for (char& c : text) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
+  for (char& c : text) c = lower_case(c);
   return text;
 }
 

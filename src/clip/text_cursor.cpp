@@ -8,16 +8,15 @@
 
 #include <fast_float/fast_float.h>
 
+#include "base/lower_case.h"
 #include "clip/decimal.h"
 
 namespace panache {
 namespace {
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
 bool same_letters(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](char x, char y) { return lower(x) == lower(y); });
+                    [](char x, char y) { return lower_case(x) == lower_case(y); });
 }
 
 // Bytes of the well-formed UTF-8 character of more than one byte at the start of `text`, or 0.
@@ -99,7 +98,7 @@ bool TextCursor::take_label(std::string_view label) {
   for (const char wanted : label) {
     if (wanted == ' ') {
       skip_spaces();
-    } else if (!at_end() && lower(text_[offset_]) == lower(wanted)) {
+    } else if (!at_end() && lower_case(text_[offset_]) == lower_case(wanted)) {
       ++offset_;
     } else {
       offset_ = before;

@@ -4,6 +4,7 @@
 #include "rig/humanoid.h"
 
 namespace panache {
+
 std::string canonical_joint_list() {
   std::string list;
   for (int j = 0; j < kHumanJoints; ++j) {

@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "clip/bvh.h"
 #include "clip/gltf.h"
+#include "clip/make_acclaim.h"
 #include "clip/smpl.h"
 #include "framed_json.h"
 #include "learn/style_file.h"
@@ -58,15 +59,9 @@ int main(int argc, char** argv) {
     }
   }
   add("smpl/walk", arrays);
-  add("acclaim/skeleton",
-      ":version 1.10\n:name s\n:units\nlength 0.45\nangle deg\n:root\norder TX TY TZ RX RY "
-      "RZ\naxis "
-      "XYZ\nposition 0 0 0\norientation 0 0 0\n:bonedata\nbegin\nid 1\nname a\ndirection 0 -1 "
-      "0\nlength 7\naxis 0 0 20 XYZ\ndof rx ry rz\nlimits (-10 10)\n(-10 10)\n(-10 "
-      "10)\nend\n:hierarchy\nbegin\nroot a\nend\n");
-  add("acclaim/motion", std::string("\0#!OML:ASF\n:FULLY-SPECIFIED\n:DEGREES\n1\nroot 0 1 0 0 0 "
-                                    "0\nthigh 1 2 3\nshin 4\n2\nroot 0 1 0 0 0 0\nthigh 1 2 3\n",
-                                    97));
+  test::AcclaimMaker acclaim(walk);
+  add("acclaim/skeleton", acclaim.asf());
+  add("acclaim/motion", std::string("\0", 1) + acclaim.amc());
   const TensorFile model = test::make_model({"old", "proud"});
   add("model/floats", format_safetensors(model));
   add("model/int8", format_safetensors(quantize(model)));

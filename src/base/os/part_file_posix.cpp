@@ -3,7 +3,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <utility>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -11,14 +10,6 @@
 #include <unistd.h>
 
 namespace panache {
-
-PartFile::PartFile(std::string target, std::string name, int file)
-    : target_(std::move(target)), name_(std::move(name)), file_(file) {}
-
-PartFile::PartFile(PartFile&& other) noexcept
-    : target_(std::move(other.target_)),
-      name_(std::exchange(other.name_, {})),
-      file_(std::exchange(other.file_, -1)) {}
 
 PartFile::~PartFile() {
   const int cause = errno;
