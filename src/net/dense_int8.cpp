@@ -14,6 +14,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "net/dense_int8.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
+#include "hwy/cache_control.h"
 #include "hwy/highway.h"
 
 #if HWY_TARGET == HWY_AVX3_DL
@@ -33,30 +34,41 @@ void dense_int8(const Rows<const float>& x, const Int8Matrix& layer, const Rows<
 
 #else
 
+#if defined(__clang__)
+#define PANACHE_UNROLL _Pragma("unroll")
+#else
+#define PANACHE_UNROLL _Pragma("GCC unroll 16")
+#endif
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Floats = hn::ScalableTag<float>;
 using Wholes = hn::ScalableTag<int32_t>;          // As many as floats.
-using Shorts = hn::Repartition<int16_t, Wholes>;  // Twice as many,
-using Bytes = hn::Rebind<int8_t, Shorts>;         // and as many bytes.
+using Shorts = hn::Repartition<int16_t, Wholes>;  // Twice as many.
 using FewShorts = hn::Rebind<int16_t, Wholes>;    // As many as floats.
 using Sums = hn::Vec<Wholes>;
 
-// As in dense.cpp; here the weights of a tile take registers too.
+// Vectors of weights in a tile of one row; each has two vectors of sums. As in dense.cpp; here the
+// weights of a tile take registers too.
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL || HWY_ARCH_ARM_A64
-constexpr size_t kMaxVectors = 16, kMaxRows = 8;
+constexpr size_t kMaxVectors = 8, kMaxRows = 8;
 #else
-constexpr size_t kMaxVectors = 8, kMaxRows = 4;
+constexpr size_t kMaxVectors = 4, kMaxRows = 4;
 #endif
 static_assert(kMaxRows <= kRowsAtOnce);
-constexpr size_t kRowVectors = 2;
 // Inputs of a row, rounded, with room for whole vectors.
 constexpr size_t kRowRoom = kMaxInt8Inputs + kPadding;
 
+// Numbers ahead of which weights are prefetched in a tile of one row: 2 KB.
+constexpr size_t kAhead = 1024;
+
 using Rounded = int16_t[kMaxRows][kRowRoom];
 
-// Rounds a row to whole steps, and returns the step.
-float round_row(const float* x, size_t inputs, int16_t* out) {
+struct RoundedRow {
+  float step;
+  int32_t sum;  // Of the rounded numbers.
+};
+// Rounds a row to whole steps.
+RoundedRow round_row(const float* x, size_t inputs, int16_t* out) {
   using namespace int8_rounding;
   const Floats d;
   const Wholes di;
@@ -77,108 +89,164 @@ float round_row(const float* x, size_t inputs, int16_t* out) {
   }
   const Step step = step_for(static_cast<uint32_t>(hn::GetLane(hn::MaxOfLanes(di, sizes))));
 
-  const auto rounded = [&](hn::Vec<Floats> v) {
+  Sums sum = hn::Zero(di);
+  const auto round = [&](hn::Vec<Floats> v, int16_t* to) {
     const auto nothing = hn::Gt(size_bits(v), hn::Set(di, int32_t{kLargestFinite}));
     const hn::Vec<Floats> shifted =
         hn::Add(hn::Mul(v, hn::Set(d, step.reciprocal)), hn::Set(d, kRound));
-    const Sums n = hn::Sub(hn::BitCast(di, shifted), hn::Set(di, int32_t{kRoundBits}));
-    return hn::DemoteTo(FewShorts(), hn::IfThenZeroElse(nothing, n));
+    const Sums n = hn::IfThenZeroElse(
+        nothing, hn::Sub(hn::BitCast(di, shifted), hn::Set(di, int32_t{kRoundBits})));
+    sum = hn::Add(sum, n);
+    hn::StoreU(hn::DemoteTo(FewShorts(), n), FewShorts(), to);
   };
-  for (size_t i = 0; i < whole; i += lanes) {
-    hn::StoreU(rounded(hn::LoadU(d, x + i)), FewShorts(), out + i);
-  }
-  hn::StoreU(rounded(hn::Load(d, rest)), FewShorts(), out + whole);
-  return step.size;
+  for (size_t i = 0; i < whole; i += lanes) round(hn::LoadU(d, x + i), out + i);
+  round(hn::Load(d, rest), out + whole);
+  return {step.size, hn::GetLane(hn::SumOfLanes(di, sum))};
 }
 
 // Adds the products of neighbours; `other` holds what has no place in `sums`, where an instruction
 // set has it so.
-HWY_INLINE Sums add_pairs(hn::Vec<Shorts> a, hn::Vec<Shorts> b, Sums sums, Sums& other) {
+HWY_INLINE void add_pairs(hn::Vec<Shorts> a, hn::Vec<Shorts> b, Sums& sums, Sums& other) {
 #if HWY_TARGET == HWY_AVX3_DL
   (void)other;
   // Not by the intrinsic, with which GCC 12 copies each sum to another register and back.
   __asm__("vpdpwssd %2, %1, %0" : "+v"(sums.raw) : "v"(a.raw), "v"(b.raw));
-  return sums;
 #else
-  return hn::ReorderWidenMulAccumulate(Wholes(), a, b, sums, other);
+  sums = hn::ReorderWidenMulAccumulate(Wholes(), a, b, sums, other);
 #endif
 }
 
-struct ByteTask {
+// Keeps GCC 12 from loading weights twice, and from copying sums.
+HWY_INLINE void keep([[maybe_unused]] hn::Vec<Shorts>& v) {
+#if HWY_TARGET == HWY_AVX3_DL
+  __asm__("" : "+v"(v.raw));
+#endif
+}
+
+struct Int8Task {
   const Int8Matrix* layer;
-  Rows<float> y;
   const Rounded* x;
-  const float* steps;  // Of each row.
+  const RoundedRow* rows;
+  Rows<float> y;  // Holds the bits of the sums, until all tiles are through.
 };
 
-// Computes kVectors vectors of outputs from column `first` on, of all kRows rows.
+// The vectors of outputs that follow from those of both halves of their pairs. Where a vector holds
+// the pairs of two blocks, each of these is a block; else the second is half a block further.
+constexpr bool kTwoBlocks = hn::MaxLanes(Wholes()) > kBlockPairs;
+static_assert(hn::MaxLanes(Wholes()) <= 2 * kBlockPairs);
+constexpr size_t kSecond = kTwoBlocks ? kPadding : kBlockPairs;
+HWY_INLINE Sums first_outputs(Sums low, Sums high) {
+  if constexpr (kTwoBlocks) return hn::ConcatLowerLower(Wholes(), high, low);
+  return low;
+}
+HWY_INLINE Sums second_outputs(Sums low, Sums high) {
+  if constexpr (kTwoBlocks) return hn::ConcatUpperUpper(Wholes(), high, low);
+  return high;
+}
+
+// Computes kVectors vectors of pairs of outputs, from pair `first` on, of all kRows rows.
 template <size_t kRows, size_t kVectors>
-HWY_INLINE void byte_tile(const ByteTask& task, size_t first) {
+HWY_INLINE void int8_tile(const Int8Task& task, size_t first) {
   const Floats d;
   const Wholes di;
   const Shorts ds;
-  const size_t lanes = hn::Lanes(d);
-  const Int8Matrix& layer = *task.layer;
-  Sums sums[kRows][kVectors], others[kRows][kVectors];
+  const size_t lanes = hn::Lanes(di);
+  const Int8Matrix layer = *task.layer;
+  // Of whole numbers of two weights, and of the upper weights alone.
+  Sums both[kRows][kVectors], others[kRows][kVectors];
+  Sums high[kRows][kVectors], high_others[kRows][kVectors];
+  PANACHE_UNROLL
   for (size_t r = 0; r < kRows; ++r) {
-    for (size_t v = 0; v < kVectors; ++v) sums[r][v] = others[r][v] = hn::Zero(di);
+    PANACHE_UNROLL
+    for (size_t v = 0; v < kVectors; ++v) {
+      both[r][v] = others[r][v] = high[r][v] = high_others[r][v] = hn::Zero(di);
+    }
   }
   // Without inputs there are no weights to point at.
-  const int8_t* HWY_RESTRICT weights = layer.inputs > 0 ? layer.weights + 2 * first : nullptr;
+  const int16_t* HWY_RESTRICT weights = layer.inputs > 0 ? layer.weights + 2 * first : nullptr;
   for (size_t i = 0; i < layer.inputs; i += 2) {
-    hn::Vec<Shorts> column[kVectors];
-    for (size_t v = 0; v < kVectors; ++v) {
-      column[v] = hn::PromoteTo(ds, hn::LoadU(Bytes(), weights + v * 2 * lanes));
-    }
+    hn::Vec<Shorts> inputs[kRows];
+    PANACHE_UNROLL
     for (size_t r = 0; r < kRows; ++r) {
       int32_t pair;
       std::memcpy(&pair, &(*task.x)[r][i], sizeof pair);
-      const hn::Vec<Shorts> input = hn::BitCast(ds, hn::Set(di, pair));
-      for (size_t v = 0; v < kVectors; ++v) {
-        sums[r][v] = add_pairs(column[v], input, sums[r][v], others[r][v]);
+      inputs[r] = hn::BitCast(ds, hn::Set(di, pair));
+    }
+    PANACHE_UNROLL
+    for (size_t v = 0; v < kVectors; ++v) {
+      hn::Vec<Shorts> packed = hn::LoadU(ds, weights + v * 2 * lanes);
+      keep(packed);
+      if (kRows == 1) hwy::Prefetch(weights + v * 2 * lanes + kAhead);
+      PANACHE_UNROLL
+      for (size_t r = 0; r < kRows; ++r) add_pairs(packed, inputs[r], both[r][v], others[r][v]);
+      packed = hn::ShiftRight<8>(packed);
+      keep(packed);
+      PANACHE_UNROLL
+      for (size_t r = 0; r < kRows; ++r) {
+        add_pairs(packed, inputs[r], high[r][v], high_others[r][v]);
       }
     }
-    weights += 2 * layer.outputs;
+    weights += layer.outputs;
   }
-  for (size_t v = 0; v < kVectors; ++v) {
-    const size_t at = first + v * lanes;
-    const hn::Vec<Floats> bias = hn::LoadU(d, layer.bias + at);
-    const hn::Vec<Floats> scale = hn::LoadU(d, layer.scale + at);
-    for (size_t r = 0; r < kRows; ++r) {
-      const Sums sum = hn::RearrangeToOddPlusEven(sums[r][v], others[r][v]);
-      const hn::Vec<Floats> unit = hn::Mul(hn::Set(d, task.steps[r]), scale);
-      hn::StoreU(hn::Add(bias, hn::Mul(unit, hn::ConvertTo(d, sum))), d, task.y.row(r) + at);
+  // Where a block goes that the last vector holds and the layer does not have.
+  HWY_ALIGN float none[hn::MaxLanes(d)];
+  PANACHE_UNROLL
+  for (size_t r = 0; r < kRows; ++r) {
+    float* row = task.y.row(r);
+    // What the offset of the lower weights has added to their sums.
+    const uint32_t offset = kLowWeightOffset * static_cast<uint32_t>(task.rows[r].sum);
+    PANACHE_UNROLL
+    for (size_t v = 0; v < kVectors; ++v) {
+      const size_t pair = first + v * lanes;
+      const size_t at = pair / kBlockPairs * kPadding + pair % kBlockPairs;
+      const Sums upper = hn::RearrangeToOddPlusEven(high[r][v], high_others[r][v]);
+      const Sums whole = hn::RearrangeToOddPlusEven(both[r][v], others[r][v]);
+      const Sums lower = hn::Sub(hn::Sub(whole, hn::ShiftLeft<8>(upper)),
+                                 hn::Set(di, static_cast<int32_t>(offset)));
+      hn::StoreU(hn::BitCast(d, first_outputs(lower, upper)), d, row + at);
+      hn::StoreU(hn::BitCast(d, second_outputs(lower, upper)), d,
+                 at + kSecond < layer.outputs ? row + at + kSecond : none);
     }
   }
 }
 
-using ByteTile = void (*)(const ByteTask&, size_t);
-// kOneRow[vectors - 1].
-template <size_t... k>
-constexpr std::array<ByteTile, sizeof...(k)> one_row_int8_tiles(std::index_sequence<k...>) {
-  return {byte_tile<1, k + 1>...};
+// Sums become outputs.
+HWY_INLINE void scale_sums(const Int8Matrix& layer, float step, float* HWY_RESTRICT y) {
+  const Floats d;
+  const float *scale = layer.scale, *bias = layer.bias;
+  for (size_t o = 0; o < layer.outputs; o += hn::Lanes(d)) {
+    const hn::Vec<Floats> sums = hn::ConvertTo(d, hn::BitCast(Wholes(), hn::LoadU(d, y + o)));
+    const hn::Vec<Floats> unit = hn::Mul(hn::Set(d, step), hn::LoadU(d, scale + o));
+    hn::StoreU(hn::Add(hn::LoadU(d, bias + o), hn::Mul(unit, sums)), d, y + o);
+  }
 }
-// [rows - 1], of so many vectors each.
-template <size_t kVectors, size_t... k>
-constexpr std::array<ByteTile, sizeof...(k)> int8_tiles_of(std::index_sequence<k...>) {
-  return {byte_tile<k + 1, kVectors>...};
+
+using Int8Tile = void (*)(const Int8Task&, size_t);
+// [vectors - 1], of one row.
+template <size_t... k>
+constexpr std::array<Int8Tile, sizeof...(k)> one_row_int8_tiles(std::index_sequence<k...>) {
+  return {int8_tile<1, k + 1>...};
+}
+// [rows - 1], of one vector.
+template <size_t... k>
+constexpr std::array<Int8Tile, sizeof...(k)> one_vector_int8_tiles(std::index_sequence<k...>) {
+  return {int8_tile<k + 1, 1>...};
 }
 constexpr auto kOneRow = one_row_int8_tiles(std::make_index_sequence<kMaxVectors>());
-constexpr auto kNarrow = int8_tiles_of<1>(std::make_index_sequence<kMaxRows>());
-constexpr auto kWide = int8_tiles_of<kRowVectors>(std::make_index_sequence<kMaxRows>());
+constexpr auto kOneVector = one_vector_int8_tiles(std::make_index_sequence<kMaxRows>());
 
 void dense_int8(const Rows<const float>& x, const Int8Matrix& layer, const Rows<float>& y) {
-  const size_t lanes = hn::Lanes(Floats());
+  const size_t lanes = hn::Lanes(Wholes());
   HWY_ALIGN Rounded rounded;
-  float steps[kMaxRows];
+  RoundedRow about[kMaxRows];
   for (size_t row = 0; row < x.count;) {
     const size_t rows = HWY_MIN(x.count - row, kMaxRows);
     for (size_t r = 0; r < rows; ++r) {
-      steps[r] = round_row(x.row(row + r), layer.inputs, rounded[r]);
+      about[r] = round_row(x.row(row + r), layer.inputs, rounded[r]);
       if (layer.inputs % 2 != 0) rounded[r][layer.inputs] = 0;
     }
-    const ByteTask task{&layer, {y.row(row), rows, y.stride}, &rounded, steps};
-    size_t vectors = layer.outputs / lanes, first = 0;
+    const Int8Task task{&layer, &rounded, about, {y.row(row), rows, y.stride}};
+    size_t vectors = (layer.outputs / 2 + lanes - 1) / lanes, first = 0;
     if (rows == 1) {
       // Passes of about equal width; each reads its columns of all weights once.
       for (size_t passes = (vectors + kMaxVectors - 1) / kMaxVectors; passes > 0; --passes) {
@@ -188,11 +256,9 @@ void dense_int8(const Rows<const float>& x, const Int8Matrix& layer, const Rows<
         vectors -= now;
       }
     } else {
-      for (; vectors >= kRowVectors; vectors -= kRowVectors, first += kRowVectors * lanes) {
-        kWide[rows - 1](task, first);
-      }
-      for (; vectors > 0; --vectors, first += lanes) kNarrow[rows - 1](task, first);
+      for (; vectors > 0; --vectors, first += lanes) kOneVector[rows - 1](task, first);
     }
+    for (size_t r = 0; r < rows; ++r) scale_sums(layer, about[r].step, task.y.row(r));
     row += rows;
   }
 }

@@ -16,15 +16,39 @@ inline constexpr int kInputBits = 13;
 inline constexpr int kMaxInt8Weight = 127;
 inline constexpr size_t kMaxInt8Inputs = 2064;
 
+// Two weights of one input share a 16-bit number: 256 * high + (low + kLowWeightOffset). A kernel
+// multiplies the whole number, and its upper byte (one shift), by the input; the sum of the low
+// weights is what remains. That takes half the instructions of widening each byte. The whole
+// numbers' sum may wrap around: 32 bits of it are enough, because the low weights' sum fits them.
+inline constexpr int kLowWeightOffset = 128;
+constexpr int16_t packed_weights(int8_t low, int8_t high) {
+  return static_cast<int16_t>(256 * high + (low + kLowWeightOffset));
+}
+constexpr int8_t low_weight(int16_t packed) {
+  return static_cast<int8_t>((packed & 255) - kLowWeightOffset);
+}
+constexpr int8_t high_weight(int16_t packed) { return static_cast<int8_t>(packed >> 8); }
+
+// Outputs are packed in blocks of kPadding: output o < kBlockPairs of a block with o + kBlockPairs.
+inline constexpr size_t kBlockPairs = kPadding / 2;
+
+// A vector may begin at a layer's last block and be longer.
+inline constexpr size_t kInt8Slack = kPadding;
+
 // A layer's numbers, as the kernels want them.
 struct Int8Matrix {
-  size_t inputs = 0;                // At most kMaxInt8Inputs.
-  size_t outputs = 0;               // A multiple of kPadding.
-  const int8_t* weights = nullptr;  // [(inputs + 1) / 2][outputs][2]: pairs of inputs; an odd last
-                                    // one is paired with zeros. At most kMaxInt8Weight in size.
-  const float* scale = nullptr;     // [outputs]
-  const float* bias = nullptr;      // [outputs]
+  size_t inputs = 0;   // At most kMaxInt8Inputs.
+  size_t outputs = 0;  // A multiple of kPadding.
+  // [(inputs + 1) / 2][outputs / kPadding][kBlockPairs][2 inputs], packed; an odd last input is
+  // paired with zeros. Each weight is at most kMaxInt8Weight in size. kInt8Slack more numbers must
+  // be readable behind them.
+  const int16_t* weights = nullptr;
+  const float* scale = nullptr;  // [outputs]
+  const float* bias = nullptr;   // [outputs]
 };
+// A weight of Int8Matrix::weights of so many outputs, read and written.
+int8_t int8_weight(const int16_t* weights, size_t outputs, size_t input, size_t output);
+void set_int8_weight(int16_t* weights, size_t outputs, size_t input, size_t output, int8_t weight);
 
 // y[o] = bias[o] + (step * scale[o]) * (sum over i of round(x[i] / step) * weights[i][o]), for each
 // row. `step` is a power of two, the smallest for which no x[i] of the row is above 2^13 steps;

@@ -7,7 +7,30 @@
 
 #include "net/int8_rounding.h"
 
-namespace panache::scalar {
+namespace panache {
+namespace {
+
+// Where a weight is among the packed ones.
+size_t packed_index(size_t outputs, size_t input, size_t output) {
+  const size_t pair = output / kPadding * kBlockPairs + output % kBlockPairs;
+  return (input / 2 * (outputs / 2) + pair) * 2 + input % 2;
+}
+bool is_high(size_t output) { return output % kPadding >= kBlockPairs; }
+
+}  // namespace
+
+int8_t int8_weight(const int16_t* weights, size_t outputs, size_t input, size_t output) {
+  const int16_t packed = weights[packed_index(outputs, input, output)];
+  return is_high(output) ? high_weight(packed) : low_weight(packed);
+}
+
+void set_int8_weight(int16_t* weights, size_t outputs, size_t input, size_t output, int8_t weight) {
+  int16_t& packed = weights[packed_index(outputs, input, output)];
+  packed = is_high(output) ? packed_weights(low_weight(packed), weight)
+                           : packed_weights(weight, high_weight(packed));
+}
+
+namespace scalar {
 namespace {
 
 using namespace int8_rounding;
@@ -34,7 +57,7 @@ void dense_int8(const Rows<const float>& x, const Int8Matrix& layer,
     for (size_t o = 0; o < layer.outputs; ++o) {
       int32_t sum = 0;
       for (size_t i = 0; i < layer.inputs; ++i) {
-        const int32_t weight = layer.weights[(i / 2 * layer.outputs + o) * 2 + i % 2];
+        const int32_t weight = int8_weight(layer.weights, layer.outputs, i, o);
         sum += rounded(x.row(r)[i], step.reciprocal) * weight;
       }
       y.row(r)[o] = layer.bias[o] + (step.size * layer.scale[o]) * static_cast<float>(sum);
@@ -42,4 +65,5 @@ void dense_int8(const Rows<const float>& x, const Int8Matrix& layer,
   }
 }
 
-}  // namespace panache::scalar
+}  // namespace scalar
+}  // namespace panache

@@ -38,7 +38,7 @@ PackedLayer::PackedLayer(std::span<const DenseLayer> layers) {
   bias_.resize(width);
   if (is_int8) {
     scale_.resize(width);
-    int8_.resize((inputs_ + 1) / 2 * 2 * width);
+    int8_.assign((inputs_ + 1) / 2 * width + kInt8Slack, packed_weights(0, 0));
   } else {
     weights_.resize(inputs_ * width);
   }
@@ -52,7 +52,7 @@ PackedLayer::PackedLayer(std::span<const DenseLayer> layers) {
       for (size_t o = 0; o < outputs; ++o) {
         const size_t from = i * outputs + o, to = begins_[l] + o;
         if (is_int8) {
-          int8_[(i / 2 * width + to) * 2 + i % 2] = layer.int8_weights[from];
+          set_int8_weight(int8_.data(), width, i, to, layer.int8_weights[from]);
         } else {
           weights_[i * width + to] = layer.weights[from];
         }

@@ -44,7 +44,7 @@ class PackedLayer {
   size_t inputs_ = 0;
   std::vector<size_t> begins_;
   AlignedVector<float> weights_;  // [inputs][width], or none:
-  AlignedVector<int8_t> int8_;    // see Int8Matrix.
+  AlignedVector<int16_t> int8_;   // pairs of int8, see Int8Matrix.
   AlignedVector<float> scale_;    // [width], of bytes.
   AlignedVector<float> bias_;     // [width]
 };

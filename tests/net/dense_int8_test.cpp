@@ -18,19 +18,21 @@ struct Layer {
   Layer(size_t layer_inputs, size_t layer_outputs, std::mt19937& random)
       : inputs(layer_inputs),
         outputs(layer_outputs),
-        weights((inputs + 1) / 2 * 2 * outputs),
+        weights((inputs + 1) / 2 * outputs + kInt8Slack, packed_weights(0, 0)),
         scale(random_numbers(outputs, random)),
         bias(random_numbers(outputs, random)) {
     std::uniform_int_distribution<int> byte(-kMaxInt8Weight, kMaxInt8Weight);
     for (size_t i = 0; i < inputs; ++i) {
-      for (size_t o = 0; o < outputs; ++o) at(i, o) = static_cast<int8_t>(byte(random));
+      for (size_t o = 0; o < outputs; ++o) set(i, o, byte(random));
     }
   }
-  int8_t& at(size_t i, size_t o) { return weights[(i / 2 * outputs + o) * 2 + i % 2]; }
+  void set(size_t i, size_t o, int weight) {
+    set_int8_weight(weights.data(), outputs, i, o, static_cast<int8_t>(weight));
+  }
   Int8Matrix matrix() const { return {inputs, outputs, weights.data(), scale.data(), bias.data()}; }
 
   size_t inputs, outputs;
-  std::vector<int8_t> weights;
+  std::vector<int16_t> weights;
   std::vector<float> scale, bias;
 };
 
@@ -49,9 +51,9 @@ TEST(DenseInt8, the_plain_loop_is_a_matrix_product_of_rounded_numbers) {
   Layer layer(3, kPadding, random);
   // Steps of 2^-12: 1.25 is 5120 of them, 2^-13 is half of one and goes to the even 0.
   const std::vector<float> x = {1.25f, 0x1p-13f, -3 * 0x1p-13f};
-  layer.at(0, 0) = 100;
-  layer.at(1, 0) = 127;
-  layer.at(2, 0) = 1;
+  layer.set(0, 0, 100);
+  layer.set(1, 0, 127);
+  layer.set(2, 0, 1);
   layer.scale[0] = 0.5f;
   layer.bias[0] = 1;
   std::vector<float> y(kPadding);
@@ -87,7 +89,7 @@ TEST(DenseInt8, products_as_large_as_can_be_do_not_leave_32_bits) {
   Layer layer(kMaxInt8Inputs, kPadding, random);
   for (size_t i = 0; i < layer.inputs; ++i) {
     for (size_t o = 0; o < layer.outputs; ++o) {
-      layer.at(i, o) = static_cast<int8_t>(o % 2 ? kMaxInt8Weight : -kMaxInt8Weight);
+      layer.set(i, o, o % 2 ? kMaxInt8Weight : -kMaxInt8Weight);
     }
   }
   layer.scale.assign(kPadding, 1);
