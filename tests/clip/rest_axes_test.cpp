@@ -76,5 +76,64 @@ TEST(RestAxes, a_motion_that_rests_without_rotation_stays_as_it_is) {
   EXPECT_EQ(clip.translations, out.translations);
 }
 
+// The clip in a node that turns and lifts all of it.
+Clip in_a_scene_node(const Clip& clip) {
+  Joint node;
+  node.name = "scene";
+  node.rest = normalized(Quat{1, -1, 0, 0});
+  node.offset = {0, 0.25f, 1};
+  Clip out{{{node}}, clip.frame_time, 0, {}, {}};
+  for (Joint joint : clip.skeleton.joints) {
+    ++joint.parent;
+    out.skeleton.joints.push_back(joint);
+  }
+  for (int f = 0; f < clip.frames; ++f) {
+    const ConstPose pose = clip.pose(f);
+    std::vector<Quat> rotations = {node.rest};
+    std::vector<Vec3> translations = {node.offset};
+    rotations.insert(rotations.end(), pose.rotations.begin(), pose.rotations.end());
+    translations.insert(translations.end(), pose.translations.begin(), pose.translations.end());
+    out.append({rotations, translations});
+  }
+  return out;
+}
+
+TEST(WithoutStillRoot, the_child_becomes_the_root_and_no_joint_moves) {
+  const Clip clip = turned_clip(true), scene = in_a_scene_node(clip);
+  const Clip out = without_still_root(scene);
+  ASSERT_EQ(out.joints(), clip.joints());
+  EXPECT_EQ(out.skeleton.joints.front().name, "joint0");
+  EXPECT_EQ(out.skeleton.joints.front().parent, -1);
+  for (const bool rest : {false, true}) {
+    const Clip a = rest ? at_rest(scene) : scene, b = rest ? at_rest(out) : out;
+    for (int f = 0; f < a.frames; ++f) {
+      std::vector<Quat> turns_a(a.joints()), turns_b(b.joints());
+      std::vector<Vec3> places_a(a.joints()), places_b(b.joints());
+      world_pose(a.skeleton, a.pose(f), {turns_a, places_a});
+      world_pose(b.skeleton, b.pose(f), {turns_b, places_b});
+      for (size_t j = 0; j < b.joints(); ++j) {
+        EXPECT_LE(length(places_a[j + 1] - places_b[j]), kNear) << j;
+      }
+    }
+  }
+}
+
+TEST(WithoutStillRoot, a_root_stays_that_moves_or_carries_something) {
+  const Clip scene = in_a_scene_node(turned_clip(true));
+  const auto joints_left = [&](const auto& change) {
+    Clip clip = scene;
+    change(clip.skeleton.joints);
+    return without_still_root(std::move(clip)).joints();
+  };
+  using Joints = std::vector<Joint>;
+  EXPECT_EQ(joints_left([](Joints&) {}), 5u);
+  EXPECT_EQ(joints_left([](Joints& j) { j[0].can_rotate = true; }), 6u);
+  EXPECT_EQ(joints_left([](Joints& j) { j[0].can_translate = true; }), 6u);
+  EXPECT_EQ(joints_left([](Joints& j) { j[0].skin = 0; }), 6u);
+  EXPECT_EQ(joints_left([](Joints& j) { j[0].role = "hips"; }), 6u);
+  EXPECT_EQ(joints_left([](Joints& j) { j[0].ends = {{0, 1, 0}}; }), 6u);
+  EXPECT_EQ(joints_left([](Joints& j) { j[2].parent = 0; }), 6u);
+}
+
 }  // namespace
 }  // namespace panache
