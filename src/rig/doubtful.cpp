@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/vec.h"
 #include "rig/joint_name.h"
 
 namespace panache {
@@ -88,7 +89,66 @@ std::optional<Error> find_bare(const Skeleton& skeleton, int hips_joint) {
                "; expected a file without the skeleton that moves none, or a map"};
 }
 
+// Cosines between the directions of a body's parts, means of both sides.
+struct Stance {
+  float arms_legs = 0, trunk_arms = 0, trunk_legs = 0;
+};
+Stance stance_of(const JointPositions& at, const Mapping& mapping) {
+  const auto place = [&](HumanJoint human) {
+    return at[static_cast<size_t>(mapping.joint_of[index(human)])];
+  };
+  const auto cosine = [](Vec3 a, Vec3 b) {
+    const float product = length(a) * length(b);
+    return product > 0 ? dot(a, b) / product : 0.0f;
+  };
+  const Vec3 trunk = place(left_upper_arm) + place(right_upper_arm) - place(left_upper_leg) -
+                     place(right_upper_leg);
+  constexpr HumanJoint kLimbs[2][4] = {
+      {left_upper_arm, left_lower_arm, left_upper_leg, left_foot},
+      {right_upper_arm, right_lower_arm, right_upper_leg, right_foot}};
+  Stance stance;
+  for (const auto& [upper_arm, lower_arm, upper_leg, foot] : kLimbs) {
+    const HumanJoint hand = lower_arm == left_lower_arm ? left_hand : right_hand;
+    const HumanJoint end = mapping.joint_of[index(hand)] >= 0 ? hand : lower_arm;
+    const Vec3 arm = place(end) - place(upper_arm), leg = place(foot) - place(upper_leg);
+    stance.arms_legs += cosine(arm, leg) / 2;
+    stance.trunk_arms += cosine(trunk, arm) / 2;
+    stance.trunk_legs += cosine(trunk, leg) / 2;
+  }
+  return stance;
+}
+// Both arms and legs go the same way, at right angles to the trunk.
+bool is_on_four_legs(const Stance& stance, float same_way) {
+  constexpr float kAcross = 0.6f;
+  return stance.arms_legs > same_way && std::abs(stance.trunk_arms) < kAcross &&
+         std::abs(stance.trunk_legs) < kAcross;
+}
+
 }  // namespace
+
+std::optional<Error> find_animal(const Skeleton& skeleton, std::span<const JointPositions> poses,
+                                 const Mapping& mapping, const KnownJoints& known) {
+  // At rest, and on average in motion: in a gallop, front and hind legs swing far apart.
+  constexpr float kAtRest = 0.7f, kInMotion = 0.4f;
+  if (known.contains(index(hips)) || !is_on_four_legs(stance_of(poses.front(), mapping), kAtRest)) {
+    return std::nullopt;
+  }
+  Stance mean;
+  const float share = 1 / static_cast<float>(poses.size());
+  for (const JointPositions& at : poses) {
+    const Stance stance = stance_of(at, mapping);
+    mean.arms_legs += share * stance.arms_legs;
+    mean.trunk_arms += share * stance.trunk_arms;
+    mean.trunk_legs += share * stance.trunk_legs;
+  }
+  if (!is_on_four_legs(mean, kInMotion)) return std::nullopt;
+  return Error{
+      "no person: leftUpperArm would be " +
+      quoted_name(skeleton, mapping.joint_of[index(left_upper_arm)]) + " and leftUpperLeg " +
+      quoted_name(skeleton, mapping.joint_of[index(left_upper_leg)]) +
+      ", and both stand side by side under a level trunk, at rest and in the motion, as an "
+      "animal's legs do; expected a person's skeleton, or a map that names the hips"};
+}
 
 std::optional<Error> find_doubt(const Skeleton& skeleton, const Mapping& mapping,
                                 const KnownJoints& known) {

@@ -1,10 +1,12 @@
 #pragma once
-// Mappings that would tear a mesh. Private to the folder.
+// Mappings that would tear a mesh or that are no person's. Private to the folder.
 
 #include <optional>
+#include <span>
 
 #include "base/result.h"
 #include "clip/clip.h"
+#include "rig/joint_tree.h"
 #include "rig/mapping.h"
 
 namespace panache {
@@ -16,5 +18,11 @@ namespace panache {
 // Nothing where all is well. What is `known` of the hips is believed.
 std::optional<Error> find_doubt(const Skeleton& skeleton, const Mapping& mapping,
                                 const KnownJoints& known);
+
+// Why a mapping is an animal's: its arms and legs stand side by side under a level trunk in the
+// first of `poses`, which is the skeleton at rest, and in nearly all others, which are of its
+// motion. A person who crawls stands upright at rest. What is `known` of the hips is believed.
+std::optional<Error> find_animal(const Skeleton& skeleton, std::span<const JointPositions> poses,
+                                 const Mapping& mapping, const KnownJoints& known);
 
 }  // namespace panache

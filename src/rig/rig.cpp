@@ -71,6 +71,9 @@ Result<Rig> Rig::create(const Clip& clip, const RigOptions& options) {
   if (const std::optional<Error> doubt = find_doubt(clip.skeleton, *mapping, *known)) {
     return *doubt;
   }
+  if (const std::optional<Error> animal = find_animal(clip.skeleton, poses, *mapping, *known)) {
+    return *animal;
+  }
   Result<Calibration> calibration =
       calibrate(clip, *mapping, options.metres_per_unit, options.up_axis);
   if (!calibration) return calibration.error();

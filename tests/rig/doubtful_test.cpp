@@ -1,7 +1,10 @@
 // Rigs that would be torn are rejected.
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
+#include "make_clip.h"
 #include "rig/made_up.h"
 #include "rig/rig.h"
 
@@ -142,6 +145,77 @@ TEST(Doubtful, rigs_that_deform_in_one_hierarchy_are_not) {
   EXPECT_EQ(message(lines, limbs("DEF-spine.003", "DEF-spine")), "");
   // A body with nothing but a head on it has no spine that the arms could hang on.
   EXPECT_EQ(message({{"body", "", hips}, {"head", "body", head}}, limbs("body", "body")), "");
+}
+
+// A horse of these joints for trunk, front and hind legs, half way through a step in each frame.
+Clip horse(const std::vector<std::string>& names) {
+  Clip clip;
+  std::vector<Joint>& joints = clip.skeleton.joints;
+  const auto add = [&](const std::string& name, int parent, Vec3 offset) {
+    Joint joint;
+    joint.name = name;
+    joint.parent = parent;
+    joint.offset = offset;
+    joint.can_rotate = true;
+    joint.can_translate = parent < 0;
+    joints.push_back(joint);
+    return static_cast<int>(joints.size()) - 1;
+  };
+  const int back = add(names[0], -1, {0, 0.8f, -0.4f});
+  const int breast = add(names[1], back, {0, 0.05f, 0.5f});
+  const int head = add(names[2], add(names[3], breast, {0, 0.12f, 0.15f}), {0, 0.22f, 0.12f});
+  joints[static_cast<size_t>(head)].ends = {{0, 0, 0.2f}};
+  for (const std::string side : {"L", "R"}) {
+    const float x = side == "L" ? 0.1f : -0.1f;
+    for (const int pair : {0, 1}) {
+      int joint = pair == 0 ? breast : back;
+      const Vec3 bones[] = {{x, -0.08f, 0.02f}, {0, -0.32f, 0}, {0, -0.3f, 0}, {0, -0.08f, 0.06f}};
+      for (int k = 0; k < 4; ++k) joint = add(names[4 + pair * 4 + k] + side, joint, bones[k]);
+    }
+  }
+  for (int f = 0; f < 20; ++f) {
+    clip.append(rest_clip(clip.skeleton).pose(0));
+    const Pose pose = clip.pose(f);
+    for (size_t j = 4; j < clip.joints(); j += 4) {
+      const float swing = 0.4f * std::sin(static_cast<float>(f) + static_cast<float>(j));
+      pose.rotations[j] = axis_angle({1, 0, 0}, swing);
+    }
+  }
+  return clip;
+}
+
+TEST(Doubtful, an_animal_on_four_legs_is_rejected_whatever_its_joints_are_called) {
+  const std::vector<std::string> horses[] = {
+      {"Pelvis", "Spine2", "Head", "Neck1", "Shoulder_", "Elbow_", "Wrist_", "FrontPaw_", "Hip_",
+       "Knee_", "Ankle_", "RearPaw_"},
+      {"b_Root", "b_Spine", "b_Head", "b_Neck", "b_Arm_", "b_Forearm_", "b_Hand_", "b_Fingers_",
+       "b_Thigh_", "b_Calf_", "b_Foot_", "b_Toe_"}};
+  for (const std::vector<std::string>& names : horses) {
+    const Result<Rig> rig = Rig::create(horse(names));
+    ASSERT_FALSE(rig.ok()) << names[4];
+    EXPECT_TRUE(rig.error().message.starts_with("no person: leftUpperArm would be '"))
+        << rig.error().message;
+  }
+  RigOptions given;
+  given.joints[index(hips)] = "b_Root";
+  EXPECT_TRUE(Rig::create(horse(horses[1]), given).ok());
+}
+
+// On hands and knees all the time, on a skeleton that stands upright at rest.
+TEST(Doubtful, a_person_who_crawls_is_none) {
+  Clip clip = walking_clip(20);
+  for (int f = 0; f < clip.frames; ++f) {
+    const Pose pose = clip.pose(f);
+    const auto turn = [&](HumanJoint joint, float angle) {
+      Quat& q = pose.rotations[static_cast<size_t>(index(joint))];
+      q = axis_angle({1, 0, 0}, angle) * q;
+    };
+    turn(hips, 1.5f);
+    for (const HumanJoint limb : {left_upper_arm, right_upper_arm, left_upper_leg, right_upper_leg})
+      turn(limb, -1.5f);
+  }
+  const Result<Rig> rig = Rig::create(clip);
+  EXPECT_TRUE(rig.ok()) << rig.error().message;
 }
 
 }  // namespace
