@@ -51,6 +51,8 @@ std::span<const MotionFormat> motion_formats();
 // Those that read_motion(path) knows from here on, for a program that reads more of them; manifests
 // may name such files then. Called before any thread reads; `formats` outlive everything.
 void set_motion_formats(std::span<const MotionFormat> formats);
+// The library's own, or what was set.
+std::span<const MotionFormat> known_motion_formats();
 
 // The extension of a file's name in lower case, with its point: ".bvh"; empty where it has none.
 std::string extension_of(const std::string& path);

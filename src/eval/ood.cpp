@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/parallel.h"
+#include "clip/motion_format.h"
 #include "eval/joint_limits.h"
 #include "eval/metrics.h"
 #include "eval/motion_metrics.h"
@@ -19,10 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kExtension = ".bvh";  // Of motion files in a folder.
-constexpr float kLimitTolerance_deg = 5;    // A joint this little beyond its limit is not counted.
-constexpr float kFloorTolerance = 0.03f;    // Metres.
-constexpr double kStill = 0.01;             // m/s: a coordinate that deviates less does not move.
+constexpr float kLimitTolerance_deg = 5;  // A joint this little beyond its limit is not counted.
+constexpr float kFloorTolerance = 0.03f;  // Metres.
+constexpr double kStill = 0.01;           // m/s: a coordinate that deviates less does not move.
 
 Result<OodRow> style_input(const System& system, const TestInput& input,
                            const StyleRequest& request, const OodJudge* judge) {
@@ -43,14 +43,6 @@ Result<OodRow> style_input(const System& system, const TestInput& input,
   const double log_rate = std::log(static_cast<double>(input.take.frames()) / output.frames());
   row.verdict = judge->judge(input.take, output, log_rate, request.style);
   return row;
-}
-
-std::string lower_case_extension(const fs::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return extension;
 }
 
 // Paths of the contents that no styled row has.
@@ -179,17 +171,20 @@ Result<std::vector<OodRow>> measure_ood(const std::vector<std::string>& files, c
 }
 
 Result<std::vector<std::string>> list_ood(const std::string& path) {
+  const std::span<const MotionFormat> formats = known_motion_formats();
   std::error_code status;
   std::vector<std::string> files;
   if (fs::is_directory(path, status)) {
     for (fs::recursive_directory_iterator at(path, status), end; !status && at != end;
          at.increment(status)) {
-      if (at->is_regular_file(status) && lower_case_extension(at->path()) == kExtension)
+      if (at->is_regular_file(status) && find_format(formats, extension_of(at->path().string()))) {
         files.push_back(at->path().string());
+      }
     }
     if (status) return Error{path + ": cannot be listed: " + status.message()};
-    if (files.empty()) return Error{path + ": holds no motion file (" + kExtension + ")"};
-  } else if (lower_case_extension(path) == ".csv") {
+    if (files.empty())
+      return Error{path + ": holds no motion file (" + list_extensions(formats) + ")"};
+  } else if (extension_of(path) == ".csv") {
     Result<std::vector<ManifestRow>> rows = read_manifest(path, 0);
     if (!rows) return rows.error();
     files = unstyled_files(*rows);

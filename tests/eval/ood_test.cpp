@@ -124,9 +124,14 @@ TEST_F(OodFiles, a_file_a_folder_and_a_manifest_are_listed) {
   namespace fs = std::filesystem;
   fs::create_directories(folder_ + "more");
   fs::copy(folder_ + "old.bvh", folder_ + "more/A.BVH");
+  ASSERT_TRUE(write_file(folder_ + "more/none.txt", "", true).ok());
   EXPECT_EQ(*list_ood(folder_ + "old.bvh"), std::vector{folder_ + "old.bvh"});
   EXPECT_EQ(*list_ood(folder_),
             (std::vector{folder_ + "more/A.BVH", folder_ + "neutral.bvh", folder_ + "old.bvh"}));
+
+  fs::rename(folder_ + "more/A.BVH", folder_ + "more/A.GLB");
+  EXPECT_EQ(list_ood(folder_ + "more")->size(), 1u);
+  fs::rename(folder_ + "more/A.GLB", folder_ + "more/A.BVH");
 
   // Walk is there in a style; only the bow is foreign.
   const std::string rows =
@@ -150,7 +155,7 @@ TEST_F(OodFiles, where_nothing_is_out_of_distribution_a_message_says_so) {
             "no/such/file.bvh: not found; expected a motion file, a folder or a manifest (.csv)");
   std::filesystem::create_directories(folder_ + "empty");
   EXPECT_EQ(list_ood(folder_ + "empty").error().message,
-            folder_ + "empty: holds no motion file (.bvh)");
+            folder_ + "empty: holds no motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc)");
 }
 
 TEST_F(OodFiles, every_file_is_styled_in_every_style) {
