@@ -5,6 +5,7 @@
 #include <cstring>
 #include <utility>
 
+#include "net/aligned_vector.h"
 #include "net/int8_rounding.h"
 
 // The sums live in an array, which vectors of a length unknown to the compiler cannot.
@@ -52,7 +53,7 @@ using Sums = hn::Vec<Wholes>;
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL || HWY_ARCH_ARM_A64
 constexpr size_t kMaxVectors = 8, kMaxRows = 8;
 #else
-constexpr size_t kMaxVectors = 4, kMaxRows = 4;
+constexpr size_t kMaxVectors = 6, kMaxRows = 4;
 #endif
 static_assert(kMaxRows <= kRowsAtOnce);
 // Inputs of a row, rounded, with room for whole vectors.
@@ -60,6 +61,8 @@ constexpr size_t kRowRoom = kMaxInt8Inputs + kPadding;
 
 // Numbers ahead of which weights are prefetched in a tile of one row: 2 KB.
 constexpr size_t kAhead = 1024;
+constexpr size_t kVectorsInLine =
+    HWY_MAX(kCacheLine / (sizeof(int16_t) * hn::MaxLanes(Shorts())), size_t{1});
 
 using Rounded = int16_t[kMaxRows][kRowRoom];
 
@@ -104,6 +107,14 @@ RoundedRow round_row(const float* x, size_t inputs, int16_t* out) {
   return {step.size, hn::GetLane(hn::SumOfLanes(di, sum))};
 }
 
+// Keeps GCC 12 from loading weights twice, and from copying sums to other registers and to memory.
+template <class V>
+HWY_INLINE void keep([[maybe_unused]] V& v) {
+#if HWY_ARCH_X86
+  __asm__("" : "+v"(v.raw));
+#endif
+}
+
 // Adds the products of neighbours; `other` holds what has no place in `sums`, where an instruction
 // set has it so.
 HWY_INLINE void add_pairs(hn::Vec<Shorts> a, hn::Vec<Shorts> b, Sums& sums, Sums& other) {
@@ -113,13 +124,7 @@ HWY_INLINE void add_pairs(hn::Vec<Shorts> a, hn::Vec<Shorts> b, Sums& sums, Sums
   __asm__("vpdpwssd %2, %1, %0" : "+v"(sums.raw) : "v"(a.raw), "v"(b.raw));
 #else
   sums = hn::ReorderWidenMulAccumulate(Wholes(), a, b, sums, other);
-#endif
-}
-
-// Keeps GCC 12 from loading weights twice, and from copying sums.
-HWY_INLINE void keep([[maybe_unused]] hn::Vec<Shorts>& v) {
-#if HWY_TARGET == HWY_AVX3_DL
-  __asm__("" : "+v"(v.raw));
+  keep(sums);
 #endif
 }
 
@@ -176,7 +181,9 @@ HWY_INLINE void int8_tile(const Int8Task& task, size_t first) {
     for (size_t v = 0; v < kVectors; ++v) {
       hn::Vec<Shorts> packed = hn::LoadU(ds, weights + v * 2 * lanes);
       keep(packed);
-      if (kRows == 1) hwy::Prefetch(weights + v * 2 * lanes + kAhead);
+      if (kRows == 1 && v % kVectorsInLine == 0) {
+        hwy::Prefetch(weights + v * 2 * lanes + kAhead);
+      }
       PANACHE_UNROLL
       for (size_t r = 0; r < kRows; ++r) add_pairs(packed, inputs[r], both[r][v], others[r][v]);
       packed = hn::ShiftRight<8>(packed);
