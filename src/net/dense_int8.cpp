@@ -132,7 +132,7 @@ struct Int8Task {
   const Int8Matrix* layer;
   const Rounded* x;
   const RoundedRow* rows;
-  Rows<float> y;  // Holds the bits of the sums, until all tiles are through.
+  Rows<float> y;
 };
 
 // The vectors of outputs that follow from those of both halves of their pairs. Where a vector holds
@@ -198,33 +198,32 @@ HWY_INLINE void int8_tile(const Int8Task& task, size_t first) {
   // Where a block goes that the last vector holds and the layer does not have.
   HWY_ALIGN float none[hn::MaxLanes(d)];
   PANACHE_UNROLL
-  for (size_t r = 0; r < kRows; ++r) {
-    float* row = task.y.row(r);
-    // What the offset of the lower weights has added to their sums.
-    const uint32_t offset = kLowWeightOffset * static_cast<uint32_t>(task.rows[r].sum);
+  for (size_t v = 0; v < kVectors; ++v) {
+    const size_t pair = first + v * lanes;
+    const size_t at = pair / kBlockPairs * kPadding + pair % kBlockPairs;
+    const bool has_second = at + kSecond < layer.outputs;
+    const size_t second = has_second ? at + kSecond : at;
+    const hn::Vec<Floats> first_scale = hn::LoadU(d, layer.scale + at);
+    const hn::Vec<Floats> second_scale = hn::LoadU(d, layer.scale + second);
+    const hn::Vec<Floats> first_bias = hn::LoadU(d, layer.bias + at);
+    const hn::Vec<Floats> second_bias = hn::LoadU(d, layer.bias + second);
     PANACHE_UNROLL
-    for (size_t v = 0; v < kVectors; ++v) {
-      const size_t pair = first + v * lanes;
-      const size_t at = pair / kBlockPairs * kPadding + pair % kBlockPairs;
+    for (size_t r = 0; r < kRows; ++r) {
+      const RoundedRow& rounded = task.rows[r];
+      float* row = task.y.row(r);
+      // What the offset of the lower weights has added to their sums.
+      const uint32_t offset = kLowWeightOffset * static_cast<uint32_t>(rounded.sum);
       const Sums upper = hn::RearrangeToOddPlusEven(high[r][v], high_others[r][v]);
       const Sums whole = hn::RearrangeToOddPlusEven(both[r][v], others[r][v]);
       const Sums lower = hn::Sub(hn::Sub(whole, hn::ShiftLeft<8>(upper)),
                                  hn::Set(di, static_cast<int32_t>(offset)));
-      hn::StoreU(hn::BitCast(d, first_outputs(lower, upper)), d, row + at);
-      hn::StoreU(hn::BitCast(d, second_outputs(lower, upper)), d,
-                 at + kSecond < layer.outputs ? row + at + kSecond : none);
+      const hn::Vec<Floats> step = hn::Set(d, rounded.step);
+      const hn::Vec<Floats> a = hn::ConvertTo(d, first_outputs(lower, upper));
+      const hn::Vec<Floats> b = hn::ConvertTo(d, second_outputs(lower, upper));
+      hn::StoreU(hn::Add(first_bias, hn::Mul(hn::Mul(step, first_scale), a)), d, row + at);
+      hn::StoreU(hn::Add(second_bias, hn::Mul(hn::Mul(step, second_scale), b)), d,
+                 has_second ? row + second : none);
     }
-  }
-}
-
-// Sums become outputs.
-HWY_INLINE void scale_sums(const Int8Matrix& layer, float step, float* HWY_RESTRICT y) {
-  const Floats d;
-  const float *scale = layer.scale, *bias = layer.bias;
-  for (size_t o = 0; o < layer.outputs; o += hn::Lanes(d)) {
-    const hn::Vec<Floats> sums = hn::ConvertTo(d, hn::BitCast(Wholes(), hn::LoadU(d, y + o)));
-    const hn::Vec<Floats> unit = hn::Mul(hn::Set(d, step), hn::LoadU(d, scale + o));
-    hn::StoreU(hn::Add(hn::LoadU(d, bias + o), hn::Mul(unit, sums)), d, y + o);
   }
 }
 
@@ -265,7 +264,6 @@ void dense_int8(const Rows<const float>& x, const Int8Matrix& layer, const Rows<
     } else {
       for (; vectors > 0; --vectors, first += lanes) kOneVector[rows - 1](task, first);
     }
-    for (size_t r = 0; r < rows; ++r) scale_sums(layer, about[r].step, task.y.row(r));
     row += rows;
   }
 }
