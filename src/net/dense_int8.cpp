@@ -110,18 +110,20 @@ RoundedRow round_row(const float* x, size_t inputs, int16_t* out) {
 // Keeps GCC 12 from loading weights twice, and from copying sums to other registers and to memory.
 template <class V>
 HWY_INLINE void keep([[maybe_unused]] V& v) {
-#if HWY_ARCH_X86
+#if HWY_ARCH_X86 && HWY_COMPILER_GCC_ACTUAL
   __asm__("" : "+v"(v.raw));
 #endif
 }
 
 // Adds the products of neighbours; `other` holds what has no place in `sums`, where an instruction
 // set has it so.
-HWY_INLINE void add_pairs(hn::Vec<Shorts> a, hn::Vec<Shorts> b, Sums& sums, Sums& other) {
-#if HWY_TARGET == HWY_AVX3_DL
-  (void)other;
+HWY_INLINE void add_pairs(hn::Vec<Shorts> a, hn::Vec<Shorts> b, Sums& sums,
+                          [[maybe_unused]] Sums& other) {
+#if HWY_TARGET == HWY_AVX3_DL && HWY_COMPILER_GCC_ACTUAL
   // Not by the intrinsic, with which GCC 12 copies each sum to another register and back.
   __asm__("vpdpwssd %2, %1, %0" : "+v"(sums.raw) : "v"(a.raw), "v"(b.raw));
+#elif HWY_TARGET == HWY_AVX3_DL
+  sums.raw = _mm512_dpwssd_epi32(sums.raw, a.raw, b.raw);
 #else
   sums = hn::ReorderWidenMulAccumulate(Wholes(), a, b, sums, other);
   keep(sums);
