@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "messages.h"
+#include "sandbox.h"
 
 namespace panache::cli {
 namespace {
@@ -87,7 +88,9 @@ Result<std::string> run_in_child(const std::vector<std::string>& arguments,
   return answer;
 }
 
-int answer_as_child(const std::function<Result<std::string>()>& work, int seconds) {
+int answer_as_child(const std::function<Result<std::string>()>& read,
+                    const std::function<Result<std::string>(const std::string&)>& work,
+                    int seconds) {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, static_cast<rlim_t>(seconds));
 #ifndef PANACHE_SANITIZED  // It reserves more addresses than there is memory.
@@ -99,7 +102,11 @@ int answer_as_child(const std::function<Result<std::string>()>& work, int second
   ::dup2(nowhere, STDOUT_FILENO);
   ::dup2(nowhere, STDERR_FILENO);
   try {
-    const Result<std::string> done = work();
+    const Result<std::string> bytes = read();
+#ifndef PANACHE_SANITIZED  // It looks at other processes and files of the system at the end.
+    lock_down(out);
+#endif
+    const Result<std::string> done = bytes ? work(*bytes) : bytes.error();
     const std::string& text = done ? *done : done.error().message;
     const char mark = done ? kGood : kBad;
     return write_all(out, &mark, 1) && write_all(out, text.data(), text.size()) ? kDone : kBadInput;

@@ -16,8 +16,11 @@ namespace panache::cli {
 Result<std::string> run_in_child(const std::vector<std::string>& arguments,
                                  const std::string& breakdown);
 
-// The child's side: does `work` within 8 GB of memory and `seconds` of the processor, and hands its
-// result to the parent. What `work` prints goes nowhere. Returns the exit code.
-int answer_as_child(const std::function<Result<std::string>()>& work, int seconds);
+// The child's side: does `work` with what `read` has read, and hands its result to the parent. Both
+// have 8 GB of memory and `seconds` of the processor, and what they print goes nowhere. Only `read`
+// can reach files: `work` is locked down (sandbox.h). Returns the exit code.
+int answer_as_child(const std::function<Result<std::string>()>& read,
+                    const std::function<Result<std::string>(const std::string&)>& work,
+                    int seconds);
 
 }  // namespace panache::cli

@@ -25,18 +25,22 @@ bool is_fbx(const std::string& bytes) {
          (start.find("FBX") != std::string::npos && start.find('\0') == std::string::npos);
 }
 
-Result<std::string> convert(const std::string& path) {
-  const Result<std::string> bytes = read_file(path);
+Result<std::string> read_fbx(const std::string& path) {
+  Result<std::string> bytes = read_file(path);
   if (!bytes) return bytes.error();
   if (bytes->size() > kLargestFile) {
     return Error{path + ": is larger than 1 GB; expected a smaller FBX file, or the same as GLB"};
   }
   if (!is_fbx(*bytes)) return Error{path + ": does not begin as FBX files do; is it damaged?"};
+  return bytes;
+}
+
+Result<std::string> convert(const std::string& bytes, const std::string& path) {
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_CAMERAS, false);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_LIGHTS, false);
-  if (!importer.ReadFileFromMemory(bytes->data(), bytes->size(), 0, "fbx")) {
+  if (!importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "fbx")) {
     return Error{path + ": cannot be read as FBX: " + importer.GetErrorString()};
   }
   const std::unique_ptr<aiScene> scene(importer.GetOrphanedScene());
@@ -62,7 +66,9 @@ Result<std::string> fbx_to_glb(const std::string& path) {
 }
 
 int read_fbx_as_child(const std::string& path) {
-  return answer_as_child([&] { return convert(path); }, kLongestRead);
+  return answer_as_child([&] { return read_fbx(path); },
+                         [&](const std::string& bytes) { return convert(bytes, path); },
+                         kLongestRead);
 }
 
 }  // namespace panache::cli

@@ -12,8 +12,8 @@ namespace panache::cli {
 // where it says, nor beside it, become white.
 //
 // Assimp's readers have a history of memory errors, so they run in a process of their own with
-// bounds on memory and time: whatever a damaged file does to it ends as a message. A build without
-// Assimp has only a message too.
+// bounds on memory and time, which can reach neither files nor networks (sandbox.h): whatever a
+// damaged file does to it ends as a message. A build without Assimp has only a message too.
 Result<std::string> fbx_to_glb(const std::string& path);
 
 // The first argument that makes this program the process that reads the file named by the second,

@@ -47,11 +47,14 @@ Result<std::vector<float>> read_styles(const std::vector<std::string>& texts, co
 }
 
 // What is sent to the port that is listened at would come in again, and again.
-Result<void> check_no_circle(uint16_t in, const sockaddr_in& out) {
-  const uint32_t host = ntohl(out.sin_addr.s_addr);
-  if (ntohs(out.sin_port) != in || (host != INADDR_ANY && host >> 24 != IN_LOOPBACKNET)) return {};
+Result<void> check_no_circle(const sockaddr_in& in, const sockaddr_in& out) {
+  const uint32_t from = ntohl(in.sin_addr.s_addr), to = ntohl(out.sin_addr.s_addr);
+  const bool to_itself =
+      from == to || ((from == INADDR_ANY || from >> 24 == IN_LOOPBACKNET) && to == INADDR_ANY) ||
+      (from == INADDR_ANY && to >> 24 == IN_LOOPBACKNET);
+  if (out.sin_port != in.sin_port || !to_itself) return {};
   return Error{"--vmc-out: expected another port than that of --vmc-in, found " +
-               std::to_string(in) + " for both"};
+               std::to_string(ntohs(in.sin_port)) + " for both"};
 }
 
 Result<void> check_record(const Options& options) {
@@ -95,7 +98,7 @@ Result<void> write_recording(const VmcRecording& recording, const Options& optio
 }
 
 int live(const Options& options) {
-  Result<uint16_t> in = parse_port(options.in, "--vmc-in");
+  Result<sockaddr_in> in = parse_address(options.in, "--vmc-in", "0.0.0.0");
   if (!in) return fail(in.error(), kBadUsage);
   Result<sockaddr_in> out = parse_address(options.out, "--vmc-out");
   if (!out) return fail(out.error(), kBadUsage);
@@ -127,7 +130,7 @@ int live(const Options& options) {
   VmcRelay relay(*std::move(socket), *out, *std::move(model), how, *std::move(strengths),
                  options.record.empty() ? nullptr : &recording);
   if (!options.quiet) {
-    print_message("relaying from port " + std::to_string(*in) + " to " + to_string(*out) +
+    print_message("relaying from " + listened_at(*in) + " to " + to_string(*out) +
                   " until Ctrl-C ends it");
   }
   const double begin = stamp_now();
@@ -143,8 +146,10 @@ int live(const Options& options) {
 void add_live(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("live", "Restyle live motion (VMC protocol)");
   auto options = std::make_shared<Options>();
-  verb->add_option("--vmc-in", options->in, "Port that trackers send to; default: 39539")
-      ->type_name("PORT");
+  verb->add_option("--vmc-in", options->in,
+                   "Port that trackers send to: PORT of all addresses of\n"
+                   "this machine, or HOST:PORT of one; default: 39539")
+      ->type_name("ADDRESS");
   verb->add_option("--vmc-out", options->out,
                    "Port of the avatars: PORT on this machine or\nHOST:PORT; default: 39540")
       ->type_name("ADDRESS");

@@ -21,6 +21,13 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kAddress = "127.0.0.1";
+constexpr int kForbidden = 403, kMethodNotAllowed = 405;
+// What the page may do: run its own scripts and its WebAssembly, read its own files and those that
+// a user opens, and be shown in no page of others.
+constexpr const char* kPolicy =
+    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; "
+    "img-src 'self' data: blob:; media-src blob:; connect-src 'self' data: blob:; "
+    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 // A file as the page takes it, and what to call it there.
 struct Served {
@@ -71,10 +78,21 @@ std::string percent_encoded(const std::string& text) {
   return out;
 }
 
-// Pages of others must not reach this server under a name of theirs that leads to this machine.
-bool is_own_host(const std::string& host, int port) {
+// Pages of others must not reach this server: neither under a name of theirs that leads to this
+// machine, nor by requests that their browsers send here.
+int status_of(const httplib::Request& request, int port) {
   const std::string end = ":" + std::to_string(port);
-  return host == kAddress + end || host == "localhost" + end;
+  const auto is_own = [&](const std::string& host) {
+    return host == kAddress + end || host == "localhost" + end;
+  };
+  if (request.get_header_value_count("Host") != 1 || !is_own(request.get_header_value("Host"))) {
+    return kForbidden;
+  }
+  for (size_t i = 0; i < request.get_header_value_count("Origin"); ++i) {
+    const std::string origin = request.get_header_value("Origin", i), scheme = "http://";
+    if (!origin.starts_with(scheme) || !is_own(origin.substr(scheme.size()))) return kForbidden;
+  }
+  return request.method == "GET" || request.method == "HEAD" ? 0 : kMethodNotAllowed;
 }
 
 int view(const std::string& path) {
@@ -91,7 +109,12 @@ int view(const std::string& path) {
   // With these a page may read a finer clock, which the times of a step are told by.
   server.set_default_headers({{"Cross-Origin-Opener-Policy", "same-origin"},
                               {"Cross-Origin-Embedder-Policy", "require-corp"},
+                              {"Cross-Origin-Resource-Policy", "same-origin"},
+                              {"Content-Security-Policy", kPolicy},
+                              {"X-Content-Type-Options", "nosniff"},
                               {"Cache-Control", "no-cache"}});
+  // What follows a rejected request on its connection is not read as another one.
+  server.set_keep_alive_max_count(1);
   const int port = server.bind_to_any_port(kAddress);
   if (port < 0 || !server.set_mount_point("/", *page)) {
     return fail({"no port of " + std::string(kAddress) + " is free to serve the page on"},
@@ -99,10 +122,9 @@ int view(const std::string& path) {
   }
   server.set_pre_routing_handler(
       [port](const httplib::Request& request, httplib::Response& answer) {
-        if (is_own_host(request.get_header_value("Host"), port)) {
-          return httplib::Server::HandlerResponse::Unhandled;
-        }
-        answer.status = 403;
+        const int status = status_of(request, port);
+        if (status == 0) return httplib::Server::HandlerResponse::Unhandled;
+        answer.status = status;
         return httplib::Server::HandlerResponse::Handled;
       });
   if (!path.empty()) {

@@ -21,6 +21,14 @@ constexpr int kRoom = 1 << 22;  // Bytes; three senders of 90 Hz fill a quarter 
 
 Error no_socket() { return Error{std::string("there is no socket: ") + std::strerror(errno)}; }
 
+Result<uint16_t> parse_port(const std::string& text, const std::string& option) {
+  uint16_t port = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, failure] = std::from_chars(text.data(), end, port);
+  if (failure == std::errc() && stop == end && port > 0) return port;
+  return Error{option + ": expected a port from 1 to 65535, found " + panache::quoted(text)};
+}
+
 double seconds_of(const timespec& time) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
@@ -32,17 +40,10 @@ void switch_on(int file, int option) {
 
 }  // namespace
 
-Result<uint16_t> parse_port(const std::string& text, const std::string& option) {
-  uint16_t port = 0;
-  const char* end = text.data() + text.size();
-  const auto [stop, failure] = std::from_chars(text.data(), end, port);
-  if (failure == std::errc() && stop == end && port > 0) return port;
-  return Error{option + ": expected a port from 1 to 65535, found " + panache::quoted(text)};
-}
-
-Result<sockaddr_in> parse_address(const std::string& text, const std::string& option) {
+Result<sockaddr_in> parse_address(const std::string& text, const std::string& option,
+                                  const std::string& default_host) {
   const size_t colon = text.rfind(':');
-  const std::string host = colon == std::string::npos ? "127.0.0.1" : text.substr(0, colon);
+  const std::string host = colon == std::string::npos ? default_host : text.substr(0, colon);
   const std::string digits = colon == std::string::npos ? text : text.substr(colon + 1);
   Result<uint16_t> port = parse_port(digits, option);
   if (!port) return port.error();
@@ -69,6 +70,11 @@ std::string to_string(const sockaddr_in& address) {
   return std::string(host) + ":" + std::to_string(ntohs(address.sin_port));
 }
 
+std::string listened_at(const sockaddr_in& address) {
+  if (address.sin_addr.s_addr != htonl(INADDR_ANY)) return to_string(address);
+  return "port " + std::to_string(ntohs(address.sin_port));
+}
+
 bool same_address(const sockaddr_in& a, const sockaddr_in& b) {
   return a.sin_addr.s_addr == b.sin_addr.s_addr && a.sin_port == b.sin_port;
 }
@@ -85,19 +91,15 @@ Result<UdpSocket> UdpSocket::open() {
   return UdpSocket(file);
 }
 
-Result<UdpSocket> UdpSocket::listen(uint16_t port, const std::string& option) {
+Result<UdpSocket> UdpSocket::listen(const sockaddr_in& address, const std::string& option) {
   Result<UdpSocket> socket = open();
   if (!socket) return socket;
   const int file = socket->file();
   ::setsockopt(file, SOL_SOCKET, SO_RCVBUF, &kRoom, sizeof kRoom);
   switch_on(file, SO_TIMESTAMPNS);
   switch_on(file, SO_RXQ_OVFL);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_ANY);
-  address.sin_port = htons(port);
   if (::bind(file, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
-    return Error{option + ": cannot listen at port " + std::to_string(port) + ": " +
+    return Error{option + ": cannot listen at " + listened_at(address) + ": " +
                  std::strerror(errno)};
   }
   return socket;

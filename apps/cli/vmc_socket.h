@@ -13,13 +13,14 @@
 
 namespace panache::cli {
 
-// "127.0.0.1:39540", "puppet.local:39540" or "39540" of this machine. The host is looked up. The
-// message of a failure begins with `option`.
-Result<sockaddr_in> parse_address(const std::string& text, const std::string& option);
-// A port from 1 to 65535, likewise.
-Result<uint16_t> parse_port(const std::string& text, const std::string& option);
+// "192.168.1.20:39540", "puppet.local:39540", or "39540" of `default_host`. The host is
+// looked up. The message of a failure begins with `option`.
+Result<sockaddr_in> parse_address(const std::string& text, const std::string& option,
+                                  const std::string& default_host = "127.0.0.1");
 // "127.0.0.1:39540"
 std::string to_string(const sockaddr_in& address);
+// The same, or "port 39539" of all of the machine's addresses.
+std::string listened_at(const sockaddr_in& address);
 // The same machine and port.
 bool same_address(const sockaddr_in& a, const sockaddr_in& b);
 
@@ -35,8 +36,9 @@ struct Datagram {
 // An IPv4 socket; closed at the end of its life.
 class UdpSocket {
  public:
-  // Listens at `port` on all of the machine's addresses, with room for about a second of datagrams.
-  static Result<UdpSocket> listen(uint16_t port, const std::string& option);
+  // Listens at an address of this machine, or at all of them (0.0.0.0), with room for about a
+  // second of datagrams.
+  static Result<UdpSocket> listen(const sockaddr_in& address, const std::string& option);
   // Only sends.
   static Result<UdpSocket> open();
 

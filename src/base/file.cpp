@@ -20,11 +20,16 @@ Result<std::string> read_file(const std::string& path) {
   const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
   if (!file) return Error{path + ": cannot be read: " + std::strerror(errno)};
   std::string bytes;
+  const Error too_large{path + ": is larger than 2 GB; expected a smaller file"};
   const auto size = std::filesystem::file_size(path, status);
+  if (!status && size > kMaxFileBytes) return too_large;
   if (!status) bytes.reserve(size);
   char block[1 << 16];
   size_t n;
-  while ((n = std::fread(block, 1, sizeof block, file.get())) > 0) bytes.append(block, n);
+  while ((n = std::fread(block, 1, sizeof block, file.get())) > 0) {
+    if (bytes.size() + n > kMaxFileBytes) return too_large;
+    bytes.append(block, n);
+  }
   if (std::ferror(file.get())) return Error{path + ": cannot be read: " + std::strerror(errno)};
   return bytes;
 }

@@ -1,12 +1,16 @@
 #pragma once
 // Whole files in, whole files out.
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
 #include "base/result.h"
 
 namespace panache {
+
+// No file is larger, in bytes: what goes on for ever would else take all memory.
+inline constexpr uint64_t kMaxFileBytes = uint64_t{1} << 31;
 
 // The bytes of the file at `path`. The message names the path and the cause ("walk.bvh: cannot be
 // read: No such file or directory").

@@ -16,7 +16,7 @@ constexpr uint32_t kJsonChunk = 0x4e4f534a;  // "JSON"
 constexpr uint32_t kBinChunk = 0x004e4942;   // "BIN\0"
 constexpr size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
 // Half of what the 32-bit lengths of a GLB can say, so that there is room for new motion.
-constexpr size_t kMaxFileBytes = size_t{1} << 31;
+static_assert(kMaxFileBytes == uint64_t{1} << 31);
 // Of all other files together: a small file can point to the same large one again and again.
 constexpr size_t kMaxFetchedBytes = size_t{1} << 30;
 

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -244,8 +245,10 @@ Result<Tensor> read_tensor(const Entry& entry, std::string_view data, const std:
 
 // Rejects tensors that share bytes, and bytes that no tensor has.
 Result<void> check_coverage(std::vector<Entry>& entries, uint64_t bytes, const std::string& name) {
-  std::sort(entries.begin(), entries.end(),
-            [](const Entry& a, const Entry& b) { return a.offsets < b.offsets; });
+  // Not as vectors: the library of GCC 12 compares too few bytes of those on big-endian machines.
+  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    return std::pair(a.offsets[0], a.offsets[1]) < std::pair(b.offsets[0], b.offsets[1]);
+  });
   uint64_t covered = 0;
   for (const Entry& entry : entries) {
     const uint64_t begin = entry.offsets[0];

@@ -1,47 +1,13 @@
 // Motion files in memory.
 #include <memory>
-#include <sstream>
 
 #include "stick_api.h"
 
 namespace {
 
-constexpr int kFrames = 60;
+using panache::test::walk_bvh;
 
-// The stick figure's walk as a BVH file in centimetres; its joints turn about x alone.
-std::string walk_bvh(int frames = kFrames) {
-  std::ostringstream out;
-  out << std::fixed << "HIERARCHY\n";
-  int open = 0;
-  const auto depth = [](int joint) {
-    int d = 0;
-    while ((joint = stick_figure[joint].parent) >= 0) ++d;
-    return d;
-  };
-  for (int j = 0; j < STICK_JOINTS; ++j) {
-    for (; open > depth(j); --open) out << "}\n";
-    const float* v = stick_figure[j].translation;
-    out << (j ? "JOINT " : "ROOT ") << stick_figure[j].name << "\n{\nOFFSET " << 100 * v[0] << ' '
-        << 100 * v[1] << ' ' << 100 * v[2] << "\nCHANNELS "
-        << (j ? "3 " : "6 Xposition Yposition Zposition ") << "Xrotation Yrotation Zrotation\n";
-    ++open;
-    if (j + 1 == STICK_JOINTS || stick_figure[j + 1].parent != j) {
-      out << "End Site\n{\nOFFSET 0 0 5\n}\n";
-    }
-  }
-  for (; open > 0; --open) out << "}\n";
-  out << "MOTION\nFrames: " << frames << "\nFrame Time: 0.016667\n";
-  for (int f = 0; f < frames; ++f) {
-    stick_pose pose;
-    stick_walk(f / 60.0, 0, &pose);
-    for (const float x : pose.translations[0]) out << 100 * x << ' ';
-    for (int j = 0; j < STICK_JOINTS; ++j) {
-      const double angle = 2 * std::atan2(pose.rotations[j][0], pose.rotations[j][3]);
-      out << angle * 180 / M_PI << " 0 0" << (j + 1 < STICK_JOINTS ? " " : "\n");
-    }
-  }
-  return out.str();
-}
+constexpr int kFrames = 60;
 
 struct Destroy {
   void operator()(panache_motion_file* file) const { panache_motion_file_destroy(file); }
@@ -76,7 +42,7 @@ std::string write(const File& file, const panache_clip_edit& edit) {
 class MotionFileApi : public panache::test::StickApi {};
 
 TEST_F(MotionFileApi, a_file_tells_its_joints_and_motions) {
-  const File file = open(walk_bvh());
+  const File file = open(walk_bvh(kFrames));
   ASSERT_EQ(panache_motion_file_joint_count(file.get()), STICK_JOINTS);
   panache_joint joint;
   panache_motion_file_get_joint(file.get(), 14, &joint);
@@ -102,7 +68,7 @@ TEST_F(MotionFileApi, a_file_tells_its_joints_and_motions) {
 }
 
 TEST_F(MotionFileApi, what_is_not_changed_keeps_its_bytes) {
-  const std::string text = walk_bvh();
+  const std::string text = walk_bvh(kFrames);
   const File file = open(text);
   panache_clip_edit edit = {0, nullptr, clip_of(file), nullptr};
   EXPECT_EQ(write(file, edit), text);
@@ -132,7 +98,7 @@ TEST_F(MotionFileApi, what_is_not_changed_keeps_its_bytes) {
 }
 
 TEST_F(MotionFileApi, a_motion_is_styled_and_written) {
-  const File file = open(walk_bvh());
+  const File file = open(walk_bvh(kFrames));
   panache_skeleton* skeleton = nullptr;
   ASSERT_EQ(panache_motion_file_create_skeleton(file.get(), 0, nullptr, &skeleton), PANACHE_OK)
       << panache_last_error();
@@ -167,7 +133,7 @@ TEST_F(MotionFileApi, a_motion_is_styled_and_written) {
 }
 
 TEST_F(MotionFileApi, a_new_motion_takes_the_place_of_a_bvh_files_own) {
-  const File file = open(walk_bvh());
+  const File file = open(walk_bvh(kFrames));
   panache_clip frames = clip_of(file);
   frames.frame_count = 5;
   frames.frame_seconds = 0.05;
@@ -185,9 +151,9 @@ TEST_F(MotionFileApi, what_is_wrong_with_a_file_is_said) {
     return std::string(panache_last_error());
   };
   EXPECT_EQ(
-      rejection(walk_bvh(), "walk"),
+      rejection(walk_bvh(kFrames), "walk"),
       "walk: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc), found no extension");
-  EXPECT_EQ(rejection(walk_bvh(), "walk.fbx"),
+  EXPECT_EQ(rejection(walk_bvh(kFrames), "walk.fbx"),
             "walk.fbx: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc), found the "
             "extension "
             "'.fbx'");
@@ -204,7 +170,7 @@ TEST_F(MotionFileApi, what_is_wrong_with_a_file_is_said) {
             PANACHE_BAD_ARGUMENT);
   EXPECT_STREQ(panache_last_error(), "walk.bvh: there is no motion 1; it has 1");
   const panache_skeleton_options zeros{};
-  EXPECT_EQ(panache_motion_file_create_skeleton(open(walk_bvh()).get(), 0, &zeros, &none),
+  EXPECT_EQ(panache_motion_file_create_skeleton(open(walk_bvh(kFrames)).get(), 0, &zeros, &none),
             PANACHE_BAD_ARGUMENT);
 }
 
@@ -234,7 +200,7 @@ TEST_F(MotionFileApi, a_vrm_animation_takes_one_edit) {
 }
 
 TEST_F(MotionFileApi, what_is_wrong_with_an_edit_is_said) {
-  const File file = open(walk_bvh());
+  const File file = open(walk_bvh(kFrames));
   const panache_clip clip = clip_of(file);
   const auto rejection = [&](std::vector<panache_clip_edit> edits, int mode = 0) {
     panache_bytes* none = nullptr;

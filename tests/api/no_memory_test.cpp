@@ -1,18 +1,15 @@
 // What the C interface does where there is no memory: it says so, and its host lives on.
-#include <fstream>
-#include <iterator>
+#include <cstdio>
 #include <string>
 #include <vector>
 
-#include <gtest/gtest.h>
-
-#include "../../samples/common/stick_figure.h"
 #include "../count_allocations.h"
-#include "panache/panache.h"
+#include "stick_api.h"
 
 namespace {
 
 using panache::test::allocations_left;
+using panache::test::model_bytes;
 
 constexpr const char* kNoMemory = "out of memory";
 
@@ -23,11 +20,6 @@ panache_status with_allocations(long count, Work&& work) {
   const panache_status status = work();
   allocations_left = LONG_MAX;
   return status;
-}
-
-std::string model_bytes() {
-  std::ifstream file(PANACHE_SOURCE_DIR "/models/panache.safetensors", std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 void leave_another_error() {
@@ -95,6 +87,115 @@ TEST(NoMemory, learning_says_so_in_any_of_its_threads_and_does_not_end_its_host)
     EXPECT_STREQ(panache_last_error(), kNoMemory);
   }
   panache_skeleton_destroy(skeleton);
+}
+
+// Each allocation of a call fails once, or each `step`-th where there are many. The call puts what
+// it makes into `made`, which `destroy` takes back; the first one without a failure succeeds.
+template <class Made, class Call, class Destroy>
+void starve(const char* name, Call&& call, Destroy&& destroy, long step = 1) {
+  SCOPED_TRACE(name);
+  long allowed = 0, failed = 0;
+  for (;; allowed += step, ++failed) {
+    Made* made = nullptr;
+    leave_another_error();
+    const panache_status status = with_allocations(allowed, [&] { return call(&made); });
+    if (status == PANACHE_OK) {
+      EXPECT_NE(made, nullptr);
+      destroy(made);
+      break;
+    }
+    ASSERT_EQ(status, PANACHE_NO_MEMORY) << allowed << " allocations: " << panache_last_error();
+    ASSERT_EQ(made, nullptr) << allowed;
+    ASSERT_STREQ(panache_last_error(), kNoMemory) << allowed;
+  }
+  EXPECT_GT(failed, 0);
+  std::printf("%s: %ld allocations failed\n", name, failed);
+}
+
+class Starved : public panache::test::StickApi {};
+
+TEST_F(Starved, models_and_styles_say_so_at_every_allocation) {
+  constexpr long kStep = 5;
+  const std::string bytes = panache::test::file_bytes("panache-base.safetensors");
+  const Walk neutral(0), bent(0.4f);
+  const panache_pair pair = {neutral.clip(skeleton_), bent.clip(skeleton_)};
+  panache_learnt* learnt = nullptr;
+  ASSERT_EQ(panache_learn(bytes.data(), bytes.size(), &pair, 1, "bent", 0, &learnt), PANACHE_OK)
+      << panache_last_error();
+  size_t size = 0;
+  const void* model = panache_learnt_model(learnt, &size);
+  starve<panache_model>(
+      "panache_model_create", [&](auto** out) { return panache_model_create(model, size, out); },
+      panache_model_destroy, kStep);
+  panache_bytes* style = nullptr;
+  ASSERT_EQ(panache_styles_extract(model, size, "bent", &style), PANACHE_OK);
+  starve<panache_bytes>(
+      "panache_styles_extract",
+      [&](auto** out) { return panache_styles_extract(model, size, "bent", out); },
+      panache_bytes_destroy, kStep);
+  starve<panache_bytes>(
+      "panache_styles_add",
+      [&](auto** out) {
+        return panache_styles_add(model, size, panache_bytes_data(style), panache_bytes_size(style),
+                                  1, out);
+      },
+      panache_bytes_destroy, kStep);
+  panache_bytes_destroy(style);
+  panache_learnt_destroy(learnt);
+}
+
+TEST_F(Starved, skeletons_characters_and_clips_say_so_at_every_allocation) {
+  starve<panache_skeleton>(
+      "panache_skeleton_create",
+      [&](auto** out) { return panache_skeleton_create(stick_figure, STICK_JOINTS, nullptr, out); },
+      panache_skeleton_destroy);
+  panache_character_options options = PANACHE_CHARACTER_OPTIONS;
+  options.max_lag = 1;
+  options.max_lead = 0.1;
+  options.skip_cycles = 1;
+  starve<panache_character>(
+      "panache_character_create",
+      [&](auto** out) { return panache_character_create(model_, skeleton_, &options, out); },
+      panache_character_destroy);
+  const Walk walk(0);
+  const panache_clip clip = walk.clip(skeleton_);
+  const panache_strength_key key = {0, 1};
+  const panache_strength_track track = {panache_model_find_style(model_, "old"), 1, &key};
+  starve<panache_styled_clip>(
+      "panache_stylize_clip",
+      [&](auto** out) { return panache_stylize_clip(model_, &clip, &track, 1, nullptr, out); },
+      panache_styled_clip_destroy);
+  starve<panache_styled_clip>(
+      "panache_retarget_clip",
+      [&](auto** out) { return panache_retarget_clip(&clip, skeleton_, nullptr, out); },
+      panache_styled_clip_destroy);
+  const panache_pair pair = {clip, clip};
+  starve<panache_samples>(
+      "panache_samples_create", [&](auto** out) { return panache_samples_create(&pair, 1, out); },
+      panache_samples_destroy);
+}
+
+TEST_F(Starved, motion_files_say_so_at_every_allocation) {
+  const std::string bytes = panache::test::walk_bvh(20);
+  starve<panache_motion_file>(
+      "panache_motion_file_create",
+      [&](auto** out) {
+        return panache_motion_file_create(bytes.data(), bytes.size(), "walk.bvh", out);
+      },
+      panache_motion_file_destroy);
+  panache_motion_file* file = nullptr;
+  ASSERT_EQ(panache_motion_file_create(bytes.data(), bytes.size(), "walk.bvh", &file), PANACHE_OK);
+  starve<panache_skeleton>(
+      "panache_motion_file_create_skeleton",
+      [&](auto** out) { return panache_motion_file_create_skeleton(file, 0, nullptr, out); },
+      panache_skeleton_destroy);
+  panache_clip_edit edit{};
+  ASSERT_EQ(panache_motion_file_get_clip(file, 0, &edit.frames), PANACHE_OK);
+  starve<panache_bytes>(
+      "panache_motion_file_write",
+      [&](auto** out) { return panache_motion_file_write(file, &edit, 1, PANACHE_REPLACE, out); },
+      panache_bytes_destroy);
+  panache_motion_file_destroy(file);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,46 @@
 
 namespace panache::test {
 
-inline std::string model_bytes() {
-  std::ifstream file(PANACHE_SOURCE_DIR "/models/panache.safetensors", std::ios::binary);
+// The bytes of a shipped model.
+inline std::string file_bytes(const char* name) {
+  std::ifstream file(std::string(PANACHE_SOURCE_DIR "/models/") + name, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
+}
+inline std::string model_bytes() { return file_bytes("panache.safetensors"); }
+
+// The stick figure's walk as a BVH file in centimetres; its joints turn about x alone.
+inline std::string walk_bvh(int frames) {
+  std::ostringstream out;
+  out << std::fixed << "HIERARCHY\n";
+  int open = 0;
+  const auto depth = [](int joint) {
+    int d = 0;
+    while ((joint = stick_figure[joint].parent) >= 0) ++d;
+    return d;
+  };
+  for (int j = 0; j < STICK_JOINTS; ++j) {
+    for (; open > depth(j); --open) out << "}\n";
+    const float* v = stick_figure[j].translation;
+    out << (j ? "JOINT " : "ROOT ") << stick_figure[j].name << "\n{\nOFFSET " << 100 * v[0] << ' '
+        << 100 * v[1] << ' ' << 100 * v[2] << "\nCHANNELS "
+        << (j ? "3 " : "6 Xposition Yposition Zposition ") << "Xrotation Yrotation Zrotation\n";
+    ++open;
+    if (j + 1 == STICK_JOINTS || stick_figure[j + 1].parent != j) {
+      out << "End Site\n{\nOFFSET 0 0 5\n}\n";
+    }
+  }
+  for (; open > 0; --open) out << "}\n";
+  out << "MOTION\nFrames: " << frames << "\nFrame Time: 0.016667\n";
+  for (int f = 0; f < frames; ++f) {
+    stick_pose pose;
+    stick_walk(f / 60.0, 0, &pose);
+    for (const float x : pose.translations[0]) out << 100 * x << ' ';
+    for (int j = 0; j < STICK_JOINTS; ++j) {
+      const double angle = 2 * std::atan2(pose.rotations[j][0], pose.rotations[j][3]);
+      out << angle * 180 / M_PI << " 0 0" << (j + 1 < STICK_JOINTS ? " " : "\n");
+    }
+  }
+  return out.str();
 }
 
 class StickApi : public testing::Test {

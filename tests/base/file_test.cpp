@@ -42,6 +42,15 @@ TEST_F(WriteFile, makes_folders_and_leaves_nothing_else) {
   EXPECT_EQ(std::distance(fs::directory_iterator(path("a/b")), fs::directory_iterator()), 1);
 }
 
+TEST_F(WriteFile, a_file_of_more_than_2_GB_is_rejected_before_it_is_read) {
+  ASSERT_TRUE(write_file(path("large"), "", false).ok());
+  fs::resize_file(path("large"), kMaxFileBytes + 1);  // Takes no room: it is one hole.
+  const Result<std::string> bytes = read_file(path("large"));
+  ASSERT_FALSE(bytes.ok());
+  EXPECT_EQ(bytes.error().message,
+            path("large") + ": is larger than 2 GB; expected a smaller file");
+}
+
 TEST_F(WriteFile, an_existing_file_is_replaced_only_by_force) {
   ASSERT_TRUE(write_file(path("a"), "old and longer", false).ok());
   EXPECT_EQ(rejection("a", false), "a: exists already");

@@ -1,5 +1,7 @@
 // FBX files, which come in through Assimp and go on as GLB.
 
+#include <csignal>
+
 #include <nlohmann/json.hpp>
 
 #include "cli/make_fbx.h"
@@ -83,6 +85,29 @@ TEST_F(Fbx, only_what_moves_can_move) {
     EXPECT_EQ(joint.can_translate, joint.name == "hips" || joint.parent < 0) << joint.name;
   }
 }
+
+#if defined(PANACHE_SECCOMP) && !defined(PANACHE_SANITIZED)  // Not under the sanitizers.
+TEST_F(Fbx, the_process_that_reads_it_is_locked_before_it_answers) {
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  ASSERT_GT(::fcntl(ends[1], F_SETPIPE_SZ, 4096), 0);  // Less than the answer: it has to wait.
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::dup2(ends[1], STDOUT_FILENO);
+    ::execl(PANACHE_PROGRAM, "panache", "--read-fbx-for-parent", path("walk.fbx").c_str(), nullptr);
+    ::_exit(127);
+  }
+  ::close(ends[1]);
+  std::string answer(1, '\0');
+  EXPECT_EQ(::read(ends[0], answer.data(), 1), 1);
+  EXPECT_EQ(answer, "+");
+  const std::string status = "/proc/" + std::to_string(child) + "/status";
+  EXPECT_NE(read_file(status)->find("\nSeccomp:\t2\n"), std::string::npos);
+  ::kill(child, SIGKILL);
+  ::waitpid(child, nullptr, 0);
+  ::close(ends[0]);
+}
+#endif
 
 TEST_F(Fbx, several_at_once_give_what_each_gives_alone) {
   for (const std::string name : {"a", "b", "c", "d", "e"}) {

@@ -52,16 +52,19 @@ class ViewVerb : public ProgramTest {
 
   // The whole answer to a GET of `target`.
   static std::string get(int port, const std::string& target, const std::string& host) {
+    return ask(port,
+               "GET " + target + " HTTP/1.1\r\nHost: " + host + "\r\nConnection: close\r\n\r\n");
+  }
+  // The whole answer to `question`; empty where nobody listens.
+  static std::string ask(int port, const std::string& question, const char* at = "127.0.0.1") {
     const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_port = htons(static_cast<uint16_t>(port));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    ::inet_pton(AF_INET, at, &address.sin_addr);
     std::string answer;
     if (::connect(socket, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0) {
-      const std::string question =
-          "GET " + target + " HTTP/1.1\r\nHost: " + host + "\r\nConnection: close\r\n\r\n";
-      EXPECT_EQ(::send(socket, question.data(), question.size(), 0),
+      EXPECT_EQ(::send(socket, question.data(), question.size(), MSG_NOSIGNAL),
                 static_cast<ssize_t>(question.size()));
       char block[4096];
       for (ssize_t n; (n = ::recv(socket, block, sizeof block, 0)) > 0;) {
@@ -72,6 +75,13 @@ class ViewVerb : public ProgramTest {
     return answer;
   }
   static std::string status(const std::string& answer) { return answer.substr(0, 12); }
+
+  // Starts it with "web/index.html" as its page; its port.
+  int serve_page() {
+    write("web/index.html", "the page");
+    const std::string line = serve("walk one.bvh"), begin = "http://127.0.0.1:";
+    return line.starts_with(begin) ? std::atoi(line.c_str() + begin.size()) : 0;
+  }
 
   std::string program_;
   pid_t server_ = 0;
@@ -107,6 +117,92 @@ TEST_F(ViewVerb, serves_page_and_file_and_nothing_else_under_no_name_but_its_own
   EXPECT_EQ(status(get(port, "/../model.safetensors", host)), "HTTP/1.1 404");
   EXPECT_EQ(status(get(port, "/%2e%2e/model.safetensors", host)), "HTTP/1.1 404");
   EXPECT_EQ(status(get(port, "/", "example.org")), "HTTP/1.1 403");
+}
+
+TEST_F(ViewVerb, listens_on_the_loopback_address_only) {
+  const int port = serve_page();
+  ASSERT_GT(port, 0);
+  // Linux takes all of 127.0.0.0/8 for this machine: who listens on every address answers here too.
+  const std::string question =
+      "GET / HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) + "\r\nConnection: close\r\n\r\n";
+  EXPECT_EQ(status(ask(port, question)), "HTTP/1.1 200");
+  EXPECT_EQ(ask(port, question, "127.0.0.2"), "");
+}
+
+TEST_F(ViewVerb, serves_its_own_files_only_however_the_path_is_written) {
+  write("secret.txt", "secret");
+  write("web/secrets/in.txt", "in the page's folder");
+  std::filesystem::create_directory(path("webbed"));
+  write("webbed/secret.txt", "secret");
+  const int port = serve_page();
+  ASSERT_GT(port, 0);
+  const std::string host = "127.0.0.1:" + std::to_string(port);
+  EXPECT_EQ(status(get(port, "/secrets/in.txt", host)), "HTTP/1.1 200");
+  for (const std::string target :
+       {"/../secret.txt", "/secrets/../../secret.txt", "/%2e%2e/secret.txt", "/..%2fsecret.txt",
+        "/%2e%2e%2fsecret.txt", "/..%5csecret.txt", "/..\\secret.txt", "/%252e%252e/secret.txt",
+        "//secret.txt", "/./../secret.txt", "/../webbed/secret.txt", "/%00/../secret.txt",
+        "/secrets/%2e%2e/%2e%2e/secret.txt", "/%c0%ae%c0%ae/secret.txt", "secret.txt",
+        "../secret.txt"}) {
+    const std::string answer = get(port, target, host);
+    EXPECT_NE(status(answer), "HTTP/1.1 200") << target;
+    EXPECT_EQ(answer.find("secret\n"), std::string::npos) << target;
+    EXPECT_FALSE(answer.ends_with("secret")) << target;
+  }
+  EXPECT_NE(status(get(port, path("secret.txt"), host)), "HTTP/1.1 200");
+  EXPECT_NE(status(get(port, "http://" + host + path("secret.txt"), host)), "HTTP/1.1 200");
+}
+
+TEST_F(ViewVerb, rejects_other_hosts_other_origins_and_whatever_is_not_read) {
+  const int port = serve_page();
+  ASSERT_GT(port, 0);
+  const std::string digits = std::to_string(port), host = "127.0.0.1:" + digits;
+  const auto answer = [&](const std::string& method, const std::string& headers) {
+    return status(ask(port, method + " / HTTP/1.1\r\n" + headers + "Connection: close\r\n\r\n"));
+  };
+  const std::string own = "Host: " + host + "\r\n";
+  EXPECT_EQ(answer("GET", own), "HTTP/1.1 200");
+  EXPECT_EQ(answer("GET", "Host: localhost:" + digits + "\r\n"), "HTTP/1.1 200");
+  EXPECT_EQ(answer("GET", own + "Origin: http://" + host + "\r\n"), "HTTP/1.1 200");
+  for (const std::string other :
+       {"", "Host: \r\n", "Host: 127.0.0.1\r\n", "Host: 127.0.0.1:1\r\n", "Host: 127.0.0.2:@\r\n",
+        "Host: 127.0.0.1:@.example.org\r\n", "Host: example.org\r\n",
+        "Host: 127.0.0.1:@\r\nHost: example.org\r\n"}) {
+    std::string headers = other;
+    if (const size_t at = headers.find('@'); at != std::string::npos)
+      headers.replace(at, 1, digits);
+    EXPECT_EQ(answer("GET", headers), "HTTP/1.1 403") << headers;
+  }
+  for (const std::string origin :
+       {"null", "http://example.org", "https://127.0.0.1:@", "http://127.0.0.1", "127.0.0.1:@",
+        "http://127.0.0.1:@.example.org", "http://example.org:@"}) {
+    std::string header = origin;
+    if (const size_t at = header.find('@'); at != std::string::npos) header.replace(at, 1, digits);
+    EXPECT_EQ(answer("GET", own + "Origin: " + header + "\r\n"), "HTTP/1.1 403") << header;
+  }
+  for (const std::string method : {"POST", "PUT", "DELETE", "PATCH", "OPTIONS"}) {
+    EXPECT_EQ(answer(method, own + "Content-Length: 0\r\n"), "HTTP/1.1 405") << method;
+  }
+  // A body that is a request itself is not answered.
+  const std::string inner = "GET / HTTP/1.1\r\n" + own + "\r\n";
+  const std::string twice =
+      ask(port, "POST / HTTP/1.1\r\n" + own + "Content-Length: " + std::to_string(inner.size()) +
+                    "\r\n\r\n" + inner);
+  EXPECT_EQ(status(twice), "HTTP/1.1 405");
+  EXPECT_EQ(twice.find("the page"), std::string::npos);
+}
+
+TEST_F(ViewVerb, keeps_pages_of_others_from_showing_or_reading_it) {
+  const int port = serve_page();
+  ASSERT_GT(port, 0);
+  const std::string answer = get(port, "/", "127.0.0.1:" + std::to_string(port));
+  for (const std::string header :
+       {"Cross-Origin-Resource-Policy: same-origin\r\n", "X-Content-Type-Options: nosniff\r\n",
+        "frame-ancestors 'none'"}) {
+    EXPECT_NE(answer.find(header), std::string::npos) << header;
+  }
+  EXPECT_EQ(answer.find("Access-Control-Allow-Origin"), std::string::npos);
+  EXPECT_EQ(answer.find(" 'unsafe-eval'"), std::string::npos);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ using Bytes = std::string;
 // A UDP socket of this machine at any free port.
 class Peer {
  public:
-  Peer() : file_(::socket(AF_INET, SOCK_DGRAM, 0)) {
+  Peer() : file_(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
     sockaddr_in address = at(0);
     socklen_t size = sizeof address;
     EXPECT_EQ(::bind(file_, reinterpret_cast<sockaddr*>(&address), size), 0);
@@ -38,8 +38,9 @@ class Peer {
 
   uint16_t port() const { return port_; }
   std::string port_name() const { return std::to_string(port_); }
-  void send(uint16_t port, const Bytes& bytes) const {
-    const sockaddr_in to = at(port);
+  // To this machine, at the address 127.0.0.`host`.
+  void send(uint16_t port, const Bytes& bytes, uint32_t host = 1) const {
+    const sockaddr_in to = at(port, host);
     ::sendto(file_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to),
              sizeof to);
   }
@@ -53,10 +54,10 @@ class Peer {
   }
 
  private:
-  static sockaddr_in at(uint16_t port) {
+  static sockaddr_in at(uint16_t port, uint32_t host = 1) {
     sockaddr_in address{};
     address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    address.sin_addr.s_addr = htonl((INADDR_LOOPBACK & ~0xffu) | host);
     address.sin_port = htons(port);
     return address;
   }

@@ -8,7 +8,7 @@ foreach(name hwy fast_float nlohmann)
   file(CREATE_LINK ${${name}_parent}/${name} ${headers}/${name} SYMBOLIC)
 endforeach()
 include_directories(SYSTEM ${headers})
-add_compile_options(-msimd128 -include ${CMAKE_CURRENT_LIST_DIR}/missing_std.h)
+add_compile_options(-include ${CMAKE_CURRENT_LIST_DIR}/missing_std.h)
 # What find_package(nlohmann_json) finds instead of the system's, which names /usr/include.
 file(WRITE ${CMAKE_FIND_PACKAGE_REDIRECTS_DIR}/nlohmann_json-config.cmake
   "if(NOT TARGET nlohmann_json::nlohmann_json)\n"

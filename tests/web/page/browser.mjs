@@ -75,12 +75,18 @@ export async function start() {
     await tab.waitForFunction(() => window.page?.frames > 2, null, { timeout: 60000 });
     return tab;
   }
+  /** A page of somebody else. */
+  async function plain(url) {
+    const tab = await browser.newPage();
+    await tab.goto(url);
+    return tab;
+  }
   async function close() {
     await browser.close();
     server.close();
     assert.deepEqual(complaints, []);
   }
-  return { open, close, address, requests };
+  return { open, plain, close, address, requests };
 }
 
 /** Waits until the page has drawn some more frames. */

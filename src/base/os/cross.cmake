@@ -1,6 +1,7 @@
-# For a cross build by MinGW. Debian has none of the libraries that we use for it, so it gets by with
-# those that are headers only, in a folder of their own: the whole of /usr/include would hide the
-# headers of Windows. Highway is headers only for one instruction set, which is that of the compiler.
+# For a cross build, for Windows by MinGW or for another processor. Debian has none of the libraries
+# that we use for it, so it gets by with those that are headers only, in a folder of their own: the
+# whole of /usr/include would hide the target's headers. Highway is headers only for one instruction
+# set, which is that of the compiler.
 set(headers ${CMAKE_BINARY_DIR}/headers)
 file(MAKE_DIRECTORY ${headers})
 foreach(name hwy fast_float nlohmann CLI)
@@ -16,6 +17,9 @@ foreach(target hwy::hwy nlohmann_json::nlohmann_json CLI11::CLI11)
   file(WRITE ${CMAKE_FIND_PACKAGE_REDIRECTS_DIR}/${package}-config.cmake
     "if(NOT TARGET ${target})\n  add_library(${target} INTERFACE IMPORTED GLOBAL)\nendif()\n")
 endforeach()
-add_compile_definitions(HWY_COMPILE_ONLY_STATIC NOMINMAX)
-# Programs need no DLL but those of Windows and, if they use it, ours.
-add_link_options(-static)
+add_compile_definitions(HWY_COMPILE_ONLY_STATIC)
+if(WIN32)
+  add_compile_definitions(NOMINMAX)
+  # Programs need no DLL but those of Windows and, if they use it, ours.
+  add_link_options(-static)
+endif()
