@@ -13,6 +13,7 @@
 #include "formats.h"
 #include "input.h"
 #include "messages.h"
+#include "style/model.h"
 #include "verbs.h"
 
 namespace panache::cli {
@@ -62,6 +63,14 @@ Result<Served> read_served(const std::string& path) {
   return Served{name, *std::move(bytes)};
 }
 
+// A model as it is, checked: the page has no other place to tell of a wrong one than its own view.
+Result<Served> read_model(const std::string& path) {
+  Result<std::string> bytes = read_file(path);
+  if (!bytes) return bytes.error();
+  if (auto model = Model::parse(*bytes, path); !model) return model.error();
+  return Served{fs::path(path).filename().string(), *std::move(bytes)};
+}
+
 // In the path of an address.
 std::string percent_encoded(const std::string& text) {
   std::string out;
@@ -95,12 +104,27 @@ int status_of(const httplib::Request& request, int port) {
   return request.method == "GET" || request.method == "HEAD" ? 0 : kMethodNotAllowed;
 }
 
-int view(const std::string& path) {
-  Served served;
-  if (!path.empty()) {
-    Result<Served> read = read_served(path);
-    if (!read) return fail(read.error(), kBadInput);
-    served = *std::move(read);
+struct ViewVerb {
+  std::string file, model;
+};
+
+int view(const ViewVerb& verb) {
+  Served motion, model;
+  std::string query;
+  const auto add = [&](const std::string& path, const char* key,
+                       Result<Served> (*read)(const std::string&), Served& out) -> Result<void> {
+    if (path.empty()) return {};
+    Result<Served> served = read(path);
+    if (!served) return served.error();
+    out = *std::move(served);
+    query += (query.empty() ? "?" : "&") + std::string(key) + "=" + percent_encoded(out.name);
+    return {};
+  };
+  if (auto read = add(verb.file, "open", read_served, motion); !read) {
+    return fail(read.error(), kBadInput);
+  }
+  if (auto read = add(verb.model, "model", read_model, model); !read) {
+    return fail(read.error(), kBadInput);
   }
   Result<std::string> page = find_page();
   if (!page) return fail(page.error(), kBadInput);
@@ -127,13 +151,15 @@ int view(const std::string& path) {
         answer.status = status;
         return httplib::Server::HandlerResponse::Handled;
       });
-  if (!path.empty()) {
-    server.Get("/open/.*", [&served](const httplib::Request&, httplib::Response& answer) {
+  const auto serve = [&server](const char* place, const Served& served) {
+    if (served.name.empty()) return;
+    server.Get(place, [&served](const httplib::Request&, httplib::Response& answer) {
       answer.set_content(served.bytes, "application/octet-stream");
     });
-  }
-  print("http://" + std::string(kAddress) + ":" + std::to_string(port) + "/" +
-        (path.empty() ? "" : "?open=" + percent_encoded(served.name)) + "\n");
+  };
+  serve("/open/.*", motion);
+  serve("/model/.*", model);
+  print("http://" + std::string(kAddress) + ":" + std::to_string(port) + "/" + query + "\n");
   print_message("open this address in a browser; Ctrl-C ends");
   std::fflush(stdout);
   server.listen_after_bind();
@@ -144,11 +170,14 @@ int view(const std::string& path) {
 
 void add_view(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("view", "Show and restyle motion in a browser");
-  auto path = std::make_shared<std::string>();
-  verb->add_option("file", *path, "Motion file to open in the page; default: a walker to steer")
+  auto options = std::make_shared<ViewVerb>();
+  verb->add_option("file", options->file,
+                   "Motion file to open in the page; default: a walker to steer")
       ->type_name("FILE");
-  verb->footer("Example:\n  panache view walk.bvh");
-  verb->callback([path, &exit_code] { exit_code = view(*path); });
+  verb->add_option("--model", options->model, "Model to style with; default: the page's own")
+      ->type_name("MODEL");
+  verb->footer("Example:\n  panache view walk.bvh --model mine.safetensors");
+  verb->callback([options, &exit_code] { exit_code = view(*options); });
 }
 
 }  // namespace panache::cli

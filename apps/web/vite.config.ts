@@ -1,7 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
-import { defineConfig, type Plugin } from 'vite';
+import { build, defineConfig, type Plugin } from 'vite';
 
 const root = fileURLToPath(new URL('../..', import.meta.url));
 const files = {
@@ -37,9 +37,26 @@ function plainScript(): Plugin {
   };
 }
 
+// Scripts that the page loads when it first needs them, each by itself: assets/zip.js.
+function lateScripts(): Plugin {
+  return {
+    name: 'panache-late-scripts',
+    apply: 'build',
+    async generateBundle() {
+      const input = fileURLToPath(new URL('src/zip.ts', import.meta.url));
+      const [made] = [await build({ configFile: false, logLevel: 'warn', build: {
+        write: false, target: 'es2022', modulePreload: false,
+        rollupOptions: { input, output: { format: 'iife' } },
+      } })].flat();
+      if (!('output' in made)) throw new Error('nothing was built');
+      this.emitFile({ type: 'asset', fileName: 'assets/zip.js', source: made.output[0].code });
+    },
+  };
+}
+
 export default defineConfig({
   base: './',
-  plugins: [embedFiles(), plainScript()],
+  plugins: [embedFiles(), lateScripts(), plainScript()],
   build: {
     outDir: `${root}build/web`,
     emptyOutDir: true,

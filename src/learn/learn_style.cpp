@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <numbers>
 
 #include "base/parallel.h"
@@ -134,11 +135,36 @@ double mean_tempo(const std::vector<Pairing>& pairings) {
   return sum / count;
 }
 
+// Windows overlap: of each styled frame, in the window whose middle is nearest.
+std::vector<MatchedInstant> matched_instants(const std::vector<Pairing>& pairings) {
+  struct Placed {
+    double from_middle;
+    MatchedInstant instant;
+  };
+  std::map<int, Placed> by_frame;
+  for (const Pairing& pairing : pairings) {
+    const int count = static_cast<int>(pairing.neutral_frames.size());
+    for (int i = 0; i < count; ++i) {
+      const int frame = pairing.first + i;
+      const Placed placed = {
+          std::abs(i - (count - 1) / 2.0),
+          {frame / kTakeRate, static_cast<double>(pairing.neutral_frames[i]) / kTakeRate,
+           static_cast<double>(pairing.cost)}};
+      const auto [at, is_new] = by_frame.try_emplace(frame, placed);
+      if (!is_new && placed.from_middle < at->second.from_middle) at->second = placed;
+    }
+  }
+  std::vector<MatchedInstant> instants;
+  for (const auto& [frame, placed] : by_frame) instants.push_back(placed.instant);
+  return instants;
+}
+
 Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& pairings,
                             const std::vector<Take>& takes, int neutral, int styled) {
   const std::string both = pair.neutral_name + " and " + pair.styled_name;
   PairReport report{
-      pair.neutral_name, pair.styled_name, takes[styled].frames() / kTakeRate, 1, 0, {}};
+      pair.neutral_name,         pair.styled_name, takes[styled].frames() / kTakeRate, 1, 0, {},
+      matched_instants(pairings)};
   if (!pairings.empty()) report.match = mean_cost(pairings);
   if (pairings.empty() || report.match > kNoMatch) {
     return Error{both + ": no match was found between them" +

@@ -41,6 +41,12 @@ Result<LearnPair> make_learn_pair(const LearnClip& neutral, const LearnClip& sty
 Result<LearnPair> make_learn_pair(const LearnClip& styled, const std::string& action,
                                   std::shared_ptr<const WalkerModel> walker);
 
+// An instant of the styled clip and the one of the neutral clip that it goes together with.
+struct MatchedInstant {
+  double styled_seconds, neutral_seconds;  // After the first frame of each take.
+  double distance;                         // As PairReport::match, of the window around it.
+};
+
 // How well a pair went together.
 struct PairReport {
   std::string neutral_name, styled_name;
@@ -50,6 +56,7 @@ struct PairReport {
   const char* judgement() const;  // Of `match`: "good", "fair" or "poor".
   // What about it may spoil the style, and the cure. Sentences.
   std::vector<std::string> warnings;
+  std::vector<MatchedInstant> instants;  // Of each styled frame that was laid somewhere, in order.
 };
 
 struct LearntStyle {

@@ -10,8 +10,10 @@ namespace panache {
 namespace {
 
 constexpr float kCell = 0.0165f;  // Metres: fingers are seen, and there are about 7000 vertices.
+constexpr float kCoarseCell = 0.028f;
 constexpr float kSharpness = 0.014f;  // Metres of distance by which a joint's share falls to 1/e.
 constexpr int kWeightSteps = 5;       // Of smoothing; each reaches one cell further.
+constexpr int kCoarseWeightSteps = 3;
 
 using Shares = std::array<float, kHumanJoints>;
 
@@ -33,10 +35,10 @@ Shares shares_at(const BodySurface& surface, Vec3 point,
 }
 
 // Shares spread over the surface, not through the air: what is near across a gap stays apart.
-void smooth(const TriangleMesh& mesh, std::vector<Shares>& shares) {
+void smooth(const TriangleMesh& mesh, int steps, std::vector<Shares>& shares) {
   std::vector<Shares> sums(shares.size());
   std::vector<float> counts(shares.size());
-  for (int step = 0; step < kWeightSteps; ++step) {
+  for (int step = 0; step < steps; ++step) {
     sums = shares;
     std::fill(counts.begin(), counts.end(), 1.0f);
     for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
@@ -78,11 +80,12 @@ void add_weights(const Shares& shares, BodyMesh& out) {
 
 }  // namespace
 
-BodyMesh make_body_mesh(const HumanPositions& offsets,
-                        const std::array<int, kHumanJoints>& movers) {
+BodyMesh make_body_mesh(const HumanPositions& offsets, const std::array<int, kHumanJoints>& movers,
+                        BodyDetail detail) {
+  const bool fine = detail == BodyDetail::fine;
   const BodySurface surface(offsets);
   TriangleMesh mesh = surface_net([&](Vec3 p) { return surface.distance(p); }, surface.low(),
-                                  surface.high(), kCell);
+                                  surface.high(), fine ? kCell : kCoarseCell);
   BodyMesh out;
   out.bind = surface.bind();
   std::vector<Shares> shares;
@@ -93,7 +96,7 @@ BodyMesh make_body_mesh(const HumanPositions& offsets,
     out.accents.push_back(static_cast<uint8_t>(std::lround(255 * surface.accent(vertex))));
     shares.push_back(shares_at(surface, vertex, movers));
   }
-  smooth(mesh, shares);
+  smooth(mesh, fine ? kWeightSteps : kCoarseWeightSteps, shares);
   for (const Shares& share : shares) add_weights(share, out);
   out.positions = std::move(mesh.vertices);
   out.triangles = std::move(mesh.triangles);

@@ -21,7 +21,11 @@ struct BodyMesh {
   std::vector<uint16_t> triangles;  // Three vertices each, counterclockwise from outside.
 };
 
+// Coarse: a third of the triangles, for where no graphics card draws them.
+enum class BodyDetail { fine, coarse };
+
 // `offsets` as bind_pose() takes them; `movers`: the joint that moves the part of each joint.
-BodyMesh make_body_mesh(const HumanPositions& offsets, const std::array<int, kHumanJoints>& movers);
+BodyMesh make_body_mesh(const HumanPositions& offsets, const std::array<int, kHumanJoints>& movers,
+                        BodyDetail detail = BodyDetail::fine);
 
 }  // namespace panache

@@ -33,14 +33,15 @@ class ViewVerb : public ProgramTest {
   }
 
   // Starts it; the first line that it says.
-  std::string serve(const std::string& file) {
+  std::string serve(const std::string& file, const std::string& model) {
     int ends[2];
     if (::pipe(ends) != 0) return "";
     server_ = ::fork();
     if (server_ == 0) {
       ::dup2(ends[1], STDOUT_FILENO);
       ::dup2(::open("/dev/null", O_WRONLY), STDERR_FILENO);
-      ::execl(program_.c_str(), "panache", "view", path(file).c_str(), nullptr);
+      ::execl(program_.c_str(), "panache", "view", path(file).c_str(), "--model",
+              path(model).c_str(), nullptr);
       ::_exit(127);
     }
     ::close(ends[1]);
@@ -96,12 +97,18 @@ TEST_F(ViewVerb, explains_a_missing_page_and_a_damaged_file) {
   ran = run({"view", "damaged.bvh"}, "model.safetensors", program_);
   EXPECT_EQ(ran.exit, 1);
   EXPECT_EQ(ran.err.substr(0, 26), "panache: damaged.bvh:2:1: ");
+  write("damaged.safetensors", "no model");
+  ran = run({"view", "--model", "damaged.safetensors"}, "model.safetensors", program_);
+  EXPECT_EQ(ran.exit, 1);
+  EXPECT_TRUE(ran.err.starts_with("panache: damaged.safetensors: ")) << ran.err;
 }
 
 TEST_F(ViewVerb, serves_page_and_file_and_nothing_else_under_no_name_but_its_own) {
   write("web/index.html", "the page");
-  const std::string line = serve("walk one.bvh");
-  const std::string begin = "http://127.0.0.1:", end = "/?open=walk%20one.bvh";
+  std::filesystem::copy_file(path("model.safetensors"), path("my model.safetensors"));
+  const std::string line = serve("walk one.bvh", "my model.safetensors");
+  const std::string begin = "http://127.0.0.1:",
+                    end = "/?open=walk%20one.bvh&model=my%20model.safetensors";
   ASSERT_TRUE(line.starts_with(begin) && line.ends_with(end)) << line;
   const std::string digits = line.substr(begin.size(), line.size() - begin.size() - end.size());
   const int port = std::stoi(digits);
@@ -113,6 +120,9 @@ TEST_F(ViewVerb, serves_page_and_file_and_nothing_else_under_no_name_but_its_own
   const std::string file = get(port, "/open/walk%20one.bvh", host);
   EXPECT_EQ(status(file), "HTTP/1.1 200");
   EXPECT_TRUE(file.ends_with(read("walk one.bvh")));
+  const std::string model = get(port, "/model/my%20model.safetensors", host);
+  EXPECT_EQ(status(model), "HTTP/1.1 200");
+  EXPECT_TRUE(model.ends_with(read("my model.safetensors")));
 
   EXPECT_EQ(status(get(port, "/../model.safetensors", host)), "HTTP/1.1 404");
   EXPECT_EQ(status(get(port, "/%2e%2e/model.safetensors", host)), "HTTP/1.1 404");

@@ -69,6 +69,34 @@ TEST(LearnStyle, a_slower_style_slows_the_motion_by_as_much) {
   EXPECT_NEAR(styled.clip.duration() / walk.duration(), 1.3, 0.1);
 }
 
+TEST(LearnStyle, tells_which_instants_go_together) {
+  const LearnPair pair = test::make_pair(test::neutral_walk(), test::bent_walk(5, 0.5f, 1.3));
+  const std::vector<MatchedInstant> instants = learn({pair}).pairs[0].instants;
+  // All of the styled clip but the last window's rest, which is shorter than a hop of half a
+  // second.
+  ASSERT_GT(instants.size(), size_t(pair.styled.frames() - 15));
+  const auto foot_ahead = [](const Take& take, double seconds) {
+    const auto& body = take.body[static_cast<size_t>(std::lround(seconds * kTakeRate))];
+    return body[index(HumanJoint::left_foot)].z - body[index(HumanJoint::right_foot)].z;
+  };
+  int same_foot = 0;
+  std::vector<double> tempos;
+  for (size_t i = 0; i < instants.size(); ++i) {
+    const MatchedInstant& at = instants[i];
+    EXPECT_NEAR(at.styled_seconds, static_cast<double>(i) / kTakeRate, 1e-9);
+    same_foot +=
+        foot_ahead(pair.styled, at.styled_seconds) * foot_ahead(pair.neutral, at.neutral_seconds) >
+        0;
+    if (i < 10) continue;
+    tempos.push_back((at.neutral_seconds - instants[i - 10].neutral_seconds) /
+                     (at.styled_seconds - instants[i - 10].styled_seconds));
+  }
+  // Feet that pass each other are a frame off here and there: one in twenty.
+  EXPECT_GT(same_foot, 0.85 * static_cast<double>(instants.size()));
+  std::nth_element(tempos.begin(), tempos.begin() + tempos.size() / 2, tempos.end());
+  EXPECT_NEAR(tempos[tempos.size() / 2], 1 / 1.3, 0.05);
+}
+
 TEST(LearnStyle, the_other_styles_stay_bit_for_bit) {
   const LearntStyle learnt = learn({test::make_pair(test::neutral_walk(), test::bent_walk())});
   const TensorFile before = test::shipped_model(), after = with_it(learnt);

@@ -64,8 +64,11 @@ float share_of(const BodyMesh& mesh, size_t vertex, size_t joint) {
 }
 
 TEST(BodyMesh, is_one_closed_surface_whatever_the_proportions) {
-  for (const float torso : {0.5f, 1.0f, 1.6f, 2.2f}) {
-    const BodyMesh mesh = make_body_mesh(with_torso(torso), every_joint());
+  for (const auto& [torso, detail] :
+       {std::pair(0.5f, BodyDetail::fine), std::pair(1.0f, BodyDetail::fine),
+        std::pair(1.6f, BodyDetail::fine), std::pair(2.2f, BodyDetail::fine),
+        std::pair(0.5f, BodyDetail::coarse), std::pair(2.2f, BodyDetail::coarse)}) {
+    const BodyMesh mesh = make_body_mesh(with_torso(torso), every_joint(), detail);
     EXPECT_EQ(pieces_of(mesh), 1u) << torso;
     std::map<std::pair<int, int>, int> edges;  // Each way once: closed, and turned one way.
     for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
@@ -77,6 +80,21 @@ TEST(BodyMesh, is_one_closed_surface_whatever_the_proportions) {
     for (const auto& [edge, count] : edges) open += edges.count({edge.second, edge.first}) == 0;
     EXPECT_EQ(open, 0u) << torso;
   }
+}
+
+TEST(BodyMesh, is_the_same_body_with_a_third_of_the_triangles) {
+  const BodyMesh fine = make_body_mesh(canonical_offsets(), every_joint());
+  const BodyMesh coarse = make_body_mesh(canonical_offsets(), every_joint(), BodyDetail::coarse);
+  EXPECT_LT(coarse.triangles.size(), 0.37 * static_cast<double>(fine.triangles.size()));
+  // Each of its vertices lies on the body: as near to one of the fine mesh as half of a cell's
+  // diagonal there.
+  float farthest = 0;
+  for (const Vec3 p : coarse.positions) {
+    float nearest = 1;
+    for (const Vec3 q : fine.positions) nearest = std::min(nearest, length(p - q));
+    farthest = std::max(farthest, nearest);
+  }
+  EXPECT_LT(farthest, 0.0165f * 1.5f);
 }
 
 TEST(BodyMesh, normals_point_out_of_the_triangles) {

@@ -93,13 +93,14 @@ export class Skeleton {
 }
 
 export class Character {
-  #wasm; #panache; #joints; #character; #block; #pose;
+  #wasm; #panache; #joints; #styles; #character; #block; #pose;
 
   constructor(panache, skeleton, options) {
     const told = optionsOf({ ...kStylizing, skipCycles: false, maxLag: 0, maxLead: 0 }, options);
     this.#panache = panache;
     this.#wasm = panache._wasm;
     this.#joints = skeleton.jointCount;
+    this.#styles = panache.styles;  // A character stays with the model that it was made with.
     this.#character = panache._arena((arena) => {
       const at = arena.write(kCharacterOptions, { size: kCharacterOptions.size, ...told });
       return arena.create((out) => this.#wasm.panache_character_create(
@@ -118,7 +119,7 @@ export class Character {
 
   setStrength(style, strength) {
     this.#wasm.panache_character_set_strength(
-      this.#character, this.#panache._styleIndex(style), strength);
+      this.#character, this.#panache._styleIndex(style, this.#styles), strength);
   }
   setShape(shape) {
     this.#panache._arena((arena) => arena.check(this.#wasm.panache_character_set_shape(

@@ -12,6 +12,47 @@ export interface Style {
   name: string;
   /** What it looks like, for people. */
   description: string;
+  /** From a pair of clips, see learnStyle(). */
+  learnt: boolean;
+}
+
+/** A motion of a file. */
+export interface Motion {
+  file: MotionFile;
+  /** 0 where it is left out. */
+  clip?: number;
+}
+
+/** How a neutral and a styled motion went together. */
+export interface LearnReport {
+  /** Names of files. */
+  neutral: string;
+  styled: string;
+  /** Of the styled motion. */
+  seconds: number;
+  /** Neutral seconds per styled second. */
+  tempo: number;
+  /** Mean distance of the two after time alignment; 0 is equal. */
+  match: number;
+  judgement: 'good' | 'fair' | 'poor';
+  /** What may spoil the style, and what helps. */
+  warnings: string[];
+  /** Mean distance of the joints from the last quarter of the styled motion, when the style was
+   * learnt without it: of the style, of its mean posture alone, of the neutral motion. null where
+   * the clips are too short for that. */
+  heldBackCm: number | null;
+  meanPostureCm: number | null;
+  untouchedCm: number | null;
+  plot: {
+    /** Of both, from the first frame to the last. */
+    styledSeconds: number;
+    neutralSeconds: number;
+    /** [styled seconds, neutral seconds, distance] of what goes together, 30 a second. */
+    instants: [number, number, number][];
+    /** A few of them, with positions of humanJoints [21][3] in metres: Y up, facing +Z. */
+    poses: { styledSeconds: number; neutralSeconds: number; styled: number[];
+      neutral: number[] }[];
+  };
 }
 
 /** How much is given of what the styles do, 0 to 2; 1 is the style as the model has it. Posture is
@@ -141,6 +182,27 @@ export class Panache {
     walker?: ArrayBuffer | Uint8Array;
   }): Promise<Panache>;
   readonly styles: readonly Style[];
+  /** Another model in place of the present one. Players go on with it, with all strengths at 0;
+   * characters keep theirs. `name` stands in front of the message of a failure. */
+  setModel(bytes: ArrayBuffer | Uint8Array, name?: string): void;
+  readonly modelBytes: ArrayBuffer | Uint8Array;
+  /** Learns a style for the present model, which stays as it is: the bytes of a style file, for
+   * addStyle(). `neutral` is a motion of the same skeleton, or 'walk' or 'run' for the walker's
+   * own. Takes some tenths of a second. */
+  learnStyle(name: string, styled: Motion, neutral: Motion | 'walk' | 'run'):
+    { bytes: Uint8Array; report: LearnReport };
+  /** Whether bytes say that they are a style file, and not a model. */
+  isStyle(bytes: ArrayBuffer | Uint8Array): boolean;
+  /** As setModel() with the style of a style file in the present model. */
+  addStyle(bytes: ArrayBuffer | Uint8Array, options?: {
+    /** Of the file, for messages. */
+    name?: string;
+    /** A style of the same name; false: that fails. */
+    replace?: boolean;
+  }): void;
+  /** The bytes of a style file. */
+  extractStyle(name: string): Uint8Array;
+  removeStyle(name: string): void;
   /** Reads a .bvh, .glb, .gltf (self-contained), .vrm or .vrma; the extension of `name` decides. */
   openFile(bytes: ArrayBuffer | Uint8Array, name: string): MotionFile;
   /** Somebody who walks as she is steered, on a skeleton of humanJoints. */
@@ -224,11 +286,14 @@ declare class Player {
   parts(which: 'input' | 'styled'): Float32Array;
   /** A body to the measure of the rig; takes some tenths of a second the first time. */
   readonly body: Body;
+  /** The same of a third of the triangles, for where no graphics card draws them. */
+  readonly coarseBody: Body;
   /** world = scale * rotate(toYUp, point of the file) - {0, floor, 0}. */
   readonly placement: { toYUp: number[]; scale: number; floor: number };
-  /** A file with this extension (".bvh", ".glb", or that of the file played): the whole clip as styled
-   * now, or the last twenty seconds of a walk. */
-  exportAs(extension: string): Uint8Array;
+  /** A file with this extension (".bvh", ".glb", ".vrma", or that of the file played): the whole
+   * clip as styled now, or the last seconds of a walk, twenty at most. */
+  exportAs(extension: string, options?: { which?: 'input' | 'styled'; seconds?: number }):
+    Uint8Array;
   free(): void;
 }
 
@@ -240,6 +305,9 @@ export class Walk extends Player {
 export class Playback extends Player {
   /** To so many seconds after the first frame; shown by the next step. */
   seek(seconds: number): void;
+  /** The strength of a style over time instead of a constant one: keys with straight lines between
+   * them, seconds after the first frame, rising. None: constant again. */
+  setTrack(style: string, keys: readonly (readonly [seconds: number, strength: number])[]): void;
   set loop(loop: boolean);
   readonly seconds: number;
 }

@@ -30,7 +30,9 @@ function importsOf(module, given) {
 export class Panache {
   #wasm;
   #model = 0;
+  #bytes;         // Of the model.
   #walker = 0;
+  #players = new Set();
 
   static async create({ wasm, model, walker }) {
     const module = wasm instanceof WebAssembly.Module ? wasm : await WebAssembly.compile(wasm);
@@ -46,17 +48,62 @@ export class Panache {
 
   constructor(wasm, model, walker) {
     this.#wasm = wasm;
-    this.#model = this._arena((arena) => arena.create(
-      (out) => wasm.panache_model_create(arena.copy(model), model.byteLength, out)));
+    this.setModel(model);
     if (walker) {
       this.#walker = this._arena((arena) => this._checked(
         wasm.panache_page_walker_create(arena.copy(walker), walker.byteLength)));
     }
-    const count = wasm.panache_model_style_count(this.#model);
-    this.styles = Array.from({ length: count }, (_, style) => ({
-      name: this._text(wasm.panache_model_style_name(this.#model, style)),
-      description: this._text(wasm.panache_page_style_description(this.#model, style)),
+  }
+
+  setModel(bytes, name = 'the model') {
+    const wasm = this.#wasm;
+    const model = this._arena((arena) => this._checked(wasm.panache_page_model_create(
+      arena.copy(bytes), bytes.byteLength, arena.text(name))));
+    // Players keep what they need of the model that they had.
+    const old = this.#model;
+    this.#model = model;
+    this.#bytes = bytes;
+    this.styles = Array.from({ length: wasm.panache_model_style_count(model) }, (_, style) => ({
+      name: this._text(wasm.panache_model_style_name(model, style)),
+      description: this._text(wasm.panache_page_style_description(model, style)),
+      learnt: wasm.panache_page_style_learnt(model, style) !== 0,
     }));
+    for (const player of this.#players) player._useModel();
+    wasm.panache_model_destroy(old);
+  }
+  get modelBytes() { return this.#bytes; }
+
+  isStyle(bytes) {
+    return this._arena((arena) =>
+      this.#wasm.panache_page_is_style(arena.copy(bytes), bytes.byteLength) !== 0);
+  }
+  addStyle(bytes, { name = 'the style', replace = false } = {}) {
+    this.setModel(this._arena((arena) => this._take(this._checked(
+      this.#wasm.panache_page_style_add(arena.copy(this.#bytes), this.#bytes.byteLength,
+        arena.copy(bytes), bytes.byteLength, arena.text(name), replace ? 1 : 0)))));
+  }
+  extractStyle(style) { return this.#withStyle('extract', style); }
+  removeStyle(style) { this.setModel(this.#withStyle('remove', style)); }
+  #withStyle(action, style) {
+    return this._arena((arena) => this._take(arena.create((out) =>
+      this.#wasm[`panache_styles_${action}`](arena.copy(this.#bytes), this.#bytes.byteLength,
+        arena.text(style), out))));
+  }
+
+  learnStyle(style, styled, neutral) {
+    const action = typeof neutral === 'string' ? neutral : '';
+    if (action && !this.#walker) throw new PanacheError('no walker was given to Panache.create');
+    return this._arena((arena) => {
+      const out = arena.zeros(4);
+      const [before, after] = [action ? null : neutral, styled];
+      const bytes = this._take(this._checked(this.#wasm.panache_page_learn(
+        arena.copy(this.#bytes), this.#bytes.byteLength,
+        before?.file._handle ?? 0, before?.clip ?? 0, arena.text(before?.file.name ?? ''),
+        this.#walker, arena.text(action), after.file._handle, after.clip ?? 0,
+        arena.text(after.file.name), arena.text(style), out)));
+      const [report] = new Uint32Array(this.#wasm.memory.buffer, out, 1);
+      return { bytes, report: JSON.parse(new TextDecoder().decode(this._take(report))) };
+    });
   }
 
   createSkeleton(joints, options = {}) { return new Skeleton(this, joints, options); }
@@ -99,8 +146,9 @@ export class Panache {
   // For the other classes.
   get _wasm() { return this.#wasm; }
   _model() { return this.#model; }
-  _styleIndex(name) {
-    const index = this.styles.findIndex((style) => style.name === name);
+  _players() { return this.#players; }
+  _styleIndex(name, styles = this.styles) {
+    const index = styles.findIndex((style) => style.name === name);
     if (index < 0) throw new PanacheError(`there is no style '${name}'`);
     return index;
   }
@@ -141,6 +189,8 @@ export class MotionFile {
       { name: title, frames, frameTime, seconds: Math.max(0, frames - 1) * frameTime }));
   }
 
+  get _handle() { return this.#file; }
+
   createPlayer(clip = 0) {
     const player = this.#wasm.panache_page_player_clip(this.#panache._model(), this.#file, clip);
     return new Playback(this.#panache, this.#wasm, this.#panache._checked(player), this.#extension);
@@ -165,6 +215,11 @@ class Player {
     this.#extension = extension;
     this._wasm = wasm;
     this._player = player;
+    panache._players().add(this);
+  }
+  _useModel() {
+    this.#panache._arena((arena) => arena.check(
+      this._wasm.panache_page_player_use_model(this._player, this.#panache._model())));
   }
 
   setStrength(style, strength) {
@@ -192,10 +247,12 @@ class Player {
     const at = this._wasm.panache_page_player_parts(this._player, which === 'styled' ? 1 : 0);
     return this._floats(at, kHumanJoints * kPartNumbers);
   }
-  get body() {
+  get body() { return this.#makeBody(0); }
+  get coarseBody() { return this.#makeBody(1); }
+  #makeBody(coarse) {
     return this.#panache._arena((arena) => {
       const at = arena.allocate(40);
-      this._wasm.panache_page_player_body(this._player, at);
+      this._wasm.panache_page_player_body(this._player, coarse, at);
       const { buffer } = this._wasm.memory;
       const [vertices, corners, ...places] = new Uint32Array(buffer, at, 10);
       const sizes = [[Float32Array, 3 * kHumanJoints], [Float32Array, 4 * kHumanJoints],
@@ -216,15 +273,21 @@ class Player {
     });
   }
 
-  exportAs(extension) {
+  exportAs(extension, { which = 'styled', seconds = Infinity } = {}) {
     return this.#panache._arena((arena) => this.#panache._take(this.#panache._checked(
-      this._wasm.panache_page_player_export(
-        this._player, arena.text(extension), arena.text(this.#extension)))));
+      this._wasm.panache_page_player_export(this._player, arena.text(extension),
+        arena.text(this.#extension), which === 'styled' ? 1 : 0, seconds))));
   }
 
   free() {
+    this.#panache._players().delete(this);
     this._wasm.panache_page_player_free(this._player);
     this._player = 0;
+  }
+  _setTrack(style, keys) {
+    const index = this.#panache._styleIndex(style);
+    this.#panache._arena((arena) => this._wasm.panache_page_player_set_track(
+      this._player, index, arena.copy(Float64Array.from(keys.flat())), keys.length));
   }
 
   // A view of the module's memory; good until the next call into it.
@@ -237,6 +300,7 @@ export class Walk extends Player {
 
 export class Playback extends Player {
   seek(seconds) { this._wasm.panache_page_player_seek(this._player, seconds); }
+  setTrack(style, keys) { this._setTrack(style, keys); }
   set loop(loop) { this._wasm.panache_page_player_loop(this._player, loop ? 1 : 0); }
   get seconds() { return this._wasm.panache_page_player_seconds(this._player); }
 }

@@ -21,7 +21,16 @@ export function find<T extends HTMLElement>(selector: string): T {
   return out;
 }
 
-/** The value of a colour of the style sheet. */
+const colours = new Map<string, string>();
+/** When others apply. */
+export const forgetColours = () => colours.clear();
+
+/** The value of a colour of the style sheet; asking that itself may take longer than a drawing. */
 export function colour(name: string): string {
-  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+  let value = colours.get(name);
+  if (value === undefined) {
+    value = getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+    colours.set(name, value);
+  }
+  return value;
 }

@@ -11,7 +11,6 @@ const kPace = 1.3;             // m/s
 const kHeight = 1.75;          // Metres that fit in.
 const kTurn = -0.9;            // From where the figure faces the viewer, radians.
 
-const at = (name: string) => 7 * humanJoints.indexOf(name);
 /** Lines from joint to joint, and how thick, metres; those behind come first. */
 const kLines: [string[], number][] = [
   [['rightUpperLeg', 'rightLowerLeg', 'rightFoot', 'rightToes'], 0.11],
@@ -20,6 +19,33 @@ const kLines: [string[], number][] = [
   [['leftUpperLeg', 'leftLowerLeg', 'leftFoot', 'leftToes'], 0.12],
   [['leftUpperArm', 'leftLowerArm', 'leftHand'], 0.08],
 ];
+
+/** A person of strokes in a box, from where its joints are: metres, Y up, facing +Z. `near` is the
+ * colour of the side that is nearer. */
+export function paintFigure(context: CanvasRenderingContext2D, width: number, height: number,
+    joint: (name: string) => readonly [number, number, number], near: string) {
+  const scale = height / kHeight;
+  const [cos, sin] = [Math.cos(kTurn), Math.sin(kTurn)];
+  const [hipsX, , hipsZ] = joint('hips');
+  const place = (name: string): [number, number] => {
+    const [px, py, pz] = joint(name);
+    const x = px - hipsX, z = pz - hipsZ;
+    return [width / 2 + (x * cos + z * sin) * scale, height - (py + 0.06) * scale];
+  };
+  context.lineCap = context.lineJoin = 'round';
+  kLines.forEach(([joints, thick], i) => {
+    context.strokeStyle = colour(i < 2 ? 'soft' : near);
+    context.lineWidth = thick * scale;
+    context.beginPath();
+    for (const name of joints) context.lineTo(...place(name));
+    context.stroke();
+  });
+  const [x, y] = place('head'), [nx, ny] = place('neck');
+  context.fillStyle = colour(near);
+  context.beginPath();
+  context.arc(x + (x - nx) * 0.7, y + (y - ny) * 0.7, 0.105 * scale, 0, 2 * Math.PI);
+  context.fill();
+}
 
 class Figure {
   readonly canvas = document.createElement('canvas');
@@ -48,6 +74,7 @@ class Figure {
   }
   draw(seconds: number) {
     if (this.#walk) {
+      this.#walk.setStrength(this.style, 1);  // Another model may have come.
       this.#walk.step(seconds);
       this.#last = this.#walk.parts('styled').slice();
     }
@@ -57,56 +84,56 @@ class Figure {
   #paint(parts: Float32Array) {
     const context = this.canvas.getContext('2d')!;
     const { width, height } = this.canvas;
-    const scale = height / kHeight;
-    const [cos, sin] = [Math.cos(kTurn), Math.sin(kTurn)];
-    const place = (name: string): [number, number] => {
-      const k = at(name);
-      const x = parts[k] - parts[0], z = parts[k + 2] - parts[2];
-      return [width / 2 + (x * cos + z * sin) * scale, height - (parts[k + 1] + 0.06) * scale];
-    };
     context.clearRect(0, 0, width, height);
-    context.lineCap = context.lineJoin = 'round';
-    kLines.forEach(([joints, thick], i) => {
-      context.strokeStyle = colour(i < 2 ? 'soft' : 'accent');
-      context.lineWidth = thick * scale;
-      context.beginPath();
-      for (const joint of joints) context.lineTo(...place(joint));
-      context.stroke();
-    });
-    const [x, y] = place('head'), [nx, ny] = place('neck');
-    context.fillStyle = colour('accent');
-    context.beginPath();
-    context.arc(x + (x - nx) * 0.7, y + (y - ny) * 0.7, 0.105 * scale, 0, 2 * Math.PI);
-    context.fill();
+    paintFigure(context, width, height, (joint) => {
+      const k = 7 * humanJoints.indexOf(joint);
+      return [parts[k], parts[k + 1], parts[k + 2]];
+    }, 'accent');
   }
 }
 
-/** Makes the figures of `rows` one after the other, so that the page opens without waiting. */
+/** Makes the figures of rows one after the other, so that the page opens without waiting. */
 export class Figures {
-  #figures: Figure[] = [];
+  #figures = new Map<HTMLElement, Figure>();
   #moving: Figure | null = null;
+  #waiting: Figure[] = [];
 
-  constructor(panache: Panache, rows: Map<string, HTMLElement>) {
-    for (const [style, row] of rows) {
-      const figure = new Figure(panache, style);
-      row.prepend(figure.canvas);
-      this.#figures.push(figure);
-      const start = () => this.#move(figure);
-      const stop = () => this.#moving === figure && this.#move(null);
-      row.addEventListener('pointerenter', start);
-      row.addEventListener('pointerleave', stop);
-      row.addEventListener('focusin', start);
-      row.addEventListener('focusout', stop);
+  constructor(private panache: Panache, rows: Map<string, HTMLElement>) {
+    this.show(rows, 400);
+  }
+
+  /** Gives each row a figure, and forgets those of rows that are gone. */
+  show(rows: Map<string, HTMLElement>, wait = 0) {
+    const kept = new Set(rows.values());
+    for (const [row, figure] of this.#figures) {
+      if (kept.has(row)) continue;
+      if (this.#moving === figure) this.#move(null);
+      this.#figures.delete(row);
     }
-    const waiting = [...this.#figures];
-    const next = () => {
-      const figure = waiting.shift();
-      if (!figure) return;
-      figure.begin();
-      figure.end();
-      setTimeout(next, 30);
-    };
-    setTimeout(next, 400);
+    const idle = this.#waiting.length === 0;
+    this.#waiting = this.#waiting.filter((figure) => [...this.#figures.values()].includes(figure));
+    for (const [style, row] of rows) if (!this.#figures.has(row)) this.#add(style, row);
+    if (idle && this.#waiting.length) setTimeout(() => this.#next(), wait);
+  }
+
+  #add(style: string, row: HTMLElement) {
+    const figure = new Figure(this.panache, style);
+    row.prepend(figure.canvas);
+    this.#figures.set(row, figure);
+    this.#waiting.push(figure);
+    const start = () => this.#move(figure);
+    const stop = () => this.#moving === figure && this.#move(null);
+    row.addEventListener('pointerenter', start);
+    row.addEventListener('pointerleave', stop);
+    row.addEventListener('focusin', start);
+    row.addEventListener('focusout', stop);
+  }
+  #next() {
+    const figure = this.#waiting.shift();
+    if (!figure) return;
+    figure.begin();
+    figure.end();
+    if (this.#waiting.length) setTimeout(() => this.#next(), 30);
   }
 
   #move(figure: Figure | null) {
@@ -119,6 +146,6 @@ export class Figures {
     this.#moving?.draw(seconds);
   }
   paint() {
-    for (const figure of this.#figures) figure.draw(0);
+    for (const figure of this.#figures.values()) figure.draw(0);
   }
 }

@@ -86,7 +86,7 @@ export class Ground {
   #shadow: THREE.Mesh;
 
   /** `spots`: without a cast shadow, and with lines that cost little. */
-  constructor(private spots: boolean) {
+  constructor(public spots: boolean) {
     const plane = new THREE.PlaneGeometry(kSize, kSize, 24, 24).rotateX(-Math.PI / 2);
     this.#grid = new THREE.Mesh(plane, gridMaterial(!spots));
     this.#grid.renderOrder = -2;

@@ -2,19 +2,24 @@
 
 import * as files from 'virtual:panache-files';
 
-import { Panache, PanacheError } from '../package/index.js';
+import { Panache, PanacheError, Playback, type MotionFile, type Walk } from '../package/index.js';
+import { zip } from './archive';
 import { kAngles, type Angle } from './camera';
-import { element, find } from './dom';
+import { element, find, forgetColours } from './dom';
 import { Figures } from './figures';
 import { Cross } from './gamepad';
 import { buildHelp } from './help';
-import { buildPanel } from './panel';
+import { strengthAt, withKey, type Key } from './keys';
+import { Learn } from './learn';
+import { buildPanel, captionOf, type Panel } from './panel';
+import { buildPictureDialog } from './picture';
 import { Plots } from './plots';
-import { Film, saveBytes, savePicture } from './saving';
+import { Film, saveBytes } from './saving';
 import { fromAddress, shapeOf, Store, toAddress, type Settings } from './settings';
 import { clipSource, openFile, putTogether, walkSource, type Source } from './source';
 import { Stage } from './stage';
 import { kPaces, Steering, type Pace } from './steering';
+import { Track } from './track';
 import { TransportBar } from './transport';
 
 const kMeasuredSteps = 16;   // At once: a browser's clock is too coarse for one.
@@ -40,6 +45,9 @@ class Page {
   #cross = new Cross();
   #transport: TransportBar;
   #figures: Figures;
+  #panel: Panel;
+  #learn: Learn;
+  #track: Track;
   #help = buildHelp();
   #film = new Film(this.#stage.canvas);
   #source: Source;
@@ -63,8 +71,47 @@ class Page {
       onStep: (frames) => this.#stepFrames(frames),
     });
     this.#source = walkSource(panache);
-    this.#figures = new Figures(panache, buildPanel(this.#store, panache.styles));
+    this.#learn = new Learn({
+      panache,
+      capture: (which, seconds) => this.#capture(which, seconds),
+      isLive: () => this.#source.kind === 'walk',
+      onLearnt: (name) => {
+        this.#stylesChanged(name);
+        this.#store.set({ styles: { [name]: 1 }, keys: {} });
+      },
+      onSave: (name) => this.#saveStyle(name),
+    });
+    this.#track = new Track(this.#store, {
+      now: () => (this.#source.kind === 'clip' ? this.#source.player.seconds : 0),
+      strength: (style) => this.#strengthOf(style),
+      onSeek: (seconds) => {
+        this.#transport.setPlaying(false);
+        this.#seek(seconds);
+      },
+    });
+    this.#track.setStyles(names);
+    find('#clip-controls').append(this.#track.toggle);
+    this.#panel = buildPanel(this.#store, panache.styles, {
+      onStrength: (name, value) => this.#setStrength(name, value),
+      onReset: (name) => {
+        const { [name]: _style, ...styles } = this.#store.settings.styles;
+        const { [name]: _keys, ...keys } = this.#store.settings.keys;
+        this.#store.set({ styles, keys });
+      },
+      onSave: (name) => this.#saveStyle(name),
+      onRemove: (name) => void this.#attempt(() => {
+        panache.removeStyle(name);
+        this.#stylesChanged();
+      }),
+    }, this.#learn);
+    this.#figures = new Figures(panache, this.#panel.rows);
     this.#buildViewControls();
+    this.#stage.keepClear = () => {
+      const chips = find('#camera').getBoundingClientRect();
+      const view = this.#stage.canvas.getBoundingClientRect();
+      const above = chips.bottom - view.top;
+      return above < view.height / 2 ? above : 0;
+    };
     this.#buildWalkerControls();
     this.#buildFileControls();
     this.#listenToDrops();
@@ -73,6 +120,7 @@ class Page {
     this.#rememberInAddress();
     matchMedia('(prefers-color-scheme: dark)')
       .addEventListener('change', () => {
+        forgetColours();
         this.#stage.paint();
         this.#figures.paint();
       });
@@ -137,14 +185,16 @@ class Page {
       source.player.step(0);  // What is pushed is seen when the clip goes on, or is scrubbed.
     }
     this.#transport.at(source.player.seconds);
+    this.#track.at(source.player.seconds);
   }
 
   #report() {
     const player = this.#source.player;
     const { styles, strength } = this.#store.settings;
+    const now = { ...styles, ...this.#keyedNow() };
     this.#plots.add({
       time: this.#seconds,
-      strengths: Object.entries(styles).map(([name, value]) => [name, value * strength]),
+      strengths: Object.entries(now).map(([name, value]) => [name, value * strength]),
       gate: player.gate,
       rate: player.rate,
       contacts: player.contacts,
@@ -155,6 +205,8 @@ class Page {
       this.#plots.addStep(((performance.now() - begin) * 1000) / kMeasuredSteps);
     }
     if (this.#frames % kPlotEvery !== 0) return;
+    this.#panel.showNow(Object.fromEntries(
+      Object.keys(this.#store.settings.keys).map((name) => [name, this.#strengthOf(name)])));
     this.#plots.draw();
     find('#gate-now').textContent = player.gate.toFixed(2);
     find('#rate-now').textContent = `${player.rate.toFixed(2)}×`;
@@ -164,14 +216,78 @@ class Page {
   // ---- Settings ----
 
   #apply(settings: Settings) {
-    const player = this.#source.player;
-    for (const { name } of this.#panache.styles) {
-      player.setStrength(name, (settings.styles[name] ?? 0) * settings.strength);
-    }
-    player.setShape(shapeOf(settings));
+    this.#give(this.#source.player, settings);
+    find('#caption').textContent = captionOf(settings, this.#source.kind === 'clip');
     this.#stage.view = settings.view;
     this.#stage.trail = settings.trail;
     this.#stage.onion = settings.onion;
+  }
+
+  #give(player: Walk | Playback, settings: Settings) {
+    for (const { name } of this.#panache.styles) {
+      player.setStrength(name, (settings.styles[name] ?? 0) * settings.strength);
+      if (!(player instanceof Playback)) continue;
+      player.setTrack(name, (settings.keys[name] ?? [])
+        .map(([seconds, value]): Key => [seconds, value * settings.strength]));
+    }
+    player.setShape(shapeOf(settings));
+  }
+
+  /** The strengths that keys give at the play head. */
+  #keyedNow(): Record<string, number> {
+    if (this.#source.kind !== 'clip') return {};
+    const { seconds } = this.#source.player;
+    return Object.fromEntries(Object.entries(this.#store.settings.keys)
+      .map(([name, keys]) => [name, strengthAt(keys, seconds)]));
+  }
+  #strengthOf(name: string): number {
+    return this.#keyedNow()[name] ?? this.#store.settings.styles[name] ?? 0;
+  }
+  /** A style that has keys gets one at the play head, which stops for that. */
+  #setStrength(name: string, value: number) {
+    const keys = this.#store.settings.keys[name];
+    if (this.#source.kind !== 'clip' || !keys) return this.#store.setStyle(name, value);
+    this.#transport.setPlaying(false);
+    this.#store.setKeys(name, withKey(keys, this.#source.player.seconds, value).keys);
+  }
+
+  // ---- Models ----
+
+  /** The model has other styles; `changed` is one of the same name that is another now. */
+  #stylesChanged(changed = '') {
+    const { styles } = this.#panache;
+    this.#panel.setStyles(styles, changed);
+    this.#figures.show(this.#panel.rows);
+    this.#plots.styles = styles.map(({ name }) => name);
+    this.#track.setStyles(this.#plots.styles);
+    this.#store.keepStyles(this.#plots.styles);
+  }
+
+  /** Opens a model, or adds a style to the one that is open. */
+  async #openModel(file: File) {
+    const bytes = await file.arrayBuffer();
+    const known = this.#panache.styles.map(({ name }) => name);
+    const isStyle = this.#panache.isStyle(bytes);
+    if (isStyle) this.#panache.addStyle(bytes, { name: file.name });
+    else this.#panache.setModel(bytes, file.name);
+    this.#stylesChanged();
+    const added = this.#panache.styles.find(({ name }) => !known.includes(name));
+    if (isStyle && added) this.#store.set({ styles: { [added.name]: 1 }, keys: {} });
+  }
+
+  #saveStyle(name: string) {
+    saveBytes(this.#panache.extractStyle(name) as BlobPart, `${name}.safetensors`);
+  }
+
+  /** What is seen, as a motion file. */
+  #capture(which: 'input' | 'styled', seconds: number): File {
+    const source = this.#source;
+    const [extension, title] = source.kind === 'clip'
+      ? [source.file.extension, source.file.name.replace(/\.[^.]*$/, '')]
+      : ['.bvh', this.#steering.pace];
+    const bytes = source.player.exportAs(extension, { which, seconds });
+    return new File([bytes as BlobPart],
+      `${which === 'input' ? title : this.#nameOf('')}${extension}`);
   }
 
   #rememberInAddress() {
@@ -216,13 +332,14 @@ class Page {
       if (this.#source.kind === 'clip') this.#transport.setPlaying(!this.#transport.state.playing);
       else this.#setPace(this.#steering.pace === 'idle' ? 'walk' : 'idle');
     },
-    Digit0: () => this.#store.set({ styles: {} }),
+    Digit0: () => this.#store.set({ styles: {}, keys: {} }),
     Digit1: () => this.#look('front'),
     Digit2: () => this.#look('side'),
     Digit3: () => this.#look('top'),
     Digit4: () => this.#look('orbit'),
     KeyF: () => this.#look('face'),
     KeyX: () => (this.#stage.comparing = true),
+    KeyK: () => this.#source.kind === 'clip' && this.#track.add(),
     KeyN: () => this.#store.set({ onion: !this.#store.settings.onion }),
     KeyI: () => this.#source.kind === 'clip' && this.#transport.setIn(),
     KeyO: () => this.#source.kind === 'clip' && this.#transport.setOut(),
@@ -250,12 +367,17 @@ class Page {
     find('#clip-controls').hidden = source.kind !== 'clip';
     find('#back').hidden = source.kind === 'walk';
     if (source.kind === 'walk') find('#files').hidden = true;
+    this.#learn.showSource();
     find('#file-name').textContent = source.kind === 'clip' ? source.file.name : '';
     if (source.kind === 'clip') {
       this.#transport.show(source.file, source.clip);
       this.#transport.setPlaying(true);
       source.player.loop = this.#transport.state.loop;
+      const { seconds, frameTime } = source.file.clips[source.clip] ?? { seconds: 0, frameTime: 0 };
+      this.#track.setTime(seconds, frameTime);
+      if (Object.keys(this.#store.settings.keys).length) this.#track.open(true);
     }
+    if (source.kind === 'walk') this.#track.open(false);
     this.#apply(this.#store.settings);
     source.player.step(0);
     this.#stage.show(source.player, source.own);
@@ -279,8 +401,12 @@ class Page {
     this.#seek(Math.min(seconds, Math.max(0, at * frameTime)));
   }
 
-  /** Opens the first of some files, and lists them where there are several. */
-  async #openAll(files: File[]) {
+  /** Takes models and styles, opens the first of the other files, and lists them where there are
+   * several. */
+  async #openAll(given: File[]) {
+    const isModel = ({ name }: File) => /\.safetensors$/i.test(name);
+    for (const file of given.filter(isModel)) await this.#openModel(file);
+    const files = given.filter((file) => !isModel(file));
     if (files.length === 0) return;
     const list = await putTogether(this.#panache, files);
     await this.#open(list[0]);
@@ -328,11 +454,14 @@ class Page {
   }
 
   /** "walk-old.bvh": the source, the styles, the extension. */
-  #nameOf(extension: string): string {
-    const { styles, strength } = this.#store.settings;
-    const source = this.#source.kind === 'clip'
-      ? this.#source.file.name.replace(/\.[^.]*$/, '') : this.#steering.pace;
+  #nameOf(extension: string, of?: string): string {
+    const { styles, keys, strength } = this.#store.settings;
+    const source = of ?? (this.#source.kind === 'clip'
+      ? this.#source.file.name.replace(/\.[^.]*$/, '') : this.#steering.pace);
     const named = Object.keys(styles).filter((name) => styles[name] * strength !== 0);
+    if (this.#source.kind === 'clip') {
+      named.push(...Object.keys(keys).filter((name) => !named.includes(name)));
+    }
     return `${[source, ...(named.length ? named : ['neutral'])].join('-')}${extension}`;
   }
 
@@ -414,6 +543,7 @@ class Page {
       input.value = '';
       void this.#attempt(() => this.#openAll(files));
     });
+    const picture = buildPictureDialog(this.#stage, () => this.#nameOf('.png'));
     const save = (extension: string) => () => {
       saveBytes(this.#source.player.exportAs(extension) as BlobPart, this.#nameOf(extension));
     };
@@ -430,17 +560,62 @@ class Page {
     find('#file-controls').append(menu,
       button('back', 'Walker', 'Close the file and steer the walker again',
         () => this.#use(walkSource(this.#panache))),
-      button('open', 'Open …', 'BVH, GLB, glTF, VRM or VRMA files; or drop them on the view',
+      button('open', 'Open …',
+        'BVH, GLB, glTF, VRM or VRMA files, a model or a style; or drop them on the view',
         () => input.click()),
       element('span', { class: 'word' }, 'Save'),
       button('save-bvh', 'BVH', 'The motion, as a BVH file', save('.bvh')),
       button('save-glb', 'GLB', 'The motion, as a GLB file', save('.glb')),
-      button('save-png', 'PNG', 'Save the view as a picture',
-        () => {
-        this.#stage.draw(0);  // What was drawn before is gone once it was shown.
-        savePicture(this.#stage.canvas, this.#nameOf('.png'));
-      }),
+      button('save-vrma', 'VRMA', 'The motion, as a VRM animation', save('.vrma')),
+      button('save-zip', 'Zip', 'All opened files, each as BVH, GLB and VRMA, in one zip',
+        () => this.#saveAll()),
+      button('save-png', 'PNG', 'Save the view as a picture', () => picture()),
       film, link);
+  }
+
+  /** Everything that is listed, styled as is set now, in three formats each. */
+  async #saveAll() {
+    const out: Record<string, Uint8Array> = {}, failed: string[] = [];
+    const add = (player: Walk | Playback, source: string) => {
+      let title = this.#nameOf('', source);
+      while (`${title}.bvh` in out) title += '-2';
+      for (const extension of ['.bvh', '.glb', '.vrma']) {
+        out[title + extension] = player.exportAs(extension);
+      }
+    };
+    const source = this.#source;
+    if (source.kind === 'walk') add(source.player, this.#steering.pace);
+    const files = source.kind === 'clip' ? this.#files : [];
+    for (const file of files) {
+      await new Promise((next) => setTimeout(next));  // The page goes on in between.
+      try {
+        this.#exportFile((await openFile(this.#panache, file)).file, add);
+      } catch (error) {
+        if (!(error instanceof PanacheError)) throw error;
+        failed.push(error.message);
+      }
+    }
+    if (Object.keys(out).length) {
+      const all = files.length > 1 ? `${files.length} motions` : Object.keys(out)[0];
+      saveBytes(await zip(out) as BlobPart, `${all.replace(/\.[^.]*$/, '')}.zip`, 'application/zip');
+    }
+    if (failed.length) throw new PanacheError(failed.join('\n'));
+  }
+  #exportFile(file: MotionFile, add: (player: Playback, source: string) => void) {
+    const title = file.name.replace(/\.[^.]*$/, '');
+    try {
+      file.clips.forEach(({ name }, i) => {
+        const player = file.createPlayer(i);
+        try {
+          this.#give(player, this.#store.settings);
+          add(player, file.clips.length > 1 ? `${title}-${name || i + 1}` : title);
+        } finally {
+          player.free();
+        }
+      });
+    } finally {
+      file.free();
+    }
   }
 
   #link(): string {
@@ -461,7 +636,10 @@ class Page {
       depth = 0;
       drop.hidden = true;
       const files = [...(event.dataTransfer?.files ?? [])];
-      void this.#attempt(() => this.#openAll(files));
+      const motions = files.filter(({ name }) => !/\.safetensors$/i.test(name));
+      // While a style is being learnt, motions are for that.
+      if (this.#learn.open && motions.length) this.#learn.take(motions, event.target);
+      else void this.#attempt(() => this.#openAll(files));
     });
     // `panache view FILE` names a file that it serves beside the page.
     const served = new URLSearchParams(location.search).get('open');
@@ -481,6 +659,12 @@ class Page {
   get stage() {
     return this.#stage;
   }
+  get settings() {
+    return this.#store.settings;
+  }
+  set(patch: Partial<Settings>) {
+    this.#store.set(patch);
+  }
   get source() {
     return this.#source;
   }
@@ -492,10 +676,19 @@ class Page {
   }
 }
 
+/** The model that `panache view --model` serves beside the page, else the page's own. */
+async function findModel(): Promise<ArrayBuffer> {
+  const served = new URLSearchParams(location.search).get('model');
+  if (!served) return unpack(files.model);
+  const answer = await fetch(`model/${encodeURIComponent(served)}`);
+  if (!answer.ok) throw new PanacheError(`${served}: the server has no such file`);
+  return answer.arrayBuffer();
+}
+
 async function start() {
   try {
     const [wasm, model, walker] = await Promise.all(
-      [files.wasm, files.model, files.walker].map(unpack));
+      [unpack(files.wasm), findModel(), unpack(files.walker)]);
     const panache = await Panache.create({ wasm, model, walker });
     Object.assign(window, { page: new Page(panache) });
   } catch (error) {

@@ -7,7 +7,7 @@ import type { Store } from './settings';
 const kStep = 0.05;
 const kCornerNames = ['top left', 'top right', 'bottom left', 'bottom right'];
 
-export function buildPad(store: Store, styles: readonly string[], first: readonly string[]) {
+export function buildPad(store: Store, first: readonly string[]) {
   const corners = [...first];
   const knob = element('span');
   const field = element('div', {
@@ -28,7 +28,7 @@ export function buildPad(store: Store, styles: readonly string[], first: readonl
       if (rounded > 0) strengths[name] = rounded;
       else delete strengths[name];
     }
-    store.set({ styles: strengths });
+    store.set({ styles: strengths, keys: {} });
   };
   const drag = (event: PointerEvent) => {
     const box = field.getBoundingClientRect();
@@ -49,15 +49,19 @@ export function buildPad(store: Store, styles: readonly string[], first: readonl
     apply(at.x + move[0] * kStep, at.y + move[1] * kStep);
   });
 
-  const menus = corners.map((corner, i) => {
-    const menu = element('select', { 'aria-label': `Style of the pad, ${kCornerNames[i]}` },
-      ...styles.map((style) =>
-        element('option', { value: style, selected: style === corner }, style)));
+  const menus = corners.map((_, i) => {
+    const menu = element('select', { 'aria-label': `Style of the pad, ${kCornerNames[i]}` });
     menu.addEventListener('change', () => {
       corners[i] = menu.value;
       apply(at.x, at.y);
     });
     return menu;
+  });
+  /** The styles to choose from; a corner whose style is gone gets another. */
+  const setStyles = (styles: readonly string[]) => menus.forEach((menu, i) => {
+    if (!styles.includes(corners[i])) corners[i] = styles[i % styles.length];
+    menu.replaceChildren(...styles.map((style) =>
+      element('option', { value: style, selected: style === corners[i] }, style)));
   });
   store.listen(({ styles: strengths }) => {
     Object.assign(at, place(corners.map((corner) => strengths[corner] ?? 0)));
@@ -66,5 +70,6 @@ export function buildPad(store: Store, styles: readonly string[], first: readonl
     const said = corners.map((corner) => `${corner} ${(strengths[corner] ?? 0).toFixed(2)}`);
     field.setAttribute('aria-description', said.join(', '));
   });
-  return element('div', { class: 'pad' }, menus[0], menus[1], field, menus[2], menus[3]);
+  return { setStyles,
+    element: element('div', { class: 'pad' }, menus[0], menus[1], field, menus[2], menus[3]) };
 }

@@ -37,7 +37,8 @@ export class Plots {
   #steps: number[] = [];
   #canvases = new Map<string, HTMLCanvasElement>();
 
-  constructor(root: HTMLElement, private styles: readonly string[]) {
+  /** Of the styles, in the order of their colours. */
+  constructor(root: HTMLElement, public styles: readonly string[]) {
     for (const figure of root.querySelectorAll<HTMLElement>('figure')) {
       this.#canvases.set(figure.dataset.plot ?? '', figure.querySelector('canvas')!);
     }
@@ -68,9 +69,8 @@ export class Plots {
       this.#scale(context, width, height, -0.5, 2, [0, 1, 2]);
       const names = new Set(this.#moments.flatMap((m) => m.strengths.map(([name]) => name)));
       for (const name of names) {
-        const light = getComputedStyle(document.documentElement).getPropertyValue('--plot-light');
         context.strokeStyle = styleColour(this.styles.indexOf(name), this.styles.length)
-          .replace('var(--plot-light)', light.trim());
+          .replace('var(--plot-light)', colour('plot-light'));
         this.#line(context, width, height, now, -0.5, 2,
           (m) => m.strengths.find(([n]) => n === name)?.[1] ?? 0);
       }

@@ -9,10 +9,6 @@ export function saveBytes(bytes: BlobPart, name: string, type = 'application/oct
   setTimeout(() => URL.revokeObjectURL(address), 10_000);
 }
 
-export function savePicture(canvas: HTMLCanvasElement, name: string) {
-  canvas.toBlob((blob) => blob && saveBytes(blob, name, 'image/png'));
-}
-
 /** A film of a canvas, from one press of a button to the next. */
 export class Film {
   #recorder: MediaRecorder | null = null;

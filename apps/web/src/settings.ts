@@ -1,6 +1,7 @@
 // Everything that a person can set, and its way into the address bar and back.
 
 import type { Shape } from '../package/index.js';
+import { fromText, toText, type Key } from './keys';
 
 export const kLeast = -0.5;
 export const kMost = 2;
@@ -15,6 +16,8 @@ export type View = (typeof kViews)[number];
 export interface Settings {
   /** Strength of each style that is not 0. */
   styles: Record<string, number>;
+  /** Of a clip, instead: strengths over time. */
+  keys: Record<string, readonly Key[]>;
   strength: number;
   posture: number;
   dynamics: number;
@@ -32,6 +35,7 @@ export interface Settings {
 /** What "Reset all" goes back to. */
 export const kDefaults: Readonly<Settings> = {
   styles: {},
+  keys: {},
   strength: 1, posture: 1, dynamics: 1, timing: 1,
   legs: true, torso: true, leftArm: true, rightArm: true, feet: true,
   view: 'side',
@@ -57,6 +61,7 @@ export function toAddress(settings: Settings): string {
   for (const [name, value] of Object.entries(settings.styles)) {
     if (value !== 0) out.set(name, String(value));
   }
+  for (const [name, keys] of Object.entries(settings.keys)) out.set(`${name}.keys`, toText(keys));
   for (const key of kAmounts) if (settings[key] !== 1) out.set(key, String(settings[key]));
   for (const key of kSwitches) {
     if (settings[key] !== kDefaults[key]) out.set(key, settings[key] ? 'on' : 'off');
@@ -71,12 +76,15 @@ const same = (a: object, b: object): boolean => JSON.stringify(a) === JSON.strin
 export function fromAddress(text: string, styles: readonly string[]): Settings {
   const given = new URLSearchParams(text.replace(/^#/, ''));
   if (given.size === 0) return { ...kOpening, styles: { ...kOpening.styles } };
-  const settings: Settings = { ...kDefaults, styles: {} };
+  const settings: Settings = { ...kDefaults, styles: {}, keys: {} };
   for (const [key, value] of given) {
     const number = value.trim() === '' ? NaN : Number(value);
     if (styles.includes(key)) {
       const strength = bounded(number, kLeast, kMost, 0);
       if (strength !== 0) settings.styles[key] = strength;
+    } else if (key.endsWith('.keys') && styles.includes(key.slice(0, -5))) {
+      const keys = fromText(value);
+      if (keys.length) settings.keys[key.slice(0, -5)] = keys;
     } else if (kAmounts.includes(key as Amount)) {
       settings[key as Amount] = bounded(number, 0, 2, 1);
     } else if (kSwitches.includes(key as (typeof kSwitches)[number])) {
@@ -132,6 +140,21 @@ export class Store {
     const styles = { ...this.settings.styles, [name]: value };
     if (value === 0) delete styles[name];
     this.set({ styles });
+  }
+  setKeys(name: string, list: readonly Key[]) {
+    const keys = { ...this.settings.keys, [name]: list };
+    if (list.length === 0) delete keys[name];
+    this.set({ keys });
+  }
+  /** Forgets all other styles, which are no longer there: now and in what can be undone. */
+  keepStyles(names: readonly string[]) {
+    const kept = <T>(all: Record<string, T>) =>
+      Object.fromEntries(Object.entries(all).filter(([name]) => names.includes(name)));
+    const without = (settings: Settings) =>
+      ({ ...settings, styles: kept(settings.styles), keys: kept(settings.keys) });
+    this.#done = this.#done.map(without);
+    this.#undone = this.#undone.map(without);
+    this.#tell(without(this.settings));
   }
   get canUndo() { return this.#done.length > 0; }
   get canRedo() { return this.#undone.length > 0; }

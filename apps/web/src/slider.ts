@@ -12,6 +12,8 @@ export interface SliderOptions {
   /** Where reset goes. */
   rest: number;
   onChange(value: number): void;
+  /** Reset was pressed; else that is a change to `rest`. */
+  onReset?(): void;
 }
 
 export class Slider {
@@ -43,9 +45,10 @@ export class Slider {
       this.#change(bounded(this.#field.valueAsNumber, least, most, options.rest));
       this.#field.value = this.range.value;
     });
-    this.range.addEventListener('dblclick', () => this.#change(options.rest));
+    const reset = () => (options.onReset ? options.onReset() : this.#change(options.rest));
+    this.range.addEventListener('dblclick', reset);
     this.#reset.addEventListener('click', () => {
-      this.#change(options.rest);
+      reset();
       this.range.focus();
     });
     this.show(options.rest);

@@ -13,6 +13,8 @@ import type { View } from './settings';
 import type { SkinnedCharacter } from './skinned';
 
 const kInputLayer = 1, kStyledLayer = 2;
+const kAboveBody = 0.16;      // Of the view: free above a body that is fitted in.
+const kMaxDown = 0.08;        // Of the view.
 const kOnions = 3;            // Poses before this one.
 const kOnionSeconds = 0.3;    // Between them.
 
@@ -41,6 +43,9 @@ export class Stage {
   onion = false;
   /** The input alone, whatever the view is: for comparing. */
   comparing = false;
+  /** Pixels at the top that bodies keep out of, where there is room. */
+  keepClear = () => 0;
+  #fast: boolean;  // A graphics card draws.
   #renderer: THREE.WebGLRenderer;
   #scene = new THREE.Scene();
   #camera: Camera;
@@ -61,11 +66,12 @@ export class Stage {
   #time = 0;
   #size = { width: 0, height: 0, ratio: 0 };
   #slowness = 0;
+  #down = 0;  // Pixels by which what is seen is moved, see keepClear.
   #sharpest = 2;  // Pixels drawn for one of the page's.
 
   constructor(canvas: HTMLCanvasElement) {
     this.canvas = canvas;
-    const fast = hasGraphicsCard();
+    const fast = (this.#fast = hasGraphicsCard());
     this.#sharpest = fast ? 2 : 0.75;
     this.#renderer = new THREE.WebGLRenderer({ canvas, antialias: fast });
     // Without a card a shadow map takes longer than all the rest: soft spots stand in for it.
@@ -105,7 +111,7 @@ export class Stage {
     for (const onion of this.#onions) onion.free();
     this.#geometry?.dispose();
     const input = { body: '#a9b9cc', accent: '#4d6480' };
-    const body = player.body;
+    const body = this.#fast ? player.body : player.coarseBody;
     const geometry = (this.#geometry = bodyGeometry(body));
     const place = (object: THREE.Object3D, layer: number) => {
       this.#onLayer(object, layer);
@@ -189,8 +195,35 @@ export class Stage {
     return this.#onions.filter((onion) => onion.mesh.visible).length;
   }
 
+  /** Pixels, in either direction. */
+  get largestPicture() {
+    return Math.min(8192, this.#renderer.capabilities.maxTextureSize);
+  }
+  /** What the view has on the screen, pixels. */
+  get seen(): [number, number] {
+    const ratio = window.devicePixelRatio;
+    return [Math.round(this.canvas.clientWidth * ratio),
+      Math.round(this.canvas.clientHeight * ratio)];
+  }
+  /** The view as a PNG; null where the browser has not got the memory. */
+  picture(width: number, height: number): Promise<Blob | null> {
+    const { ratio } = this.#size;
+    this.#size = { width, height, ratio: 1 };
+    this.#down = 0;
+    this.#renderer.setPixelRatio(1);
+    this.#renderer.setSize(width, height, false);
+    this.#drawAll();
+    const picture = new Promise<Blob | null>((done) => this.canvas.toBlob(done, 'image/png'));
+    this.#size = { width: 0, height: 0, ratio };  // The next frame takes the page's size again.
+    return picture;
+  }
+
   draw(seconds: number) {
     this.#fit(seconds);
+    this.#drawAll();
+  }
+
+  #drawAll() {
     this.#renderer.setScissorTest(false);
     this.#renderer.clear();
     const { width } = this.#size;
@@ -218,7 +251,7 @@ export class Stage {
   #drawPart(camera: THREE.PerspectiveCamera, left: number, width: number, layers: number[],
       middle: THREE.Vector3) {
     const { height } = this.#size;
-    camera.aspect = width / height;
+    camera.setViewOffset(width, height, 0, -this.#down, width, height);
     // A narrow view steps back, so that a person still fits in.
     camera.zoom = Math.min(1, camera.aspect / 0.52);
     camera.updateProjectionMatrix();
@@ -241,13 +274,22 @@ export class Stage {
     this.#renderer.render(this.#scene, camera);
   }
 
-  // Takes the size of the place that the page gives it, and gives up sharpness where drawing is too
-  // slow for it.
+  #dropShadow() {
+    this.#sun.castShadow = this.#renderer.shadowMap.enabled = false;
+    this.#ground.spots = true;
+  }
+
+  // Takes the size of the place that the page gives it. Where drawing is slow it gives up what is
+  // above a pixel for each of the page's, then the cast shadow, then more sharpness.
   #fit(seconds: number) {
     this.#slowness += 0.05 * ((seconds > 0.024 ? 1 : 0) - this.#slowness);
     let ratio = this.#size.ratio || Math.min(this.#sharpest, window.devicePixelRatio);
-    if (this.#slowness > 0.7 && ratio > 0.6) {
-      ratio = Math.max(0.6, ratio * 0.8);
+    const least = Math.min(ratio, this.#fast ? 0.6 : 0.5);
+    if (this.#slowness > 0.7 && this.#sun.castShadow && ratio <= 1) {
+      this.#dropShadow();
+      this.#slowness = 0;
+    } else if (this.#slowness > 0.7 && ratio > least) {
+      ratio = Math.max(least, ratio * 0.8);
       this.#slowness = 0;
     }
     const width = this.canvas.clientWidth, height = this.canvas.clientHeight;
@@ -255,6 +297,7 @@ export class Stage {
       return;
     }
     this.#size = { width, height, ratio };
+    this.#down = Math.max(0, Math.min(kMaxDown * height, this.keepClear() - kAboveBody * height));
     this.#renderer.setPixelRatio(ratio);
     this.#renderer.setSize(width, height, false);
   }

@@ -1,6 +1,4 @@
-// What only the page needs beside panache.h, which the module exports whole: functions of numbers
-// and addresses, with the prefix panache_page_. Who creates a thing frees it. A function that fails
-// gives null, and panache_last_error() says why.
+// What only the page needs beside panache.h: motion and players. See exports.h.
 
 #include <algorithm>
 #include <cstdint>
@@ -8,13 +6,13 @@
 #include <iterator>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
-#include "api/errors.h"
-#include "api/objects.h"
 #include "api/shape.h"
 #include "clip/motion_format.h"
+#include "exports.h"
 #include "golden.h"
 #include "player.h"
 #include "retarget/find_body.h"
@@ -23,33 +21,6 @@
 using namespace panache;
 using namespace panache::web;
 
-#define PANACHE_EXPORT extern "C" __attribute__((visibility("default"), used))
-
-namespace {
-
-using WalkerHandle = std::shared_ptr<const WalkerModel>;
-using FileHandle = std::shared_ptr<const MotionFile>;
-
-// Who fails has no other status to tell than null.
-std::nullptr_t fail(const Error& error) {
-  api::fail(PANACHE_BAD_ARGUMENT, error.message);
-  return nullptr;
-}
-
-template <class T>
-T* keep(Result<T> result) {
-  if (result) return new T(*std::move(result));
-  return fail(result.error());
-}
-
-std::string_view bytes_at(const char* data, uint32_t size) { return {data, size}; }
-
-}  // namespace
-
-PANACHE_EXPORT const char* panache_page_style_description(const panache_model* model,
-                                                          int32_t style) {
-  return model->model->styles()[static_cast<size_t>(style)].description.c_str();
-}
 // The two words of the number, the lower first.
 PANACHE_EXPORT void panache_page_golden(const panache_model* model, uint32_t* out) {
   const uint64_t hash = golden_hash(model->model);
@@ -127,6 +98,20 @@ PANACHE_EXPORT void panache_page_player_free(Player* player) { delete player; }
 PANACHE_EXPORT float* panache_page_player_strengths(Player* player) {
   return player->strengths().data();
 }
+// Times and strengths, [count][2].
+PANACHE_EXPORT void panache_page_player_set_track(Player* player, int32_t style, const double* keys,
+                                                  int32_t count) {
+  std::vector<StrengthTrack::Point> points;
+  for (int32_t i = 0; i < count; ++i) {
+    points.push_back({keys[2 * i], static_cast<float>(keys[2 * i + 1])});
+  }
+  player->set_track(style, std::move(points));
+}
+PANACHE_EXPORT panache_status panache_page_player_use_model(Player* player,
+                                                            const panache_model* model) {
+  const Result<void> used = player->use_model(model->model);
+  return used ? PANACHE_OK : api::fail(PANACHE_BAD_SKELETON, used.error().message);
+}
 PANACHE_EXPORT panache_status panache_page_player_set_shape(Player* player,
                                                             const panache_shape* shape) {
   const Result<Shape> read = api::read_shape(shape);
@@ -169,8 +154,8 @@ PANACHE_EXPORT const float* panache_page_player_parts(Player* player, int32_t st
 }
 // Counts of vertices and of corners of triangles, then where the arrays of BodyMesh lie in their
 // order there, the bind pose as positions and rotations. Good as long as the player.
-PANACHE_EXPORT void panache_page_player_body(Player* player, uint32_t* out) {
-  const BodyMesh& body = player->body();
+PANACHE_EXPORT void panache_page_player_body(Player* player, int32_t coarse, uint32_t* out) {
+  const BodyMesh& body = player->body(coarse ? BodyDetail::coarse : BodyDetail::fine);
   const auto address = [](const void* data) {
     return static_cast<uint32_t>(reinterpret_cast<uintptr_t>(data));
   };
@@ -193,8 +178,7 @@ PANACHE_EXPORT void panache_page_player_placement(Player* player, float* out) {
 }
 
 PANACHE_EXPORT panache_bytes* panache_page_player_export(Player* player, const char* extension,
-                                                         const char* file_extension) {
-  Result<std::string> bytes = player->export_as(extension, file_extension);
-  if (bytes) return new panache_bytes{*std::move(bytes)};
-  return fail(bytes.error());
+                                                         const char* file_extension, int32_t styled,
+                                                         double seconds) {
+  return keep_bytes(player->export_as(extension, file_extension, styled != 0, seconds));
 }

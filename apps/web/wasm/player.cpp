@@ -42,8 +42,11 @@ Player::Player(std::shared_ptr<const Model> model, Stylizer stylizer,
       twin_(stylizer_),
       in_mannequin_(source_->rig(), source_->reference()),
       out_mannequin_(in_mannequin_),
-      recording_(source_->clip().skeleton, kRecordedSeconds),
-      strengths_(model_->styles().size()) {
+      input_recording_(source_->clip().skeleton, kRecordedSeconds),
+      recording_(input_recording_),
+      strengths_(model_->styles().size()),
+      strengths_now_(strengths_.size()),
+      tracks_(strengths_.size()) {
   const size_t joints = source_->clip().joints();
   for (auto* rotations : {&in_rotations_, &out_rotations_, &twin_rotations_}) {
     rotations->resize(joints);
@@ -56,31 +59,77 @@ Player::Player(std::shared_ptr<const Model> model, Stylizer stylizer,
   step(0);
 }
 
+void Player::set_track(int style, std::vector<StrengthTrack::Point> points) {
+  tracks_[static_cast<size_t>(style)] = {style, std::move(points)};
+}
+
+Result<void> Player::use_model(std::shared_ptr<const Model> model) {
+  Result<Stylizer> stylizer = Stylizer::create(model, source_->rig());
+  if (!stylizer) return stylizer.error();
+  model_ = std::move(model);
+  stylizer_ = *std::move(stylizer);
+  twin_ = stylizer_;
+  strengths_.assign(model_->styles().size(), 0);
+  strengths_now_ = strengths_;
+  tracks_.assign(strengths_.size(), {});
+  rate_ = 1;
+  return {};
+}
+
+std::vector<StrengthTrack> Player::file_tracks() const {
+  std::vector<StrengthTrack> out;
+  const auto* clip = dynamic_cast<const ClipSource*>(source_.get());
+  for (size_t s = 0; s < strengths_.size(); ++s) {
+    StrengthTrack track{static_cast<int>(s), {{0, strengths_[s]}}};
+    if (clip && !tracks_[s].points.empty()) {
+      track.points = tracks_[s].points;
+      for (StrengthTrack::Point& point : track.points) point.seconds += clip->begin();
+    } else if (strengths_[s] == 0) {
+      continue;
+    }
+    out.push_back(std::move(track));
+  }
+  return out;
+}
+
+void Player::read_strengths() {
+  strengths_now_ = strengths_;
+  const auto* clip = dynamic_cast<const ClipSource*>(source_.get());
+  if (!clip) return;
+  for (size_t s = 0; s < strengths_.size(); ++s) {
+    if (!tracks_[s].points.empty()) strengths_now_[s] = tracks_[s].at(clip->seconds());
+  }
+}
+
 void Player::step(double seconds) {
   seconds = std::clamp(seconds, 0.0, kLongestStep);
   const double input_seconds = seconds * rate_;
   if (source_->advance(input_seconds, {in_rotations_, in_translations_})) stylizer_.reset();
   const Pose out = {out_rotations_, out_translations_};
   stylizer_.set_shape(shape_);
-  stylizer_.step(input(), strengths_, input_seconds, seconds, out);
+  read_strengths();
+  stylizer_.step(input(), strengths_now_, input_seconds, seconds, out);
   rate_ = stylizer_.rate();
   put_numbers(input(), in_numbers_);
   put_numbers(out, out_numbers_);
   in_mannequin_.read(input(), in_parts_);
   out_mannequin_.read(out, out_parts_);
-  if (dynamic_cast<WalkerSource*>(source_.get())) recording_.add(out, seconds);
+  if (!dynamic_cast<WalkerSource*>(source_.get())) return;
+  input_recording_.add(input(), seconds);
+  recording_.add(out, seconds);
 }
 
 void Player::measure(int count) {
   twin_ = stylizer_;
   for (int i = 0; i < count; ++i) {
-    twin_.step(input(), strengths_, 1.0 / 60, {twin_rotations_, twin_translations_});
+    twin_.step(input(), strengths_now_, 1.0 / 60, {twin_rotations_, twin_translations_});
   }
 }
 
-const BodyMesh& Player::body() {
-  if (!body_) body_ = make_body_mesh(in_mannequin_.offsets(), moving_joints(source_->rig()));
-  return *body_;
+const BodyMesh& Player::body(BodyDetail detail) {
+  std::optional<BodyMesh>& body = detail == BodyDetail::fine ? body_ : coarse_body_;
+  if (!body) body = make_body_mesh(in_mannequin_.offsets(), moving_joints(source_->rig()), detail);
+  return *body;
 }
 
 Placement Player::placement() const {
@@ -89,19 +138,21 @@ Placement Player::placement() const {
 }
 
 Result<std::string> Player::export_as(const std::string& extension,
-                                      const std::string& file_extension) const {
+                                      const std::string& file_extension, bool styled,
+                                      double seconds) const {
   const auto* from_file = dynamic_cast<const ClipSource*>(source_.get());
   const auto written = [&](const Clip& clip) {
     return format_clip(clip, source_->rig(), source_->reference(), extension);
   };
-  if (!from_file) return written(recording_.clip(kRecordedFps));
-  std::vector<StrengthTrack> tracks;
-  for (size_t s = 0; s < strengths_.size(); ++s) {
-    if (strengths_[s] != 0) tracks.push_back({static_cast<int>(s), {{0, strengths_[s]}}});
+  if (!from_file) {
+    const Recording& recording = styled ? recording_ : input_recording_;
+    return written(recording.clip(kRecordedFps, std::min(seconds, kRecordedSeconds)));
   }
   RestyleOptions options;
-  options.stylizer.shape = shape_;
-  Result<Restyled> restyled = restyle(source_->clip(), source_->rig(), model_, tracks, options);
+  if (styled) options.stylizer.shape = shape_;
+  Result<Restyled> restyled =
+      restyle(source_->clip(), source_->rig(), model_,
+              styled ? file_tracks() : std::vector<StrengthTrack>(), options);
   if (!restyled) return restyled.error();
   if (extension != file_extension) return written(restyled->clip);
   const ClipEdit edit = {from_file->which(), &restyled->clip, restyled->source_frames, "styled"};

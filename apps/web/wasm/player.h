@@ -11,7 +11,7 @@
 #include "rig/body_mesh.h"
 #include "rig/mannequin.h"
 #include "source.h"
-#include "style/stylizer.h"
+#include "style/restyle.h"
 
 namespace panache::web {
 
@@ -28,9 +28,15 @@ class Player {
 
   // What is asked for from the next step on.
   std::vector<float>& strengths() { return strengths_; }  // [styles]
+  // Of a clip: the strength of a style over time instead, seconds after the first frame, rising.
+  // Without points it is the constant one again.
+  void set_track(int style, std::vector<StrengthTrack::Point> points);
   Shape& shape() { return shape_; }
   Source& source() { return *source_; }
   const Stylizer& stylizer() const { return stylizer_; }
+
+  // Goes on with another model: strengths are 0, without tracks. Fails where the rig does not suit.
+  Result<void> use_model(std::shared_ptr<const Model> model);
 
   // Goes on by `seconds` (at most a tenth is taken at once) of the viewer's time.
   void step(double seconds);
@@ -45,25 +51,31 @@ class Player {
     return styled ? out_parts_ : in_parts_;
   }
   // A body to the measure of the source, for both; made when it is first asked for.
-  const BodyMesh& body();
+  const BodyMesh& body(BodyDetail detail);
   Placement placement() const;
 
-  // The bytes of a file of this `extension` (".bvh", ".glb", or that of the file that the clip is
-  // from), with the whole clip restyled as is asked for now, or the last twenty seconds of a walk.
-  Result<std::string> export_as(const std::string& extension,
-                                const std::string& file_extension) const;
+  // The bytes of a file of this `extension` (".bvh", ".glb", ".vrma", or that of the file that the
+  // clip is from), with the whole clip restyled as is asked for now, or the last `seconds` of a
+  // walk, 20 at most. Not `styled`: of the input.
+  Result<std::string> export_as(const std::string& extension, const std::string& file_extension,
+                                bool styled, double seconds) const;
 
  private:
   Player(std::shared_ptr<const Model> model, Stylizer stylizer, std::unique_ptr<Source> source);
   ConstPose input() const { return {in_rotations_, in_translations_}; }
+  // The strengths at this instant, in strengths_now_.
+  void read_strengths();
+  // All that is not 0, with the times of the file.
+  std::vector<StrengthTrack> file_tracks() const;
 
   std::shared_ptr<const Model> model_;
   std::unique_ptr<Source> source_;
   Stylizer stylizer_, twin_;
   Mannequin in_mannequin_, out_mannequin_;
-  std::optional<BodyMesh> body_;
-  Recording recording_;
-  std::vector<float> strengths_;
+  std::optional<BodyMesh> body_, coarse_body_;
+  Recording input_recording_, recording_;
+  std::vector<float> strengths_, strengths_now_;  // [styles]
+  std::vector<StrengthTrack> tracks_;             // [styles], most without points.
   Shape shape_;
   double rate_ = 1;
   std::vector<Quat> in_rotations_, out_rotations_, twin_rotations_;           // [joints]

@@ -19,12 +19,12 @@ void Recording::add(ConstPose pose, double seconds) {
   translations_.insert(translations_.end(), pose.translations.begin(), pose.translations.end());
 }
 
-Clip Recording::clip(double fps) const {
+Clip Recording::clip(double fps, double seconds) const {
   Clip out;
   out.skeleton = skeleton_;
   out.frame_time = 1 / fps;
   if (times_.empty()) return out;
-  const double begin = std::max(times_.front(), times_.back() - keep_);
+  const double begin = std::max(times_.front(), times_.back() - seconds);
   out.resize(1 + static_cast<int>((times_.back() - begin) * fps));
   const size_t joints = out.joints();
   size_t after = 1;

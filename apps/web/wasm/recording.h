@@ -14,8 +14,9 @@ class Recording {
 
   // Adds the pose that is shown for the `seconds` after the one before it.
   void add(ConstPose pose, double seconds);
-  // At `fps` frames a second; empty where nothing was added.
-  Clip clip(double fps) const;
+  // The last `seconds`, as far as they are kept, at `fps` frames a second; empty where nothing was
+  // added.
+  Clip clip(double fps, double seconds) const;
 
  private:
   Skeleton skeleton_;

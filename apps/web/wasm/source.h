@@ -56,6 +56,7 @@ class ClipSource final : public Source {
   // To so many seconds after the first frame; the next advance() is a cut.
   void seek(double seconds);
   double seconds() const { return head_; }
+  double begin() const { return first_ * clip().frame_time; }    // Of the first frame, in the file.
   double duration() const { return last_ * clip().frame_time; }  // From first to last frame.
   const MotionFile& file() const { return *file_; }
   int which() const { return which_; }

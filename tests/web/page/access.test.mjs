@@ -112,9 +112,16 @@ test('small screens: nothing overlaps, and the view keeps half', async () => {
   for (const [width, height] of [[844, 390], [320, 640], [390, 844]]) {
     const tab = await site.open('', { viewport: { width, height }, steady: true });
     const { wide, view, overlaps } = await tab.evaluate(() => {
-      const boxes = [...document.querySelectorAll('h1, .stage button, .stage select, .bar button')]
+      const boxes = [...document.querySelectorAll('h1, .stage button, .stage select, .bar button, ' +
+        '#stick, .split-names span')]
         .filter((e) => e.checkVisibility() && e.getBoundingClientRect().width)
-        .map((e) => [e.id || e.textContent, e.getBoundingClientRect()]);
+        .map((e) => {
+          // A word, and not the half of the view that it stands in.
+          const word = document.createRange();
+          word.selectNodeContents(e);
+          const box = (e.tagName === 'SPAN' ? word : e).getBoundingClientRect();
+          return [e.id || e.textContent, box];
+        });
       const out = [];
       boxes.forEach(([a, p], i) => boxes.slice(i + 1).forEach(([b, q]) => {
         const apart = p.right <= q.left + 0.5 || q.right <= p.left + 0.5 ||

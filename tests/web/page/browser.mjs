@@ -89,6 +89,29 @@ export async function start() {
   return { open, plain, close, address, requests };
 }
 
+/** Drops files, by their names and bytes, on the element that `selector` finds. */
+export async function drop(tab, selector, files) {
+  await tab.evaluate(async ([where, list]) => {
+    const data = new DataTransfer();
+    for (const [name, text] of list) {
+      const answer = await fetch(`data:application/octet-stream;base64,${text}`);
+      data.items.add(new File([await answer.blob()], name));
+    }
+    const event = (type) =>
+      new DragEvent(type, { dataTransfer: data, bubbles: true, cancelable: true });
+    const target = document.querySelector(where);
+    for (const type of ['dragenter', 'dragover', 'drop']) target.dispatchEvent(event(type));
+  }, [selector, files.map(([name, bytes]) => [name, bytes.toString('base64')])]);
+}
+
+/** Presses what saves a file: its name and bytes. */
+export async function download(tab, press) {
+  const coming = tab.waitForEvent('download');
+  await press();
+  const file = await coming;
+  return { name: file.suggestedFilename(), bytes: await readFile(await file.path()) };
+}
+
 /** Waits until the page has drawn some more frames. */
 export async function frames(tab, count = 3) {
   const begin = await tab.evaluate(() => window.page.frames);

@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { frames, models, start } from './browser.mjs';
+import { download, drop as dropFiles, frames, models, start } from './browser.mjs';
 
 const program = process.env.PANACHE_PROGRAM;
 const folder = mkdtempSync(join(tmpdir(), 'panache-page-'));
@@ -36,30 +36,17 @@ const choose = (name) => tab.setInputFiles('#file', at(name));
 const isPlaying = () => tab.waitForFunction(() => window.page.source.kind === 'clip');
 
 /** As if a person dropped the file on the view. */
-async function drop(name) {
-  const bytes = readFileSync(at(name)).toString('base64');
-  await tab.evaluate(async ([text, title]) => {
-    const data = new DataTransfer();
-    const answer = await fetch(`data:application/octet-stream;base64,${text}`);
-    data.items.add(new File([await answer.blob()], title));
-    const event = (type) =>
-      new DragEvent(type, { dataTransfer: data, bubbles: true, cancelable: true });
-    const view = document.querySelector('#view');
-    for (const type of ['dragenter', 'dragover', 'drop']) view.dispatchEvent(event(type));
-  }, [bytes, name]);
-}
+const drop = (name) => dropFiles(tab, '#view', [[name, readFileSync(at(name))]]);
 
 /** What the page called the files that it saved. */
 const saved = [];
 
 /** Presses a button that saves a file, and puts that beside the others. */
 async function save(name, extension) {
-  const download = tab.waitForEvent('download');
-  await button(name).click();
+  const { name: title, bytes } = await download(tab, () => button(name).click());
   const path = at(`saved${extension}`);
-  const file = await download;
-  saved.push(file.suggestedFilename());
-  await file.saveAs(path);
+  saved.push(title);
+  writeFileSync(path, bytes);
   return path;
 }
 
@@ -137,7 +124,10 @@ test('what is saved reads back: BVH, GLB, a picture and a film', async () => {
     const kept = Number(/(\d+) frames/.exec(info)[1]);
     assert.notEqual(kept, 180);  // Who is proud takes another time for the same way.
   }
-  const picture = readFileSync(await save('PNG', '.png'));
+  const picture = await (async () => {
+    await button('PNG').click();
+    return readFileSync(await save('Save picture', '.png'));
+  })();
   assert.equal(picture.subarray(1, 4).toString(), 'PNG');
   assert.ok(picture.length > 5000, `${picture.length}`);
   await button('WebM').click();

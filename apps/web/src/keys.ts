@@ -1,0 +1,53 @@
+// Keys: the strength of a style over the time of a clip, with straight lines between them.
+
+import { bounded, kLeast, kMost } from './settings';
+
+/** Seconds after the first frame, to the millisecond, and a strength. */
+export type Key = readonly [seconds: number, strength: number];
+
+const kSamePlace = 0.004;  // Seconds: less than half of any frame.
+
+const atMillisecond = (seconds: number) => Math.round(Math.max(0, seconds) * 1000) / 1000;
+const strengthOf = (value: number) => bounded(value, kLeast, kMost, 0);
+
+/** As the library goes from key to key; they are at least one, in order of time. */
+export function strengthAt(keys: readonly Key[], seconds: number): number {
+  const after = keys.findIndex(([time]) => time > seconds);
+  if (after === 0) return keys[0][1];
+  if (after < 0) return keys[keys.length - 1][1];
+  const [[t0, s0], [t1, s1]] = [keys[after - 1], keys[after]];
+  return s0 + ((seconds - t0) / (t1 - t0)) * (s1 - s0);
+}
+
+/** With a key there, in the place of one that is there already; and which it is. */
+export function withKey(keys: readonly Key[], seconds: number, strength: number):
+    { keys: Key[]; index: number } {
+  const time = atMillisecond(seconds);
+  const others = keys.filter(([t]) => Math.abs(t - time) > kSamePlace);
+  const index = others.filter(([t]) => t < time).length;
+  const added: Key = [time, strengthOf(strength)];
+  return { keys: [...others.slice(0, index), added, ...others.slice(index)], index };
+}
+
+/** With one key elsewhere, between its neighbours and not after the end. */
+export function moved(keys: readonly Key[], index: number, seconds: number, strength: number,
+    end: number): Key[] {
+  const least = index > 0 ? keys[index - 1][0] + 2 * kSamePlace : 0;
+  const most = index + 1 < keys.length ? keys[index + 1][0] - 2 * kSamePlace : end;
+  const time = atMillisecond(Math.max(least, Math.min(most, seconds)));
+  return keys.map((key, i) => (i === index ? [time, strengthOf(strength)] as const : key));
+}
+
+/** "0_0*1.5_1" */
+export const toText = (keys: readonly Key[]) => keys.map((key) => key.join('_')).join('*');
+
+/** What is no key counts as not said. */
+export function fromText(text: string): Key[] {
+  let keys: Key[] = [];
+  for (const part of text.split('*')) {
+    const numbers = part.split('_').map((number) => (number.trim() === '' ? NaN : Number(number)));
+    if (numbers.length !== 2 || !numbers.every(Number.isFinite)) continue;
+    ({ keys } = withKey(keys, numbers[0], numbers[1]));
+  }
+  return keys;
+}

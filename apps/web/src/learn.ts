@@ -1,0 +1,249 @@
+// A style from two motions: where they come from, its name, and how it went.
+
+import type { LearnReport, MotionFile, Panache } from '../package/index.js';
+import { PanacheError } from '../package/index.js';
+import { element } from './dom';
+import { drawMatch, kMatchPlotHeight } from './match_plot';
+import { openFile } from './source';
+
+type Role = 'neutral' | 'styled';
+const kTitles = { neutral: 'Neutral', styled: 'In the style' };
+const kActions = { walk: 'The walker\'s walk', run: 'The walker\'s run' };
+type Action = keyof typeof kActions;
+
+/** What the page does for this. */
+export interface LearnHost {
+  panache: Panache;
+  /** The view's input or output as a motion file: of a clip all, of a walk the last seconds. */
+  capture(which: 'input' | 'styled', seconds: number): File;
+  /** Whether what is seen goes on for ever, so that it has to be recorded. */
+  isLive(): boolean;
+  /** A style has come into the model. */
+  onLearnt(name: string): void;
+  onSave(name: string): void;
+}
+
+/** One of the two motions. */
+class Slot {
+  readonly element: HTMLElement;
+  file: MotionFile | null = null;
+  action: Action | null = null;
+  #what = element('p', { class: 'what', role: 'status' }, 'Drop a clip here, or');
+  #clips = element('select', { 'aria-label': 'Motion of the file', hidden: true });
+  #input = element('input', { type: 'file', accept: '.bvh,.glb,.gltf,.vrm,.vrma', hidden: true });
+  #record = element('button', { type: 'button' });
+  #begin = 0;
+  #timer = 0;
+
+  constructor(readonly role: Role, private host: LearnHost,
+      attempt: (action: () => Promise<void> | void) => void,
+      private onChange: () => void) {
+    const choose = element('button', { type: 'button' }, 'Choose …');
+    choose.addEventListener('click', () => this.#input.click());
+    this.#input.id = `learn-${role}`;
+    this.#input.addEventListener('change', () => {
+      const file = this.#input.files?.[0];
+      if (file) attempt(() => this.open(file));
+      this.#input.value = '';
+    });
+    this.#record.addEventListener('click', () => attempt(() => this.#press()));
+    const buttons = element('div', { class: 'chips' }, choose, this.#record);
+    if (role === 'neutral') buttons.append(this.#actions());
+    this.element = element('div', { class: 'slot', role: 'group', 'aria-label': kTitles[role],
+      'data-slot': role }, element('b', {}, kTitles[role]), this.#what, this.#clips, buttons,
+    this.#input);
+    this.showSource();
+  }
+
+  get clip() {
+    return Number(this.#clips.value || 0);
+  }
+  get filled() {
+    return this.file !== null || this.action !== null;
+  }
+
+  /** The button says what it does with what is seen. */
+  showSource() {
+    if (this.#timer) return;
+    const what = this.role === 'neutral' ? 'the input' : 'the styled motion';
+    const live = this.host.isLive();
+    this.#record.textContent = live ? 'Record' : 'From the view';
+    const hint = live ? `Record ${what} of the view; press again to stop`
+      : `Take ${what} of the view`;
+    this.#record.title = hint;
+    this.#record.setAttribute('aria-label', `${hint} (${kTitles[this.role]})`);
+  }
+
+  async open(file: File) {
+    const opened = (await openFile(this.host.panache, file)).file;
+    this.file?.free();
+    this.file = opened;
+    this.action = null;
+    const { clips } = opened;
+    this.#clips.replaceChildren(...clips.map(({ name }, i) =>
+      element('option', { value: i }, name || `motion ${i + 1}`)));
+    this.#clips.hidden = clips.length < 2;
+    this.#say(`${opened.name}, ${(clips[0]?.seconds ?? 0).toFixed(1)} s`);
+  }
+
+  #actions() {
+    const menu = element('select', { 'aria-label': 'The walker\'s own motion as neutral clip' },
+      element('option', { value: '' }, 'No clip: …'),
+      ...(Object.keys(kActions) as Action[]).map((action) =>
+        element('option', { value: action }, kActions[action])));
+    menu.addEventListener('change', () => {
+      if (!menu.value) return;
+      this.file?.free();
+      this.file = null;
+      this.#clips.hidden = true;
+      this.action = menu.value as Action;
+      menu.value = '';
+      this.#say(kActions[this.action]);
+    });
+    return menu;
+  }
+
+  async #press() {
+    const which = this.role === 'neutral' ? 'input' : 'styled';
+    if (!this.host.isLive() && !this.#timer) {
+      return this.open(this.host.capture(which, Infinity));
+    }
+    if (!this.#timer) {
+      this.#begin = performance.now();
+      const show = () => {
+        const seconds = (performance.now() - this.#begin) / 1000;
+        this.#record.textContent = `Stop (${seconds.toFixed(1)} s)`;
+      };
+      this.#timer = window.setInterval(show, 100);
+      this.#record.setAttribute('aria-pressed', 'true');
+      return show();
+    }
+    clearInterval(this.#timer);
+    this.#timer = 0;
+    this.#record.removeAttribute('aria-pressed');
+    this.showSource();
+    const seconds = (performance.now() - this.#begin) / 1000;
+    await this.open(this.host.capture(which, seconds));
+  }
+
+  #say(text: string) {
+    this.#what.textContent = text;
+    this.element.classList.add('filled');
+    this.onChange();
+  }
+}
+
+export class Learn {
+  readonly button = element('button', { type: 'button', id: 'show-learn', 'aria-expanded': 'false',
+    'aria-controls': 'learn' }, 'Learn a style …');
+  readonly section: HTMLElement;
+  #slots: Record<Role, Slot>;
+  #name = element('input', { type: 'text', id: 'learn-name', maxlength: 60,
+    placeholder: 'Name of the style', 'aria-label': 'Name of the style' });
+  #go = element('button', { type: 'button', id: 'learn-go', disabled: true }, 'Learn');
+  #error = element('p', { class: 'error', role: 'alert', hidden: true });
+  #report = element('div', { id: 'learn-report', hidden: true });
+
+  constructor(private host: LearnHost) {
+    const slot = (role: Role) =>
+      new Slot(role, host, (action) => void this.#attempt(action), () => this.#showButton());
+    this.#slots = { neutral: slot('neutral'), styled: slot('styled') };
+    this.section = element('section', { id: 'learn', hidden: true, 'aria-label': 'Learn a style' },
+      element('p', { class: 'hint' }, 'Two clips of one skeleton: an action as it is, and the same ' +
+        'action in the style. 2 to 3 seconds each are enough.'),
+      this.#slots.neutral.element, this.#slots.styled.element,
+      element('div', { class: 'name' }, this.#name, this.#go), this.#error, this.#report);
+    this.button.addEventListener('click', () => this.show(this.section.hidden));
+    this.#name.addEventListener('input', () => this.#showButton());
+    this.#name.addEventListener('keydown', (event) => {
+      if (event.key === 'Enter' && !this.#go.disabled) this.#go.click();
+    });
+    this.#go.addEventListener('click', () => void this.#attempt(() => this.#learn()));
+  }
+
+  get open() {
+    return !this.section.hidden;
+  }
+  show(open: boolean) {
+    this.section.hidden = !open;
+    this.button.setAttribute('aria-expanded', String(open));
+  }
+  /** Another motion is seen. */
+  showSource() {
+    for (const slot of Object.values(this.#slots)) slot.showSource();
+  }
+
+  /** Takes clips that were dropped: on one of the two places, or wherever there is room. */
+  take(files: File[], target: EventTarget | null) {
+    const place = target instanceof Element ? target.closest<HTMLElement>('[data-slot]') : null;
+    const { neutral, styled } = this.#slots;
+    const slots = files.length > 1 ? [neutral, styled]
+      : [place ? this.#slots[place.dataset.slot as Role]
+        : neutral.filled && !styled.filled ? styled : neutral];
+    void this.#attempt(async () => {
+      for (const [i, slot] of slots.entries()) await slot.open(files[i]);
+    });
+  }
+
+  #isOwn(name: string) {
+    return this.host.panache.styles.some((style) => style.name === name && style.learnt);
+  }
+  #showButton() {
+    const { neutral, styled } = this.#slots;
+    const name = this.#name.value.trim();
+    this.#go.disabled = !neutral.filled || !styled.filled || name === '';
+    this.#go.textContent = this.#isOwn(name) ? 'Replace' : 'Learn';
+  }
+
+  async #learn() {
+    const { neutral, styled } = this.#slots;
+    const { panache } = this.host;
+    const name = this.#name.value.trim();
+    if (!styled.file || !neutral.filled) return;
+    this.#report.hidden = true;
+    const begin = performance.now();
+    const { bytes, report } = panache.learnStyle(name, { file: styled.file, clip: styled.clip },
+      neutral.file ? { file: neutral.file, clip: neutral.clip } : neutral.action!);
+    panache.addStyle(bytes, { replace: this.#isOwn(name) });
+    const seconds = (performance.now() - begin) / 1000;
+    this.host.onLearnt(name);
+    this.#showReport(name, report, seconds);
+    this.#showButton();
+  }
+
+  #showReport(name: string, report: LearnReport, seconds: number) {
+    const { match, judgement, tempo, heldBackCm, meanPostureCm, untouchedCm } = report;
+    const cm = (value: number | null) => (value ?? 0).toFixed(1);
+    const canvas = element('canvas', { role: 'img', 'aria-label':
+      `Poses of ${report.styled} above, the poses of ${report.neutral} that they go with below` });
+    canvas.style.height = `${kMatchPlotHeight}px`;
+    const save = element('button', { type: 'button', id: 'learn-save' }, 'Save style file');
+    save.addEventListener('click', () => this.host.onSave(name));
+    this.#report.replaceChildren(
+      element('p', {}, element('b', {}, name), ` learnt in ${seconds.toFixed(1)} s: match ` +
+        `${match.toFixed(2)} (${judgement}), tempo ${(1 / tempo).toFixed(2)}×`),
+      canvas,
+      element('p', { class: 'hint' }, 'Above the styled clip, below the moments of the neutral one ' +
+        'that it goes with.'),
+      ...report.warnings.map((text) => element('p', { class: 'warning' }, text)),
+      element('p', { class: 'hint' }, heldBackCm === null
+        ? 'Too short to hold a quarter back, so the error is unknown.'
+        : `Held-back quarter: joints ${cm(heldBackCm)} cm off (mean posture alone ` +
+          `${cm(meanPostureCm)}, no style ${cm(untouchedCm)}).`),
+      save);
+    this.#report.hidden = false;
+    drawMatch(canvas, report.plot);
+  }
+
+  /** Tells what is wrong with clips and names; everything else is a fault of ours. */
+  async #attempt(action: () => Promise<void> | void) {
+    this.#error.hidden = true;
+    try {
+      await action();
+    } catch (error) {
+      if (!(error instanceof PanacheError)) throw error;
+      this.#error.textContent = error.message;
+      this.#error.hidden = false;
+    }
+  }
+}

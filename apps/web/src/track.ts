@@ -1,0 +1,200 @@
+// The track under the time line: the keys of one style, to be pushed about.
+
+import { element, find } from './dom';
+import { moved, strengthAt, withKey, type Key } from './keys';
+import { kLeast, kMost, type Store } from './settings';
+
+const kPush = 0.05;
+const kDoubleClick = 1000;  // Milliseconds, for slow fingers.
+
+export interface TrackEvents {
+  /** Where the play head is, seconds. */
+  now(): number;
+  /** The strength that the style has there. */
+  strength(style: string): number;
+  onSeek(seconds: number): void;
+}
+
+export class Track {
+  readonly toggle = element('button', { type: 'button', id: 'show-keys', 'aria-pressed': 'false',
+    title: 'Strength over time' }, 'Keys');
+  #styles = element('select', { id: 'key-style', 'aria-label': 'Style of the keys' });
+  #field = element('div', { class: 'key-field', role: 'group' });
+  #line = document.createElementNS('http://www.w3.org/2000/svg', 'polyline');
+  #zero = element('i', { class: 'zero' });
+  #head = element('i', { class: 'head' });
+  #keys: HTMLButtonElement[] = [];
+  #seconds = 0;
+  #frame = 1 / 60;
+  #drag: { index: number; pointer: number } | null = null;
+  #pressed = -1;  // The key that a click met.
+  #added = -Infinity;  // When a click added one, milliseconds.
+
+  constructor(private store: Store, private events: TrackEvents) {
+    const picture = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
+    picture.setAttribute('viewBox', '0 0 100 100');
+    picture.setAttribute('preserveAspectRatio', 'none');
+    picture.setAttribute('aria-hidden', 'true');
+    picture.append(this.#line);
+    this.#zero.style.top = `${this.#down(0)}%`;
+    this.#field.append(picture, this.#zero, this.#head);
+    const add = element('button', { type: 'button', id: 'add-key',
+      title: 'A key here, with the strength that the style has (K)' }, 'Add key');
+    add.addEventListener('click', () => this.add());
+    const clear = element('button', { type: 'button', id: 'clear-keys',
+      title: 'Remove all keys of this style' }, 'Clear');
+    clear.addEventListener('click', () => this.#set([]));
+    find('#keys').append(this.#styles, this.#field, add, clear);
+    this.#styles.addEventListener('change', () => this.#show());
+    this.toggle.addEventListener('click', () => this.open(find('#keys').hidden));
+    this.#listenToPointer();
+    store.listen(() => {
+      this.#show();
+      clear.disabled = this.keys.length === 0;
+    });
+  }
+
+  get style() {
+    return this.#styles.value;
+  }
+  get keys(): readonly Key[] {
+    return this.store.settings.keys[this.style] ?? [];
+  }
+
+  open(open: boolean) {
+    find('#keys').hidden = !open;
+    this.toggle.setAttribute('aria-pressed', String(open));
+    if (open && !this.keys.length) this.#choose();
+    this.#show();
+  }
+  setStyles(names: readonly string[]) {
+    const before = this.style;
+    this.#styles.replaceChildren(...names.map((name) =>
+      element('option', { value: name, selected: name === before }, name)));
+    this.#choose();
+    this.#show();
+  }
+  /** Of the clip that is played, and of a frame of it. */
+  setTime(seconds: number, frame: number) {
+    this.#seconds = seconds;
+    if (frame > 0) this.#frame = frame;
+    this.#show();
+  }
+  at(seconds: number) {
+    this.#head.style.left = `${this.#across(seconds)}%`;
+  }
+
+  /** A key at the play head. */
+  add() {
+    const now = this.events.now();
+    const { keys, index } = withKey(this.keys, now, this.events.strength(this.style));
+    this.open(true);
+    this.#set(keys);
+    this.#keys[index]?.focus();
+  }
+
+  // The style that has keys already, else one that is on.
+  #choose() {
+    const { keys, styles } = this.store.settings;
+    const wanted = [...Object.keys(keys), ...Object.keys(styles)]
+      .find((name) => [...this.#styles.options].some((option) => option.value === name));
+    if (wanted && !keys[this.style]) this.#styles.value = wanted;
+  }
+
+  #set(keys: readonly Key[]) {
+    this.store.setKeys(this.style, keys);
+  }
+  #across(seconds: number) {
+    return this.#seconds > 0 ? Math.min(100, (100 * seconds) / this.#seconds) : 0;
+  }
+  #down(strength: number) {
+    return (100 * (kMost - strength)) / (kMost - kLeast);
+  }
+
+  #show() {
+    if (find('#keys').hidden) return;
+    const { keys } = this;
+    this.#field.setAttribute('aria-label',
+      `Keys of ${this.style}: click to add one, Delete removes the one that has the focus`);
+    const points: Key[] = keys.length
+      ? [[0, keys[0][1]], ...keys, [this.#seconds, strengthAt(keys, this.#seconds)]]
+      : [[0, this.events.strength(this.style)], [this.#seconds, this.events.strength(this.style)]];
+    this.#line.setAttribute('points',
+      points.map(([t, s]) => `${this.#across(t)},${this.#down(s)}`).join(' '));
+    this.#line.classList.toggle('constant', keys.length === 0);
+    while (this.#keys.length > keys.length) this.#keys.pop()!.remove();
+    while (this.#keys.length < keys.length) this.#keys.push(this.#makeKey(this.#keys.length));
+    keys.forEach(([seconds, strength], i) => {
+      const key = this.#keys[i];
+      key.hidden = seconds > this.#seconds + 1e-3;
+      key.style.left = `${this.#across(seconds)}%`;
+      key.style.top = `${this.#down(strength)}%`;
+      key.setAttribute('aria-label',
+        `Key of ${this.style} at ${seconds.toFixed(2)} seconds: ${strength.toFixed(2)}`);
+    });
+  }
+
+  #makeKey(index: number) {
+    const key = element('button', { type: 'button', class: 'key', 'data-arrows': true,
+      'data-index': index, title: 'Drag; arrow keys move it, Delete or a double click removes it' });
+    key.addEventListener('keydown', (event) => this.#press(index, event));
+    this.#field.append(key);
+    return key;
+  }
+
+  #press(index: number, event: KeyboardEvent) {
+    if (event.key === 'Delete' || event.key === 'Backspace') {
+      event.preventDefault();
+      return this.#remove(index);
+    }
+    const step = (event.shiftKey ? 10 : 1) * this.#frame;
+    const by = ({ ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, kPush],
+      ArrowDown: [0, -kPush] } as Record<string, [number, number]>)[event.key];
+    if (!by) return;
+    event.preventDefault();
+    const [seconds, strength] = this.keys[index];
+    this.#move(index, seconds + by[0], strength + by[1]);
+  }
+  #move(index: number, seconds: number, strength: number) {
+    const keys = moved(this.keys, index, seconds, strength, this.#seconds);
+    this.#set(keys);
+    this.events.onSeek(keys[index][0]);
+  }
+  #remove(index: number) {
+    this.#set(this.keys.filter((_, i) => i !== index));
+    (this.#keys[Math.min(index, this.#keys.length - 1)] ?? this.#styles).focus();
+  }
+
+  #listenToPointer() {
+    const place = (event: PointerEvent): Key => {
+      const box = this.#field.getBoundingClientRect();
+      const x = (event.clientX - box.left) / box.width, y = (event.clientY - box.top) / box.height;
+      return [Math.min(1, Math.max(0, x)) * this.#seconds, kMost - y * (kMost - kLeast)];
+    };
+    this.#field.addEventListener('pointerdown', (event) => {
+      if (event.button !== 0) return;
+      const on = (event.target as HTMLElement).closest<HTMLElement>('.key');
+      let index = Number(on?.dataset.index);
+      if (!on) {
+        const added = withKey(this.keys, ...place(event));
+        this.#set(added.keys);
+        index = added.index;
+        this.#added = event.timeStamp;
+      }
+      this.#pressed = index;
+      this.#keys[index].focus();
+      this.#field.setPointerCapture(event.pointerId);
+      this.#drag = { index, pointer: event.pointerId };
+    });
+    this.#field.addEventListener('pointermove', (event) => {
+      if (this.#drag?.pointer === event.pointerId) this.#move(this.#drag.index, ...place(event));
+    });
+    // A double click on nothing adds a key, which its second half does not remove.
+    this.#field.addEventListener('dblclick', (event) => {
+      if (event.timeStamp - this.#added > kDoubleClick) this.#remove(this.#pressed);
+    });
+    for (const end of ['pointerup', 'pointercancel'] as const) {
+      this.#field.addEventListener(end, () => (this.#drag = null));
+    }
+  }
+}

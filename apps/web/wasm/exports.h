@@ -1,0 +1,44 @@
+#pragma once
+// What only the page needs beside panache.h, which the module exports whole: functions of numbers
+// and addresses, with the prefix panache_page_. Who creates a thing frees it. A function that fails
+// gives null, and panache_last_error() says why.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "api/errors.h"
+#include "api/objects.h"
+#include "base/result.h"
+#include "clip/motion_file.h"
+#include "walker/walker_model.h"
+
+#define PANACHE_EXPORT extern "C" __attribute__((visibility("default"), used))
+
+namespace panache::web {
+
+using WalkerHandle = std::shared_ptr<const WalkerModel>;
+using FileHandle = std::shared_ptr<const MotionFile>;
+
+// Who fails has no other status to tell than null.
+inline std::nullptr_t fail(const Error& error) {
+  api::fail(PANACHE_BAD_ARGUMENT, error.message);
+  return nullptr;
+}
+
+template <class T>
+T* keep(Result<T> result) {
+  if (result) return new T(*std::move(result));
+  return fail(result.error());
+}
+
+inline panache_bytes* keep_bytes(Result<std::string> result) {
+  if (result) return new panache_bytes{*std::move(result)};
+  return fail(result.error());
+}
+
+inline std::string_view bytes_at(const char* data, uint32_t size) { return {data, size}; }
+
+}  // namespace panache::web
