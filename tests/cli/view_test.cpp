@@ -80,7 +80,8 @@ class ViewVerb : public ProgramTest {
   // Starts it with "web/index.html" as its page; its port.
   int serve_page() {
     write("web/index.html", "the page");
-    const std::string line = serve("walk one.bvh"), begin = "http://127.0.0.1:";
+    const std::string line = serve("walk one.bvh", "model.safetensors");
+    const std::string begin = "http://127.0.0.1:";
     return line.starts_with(begin) ? std::atoi(line.c_str() + begin.size()) : 0;
   }
 

@@ -86,10 +86,12 @@ void check_dense_int8(Draw& draw) {
   const std::span<float> x = draw.numbers(buffers[0], rows * x_stride);
   const std::span<float> scale = draw.numbers(buffers[1], outputs);
   const std::span<float> bias = draw.numbers(buffers[2], outputs);
-  std::vector<int8_t> weights((inputs + 1) / 2 * 2 * outputs);
-  for (size_t i = 0; i < weights.size(); ++i) {
-    if (i / (2 * outputs) * 2 + i % 2 >= inputs) continue;  // The partner of an odd last input.
-    weights[i] = static_cast<int8_t>(static_cast<int>(draw.whole(0, 254)) - kMaxInt8Weight);
+  std::vector<int16_t> weights((inputs + 1) / 2 * outputs + kInt8Slack, packed_weights(0, 0));
+  for (size_t i = 0; i < inputs; ++i) {
+    for (size_t o = 0; o < outputs; ++o) {
+      const int weight = static_cast<int>(draw.whole(0, 254)) - kMaxInt8Weight;
+      set_int8_weight(weights.data(), outputs, i, o, static_cast<int8_t>(weight));
+    }
   }
   const Int8Matrix layer{inputs, outputs, weights.data(), scale.data(), bias.data()};
   std::vector<float> expected(rows * y_stride + 1, kUntouched), found = expected;
