@@ -5,7 +5,7 @@ import { mkdir, readFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
 import { extname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { chromium } from 'playwright-core';
+import playwright from 'playwright-core';
 
 const root = fileURLToPath(new URL('../../..', import.meta.url));
 export const pageFolder = join(root, 'build', 'web');
@@ -49,12 +49,21 @@ function graphicsCard() {
 }
 
 /** Starts both; close() ends them. open() gives a tab in which the page runs. */
-export async function start() {
+export const start = () => startWith(() => playwright.chromium.launch({
+  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+}));
+
+/** The same with Debian's Firefox, over WebDriver BiDi. It has WebGL only in a window. */
+export const startFirefox = () => startWith(() => playwright._bidiFirefox.launch({
+  executablePath: process.env.FIREFOX ?? '/usr/bin/firefox-esr', headless: false,
+  env: { ...process.env, LIBGL_ALWAYS_SOFTWARE: '1' },
+  firefoxUserPrefs: { 'webgl.force-enabled': true },
+}));
+
+async function startWith(launch) {
   const { server, address } = await serve();
-  const browser = await chromium.launch({
-    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
-  });
+  const browser = await launch();
   await mkdir(pictures, { recursive: true });
   const complaints = [], requests = [];
 
