@@ -57,6 +57,7 @@ std::vector<std::string> nearest_names(std::string_view wanted,
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   found.resize(std::min(found.size(), count));
   std::vector<std::string> nearest;
+  nearest.reserve(found.size());
   for (auto& [distance, name] : found) nearest.push_back(std::move(name));
   return nearest;
 }

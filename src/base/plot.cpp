@@ -236,7 +236,7 @@ std::vector<double> round_ticks(double low, double high, int count) {
   const double step = power * (factor < 1.5 ? 1 : factor < 3.5 ? 2 : factor < 7.5 ? 5 : 10);
   const double first = std::floor(low / step + 1e-9), last = std::ceil(high / step - 1e-9);
   std::vector<double> ticks;
-  for (double k = first; k <= last && ticks.size() < 100; ++k) ticks.push_back(k * step);
+  for (int k = 0; k < 100 && first + k <= last; ++k) ticks.push_back((first + k) * step);
   return ticks;
 }
 

@@ -1,6 +1,7 @@
 #include "base/progress.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "base/os/os.h"
@@ -10,8 +11,9 @@ namespace {
 
 std::string clock_text(double seconds) {
   char text[32];
-  const int whole = static_cast<int>(seconds + 0.5);
-  std::snprintf(text, sizeof text, "%d:%02d", whole / 60, whole % 60);
+  // A first guess may be longer than any whole number: a hundred hours are enough.
+  const long whole = std::lround(std::min(seconds, 360'000.0));
+  std::snprintf(text, sizeof text, "%ld:%02ld", whole / 60, whole % 60);
   return text;
 }
 

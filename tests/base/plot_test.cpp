@@ -68,6 +68,14 @@ TEST(LinePlot, points_that_cannot_be_shown_leave_a_gap) {
   EXPECT_EQ(occurrences(line_plot("", "", "", {negative}, true), "<polyline"), 2u);
 }
 
+TEST(LinePlot, a_logarithmic_axis_of_two_decades_has_ticks_at_1_2_and_5) {
+  const std::string svg = line_plot("", "", "", {{"", {1000, 8000}, {3, 300}, "#123456"}}, true);
+  for (const char* tick : {">5<", ">10<", ">20<", ">50<", ">100<", ">200<"}) {
+    EXPECT_EQ(occurrences(svg, tick), 1u) << tick;
+  }
+  for (const char* tick : {">6<", ">30<", ">60<"}) EXPECT_EQ(occurrences(svg, tick), 0u) << tick;
+}
+
 TEST(LinePlot, whatever_it_is_given_is_a_drawing_still) {
   constexpr double kInf = std::numeric_limits<double>::infinity();
   for (const bool log_y : {false, true}) {
