@@ -124,6 +124,24 @@ test('each view shows something else', async () => {
   await button('Neutral').click();
 });
 
+test('a body is drawn by one call', async () => {
+  const bodies = (view) => tab.evaluate((name) => {
+    const kinds = WebGL2RenderingContext.prototype, own = kinds.drawElements;
+    let large = 0;
+    kinds.drawElements = function (mode, count, ...rest) {
+      if (count > 9000) ++large;
+      own.call(this, mode, count, ...rest);
+    };
+    window.page.set({ view: name });
+    window.page.stage.draw(0);
+    kinds.drawElements = own;
+    return large;
+  }, view);
+  assert.equal(await bodies('side'), 2);
+  assert.equal(await bodies('over'), 2);
+  assert.equal(await bodies('styled'), 1);
+});
+
 test('the walker stands, walks and jogs, and turns by keys, stick and gamepad', async () => {
   const steer = async () => {
     await frames(tab, 2);
