@@ -1,6 +1,7 @@
 // What the tests of the page share: a server of the built page, and a browser that complains.
 
 import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
 import { mkdir, readFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
 import { extname, join } from 'node:path';
@@ -12,6 +13,11 @@ export const pageFolder = join(root, 'build', 'web');
 export const models = join(root, 'models');
 /** Screenshots for a person to look at. */
 export const pictures = join(root, 'build', 'web-pictures');
+
+/** The hash of 300 styled frames natively, on each instruction set of the machine. */
+export const nativeHashes = () =>
+  execFileSync(process.env.PANACHE_GOLDEN, [join(models, 'panache-int8.safetensors')])
+    .toString().trim().split('\n').map((line) => line.split(' ')[1]);
 
 const types = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css' };
 

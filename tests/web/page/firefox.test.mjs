@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { drop, frames, models, pictures, startFirefox, styledParts } from './browser.mjs';
+import { drop, frames, models, nativeHashes, pictures, startFirefox, styledParts } from './browser.mjs';
 
 const model = join(models, 'panache-int8.safetensors');
 const folder = mkdtempSync(join(tmpdir(), 'panache-page-'));
@@ -34,8 +34,8 @@ test('the page opens and moves', async () => {
 });
 
 test('styled frames have the bits of the library', async () => {
-  const native = execFileSync(process.env.PANACHE_GOLDEN, [model]).toString().trim();
-  assert.equal(await tab.evaluate(() => window.page.panache.goldenHash()), native);
+  const here = await tab.evaluate(() => window.page.panache.goldenHash());
+  for (const hash of nativeHashes()) assert.equal(here, hash);
 });
 
 test('a clip opens, is styled by its slider, and is what the program makes of it', async () => {
