@@ -103,12 +103,11 @@ Stance stance_of(const JointPositions& at, const Mapping& mapping) {
   };
   const Vec3 trunk = place(left_upper_arm) + place(right_upper_arm) - place(left_upper_leg) -
                      place(right_upper_leg);
-  constexpr HumanJoint kLimbs[2][4] = {
-      {left_upper_arm, left_lower_arm, left_upper_leg, left_foot},
-      {right_upper_arm, right_lower_arm, right_upper_leg, right_foot}};
+  constexpr HumanJoint kLimbs[2][5] = {
+      {left_upper_arm, left_lower_arm, left_hand, left_upper_leg, left_foot},
+      {right_upper_arm, right_lower_arm, right_hand, right_upper_leg, right_foot}};
   Stance stance;
-  for (const auto& [upper_arm, lower_arm, upper_leg, foot] : kLimbs) {
-    const HumanJoint hand = lower_arm == left_lower_arm ? left_hand : right_hand;
+  for (const auto& [upper_arm, lower_arm, hand, upper_leg, foot] : kLimbs) {
     const HumanJoint end = mapping.joint_of[index(hand)] >= 0 ? hand : lower_arm;
     const Vec3 arm = place(end) - place(upper_arm), leg = place(foot) - place(upper_leg);
     stance.arms_legs += cosine(arm, leg) / 2;

@@ -2,10 +2,11 @@
 
 import * as files from 'virtual:panache-files';
 
-import { Panache, PanacheError, Playback, type MotionFile, type Walk } from '../package/index.js';
+import { Panache, PanacheError, Playback, type Walk } from '../package/index.js';
 import { zip } from './archive';
-import { kAngles, type Angle } from './camera';
+import type { Angle } from './camera';
 import { element, find, forgetColours } from './dom';
+import { listenToDrops } from './drops';
 import { Figures } from './figures';
 import { Cross } from './gamepad';
 import { buildHelp } from './help';
@@ -14,27 +15,26 @@ import { Learn } from './learn';
 import { buildPanel, captionOf, type Panel } from './panel';
 import { buildPictureDialog } from './picture';
 import { Plots } from './plots';
+import { addFiles, addMotion, type Exports } from './save_all';
 import { Film, saveBytes } from './saving';
-import { fromAddress, shapeOf, Store, toAddress, type Settings } from './settings';
-import { clipSource, openFile, putTogether, walkSource, type Source } from './source';
+import { served } from './served';
+import {
+  fromAddress, rememberInAddress, shapeOf, Store, toAddress, type Settings,
+} from './settings';
+import {
+  clipSource, isModel, openFile, putTogether, titleOf, walkSource, type Source,
+} from './source';
 import { Stage } from './stage';
 import { kPaces, Steering, type Pace } from './steering';
 import { Track } from './track';
 import { TransportBar } from './transport';
+import { unpack } from './unpack';
+import { buildViewControls } from './view_controls';
 
 const kMeasuredSteps = 16;   // At once: a browser's clock is too coarse for one.
 const kMeasureEvery = 6;     // Frames.
 const kPlotEvery = 3;        // Frames.
 const kAlertSeconds = 12;
-
-/** What the build packed into the script. */
-async function unpack(base64: string): Promise<ArrayBuffer> {
-  const text = atob(base64);
-  const bytes = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
-  const packed = new Blob([bytes]).stream();
-  return new Response(packed.pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
-}
 
 class Page {
   #panache: Panache;
@@ -105,7 +105,11 @@ class Page {
       }),
     }, this.#learn);
     this.#figures = new Figures(panache, this.#panel.rows);
-    this.#buildViewControls();
+    buildViewControls({
+      onLook: (angle) => this.#look(angle),
+      onCompare: (held) => (this.#stage.comparing = held),
+      onHelp: () => this.#help.showModal(),
+    });
     this.#stage.keepClear = () => {
       const chips = find('#camera').getBoundingClientRect();
       const view = this.#stage.canvas.getBoundingClientRect();
@@ -114,10 +118,19 @@ class Page {
     };
     this.#buildWalkerControls();
     this.#buildFileControls();
-    this.#listenToDrops();
+    listenToDrops((given, target) => {
+      const motions = given.filter((file) => !isModel(file));
+      // While a style is being learnt, motions are for that.
+      if (this.#learn.open && motions.length) this.#learn.take(motions, target);
+      else void this.#attempt(() => this.#openAll(given));
+    });
+    void this.#attempt(async () => {
+      const file = await served('open');
+      if (file) await this.#openAll([file]);
+    });
     this.#use(this.#source);
     this.#store.listen((settings) => this.#apply(settings));
-    this.#rememberInAddress();
+    rememberInAddress(this.#store, () => this.#panache.styles.map(({ name }) => name));
     matchMedia('(prefers-color-scheme: dark)')
       .addEventListener('change', () => {
         forgetColours();
@@ -283,26 +296,11 @@ class Page {
   #capture(which: 'input' | 'styled', seconds: number): File {
     const source = this.#source;
     const [extension, title] = source.kind === 'clip'
-      ? [source.file.extension, source.file.name.replace(/\.[^.]*$/, '')]
+      ? [source.file.extension, titleOf(source.file.name)]
       : ['.bvh', this.#steering.pace];
     const bytes = source.player.exportAs(extension, { which, seconds });
     return new File([bytes as BlobPart],
       `${which === 'input' ? title : this.#nameOf('')}${extension}`);
-  }
-
-  #rememberInAddress() {
-    let timer = 0;
-    this.#store.listen((settings) => {
-      clearTimeout(timer);
-      timer = window.setTimeout(() => {
-        const text = toAddress(settings);
-        if (text === location.hash.replace(/^#/, '')) return;
-        history.replaceState(null, '', text ? `#${text}` : location.pathname + location.search);
-      }, 200);
-    });
-    addEventListener('hashchange', () => {
-      this.#store.set(fromAddress(location.hash, this.#panache.styles.map((s) => s.name)));
-    });
   }
 
   #key(event: KeyboardEvent) {
@@ -404,7 +402,6 @@ class Page {
   /** Takes models and styles, opens the first of the other files, and lists them where there are
    * several. */
   async #openAll(given: File[]) {
-    const isModel = ({ name }: File) => /\.safetensors$/i.test(name);
     for (const file of given.filter(isModel)) await this.#openModel(file);
     const files = given.filter((file) => !isModel(file));
     if (files.length === 0) return;
@@ -457,7 +454,7 @@ class Page {
   #nameOf(extension: string, of?: string): string {
     const { styles, keys, strength } = this.#store.settings;
     const source = of ?? (this.#source.kind === 'clip'
-      ? this.#source.file.name.replace(/\.[^.]*$/, '') : this.#steering.pace);
+      ? titleOf(this.#source.file.name) : this.#steering.pace);
     const named = Object.keys(styles).filter((name) => styles[name] * strength !== 0);
     if (this.#source.kind === 'clip') {
       named.push(...Object.keys(keys).filter((name) => !named.includes(name)));
@@ -472,42 +469,6 @@ class Page {
     for (const button of document.querySelectorAll<HTMLElement>('[data-pace]')) {
       button.setAttribute('aria-pressed', String(button.dataset.pace === pace));
     }
-  }
-
-  #buildViewControls() {
-    const button = (id: string, text: string, hint: string, press: () => void) => {
-      const out = element('button', { type: 'button', id, title: hint, 'aria-label': hint }, text);
-      out.addEventListener('click', press);
-      return out;
-    };
-    const names = { face: 'Camera', front: 'Front', side: 'Side', top: 'Top', orbit: 'Orbit' };
-    const menu = element('select', { id: 'angle', 'aria-label': 'Camera', title: 'Camera (1 to 4)' },
-      ...kAngles.map((angle) => element('option', { value: angle }, names[angle])));
-    menu.addEventListener('change', () => {
-      this.#look(menu.value as Angle);
-      menu.blur();
-    });
-    const compare = button('compare', 'Hold: input', 'Hold to see the input alone (X)', () => {});
-    compare.addEventListener('pointerdown', () => (this.#stage.comparing = true));
-    for (const end of ['pointerup', 'pointerleave', 'pointercancel']) {
-      compare.addEventListener(end, () => (this.#stage.comparing = false));
-    }
-    const whole = button('fullscreen', 'Full screen', 'The view alone, on the whole screen', () => {
-      if (document.fullscreenElement) void document.exitFullscreen();
-      else void find('.stage').requestFullscreen();
-    });
-    whole.hidden = !document.fullscreenEnabled;
-    const more = find('#more');
-    more.addEventListener('click', () => {
-      const open = find('#plots').classList.toggle('open');
-      more.setAttribute('aria-pressed', String(open));
-    });
-    find('#camera').append(menu,
-      button('fit', 'Fit', 'Face the character and fit it in (F)', () => {
-        menu.value = 'face';
-        this.#look('face');
-      }),
-      compare, whole, button('show-help', '?', 'Help: keys and more', () => this.#help.showModal()));
   }
 
   #buildWalkerControls() {
@@ -573,83 +534,24 @@ class Page {
       film, link);
   }
 
-  /** Everything that is listed, styled as is set now, in three formats each. */
+  /** Everything that is listed, styled as is set now, in all formats. */
   async #saveAll() {
-    const out: Record<string, Uint8Array> = {}, failed: string[] = [];
-    const add = (player: Walk | Playback, source: string) => {
-      let title = this.#nameOf('', source);
-      while (`${title}.bvh` in out) title += '-2';
-      for (const extension of ['.bvh', '.glb', '.vrma']) {
-        out[title + extension] = player.exportAs(extension);
-      }
-    };
+    const out: Exports = {};
+    const nameOf = (source: string) => this.#nameOf('', source);
     const source = this.#source;
-    if (source.kind === 'walk') add(source.player, this.#steering.pace);
+    if (source.kind === 'walk') addMotion(out, source.player, nameOf(this.#steering.pace));
     const files = source.kind === 'clip' ? this.#files : [];
-    for (const file of files) {
-      await new Promise((next) => setTimeout(next));  // The page goes on in between.
-      try {
-        this.#exportFile((await openFile(this.#panache, file)).file, add);
-      } catch (error) {
-        if (!(error instanceof PanacheError)) throw error;
-        failed.push(error.message);
-      }
-    }
+    const failed = await addFiles(out, this.#panache, files,
+      (player) => this.#give(player, this.#store.settings), nameOf);
     if (Object.keys(out).length) {
-      const all = files.length > 1 ? `${files.length} motions` : Object.keys(out)[0];
-      saveBytes(await zip(out) as BlobPart, `${all.replace(/\.[^.]*$/, '')}.zip`, 'application/zip');
+      const all = files.length > 1 ? `${files.length} motions` : titleOf(Object.keys(out)[0]);
+      saveBytes(await zip(out) as BlobPart, `${all}.zip`, 'application/zip');
     }
     if (failed.length) throw new PanacheError(failed.join('\n'));
-  }
-  #exportFile(file: MotionFile, add: (player: Playback, source: string) => void) {
-    const title = file.name.replace(/\.[^.]*$/, '');
-    try {
-      file.clips.forEach(({ name }, i) => {
-        const player = file.createPlayer(i);
-        try {
-          this.#give(player, this.#store.settings);
-          add(player, file.clips.length > 1 ? `${title}-${name || i + 1}` : title);
-        } finally {
-          player.free();
-        }
-      });
-    } finally {
-      file.free();
-    }
   }
 
   #link(): string {
     return location.href.replace(/#.*$/, '') + `#${toAddress(this.#store.settings)}`;
-  }
-
-  #listenToDrops() {
-    const drop = find('#drop');
-    let depth = 0;
-    addEventListener('dragenter', (event) => {
-      event.preventDefault();
-      drop.hidden = ++depth === 0;
-    });
-    addEventListener('dragleave', () => (drop.hidden = --depth <= 0));
-    addEventListener('dragover', (event) => event.preventDefault());
-    addEventListener('drop', (event) => {
-      event.preventDefault();
-      depth = 0;
-      drop.hidden = true;
-      const files = [...(event.dataTransfer?.files ?? [])];
-      const motions = files.filter(({ name }) => !/\.safetensors$/i.test(name));
-      // While a style is being learnt, motions are for that.
-      if (this.#learn.open && motions.length) this.#learn.take(motions, event.target);
-      else void this.#attempt(() => this.#openAll(files));
-    });
-    // `panache view FILE` names a file that it serves beside the page.
-    const served = new URLSearchParams(location.search).get('open');
-    if (served) {
-      void this.#attempt(async () => {
-        const answer = await fetch(`open/${encodeURIComponent(served)}`);
-        if (!answer.ok) throw new PanacheError(`${served}: the server has no such file`);
-        await this.#openAll([new File([await answer.blob()], served)]);
-      });
-    }
   }
 
   /** For tests: what is going on. */
@@ -678,11 +580,7 @@ class Page {
 
 /** The model that `panache view --model` serves beside the page, else the page's own. */
 async function findModel(): Promise<ArrayBuffer> {
-  const served = new URLSearchParams(location.search).get('model');
-  if (!served) return unpack(files.model);
-  const answer = await fetch(`model/${encodeURIComponent(served)}`);
-  if (!answer.ok) throw new PanacheError(`${served}: the server has no such file`);
-  return answer.arrayBuffer();
+  return await (await served('model'))?.arrayBuffer() ?? unpack(files.model);
 }
 
 async function start() {

@@ -173,3 +173,17 @@ export class Store {
     for (const listener of this.#listeners) listener(settings);
   }
 }
+
+/** Keeps the address of the page and the settings alike, whichever changes. */
+export function rememberInAddress(store: Store, styles: () => string[]) {
+  let timer = 0;
+  store.listen((settings) => {
+    clearTimeout(timer);
+    timer = window.setTimeout(() => {
+      const text = toAddress(settings);
+      if (text === location.hash.replace(/^#/, '')) return;
+      history.replaceState(null, '', text ? `#${text}` : location.pathname + location.search);
+    }, 200);
+  });
+  addEventListener('hashchange', () => store.set(fromAddress(location.hash, styles())));
+}

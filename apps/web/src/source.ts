@@ -26,6 +26,11 @@ export async function openFile(panache: Panache, file: File): Promise<{ file: Mo
   return { file: panache.openFile(bytes, file.name), bytes };
 }
 
+/** A file's name without its extension. */
+export const titleOf = (name: string) => name.replace(/\.[^.]*$/, '');
+
+/** Whether it is a model or a style. */
+export const isModel = ({ name }: File) => /\.safetensors$/i.test(name);
 const isCharacter = (name: string) => /\.(glb|gltf|vrm)$/i.test(name);
 const isMotionAlone = (name: string) => /\.(bvh|vrma)$/i.test(name);
 
@@ -39,7 +44,7 @@ export async function putTogether(panache: Panache, files: File[]): Promise<File
   try {
     const onto = (await openFile(panache, character)).file;
     try {
-      const title = `${motion.name.replace(/\.[^.]*$/, '')}-on-${character.name}`;
+      const title = `${titleOf(motion.name)}-on-${character.name}`;
       return [new File([from.putOn(onto) as BlobPart], title)];
     } finally {
       onto.free();
