@@ -28,7 +28,7 @@ bool rests_as_it_starts(const Clip& clip) {
 // The rest pose is the skeleton's, units and axes are the clip's. Axes stay where the rest is not
 // known.
 std::string write_bvh(const Clip& clip, const std::string&, const Placement&, const SkinnedBody*) {
-  Clip out = without_still_root(rests_as_it_starts(clip) ? clip : in_rest_axes(clip));
+  Clip out = rests_as_it_starts(clip) ? clip : in_rest_axes(clip);
   add_end_sites(out.skeleton);
   return format_bvh(out);
 }

@@ -1,7 +1,6 @@
 #include "clip/rest_axes.h"
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 namespace panache {
@@ -35,35 +34,6 @@ Clip in_rest_axes(const Clip& clip) {
     }
   }
   return out;
-}
-
-Clip without_still_root(Clip clip) {
-  const std::vector<Joint>& joints = clip.skeleton.joints;
-  const auto children_of = [&](int parent) {
-    return std::count_if(joints.begin(), joints.end(),
-                         [&](const Joint& j) { return j.parent == parent; });
-  };
-  const auto is_still = [](const Joint& j) {
-    return !j.can_rotate && !j.can_translate && j.skin < 0 && j.ends.empty() && j.role.empty();
-  };
-  while (joints.size() > 1 && children_of(-1) == 1 && children_of(0) == 1 &&
-         is_still(joints.front())) {
-    const Joint root = joints.front();
-    Clip out{clip.skeleton, clip.frame_time, 0, {}, {}};
-    out.skeleton.joints.erase(out.skeleton.joints.begin());
-    for (Joint& joint : out.skeleton.joints) --joint.parent;
-    Joint& child = out.skeleton.joints.front();
-    child.offset = root.offset + rotate(root.rest, child.offset);
-    child.rest = root.rest * child.rest;
-    for (int i = 0; i < clip.frames; ++i) {
-      const Pose pose = clip.pose(i);
-      pose.translations[1] = pose.translations[0] + rotate(pose.rotations[0], pose.translations[1]);
-      pose.rotations[1] = pose.rotations[0] * pose.rotations[1];
-      out.append({pose.rotations.subspan(1), pose.translations.subspan(1)});
-    }
-    clip = std::move(out);
-  }
-  return clip;
 }
 
 }  // namespace panache

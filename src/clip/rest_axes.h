@@ -1,5 +1,5 @@
 #pragma once
-// The same motion on the skeleton that BVH has for it.
+// The same motion on a skeleton whose rest rotations are the identity, which is all that BVH knows.
 
 #include "clip/clip.h"
 
@@ -9,10 +9,5 @@ namespace panache {
 // joints and ends are where they were in the rest pose and in every frame, in the roots' parent
 // space; offsets, ends and rotations are expressed in the new axes.
 Clip in_rest_axes(const Clip& clip);
-
-// `clip` without a root that is no joint of the body but the scene around it, as an outer node of a
-// glTF file: its only child becomes the root, with all joints where they were. A root that the file
-// animates or that a skin follows stays.
-Clip without_still_root(Clip clip);
 
 }  // namespace panache

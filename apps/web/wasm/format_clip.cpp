@@ -33,7 +33,7 @@ Result<std::string> format_clip(const Clip& clip, const Rig& rig, ConstPose refe
     const SkinnedBody body = make_rig_body(rig, reference);
     return format_glb(clip, kName, static_cast<double>(rig.unit()), to_y_up, &body);
   }
-  Clip out = without_still_root(in_rest_axes(clip));
+  Clip out = in_rest_axes(clip);
   add_end_sites(out.skeleton);
   return format_bvh(out);
 }
