@@ -85,6 +85,9 @@ TEST(Flight, who_plays_what_comes_learns_of_it_in_the_air) {
   EXPECT_EQ(watch(jump.clip(), jump.take_off()).amount(jump.take_off()), 0);
   const double late = jump.take_off() + 0.75 * (jump.landing() - jump.take_off());
   EXPECT_GT(watch(jump.clip(), late).amount(late), 0.9f);
+  // Long before it has lasted long enough: by how fast the body rises.
+  const double soon = jump.take_off() + 0.18;
+  EXPECT_GT(watch(jump.clip(), soon).amount(soon), 0.9f);
 }
 
 TEST(Flight, walks_runs_and_crouches_are_none) {

@@ -17,6 +17,7 @@ constexpr float kOffFloor = 0.05f, kNear = 0.03f;  // Metres; likewise.
 // The fit blurs both ends of a flight: found are about 0.04 s less than it lasts. Runs show 0.05 to
 // 0.12 s, hops 0.15 s and more.
 constexpr double kTooShort = 0.12, kWhole = 0.18;  // Seconds.
+constexpr double kGravity = 9.81;                  // m/s^2
 // A flight begins this much before it is found, and the impact of its landing is part of it.
 constexpr double kBefore = 0.06, kAfter = 0.14;
 constexpr double kEaseIn = 0.25, kEaseOut = 0.2;
@@ -54,13 +55,13 @@ void FlightWatch::push(double time, const HumanPositions& world) noexcept {
 
 // Least squares: height = a + b x + c x^2 with x from the mean of the times. Nothing where there
 // are too few.
-double FlightWatch::acceleration(int sample) const noexcept {
+FlightWatch::Ballistics FlightWatch::ballistics(int sample) const noexcept {
   const double middle = samples_[sample].time;
   int first = std::max(sample - 1, 0), last = std::min(sample + 1, count_ - 1);
   while (first > 0 && samples_[first - 1].time >= middle - kHalfFit) --first;
   while (last + 1 < count_ && samples_[last + 1].time <= middle + kHalfFit) ++last;
   const int n = last - first + 1;
-  if (n < 3) return 0;
+  if (n < 3) return {};
   double mean = 0;
   for (int i = first; i <= last; ++i) mean += (samples_[i].time - middle) / n;
   double s2 = 0, s3 = 0, s4 = 0, y0 = 0, y1 = 0, y2 = 0;
@@ -70,18 +71,22 @@ double FlightWatch::acceleration(int sample) const noexcept {
     y0 += y, y1 += x * y, y2 += x * x * y;
   }
   const double below = s4 - s2 * s2 / n - s3 * s3 / s2;
-  return below > 0 ? 2 * (y2 - s2 * y0 / n - s3 * y1 / s2) / below : 0.0;
+  if (!(below > 0)) return {};
+  const double c = (y2 - s2 * y0 / n - s3 * y1 / s2) / below, b = (y1 - c * s3) / s2;
+  return {b - 2 * c * mean, 2 * c};
 }
 
 void FlightWatch::judge(int sample) noexcept {
   const Sample& now = samples_[sample];
+  const Ballistics body = ballistics(sample);
   const bool flies =
-      now.feet > (open_ ? kNear : kOffFloor) && acceleration(sample) < (open_ ? kFallsOn : kFalls);
+      now.feet > (open_ ? kNear : kOffFloor) && body.acceleration < (open_ ? kFallsOn : kFalls);
   if (flies && !open_) {
     // One that was too short to count makes room.
     const Flight& last = flights_[newest_];
     if (last.end - last.start > kTooShort) newest_ = (newest_ + 1) % flights_.size();
-    flights_[newest_] = {now.time, now.time};
+    // What rises comes down again to where it was after twice the time that it rises.
+    flights_[newest_] = {now.time, now.time, 2 * body.velocity / kGravity};
   }
   open_ = flies;
   if (flies) flights_[newest_].end = now.time;
@@ -89,8 +94,13 @@ void FlightWatch::judge(int sample) noexcept {
 
 float FlightWatch::amount(double time) const noexcept {
   float most = 0;
-  for (const Flight& flight : flights_) {
-    const double lasts = flight.end - flight.start;
+  for (size_t f = 0; f < flights_.size(); ++f) {
+    const Flight& flight = flights_[f];
+    double lasts = flight.end - flight.start;
+    // One that goes on counts as soon as it will be long enough, eased in as if it were just that.
+    if (open_ && f == newest_) {
+      lasts = std::max(lasts, std::min(flight.expected, lasts + kTooShort));
+    }
     if (lasts <= kTooShort) continue;
     const double before = (flight.start - kBefore - time) / kEaseIn,
                  after = (time - flight.end - kAfter) / kEaseOut;
