@@ -121,7 +121,7 @@ Result<EvaluateOptions> read_options(const Options& options) {
   }
   Result<std::vector<SystemEntry>> published = find_published(options.systems);
   if (!published) return Error{"--system: " + published.error().message};
-  evaluation.train_recipes = options.systems.empty();
+  evaluation.train_recipes = options.systems.empty() && options.recorded.empty();
   evaluation.systems.insert(evaluation.systems.end(), published->begin(), published->end());
   evaluation.recorded = options.recorded;
   if (Result<void> unique = check_names(options, evaluation); !unique) return unique.error();
@@ -193,7 +193,7 @@ void add_eval(CLI::App& app, int& exit_code) {
       ->allow_extra_args(false);
   verb->add_option("--model", options->models,
                    "A model to evaluate; may be given several times; without any, and without "
-                   "--system, all recipes are trained first")
+                   "--system and --recorded, all recipes are trained first")
       ->allow_extra_args(false);
   verb->add_option("--system", options->systems,
                    "A system of another paper to build from the same takes and evaluate beside the "

@@ -171,6 +171,13 @@ TEST_F(Eval, outputs_of_another_program_are_judged_as_if_it_had_been_run) {
   EXPECT_TRUE(theirs["slider"]["style"].is_null());
   EXPECT_TRUE(theirs["mixes"].empty());
   EXPECT_NE(read("report/index.html").find("9 of 9 judged"), std::string::npos);
+
+  // Who asks for outputs alone does not wait for training.
+  const Ran alone = run({"eval", "takes.csv", "--recorded", "theirs", "--json"});
+  ASSERT_EQ(alone.exit, 0) << alone.err;
+  const Json alone_systems = Json::parse(alone.out)["systems"];
+  EXPECT_EQ(alone_systems.size(), 2u);
+  EXPECT_TRUE(alone_systems.contains("theirs") && alone_systems.contains("mean posture"));
 }
 
 TEST_F(Eval, outputs_with_a_manifest_that_is_wrong_are_rejected_at_once) {
