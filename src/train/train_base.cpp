@@ -131,10 +131,10 @@ class BaseTraining {
   BaseTraining(const std::vector<Take>& takes, InputUnits units, const TrainingSettings& settings,
                uint64_t seed)
       : takes_(takes), units_(std::move(units)), steps_(settings.base_steps), seed_(seed) {
+    const std::vector<bool> validates = validation_takes(takes);
     for (size_t t = 0; t < takes.size(); ++t) {
       const ManifestRow& row = takes[t].row;
-      (is_validation_take(row.path) ? held_ : places_)
-          .add(row.content, static_cast<int>(t), takes[t].frames());
+      (validates[t] ? held_ : places_).add(row.content, static_cast<int>(t), takes[t].frames());
       turns_.push_back({});
     }
     parallel_for(static_cast<int>(takes.size()),

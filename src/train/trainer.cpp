@@ -248,11 +248,11 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
   for (const StyleName& style : styles) names.push_back(style.name);
   const int count = static_cast<int>(names.size());
   const SampleSet set(data.takes, data.pairings, names, recipe, settings.neutral_samples);
+  const std::vector<bool> validates = validation_takes(data.takes);
   std::vector<int> choice, held;
   for (size_t i = 0; i < set.samples().size(); ++i) {
     const int styled = set.samples()[i].styled;
-    const bool validates = styled >= 0 && is_validation_take(data.takes[styled].row.path);
-    (validates ? held : choice).push_back(static_cast<int>(i));
+    (styled >= 0 && validates[styled] ? held : choice).push_back(static_cast<int>(i));
   }
 
   const OutputUnits units = output_units(set, choice);

@@ -1,5 +1,8 @@
 #include "train/training_data.h"
 
+#include <map>
+#include <tuple>
+
 #include <dlfcn.h>
 #include <torch/torch.h>
 
@@ -19,14 +22,34 @@ void keep_libraries_single_threaded() {
   }
 }
 
-}  // namespace
-
-bool is_validation_take(const std::string& path) {
-  uint32_t hash = 2166136261u;  // FNV-1a of the file's name.
+// FNV-1a of the file's name.
+uint32_t hash_of_name(const std::string& path) {
+  uint32_t hash = 2166136261u;
   for (const char c : path.substr(path.find_last_of('/') + 1)) {
     hash = (hash ^ static_cast<uint8_t>(c)) * 16777619u;
   }
-  return hash % 20 == 0;
+  return hash;
+}
+
+}  // namespace
+
+std::vector<bool> validation_takes(const std::vector<Take>& takes) {
+  using Cell = std::tuple<int, std::string, std::string>;  // Set, style, content.
+  std::map<Cell, std::vector<size_t>> cells;
+  for (size_t t = 0; t < takes.size(); ++t) {
+    const ManifestRow& row = takes[t].row;
+    cells[{row.set, row.style, row.content}].push_back(t);
+  }
+  std::vector<bool> validates(takes.size());
+  for (const auto& [cell, members] : cells) {
+    bool trains = false;
+    for (const size_t t : members) {
+      validates[t] = hash_of_name(takes[t].row.path) % 20 == 0;
+      trains = trains || !validates[t];
+    }
+    if (!trains) validates[members.front()] = false;
+  }
+  return validates;
 }
 
 Result<std::vector<Take>> read_training_takes(const std::vector<ManifestRow>& rows,

@@ -25,8 +25,9 @@ Result<TrainingData> prepare_training(const std::vector<ManifestRow>& rows, Pose
 Result<std::vector<Take>> read_training_takes(const std::vector<ManifestRow>& rows,
                                               PoseLayout layout, const std::string& what);
 
-// A twentieth of the takes is kept for validation, told by the file's name. Whole takes:
-// neighbouring frames are nearly copies of each other.
-bool is_validation_take(const std::string& path);
+// Which of the takes are kept for validation: about a twentieth, told by the file's name. Whole
+// takes: neighbouring frames are nearly copies of each other. Each action of each style in each set
+// has at least one take that is trained on. [takes]
+std::vector<bool> validation_takes(const std::vector<Take>& takes);
 
 }  // namespace panache
