@@ -155,11 +155,11 @@ function keepDownloads() {
 export async function download(tab, press) {
   if (isFirefox) {
     await press();
-    await tab.waitForFunction(() => window.downloads.length > 0, null, { timeout: 60000 });
+    await tab.waitForFunction(() => window.downloads.length > 0, null, { timeout: 120000 });
     const { name, text } = await tab.evaluate(() => window.downloads.shift());
     return { name, bytes: Buffer.from(text, 'base64') };
   }
-  const coming = tab.waitForEvent('download', { timeout: 60000 });
+  const coming = tab.waitForEvent('download', { timeout: 120000 });
   await press();
   const file = await coming;
   return { name: file.suggestedFilename(), bytes: await readFile(await file.path()) };
