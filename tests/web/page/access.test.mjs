@@ -7,9 +7,18 @@ import { after, before, test } from 'node:test';
 
 import { frames, isFirefox, phone, pictures, start } from './browser.mjs';
 
+const folder = mkdtempSync(join(tmpdir(), 'panache-page-'));
+const panache = (...given) => execFileSync(process.env.PANACHE_PROGRAM, given, { cwd: folder });
+
 let site;
-before(async () => (site = await start()));
-after(() => site.close());
+before(async () => {
+  panache('walker', '-o', 'walk.bvh', '--seconds', '3');
+  site = await start();
+});
+after(async () => {
+  await site.close();
+  rmSync(folder, { recursive: true });
+});
 
 /** Role and name of all that is told of the page: by Chromium itself, in Firefox by playwright. */
 async function told(tab) {
@@ -115,12 +124,12 @@ test('a phone shows all of it, large enough for a finger', async () => {
   await tab.close();
 });
 
-test('small screens: nothing overlaps, and the view keeps half', async () => {
+test('small screens: nothing overlaps or is scrolled sideways, and the view keeps half', async () => {
   for (const [width, height] of [[844, 390], [320, 640], [390, 844]]) {
     const tab = await site.open('', { viewport: { width, height }, steady: true });
-    const { wide, view, overlaps } = await tab.evaluate(() => {
+    const measure = () => tab.evaluate(() => {
       const boxes = [...document.querySelectorAll('h1, .stage button, .stage select, .bar button, ' +
-        '#stick, .split-names span')]
+        '.bar select, .bar output, .key-field, #stick, .split-names span')]
         .filter((e) => e.checkVisibility() && e.getBoundingClientRect().width)
         .map((e) => {
           // A word, and not the half of the view that it stands in.
@@ -135,22 +144,34 @@ test('small screens: nothing overlaps, and the view keeps half', async () => {
           p.bottom <= q.top + 0.5 || q.bottom <= p.top + 0.5;
         if (!apart) out.push(`${a} over ${b}`);
       }));
+      const sideways = [...document.querySelectorAll('html, body *')]
+        .filter((e) => e.checkVisibility() && e.scrollWidth > e.clientWidth + 1 &&
+          ['auto', 'scroll'].includes(getComputedStyle(e).overflowX))
+        .map((e) => e.id || e.className);
+      const outside = boxes.filter(([, box]) => box.left < -0.5 || box.right > innerWidth + 0.5);
       const view = document.querySelector('#view').getBoundingClientRect();
-      return { wide: document.documentElement.scrollWidth, overlaps: out,
+      return { wide: document.documentElement.scrollWidth, overlaps: out, sideways,
+        outside: outside.map(([name]) => name),
         view: (view.width * view.height) / (innerWidth * innerHeight) };
     });
-    assert.deepEqual(overlaps, [], `${width} x ${height}`);
-    assert.equal(wide, width);
-    assert.ok(view >= 0.49, `${width} x ${height}: ${view}`);
-    await tab.screenshot({ path: join(pictures, `${width}x${height}.png`) });
+    const check = async (what) => {
+      const { wide, view, ...faults } = await measure();
+      assert.deepEqual(faults, { overlaps: [], sideways: [], outside: [] }, what);
+      assert.equal(wide, width, what);
+      assert.ok(view >= 0.49, `${what}: ${view}`);
+      await tab.screenshot({ path: join(pictures, `${what}.png`) });
+    };
+    await check(`${width}x${height}`);
+    // A clip has more controls under the view than the walker.
+    await tab.setInputFiles('#file', join(folder, 'walk.bvh'));
+    await tab.waitForFunction(() => window.page.source.kind === 'clip');
+    await tab.locator('#show-keys').click();
+    await check(`${width}x${height}-keys`);
     await tab.close();
   }
 });
 
 test('pictures for a person to look at', async () => {
-  const folder = mkdtempSync(join(tmpdir(), 'panache-page-'));
-  const panache = (...given) => execFileSync(process.env.PANACHE_PROGRAM, given, { cwd: folder });
-  panache('walker', '-o', 'walk.bvh', '--seconds', '3');
   panache('convert', 'walk.bvh', '-o', 'walk.glb');
   const looks = [['default', ''], ['old', 'old=1&view=side'], ['very-old', 'old=2'],
     ['mix', 'proud=0.8&giant=0.6&view=over'], ['dark', 'angry=1', { colorScheme: 'dark' }],
@@ -167,5 +188,4 @@ test('pictures for a person to look at', async () => {
     await tab.screenshot({ path: join(pictures, `${name}.png`) });
     await tab.close();
   }
-  rmSync(folder, { recursive: true });
 });
