@@ -189,10 +189,12 @@ test('a loop is saved: a cycle of the clip whose end leads to its beginning, or 
     await frames(tab, 2);
     await tab.keyboard.press(key);
   }
-  // A fifth of three seconds at 25 frames a second, at the tempo of the style.
+  // A fifth of three seconds less a frame at 25 frames a second, at the tempo of the clip.
+  await tab.locator('#style-proud').fill('0');
   const { steps: part } = await saveLoop();
-  saved.pop();
-  assert.ok(part.length >= 12 && part.length <= 19, `${part.length}`);
+  assert.equal(saved.pop(), 'walk-neutral.gif');
+  assert.equal(part.length, Math.floor(0.2 * (3 - 1 / 60) * 25) + 1);
+  await tab.locator('#style-proud').fill('1');
   for (const [share, key] of [[0, 'i'], [1, 'o']]) {
     await tab.locator('#scrub').fill(String(share));
     await frames(tab, 2);
