@@ -43,7 +43,8 @@ test('every control has a name', async () => {
 });
 
 test('text stands out from what is behind it, by light and by dark', async () => {
-  for (const colorScheme of ['light', 'dark']) {
+  // Over WebDriver BiDi playwright cannot ask Firefox for a dark page.
+  for (const colorScheme of isFirefox ? ['light'] : ['light', 'dark']) {
     const tab = await site.open('old=1', { colorScheme });
     // WCAG 2: 4.5 to 1.
     const weak = await tab.evaluate(() => {

@@ -66,11 +66,11 @@ export const isFirefox = process.env.PANACHE_BROWSER === 'firefox';
 export const phone = { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2,
   ...(isFirefox ? {} : { isMobile: true, hasTouch: true }) };
 
-// Firefox has WebGL only in a window, and is dark only as a whole.
-const launch = (dark) => (isFirefox ? playwright._bidiFirefox.launch({
+// Firefox has WebGL only in a window.
+const launch = () => (isFirefox ? playwright._bidiFirefox.launch({
   executablePath: process.env.FIREFOX ?? '/usr/bin/firefox-esr', headless: false,
   env: { ...process.env, LIBGL_ALWAYS_SOFTWARE: '1' },
-  firefoxUserPrefs: { 'webgl.force-enabled': true, 'ui.systemUsesDarkTheme': dark ? 1 : 0 },
+  firefoxUserPrefs: { 'webgl.force-enabled': true },
 }) : playwright.chromium.launch({
   executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
   args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
@@ -79,18 +79,14 @@ const launch = (dark) => (isFirefox ? playwright._bidiFirefox.launch({
 /** Starts both; close() ends them. open() gives a tab in which the page runs. */
 export async function start() {
   const { server, address } = await serve();
-  const browser = await launch(false);
-  let dark = null;  // Firefox again.
+  const browser = await launch();
   await mkdir(pictures, { recursive: true });
   const complaints = [], requests = [];
 
   // Without a hash as a visitor sees it first; most tests want a neutral start.
   async function open(hash = 'neutral', options = {}) {
     const { url = address, steady, card, ...look } = options;
-    const isDark = isFirefox && look.colorScheme === 'dark';
-    if (isDark) dark ??= await launch(true);
-    const tab = await (isDark ? dark : browser).newPage(
-      { viewport: { width: 1280, height: 800 }, ...look });
+    const tab = await browser.newPage({ viewport: { width: 1280, height: 800 }, ...look });
     if (steady) await tab.addInitScript(steadyFrames);
     if (card) await tab.addInitScript(graphicsCard);
     if (isFirefox) await tab.addInitScript(keepDownloads);
@@ -113,7 +109,6 @@ export async function start() {
   }
   async function close() {
     await browser.close();
-    await dark?.close();
     server.close();
     assert.deepEqual(complaints, []);
   }
