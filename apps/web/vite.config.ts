@@ -37,26 +37,41 @@ function plainScript(): Plugin {
   };
 }
 
-// Scripts that the page loads when it first needs them, each by itself: assets/zip.js.
+// Scripts that the page loads when it first needs them, each by itself: src/late.ts.
 function lateScripts(): Plugin {
   return {
     name: 'panache-late-scripts',
     apply: 'build',
     async generateBundle() {
-      const input = fileURLToPath(new URL('src/zip.ts', import.meta.url));
-      const [made] = [await build({ configFile: false, logLevel: 'warn', build: {
-        write: false, target: 'es2022', modulePreload: false,
-        rollupOptions: { input, output: { format: 'iife' } },
-      } })].flat();
-      if (!('output' in made)) throw new Error('nothing was built');
-      this.emitFile({ type: 'asset', fileName: 'assets/zip.js', source: made.output[0].code });
+      for (const name of ['gif', 'zip']) {
+        const input = fileURLToPath(new URL(`src/late/${name}.ts`, import.meta.url));
+        const [made] = [await build({ configFile: false, logLevel: 'warn', build: {
+          write: false, target: 'es2022', modulePreload: false,
+          rollupOptions: { input, output: { format: 'iife' } },
+        } })].flat();
+        if (!('output' in made)) throw new Error('nothing was built');
+        this.emitFile({ type: 'asset', fileName: `assets/${name}.js`, source: made.output[0].code });
+      }
+    },
+  };
+}
+
+// The licences of what is in the page want their texts to go with it.
+function licences(): Plugin {
+  return {
+    name: 'panache-licences',
+    apply: 'build',
+    generateBundle() {
+      const text = [['fflate', 'LICENSE'], ['gifenc', 'LICENSE.md'], ['three', 'LICENSE']]
+        .map(([name, file]) => `${name}\n\n${readFileSync(`node_modules/${name}/${file}`, 'utf8')}`);
+      this.emitFile({ type: 'asset', fileName: 'licences.txt', source: text.join('\n\n') });
     },
   };
 }
 
 export default defineConfig({
   base: './',
-  plugins: [embedFiles(), lateScripts(), plainScript()],
+  plugins: [embedFiles(), lateScripts(), licences(), plainScript()],
   build: {
     outDir: `${root}build/web`,
     emptyOutDir: true,

@@ -55,6 +55,16 @@ export class Camera {
     this.#controls.update();
   }
 
+  /** Sees its own body as `other` sees its. */
+  takeAngle(other: Camera) {
+    const from = other.camera.position.clone().sub(other.#controls.target);
+    this.#height = other.#height;
+    this.#aim();
+    this.camera.position.copy(this.#controls.target).add(from);
+    this.#controls.autoRotate = false;
+    this.#controls.update();
+  }
+
   /** Goes where the body goes, a little later. */
   follow(place: THREE.Vector3, seconds: number) {
     const step = place.clone().sub(this.followed);
@@ -64,6 +74,10 @@ export class Camera {
     this.camera.position.add(step);
     this.#aim();
     this.#controls.update(seconds);
+  }
+
+  free() {
+    this.#controls.dispose();
   }
 
   #aim() {

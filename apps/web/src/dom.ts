@@ -15,6 +15,15 @@ export function element<Tag extends keyof HTMLElementTagNameMap>(
   return out;
 }
 
+/** A button that does something when it is pressed. */
+export function button(text: string, press: () => void, attributes: Attributes = {}) {
+  const out = element('button', { type: 'button', ...attributes }, text);
+  out.addEventListener('click', press);
+  return out;
+}
+/** What says in words what a button with a short text does: its tooltip, and its name. */
+export const hinted = (hint: string) => ({ title: hint, 'aria-label': hint });
+
 export function find<T extends HTMLElement>(selector: string): T {
   const out = document.querySelector<T>(selector);
   if (!out) throw new Error(`the page has no ${selector}`);

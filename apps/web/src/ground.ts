@@ -8,15 +8,15 @@ const kShadowSize = 5;  // Metres.
 
 const kTile = 256;  // Pixels of a square metre of lines.
 
-/** A square metre: a line along its edges, finer ones every quarter. */
-function lineTexture(sharp: boolean): THREE.Texture {
+/** A square metre: a line along its edges, finer ones every quarter; or equal ones. */
+function lineTexture(sharp: boolean, equal: boolean): THREE.Texture {
   const canvas = document.createElement('canvas');
   canvas.width = canvas.height = kTile;
   const context = canvas.getContext('2d')!;
   for (let i = 0; i <= 4; ++i) {
-    const edge = i % 4 === 0;
-    const at = (i * kTile) / 4, wide = edge ? 5 : 1.5;
-    context.fillStyle = edge ? '#bfbfbf' : '#5a5a5a';
+    const edge = i % 4 === 0 && !equal;
+    const at = (i * kTile) / 4, wide = edge ? 5 : equal ? 2.5 : 1.5;
+    context.fillStyle = edge ? '#bfbfbf' : equal ? '#858585' : '#5a5a5a';
     context.fillRect(at - wide / 2, 0, wide, kTile);
     context.fillRect(0, at - wide / 2, kTile, wide);
   }
@@ -28,20 +28,22 @@ function lineTexture(sharp: boolean): THREE.Texture {
 
 /** Lines that fade with the distance. One look into a texture: shaders that compute lines, or
  * colours, for each pixel cost half of a frame where no graphics card draws. */
-function gridMaterial(sharp: boolean): THREE.ShaderMaterial {
+function gridMaterial(sharp: boolean, equal: boolean): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
     depthWrite: false,
     uniforms: {
       line: { value: new THREE.Color() },
       ground: { value: new THREE.Color() },
-      lines: { value: lineTexture(sharp) },
+      lines: { value: lineTexture(sharp, equal) },
+      drift: { value: new THREE.Vector2() },
     },
     vertexShader: `
+      uniform vec2 drift;
       varying vec2 place;
       varying float shown;
       void main() {
         vec4 world = modelMatrix * vec4(position, 1.0);
-        place = world.xz;
+        place = world.xz + drift;
         shown = 1.0 - smoothstep(2.5, 10.5, length(position.xz));
         gl_Position = projectionMatrix * viewMatrix * world;
       }`,
@@ -85,10 +87,10 @@ export class Ground {
   #grid: THREE.Mesh<THREE.PlaneGeometry, THREE.ShaderMaterial>;
   #shadow: THREE.Mesh;
 
-  /** `spots`: without a cast shadow, and with lines that cost little. */
-  constructor(public spots: boolean) {
+  /** `spots`: without a cast shadow, and with lines that cost little. `equal`: of one width. */
+  constructor(public spots: boolean, equal: boolean) {
     const plane = new THREE.PlaneGeometry(kSize, kSize, 24, 24).rotateX(-Math.PI / 2);
-    this.#grid = new THREE.Mesh(plane, gridMaterial(!spots));
+    this.#grid = new THREE.Mesh(plane, gridMaterial(!spots, equal));
     this.#grid.renderOrder = -2;
     const under = new THREE.PlaneGeometry(kShadowSize, kShadowSize).rotateX(-Math.PI / 2);
     this.#shadow = new THREE.Mesh(under, new THREE.ShadowMaterial({ opacity: 0.32 }));
@@ -104,6 +106,13 @@ export class Ground {
     const { uniforms } = this.#grid.material;
     uniforms.ground.value.set(ground).convertLinearToSRGB();
     uniforms.line.value.set(line).convertLinearToSRGB();
+  }
+
+  /** Moves the lines so that a loop, in which the body goes `way`, ends on the lines that it began
+   * on, and no one of them jumps: `share` of the loop is over. */
+  close(way: THREE.Vector2, share: number) {
+    const drift = this.#grid.material.uniforms.drift.value as THREE.Vector2;
+    drift.copy(way).multiplyScalar(4).round().divideScalar(4).sub(way).multiplyScalar(share);
   }
 
   /** Keeps the ground under the body; the lines stay where they are. `feet` are the toes. */

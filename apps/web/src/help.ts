@@ -29,7 +29,8 @@ export function buildHelp(): HTMLDialogElement {
     element('p', {}, 'Move a slider: the same motion in another style, computed in this browser. ' +
       'Drag the view to look around, scroll to come nearer. Drop a motion or a character ' +
       '(BVH, GLB, glTF, VRM, VRMA) on the view and style it; a motion and a character together ' +
-      'are put together. Save the result as BVH, GLB or VRMA, or all opened files as one zip. ' +
+      'are put together. Save the result as BVH, GLB or VRMA, or all opened files as one zip, ' +
+      'the view as a picture (PNG), a film (WebM) or a loop (GIF). ' +
       'Nothing is uploaded.'),
     element('p', {}, 'Learn a style: give a clip of an action as it is and one of the same action ' +
       'in the style, from files or recorded from the view; a slider for it appears. Save it as a ' +

@@ -3,20 +3,22 @@
 import * as files from 'virtual:panache-files';
 
 import { Panache, PanacheError, Playback, type Walk } from '../package/index.js';
-import { zip } from './archive';
 import type { Angle } from './camera';
-import { element, find, forgetColours } from './dom';
+import { button, element, find, forgetColours } from './dom';
 import { listenToDrops } from './drops';
 import { Figures } from './figures';
 import { Cross } from './gamepad';
 import { buildHelp } from './help';
 import { strengthAt, withKey, type Key } from './keys';
+import { late } from './late';
 import { Learn } from './learn';
+import type { LoopMotion } from './loop';
+import { clipLoop, walkLoop } from './loop_motion';
 import { buildPanel, captionOf, type Panel } from './panel';
-import { buildPictureDialog } from './picture';
 import { Plots } from './plots';
 import { addFiles, addMotion, type Exports } from './save_all';
-import { Film, saveBytes } from './saving';
+import { buildViewSaving } from './save_view';
+import { saveBytes } from './saving';
 import { served } from './served';
 import {
   fromAddress, rememberInAddress, shapeOf, Store, toAddress, type Settings,
@@ -49,7 +51,6 @@ class Page {
   #learn: Learn;
   #track: Track;
   #help = buildHelp();
-  #film = new Film(this.#stage.canvas);
   #source: Source;
   #files: File[] = [];  // That were opened together.
   #bytes = new ArrayBuffer(0);  // Of the file that is open.
@@ -473,10 +474,8 @@ class Page {
 
   #buildWalkerControls() {
     const buttons = (Object.keys(kPaces) as Pace[]).map((pace) => {
-      const button = element('button', { type: 'button', 'data-pace': pace },
-        pace[0].toUpperCase() + pace.slice(1));
-      button.addEventListener('click', () => this.#setPace(pace));
-      return button;
+      const title = pace[0].toUpperCase() + pace.slice(1);
+      return button(title, () => this.#setPace(pace), { 'data-pace': pace });
     });
     const keys = element('span', { class: 'keys' });
     for (const key of ['W', 'A', 'S', 'D']) keys.append(element('kbd', {}, key), ' ');
@@ -487,31 +486,20 @@ class Page {
 
   #buildFileControls() {
     const input = find<HTMLInputElement>('#file');
-    const button = (id: string, text: string, hint: string, press: () => void | Promise<void>) => {
-      const out = element('button', { type: 'button', id, title: hint }, text);
-      out.addEventListener('click', () => void this.#attempt(press));
-      return out;
-    };
-    const film = button('save-webm', 'WebM', 'Record a video of the view; press again to stop', () => {
-      if (this.#film.running) this.#film.stop();
-      else this.#film.start(this.#nameOf('.webm'));
-      film.setAttribute('aria-pressed', String(this.#film.running));
-      film.textContent = this.#film.running ? 'Stop recording' : 'WebM';
-    });
-    film.hidden = !Film.possible;
+    const act = (id: string, text: string, title: string, press: () => void | Promise<void>) =>
+      button(text, () => void this.#attempt(press), { id, title });
     input.addEventListener('change', () => {
       const files = [...(input.files ?? [])];
       input.value = '';
       void this.#attempt(() => this.#openAll(files));
     });
-    const picture = buildPictureDialog(this.#stage, () => this.#nameOf('.png'));
     const save = (extension: string) => () => {
       saveBytes(this.#source.player.exportAs(extension) as BlobPart, this.#nameOf(extension));
     };
     const menu = element('select', { id: 'files', 'aria-label': 'Opened files', hidden: true });
     menu.addEventListener('change', () =>
       void this.#attempt(() => this.#open(this.#files[Number(menu.value)])));
-    const link = button('copy-link', 'Copy link', 'A link to this page with these settings',
+    const link = act('copy-link', 'Copy link', 'A link to this page with these settings',
       async () => {
         await navigator.clipboard.writeText(this.#link());
         link.textContent = 'Copied';
@@ -519,19 +507,36 @@ class Page {
       });
     link.hidden = !navigator.clipboard;
     find('#file-controls').append(menu,
-      button('back', 'Walker', 'Close the file and steer the walker again',
+      act('back', 'Walker', 'Close the file and steer the walker again',
         () => this.#use(walkSource(this.#panache))),
-      button('open', 'Open …',
+      act('open', 'Open …',
         'BVH, GLB, glTF, VRM or VRMA files, a model or a style; or drop them on the view',
         () => input.click()),
       element('span', { class: 'word' }, 'Save'),
-      button('save-bvh', 'BVH', 'The motion, as a BVH file', save('.bvh')),
-      button('save-glb', 'GLB', 'The motion, as a GLB file', save('.glb')),
-      button('save-vrma', 'VRMA', 'The motion, as a VRM animation', save('.vrma')),
-      button('save-zip', 'Zip', 'All opened files, each as BVH, GLB and VRMA, in one zip',
+      act('save-bvh', 'BVH', 'The motion, as a BVH file', save('.bvh')),
+      act('save-glb', 'GLB', 'The motion, as a GLB file', save('.glb')),
+      act('save-vrma', 'VRMA', 'The motion, as a VRM animation', save('.vrma')),
+      act('save-zip', 'Zip', 'All opened files, each as BVH, GLB and VRMA, in one zip',
         () => this.#saveAll()),
-      button('save-png', 'PNG', 'Save the view as a picture', () => picture()),
-      film, link);
+      ...buildViewSaving({
+        stage: this.#stage,
+        nameOf: (extension) => this.#nameOf(extension),
+        motion: () => this.#loopMotion(),
+        attempt: (action) => this.#attempt(action),
+      }), link);
+  }
+
+  /** What is seen now, as a motion that can be gone through again, beside what is seen. */
+  #loopMotion(): LoopMotion {
+    const { settings } = this.#store;
+    const source = this.#source;
+    if (source.kind === 'walk') {
+      return walkLoop(this.#panache, this.#steering.pace, (player) => this.#give(player, settings));
+    }
+    const { isPart, range } = this.#transport;
+    const keyed = Object.keys(settings.keys).length > 0;
+    return clipLoop(source, this.#bytes, range,
+      (player) => this.#give(player, settings), !isPart && !keyed);
   }
 
   /** Everything that is listed, styled as is set now, in all formats. */
@@ -545,7 +550,7 @@ class Page {
       (player) => this.#give(player, this.#store.settings), nameOf);
     if (Object.keys(out).length) {
       const all = files.length > 1 ? `${files.length} motions` : titleOf(Object.keys(out)[0]);
-      saveBytes(await zip(out) as BlobPart, `${all}.zip`, 'application/zip');
+      saveBytes((await late('zip')).zipFiles(out) as BlobPart, `${all}.zip`, 'application/zip');
     }
     if (failed.length) throw new PanacheError(failed.join('\n'));
   }
@@ -572,9 +577,6 @@ class Page {
   }
   get frames() {
     return this.#frames;
-  }
-  get stepMicroseconds() {
-    return this.#plots.stepMedian;
   }
 }
 

@@ -1,7 +1,7 @@
 // Everything that is set by hand: presets, styles, the pad, how much, and of which part.
 
 import type { Style } from '../package/index.js';
-import { element, find } from './dom';
+import { button, element, find, hinted } from './dom';
 import { buildPad } from './pad';
 import { kCorners, kPresets } from './presets';
 import {
@@ -32,22 +32,21 @@ const title = (name: string) => name[0].toUpperCase() + name.slice(1);
 
 function toggle(text: string, hint: string, pressed: (s: Settings) => boolean, store: Store,
     press: (s: Settings) => Partial<Settings>) {
-  const button = element('button', { type: 'button', title: hint }, text);
-  button.addEventListener('click', () => store.set(press(store.settings)));
-  store.listen((settings) => button.setAttribute('aria-pressed', String(pressed(settings))));
-  return button;
+  const out = button(text, () => store.set(press(store.settings)), { title: hint });
+  store.listen((settings) => out.setAttribute('aria-pressed', String(pressed(settings))));
+  return out;
 }
 
 function presets(store: Store) {
   const buttons = kPresets.map((preset) => {
-    const button = element('button', { type: 'button' }, preset.title);
-    button.addEventListener('click', () => store.set({ styles: { ...preset.styles }, keys: {} }));
+    const chip = button(preset.title,
+      () => store.set({ styles: { ...preset.styles }, keys: {} }));
     store.listen(({ styles }) => {
       const same = JSON.stringify(Object.entries(styles).sort()) ===
         JSON.stringify(Object.entries(preset.styles).sort());
-      button.setAttribute('aria-pressed', String(same));
+      chip.setAttribute('aria-pressed', String(same));
     });
-    return button;
+    return chip;
   });
   const group = element('div',
     { class: 'chips', id: 'presets', role: 'group', 'aria-label': 'Presets' }, ...buttons);
@@ -123,14 +122,10 @@ class StyleRows {
     });
     const words = element('p', { class: 'words' }, description);
     if (learnt) {
-      const act = (text: string, hint: string, press: () => void) => {
-        const button = element('button', { type: 'button', title: hint, 'aria-label': hint }, text);
-        button.addEventListener('click', press);
-        return button;
-      };
       words.className = 'own';
-      words.append(act('Save', `Save ${name} as a style file`, () => this.events.onSave(name)),
-        act('Remove', `Remove ${name}`, () => this.events.onRemove(name)));
+      words.append(
+        button('Save', () => this.events.onSave(name), hinted(`Save ${name} as a style file`)),
+        button('Remove', () => this.events.onRemove(name), hinted(`Remove ${name}`)));
     }
     slider.row.append(words);
     return slider;
@@ -192,10 +187,9 @@ export function buildPanel(store: Store, styles: readonly Style[], events: Style
   const chips = presets(store), found = search(rows);
   const pad = buildPad(store, kCorners);
   const act = (id: string, text: string, hint: string, press: () => void, can: () => boolean) => {
-    const button = element('button', { type: 'button', id, title: hint }, text);
-    button.addEventListener('click', press);
-    store.listen(() => (button.disabled = !can()));
-    return button;
+    const out = button(text, press, { id, title: hint });
+    store.listen(() => (out.disabled = !can()));
+    return out;
   };
   find('#panel').append(
     element('div', { class: 'chips', id: 'history', role: 'group', 'aria-label': 'Changes' },

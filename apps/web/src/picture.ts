@@ -1,45 +1,49 @@
-// The view as a picture of any size.
+// Which size a picture or a loop of the view has.
 
-import { element, find } from './dom';
-import { saveBytes } from './saving';
-import type { Stage } from './stage';
+import { button, element, find } from './dom';
 
-const kSizes = [[1280, 720], [1920, 1080], [3840, 2160], [1080, 1080], [1080, 1920]];
 const kLeast = 16;
 
-/** What opens the dialog. */
-export function buildPictureDialog(stage: Stage, name: () => string): () => void {
+export interface SizeDialog {
+  title: string;
+  /** Of the button that saves. */
+  action: string;
+  sizes: readonly (readonly [number, number])[];
+  /** Pixels, in either direction. */
+  largest: number;
+  /** What the view has. */
+  seen: [number, number];
+  hint?: string;
+  save(width: number, height: number): void | Promise<void>;
+}
+
+export function askSize(what: SizeDialog) {
   const field = (id: string, title: string) => element('input', { type: 'number', id,
-    'aria-label': title, min: kLeast, max: stage.largestPicture, step: 1, required: true });
+    'aria-label': title, min: kLeast, max: what.largest, step: 1, required: true });
   const width = field('picture-width', 'Width, pixels');
   const height = field('picture-height', 'Height, pixels');
   const set = (wide: number, high: number) => {
     width.value = String(wide);
     height.value = String(high);
   };
-  const seen = () => set(...stage.seen);
-  const chip = (text: string, press: () => void) => {
-    const button = element('button', { type: 'button' }, text);
-    button.addEventListener('click', press);
-    return button;
-  };
-  const close = chip('Close', () => dialog.close());
+  const [wide, high] = what.seen;
+  const smaller = Math.min(1, what.largest / Math.max(wide, high));
+  const seen = () => set(Math.round(smaller * wide), Math.round(smaller * high));
   const form = element('form', { method: 'dialog' },
-    element('div', { class: 'chips' }, chip('As seen', seen),
-      ...kSizes.filter(([w, h]) => Math.max(w, h) <= stage.largestPicture)
-        .map(([w, h]) => chip(`${w} × ${h}`, () => set(w, h)))),
+    element('div', { class: 'chips' }, button('As seen', seen),
+      ...what.sizes.filter((size) => Math.max(...size) <= what.largest)
+        .map(([w, h]) => button(`${w} × ${h}`, () => set(w, h)))),
     element('p', { class: 'size' }, width, ' × ', height, ' pixels'),
+    ...(what.hint ? [element('p', { class: 'hint' }, what.hint)] : []),
     element('div', { class: 'chips' },
-      element('button', { type: 'submit', id: 'save-picture' }, 'Save picture'), close));
+      element('button', { type: 'submit', id: 'save-picture' }, what.action),
+      button('Close', () => dialog.close())));
   const dialog = element('dialog', { id: 'picture', 'aria-labelledby': 'picture-title' },
-    element('h2', { id: 'picture-title' }, 'Save the view as a picture'), form);
-  form.addEventListener('submit', () => void (async () => {
-    const blob = await stage.picture(width.valueAsNumber, height.valueAsNumber);
-    if (blob) saveBytes(blob, name(), 'image/png');
-  })());
+    element('h2', { id: 'picture-title' }, what.title), form);
+  form.addEventListener('submit', () =>
+    void what.save(width.valueAsNumber, height.valueAsNumber));
+  dialog.addEventListener('close', () => dialog.remove());
   find('main').append(dialog);
-  return () => {
-    seen();
-    dialog.showModal();
-  };
+  seen();
+  dialog.showModal();
 }

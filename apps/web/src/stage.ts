@@ -11,6 +11,7 @@ import { bodyGeometry, Mannequin } from './mannequin';
 import { Marks } from './marks';
 import type { View } from './settings';
 import type { SkinnedCharacter } from './skinned';
+import type { Source } from './source';
 
 const kInputLayer = 1, kStyledLayer = 2;
 const kAboveBody = 0.16;      // Of the view: free above a body that is fitted in.
@@ -69,7 +70,10 @@ export class Stage {
   #down = 0;  // Pixels by which what is seen is moved, see keepClear.
   #sharpest = 2;  // Pixels drawn for one of the page's.
 
-  constructor(canvas: HTMLCanvasElement) {
+  #loops: { input: THREE.Vector2; styled: THREE.Vector2; share: number } | null = null;
+
+  /** `forLoop`: with a grid that can begin again. */
+  constructor(canvas: HTMLCanvasElement, forLoop = false) {
     this.canvas = canvas;
     const fast = (this.#fast = hasGraphicsCard());
     this.#sharpest = fast ? 2 : 0.75;
@@ -79,7 +83,7 @@ export class Stage {
     // Without a card a shadow map takes longer than all the rest: soft spots stand in for it.
     this.#renderer.shadowMap.enabled = fast;
     this.#renderer.shadowMap.type = THREE.PCFSoftShadowMap;
-    this.#ground = new Ground(!fast);
+    this.#ground = new Ground(!fast, forLoop);
     this.#renderer.autoClear = false;
     this.#sun.castShadow = fast;
     this.#sun.shadow.mapSize.setScalar(1024);
@@ -210,14 +214,50 @@ export class Stage {
   /** The view as a PNG; null where the browser has not got the memory. */
   picture(width: number, height: number): Promise<Blob | null> {
     const { ratio } = this.#size;
+    this.#drawAt(width, height);
+    const picture = new Promise<Blob | null>((done) => this.canvas.toBlob(done, 'image/png'));
+    this.#size = { width: 0, height: 0, ratio };  // The next frame takes the page's size again.
+    return picture;
+  }
+
+  #drawAt(width: number, height: number) {
     this.#size = { width, height, ratio: 1 };
     this.#down = 0;
     this.#renderer.setPixelRatio(1);
     this.#renderer.setSize(width, height, false);
     this.#drawAll();
-    const picture = new Promise<Blob | null>((done) => this.canvas.toBlob(done, 'image/png'));
-    this.#size = { width: 0, height: 0, ratio };  // The next frame takes the page's size again.
-    return picture;
+  }
+
+  /** What is seen of the motion. */
+  get seenBodies(): readonly ('input' | 'styled')[] {
+    return this.view === 'styled' ? ['styled'] : ['input', 'styled'];
+  }
+  /** A view of another player like this one, on a canvas of its own; free() it. */
+  studio(source: Source): Stage {
+    const out = new Stage(document.createElement('canvas'), true);
+    out.view = this.view;
+    out.trail = false;
+    out.show(source.player, source.own);
+    out.#camera.takeAngle(this.#camera);
+    return out;
+  }
+  /** One picture of a loop in which the bodies go `way`: x and z of each that is seen, metres; none
+   * where it does not close. `share` of it is over. */
+  drawStill({ player, joints }: Source, width: number, height: number, way: readonly number[],
+      share: number) {
+    const [input, styled] = [way.slice(0, 2), way.slice(-2)].map(([x = 0, z = 0]) =>
+      new THREE.Vector2(x, z));
+    this.#loops = { input, styled, share };
+    this.update(player, joints, true, 0);
+    this.#drawAt(width, height);
+  }
+  free() {
+    this.#bodies?.input.free();
+    this.#bodies?.styled.free();
+    this.#geometry?.dispose();
+    this.#camera.free();
+    this.#renderer.dispose();
+    this.#renderer.forceContextLoss();
   }
 
   draw(seconds: number) {
@@ -261,6 +301,9 @@ export class Stage {
     for (const layer of layers) camera.layers.enable(layer);
     const input = middle === this.#inputPlace;
     this.#ground.follow(middle, input ? this.#inputFeet : this.#styledFeet);
+    if (this.#loops) {
+      this.#ground.close(input ? this.#loops.input : this.#loops.styled, this.#loops.share);
+    }
     this.#sun.position.set(middle.x + 1.6, 4.2, middle.z + 2);
     this.#sun.target.position.set(middle.x, 0.6, middle.z);
     if (this.#ghost && this.#bodies) {

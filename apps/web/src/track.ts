@@ -1,6 +1,6 @@
 // The track under the time line: the keys of one style, to be pushed about.
 
-import { element, find } from './dom';
+import { button, element, find } from './dom';
 import { moved, strengthAt, withKey, type Key } from './keys';
 import { kLeast, kMost, type Store } from './settings';
 
@@ -38,12 +38,10 @@ export class Track {
     picture.append(this.#line);
     this.#zero.style.top = `${this.#down(0)}%`;
     this.#field.append(picture, this.#zero, this.#head);
-    const add = element('button', { type: 'button', id: 'add-key',
-      title: 'A key here, with the strength that the style has (K)' }, 'Add key');
-    add.addEventListener('click', () => this.add());
-    const clear = element('button', { type: 'button', id: 'clear-keys',
-      title: 'Remove all keys of this style' }, 'Clear');
-    clear.addEventListener('click', () => this.#set([]));
+    const add = button('Add key', () => this.add(),
+      { id: 'add-key', title: 'A key here, with the strength that the style has (K)' });
+    const clear = button('Clear', () => this.#set([]),
+      { id: 'clear-keys', title: 'Remove all keys of this style' });
     find('#keys').append(this.#styles, this.#field, add, clear);
     this.#styles.addEventListener('change', () => this.#show());
     this.toggle.addEventListener('click', () => this.open(find('#keys').hidden));

@@ -1,7 +1,7 @@
 // Play, pause, scrub, loop, speed.
 
 import type { MotionFile } from '../package/index.js';
-import { element, find } from './dom';
+import { button, element, find, hinted } from './dom';
 
 const kSpeeds = [0.25, 0.5, 1, 1.5, 2];
 
@@ -41,21 +41,19 @@ export class TransportBar {
   #out: number | null = null;
 
   constructor(private events: TransportEvents) {
-    const button = (id: string, text: string, hint: string, press: () => void) => {
-      const out = element('button', { type: 'button', id, title: hint, 'aria-label': hint }, text);
-      out.addEventListener('click', press);
-      return out;
-    };
     const speed = element('select', { id: 'speed', 'aria-label': 'Speed' },
       ...kSpeeds.map((s) => element('option', { value: s, selected: s === 1 }, `${s}×`)));
     find('#clip-controls').append(
-      button('back-frame', '‹', 'One frame back (comma)', () => this.events.onStep(-1)), this.#play,
-      button('next-frame', '›', 'One frame on (full stop)', () => this.events.onStep(1)),
+      button('‹', () => this.events.onStep(-1),
+        { id: 'back-frame', ...hinted('One frame back (comma)') }),
+      this.#play,
+      button('›', () => this.events.onStep(1),
+        { id: 'next-frame', ...hinted('One frame on (full stop)') }),
       element('span', { class: 'track' }, this.#scrub, this.#range), this.#time,
-      button('in', 'In', 'Begin here (I); again at the same place: at the beginning',
-        () => this.setIn()),
-      button('out', 'Out', 'End here (O); again at the same place: at the end',
-        () => this.setOut()),
+      button('In', () => this.setIn(),
+        { id: 'in', ...hinted('Begin here (I); again at the same place: at the beginning') }),
+      button('Out', () => this.setOut(),
+        { id: 'out', ...hinted('End here (O); again at the same place: at the end') }),
       this.#clips, this.#loop, speed);
     this.#play.addEventListener('click', () => this.setPlaying(!this.state.playing));
     this.#scrub.addEventListener('input', () => {
@@ -75,6 +73,10 @@ export class TransportBar {
   get range(): [number, number] {
     return [this.#in, this.#out ?? this.#seconds];
   }
+  /** Whether that is less than the clip. */
+  get isPart() {
+    return this.#in > 0 || this.#out !== null;
+  }
   setIn() {
     this.#in = Math.abs(this.#in - this.#now) < 1e-3 ? 0 : Math.min(this.#now, this.range[1]);
     this.#showRange();
@@ -91,7 +93,7 @@ export class TransportBar {
   }
   #showRange() {
     const [begin, end] = this.range.map((s) => (this.#seconds > 0 ? (100 * s) / this.#seconds : 0));
-    this.#range.hidden = begin === 0 && this.#out === null;
+    this.#range.hidden = !this.isPart;
     this.#range.style.cssText = `left: ${begin}%; right: ${100 - end}%`;
   }
 

@@ -1,7 +1,7 @@
 // The buttons in the corner of the view: camera, comparing, full screen, help.
 
 import { kAngles, type Angle } from './camera';
-import { element, find } from './dom';
+import { button, element, find, hinted } from './dom';
 
 export interface ViewActions {
   onLook: (angle: Angle) => void;
@@ -11,11 +11,6 @@ export interface ViewActions {
 }
 
 export function buildViewControls(on: ViewActions) {
-  const button = (id: string, text: string, hint: string, press: () => void) => {
-    const out = element('button', { type: 'button', id, title: hint, 'aria-label': hint }, text);
-    out.addEventListener('click', press);
-    return out;
-  };
   const names = { face: 'Camera', front: 'Front', side: 'Side', top: 'Top', orbit: 'Orbit' };
   const menu = element('select', { id: 'angle', 'aria-label': 'Camera', title: 'Camera (1 to 4)' },
     ...kAngles.map((angle) => element('option', { value: angle }, names[angle])));
@@ -23,25 +18,35 @@ export function buildViewControls(on: ViewActions) {
     on.onLook(menu.value as Angle);
     menu.blur();
   });
-  const compare = button('compare', 'Hold: input', 'Hold to see the input alone (X)', () => {});
+  const compare = button('Hold: input', () => {},
+    { id: 'compare', ...hinted('Hold to see the input alone (X)') });
   compare.addEventListener('pointerdown', () => on.onCompare(true));
   for (const end of ['pointerup', 'pointerleave', 'pointercancel']) {
     compare.addEventListener(end, () => on.onCompare(false));
   }
-  const whole = button('fullscreen', 'Full screen', 'The view alone, on the whole screen', () => {
+  const whole = button('Full screen', () => {
     if (document.fullscreenElement) void document.exitFullscreen();
     else void find('.stage').requestFullscreen();
-  });
+  }, { id: 'fullscreen', ...hinted('The view alone, on the whole screen') });
   whole.hidden = !document.fullscreenEnabled;
   const more = find('#more');
   more.addEventListener('click', () => {
     const open = find('#plots').classList.toggle('open');
     more.setAttribute('aria-pressed', String(open));
   });
+  // A phone on its side has room for Open and Save in the panel only; the same query as in style.css.
+  const low = matchMedia('(max-height: 480px) and (min-width: 560px)');
+  const place = () => {
+    if (low.matches) find('#panel').prepend(find('#file-controls'));
+    else find('.bar').append(find('#file-controls'));
+  };
+  low.addEventListener('change', place);
+  place();
   find('#camera').append(menu,
-    button('fit', 'Fit', 'Face the character and fit it in (F)', () => {
+    button('Fit', () => {
       menu.value = 'face';
       on.onLook('face');
-    }),
-    compare, whole, button('show-help', '?', 'Help: keys and more', () => on.onHelp()));
+    }, { id: 'fit', ...hinted('Face the character and fit it in (F)') }),
+    compare, whole,
+    button('?', () => on.onHelp(), { id: 'show-help', ...hinted('Help: keys and more') }));
 }

@@ -59,20 +59,25 @@ function graphicsCard() {
   })(WebGL2RenderingContext.prototype.getExtension);
 }
 
-/** Starts both; close() ends them. open() gives a tab in which the page runs. */
-export const start = () => startWith(() => playwright.chromium.launch({
+/** Debian's Firefox instead of its Chromium, over WebDriver BiDi. */
+export const isFirefox = process.env.PANACHE_BROWSER === 'firefox';
+
+/** Firefox over WebDriver BiDi has no small screens for fingers. */
+export const phone = { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2,
+  ...(isFirefox ? {} : { isMobile: true, hasTouch: true }) };
+
+// Firefox has WebGL only in a window.
+const launch = () => (isFirefox ? playwright._bidiFirefox.launch({
+  executablePath: process.env.FIREFOX ?? '/usr/bin/firefox-esr', headless: false,
+  env: { ...process.env, LIBGL_ALWAYS_SOFTWARE: '1' },
+  firefoxUserPrefs: { 'webgl.force-enabled': true },
+}) : playwright.chromium.launch({
   executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
   args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
 }));
 
-/** The same with Debian's Firefox, over WebDriver BiDi. It has WebGL only in a window. */
-export const startFirefox = () => startWith(() => playwright._bidiFirefox.launch({
-  executablePath: process.env.FIREFOX ?? '/usr/bin/firefox-esr', headless: false,
-  env: { ...process.env, LIBGL_ALWAYS_SOFTWARE: '1' },
-  firefoxUserPrefs: { 'webgl.force-enabled': true },
-}));
-
-async function startWith(launch) {
+/** Starts both; close() ends them. open() gives a tab in which the page runs. */
+export async function start() {
   const { server, address } = await serve();
   const browser = await launch();
   await mkdir(pictures, { recursive: true });
@@ -84,6 +89,7 @@ async function startWith(launch) {
     const tab = await browser.newPage({ viewport: { width: 1280, height: 800 }, ...look });
     if (steady) await tab.addInitScript(steadyFrames);
     if (card) await tab.addInitScript(graphicsCard);
+    if (isFirefox) await tab.addInitScript(keepDownloads);
     tab.on('console', (message) => {
       // Chromium warns of its own slowness when WebGL runs in software.
       const ours = !/GL Driver Message|software WebGL/.test(message.text());
@@ -124,12 +130,44 @@ export async function drop(tab, selector, files) {
   }, [selector, files.map(([name, bytes]) => [name, bytes.toString('base64')])]);
 }
 
+// WebDriver BiDi tells of no downloads: the page's links hand over what they would save.
+function keepDownloads() {
+  const { click } = HTMLAnchorElement.prototype;
+  HTMLAnchorElement.prototype.click = function () {
+    if (!this.download) return click.call(this);
+    const { download: name, href } = this;
+    window.downloads.push(fetch(href).then((answer) => answer.blob()).then((blob) =>
+      new Promise((done) => {
+        const reader = new FileReader();
+        reader.onload = () => done({ name, text: reader.result.split(',')[1] });
+        reader.readAsDataURL(blob);
+      })));
+  };
+  window.downloads = [];
+}
+
 /** Presses what saves a file: its name and bytes. */
 export async function download(tab, press) {
-  const coming = tab.waitForEvent('download');
+  if (isFirefox) {
+    await press();
+    await tab.waitForFunction(() => window.downloads.length > 0, null, { timeout: 120000 });
+    const { name, text } = await tab.evaluate(() => window.downloads.shift());
+    return { name, bytes: Buffer.from(text, 'base64') };
+  }
+  const coming = tab.waitForEvent('download', { timeout: 120000 });
   await press();
   const file = await coming;
   return { name: file.suggestedFilename(), bytes: await readFile(await file.path()) };
+}
+
+/** A double click at a place of the page. */
+export async function doubleClick(tab, x, y) {
+  if (!isFirefox) return tab.mouse.dblclick(x, y);
+  // Over WebDriver BiDi two clicks are no double click.
+  await tab.mouse.click(x, y);
+  await tab.mouse.click(x, y);
+  await tab.evaluate(([left, top]) => document.elementFromPoint(left, top)
+    .dispatchEvent(new MouseEvent('dblclick', { bubbles: true })), [x, y]);
 }
 
 /** Waits until the page has drawn some more frames. */

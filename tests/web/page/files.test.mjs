@@ -137,6 +137,71 @@ test('what is saved reads back: BVH, GLB, a picture and a film', async () => {
   assert.deepEqual(saved, ['.bvh', '.glb', '.png', '.webm'].map((e) => `walk-proud${e}`));
 });
 
+/** The pictures of a GIF, as the browser decodes it: how far each is from the one before, and the
+ * first from the last. */
+const steps = (bytes) => tab.evaluate(async (text) => {
+  const data = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  const decoder = new ImageDecoder({ data, type: 'image/gif' });
+  await decoder.tracks.ready;
+  const { frameCount, repetitionCount } = decoder.tracks.selectedTrack;
+  const all = [];
+  for (let frameIndex = 0; frameIndex < frameCount; ++frameIndex) {
+    const { image } = await decoder.decode({ frameIndex });
+    const canvas = new OffscreenCanvas(image.displayWidth, image.displayHeight);
+    const context = canvas.getContext('2d');
+    context.drawImage(image, 0, 0);
+    all.push(context.getImageData(0, 0, canvas.width, canvas.height));
+    image.close();
+  }
+  const far = ({ data: a }, { data: b }) =>
+    a.reduce((sum, value, k) => sum + Math.abs(value - b[k]), 0) / a.length;
+  return { repetitionCount: String(repetitionCount), size: [all[0].width, all[0].height],
+    steps: all.map((picture, i) => far(picture, all.at(i - 1))) };
+}, bytes.toString('base64'));
+
+test('a loop is saved: a cycle of the clip whose end leads to its beginning, or a part of it', async () => {
+  const saveLoop = async () => {
+    await button('GIF').click();
+    await tab.getByLabel('Width, pixels').fill('150');
+    await tab.getByLabel('Height, pixels').fill('200');
+    const begin = await tab.evaluate(() => window.page.frames);
+    const path = await save('Save loop', '.gif');
+    // The page went on.
+    assert.ok((await tab.evaluate(() => window.page.frames)) > begin + 5);
+    return steps(readFileSync(path));
+  };
+  await drop('walk.bvh');
+  await isPlaying();
+  await tab.locator('#style-proud').fill('1');
+  const cycle = await saveLoop();
+  assert.equal(saved.pop(), 'walk-proud.gif');
+  assert.equal(cycle.repetitionCount, 'Infinity');
+  assert.deepEqual(cycle.size, [150, 200]);
+  // A cycle of this walk is a little more than a second; 25 frames are one.
+  assert.ok(cycle.steps.length >= 25 && cycle.steps.length <= 40, `${cycle.steps.length}`);
+  const [seam, ...others] = cycle.steps;
+  assert.ok(Math.min(...others) > 0.1, `${others}`);
+  // No more than between others; a fifth for what the cycle does not close.
+  assert.ok(seam <= 1.2 * Math.max(...others), `${seam}: ${others}`);
+
+  for (const [share, key] of [[0.2, 'i'], [0.4, 'o']]) {
+    await tab.locator('#scrub').fill(String(share));
+    await frames(tab, 2);
+    await tab.keyboard.press(key);
+  }
+  // A fifth of three seconds less a frame at 25 frames a second, at the tempo of the clip.
+  await tab.locator('#style-proud').fill('0');
+  const { steps: part } = await saveLoop();
+  assert.equal(saved.pop(), 'walk-neutral.gif');
+  assert.equal(part.length, Math.floor(0.2 * (3 - 1 / 60) * 25) + 1);
+  await tab.locator('#style-proud').fill('1');
+  for (const [share, key] of [[0, 'i'], [1, 'o']]) {
+    await tab.locator('#scrub').fill(String(share));
+    await frames(tab, 2);
+    await tab.keyboard.press(key);
+  }
+});
+
 test('a clip that is saved is what the program makes of it, byte for byte', async () => {
   const model = join(models, 'panache-int8.safetensors');
   panache('stylize', 'walk.bvh', '--model', model, '--style', 'proud=1', '-o', 'proud.bvh');

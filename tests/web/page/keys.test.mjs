@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { download, frames, models, pictures, start } from './browser.mjs';
+import { doubleClick, download, frames, models, pictures, start } from './browser.mjs';
 
 const model = join(models, 'panache-int8.safetensors');
 const folder = mkdtempSync(join(tmpdir(), 'panache-page-'));
@@ -66,10 +66,10 @@ test('keys are added, moved and removed with the mouse', async () => {
   await frames(tab, 5);
   await tab.screenshot({ path: join(pictures, 'keys.png') });
   await tab.waitForTimeout(1000);
-  await tab.mouse.dblclick(...place(0.6, 1.4));
+  await doubleClick(tab, ...place(0.6, 1.4));
   assert.equal((await keys()).length, 1);
   // A double click on an empty place leaves one key.
-  await tab.mouse.dblclick(...place(0.9, 0.5));
+  await doubleClick(tab, ...place(0.9, 0.5));
   assert.equal((await keys()).length, 2);
   await pause();
   await tab.keyboard.press('Delete');

@@ -1,0 +1,30 @@
+// Where a motion is where it was before.
+
+const kSame = 0.05;     // Metres, the mean of all points.
+const kGood = 1.25;
+const kUnseen = 0.004;  // Metres.
+
+/** Of its poses, [first, end): the pose at the end is like the first one, and so is the one after.
+ * `poses`: positions [points][3], metres, as often as `minimum` is counted. null: it never is. */
+export function findCycle(poses: readonly Float32Array[], minimum: number):
+    [number, number] | null {
+  const far = (a: Float32Array, b: Float32Array) => {
+    let sum = 0;
+    for (let k = 0; k < a.length; k += 3) {
+      sum += Math.hypot(a[k] - b[k], a[k + 1] - b[k + 1], a[k + 2] - b[k + 2]);
+    }
+    return (3 * sum) / a.length;
+  };
+  const pairs: [number, number, number][] = [];
+  for (let i = 0; i + minimum + 1 < poses.length; ++i) {
+    for (let j = i + minimum; j + 1 < poses.length; ++j) {
+      const distance = Math.max(far(poses[i], poses[j]), far(poses[i + 1], poses[j + 1]));
+      if (distance < kSame) pairs.push([i, j, distance]);
+    }
+  }
+  const best = pairs.reduce((least, pair) => Math.min(least, pair[2]), Infinity);
+  // The shortest of those that close about as well as any.
+  const good = pairs.filter((pair) => pair[2] <= kGood * best + kUnseen)
+    .sort((a, b) => a[1] - a[0] - (b[1] - b[0]) || a[2] - b[2]);
+  return good.length ? [good[0][0], good[0][1]] : null;
+}
