@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "base/gravity.h"
 #include "pose/contacts.h"
 #include "rig/canonical_skeleton.h"
 #include "walker/idle.h"
@@ -14,7 +15,6 @@ namespace {
 // The walker thinks at a rate of its own, so that the caller's makes no difference.
 constexpr double kTick = 1.0 / 120;
 constexpr double kLongestStep = 0.25;
-constexpr float kGravity = 9.81f;
 // The lean that the gaits learnt with their turns is that of this speed.
 constexpr float kLearntLeanSpeed = 1.05f;
 
@@ -94,8 +94,8 @@ void Walker::pose_body() noexcept {
 
   // The faster the turn, the further into it the whole body leans, about its path on the ground.
   const Going& going = drive_.going();
-  const float lean =
-      std::atan((going.speed - kLearntLeanSpeed * drive_.amount()) * going.turn / kGravity);
+  const float lean = std::atan((going.speed - kLearntLeanSpeed * drive_.amount()) * going.turn /
+                               static_cast<float>(kGravity));
   const Quat heading = rotation_y(static_cast<float>(drive_.heading()));
   const Quat frame = heading * axis_angle(Vec3{0, 0, 1}, -lean);
   up_ = rotate(frame, Vec3{0, 1, 0});

@@ -7,7 +7,8 @@ import type { Source } from './source';
 import type { Stage } from './stage';
 
 export const kLoopStep = 0.04;  // Seconds of a frame; a GIF counts in hundredths.
-const kShortest = 1, kLongest = 15;  // Seconds.
+export const kLongest = 15;     // Seconds.
+const kShortest = 1;            // Seconds.
 const kColours = 256;
 const kPaletteEvery = 4;  // Pixels that the colours are taken from.
 const kSharper = 2;       // Pixels drawn for one of the loop's, in each direction.

@@ -1,9 +1,9 @@
 // What is seen, as a picture, a film or a loop.
 
 import { button } from './dom';
-import { kLoopStep, makeLoop, type LoopMotion } from './loop';
-import { askSize } from './picture';
+import { kLongest, kLoopStep, makeLoop, type LoopMotion } from './loop';
 import { Film, saveBytes } from './saving';
+import { askSize } from './size_dialog';
 import type { Stage } from './stage';
 
 const kPictures = [[1280, 720], [1920, 1080], [3840, 2160], [1080, 1080], [1080, 1920]] as const;
@@ -67,7 +67,7 @@ export function buildViewSaving({ stage, nameOf, motion, attempt }: ViewSaving):
       title: 'Save a loop of the view', action: 'Save loop', sizes: kLoops,
       largest: kLargestLoop, seen: stage.seen,
       hint: 'An animated GIF: one cycle of the motion, or what is between the in and the out point ' +
-        `of a clip, ${Math.round(1 / kLoopStep)} frames a second, 15 s at most.`,
+        `of a clip, ${Math.round(1 / kLoopStep)} frames a second, ${kLongest} s at most.`,
       save: (width, height) => attempt(() => make(width, height)),
     });
   }, { id: 'save-gif', title: 'Save a loop of the view as an animated GIF' });

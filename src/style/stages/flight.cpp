@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/gravity.h"
 #include "base/smooth_step.h"
 #include "pose/contacts.h"
 
@@ -17,7 +18,6 @@ constexpr float kOffFloor = 0.05f, kNear = 0.03f;  // Metres; likewise.
 // The fit blurs both ends of a flight: found are about 0.04 s less than it lasts. Runs show 0.05 to
 // 0.12 s, hops 0.15 s and more.
 constexpr double kTooShort = 0.12, kWhole = 0.18;  // Seconds.
-constexpr double kGravity = 9.81;                  // m/s^2
 // A flight begins this much before it is found, and the impact of its landing is part of it.
 constexpr double kBefore = 0.06, kAfter = 0.14;
 constexpr double kEaseIn = 0.25, kEaseOut = 0.2;

@@ -11,9 +11,6 @@ import playwright from 'playwright-core';
 const root = fileURLToPath(new URL('../../..', import.meta.url));
 export const pageFolder = join(root, 'build', 'web');
 export const models = join(root, 'models');
-/** Screenshots for a person to look at. */
-export const pictures = join(root, 'build', 'web-pictures');
-
 /** The hash of 300 styled frames natively, on each instruction set of the machine. */
 export const nativeHashes = () =>
   execFileSync(process.env.PANACHE_GOLDEN, [join(models, 'panache-int8.safetensors')])
@@ -61,6 +58,9 @@ function graphicsCard() {
 
 /** Debian's Firefox instead of its Chromium, over WebDriver BiDi. */
 export const isFirefox = process.env.PANACHE_BROWSER === 'firefox';
+
+/** Screenshots for a person to look at. */
+export const pictures = join(root, 'build', 'web-pictures', isFirefox ? 'firefox' : 'chromium');
 
 /** Firefox over WebDriver BiDi has no small screens for fingers. */
 export const phone = { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2,
