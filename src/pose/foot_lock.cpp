@@ -9,7 +9,11 @@ namespace panache {
 namespace {
 
 constexpr float kPlant = 0.6f, kRelease = 0.4f;  // Hysteresis on the contact probability.
-constexpr float kMaxOffset = 0.12f;              // Metres; a foot pulled further is let go.
+// A planted foot is held in place against a pull of up to kHeld, and trails behind a longer one, by
+// kMaxOffset at most. A foot pulled further than that is let go if the input's foot has moved as
+// far itself, as in a walk in place; where the input stands, that would throw it aside (11 cm in a
+// quarter of a second).
+constexpr float kHeld = 0.09f, kMaxOffset = 0.12f;  // Metres.
 // A foot comes to rest and leaves without a jerk: its speed at the plant dies away with this time
 // constant, and the correction of a released foot as a critically damped spring of this rate.
 constexpr float kRestSeconds = 0.03f;
@@ -21,8 +25,7 @@ constexpr float kMaxGlide = 1.5f;  // m/s; a faster foot was no foot about to st
 constexpr float kMaxReach = 0.995f;
 // So a leg that is nearly straight follows only a share of what would make it longer or shorter, as
 // its knee would fly back and forth: all of it from a bend on at which the sine of the angle
-// between reach and length is this, none when it is straight. Feet slide no more for it, as they
-// are let go later.
+// between reach and length is this, none when it is straight.
 constexpr float kBent = 0.6f;
 
 // A knee that a style or noise bends backwards by a few degrees may not be bent on that way: a leg
@@ -41,6 +44,15 @@ Vec3 easy_target(Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 target) {
   const float share = std::min(1.0f, std::min(before, wanted) / leg);
   const float follow = std::min(1.0f, std::sqrt(1 - share * share) / kBent);
   return hip + way * ((before + follow * (wanted - before)) / wanted);
+}
+
+// What a planted foot that is pulled away from `pull` metres away follows of it.
+Vec3 held(Vec3 pull) {
+  constexpr float kGives = kMaxOffset - kHeld;
+  const float far = length(pull);
+  if (far <= kHeld) return pull;
+  if (!std::isfinite(far)) return {};
+  return pull * ((kHeld + kGives * (1 - exponential((kHeld - far) / kGives))) / far);
 }
 
 }  // namespace
@@ -107,13 +119,14 @@ float floor_depth(const BodyPose& body, const HumanPositions& joints,
   return std::max(0.0f, toe_floor(body) - (mid_hip(body).y + change.translation.y + lowest));
 }
 
-void FootLock::follow(Foot& foot, Vec3 toe, float contact, float seconds) noexcept {
+void FootLock::follow(Foot& foot, Vec3 input, Vec3 toe, float contact, float seconds) noexcept {
   const Vec3 last_offset = foot.offset, last_toe = foot.seen ? foot.toe : toe;
   foot.toe = toe;
   foot.seen = true;
   if (contact < kRelease) foot.state = State::free;
   if (foot.state == State::free && contact > kPlant) {
     foot.state = State::planted;
+    foot.stood = input;
     foot.anchor = last_toe + last_offset;
     foot.glide = seconds > 0 ? (toe - last_toe) / seconds + foot.speed : Vec3{};
     const float fast = length(foot.glide);
@@ -122,13 +135,11 @@ void FootLock::follow(Foot& foot, Vec3 toe, float contact, float seconds) noexce
   if (foot.state == State::planted) {
     foot.anchor += foot.glide * seconds;
     foot.glide *= exponential(-seconds / kRestSeconds);
-    foot.offset = foot.anchor - toe;
-    const float pull = length(foot.offset);
+    const Vec3 pull = foot.anchor - toe;
+    foot.offset = held(pull);
     foot.speed = seconds > 0 ? (foot.offset - last_offset) / seconds : Vec3{};
-    if (pull <= kMaxOffset) return;
+    if (!(length(pull) > kMaxOffset && length(input - foot.stood) > kMaxOffset)) return;
     foot.state = State::let_go;
-    foot.offset = std::isfinite(pull) ? foot.offset * (kMaxOffset / pull) : Vec3{};
-    foot.speed = {};
   }
   const Vec3 pace = foot.speed + foot.offset * kFadeRate;
   const float fade = exponential(-seconds * kFadeRate);
@@ -145,7 +156,7 @@ void FootLock::step(const BodyPose& body, const HumanPositions& joints,
   for (int f = 0; f < kFeet; ++f) {
     Foot& foot = feet_[f];
     const Vec3 toe = origin + rotate(to_world, joints[index(kToes[f])]);
-    follow(foot, toe, contacts[f], seconds);
+    follow(foot, body.joints[index(kToes[f])], toe, contacts[f], seconds);
     Vec3 offset = foot.offset;
     offset.y += std::max(0.0f, floor - (toe.y + offset.y));
     if (amount <= 0 || offset == Vec3{}) continue;

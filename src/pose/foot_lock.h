@@ -55,18 +55,19 @@ class FootLock {
   }
 
  private:
-  enum class State { free, planted, let_go };  // Let go: pulled too far, free until it lifts.
+  enum class State { free, planted, let_go };  // Let go: slides itself, free until it lifts.
   struct Foot {
     State state = State::free;
     Vec3 toe;     // World position of the toe, uncorrected, at the last step.
+    Vec3 stood;   // Where the input's toe was when the foot was planted.
     Vec3 anchor;  // World position of the planted toe, metres,
     Vec3 glide;   // and its velocity while it comes to rest, m/s.
     Vec3 offset;  // World correction in force, metres; fades after release,
     Vec3 speed;   // m/s, without a jump in its velocity.
     bool seen = false;
   };
-  // Follows one foot whose toe, uncorrected, is at `toe` (world).
-  static void follow(Foot& foot, Vec3 toe, float contact, float seconds) noexcept;
+  // Follows one foot whose toe is at `input`, and at `toe` with the change, uncorrected (world).
+  static void follow(Foot& foot, Vec3 input, Vec3 toe, float contact, float seconds) noexcept;
 
   std::array<Foot, kFeet> feet_;
 };

@@ -1,14 +1,16 @@
 #pragma once
-// Ninth stage: no toe below the floor.
+// Ninth stage: no toe, knee or seat below the floor.
 
 #include "pose/foot_lock.h"
 #include "style/stages/step_time.h"
 
 namespace panache {
 
-// A style trained on one body may put another's feet through the floor: lifts the body by as much
-// as its lowest toe is deeper than both the floor and the input's own lowest toe. It comes and goes
-// slowly, or the whole body would start at every step; what is left of the depth is up to the legs.
+// A style trained on one body may put another's feet through the floor, and the knees of a body
+// that kneels: lifts the body by as much as its lowest toe is deeper than both the floor and the
+// input's own lowest toe, or a knee or the hips deeper than they lie on the floor and than the
+// input's. It comes and goes slowly, or the whole body would start at every step; what is left of
+// the depth of toes is up to the legs.
 class FloorClearance {
  public:
   void reset() noexcept { lift_ = 0; }

@@ -1,0 +1,52 @@
+#include "style/stages/floor.h"
+
+#include <gtest/gtest.h>
+
+#include "make_clip.h"
+#include "rig/posed_rig.h"
+
+namespace panache {
+namespace {
+
+// A body of which the left knee, the hips and the toes are this high, with a style that lowers the
+// hips; how far it has been lifted again after half a second.
+struct Heights {
+  float knee = 0.5f, hips = 0.9f, toes = 0;
+};
+float lift(const Heights& heights, float lowered) {
+  const Clip clip = test::walking_clip(1);
+  PosedRig rig(*Rig::create(clip));
+  BodyPose body;
+  rig.read(clip.pose(0), body);
+  const auto put = [&](HumanJoint joint, float height) { body.joints[index(joint)].y = height; };
+  put(HumanJoint::left_lower_leg, heights.knee);
+  put(HumanJoint::right_lower_leg, 0.5f);
+  put(HumanJoint::hips, heights.hips);
+  put(HumanJoint::left_toes, heights.toes);
+  put(HumanJoint::right_toes, heights.toes);
+  FloorClearance floor;
+  float lifted = 0;
+  for (int f = 0; f < 60; ++f) {
+    BodyChange change;
+    change.translation.y = -lowered;
+    HumanPositions joints;
+    changed_joints(body, change, joints);
+    floor.step(body, joints, 1, StepTime{1 / 60.0, 1 / 60.0f, f == 0}, change);
+    lifted = change.translation.y + lowered;
+  }
+  return lifted;
+}
+
+TEST(FloorClearance, lifts_a_body_whose_toes_are_in_the_floor) {
+  EXPECT_NEAR(lift({}, 0.03f), 0.03f, 1e-3f);
+  EXPECT_EQ(lift({}, 0), 0);
+}
+
+TEST(FloorClearance, lifts_a_body_that_kneels_or_sits_deeper_than_its_input) {
+  EXPECT_NEAR(lift({.knee = 0.04f, .toes = 0.1f}, 0.06f), 0.06f, 1e-3f);
+  EXPECT_NEAR(lift({.hips = 0.1f, .toes = 0.1f}, 0.05f), 0.03f, 1e-3f) << "8 cm is where hips rest";
+  EXPECT_NEAR(lift({.knee = 0.3f, .toes = 0.1f}, 0.06f), 0, 1e-3f) << "a knee in the air may sink";
+}
+
+}  // namespace
+}  // namespace panache
