@@ -214,6 +214,29 @@ TEST_F(Acclaim, what_is_wrong_is_said_with_its_place) {
             "file");
 }
 
+// A skeleton of so many bones below the root, each below the one before or all below the root.
+std::string asf_of(int bones, bool chain) {
+  std::string list, tree;
+  for (int i = 0; i < bones; ++i) {
+    const std::string name = "b" + std::to_string(i);
+    list += "begin\nname " + name + "\nend\n";
+    tree += (chain && i > 0 ? "b" + std::to_string(i - 1) : "root") + " " + name + "\n";
+  }
+  return ":root\norder TX TY TZ RX RY RZ\n:bonedata\n" + list + ":hierarchy\nbegin\n" + tree +
+         "end\n";
+}
+
+TEST_F(Acclaim, limits_of_bones_and_nesting) {
+  const std::string amc = ":DEGREES\n1\nroot 0 0 0 0 0 0\n";
+  EXPECT_EQ(rejection(asf_of(9'999, false), amc), "(accepted)");
+  EXPECT_EQ(rejection(asf_of(10'001, false), amc),
+            "05.asf:30005:1: expected at most 10000 bones, found 'name'");
+  // The root is one of them.
+  EXPECT_EQ(rejection(asf_of(999, true), amc), "(accepted)");
+  EXPECT_EQ(rejection(asf_of(1'000, true), amc),
+            "05.asf: expected at most 1000 bones one below the other, found more");
+}
+
 // A message or a clip that keeps its promises.
 bool check_harmless(const std::string& amc, const std::string& path) {
   auto file = parse_amc(amc, path);

@@ -178,6 +178,36 @@ TEST(GltfError, numbers_that_are_no_motion) {
             "all animations at most 50000000, found more");
 }
 
+TEST(GltfError, places_that_a_scale_takes_too_far) {
+  EXPECT_EQ(spoilt([](GltfParts& p) {
+              p.json["nodes"][0]["scale"] = {1e6, 1e6, 1e6};
+              const std::vector<float> places = {0, 1, 0, 0, 1e4f, 0, 0, 1, 0, 0, 1, 0};
+              p.json["animations"][0]["samplers"][1]["output"] = p.add(places, "VEC3", 3);
+            }),
+            "walk.glb: animations[0].channels[1]: expected places within a thousand million, found "
+            "one beyond");
+}
+
+TEST(GltfError, a_name_beyond_the_limit) {
+  EXPECT_EQ(spoilt_json([](Json& j) { j["nodes"][1]["name"] = std::string(1000, 'n'); }),
+            "(accepted)");
+  EXPECT_EQ(spoilt_json([](Json& j) { j["nodes"][1]["name"] = std::string(1001, 'n'); }),
+            "walk.glb: nodes[1]: expected a name of at most 1000 bytes, found 1001");
+}
+
+TEST(GltfError, a_vrm_animation_without_hips) {
+  const auto file = parse_vrma(test::to_glb(small_gltf()), "walk.vrma");
+  ASSERT_FALSE(file.ok());
+  EXPECT_EQ(
+      file.error().message,
+      "walk.vrma: extensions.VRMC_vrm_animation: expected a humanoid with hips, found none; a "
+      "file without it is a .glb");
+  const auto none = parse_vrma("HIERARCHY", "walk.vrma");
+  ASSERT_FALSE(none.ok());
+  EXPECT_EQ(none.error().message,
+            "walk.vrma: expected glTF, found text that is not JSON; is the file complete?");
+}
+
 TEST(GltfError, files_that_may_not_be_read) {
   const auto with_uri = [](const std::string& uri) {
     return gltf_rejection(test::to_gltf_text(small_gltf(), uri));

@@ -42,6 +42,36 @@ TEST(GltfFormat, a_clip_reads_back_under_a_node_of_its_name) {
   }
 }
 
+TEST(GltfFormat, a_vrm_animation_reads_back_with_its_roles) {
+  Clip clip = test::walking_clip(20);
+  for (size_t j = 0; j < clip.joints(); ++j) {
+    clip.skeleton.joints[j].role = human_joint_name(static_cast<int>(j));
+  }
+  const std::string bytes = format_vrma(clip, "a walk");
+  auto file = parse_vrma(bytes, "walk.vrma");
+  ASSERT_TRUE(file.ok()) << file.error().message;
+  EXPECT_EQ((*file)->clip_names(), std::vector<std::string>{"a walk"});
+  Clip back = (*file)->clip();
+  ASSERT_EQ(back.joints(), clip.joints() + 1);
+  for (size_t j = 0; j < clip.joints(); ++j) {
+    EXPECT_EQ(back.skeleton.joints[j + 1].role, clip.skeleton.joints[j].role);
+    EXPECT_EQ(back.skeleton.joints[j + 1].can_translate, j == 0);
+    for (int f = 0; f < clip.frames; ++f) {
+      const Quat a = clip.pose(f).rotations[j], b = back.pose(f).rotations[j + 1];
+      EXPECT_TRUE(a == b || a == (Quat{-b.x, -b.y, -b.z, -b.w}));
+      EXPECT_EQ(back.pose(f).translations[j + 1], clip.pose(f).translations[j]);
+    }
+  }
+  // A player takes the first animation, so that an edit is always in its place.
+  back.pose(3).rotations[5] = {0, 1, 0, 0};
+  const std::vector<double> frames = same_frames(back.frames);
+  const ClipEdit edits[] = {{0, &back, frames, "b"}};
+  auto again = parse_vrma((*file)->encode(edits, EditMode::add_beside), "walk.vrma");
+  ASSERT_TRUE(again.ok()) << again.error().message;
+  EXPECT_EQ((*again)->clip_names(), std::vector<std::string>{"a walk"});
+  EXPECT_EQ((*again)->clip().pose(3).rotations[5], (Quat{0, 1, 0, 0}));
+}
+
 TEST(GltfFormat, only_what_moves_is_animated) {
   const Clip clip = bvh_clip("plain.bvh");
   const GltfParts parts = test::glb_parts(format_glb(clip, "walk", 1, {}));

@@ -146,6 +146,30 @@ TEST(GltfRead, whole_numbers_stand_for_fractions) {
   EXPECT_EQ(clip.pose(3).rotations[1], (Quat{0, 0, 0, -1}));
 }
 
+TEST(GltfRead, bytes_stand_for_fractions_too) {
+  GltfParts parts = small_gltf();
+  const std::vector<uint8_t> turns = {0, 0, 0, 127, 127, 0, 0, 0, 0, 128, 0, 0, 0, 0, 0, 129};
+  const size_t packed = parts.add(turns, "VEC4", 4);
+  Json& accessor = parts.json["accessors"][packed];
+  accessor["normalized"] = true;
+  accessor["componentType"] = 5120;  // Signed: 128 is -128, 129 is -127.
+  parts.json["animations"][0]["samplers"][0]["output"] = packed;
+  Clip clip = must_read(parts)->clip();
+  EXPECT_EQ(clip.pose(0).rotations[1], Quat{});
+  EXPECT_EQ(clip.pose(1).rotations[1], (Quat{1, 0, 0, 0}));
+  EXPECT_EQ(clip.pose(2).rotations[1], (Quat{0, -1, 0, 0}));
+  EXPECT_EQ(clip.pose(3).rotations[1], (Quat{0, 0, 0, -1}));
+  const size_t without_sign = parts.add(
+      std::vector<uint8_t>{0, 0, 0, 255, 255, 0, 0, 0, 0, 255, 0, 0, 0, 0, 255, 0}, "VEC4", 4);
+  parts.json["accessors"][without_sign]["normalized"] = true;
+  parts.json["animations"][0]["samplers"][0]["output"] = without_sign;
+  clip = must_read(parts)->clip();
+  EXPECT_EQ(clip.pose(0).rotations[1], Quat{});
+  EXPECT_EQ(clip.pose(1).rotations[1], (Quat{1, 0, 0, 0}));
+  EXPECT_EQ(clip.pose(2).rotations[1], (Quat{0, 1, 0, 0}));
+  EXPECT_EQ(clip.pose(3).rotations[1], (Quat{0, 0, 1, 0}));
+}
+
 TEST(GltfRead, a_stride_skips_what_lies_between) {
   GltfParts parts = small_gltf();
   std::vector<float> places;

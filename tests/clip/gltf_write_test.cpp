@@ -297,6 +297,25 @@ TEST(GltfWrite, a_taken_name_gets_a_number) {
             (std::vector<std::string>{"Walk", "Wave", "Walk (2)", "Walk (3)", "animation 5"}));
 }
 
+TEST(GltfWrite, a_new_clip_takes_the_place_of_all_or_stands_beside_them) {
+  const auto file = must_read(small_gltf());
+  Clip clip = file->rest();
+  clip.frame_time = 1.0 / 50;
+  clip.resize(7);
+  for (int f = 0; f < clip.frames; ++f) {
+    std::ranges::copy(file->rest().rotations, clip.pose(f).rotations.begin());
+    std::ranges::copy(file->rest().translations, clip.pose(f).translations.begin());
+    clip.pose(f).rotations[1] = axis_angle(Vec3{0, 0, 1}, 0.1f * static_cast<float>(f));
+  }
+  const ClipEdit edits[] = {{kNewClip, &clip, {}, "Bow"}};
+  const auto alone = must_read(file->encode(edits, EditMode::replace));
+  EXPECT_EQ(alone->clip_names(), std::vector<std::string>{"Bow"});
+  expect_same_motion(alone->clip(), clip, 0);
+  const auto beside = must_read(file->encode(edits, EditMode::add_beside));
+  EXPECT_EQ(beside->clip_names(), (std::vector<std::string>{"nod", "Bow"}));
+  expect_same_motion(beside->clip(1), clip, 0);
+}
+
 TEST(GltfWrite, several_clips_are_edited_at_once) {
   const auto file = must_read(test::character());
   Clip walk = file->clip(0), wave = file->clip(1);
@@ -353,6 +372,27 @@ TEST(GltfWrite, what_was_in_other_files_is_in_the_result) {
   EXPECT_EQ(json["images"][1]["uri"], "data:image/png;base64,AAAA");
   EXPECT_EQ(json["buffers"][0]["uri"],
             "data:application/octet-stream;base64," + test::to_base64(parts.bin));
+}
+
+TEST(GltfWrite, pictures_of_other_files_are_called_by_what_they_look_like) {
+  test::TemporaryFolder folder;
+  GltfParts parts = small_gltf();
+  const std::pair<std::string, std::string> pictures[] = {{"\xff\xd8 and so on", "image/jpeg"},
+                                                          {"RIFF and so on", "image/webp"},
+                                                          {"\xabKTX and so on", "image/ktx2"},
+                                                          {"anything", "application/octet-stream"}};
+  for (const auto& [bytes, type] : pictures) {
+    const std::string name = "picture" + std::to_string(parts.json["images"].size());
+    ASSERT_TRUE(write_file(folder.path() + name, bytes, false).ok());
+    parts.json["images"].push_back({{"uri", name}});
+  }
+  auto file = parse_gltf(test::to_gltf_text(parts), folder.path() + "walk.gltf");
+  ASSERT_TRUE(file.ok()) << file.error().message;
+  const Json json = Json::parse((*file)->encode((*file)->clip(), same_frames(4)));
+  for (size_t i = 0; i < std::size(pictures); ++i) {
+    const auto& [bytes, type] = pictures[i];
+    EXPECT_EQ(json["images"][i]["uri"], "data:" + type + ";base64," + test::to_base64(bytes));
+  }
 }
 
 TEST(GltfWrite, a_picture_that_is_not_beside_the_file_stays_an_address) {

@@ -27,7 +27,13 @@ TEST(MotionFormat, what_one_writes_it_reads) {
     ASSERT_TRUE(file.ok()) << file.error().message;
     EXPECT_EQ((*file)->clip().frames, 20) << format.extension;
     EXPECT_EQ(format.encoded_as, format.extension);
+    const auto by_name = parse_motion(bytes, "walk" + std::string(format.extension));
+    ASSERT_TRUE(by_name.ok()) << by_name.error().message;
+    EXPECT_EQ((*by_name)->clip().rotations, (*file)->clip().rotations);
   }
+  EXPECT_EQ(parse_motion("", "walk.fbx").error().message,
+            "walk.fbx: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc), found the "
+            "extension '.fbx'");
   EXPECT_EQ(written, 2);
 }
 

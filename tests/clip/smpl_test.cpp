@@ -156,9 +156,27 @@ TEST(Smpl, types_and_orders_of_numbers_make_no_difference) {
   members[1].bytes = format_npy(trans);
   EXPECT_EQ(must_read(members)->clip().translations, want.translations);
   // A rate in whole numbers, under the name that SMPL-X has for it.
-  members[2] = {"mocap_frame_rate.npy",
-                format_npy({"<i4", false, {1}, std::string("\x78\0\0\0", 4)})};
-  EXPECT_DOUBLE_EQ(must_read(members)->clip().frame_time, 1.0 / 120);
+  for (const auto& [type, size] :
+       {std::pair("<i4", 4), {"<u4", 4}, {"<i8", 8}, {"<u8", 8}, {"<u2", 2}, {"|i1", 1}}) {
+    std::string rate(static_cast<size_t>(size), '\0');
+    rate[0] = 120;
+    members[2] = {"mocap_frame_rate.npy", format_npy({type, false, {1}, rate})};
+    EXPECT_DOUBLE_EQ(must_read(members)->clip().frame_time, 1.0 / 120) << type;
+  }
+}
+
+TEST(Smpl, whole_numbers_of_every_size_have_their_sign) {
+  std::vector<NpzMember> members = small_motion();
+  members[1] = member("trans", std::vector<double>(9, -2), {3, 3});
+  const Clip want = must_read(members)->clip();
+  for (const auto& [type, size] : {std::pair("<i8", 8), {">i4", 4}, {"<i2", 2}, {"|i1", 1}}) {
+    std::string number(static_cast<size_t>(size), '\xff');
+    (type[0] == '>' ? number.back() : number.front()) = '\xfe';
+    std::string elements;
+    for (int i = 0; i < 9; ++i) elements += number;
+    members[1] = {"trans.npy", format_npy({type, false, {3, 3}, elements})};
+    EXPECT_EQ(must_read(members)->clip().translations, want.translations) << type;
+  }
 }
 
 TEST(Smpl, what_did_not_change_is_the_file_itself) {
@@ -214,6 +232,18 @@ TEST(Smpl, frames_from_other_times_keep_the_numbers_of_whole_ones) {
   EXPECT_EQ(trans[0], 1);
   EXPECT_NEAR(trans[3], 0.25, 1e-6);
   EXPECT_NEAR(numbers_in(out, "poses")[72 + 16 * 3 + 2], -kQuarter / 2, 1e-6);
+}
+
+TEST(Smpl, a_new_clip_brings_its_own_rate) {
+  const auto file = must_read(small_motion());
+  Clip clip = file->clip();
+  clip.frame_time = 1.0 / 50;
+  clip.resize(2);
+  const ClipEdit edits[] = {{kNewClip, &clip, {}, ""}};
+  const std::string out = file->encode(edits, EditMode::replace);
+  EXPECT_EQ(numbers_in(out, "mocap_framerate"), std::vector<double>{50});
+  EXPECT_EQ(numbers_in(out, "trans").size(), 6u);
+  EXPECT_EQ(out.find("dmpls"), std::string::npos);
 }
 
 TEST(Smpl, a_new_file_stands_on_the_floor_with_z_up) {

@@ -4,6 +4,7 @@
 
 #include "rig/made_up.h"
 #include "rig/posed_rig.h"
+#include "rig/up_axis.h"
 
 namespace panache {
 namespace {
@@ -274,6 +275,63 @@ TEST(Calibration, a_toe_joint_straight_below_the_ankle_says_nothing) {
     }
   }
   EXPECT_TRUE(has_note(rig_of(clip).notes(), "estimated from the standing foot"));
+}
+
+TEST(Calibration, missing_wrists_are_taken_from_end_sites_or_estimated) {
+  Clip clip = calm(30);
+  PosedRig whole(rig_of(clip));
+  const size_t lower = static_cast<size_t>(index(left_lower_arm));
+  clip.skeleton.joints[lower].ends = {{0, 0, 0}, clip.skeleton.joints[lower + 1].offset};
+  RigOptions options;
+  options.joints = {{index(left_hand), ""}, {index(right_hand), ""}};
+  Result<Rig> created = Rig::create(clip, options);
+  ASSERT_TRUE(created.ok()) << created.error().message;
+  EXPECT_TRUE(has_note(created->notes(), "the left wrist is the lower arm's End Site"));
+  EXPECT_TRUE(has_note(created->notes(), "the right wrist is estimated from the upper arm"));
+  PosedRig rig(*created);
+  for (int f = 0; f < clip.frames; ++f) {
+    BodyPose want, got;
+    whole.read(clip.pose(f), want);
+    rig.read(clip.pose(f), got);
+    // Our own arms are straight at rest, so that the estimate is right too.
+    for (HumanJoint hand : {left_hand, right_hand}) {
+      EXPECT_LT(length(want.positions[index(hand)] - got.positions[index(hand)]), 2e-5f) << f;
+    }
+  }
+}
+
+TEST(Calibration, a_unit_or_an_axis_that_is_none_is_rejected) {
+  const Clip clip = calm(1);
+  const auto rejection = [&](std::optional<float> unit, std::optional<std::string> axis) {
+    RigOptions options;
+    options.metres_per_unit = unit;
+    options.up_axis = axis;
+    const Result<Rig> rig = Rig::create(clip, options);
+    return rig.ok() ? "(accepted)" : rig.error().message;
+  };
+  EXPECT_EQ(rejection(0.01f, "-Z"), "(accepted)");
+  EXPECT_EQ(rejection(0.0f, {}), "expected metres per unit above 0, found 0.000000");
+  EXPECT_EQ(rejection(-1.0f, {}), "expected metres per unit above 0, found -1.000000");
+  EXPECT_EQ(rejection(INFINITY, {}), "expected metres per unit above 0, found inf");
+  EXPECT_EQ(rejection({}, "Y"), "expected an up axis from +X to -Z, found 'Y'");
+}
+
+TEST(Calibration, a_unit_and_an_axis_that_are_given_are_believed) {
+  const Clip clip = calm(5);
+  RigOptions options;
+  options.metres_per_unit = 0.5f;
+  for (const char* axis : {"+X", "-X", "+Y", "-Y", "+Z", "-Z"}) {
+    options.up_axis = axis;
+    Result<Rig> rig = Rig::create(clip, options);
+    ASSERT_TRUE(rig.ok()) << rig.error().message;
+    EXPECT_EQ(rig->up_axis(), axis);
+    EXPECT_EQ(rig->scale(), 0.5f);
+    EXPECT_EQ(rig->unit(), 0.5f);
+    // Turned so that the axis points up.
+    Vec3 up;
+    (axis[1] == 'X' ? up.x : axis[1] == 'Y' ? up.y : up.z) = axis[0] == '-' ? -1.0f : 1.0f;
+    EXPECT_LT(length(rotate(*turn_up(axis), up) - Vec3{0, 1, 0}), 1e-6f) << axis;
+  }
 }
 
 TEST(Calibration, legs_of_no_length_are_rejected) {

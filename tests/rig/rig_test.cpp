@@ -348,6 +348,78 @@ TEST(Rig, reading_and_writing_allocate_nothing) {
   EXPECT_GT(allocations, 0);
 }
 
+TEST(Rig, the_root_turns_and_moves_all_of_the_body) {
+  // Two roots, and the file has z up and centimetres.
+  Clip clip = random_clip(canonical_skeleton(), 10, 0.7f, 20);
+  Joint prop;
+  prop.name = "Prop";
+  clip.skeleton.joints.push_back(prop);
+  Clip two{clip.skeleton, clip.frame_time, 0, {}, {}};
+  const size_t joints = clip.skeleton.joints.size();
+  two.resize(clip.frames);
+  const Quat to_z_up = exp_rotation(Vec3{1.57079633f, 0, 0});
+  for (int f = 0; f < clip.frames; ++f) {
+    const Pose pose = two.pose(f);
+    for (size_t j = 0; j + 1 < joints; ++j) {
+      const size_t from = static_cast<size_t>(f) * (joints - 1) + j;
+      pose.rotations[j] = clip.rotations[from];
+      pose.translations[j] = clip.translations[from] * 100;
+    }
+    pose.rotations[0] = to_z_up * pose.rotations[0];
+    pose.translations[0] = rotate(to_z_up, pose.translations[0]);
+    pose.translations[joints - 1] = {100, 50, 200};
+  }
+  for (Joint& joint : two.skeleton.joints) joint.offset *= 100;
+  RigOptions options;
+  options.up_axis = "+Z";
+  options.metres_per_unit = 0.01f;
+  Result<Rig> created = Rig::create(two, options);
+  ASSERT_TRUE(created.ok()) << created.error().message;
+  PosedRig rig(*created);
+  const float turn = 0.8f;
+  const Vec3 about = {0.5f, 0, -1}, move = {0.25f, 0.125f, -2};
+  PoseBuffer out(joints);
+  for (int f = 0; f < two.frames; ++f) {
+    BodyPose before, after;
+    std::ranges::copy(two.pose(f).rotations, out.rotations.begin());
+    std::ranges::copy(two.pose(f).translations, out.translations.begin());
+    rig.read(out.pose(), before);
+    created->transform_root(turn, about, move, out.pose());
+    rig.read(out.pose(), after);
+    for (int j = 0; j < kHumanJoints; ++j) {
+      const Vec3 want = rotate(rotation_y(turn), before.positions[j] - about) + about + move;
+      // Rounding of places of up to 300 cm, a few times.
+      EXPECT_LT(length(after.positions[j] - want), 1e-5f) << human_joint_name(j);
+    }
+    // (1, 2, -0.5) in metres and Y up, turned likewise.
+    const Vec3 place = rotate(rotation_y(turn), Vec3{1, 2, -0.5f} - about) + about + move;
+    const Vec3 at = out.translations[joints - 1] * 0.01f;
+    EXPECT_LT(length(Vec3{at.x, at.z, -at.y} - place), 1e-5f);
+    std::ranges::copy(two.pose(f).translations, out.translations.begin());
+    std::ranges::copy(two.pose(f).rotations, out.rotations.begin());
+    created->transform_root(0, about, {}, out.pose());
+    for (size_t j = 0; j < joints; ++j) {
+      EXPECT_TRUE(same_bits(out.rotations[j], two.pose(f).rotations[j]));
+      EXPECT_TRUE(same_bits(out.translations[j], two.pose(f).translations[j]));
+    }
+  }
+}
+
+TEST(Rig, a_joint_that_is_named_must_be_there_once) {
+  Clip clip = awkward().clip();
+  const auto rejection = [&](const std::string& name) {
+    RigOptions options;
+    options.joints = {{index(left_hand), name}};
+    const Result<Rig> rig = Rig::create(clip, options);
+    return rig.ok() ? "(accepted)" : rig.error().message;
+  };
+  EXPECT_EQ(rejection("LeftHand"), "(accepted)");
+  EXPECT_EQ(rejection("Paw"), "there is no joint 'Paw' that could be leftHand");
+  clip.skeleton.joints.back().name = "LeftHand";
+  EXPECT_EQ(rejection("LeftHand"),
+            "more than one joint is called 'LeftHand', so it cannot be named as leftHand");
+}
+
 TEST(Rig, tells_how_it_was_understood) {
   const MadeUp made = awkward();
   const Clip clip = random_clip(made.skeleton, 2, 0.1f, 18);
