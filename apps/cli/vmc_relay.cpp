@@ -102,11 +102,14 @@ VmcRelay::Sender* VmcRelay::sender_of(const Datagram& datagram, bool meet) {
     if (same_address(sender.address, datagram.sender)) return &sender;
   }
   if (!meet) return nullptr;
-  // The one that was silent longest makes room for one too many.
+  // The one that was silent longest makes room for one too many; what waits of it is sent first.
   if (senders_.size() == kMaxSenders) {
-    senders_.erase(
+    const auto silent =
         std::min_element(senders_.begin(), senders_.end(),
-                         [](const Sender& a, const Sender& b) { return a.heard < b.heard; }));
+                         [](const Sender& a, const Sender& b) { return a.heard < b.heard; });
+    silent->character.end_frame(strengths_);
+    send_ready(*silent);
+    senders_.erase(silent);
   }
   senders_.push_back(
       {datagram.sender, datagram.received, true, VmcCharacter(model_, options_, recording_)});

@@ -1,5 +1,6 @@
 // panache live and panache send, fed and heard by sockets of the test.
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -251,6 +252,21 @@ TEST_F(LiveVerb, each_sender_has_a_character_of_its_own) {
   EXPECT_EQ(got_.size(), 15u);
   const Ran ran = end_live();
   EXPECT_EQ(ran.out.find("relayed 15 frames of 3 senders in "), 0u) << ran.out;
+}
+
+TEST_F(LiveVerb, what_waits_of_a_sender_is_sent_when_it_makes_room_for_another) {
+  write("walk.bvh", format_bvh(walking_clip(60, 60)));
+  start_live({});
+  play(1.3);  // From now on frames wait until they are whole.
+  got_.clear();
+  const Peer others[16];
+  const Bytes begun = bundle({bone_message("Hips", 0.5f)});
+  tracker_.send(in_, begun);
+  // All in less than the 20 ms after which it would be sent anyway.
+  for (const Peer& other : others) other.send(in_, bundle({bone_message("Head")}));
+  collect(500);
+  EXPECT_EQ(std::count(got_.begin(), got_.end(), begun), 1);
+  EXPECT_EQ(got_.size(), 17u);
 }
 
 TEST_F(LiveVerb, garbage_does_not_end_it) {
