@@ -472,6 +472,7 @@ Result<Skeleton> parse_asf(const std::string& text, const std::string& name) {
   return skeleton_of(*file);
 }
 
+// As all formats of the table are read. NOLINTNEXTLINE(performance-unnecessary-value-param)
 Result<std::unique_ptr<MotionFile>> parse_amc(std::string text, const std::string& path) {
   Result<std::string> asf = find_asf(path);
   if (!asf) return asf.error();

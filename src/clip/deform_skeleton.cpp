@@ -37,6 +37,7 @@ std::vector<Placed> place(const Skeleton& skeleton, ConstPose pose) {
   std::vector<Vec3> positions(skeleton.joints.size());
   world_pose(skeleton, pose, {rotations, positions});
   std::vector<Placed> placed;
+  placed.reserve(positions.size());
   for (size_t j = 0; j < positions.size(); ++j) placed.push_back({rotations[j], positions[j]});
   return placed;
 }

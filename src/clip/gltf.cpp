@@ -17,6 +17,7 @@ class GltfFile final : public MotionFile {
 
   std::vector<std::string> clip_names() const override {
     std::vector<std::string> names;
+    names.reserve(document_.animations.size());
     for (const GltfAnimation& animation : document_.animations) names.push_back(animation.name);
     return names;
   }

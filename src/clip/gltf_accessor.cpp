@@ -31,8 +31,9 @@ size_t component_bytes(uint64_t type) {
     case kUint32:
     case kFloat:
       return 4;
+    default:
+      return 0;
   }
-  return 0;
 }
 
 uint32_t little_endian(const char* bytes, size_t size) {

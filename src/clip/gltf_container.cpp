@@ -122,7 +122,8 @@ class ContainerReader {
 
   // The bytes at `uri`, which stands at `path`; one in another file becomes a data URI of `type`,
   // or of what the bytes look like.
-  bool fetch(GltfJson& object, const std::string& path, std::string type, std::string& bytes) {
+  bool fetch(GltfJson& object, const std::string& path, const std::string& type,
+             std::string& bytes) {
     std::string& uri = object["uri"].get_ref<std::string&>();
     if (is_data_uri(uri)) {
       auto decoded = decode_data_uri(uri);
@@ -219,6 +220,7 @@ class ContainerReader {
 
 }  // namespace
 
+// The bytes are freed before the rest is read. NOLINTNEXTLINE(performance-unnecessary-value-param)
 bool read_gltf_container(std::string bytes, const std::string& name, GltfChecker& checker,
                          GltfContainer& out) {
   return ContainerReader(name, checker, out).read(bytes);

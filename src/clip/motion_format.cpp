@@ -80,7 +80,7 @@ Result<const MotionFormat*> format_of(const std::string& path,
 
 }  // namespace
 
-std::span<const MotionFormat> motion_formats() { return kFormats; }
+std::span<const MotionFormat> motion_formats() noexcept { return kFormats; }
 
 std::string extension_of(const std::string& path) {
   std::string text = std::filesystem::path(path).extension().string();

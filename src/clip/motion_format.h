@@ -46,7 +46,7 @@ struct MotionFormat {
 };
 
 // The formats that the library reads.
-std::span<const MotionFormat> motion_formats();
+std::span<const MotionFormat> motion_formats() noexcept;
 
 // Those that read_motion(path) knows from here on, for a program that reads more of them; manifests
 // may name such files then. Called before any thread reads; `formats` outlive everything.

@@ -180,6 +180,7 @@ void draw_figure(Svg& svg, const Figure& figure, const std::string& colour, Poin
       const double extra = rim ? 2 * kHalo : 0;
       for (const Part::Line& line : part.lines) {
         std::vector<Point> points;
+        points.reserve(line.through.size());
         for (const HumanJoint j : line.through) points.push_back(pixel(figure.joints[index(j)]));
         svg.polyline(points, {paint, (line.width + extra) * scale, 1, ""});
       }

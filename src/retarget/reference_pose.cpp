@@ -111,6 +111,7 @@ class Finder {
                    length(joints[index(kAnkles[f])] - joints[index(kLowerLegs[f])])) /
                   2;
     }
+    heights.reserve(motion_.size());
     for (const BodyPose& body : motion_) heights.push_back(toes_height(body.joints));
     const auto low = static_cast<long>(kFloorShare * static_cast<float>(heights.size() - 1));
     std::nth_element(heights.begin(), heights.begin() + low, heights.end());
@@ -205,6 +206,7 @@ class Finder {
     for (int f = 0; f < kFeet; ++f) {
       const int ankle = index(kAnkles[f]);
       std::vector<const RotatedBodyPose*> lowest;
+      lowest.reserve(motion_.size());
       for (const RotatedBodyPose& body : motion_) lowest.push_back(&body);
       std::sort(lowest.begin(), lowest.end(),
                 [&](const RotatedBodyPose* a, const RotatedBodyPose* b) {

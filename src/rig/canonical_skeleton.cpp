@@ -16,12 +16,12 @@ constexpr float kHandLength = 0.17f;
 constexpr float kToeLength = 0.06f;
 
 // Offsets from the parent in T-pose.
-HumanPositions rest_offsets() {
+HumanPositions rest_offsets() noexcept {
   const Proportions& body = kProportions;
   const float slope = body.toe_pitch;
   HumanPositions out;
   const auto at = [&](HumanJoint joint) -> Vec3& { return out[index(joint)]; };
-  const auto length_of = [&](HumanJoint joint) { return body.length[index(joint)]; };
+  const auto length_of = [&](HumanJoint joint) { return kProportions.length[index(joint)]; };
   const Vec3 toes = Vec3{0, -sine(slope), cosine(slope)} * length_of(left_toes);
   at(hips) = {0, body.leg - toes.y - body.hips_to_mid_hip.y, 0};
   at(spine) = body.hips_to_mid_hip + Vec3{0, body.torso * body.spine_fraction, 0};

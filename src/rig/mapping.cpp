@@ -319,6 +319,7 @@ std::vector<JointName> read_names(const Skeleton& skeleton) {
   const bool roles = std::any_of(skeleton.joints.begin(), skeleton.joints.end(),
                                  [](const Joint& joint) { return !joint.role.empty(); });
   std::vector<JointName> names;
+  names.reserve(skeleton.joints.size());
   for (const Joint& joint : skeleton.joints) {
     names.push_back(parse_joint_name(roles ? joint.role : joint.name));
   }

@@ -158,10 +158,12 @@ TriangleMesh surface_net(const std::function<float(Vec3)>& distance, Vec3 low, V
   const Vec3 size = high - low;
   const float cells = size.x * size.y * size.z / (cell * cell * cell);
   if (cells > kMostCells) cell *= std::cbrt(cells / kMostCells);
-  for (;; cell *= 1.5f) {
-    TriangleMesh out;
-    if (SurfaceNet(distance, low, high, cell).build(out)) return out;
+  TriangleMesh out;
+  while (!SurfaceNet(distance, low, high, cell).build(out)) {
+    out = {};
+    cell *= 1.5f;
   }
+  return out;
 }
 
 }  // namespace panache
