@@ -102,16 +102,14 @@ Difference difference(const std::vector<HumanPositions>& a, const std::vector<Hu
 }
 
 // What docs/rigs.md promises. A rig may let go of a foot a frame before or after the canonical body
-// does, and the lock then turns a thigh and a shin by up to 6 degrees in that frame: 2 of 20
-// directions in one of 120 frames, 0.005 degrees of the mean. Four seconds of walking have four
-// such frames at most; of the 1.5 seconds of a kick a foot is let go of in five. All else is below
-// half a degree in such frames, and rounding.
-constexpr double kMeanDeg = 0.04, kMaxDeg = 6;
+// does, and the lock then turns a thigh and a shin by up to 4 degrees in that frame. All else is
+// about a degree in such frames, and rounding.
+constexpr double kMeanDeg = 0.04, kMaxDeg = 4.5;
 // This one's arms hang on its neck and its legs on its spine. So it is read a little differently
-// even without a style, 0.3 to 0.5 degrees in the mean, and its arms turn with the neck's share of
-// one: as "old" turns the neck of a kick by 20 degrees, its arms are 10 off. The promise, rounded.
+// even without a style, 0.2 to 0.4 degrees in the mean, and its arms turn with the neck's share of
+// one. The promise, rounded.
 constexpr const char* kArmsOnNeck = "3ds Max Biped";
-constexpr double kArmsOnNeckMeanDeg = 1.9, kArmsOnNeckMaxDeg = 11;
+constexpr double kArmsOnNeckMeanDeg = 1.2, kArmsOnNeckMaxDeg = 8;
 
 void expect_same_style_on_all_rigs(const Clip& motion, const std::string& style, float strength) {
   const std::vector<HumanPositions> want = styled(motion, style, strength);
