@@ -394,7 +394,8 @@ TEST_F(LiveVerb, does_not_grow_in_a_flood_of_senders) {
   flood(10);
   [[maybe_unused]] const long before = resident_pages();
   bytes = 0;
-  flood(80);
+  // How much gets through at a time depends on the machine.
+  for (int i = 0; i < 100 && bytes <= 16u << 20; ++i) flood(8);
   ASSERT_GT(bytes, 16u << 20);
 #ifndef PANACHE_SANITIZED  // The sanitizer keeps what is freed for a while.
   // Pages of 4 KB: what waits for its frame for 20 ms stays below 8 MB.
