@@ -50,10 +50,7 @@ void VmcRelay::run_once() {
 }
 
 void VmcRelay::finish() {
-  for (Sender& sender : senders_) {
-    sender.character.end_frame(strengths_);
-    send_ready(sender);
-  }
+  for (Sender& sender : senders_) send_rest(sender);
 }
 
 void VmcRelay::take(Datagram datagram) {
@@ -107,14 +104,18 @@ VmcRelay::Sender* VmcRelay::sender_of(const Datagram& datagram, bool meet) {
     const auto silent =
         std::min_element(senders_.begin(), senders_.end(),
                          [](const Sender& a, const Sender& b) { return a.heard < b.heard; });
-    silent->character.end_frame(strengths_);
-    send_ready(*silent);
+    send_rest(*silent);
     senders_.erase(silent);
   }
   senders_.push_back(
       {datagram.sender, datagram.received, true, VmcCharacter(model_, options_, recording_)});
   ++met_;
   return &senders_.back();
+}
+
+void VmcRelay::send_rest(Sender& sender) {
+  sender.character.end_frame(strengths_);
+  send_ready(sender);
 }
 
 void VmcRelay::send_ready(Sender& sender) {

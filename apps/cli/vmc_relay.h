@@ -54,6 +54,8 @@ class VmcRelay {
   void apply_command(const VmcMessage& message);
   // Null where the sender is new and not to be met.
   Sender* sender_of(const Datagram& datagram, bool meet);
+  // All that waits of a sender, whole or begun.
+  void send_rest(Sender& sender);
   void send_ready(Sender& sender);
   void send(const Datagram& datagram);
   void count_lost();

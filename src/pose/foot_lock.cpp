@@ -46,7 +46,7 @@ Vec3 easy_target(Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 target) {
   return hip + way * ((before + follow * (wanted - before)) / wanted);
 }
 
-// What a planted foot that is pulled away from `pull` metres away follows of it.
+// How far a planted foot is held back towards its anchor, which is `pull` away from it.
 Vec3 held(Vec3 pull) {
   constexpr float kGives = kMaxOffset - kHeld;
   const float far = length(pull);

@@ -55,7 +55,7 @@ class FootLock {
   }
 
  private:
-  enum class State { free, planted, let_go };  // Let go: slides itself, free until it lifts.
+  enum class State { free, planted, let_go };  // Let go: slid in the input, free until it lifts.
   struct Foot {
     State state = State::free;
     Vec3 toe;     // World position of the toe, uncorrected, at the last step.

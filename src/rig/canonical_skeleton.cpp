@@ -17,23 +17,25 @@ constexpr float kToeLength = 0.06f;
 
 // Offsets from the parent in T-pose.
 HumanPositions rest_offsets() noexcept {
-  const Proportions& body = kProportions;
-  const float slope = body.toe_pitch;
+  const float slope = kProportions.toe_pitch;
   HumanPositions out;
   const auto at = [&](HumanJoint joint) -> Vec3& { return out[index(joint)]; };
   const auto length_of = [&](HumanJoint joint) { return kProportions.length[index(joint)]; };
   const Vec3 toes = Vec3{0, -sine(slope), cosine(slope)} * length_of(left_toes);
-  at(hips) = {0, body.leg - toes.y - body.hips_to_mid_hip.y, 0};
-  at(spine) = body.hips_to_mid_hip + Vec3{0, body.torso * body.spine_fraction, 0};
-  at(chest) = {0, body.torso * (body.chest_fraction - body.spine_fraction), 0};
-  const Vec3 mid_shoulder = {0, body.torso * (1 - body.chest_fraction), 0};
-  at(neck) = mid_shoulder + body.mid_shoulder_to_neck;
+  at(hips) = {0, kProportions.leg - toes.y - kProportions.hips_to_mid_hip.y, 0};
+  at(spine) =
+      kProportions.hips_to_mid_hip + Vec3{0, kProportions.torso * kProportions.spine_fraction, 0};
+  at(chest) = {0, kProportions.torso * (kProportions.chest_fraction - kProportions.spine_fraction),
+               0};
+  const Vec3 mid_shoulder = {0, kProportions.torso * (1 - kProportions.chest_fraction), 0};
+  at(neck) = mid_shoulder + kProportions.mid_shoulder_to_neck;
   at(head) = {0, length_of(head), 0};
-  at(left_shoulder) = mid_shoulder + body.mid_shoulder_to_left_shoulder;
-  at(left_upper_arm) = Vec3{body.half_shoulders, 0, 0} - body.mid_shoulder_to_left_shoulder;
+  at(left_shoulder) = mid_shoulder + kProportions.mid_shoulder_to_left_shoulder;
+  at(left_upper_arm) =
+      Vec3{kProportions.half_shoulders, 0, 0} - kProportions.mid_shoulder_to_left_shoulder;
   at(left_lower_arm) = {length_of(left_lower_arm), 0, 0};
   at(left_hand) = {length_of(left_hand), 0, 0};
-  at(left_upper_leg) = body.hips_to_mid_hip + Vec3{body.half_hips, 0, 0};
+  at(left_upper_leg) = kProportions.hips_to_mid_hip + Vec3{kProportions.half_hips, 0, 0};
   at(left_lower_leg) = {0, -length_of(left_lower_leg), 0};
   at(left_foot) = {0, -length_of(left_foot), 0};
   at(left_toes) = toes;

@@ -9,7 +9,7 @@ namespace panache {
 namespace {
 
 // A body of which the left knee, the hips and the toes are this high, with a style that lowers the
-// hips; how far it has been lifted again after half a second.
+// hips; how far it has been lifted again after a second.
 struct Heights {
   float knee = 0.5f, hips = 0.9f, toes = 0;
 };

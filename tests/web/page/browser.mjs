@@ -11,6 +11,7 @@ import playwright from 'playwright-core';
 const root = fileURLToPath(new URL('../../..', import.meta.url));
 export const pageFolder = join(root, 'build', 'web');
 export const models = join(root, 'models');
+
 /** The hash of 300 styled frames natively, on each instruction set of the machine. */
 export const nativeHashes = () =>
   execFileSync(process.env.PANACHE_GOLDEN, [join(models, 'panache-int8.safetensors')])
