@@ -160,6 +160,8 @@ Result<void> judge_ood_references(const TestSet& test_set, const StyleJudges& ju
   report.ood_real = summarize_styles(real);
   // They are no outputs of one clip in all styles.
   report.ood_real.forced_mlp = report.ood_real.forced_lda = kNotMeasured;
+  report.ood_real_unseen =
+      summarize_styles(judge_unseen_actions(test_set.training.takes, options.seed + 5));
   SignatureMatch left_out;
   for (const StyleName& style : options.styles) {
     const Signature* signature = judges.signature(style.name);

@@ -90,9 +90,10 @@ struct Report {
   MetricsTable real_by_content, real_by_style;
   MetricsTable input_by_content;
   double cc_floor = kNotMeasured, sc_floor = kNotMeasured;  // Real takes against real takes.
-  // The judges of out-of-distribution motion: what they say of real test takes, and of the clips
-  // themselves, as if they were the output.
-  StyleSummary ood_real, ood_input;
+  // The judges of out-of-distribution motion: what they say of real test takes, such judges of real
+  // takes of actions unseen by them, and the judges of the clips themselves, as if they were the
+  // output.
+  StyleSummary ood_real, ood_real_unseen, ood_input;
   std::vector<SignatureReport> signatures;
   std::vector<SystemReport> systems;
   std::vector<StripReport> strips;

@@ -235,6 +235,7 @@ std::string report_json(const Report& report) {
   out["cc_floor"] = number(report.cc_floor);
   out["sc_floor"] = number(report.sc_floor);
   out["foreign_reference"] = {{"real", style_summary_json(report.ood_real)},
+                              {"real_unseen", style_summary_json(report.ood_real_unseen)},
                               {"input", style_summary_json(report.ood_input)}};
   out["signatures"] = Json::object();
   for (const SignatureReport& signature : report.signatures) {

@@ -107,6 +107,7 @@ std::string ood_styles_table(const Report& report,
     table.add_row(name, std::move(cells), name == "input");
   };
   add("real takes", report.ood_real);
+  add("real takes of unseen actions", report.ood_real_unseen);
   for (const SystemReport* system : systems) add(system->name, summarize_styles(system->ood));
   add("input", report.ood_input);
   return table.str();

@@ -156,6 +156,7 @@ std::string ood_styles(const Report& report) {
   for (const SystemReport& system : report.systems) any = any || !system.ood.empty();
   if (!any) return "";
   add("real takes", report.ood_real);
+  add("real takes of unseen actions", report.ood_real_unseen);
   add("input", report.ood_input);
   for (const SystemReport& system : report.systems) {
     if (!system.ood.empty()) add(system.name, summarize_styles(system.ood));

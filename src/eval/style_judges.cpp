@@ -1,6 +1,9 @@
 #include "eval/style_judges.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <map>
 #include <set>
 
 namespace panache {
@@ -8,6 +11,8 @@ namespace {
 
 constexpr ClassifierSettings kRobust = {
     .hidden = 96, .networks = 2, .steps = 2500, .disturbed = true};
+constexpr int kGroups = 4;       // Of actions that are left out in turn.
+constexpr int kJudgedTakes = 6;  // Of a style and action.
 
 std::vector<std::string> labels_of(const std::vector<Take>& takes) {
   std::vector<std::string> labels;
@@ -53,6 +58,43 @@ StyleJudges::StyleJudges(const std::vector<Take>& takes, const std::vector<Pairi
 
 OodVerdict StyleJudges::judge_real(const Take& take) const {
   return recognise(take, take.row.style);
+}
+
+std::vector<OodRow> judge_unseen_actions(const std::vector<Take>& takes, uint64_t seed) {
+  const auto kind_of = [](const Take& take) {
+    return take.row.content.substr(0, take.row.content.find('-'));
+  };
+  std::map<std::string, int> group;  // Of a kind of action.
+  for (const Take& take : takes) {
+    if (!take.row.neutral) group[kind_of(take)] = 0;
+  }
+  const int groups = std::min(kGroups, static_cast<int>(group.size()));
+  std::vector<OodRow> rows;
+  if (groups < 2) return rows;
+  int next = 0;
+  for (auto& [kind, number] : group) number = next++ % groups;
+  for (int left_out = 0; left_out < groups; ++left_out) {
+    const auto is_left_out = [&](const Take& take) {
+      const auto found = group.find(kind_of(take));
+      return found != group.end() && found->second == left_out;
+    };
+    std::vector<Take> others;
+    std::copy_if(takes.begin(), takes.end(), std::back_inserter(others), std::not_fn(is_left_out));
+    const StyleJudges judges(others, {}, seed);
+    std::map<std::string, int> count;  // Of a style and action.
+    for (const Take& take : takes) {
+      if (take.row.neutral || !is_left_out(take)) continue;
+      const std::string folder = std::filesystem::path(take.row.path).parent_path().string();
+      const std::string action = folder + "/" + take.row.content;
+      const int number = count[action + "/" + take.row.style]++;
+      if (number >= kJudgedTakes) continue;
+      OodRow& row = rows.emplace_back();
+      row.clip = action + "/" + std::to_string(number);
+      row.style = take.row.style;
+      row.verdict = judges.judge_real(take);
+    }
+  }
+  return rows;
 }
 
 OodVerdict StyleJudges::recognise(const Take& take, const std::string& wanted) const {

@@ -57,5 +57,32 @@ TEST_F(StyleJudgesTest, an_output_is_judged_as_the_style_that_was_asked_for) {
   EXPECT_EQ(judges_->judge(neutral, old, 0, "jolly").style, -1);
 }
 
+// What old is in a walk is called proud where a hand waves: who has not seen the other action is
+// wrong in every take of it.
+TEST(JudgeUnseenActions, is_done_by_judges_of_the_other_actions) {
+  test::keep_libraries_single_threaded();
+  std::vector<Take> takes = test::styled_takes({"neutral", "old", "proud"}, {0, 1, 2}, 60);
+  for (Take& take : takes) {
+    if (take.row.content == "wave" && !take.row.neutral) {
+      take.row.style = take.row.style == "old" ? "proud" : "old";
+    }
+  }
+  const std::vector<OodRow> rows = judge_unseen_actions(takes, 1);
+  EXPECT_EQ(rows.size(), 12u);  // Without neutral.
+  std::map<std::string, int> clips;
+  for (const OodRow& row : rows) {
+    ++clips[row.clip];
+    EXPECT_LT(row.verdict.style_lda, 0.1) << row.clip << " " << row.style;
+    EXPECT_LT(row.verdict.style_robust, 0.2) << row.clip << " " << row.style;
+  }
+  // Each clip is shown in both styles.
+  EXPECT_EQ(clips.size(), 6u);
+  for (const auto& [clip, count] : clips) EXPECT_EQ(count, 2) << clip;
+
+  // Left and right are one kind of action: nobody is left to judge it.
+  for (Take& take : takes) take.row.content = take.row.content == "wave" ? "walk-left" : "walk";
+  EXPECT_TRUE(judge_unseen_actions(takes, 1).empty());
+}
+
 }  // namespace
 }  // namespace panache
