@@ -388,11 +388,11 @@ class AmcReader {
   Result<void> begin_frame(const Clip& rest) {
     uint64_t number = 0;
     TextCursor& cursor = words_.cursor();
-    if (!cursor.take_count(number) || words_.more_on_line()) {
-      return cursor.error("the number of a frame on a line of its own");
-    }
     if (static_cast<size_t>(clip_.frames) >= kMaxPoses / clip_.joints()) {
       return cursor.error("at most " + std::to_string(kMaxPoses / clip_.joints()) + " frames");
+    }
+    if (!cursor.take_count(number) || words_.more_on_line()) {
+      return cursor.error("the number of a frame on a line of its own");
     }
     words_.next();
     const ConstPose before = clip_.frames ? clip_.pose(clip_.frames - 1) : rest.pose(0);

@@ -39,10 +39,13 @@ function posesOf({ player }: Source, seen: readonly ('input' | 'styled')[]) {
 async function plan(motion: LoopMotion, seen: readonly ('input' | 'styled')[]) {
   const source = await motion.open();
   const all: ReturnType<typeof posesOf>[] = [];
-  do {
-    all.push(posesOf(source, seen));
-  } while (all.length * kLoopStep < kLongest && motion.advance(source));
-  free(source);
+  try {
+    do {
+      all.push(posesOf(source, seen));
+    } while (all.length * kLoopStep < kLongest && motion.advance(source));
+  } finally {
+    free(source);
+  }
   const cycle = motion.cyclic
     ? findCycle(all.map(({ pose }) => pose), Math.round(kShortest / kLoopStep)) : null;
   const [first, end] = cycle ?? [0, all.length];
@@ -64,13 +67,14 @@ export async function makeLoop(stage: Stage, motion: LoopMotion, width: number, 
   const { applyPalette, GIFEncoder, quantize } = await late('gif');
   const { first, end, way } = await plan(motion, stage.seenBodies);
   const source = await motion.open();
-  const studio = stage.studio(source);
+  let studio: ReturnType<Stage['studio']> | undefined;
   const canvas = document.createElement('canvas');
   Object.assign(canvas, { width, height });
   const context = canvas.getContext('2d', { willReadFrequently: true })!;
   const gif = GIFEncoder();
   let palette: ReturnType<typeof quantize> | undefined;
   try {
+    studio = stage.studio(source);
     for (let i = 0; i < first; ++i) motion.advance(source);
     for (let i = first; i < end; ++i) {
       studio.drawStill(source, kSharper * width, kSharper * height, way, (i - first) / (end - first));
@@ -88,7 +92,7 @@ export async function makeLoop(stage: Stage, motion: LoopMotion, width: number, 
       motion.advance(source);
     }
   } finally {
-    studio.free();
+    studio?.free();
     free(source);
   }
   gif.finish();
