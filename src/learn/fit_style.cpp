@@ -158,6 +158,7 @@ void put_gate(const Model& model, Table& table, const std::vector<double>& covar
   const double others = size > count ? std::max(0.0, left) / static_cast<double>(size - count) : 0;
   const double rest = 1 / (others + kPenalty);
   std::vector<double> gate_weights;
+  gate_weights.reserve(main.variances.size());
   for (const double variance : main.variances)
     gate_weights.push_back(1 / (variance + kPenalty) - rest);
 
@@ -188,7 +189,7 @@ void put_gate(const Model& model, Table& table, const std::vector<double>& covar
 
 }  // namespace
 
-TensorFile fit_style(std::shared_ptr<const Model> model, const SampleSet& set,
+TensorFile fit_style(const std::shared_ptr<const Model>& model, const SampleSet& set,
                      std::span<const size_t> samples) {
   assert(model->can_learn() && !samples.empty());
   Table table = make_table(model, set, samples);

@@ -14,7 +14,7 @@ namespace panache {
 // The tensors of a learnt style, as a style file has them: `head.*`, `mean` and `gate.*`, see
 // Model. Fitted to these of the set's samples (of the model's recipe), each seen as it is and in
 // eight disturbed copies, which are the same at every call. `model` can learn. At least one sample.
-TensorFile fit_style(std::shared_ptr<const Model> model, const SampleSet& set,
+TensorFile fit_style(const std::shared_ptr<const Model>& model, const SampleSet& set,
                      std::span<const size_t> samples);
 
 // The activations of a window, standardised as they vary over motion of all kinds, tell styles

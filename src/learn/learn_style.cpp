@@ -155,6 +155,7 @@ std::vector<MatchedInstant> matched_instants(const std::vector<Pairing>& pairing
     }
   }
   std::vector<MatchedInstant> instants;
+  instants.reserve(by_frame.size());
   for (const auto& [frame, placed] : by_frame) instants.push_back(placed.instant);
   return instants;
 }

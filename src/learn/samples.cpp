@@ -120,6 +120,7 @@ SampleSet::SampleSet(const std::vector<Take>& takes, const std::vector<Pairing>&
     add_pairing(pairing, static_cast<int>(style - styles.begin()));
   }
   std::vector<int> neutral_takes;
+  neutral_takes.reserve(pairings.size());
   for (const Pairing& pairing : pairings) neutral_takes.push_back(pairing.neutral);
   std::sort(neutral_takes.begin(), neutral_takes.end());
   neutral_takes.erase(std::unique(neutral_takes.begin(), neutral_takes.end()), neutral_takes.end());

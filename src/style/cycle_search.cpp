@@ -1,6 +1,7 @@
 #include "style/cycle_search.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace panache {
 namespace {
@@ -31,8 +32,9 @@ std::optional<double> find_cycle(const InputRing& ring, double at, double neares
   const HumanPositions here = ring.body(at), before = ring.body(at - kBeforeCycle);
   std::optional<double> best;
   float least = kMaxDistance;
-  for (double away = nearest; away <= farthest; away += kCandidates) {
-    const double to = at + away;
+  const int candidates = static_cast<int>(std::floor((farthest - nearest) / kCandidates)) + 1;
+  for (int c = 0; c < candidates; ++c) {
+    const double away = nearest + c * kCandidates, to = at + away;
     const PoseDistance now = compare(here, ring.body(to)),
                        then = compare(before, ring.body(to - kBeforeCycle));
     const float mean = (now.mean + then.mean) / 2;

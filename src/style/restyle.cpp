@@ -30,7 +30,8 @@ float StrengthTrack::at(double seconds) const {
   return a.strength + static_cast<float>(t) * (later->strength - a.strength);
 }
 
-Result<Restyled> restyle(const Clip& clip, const Rig& rig, std::shared_ptr<const Model> model,
+Result<Restyled> restyle(const Clip& clip, const Rig& rig,
+                         const std::shared_ptr<const Model>& model,
                          const std::vector<StrengthTrack>& tracks, const RestyleOptions& options,
                          const std::function<void(double)>& progress) {
   Result<Stylizer> stylizer = Stylizer::create(model, rig, options.stylizer);

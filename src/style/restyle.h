@@ -39,7 +39,8 @@ struct Restyled {
 
 // `progress` is called with 0 to 1 now and then; may be empty. With all strengths at 0, model and
 // recipe permitting, the result is the input. Fails where `rig` or the options do not suit.
-Result<Restyled> restyle(const Clip& clip, const Rig& rig, std::shared_ptr<const Model> model,
+Result<Restyled> restyle(const Clip& clip, const Rig& rig,
+                         const std::shared_ptr<const Model>& model,
                          const std::vector<StrengthTrack>& tracks,
                          const RestyleOptions& options = {},
                          const std::function<void(double)>& progress = {});
