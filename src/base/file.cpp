@@ -25,8 +25,8 @@ Result<std::string> read_file(const std::string& path) {
   if (!status && size > kMaxFileBytes) return too_large;
   if (!status) bytes.reserve(size);
   char block[1 << 16];
-  size_t n;
-  while ((n = std::fread(block, 1, sizeof block, file.get())) > 0) {
+  while (!std::feof(file.get()) && !std::ferror(file.get())) {
+    const size_t n = std::fread(block, 1, sizeof block, file.get());
     if (bytes.size() + n > kMaxFileBytes) return too_large;
     bytes.append(block, n);
   }
