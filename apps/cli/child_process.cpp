@@ -50,6 +50,7 @@ int start(const std::vector<std::string>& arguments, int out, pid_t& child) {
   std::vector<std::string> words = {"panache"};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   posix_spawn_file_actions_t actions;
@@ -99,6 +100,7 @@ int answer_as_child(const std::function<Result<std::string>()>& read,
   // What a library says on its way is not the answer, nor the program's message.
   const int out = ::dup(STDOUT_FILENO);
   const int nowhere = ::open("/dev/null", O_WRONLY);
+  if (out < 0 || nowhere < 0) return kBadInput;
   ::dup2(nowhere, STDOUT_FILENO);
   ::dup2(nowhere, STDERR_FILENO);
   try {
