@@ -46,7 +46,13 @@ TEST_F(SamplesApi, a_pair_shows_what_its_style_does) {
     EXPECT_NEAR(change[3 * 1], 0.4f, 0.02) << "spine, about x";
     EXPECT_NEAR(change[3 * 13], 0, 0.1) << "leftUpperLeg";
     EXPECT_NEAR(panache_samples_log_rates(samples)[s], 0, 0.1);
+    // Windows show the neutral walk, which goes ahead.
+    const float* window = panache_samples_windows(samples) + s * PANACHE_WINDOW_SIZE;
+    EXPECT_NEAR(window[64], 1.15f, 0.05) << s;
   }
+  bool planted = false;
+  for (int32_t i = 0; i < 2 * count; ++i) planted |= panache_samples_contacts(samples)[i] == 1;
+  EXPECT_TRUE(planted);
   panache_samples_destroy(samples);
 }
 
