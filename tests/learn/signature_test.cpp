@@ -100,6 +100,18 @@ TEST_F(SignaturesTest, what_the_actions_of_a_style_agree_on_is_certain) {
   EXPECT_FALSE(old.certain[kTempoTrait]);     // And everybody kept the tempo.
 }
 
+TEST_F(SignaturesTest, an_action_without_a_neutral_take_does_not_count) {
+  for (Take& take : takes_) {
+    if (take.row.style == "old" && take.row.content == takes_[0].row.content) {
+      take.row.content = "handstand";
+    }
+  }
+  const Signatures signatures(takes_, pairings_);
+  // One action is left, which nothing agrees with.
+  EXPECT_EQ(signatures.find("old"), nullptr);
+  EXPECT_NE(signatures.find("proud"), nullptr);
+}
+
 TEST_F(SignaturesTest, outputs_are_told_by_sign_and_amount) {
   Signature signature;
   signature.change = {10, 10, 10};
