@@ -68,6 +68,12 @@ TEST_F(SamplesApi, what_is_wrong_with_a_pair_is_said) {
   panache_clip empty = walk.clip;
   empty.frame_count = 0;
   EXPECT_EQ(rejection({empty, walk.clip}), "pair 1, neutral: has no frames");
+  panache_clip unknown = walk.clip;
+  unknown.translations = nullptr;
+  EXPECT_EQ(rejection({unknown, walk.clip}),
+            "pair 1, neutral: poses need both rotations and translations");
+  EXPECT_EQ(rejection({walk.clip, unknown}),
+            "pair 1, styled: poses need both rotations and translations");
 }
 
 }  // namespace
