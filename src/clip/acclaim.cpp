@@ -67,12 +67,6 @@ class Words {
     next();
     return true;
   }
-  std::string take_word() {
-    const std::string word(cursor_.word());
-    cursor_.take(word);
-    next();
-    return word;
-  }
   // Whether the line goes on; words of a line are read with these two.
   bool more_on_line() {
     cursor_.skip_spaces();

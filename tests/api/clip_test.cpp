@@ -151,7 +151,15 @@ TEST_F(ClipApi, what_is_wrong_with_tracks_and_clips_is_said) {
   panache_clip clip = walk.clip;
   clip.frame_count = 0;
   EXPECT_EQ(rejection(PANACHE_BAD_CLIP, clip, {{0, 1}}, 0), "clip: has no frames");
+  for (const int32_t frames : {-1, 1'000'001}) {
+    clip.frame_count = frames;
+    EXPECT_EQ(rejection(PANACHE_BAD_CLIP, clip, {{0, 1}}, 0),
+              "clip: has " + std::to_string(frames) + " frames; expected up to 1000000");
+  }
   clip = walk.clip;
+  clip.frame_seconds = 1.5;
+  EXPECT_EQ(rejection(PANACHE_BAD_CLIP, clip, {{0, 1}}, 0),
+            "clip: has frames 1.500000 seconds apart; expected more than 0 and at most 1");
   clip.frame_seconds = 0;
   EXPECT_EQ(rejection(PANACHE_BAD_CLIP, clip, {{0, 1}}, 0),
             "clip: has frames 0.000000 seconds apart; expected more than 0 and at most 1");
@@ -159,6 +167,12 @@ TEST_F(ClipApi, what_is_wrong_with_tracks_and_clips_is_said) {
   bad.translations[3 * (2 * STICK_JOINTS + 5)] = INFINITY;
   EXPECT_EQ(rejection(PANACHE_BAD_CLIP, bad.clip, {{0, 1}}, 0),
             "clip: pose 2, joint 5: its translation is not finite");
+  bad.rotations[4 * (STICK_JOINTS + 7) + 3] = 2;
+  EXPECT_EQ(rejection(PANACHE_BAD_CLIP, bad.clip, {{0, 1}}, 0),
+            "clip: pose 1, joint 7: its rotation is no unit quaternion (x, y, z, w)");
+  bad.clip.translations = nullptr;
+  EXPECT_EQ(rejection(PANACHE_BAD_CLIP, bad.clip, {{0, 1}}, 0),
+            "clip: poses need both rotations and translations");
 }
 
 }  // namespace

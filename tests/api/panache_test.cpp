@@ -80,6 +80,26 @@ TEST_F(Api, many_at_once_are_the_same_as_one_after_another) {
   for (panache_character* c : all) panache_character_destroy(c);
 }
 
+TEST_F(Api, a_crowd_may_be_of_any_size) {
+  constexpr int kMany = 520;
+  std::vector<panache_character*> all;
+  for (int i = 0; i < kMany; ++i) all.push_back(character("old"));
+  panache_character* alone = character("old");
+  for (int f = 0; f < 3; ++f) {
+    stick_pose in, expected;
+    stick_walk(f / 60.0, 0, &in);
+    panache_character_step(alone, stick_input(&in), 1 / 60.0, stick_output(&expected));
+    std::vector<stick_pose> poses(kMany);
+    const std::vector<panache_input_pose> from(kMany, stick_input(&in));
+    std::vector<panache_output_pose> to;
+    for (stick_pose& pose : poses) to.push_back(stick_output(&pose));
+    panache_step_many(all.data(), kMany, from.data(), 1 / 60.0, to.data());
+    ASSERT_TRUE(same(poses, std::vector<stick_pose>(kMany, expected))) << "frame " << f;
+  }
+  for (panache_character* c : all) panache_character_destroy(c);
+  panache_character_destroy(alone);
+}
+
 TEST_F(Api, characters_outlive_model_and_skeleton_handles) {
   panache_character* old = character("old");
   panache_model_destroy(model_);

@@ -1,4 +1,6 @@
 // A clip on another skeleton.
+#include <array>
+
 #include "stick_api.h"
 
 namespace {
@@ -51,6 +53,74 @@ TEST_F(RetargetApi, a_larger_figure_goes_further) {
   panache_styled_clip_destroy(same);
   panache_styled_clip_destroy(large);
   panache_skeleton_destroy(twice);
+}
+
+// The figure stands with its arms stretched ahead and its hands together.
+struct Clap : Walk {
+  explicit Clap(const panache_skeleton* skeleton) : Walk(skeleton, 20, false) {
+    for (int f = 0; f < 20; ++f) {
+      for (int j = 0; j < STICK_JOINTS; ++j) {
+        float* q = &rotations[static_cast<size_t>(4 * (STICK_JOINTS * f + j))];
+        q[0] = q[1] = q[2] = 0, q[3] = 1;
+      }
+      // A quarter turn about x brings the arm ahead, then 0.4 rad about y in.
+      for (const int j : {5, 8}) {
+        const float in = j == 5 ? -0.2f : 0.2f;
+        float* q = &rotations[static_cast<size_t>(4 * (STICK_JOINTS * f + j))];
+        q[0] = -std::sqrt(0.5f) * std::cos(in), q[1] = std::sqrt(0.5f) * std::sin(in);
+        q[2] = std::sqrt(0.5f) * std::sin(in), q[3] = std::sqrt(0.5f) * std::cos(in);
+      }
+      float* hips = &translations[static_cast<size_t>(3 * STICK_JOINTS * f)];
+      hips[1] = 0.95f, hips[2] = 0;
+    }
+  }
+};
+
+std::array<float, 3> rotate(const float* q, std::array<float, 3> v) {
+  const auto cross = [](const float* a, const std::array<float, 3>& b) {
+    return std::array<float, 3>{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                                a[0] * b[1] - a[1] * b[0]};
+  };
+  const std::array<float, 3> t = cross(q, v), u = cross(q, t);
+  for (size_t k = 0; k < 3; ++k) v[k] += 2 * (q[3] * t[k] + u[k]);
+  return v;
+}
+
+// Where a joint of the last frame is.
+std::array<float, 3> place(const panache_styled_clip* clip, int joint) {
+  const size_t last = STICK_JOINTS * static_cast<size_t>(panache_styled_clip_frame_count(clip) - 1);
+  std::array<float, 3> at = {};
+  for (; joint >= 0; joint = stick_figure[joint].parent) {
+    const size_t which = last + static_cast<size_t>(joint);
+    at = rotate(panache_styled_clip_rotations(clip) + 4 * which, at);
+    for (size_t k = 0; k < 3; ++k) at[k] += panache_styled_clip_translations(clip)[3 * which + k];
+  }
+  return at;
+}
+
+TEST_F(RetargetApi, hands_meet_and_feet_stand_where_asked_for) {
+  const Clap clap(skeleton_);
+  // Shoulders 12 cm further apart, and legs of which the right one ends 8 cm lower.
+  std::vector<panache_joint> joints(stick_figure, stick_figure + STICK_JOINTS);
+  joints[5].translation[0] = 0.25f, joints[8].translation[0] = -0.25f;
+  joints[12].translation[1] = -0.3f, joints[16].translation[1] = -0.5f;
+  constexpr float kFloor = 0.95f - 0.04f - 0.5f - 0.41f - 0.07f;
+  panache_skeleton* other = nullptr;
+  ASSERT_EQ(panache_skeleton_create(joints.data(), STICK_JOINTS, nullptr, &other), PANACHE_OK);
+  for (const bool feet : {true, false}) {
+    for (const bool hands : {true, false}) {
+      const panache_retarget_options options = {sizeof options, feet, hands};
+      panache_styled_clip* out = nullptr;
+      ASSERT_EQ(panache_retarget_clip(&clap.clip, other, &options, &out), PANACHE_OK);
+      const float apart = place(out, 7)[0] - place(out, 10)[0], toes = place(out, 18)[1];
+      // The arms are stretched, and do not quite reach.
+      EXPECT_TRUE(hands ? apart < 0.03f : apart > 0.12f) << feet << hands << ": " << apart;
+      EXPECT_TRUE(feet ? std::abs(toes - kFloor) < 1e-3f : toes < kFloor - 0.05f)
+          << feet << hands << ": " << toes;
+      panache_styled_clip_destroy(out);
+    }
+  }
+  panache_skeleton_destroy(other);
 }
 
 TEST_F(RetargetApi, bad_options_and_clips_are_rejected) {

@@ -46,7 +46,13 @@ TEST_F(SamplesApi, a_pair_shows_what_its_style_does) {
     EXPECT_NEAR(change[3 * 1], 0.4f, 0.02) << "spine, about x";
     EXPECT_NEAR(change[3 * 13], 0, 0.1) << "leftUpperLeg";
     EXPECT_NEAR(panache_samples_log_rates(samples)[s], 0, 0.1);
+    // Windows show the neutral walk, which goes ahead.
+    const float* window = panache_samples_windows(samples) + s * PANACHE_WINDOW_SIZE;
+    EXPECT_NEAR(window[64], 1.15f, 0.05) << s;
   }
+  bool planted = false;
+  for (int32_t i = 0; i < 2 * count; ++i) planted |= panache_samples_contacts(samples)[i] == 1;
+  EXPECT_TRUE(planted);
   panache_samples_destroy(samples);
 }
 
@@ -62,6 +68,12 @@ TEST_F(SamplesApi, what_is_wrong_with_a_pair_is_said) {
   panache_clip empty = walk.clip;
   empty.frame_count = 0;
   EXPECT_EQ(rejection({empty, walk.clip}), "pair 1, neutral: has no frames");
+  panache_clip unknown = walk.clip;
+  unknown.translations = nullptr;
+  EXPECT_EQ(rejection({unknown, walk.clip}),
+            "pair 1, neutral: poses need both rotations and translations");
+  EXPECT_EQ(rejection({walk.clip, unknown}),
+            "pair 1, styled: poses need both rotations and translations");
 }
 
 }  // namespace

@@ -11,6 +11,7 @@ const Names kStyles = {"active", "angry", "elderly", "old", "proud", "sad", "tir
 TEST(NearestNames, slips_of_the_hand_are_found) {
   for (const auto& [typed, meant] : {std::pair{"olld", "old"},
                                      {"odl", "old"},
+                                     {"lod", "old"},
                                      {"sda", "sad"},
                                      {"prod", "proud"},
                                      {"PROUD", "proud"},

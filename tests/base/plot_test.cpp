@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/svg.h"
 #include "base/xml_check.h"
 
 namespace panache {
@@ -28,6 +29,22 @@ PlotSeries made_up_loss(const std::string& name, double end, int steps) {
                        0.05 * end * std::sin(i * 78.233));
   }
   return series;
+}
+
+// The elements that begin with `start` and have `part` in them.
+std::vector<std::string> elements(const std::string& svg, const std::string& start,
+                                  const std::string& part) {
+  std::vector<std::string> out;
+  for (size_t at = svg.find(start); at != svg.npos; at = svg.find(start, at + 1)) {
+    const std::string element = svg.substr(at, svg.find('>', at) - at);
+    if (element.find(part) != element.npos) out.push_back(element);
+  }
+  return out;
+}
+
+std::string attribute(const std::string& element, const std::string& name) {
+  const size_t start = element.find(" " + name + "=\"") + name.size() + 3;
+  return element.substr(start, element.find('"', start) - start);
 }
 
 TEST(LinePlot, a_loss_on_a_logarithmic_axis) {
@@ -58,6 +75,25 @@ TEST(LinePlot, few_points_are_marked) {
   EXPECT_EQ(xml_problem(svg), "");
   EXPECT_EQ(occurrences(svg, "<circle"), 16u);
   EXPECT_EQ(occurrences(svg, "<polyline"), 2u);
+}
+
+TEST(LinePlot, ticks_have_lines_and_curves_go_by_them) {
+  const std::string svg =
+      line_plot("", "x", "y", {{"up", {0, 10}, {0, 10}, "#123456"}, {"", {0, 10}, {10, 0}, ""}});
+  // A line across for each of 0, 2, ..., 10; the axis below with a mark for each of 0, 1, ..., 10.
+  EXPECT_EQ(occurrences(svg, "stroke=\"#e6e6e6\""), 6u);
+  EXPECT_EQ(occurrences(svg, "stroke=\"#999999\""), 1u + 11u);
+  // The curve and its sample beside its name; one without a name has none.
+  EXPECT_EQ(occurrences(svg, "stroke=\"#123456\""), 2u);
+  EXPECT_EQ(occurrences(svg, "stroke=\"" + palette(1) + "\""), 1u);
+  // From the corner of the axes up to where the highest line ends.
+  const std::vector<std::string> grid = elements(svg, "<line", "#e6e6e6");
+  const std::vector<std::string> curves = elements(svg, "<polyline", "#123456");
+  ASSERT_EQ(grid.size(), 6u);
+  ASSERT_EQ(curves.size(), 1u);
+  EXPECT_EQ(attribute(curves[0], "points"),
+            attribute(grid.front(), "x1") + "," + attribute(grid.front(), "y1") + " " +
+                attribute(grid.back(), "x2") + "," + attribute(grid.back(), "y2"));
 }
 
 TEST(LinePlot, points_that_cannot_be_shown_leave_a_gap) {

@@ -59,12 +59,21 @@ TEST(Svg, text_is_escaped) {
 TEST(Svg, what_xml_cannot_hold_is_replaced) {
   const std::string mark = "\xef\xbf\xbd";
   EXPECT_EQ(text_element(std::string("a\0b\x1b", 4)), "a" + mark + "b" + mark);
-  EXPECT_EQ(text_element("\xff"), mark);                                   // No UTF-8.
-  EXPECT_EQ(text_element("\xc3"), mark);                                   // Cut short.
-  EXPECT_EQ(text_element("\xc0\xaf"), mark + mark);                        // Longer than need be.
-  EXPECT_EQ(text_element("\xed\xa0\x80"), mark + mark + mark);             // Half a surrogate pair.
-  EXPECT_EQ(text_element("\xef\xbf\xbe"), mark + mark + mark);             // U+FFFE.
+  EXPECT_EQ(text_element("\xff"), mark);                        // No UTF-8.
+  EXPECT_EQ(text_element("\xc3"), mark);                        // Cut short.
+  EXPECT_EQ(text_element("\xc0\xaf"), mark + mark);             // Longer than need be.
+  EXPECT_EQ(text_element("\xed\xa0\x80"), mark + mark + mark);  // Half a surrogate pair.
+  EXPECT_EQ(text_element("\xef\xbf\xbe"), mark + mark + mark);  // U+FFFE.
+  EXPECT_EQ(text_element("\xe0\x9f\xbf"), mark + mark + mark);
+  EXPECT_EQ(text_element("\xf0\x8f\xbf\xbf"), mark + mark + mark + mark);
   EXPECT_EQ(text_element("\xf4\x90\x80\x80"), mark + mark + mark + mark);  // Beyond U+10FFFF.
+  EXPECT_EQ(text_element("\xf5\x80\x80\x80"), mark + mark + mark + mark);
+  EXPECT_EQ(text_element("\x7f\t"), mark + "\t");
+  // The first and the last of each length, and what is beside the surrogates.
+  for (const std::string good : {"\xc2\x80", "\xdf\xbf", "\xe0\xa0\x80", "\xed\x9f\xbf",
+                                 "\xee\x80\x80", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf"}) {
+    EXPECT_EQ(text_element(good), good);
+  }
 }
 
 TEST(Svg, attributes_are_escaped_too) {

@@ -220,6 +220,20 @@ TEST_F(DeformSkeleton, what_hangs_together_or_deforms_nothing_stays_as_it_is) {
   EXPECT_EQ(dynamic_cast<OneClip*>(join(flat_walk().clip).get()), nullptr);
 }
 
+TEST_F(DeformSkeleton, what_has_fewer_joints_than_a_person_is_a_prop) {
+  Clip clip = flat_walk().clip;
+  const auto keep = [&](size_t most) {
+    size_t count = 0;
+    for (Joint& joint : clip.skeleton.joints) {
+      if (joint.skin >= 0 && ++count > most) joint.skin = -1;
+    }
+  };
+  keep(11);
+  EXPECT_EQ(join(clip)->clip().joints(), 11u);
+  keep(10);
+  EXPECT_EQ(join(clip)->clip().joints(), clip.joints());
+}
+
 TEST_F(DeformSkeleton, a_skeleton_without_a_mesh_beside_it_is_left_out) {
   // Rigify's metarig: a whole person that nothing follows.
   Flat flat = flat_walk();

@@ -43,6 +43,26 @@ TEST(GltfError, a_glb_that_was_cut) {
                 " bytes at least, found 100; is the file complete?");
   EXPECT_EQ(gltf_rejection(std::string("glTF\1\0\0\0\0\0\0\0", 12)),
             "walk.glb: expected GLB version 2, found version 1");
+  // The file goes on, but not with a whole chunk.
+  const auto with_length = [](std::string bytes, size_t length) {
+    std::string number;
+    test::append_uint32(number, length);
+    return bytes.replace(8, 4, number);
+  };
+  const std::string longer = glb + std::string(20, '\0');
+  EXPECT_EQ(gltf_rejection(with_length(longer, glb.size() + 7)),
+            "walk.glb: expected a GLB of " + std::to_string(glb.size() + 8) +
+                " bytes at least, found " + std::to_string(glb.size() + 7) +
+                "; is the file complete?");
+  EXPECT_EQ(gltf_rejection(with_length(longer, glb.size() + 8)), "(accepted)");
+  EXPECT_EQ(gltf_rejection(with_length(glb, glb.size() - 1)),
+            "walk.glb: expected a GLB of " + std::to_string(glb.size()) +
+                " bytes at least, found " + std::to_string(glb.size() - 1) +
+                "; is the file complete?");
+  EXPECT_EQ(gltf_rejection(with_length(glb, 12)),
+            "walk.glb: expected a GLB with a JSON chunk, found none");
+  EXPECT_EQ(gltf_rejection(std::string(glb).replace(16, 4, "NOSJ")),
+            "walk.glb: expected JSON as the first chunk of the GLB, found another");
 }
 
 TEST(GltfError, nesting_and_size_of_the_json) {
@@ -193,6 +213,52 @@ TEST(GltfError, a_name_beyond_the_limit) {
             "(accepted)");
   EXPECT_EQ(spoilt_json([](Json& j) { j["nodes"][1]["name"] = std::string(1001, 'n'); }),
             "walk.glb: nodes[1]: expected a name of at most 1000 bytes, found 1001");
+}
+
+TEST(GltfError, members_of_another_kind) {
+  EXPECT_EQ(spoilt_json([](Json& j) { j["nodes"][3] = "Lamp"; }),
+            "walk.glb: nodes[3]: expected an object, found \"Lamp\"");
+  EXPECT_EQ(spoilt_json([](Json& j) { j["nodes"][3]["name"] = 3; }),
+            "walk.glb: nodes[3].name: expected a text, found 3");
+  EXPECT_EQ(spoilt_json([](Json& j) { j["skins"][0] = true; }),
+            "walk.glb: skins[0]: expected an object, found true");
+  EXPECT_EQ(spoilt_json([](Json& j) { j["images"][0] = 5; }),
+            "walk.glb: images[0]: expected an object, found 5");
+  EXPECT_EQ(spoilt_json([](Json& j) { j["images"][0]["mimeType"] = 5; }),
+            "walk.glb: images[0].mimeType: expected a text, found 5");
+}
+
+TEST(GltfError, a_humanoid_that_is_none) {
+  const auto with = [](const char* extension, const std::function<void(Json&)>& spoil) {
+    return spoilt_json([&](Json& j) { spoil(j["extensions"][extension]); });
+  };
+  const auto with_vrma = [&](const std::function<void(Json&)>& spoil) {
+    return with("VRMC_vrm_animation", spoil);
+  };
+  EXPECT_EQ(spoilt_json([](Json& j) { j["extensions"] = 1; }),
+            "walk.glb: extensions: expected an object, found 1");
+  EXPECT_EQ(with_vrma([](Json& vrma) { vrma = 1; }),
+            "walk.glb: extensions.VRMC_vrm_animation: expected an object, found 1");
+  EXPECT_EQ(with("VRMC_vrm", [](Json& vrm) { vrm["humanoid"]["humanBones"]["hips"] = 1; }),
+            "walk.glb: extensions.VRMC_vrm.humanoid.humanBones.hips: expected an object, found 1");
+  EXPECT_EQ(with("VRMC_vrm", [](Json& vrm) { vrm["humanoid"]["humanBones"]["hips"]["node"] = 4; }),
+            "walk.glb: extensions.VRMC_vrm.humanoid.humanBones.hips.node: expected a whole number "
+            "below 4, found 4");
+  EXPECT_EQ(with("VRM", [](Json& vrm) { vrm["humanoid"]["humanBones"][0] = 1; }),
+            "walk.glb: extensions.VRM.humanoid.humanBones[0]: expected an object, found 1");
+  EXPECT_EQ(with("VRM", [](Json& vrm) { vrm["humanoid"]["humanBones"][0]["bone"] = 1; }),
+            "walk.glb: extensions.VRM.humanoid.humanBones[0].bone: expected a text, found 1");
+  EXPECT_EQ(with_vrma([](Json& vrma) { vrma["expressions"] = 1; }),
+            "walk.glb: extensions.VRMC_vrm_animation.expressions: expected an object, found 1");
+  EXPECT_EQ(with_vrma([](Json& vrma) { vrma["expressions"]["custom"] = 1; }),
+            "walk.glb: extensions.VRMC_vrm_animation.expressions.custom: expected an object, found "
+            "1");
+  EXPECT_EQ(with_vrma([](Json& vrma) { vrma["expressions"]["preset"]["happy"] = 1; }),
+            "walk.glb: extensions.VRMC_vrm_animation.expressions.preset.happy: expected an object, "
+            "found 1");
+  EXPECT_EQ(with_vrma([](Json& vrma) { vrma["lookAt"]["node"] = 4; }),
+            "walk.glb: extensions.VRMC_vrm_animation.lookAt.node: expected a whole number below 4, "
+            "found 4");
 }
 
 TEST(GltfError, a_vrm_animation_without_hips) {

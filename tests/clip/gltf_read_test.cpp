@@ -342,6 +342,25 @@ TEST(GltfRead, the_humanoid_of_a_vrm_names_its_joints) {
   for (const Joint& joint : plain.skeleton.joints) EXPECT_EQ(joint.role, "");
 }
 
+TEST(GltfRead, expressions_and_the_gaze_of_a_vrm_animation_are_no_joints) {
+  GltfParts parts = test::small_gltf();
+  for (const char* name : {"happy", "wink", "gaze"}) {
+    const size_t node = parts.json["nodes"].size();
+    parts.json["nodes"].push_back({{"name", name}});
+    parts.add_channel(0, node, "translation", "LINEAR", 0, 2);
+  }
+  const auto joints = [&] { return must_read(parts)->clip().joints(); };
+  EXPECT_EQ(joints(), 6u);  // Three of the body, and as many that are animated.
+  test::Json& vrma = parts.json["extensions"]["VRMC_vrm_animation"];
+  vrma["expressions"]["preset"]["happy"]["node"] = 4;
+  vrma["expressions"]["custom"]["wink"]["node"] = 5;
+  vrma["lookAt"]["node"] = 6;
+  EXPECT_EQ(joints(), 3u);
+  // What is a joint as well stays one.
+  vrma["lookAt"]["node"] = 2;
+  EXPECT_EQ(joints(), 4u);
+}
+
 TEST(GltfRead, only_the_top_of_the_skin_moves_where_nothing_else_is_animated_to_move) {
   const auto file = must_read(test::character());
   for (const int which : {0, 1}) {
@@ -365,6 +384,23 @@ TEST(GltfRead, skins_say_what_follows_each_joint) {
   EXPECT_EQ(weight_of(parts, "LeftHandIndex2"), 24);
   EXPECT_EQ(weight_of(parts, "Armature"), 0);
   EXPECT_EQ(weight_of(parts, "Sword"), 0);
+  // Another mesh of the same skin counts as well, one of another skin on the same joints does not.
+  test::Json body;
+  for (const test::Json& node : parts.json["nodes"]) {
+    if (node.contains("skin")) body = node;
+  }
+  test::GltfParts more = parts;
+  more.json["nodes"].push_back(body);
+  EXPECT_EQ(weight_of(more, "LeftHandIndex3"), 2 * 18);
+  more.json["skins"].push_back(more.json["skins"][0]);
+  more.json["nodes"].back()["skin"] = 1;
+  EXPECT_EQ(weight_of(more, "LeftHandIndex3"), 18);
+  // A vertex may have more than four joints.
+  test::GltfParts wide = parts;
+  test::Json& attributes = wide.json["meshes"][0]["primitives"][0]["attributes"];
+  attributes["JOINTS_1"] = attributes["JOINTS_0"];
+  attributes["WEIGHTS_1"] = attributes["WEIGHTS_0"];
+  EXPECT_EQ(weight_of(wide, "LeftHandIndex3"), 2 * 18);
   // What cannot be read says nothing.
   parts.json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"] = 999;
   EXPECT_EQ(weight_of(parts, "LeftHandIndex3"), 0);

@@ -311,8 +311,12 @@ TEST(LearnStyle, warns_of_what_does_not_match) {
   const LearntStyle slow =
       learn({test::make_pair(test::neutral_walk(6), test::bent_walk(6, 0.3f, 2.4))});
   ASSERT_EQ(slow.pairs[0].warnings.size(), 1u) << slow.pairs[0].tempo;
-  EXPECT_NE(slow.pairs[0].warnings[0].find("times as long as the neutral motion"),
-            std::string::npos);
+  char tempo[20];
+  std::snprintf(tempo, sizeof tempo, "%.2f", 1 / slow.pairs[0].tempo);
+  EXPECT_EQ(slow.pairs[0].warnings[0],
+            "neutral.bvh and styled.bvh: the style takes " + std::string(tempo) +
+                " times as long as the neutral motion, expected 0.50 to 2.00; beyond that the "
+                "tempo is not followed; record a neutral take nearer to it");
 }
 
 TEST(LearnStyle, warns_of_a_gesture_with_the_other_hand) {

@@ -63,6 +63,24 @@ TEST_P(SamplesTest, every_sample_has_its_style_rate_and_contacts) {
   }
 }
 
+TEST_P(SamplesTest, neutral_frames_are_samples_without_a_style_where_asked_for) {
+  const SampleSet both(takes_, pair_takes(takes_, {1}, {0}), {"old"}, *GetParam(), true);
+  const size_t styled = set_.samples().size();
+  ASSERT_EQ(both.samples().size(), styled + 200);
+  std::vector<float> window(both.inputs()), expected(both.inputs());
+  for (size_t i = styled; i < both.samples().size(); ++i) {
+    const Sample& sample = both.samples()[i];
+    EXPECT_EQ(sample.style, -1);
+    EXPECT_EQ(sample.frame, static_cast<float>(i - styled));
+    EXPECT_EQ(sample.contacts[0] + sample.contacts[1], 1);
+    EXPECT_EQ(sample.log_rate, 0);
+    EXPECT_EQ(sample.has_next, i + 1 < both.samples().size());
+    both.window(i, window);
+    take_window(takes_[0], sample.frame, both.numbers(), expected);
+    ASSERT_EQ(window, expected);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(, SamplesTest, testing::Values(&test::kPanache, &test::kSmith2019),
                          [](const auto& tested) { return tested.param->name; });
 

@@ -100,6 +100,52 @@ TEST_F(SignaturesTest, what_the_actions_of_a_style_agree_on_is_certain) {
   EXPECT_FALSE(old.certain[kTempoTrait]);     // And everybody kept the tempo.
 }
 
+TEST_F(SignaturesTest, an_action_without_a_neutral_take_does_not_count) {
+  for (Take& take : takes_) {
+    if (take.row.style == "old" && take.row.content == takes_[0].row.content) {
+      take.row.content = "handstand";
+    }
+  }
+  const Signatures signatures(takes_, pairings_);
+  // One action is left, which nothing agrees with.
+  EXPECT_EQ(signatures.find("old"), nullptr);
+  EXPECT_NE(signatures.find("proud"), nullptr);
+}
+
+// The signature of a style that leans forward by so much in each of its actions, and takes 1.2
+// seconds for each second of the neutral motion.
+Signature of_leans(const std::vector<float>& leans) {
+  const Take walk = test::styled_take("neutral", "walk", 0);
+  std::vector<Take> takes;
+  std::vector<Pairing> pairings;
+  for (size_t i = 0; i < leans.size(); ++i) {
+    takes.push_back(walk);
+    takes.push_back(changed(walk, [&](HumanPositions& body) { body[index(neck)].z += leans[i]; }));
+    takes.back().row.neutral = false;
+    takes.back().row.style = "old";
+    for (Take* take : {&takes[2 * i], &takes[2 * i + 1]}) {
+      take->row.content = "action " + std::to_string(i);
+    }
+    const int neutral = static_cast<int>(2 * i);
+    pairings.push_back({neutral + 1, neutral, 0, {0, 1}, {1 / 1.2f, 1 / 1.2f}, 0});
+  }
+  return *Signatures(takes, pairings).find("old");
+}
+
+TEST(Signatures, three_actions_of_four_are_enough_to_be_certain) {
+  const size_t lean = trait("lean");
+  const Signature most = of_leans({0.2f, 0.2f, 0.2f, -0.05f});
+  EXPECT_TRUE(most.certain[lean]);
+  EXPECT_FALSE(of_leans({0.3f, 0.3f, -0.05f, -0.05f}).certain[lean]);
+  EXPECT_FALSE(of_leans({0.01f, 0.01f, 0.01f, 0.01f}).certain[lean]) << "too little";
+  EXPECT_TRUE(of_leans({-0.2f, -0.2f, -0.2f, 0.05f}).certain[lean]);
+  // They agree on the tempo, too, and not to the digit on how far they lean.
+  EXPECT_NEAR(most.change[kTempoTrait], -100 * std::log(1.2), 1e-4);
+  EXPECT_NEAR(most.deviation[kTempoTrait], 0, 1e-4);
+  EXPECT_TRUE(most.certain[kTempoTrait]);
+  EXPECT_GT(most.deviation[lean], 5);
+}
+
 TEST_F(SignaturesTest, outputs_are_told_by_sign_and_amount) {
   Signature signature;
   signature.change = {10, 10, 10};

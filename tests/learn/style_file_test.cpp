@@ -284,6 +284,17 @@ TEST(StyleFile, a_style_that_is_not_there_is_neither_extracted_nor_removed) {
   EXPECT_EQ(rename_style(mixed_model(), "prou", "sad", "m").error().message, message);
 }
 
+TEST(StyleFile, a_model_that_is_broken_gives_and_takes_no_styles) {
+  const TensorFile style = extract(mixed_model(), "old");
+  TensorFile broken = mixed_model();
+  broken.tensors.erase("input.mean");
+  const std::string message = "m.safetensors: tensor 'input.mean' is missing";
+  EXPECT_EQ(extract_style(broken, "old", "m.safetensors").error().message, message);
+  EXPECT_EQ(rejection(broken, style), message);
+  EXPECT_EQ(remove_style(broken, "old", "m.safetensors").error().message, message);
+  EXPECT_EQ(rename_style(broken, "old", "sad", "m.safetensors").error().message, message);
+}
+
 TEST(StyleFile, the_last_style_stays) {
   EXPECT_EQ(remove_style(test::make_model({"old"}), "old", "m.safetensors").error().message,
             "m.safetensors: has no style but 'old'; a model keeps at least one");
