@@ -204,6 +204,63 @@ TEST(Mapping, every_joint_has_a_reason) {
   EXPECT_EQ(got->notes[0], "2 joints between hips and chest");
 }
 
+// A body with straight knees and elbows whose names say nothing.
+std::vector<Line> nameless() {
+  return {{"a", "", hips},         {"b", "a", spine},           {"c", "b", chest},
+          {"d", "c", head},        {"e*", "c", left_upper_arm}, {"f*", "e*", left_lower_arm},
+          {"g*", "f*", left_hand}, {"h*", "a", left_upper_leg}, {"i*", "h*", left_lower_leg},
+          {"j*", "i*", left_foot}};
+}
+
+bool has_note(const Mapping& mapping, std::string_view start) {
+  return std::any_of(mapping.notes.begin(), mapping.notes.end(),
+                     [&](const std::string& note) { return note.starts_with(start); });
+}
+
+TEST(Mapping, a_note_says_so_where_left_and_right_are_guessed) {
+  std::vector<Line> lines = nameless();
+  const Result<Mapping> guessed = map_made_up(make_up(lines, "1", "2"));
+  ASSERT_TRUE(guessed.ok()) << guessed.error().message;
+  EXPECT_TRUE(has_note(*guessed, "the names of the joints are not conclusive: mapped by shape"));
+  EXPECT_TRUE(
+      has_note(*guessed, "left and right are guessed: nothing shows which way the body faces"));
+
+  lines.push_back({"k*", "j*", left_toes});
+  const MadeUp with_toes = make_up(lines, "1", "2");
+  const Result<Mapping> seen = map_made_up(with_toes);
+  ASSERT_TRUE(seen.ok()) << seen.error().message;
+  EXPECT_TRUE(has_note(*seen, "the names of the joints are not conclusive: mapped by shape"));
+  EXPECT_FALSE(has_note(*seen, "left and right are guessed"));
+  EXPECT_EQ(seen->joint_of[index(left_hand)], with_toes.joint.at("g1"));
+  EXPECT_EQ(seen->joint_of[index(right_foot)], with_toes.joint.at("j2"));
+  EXPECT_LT(guessed->confidence[index(left_foot)], seen->confidence[index(left_foot)] / 2);
+}
+
+TEST(Mapping, where_there_are_no_toes_elbows_tell_left_from_right) {
+  std::vector<Line> end_on_foot = nameless();
+  end_on_foot.push_back({"k*", "j*", left_toes, 0});
+  for (const std::vector<Line>& lines : {nameless(), end_on_foot}) {
+    for (const float back : {0.05f, -0.05f}) {
+      MadeUp rig = make_up(lines, "1", "2");
+      for (const char* elbow : {"f1", "f2"}) rig.positions[rig.joint.at(elbow)].z -= back;
+      const Result<Mapping> got = map_made_up(rig);
+      ASSERT_TRUE(got.ok()) << got.error().message;
+      EXPECT_FALSE(has_note(*got, "left and right are guessed")) << lines.size();
+      EXPECT_EQ(got->joint_of[index(left_hand)], rig.joint.at(back > 0 ? "g1" : "g2"));
+      EXPECT_EQ(got->joint_of[index(left_foot)], rig.joint.at(back > 0 ? "j1" : "j2"));
+    }
+  }
+}
+
+TEST(Mapping, of_several_joints_between_hips_and_chest_the_spine_is_less_certain) {
+  std::vector<Line> lines = kMixamo;
+  const float of_two = map_made_up(make_up(lines, "Left", "Right"))->confidence[index(spine)];
+  lines.erase(lines.begin() + 1);
+  lines[1].parent = "m:Hips";
+  const float of_one = map_made_up(make_up(lines, "Left", "Right"))->confidence[index(spine)];
+  EXPECT_LT(of_two, of_one);
+}
+
 std::string rejection(const std::vector<Line>& lines) {
   const MadeUp rig = make_up(lines, "Left", "Right");
   const Result<Mapping> got = map_made_up(rig);
@@ -241,6 +298,17 @@ TEST(Mapping, a_hand_without_an_arm_is_rejected) {
             "'m:RightShoulder', 'm:LeftHand', 'm:RightHand', 'm:LeftHandThumb1', ... (25 joints); "
             "expected names such as LeftHand or hand_L, the shape of a person, or a map that says "
             "which joint is which");
+}
+
+TEST(Mapping, no_limb_takes_the_root_that_it_shares_with_the_other_side) {
+  std::vector<Line> lines = kMixamo;
+  std::erase_if(lines, [](const Line& l) { return l.name == "m:*Shoulder" || l.name == "m:*Arm"; });
+  for (Line& line : lines) {
+    if (line.name == "m:*ForeArm") line.parent = "m:Hips";
+  }
+  EXPECT_TRUE(rejection(lines).starts_with(
+      "no humanoid found: leftLowerArm, leftUpperArm, rightLowerArm, rightUpperArm are missing"))
+      << rejection(lines);
 }
 
 TEST(Mapping, a_finger_is_not_taken_for_a_hand_that_is_missing) {

@@ -148,6 +148,13 @@ TEST_F(AnatomyTest, a_lean_stops_before_the_body_falls) {
     keep_balance(body_, joints, change);
     EXPECT_LE(moved(change), moved(asked) + 1e-6f) << degrees;  // Rounding.
     EXPECT_LT(moved(change), 0.135f) << degrees;
+    // The upper body turns as one.
+    const Quat turn = change.rotations[0] * conjugate(asked.rotations[0]);
+    for (int j = index(hips); j <= index(right_hand); ++j) {
+      const Quat wanted = turn * asked.rotations[j];
+      EXPECT_NEAR(std::abs(dot(change.rotations[j], wanted)), 1, 1e-6f) << human_joint_name(j);
+    }
+    EXPECT_EQ(change.rotations[index(left_upper_leg)], Quat{});
     if (moved(asked) < 0.08f) {
       EXPECT_EQ(change.rotations, asked.rotations) << degrees;
     }

@@ -80,6 +80,17 @@ TEST(Flight, a_jump_is_one_at_any_frame_rate_and_is_seen_before_it_begins) {
   }
 }
 
+// Where poses are further apart than the parabola reaches, it is laid through three of them.
+TEST(Flight, a_jump_is_one_at_a_few_poses_a_second) {
+  const test::Jump jump;
+  for (const double fps : {10, 12, 15}) {
+    const FlightWatch flights = watch(jump.clip(fps));
+    EXPECT_GT(flights.amount((jump.take_off() + jump.landing()) / 2), 0.99f) << fps;
+    EXPECT_EQ(flights.amount(jump.take_off() - 0.5), 0) << fps;
+    EXPECT_EQ(flights.amount(jump.landing() + 0.5), 0) << fps;
+  }
+}
+
 TEST(Flight, who_plays_what_comes_learns_of_it_in_the_air) {
   const test::Jump jump;
   EXPECT_EQ(watch(jump.clip(), jump.take_off()).amount(jump.take_off()), 0);

@@ -219,6 +219,11 @@ TEST(LearntNetworks, damaged_ones_are_rejected) {
   EXPECT_EQ(failure(file),
             "m.safetensors: has tensors 'learnt.0.*' of a learnt style, but no 'learn.mean' and "
             "'learn.scale'");
+  for (const char* missing : {"learn.mean", "learn.scale"}) {
+    file = with_learnt();
+    file.tensors.erase(missing);
+    EXPECT_EQ(failure(file), "m.safetensors: tensor '" + std::string(missing) + "' is missing");
+  }
   file = with_learnt();
   file.tensors["learn.scale"].values[3] = 0;
   EXPECT_EQ(failure(file), "m.safetensors: tensor 'learn.scale' must be above zero throughout");

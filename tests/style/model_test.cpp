@@ -74,6 +74,13 @@ TEST(Model, more_styles_than_a_step_has_room_for_are_rejected) {
   EXPECT_EQ(rejection(test::make_model(names)), "accepted");
 }
 
+TEST(Model, without_a_style_it_is_rejected_where_none_can_be_learnt_on_it) {
+  TensorFile file = test::make_model({"old"}, 1, test::kSmith2019);
+  EXPECT_EQ(rejection(file), "accepted");
+  file.metadata["styles"] = file.metadata["style_descriptions"] = "";
+  EXPECT_EQ(rejection(file), "m.safetensors: has no styles");
+}
+
 TEST(Model, a_scale_without_a_reciprocal_is_rejected) {
   TensorFile file = test::make_model({"old"});
   file.tensors["input.scale"].values[3] = 1e-40f;

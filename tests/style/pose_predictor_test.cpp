@@ -72,6 +72,32 @@ TEST(PosePredictor, who_was_wrong_loses_weight) {
   EXPECT_LT(late, 0.005f);
 }
 
+// A body that bobs in this many frames, of which eight are 0.1 s. The largest error of what is
+// predicted for that time in the sixth second.
+float error_of_bobbing(int frames, double ahead) {
+  constexpr double kEighth = 0.1 / 8 * (1 + 1e-9);  // No earlier than what is checked.
+  PosePredictor predictor(predicting_model(0));
+  const auto height = [&](int f) {
+    const float share = static_cast<float>(f % frames) / static_cast<float>(frames);
+    return 1 + 0.05f * std::sin(6.2831853f * share + 0.8f);
+  };
+  float most = 0;
+  for (int f = 0; f < 480; ++f) {
+    push(predictor, f * kEighth, height(f), 0);
+    const float wanted = height(f + static_cast<int>(std::lround(ahead / kEighth)));
+    if (f >= 400) most = std::max(most, std::abs(predictor.predict(ahead).body[4].y - wanted));
+  }
+  return most;
+}
+
+// What comes back in just that time is predicted by no motion at all, which is wrong of others.
+TEST(PosePredictor, each_time_ahead_is_predicted_by_who_was_right_that_far_ahead) {
+  EXPECT_LT(error_of_bobbing(20, 0.25), 1e-4f);
+  EXPECT_GT(error_of_bobbing(20, 0.1), 0.05f);
+  EXPECT_LT(error_of_bobbing(8, 0.1), 1e-4f);
+  EXPECT_GT(error_of_bobbing(8, 0.25), 0.05f);
+}
+
 TEST(PosePredictor, any_times_and_numbers_leave_it_finite) {
   PosePredictor predictor(predicting_model(0.2f));
   Random random(3);

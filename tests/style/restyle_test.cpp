@@ -36,6 +36,16 @@ TEST(Restyle, a_slow_style_takes_longer_and_a_fast_one_less) {
   EXPECT_EQ(restyle_with(std::log(0.8f), 1, steady).clip.frames, 121);
 }
 
+TEST(Restyle, an_option_out_of_its_range_is_rejected) {
+  const Clip clip = test::walking_clip(3);
+  RestyleOptions options;
+  options.stylizer.ease_seconds = -1;
+  const auto result = restyle(clip, *Rig::create(clip), model_with_rate(0), {}, options);
+  ASSERT_FALSE(result.ok());
+  EXPECT_EQ(result.error().message,
+            "stylizer option of -1.000000 seconds; expected 0 to 10 seconds");
+}
+
 TEST(Restyle, strength_zero_is_the_input_frame_by_frame) {
   const Clip clip = test::walking_clip(121, 60);
   const Restyled same = restyle_with(std::log(0.8f), 0);

@@ -102,6 +102,28 @@ TEST_F(StylizerTest, a_style_changes_the_pose_and_keeps_it_whole) {
   expect_finite(styled);
 }
 
+TEST_F(StylizerTest, a_clock_is_told_of_each_stage_once_a_step_and_in_order) {
+  class Seen final : public StageClock {
+   public:
+    void done(Stage stage) noexcept override { stages.push_back(stage); }
+    std::vector<Stage> stages;
+  } clock;
+  StylizerOptions still;
+  still.root = still.foot_lock = false;
+  for (const StylizerOptions& options : {StylizerOptions{}, still}) {
+    Stylizer character = stylizer(options);
+    Clip out = clip_;
+    for (int f = 0; f < 3; ++f) {
+      clock.stages.clear();
+      character.step(clip_.pose(f), std::array{1.0f, 0.0f}, clip_.frame_time, out.pose(f), clock);
+      ASSERT_EQ(clock.stages.size(), kStageNames.size());
+      for (size_t s = 0; s < kStageNames.size(); ++s) {
+        EXPECT_EQ(kStageNames[static_cast<size_t>(clock.stages[s])], kStageNames[s]);
+      }
+    }
+  }
+}
+
 TEST_F(StylizerTest, back_at_strength_zero_the_pose_is_the_input_again) {
   Stylizer character = stylizer();
   run(character, {1, 0});

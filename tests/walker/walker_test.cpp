@@ -216,6 +216,48 @@ TEST(Walker, stands_still_and_breathes) {
   EXPECT_LT(most - least, 0.06f);   // and calm.
 }
 
+float higher_left(const HumanPositions& frame, HumanJoint left, HumanJoint right) {
+  return frame[index(left)].y - frame[index(right)].y;
+}
+
+TEST(Walker, standing_hips_tilt_with_the_weight_and_shoulders_stay_level) {
+  Walker walker(shipped());
+  const Seen seen = watch(walker, 60, 30, [](double) { return std::pair{0.0f, 0.0f}; });
+  const auto bent = [](const HumanPositions& body) {
+    return body[index(HumanJoint::chest)].z - body[index(HumanJoint::hips)].z;
+  };
+  float most = 0;
+  for (const HumanPositions& frame : seen.frames) {
+    const float side = frame[index(HumanJoint::hips)].x;
+    const float hip = higher_left(frame, HumanJoint::left_upper_leg, HumanJoint::right_upper_leg);
+    // The hip over the foot that carries is the higher one.
+    if (std::abs(side) > 0.005f) {
+      EXPECT_GT(hip * side, 0);
+    }
+    most = std::max(most, std::abs(hip));
+    EXPECT_NEAR(higher_left(frame, HumanJoint::left_upper_arm, HumanJoint::right_upper_arm), 0,
+                0.002f);
+    EXPECT_NEAR(bent(frame), bent(seen.frames[0]), 0.001f);  // Nobody nods.
+  }
+  EXPECT_GT(most, 0.003f);
+}
+
+TEST(Walker, who_turns_on_the_spot_has_her_weight_on_both_feet_in_turn) {
+  Walker walker(shipped());
+  watch(walker, 5, 60, [](double) { return std::pair{0.0f, 1.0f}; });
+  for (int part = 0; part < 20; ++part) {
+    // Three seconds, which are several steps.
+    float mean = 0;
+    Joints joints;
+    for (int f = 0; f < 180; ++f) {
+      walker.step(0, 1, 1.0 / 60, joints);
+      const RootPose root = walker.root();
+      mean += rotate(rotation_y(-root.facing), joints.translations[0] - root.position).x / 180;
+    }
+    EXPECT_NEAR(mean, 0, 0.005f) << part;
+  }
+}
+
 TEST(Walker, starts_and_comes_to_stand_under_its_body) {
   for (const float speed : {0.4f, 1.2f, 3.0f, 4.5f}) {
     Walker walker(shipped());
