@@ -36,6 +36,11 @@ TEST_F(ClipApi, a_clip_without_a_style_stays_bit_for_bit) {
     EXPECT_EQ(panache_styled_clip_source_frames(styled)[f], f);
   }
   panache_styled_clip_destroy(styled);
+  styled = nullptr;
+  ASSERT_EQ(panache_stylize_clip(model_, &walk.clip, nullptr, 0, nullptr, &styled), PANACHE_OK)
+      << panache_last_error();
+  EXPECT_TRUE(same_pose(styled, 89, walk, 89));
+  panache_styled_clip_destroy(styled);
 }
 
 TEST_F(ClipApi, a_clip_gets_the_tempo_of_its_style_unless_timing_is_off) {
@@ -148,6 +153,13 @@ TEST_F(ClipApi, what_is_wrong_with_tracks_and_clips_is_said) {
             "track 0: key 1: is not later than the one before it");
   EXPECT_EQ(rejection(PANACHE_BAD_ARGUMENT, walk.clip, {{0, NAN}}, 0),
             "track 0: key 0: is not finite");
+  for (const int32_t tracks : {-1, 1}) {
+    panache_styled_clip* none = nullptr;
+    EXPECT_EQ(panache_stylize_clip(model_, &walk.clip, nullptr, tracks, nullptr, &none),
+              PANACHE_BAD_ARGUMENT);
+    EXPECT_EQ(panache_last_error(),
+              std::to_string(tracks) + " tracks; expected an array of 0 or more");
+  }
   panache_clip clip = walk.clip;
   clip.frame_count = 0;
   EXPECT_EQ(rejection(PANACHE_BAD_CLIP, clip, {{0, 1}}, 0), "clip: has no frames");

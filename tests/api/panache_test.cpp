@@ -179,6 +179,12 @@ TEST_F(Api, what_is_wrong_is_said_in_a_message_and_nothing_is_created) {
   joints[3].parent = 5;
   EXPECT_EQ(rejection(PANACHE_BAD_SKELETON),
             "joint 3 'Neck': parent is 5; expected a joint before it, or -1");
+  joints[3].parent = 3;
+  EXPECT_EQ(rejection(PANACHE_BAD_SKELETON),
+            "joint 3 'Neck': parent is 3; expected a joint before it, or -1");
+  joints[3].parent = -2;
+  EXPECT_EQ(rejection(PANACHE_BAD_SKELETON),
+            "joint 3 'Neck': parent is -2; expected a joint before it, or -1");
   joints[3].rotation[3] = 0;
   EXPECT_EQ(rejection(PANACHE_BAD_SKELETON),
             "joint 3 'Neck': its rest rotation is no unit quaternion (x, y, z, w)");
@@ -187,8 +193,11 @@ TEST_F(Api, what_is_wrong_is_said_in_a_message_and_nothing_is_created) {
   joints.resize(5);
   EXPECT_TRUE(
       rejection(PANACHE_BAD_SKELETON).starts_with("no humanoid found: leftHand, rightHand"));
-  EXPECT_EQ(panache_skeleton_create(joints.data(), 0, nullptr, &skeleton), PANACHE_BAD_SKELETON);
-  EXPECT_STREQ(panache_last_error(), "0 joints; expected 1 to 10000");
+  for (const int32_t count : {0, 10'001}) {
+    EXPECT_EQ(panache_skeleton_create(joints.data(), count, nullptr, &skeleton),
+              PANACHE_BAD_SKELETON);
+    EXPECT_EQ(panache_last_error(), std::to_string(count) + " joints; expected 1 to 10000");
+  }
 
   panache_skeleton_options given = PANACHE_SKELETON_OPTIONS;
   given.up_axis = "up";
@@ -201,10 +210,12 @@ TEST_F(Api, what_is_wrong_is_said_in_a_message_and_nothing_is_created) {
             PANACHE_BAD_ARGUMENT);
   EXPECT_STREQ(panache_last_error(), "expected metres per unit above 0, found -1.000000");
   given = PANACHE_SKELETON_OPTIONS;
-  given.pose_count = -1;
-  EXPECT_EQ(panache_skeleton_create(joints.data(), STICK_JOINTS, &given, &skeleton),
-            PANACHE_BAD_ARGUMENT);
-  EXPECT_STREQ(panache_last_error(), "-1 poses; expected 0 to 10000");
+  for (const int32_t count : {-1, 10'001}) {
+    given.pose_count = count;
+    EXPECT_EQ(panache_skeleton_create(joints.data(), STICK_JOINTS, &given, &skeleton),
+              PANACHE_BAD_ARGUMENT);
+    EXPECT_EQ(panache_last_error(), std::to_string(count) + " poses; expected 0 to 10000");
+  }
 
   panache_character* none = nullptr;
   panache_character_options options = PANACHE_CHARACTER_OPTIONS;

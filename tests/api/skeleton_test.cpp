@@ -52,6 +52,17 @@ TEST_F(JointMap, that_is_wrong_is_rejected_with_its_entry) {
   EXPECT_EQ(rejection({{"head", 19}}), "human joint 0 'head': joint is 19; expected -1 to 18");
   EXPECT_EQ(rejection({{"head", -2}}), "human joint 0 'head': joint is -2; expected -1 to 18");
   EXPECT_EQ(rejection({{"head", 4}, {"head", 3}}), "human joint 1 'head': is listed twice");
+  EXPECT_EQ(rejection(std::vector<panache_human_joint>(22, {"head", 4})),
+            "22 human joints; expected an array of 0 to 21");
+  panache_skeleton_options options = PANACHE_SKELETON_OPTIONS;
+  for (const int32_t count : {-1, 1}) {
+    options.human_joint_count = count;
+    panache_skeleton* none = nullptr;
+    EXPECT_EQ(panache_skeleton_create(joints.data(), STICK_JOINTS, &options, &none),
+              PANACHE_BAD_ARGUMENT);
+    EXPECT_EQ(panache_last_error(),
+              std::to_string(count) + " human joints; expected an array of 0 to 21");
+  }
 }
 
 }  // namespace

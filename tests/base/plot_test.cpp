@@ -140,6 +140,8 @@ TEST(RoundTicks, are_round_and_cover_the_range) {
   EXPECT_EQ(round_ticks(-3, 11, 3), (std::vector<double>{-5, 0, 5, 10, 15}));
   EXPECT_EQ(round_ticks(0, 20000, 8), (std::vector<double>{0, 2000, 4000, 6000, 8000, 10000, 12000,
                                                            14000, 16000, 18000, 20000}));
+  EXPECT_EQ(round_ticks(0, 10, 1), (std::vector<double>{0, 10}));
+  EXPECT_EQ(round_ticks(0, 10, 0), (std::vector<double>{0, 10}));
   EXPECT_EQ(round_ticks(3, 3, 5), (std::vector<double>{3, 3}));
 }
 

@@ -90,6 +90,12 @@ class Acclaim : public testing::Test {
     world_pose(clip.skeleton, clip.pose(frame), {rotations, out});
     return out;
   }
+  static Quat world_turn(const Clip& clip, size_t joint) {
+    std::vector<Quat> out(clip.joints());
+    std::vector<Vec3> places(clip.joints());
+    world_pose(clip.skeleton, clip.pose(0), {out, places});
+    return out[joint];
+  }
 
   test::TemporaryFolder folder_;
 };
@@ -187,6 +193,66 @@ TEST_F(Acclaim, radians_and_what_a_frame_leaves_out) {
   for (int f = 0; f < 2; ++f) EXPECT_LT(length(places(file->clip(), f)[2] - Vec3{0, 2, 0}), 1e-5f);
 }
 
+TEST_F(Acclaim, angles_of_the_skeleton_may_be_radians) {
+  std::string asf = replaced(kAsf, "angle deg", "ANGLE RAD");
+  asf = replaced(asf, "axis 0 0 90", "axis 0 0 1.5707963267948966");
+  asf = replaced(asf, "orientation 0 0 0", "orientation 0 0 1.5707963267948966");
+  // The motion's are as well unless it says otherwise.
+  for (const auto& [head, quarter] : {std::pair{"", "1.5707963267948966"},
+                                      {":RADIANS\n", "1.5707963267948966"},
+                                      {":DEGREES\n", "90"}}) {
+    const auto file =
+        must(asf, std::string(head) + "1\nroot 0 0 0 " + quarter + " 0 0\narm 0 " + quarter + "\n");
+    ASSERT_TRUE(file);
+    // The arm points up, and the root turns about its own x, the skeleton's y.
+    EXPECT_LT(length(places(file->clip(), 0)[2] - Vec3{0, 2, 0}), 1e-5f) << head;
+    // The hand would point to -x, which the root turns to +z.
+    const Quat hand = world_turn(file->clip(), 2);
+    EXPECT_LT(length(rotate(hand, Vec3{0, 1, 0}) - Vec3{0, 0, 1}), 1e-5f) << head;
+  }
+}
+
+TEST_F(Acclaim, what_is_wrong_with_a_skeleton_is_said_with_its_place) {
+  EXPECT_EQ(rejection(replaced(kAsf, ":version 1.10", "version 1.10"), kAmc),
+            "05.asf:2:1: expected a section such as ':root', found 'version'");
+  EXPECT_EQ(rejection(replaced(kAsf, "angle deg", "angle grad"), kAmc),
+            "05.asf:5:9: expected deg or rad, found 'grad'");
+  EXPECT_EQ(rejection(replaced(kAsf, "orientation 0", "rotation 0"), kAmc),
+            "05.asf:10:4: expected order, axis, position or orientation, found 'rotation'");
+  EXPECT_EQ(rejection(replaced(kAsf, "axis XYZ", "axis XYX"), kAmc),
+            "05.asf:8:9: expected an order of axes such as XYZ, found 'XYX'");
+  EXPECT_EQ(rejection(replaced(kAsf, "axis XYZ", "axis XYW"), kAmc),
+            "05.asf:8:9: expected an order of axes such as XYZ, found 'XYW'");
+  EXPECT_EQ(rejection(replaced(kAsf, "axis XYZ", "axis XY"), kAmc),
+            "05.asf:8:9: expected an order of axes such as XYZ, found 'XY'");
+  EXPECT_EQ(rejection(replaced(kAsf, "position 0 0 0", "position 0 0"), kAmc),
+            "05.asf:9:16: expected a number for the position, found the end of the line");
+  EXPECT_EQ(rejection(replaced(kAsf, "0 0 90  XYZ", "0 0 90  XYY"), kAmc),
+            "05.asf:17:19: expected an order of axes such as XYZ, found 'XYY'");
+  EXPECT_EQ(rejection(replaced(kAsf, "name arm", ""), kAmc),
+            "05.asf:22:3: expected a bone with a name before this, found 'begin'");
+  EXPECT_EQ(
+      rejection(replaced(kAsf, "name arm", "name root"), kAmc),
+      "05.asf:22:3: expected another name than 'root' for the bone before this, found 'begin'");
+  EXPECT_EQ(
+      rejection(replaced(kAsf, "length 2", "length 2e9"), kAmc),
+      "05.asf:16:13: expected a number between -1e9 and 1e9 for the length of a bone, found '2e9'");
+  EXPECT_EQ(rejection(replaced(kAsf, "length 2", "length 1e9\n direction 2 0 0"), kAmc),
+            "05.asf:23:3: expected a shorter bone before this, found 'begin'");
+  EXPECT_EQ(rejection(replaced(kAsf, "  end\n:hierarchy", ":hierarchy"), kAmc),
+            "05.asf:29:1: expected 'end' of a bone, found ':hierarchy'");
+  EXPECT_EQ(rejection(replaced(kAsf, "  end\n:hierarchy", "  end\n  bone\n:hierarchy"), kAmc),
+            "05.asf:30:3: expected 'begin' or the next section, found 'bone'");
+  EXPECT_EQ(rejection(replaced(kAsf, ":hierarchy\n  begin", ":hierarchy\n"), kAmc),
+            "05.asf:32:5: expected 'begin', found 'root'");
+  EXPECT_EQ(rejection(replaced(kAsf, "root arm", "trunk arm"), kAmc),
+            "05.asf:32:5: expected 'root' or the name of a bone, found 'trunk'");
+  EXPECT_EQ(rejection(std::string(kAsf).substr(0, std::string(kAsf).rfind("  end")), kAmc),
+            "05.asf:34:1: expected 'end' of the hierarchy, found the end of the file");
+  EXPECT_EQ(rejection(std::string(kAsf).substr(0, std::string(kAsf).find(":hierarchy")), kAmc),
+            "05.asf: expected ':hierarchy', found the end of the file");
+}
+
 TEST_F(Acclaim, what_is_wrong_is_said_with_its_place) {
   EXPECT_EQ(rejection("", kAmc), "05.asf: expected ':root', found the end of the file");
   EXPECT_EQ(rejection(replaced(kAsf, "    arm hand\n", ""), kAmc),
@@ -209,6 +275,8 @@ TEST_F(Acclaim, what_is_wrong_is_said_with_its_place) {
             "05_10.amc:6:10: expected the end of the line after 2 numbers of arm, found '7'");
   EXPECT_EQ(rejection(kAsf, replaced(kAmc, "arm 0 90", "tail 0 90")),
             "05_10.amc:6:1: expected the name of a bone of the .asf, found 'tail'");
+  EXPECT_EQ(rejection(kAsf, replaced(kAmc, "2\nroot", "2 root")),
+            "05_10.amc:8:3: expected the number of a frame on a line of its own, found 'root'");
   EXPECT_EQ(rejection(kAsf, ":DEGREES\n"),
             "05_10.amc:2:1: expected a frame: its number, then its bones, found the end of the "
             "file");

@@ -71,6 +71,20 @@ TEST(BvhReading, odd_but_honest_files_are_read) {
   EXPECT_EQ(broken_promise(clip), "");
 }
 
+TEST(BvhReading, channels_of_a_position_may_come_in_any_order) {
+  for (const std::string order : {"XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX"}) {
+    std::string channels, numbers;
+    for (const char axis : order) {
+      channels += std::string(" ") + axis + "position";
+      numbers += std::string(1, static_cast<char>('1' + (axis - 'X'))) + " ";
+    }
+    const auto file = must_parse("HIERARCHY\nROOT a\n{\nOFFSET 7 8 9\nCHANNELS 3" + channels +
+                                 "\n}\nMOTION\nFrames: 1\nFrame Time: 0.1\n" + numbers + "\n");
+    ASSERT_TRUE(file);
+    EXPECT_EQ(file->clip().translations[0], (Vec3{1, 2, 3})) << order;
+  }
+}
+
 TEST(BvhReading, several_roots_are_several_trees) {
   const auto file = must_parse(read_fixture("two_roots.bvh"));
   ASSERT_TRUE(file);

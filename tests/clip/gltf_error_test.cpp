@@ -186,6 +186,62 @@ TEST(GltfError, accessors_beyond_their_data) {
             "with EXT_meshopt_compression; save the file without compression");
 }
 
+TEST(GltfError, accessors_that_say_nothing_known) {
+  const std::string output = "walk.glb: animations[0].samplers[0].output (accessors[1]): ";
+  const auto with = [](const std::function<void(Json&)>& spoil) {
+    return spoilt_json([&](Json& j) { spoil(j["accessors"][1]); });
+  };
+  EXPECT_EQ(with([](Json& a) { a["type"] = "MAT4"; }),
+            output + "expected type SCALAR, VEC2, VEC3 or VEC4, found 'MAT4'");
+  EXPECT_EQ(with([](Json& a) { a.erase("type"); }),
+            output + "expected type SCALAR, VEC2, VEC3 or VEC4, found ''");
+  EXPECT_EQ(with([](Json& a) { a["count"] = 0; }), output + "expected a count above 0, found 0");
+  EXPECT_EQ(with([](Json& a) { a["count"] = -1; }),
+            "walk.glb: accessors[1].count: expected a whole number, found -1");
+  EXPECT_EQ(with([](Json& a) { a["normalized"] = 1; }),
+            "walk.glb: accessors[1].normalized: expected true or false, found 1");
+  EXPECT_EQ(with([](Json& a) { a = 1; }), "walk.glb: accessors[1]: expected an object, found 1");
+  const auto with_view = [](const std::function<void(Json&)>& spoil) {
+    return spoilt_json([&](Json& j) { spoil(j["bufferViews"][1]); });
+  };
+  EXPECT_EQ(with_view([](Json& v) { v.erase("buffer"); }),
+            "walk.glb: bufferViews[1]: expected a buffer with data, found none");
+  EXPECT_EQ(with_view([](Json& v) { v["byteStride"] = 15; }),
+            output +
+                "expected 4 elements within the 64 bytes of bufferViews[1], found it too "
+                "short");
+}
+
+TEST(GltfError, sparse_accessors_that_are_no_whole) {
+  const std::string output = "walk.glb: animations[0].samplers[0].output (accessors[1]): ";
+  const auto with = [](const std::function<void(Json&)>& spoil) {
+    return spoilt_json([&](Json& j) {
+      // The first time, as an index: byte 0.
+      Json& sparse = j["accessors"][1]["sparse"];
+      sparse["count"] = 1;
+      sparse["indices"] = {{"bufferView", 0}, {"componentType", 5121}};
+      sparse["values"]["bufferView"] = 1;
+      spoil(sparse);
+    });
+  };
+  EXPECT_EQ(with([](Json&) {}), "(accepted)");
+  EXPECT_EQ(with([](Json& s) { s.erase("values"); }),
+            output + "expected indices and values in sparse, found a part");
+  EXPECT_EQ(with([](Json& s) { s.erase("indices"); }),
+            output + "expected indices and values in sparse, found a part");
+  EXPECT_EQ(with([](Json& s) { s["indices"]["componentType"] = 5126; }),
+            output + "expected sparse indices of type 5121, 5123 or 5125, found 5126");
+  EXPECT_EQ(with([](Json& s) { s["values"].erase("bufferView"); }),
+            "walk.glb: accessors[1].sparse.values: expected a bufferView, found none");
+  // The last byte of the second time: a thirtieth of a second is 0x3d088889.
+  EXPECT_EQ(with([](Json& s) { s["indices"]["byteOffset"] = 7; }),
+            output + "expected sparse indices below 4, found 61");
+  EXPECT_EQ(with([](Json& s) { s["count"] = 5; }),
+            output +
+                "expected 5 elements within the 64 bytes of bufferViews[1], found it too "
+                "short");
+}
+
 TEST(GltfError, numbers_that_are_no_motion) {
   EXPECT_EQ(spoilt([](GltfParts& p) { p.bin.replace(4, 4, p.bin.substr(8, 4)); }),
             "walk.glb: animations[0].samplers[0].input: expected times that increase, found time 2 "

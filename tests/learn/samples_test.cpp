@@ -78,6 +78,11 @@ TEST_P(SamplesTest, neutral_frames_are_samples_without_a_style_where_asked_for) 
     both.window(i, window);
     take_window(takes_[0], sample.frame, both.numbers(), expected);
     ASSERT_EQ(window, expected);
+    // They are to change nothing.
+    const auto root = std::span(window).subspan(root_offset(layout_)).first<kRootFeatures>();
+    std::array<float, StyleDelta::kSize> change;
+    pack(GetParam()->to_change(both.target(i), body_at(takes_[0], sample.frame), root), change);
+    for (const float number : change) ASSERT_NEAR(number, 0, 2e-3);
   }
 }
 

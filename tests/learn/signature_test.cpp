@@ -159,6 +159,12 @@ TEST_F(SignaturesTest, outputs_are_told_by_sign_and_amount) {
   match.add(signature, {-10, 10, 10});
   EXPECT_DOUBLE_EQ(match.sign_share(), 4 / 6.0);
   EXPECT_DOUBLE_EQ(match.mean_change()[0], 1);
+  // Half and double are right still.
+  SignatureMatch ends;
+  ends.add(signature, {5, 20, 4.9});
+  EXPECT_EQ(ends.amount, 2u);
+  ends.add(signature, {5, 20.1, 10});
+  EXPECT_EQ(ends.amount, 4u);
   EXPECT_TRUE(std::isnan(SignatureMatch().sign_share()));
 }
 

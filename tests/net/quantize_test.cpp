@@ -68,6 +68,7 @@ TEST(Quantize, small_layers_long_ones_and_what_is_no_layer_stay_as_they_are) {
   TensorFile file = small_file();
   add_layer(file, "few", 10, 15, random);
   add_layer(file, "long", 2065, 16, random);
+  add_layer(file, "longest", 2064, 16, random);
   file.tensors["lone.weight"] = random_tensor({16, 16}, random);
   file.tensors["input.mean"] = random_tensor({32}, random);
   const TensorFile int8 = quantize(file);
@@ -75,7 +76,8 @@ TEST(Quantize, small_layers_long_ones_and_what_is_no_layer_stay_as_they_are) {
     EXPECT_FALSE(int8.tensors.at(key).int8) << key;
     EXPECT_EQ(int8.tensors.at(key).values, file.tensors.at(key).values) << key;
   }
-  EXPECT_EQ(int8.tensors.size(), file.tensors.size() + 2);
+  EXPECT_TRUE(int8.tensors.at("longest.weight").int8);
+  EXPECT_EQ(int8.tensors.size(), file.tensors.size() + 3);
 }
 
 TEST(Quantize, a_column_of_zeros_stays_one) {
