@@ -274,6 +274,20 @@ TEST(Mapping, a_robot_arm_is_rejected_by_name) {
             "to the feet and two arms down to the forearms");
 }
 
+TEST(Mapping, advice_is_of_names_once_there_are_as_many_joints_as_a_person_needs) {
+  std::vector<Line> lines = {{"q0", "", hips}};
+  const auto advice = [&](size_t joints) {
+    while (lines.size() < joints) {
+      lines.push_back({"q" + std::to_string(lines.size()), lines.back().name, spine});
+    }
+    const std::string message = rejection(lines);
+    return message.substr(std::min(message.find(" joints); "), message.size()));
+  };
+  EXPECT_TRUE(advice(10).starts_with(" joints); expected a person's joints: hips, two legs"));
+  // Hips, and of each limb the joints down to the foot or forearm.
+  EXPECT_TRUE(advice(11).starts_with(" joints); expected names such as LeftHand or hand_L"));
+}
+
 // As in packs of small figures: no names and no map make legs of these.
 TEST(Mapping, a_figure_without_legs_is_rejected_with_what_it_lacks) {
   EXPECT_EQ(rejection({{"Body", "", hips},
