@@ -6,6 +6,7 @@
 
 #include "clip/fk.h"
 #include "clip/motion_file.h"
+#include "retarget/ground.h"
 #include "retarget/on_characters.h"
 #include "retarget/t_pose_body.h"
 
@@ -318,6 +319,28 @@ TEST(Retarget, a_character_that_rests_under_the_floor_stands_where_its_own_motio
   EXPECT_NEAR(lowest_toe(put(motion, character)), 0, 1e-3f);
   character.append(character.pose(0));
   EXPECT_NEAR(lowest_toe(put(motion, character)), 0.3f, 1e-3f);
+}
+
+TEST(HoldFeet, a_body_comes_up_and_goes_down_smoothly_around_where_it_would_be_under_the_floor) {
+  const Clip rest = rest_clip(canonical_skeleton());
+  const BodyPose body = bodies(rest)[0];
+  // In one frame the hips are so far under the floor that no leg reaches up to it.
+  constexpr int kDeep = 30;
+  std::vector<GroundedFrame> frames(60);
+  for (GroundedFrame& frame : frames) {
+    for (int foot = 0; foot < kFeet; ++foot) frame.toes[foot] = body.joints[index(kToes[foot])];
+  }
+  frames[kDeep].change.translation.y = -2.5f;
+  hold_feet(body, 1.0f / 30, frames);
+  const auto lift = [&](int f) {
+    return frames[static_cast<size_t>(f)].change.translation.y + (f == kDeep ? 2.5f : 0.0f);
+  };
+  EXPECT_GT(lift(kDeep), 0.8f);
+  EXPECT_EQ(lift(kDeep - 10), 0);
+  for (int f = 1; f < 60; ++f) {
+    EXPECT_LT(std::abs(lift(f) - lift(f - 1)), 0.25f * lift(kDeep)) << f;
+    EXPECT_NEAR(lift(f), lift(2 * kDeep - f), 1e-5f) << f;
+  }
 }
 
 TEST(TPoseBody, has_the_limbs_of_its_rig_and_stands_on_the_floor) {
