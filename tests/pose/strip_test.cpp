@@ -128,6 +128,18 @@ TEST(Strip, figures_stand_beside_their_labels_and_inside_of_the_drawing) {
   }
 }
 
+TEST(Strip, limbs_are_thinner_than_heads) {
+  const std::string svg = draw_strip({made_up_row("walk", 1, 0)}, {});
+  const double head = head_numbers(svg, "r").at(0);
+  size_t lines = 0;
+  for (size_t at = svg.find("<polyline"); at != svg.npos; at = svg.find("<polyline", at + 1)) {
+    EXPECT_LT(std::stod(svg.substr(svg.find("stroke-width=\"", at) + 14)), 2 * head);
+    ++lines;
+  }
+  EXPECT_GT(lines, 9u);
+  EXPECT_LT(head, 0.2 * StripOptions().pixels_per_metre);
+}
+
 TEST(Strip, travelling_figures_stand_where_they_are) {
   StripOptions options;
   options.travel = true;
