@@ -367,6 +367,15 @@ TEST(TPoseBody, has_the_limbs_of_its_rig_and_stands_on_the_floor) {
   }
   EXPECT_NEAR(places[index(left_toes)].y, 0, 1e-5f);
   EXPECT_TRUE(body.skeleton.joints[0].can_translate);
+  // Thumbs point half ahead, fingers along the arm.
+  for (const Joint& joint : body.skeleton.joints) {
+    if (joint.name == "leftThumbProximal") {
+      EXPECT_NEAR(joint.offset.z, joint.offset.x, 1e-6f);
+    }
+    if (joint.name == "leftIndexIntermediate") {
+      EXPECT_EQ(joint.offset.z, 0);
+    }
+  }
   for (const char* finger : {"Thumb", "Index"}) {
     for (const std::string side : {"left", "right"}) {
       EXPECT_EQ(std::count_if(body.skeleton.joints.begin(), body.skeleton.joints.end(),
