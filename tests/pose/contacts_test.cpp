@@ -31,6 +31,16 @@ TEST(Contacts, a_standing_foot_is_planted_and_a_swinging_one_is_not) {
   }
 }
 
+TEST(Contacts, a_tenth_of_the_frames_may_show_a_toe_under_the_floor) {
+  std::vector<HumanPositions> world(100);
+  for (int f = 0; f < 100; ++f) {
+    world[f] = {};
+    if (f % 10 == 0) world[f][index(HumanJoint::left_toes)].y = -0.1f;
+  }
+  const std::vector<FootContacts> contacts = detect_contacts(world, 30);
+  for (int f = 5; f < 100; f += 10) EXPECT_TRUE(contacts[f][0]) << f;
+}
+
 TEST(Contacts, a_foot_dragged_over_the_ground_is_not_planted) {
   std::vector<HumanPositions> world(30);
   for (int f = 0; f < 30; ++f) {

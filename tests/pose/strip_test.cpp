@@ -4,9 +4,11 @@
 #include <fstream>
 #include <limits>
 #include <numbers>
+#include <sstream>
 
 #include <gtest/gtest.h>
 
+#include "base/svg.h"
 #include "base/xml_check.h"
 
 namespace panache {
@@ -104,6 +106,40 @@ TEST(Strip, figures_stand_at_equal_distances) {
   EXPECT_GT(x[1] - x[0], 30);
 }
 
+TEST(Strip, figures_stand_beside_their_labels_and_inside_of_the_drawing) {
+  for (const bool travel : {false, true}) {
+    StripOptions options;
+    options.travel = travel;
+    const std::string svg = draw_strip({made_up_row("a T-pose", 0, 0)}, options);
+    const double width = std::stod(svg.substr(svg.find("width=\"") + 7));
+    double left = width, right = 0;
+    for (size_t at = svg.find("points=\""); at != svg.npos; at = svg.find("points=\"", at + 1)) {
+      std::istringstream points(svg.substr(at + 8, svg.find('"', at + 8) - at - 8));
+      std::string point;
+      while (points >> point) {
+        left = std::min(left, std::stod(point));
+        right = std::max(right, std::stod(point));
+      }
+    }
+    EXPECT_GT(left, 20 + text_width("a T-pose", 15)) << travel;
+    EXPECT_LT(right, width - 20) << travel;
+    // Metres are marked where figures travel.
+    EXPECT_EQ(svg.find(" m</text>") != svg.npos, travel);
+  }
+}
+
+TEST(Strip, limbs_are_thinner_than_heads) {
+  const std::string svg = draw_strip({made_up_row("walk", 1, 0)}, {});
+  const double head = head_numbers(svg, "r").at(0);
+  size_t lines = 0;
+  for (size_t at = svg.find("<polyline"); at != svg.npos; at = svg.find("<polyline", at + 1)) {
+    EXPECT_LT(std::stod(svg.substr(svg.find("stroke-width=\"", at) + 14)), 2 * head);
+    ++lines;
+  }
+  EXPECT_GT(lines, 9u);
+  EXPECT_LT(head, 0.2 * StripOptions().pixels_per_metre);
+}
+
 TEST(Strip, travelling_figures_stand_where_they_are) {
   StripOptions options;
   options.travel = true;
@@ -127,6 +163,18 @@ TEST(Strip, looks_the_same_whichever_way_the_motion_heads) {
   const std::vector<double> xb = head_numbers(draw_strip({b}, {}), "cx");
   ASSERT_EQ(xa.size(), xb.size());
   for (size_t i = 0; i < xa.size(); ++i) EXPECT_NEAR(xa[i], xb[i], 0.02);
+}
+
+TEST(Strip, whoever_stands_looks_the_same_whichever_way_she_faces) {
+  const std::string ahead = draw_strip({made_up_row("stands", 0, 0.4f, 0)}, {});
+  for (const float heading : {0.8f, 2.5f, -1.6f}) {
+    const std::string turned = draw_strip({made_up_row("stands", 0, 0.4f, heading)}, {});
+    for (const char* way : {"cx", "cy"}) {
+      const std::vector<double> a = head_numbers(ahead, way), b = head_numbers(turned, way);
+      ASSERT_EQ(a.size(), b.size());
+      for (size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 0.02) << heading;
+    }
+  }
 }
 
 TEST(Strip, each_row_is_seen_along_its_own_way) {

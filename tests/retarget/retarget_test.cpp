@@ -4,8 +4,11 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "clip/fk.h"
 #include "clip/motion_file.h"
+#include "retarget/ground.h"
 #include "retarget/on_characters.h"
+#include "retarget/t_pose_body.h"
 
 namespace panache {
 namespace {
@@ -128,6 +131,60 @@ TEST(Retarget, units_axes_and_heading_of_the_character_make_no_difference) {
   }
 }
 
+// On one leg, the other thigh raised and the knee bent.
+Clip stork(bool on_left) {
+  Clip out{canonical_skeleton(), 1.0 / 30, 20, {}, {}};
+  for (int f = 0; f < out.frames; ++f) {
+    for (int j = 0; j < kHumanJoints; ++j) {
+      Quat q;
+      if (j == index(on_left ? right_upper_leg : left_upper_leg)) q = axis_angle({1, 0, 0}, -1.2f);
+      if (j == index(on_left ? right_lower_leg : left_lower_leg)) q = axis_angle({1, 0, 0}, 1.4f);
+      out.rotations.push_back(q);
+      out.translations.push_back(out.skeleton.joints[j].offset);
+    }
+  }
+  return out;
+}
+
+TEST(Retarget, who_stands_on_one_leg_stands_as_straight_on_another_body) {
+  const Clip character = character_of(other_proportions());
+  const Rig onto = *Rig::create(character);
+  for (const bool on_left : {false, true}) {
+    const Clip motion = stork(on_left);
+    const std::vector<BodyPose> want = bodies(motion);
+    const std::vector<BodyPose> got = bodies(put(motion, character), onto, 0);
+    EXPECT_LT(mean_direction_deg(want, got), 0.1) << on_left;
+    EXPECT_NEAR(lowest_toe(got[10]), 0, 1e-3f);
+  }
+}
+
+// Legs that rest astride, on the canonical body.
+Clip astride(float left, float right) {
+  Clip out{canonical_skeleton(), 1.0 / 30, 0, {}, {}};
+  const auto spread = [&](HumanJoint upper, float angle) {
+    const Quat by = axis_angle({0, 0, 1}, angle);
+    for (int j = index(upper) + 1; j <= index(upper) + 2; ++j) {
+      Vec3& offset = out.skeleton.joints[j].offset;
+      offset = rotate(by, offset);
+    }
+  };
+  spread(left_upper_leg, left);
+  spread(right_upper_leg, -right);
+  return rest_clip(out.skeleton);
+}
+
+TEST(Retarget, legs_that_rest_astride_walk_side_by_side) {
+  const Clip motion = neutral_walk(2);
+  const std::vector<BodyPose> want = bodies(motion);
+  for (const auto& [left, right] :
+       {std::pair(0.3f, 0.3f), std::pair(0.3f, 0.0f), std::pair(0.0f, 0.3f)}) {
+    const Clip character = astride(left, right);
+    const Rig onto = *Rig::create(character);
+    const std::vector<BodyPose> got = bodies(put(motion, character), onto, 0);
+    EXPECT_LT(mean_direction_deg(want, got, false), 0.1) << left << ", " << right;
+  }
+}
+
 // Arms stretched ahead, wrists together.
 Clip clap() {
   Clip out{canonical_skeleton(), 1.0 / 30, 20, {}, {}};
@@ -207,12 +264,125 @@ TEST(Retarget, twist_joints_follow_those_of_the_motion_and_rest_without) {
   EXPECT_LT(bent_deg(other, "lowerarm_twist_01_l"), 1e-3);
 }
 
+TEST(Retarget, twist_joints_of_the_hips_follow_too) {
+  Clip motion = neutral_walk(1);
+  Skeleton with_twist = motion.skeleton;
+  Joint twist;
+  twist.name = "hips_twist";
+  twist.parent = 0;
+  twist.offset = {0, 0.05f, 0};
+  twist.can_rotate = true;
+  with_twist.joints.push_back(twist);
+  Clip twisted{with_twist, motion.frame_time, 0, {}, {}};
+  for (int f = 0; f < motion.frames; ++f) {
+    std::vector<Quat> rotations(motion.pose(f).rotations.begin(), motion.pose(f).rotations.end());
+    std::vector<Vec3> places(motion.pose(f).translations.begin(),
+                             motion.pose(f).translations.end());
+    rotations.push_back(axis_angle(Vec3{0, 1, 0}, 0.6f));
+    places.push_back(twist.offset);
+    twisted.append({rotations, places});
+  }
+  const Clip same = put(twisted, rest_clip(with_twist));
+  EXPECT_NEAR(bent_deg(same, "hips_twist"), 0.6 * 180 / 3.14159265, 0.1);
+}
+
 TEST(Retarget, a_motion_on_its_own_rig_is_itself) {
   for (const size_t which : {0u, 1u, 10u}) {
     const Clip motion = put_on(makers()[which], neutral_walk(2)).clip;
     const Clip same = put(motion, rest_clip(motion.skeleton), {false, false});
     ASSERT_EQ(same.frames, motion.frames);
     EXPECT_LT(mean_direction_deg(bodies(motion), bodies(same)), 0.1) << makers()[which].name;
+  }
+}
+
+// The lowest that a toe comes in the file's own space, Y up.
+float lowest_toe(const Clip& clip) {
+  Clip world = clip;
+  float low = INFINITY;
+  for (int f = 0; f < clip.frames; ++f) {
+    world_pose(clip.skeleton, clip.pose(f), world.pose(f));
+    for (const HumanJoint toe : kToes) {
+      low = std::min(low, world.pose(f).translations[index(toe)].y);
+    }
+  }
+  return low;
+}
+
+// With its hips at the origin, as in many BVH files, a rest pose does not tell where the floor is.
+TEST(Retarget, a_character_that_rests_under_the_floor_stands_where_its_own_motion_stands) {
+  Clip character = rest_clip(canonical_skeleton());
+  const float hips_up = character.skeleton.joints[0].offset.y - lowest_toe(character);
+  character.skeleton.joints[0].offset = {};
+  character.pose(0).translations[0] = {0, hips_up + 0.3f, 0};
+  const Clip motion = neutral_walk(1);
+  // One pose is no motion: there is the plane of the origin.
+  EXPECT_NEAR(lowest_toe(put(motion, character)), 0, 1e-3f);
+  character.append(character.pose(0));
+  EXPECT_NEAR(lowest_toe(put(motion, character)), 0.3f, 1e-3f);
+}
+
+TEST(HoldFeet, a_body_comes_up_and_goes_down_smoothly_around_where_it_would_be_under_the_floor) {
+  const Clip rest = rest_clip(canonical_skeleton());
+  const BodyPose body = bodies(rest)[0];
+  // In one frame the hips are so far under the floor that no leg reaches up to it.
+  constexpr int kDeep = 30;
+  std::vector<GroundedFrame> frames(60);
+  for (GroundedFrame& frame : frames) {
+    for (int foot = 0; foot < kFeet; ++foot) frame.toes[foot] = body.joints[index(kToes[foot])];
+  }
+  frames[kDeep].change.translation.y = -2.5f;
+  hold_feet(body, 1.0f / 30, frames);
+  const auto lift = [&](int f) {
+    return frames[static_cast<size_t>(f)].change.translation.y + (f == kDeep ? 2.5f : 0.0f);
+  };
+  EXPECT_GT(lift(kDeep), 0.8f);
+  EXPECT_EQ(lift(kDeep - 10), 0);
+  for (int f = 1; f < 60; ++f) {
+    EXPECT_LT(std::abs(lift(f) - lift(f - 1)), 0.25f * lift(kDeep)) << f;
+    EXPECT_NEAR(lift(f), lift(2 * kDeep - f), 1e-5f) << f;
+  }
+}
+
+TEST(TPoseBody, has_the_limbs_of_its_rig_and_stands_on_the_floor) {
+  Maker maker = makers().front();
+  maker.legs = 0.8f;
+  maker.arms = 1.2f;
+  const Clip character = character_of(maker);
+  const Clip body = t_pose_body(character, *Rig::create(character));
+  const HumanPositions want = maker_body(maker);
+  std::vector<Vec3> places;
+  for (const Joint& joint : body.skeleton.joints) {
+    places.push_back(joint.offset + (joint.parent < 0 ? Vec3{} : places[joint.parent]));
+  }
+  for (int j = 0; j < kHumanJoints; ++j) {
+    EXPECT_EQ(body.skeleton.joints[j].name, human_joint_name(j));
+    EXPECT_EQ(body.skeleton.joints[j].role, human_joint_name(j));
+    const Vec3 other = places[kHumanMirror[j]];
+    EXPECT_LT(length(places[j] - Vec3{-other.x, other.y, other.z}), 1e-5f) << human_joint_name(j);
+  }
+  for (const HumanJoint joint : {left_lower_arm, left_hand, left_lower_leg, left_foot}) {
+    const int j = index(joint), above = kHumanParent[j];
+    EXPECT_LT(length(places[j] - places[above] - (want[j] - want[above])), 1e-4f)
+        << human_joint_name(j);
+  }
+  EXPECT_NEAR(places[index(left_toes)].y, 0, 1e-5f);
+  EXPECT_TRUE(body.skeleton.joints[0].can_translate);
+  // Thumbs point half ahead, fingers along the arm.
+  for (const Joint& joint : body.skeleton.joints) {
+    if (joint.name == "leftThumbProximal") {
+      EXPECT_NEAR(joint.offset.z, joint.offset.x, 1e-6f);
+    }
+    if (joint.name == "leftIndexIntermediate") {
+      EXPECT_EQ(joint.offset.z, 0);
+    }
+  }
+  for (const char* finger : {"Thumb", "Index"}) {
+    for (const std::string side : {"left", "right"}) {
+      EXPECT_EQ(std::count_if(body.skeleton.joints.begin(), body.skeleton.joints.end(),
+                              [&](const Joint& j) { return j.name.starts_with(side + finger); }),
+                3)
+          << side << finger;
+    }
   }
 }
 

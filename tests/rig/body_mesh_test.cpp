@@ -131,6 +131,24 @@ TEST(BodyMesh, weights_add_up_and_change_softly_from_vertex_to_vertex) {
   EXPECT_LT(largest, 0.34f);
 }
 
+TEST(BodyMesh, no_part_is_far_from_the_skeleton) {
+  const BodyMesh mesh = make_body_mesh(canonical_offsets(), every_joint());
+  float farthest = 0;
+  for (const Vec3 p : mesh.positions) {
+    float nearest = 1;
+    for (size_t j = 1; j < kHumanJoints; ++j) {
+      const Vec3 from = mesh.bind.positions[static_cast<size_t>(kHumanParent[j])];
+      const Vec3 along = mesh.bind.positions[j] - from;
+      const float t = std::clamp(dot(p - from, along) / dot(along, along), 0.0f, 1.0f);
+      nearest = std::min(nearest, length(p - from - along * t));
+    }
+    farthest = std::max(farthest, nearest);
+  }
+  // The head over its joint, and the fingers.
+  EXPECT_LT(farthest, 0.25f);
+  EXPECT_GT(farthest, 0.1f);
+}
+
 TEST(BodyMesh, one_leg_does_not_move_the_other) {
   const BodyMesh mesh = make_body_mesh(canonical_offsets(), every_joint());
   const auto left = static_cast<size_t>(index(HumanJoint::left_upper_leg));

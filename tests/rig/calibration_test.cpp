@@ -277,6 +277,13 @@ TEST(Calibration, a_toe_joint_straight_below_the_ankle_says_nothing) {
   EXPECT_TRUE(has_note(rig_of(clip).notes(), "estimated from the standing foot"));
 }
 
+TEST(Calibration, nothing_is_said_of_what_is_there) {
+  const std::vector<std::string> notes = rig_of(rest_clip(canonical_skeleton())).notes();
+  EXPECT_FALSE(has_note(notes, "wrist"));
+  EXPECT_FALSE(has_note(notes, "foot"));
+  EXPECT_FALSE(has_note(notes, "animated"));
+}
+
 TEST(Calibration, missing_wrists_are_taken_from_end_sites_or_estimated) {
   Clip clip = calm(30);
   PosedRig whole(rig_of(clip));

@@ -31,6 +31,16 @@ TEST(JointName, the_left_hand_of_every_maker_is_a_left_hand) {
   }
 }
 
+TEST(JointName, japanese_sides_are_letters_of_their_own) {
+  for (const std::string part : {"手首", "ひじ", "足首", "つま先"}) {
+    const JointName left = parse_joint_name("左" + part), right = parse_joint_name("右" + part);
+    EXPECT_EQ(left.side, Side::left) << part;
+    EXPECT_EQ(right.side, Side::right) << part;
+    EXPECT_EQ(left.words, right.words) << part;
+    EXPECT_EQ(left.words, parse_joint_name(part).words) << part;
+  }
+}
+
 TEST(JointName, prefixes_are_words_of_their_own) {
   expect_name("Bip01 L Hand", Side::left, {"bip", "01", "hand"});
   expect_name("DEF-hand.R", Side::right, {"def", "hand"});

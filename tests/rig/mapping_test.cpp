@@ -252,6 +252,22 @@ TEST(Mapping, where_there_are_no_toes_elbows_tell_left_from_right) {
   }
 }
 
+TEST(Mapping, arms_and_legs_without_names_may_all_hang_on_one_joint) {
+  std::vector<Line> lines = nameless();
+  std::erase_if(lines, [](const Line& l) { return l.name == "b" || l.name == "c"; });
+  for (Line& line : lines) {
+    if (line.parent == "c") line.parent = "a";
+  }
+  lines.push_back({"k*", "j*", left_toes});
+  const MadeUp rig = make_up(lines, "1", "2");
+  const Result<Mapping> got = map_made_up(rig);
+  ASSERT_TRUE(got.ok()) << got.error().message;
+  EXPECT_EQ(got->joint_of[index(hips)], rig.joint.at("a"));
+  EXPECT_EQ(got->joint_of[index(left_hand)], rig.joint.at("g1"));
+  EXPECT_EQ(got->joint_of[index(right_hand)], rig.joint.at("g2"));
+  EXPECT_EQ(got->joint_of[index(right_foot)], rig.joint.at("j2"));
+}
+
 TEST(Mapping, of_several_joints_between_hips_and_chest_the_spine_is_less_certain) {
   std::vector<Line> lines = kMixamo;
   const float of_two = map_made_up(make_up(lines, "Left", "Right"))->confidence[index(spine)];
@@ -272,6 +288,20 @@ TEST(Mapping, a_robot_arm_is_rejected_by_name) {
             "no humanoid found: leftHand, rightHand, leftFoot, rightFoot, head are missing among "
             "'Base', 'Arm1', 'Arm2' (3 joints); expected a person's joints: hips, two legs down "
             "to the feet and two arms down to the forearms");
+}
+
+TEST(Mapping, advice_is_of_names_once_there_are_as_many_joints_as_a_person_needs) {
+  std::vector<Line> lines = {{"q0", "", hips}};
+  const auto advice = [&](size_t joints) {
+    while (lines.size() < joints) {
+      lines.push_back({"q" + std::to_string(lines.size()), lines.back().name, spine});
+    }
+    const std::string message = rejection(lines);
+    return message.substr(std::min(message.find(" joints); "), message.size()));
+  };
+  EXPECT_TRUE(advice(10).starts_with(" joints); expected a person's joints: hips, two legs"));
+  // Hips, and of each limb the joints down to the foot or forearm.
+  EXPECT_TRUE(advice(11).starts_with(" joints); expected names such as LeftHand or hand_L"));
 }
 
 // As in packs of small figures: no names and no map make legs of these.

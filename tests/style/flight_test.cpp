@@ -1,9 +1,12 @@
 #include "style/stages/flight.h"
 
+#include <functional>
+
 #include <gtest/gtest.h>
 
 #include "make_clip.h"
 #include "make_jump.h"
+#include "make_model.h"
 #include "rig/posed_rig.h"
 #include "style/live_stylizer.h"
 #include "style/restyle.h"
@@ -91,6 +94,33 @@ TEST(Flight, a_jump_is_one_at_a_few_poses_a_second) {
   }
 }
 
+// A body whose height is given, its feet off the floor; poses come at uneven times.
+float most_at_uneven_times(const std::function<float(double)>& height) {
+  FlightWatch flights;
+  HumanPositions body;
+  const double gaps[] = {0.008, 0.008, 0.008, 0.008, 0.03, 0.03, 0.03};
+  double time = 0;
+  float most = 0;
+  for (int i = 0; i < 200; ++i) {
+    time += gaps[i % 7];
+    body.fill({0, 1 + height(time), 0});
+    flights.push(time, body);
+    most = std::max(most, flights.amount(time));
+  }
+  return most;
+}
+
+TEST(Flight, at_uneven_times_too_only_what_falls_flies) {
+  for (const float speed : {-6.0f, -2.0f, 0.0f, 2.0f, 6.0f}) {
+    const auto carried = [&](double t) { return 20 + speed * static_cast<float>(t); };
+    EXPECT_EQ(most_at_uneven_times(carried), 0) << speed;
+    const auto falls = [&](double t) {
+      return carried(t) - static_cast<float>(test::kGravity * t * t / 2);
+    };
+    EXPECT_GT(most_at_uneven_times(falls), 0.99f) << speed;
+  }
+}
+
 TEST(Flight, who_plays_what_comes_learns_of_it_in_the_air) {
   const test::Jump jump;
   EXPECT_EQ(watch(jump.clip(), jump.take_off()).amount(jump.take_off()), 0);
@@ -127,6 +157,28 @@ TEST(Flight, a_jump_falls_as_its_input_does_in_every_shipped_style) {
     slower |= styled->clip.frames > clip.frames * 1.2;
   }
   EXPECT_TRUE(slower) << "and on the ground a style has its own tempo";
+}
+
+// Between two frames of the input the impact of a landing would be a mean of both.
+TEST(Flight, a_jump_lands_on_a_whole_frame_of_its_input) {
+  for (const double before : {3.0, 3.1, 3.2}) {
+    const test::Jump jump(0.25, before);
+    const Clip clip = jump.clip();
+    TensorFile file = test::make_model({"slow"});
+    test::set_rate(file, 0.83);
+    const auto model = *Model::parse(format_safetensors(file), "test model");
+    const auto styled = restyle(clip, *Rig::create(clip), model, {{0, {{0, 1}}}});
+    const double landing = jump.landing() / clip.frame_time;
+    double on_foot = 0;
+    for (const double frame : styled->source_frames) {
+      const double off = std::abs(frame - std::round(frame));
+      if (frame < 60) on_foot = std::max(on_foot, off);
+      if (std::abs(frame - landing) < 3) {
+        EXPECT_LT(off, 0.001) << before;
+      }
+    }
+    EXPECT_GT(on_foot, 0.4);
+  }
 }
 
 TEST(Flight, live_a_jump_falls_as_its_input_does_in_every_shipped_style) {

@@ -224,6 +224,13 @@ TEST(LearntNetworks, damaged_ones_are_rejected) {
     file.tensors.erase(missing);
     EXPECT_EQ(failure(file), "m.safetensors: tensor '" + std::string(missing) + "' is missing");
   }
+  for (const char* part :
+       {"head.bias", "mean", "gate.weight", "gate.bias", "gate.worth", "gate.rest"}) {
+    file = with_learnt();
+    file.tensors.erase("learnt.0." + std::string(part));
+    EXPECT_EQ(failure(file),
+              "m.safetensors: tensor 'learnt.0." + std::string(part) + "' is missing");
+  }
   file = with_learnt();
   file.tensors["learn.scale"].values[3] = 0;
   EXPECT_EQ(failure(file), "m.safetensors: tensor 'learn.scale' must be above zero throughout");

@@ -168,6 +168,33 @@ TEST_F(LiveStylizerTest, predicted_input_does_not_twitch) {
   EXPECT_LT(largest_turn(early, 0.1), 2 * largest_turn({}, 0));
 }
 
+TEST_F(LiveStylizerTest, who_runs_ahead_shows_arms_where_they_will_be) {
+  LiveOptions early;
+  early.max_lead = 0.1;
+  LiveStylizer character = live(model_at_rate(1.25), early);
+  constexpr float kSpeed = 1;  // Radians a second, upwards.
+  Clip in = clip_;
+  for (int f = 0; f < 120; ++f) {
+    std::copy_n(clip_.pose(0).rotations.begin(), clip_.joints(), in.pose(f).rotations.begin());
+    std::copy_n(clip_.pose(0).translations.begin(), clip_.joints(),
+                in.pose(f).translations.begin());
+    const float angle = kSpeed * static_cast<float>(f * kStep) - 1;
+    for (const auto& [arm, side] : {std::pair(HumanJoint::left_upper_arm, 1.0f),
+                                    std::pair(HumanJoint::right_upper_arm, -1.0f)}) {
+      in.pose(f).rotations[static_cast<size_t>(index(arm))] =
+          axis_angle(Vec3{0, 0, 1}, side * angle);
+    }
+    character.step(in.pose(f), std::vector<float>{1, 0}, kStep, out_.pose(f));
+    if (f < 90) continue;
+    for (const HumanJoint arm : {HumanJoint::left_upper_arm, HumanJoint::right_upper_arm}) {
+      const auto j = static_cast<size_t>(index(arm));
+      const Quat before = in.pose(f).rotations[j], now = out_.pose(f).rotations[j];
+      const float side = arm == HumanJoint::left_upper_arm ? 1.0f : -1.0f;
+      EXPECT_NEAR(log_rotation(now * conjugate(before)).z, side * 0.1f * kSpeed, 0.01f) << f;
+    }
+  }
+}
+
 TEST_F(LiveStylizerTest, by_whole_cycles_a_slower_or_faster_style_is_held_for_ever) {
   for (const double rate : {0.9, 1.1}) {
     LiveOptions options;

@@ -95,6 +95,28 @@ TEST(Model, a_model_of_another_version_is_rejected) {
             "again or use the program it came with");
 }
 
+TEST(Model, a_model_of_other_joints_or_another_window_is_rejected) {
+  TensorFile file = test::make_model({"old"});
+  file.metadata["joints"] += " tail";
+  EXPECT_EQ(rejection(file),
+            "m.safetensors: was trained on other joints than this program's 21; train it again");
+  file = test::make_model({"old"});
+  file.metadata["window"] = "all there is";
+  EXPECT_EQ(rejection(file),
+            "m.safetensors: sees a window of all there is; expected " + window_description());
+}
+
+TEST(Model, metadata_that_is_missing_is_named) {
+  for (const char* key :
+       {"format_version", "recipe", "joints", "window", "styles", "style_descriptions"}) {
+    TensorFile file = test::make_model({"old"});
+    file.metadata.erase(key);
+    EXPECT_TRUE(rejection(file).starts_with("m.safetensors: metadata '" + std::string(key) +
+                                            "' is missing"))
+        << rejection(file);
+  }
+}
+
 TEST(Model, a_safetensors_file_of_something_else_is_rejected) {
   TensorFile file = test::make_model({"old"});
   file.metadata.erase("format");
@@ -113,6 +135,16 @@ TEST(Model, wrong_or_missing_tensors_are_named) {
   TensorFile file = test::make_model({"old"});
   file.tensors.erase("input.mean");
   EXPECT_EQ(rejection(file), "m.safetensors: tensor 'input.mean' is missing");
+  for (const std::string network : {"pose", "timing", "contact"}) {
+    for (const std::string layer : {".trunk.0", ".head.0"}) {
+      for (const std::string part : {".weight", ".bias"}) {
+        file = test::make_model({"old"});
+        file.tensors.erase(network + layer + part);
+        EXPECT_NE(rejection(file).find("'" + network + layer), std::string::npos)
+            << rejection(file);
+      }
+    }
+  }
   file = test::make_model({"old"});
   file.tensors["input.scale"].values[3] = 0;
   EXPECT_EQ(rejection(file), "m.safetensors: tensor 'input.scale' must be above zero throughout");

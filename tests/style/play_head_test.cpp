@@ -31,6 +31,19 @@ TEST(PlayHead, goes_as_fast_as_the_style_asks_and_eases_at_the_bounds) {
   }
 }
 
+TEST(PlayHead, between_near_bounds_it_eases_all_the_way_from_their_middle) {
+  PlayHead head(0.06, 0.02);
+  head.jump(-0.02);
+  EXPECT_NEAR(head.room_ahead(), 1, 1e-9);
+  EXPECT_NEAR(head.room_behind(), 1, 1e-9);
+  head.jump(-0.02);
+  EXPECT_NEAR(head.room_ahead(), 1, 1e-9);
+  EXPECT_NEAR(head.room_behind(), 0.5, 1e-9);
+  head.jump(0.04);
+  EXPECT_NEAR(head.room_ahead(), 0.5, 1e-9);
+  EXPECT_NEAR(head.room_behind(), 1, 1e-9);
+}
+
 TEST(PlayHead, without_a_style_it_returns_to_now_and_then_is_exactly_there) {
   PlayHead head(1, 0.25);
   for (int i = 0; i < 500; ++i) head.advance(0.02, 0.8, true);
