@@ -54,7 +54,10 @@ Result<CsvTable> read_csv(const std::string& path, const std::vector<std::string
     }
     order.push_back(found - header.begin());
   }
-  for (int line = 2; at < text->size(); ++line) {
+  int line = 1;
+  for (size_t counted = 0; at < text->size();) {
+    // A quoted cell may be of several lines.
+    for (; counted < at; ++counted) line += (*text)[counted] == '\n';
     const std::vector<std::string> cells = take_row(*text, at);
     if (cells.size() == 1 && cells[0].empty()) continue;
     if (cells.size() != header.size()) {

@@ -55,6 +55,16 @@ TEST_F(Csv, files_of_spreadsheets_are_read) {
   EXPECT_EQ(table->rows[1].line, 4);
 }
 
+TEST_F(Csv, a_row_below_a_cell_of_several_lines_has_the_line_of_the_file) {
+  const auto table = read("style,words\nold,\"bent\nand slow\"\nproud,tall\n");
+  ASSERT_TRUE(table.ok()) << table.error().message;
+  ASSERT_EQ(table->rows.size(), 2u);
+  EXPECT_EQ(table->rows[0].line, 2);
+  EXPECT_EQ(table->rows[1].line, 4);
+  EXPECT_EQ(rejection("style,words\nold,\"bent\nand slow\"\nproud\n"),
+            path_ + ":4: has 1 cells; expected 2 as in the first line");
+}
+
 TEST_F(Csv, what_is_missing_is_said_with_its_place) {
   EXPECT_EQ(rejection("style,words\nold,bent\n", {"style", "path"}),
             path_ + ":1: column 'path' is missing; the first line must name the columns");
