@@ -149,7 +149,10 @@ class Mapper {
       return [this, root](int j) { return j != root && tree_.is_above(root, j); };
     };
     int found = find(Side::none, is_head, below(top));
-    if (found < 0) found = find(Side::none, is_head, below(at(hips)));
+    if (found < 0) {  // Beside the neck, but not the torso, whatever that is called.
+      found = find(Side::none, is_head,
+                   [&](int j) { return tree_.is_above(at(hips), j) && !tree_.is_above(j, top); });
+    }
     put(head, found, "by its name", kByName);
     if (found < 0) find_head_by_place(top);
     if (at(head) >= 0 && at(neck) < 0) find_neck();

@@ -171,6 +171,22 @@ TEST(Mapping, a_head_by_another_name_is_the_end_of_the_chain_above_the_chest) {
   expect_mapping(lines, "Left", "Right", want);
 }
 
+TEST(Mapping, what_carries_the_arms_is_no_head_whatever_its_name) {
+  expect_mapping({{"Hips", "", hips},
+                  {"Spine", "Hips", spine},
+                  {"Skull", "Spine", chest},
+                  {"Dome", "Skull", head},
+                  {"Arm1*", "Skull", left_upper_arm},
+                  {"Arm2*", "Arm1*", left_lower_arm},
+                  {"Wrist*", "Arm2*", left_hand},
+                  {"Leg1*", "Hips", left_upper_leg},
+                  {"Leg2*", "Leg1*", left_lower_leg},
+                  {"Ankle*", "Leg2*", left_foot}},
+                 "_l", "_r",
+                 {"Hips", "Spine", "Skull", "", "Dome", "", "Arm1*", "Arm2*", "Wrist*", "Leg1*",
+                  "Leg2*", "Ankle*", ""});
+}
+
 TEST(Mapping, no_two_human_joints_share_a_joint) {
   // Arms and legs meet in one joint: it is the hips, and the chest is missing.
   const MadeUp rig = make_up({{"Body", "", hips},
