@@ -114,6 +114,22 @@ TEST_F(WriteFile, a_link_in_place_of_the_part_is_not_followed) {
   EXPECT_EQ(*read_file(path("precious")), "theirs");
 }
 
+TEST_F(WriteFile, too_many_open_files_are_named_as_the_cause) {
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+  const int next = ::dup(STDIN_FILENO);
+  ASSERT_GE(next, 0);
+  ::close(next);
+  for (const rlim_t room : {0, 1}) {  // None for the file, or for the file alone.
+    const rlimit fewer = {static_cast<rlim_t>(next) + room, before.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &fewer), 0);
+    const std::string message = rejection("a", false);
+    ::setrlimit(RLIMIT_NOFILE, &before);
+    EXPECT_EQ(message, "a: cannot be written: Too many open files");
+    EXPECT_EQ(entries(), 0u);
+  }
+}
+
 TEST_F(WriteFile, a_full_disk_leaves_nothing) {
   // A limit on the size of files stands in for it.
   const auto fill = [&] {

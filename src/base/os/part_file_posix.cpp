@@ -58,7 +58,8 @@ bool PartFile::set_permissions(std::filesystem::perms permissions) {
 
 bool PartFile::keep() {
   // Network file systems tell of a full disk only where a file is closed; the lock stays.
-  if (::close(::dup(file_)) != 0) return false;
+  const int copy = ::dup(file_);
+  if (copy < 0 || ::close(copy) != 0) return false;
   if (std::rename(name_.c_str(), target_.c_str()) != 0) return false;
   name_.clear();
   return true;

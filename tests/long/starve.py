@@ -1,0 +1,332 @@
+#!/usr/bin/env python3
+"""starve.py PROGRAM MODEL STEPS: runs the verbs of panache where something is missing.
+
+- Memory: from the least with which the program starts to what a verb needs, in steps of 3 MB / STEPS.
+- Open files: as many as the program needs to start, and up to four more.
+- Room on the disk: from nothing to the largest output, in STEPS steps.
+- Threads: none can be started. A folder nobody may write to.
+- A folder that vanishes while its file is made; STEPS times each, inputs that are cut short or
+  replaced while they are read, and names of any bytes.
+
+Ends with 1 and a message where a run is ended by a signal or takes longer than kSeconds, fails
+without a message, leaves an output that is not whole or a file half made, or changes an input."""
+import os
+import random
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+kSeconds = 60
+kOther = 54321  # A user who may write where it is allowed to, as root may anywhere.
+kVerbs = [
+    ['info', 'walk.bvh'],
+    ['info', 'walk.glb'],
+    ['info', 'model.safetensors'],
+    ['stylize', 'walk.bvh', '--style', 'old=1', '-o', 'out.bvh'],
+    ['stylize', 'walk.glb', '--style', 'old=1..0', '-o', 'out.glb'],
+    ['stylize', 'walk.bvh', 'slow.bvh', 'walk.glb', '--style', 'angry=1', '--jobs', '2', '-o', 'out'],
+    ['convert', 'walk.bvh', '-o', 'out.glb'],
+    ['convert', 'walk.glb', '-o', 'out.bvh'],
+    ['retarget', 'slow.bvh', '--onto', 'walk.glb', '-o', 'out.glb'],
+    ['learn', 'walk.bvh', 'slow.bvh', '--name', 'slow', '--into', 'out.safetensors'],
+    ['learn', 'walk.bvh', 'slow.bvh', '--name', 'slower', '--into', 'mine.safetensors', '--force'],
+    ['styles', 'mine.safetensors', '--extract', 'slow', '-o', 'out.safetensors'],
+    ['quantize', 'mine.safetensors', '-o', 'out.safetensors'],
+    ['strip', 'walk.bvh', 'slow.bvh', '-o', 'out.svg'],
+    ['walker', '--speed', '1.5', '-o', 'out.bvh'],
+]
+
+
+class Failure(Exception):
+    pass
+
+
+def contents(folder):
+    found = {}
+    for where, _, names in os.walk(folder):
+        for name in names:
+            path = os.path.join(where, name)
+            with open(path, 'rb') as file:
+                found[os.path.relpath(path, folder)] = file.read()
+    return found
+
+
+def least(enough, most, step):
+    """The least number that is enough, at most `step` too large."""
+    fewest = 0
+    while most - fewest > step:
+        middle = (fewest + most) // 2
+        fewest, most = (fewest, middle) if enough(middle) else (middle, most)
+    return most
+
+
+class Kitchen:
+    """The program, and the folder that each run starts with a copy of."""
+
+    def __init__(self, program, model, folder):
+        self.folder = folder
+        os.chmod(folder, 0o755)
+        self.program = shutil.copy(program, os.path.join(folder, 'panache'))
+        os.mkdir(os.path.join(folder, 'models'))
+        shutil.copy(os.path.join(os.path.dirname(model), 'walker.safetensors'),
+                    os.path.join(folder, 'models'))
+        self.made = os.path.join(folder, 'made')
+        os.mkdir(self.made)
+        shutil.copy(model, os.path.join(self.made, 'model.safetensors'))
+        self.work = os.path.join(folder, 'work')
+        for arguments in (['walker', '--seconds', '4', '-o', 'walk.bvh'],
+                          ['walker', '--seconds', '5', '--speed', '0.7', '-o', 'slow.bvh'],
+                          ['convert', 'walk.bvh', '-o', 'walk.glb'],
+                          ['learn', 'walk.bvh', 'slow.bvh', '--name', 'slow', '--into',
+                           'mine.safetensors']):
+            done = self.start(arguments, cwd=self.made)
+            if done.returncode != 0:
+                raise Failure(f'{arguments}: {done.stderr.decode()}')
+        self.inputs = contents(self.made)
+        self.runs = 0
+        self.fresh()
+        # With what the program starts; with less its libraries do not load.
+        self.least_memory = least(lambda most: self.starts(resource.RLIMIT_AS, most), 1 << 31, 1 << 16)
+        self.least_files = least(lambda most: self.starts(resource.RLIMIT_NOFILE, most), 64, 1)
+
+    def start(self, arguments, cwd, limits=(), user=None, stdin=subprocess.DEVNULL):
+        def prepare():
+            resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)  # A full disk is an error, no signal.
+            for what, most in limits:
+                resource.setrlimit(what, (most, most))
+            if user is not None and os.geteuid() == 0:
+                os.setuid(user)
+        environment = {**os.environ, 'PANACHE_MODEL': 'model.safetensors'}
+        return subprocess.run([self.program, *arguments], cwd=cwd, env=environment, stdin=stdin,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=kSeconds,
+                              preexec_fn=prepare, check=False)
+
+    def starts(self, what, most):
+        return self.start(['--version'], self.work, [(what, most)]).returncode == 0
+
+    def fresh(self):
+        shutil.rmtree(self.work, ignore_errors=True)
+        shutil.copytree(self.made, self.work)
+
+    def run(self, arguments, **options):
+        """What became of a run, after its exit code and what it has left were looked at."""
+        self.runs += 1
+        try:
+            done = self.start(arguments, self.work, **options)
+        except subprocess.TimeoutExpired:
+            raise Failure(f'panache {arguments}, {options}: still runs after {kSeconds} s') from None
+        said = done.stderr.decode(errors='replace')
+        what = f'panache {arguments}, {options}: exit code {done.returncode}, {said!r}'
+        if done.returncode not in (0, 1):
+            raise Failure(what)
+        if done.returncode == 1 and 'panache: ' not in said:
+            raise Failure(what + ': no message')
+        return done, what
+
+    def compare(self, what, wanted, whole):
+        """That what is in the folder is input, or output as it should be; all of it if `whole`."""
+        left = contents(self.work)
+        for name, content in left.items():
+            if content != wanted.get(name) and content != self.inputs.get(name):
+                raise Failure(f'{what}: {name} is not what it should be')
+        missing = [name for name in (wanted if whole else self.inputs) if name not in left]
+        if missing:
+            raise Failure(f'{what}: {missing} are missing')
+        if whole and any(left[name] != wanted[name] for name in wanted):
+            raise Failure(f'{what}: an output was not written')
+
+    def reference(self, arguments):
+        self.fresh()
+        done, what = self.run(arguments)
+        if done.returncode != 0:
+            raise Failure(what)
+        return contents(self.work), done.stdout
+
+    def starved(self, arguments, wanted, printed, **options):
+        self.fresh()
+        done, what = self.run(arguments, **options)
+        self.compare(what, wanted, done.returncode == 0)
+        if done.returncode == 0 and arguments[0] == 'info' and done.stdout != printed:
+            raise Failure(f'{what}: printed something else')
+        return done.returncode == 0
+
+
+def starve_of_memory(kitchen, verb, wanted, printed, steps):
+    failed = successes = 0
+    most = kitchen.least_memory
+    while successes < 3:  # In a row: what is enough differs a little from run to run.
+        done = kitchen.starved(verb, wanted, printed, limits=[(resource.RLIMIT_AS, most)])
+        successes = successes + 1 if done else 0
+        failed += not done
+        most += max(1 << 12, (3 << 20) // steps)
+    if not failed:
+        raise Failure(f'panache {verb}: never lacked memory')
+    return failed
+
+
+def starve_of_files(kitchen, verb, wanted, printed):
+    failed = 0
+    for most in range(kitchen.least_files, kitchen.least_files + 5):
+        limits = [(resource.RLIMIT_NOFILE, most)]
+        failed += not kitchen.starved(verb, wanted, printed, limits=limits)
+    return failed
+
+
+def starve_of_room(kitchen, verb, wanted, printed, steps):
+    outputs = [content for name, content in wanted.items() if kitchen.inputs.get(name) != content]
+    largest = max(map(len, outputs), default=0)
+    failed = 0
+    for most in sorted({largest * i // steps for i in range(steps)}):
+        failed += not kitchen.starved(verb, wanted, printed, limits=[(resource.RLIMIT_FSIZE, most)])
+    if largest and not failed:
+        raise Failure(f'panache {verb}: never lacked room')
+    return failed
+
+
+def give_to_other(path):
+    if os.geteuid() != 0:
+        return
+    os.chown(path, kOther, kOther)
+    for where, folders, names in os.walk(path):
+        for name in folders + names:
+            os.chown(os.path.join(where, name), kOther, kOther)
+
+
+def without_threads(kitchen, verb, wanted, printed):
+    kitchen.fresh()
+    give_to_other(kitchen.work)
+    done, what = kitchen.run(verb, user=kOther, limits=[(resource.RLIMIT_NPROC, 1)])
+    if done.returncode != 0:
+        raise Failure(what)
+    kitchen.compare(what, wanted, True)
+
+
+def without_leave(kitchen, verb, wanted):
+    kitchen.fresh()
+    os.chmod(kitchen.work, 0o555)
+    for name in os.listdir(kitchen.work):
+        os.chmod(os.path.join(kitchen.work, name), 0o444)
+    done, what = kitchen.run(verb, user=kOther)
+    writes = any(kitchen.inputs.get(name) != content for name, content in wanted.items())
+    if (done.returncode == 1) != writes:
+        raise Failure(what)
+    os.chmod(kitchen.work, 0o755)
+    kitchen.compare(what, wanted, False)
+
+
+def vanishing_folder(kitchen):
+    """The folder of the output is removed while the input, a pipe, is still open."""
+    kitchen.fresh()
+    target = os.path.join(kitchen.work, 'folder')
+    os.mkdir(target)
+    ours, theirs = os.pipe()
+
+    def feed():
+        motion = kitchen.inputs['walk.bvh']
+        with os.fdopen(theirs, 'wb') as pipe:
+            pipe.write(motion[:len(motion) // 2])
+            pipe.flush()
+            time.sleep(0.3)
+            shutil.rmtree(target)
+            pipe.write(motion[len(motion) // 2:])
+    feeder = threading.Thread(target=feed)
+    feeder.start()
+    with os.fdopen(ours, 'rb') as pipe:
+        done, what = kitchen.run(['stylize', '-', '--style', 'old=1', '-o', 'folder/out.bvh'],
+                                 stdin=pipe)
+    feeder.join()
+    left = contents(kitchen.work)
+    if done.returncode == 0 and len(left.get('folder/out.bvh', b'')) < 1000:
+        raise Failure(what + ': nothing was written')
+    for name in left:
+        if name.endswith('.part') or (done.returncode == 1 and name.startswith('folder')):
+            raise Failure(f'{what}: left {name}')
+
+
+def changing_inputs(kitchen, count, draw):
+    """Files that another process cuts short, lengthens and replaces while they are read."""
+    for name in ('walk.bvh', 'walk.glb', 'model.safetensors'):
+        kitchen.fresh()
+        whole = kitchen.inputs[name]
+        path = os.path.join(kitchen.work, name)
+        over = threading.Event()
+
+        def change():
+            while not over.is_set():
+                with open(path, 'r+b') as file:
+                    file.truncate(draw.randrange(len(whole)))
+                    file.seek(draw.randrange(len(whole)))
+                    file.write(whole[:draw.randrange(len(whole))])
+                    file.seek(0)
+                    file.write(whole)
+                    file.truncate(len(whole))
+                if draw.random() < 0.2:
+                    os.replace(shutil.copy(path, path + '.new'), path)
+                time.sleep(draw.random() * 0.01)
+        other = threading.Thread(target=change)
+        other.start()
+        try:
+            motion = name if name != 'model.safetensors' else 'slow.bvh'
+            for _ in range(count):
+                kitchen.run(['stylize', motion, '--style', 'old=1', '--force', '-o',
+                             'out' + os.path.splitext(motion)[1]])
+        finally:
+            over.set()
+            other.join()
+
+
+def any_names(kitchen, count, draw):
+    """Motion and outputs whose names are any bytes that a name may have."""
+    kitchen.fresh()
+    allowed = bytes(byte for byte in range(1, 256) if byte != ord('/'))
+    for _ in range(count):
+        length = draw.choice((1, 3, 20, 200))
+        name = b'n' + bytes(draw.choices(allowed, k=length))
+        path = os.path.join(os.fsencode(kitchen.work), name + b'.bvh')
+        with open(path, 'wb') as file:
+            file.write(kitchen.inputs['walk.bvh'])
+        out = b'o' + name + b'.bvh'
+        done, what = kitchen.run([b'stylize', name + b'.bvh', b'--style', b'old=1', b'-o', out])
+        if done.returncode != 0:
+            raise Failure(what)
+        with open(os.path.join(os.fsencode(kitchen.work), out), 'rb') as file:
+            if not file.read().startswith(b'HIERARCHY'):
+                raise Failure(what)
+        done, what = kitchen.run([b'info', name + b'.bvh', b'--json'])
+        if done.returncode != 0:
+            raise Failure(what)
+        os.remove(path)
+
+
+def main():
+    if len(sys.argv) != 4:
+        sys.exit(__doc__)
+    program, model, steps = sys.argv[1], sys.argv[2], int(sys.argv[3])
+    draw = random.Random(1)
+    with tempfile.TemporaryDirectory() as folder:
+        kitchen = Kitchen(program, model, folder)
+        memory = files = room = 0
+        for verb in kVerbs:
+            wanted, printed = kitchen.reference(verb)
+            memory += starve_of_memory(kitchen, verb, wanted, printed, steps)
+            files += starve_of_files(kitchen, verb, wanted, printed)
+            room += starve_of_room(kitchen, verb, wanted, printed, steps)
+            without_threads(kitchen, verb, wanted, printed)
+            without_leave(kitchen, verb, wanted)
+        vanishing_folder(kitchen)
+        changing_inputs(kitchen, steps, draw)
+        any_names(kitchen, steps, draw)
+        print(f'{len(kVerbs)} commands, {kitchen.runs} runs; {memory} lacked memory, {files} open files, '
+              f'{room} room on the disk')
+
+
+try:
+    main()
+except Failure as failure:
+    sys.exit(f'starve: {failure}')
