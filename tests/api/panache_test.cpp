@@ -347,6 +347,11 @@ TEST_F(Api, says_why_it_cannot_learn) {
   EXPECT_STREQ(panache_last_error(),
                "pair 1, styled: has 0.20 s of motion; a style is learnt from 0.50 s at least, "
                "better from 2 to 3 s; give a longer clip");
+  panache_pair without = {neutral.clip, brief.clip};
+  without.neutral.translations = nullptr;
+  EXPECT_EQ(panache_learn(bytes.data(), bytes.size(), &without, 1, "bent", 0, &learnt),
+            PANACHE_BAD_CLIP);
+  EXPECT_STREQ(panache_last_error(), "pair 1, neutral: poses need both rotations and translations");
   EXPECT_EQ(panache_learn("x", 1, &pair, 1, "bent", 0, &learnt), PANACHE_BAD_MODEL);
   EXPECT_EQ(learnt, nullptr);
 }

@@ -37,6 +37,25 @@ TEST_F(JointMap, goes_before_the_names_of_the_joints) {
   panache_skeleton_destroy(mapped);
 }
 
+TEST_F(JointMap, may_say_all_there_is) {
+  const std::vector<panache_joint> joints(stick_figure, stick_figure + STICK_JOINTS);
+  std::vector<panache_human_joint> whole;
+  for (const char* name :
+       {"hips",          "spine",         "chest",         "neck",          "head",
+        "leftShoulder",  "leftUpperArm",  "leftLowerArm",  "leftHand",      "rightShoulder",
+        "rightUpperArm", "rightLowerArm", "rightHand",     "leftUpperLeg",  "leftLowerLeg",
+        "leftFoot",      "leftToes",      "rightUpperLeg", "rightLowerLeg", "rightFoot",
+        "rightToes"}) {
+    whole.push_back({name, panache_skeleton_find(skeleton_, name)});
+  }
+  panache_skeleton* mapped = nullptr;
+  ASSERT_EQ(create(joints, whole, &mapped), PANACHE_OK) << panache_last_error();
+  for (const panache_human_joint& joint : whole) {
+    EXPECT_EQ(panache_skeleton_find(mapped, joint.vrm_name), joint.joint) << joint.vrm_name;
+  }
+  panache_skeleton_destroy(mapped);
+}
+
 TEST_F(JointMap, that_is_wrong_is_rejected_with_its_entry) {
   const std::vector<panache_joint> joints(stick_figure, stick_figure + STICK_JOINTS);
   const auto rejection = [&](const std::vector<panache_human_joint>& map) {

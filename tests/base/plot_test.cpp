@@ -83,6 +83,9 @@ TEST(LinePlot, ticks_have_lines_and_curves_go_by_them) {
   // A line across for each of 0, 2, ..., 10; the axis below with a mark for each of 0, 1, ..., 10.
   EXPECT_EQ(occurrences(svg, "stroke=\"#e6e6e6\""), 6u);
   EXPECT_EQ(occurrences(svg, "stroke=\"#999999\""), 1u + 11u);
+  for (const std::string& line : elements(svg, "<line", "#999999")) {  // Marks are below it.
+    EXPECT_GE(std::stod(attribute(line, "y2")), std::stod(attribute(line, "y1")));
+  }
   // The curve and its sample beside its name; one without a name has none.
   EXPECT_EQ(occurrences(svg, "stroke=\"#123456\""), 2u);
   EXPECT_EQ(occurrences(svg, "stroke=\"" + palette(1) + "\""), 1u);

@@ -104,6 +104,10 @@ TEST(BvhErrors, wrong_numbers_in_the_hierarchy) {
 
 TEST(BvhErrors, wrong_channels) {
   Pieces pieces;
+  pieces.channels = "  CHANNELS\n";
+  EXPECT_EQ(pieces.rejection(),
+            "walk.bvh:5:11: expected a number of channels from 0 to 6 for joint 'Hips', found the "
+            "end of the line");
   pieces.channels = "  CHANNELS 3 Xrotation Wrotation Zposition\n";
   EXPECT_EQ(pieces.rejection(),
             "walk.bvh:5:24: expected Xposition, Yposition, Zposition, Xrotation, Yrotation or "

@@ -98,6 +98,13 @@ TEST(Euler, gimbal_lock_keeps_the_first_angle) {
   EXPECT_LT(angle_between(rotation, euler_to_quat(order, back)), 4e-7);
 }
 
+// Where x, y and z change places, no rounding hides the pole.
+TEST(Euler, the_very_pole_keeps_the_first_angle_far_from_the_last_pose_too) {
+  const EulerAngles back = quat_to_euler({3, {0, 1, 2}}, Quatd{0.5, 0.5, 0.5, 0.5}, {20, 80, 130});
+  EXPECT_NEAR(back[0], 20, 1e-9);
+  EXPECT_NEAR(back[1], 90, 1e-9);
+}
+
 TEST(Euler, a_steady_pose_at_the_pole_is_steady_in_spite_of_rounding) {
   const EulerOrder order = {3, {2, 1, 0}};
   EulerAngles angles = {30, 90, 40};

@@ -109,6 +109,9 @@ TEST(GltfFormat, a_body_is_one_mesh_on_the_joints_of_the_clip) {
   for (const char* what : {"POSITION", "NORMAL", "JOINTS_0", "WEIGHTS_0", "COLOR_0"}) {
     EXPECT_EQ(count(primitive["attributes"][what]), body.positions.size()) << what;
   }
+  for (const test::Json& view : parts.json["bufferViews"]) {
+    EXPECT_LT(view["buffer"].get<size_t>(), parts.json["buffers"].size());
+  }
   const test::Json& joints = parts.json["skins"][0]["joints"];
   ASSERT_EQ(joints.size(), body.binds.size());
   for (size_t b = 0; b < body.binds.size(); ++b) EXPECT_EQ(joints[b], body.binds[b].joint + 1);

@@ -297,6 +297,13 @@ TEST(GltfWrite, a_taken_name_gets_a_number) {
             (std::vector<std::string>{"Walk", "Wave", "Walk (2)", "Walk (3)", "animation 5"}));
 }
 
+// Of the first animation.
+double first_time(const std::string& glb) {
+  const test::Json json = test::glb_parts(glb).json;
+  const size_t times = json["animations"][0]["samplers"][0]["input"];
+  return json["accessors"][times]["min"][0];
+}
+
 TEST(GltfWrite, a_new_clip_takes_the_place_of_all_or_stands_beside_them) {
   const auto file = must_read(small_gltf());
   Clip clip = file->rest();
@@ -310,6 +317,7 @@ TEST(GltfWrite, a_new_clip_takes_the_place_of_all_or_stands_beside_them) {
   const ClipEdit edits[] = {{kNewClip, &clip, {}, "Bow"}};
   const auto alone = must_read(file->encode(edits, EditMode::replace));
   EXPECT_EQ(alone->clip_names(), std::vector<std::string>{"Bow"});
+  EXPECT_EQ(first_time(file->encode(edits, EditMode::replace)), 0);
   expect_same_motion(alone->clip(), clip, 0);
   const auto beside = must_read(file->encode(edits, EditMode::add_beside));
   EXPECT_EQ(beside->clip_names(), (std::vector<std::string>{"nod", "Bow"}));

@@ -165,6 +165,17 @@ TEST(Smpl, types_and_orders_of_numbers_make_no_difference) {
   }
 }
 
+// As numpy.save writes them.
+TEST(Npy, the_shape_is_written_as_pythons_tuple) {
+  const auto shape = [](std::vector<size_t> sizes) {
+    const std::string bytes = format_npy(npy_array(std::vector<double>(6), sizes, "<f8"));
+    const size_t begin = bytes.find("'shape': ");
+    return bytes.substr(begin, bytes.find('}') - begin);
+  };
+  EXPECT_EQ(shape({6}), "'shape': (6,), ");
+  EXPECT_EQ(shape({2, 3}), "'shape': (2, 3), ");
+}
+
 TEST(Smpl, whole_numbers_of_every_size_have_their_sign) {
   std::vector<NpzMember> members = small_motion();
   members[1] = member("trans", std::vector<double>(9, -2), {3, 3});

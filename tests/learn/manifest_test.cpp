@@ -30,6 +30,8 @@ TEST_F(ManifestTest, rows_are_read_in_any_order_of_columns) {
   EXPECT_EQ((*rows)[0].path, temporary_.path() + "a/b.bvh");
   EXPECT_TRUE((*rows)[0].test);
   EXPECT_EQ((*rows)[0].style, "old");
+  EXPECT_EQ((*rows)[0].content, "walk");
+  EXPECT_EQ((*rows)[0].take, "001");
   EXPECT_EQ((*rows)[1].path, "/c.bvh");
   EXPECT_EQ((*rows)[1].style, "neutral");
   EXPECT_EQ((*rows)[1].set, 3);

@@ -137,6 +137,19 @@ TEST(Samples, an_undisturbing_disturbance_leaves_the_window_alone) {
   EXPECT_NE(same, window);
 }
 
+// Otherwise its feet would slide.
+TEST(Samples, a_larger_body_goes_faster_by_as_much) {
+  Disturbed draw;
+  draw.scale = 1.25f;
+  draw.posture.resize(63);
+  std::vector<float> pose(66, 1.0f);
+  Random random(5);
+  disturb(draw, {}, random, pose);
+  EXPECT_FLOAT_EQ(pose[0], 1.25f);
+  EXPECT_FLOAT_EQ(pose[63 + kVelocityLeft], 1.25f);
+  EXPECT_FLOAT_EQ(pose[63 + kVelocityForward], 1.25f);
+}
+
 TEST(Samples, another_person_has_the_same_limbs_held_otherwise) {
   const std::vector<Take> takes = {test::make_take("neutral", 200, 0, 1, 0),
                                    test::make_take("old", 90, 1.7f, 1.3f, 0.4f)};

@@ -157,6 +157,50 @@ TEST(Strip, travelling_figures_stand_where_they_are) {
   EXPECT_EQ(x[0], x[9]);
 }
 
+TEST(Strip, travelling_rows_begin_below_each_other_wherever_they_were) {
+  StripOptions options;
+  options.travel = true;
+  const StripRow here = made_up_row("here", 1, 0, 0);
+  StripRow there = here;
+  for (HumanPositions& body : there.frames) {
+    for (Vec3& p : body) p.z += 5;
+  }
+  const std::vector<double> x = head_numbers(draw_strip({here, there}, options), "cx");
+  ASSERT_EQ(x.size(), 18u);
+  for (size_t i = 0; i < 9; ++i) EXPECT_NEAR(x[i], x[i + 9], 0.02);
+}
+
+// Arms have three points, legs four.
+TEST(Strip, what_is_nearer_to_the_viewer_is_in_front) {
+  const auto front = [](double pitch_deg) {
+    StripRow row = made_up_row("", 0, 0);
+    row.frames.resize(1);
+    StripOptions options;
+    options.pitch_deg = pitch_deg;
+    const std::string svg = draw_strip({row}, options);
+    const size_t points = svg.find("points=\"", svg.rfind("<polyline")) + 8;
+    return occurrences(svg.substr(points, svg.find('"', points) - points), ",");
+  };
+  EXPECT_EQ(front(80), 3u) << "from above";
+  EXPECT_EQ(front(-80), 4u) << "from below";
+}
+
+TEST(Strip, times_are_left_out_where_they_would_touch) {
+  StripOptions options;
+  options.pixels_per_metre = 30;
+  const std::string svg = draw_strip({made_up_row("", 0, 0)}, options);
+  double last = -1e9;
+  for (size_t end = svg.find(" s</text>"); end != svg.npos; end = svg.find(" s</text>", end + 1)) {
+    const size_t text = svg.rfind("<text", end), label = svg.rfind('>', end) + 1;
+    const double x = std::stod(svg.substr(svg.find(" x=\"", text) + 4));
+    const double half = text_width(svg.substr(label, end + 2 - label), 11) / 2;
+    EXPECT_GT(x - half, last);
+    last = x + half;
+  }
+  EXPECT_LT(occurrences(svg, " s</text>"), 9u);
+  EXPECT_GT(occurrences(svg, " s</text>"), 1u);
+}
+
 TEST(Strip, looks_the_same_whichever_way_the_motion_heads) {
   const StripRow a = made_up_row("walk", 1, 0.4f, 0), b = made_up_row("walk", 1, 0.4f, 2.5f);
   const std::vector<double> xa = head_numbers(draw_strip({a}, {}), "cx");

@@ -6,6 +6,7 @@
 
 #include "clip/fk.h"
 #include "clip/motion_file.h"
+#include "retarget/find_body.h"
 #include "retarget/ground.h"
 #include "retarget/on_characters.h"
 #include "retarget/t_pose_body.h"
@@ -319,6 +320,15 @@ TEST(Retarget, a_character_that_rests_under_the_floor_stands_where_its_own_motio
   EXPECT_NEAR(lowest_toe(put(motion, character)), 0, 1e-3f);
   character.append(character.pose(0));
   EXPECT_NEAR(lowest_toe(put(motion, character)), 0.3f, 1e-3f);
+}
+
+TEST(FindBody, a_rest_pose_that_stands_tells_the_floor_whatever_its_motion) {
+  const Clip rest = rest_clip(canonical_skeleton());
+  Clip on_a_box = neutral_walk(1);
+  for (int f = 0; f < on_a_box.frames; ++f) on_a_box.pose(f).translations[0].y += 0.5f;
+  const auto body = find_body(rest, &on_a_box, {});
+  ASSERT_TRUE(body.ok()) << body.error().message;
+  EXPECT_NEAR(body->second.floor(), 0, 0.05f);
 }
 
 TEST(HoldFeet, a_body_comes_up_and_goes_down_smoothly_around_where_it_would_be_under_the_floor) {

@@ -163,6 +163,34 @@ TEST(BodyMesh, one_leg_does_not_move_the_other) {
   EXPECT_GT(seen, 100u);
 }
 
+TEST(BodyMesh, the_back_moves_with_the_chest_from_there_up) {
+  const BodyMesh mesh = make_body_mesh(canonical_offsets(), every_joint());
+  const auto chest = static_cast<size_t>(index(HumanJoint::chest));
+  const float low = mesh.bind.positions[chest].y;
+  const float high = mesh.bind.positions[static_cast<size_t>(index(HumanJoint::left_upper_arm))].y;
+  size_t seen = 0;
+  for (size_t v = 0; v < mesh.positions.size(); ++v) {
+    const Vec3 p = mesh.positions[v];
+    if (std::abs(p.x) > 0.05f || p.z > -0.05f || p.y < low + 0.01f || p.y > high) continue;
+    ++seen;
+    EXPECT_GT(share_of(mesh, v, chest), 0.5f);
+  }
+  EXPECT_GT(seen, 20u);
+}
+
+TEST(BodyMesh, hips_move_nothing_of_a_hand_or_a_head) {
+  const BodyMesh mesh = make_body_mesh(canonical_offsets(), every_joint());
+  size_t seen = 0;
+  for (size_t v = 0; v < mesh.positions.size(); ++v) {
+    for (const HumanJoint joint : {HumanJoint::head, HumanJoint::left_hand}) {
+      if (share_of(mesh, v, static_cast<size_t>(index(joint))) < 0.5f) continue;
+      ++seen;
+      EXPECT_EQ(share_of(mesh, v, 0), 0);
+    }
+  }
+  EXPECT_GT(seen, 100u);
+}
+
 TEST(BodyMesh, a_joint_that_a_rig_lacks_moves_nothing) {
   std::array<int, kHumanJoints> movers = every_joint();
   const auto chest = static_cast<size_t>(index(HumanJoint::chest));

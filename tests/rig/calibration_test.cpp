@@ -120,6 +120,10 @@ TEST(Calibration, one_frame_is_enough) {
   EXPECT_EQ(rig.first_frame(), 0);
 }
 
+TEST(Calibration, the_floor_of_two_frames_is_between_them) {
+  EXPECT_NEAR(rig_of(standing(2)).floor(), 1.005f, 1e-4f);
+}
+
 // Motion that hardly moves: a quarter of a degree from frame to frame.
 Clip calm(int frames) {
   Clip clip = random_clip(canonical_skeleton(), 1, 0.3f, 4);

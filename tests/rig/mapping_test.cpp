@@ -422,6 +422,12 @@ TEST(Mapping, bodies_in_pieces_and_poses_without_numbers_are_rejected) {
     if (line.name == "m:*UpLeg") line.parent = "";
   }
   EXPECT_TRUE(rejection(lines).starts_with("no humanoid found: hips is missing among"));
+  lines = kMixamo;
+  for (Line& line : lines) {
+    if (line.name == "m:*Arm") line.parent = "";
+  }
+  EXPECT_TRUE(rejection(lines).starts_with("no humanoid found: chest, hips are missing among"))
+      << rejection(lines);
   MadeUp rig = make_up(kMixamo, "Left", "Right");
   rig.positions.assign(rig.positions.size(), Vec3{NAN, NAN, NAN});
   EXPECT_FALSE(map_made_up(rig).ok());

@@ -83,6 +83,13 @@ TEST(Flight, a_jump_is_one_at_any_frame_rate_and_is_seen_before_it_begins) {
   }
 }
 
+TEST(Flight, a_jump_counts_for_more_than_half_before_its_take_off) {
+  const test::Jump jump;
+  for (const double fps : {60, 120, 240}) {
+    EXPECT_GT(watch(jump.clip(fps)).amount(jump.take_off() - 0.14), 0.5f) << fps << " fps";
+  }
+}
+
 // Where poses are further apart than the parabola reaches, it is laid through three of them.
 TEST(Flight, a_jump_is_one_at_a_few_poses_a_second) {
   const test::Jump jump;
@@ -157,6 +164,25 @@ TEST(Flight, a_jump_falls_as_its_input_does_in_every_shipped_style) {
     slower |= styled->clip.frames > clip.frames * 1.2;
   }
   EXPECT_TRUE(slower) << "and on the ground a style has its own tempo";
+}
+
+TEST(Flight, on_the_way_into_a_flight_the_tempo_is_between_the_two) {
+  const Clip clip = test::walking_clip(100, 60);
+  TensorFile file = test::make_model({"slow"});
+  test::set_rate(file, 0.8);
+  const auto model = *Model::parse(format_safetensors(file), "test model");
+  const auto rate = [&](float flight) {
+    Stylizer stylizer = *Stylizer::create(model, *Rig::create(clip));
+    Clip out = clip;
+    for (int f = 0; f < clip.frames; ++f) {
+      stylizer.set_flight(flight);
+      stylizer.step(clip.pose(f), std::vector<float>{1}, clip.frame_time, out.pose(f));
+    }
+    return stylizer.rate();
+  };
+  EXPECT_EQ(rate(1), 1);
+  EXPECT_LT(rate(0), 0.85);
+  EXPECT_NEAR(rate(0.5f), std::sqrt(rate(0)), 1e-3);
 }
 
 // Between two frames of the input the impact of a landing would be a mean of both.

@@ -364,10 +364,12 @@ TEST_F(LiveStylizerTest, a_restored_character_goes_on_bit_for_bit) {
   LiveStylizer character = live(model, options), other = live(model, options);
   LiveWalk walk;
   const std::vector<float> strengths = {1, 0};
-  for (int f = 0; f < 500; ++f) character.step(walk.step(kStep), strengths, kStep, out_.pose(0));
+  for (int f = 0; f < 700; ++f) character.step(walk.step(kStep), strengths, kStep, out_.pose(0));
   std::vector<std::byte> state(character.state_size());
   character.save(state);
   ASSERT_TRUE(other.restore(state));
+  EXPECT_NE(character.skipped_cycles(), 0);
+  EXPECT_EQ(other.skipped_cycles(), character.skipped_cycles());
   for (int f = 0; f < 500; ++f) {
     const ConstPose in = walk.step(kStep);
     character.step(in, strengths, kStep, out_.pose(0));

@@ -14,6 +14,7 @@
 #include "pose/contacts.h"
 #include "rig/canonical_skeleton.h"
 #include "rig/rig.h"
+#include "walker/feet.h"
 #include "walker/made_up_gait.h"
 
 namespace panache {
@@ -340,6 +341,14 @@ TEST(Walker, stays_finite_whatever_it_is_told) {
   }
 }
 
+TEST(Walker, moves_from_the_first_moment_on) {
+  Walker walker(shipped());
+  Joints start, soon;
+  walker.step(1, 0, 0, start);
+  walker.step(1, 0, 1.0 / 1000, soon);
+  EXPECT_NE(start.translations[0], soon.translations[0]);
+}
+
 TEST(Walker, begins_anew_after_reset) {
   Walker walker(shipped());
   Joints first, again;
@@ -349,6 +358,25 @@ TEST(Walker, begins_anew_after_reset) {
   walker.step(1, 0, 0, again);
   EXPECT_EQ(first.rotations, again.rotations);
   EXPECT_EQ(first.translations, again.translations);
+}
+
+TEST(Feet, trail_behind_a_body_that_is_carried_away_by_less_than_half_a_metre) {
+  constexpr Vec3 kThigh{0, -0.42f, 0.02f}, kShin{0, -0.42f, -0.02f}, kSole{0, -0.06f, 0.13f};
+  Feet feet;
+  for (int f = 0; f <= 100; ++f) {
+    const Vec3 hip{0, 0.9f, 0.02f * static_cast<float>(f)};
+    Leg standing;
+    standing.hip = hip;
+    standing.knee = standing.hip + kThigh;
+    standing.ankle = standing.knee + kShin;
+    standing.toe = standing.ankle + kSole;
+    Legs legs = {standing, standing};
+    feet.tick(Drive(), {}, 0, 1 / 120.0f, legs);
+    const Leg& leg = legs[0];
+    const Vec3 toe =
+        hip + rotate(leg.upper, kThigh) + rotate(leg.lower, kShin) + rotate(leg.foot, kSole);
+    EXPECT_LT(standing.toe.z - toe.z, 0.5f) << f;
+  }
 }
 
 TEST(WalkClip, maps_onto_the_canonical_body_with_all_joints) {
