@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """starve.py PROGRAM MODEL STEPS: runs the verbs of panache where something is missing.
 
-- Memory: from the least with which the program starts to what a verb needs, in steps of 3 MB / STEPS.
+- Memory: from the least with which the program starts to what a verb needs, in steps of
+  3 MB / STEPS.
 - Open files: as many as the program needs to start, and up to four more.
 - Room on the disk: from nothing to the largest output, in STEPS steps.
 - Threads: none can be started. A folder nobody may write to.
@@ -29,7 +30,8 @@ kVerbs = [
     ['info', 'model.safetensors'],
     ['stylize', 'walk.bvh', '--style', 'old=1', '-o', 'out.bvh'],
     ['stylize', 'walk.glb', '--style', 'old=1..0', '-o', 'out.glb'],
-    ['stylize', 'walk.bvh', 'slow.bvh', 'walk.glb', '--style', 'angry=1', '--jobs', '2', '-o', 'out'],
+    ['stylize', 'walk.bvh', 'slow.bvh', 'walk.glb', '--style', 'angry=1', '--jobs', '2', '-o',
+     'out'],
     ['convert', 'walk.bvh', '-o', 'out.glb'],
     ['convert', 'walk.glb', '-o', 'out.bvh'],
     ['retarget', 'slow.bvh', '--onto', 'walk.glb', '-o', 'out.glb'],
@@ -65,13 +67,13 @@ def least(enough, most, step):
     return most
 
 
-class Kitchen:
+class Program:
     """The program, and the folder that each run starts with a copy of."""
 
-    def __init__(self, program, model, folder):
+    def __init__(self, path, model, folder):
         self.folder = folder
         os.chmod(folder, 0o755)
-        self.program = shutil.copy(program, os.path.join(folder, 'panache'))
+        self.path = shutil.copy(path, os.path.join(folder, 'panache'))
         os.mkdir(os.path.join(folder, 'models'))
         shutil.copy(os.path.join(os.path.dirname(model), 'walker.safetensors'),
                     os.path.join(folder, 'models'))
@@ -91,7 +93,8 @@ class Kitchen:
         self.runs = 0
         self.fresh()
         # With what the program starts; with less its libraries do not load.
-        self.least_memory = least(lambda most: self.starts(resource.RLIMIT_AS, most), 1 << 31, 1 << 16)
+        self.least_memory = least(lambda most: self.starts(resource.RLIMIT_AS, most), 1 << 31,
+                                  1 << 16)
         self.least_files = least(lambda most: self.starts(resource.RLIMIT_NOFILE, most), 64, 1)
 
     def start(self, arguments, cwd, limits=(), user=None, stdin=subprocess.DEVNULL):
@@ -103,7 +106,7 @@ class Kitchen:
             if user is not None and os.geteuid() == 0:
                 os.setuid(user)
         environment = {**os.environ, 'PANACHE_MODEL': 'model.safetensors'}
-        return subprocess.run([self.program, *arguments], cwd=cwd, env=environment, stdin=stdin,
+        return subprocess.run([self.path, *arguments], cwd=cwd, env=environment, stdin=stdin,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=kSeconds,
                               preexec_fn=prepare, check=False)
 
@@ -120,9 +123,11 @@ class Kitchen:
         try:
             done = self.start(arguments, self.work, **options)
         except subprocess.TimeoutExpired:
-            raise Failure(f'panache {arguments}, {options}: still runs after {kSeconds} s') from None
+            raise Failure(f'panache {arguments}, {options}: takes more than {kSeconds} s') from None
         said = done.stderr.decode(errors='replace')
         what = f'panache {arguments}, {options}: exit code {done.returncode}, {said!r}'
+        if done.returncode == 127 and 'while loading shared libraries' in said:
+            return done, what  # What that needs differs a little from run to run.
         if done.returncode not in (0, 1):
             raise Failure(what)
         if done.returncode == 1 and 'panache: ' not in said:
@@ -157,11 +162,11 @@ class Kitchen:
         return done.returncode == 0
 
 
-def starve_of_memory(kitchen, verb, wanted, printed, steps):
+def starve_of_memory(program, verb, wanted, printed, steps):
     failed = successes = 0
-    most = kitchen.least_memory
+    most = program.least_memory
     while successes < 3:  # In a row: what is enough differs a little from run to run.
-        done = kitchen.starved(verb, wanted, printed, limits=[(resource.RLIMIT_AS, most)])
+        done = program.starved(verb, wanted, printed, limits=[(resource.RLIMIT_AS, most)])
         successes = successes + 1 if done else 0
         failed += not done
         most += max(1 << 12, (3 << 20) // steps)
@@ -170,20 +175,20 @@ def starve_of_memory(kitchen, verb, wanted, printed, steps):
     return failed
 
 
-def starve_of_files(kitchen, verb, wanted, printed):
+def starve_of_files(program, verb, wanted, printed):
     failed = 0
-    for most in range(kitchen.least_files, kitchen.least_files + 5):
+    for most in range(program.least_files, program.least_files + 5):
         limits = [(resource.RLIMIT_NOFILE, most)]
-        failed += not kitchen.starved(verb, wanted, printed, limits=limits)
+        failed += not program.starved(verb, wanted, printed, limits=limits)
     return failed
 
 
-def starve_of_room(kitchen, verb, wanted, printed, steps):
-    outputs = [content for name, content in wanted.items() if kitchen.inputs.get(name) != content]
+def starve_of_room(program, verb, wanted, printed, steps):
+    outputs = [content for name, content in wanted.items() if program.inputs.get(name) != content]
     largest = max(map(len, outputs), default=0)
     failed = 0
     for most in sorted({largest * i // steps for i in range(steps)}):
-        failed += not kitchen.starved(verb, wanted, printed, limits=[(resource.RLIMIT_FSIZE, most)])
+        failed += not program.starved(verb, wanted, printed, limits=[(resource.RLIMIT_FSIZE, most)])
     if largest and not failed:
         raise Failure(f'panache {verb}: never lacked room')
     return failed
@@ -198,37 +203,37 @@ def give_to_other(path):
             os.chown(os.path.join(where, name), kOther, kOther)
 
 
-def without_threads(kitchen, verb, wanted, printed):
-    kitchen.fresh()
-    give_to_other(kitchen.work)
-    done, what = kitchen.run(verb, user=kOther, limits=[(resource.RLIMIT_NPROC, 1)])
+def without_threads(program, verb, wanted, printed):
+    program.fresh()
+    give_to_other(program.work)
+    done, what = program.run(verb, user=kOther, limits=[(resource.RLIMIT_NPROC, 1)])
     if done.returncode != 0:
         raise Failure(what)
-    kitchen.compare(what, wanted, True)
+    program.compare(what, wanted, True)
 
 
-def without_leave(kitchen, verb, wanted):
-    kitchen.fresh()
-    os.chmod(kitchen.work, 0o555)
-    for name in os.listdir(kitchen.work):
-        os.chmod(os.path.join(kitchen.work, name), 0o444)
-    done, what = kitchen.run(verb, user=kOther)
-    writes = any(kitchen.inputs.get(name) != content for name, content in wanted.items())
+def without_leave(program, verb, wanted):
+    program.fresh()
+    os.chmod(program.work, 0o555)
+    for name in os.listdir(program.work):
+        os.chmod(os.path.join(program.work, name), 0o444)
+    done, what = program.run(verb, user=kOther)
+    writes = any(program.inputs.get(name) != content for name, content in wanted.items())
     if (done.returncode == 1) != writes:
         raise Failure(what)
-    os.chmod(kitchen.work, 0o755)
-    kitchen.compare(what, wanted, False)
+    os.chmod(program.work, 0o755)
+    program.compare(what, wanted, False)
 
 
-def vanishing_folder(kitchen):
+def vanishing_folder(program):
     """The folder of the output is removed while the input, a pipe, is still open."""
-    kitchen.fresh()
-    target = os.path.join(kitchen.work, 'folder')
+    program.fresh()
+    target = os.path.join(program.work, 'folder')
     os.mkdir(target)
     ours, theirs = os.pipe()
 
     def feed():
-        motion = kitchen.inputs['walk.bvh']
+        motion = program.inputs['walk.bvh']
         with os.fdopen(theirs, 'wb') as pipe:
             pipe.write(motion[:len(motion) // 2])
             pipe.flush()
@@ -238,10 +243,10 @@ def vanishing_folder(kitchen):
     feeder = threading.Thread(target=feed)
     feeder.start()
     with os.fdopen(ours, 'rb') as pipe:
-        done, what = kitchen.run(['stylize', '-', '--style', 'old=1', '-o', 'folder/out.bvh'],
+        done, what = program.run(['stylize', '-', '--style', 'old=1', '-o', 'folder/out.bvh'],
                                  stdin=pipe)
     feeder.join()
-    left = contents(kitchen.work)
+    left = contents(program.work)
     if done.returncode == 0 and len(left.get('folder/out.bvh', b'')) < 1000:
         raise Failure(what + ': nothing was written')
     for name in left:
@@ -249,12 +254,12 @@ def vanishing_folder(kitchen):
             raise Failure(f'{what}: left {name}')
 
 
-def changing_inputs(kitchen, count, draw):
+def changing_inputs(program, count, draw):
     """Files that another process cuts short, lengthens and replaces while they are read."""
     for name in ('walk.bvh', 'walk.glb', 'model.safetensors'):
-        kitchen.fresh()
-        whole = kitchen.inputs[name]
-        path = os.path.join(kitchen.work, name)
+        program.fresh()
+        whole = program.inputs[name]
+        path = os.path.join(program.work, name)
         over = threading.Event()
 
         def change():
@@ -274,56 +279,57 @@ def changing_inputs(kitchen, count, draw):
         try:
             motion = name if name != 'model.safetensors' else 'slow.bvh'
             for _ in range(count):
-                kitchen.run(['stylize', motion, '--style', 'old=1', '--force', '-o',
+                program.run(['stylize', motion, '--style', 'old=1', '--force', '-o',
                              'out' + os.path.splitext(motion)[1]])
         finally:
             over.set()
             other.join()
 
 
-def any_names(kitchen, count, draw):
+def any_names(program, count, draw):
     """Motion and outputs whose names are any bytes that a name may have."""
-    kitchen.fresh()
+    program.fresh()
     allowed = bytes(byte for byte in range(1, 256) if byte != ord('/'))
     for _ in range(count):
         length = draw.choice((1, 3, 20, 200))
         name = b'n' + bytes(draw.choices(allowed, k=length))
-        path = os.path.join(os.fsencode(kitchen.work), name + b'.bvh')
+        path = os.path.join(os.fsencode(program.work), name + b'.bvh')
         with open(path, 'wb') as file:
-            file.write(kitchen.inputs['walk.bvh'])
+            file.write(program.inputs['walk.bvh'])
         out = b'o' + name + b'.bvh'
-        done, what = kitchen.run([b'stylize', name + b'.bvh', b'--style', b'old=1', b'-o', out])
+        done, what = program.run([b'stylize', name + b'.bvh', b'--style', b'old=1', b'-o', out])
         if done.returncode != 0:
             raise Failure(what)
-        with open(os.path.join(os.fsencode(kitchen.work), out), 'rb') as file:
+        with open(os.path.join(os.fsencode(program.work), out), 'rb') as file:
             if not file.read().startswith(b'HIERARCHY'):
                 raise Failure(what)
-        done, what = kitchen.run([b'info', name + b'.bvh', b'--json'])
+        done, what = program.run([b'info', name + b'.bvh', b'--json'])
         if done.returncode != 0:
             raise Failure(what)
         os.remove(path)
+        os.remove(os.path.join(os.fsencode(program.work), out))
 
 
 def main():
     if len(sys.argv) != 4:
         sys.exit(__doc__)
-    program, model, steps = sys.argv[1], sys.argv[2], int(sys.argv[3])
+    path, model, steps = sys.argv[1], sys.argv[2], int(sys.argv[3])
     draw = random.Random(1)
     with tempfile.TemporaryDirectory() as folder:
-        kitchen = Kitchen(program, model, folder)
+        program = Program(path, model, folder)
         memory = files = room = 0
         for verb in kVerbs:
-            wanted, printed = kitchen.reference(verb)
-            memory += starve_of_memory(kitchen, verb, wanted, printed, steps)
-            files += starve_of_files(kitchen, verb, wanted, printed)
-            room += starve_of_room(kitchen, verb, wanted, printed, steps)
-            without_threads(kitchen, verb, wanted, printed)
-            without_leave(kitchen, verb, wanted)
-        vanishing_folder(kitchen)
-        changing_inputs(kitchen, steps, draw)
-        any_names(kitchen, steps, draw)
-        print(f'{len(kVerbs)} commands, {kitchen.runs} runs; {memory} lacked memory, {files} open files, '
-              f'{room} room on the disk')
+            wanted, printed = program.reference(verb)
+            memory += starve_of_memory(program, verb, wanted, printed, steps)
+            files += starve_of_files(program, verb, wanted, printed)
+            room += starve_of_room(program, verb, wanted, printed, steps)
+            without_threads(program, verb, wanted, printed)
+            without_leave(program, verb, wanted)
+        vanishing_folder(program)
+        changing_inputs(program, steps, draw)
+        any_names(program, steps, draw)
+        print(f'{len(kVerbs)} commands, {program.runs} runs; {memory} lacked memory, '
+              f'{files} open files, {room} room on the disk')
 
 
 try:
