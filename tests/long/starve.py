@@ -314,6 +314,12 @@ def main():
     if len(sys.argv) != 4:
         sys.exit(__doc__)
     path, model, steps = sys.argv[1], sys.argv[2], int(sys.argv[3])
+    if os.geteuid() == 0:
+        try:
+            subprocess.run(['true'], preexec_fn=lambda: os.setuid(kOther), check=True)
+        except (OSError, subprocess.SubprocessError):
+            print('starve: not run: root cannot become another user here')
+            sys.exit(77)
     draw = random.Random(1)
     with tempfile.TemporaryDirectory() as folder:
         program = Program(path, model, folder)
