@@ -9,8 +9,9 @@
 - A folder that vanishes while its file is made; STEPS times each, inputs that are cut short or
   replaced while they are read, and names of any bytes.
 
-Ends with 1 and a message where a run is ended by a signal or takes longer than kSeconds, fails
-without a message, leaves an output that is not whole or a file half made, or changes an input."""
+Ends with 1 and a message where a run is ended by a signal or takes longer than kSeconds, or fails
+without a message, or, unless its inputs change, leaves an output that is not whole or changes an
+input."""
 import os
 import random
 import resource
@@ -118,7 +119,7 @@ class Program:
         shutil.copytree(self.made, self.work)
 
     def run(self, arguments, **options):
-        """What became of a run, after its exit code and what it has left were looked at."""
+        """What became of a run, with a description; fails where its exit code or message is wrong."""
         self.runs += 1
         try:
             done = self.start(arguments, self.work, **options)
