@@ -119,7 +119,7 @@ class Program:
         shutil.copytree(self.made, self.work)
 
     def run(self, arguments, **options):
-        """What became of a run, with a description; fails where its exit code or message is wrong."""
+        """What became of a run, and a description; fails where exit code or message is wrong."""
         self.runs += 1
         try:
             done = self.start(arguments, self.work, **options)
