@@ -21,11 +21,12 @@ Result<void> retarget_file(FileJob& file, const CharacterFile& character,
   if (!motion) return motion.error();
   Result<std::vector<int>> picked = pick_clips(**motion, flags.clip, file.input);
   if (!picked) return picked.error();
+  const std::vector<std::string> all_names = (*motion)->clip_names();
   std::vector<NewMotion> motions;
   std::vector<std::string> names;
   std::vector<Error> failures;
   for (const int which : *picked) {
-    const std::string name = (*motion)->clip_names()[static_cast<size_t>(which)];
+    const std::string& name = all_names[static_cast<size_t>(which)];
     const std::string place = name.empty() ? file.input : file.input + ": " + name;
     const Clip& from = (*motion)->clip(which);
     const Result<Rig> rig = make_rig(from, rig_options, place);

@@ -82,9 +82,10 @@ std::string result_name(const std::string& title, const Wanted& wanted) {
   return title + " (" + styles + ")";
 }
 
-Result<RestyledClip> restyle_clip(const MotionFile& motion, int which, const Wanted& wanted,
-                                  FileJob& file, const std::function<void(double)>& progress) {
-  const std::string name = motion.clip_names()[static_cast<size_t>(which)];
+// name: of the motion in its file.
+Result<RestyledClip> restyle_clip(const MotionFile& motion, int which, const std::string& name,
+                                  const Wanted& wanted, FileJob& file,
+                                  const std::function<void(double)>& progress) {
   const std::string place = name.empty() ? file.input : file.input + ": " + name;
   Result<Rig> rig = make_rig(motion.clip(which), wanted.rig, place);
   if (!rig) return rig.error();
@@ -174,25 +175,28 @@ Result<void> stylize_file(FileJob& file, const Wanted& wanted, const StylizeOpti
     auto fits = check_fits(**motion, *picked, file.input, file.output);
     if (!fits) return fits;
   }
+  const std::vector<std::string> names = (*motion)->clip_names();
   std::vector<RestyledClip> clips;
   std::vector<Error> failures;
   for (size_t i = 0; i < picked->size(); ++i) {
     const auto part = [&](double done) {
       progress((static_cast<double>(i) + done) / static_cast<double>(picked->size()));
     };
-    Result<RestyledClip> clip = restyle_clip(**motion, (*picked)[i], wanted, file, part);
+    const int which = (*picked)[i];
+    Result<RestyledClip> clip =
+        restyle_clip(**motion, which, names[static_cast<size_t>(which)], wanted, file, part);
     if (clip) {
       clips.push_back(*std::move(clip));
-    } else {
-      failures.push_back(clip.error());
+      continue;
     }
+    // All motions of a file have the same joints: what is no person in one of them is none.
+    if (picked->size() > 1 &&
+        clip.error().message.find(": no humanoid found: ") != std::string::npos) {
+      return Error{clip.error().message + "; so its other motions are not restyled either"};
+    }
+    failures.push_back(clip.error());
   }
   if (clips.empty()) return failures.front();
-  // All motions of a file have the same joints: what is no person in one of them is none.
-  for (const Error& failure : failures) {
-    if (failure.message.find(": no humanoid found: ") == std::string::npos) continue;
-    return Error{failure.message + "; so its other motions are not restyled either"};
-  }
   for (const Error& failure : failures) {
     file.notes.push_back(failure.message + "; this motion is left unchanged");
   }

@@ -19,7 +19,6 @@ namespace fs = std::filesystem;
 
 constexpr size_t kMaxBones = 10'000;
 constexpr int kMaxDepth = 1'000;
-constexpr size_t kMaxPoses = 50'000'000;  // Joints times frames.
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
@@ -351,7 +350,10 @@ Skeleton skeleton_of(const Acclaim& file) {
 class AmcReader {
  public:
   AmcReader(const std::string& text, const std::string& name, const Acclaim& file)
-      : words_(text, name), file_(file), per_degree_(file.per_degree) {
+      : words_(text, name),
+        file_(file),
+        per_degree_(file.per_degree),
+        max_poses_(std::max<size_t>(1'000'000, 4 * text.size())) {
     for (size_t i = 0; i < file.bones.size(); ++i) places_.emplace(file.bones[i].name, i);
   }
 
@@ -382,8 +384,9 @@ class AmcReader {
   Result<void> begin_frame(const Clip& rest) {
     uint64_t number = 0;
     TextCursor& cursor = words_.cursor();
-    if (static_cast<size_t>(clip_.frames) >= kMaxPoses / clip_.joints()) {
-      return cursor.error("at most " + std::to_string(kMaxPoses / clip_.joints()) + " frames");
+    if (static_cast<size_t>(clip_.frames) >= max_poses_ / clip_.joints()) {
+      return cursor.error("at most " + std::to_string(max_poses_ / clip_.joints()) + " frames of " +
+                          std::to_string(clip_.joints()) + " joints in a file of this size");
     }
     if (!cursor.take_count(number) || words_.more_on_line()) {
       return cursor.error("the number of a frame on a line of its own");
@@ -433,6 +436,8 @@ class AmcReader {
   Words words_;
   const Acclaim& file_;
   double per_degree_;
+  // Joints times frames. A frame may be a number alone, so the bytes do not bound them.
+  size_t max_poses_;
   std::map<std::string, size_t> places_;
   Clip clip_;
 };

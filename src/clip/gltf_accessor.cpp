@@ -214,6 +214,11 @@ class AccessorReader {
       return false;
     }
     if (count == 0) return true;
+    if (count > out.count) {
+      return fail("expected at most " + std::to_string(out.count) +
+                  " sparse elements, as many as there are elements, found " +
+                  std::to_string(count));
+    }
     if (!indices || !values) return fail("expected indices and values in sparse, found a part");
     if (!checker_.count(*indices, member_path(path, "indices"), "componentType", index_type)) {
       return false;

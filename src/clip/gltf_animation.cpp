@@ -33,6 +33,10 @@ class ChannelReader {
   bool read() {
     const GltfJson* list = nullptr;
     if (!checker_.list(document_.container.json, "", "animations", list)) return false;
+    if (list->size() > kGltfMaxAnimations) {
+      return checker_.fail("animations", "expected at most " + std::to_string(kGltfMaxAnimations) +
+                                             ", found " + std::to_string(list->size()));
+    }
     document_.animations.resize(list->size());
     for (size_t a = 0; a < list->size(); ++a) {
       if (!read_animation((*list)[a], a)) return false;
@@ -127,10 +131,12 @@ class ClipReader {
       if (channels[c].path == GltfPath::other) continue;
       if (!read_gltf_track(document_, which, channels[c], checker_, tracks_[c])) return false;
       values_ += tracks_[c].times.size() + tracks_[c].numbers.size();
-      if (values_ > kGltfMaxValues) {
-        return checker_.fail(animation_path(which), "expected at most " +
-                                                        std::to_string(kGltfMaxValues) +
-                                                        " numbers in all animations, found more");
+      const size_t most = gltf_max_values(document_.container.size);
+      if (values_ > most) {
+        return checker_.fail(animation_path(which), "expected at most " + std::to_string(most) +
+                                                        " numbers in all animations of a file of " +
+                                                        std::to_string(document_.container.size) +
+                                                        " bytes, found more");
       }
     }
     return true;
@@ -166,12 +172,13 @@ class ClipReader {
     const FrameGrid grid = find_grid(deciding_track(animation), first, last);
     const double joints = static_cast<double>(document_.joint_nodes.size());
     poses_ += grid.frames * joints;
+    const size_t most = gltf_max_poses(document_.container.size);
     if (!(grid.frames <= static_cast<double>(kGltfMaxFrames)) ||
-        !(poses_ <= static_cast<double>(kGltfMaxPoses))) {
+        !(poses_ <= static_cast<double>(most))) {
       return checker_.fail(animation_path(which),
                            "expected at most " + std::to_string(kGltfMaxFrames) +
                                " frames, and frames times joints in all animations at most " +
-                               std::to_string(kGltfMaxPoses) + ", found more");
+                               std::to_string(most) + ", found more");
     }
     animation.start = grid.start;
     animation.clip.skeleton = document_.skeleton;

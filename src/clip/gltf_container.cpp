@@ -50,6 +50,7 @@ class ContainerReader {
       return checker_.fail(
           "", "expected at most 2 GB, found " + std::to_string(bytes.size()) + " bytes");
     }
+    out_.size = bytes.size();
     out_.binary = bytes.size() >= 4 && read_uint32(bytes, 0) == kMagic;
     if (!(out_.binary ? read_chunks(bytes) : read_text(bytes))) return false;
     return check_version() && read_buffers() && embed_images();
@@ -137,6 +138,7 @@ class ContainerReader {
     if (!content) return checker_.fail(member_path(path, "uri"), content.error().message);
     bytes = std::move(*content);
     fetched_ += bytes.size();
+    out_.size += bytes.size();
     if (fetched_ > kMaxFetchedBytes) {
       return checker_.fail(member_path(path, "uri"),
                            "expected at most 1 GB in other files in all, found more");

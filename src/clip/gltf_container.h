@@ -13,6 +13,7 @@
 namespace panache {
 
 struct GltfContainer {
+  size_t size = 0;       // Bytes of the file and of what it points to.
   bool binary = false;   // GLB; else JSON text.
   bool has_bin = false;  // The GLB's own chunk is the first buffer.
   GltfJson json;

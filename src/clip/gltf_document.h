@@ -2,6 +2,7 @@
 // What is kept of a glTF file: its JSON and data, untouched, and what they mean for motion. Private
 // to the folder.
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -57,14 +58,18 @@ struct GltfDocument {
   Clip rest;  // One frame; the clip of a file without animations.
 };
 
-// What a file may not exceed, so that no small file makes a large motion.
+// What a file may not exceed, so that no small file makes a large motion or takes long to read.
 inline constexpr size_t kGltfMaxNodes = 10'000;
 inline constexpr int kGltfMaxDepth = 1'000;
 inline constexpr size_t kGltfMaxNameBytes = 1'000;
-inline constexpr size_t kGltfMaxFrames = 500'000;       // Of an animation.
-inline constexpr size_t kGltfMaxPoses = 50'000'000;     // Joints times frames, all animations.
+inline constexpr size_t kGltfMaxFrames = 500'000;  // Of an animation.
+inline constexpr size_t kGltfMaxAnimations = 10'000;
 inline constexpr size_t kGltfMaxSkeletons = 1'000'000;  // Joints times animations.
-inline constexpr size_t kGltfMaxValues = 100'000'000;   // Numbers read, all channels.
+// Joints times frames of all animations, where the file has `bytes`. Frames between keys take none.
+inline size_t gltf_max_poses(size_t bytes) { return std::max<size_t>(3'000'000, 4 * bytes); }
+// Numbers that all channels have, or those that all vertices have in the joints' weights; each
+// byte may be read by several.
+inline size_t gltf_max_values(size_t bytes) { return std::max<size_t>(10'000'000, 4 * bytes); }
 
 // gltf_nodes.cpp: the tree of nodes, with what skins and humanoids say of them.
 bool read_gltf_nodes(GltfDocument& document, GltfChecker& checker);

@@ -19,7 +19,7 @@ using GltfJson = nlohmann::ordered_json;
 // What a file's JSON may not exceed, so that no file can exhaust the stack or the patience of those
 // who write it back: writing recurses, and finding a member takes as long as there are members.
 inline constexpr int kGltfMaxJsonDepth = 200;
-inline constexpr int kGltfMaxJsonMembers = 4'000;  // Of one object.
+inline constexpr int kGltfMaxJsonMembers = 1'000;  // Of one object.
 
 // Reads members and remembers the first thing that is wrong. Functions that check return whether
 // all is well; `path` is where in the JSON an object stands ("animations[1]"), and names are said

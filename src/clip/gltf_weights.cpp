@@ -8,11 +8,13 @@ namespace panache {
 namespace {
 
 // Sums what the vertices of skinned meshes weigh on each joint. What cannot be read, such as a
-// compressed mesh, says nothing: motion does not depend on it.
+// compressed mesh, says nothing: motion does not depend on it. Nor does what is too much to read.
 class WeightReader {
  public:
   explicit WeightReader(GltfDocument& document)
-      : document_(document), json_(document.container.json) {}
+      : document_(document),
+        json_(document.container.json),
+        left_(gltf_max_values(document.container.size)) {}
 
   void read() {
     for (const GltfJson& node : list(json_, "nodes")) {
@@ -22,6 +24,7 @@ class WeightReader {
       const GltfJson& primitives =
           list(list(json_, "meshes")[static_cast<size_t>(mesh)], "primitives");
       for (const GltfJson& primitive : primitives) {
+        if (left_ == 0) return;
         for (int set = 0; set < kMaxSets && add_set(primitive, set, skin, joints); ++set) {
         }
       }
@@ -48,15 +51,17 @@ class WeightReader {
 
   // One set of four joints per vertex; whether there was one.
   bool add_set(const GltfJson& primitive, int set, int skin, const GltfJson& joints) {
+    if (left_ == 0) return false;
+    --left_;
     if (!primitive.is_object()) return false;
     const auto attributes = primitive.find("attributes");
     if (attributes == primitive.end()) return false;
     const std::string number = std::to_string(set);
     GltfValues which, weights;
-    if (!values(*attributes, "JOINTS_" + number, which) ||
-        !values(*attributes, "WEIGHTS_" + number, weights)) {
-      return false;
-    }
+    const bool found = values(*attributes, "JOINTS_" + number, which) &&
+                       values(*attributes, "WEIGHTS_" + number, weights);
+    left_ -= std::min(left_, which.numbers.size() + weights.numbers.size());
+    if (!found) return false;
     for (size_t i = 0; i < std::min(which.numbers.size(), weights.numbers.size()); ++i) {
       const auto place = static_cast<size_t>(std::max(which.numbers[i], 0.0f));
       if (!(weights.numbers[i] > 0) || place >= joints.size()) continue;
@@ -76,6 +81,8 @@ class WeightReader {
 
   GltfDocument& document_;
   const GltfJson& json_;
+  // Numbers and sets that may still be read: nodes and primitives may share a large mesh.
+  size_t left_;
 };
 
 }  // namespace

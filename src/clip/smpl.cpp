@@ -142,6 +142,10 @@ class SmplFile final : public MotionFile {
     const std::string place = name + ": " + array;
     Result<NpyArray> read = parse_npy(member->bytes, place);
     if (!read) return read.error();
+    if (read->count() > 3 * kMaxPoses) {
+      return Error{place + ": expected at most " + std::to_string(3 * kMaxPoses) +
+                   " numbers, found " + std::to_string(read->count())};
+    }
     Result<std::vector<double>> numbers = npy_numbers(*read, place);
     if (!numbers) return numbers.error();
     return Table{read->type, read->shape, *std::move(numbers)};

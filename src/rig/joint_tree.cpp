@@ -25,6 +25,9 @@ JointTree::JointTree(const Skeleton& skeleton, std::span<const JointPositions> p
   for (int j = 0; j < count(); ++j) {
     if (parent(j) >= 0) children_[parent(j)].push_back(j);
   }
+  for (int j = 0; j < count(); ++j) {
+    forks_.push_back(forks(parent(j)) + (children(j).size() > 1 ? 1 : 0));
+  }
 }
 
 bool JointTree::is_above(int above, int joint) const {

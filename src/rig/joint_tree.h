@@ -24,6 +24,8 @@ class JointTree {
   // Whether `above` is `joint` or one of its ancestors.
   bool is_above(int above, int joint) const;
   int depth(int joint) const;  // 1 for a root.
+  // How many of the joint and what is above it have more than one child.
+  int forks(int joint) const { return joint < 0 ? 0 : forks_[joint]; }
   // The lowest joint that is above both; -1 where they have no tree in common, or one is -1.
   int meeting(int a, int b) const;
 
@@ -41,6 +43,7 @@ class JointTree {
   std::span<const JointPositions> poses_;
   std::vector<std::vector<int>> children_;
   std::vector<float> reach_;
+  std::vector<int> forks_;
   float nearness_ = 0;
 };
 

@@ -15,6 +15,9 @@ struct Usual {
 };
 constexpr float kRatioDeviation = 0.2f;
 constexpr float kBeyondFork = 9;
+// No limb of a person has more joints, fingers and twists included. All ways to choose three of
+// them are tried.
+constexpr size_t kLongestLimb = 32;
 constexpr Usual kArm = {1.1f, 0.42f, 0.2f, 0.55f, 0.55f, 1.4f};
 constexpr Usual kLeg = {1.0f, 0.13f, 0.12f, 0.45f, 0.6f, 1.2f};
 
@@ -42,9 +45,8 @@ float limb_oddity(const JointTree& tree, LimbKind kind, int branch, const Limb& 
                         : odd_of(std::log(beyond / usual.beyond) / usual.beyond_deviation);
   // Fingers leave at the hand, and none of them is the hand.
   if (limb.end >= 0) {
-    for (int j = tree.parent(limb.end); j != limb.lower && j >= 0; j = tree.parent(j)) {
-      if (tree.children(j).size() > 1) odd += kBeyondFork;
-    }
+    const int passed = tree.forks(tree.parent(limb.end)) - tree.forks(limb.lower);
+    odd += kBeyondFork * static_cast<float>(passed);
   }
   return odd;
 }
@@ -81,6 +83,7 @@ Limb most_usual_limb(const JointTree& tree, LimbKind kind, int branch,
     if (odd < least) least = odd, best = limb;
   };
   const size_t n = chain.size();
+  if (end < 0 && n > kLongestLimb) return best;
   for (size_t u = 0; u < n; ++u) {
     for (size_t l = u + 1; l < n; ++l) {
       if (end >= 0) {

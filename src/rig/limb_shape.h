@@ -30,7 +30,7 @@ inline int lowest_joint(const Limb& limb) { return limb.end >= 0 ? limb.end : li
 
 // How unlike a person's limb it is: the sum of squared deviations from usual proportions, 0 for a
 // usual limb, a few units for an unusual one. branch: the joint where it leaves the torso. `limb`
-// has its upper and lower joint.
+// has its upper and lower joint, and its end, if it has one, is below them.
 float limb_oddity(const JointTree& tree, LimbKind kind, int branch, const Limb& limb);
 
 // The lowest joint on the longest way down from `joint`.
@@ -41,7 +41,8 @@ int farthest_below(const JointTree& tree, int joint);
 std::vector<int> limb_chain(const JointTree& tree, int branch, int tip);
 
 // The limb of least oddity among the joints of a chain (from the torso down); with `end` that
-// joint, which is the last of the chain, is its end. All -1 where the chain is too short.
+// joint, which is the last of the chain, is its end. All -1 where the chain is too short
+// or, without `end`, longer than any limb.
 Limb most_usual_limb(const JointTree& tree, LimbKind kind, int branch,
                      const std::vector<int>& chain, int end = -1);
 

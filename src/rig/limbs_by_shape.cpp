@@ -16,10 +16,14 @@ constexpr float kOddest = 14;
 // The cosine between legs and torso of a body that stands.
 constexpr float kUpright = 0.5f;
 
+// Of more pairs the longest are looked at.
+constexpr size_t kMostPairs = 256;
+
 // Two limbs of one length that leave the torso at one joint.
 struct Pair {
   int branch = -1;
   std::array<int, 2> tops;  // Children of the branch.
+  float reach = 0;          // Of the shorter one, file units.
   std::array<Limb, 2> arms, legs;
   float arm_oddity = INFINITY, leg_oddity = INFINITY;
 };
@@ -96,12 +100,18 @@ std::vector<Pair> find_pairs(const JointTree& tree) {
       // Four are enough: no joint of a person has more limbs of one length.
       for (size_t b = a + 1; b < std::min(reaches.size(), a + 4); ++b) {
         if (reaches[b].first < (1 - kUneven) * reaches[a].first) break;
-        Pair pair{j, {reaches[a].second, reaches[b].second}, {}, {}};
-        pair.arm_oddity = fit(tree, LimbKind::arm, pair, pair.arms);
-        pair.leg_oddity = fit(tree, LimbKind::leg, pair, pair.legs);
-        pairs.push_back(pair);
+        pairs.push_back({j, {reaches[a].second, reaches[b].second}, reaches[b].first, {}, {}});
       }
     }
+  }
+  if (pairs.size() > kMostPairs) {
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const Pair& a, const Pair& b) { return a.reach > b.reach; });
+    pairs.resize(kMostPairs);
+  }
+  for (Pair& pair : pairs) {
+    pair.arm_oddity = fit(tree, LimbKind::arm, pair, pair.arms);
+    pair.leg_oddity = fit(tree, LimbKind::leg, pair, pair.legs);
   }
   return pairs;
 }

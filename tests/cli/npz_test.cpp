@@ -181,6 +181,26 @@ TEST_F(Npz, damaged_archives_get_a_message) {
       "archive)\n");
 }
 
+TEST_F(Npz, a_small_archive_does_not_unpack_to_a_large_one) {
+  if (!has_numpy()) GTEST_SKIP() << "no Python with numpy";
+  ASSERT_TRUE(
+      python("import numpy as n\n"
+             "for name, frames in ('some', 25000), ('more', 30000):\n"
+             "    n.savez_compressed(name, poses=n.zeros((frames, 156)), "
+             "trans=n.zeros((frames, 3)), mocap_framerate=60)\n"));
+  EXPECT_EQ(run({"info", "some.npz"}).exit, 0);
+  const Ran ran = run({"info", "more.npz"});
+  EXPECT_EQ(ran.exit, 1);
+  EXPECT_TRUE(
+      ran.err.starts_with("panache: more.npz: expected at most 32 MB unpacked in a file "
+                          "of "))
+      << ran.err;
+  EXPECT_TRUE(
+      ran.err.ends_with(" bytes, found more; save it with numpy.savez, without "
+                        "compression\n"))
+      << ran.err;
+}
+
 TEST_F(Npz, what_is_no_humanoid_stays_out) {
   write("small.glb", to_glb(small_gltf()));
   const Ran ran = run({"convert", "small.glb", "-o", "small.npz"});

@@ -305,6 +305,16 @@ TEST_F(Acclaim, limits_of_bones_and_nesting) {
             "05.asf: expected at most 1000 bones one below the other, found more");
 }
 
+TEST_F(Acclaim, a_small_file_makes_no_long_motion_of_many_bones) {
+  // 10,000 joints with the root: 100 frames in a file of less than 250 KB.
+  std::string amc = ":DEGREES\n";
+  for (int i = 1; i <= 100; ++i) amc += std::to_string(i) + "\n";
+  EXPECT_EQ(rejection(asf_of(9'999, false), amc), "(accepted)");
+  EXPECT_EQ(rejection(asf_of(9'999, false), amc + "101\n"),
+            "05_10.amc:102:1: expected at most 100 frames of 10000 joints in a file of this size, "
+            "found '101'");
+}
+
 // A message or a clip that keeps its promises.
 bool check_harmless(const std::string& amc, const std::string& path) {
   auto file = parse_amc(amc, path);

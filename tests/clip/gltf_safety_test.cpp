@@ -170,9 +170,9 @@ TEST(GltfSafety, every_missing_member_and_item_is_harmless) {
 
 TEST(GltfSafety, many_animations_of_one_name_take_no_time) {
   GltfParts parts = test::small_gltf();
-  for (int i = 0; i < 20'000; ++i) parts.json["animations"].push_back({{"name", "nod"}, {"a", 0}});
+  for (int i = 0; i < 9'998; ++i) parts.json["animations"].push_back({{"name", "nod"}, {"a", 0}});
   const auto file = must_read(parts);
-  EXPECT_EQ(file->clip_names().back(), "nod (20001)");
+  EXPECT_EQ(file->clip_names().back(), "nod (9999)");
 }
 
 }  // namespace

@@ -252,6 +252,24 @@ TEST(Mapping, a_note_says_so_where_left_and_right_are_guessed) {
   EXPECT_LT(guessed->confidence[index(left_foot)], seen->confidence[index(left_foot)] / 2);
 }
 
+TEST(Mapping, a_skirt_of_hundreds_of_equal_joints_hides_no_limb) {
+  std::vector<Line> lines = nameless();
+  lines.push_back({"k*", "j*", left_toes});
+  MadeUp rig = make_up(lines, "1", "2");
+  for (int i = 0; i < 300; ++i) {
+    Joint joint = rig.skeleton.joints[rig.joint.at("b")];
+    joint.name = "l";
+    joint.offset = {0.2f * std::cos(0.02f * static_cast<float>(i)), -0.3f,
+                    0.2f * std::sin(0.02f * static_cast<float>(i))};
+    rig.positions.push_back(rig.positions[rig.joint.at("a")] + joint.offset);
+    rig.skeleton.joints.push_back(joint);
+  }
+  const Result<Mapping> got = map_made_up(rig);
+  ASSERT_TRUE(got.ok()) << got.error().message;
+  EXPECT_EQ(got->joint_of[index(left_hand)], rig.joint.at("g1"));
+  EXPECT_EQ(got->joint_of[index(right_foot)], rig.joint.at("j2"));
+}
+
 TEST(Mapping, where_there_are_no_toes_elbows_tell_left_from_right) {
   std::vector<Line> end_on_foot = nameless();
   end_on_foot.push_back({"k*", "j*", left_toes, 0});
