@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""hostile.py PROGRAM MODEL MEGABYTES: files of about that size, made to cost time or memory.
+"""hostile.py PROGRAM MODEL MEGABYTES [SLACK]: files of that size, made to cost time or memory.
 
 Each is read by `panache info`, restyled, and converted to another format. A run may take a second
 of processor time and kSecondsPerMegabyte for the file, and as much memory as kMemoryBase and
 kMemoryPerByte for the file. Of an archive that is smaller than what is in it, that counts. It ends
-with 0, or with 1 and a message.
+with 0, or with 1 and a message. SLACK allows that many times as much, for slow and busy machines.
 
 Ends with 1 and the runs that did not, and prints what cost most; with -v after these, all runs."""
 import io
@@ -268,13 +268,9 @@ def model_files(size):
         for i in range(size // 2 // 60)) + b'}', bytes(size // 8 * 4))
 
 
-class Failure(Exception):
-    pass
-
-
 class Runs:
-    def __init__(self, program, model, folder):
-        self.program, self.model, self.folder = program, model, folder
+    def __init__(self, program, model, slack, folder):
+        self.program, self.model, self.slack, self.folder = program, model, slack, folder
         self.count = self.rejected = 0
         self.slowest, self.largest = (0, ''), (0, '')
         self.problems = []
@@ -285,8 +281,8 @@ class Runs:
             with zipfile.ZipFile(path) as archive:
                 size = max(size, min(sum(member.file_size for member in archive.infolist()),
                                      kUnpacked))
-        seconds = 1 + size / 1e6 * kSecondsPerMegabyte
-        memory = kMemoryBase + kMemoryPerByte * size
+        seconds = self.slack * (1 + size / 1e6 * kSecondsPerMegabyte)
+        memory = self.slack * (kMemoryBase + kMemoryPerByte * size)
 
         def limit():
             resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
@@ -330,12 +326,14 @@ class Runs:
 
 
 def main():
-    if len(sys.argv) < 4:
+    wanted = [argument for argument in sys.argv[1:] if argument != '-v']
+    if len(wanted) not in (3, 4):
         sys.exit(__doc__)
-    program, model = map(os.path.abspath, sys.argv[1:3])
-    size = int(float(sys.argv[3]) * 1e6)
+    program, model = map(os.path.abspath, wanted[:2])
+    size = int(float(wanted[2]) * 1e6)
+    slack = float(wanted[3]) if len(wanted) == 4 else 1.
     with tempfile.TemporaryDirectory() as folder:
-        runs = Runs(program, model, folder)
+        runs = Runs(program, model, slack, folder)
         for kind, files in (('.bvh', bvh_files), ('.glb', gltf_files), ('.npz', npz_files),
                             ('.safetensors', model_files)):
             for name, content in files(size):
