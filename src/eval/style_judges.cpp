@@ -14,9 +14,19 @@ constexpr ClassifierSettings kRobust = {
 constexpr int kGroups = 4;       // Of actions that are left out in turn.
 constexpr int kJudgedTakes = 6;  // Of a style and action.
 
+// No style where an action was captured in none but neutral: a judge would learn that whoever
+// kicks is neutral, and the clips that it is to judge are such actions.
 std::vector<std::string> labels_of(const std::vector<Take>& takes) {
+  std::set<std::pair<int, std::string>> styled;  // Set, content.
+  for (const Take& take : takes) {
+    if (!take.row.neutral) styled.emplace(take.row.set, take.row.content);
+  }
   std::vector<std::string> labels;
-  for (const Take& take : takes) labels.push_back(take.row.style);
+  labels.reserve(takes.size());
+  for (const Take& take : takes) {
+    const bool known = styled.contains({take.row.set, take.row.content});
+    labels.push_back(known ? take.row.style : "");
+  }
   return labels;
 }
 
