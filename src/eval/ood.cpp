@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr float kLimitTolerance_deg = 5;  // A joint this little beyond its limit is not counted.
 constexpr float kFloorTolerance = 0.03f;  // Metres.
+constexpr float kJump = 0.06f;            // Metres.
 constexpr double kStill = 0.01;           // m/s: a coordinate that deviates less does not move.
 
 Result<OodRow> style_input(const System& system, const TestInput& input,
@@ -105,6 +106,35 @@ double velocity_correlation(const Take& from, const Take& to) {
   return count > 0 ? sum / count : kNotMeasured;
 }
 
+// How far a joint is from halfway between where it is a frame before and a frame later, doubled:
+// the length of a jump where it moves evenly but for that, in the body frame, metres.
+float kink(const Take& take, int frame, int joint) {
+  const auto at = [&](int f) { return take.body[f][joint]; };
+  return length(at(frame + 1) + at(frame - 1) - at(frame) * 2.0f);
+}
+
+// Frames in which a joint of `to` jumps further than it does in `from` at that time.
+int count_jumps(const Take& from, const Take& to) {
+  constexpr int kNear = 2;  // Frames: an impact may come that much earlier or later.
+  int count = 0;
+  const int last = std::min(from.frames(), to.frames()) - 2;
+  for (int f = 1; f <= last; ++f) {
+    const auto jumps = [&](int joint) {
+      float usual = 0;
+      for (int i = std::max(1, f - kNear); i <= std::min(last, f + kNear); ++i) {
+        usual = std::max(usual, kink(from, i, joint));
+      }
+      return kink(to, f, joint) > std::max(usual + kJump, 2 * usual);
+    };
+    for (int j = 0; j < kHumanJoints; ++j) {
+      if (!jumps(j)) continue;
+      ++count;
+      break;
+    }
+  }
+  return count;
+}
+
 float lowest_toe(const HumanPositions& body) {
   return std::min(body[index(kToes[0])].y, body[index(kToes[1])].y);
 }
@@ -134,6 +164,7 @@ OodRow compare_ood(const Take& input, const Take& output) {
       share_of_frames(input, output, [](const HumanPositions& from, const HumanPositions& to) {
         return lowest_toe(to) < std::min(0.0f, lowest_toe(from)) - kFloorTolerance;
       });
+  row.jumps = count_jumps(input, output);
   row.skating_ratio = skating_ratio(output);
   row.input_skating_ratio = skating_ratio(input);
   row.drift_m = length(output.root.back().position - input.root.back().position);

@@ -49,6 +49,8 @@ struct OodRow {
   // keeps at that frame.
   double beyond_limits = 0;
   double under_floor = 0;  // Share of frames with a toe 3 cm lower than floor and lowest input toe.
+  // Frames in which a joint jumps by more than 6 cm, and twice as far as in the input at that time.
+  int jumps = 0;
   double skating_ratio = 0, input_skating_ratio = 0;
   double drift_m = 0;  // How far the hips end from where the input's do, along the ground.
   double gate = 1;     // Mean of the stylizer's gate.

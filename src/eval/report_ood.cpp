@@ -100,6 +100,10 @@ OodSummary summarize_ood(const std::vector<OodRow>& rows) {
   out.under_floor_mean = finite_mean(under);
   out.under_floor_max = quantile(under, 1);
   out.under_floor_rows = above_zero(under);
+  for (const OodRow& row : rows) {
+    out.jumps += static_cast<size_t>(row.jumps);
+    out.jump_rows += row.jumps > 0;
+  }
   out.skating_ratio_mean = finite_mean(values_of(rows, &OodRow::skating_ratio));
   out.input_skating_ratio_mean = finite_mean(values_of(rows, &OodRow::input_skating_ratio));
   out.drift_m_max = quantile(values_of(rows, &OodRow::drift_m), 1);

@@ -65,6 +65,7 @@ std::string ood_table(const std::vector<const SystemReport*>& systems) {
   table.add_columns("moved cm", {"mean"});
   table.add_columns("beyond limits", {"frames", "worst pair", "pairs"});
   table.add_columns("under the floor", {"frames", "worst pair", "pairs"});
+  table.add_columns("jumps", {"frames", "pairs"});
   table.add_columns("skating", {"output", "input"});
   table.add_columns("drift m", {"largest"});
   table.add_columns("gate", {"mean"});
@@ -84,6 +85,8 @@ std::string ood_table(const std::vector<const SystemReport*>& systems) {
                                  {number_text(of.under_floor_mean, 4)},
                                  {number_text(of.under_floor_max, 4)},
                                  {std::to_string(of.under_floor_rows)},
+                                 {std::to_string(of.jumps)},
+                                 {std::to_string(of.jump_rows)},
                                  {number_text(of.skating_ratio_mean, 3)},
                                  {number_text(of.input_skating_ratio_mean, 3)},
                                  {number_text(of.drift_m_max, 2)},
@@ -163,13 +166,14 @@ std::string worst_rows(std::vector<OodRow> rows,
   if (rows.size() > kShown) rows.resize(kShown);
   HtmlTable table("clip, style");
   table.add_columns("", {"jerk / input", "velocity correlation", "moved cm", "beyond limits",
-                         "under the floor", "skating", "of the input", "drift m", "gate"});
+                         "under the floor", "jumps", "skating", "of the input", "drift m", "gate"});
   for (const OodRow& row : rows) {
     table.add_row(row.clip + ", " + row.style, {{number_text(row.jerk_ratio, 2)},
                                                 {number_text(row.velocity_correlation, 3)},
                                                 {number_text(row.distance_cm, 2)},
                                                 {number_text(row.beyond_limits, 3)},
                                                 {number_text(row.under_floor, 3)},
+                                                {std::to_string(row.jumps)},
                                                 {number_text(row.skating_ratio, 3)},
                                                 {number_text(row.input_skating_ratio, 3)},
                                                 {number_text(row.drift_m, 2)},

@@ -38,6 +38,7 @@ constexpr Definition kDefinitions[] = {
     {"under the floor",
      "Share of frames with a toe 3 cm lower than both the floor and the "
      "input."},
+    {"jumps", "Frames in which a joint jumps by more than 6 cm that the input lacks."},
     {"pairs", "A pair is an out-of-distribution clip in a style."},
     {"drift", "Distance between the final hip positions of output and input on the ground."},
     {"gate", "Share of the dynamic change that the gate lets through: 1 all, 0 posture only."},
