@@ -8,7 +8,10 @@
 namespace panache {
 namespace {
 
-constexpr float kPlant = 0.6f, kRelease = 0.4f;  // Hysteresis on the contact probability.
+constexpr float kPlant = 0.6f, kRelease = 0.4f;  // Hysteresis on the contact probability,
+// and on the speed of the input's toe: whatever the contact is, a foot that leaves fast (a spin, a
+// kick) is not held until it is torn away. m/s
+constexpr float kStands = 0.5f, kLeaves = 0.7f;
 // A planted foot is held in place against a pull of up to kHeld, and trails behind a longer one, by
 // kMaxOffset at most. A foot pulled further than that is let go if the input's foot has moved as
 // far itself, as in a walk in place; where the input stands, that would throw it aside (11 cm in a
@@ -17,16 +20,14 @@ constexpr float kHeld = 0.09f, kMaxOffset = 0.12f;  // Metres.
 // A foot comes to rest and leaves without a jerk: its speed at the plant dies away with this time
 // constant, and the correction of a released foot as a critically damped spring of this rate.
 constexpr float kRestSeconds = 0.03f;
-constexpr float kFadeRate = 20;    // 1/s
-constexpr float kMaxGlide = 1.5f;  // m/s; a faster foot was no foot about to stand.
+constexpr float kFadeRate = 20;  // 1/s
+constexpr float kMaxGlide = 1;   // m/s; a faster foot is not about to stand.
 
 // Straightening the last degrees of a knee takes no distance but much angle: a leg is never asked
 // for more than this share of its length unless the style itself stretches it further.
 constexpr float kMaxReach = 0.995f;
-// So a leg that is nearly straight follows only a share of what would make it longer or shorter, as
-// its knee would fly back and forth: all of it from a bend on at which the sine of the angle
-// between reach and length is this, none when it is straight.
-constexpr float kBent = 0.6f;
+// So a leg follows only a share of what would make it longer or shorter, as its knee would fly back
+// and forth where it is nearly straight: the sine of the angle between its reach and its length.
 
 // A knee that a style or noise bends backwards by a few degrees may not be bent on that way: a leg
 // that is nearly straight bends to where its foot points. In force in full from this shift on.
@@ -42,7 +43,7 @@ Vec3 easy_target(Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 target) {
   const float before = length(ankle - hip), wanted = length(way);
   if (!(leg > 0 && wanted > 0)) return target;
   const float share = std::min(1.0f, std::min(before, wanted) / leg);
-  const float follow = std::min(1.0f, std::sqrt(1 - share * share) / kBent);
+  const float follow = std::sqrt(1 - share * share);
   return hip + way * ((before + follow * (wanted - before)) / wanted);
 }
 
@@ -122,15 +123,17 @@ float floor_depth(const BodyPose& body, const HumanPositions& joints,
 void FootLock::follow(Foot& foot, Vec3 input, Vec3 toe, float contact, float seconds) noexcept {
   const Vec3 last_offset = foot.offset, last_toe = foot.seen ? foot.toe : toe;
   foot.toe = toe;
+  const float moved = foot.seen && seconds > 0 ? length(input - foot.input) / seconds : 0.0f;
+  foot.input = input;
   foot.seen = true;
-  if (contact < kRelease) foot.state = State::free;
-  if (foot.state == State::free && contact > kPlant) {
+  if (contact < kRelease || moved > kLeaves) foot.state = State::free;
+  const Vec3 velocity = seconds > 0 ? (toe - last_toe) / seconds + foot.speed : Vec3{};
+  const bool stands = contact > kPlant && moved < kStands && length(velocity) < kMaxGlide;
+  if (foot.state == State::free && stands) {
     foot.state = State::planted;
     foot.stood = input;
     foot.anchor = last_toe + last_offset;
-    foot.glide = seconds > 0 ? (toe - last_toe) / seconds + foot.speed : Vec3{};
-    const float fast = length(foot.glide);
-    if (fast > kMaxGlide) foot.glide *= kMaxGlide / fast;
+    foot.glide = velocity;
   }
   if (foot.state == State::planted) {
     foot.anchor += foot.glide * seconds;

@@ -58,7 +58,8 @@ class FootLock {
   enum class State { free, planted, let_go };  // Let go: slid in the input, free until it lifts.
   struct Foot {
     State state = State::free;
-    Vec3 toe;     // World position of the toe, uncorrected, at the last step.
+    Vec3 toe;     // World position of the toe, uncorrected, at the last step,
+    Vec3 input;   // and in the input.
     Vec3 stood;   // Where the input's toe was when the foot was planted.
     Vec3 anchor;  // World position of the planted toe, metres,
     Vec3 glide;   // and its velocity while it comes to rest, m/s.

@@ -16,19 +16,23 @@ namespace panache {
 // change leaves a joint as it is, this does, too, to the bit.
 class Anatomy {
  public:
-  void reset() noexcept { shares_ = {}; }
+  void reset() noexcept { shares_ = {}, thigh_shares_ = {}; }
   void step(const BodyPose& body, const Rig& rig, const StepTime& time,
             BodyChange& change) noexcept;
+  // The hip joints alone, once more: a foot that is held may turn a thigh further than the style did.
+  void step_thighs(const BodyPose& body, const Rig& rig, const StepTime& time,
+                   BodyChange& change) noexcept;
 
   // Calls visit(member) for everything that tells one character from another.
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
-    visit(self.shares_);
+    visit(self.shares_), visit(self.thigh_shares_);
   }
 
  private:
   // Of torso, neck, then shoulder, elbow, wrist and hip, knee of either side: 0 to 1.
   std::array<float, 12> shares_{};
+  std::array<float, 2> thigh_shares_{};  // Of left and right in step_thighs().
 };
 
 }  // namespace panache

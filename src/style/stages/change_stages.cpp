@@ -42,6 +42,7 @@ void ChangeStages::step(const AskedChange& asked, const ChangeControl& control,
   if (control.foot_lock) {
     foot_lock_.step(now.world, joints, contacts_, control.amount * control.shape.foot_lock,
                     time.output, change_);
+    anatomy_.step_thighs(now.world, observer.rig(), time, change_);
   }
   tell(clock, Stage::feet);
 }
