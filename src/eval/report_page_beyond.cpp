@@ -271,6 +271,7 @@ std::string page_disturbances(const Report& report) {
     }
     const std::vector<bool> best = best_of(values, Better::lower, 2);
     std::vector<HtmlCell> cells;
+    cells.reserve(values.size());
     for (size_t s = 0; s < values.size(); ++s) {
       cells.push_back({number_text(values[s], 2), best[s]});
     }
