@@ -174,6 +174,7 @@ void fit_weights(aiMesh& mesh) {
     for (unsigned i = 0; i < bone.mNumWeights; ++i) {
       const aiVertexWeight& weight = bone.mWeights[i];
       if (weight.mVertexId >= corners.size() || !(weight.mWeight > 0)) continue;
+      if (!std::isfinite(weight.mWeight)) continue;
       corners[weight.mVertexId].emplace_back(weight.mWeight, b);
     }
   }
@@ -184,9 +185,11 @@ void fit_weights(aiMesh& mesh) {
     std::stable_sort(corner.begin(), corner.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
     corner.resize(std::min(corner.size(), kMost));
-    float sum = 0;
+    double sum = 0;  // Of floats of any size.
     for (const auto& [weight, bone] : corner) sum += weight;
-    for (const auto& [weight, bone] : corner) weights[bone].emplace_back(v, weight / sum);
+    for (const auto& [weight, bone] : corner) {
+      weights[bone].emplace_back(v, static_cast<float>(weight / sum));
+    }
   }
   for (unsigned b = 0; b < mesh.mNumBones; ++b) {
     aiBone& bone = *mesh.mBones[b];

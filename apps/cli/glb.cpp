@@ -6,15 +6,13 @@
 #include <system_error>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include "clip/gltf_json.h"
 #include "clip/gltf_uri.h"
 
 namespace panache::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using OrderedJson = nlohmann::ordered_json;
 
 // A PNG of one white pixel.
 constexpr const char* kWhite =
@@ -42,10 +40,9 @@ void append_chunk(std::string& out, const std::string& type, std::string bytes, 
   out += type + bytes;
 }
 
-std::string format_glb_file(const OrderedJson& json, const std::string& bin) {
+std::string format_glb_file(const GltfJson& json, const std::string& bin) {
   std::string chunks;
-  append_chunk(chunks, "JSON", json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace),
-               ' ');
+  append_chunk(chunks, "JSON", json.dump(-1, ' ', false, GltfJson::error_handler_t::replace), ' ');
   if (!bin.empty()) append_chunk(chunks, std::string("BIN\0", 4), bin, '\0');
   std::string out = "glTF";
   append_number(out, 2);
@@ -82,16 +79,16 @@ std::string percent_encoded(const std::string& path) {
 }
 
 // An extension that is no longer supported. The metallic-roughness material says the same.
-void drop_specular_glossiness(OrderedJson& json) {
+void drop_specular_glossiness(GltfJson& json) {
   constexpr const char* kName = "KHR_materials_pbrSpecularGlossiness";
   if (!json.contains("extensionsUsed") || !json.contains("materials")) return;
-  for (OrderedJson& material : json["materials"]) {
-    if (!material.contains("extensions")) continue;
+  for (GltfJson& material : json["materials"]) {
+    if (!material.contains("extensions") || !material["extensions"].is_object()) continue;
     material["extensions"].erase(kName);
     if (material["extensions"].empty()) material.erase("extensions");
   }
-  OrderedJson used = OrderedJson::array();
-  for (const OrderedJson& name : json["extensionsUsed"]) {
+  GltfJson used = GltfJson::array();
+  for (const GltfJson& name : json["extensionsUsed"]) {
     if (name != kName) used.push_back(name);
   }
   json["extensionsUsed"] = used;
@@ -104,13 +101,11 @@ std::string with_pictures(std::string glb, const std::string& path) {
   if (glb.size() < kHeader + kChunkHeader) return glb;
   const size_t begin = kHeader + kChunkHeader, length = number_at(glb, kHeader);
   if (length > glb.size() - begin) return glb;
-  const auto text = glb.begin() + static_cast<ptrdiff_t>(begin);
-  OrderedJson json =
-      OrderedJson::parse(text, text + static_cast<ptrdiff_t>(length), nullptr, false);
-  if (!json.is_object()) return glb;
+  GltfJson json;  // What is wrong with it, its reader says.
+  if (!GltfChecker(path).parse({glb.data() + begin, length}, json)) return glb;
   drop_specular_glossiness(json);
-  OrderedJson no_images = OrderedJson::array();
-  for (OrderedJson& image : json.contains("images") ? json["images"] : no_images) {
+  GltfJson no_images = GltfJson::array();
+  for (GltfJson& image : json.contains("images") ? json["images"] : no_images) {
     if (!image.contains("uri") || !image["uri"].is_string()) continue;
     const std::string uri = image["uri"];
     if (uri.starts_with("data:")) continue;
@@ -122,25 +117,44 @@ std::string with_pictures(std::string glb, const std::string& path) {
 }
 
 Result<std::string> gltf_to_glb(const std::string& gltf, const std::string& path) {
-  OrderedJson json = OrderedJson::parse(gltf, nullptr, false);
-  if (!json.is_object()) return Error{path + ": is no JSON"};
-  if (!json.contains("buffers")) return format_glb_file(json, "");
+  GltfChecker checker(path);
+  GltfJson json;
+  const GltfJson *buffers = nullptr, *views = nullptr;
+  const bool good = checker.parse(gltf, json) && checker.list(json, "", "buffers", buffers) &&
+                    checker.list(json, "", "bufferViews", views);
+  if (!good) return checker.error();
+  if (buffers->empty()) return format_glb_file(json, "");
   std::string bin;
   std::vector<size_t> begins;  // Of each buffer in `bin`.
-  for (const OrderedJson& buffer : json["buffers"]) {
-    if (!buffer.contains("uri")) {
-      return Error{path + ": buffers[" + std::to_string(begins.size()) +
-                   "]: holds no data of its own; expected a file that needs no extension for it"};
+  for (const GltfJson& buffer : *buffers) {
+    const std::string where = item_path("buffers", begins.size());
+    std::string uri;
+    if (!checker.is_object(buffer, where) || !checker.text(buffer, where, "uri", uri)) {
+      return checker.error();
     }
-    Result<std::string> bytes = decode_data_uri(buffer["uri"].get<std::string>());
+    if (!buffer.contains("uri")) {
+      return Error{path + ": " + where +
+                   ": holds no data of its own; expected a file that needs no extension for it"};
+    }
+    Result<std::string> bytes = decode_data_uri(uri);
     if (!bytes) return Error{path + ": " + bytes.error().message};
     bin.resize((bin.size() + 3) / 4 * 4);
     begins.push_back(bin.size());
     bin += *bytes;
   }
-  for (OrderedJson& view : json["bufferViews"]) {
-    const size_t begin = begins.at(view["buffer"].get<size_t>());
-    if (begin > 0) view["byteOffset"] = begin + view.value("byteOffset", size_t{0});
+  for (size_t v = 0; v < views->size(); ++v) {
+    GltfJson& view = json["bufferViews"][v];
+    const std::string where = item_path("bufferViews", v);
+    int buffer = 0;
+    uint64_t offset = 0;
+    if (!checker.is_object(view, where) ||
+        !checker.index(view, where, "buffer", begins.size(), buffer) ||
+        !checker.count(view, where, "byteOffset", offset)) {
+      return checker.error();
+    }
+    if (buffer < 0) return Error{path + ": " + where + ": expected a buffer, found none"};
+    const size_t begin = begins[static_cast<size_t>(buffer)];
+    if (begin > 0) view["byteOffset"] = begin + offset;
     view["buffer"] = 0;
   }
   json["buffers"] = {{{"byteLength", bin.size()}}};

@@ -6,8 +6,10 @@
 
 #ifdef PANACHE_SANITIZED
 // What fontconfig keeps of the machine's fonts until the end of the program is no leak of ours.
+// NOLINTBEGIN(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp): the sanitizer's own name.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig\n"; }
+// NOLINTEND(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp)
 #endif
 
 namespace panache::cli {

@@ -29,6 +29,7 @@ std::string axis_name(std::string text) {
 Result<int> parse_human_joint(const std::string& joint, const std::string& name) {
   if (const std::optional<int> known = find_human_joint(joint)) return *known;
   std::vector<std::string> names;
+  names.reserve(kHumanJoints);
   for (int j = 0; j < kHumanJoints; ++j) names.emplace_back(human_joint_name(j));
   const std::vector<std::string> nearest = nearest_names(joint, names, 1);
   return Error{name + ": unknown human joint " + panache::quoted(joint) +

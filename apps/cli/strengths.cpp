@@ -14,14 +14,14 @@
 namespace panache::cli {
 namespace {
 
-const std::string kExpectedStrength = "expected a strength from -4 to 4";
+constexpr char kExpectedStrength[] = "expected a strength from -4 to 4";
 
 // The finite number that `text` is, whole.
 std::optional<double> parse_number(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0;
-  const char* end = text.data() + text.size();
-  const auto [stop, failure] = fast_float::from_chars(text.data(), end, value);
+  const char *begin = text.data(), *end = begin + text.size();
+  const auto [stop, failure] = fast_float::from_chars(begin, end, value);
   if (failure != std::errc() || stop != end || !std::isfinite(value)) return std::nullopt;
   return value;
 }

@@ -66,7 +66,7 @@ Result<Changed> remove(TensorFile model, const StylesVerb& verb) {
   return Changed{std::move(model), "removed " + list(verb.remove) + " from " + verb.model};
 }
 
-Result<Changed> rename(TensorFile model, const StylesVerb& verb) {
+Result<Changed> rename(const TensorFile& model, const StylesVerb& verb) {
   const size_t equals = verb.rename.find('=');
   const std::string from = verb.rename.substr(0, equals), to = verb.rename.substr(equals + 1);
   Result<TensorFile> renamed = rename_style(model, from, to, verb.model);
@@ -79,7 +79,7 @@ int change(const StylesVerb& verb) {
   if (!model) return fail(model.error(), kBadInput);
   Result<Changed> changed = !verb.add.empty()      ? add(*std::move(model), verb)
                             : !verb.remove.empty() ? remove(*std::move(model), verb)
-                                                   : rename(*std::move(model), verb);
+                                                   : rename(*model, verb);
   if (!changed) return fail(changed.error(), kBadInput);
   if (auto open = check_writable(verb.model); !open) return fail(open.error(), kBadInput);
   if (auto written = replace_model(verb.model, changed->file); !written) {

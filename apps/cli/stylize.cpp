@@ -129,6 +129,7 @@ Result<std::string> encode(const MotionFile& motion, const std::vector<RestyledC
                            const FileJob& file, const StylizeOptions& options) {
   if (keeps_format(extension_of(file.input), extension_of(file.output))) {
     std::vector<ClipEdit> edits;
+    edits.reserve(clips.size());
     for (const RestyledClip& clip : clips) {
       edits.push_back({clip.clip, &clip.result.clip, clip.result.source_frames, clip.name});
     }
@@ -161,6 +162,7 @@ Result<std::string> encode_onto(const CharacterFile& character,
                                 const std::vector<RestyledClip>& clips, const FileJob& file,
                                 const StylizeOptions& options) {
   std::vector<NewMotion> motions;
+  motions.reserve(clips.size());
   for (const RestyledClip& clip : clips) motions.push_back({clip.result.clip, clip.name});
   return character.encode(motions, edit_mode(options.place), file.output);
 }
@@ -247,6 +249,7 @@ Result<void> check_formats(const std::vector<FileJob>& files,
 // "old-proud": what a result is called that the user did not name.
 std::string name_styles(const StylizeOptions& options) {
   std::vector<std::string> parts;
+  parts.reserve(options.styles.size() + 1);
   for (const std::string& style : options.styles) parts.push_back(style.substr(0, style.find('=')));
   if (!options.strengths.empty()) {
     parts.push_back(std::filesystem::path(options.strengths).stem().string());

@@ -41,7 +41,7 @@ std::string describe_extra(const CLI::App& verb) {
 }  // namespace
 
 std::string describe(const CLI::ParseError& error, const CLI::App& verb) {
-  const std::string text = one_line(error.what());
+  std::string text = one_line(error.what());
   if (dynamic_cast<const CLI::ExtrasError*>(&error)) return describe_extra(verb);
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) {
     // "--style: 1 required STYLE missing".

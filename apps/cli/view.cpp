@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 
 #include <httplib.h>
 
@@ -15,6 +16,7 @@
 #include "messages.h"
 #include "style/model.h"
 #include "verbs.h"
+#include "view_threads.h"
 
 namespace panache::cli {
 namespace {
@@ -22,6 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kAddress = "127.0.0.1";
+constexpr size_t kThreads = 8;
 constexpr int kForbidden = 403, kMethodNotAllowed = 405;
 // What the page may do: run its own scripts and its WebAssembly, read its own files and those that
 // a user opens, and be shown in no page of others.
@@ -130,6 +133,7 @@ int view(const ViewVerb& verb) {
   if (!page) return fail(page.error(), kBadInput);
 
   httplib::Server server;
+  server.new_task_queue = [] { return new ViewThreads(kThreads); };
   // With these a page may read a finer clock, which the times of a step are told by.
   server.set_default_headers({{"Cross-Origin-Opener-Policy", "same-origin"},
                               {"Cross-Origin-Embedder-Policy", "require-corp"},
@@ -162,7 +166,12 @@ int view(const ViewVerb& verb) {
   print("http://" + std::string(kAddress) + ":" + std::to_string(port) + "/" + query + "\n");
   print_message("open this address in a browser; Ctrl-C ends");
   std::fflush(stdout);
-  server.listen_after_bind();
+  try {
+    server.listen_after_bind();
+  } catch (const std::system_error& error) {
+    return fail({"no thread to serve the page could be started: " + error.code().message()},
+                kBadInput);
+  }
   return kDone;
 }
 

@@ -42,7 +42,7 @@ size_t padded(size_t length) { return length / 4 * 4 + 4; }
 // The first argument of a message, a string. An lo_arg is no more aligned than the message is, and
 // so is never looked into as the union that it is.
 std::string_view string_at(lo_arg** arguments) {
-  return static_cast<const char*>(static_cast<const void*>(arguments[0]));
+  return reinterpret_cast<const char*>(arguments[0]);
 }
 
 // The message's string and numbers, where they are those of a bone.

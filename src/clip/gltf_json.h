@@ -1,5 +1,6 @@
 #pragma once
-// The JSON of a glTF file, taken apart with every type and index checked. Private to the folder.
+// The JSON of a glTF file, taken apart with every type and index checked. For the readers in this
+// folder and for the program's.
 
 #include <cstdint>
 #include <span>

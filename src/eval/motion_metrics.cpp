@@ -30,7 +30,11 @@ Slide slide_of(const HumanPositions& last, const HumanPositions& now, HumanJoint
 std::vector<HumanPositions> world_motion(const Take& take, double fps) {
   std::vector<HumanPositions> world;
   const double step = kTakeRate / fps;
-  for (double at = 0; at <= take.frames() - 1 + 1e-9; at += step) {
+  const int frames =
+      take.frames() == 0 ? 0 : 1 + static_cast<int>((take.frames() - 1 + 1e-9) / step);
+  world.reserve(static_cast<size_t>(frames));
+  for (int f = 0; f < frames; ++f) {
+    const double at = f * step;
     const int a = static_cast<int>(at), b = std::min(a + 1, take.frames() - 1);
     const float t = static_cast<float>(at - a);
     HumanPositions frame = world_positions(take, a);

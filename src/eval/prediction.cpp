@@ -25,6 +25,7 @@ double distance_cm(const HumanPositions& a, const HumanPositions& b) {
 
 void add_take(PosePredictor prediction, const Take& take, PredictionRow& row) {
   std::vector<HumanPositions> world;
+  world.reserve(static_cast<size_t>(take.frames()));
   for (int f = 0; f < take.frames(); ++f) world.push_back(world_positions(take, f));
   const auto world_at = [&](double seconds) {
     const double frame = seconds * kTakeRate;

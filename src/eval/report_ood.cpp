@@ -9,6 +9,7 @@ namespace {
 
 std::vector<double> values_of(const std::vector<OodRow>& rows, double OodRow::*value) {
   std::vector<double> values;
+  values.reserve(rows.size());
   for (const OodRow& row : rows) values.push_back(row.*value);
   return values;
 }

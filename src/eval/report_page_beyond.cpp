@@ -17,6 +17,7 @@ std::string heading(const std::string& text) { return "<h3>" + xml_escaped(text)
 
 std::vector<std::string> names_of_systems(const std::vector<const SystemReport*>& systems) {
   std::vector<std::string> names;
+  names.reserve(systems.size());
   for (const SystemReport* system : systems) names.push_back(system->name);
   return names;
 }
@@ -265,6 +266,7 @@ std::string page_disturbances(const Report& report) {
   }
   for (const std::string& name : names) {
     std::vector<double> values;
+    values.reserve(systems.size());
     for (const SystemReport* system : systems) {
       const auto row =
           std::find_if(system->disturbances.begin(), system->disturbances.end(),
@@ -273,6 +275,7 @@ std::string page_disturbances(const Report& report) {
     }
     const std::vector<bool> best = best_of(values, Better::lower, 2);
     std::vector<HtmlCell> cells;
+    cells.reserve(values.size());
     for (size_t s = 0; s < values.size(); ++s) {
       cells.push_back({number_text(values[s], 2), best[s]});
     }

@@ -15,10 +15,6 @@
 namespace panache {
 namespace {
 
-// What tells most, in tables that fit a page with three systems in them.
-const std::vector<const char*> kRecognised = {"style_accuracy", "content_accuracy"};
-const std::vector<const char*> kMoved = {"jerk_ratio", "skating_ratio", "pose_error_deg"};
-
 bool is_accuracy(const Measure& measure) { return measure.better == Better::higher; }
 
 HtmlCell value_cell(const Measure& measure, double value, bool best) {
@@ -34,11 +30,13 @@ double value_in(const MetricsTable& table, const std::string& name, const char* 
 std::vector<HtmlCell> row_cells(const Measure& measure, const std::string& row,
                                 const std::vector<MetricsSource>& sources) {
   std::vector<double> rivals;
+  rivals.reserve(sources.size());
   for (const MetricsSource& source : sources) {
     rivals.push_back(source.competes ? value_in(*source.table, row, measure.key) : kNotMeasured);
   }
   const std::vector<bool> best = best_of(rivals, measure.better, measure.digits);
   std::vector<HtmlCell> cells;
+  cells.reserve(sources.size());
   for (size_t s = 0; s < sources.size(); ++s) {
     cells.push_back(value_cell(measure, value_in(*sources[s].table, row, measure.key), best[s]));
   }
@@ -108,8 +106,11 @@ std::string by_name(const Report& report, const std::string& rows_are,
   if (names_of(tables, order).empty()) return "";
   tables.push_back(&real);
   const std::vector<std::string> rows = names_of(tables, order);
-  return metrics_matrix(rows_are, rows, sources, kRecognised) +
-         metrics_matrix(rows_are, rows, sources, kMoved) + details;
+  // What tells most, in tables that fit a page with three systems in them.
+  const std::vector<const char*> recognised = {"style_accuracy", "content_accuracy"};
+  const std::vector<const char*> moved = {"jerk_ratio", "skating_ratio", "pose_error_deg"};
+  return metrics_matrix(rows_are, rows, sources, recognised) +
+         metrics_matrix(rows_are, rows, sources, moved) + details;
 }
 
 // The strength that a key names.
@@ -233,6 +234,7 @@ std::string page_overall(const Report& report) {
   for (const Measure& measure : measures()) {
     labels.emplace_back(measure.label);
     std::vector<double> values;
+    values.reserve(report.systems.size());
     for (const SystemReport& system : report.systems) values.push_back(system.seen[measure.key]);
     const std::vector<bool> marks = best_of(values, measure.better, measure.digits);
     for (size_t s = 0; s < marks.size(); ++s) best[s].push_back(marks[s]);
@@ -273,6 +275,7 @@ std::string page_strength(const Report& report) {
     }
   }
   std::vector<MetricsSource> sources;
+  sources.reserve(tables.size());
   for (size_t s = 0; s < tables.size(); ++s) {
     sources.push_back({report.systems[s].name, &tables[s], false});
   }

@@ -44,6 +44,7 @@ std::string overall(const Report& report) {
 // What these measures found.
 std::vector<std::string> texts(const Metrics& metrics, const std::vector<const char*>& keys) {
   std::vector<std::string> cells;
+  cells.reserve(keys.size());
   for (const char* key : keys) cells.push_back(number_text(metrics[key], find_measure(key).digits));
   return cells;
 }
@@ -114,6 +115,7 @@ std::string unseen(const Report& report, const UnseenReport& split) {
   };
   for (const std::string& content : names_of({&split.by_content}, report.contents)) {
     std::vector<Metrics> of;
+    of.reserve(kSources.size());
     for (const auto& [name, source] : kSources) of.push_back(line_of(*source, content));
     add(content, of);
   }

@@ -35,6 +35,7 @@ Result<std::vector<TestInput>> load_inputs(const std::vector<ManifestRow>& rows)
 
 std::vector<Take> takes_of(const std::vector<TestInput>& inputs) {
   std::vector<Take> takes;
+  takes.reserve(inputs.size());
   for (const TestInput& input : inputs) takes.push_back(input.take);
   return takes;
 }

@@ -14,6 +14,11 @@
 #include "make_model.h"
 #include "net/quantize.h"
 #include "net/safetensors.h"
+#ifdef PANACHE_NPZ
+#include <zip.h>
+
+#include "npz.h"
+#endif
 
 extern "C" size_t LLVMFuzzerMutate(uint8_t*, size_t size, size_t) {
   return size;
@@ -32,6 +37,35 @@ void add(const std::string& name, const std::string& bytes) {
   std::exit(1);
 }
 
+// A GLB of this JSON alone, whose length is padded to four bytes.
+std::string glb_of(std::string json) {
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const auto size = static_cast<uint32_t>(json.size());
+  return "glTF" + fuzz::bytes_of(uint32_t{2}) + fuzz::bytes_of(20 + size) + fuzz::bytes_of(size) +
+         "JSON" + json;
+}
+
+#ifdef PANACHE_NPZ
+// The same archive, compressed.
+std::string deflated(const std::string& npz) {
+  zip_source_t* source = zip_source_buffer_create(npz.data(), npz.size(), 0, nullptr);
+  zip_source_keep(source);
+  zip_t* zip = zip_open_from_source(source, 0, nullptr);
+  for (zip_int64_t i = 0; i < zip_get_num_entries(zip, 0); ++i) {
+    zip_set_file_compression(zip, static_cast<zip_uint64_t>(i), ZIP_CM_DEFLATE, 9);
+  }
+  zip_close(zip);
+  zip_source_open(source);
+  zip_source_seek(source, 0, SEEK_END);
+  std::string out(static_cast<size_t>(zip_source_tell(source)), '\0');
+  zip_source_seek(source, 0, SEEK_SET);
+  zip_source_read(source, out.data(), out.size());
+  zip_source_close(source);
+  zip_source_free(source);
+  return out;
+}
+#endif
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -40,8 +74,13 @@ int main(int argc, char** argv) {
   const Clip walk = test::walking_clip(8);
   add("bvh/walk", format_bvh(walk));
   add("gltf/walk", format_glb(walk, "walk", 1, Quat{}));
+  add("glb/walk", format_glb(walk, "walk", 1, Quat{}));
+  add("glb/pictures",
+      glb_of(R"({"asset":{"version":"2.0"},"images":[{"uri":"a.png"},{"uri":)"
+             R"("data:,"}],"extensionsUsed":["KHR_materials_pbrSpecularGlossiness"],)"
+             R"("materials":[{"extensions":{"KHR_materials_pbrSpecularGlossiness":{}}}]})"));
   add("gltf/avatar", format_vrma(walk, "walk"));
-  add("gltf/text",
+  const char* text =
       R"({"asset":{"version":"2.0"},"nodes":[{"name":"a","children":[1]},{"name":"b","matrix":[1,0,0,0,)"
       R"(0,1,0,0,0,0,1,0,0,0,0,1]}],"skins":[{"joints":[0,1]}],"meshes":[{"primitives":[{"attributes":{)"
       R"("JOINTS_0":0,"WEIGHTS_0":1}}]}],"accessors":[{"componentType":5121,"count":1,"type":"VEC4"},{)"
@@ -50,7 +89,9 @@ int main(int argc, char** argv) {
       R"("buffers":[{"byteLength":24,"uri":"data:;base64,AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"}],"animations":)"
       R"([{"samplers":[{"input":0,"output":1,"interpolation":"CUBICSPLINE"}],"channels":[{"sampler":0,)"
       R"("target":{"node":0,"path":"rotation"}}]}],"extensions":{"VRM":{"humanoid":{"humanBones":[{"bone":)"
-      R"("hips","node":0}]}}}})");
+      R"("hips","node":0}]}}}})";
+  add("gltf/text", text);
+  add("glb/text", text);
   std::string arrays;
   for (const char* wanted : {"poses", "trans", "mocap_framerate", "betas", "gender"}) {
     for (const NpzMember& member : format_smpl(smpl_body())) {
@@ -59,6 +100,16 @@ int main(int argc, char** argv) {
     }
   }
   add("smpl/walk", arrays);
+#ifdef PANACHE_NPZ
+  const std::string npz = cli::kWriteNpz(smpl_body(), "walk", {}, nullptr);
+  add("npz/stored", npz);
+  add("npz/deflated", deflated(npz));
+  std::string twice = npz;  // Two members of one name.
+  for (size_t at; (at = twice.find("betas.npy")) != std::string::npos;) {
+    twice.replace(at, 9, "trans.npy");
+  }
+  add("npz/twice", twice);
+#endif
   test::AcclaimMaker acclaim(walk);
   add("acclaim/skeleton", acclaim.asf());
   add("acclaim/motion", std::string("\0", 1) + acclaim.amc());
@@ -70,12 +121,19 @@ int main(int argc, char** argv) {
     add("model/style", format_safetensors(*style));
   }
   add("step/calls", std::string(200, '\x37') + std::string(100, '\x01'));
+  add("threads/calls", std::string(200, '\x37') + std::string(100, '\x01'));
   add("text/map", std::string("\0", 1) + R"({"leftHand": "Hand_L", "neck": null})");
   std::string bone("\1/VMC/Ext/Bone/Pos\0\0\0,sfffffff\0\0\0Hips\0\0\0\0", 41);
   add("text/bone", bone + std::string(28, '\0'));
   add("text/bundle",
       std::string("\1#bundle\0\0\0\0\0\0\0\0\1\0\0\0\20/VMC/Ext/OK\0,i\0\0\0\0\0\1", 41));
   add("text/table", "\2path,style,content,take,neutral,split\r\n\"a,\"\"b\",old,walk,1,0,train\n");
+  add("manifest/walks",
+      "path,style,content,take,neutral,split\nwalk.bvh,normal,walk,1,1,train\n"
+      "short.bvh,old,walk,1,0,train\nwalk.bvh,\"a b\",walk,1,0,test\n" +
+          std::string(1, '\0') + "name,from,description\nold,old a,bent\n");
+  add("vmc/calls", std::string(300, '\x37') + std::string(100, '\x01'));
+  add("fbx/calls", std::string(300, '\x37') + std::string(100, '\x01'));
   add("text/strengths", "\3seconds,old\n0,0\n1.5,1e0\n");
   return 0;
 }

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""starve.py PROGRAM MODEL STEPS: runs the verbs of panache where something is missing.
+"""starve.py PROGRAM MODEL STEPS [FBX]: runs the verbs of panache where something is missing; with the
+path of a motion as FBX, where the program reads that, too.
 
 - Memory: from the least with which the program starts to what a verb needs, in steps of
   3 MB / STEPS.
@@ -43,6 +44,17 @@ kVerbs = [
     ['strip', 'walk.bvh', 'slow.bvh', '-o', 'out.svg'],
     ['walker', '--speed', '1.5', '-o', 'out.bvh'],
 ]
+# The libraries that draw it end the program where they find no memory or no thread.
+kPngVerb = ['strip', 'walk.bvh', 'slow.bvh', '-o', 'out.png']
+
+
+kFbxVerbs = [
+    ['info', 'walk.fbx'],
+    ['convert', 'walk.fbx', '-o', 'out.glb'],
+    ['stylize', 'walk.fbx', '--style', 'old=1', '-o', 'out.glb'],
+]
+# FBX is read by a process of its own, and so not at all where none can be started.
+kNeedsProcess = '.fbx'
 
 
 class Failure(Exception):
@@ -71,7 +83,7 @@ def least(enough, most, step):
 class Program:
     """The program, and the folder that each run starts with a copy of."""
 
-    def __init__(self, path, model, folder):
+    def __init__(self, path, model, folder, fbx=None):
         self.folder = folder
         os.chmod(folder, 0o755)
         self.path = shutil.copy(path, os.path.join(folder, 'panache'))
@@ -81,6 +93,8 @@ class Program:
         self.made = os.path.join(folder, 'made')
         os.mkdir(self.made)
         shutil.copy(model, os.path.join(self.made, 'model.safetensors'))
+        if fbx:
+            shutil.copy(fbx, os.path.join(self.made, 'walk.fbx'))
         self.work = os.path.join(folder, 'work')
         for arguments in (['walker', '--seconds', '4', '-o', 'walk.bvh'],
                           ['walker', '--seconds', '5', '--speed', '0.7', '-o', 'slow.bvh'],
@@ -129,6 +143,8 @@ class Program:
         what = f'panache {arguments}, {options}: exit code {done.returncode}, {said!r}'
         if done.returncode == 127 and 'while loading shared libraries' in said:
             return done, what  # What that needs differs a little from run to run.
+        if done.returncode < 0 and arguments == kPngVerb:
+            return done, what
         if done.returncode not in (0, 1):
             raise Failure(what)
         if done.returncode == 1 and 'panache: ' not in said:
@@ -208,9 +224,10 @@ def without_threads(program, verb, wanted, printed):
     program.fresh()
     give_to_other(program.work)
     done, what = program.run(verb, user=kOther, limits=[(resource.RLIMIT_NPROC, 1)])
-    if done.returncode != 0:
+    needs_process = any(word.endswith(kNeedsProcess) for word in verb)
+    if verb != kPngVerb and done.returncode != needs_process:
         raise Failure(what)
-    program.compare(what, wanted, True)
+    program.compare(what, wanted, done.returncode == 0)
 
 
 def without_leave(program, verb, wanted):
@@ -312,9 +329,10 @@ def any_names(program, count, draw):
 
 
 def main():
-    if len(sys.argv) != 4:
+    if len(sys.argv) not in (4, 5):
         sys.exit(__doc__)
     path, model, steps = sys.argv[1], sys.argv[2], int(sys.argv[3])
+    fbx = sys.argv[4] if len(sys.argv) == 5 else None
     if os.geteuid() == 0:
         try:
             subprocess.run(['true'], preexec_fn=lambda: os.setuid(kOther), check=True)
@@ -323,9 +341,15 @@ def main():
             sys.exit(77)
     draw = random.Random(1)
     with tempfile.TemporaryDirectory() as folder:
-        program = Program(path, model, folder)
+        program = Program(path, model, folder, fbx)
+        verbs = kVerbs + (kFbxVerbs if fbx else [])
+        drawn = program.start(kPngVerb, program.work)
+        if drawn.returncode == 0:
+            verbs.append(kPngVerb)
+        elif b'cannot draw PNG' not in drawn.stderr:
+            raise Failure(f'{kPngVerb}: {drawn.stderr.decode()}')
         memory = files = room = 0
-        for verb in kVerbs:
+        for verb in verbs:
             wanted, printed = program.reference(verb)
             memory += starve_of_memory(program, verb, wanted, printed, steps)
             files += starve_of_files(program, verb, wanted, printed)
@@ -335,11 +359,12 @@ def main():
         vanishing_folder(program)
         changing_inputs(program, steps, draw)
         any_names(program, steps, draw)
-        print(f'{len(kVerbs)} commands, {program.runs} runs; {memory} lacked memory, '
+        print(f'{len(verbs)} commands, {program.runs} runs; {memory} lacked memory, '
               f'{files} open files, {room} room on the disk')
 
 
-try:
-    main()
-except Failure as failure:
-    sys.exit(f'starve: {failure}')
+if __name__ == '__main__':
+    try:
+        main()
+    except Failure as failure:
+        sys.exit(f'starve: {failure}')

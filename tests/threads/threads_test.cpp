@@ -1,15 +1,17 @@
 // Two threads, two characters of one model and one skeleton, a style learnt in each, by further
-// threads: the thread sanitizer watches.
+// threads, and calls in any order: the thread sanitizer watches.
 
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <random>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "../fuzz/character_calls.h"
 #include "panache/panache.h"
 #include "stick_figure.h"
 
@@ -76,6 +78,56 @@ bool same(const std::vector<stick_pose>& a, const std::vector<stick_pose>& b) {
   return std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
 }
 
+// Random numbers by the names of libFuzzer's FuzzedDataProvider.
+class RandomData {
+ public:
+  explicit RandomData(unsigned seed) : random_(seed) {}
+
+  size_t remaining_bytes() const { return 1; }  // They never end.
+  bool ConsumeBool() { return random_() % 2; }
+  template <class T>
+  T ConsumeIntegral() {
+    return static_cast<T>(random_());
+  }
+  template <class T>
+  T ConsumeIntegralInRange(T low, T high) {
+    return low + static_cast<T>(random_() % (static_cast<size_t>(high - low) + 1));
+  }
+  template <class T, size_t n>
+  T PickValueInArray(const T (&values)[n]) {
+    return values[random_() % n];
+  }
+  std::string ConsumeRandomLengthString(size_t most) {
+    std::string out(random_() % (most + 1), '\0');
+    for (char& c : out) c = ConsumeIntegral<char>();
+    return out;
+  }
+
+ private:
+  std::mt19937 random_;
+};
+
+// Whether characters that are called in any order, each in a thread, move as they do alone.
+bool any_order_is_alone(const panache_model* model, const panache_skeleton* skeleton) {
+  constexpr unsigned kRounds = 100, kCharacters = 3;
+  const auto call = [&](unsigned seed) {
+    RandomData data(seed);
+    return panache::fuzz::call_in_any_order(model, skeleton, data);
+  };
+  for (unsigned round = 0; round < kRounds; ++round) {
+    uint64_t beside[kCharacters] = {};
+    std::vector<std::thread> threads;
+    for (unsigned i = 0; i < kCharacters; ++i) {
+      threads.emplace_back([&, i] { beside[i] = call(kCharacters * round + i); });
+    }
+    for (std::thread& thread : threads) thread.join();
+    for (unsigned i = 0; i < kCharacters; ++i) {
+      if (beside[i] != call(kCharacters * round + i)) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -105,8 +157,14 @@ int main(int argc, char** argv) {
   const bool learnt_alone = !learnt.empty() && learnt != learnt_too &&
                             learnt == learn(bytes, skeleton, 0.4f) &&
                             learnt_too == learn(bytes, skeleton, 0.2f);
+  const bool in_any_order = any_order_is_alone(model, skeleton);
   panache_skeleton_destroy(skeleton);
   panache_model_destroy(model);
+  if (!in_any_order) {
+    return std::fputs("called in any order beside each other they move otherwise than alone\n",
+                      stderr),
+           1;
+  }
   if (!alone) return std::fputs("beside each other they move otherwise than alone\n", stderr), 1;
   if (!learnt_alone)
     return std::fputs("beside each other they learn otherwise than alone\n", stderr), 1;

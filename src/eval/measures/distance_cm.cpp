@@ -3,6 +3,7 @@
 
 namespace panache {
 
+// NOLINTNEXTLINE(cert-err58-cpp): constinit, so that nothing runs before main.
 constinit const Measure measure::distance_cm = {
     "distance_cm",
     "moved cm",

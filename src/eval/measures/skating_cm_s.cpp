@@ -3,6 +3,7 @@
 
 namespace panache {
 
+// NOLINTNEXTLINE(cert-err58-cpp): constinit, so that nothing runs before main.
 constinit const Measure measure::skating_cm_s = {
     "skating_cm_s",
     "slide cm/s",

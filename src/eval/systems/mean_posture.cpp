@@ -19,6 +19,7 @@ struct MeanChange {
 
 std::vector<Model::ConstantStyle> mean_changes(const SystemData& data) {
   std::vector<std::string> names;
+  names.reserve(data.styles.size());
   for (const StyleName& style : data.styles) names.push_back(style.name);
   const SampleSet set(data.takes, data.pairings, names, default_recipe(), false);
   std::vector<MeanChange> sums(names.size());

@@ -113,6 +113,7 @@ Result<void> Recorded::read_manifest(const std::string& folder, const RecordedSc
 
 Result<void> Recorded::read_outputs() {
   std::vector<Line*> lines;
+  lines.reserve(lines_.size());
   for (auto& [key, line] : lines_) lines.push_back(&line);
   std::vector<std::optional<Error>> errors(lines.size());
   parallel_for(static_cast<int>(lines.size()), [&](int i) {

@@ -105,6 +105,7 @@ Result<std::unique_ptr<Xia2015>> Xia2015::create(const std::string& name, const 
                                                  const LocalSettings& settings) {
   Progress progress("registering the pairs of " + name);
   std::vector<std::string> names;
+  names.reserve(data.styles.size());
   for (const StyleName& style : data.styles) names.push_back(style.name);
   const SampleSet set(data.takes, data.pairings, names, default_recipe(), false);
   if (set.samples().empty()) {

@@ -54,7 +54,8 @@ float energy(const Bins& bins, Group of) {
   return sum;
 }
 // Of a sine with the root mean square kStill: its two sides have (amplitude / 2 * sum of Hann)^2.
-const float kStillEnergy = 2 * std::pow(kStill * kWindow / 4, 2.0f);
+constexpr float kStillSide = kStill * kWindow / 4;
+constexpr float kStillEnergy = 2 * kStillSide * kStillSide;
 
 }  // namespace
 
@@ -66,7 +67,7 @@ Spectrum spectrum_of(const std::vector<Signals>& motion, int first) {
   for (int s = 0; s < kSignals; ++s) {
     float sum = 0;
     for (int i = 0; i < kWindow; ++i) sum += hann()[i] * at(i)[s];
-    out.mean[s] = sum / (kWindow / 2);
+    out.mean[s] = sum / (kWindow / 2.0f);
     for (int i = 0; i < kWindow; ++i) values[i] = hann()[i] * (at(i)[s] - out.mean[s]);
     plan().fwd(out.bins[s].data(), values.data(), kWindow);
   }
@@ -106,7 +107,7 @@ float distance(const Spectrum& window, const Reference& neutral) {
     // Energies as the amplitude of one sine.
     const float amplitude =
         std::sqrt(energy(window.bins, of)) - std::sqrt(energy(neutral.magnitude, of));
-    sum += amplitude * amplitude / (kWindow * kWindow / 16);
+    sum += amplitude * amplitude / (kWindow * kWindow / 16.0f);
   }
   return sum;
 }

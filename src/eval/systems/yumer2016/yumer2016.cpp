@@ -25,6 +25,7 @@ Result<std::unique_ptr<Yumer2016>> Yumer2016::create(const std::string& name,
     cells[{row.set, row.content, ""}].insert(pairing.neutral);
   }
   std::vector<const std::pair<const Cell, std::set<int>>*> list;
+  list.reserve(cells.size());
   for (const auto& cell : cells) list.push_back(&cell);
   std::vector<Reference> references(list.size());
   parallel_for(static_cast<int>(list.size()), [&](int i) {
@@ -85,6 +86,7 @@ std::unique_ptr<ChangeSource> Yumer2016::make_source(const Take& take,
   }
   const std::vector<Signals> styled = overlap_add(windows, frames);
   std::vector<StyleDelta> changes;
+  changes.reserve(static_cast<size_t>(frames));
   for (int f = 0; f < frames; ++f) changes.push_back(change_of(motion[f], styled[f]));
   return std::make_unique<WholeTakeSource>(take, std::move(changes));
 }

@@ -1,0 +1,65 @@
+// GLB files as bytes: what comes back from the process that reads FBX may be anything.
+
+#include "glb.h"
+
+#include <cstdint>
+
+#include <gtest/gtest.h>
+
+#include "clip/gltf_json.h"
+
+namespace panache::cli {
+namespace {
+
+std::string number(size_t value) {
+  const auto small = static_cast<uint32_t>(value);
+  return {reinterpret_cast<const char*>(&small), sizeof small};
+}
+
+// A GLB of this JSON alone.
+std::string glb_of(std::string json) {
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  return "glTF" + number(2) + number(20 + json.size()) + number(json.size()) + "JSON" + json;
+}
+
+// The JSON of what becomes of it.
+GltfJson with_pictures_of(const std::string& json) {
+  return GltfJson::parse(with_pictures(glb_of(json), "in.fbx").substr(20), nullptr, false);
+}
+
+// Writing JSON recurses: a million brackets would exhaust the stack.
+TEST(Glb, json_of_a_million_brackets_stays_as_it_is) {
+  const size_t depth = 1'000'000;
+  const std::string glb =
+      glb_of("{\"a\":" + std::string(depth, '[') + std::string(depth, ']') + "}");
+  EXPECT_TRUE(with_pictures(glb, "in.fbx") == glb);
+}
+
+TEST(Glb, extensions_of_a_material_that_are_none_stay) {
+  const GltfJson json = with_pictures_of(
+      R"({"extensionsUsed":["KHR_materials_pbrSpecularGlossiness"],"materials":[)"
+      R"({"extensions":[1]},{"extensions":{"KHR_materials_pbrSpecularGlossiness":{},"a":{}}},7]})");
+  EXPECT_EQ(json["materials"].dump(), R"([{"extensions":[1]},{"extensions":{"a":{}}},7])");
+  EXPECT_FALSE(json.contains("extensionsUsed"));
+}
+
+TEST(Glb, a_gltf_whose_parts_are_none_is_rejected_with_their_place) {
+  const auto message = [](const std::string& json) {
+    const Result<std::string> glb = gltf_to_glb(json, "in.gltf");
+    return glb ? "none" : glb.error().message;
+  };
+  const std::string buffers = R"({"buffers":[{"uri":"data:,","byteLength":0}],"bufferViews":)";
+  EXPECT_EQ(message(R"({"buffers":7})"), "in.gltf: buffers: expected a list, found 7");
+  EXPECT_EQ(message(R"({"buffers":[7]})"), "in.gltf: buffers[0]: expected an object, found 7");
+  EXPECT_EQ(message(R"({"buffers":[{"uri":7}]})"),
+            "in.gltf: buffers[0].uri: expected a text, found 7");
+  EXPECT_EQ(message(buffers + "[7]}"), "in.gltf: bufferViews[0]: expected an object, found 7");
+  EXPECT_EQ(message(buffers + "[{}]}"), "in.gltf: bufferViews[0]: expected a buffer, found none");
+  EXPECT_EQ(message(buffers + R"([{"buffer":0,"byteOffset":"x"}]})"),
+            "in.gltf: bufferViews[0].byteOffset: expected a whole number, found \"x\"");
+  EXPECT_TRUE(
+      message(buffers + R"([{"buffer":1}]})").starts_with("in.gltf: bufferViews[0].buffer"));
+}
+
+}  // namespace
+}  // namespace panache::cli
