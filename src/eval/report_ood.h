@@ -34,7 +34,7 @@ struct OodSummary {
   double distance_cm_mean = kNotMeasured;
   double beyond_limits_mean = kNotMeasured, beyond_limits_max = kNotMeasured;  // Shares of frames.
   double under_floor_mean = kNotMeasured, under_floor_max = kNotMeasured;
-  size_t jumps = 0;                                     // Frames of all rows together.
+  size_t jumps = 0;  // Frames of all rows together.
   // How many rows have any such frame.
   size_t beyond_limits_rows = 0, under_floor_rows = 0, jump_rows = 0;
   double skating_ratio_mean = kNotMeasured, input_skating_ratio_mean = kNotMeasured;

@@ -27,7 +27,9 @@ constexpr float kMaxGlide = 1;   // m/s; a faster foot is not about to stand.
 // for more than this share of its length unless the style itself stretches it further.
 constexpr float kMaxReach = 0.995f;
 // So a leg follows only a share of what would make it longer or shorter, as its knee would fly back
-// and forth where it is nearly straight: the sine of the angle between its reach and its length.
+// and forth where it is nearly straight: the sine of the angle between its reach and its length. A
+// toe that is kDeep below the floor is drawn up by more: by all of it from this sine on.
+constexpr float kBent = 0.6f, kDeep = 0.03f;  // Metres.
 
 // A knee that a style or noise bends backwards by a few degrees may not be bent on that way: a leg
 // that is nearly straight bends to where its foot points. In force in full from this shift on.
@@ -36,14 +38,15 @@ constexpr float kFirm = 0.05f, kFirmShift = 0.02f;  // Metres.
 // Where a knee points: where the foot does, and ahead where that points down.
 Vec3 knee_way(Vec3 ankle, Vec3 toe) { return normalized(toe - ankle) + Vec3{0, 0, 0.5f}; }
 
-// Where the ankle goes in place of `target`.
-Vec3 easy_target(Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 target) {
+// Where the ankle goes in place of `target`. `depth`: of its toe below the floor, metres.
+Vec3 easy_target(Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 target, float depth) {
   const float leg = length(knee - hip) + length(ankle - knee);
   const Vec3 way = target - hip;
   const float before = length(ankle - hip), wanted = length(way);
   if (!(leg > 0 && wanted > 0)) return target;
   const float share = std::min(1.0f, std::min(before, wanted) / leg);
-  const float follow = std::sqrt(1 - share * share);
+  const float bent = 1 - (1 - kBent) * std::min(1.0f, depth / kDeep);
+  const float follow = std::min(1.0f, std::sqrt(1 - share * share) / bent);
   return hip + way * ((before + follow * (wanted - before)) / wanted);
 }
 
@@ -161,13 +164,14 @@ void FootLock::step(const BodyPose& body, const HumanPositions& joints,
     const Vec3 toe = origin + rotate(to_world, joints[index(kToes[f])]);
     follow(foot, body.joints[index(kToes[f])], toe, contacts[f], seconds);
     Vec3 offset = foot.offset;
-    offset.y += std::max(0.0f, floor - (toe.y + offset.y));
+    const float depth = std::max(0.0f, floor - (toe.y + offset.y));
+    offset.y += depth;
     if (amount <= 0 || offset == Vec3{}) continue;
 
     const int hip = index(kUpperLegs[f]), knee = index(kLowerLegs[f]), ankle = index(kAnkles[f]);
     const Vec3 shift = rotate(conjugate(to_world), offset) * amount;
     const Vec3 target =
-        easy_target(joints[hip], joints[knee], joints[ankle], joints[ankle] + shift);
+        easy_target(joints[hip], joints[knee], joints[ankle], joints[ankle] + shift, depth);
     const float firm = kFirm * std::min(1.0f, length(shift) / kFirmShift);
     const TwoBoneTurn turn = two_bone_ik(joints[hip], joints[knee], joints[ankle], target,
                                          knee_way(joints[ankle], joints[index(kToes[f])]), firm);

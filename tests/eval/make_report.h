@@ -60,6 +60,7 @@ inline SystemReport made_up_system(const std::string& name, double seed) {
     row.distance_cm = i;
     row.beyond_limits = i == 3 ? 0.11 : 0;
     row.under_floor = i >= 9 ? 0.22 : 0;
+    row.jumps = i >= 8 ? 2 : 0;
     row.skating_ratio = 0.05;
     row.input_skating_ratio = 0.04;
     row.drift_m = 0.3 * i;

@@ -96,6 +96,20 @@ TEST_F(CompareForeign, a_toe_under_the_floor_counts_unless_the_input_put_it_ther
   EXPECT_EQ(compare_ood(lowered(walk_, 0.3f), lowered(walk_, 0.32f)).under_floor, 0);
 }
 
+TEST_F(CompareForeign, a_joint_that_jumps_counts_unless_the_input_jumps_too) {
+  const auto jumping = [&](float metres) {
+    return changed(walk_, [=](HumanPositions& body, RootPose&, int f) {
+      if (f >= 45) body[index(HumanJoint::left_hand)].y += metres;
+    });
+  };
+  EXPECT_EQ(compare_ood(walk_, jumping(0.1f)).jumps, 2);  // The frames before and after.
+  EXPECT_EQ(compare_ood(walk_, jumping(0.04f)).jumps, 0);
+  EXPECT_EQ(compare_ood(jumping(0.1f), jumping(0.1f)).jumps, 0);
+  // More than 6 cm further, but not twice as far.
+  EXPECT_EQ(compare_ood(jumping(0.1f), jumping(0.18f)).jumps, 0);
+  EXPECT_EQ(compare_ood(jumping(0.1f), jumping(0.25f)).jumps, 2);
+}
+
 TEST_F(CompareForeign, a_broken_knee_counts_unless_the_input_has_it) {
   const Take broken = changed(walk_, [](HumanPositions& body, RootPose&, int f) {
     if (f < 45) body[index(HumanJoint::left_foot)] += Vec3{0, 0.3f, 0.9f};

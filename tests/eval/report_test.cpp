@@ -110,6 +110,8 @@ TEST(ReportJson, out_of_distribution_rows_are_kept_and_summed_up) {
   EXPECT_EQ(summary["beyond_limits"]["rows"], 1);
   EXPECT_DOUBLE_EQ(summary["under_floor"]["mean"], 0.04);
   EXPECT_EQ(summary["under_floor"]["rows"], 2);
+  EXPECT_EQ(summary["jumps"]["frames"], 6);
+  EXPECT_EQ(summary["jumps"]["rows"], 3);
   EXPECT_DOUBLE_EQ(summary["drift_m"]["max"], 3.0);
   EXPECT_DOUBLE_EQ(summary["gate"]["mean"], 0.5);
 }

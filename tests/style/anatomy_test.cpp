@@ -112,27 +112,18 @@ TEST_F(AnatomyTest, knees_do_not_bend_forward_nor_elbows_back) {
 }
 
 // A foot that is held pulls its thigh across the other after the limits were kept.
-TEST_F(AnatomyTest, a_held_foot_turns_no_thigh_beyond_its_hip) {
-  const Vec3 ahead = {0, 0, 1};
-  const auto inwards = [&](const BodyChange& change) {
-    const Vec3 thigh = way(change, left_upper_leg, left_lower_leg);
-    return std::asin(-dot(thigh, kLeft)) / kDegree;
-  };
-  float last = inwards({});
-  for (int degrees = 0; degrees <= 90; ++degrees) {
-    const Quat inward = axis_angle(ahead, -static_cast<float>(degrees) * kDegree);
-    BodyChange change = turned(left_upper_leg, left_toes, inward);
+TEST_F(AnatomyTest, a_thigh_that_is_pulled_across_the_other_is_noticed) {
+  const auto share = [&](float degrees, size_t side) {
+    const Quat inward = axis_angle(Vec3{0, 0, 1}, -degrees * kDegree);
     Anatomy anatomy;
-    anatomy.step_thighs(body_, rig_.rig(), {}, change);
-    if (degrees < 20) {
-      EXPECT_NEAR(inwards(change), inwards({}) + static_cast<float>(degrees), 2) << degrees;
-    }
-    EXPECT_GT(inwards(change), last - 0.1f) << degrees;
-    last = inwards(change);
-  }
-  // Adduction of 30 degrees and 10 more, and some of it in front of the other thigh.
-  EXPECT_GT(last, 35);
-  EXPECT_LT(last, 60);
+    anatomy.watch_thighs(body_, rig_.rig(), {}, turned(left_upper_leg, left_toes, inward));
+    return anatomy.thigh_share(side);
+  };
+  EXPECT_EQ(share(0, 0), 0);
+  EXPECT_EQ(share(20, 0), 0);
+  EXPECT_GT(share(60, 0), 0.1f);
+  EXPECT_GT(share(80, 0), share(60, 0));
+  EXPECT_EQ(share(80, 1), 0) << "the other leg";
 }
 
 TEST_F(AnatomyTest, a_limit_comes_and_goes_gradually) {

@@ -111,18 +111,19 @@ class Limits {
     hips_ = hips_frame();
     chest_ = frame_of(in_heading(at(left_upper_arm) - at(right_upper_arm)),
                       in_heading(shoulders - at(chest)));
-    keep_swing({hips, hips_}, chest, chest_.y, {0, 1, 0}, kTorso, 1, spine, right_hand);
-    keep_swing({chest, chest_}, neck, way(neck, head), {0, 1, 0}, kHead, 1, neck, head);
+    const Base below{hips, hips_}, above{chest, chest_};
+    keep_swing(below, swing_of(below, chest, chest_.y, {0, 1, 0}, kTorso, 1), spine, right_hand);
+    keep_swing(above, swing_of(above, neck, way(neck, head), {0, 1, 0}, kHead, 1), neck, head);
     keep_arm(0, left_upper_arm, left_lower_arm, left_hand);
     keep_arm(1, right_upper_arm, right_lower_arm, right_hand);
     keep_leg(1, left_upper_leg, left_lower_leg, left_foot, left_toes);
     keep_leg(-1, right_upper_leg, right_lower_leg, right_foot, right_toes);
   }
 
-  void keep_thighs() {
+  void watch_thighs() {
     hips_ = hips_frame();
-    keep_thigh(1, left_upper_leg, left_lower_leg, left_toes);
-    keep_thigh(-1, right_upper_leg, right_lower_leg, right_toes);
+    eased(thigh_swing(1, left_upper_leg, left_lower_leg).share);
+    eased(thigh_swing(-1, right_upper_leg, right_lower_leg).share);
   }
 
  private:
@@ -164,19 +165,28 @@ class Limits {
     }
   }
 
+  // A direction of a joint seen from a base, and the share of its change that is to be taken back.
+  struct Swing {
+    Vec3 now, before;  // With the change, and in the input.
+    float share;
+  };
   // `side`: 1 or -1 where x is outward for the limb that `joint` turns.
-  void keep_swing(const Base& base, HumanJoint joint, Vec3 direction, Vec3 rest, const Range& range,
-                  float side, HumanJoint first, HumanJoint last) {
+  Swing swing_of(const Base& base, HumanJoint joint, Vec3 direction, Vec3 rest, const Range& range,
+                 float side) const {
     const bool is_arm = &range == &kShoulder, both = rest.y > 0;
     const auto beyond = [&](Vec3 v) {
       const Vec3 outward = {both ? std::abs(v.x) : v.x * side, v.y, v.z};
       return is_arm ? arm_beyond(outward, rest, range) : swing_beyond(outward, rest, range);
     };
-    const Vec3 now = changed(base, joint, direction);
-    const Vec3 before = seen_in(base.frame, direction);
+    const Vec3 now = changed(base, joint, direction), before = seen_in(base.frame, direction);
     const float out = dot(now, rest) < range.safe ? beyond(now) : -kSoft;
-    const float share = eased(out > -kSoft ? share_back(out, beyond(before)) : 0.0f);
-    turn(base, now, before, share, first, last);
+    return {now, before, out > -kSoft ? share_back(out, beyond(before)) : 0.0f};
+  }
+  Swing thigh_swing(float side, HumanJoint upper, HumanJoint lower) const {
+    return swing_of({hips, hips_}, upper, way(upper, lower), {0, -1, 0}, kHip, side);
+  }
+  void keep_swing(const Base& base, const Swing& swing, HumanJoint first, HumanJoint last) {
+    turn(base, swing.now, swing.before, eased(swing.share), first, last);
   }
 
   void keep_hinge(const Base& base, HumanJoint upper, Vec3 upper_way, HumanJoint lower,
@@ -200,7 +210,8 @@ class Limits {
   void keep_arm(int side, HumanJoint upper, HumanJoint lower, HumanJoint hand) {
     const Base base{chest, chest_};
     const Vec3 upper_way = way(upper, lower), lower_way = way(lower, hand);
-    keep_swing(base, upper, upper_way, {0, -1, 0}, kShoulder, side ? -1.0f : 1.0f, upper, hand);
+    const float outward = side ? -1.0f : 1.0f;
+    keep_swing(base, swing_of(base, upper, upper_way, {0, -1, 0}, kShoulder, outward), upper, hand);
     keep_hinge(base, upper, upper_way, lower, lower_way, kElbowHinge, hand);
 
     const Vec3 local = rig_.hand_direction(side);
@@ -223,13 +234,10 @@ class Limits {
     change_.rotations[index(hand)] = normalized(of(lower) * exp_rotation(own * (1 - share)));
   }
 
-  void keep_thigh(float side, HumanJoint upper, HumanJoint lower, HumanJoint toes) {
-    keep_swing({hips, hips_}, upper, way(upper, lower), {0, -1, 0}, kHip, side, upper, toes);
-  }
-
   void keep_leg(float side, HumanJoint upper, HumanJoint lower, HumanJoint foot, HumanJoint toes) {
-    keep_thigh(side, upper, lower, toes);
-    keep_hinge({hips, hips_}, upper, way(upper, lower), lower, way(lower, foot), kKneeHinge, toes);
+    const Base base{hips, hips_};
+    keep_swing(base, thigh_swing(side, upper, lower), upper, toes);
+    keep_hinge(base, upper, way(upper, lower), lower, way(lower, foot), kKneeHinge, toes);
   }
 
   const BodyPose& body_;
@@ -248,9 +256,10 @@ void Anatomy::step(const BodyPose& body, const Rig& rig, const StepTime& time,
   Limits(body, rig, time.gain(kShareSeconds), shares_.data(), change).keep_all();
 }
 
-void Anatomy::step_thighs(const BodyPose& body, const Rig& rig, const StepTime& time,
-                          BodyChange& change) noexcept {
-  Limits(body, rig, time.gain(kShareSeconds), thigh_shares_.data(), change).keep_thighs();
+void Anatomy::watch_thighs(const BodyPose& body, const Rig& rig, const StepTime& time,
+                           const BodyChange& change) noexcept {
+  BodyChange same = change;
+  Limits(body, rig, time.gain(kShareSeconds), thigh_shares_.data(), same).watch_thighs();
 }
 
 }  // namespace panache

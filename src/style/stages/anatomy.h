@@ -19,9 +19,12 @@ class Anatomy {
   void reset() noexcept { shares_ = {}, thigh_shares_ = {}; }
   void step(const BodyPose& body, const Rig& rig, const StepTime& time,
             BodyChange& change) noexcept;
-  // The hip joints alone, once more: a foot that is held may turn a thigh further than the style did.
-  void step_thighs(const BodyPose& body, const Rig& rig, const StepTime& time,
-                   BodyChange& change) noexcept;
+  // What it would take back at each hip joint: a foot that is held may turn a thigh further than
+  // the style did.
+  void watch_thighs(const BodyPose& body, const Rig& rig, const StepTime& time,
+                    const BodyChange& change) noexcept;
+  // 0 to 1, eased, as last watched; left, right.
+  float thigh_share(size_t side) const noexcept { return thigh_shares_[side]; }
 
   // Calls visit(member) for everything that tells one character from another.
   template <class Self, class Visit>
@@ -32,7 +35,7 @@ class Anatomy {
  private:
   // Of torso, neck, then shoulder, elbow, wrist and hip, knee of either side: 0 to 1.
   std::array<float, 12> shares_{};
-  std::array<float, 2> thigh_shares_{};  // Of left and right in step_thighs().
+  std::array<float, 2> thigh_shares_{};  // Of left and right in watch_thighs().
 };
 
 }  // namespace panache

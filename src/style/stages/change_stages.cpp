@@ -38,11 +38,13 @@ void ChangeStages::step(const AskedChange& asked, const ChangeControl& control,
   for (size_t f = 0; f < kFeet; ++f) {
     const float height = now.world.positions[index(kToes[f])].y;
     contacts_[f] = planted_near_floor(asked.contacts[f], height);
+    // Nor is a foot held that turns its thigh further than a hip can.
+    contacts_[f] *= 1 - anatomy_.thigh_share(f);
   }
   if (control.foot_lock) {
     foot_lock_.step(now.world, joints, contacts_, control.amount * control.shape.foot_lock,
                     time.output, change_);
-    anatomy_.step_thighs(now.world, observer.rig(), time, change_);
+    anatomy_.watch_thighs(now.world, observer.rig(), time, change_);
   }
   tell(clock, Stage::feet);
 }
