@@ -108,6 +108,8 @@ TEST_F(CompareForeign, a_joint_that_jumps_counts_unless_the_input_jumps_too) {
   // More than 6 cm further, but not twice as far.
   EXPECT_EQ(compare_ood(jumping(0.1f), jumping(0.18f)).jumps, 0);
   EXPECT_EQ(compare_ood(jumping(0.1f), jumping(0.25f)).jumps, 2);
+  // Twice as far, but not 6 cm further.
+  EXPECT_EQ(compare_ood(jumping(0.05f), jumping(0.105f)).jumps, 0);
 }
 
 TEST_F(CompareForeign, a_broken_knee_counts_unless_the_input_has_it) {

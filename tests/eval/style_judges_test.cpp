@@ -61,7 +61,7 @@ TEST_F(StyleJudgesTest, an_output_is_judged_as_the_style_that_was_asked_for) {
 TEST(StyleJudges, do_not_learn_that_whoever_kicks_is_neutral) {
   test::keep_libraries_single_threaded();
   std::vector<Take> takes = test::styled_takes({"neutral", "old", "proud"}, {0, 1, 2}, 60);
-  for (Take kick : test::styled_takes({"old"}, {0, 1, 2}, 60)) {
+  for (Take kick : test::styled_takes({"old"}, {0, 1, 2, 3, 5, 6, 7, 8, 9}, 60)) {
     kick.row.style = "neutral";
     kick.row.neutral = true;
     kick.row.content = "kick";
