@@ -17,6 +17,8 @@ namespace {
 
 // What an answer begins with: a result, or the message of a failure.
 constexpr char kGood = '+', kBad = '-';
+// A library that somebody has taken over may answer for ever.
+constexpr size_t kLargestAnswer = size_t{2} << 30;  // Bytes, as of any file.
 
 void limit(int what, rlim_t most) {
   const rlimit bound = {most, most};
@@ -34,13 +36,14 @@ bool write_all(int file, const char* bytes, size_t count) {
   return true;
 }
 
+// Stops beyond the largest answer.
 std::string read_all(int file) {
   std::string bytes;
   char part[1 << 16];
   for (;;) {
     const ssize_t done = ::read(file, part, sizeof part);
     if (done < 0 && errno == EINTR) continue;
-    if (done <= 0) return bytes;
+    if (done <= 0 || bytes.size() > kLargestAnswer) return bytes;
     bytes.append(part, static_cast<size_t>(done));
   }
 }
@@ -81,7 +84,8 @@ Result<std::string> run_in_child(const std::vector<std::string>& arguments,
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  const bool well = WIFEXITED(status) && WEXITSTATUS(status) == kDone && !answer.empty();
+  const bool well = WIFEXITED(status) && WEXITSTATUS(status) == kDone && !answer.empty() &&
+                    answer.size() <= kLargestAnswer;
   if (!well) return Error{breakdown};
   const bool is_good = answer[0] == kGood;
   answer.erase(0, 1);

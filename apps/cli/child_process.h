@@ -10,9 +10,9 @@
 namespace panache::cli {
 
 // What the child that runs this program with `arguments` answers through answer_as_child().
-// `breakdown` is the message where it crashed or went beyond its bounds. May be called from
-// several threads: the child is a program of its own, not a copy of this one, in which a lock that
-// another thread held would stay locked for ever.
+// `breakdown` is the message where it crashed, went beyond its bounds or answers with more than 2
+// GB. May be called from several threads: the child is a program of its own, not a copy of this
+// one, in which a lock that another thread held would stay locked for ever.
 Result<std::string> run_in_child(const std::vector<std::string>& arguments,
                                  const std::string& breakdown);
 
