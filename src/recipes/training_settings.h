@@ -69,16 +69,25 @@ struct GuidanceSettings {
   int sequences = 0;         // Drawn at each step, each in one style; 0: no guidance.
   int guides = 4;            // Networks of the guide,
   int guide_steps = 2500;    // and steps of training each.
-  float style = 0.1f;        // Of not being recognised by them as the style asked for,
+  float style = 0.16f;       // Of not being recognised by them as the style asked for,
   float statistics = 0.15f;  // and of not being so by a discriminant of statistics.
   float velocity = 0.5f;     // Of hands and feet that no longer move as the input's.
-  float smoothness = 0.5f;   // Of the change from one instant to the next.
+  float smoothness = 0.6f;   // Of the change from one instant to the next.
   float balance = 1;         // Of leaving the feet's support, or sinking through the floor.
   float prior = 0.05f;       // Of changes that the pairs never show.
   float signature = 0.3f;    // Of posture and speed that change otherwise than in real takes.
+  float anatomy = 0.1f;      // Of joints that leave their range of motion.
   float ramp = 0.2f;         // Share of the training until all of it counts in full.
   float spliced = 0.4f;      // Share of the sequences with arms of another take.
-  Disturbance disturbance = {.scale = 0.06f, .floor = 0.01f, .posture = 0.15f};
+  // Other people, two thirds as far from those of the takes as in kOtherPeople.
+  Disturbance disturbance = {.scale = 0.06f,
+                             .floor = 0.01f,
+                             .posture = 0.15f,
+                             .torso = 0.06f,
+                             .head = 0.1f,
+                             .arms = 0.14f,
+                             .legs = 0.06f,
+                             .amplitude = 0.2f};
 };
 
 struct TrainingSettings {

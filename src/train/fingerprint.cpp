@@ -90,7 +90,8 @@ uint64_t hash_settings(const TrainOptions& options) {
   hash.add(guidance.guide_steps);
   hash.add_list(std::to_array({guidance.style, guidance.statistics, guidance.velocity,
                                guidance.smoothness, guidance.balance, guidance.prior,
-                               guidance.signature, guidance.ramp, guidance.spliced}));
+                               guidance.signature, guidance.anatomy, guidance.ramp,
+                               guidance.spliced}));
   hash_disturbance(guidance.disturbance, hash);
   const OptimizerSettings& optimizer = settings.optimizer;
   hash.add(optimizer.learning_rate);

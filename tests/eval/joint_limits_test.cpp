@@ -2,47 +2,20 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "clip/fk.h"
 #include "learn/manifest.h"
 #include "learn/take.h"
-#include "make_clip.h"
+#include "posed_body.h"
 
 namespace panache {
 namespace {
 
 using enum HumanJoint;
 
-constexpr Vec3 kX = {1, 0, 0}, kY = {0, 1, 0}, kZ = {0, 0, 1};
-
-struct Turn {
-  HumanJoint joint;
-  Vec3 axis;
-  float degrees;
-};
-
-// A body that stands with hanging arms, but for these turns about the axes of the parent.
-HumanPositions posed(const std::vector<Turn>& turns) {
-  constexpr float kRadians = std::numbers::pi_v<float> / 180;
-  const Skeleton skeleton = canonical_skeleton();
-  std::vector<Quat> rotations(kHumanJoints);
-  std::vector<Vec3> places;
-  for (const Joint& joint : skeleton.joints) places.push_back(joint.offset);
-  rotations[index(left_upper_arm)] = axis_angle(kZ, -90 * kRadians);
-  rotations[index(right_upper_arm)] = axis_angle(kZ, 90 * kRadians);
-  for (const auto& [joint, axis, degrees] : turns) {
-    Quat& rotation = rotations[index(joint)];
-    rotation = axis_angle(axis, degrees * kRadians) * rotation;
-  }
-  world_pose(skeleton, ConstPose{rotations, places}, Pose{rotations, places});
-  HumanPositions body;
-  for (int j = 0; j < kHumanJoints; ++j) body[j] = places[j];
-  return body;
-}
+using namespace test;
 
 void expect_inside(const std::vector<Turn>& turns) {
   const BeyondLimit found = beyond_limits(posed(turns));
@@ -54,10 +27,6 @@ void expect_beyond(const std::vector<Turn>& turns, HumanJoint joint, float degre
   // Trunk and neck are resampled from positions: they lean by some degrees at rest.
   EXPECT_NEAR(found.degrees, degrees, 6);
 }
-
-// In the axes of the left upper arm, which lies along +x at rest: turns the forearm ahead. A right
-// forearm is turned behind.
-constexpr Vec3 kElbowAxis = {0, -1, 0};
 
 TEST(JointLimits, standing_sitting_and_reaching_up_are_human) {
   expect_inside({});

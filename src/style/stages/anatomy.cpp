@@ -8,6 +8,7 @@
 #include "base/smooth_step.h"
 #include "base/elementary.h"
 #include "rig/canonical_body.h"
+#include "rig/range_of_motion.h"
 
 namespace panache {
 namespace {
@@ -23,21 +24,18 @@ constexpr float kSoft = deg(10), kLeast = deg(2);
 // three times as often.
 constexpr float kShareSeconds = 0.16f;
 
-// The limits are the normal ranges of motion that tables of goniometry print (American Academy of
-// Orthopaedic Surgeons), and 10 degrees more, as several joints share a movement. Radians.
+// The limits are the normal ranges of motion and 10 degrees more, as several joints share a
+// movement. Radians. Hinges have no margin the wrong way: it is seen at once.
 constexpr float kMargin = deg(10);
-// Ranges of a swing from the neutral direction.
 struct Range {
-  float front, back;  // Flexion, extension.
-  float out, in;      // Abduction, adduction; both sides alike for the torso.
-  float safe;         // Cosine of the narrowest of them: no closer look is needed up to it.
+  float front, back, out, in;  // As in SwingRange.
+  float safe;  // Cosine of the narrowest of them: no closer look is needed up to it.
 };
-constexpr Range kTorso = {deg(80), deg(30), deg(35), deg(35), .8660f};    // Chest on hips, from up.
-constexpr Range kHead = {deg(45), deg(45), deg(45), deg(45), .7071f};     // Head on chest, from up.
-constexpr Range kShoulder = {deg(180), deg(60), deg(180), deg(75), .5f};  // On chest, from down.
-constexpr Range kHip = {deg(120), deg(30), deg(45), deg(30), .8660f};     // On hips, from down.
-// Bends of a hinge, and how far it goes the wrong way. No margin there: it is seen at once.
-constexpr float kElbow = deg(150), kElbowBack = deg(10), kKnee = deg(140), kKneeBack = deg(2);
+constexpr Range in_radians(const SwingRange& range, float safe) {
+  return {deg(range.front), deg(range.back), deg(range.out), deg(range.in), safe};
+}
+constexpr Range kTorso = in_radians(kTorsoRange, .8660f), kHead = in_radians(kHeadRange, .7071f);
+constexpr Range kShoulder = in_radians(kShoulderRange, .5f), kHip = in_radians(kHipRange, .8660f);
 constexpr float kWrist = deg(70), kSafeWrist = .3420f;
 // A hand whose direction is not known turns no further on its forearm than this. Radians.
 constexpr float kUnknownWrist = deg(40);
@@ -76,21 +74,22 @@ struct Hinge {
   float most, back;
   float safe;  // As in Range, of the right way.
 };
-constexpr Hinge kElbowHinge = {{0, 0, 1}, kElbow + kMargin, kElbowBack, -.8660f};
-constexpr Hinge kKneeHinge = {{0, 0, -1}, kKnee + kMargin, kKneeBack, -.7660f};
+constexpr Hinge kElbowHinge = {
+    {0, 0, 1}, deg(kElbowRange.most) + kMargin, deg(kElbowRange.back), -.8660f};
+constexpr Hinge kKneeHinge = {
+    {0, 0, -1}, deg(kKneeRange.most) + kMargin, deg(kKneeRange.back), -.7660f};
 
 struct Bend {
   float angle = 0;  // Radians; 0 where it is safe,
   float wrong = 0;  // and of it the wrong way.
 };
-// A hinge bends the wrong way within 35 to 75 degrees of the exactly wrong direction: the rest of
-// the circle is in reach of a twist of the upper limb.
+// A hinge bends the wrong way within 35 to 75 degrees of the exactly wrong direction.
 Bend bend_of(Vec3 upper, Vec3 lower, const Hinge& hinge) {
   const Vec3 to = rotate(rotation_between(Vec3{0, -1, 0}, upper), hinge.bends_to);
   const Vec3 bend = lower - upper * dot(upper, lower);
   const float off = length(bend), along = dot(upper, lower);
   const float wrong =
-      off > 1e-6f ? smooth_step((-dot(bend, to) / off - 0.26f) / (0.82f - 0.26f)) : 0.0f;
+      off > 1e-6f ? smooth_step((-dot(bend, to) / off - kWrongFrom) / (kWrongTo - kWrongFrom)) : 0.0f;
   if (wrong == 0 && along > hinge.safe) return {};
   const float angle = arc_tangent(off, along);
   return {angle, angle * wrong};
