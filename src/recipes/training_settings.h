@@ -64,11 +64,13 @@ struct OptimizerSettings {
 };
 
 // How the pose network is trained on motion without styles, under a style classifier: see
-// src/train/guidance.h. Weights are of the losses that are added to that of the pairs.
+// src/train/guidance.h.
 struct GuidanceSettings {
-  int sequences = 0;         // Drawn at each step, each in one style; 0: no guidance.
+  int sequences = 0;         // Drawn at each guided step, each in one style; 0: no guidance.
+  int every = 2;             // Of so many steps one is guided: it takes as long as two others.
   int guides = 4;            // Networks of the guide,
   int guide_steps = 2500;    // and steps of training each.
+  float weight = 1.4f;       // Of the sum of the following, beside the loss of the pairs.
   float style = 0.16f;       // Of not being recognised by them as the style asked for,
   float statistics = 0.15f;  // and of not being so by a discriminant of statistics.
   float velocity = 0.5f;     // Of hands and feet that no longer move as the input's.

@@ -63,8 +63,7 @@ Tensor hinge_beyond(const Tensor& upper, const Tensor& lower, float ahead,
   const Tensor bend = lower - upper * cosine.unsqueeze(1);
   const Tensor sine = root_of(along(bend, bend));
   const Tensor angle = kDegrees * torch::atan2(sine, cosine);
-  const Tensor t =
-      ((-along(bend, to) / sine - kWrongFrom) / (kWrongTo - kWrongFrom)).clamp(0, 1);
+  const Tensor t = ((-along(bend, to) / sine - kWrongFrom) / (kWrongTo - kWrongFrom)).clamp(0, 1);
   const Tensor wrong = angle * t * t * (3 - 2 * t);
   return torch::maximum(angle - range.most, wrong - range.back);
 }
@@ -80,8 +79,7 @@ Tensor beyond_ranges(const Tensor& bodies) {
     return torch::cat({v.slice(1, 0, 1).abs(), v.slice(1, 1)}, 1);
   };
   const Tensor shoulders = (at(left_upper_arm) + at(right_upper_arm)) / 2;
-  const Frames on_hips =
-      frames_of(at(left_upper_leg) - at(right_upper_leg), at(spine) - at(hips));
+  const Frames on_hips = frames_of(at(left_upper_leg) - at(right_upper_leg), at(spine) - at(hips));
   const Frames on_chest =
       frames_of(at(left_upper_arm) - at(right_upper_arm), shoulders - at(chest));
 

@@ -86,12 +86,14 @@ uint64_t hash_settings(const TrainOptions& options) {
   hash_disturbance(batch.disturbance, hash);
   const GuidanceSettings& guidance = settings.guidance;
   hash.add(guidance.sequences);
+  hash.add(guidance.every);
+  hash.add(guidance.weight);
   hash.add(guidance.guides);
   hash.add(guidance.guide_steps);
-  hash.add_list(std::to_array({guidance.style, guidance.statistics, guidance.velocity,
-                               guidance.smoothness, guidance.balance, guidance.prior,
-                               guidance.signature, guidance.anatomy, guidance.ramp,
-                               guidance.spliced}));
+  hash.add_list(
+      std::to_array({guidance.style, guidance.statistics, guidance.velocity, guidance.smoothness,
+                     guidance.balance, guidance.prior, guidance.signature, guidance.anatomy,
+                     guidance.ramp, guidance.spliced}));
   hash_disturbance(guidance.disturbance, hash);
   const OptimizerSettings& optimizer = settings.optimizer;
   hash.add(optimizer.learning_rate);

@@ -99,9 +99,9 @@ class Training {
         torch::Tensor loss = loss_of(network.shape().name, out, batch, settings_.squared_tempo,
                                      settings_.smoothness);
         sums[n] += loss.item<float>();
-        if (guidance_ && network.shape().name == "pose") {
+        if (guidance_ && network.shape().name == "pose" && step % settings_.guidance.every == 0) {
           const double share = static_cast<double>(step) / static_cast<double>(settings_.steps);
-          loss = loss + guidance_->loss(network, share, random);
+          loss = loss + settings_.guidance.weight * guidance_->loss(network, share, random);
         }
         network.learn(loss);
       }

@@ -47,7 +47,8 @@ TEST(AnatomyLoss, what_people_do_is_free) {
 TEST(AnatomyLoss, every_joint_costs_by_how_far_it_is_beyond_its_range) {
   const auto expect_cost = [](const std::vector<Turn>& turns, float degrees) {
     // Trunk and neck are resampled from positions: they lean by some degrees at rest.
-    EXPECT_NEAR(loss_of({}, turns), cost(degrees), 0.6f) << human_joint_name(index(turns.back().joint));
+    EXPECT_NEAR(loss_of({}, turns), cost(degrees), 0.6f)
+        << human_joint_name(index(turns.back().joint));
   };
   expect_cost({{left_upper_leg, kX, 70}}, 70 - kHipRange.back);
   expect_cost({{left_upper_leg, kZ, 85}}, 85 - kHipRange.out);

@@ -141,6 +141,24 @@ TEST_F(GuidanceTest, the_same_seed_gives_the_same_model_and_other_motion_another
   EXPECT_NE(bytes(other), once);
 }
 
+TEST_F(GuidanceTest, so_many_steps_are_guided_and_with_this_weight) {
+  const auto trunk = [&](int every, float weight) {
+    TrainOptions how = options(12);
+    how.settings.guidance.every = every;
+    how.settings.guidance.weight = weight;
+    const auto trained = train(data_, styles_, how);
+    EXPECT_TRUE(trained.ok()) << trained.error().message;
+    return trained->model.tensors.at("pose.trunk.0.weight").values;
+  };
+  const std::vector<float> unguided = trunk(1, 0);
+  // Step 0 alone, at which guidance has not come in yet.
+  EXPECT_EQ(trunk(12, 1), unguided);
+  const std::vector<float> all = trunk(1, 1), half = trunk(2, 1);
+  EXPECT_NE(half, unguided);
+  EXPECT_NE(half, all);
+  EXPECT_NE(trunk(2, 2), half);
+}
+
 TEST_F(GuidanceTest, motion_that_is_too_short_is_rejected) {
   data_.unlabelled = {test::styled_take("neutral", "wave", 0, 30)};
   const auto trained = train(data_, styles_, options(5));

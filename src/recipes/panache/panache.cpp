@@ -55,7 +55,7 @@ const Recipe& panache_recipe() noexcept {
                                 .mirror_target = mirror_target,
                                 .to_change = to_change,
                                 .output_scale = output_scale,
-                                .training = {.steps = 16000,
+                                .training = {.steps = 22000,
                                              .batch = {.size = 256,
                                                        .by_style = true,
                                                        .mirrored = true,

@@ -89,7 +89,8 @@ Bend bend_of(Vec3 upper, Vec3 lower, const Hinge& hinge) {
   const Vec3 bend = lower - upper * dot(upper, lower);
   const float off = length(bend), along = dot(upper, lower);
   const float wrong =
-      off > 1e-6f ? smooth_step((-dot(bend, to) / off - kWrongFrom) / (kWrongTo - kWrongFrom)) : 0.0f;
+      off > 1e-6f ? smooth_step((-dot(bend, to) / off - kWrongFrom) / (kWrongTo - kWrongFrom))
+                  : 0.0f;
   if (wrong == 0 && along > hinge.safe) return {};
   const float angle = arc_tangent(off, along);
   return {angle, angle * wrong};
