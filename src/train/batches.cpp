@@ -97,6 +97,7 @@ Batch BatchMaker::make(Random& random) const {
 
 Batch BatchMaker::plain(const std::vector<int>& samples) const {
   std::vector<Row> rows;
+  rows.reserve(samples.size());
   for (const int i : samples) rows.push_back({i, false, -1});
   return fill(rows, {}, nullptr);
 }

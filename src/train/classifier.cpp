@@ -35,6 +35,7 @@ Classifier::Classifier(const std::vector<Take>& takes, const std::vector<std::st
                        const ClassifierSettings& settings)
     : settings_(settings), classes_(std::move(classes)) {
   std::vector<int> indices;
+  indices.reserve(labels.size());
   for (const std::string& label : labels) indices.push_back(find(label));
   measure(takes, indices);
   learn(takes, indices, seed);

@@ -29,6 +29,7 @@ constexpr int64_t kEveryThird = 3;
 
 torch::Tensor joints(std::initializer_list<HumanJoint> list) {
   std::vector<int64_t> numbers;
+  numbers.reserve(list.size());
   for (const HumanJoint joint : list) numbers.push_back(index(joint));
   return torch::tensor(numbers);
 }
