@@ -23,9 +23,8 @@ constexpr float kLeanUnit = 0.1f, kFreeLean = 0.3f;   // Metres; units that cost
 constexpr float kFloorUnit = 0.05f, kFloor = 0.045f;  // Metres; no toe of the input is lower.
 constexpr double kTolerated = 0.4;                    // Of a change that real takes agree on.
 constexpr float kStill = 0.02f;  // Metres: joints that cover less in a sequence do not count.
-// Of the instants whose joints are kept within their ranges: neighbours bend alike, and it takes
-// as long as all other losses together.
-constexpr int64_t kEveryThird = 3;
+// Of so many instants one is looked at for joints beyond their ranges: neighbours bend alike.
+constexpr int64_t kAnatomyStride = 3;
 
 torch::Tensor joints(std::initializer_list<HumanJoint> list) {
   std::vector<int64_t> numbers;
@@ -286,12 +285,12 @@ torch::Tensor Guidance::loss(const NetworkTrainer& pose, double share, Random& r
   const torch::Tensor signature =
       signature_loss(trait_changes(sequences(in), sequences(out)),
                      signature_.index_select(0, asked), tolerance_.index_select(0, asked));
-  const auto every_third = [&](const torch::Tensor& positions) {
+  const auto some_instants = [&](const torch::Tensor& positions) {
     return sequences(positions)
-        .slice(1, 0, kSequenceInstants, kEveryThird)
+        .slice(1, 0, kSequenceInstants, kAnatomyStride)
         .reshape({-1, kHumanJoints, 3});
   };
-  const torch::Tensor anatomy = anatomy_loss(every_third(in), every_third(out));
+  const torch::Tensor anatomy = anatomy_loss(some_instants(in), some_instants(out));
   const torch::Tensor by_time = answer.view({n, kSequenceInstants, -1});
   const torch::Tensor smooth = (by_time.slice(1, 1) - by_time.slice(1, 0, -1)).square().mean();
   const torch::Tensor index = torch::tensor(of_row);
