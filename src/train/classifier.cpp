@@ -86,6 +86,7 @@ void Classifier::learn(const std::vector<Take>& takes, const std::vector<int>& l
   const int steps = settings_.steps > 0 ? settings_.steps : rounds;
   // Classes are drawn by the square root of their share.
   std::vector<float> share;
+  share.reserve(windows.size());
   float total = 0;
   for (const auto& w : windows) {
     share.push_back(total += std::sqrt(static_cast<float>(w.size())));

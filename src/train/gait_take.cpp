@@ -36,8 +36,9 @@ std::vector<double> smooth(const std::vector<double>& values, const std::vector<
     const std::array<double, 4> near = splines(x);
     for (int k = 0; k < 4; ++k) row[static_cast<size_t>(x) + k] = near[k];
     for (int k = 0; k < kRepeating; k += 2) {
-      row[knots + k] = std::cos((k / 2 + 1) * phase[f]);
-      row[knots + k + 1] = std::sin((k / 2 + 1) * phase[f]);
+      const int times = k / 2 + 1;  // A cycle.
+      row[knots + k] = std::cos(times * phase[f]);
+      row[knots + k + 1] = std::sin(times * phase[f]);
     }
     return row;
   };

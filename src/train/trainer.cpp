@@ -210,6 +210,7 @@ torch::Tensor clean_features(const SampleSet& set, const std::vector<int>& choic
   const BatchMaker batches(set, choice, styles, batch, units);
   Random random(seed);
   std::vector<torch::Tensor> rows;
+  rows.reserve(kBatches + 1);  // Those of guidance, too.
   for (int b = 0; b < kBatches; ++b) {
     rows.push_back(pose.hidden(batches.make(random).inputs, nullptr));
   }
@@ -245,6 +246,7 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
   for (Take& take : data.unlabelled) write_numbers(recipe.layout, take);
 
   std::vector<std::string> names;
+  names.reserve(styles.size());
   for (const StyleName& style : styles) names.push_back(style.name);
   const int count = static_cast<int>(names.size());
   const SampleSet set(data.takes, data.pairings, names, recipe, settings.neutral_samples);
@@ -286,6 +288,7 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
         train_guides(data.takes, set, choice, names, settings.guidance, options.seed + 2);
     const Signatures found(data.takes, data.pairings);
     std::vector<const Signature*> signatures;
+    signatures.reserve(names.size());
     for (const std::string& style : names) signatures.push_back(found.find(style));
     guidance.emplace(set, choice, units, *motion, std::move(guides), signatures, settings.guidance,
                      settings.batch.input_clip);
