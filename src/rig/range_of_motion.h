@@ -10,12 +10,13 @@ struct SwingRange {
   float front, back;  // Flexion, extension.
   float out, in;      // Abduction, adduction; both sides alike for the torso.
 };
-inline constexpr SwingRange kTorsoRange = {80, 30, 35, 35};  // Chest on hips, from up.
-inline constexpr SwingRange kHeadRange = {45, 45, 45, 45};   // Head on chest, from up.
-// Upper arm on chest, from down. Straight up flexion and abduction meet: all directions are in
-// range.
-inline constexpr SwingRange kShoulderRange = {180, 60, 180, 75};
-inline constexpr SwingRange kHipRange = {120, 30, 45, 30};  // Upper leg on hips, from down.
+inline constexpr SwingRange kTorsoRange = {80, 30, 35, 35};       // Chest on hips, from up.
+inline constexpr SwingRange kHeadRange = {45, 45, 45, 45};        // Head on chest, from up.
+inline constexpr SwingRange kShoulderRange = {180, 60, 180, 75};  // Upper arm on chest, from down.
+inline constexpr SwingRange kHipRange = {120, 30, 45, 30};        // Upper leg on hips, from down.
+// Straight up an arm's flexion and abduction meet: where the height of its direction is more than
+// this, it is in range whichever way it points; degrees per that height.
+inline constexpr float kOverhead = 0.6f, kOverheadSlope = 200;
 
 // Bends of a hinge, and how far it goes the wrong way.
 struct HingeRange {

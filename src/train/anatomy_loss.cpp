@@ -14,9 +14,6 @@ using torch::Tensor;
 
 constexpr double kUnit_deg = 10;
 constexpr double kDegrees = 180 / std::numbers::pi;
-// An upper arm further up than this, as the height of its direction, is in range whichever way it
-// points; degrees per that height.
-constexpr double kOverhead = 0.6, kOverheadSlope = 200;
 
 // The root has no slope at 0.
 Tensor root_of(const Tensor& square) { return (square + 1e-8).sqrt(); }

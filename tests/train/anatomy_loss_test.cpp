@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "body_tensor.h"
 #include "make_styled_takes.h"
-#include "one_thread.h"
 #include "posed_body.h"
 #include "rig/range_of_motion.h"
 
@@ -16,14 +16,9 @@ using namespace test;
 using enum HumanJoint;
 
 torch::Tensor as_rows(const std::vector<HumanPositions>& bodies) {
-  torch::Tensor rows = torch::empty({static_cast<int64_t>(bodies.size()), kHumanJoints, 3});
-  for (size_t b = 0; b < bodies.size(); ++b) {
-    for (int j = 0; j < kHumanJoints; ++j) {
-      const Vec3 v = bodies[b][j];
-      rows[b][j] = torch::tensor({v.x, v.y, v.z});
-    }
-  }
-  return rows;
+  std::vector<torch::Tensor> rows;
+  for (const HumanPositions& body : bodies) rows.push_back(as_tensor(body));
+  return torch::stack(rows);
 }
 float loss_of(const std::vector<Turn>& before, const std::vector<Turn>& after) {
   return anatomy_loss(as_rows({posed(before)}), as_rows({posed(after)})).item<float>();

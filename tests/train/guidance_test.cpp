@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "body_tensor.h"
 #include "known_recipes.h"
 #include "make_styled_takes.h"
 #include "one_thread.h"
@@ -12,13 +13,7 @@
 namespace panache {
 namespace {
 
-torch::Tensor as_tensor(const HumanPositions& body) {
-  torch::Tensor tensor = torch::empty({kHumanJoints, 3});
-  for (int j = 0; j < kHumanJoints; ++j) {
-    for (int k = 0; k < 3; ++k) tensor[j][k] = k == 0 ? body[j].x : k == 1 ? body[j].y : body[j].z;
-  }
-  return tensor;
-}
+using test::as_tensor;
 
 TEST(StyledBodies, are_those_of_the_live_step) {
   const Take take = test::styled_take("neutral", "walk", 0);

@@ -27,12 +27,11 @@ constexpr float kShareSeconds = 0.16f;
 // The limits are the normal ranges of motion and 10 degrees more, as several joints share a
 // movement. Radians. Hinges have no margin the wrong way: it is seen at once.
 constexpr float kMargin = deg(10);
-struct Range {
-  float front, back, out, in;  // As in SwingRange.
+struct Range : SwingRange {
   float safe;  // Cosine of the narrowest of them: no closer look is needed up to it.
 };
 constexpr Range in_radians(const SwingRange& range, float safe) {
-  return {deg(range.front), deg(range.back), deg(range.out), deg(range.in), safe};
+  return {{deg(range.front), deg(range.back), deg(range.out), deg(range.in)}, safe};
 }
 constexpr Range kTorso = in_radians(kTorsoRange, .8660f), kHead = in_radians(kHeadRange, .7071f);
 constexpr Range kShoulder = in_radians(kShoulderRange, .5f), kHip = in_radians(kHipRange, .8660f);
@@ -64,9 +63,9 @@ float swing_beyond(Vec3 now, Vec3 rest, const Range& range) {
   return arc_tangent(across, dot(now, rest)) - most;
 }
 
-// The same of an arm: straight up flexion and abduction meet, and all directions are in range.
+// The same of an arm.
 float arm_beyond(Vec3 now, Vec3 rest, const Range& range) {
-  return std::min(swing_beyond(now, rest, range), deg(200) * (0.6f - now.y));
+  return std::min(swing_beyond(now, rest, range), deg(kOverheadSlope) * (kOverhead - now.y));
 }
 
 struct Hinge {
