@@ -18,6 +18,7 @@ class Systems : public BuiltSystems {
 
   std::vector<SystemTime> time() const override {
     std::vector<SystemTime> times;
+    times.reserve(systems_.size());
     for (const std::unique_ptr<System>& system : systems_) {
       times.push_back({system->name(), system->step_us(input_), system->facts().bytes});
     }

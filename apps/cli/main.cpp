@@ -93,7 +93,11 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     // Of libraries below. Those of libtorch go on with where in its sources they come from.
     const std::string_view text = error.what();
-    print_message("internal error: " + std::string(text.substr(0, text.find('\n'))));
+    if (text.find("can't allocate memory") != std::string_view::npos) {
+      print_message("out of memory");
+    } else {
+      print_message("internal error: " + std::string(text.substr(0, text.find('\n'))));
+    }
   }
   return kBadInput;
 }

@@ -70,8 +70,10 @@ Result<std::string> CharacterFile::encode(const std::vector<NewMotion>& motions,
     return format_clip(only.clip, rig ? &*rig : &rig_, only.name, placement_of(rig_), to);
   }
   std::vector<ClipEdit> edits;
-  for (const NewMotion& motion : motions)
+  edits.reserve(motions.size());
+  for (const NewMotion& motion : motions) {
     edits.push_back({kNewClip, &motion.clip, {}, motion.name});
+  }
   return in_container(file_->encode(edits, mode), path_, output);
 }
 

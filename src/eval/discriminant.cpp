@@ -16,6 +16,7 @@ constexpr float kHeightUnit = 0.2f, kBobUnit = 0.03f;  // Metres.
 
 std::vector<HumanPositions> mirrored_body(const Take& take) {
   std::vector<HumanPositions> body;
+  body.reserve(take.body.size());
   for (const HumanPositions& pose : take.body) body.push_back(mirrored(pose));
   return body;
 }

@@ -81,6 +81,7 @@ Result<std::vector<PredictionRow>> evaluate_prediction(const std::shared_ptr<con
     for (const TestInput& input : *part) takes.push_back(&input.take);
   }
   std::vector<ManifestRow> rows;
+  rows.reserve(options.ood.size());
   for (const std::string& path : options.ood) {
     rows.push_back({path, "", "(foreign motion)", "", true, true, 0});
   }

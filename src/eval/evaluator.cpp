@@ -49,6 +49,7 @@ MetricsTable grouped(const StyleContentTable& cells, std::string StyleContent::*
 
 std::vector<std::string> labels_of(const std::vector<Take>& takes, std::string ManifestRow::*key) {
   std::vector<std::string> labels;
+  labels.reserve(takes.size());
   for (const Take& take : takes) labels.push_back(take.row.*key);
   return labels;
 }

@@ -74,7 +74,7 @@ struct GuidanceSettings {
   float style = 0.16f;       // Of not being recognised by them as the style asked for,
   float statistics = 0.15f;  // and of not being so by a discriminant of statistics.
   float velocity = 0.5f;     // Of hands and feet that no longer move as the input's.
-  float smoothness = 0.6f;   // Of the change from one instant to the next.
+  float smoothness = 1.2f;   // Of the change from one instant to the next.
   float balance = 1;         // Of leaving the feet's support, or sinking through the floor.
   float prior = 0.05f;       // Of changes that the pairs never show.
   float signature = 0.3f;    // Of posture and speed that change otherwise than in real takes.
@@ -99,7 +99,8 @@ struct TrainingSettings {
   OptimizerSettings optimizer = {};
   // The tempo is taught by the squared error of its logarithm, not by Poisson's loss.
   bool squared_tempo = false;
-  float smoothness = 0;            // Weight of the loss on the change from one frame to the next.
+  float smoothness = 0;            // Weight of the loss on the change from one frame to the next,
+  float positions = 0;             // and of that on where changes put the joints: PositionLoss.
   GuidanceSettings guidance = {};  // Where there is motion without styles.
   int64_t predictor_steps = 0;     // Of the network that predicts input; 0: the model has none.
   int64_t base_steps = 0;          // Of a base, see train_base(); 0: the recipe has none.

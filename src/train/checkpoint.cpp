@@ -1,7 +1,10 @@
 #include "train/checkpoint.h"
 
 #include <filesystem>
+#include <sstream>
 #include <utility>
+
+#include "base/file.h"
 
 namespace panache {
 namespace {
@@ -27,8 +30,8 @@ std::string difference(const torch::Tensor& saved, const torch::Tensor& now) {
 
 }  // namespace
 
-void save_checkpoint(const std::string& path, const Fingerprint& training,
-                     const NetworkTrainer& network, const std::vector<LossPoint>& losses) {
+Result<void> save_checkpoint(const std::string& path, const Fingerprint& training,
+                             const NetworkTrainer& network, const std::vector<LossPoint>& losses) {
   std::vector<torch::Tensor> saved = network.save();
   torch::Tensor table = torch::zeros({static_cast<int64_t>(losses.size()), 3}, torch::kFloat64);
   auto rows = table.accessor<double, 2>();
@@ -39,9 +42,10 @@ void save_checkpoint(const std::string& path, const Fingerprint& training,
   }
   saved.push_back(table);
   saved.push_back(as_tensor(training));
-  const std::string file = file_of(path, network.shape().name);
-  torch::save(saved, file + ".part");
-  std::filesystem::rename(file + ".part", file);
+  // Not by libtorch: on a full disk it ends the program.
+  std::ostringstream bytes;
+  torch::save(saved, bytes);
+  return write_file(file_of(path, network.shape().name), bytes.view(), true);
 }
 
 Result<void> load_checkpoint(const std::string& path, const Fingerprint& training,

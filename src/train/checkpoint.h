@@ -12,8 +12,8 @@
 namespace panache {
 
 // Saves a network beside `path` (".pose.checkpoint" and so on), whole or not at all.
-void save_checkpoint(const std::string& path, const Fingerprint& training,
-                     const NetworkTrainer& network, const std::vector<LossPoint>& losses);
+Result<void> save_checkpoint(const std::string& path, const Fingerprint& training,
+                             const NetworkTrainer& network, const std::vector<LossPoint>& losses);
 
 // Restores a network and its losses where a checkpoint is there; fails where it is damaged, or of
 // other data, styles or settings.

@@ -77,6 +77,7 @@ uint64_t hash_settings(const TrainOptions& options) {
   hash.add(settings.squared_tempo);
   hash.add(settings.predictor_steps);
   hash.add(settings.smoothness);
+  hash.add(settings.positions);
   const BatchSettings& batch = settings.batch;
   hash.add(batch.size);
   hash.add(batch.by_style);

@@ -28,10 +28,6 @@ Guides train_guides(const std::vector<Take>& takes, const SampleSet& set,
                     const std::vector<int>& choice, const std::vector<std::string>& styles,
                     const GuidanceSettings& settings, uint64_t seed);
 
-// What bodies become by changes, with gradients: the change_body() of training.
-// bodies[rows][21][3], changes[rows][StyleDelta::kSize] -> [rows][21][3]
-torch::Tensor styled_bodies(const torch::Tensor& bodies, const torch::Tensor& changes);
-
 // The change of the first traits of kTraits, those that a second of motion shows, in their units.
 // before, after: [sequences][instants][21][3] -> [sequences][kGuidedTraits]
 inline constexpr int64_t kGuidedTraits = 7;

@@ -16,6 +16,7 @@
 #include "train/fingerprint.h"
 #include "train/gate.h"
 #include "train/guidance.h"
+#include "train/position_loss.h"
 #include "train/train_predictor.h"
 
 namespace panache {
@@ -61,27 +62,32 @@ torch::Tensor loss_of(const std::string& network, const torch::Tensor& out, cons
 
 class Training {
  public:
-  // `guidance`: of the pose network, or null. `validation`: samples in order of their style;
-  // `groups`: how many of them each style has.
-  Training(const BatchMaker& batches, const Guidance* guidance, std::vector<int> validation,
-           std::vector<int64_t> groups, const TrainOptions& options, const Fingerprint& training)
+  // `guidance` and `positions`: of the pose network, or null. `validation`: samples in order of
+  // their style; `groups`: how many of them each style has.
+  Training(const BatchMaker& batches, const Guidance* guidance, const PositionLoss* positions,
+           std::vector<int> validation, std::vector<int64_t> groups, const TrainOptions& options,
+           const Fingerprint& training)
       : settings_(options.settings),
         batches_(batches),
         guidance_(guidance),
+        positions_(positions),
         validation_(std::move(validation)),
         validation_groups_(std::move(groups)),
         options_(options),
         fingerprint_(training),
         progress_("training") {}
 
-  void run(std::vector<Job> jobs, std::vector<LossPoint>& losses) {
+  // Fails where a checkpoint cannot be saved; those of before are still there.
+  Result<void> run(std::vector<Job> jobs, std::vector<LossPoint>& losses) {
     total_ = settings_.steps * static_cast<int64_t>(jobs.size());
     for (const Job& job : jobs) done_ += job.step();
     const int count = static_cast<int>(jobs.size());
     parallel_for(
         count, [&](int j) { run_job(jobs[static_cast<size_t>(j)], losses); }, count);
+    if (unsaved_) return *unsaved_;
     std::stable_sort(losses.begin(), losses.end(),
                      [](const LossPoint& a, const LossPoint& b) { return a.network < b.network; });
+    return {};
   }
 
  private:
@@ -89,7 +95,7 @@ class Training {
     const int64_t report = std::max<int64_t>(1, settings_.steps / 50);
     const int64_t keep = 5 * report;
     std::vector<double> sums(job.networks.size());
-    for (int64_t step = job.step(); step < settings_.steps; ++step) {
+    for (int64_t step = job.step(); step < settings_.steps && !is_unsaved(); ++step) {
       Random random(options_.seed * 1000003 + job.seed * 7919 + static_cast<uint64_t>(step) * 2);
       const Batch batch = batches_.make(random);
       for (size_t n = 0; n < job.networks.size(); ++n) {
@@ -99,6 +105,9 @@ class Training {
         torch::Tensor loss = loss_of(network.shape().name, out, batch, settings_.squared_tempo,
                                      settings_.smoothness);
         sums[n] += loss.item<float>();
+        if (positions_ && network.shape().name == "pose") {
+          loss = loss + settings_.positions * (*positions_)(out, batch);
+        }
         if (guidance_ && network.shape().name == "pose" && step % settings_.guidance.every == 0) {
           const double share = static_cast<double>(step) / static_cast<double>(settings_.steps);
           loss = loss + settings_.guidance.weight * guidance_->loss(network, share, random);
@@ -109,12 +118,22 @@ class Training {
       progress_.update(static_cast<double>(done) / static_cast<double>(total_), status_text());
       if ((step + 1) % report == 0) report_losses(job, step + 1, report, sums, losses);
       if (!options_.checkpoint.empty() && (step + 1) % keep == 0) {
-        for (const NetworkTrainer* network : job.networks) {
-          save_checkpoint(options_.checkpoint, fingerprint_, *network,
-                          losses_for_checkpoint(losses, *network));
-        }
+        for (const NetworkTrainer* network : job.networks) save(*network, losses);
       }
     }
+  }
+
+  void save(const NetworkTrainer& network, const std::vector<LossPoint>& losses) {
+    Result<void> saved = save_checkpoint(options_.checkpoint, fingerprint_, network,
+                                         losses_for_checkpoint(losses, network));
+    if (saved) return;
+    const std::lock_guard lock(mutex_);
+    unsaved_ = saved.error();
+  }
+
+  bool is_unsaved() {
+    const std::lock_guard lock(mutex_);
+    return unsaved_.has_value();
   }
 
   // Whether a checkpoint brought this line of the table along.
@@ -173,6 +192,7 @@ class Training {
   const TrainingSettings& settings_;
   const BatchMaker& batches_;
   const Guidance* guidance_;
+  const PositionLoss* positions_;
   std::vector<int> validation_;
   std::vector<int64_t> validation_groups_;
   const TrainOptions& options_;
@@ -180,6 +200,7 @@ class Training {
   Progress progress_;
   std::mutex mutex_;
   std::string status_;
+  std::optional<Error> unsaved_;
   std::atomic<int64_t> done_ = 0;
   int64_t total_ = 1;
 };
@@ -294,13 +315,17 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
                      settings.batch.input_clip);
   }
   const Guidance* guide = guidance ? &*guidance : nullptr;
+  std::optional<PositionLoss> positions;
+  if (settings.positions > 0) positions.emplace(set, units);
   {
     std::vector<int64_t> groups;
     std::vector<int> validation = pick_validation(set, held, count, groups);
-    Training training(batches, guide, std::move(validation), std::move(groups), options,
-                      training_print);
+    Training training(batches, guide, positions ? &*positions : nullptr, std::move(validation),
+                      std::move(groups), options, training_print);
     // The pose network costs as much as the other two together: one thread each.
-    training.run({{{&networks[0]}, 1}, {{&networks[1], &networks[2]}, 2}}, trained.losses);
+    Result<void> done =
+        training.run({{{&networks[0]}, 1}, {{&networks[1], &networks[2]}, 2}}, trained.losses);
+    if (!done) return done.error();
   }
   for (NetworkTrainer& network : networks) network.round_halves();
   trained.model = export_model(set, units, styles, networks, options);

@@ -3,24 +3,12 @@
 #include <map>
 #include <tuple>
 
-#include <dlfcn.h>
-#include <torch/torch.h>
-
 #include "base/progress.h"
 #include "base/stopwatch.h"
+#include "train/matrix_products.h"
 
 namespace panache {
 namespace {
-
-// Our own threads share the cores: the libraries below must not start more. OpenBLAS asks for this
-// through a function of its own, which is there only where libtorch came with it.
-void keep_libraries_single_threaded() {
-  torch::set_num_threads(1);
-  using SetThreads = void (*)(int);
-  if (void* found = ::dlsym(RTLD_DEFAULT, "openblas_set_num_threads")) {
-    reinterpret_cast<SetThreads>(found)(1);
-  }
-}
 
 // FNV-1a of the file's name.
 uint32_t hash_of_name(const std::string& path) {
@@ -54,7 +42,7 @@ std::vector<bool> validation_takes(const std::vector<Take>& takes) {
 
 Result<std::vector<Take>> read_training_takes(const std::vector<ManifestRow>& rows,
                                               PoseLayout layout, const std::string& what) {
-  keep_libraries_single_threaded();
+  if (Result<void> prepared = prepare_matrix_products(); !prepared) return prepared.error();
   std::vector<ManifestRow> used;
   for (const ManifestRow& row : rows) {
     if (!row.test) used.push_back(row);

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "make_styled_takes.h"
-#include "one_thread.h"
+#include "train/matrix_products.h"
 
 namespace panache {
 namespace {
@@ -101,7 +101,7 @@ void expect_unknown_cells_left_out(const Evaluator& evaluator) {
 
 // To train a judge takes seconds, so one answers all questions.
 TEST(Evaluator, real_takes_are_recognised_and_what_is_not_like_them_is_not) {
-  test::keep_libraries_single_threaded();
+  EXPECT_TRUE(prepare_matrix_products().ok());
   const std::vector<std::string> styles = {"neutral", "old", "proud"};
   const Result<Evaluator> evaluator = Evaluator::create(test::styled_takes(styles, {0, 1, 2}),
                                                         test::styled_takes(styles, {4, 5}), {}, 1);
@@ -115,7 +115,7 @@ TEST(Evaluator, real_takes_are_recognised_and_what_is_not_like_them_is_not) {
 }
 
 TEST(Evaluator, an_evaluator_that_does_not_know_real_takes_is_rejected) {
-  test::keep_libraries_single_threaded();
+  EXPECT_TRUE(prepare_matrix_products().ok());
   // What it learns from has the names of two styles exchanged.
   std::vector<Take> training = test::styled_takes({"old", "proud"}, {0, 1});
   for (Take& take : training) take.row.style = take.row.style == "old" ? "proud" : "old";

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "eval/make_swings.h"
-#include "one_thread.h"
+#include "train/matrix_products.h"
 
 namespace panache {
 namespace {
@@ -13,7 +13,7 @@ using namespace holden2017;
 class Holden : public testing::Test {
  protected:
   Holden() {
-    test::keep_libraries_single_threaded();
+    EXPECT_TRUE(prepare_matrix_products().ok());
     takes_ = {test::swinging_take("neutral", 150, 0.3f), test::swinging_take("neutral", 150, 0.5f),
               test::swinging_take("old", 150, 0.3f, 1, 0.4f)};
     pairings_ = pair_takes(takes_, {2}, {0, 1});

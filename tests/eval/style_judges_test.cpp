@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "make_styled_takes.h"
-#include "one_thread.h"
+#include "train/matrix_products.h"
 
 namespace panache {
 namespace {
@@ -11,7 +11,7 @@ namespace {
 class StyleJudgesTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    test::keep_libraries_single_threaded();
+    EXPECT_TRUE(prepare_matrix_products().ok());
     const std::vector<Take> takes = test::styled_takes({"neutral", "old", "proud"}, {0, 1, 2});
     std::vector<int> styled, neutral;
     for (size_t i = 0; i < takes.size(); ++i) {
@@ -59,7 +59,7 @@ TEST_F(StyleJudgesTest, an_output_is_judged_as_the_style_that_was_asked_for) {
 
 // A kick that only neutral shows, and that looks like an old walk.
 TEST(StyleJudges, do_not_learn_that_whoever_kicks_is_neutral) {
-  test::keep_libraries_single_threaded();
+  EXPECT_TRUE(prepare_matrix_products().ok());
   std::vector<Take> takes = test::styled_takes({"neutral", "old", "proud"}, {0, 1, 2}, 60);
   for (Take kick : test::styled_takes({"old"}, {0, 1, 2, 3, 5, 6, 7, 8, 9}, 60)) {
     kick.row.style = "neutral";
@@ -78,7 +78,7 @@ TEST(StyleJudges, do_not_learn_that_whoever_kicks_is_neutral) {
 // What old is in a walk is called proud where a hand waves: who has not seen the other action is
 // wrong in every take of it.
 TEST(JudgeUnseenActions, is_done_by_judges_of_the_other_actions) {
-  test::keep_libraries_single_threaded();
+  EXPECT_TRUE(prepare_matrix_products().ok());
   std::vector<Take> takes = test::styled_takes({"neutral", "old", "proud"}, {0, 1, 2}, 60);
   for (Take& take : takes) {
     if (take.row.content == "wave" && !take.row.neutral) {

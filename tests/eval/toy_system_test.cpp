@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "eval/evaluate.h"
-#include "one_thread.h"
 #include "make_model.h"
 #include "make_styles.h"
 #include "temporary_folder.h"
+#include "train/matrix_products.h"
 
 namespace panache {
 namespace {
@@ -19,7 +19,7 @@ using Json = nlohmann::json;
 class ToySystemTest : public testing::Test {
  protected:
   ToySystemTest() {
-    test::keep_libraries_single_threaded();
+    EXPECT_TRUE(prepare_matrix_products().ok());
     test::write_styles(folder_.path(), {"neutral", "old", "proud"}, 2);
     const auto rows = read_manifest(folder_.path() + "takes.csv", 0);
     for (const ManifestRow& row : *rows) {

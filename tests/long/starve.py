@@ -328,17 +328,21 @@ def any_names(program, count, draw):
         os.remove(os.path.join(os.fsencode(program.work), out))
 
 
-def main():
-    if len(sys.argv) not in (4, 5):
-        sys.exit(__doc__)
-    path, model, steps = sys.argv[1], sys.argv[2], int(sys.argv[3])
-    fbx = sys.argv[4] if len(sys.argv) == 5 else None
+def skip_without_other():
     if os.geteuid() == 0:
         try:
             subprocess.run(['true'], preexec_fn=lambda: os.setuid(kOther), check=True)
         except (OSError, subprocess.SubprocessError):
             print('starve: not run: root cannot become another user here')
             sys.exit(77)
+
+
+def main():
+    if len(sys.argv) not in (4, 5):
+        sys.exit(__doc__)
+    path, model, steps = sys.argv[1], sys.argv[2], int(sys.argv[3])
+    fbx = sys.argv[4] if len(sys.argv) == 5 else None
+    skip_without_other()
     draw = random.Random(1)
     with tempfile.TemporaryDirectory() as folder:
         program = Program(path, model, folder, fbx)

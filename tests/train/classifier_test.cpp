@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "make_styled_takes.h"
-#include "one_thread.h"
+#include "train/matrix_products.h"
 
 namespace panache {
 namespace {
@@ -16,7 +16,7 @@ std::vector<std::string> styles_of(const std::vector<Take>& takes) {
 
 // To train a classifier takes seconds, so two answer all questions.
 TEST(Classifier, learns_its_classes_alone_and_the_same_from_the_same_seed) {
-  test::keep_libraries_single_threaded();
+  EXPECT_TRUE(prepare_matrix_products().ok());
   std::vector<Take> takes = test::styled_takes({"old", "proud"}, {0});
   std::vector<std::string> labels = styles_of(takes);
   const Classifier without(takes, labels, {"proud", "old"}, 3);

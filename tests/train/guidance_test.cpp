@@ -5,33 +5,14 @@
 #include "body_tensor.h"
 #include "known_recipes.h"
 #include "make_styled_takes.h"
-#include "one_thread.h"
-#include "style/pose_change.h"
 #include "train/export.h"
+#include "train/matrix_products.h"
 #include "train/trainer.h"
 
 namespace panache {
 namespace {
 
 using test::as_tensor;
-
-TEST(StyledBodies, are_those_of_the_live_step) {
-  const Take take = test::styled_take("neutral", "walk", 0);
-  Random random(7);
-  for (int f = 0; f < take.frames(); f += 10) {
-    StyleDelta delta;
-    for (Vec3& r : delta.rotations) r = {random.normal(), random.normal(), random.normal()};
-    delta.rotations[3] = {};  // The formula has no angle to divide by.
-    delta.hips_height = 0.1f;
-    std::array<float, StyleDelta::kSize> packed;
-    pack(delta, packed);
-    const HumanPositions expected = change_body(take.body[f], delta);
-    const torch::Tensor made =
-        styled_bodies(as_tensor(take.body[f]).unsqueeze(0),
-                      torch::from_blob(packed.data(), {1, StyleDelta::kSize}));
-    EXPECT_LT((made[0] - as_tensor(expected)).abs().max().item<float>(), 1e-5f) << f;
-  }
-}
 
 TEST(TraitChanges, are_differences_of_traits) {
   // Fifteen instants, two frames apart: what traits() sees of each frame, both see.
@@ -63,7 +44,7 @@ TEST(TraitChanges, are_differences_of_traits) {
 class GuidanceTest : public testing::Test {
  protected:
   GuidanceTest() {
-    test::keep_libraries_single_threaded();
+    EXPECT_TRUE(prepare_matrix_products().ok());
     for (const Take& take : test::styled_takes({"neutral", "old", "proud"}, {0, 1})) {
       if (take.row.content == "walk") {
         data_.takes.push_back(take);

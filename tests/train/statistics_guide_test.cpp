@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "make_styled_takes.h"
-#include "one_thread.h"
 #include "train/classifier.h"
+#include "train/matrix_products.h"
 
 namespace panache {
 namespace {
@@ -24,7 +24,7 @@ torch::Tensor bodies_of(const Take& take) {
 }
 
 StatisticsGuide guide() {
-  test::keep_libraries_single_threaded();
+  EXPECT_TRUE(prepare_matrix_products().ok());
   const std::vector<Take> takes = test::styled_takes({"old", "proud", "neutral"}, {0, 1});
   std::vector<std::string> labels;
   for (const Take& take : takes) labels.push_back(take.row.style);

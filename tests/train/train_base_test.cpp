@@ -8,8 +8,8 @@
 #include "learn/style_file.h"
 #include "make_styled_takes.h"
 #include "net/quantize.h"
-#include "one_thread.h"
 #include "style/model.h"
+#include "train/matrix_products.h"
 
 namespace panache {
 namespace {
@@ -24,7 +24,7 @@ TrainOptions few_steps() {
 // Takes that say to be of a style: a base does not look at it.
 const Trained& trained() {
   static const Trained base = [] {
-    test::keep_libraries_single_threaded();
+    EXPECT_TRUE(prepare_matrix_products().ok());
     return *train_base(test::styled_takes({"neutral", "old"}, {0, 1}), few_steps());
   }();
   return base;
@@ -86,7 +86,7 @@ TEST(TrainBase, a_style_learnt_on_it_is_the_style_in_int8_too) {
 }
 
 TEST(TrainBase, motion_that_is_none_is_rejected) {
-  test::keep_libraries_single_threaded();
+  EXPECT_TRUE(prepare_matrix_products().ok());
   const auto failed = train_base(test::styled_takes({"neutral"}, {0}, 2), few_steps());
   ASSERT_FALSE(failed.ok());
   EXPECT_EQ(failed.error().message,

@@ -85,6 +85,17 @@ TEST_F(TrainerTest, interrupted_training_goes_on_as_if_it_had_not_been) {
   EXPECT_FALSE(std::filesystem::exists(with_checkpoints.checkpoint + ".pose.checkpoint"));
 }
 
+TEST_F(TrainerTest, training_ends_with_a_message_where_a_checkpoint_cannot_be_saved) {
+  TrainOptions unsavable = options(test::kPanache, 40);
+  unsavable.checkpoint = folder_ + "model.safetensors";
+  std::filesystem::create_directory(unsavable.checkpoint + ".timing.checkpoint.part");
+  const auto trained = train(rows_, styles_, unsavable);
+  ASSERT_FALSE(trained.ok());
+  EXPECT_NE(trained.error().message.find(".timing.checkpoint: cannot be written"),
+            std::string::npos)
+      << trained.error().message;
+}
+
 TEST_F(TrainerTest, training_does_not_go_on_from_a_checkpoint_of_another) {
   TrainOptions begun = options(test::kPanache, 5);
   begun.checkpoint = folder_ + "model.safetensors";
@@ -99,13 +110,14 @@ TEST_F(TrainerTest, training_does_not_go_on_from_a_checkpoint_of_another) {
   };
   EXPECT_EQ(rejection(styles_, begun), "");
 
-  std::vector<TrainOptions> others(6, begun);
+  std::vector<TrainOptions> others(7, begun);
   others[0].seed = 9;
   others[1].settings.steps = 6;
   others[2].settings.batch.size = 128;
   others[3].settings.batch.disturbance.jitter = 0;
   others[4].settings.optimizer.learning_rate = 0.001f;
   others[5].settings.smoothness = 0;
+  others[6].settings.positions = 0;
   for (size_t i = 0; i < others.size(); ++i) {
     EXPECT_EQ(rejection(styles_, others[i]), expected("settings")) << i;
   }

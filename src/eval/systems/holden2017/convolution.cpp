@@ -19,7 +19,7 @@ torch::Tensor Convolution::operator()(const torch::Tensor& x) const {
   return torch::conv1d(held, weight, bias);
 }
 
-void learn(std::vector<Convolution*> layers, int steps, double rate,
+void learn(const std::vector<Convolution*>& layers, int steps, double rate,
            const std::function<torch::Tensor(int step)>& loss) {
   std::vector<torch::Tensor> numbers;
   for (Convolution* layer : layers) {

@@ -26,7 +26,7 @@ struct Convolution {
 
 // Takes `steps` of Adam (Kingma and Ba 2015) down the gradients of loss(step), at a rate that falls
 // from `rate` to a hundredth of it; the layers stay as they are afterwards.
-void learn(std::vector<Convolution*> layers, int steps, double rate,
+void learn(const std::vector<Convolution*>& layers, int steps, double rate,
            const std::function<torch::Tensor(int step)>& loss);
 
 }  // namespace panache::holden2017

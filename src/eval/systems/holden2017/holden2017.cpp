@@ -128,6 +128,7 @@ std::unique_ptr<ChangeSource> Holden2017::make_source(const Take& take,
     }
   }
   std::vector<StyleDelta> changes;
+  changes.reserve(sums.size());
   for (const auto& sum : sums) changes.push_back(unpack(sum));
   return std::make_unique<WholeTakeSource>(take, std::move(changes));
 }

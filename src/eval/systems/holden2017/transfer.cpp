@@ -75,6 +75,7 @@ Transfer::Transfer(const Autoencoder& loss_network, const RowUnits& units,
   learn({&first_, &second_, &last_}, settings.steps, kRate, [&](int) {
     const torch::Tensor x = windows.draw(settings.batch, random, &which);
     std::vector<torch::Tensor> wanted;
+    wanted.reserve(which.size());
     for (const int w : which) wanted.push_back(grams[action_of[w]]);
     const torch::Tensor y = (*this)(x);
     const torch::Tensor hidden = loss_network.encode(y), before = loss_network.encode(x);

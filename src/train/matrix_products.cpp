@@ -1,0 +1,47 @@
+#include "train/matrix_products.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+#include <thread>
+
+#include <dlfcn.h>
+#include <torch/torch.h>
+
+#include "base/parallel.h"
+
+namespace panache {
+namespace {
+
+constexpr size_t kBuffer = size_t{128} << 20;
+
+}  // namespace
+
+Result<void> prepare_matrix_products() {
+  torch::set_num_threads(1);
+  // OpenBLAS asks for this through a function of its own, which is there only where libtorch came
+  // with it.
+  using SetThreads = void (*)(int);
+  void* found = ::dlsym(RTLD_DEFAULT, "openblas_set_num_threads");
+  if (!found) return {};
+  reinterpret_cast<SetThreads>(found)(1);
+
+  const int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const size_t room = (static_cast<size_t>(threads) + 2) * kBuffer;  // Two for all that follows.
+  void* volatile probe = std::malloc(room);  // Compilers may leave out what nobody can see.
+  const bool fits = probe != nullptr;
+  std::free(probe);
+  if (!fits) {
+    return Error{"training and evaluation need " + std::to_string(room >> 20) +
+                 " MB more memory for products of matrices than there is; allow them more"};
+  }
+  // Products that take long enough for all threads to be at one at the same time.
+  parallel_for(threads, [](int) {
+    const torch::NoGradGuard no_gradients;
+    const torch::Tensor numbers = torch::zeros({512, 512});
+    for (int i = 0; i < 4; ++i) torch::mm(numbers, numbers);
+  });
+  return {};
+}
+
+}  // namespace panache

@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+"""starve_training.py PROGRAM MODEL STEPS: runs panache train and panache eval where something is
+missing. PROGRAM has both.
+
+- Memory: STEPS amounts from the least with which the program starts to the least that is enough.
+- Open files: as many as the program needs to start, and up to four more.
+- Room on the disk: STEPS amounts from nothing to the largest output. A folder nobody may write to.
+
+Ends with 1 and a message where a run is ended by a signal, hangs or fails without a message, or
+leaves an output that is not whole. Training that failed is run again: it goes on from its
+checkpoint, and its outputs must be those of a run that lacked nothing.
+
+Not tried is what OpenBLAS does before main(): it starts a thread for each core but one, and ends the
+program with SIGINT where it cannot; and the program does not end where these find no memory."""
+import os
+import resource
+import sys
+import tempfile
+
+import starve
+from starve import Failure, least
+
+kManifest = '''path,style,content,take,neutral,split
+walk.bvh,neutral,walk,1,1,train
+slow.bvh,slow,walk,1,0,train
+walk.bvh,neutral,walk,2,1,test
+slow.bvh,slow,walk,2,0,test
+'''
+kVerbs = [
+    ['train', 'walks.csv', '-o', 'out.safetensors', '--steps', '20'],
+    ['train', '--unlabelled', 'walks.csv', '-o', 'out.safetensors', '--steps', '20'],
+    ['eval', 'walks.csv', '--model', 'slow.safetensors'],
+]
+kCheckpoints = '.checkpoint'
+kBuffer = 130 << 20  # What each thread of OpenBLAS takes.
+
+
+def remove_checkpoints(program):
+    for name in os.listdir(program.work):
+        if kCheckpoints in name:
+            os.remove(os.path.join(program.work, name))
+
+
+def starved(program, verb, wanted, limits=(), user=None):
+    """Whether it did what it should."""
+    program.fresh()
+    done, what = program.run(verb, limits=limits, user=user)
+    if done.returncode != 0 and verb[0] == 'train' and user is None:
+        again, after = program.run(verb)
+        if again.returncode != 0:
+            raise Failure(f'{what}, then {after}')
+        remove_checkpoints(program)
+        program.compare(f'{what}, then {after}', wanted, True)
+        return False
+    remove_checkpoints(program)
+    program.compare(what, wanted, done.returncode == 0)
+    return done.returncode == 0
+
+
+def main():
+    if len(sys.argv) != 4:
+        sys.exit(__doc__)
+    path, model, steps = sys.argv[1], sys.argv[2], int(sys.argv[3])
+    starve.skip_without_other()
+    with tempfile.TemporaryDirectory() as folder:
+        program = starve.Program(path, model, folder)
+        with open(os.path.join(program.made, 'walks.csv'), 'w', encoding='utf8') as file:
+            file.write(kManifest)
+        program.fresh()
+        model_of_walks = ['train', 'walks.csv', '-o', 'slow.safetensors', '--steps', '20']
+        done, what = program.run(model_of_walks)
+        if done.returncode != 0:
+            raise Failure(what)
+        os.rename(os.path.join(program.work, 'slow.safetensors'),
+                  os.path.join(program.made, 'slow.safetensors'))
+        program.inputs = starve.contents(program.made)
+        program.least_memory += (os.cpu_count() or 1) * kBuffer
+        memory = files = room = 0
+        for verb in kVerbs:
+            wanted, _ = program.reference(verb)
+
+            def enough(most, verb=verb):
+                program.fresh()
+                return program.run(verb, limits=[(resource.RLIMIT_AS, most)])[0].returncode == 0
+            needed = least(enough, 1 << 32, 1 << 26)
+            for i in range(steps):
+                most = program.least_memory + (needed - program.least_memory) * i // steps
+                memory += not starved(program, verb, wanted, [(resource.RLIMIT_AS, most)])
+            for most in range(program.least_files, program.least_files + 5):
+                files += not starved(program, verb, wanted, [(resource.RLIMIT_NOFILE, most)])
+            largest = max(map(len, wanted.values()))
+            for i in range(steps):
+                most = largest * i // steps
+                room += not starved(program, verb, wanted, [(resource.RLIMIT_FSIZE, most)])
+            starve.without_leave(program, verb, wanted)
+        print(f'{len(kVerbs)} commands, {program.runs} runs; {memory} lacked memory, '
+              f'{files} open files, {room} room on the disk')
+
+
+if __name__ == '__main__':
+    try:
+        main()
+    except Failure as failure:
+        sys.exit(f'starve_training: {failure}')
