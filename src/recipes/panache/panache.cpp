@@ -55,7 +55,7 @@ const Recipe& panache_recipe() noexcept {
                                 .mirror_target = mirror_target,
                                 .to_change = to_change,
                                 .output_scale = output_scale,
-                                .training = {.steps = 22000,
+                                .training = {.steps = 20000,
                                              .batch = {.size = 256,
                                                        .by_style = true,
                                                        .mirrored = true,
@@ -65,7 +65,8 @@ const Recipe& panache_recipe() noexcept {
                                                            .one_cycle = true,
                                                            .weight_decay = 0.2f,
                                                            .dropout = 0.02f},
-                                             .smoothness = 0.3f,
+                                             .smoothness = 0.6f,
+                                             .positions = 4,
                                              .guidance = {.sequences = 20},
                                              .predictor_steps = 6000,
                                              .base_steps = 4000}};
