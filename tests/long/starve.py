@@ -112,7 +112,8 @@ class Program:
                                   1 << 16)
         self.least_files = least(lambda most: self.starts(resource.RLIMIT_NOFILE, most), 64, 1)
 
-    def start(self, arguments, cwd, limits=(), user=None, stdin=subprocess.DEVNULL):
+    def start(self, arguments, cwd, limits=(), user=None, stdin=subprocess.DEVNULL,
+              seconds=kSeconds):
         def prepare():
             resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)  # A full disk is an error, no signal.
@@ -122,11 +123,14 @@ class Program:
                 os.setuid(user)
         environment = {**os.environ, 'PANACHE_MODEL': 'model.safetensors'}
         return subprocess.run([self.path, *arguments], cwd=cwd, env=environment, stdin=stdin,
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=kSeconds,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=seconds,
                               preexec_fn=prepare, check=False)
 
     def starts(self, what, most):
-        return self.start(['--version'], self.work, [(what, most)]).returncode == 0
+        try:
+            return self.start(['--version'], self.work, [(what, most)], seconds=10).returncode == 0
+        except subprocess.TimeoutExpired:  # OpenBLAS waits for memory: see starve_training.py.
+            return False
 
     def fresh(self):
         shutil.rmtree(self.work, ignore_errors=True)

@@ -82,7 +82,7 @@ def main():
             def enough(most, verb=verb):
                 program.fresh()
                 return program.run(verb, limits=[(resource.RLIMIT_AS, most)])[0].returncode == 0
-            needed = least(enough, 1 << 32, 1 << 26)
+            needed = least(enough, 1 << 32, 1 << 28)
             for i in range(steps):
                 most = program.least_memory + (needed - program.least_memory) * i // steps
                 memory += not starved(program, verb, wanted, [(resource.RLIMIT_AS, most)])
