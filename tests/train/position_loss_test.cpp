@@ -1,5 +1,7 @@
 #include "train/position_loss.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "known_recipes.h"
@@ -62,6 +64,20 @@ TEST_F(PositionLossTest, a_joint_that_is_turned_takes_along_what_hangs_on_it) {
   EXPECT_GT(off(left_lower_arm), 0.05f);
   // The bones are about as long, and two joints hang on the upper one.
   EXPECT_NEAR(off(left_upper_arm), 2 * off(left_lower_arm), off(left_lower_arm));
+}
+
+TEST_F(PositionLossTest, the_body_is_that_of_the_window) {
+  // Where nothing is to change, a forearm that is turned by 1 rad puts the hand this far off.
+  Batch still = batch_;
+  still.pose = torch::zeros_like(batch_.pose);
+  torch::Tensor answers = torch::zeros_like(batch_.pose);
+  const int number = 3 * index(left_lower_arm);
+  answers[1][number] = 1 / units_.scale[number];
+  const Sample& sample = set_.samples()[1];
+  const HumanPositions& body = takes_[sample.take].body[static_cast<size_t>(sample.frame)];
+  const Vec3 bone = body[index(left_hand)] - body[index(left_lower_arm)];
+  const float off = 2 * std::sin(0.5f) * std::hypot(bone.y, bone.z);
+  EXPECT_NEAR(loss_(answers, still).item<float>(), off * off / 0.01f / kHumanJoints / 3, 1e-4f);
 }
 
 TEST_F(PositionLossTest, roots_of_bodies_do_not_count) {

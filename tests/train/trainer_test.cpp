@@ -60,6 +60,23 @@ TEST_F(TrainerTest, the_same_seed_gives_the_same_model_and_another_another) {
   EXPECT_NE(a, format_safetensors(train(rows_, styles_, other)->model));
 }
 
+TEST_F(TrainerTest, where_the_joints_end_counts) {
+  TrainOptions with = options(test::kPanache, 150), without = with;
+  without.settings.positions = 0;
+  const auto pose_loss = [&](const TrainOptions& how) {
+    const auto trained = train(rows_, styles_, how);
+    float last = -1;
+    for (const LossPoint& point : trained->losses) {
+      if (point.network == "pose") last = point.train;
+    }
+    return last;
+  };
+  // What is reported is the squared error alone, so that recipes can be compared: with another loss
+  // beside it, it falls otherwise.
+  EXPECT_GT(with.settings.positions, 0);
+  EXPECT_NE(pose_loss(with), pose_loss(without));
+}
+
 TEST_F(TrainerTest, interrupted_training_goes_on_as_if_it_had_not_been) {
   TrainOptions whole = options(test::kPanache, 40);
   const auto uninterrupted = train(rows_, styles_, whole);
