@@ -26,7 +26,8 @@ Result<void> prepare_matrix_products() {
   if (!found) return {};
   reinterpret_cast<SetThreads>(found)(1);
 
-  const int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  // Judges learn two at a time, each on as many threads as there are cores.
+  const int threads = 2 * static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const size_t room = (static_cast<size_t>(threads) + 2) * kBuffer;  // Two for all that follows.
   void* volatile probe = std::malloc(room);  // Compilers may leave out what nobody can see.
   const bool fits = probe != nullptr;
@@ -36,11 +37,12 @@ Result<void> prepare_matrix_products() {
                  " MB more memory for products of matrices than there is; allow them more"};
   }
   // Products that take long enough for all threads to be at one at the same time.
-  parallel_for(threads, [](int) {
+  const auto multiply = [](int) {
     const torch::NoGradGuard no_gradients;
     const torch::Tensor numbers = torch::zeros({512, 512});
-    for (int i = 0; i < 4; ++i) torch::mm(numbers, numbers);
-  });
+    for (int i = 0; i < 16; ++i) torch::mm(numbers, numbers);
+  };
+  parallel_for(threads, multiply, threads);
   return {};
 }
 

@@ -17,6 +17,7 @@
 #include "pose/mirror.h"
 #include "recipes/recipe.h"
 #include "train/export.h"
+#include "train/matrix_products.h"
 #include "train/network.h"
 #include "train/train_predictor.h"
 
@@ -300,6 +301,7 @@ class BaseTraining {
 }  // namespace
 
 Result<Trained> train_base(const std::vector<ManifestRow>& rows, const TrainOptions& options) {
+  if (Result<void> prepared = prepare_matrix_products(); !prepared) return prepared.error();
   const Stopwatch watch;
   Result<std::vector<Take>> takes = read_training_takes(rows, options.recipe->layout, "reading");
   if (!takes) return takes.error();

@@ -42,7 +42,6 @@ std::vector<bool> validation_takes(const std::vector<Take>& takes) {
 
 Result<std::vector<Take>> read_training_takes(const std::vector<ManifestRow>& rows,
                                               PoseLayout layout, const std::string& what) {
-  if (Result<void> prepared = prepare_matrix_products(); !prepared) return prepared.error();
   std::vector<ManifestRow> used;
   for (const ManifestRow& row : rows) {
     if (!row.test) used.push_back(row);
@@ -55,6 +54,7 @@ Result<std::vector<Take>> read_training_takes(const std::vector<ManifestRow>& ro
 
 Result<TrainingData> prepare_training(const std::vector<ManifestRow>& rows, PoseLayout layout,
                                       const std::vector<ManifestRow>& unlabelled) {
+  if (Result<void> prepared = prepare_matrix_products(); !prepared) return prepared.error();
   TrainingData data;
   const Stopwatch reading;
   Result<std::vector<Take>> takes = read_training_takes(rows, layout, "reading");

@@ -31,30 +31,22 @@ kVerbs = [
     ['train', '--unlabelled', 'walks.csv', '-o', 'out.safetensors', '--steps', '20'],
     ['eval', 'walks.csv', '--model', 'slow.safetensors'],
 ]
-kCheckpoints = '.checkpoint'
 kBuffer = 130 << 20  # What each thread of OpenBLAS takes.
 
 
-def remove_checkpoints(program):
-    for name in os.listdir(program.work):
-        if kCheckpoints in name:
-            os.remove(os.path.join(program.work, name))
-
-
-def starved(program, verb, wanted, limits=(), user=None):
-    """Whether it did what it should."""
-    program.fresh()
-    done, what = program.run(verb, limits=limits, user=user)
-    if done.returncode != 0 and verb[0] == 'train' and user is None:
-        again, after = program.run(verb)
-        if again.returncode != 0:
-            raise Failure(f'{what}, then {after}')
-        remove_checkpoints(program)
-        program.compare(f'{what}, then {after}', wanted, True)
-        return False
-    remove_checkpoints(program)
-    program.compare(what, wanted, done.returncode == 0)
-    return done.returncode == 0
+class Training(starve.Program):
+    def starved(self, arguments, wanted, printed, **options):
+        """As of other commands; training that failed goes on without limits."""
+        self.fresh()
+        done, what = self.run(arguments, **options)
+        failed = done.returncode != 0
+        if failed and arguments[0] == 'train':
+            done, after = self.run(arguments)
+            what += f', then {after}'
+            if done.returncode != 0:
+                raise Failure(what)
+        self.compare(what, wanted, done.returncode == 0)
+        return not failed
 
 
 def main():
@@ -63,7 +55,7 @@ def main():
     path, model, steps = sys.argv[1], sys.argv[2], int(sys.argv[3])
     starve.skip_without_other()
     with tempfile.TemporaryDirectory() as folder:
-        program = starve.Program(path, model, folder)
+        program = Training(path, model, folder)
         with open(os.path.join(program.made, 'walks.csv'), 'w', encoding='utf8') as file:
             file.write(kManifest)
         program.fresh()
@@ -77,7 +69,7 @@ def main():
         program.least_memory += (os.cpu_count() or 1) * kBuffer
         memory = files = room = 0
         for verb in kVerbs:
-            wanted, _ = program.reference(verb)
+            wanted, printed = program.reference(verb)
 
             def enough(most, verb=verb):
                 program.fresh()
@@ -85,13 +77,10 @@ def main():
             needed = least(enough, 1 << 32, 1 << 28)
             for i in range(steps):
                 most = program.least_memory + (needed - program.least_memory) * i // steps
-                memory += not starved(program, verb, wanted, [(resource.RLIMIT_AS, most)])
-            for most in range(program.least_files, program.least_files + 5):
-                files += not starved(program, verb, wanted, [(resource.RLIMIT_NOFILE, most)])
-            largest = max(map(len, wanted.values()))
-            for i in range(steps):
-                most = largest * i // steps
-                room += not starved(program, verb, wanted, [(resource.RLIMIT_FSIZE, most)])
+                limits = [(resource.RLIMIT_AS, most)]
+                memory += not program.starved(verb, wanted, printed, limits=limits)
+            files += starve.starve_of_files(program, verb, wanted, printed)
+            room += starve.starve_of_room(program, verb, wanted, printed, steps)
             starve.without_leave(program, verb, wanted)
         print(f'{len(kVerbs)} commands, {program.runs} runs; {memory} lacked memory, '
               f'{files} open files, {room} room on the disk')
