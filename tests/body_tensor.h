@@ -1,7 +1,7 @@
 #pragma once
 // Bodies as tensors, for tests of losses.
 
-#include <torch/torch.h>
+#include <torch/types.h>
 
 #include "rig/humanoid.h"
 

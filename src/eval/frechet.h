@@ -1,7 +1,7 @@
 #pragma once
 // How far two clouds of features lie apart.
 
-#include <torch/torch.h>
+#include <torch/types.h>
 
 namespace panache {
 

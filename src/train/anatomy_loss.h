@@ -1,7 +1,7 @@
 #pragma once
 // What keeps training from bending joints as no human joint bends.
 
-#include <torch/torch.h>
+#include <torch/types.h>
 
 namespace panache {
 

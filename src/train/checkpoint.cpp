@@ -4,6 +4,8 @@
 #include <sstream>
 #include <utility>
 
+#include <torch/serialize.h>
+
 #include "base/file.h"
 
 namespace panache {

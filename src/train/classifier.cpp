@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <torch/nn/functional/loss.h>
+
 #include "base/parallel.h"
 #include "base/random.h"
 #include "learn/disturbance.h"

@@ -1,7 +1,7 @@
 #pragma once
 // What motion a trained pose network knows: the ellipsoid that its activations fill in training.
 
-#include <torch/torch.h>
+#include <torch/types.h>
 
 #include "net/safetensors.h"
 

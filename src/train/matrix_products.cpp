@@ -6,7 +6,7 @@
 #include <thread>
 
 #include <dlfcn.h>
-#include <torch/torch.h>
+#include <ATen/Parallel.h>
 
 #include "base/parallel.h"
 
@@ -18,7 +18,7 @@ constexpr size_t kBuffer = size_t{128} << 20;
 }  // namespace
 
 Result<void> prepare_matrix_products() {
-  torch::set_num_threads(1);
+  at::set_num_threads(1);
   // OpenBLAS asks for this through a function of its own, which is there only where libtorch came
   // with it.
   using SetThreads = void (*)(int);

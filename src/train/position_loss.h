@@ -1,7 +1,7 @@
 #pragma once
 // How well the pose network puts the joints where the pairs show them.
 
-#include <torch/torch.h>
+#include <torch/types.h>
 
 #include "learn/samples.h"
 #include "train/batches.h"

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <torch/nn/functional/loss.h>
+
 #include "train/classifier.h"
 
 namespace panache {

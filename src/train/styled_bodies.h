@@ -1,7 +1,7 @@
 #pragma once
 // Bodies in styles, with gradients.
 
-#include <torch/torch.h>
+#include <torch/types.h>
 
 #include "rig/humanoid.h"
 

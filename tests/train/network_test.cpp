@@ -1,6 +1,7 @@
 #include "train/network.h"
 
 #include <gtest/gtest.h>
+#include <torch/optim/adam.h>
 
 namespace panache {
 namespace {

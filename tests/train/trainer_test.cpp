@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include <gtest/gtest.h>
+#include <torch/serialize.h>
 
 #include "known_recipes.h"
 #include "make_manifest.h"

@@ -2,7 +2,7 @@
 // The loss network: a convolutional autoencoder of motion, whose hidden units tell what a motion is
 // like.
 
-#include <torch/torch.h>
+#include <torch/types.h>
 
 #include "eval/systems/holden2017/convolution.h"
 #include "eval/systems/holden2017/motion_rows.h"

@@ -3,6 +3,9 @@
 #include <cmath>
 #include <numbers>
 
+#include <torch/nn/functional/padding.h>
+#include <torch/optim/adam.h>
+
 namespace panache::holden2017 {
 
 Convolution::Convolution(int in, int out, Random* random)
