@@ -99,7 +99,7 @@ Result<void> convert_file(FileJob& file, const ConvertVerb& verb, const RigOptio
 // The extension of files in an output folder. A single output file says its format itself.
 Result<std::string> wanted_extension(const ConvertVerb& verb) {
   if (verb.to.empty()) return std::string();
-  if (is_writable("." + verb.to)) return "." + verb.to;
+  if (has_writer("." + verb.to)) return "." + verb.to;
   return Error{"--to: expected " + list_writable_names() + ", found " + panache::quoted(verb.to)};
 }
 

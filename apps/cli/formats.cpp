@@ -110,7 +110,7 @@ bool must_be_encoded(const std::string& extension) {
 std::string list_writable() { return list_without(0); }
 std::string list_writable_names() { return list_without(1); }
 
-bool is_writable(const std::string& extension) {
+bool has_writer(const std::string& extension) {
   const MotionFormat* format = find_format(formats(), extension);
   return format && format->write;
 }
@@ -118,7 +118,7 @@ bool is_writable(const std::string& extension) {
 Result<void> check_format(const std::string& input, const std::string& output) {
   const std::string from = extension_of(input), to = extension_of(output);
   const MotionFormat* format = find_format(formats(), from);
-  if (!format || is_writable(to)) return {};  // Opening the input says what is wrong.
+  if (!format || has_writer(to)) return {};  // Opening the input says what is wrong.
   const bool has_own = format->encoded_as == format->extension;
   if (has_own && to == from) return {};
   return Error{output + ": expected a name that ends in " +

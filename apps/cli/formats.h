@@ -28,7 +28,7 @@ bool must_be_encoded(const std::string& extension);
 std::string list_writable();
 std::string list_writable_names();
 // Whether a motion can be written with this extension.
-bool is_writable(const std::string& extension);
+bool has_writer(const std::string& extension);
 
 // Rejects an output whose extension is none that its input can be written with.
 Result<void> check_format(const std::string& input, const std::string& output);
@@ -47,7 +47,7 @@ bool holds_one_motion(const std::string& extension);
 // Whether files with this extension hold the motion of humanoids and nothing else.
 bool holds_humanoids(const std::string& extension);
 
-// A new file of this motion alone, with an extension that is_writable(). Formats that hold
+// A new file of this motion alone, with an extension that has a writer. Formats that hold
 // humanoids get the motion on a body of their own; `rig` may be null for others.
 Result<std::string> format_clip(const Clip& clip, const Rig* rig, const std::string& name,
                                 const Placement& placement, const std::string& extension);

@@ -19,7 +19,7 @@ Result<void> check_writable(const std::string& path) {
   const fs::perms writers =
       fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
   const bool read_only = (fs::status(path, status).permissions() & writers) == fs::perms::none;
-  if (!read_only && panache::is_writable(path)) return {};
+  if (!read_only && is_writable(path)) return {};
   return Error{path + ": is read-only and stays as it is; change a copy of it, or allow writing"};
 }
 
