@@ -34,6 +34,9 @@ constexpr float kBent = 0.6f, kDeep = 0.03f;  // Metres.
 // A knee that a style or noise bends backwards by a few degrees may not be bent on that way: a leg
 // that is nearly straight bends to where its foot points. In force in full from this shift on.
 constexpr float kFirm = 0.05f, kFirmShift = 0.02f;  // Metres.
+// A nearly straight knee that would come out on another side goes around the leg, not faster than
+// this.
+constexpr float kKneeRate = 12;  // Radians/s.
 
 // Where a knee points: where the foot does, and ahead where that points down.
 Vec3 knee_way(Vec3 ankle, Vec3 toe) { return normalized(toe - ankle) + Vec3{0, 0, 0.5f}; }
@@ -50,6 +53,9 @@ Vec3 easy_target(Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 target, float depth) {
   return hip + way * ((before + follow * (wanted - before)) / wanted);
 }
 
+// The part of `v` at right angles to `axis`, which has length 1.
+Vec3 across(Vec3 v, Vec3 axis) { return v - axis * dot(v, axis); }
+
 // How far a planted foot is held back towards its anchor, which is `pull` away from it.
 Vec3 held(Vec3 pull) {
   constexpr float kGives = kMaxOffset - kHeld;
@@ -61,8 +67,7 @@ Vec3 held(Vec3 pull) {
 
 }  // namespace
 
-TwoBoneTurn two_bone_ik(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 bend_hint,
-                        float firm) noexcept {
+TwoBoneTurn two_bone_ik(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 bend) noexcept {
   const float upper = length(middle - root), lower = length(end - middle);
   const Vec3 old_way = end - root, way = target - root;
   const float old_reach = length(old_way);
@@ -71,27 +76,26 @@ TwoBoneTurn two_bone_ik(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 bend
   const float shortest = std::abs(upper - lower) * 1.001f + 1e-4f;
   const float reach = std::clamp(length(way), std::min(shortest, longest), longest);
   const Vec3 axis = normalized(way);
-
   // The knee stays in its half-plane: the bend direction turns along with the leg.
-  const Vec3 old_axis = normalized(old_way, axis);
-  const Quat swing = rotation_between(old_axis, axis);
-  Vec3 bend = (middle - root) - old_axis * dot(middle - root, old_axis);
-  if (firm > 0) {
-    const Vec3 hint = normalized(bend_hint - old_axis * dot(bend_hint, old_axis));
-    bend += hint * std::max(0.0f, firm - length(bend) / 2);
-  }
-  if (length(bend) < 1e-3f * upper) bend = bend_hint - old_axis * dot(bend_hint, old_axis);
-  bend = normalized(rotate(swing, bend));
+  const Quat swing = rotation_between(normalized(old_way, axis), axis);
+  const Vec3 out = normalized(rotate(swing, bend));
 
   // Law of cosines: where along the way the knee is, and how far off it.
   const float along = (upper * upper - lower * lower + reach * reach) / (2 * reach);
   const float off = std::sqrt(std::max(0.0f, upper * upper - along * along));
-  const Vec3 knee = root + axis * along + bend * off;
+  const Vec3 knee = root + axis * along + out * off;
   const Vec3 foot = root + axis * reach;
   TwoBoneTurn turn;
   turn.upper = rotation_between(normalized(middle - root), normalized(knee - root));
   turn.lower = rotation_between(normalized(end - middle), normalized(foot - knee));
   return turn;
+}
+
+Vec3 bend_of(Vec3 root, Vec3 middle, Vec3 end, Vec3 hint, float firm) noexcept {
+  const Vec3 axis = normalized(end - root);
+  Vec3 bend = across(middle - root, axis);
+  if (firm > 0) bend += normalized(across(hint, axis)) * std::max(0.0f, firm - length(bend) / 2);
+  return length(bend) < 1e-3f * length(middle - root) ? across(hint, axis) : bend;
 }
 
 Vec3 mid_hip(const BodyPose& body) noexcept {
@@ -153,6 +157,25 @@ void FootLock::follow(Foot& foot, Vec3 input, Vec3 toe, float contact, float sec
   foot.speed = (foot.speed - pace * (kFadeRate * seconds)) * fade;
 }
 
+Vec3 FootLock::bend(Foot& foot, Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 ahead, float firm,
+                    float seconds) noexcept {
+  const Vec3 axis = normalized(ankle - hip);
+  const Vec3 wanted = normalized(bend_of(hip, knee, ankle, ahead, kFirm * firm));
+  const Vec3 last = normalized(across(foot.knee, axis));
+  // A foot that is hardly moved, and a knee that is well bent, throw no knee to the other side.
+  const float straight = 1 - length(across(knee - hip, axis)) / (2 * kFirm);
+  const float share = firm * straight;
+  const float most = share > 0 ? kKneeRate * seconds / share : 1.0f;
+  const float along = dot(wanted, last);
+  if (most >= 1 || last == Vec3{} || (along > 0 && along * along >= 1 - most * most)) {
+    foot.knee = wanted;
+  } else {
+    const Vec3 around = normalized(wanted - last * along, cross(axis, last));
+    foot.knee = normalized(last + around * most);
+  }
+  return foot.knee;
+}
+
 void FootLock::step(const BodyPose& body, const HumanPositions& joints,
                     std::span<const float, kFeet> contacts, float amount, float seconds,
                     BodyChange& change) noexcept {
@@ -166,15 +189,20 @@ void FootLock::step(const BodyPose& body, const HumanPositions& joints,
     Vec3 offset = foot.offset;
     const float depth = std::max(0.0f, floor - (toe.y + offset.y));
     offset.y += depth;
-    if (amount <= 0 || offset == Vec3{}) continue;
+    if (amount <= 0 || offset == Vec3{}) {
+      foot.knee = {};
+      continue;
+    }
 
     const int hip = index(kUpperLegs[f]), knee = index(kLowerLegs[f]), ankle = index(kAnkles[f]);
     const Vec3 shift = rotate(conjugate(to_world), offset) * amount;
     const Vec3 target =
         easy_target(joints[hip], joints[knee], joints[ankle], joints[ankle] + shift, depth);
-    const float firm = kFirm * std::min(1.0f, length(shift) / kFirmShift);
-    const TwoBoneTurn turn = two_bone_ik(joints[hip], joints[knee], joints[ankle], target,
-                                         knee_way(joints[ankle], joints[index(kToes[f])]), firm);
+    const float firm = std::min(1.0f, length(shift) / kFirmShift);
+    const Vec3 ahead = knee_way(joints[ankle], joints[index(kToes[f])]);
+    const TwoBoneTurn turn =
+        two_bone_ik(joints[hip], joints[knee], joints[ankle], target,
+                    bend(foot, joints[hip], joints[knee], joints[ankle], ahead, firm, seconds));
     change.rotations[hip] = turn.upper * change.rotations[hip];
     change.rotations[knee] = turn.lower * change.rotations[knee];
   }

@@ -16,12 +16,13 @@ struct TwoBoneTurn {
   Quat upper, lower;  // To be applied on top of the upper and the lower joint's world rotation.
 };
 // `root`, `middle`, `end`: where hip, knee and ankle (or shoulder, elbow, wrist) are; any one
-// space. A target beyond reach is approached as far as the chain's length allows; the bend stays in
-// the plane it has, or towards `bend_hint` where the chain is straight. `firm`: a middle that is
-// nearer than twice this to the line from root to end (metres) goes the more towards the hint, the
-// nearer it is; two thirds of it on the wrong side do not make the chain bend that way.
-TwoBoneTurn two_bone_ik(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 bend_hint,
-                        float firm = 0) noexcept;
+// space. A target beyond reach is approached as far as the chain's length allows. `bend`: to which
+// side of the line from root to end the middle goes, of any length; it turns along with that line.
+TwoBoneTurn two_bone_ik(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 bend) noexcept;
+// The side that the middle is on, or that of `hint` where the chain is straight. `firm`: a middle
+// that is nearer than twice this to the line from root to end (metres) goes the more towards the
+// hint, the nearer it is; two thirds of it on the wrong side do not make the chain bend that way.
+Vec3 bend_of(Vec3 root, Vec3 middle, Vec3 end, Vec3 hint, float firm = 0) noexcept;
 
 // Positions of the user's joints with the rotations of `change` on them, in the heading frame of
 // the input: origin midway between the hip joints, axes turned so that the body faces +z. Turn and
@@ -65,10 +66,16 @@ class FootLock {
     Vec3 glide;   // and its velocity while it comes to rest, m/s.
     Vec3 offset;  // World correction in force, metres; fades after release,
     Vec3 speed;   // m/s, without a jump in its velocity.
+    Vec3 knee;    // To which side its knee went, heading frame, length 1; 0 if it was not moved.
     bool seen = false;
   };
   // Follows one foot whose toe is at `input`, and at `toe` with the change, uncorrected (world).
   static void follow(Foot& foot, Vec3 input, Vec3 toe, float contact, float seconds) noexcept;
+
+  // To which side the knee of a leg goes whose foot is moved. `ahead`: where the foot points;
+  // `firm`: how much a nearly straight knee goes there, 0 to 1.
+  static Vec3 bend(Foot& foot, Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 ahead, float firm,
+                   float seconds) noexcept;
 
   std::array<Foot, kFeet> feet_;
 };

@@ -20,7 +20,7 @@ constexpr float kRiseSeconds = 0.12f;
 constexpr float kBlendSeconds = 0.25f;
 // Two plants that are not further apart are one.
 constexpr float kGapSeconds = 0.07f;
-// A knee that is nearly straight goes where the foot points, see two_bone_ik().
+// A knee that is nearly straight goes where the foot points, see bend_of().
 constexpr float kFirm = 0.05f, kFirmShift = 0.02f;
 
 float weight(float height) {
@@ -40,7 +40,8 @@ void bend_leg(int foot, Vec3 shift, const HumanPositions& joints, BodyChange& ch
   const Vec3 ahead = normalized(joints[index(kToes[foot])] - joints[ankle]) + Vec3{0, 0, 0.5f};
   const float firm = kFirm * std::min(1.0f, length(shift) / kFirmShift);
   const TwoBoneTurn turn =
-      two_bone_ik(joints[hip], joints[knee], joints[ankle], joints[ankle] + shift, ahead, firm);
+      two_bone_ik(joints[hip], joints[knee], joints[ankle], joints[ankle] + shift,
+                  bend_of(joints[hip], joints[knee], joints[ankle], ahead, firm));
   change.rotations[hip] = normalized(turn.upper * change.rotations[hip]);
   change.rotations[knee] = normalized(turn.lower * change.rotations[knee]);
 }

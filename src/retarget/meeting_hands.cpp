@@ -23,8 +23,10 @@ void meet_hands(const BodyPose& body, Vec3 between, float arm, HumanPositions& j
   const Vec3 middle = (left + right) * 0.5f;
   const Vec3 half = lerp(right - left, between * arm, amount) * 0.5f;
   const auto reach = [&](HumanJoint upper, HumanJoint lower, HumanJoint hand, Vec3 target) {
-    const TwoBoneTurn turn = two_bone_ik(joints[index(upper)], joints[index(lower)],
-                                         joints[index(hand)], target, {0, -1, -0.5f});
+    const Vec3 shoulder = joints[index(upper)], elbow = joints[index(lower)];
+    const Vec3 wrist = joints[index(hand)];
+    const TwoBoneTurn turn = two_bone_ik(shoulder, elbow, wrist, target,
+                                         bend_of(shoulder, elbow, wrist, {0, -1, -0.5f}));
     change.rotations[index(upper)] = normalized(turn.upper * change.rotations[index(upper)]);
     change.rotations[index(lower)] = normalized(turn.lower * change.rotations[index(lower)]);
   };

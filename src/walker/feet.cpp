@@ -45,7 +45,8 @@ float reach_for(Vec3 ankle, Leg& leg) {
   const float reach = soft_reach(length(way), length(leg.ankle - leg.hip), most);
   const Vec3 knee_ahead = rotate(leg.lower, Vec3{0, 0, 1});
   const TwoBoneTurn turn =
-      two_bone_ik(leg.hip, leg.knee, leg.ankle, leg.hip + normalized(way) * reach, knee_ahead);
+      two_bone_ik(leg.hip, leg.knee, leg.ankle, leg.hip + normalized(way) * reach,
+                  bend_of(leg.hip, leg.knee, leg.ankle, knee_ahead));
   leg.upper = turn.upper * leg.upper;
   leg.lower = turn.lower * leg.lower;
   const float level = way.x * way.x + way.z * way.z;

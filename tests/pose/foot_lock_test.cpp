@@ -1,5 +1,7 @@
 #include "pose/foot_lock.h"
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -23,7 +25,8 @@ TEST(TwoBoneIk, a_target_in_reach_is_met_and_the_knee_keeps_its_side) {
     const Vec3 target = kAnkle + Vec3{0.2f * random.normal(), 0.05f + 0.1f * random.uniform(),
                                       0.2f * random.normal()};
     if (length(target - kHip) > 0.8f) continue;
-    const TwoBoneTurn turn = two_bone_ik(kHip, kKnee, kAnkle, target, {0, 0, 1});
+    const TwoBoneTurn turn =
+        two_bone_ik(kHip, kKnee, kAnkle, target, bend_of(kHip, kKnee, kAnkle, {0, 0, 1}));
     EXPECT_LT(length(reached(turn, kHip, kKnee, kAnkle) - target), 1e-4f);
     const Vec3 knee = kHip + rotate(turn.upper, kKnee - kHip);
     EXPECT_GT(knee.z, (kHip.z + target.z) / 2 - 0.02f) << "the knee bends backwards";
@@ -31,14 +34,16 @@ TEST(TwoBoneIk, a_target_in_reach_is_met_and_the_knee_keeps_its_side) {
 }
 
 TEST(TwoBoneIk, a_target_at_the_end_itself_turns_nothing) {
-  const TwoBoneTurn turn = two_bone_ik(kHip, kKnee, kAnkle, kAnkle, {0, 0, 1});
+  const TwoBoneTurn turn =
+      two_bone_ik(kHip, kKnee, kAnkle, kAnkle, bend_of(kHip, kKnee, kAnkle, {0, 0, 1}));
   EXPECT_LT(length(turn.upper.xyz()), 1e-3f);
   EXPECT_LT(length(turn.lower.xyz()), 1e-3f);
 }
 
 TEST(TwoBoneIk, a_target_out_of_reach_is_approached_and_stays_finite) {
   for (const Vec3 target : {Vec3{0, -5, 0}, Vec3{9, 0, 9}, kHip, Vec3{1e20f, 0, 0}}) {
-    const TwoBoneTurn turn = two_bone_ik(kHip, kKnee, kAnkle, target, {0, 0, 1});
+    const TwoBoneTurn turn =
+        two_bone_ik(kHip, kKnee, kAnkle, target, bend_of(kHip, kKnee, kAnkle, {0, 0, 1}));
     EXPECT_TRUE(is_finite(turn.upper) && is_finite(turn.lower));
     const float reach = length(reached(turn, kHip, kKnee, kAnkle) - kHip);
     EXPECT_LE(reach, 0.83f);
@@ -52,14 +57,50 @@ TEST(TwoBoneIk, a_knee_that_is_nearly_straight_bends_to_its_hint_and_never_flips
   for (float bend = 0.2f; bend > -0.12f; bend -= 0.01f) {
     const Vec3 knee = kHip + Vec3{0, -0.4f * cosine(bend / 2), 0.4f * sine(bend / 2)};
     const Vec3 ankle = kHip + Vec3{0, -0.8f * cosine(bend / 2), 0};
-    const TwoBoneTurn turn =
-        two_bone_ik(kHip, knee, ankle, ankle + Vec3{0, 0.05f, 0}, {0.1f, 0, 1}, kFirm);
+    const TwoBoneTurn turn = two_bone_ik(kHip, knee, ankle, ankle + Vec3{0, 0.05f, 0},
+                                         bend_of(kHip, knee, ankle, {0.1f, 0, 1}, kFirm));
     const Vec3 now = kHip + rotate(turn.upper, knee - kHip);
     EXPECT_GT(now.z, kHip.z + 0.1f) << bend;
     if (last != Vec3{}) {
       EXPECT_LT(length(now - last), 0.01f) << bend;
     }
     last = now;
+  }
+}
+
+// A leg whose foot is drawn up out of the floor while a style takes the knee from a little
+// backwards to a little ahead.
+TEST(FootLock, a_knee_that_changes_its_side_goes_around_the_leg) {
+  const Clip clip = test::walking_clip(1);
+  PosedRig rig(*Rig::create(clip));
+  BodyPose body;
+  rig.read(clip.pose(0), body);
+  BodyChange change;
+  change.translation.y = -0.03f;
+  HumanPositions joints;
+  changed_joints(body, change, joints);
+  const size_t hip = index(HumanJoint::left_upper_leg), knee = index(HumanJoint::left_lower_leg);
+  const size_t ankle = index(HumanJoint::left_foot), toe = index(HumanJoint::left_toes);
+  const float thigh = length(joints[knee] - joints[hip]);
+  const Vec3 foot = joints[toe] - joints[ankle];
+  FootLock lock;
+  const float contacts[kFeet] = {0, 0};
+  std::vector<Vec3> knees;
+  for (int f = 0; f < 60; ++f) {
+    const float ahead = 0.01f * std::clamp(static_cast<float>(f) - 20, -5.0f, 5.0f);
+    const float down = std::sqrt(thigh * thigh - ahead * ahead);
+    joints[knee] = joints[hip] + Vec3{0.004f, -down, ahead};
+    joints[ankle] = joints[hip] + Vec3{0, -2 * down, 0};
+    joints[toe] = joints[ankle] + foot;
+    BodyChange step = change;
+    step.translation.y = -0.03f - (mid_hip(body).y + joints[toe].y);
+    lock.step(body, joints, contacts, 1, 1 / 120.0f, step);
+    knees.push_back(rotate(step.rotations[hip], joints[knee] - joints[hip]));
+  }
+  EXPECT_LT(knees.front().z, -0.05f);
+  EXPECT_GT(knees.back().z, 0.05f);
+  for (size_t f = 1; f < knees.size(); ++f) {
+    EXPECT_LT(length(knees[f] - knees[f - 1]), 0.03f) << f;
   }
 }
 

@@ -185,6 +185,30 @@ TEST_F(StylizerTest, behind_a_closed_gate_the_root_motion_is_the_inputs) {
   EXPECT_LT(drift(gated_model(1e-3f)), 1e-3f);
 }
 
+// How far a style turns a body aside at most, radians.
+float most_turned(const Clip& clip, float strength) {
+  Stylizer character = *Stylizer::create(random_model(), *Rig::create(clip));
+  Clip out = clip;
+  float most = 0;
+  for (int f = 0; f < clip.frames; ++f) {
+    character.step(clip.pose(f), std::vector<float>{strength, 0}, clip.frame_time, out.pose(f));
+    most = std::max(most, std::abs(character.change().turn));
+  }
+  return most;
+}
+
+TEST_F(StylizerTest, a_style_turns_who_walks_but_not_who_gets_nowhere) {
+  const Clip walk = test::walking_clip(240);
+  EXPECT_GT(most_turned(walk, 1), 0.05f);
+  EXPECT_LT(most_turned(walk, 4), 0.45f);
+  Clip to_and_fro = walk;
+  for (int f = 0; f < walk.frames; ++f) {
+    const float seconds = static_cast<float>(f * walk.frame_time);
+    to_and_fro.pose(f).translations[0].z = 0.2f * std::sin(2 * 3.14159265f * seconds);
+  }
+  EXPECT_LT(most_turned(to_and_fro, 1), 0.25f * most_turned(walk, 1));
+}
+
 TEST_F(StylizerTest, the_gate_takes_its_time_but_not_at_the_start) {
   // How far the gate moves in a walk whose viewer's clock goes on by `seconds` a frame.
   const auto moved = [&](double seconds) {

@@ -16,6 +16,8 @@ constexpr float kMaxShortened = 0.8f, kMaxStretched = 1.5f;
 // Who goes back and forth over this many seconds, as a boxer does, goes nowhere.
 constexpr float kTravelSeconds = 3;
 constexpr float kNoSpeed = 0.01f;  // m/s
+// A style turns the body aside by less than this.
+constexpr float kMaxTurn = 0.4f;  // Radians.
 
 }  // namespace
 
@@ -25,21 +27,25 @@ void RootMotion::step(const StyleDelta& delta, float gate, const Observer& obser
   const float dt = static_cast<float>(time.input);
   // On unknown motion a style has no say in the root motion: its mean is that of its walks.
   const float moving = gate * std::min(1.0f, window.ground_speed() / kStandingSpeed);
-  const float back = exponential(-dt / kCourseSeconds);
-  turn_ = turn_ * back + delta.turn_rate * moving * dt;
-  // In the world: where a body that sways to one side looks about, it does not swing around.
-  const Quat heading = rotation_y(observer.now().root.facing + turn_);
-  sway_ = sway_ * back + rotate(heading, Vec3{delta.velocity_left * moving * dt, 0, 0});
-
-  // Forward the style stretches or shortens the input's own way, by the share that its velocity is
-  // of the input's: what comes back in the input comes back in the output, and what stands stays.
-  // Each term is exactly zero without a style. Steps that lead nowhere keep their length: stretched
+  // Steps that lead nowhere give a style no say in the heading, and keep their length: stretched
   // ahead and not back, they would carry the body away.
   const float speed = window.forward_speed();
   const float follow = 1 - exponential(-dt / kTravelSeconds);
   mean_forward_ += follow * (speed - mean_forward_);
   mean_speed_ += follow * (window.ground_speed() - mean_speed_);
   const float travel = std::min(1.0f, std::abs(mean_forward_) / (mean_speed_ + kNoSpeed));
+
+  const float back = exponential(-dt / kCourseSeconds);
+  const float turning = delta.turn_rate * moving * travel * travel * dt;
+  const float room = std::max(0.0f, 1 - std::abs(turn_) / kMaxTurn);
+  turn_ = turn_ * back + (turning * turn_ > 0 ? turning * room : turning);
+  // In the world: where a body that sways to one side looks about, it does not swing around.
+  const Quat heading = rotation_y(observer.now().root.facing + turn_);
+  sway_ = sway_ * back + rotate(heading, Vec3{delta.velocity_left * moving * dt, 0, 0});
+
+  // Forward the style stretches or shortens the input's own way, by the share that its velocity is
+  // of the input's: what comes back in the input comes back in the output, and what stands stays.
+  // Each term is exactly zero without a style.
   const float share = gate * travel * travel * delta.velocity_forward * speed /
                       (speed * speed + kSlowSpeed * kSlowSpeed);
   const Vec3 way = observer.now().root.position - observer.last_root().position;
