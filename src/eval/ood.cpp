@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <optional>
 #include <set>
 
@@ -135,6 +136,16 @@ int count_jumps(const Take& from, const Take& to) {
   return count;
 }
 
+// Mean angle between where the two bodies face.
+double mean_turn_deg(const Take& from, const Take& to) {
+  double sum = 0;
+  for (int f = 0; f < to.frames(); ++f) {
+    const double turn = to.root[f].facing - from.root[f].facing;
+    sum += std::abs(std::remainder(turn, 2 * std::numbers::pi));
+  }
+  return sum / to.frames() * 180 / std::numbers::pi;
+}
+
 float lowest_toe(const HumanPositions& body) {
   return std::min(body[index(kToes[0])].y, body[index(kToes[1])].y);
 }
@@ -167,6 +178,7 @@ OodRow compare_ood(const Take& input, const Take& output) {
   row.jumps = count_jumps(input, output);
   row.skating_ratio = skating_ratio(output);
   row.input_skating_ratio = skating_ratio(input);
+  row.turned_deg = mean_turn_deg(input, output);
   row.drift_m = length(output.root.back().position - input.root.back().position);
   return row;
 }

@@ -52,9 +52,10 @@ struct OodRow {
   // Frames in which a joint jumps by more than 6 cm, and twice as far as in the input at that time.
   int jumps = 0;
   double skating_ratio = 0, input_skating_ratio = 0;
-  double drift_m = 0;  // How far the hips end from where the input's do, along the ground.
-  double gate = 1;     // Mean of the stylizer's gate.
-  OodVerdict verdict;  // Of the same clip and style with the style's own tempo.
+  double turned_deg = 0;  // Mean angle between where the two bodies face.
+  double drift_m = 0;     // How far the hips end from where the input's do, along the ground.
+  double gate = 1;        // Mean of the stylizer's gate.
+  OodVerdict verdict;     // Of the same clip and style with the style's own tempo.
 };
 
 // What became of `input` in `output`, frame by frame; both have the same frames and numbers in

@@ -137,6 +137,7 @@ Json ood_summary_json(const OodSummary& summary) {
       {"jumps", {{"frames", summary.jumps}, {"rows", summary.jump_rows}}},
       {"skating_ratio", {{"mean", number(summary.skating_ratio_mean)}}},
       {"input_skating_ratio", {{"mean", number(summary.input_skating_ratio_mean)}}},
+      {"turned_deg", {{"mean", number(summary.turned_deg_mean)}}},
       {"drift_m", {{"max", number(summary.drift_m_max)}}},
       {"gate", {{"mean", number(summary.gate_mean)}}},
   };
@@ -157,6 +158,7 @@ Json ood_json(const std::vector<OodRow>& rows) {
                     {"jumps", row.jumps},
                     {"skating_ratio", number(row.skating_ratio)},
                     {"input_skating_ratio", number(row.input_skating_ratio)},
+                    {"turned_deg", number(row.turned_deg)},
                     {"drift_m", number(row.drift_m)},
                     {"gate", number(row.gate)},
                     {"style_robust", number(row.verdict.style_robust)},

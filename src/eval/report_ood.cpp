@@ -107,6 +107,7 @@ OodSummary summarize_ood(const std::vector<OodRow>& rows) {
   }
   out.skating_ratio_mean = finite_mean(values_of(rows, &OodRow::skating_ratio));
   out.input_skating_ratio_mean = finite_mean(values_of(rows, &OodRow::input_skating_ratio));
+  out.turned_deg_mean = finite_mean(values_of(rows, &OodRow::turned_deg));
   out.drift_m_max = quantile(values_of(rows, &OodRow::drift_m), 1);
   out.gate_mean = finite_mean(values_of(rows, &OodRow::gate));
   out.styles = summarize_styles(rows);

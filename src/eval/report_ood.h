@@ -38,6 +38,7 @@ struct OodSummary {
   // How many rows have any such frame.
   size_t beyond_limits_rows = 0, under_floor_rows = 0, jump_rows = 0;
   double skating_ratio_mean = kNotMeasured, input_skating_ratio_mean = kNotMeasured;
+  double turned_deg_mean = kNotMeasured;
   double drift_m_max = kNotMeasured;
   double gate_mean = kNotMeasured;
   StyleSummary styles;

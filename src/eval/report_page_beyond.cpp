@@ -68,6 +68,7 @@ std::string ood_table(const std::vector<const SystemReport*>& systems) {
   table.add_columns("under the floor", {"frames", "worst pair", "pairs"});
   table.add_columns("jumps", {"frames", "pairs"});
   table.add_columns("skating", {"output", "input"});
+  table.add_columns("turned deg", {"mean"});
   table.add_columns("drift m", {"largest"});
   table.add_columns("gate", {"mean"});
   for (const SystemReport* system : systems) {
@@ -90,6 +91,7 @@ std::string ood_table(const std::vector<const SystemReport*>& systems) {
                                  {std::to_string(of.jump_rows)},
                                  {number_text(of.skating_ratio_mean, 3)},
                                  {number_text(of.input_skating_ratio_mean, 3)},
+                                 {number_text(of.turned_deg_mean, 1)},
                                  {number_text(of.drift_m_max, 2)},
                                  {number_text(of.gate_mean, 3)}});
   }
@@ -166,8 +168,9 @@ std::string worst_rows(std::vector<OodRow> rows,
   std::stable_sort(rows.begin(), rows.end(), worse);
   if (rows.size() > kShown) rows.resize(kShown);
   HtmlTable table("clip, style");
-  table.add_columns("", {"jerk / input", "velocity correlation", "moved cm", "beyond limits",
-                         "under the floor", "jumps", "skating", "of the input", "drift m", "gate"});
+  table.add_columns(
+      "", {"jerk / input", "velocity correlation", "moved cm", "beyond limits", "under the floor",
+           "jumps", "skating", "of the input", "turned deg", "drift m", "gate"});
   for (const OodRow& row : rows) {
     table.add_row(row.clip + ", " + row.style, {{number_text(row.jerk_ratio, 2)},
                                                 {number_text(row.velocity_correlation, 3)},
@@ -177,6 +180,7 @@ std::string worst_rows(std::vector<OodRow> rows,
                                                 {std::to_string(row.jumps)},
                                                 {number_text(row.skating_ratio, 3)},
                                                 {number_text(row.input_skating_ratio, 3)},
+                                                {number_text(row.turned_deg, 1)},
                                                 {number_text(row.drift_m, 2)},
                                                 {number_text(row.gate, 3)}});
   }

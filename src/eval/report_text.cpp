@@ -129,18 +129,19 @@ std::string ood(const Report& report) {
   table.add_columns("", {"clips"});
   table.add_columns("jerk / input", {"median", "90%", "largest"});
   table.add_columns("correlation", {"median", "lowest 10%"});
-  table.add_columns("", {"moved cm", "beyond limits", "under floor", "jumps", "drift m", "gate"});
+  table.add_columns(
+      "", {"moved cm", "beyond limits", "under floor", "jumps", "turned deg", "drift m", "gate"});
   for (const SystemReport& system : report.systems) {
     if (system.ood.empty()) continue;
     const OodSummary of = summarize_ood(system.ood);
-    table.add_row(
-        system.name,
-        {count_text(of.clips), number_text(of.jerk_ratio_median, 2),
-         number_text(of.jerk_ratio_p90, 2), number_text(of.jerk_ratio_max, 2),
-         number_text(of.velocity_correlation_median, 3),
-         number_text(of.velocity_correlation_p10, 3), number_text(of.distance_cm_mean, 2),
-         number_text(of.beyond_limits_mean, 4), number_text(of.under_floor_mean, 4),
-         count_text(of.jumps), number_text(of.drift_m_max, 2), number_text(of.gate_mean, 3)});
+    table.add_row(system.name,
+                  {count_text(of.clips), number_text(of.jerk_ratio_median, 2),
+                   number_text(of.jerk_ratio_p90, 2), number_text(of.jerk_ratio_max, 2),
+                   number_text(of.velocity_correlation_median, 3),
+                   number_text(of.velocity_correlation_p10, 3), number_text(of.distance_cm_mean, 2),
+                   number_text(of.beyond_limits_mean, 4), number_text(of.under_floor_mean, 4),
+                   count_text(of.jumps), number_text(of.turned_deg_mean, 1),
+                   number_text(of.drift_m_max, 2), number_text(of.gate_mean, 3)});
   }
   return table.str();
 }

@@ -63,6 +63,7 @@ inline SystemReport made_up_system(const std::string& name, double seed) {
     row.jumps = i >= 8 ? 2 : 0;
     row.skating_ratio = 0.05;
     row.input_skating_ratio = 0.04;
+    row.turned_deg = i;
     row.drift_m = 0.3 * i;
     row.gate = 0.1 * i;
     system.ood.push_back(row);

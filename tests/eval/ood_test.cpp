@@ -33,6 +33,7 @@ TEST_F(CompareForeign, the_input_itself_is_perfect) {
   EXPECT_EQ(row.distance_cm, 0);
   EXPECT_EQ(row.beyond_limits, 0);
   EXPECT_EQ(row.under_floor, 0);
+  EXPECT_EQ(row.turned_deg, 0);
   EXPECT_EQ(row.drift_m, 0);
   EXPECT_EQ(row.skating_ratio, row.input_skating_ratio);
 }
@@ -118,6 +119,13 @@ TEST_F(CompareForeign, a_broken_knee_counts_unless_the_input_has_it) {
   });
   EXPECT_NEAR(compare_ood(walk_, broken).beyond_limits, 0.5, 0.01);
   EXPECT_EQ(compare_ood(broken, broken).beyond_limits, 0);
+}
+
+TEST_F(CompareForeign, turned_is_how_far_the_body_faces_aside_whatever_the_side) {
+  const Take output = changed(walk_, [](HumanPositions&, RootPose& root, int f) {
+    root.facing += (f % 2 ? -0.5f : 0.5f) + 2 * 3.14159265f;
+  });
+  EXPECT_NEAR(compare_ood(walk_, output).turned_deg, 28.648, 1e-3);
 }
 
 TEST_F(CompareForeign, drift_is_where_the_hips_end_on_the_ground) {

@@ -112,6 +112,7 @@ TEST(ReportJson, out_of_distribution_rows_are_kept_and_summed_up) {
   EXPECT_EQ(summary["under_floor"]["rows"], 2);
   EXPECT_EQ(summary["jumps"]["frames"], 6);
   EXPECT_EQ(summary["jumps"]["rows"], 3);
+  EXPECT_DOUBLE_EQ(summary["turned_deg"]["mean"], 5);
   EXPECT_DOUBLE_EQ(summary["drift_m"]["max"], 3.0);
   EXPECT_DOUBLE_EQ(summary["gate"]["mean"], 0.5);
 }
