@@ -5,6 +5,7 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -48,8 +49,20 @@ std::string read_all(int file) {
   }
 }
 
-// Starts this program again with its standard output going to `out`; the errno of a failure, or 0.
-int start(const std::vector<std::string>& arguments, int out, pid_t& child) {
+// A file in memory from its beginning, or -1.
+int file_of(const std::string& bytes) {
+  const int file = ::memfd_create("input", MFD_CLOEXEC);
+  if (file < 0) return -1;
+  if (write_all(file, bytes.data(), bytes.size()) && ::lseek(file, 0, SEEK_SET) == 0) return file;
+  const int failed = errno;
+  ::close(file);
+  errno = failed;
+  return -1;
+}
+
+// Starts this program again with its standard input coming from `in` and its standard output going
+// to `out`; the errno of a failure, or 0.
+int start(const std::vector<std::string>& arguments, int in, int out, pid_t& child) {
   std::vector<std::string> words = {"panache"};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
@@ -58,6 +71,7 @@ int start(const std::vector<std::string>& arguments, int out, pid_t& child) {
   pointers.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   if (const int failed = ::posix_spawn_file_actions_init(&actions)) return failed;
+  ::posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
   ::posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
   const int failed =
       ::posix_spawn(&child, "/proc/self/exe", &actions, nullptr, pointers.data(), environ);
@@ -68,14 +82,19 @@ int start(const std::vector<std::string>& arguments, int out, pid_t& child) {
 }  // namespace
 
 Result<std::string> run_in_child(const std::vector<std::string>& arguments,
-                                 const std::string& breakdown) {
+                                 const std::string& input, const std::string& breakdown) {
+  const int in = file_of(input);
+  if (in < 0) return Error{std::string("no room for a child's input: ") + std::strerror(errno)};
   // Closed in every child, so that none of another thread's holds this pipe open.
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) {
-    return Error{std::string("no pipe to a child: ") + std::strerror(errno)};
+    const int failed = errno;
+    ::close(in);
+    return Error{std::string("no pipe to a child: ") + std::strerror(failed)};
   }
   pid_t child = -1;
-  const int failed = start(arguments, ends[1], child);
+  const int failed = start(arguments, in, ends[1], child);
+  ::close(in);
   ::close(ends[1]);
   std::string answer;
   if (!failed) answer = read_all(ends[0]);
@@ -92,6 +111,8 @@ Result<std::string> run_in_child(const std::vector<std::string>& arguments,
   if (!is_good) return Error{answer};
   return answer;
 }
+
+std::string read_input_as_child() { return read_all(STDIN_FILENO); }
 
 int answer_as_child(const std::function<Result<std::string>()>& read,
                     const std::function<Result<std::string>(const std::string&)>& work,

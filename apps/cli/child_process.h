@@ -9,12 +9,16 @@
 
 namespace panache::cli {
 
-// What the child that runs this program with `arguments` answers through answer_as_child().
+// What the child that runs this program with `arguments`, and finds `input` at its standard input,
+// answers through answer_as_child().
 // `breakdown` is the message where it crashed, went beyond its bounds or answers with more than 2
 // GB. May be called from several threads: the child is a program of its own, not a copy of this
 // one, in which a lock that another thread held would stay locked for ever.
 Result<std::string> run_in_child(const std::vector<std::string>& arguments,
-                                 const std::string& breakdown);
+                                 const std::string& input, const std::string& breakdown);
+
+// The child's side: what stands at the standard input.
+std::string read_input_as_child();
 
 // The child's side: does `work` with what `read` has read, and hands its result to the parent. Both
 // have 8 GB of memory and `seconds` of the processor, and what they print goes nowhere. Only `read`

@@ -14,6 +14,7 @@
 #include "formats.h"
 #include "messages.h"
 #include "option_table.h"
+#include "png.h"
 #include "usage_error.h"
 #include "verbs.h"
 
@@ -37,6 +38,7 @@ Result<void> check_verb(const CLI::App& app, const std::string& verb) {
 
 int run(int argc, char** argv) {
   if (argc == 3 && argv[1] == std::string_view(kFbxReader)) return read_fbx_as_child(argv[2]);
+  if (argc == 3 && argv[1] == std::string_view(kPngDrawer)) return draw_png_as_child(argv[2]);
   set_motion_formats(formats());  // Those of manifests, too.
   int exit_code = kDone;
   CLI::App app(

@@ -3,6 +3,9 @@
 #include <memory>
 
 #include <librsvg/rsvg.h>
+#include <unistd.h>
+
+#include "child_process.h"
 
 #ifdef PANACHE_SANITIZED
 // What fontconfig keeps of the machine's fonts until the end of the program is no leak of ours.
@@ -15,7 +18,8 @@ extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfi
 namespace panache::cli {
 namespace {
 
-constexpr double kPixels = 2;  // Of the PNG for one of the drawing, for sharp screens.
+constexpr unsigned kLongestDrawing = 50;  // Seconds.
+constexpr double kPixels = 2;             // Of the PNG for one of the drawing, for sharp screens.
 
 template <auto destroy>
 struct Destroy {
@@ -33,12 +37,14 @@ cairo_status_t append(void* out, const unsigned char* bytes, unsigned int size) 
   return CAIRO_STATUS_SUCCESS;
 }
 
-}  // namespace
+Error failure_of(const std::string& path) {
+  return Error{path +
+               ": the picture could not be drawn; a name that ends in .svg writes it "
+               "undrawn"};
+}
 
-Result<std::string> svg_to_png(const std::string& svg, const std::string& path) {
-  const Error failure{path +
-                      ": the picture could not be drawn; a name that ends in .svg writes it "
-                      "undrawn"};
+Result<std::string> draw(const std::string& svg, const std::string& path) {
+  const Error failure = failure_of(path);
   const Handle drawing(
       rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(svg.data()), svg.size(), nullptr));
   double width = 0, height = 0;
@@ -55,6 +61,20 @@ Result<std::string> svg_to_png(const std::string& svg, const std::string& path) 
   const cairo_status_t written = cairo_surface_write_to_png_stream(surface.get(), append, &png);
   if (written != CAIRO_STATUS_SUCCESS) return failure;
   return png;
+}
+
+}  // namespace
+
+Result<std::string> svg_to_png(const std::string& svg, const std::string& path) {
+  return run_in_child({kPngDrawer, path}, svg, failure_of(path).message);
+}
+
+int draw_png_as_child(const std::string& path) {
+  ::alarm(kLongestDrawing);
+  // Fonts are read while it draws.
+  return answer_as_child([&] { return draw(read_input_as_child(), path); },
+                         [](const std::string& png) { return Result<std::string>(png); },
+                         static_cast<int>(kLongestDrawing));
 }
 
 }  // namespace panache::cli
