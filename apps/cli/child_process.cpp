@@ -81,31 +81,35 @@ int start(const std::vector<std::string>& arguments, int in, int out, pid_t& chi
 
 }  // namespace
 
-Result<std::string> run_in_child(const std::vector<std::string>& arguments,
+Result<std::string> run_in_child(const std::string& role, const std::string& path,
                                  const std::string& input, const std::string& breakdown) {
+  const auto no_child = [&](int failed) {
+    return Error{path + ": needs a process of its own, which could not be started: " +
+                 std::strerror(failed)};
+  };
   const int in = file_of(input);
-  if (in < 0) return Error{std::string("no room for a child's input: ") + std::strerror(errno)};
+  if (in < 0) return no_child(errno);
   // Closed in every child, so that none of another thread's holds this pipe open.
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) {
     const int failed = errno;
     ::close(in);
-    return Error{std::string("no pipe to a child: ") + std::strerror(failed)};
+    return no_child(failed);
   }
   pid_t child = -1;
-  const int failed = start(arguments, in, ends[1], child);
+  const int failed = start({role, path}, in, ends[1], child);
   ::close(in);
   ::close(ends[1]);
   std::string answer;
   if (!failed) answer = read_all(ends[0]);
   ::close(ends[0]);
-  if (failed) return Error{std::string("no child process: ") + std::strerror(failed)};
+  if (failed) return no_child(failed);
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   const bool well = WIFEXITED(status) && WEXITSTATUS(status) == kDone && !answer.empty() &&
                     answer.size() <= kLargestAnswer;
-  if (!well) return Error{breakdown};
+  if (!well) return Error{path + ": " + breakdown};
   const bool is_good = answer[0] == kGood;
   answer.erase(0, 1);
   if (!is_good) return Error{answer};

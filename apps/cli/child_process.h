@@ -9,12 +9,12 @@
 
 namespace panache::cli {
 
-// What the child that runs this program with `arguments`, and finds `input` at its standard input,
-// answers through answer_as_child().
-// `breakdown` is the message where it crashed, went beyond its bounds or answers with more than 2
-// GB. May be called from several threads: the child is a program of its own, not a copy of this
-// one, in which a lock that another thread held would stay locked for ever.
-Result<std::string> run_in_child(const std::vector<std::string>& arguments,
+// Runs this program again with the arguments `role` and `path`, and with `input` at its standard
+// input; returns what it answers through answer_as_child(). `path` stands in front of the message
+// of a failure. `breakdown` is the message where the child crashed, went beyond its bounds or
+// answers with more than 2 GB. May be called from several threads: the child is a program of its
+// own, not a copy of this one, in which a lock that another thread held would stay locked for ever.
+Result<std::string> run_in_child(const std::string& role, const std::string& path,
                                  const std::string& input, const std::string& breakdown);
 
 // The child's side: what stands at the standard input.

@@ -57,10 +57,9 @@ Result<std::string> convert(const std::string& bytes, const std::string& path) {
 }  // namespace
 
 Result<std::string> fbx_to_glb(const std::string& path) {
-  Result<std::string> glb = run_in_child({kFbxReader, path}, "",
-                                         path +
-                                             ": the FBX reader crashed on it; the file may be "
-                                             "damaged; exporting it again, or as GLB, may help");
+  Result<std::string> glb = run_in_child(kFbxReader, path, "",
+                                         "the FBX reader crashed on it; the file may be damaged; "
+                                         "exporting it again, or as GLB, may help");
   if (!glb) return glb.error();
   return with_pictures(*std::move(glb), path);
 }

@@ -1,8 +1,10 @@
 #include "png.h"
 
+#include <array>
 #include <memory>
 
 #include <librsvg/rsvg.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include "child_process.h"
@@ -19,7 +21,10 @@ namespace panache::cli {
 namespace {
 
 constexpr unsigned kLongestDrawing = 50;  // Seconds.
-constexpr double kPixels = 2;             // Of the PNG for one of the drawing, for sharp screens.
+// Without these the libraries that read fonts leave the text out, or wait for ever.
+constexpr size_t kFontFiles = 8;
+constexpr size_t kFontMemory = size_t{128} << 20;
+constexpr double kPixels = 2;  // Of the PNG for one of the drawing, for sharp screens.
 
 template <auto destroy>
 struct Destroy {
@@ -37,14 +42,24 @@ cairo_status_t append(void* out, const unsigned char* bytes, unsigned int size) 
   return CAIRO_STATUS_SUCCESS;
 }
 
-Error failure_of(const std::string& path) {
-  return Error{path +
-               ": the picture could not be drawn; a name that ends in .svg writes it "
-               "undrawn"};
+constexpr const char* kFailure =
+    "the picture could not be drawn; a name that ends in .svg writes it undrawn";
+
+bool is_room_for_fonts() {
+  std::array<int, kFontFiles> files;
+  for (int& file : files) file = ::dup(STDOUT_FILENO);
+  void* const memory = ::mmap(nullptr, kFontMemory, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  for (const int file : files) {
+    if (file >= 0) ::close(file);
+  }
+  if (memory == MAP_FAILED) return false;
+  ::munmap(memory, kFontMemory);
+  return files.back() >= 0;
 }
 
 Result<std::string> draw(const std::string& svg, const std::string& path) {
-  const Error failure = failure_of(path);
+  const Error failure{path + ": " + kFailure};
+  if (!is_room_for_fonts()) return failure;
   const Handle drawing(
       rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(svg.data()), svg.size(), nullptr));
   double width = 0, height = 0;
@@ -66,7 +81,7 @@ Result<std::string> draw(const std::string& svg, const std::string& path) {
 }  // namespace
 
 Result<std::string> svg_to_png(const std::string& svg, const std::string& path) {
-  return run_in_child({kPngDrawer, path}, svg, failure_of(path).message);
+  return run_in_child(kPngDrawer, path, svg, kFailure);
 }
 
 int draw_png_as_child(const std::string& path) {
