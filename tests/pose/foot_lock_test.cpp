@@ -70,15 +70,15 @@ TEST(TwoBoneIk, a_knee_that_is_nearly_straight_bends_to_its_hint_and_never_flips
 
 // A leg whose foot is drawn up out of the floor while a style takes the knee from a little
 // backwards to a little ahead.
-TEST(FootLock, a_knee_that_changes_its_side_goes_around_the_leg) {
+// Where the left knee of a leg goes whose toe is 3 cm below the floor, from its hip, at 120 Hz.
+// `aheads`: how far the input's knee is ahead of the line from hip to ankle, a number a frame.
+std::vector<Vec3> knees_of(const std::vector<float>& aheads) {
   const Clip clip = test::walking_clip(1);
   PosedRig rig(*Rig::create(clip));
   BodyPose body;
   rig.read(clip.pose(0), body);
-  BodyChange change;
-  change.translation.y = -0.03f;
   HumanPositions joints;
-  changed_joints(body, change, joints);
+  changed_joints(body, {}, joints);
   const size_t hip = index(HumanJoint::left_upper_leg), knee = index(HumanJoint::left_lower_leg);
   const size_t ankle = index(HumanJoint::left_foot), toe = index(HumanJoint::left_toes);
   const float thigh = length(joints[knee] - joints[hip]);
@@ -86,22 +86,36 @@ TEST(FootLock, a_knee_that_changes_its_side_goes_around_the_leg) {
   FootLock lock;
   const float contacts[kFeet] = {0, 0};
   std::vector<Vec3> knees;
-  for (int f = 0; f < 60; ++f) {
-    const float ahead = 0.01f * std::clamp(static_cast<float>(f) - 20, -5.0f, 5.0f);
+  for (const float ahead : aheads) {
     const float down = std::sqrt(thigh * thigh - ahead * ahead);
     joints[knee] = joints[hip] + Vec3{0.004f, -down, ahead};
     joints[ankle] = joints[hip] + Vec3{0, -2 * down, 0};
     joints[toe] = joints[ankle] + foot;
-    BodyChange step = change;
-    step.translation.y = -0.03f - (mid_hip(body).y + joints[toe].y);
-    lock.step(body, joints, contacts, 1, 1 / 120.0f, step);
-    knees.push_back(rotate(step.rotations[hip], joints[knee] - joints[hip]));
+    BodyChange change;
+    change.translation.y = -0.03f - (mid_hip(body).y + joints[toe].y);
+    lock.step(body, joints, contacts, 1, 1 / 120.0f, change);
+    knees.push_back(rotate(change.rotations[hip], joints[knee] - joints[hip]));
   }
+  return knees;
+}
+
+TEST(FootLock, a_knee_that_changes_its_side_goes_around_the_leg) {
+  std::vector<float> aheads;
+  for (int f = 0; f < 60; ++f) {
+    aheads.push_back(0.01f * std::clamp(static_cast<float>(f) - 20, -5.0f, 5.0f));
+  }
+  const std::vector<Vec3> knees = knees_of(aheads);
   EXPECT_LT(knees.front().z, -0.05f);
   EXPECT_GT(knees.back().z, 0.05f);
   for (size_t f = 1; f < knees.size(); ++f) {
     EXPECT_LT(length(knees[f] - knees[f - 1]), 0.03f) << f;
   }
+}
+
+TEST(FootLock, a_knee_that_is_well_bent_stays_on_the_side_that_it_is_on) {
+  const std::vector<Vec3> knees = knees_of({0.15f, 0.15f, -0.15f, -0.15f, 0.15f});
+  for (const size_t f : {0, 1, 4}) EXPECT_GT(knees[f].z, 0.1f) << f;
+  for (const size_t f : {2, 3}) EXPECT_LT(knees[f].z, -0.1f) << f;
 }
 
 // A standing body whose style pushes the hips sideways: the planted foot must stay.
@@ -231,6 +245,17 @@ TEST(FootLock, a_foot_that_arrives_fast_is_not_stopped_in_its_way) {
   }
   for (int f = 0; f < 5; ++f) toes.push_back(body.step_of_sliding_input(250, 1));
   EXPECT_NEAR(toes.back().x - toes[0].x, 0.5f, 0.02f);
+}
+
+TEST(FootLock, a_foot_that_a_style_moves_fast_is_not_held) {
+  // 5 cm a frame, or 1.5 m/s, over an input that stands; the contact comes after two frames.
+  Sliding body;
+  Vec3 last = body.step(0, 0, 1);
+  for (int f = 1; f <= 10; ++f) {
+    const Vec3 toe = body.step(25 * f, f < 2 ? 0.0f : 1.0f, 1);
+    EXPECT_NEAR(length(toe - last), 0.05f, 1e-3) << f;
+    last = toe;
+  }
 }
 
 TEST(FootLock, a_toe_below_the_floor_is_drawn_up_planted_or_not) {
