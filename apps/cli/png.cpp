@@ -1,5 +1,6 @@
 #include "png.h"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 
@@ -24,7 +25,8 @@ constexpr unsigned kLongestDrawing = 50;  // Seconds.
 // Without these the libraries that read fonts leave the text out, or wait for ever.
 constexpr size_t kFontFiles = 8;
 constexpr size_t kFontMemory = size_t{128} << 20;
-constexpr double kPixels = 2;  // Of the PNG for one of the drawing, for sharp screens.
+constexpr double kPixels = 2;           // Of the PNG for one of the drawing, for sharp screens;
+constexpr double kLongestSide = 32000;  // fewer where it would have more. Cairo takes no more.
 
 template <auto destroy>
 struct Destroy {
@@ -66,10 +68,11 @@ Result<std::string> draw(const std::string& svg, const std::string& path) {
   if (!drawing || !rsvg_handle_get_intrinsic_size_in_pixels(drawing.get(), &width, &height)) {
     return failure;
   }
+  const double pixels = std::min(kPixels, kLongestSide / std::max(width, height));
   const Surface surface(cairo_image_surface_create(
-      CAIRO_FORMAT_ARGB32, static_cast<int>(width * kPixels), static_cast<int>(height * kPixels)));
+      CAIRO_FORMAT_ARGB32, static_cast<int>(width * pixels), static_cast<int>(height * pixels)));
   const Context context(cairo_create(surface.get()));
-  cairo_scale(context.get(), kPixels, kPixels);
+  cairo_scale(context.get(), pixels, pixels);
   const RsvgRectangle all = {0, 0, width, height};
   if (!rsvg_handle_render_document(drawing.get(), context.get(), &all, nullptr)) return failure;
   std::string png;

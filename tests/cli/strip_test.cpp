@@ -1,5 +1,7 @@
 // panache strip: motion as a picture.
 
+#include <array>
+
 #include "cli/program.h"
 
 namespace panache::test {
@@ -26,6 +28,17 @@ class Strip : public ProgramTest {
     return found;
   }
 };
+
+// Width and height of a PNG, which stand at its bytes 16 to 23.
+std::array<int, 2> size_of(const std::string& png) {
+  EXPECT_TRUE(png.starts_with("\x89PNG\r\n")) << png.size();
+  if (png.size() < 24) return {};
+  const auto byte = [&](size_t i) { return static_cast<unsigned char>(png[i]); };
+  const auto number = [&](size_t i) {
+    return byte(i) << 24 | byte(i + 1) << 16 | byte(i + 2) << 8 | byte(i + 3);
+  };
+  return {number(16), number(20)};
+}
 
 TEST_F(Strip, draws_a_row_for_each_file_under_its_name) {
   write_walk("more/run & jump.bvh", 100);
@@ -71,14 +84,19 @@ TEST_F(Strip, writes_pixels_where_the_name_says_png) {
   const Ran ran = run({"strip", "walk.bvh", "-o", "out.png"});
   if (ran.err.find("this build cannot draw PNG") != std::string::npos) GTEST_SKIP() << ran.err;
   ASSERT_EQ(ran.exit, 0) << ran.err;
-  const std::string png = read("out.png");
-  ASSERT_TRUE(png.starts_with("\x89PNG\r\n")) << png.size();
-  // The width stands at byte 16, two pixels for each of the drawing's.
-  const auto byte = [&](size_t i) { return static_cast<unsigned char>(png[i]); };
-  const int width = byte(16) << 24 | byte(17) << 16 | byte(18) << 8 | byte(19);
+  // Two pixels for each of the drawing's.
   const std::string svg = read("out.svg");
   const double drawn = std::stod(svg.substr(svg.find("width=\"") + 7));
-  EXPECT_NEAR(width, 2 * drawn, 2);
+  EXPECT_NEAR(size_of(read("out.png"))[0], 2 * drawn, 2);
+}
+
+TEST_F(Strip, draws_as_many_rows_as_are_asked_for) {
+  std::vector<std::string> arguments = {"strip", "--to", "0.2", "-o", "out.png"};
+  arguments.insert(arguments.end(), 120, "walk.bvh");
+  const Ran ran = run(arguments);
+  if (ran.err.find("this build cannot draw PNG") != std::string::npos) GTEST_SKIP() << ran.err;
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_NEAR(size_of(read("out.png"))[1], 32000, 1);
 }
 
 TEST_F(Strip, draws_from_the_front_when_asked) {
