@@ -25,8 +25,8 @@ constexpr unsigned kLongestDrawing = 50;  // Seconds.
 // Without these the libraries that read fonts leave the text out, or wait for ever.
 constexpr size_t kFontFiles = 8;
 constexpr size_t kFontMemory = size_t{128} << 20;
-constexpr double kPixels = 2;           // Of the PNG for one of the drawing, for sharp screens;
-constexpr double kLongestSide = 32000;  // fewer where it would have more. Cairo takes no more.
+constexpr double kPixels = 2;           // Of the PNG for one of the drawing, for sharp screens.
+constexpr double kLongestSide = 32000;  // Pixels. Cairo takes 32,767.
 
 template <auto destroy>
 struct Destroy {

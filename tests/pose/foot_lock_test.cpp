@@ -68,9 +68,8 @@ TEST(TwoBoneIk, a_knee_that_is_nearly_straight_bends_to_its_hint_and_never_flips
   }
 }
 
-// A leg whose foot is drawn up out of the floor while a style takes the knee from a little
-// backwards to a little ahead.
-// Where the left knee of a leg goes whose toe is 3 cm below the floor, from its hip, at 120 Hz.
+// Where the left knee goes, from its hip, at 120 Hz, while its toe is drawn up from 3 cm below the
+// floor.
 // `aheads`: how far the input's knee is ahead of the line from hip to ankle, a number a frame.
 std::vector<Vec3> knees_of(const std::vector<float>& aheads) {
   const Clip clip = test::walking_clip(1);
@@ -99,6 +98,7 @@ std::vector<Vec3> knees_of(const std::vector<float>& aheads) {
   return knees;
 }
 
+// A style takes the knee from a little backwards to a little ahead.
 TEST(FootLock, a_knee_that_changes_its_side_goes_around_the_leg) {
   std::vector<float> aheads;
   for (int f = 0; f < 60; ++f) {
