@@ -57,6 +57,9 @@ class SampleSet {
   std::span<const float> target(size_t i) const {
     return {&targets_[i * outputs()], static_cast<size_t>(outputs())};
   }
+  std::span<float> target(size_t i) {
+    return {&targets_[i * outputs()], static_cast<size_t>(outputs())};
+  }
   // Measured on the neutral takes.
   const InputUnits& units() const { return units_; }
   const std::vector<float>& mean() const { return units_.mean; }

@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "rig/humanoid.h"
+
 namespace panache {
 
 // Parts of the body that can get more or less of a style, each relative to what it hangs on.
@@ -10,6 +12,13 @@ enum class Region { legs, torso, left_arm, right_arm };
 inline constexpr int kRegions = 4;
 inline constexpr std::array<const char*, kRegions> kRegionNames = {"legs", "torso", "left_arm",
                                                                    "right_arm"};
+// The hips belong to the legs, the head to the torso.
+constexpr Region region_of(int joint) {
+  using enum HumanJoint;
+  if (joint == index(hips) || joint >= index(left_upper_leg)) return Region::legs;
+  if (joint <= index(head)) return Region::torso;
+  return joint < index(right_shoulder) ? Region::left_arm : Region::right_arm;
+}
 
 // With all at 1 a style acts as the model has it, bit for bit. Each is held within 0 to kMax; a
 // number that is not finite counts as 1.

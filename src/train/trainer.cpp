@@ -13,6 +13,7 @@
 #include "learn/fit_style.h"
 #include "train/checkpoint.h"
 #include "train/export.h"
+#include "train/few_takes.h"
 #include "train/fingerprint.h"
 #include "train/gate.h"
 #include "train/guidance.h"
@@ -270,7 +271,8 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
   names.reserve(styles.size());
   for (const StyleName& style : styles) names.push_back(style.name);
   const int count = static_cast<int>(names.size());
-  const SampleSet set(data.takes, data.pairings, names, recipe, settings.neutral_samples);
+  SampleSet set(data.takes, data.pairings, names, recipe, settings.neutral_samples);
+  if (recipe.learns_styles) correct_few_takes(data.takes, set);
   const std::vector<bool> validates = validation_takes(data.takes);
   std::vector<int> choice, held;
   for (size_t i = 0; i < set.samples().size(); ++i) {

@@ -19,7 +19,7 @@ void ChangeStages::step(const AskedChange& asked, const ChangeControl& control,
                         const Observer& observer, const InputWindow& window, const StepTime& time,
                         StageClock* clock) noexcept {
   const Observation& now = observer.now();
-  filter_.step(asked.delta, asked.log_rate, time);
+  filter_.step(asked.delta, asked.log_rate, asked.gate, now.body_frame, time);
   tell(clock, Stage::filter);
   if (control.root) root_.step(filter_.delta(), asked.gate, observer, window, time);
   tell(clock, Stage::root);

@@ -9,21 +9,64 @@ namespace panache {
 namespace {
 
 constexpr float kRateSeconds = 0.05f;  // Time constant of the tempo.
+// A change may move joints at this share of their own speed, to which a little is added so that who
+// stands still is not frozen; m/s. Beyond, it is smoothed so many times as long at most.
+constexpr float kFreeShare = 0.2f, kStillSpeed = 0.1f, kSlowest = 5;
+constexpr float kSpeedSeconds = 0.1f;  // Over which speeds are averaged.
+// So it is where the gate closes by this much or more, in the mean over this time. Where it is
+// open, what a style does was captured or trained, and nothing is held back.
+constexpr float kStrange = 0.005f, kGateSeconds = 3;
+// What turning a joint moves: about half a limb away, at once but for the usual filter.
+constexpr float kLever = 0.4f, kUsualSeconds = 0.04f;
+constexpr float kFastest = 100;  // m/s: what is no number is this.
 constexpr float kNear = 1e-7f, kNearRate = 1e-6f;
 
 float finite(float number) { return std::isfinite(number) ? number : 0.0f; }
+Vec3 finite(Vec3 v) { return {finite(v.x), finite(v.y), finite(v.z)}; }
 
 }  // namespace
 
-void OutputFilter::step(const StyleDelta& delta, float log_rate, const StepTime& time) noexcept {
-  const float gain = time.gain(smoothing_seconds_);
-  const auto smooth = [&](float& value, float wanted) {
-    approach(value, finite(wanted), gain, kNear);
+std::array<float, kRegions> OutputFilter::gains(const StyleDelta& delta, float gate,
+                                                const HumanPositions& body,
+                                                const StepTime& time) noexcept {
+  std::array<float, kRegions> speed{}, change{}, joints{}, gain;
+  for (int j = 0; j < kHumanJoints; ++j) {
+    const auto region = static_cast<size_t>(region_of(j));
+    speed[region] += length(body[j] - body_[j]);
+    change[region] += length(finite(delta.rotations[j]) - delta_.rotations[j]);
+    ++joints[region];
+  }
+  body_ = body;
+  gate_ += time.gain(kGateSeconds) * (finite(gate) - gate_);
+  gain.fill(time.gain(smoothing_seconds_));
+  // The first step goes all the way, and nothing has moved yet.
+  const auto seconds = static_cast<float>(time.input);
+  if (time.first || !(seconds > 0)) return gain;
+  const float strange = std::clamp((1 - gate_) / kStrange, 0.0f, 1.0f);
+  const float follow = time.gain(kSpeedSeconds);
+  for (size_t r = 0; r < kRegions; ++r) {
+    const float own = speed[r] / (joints[r] * seconds);
+    const float added = change[r] * kLever / (joints[r] * kUsualSeconds);
+    speed_[r] += follow * (std::min(kFastest, own) - speed_[r]);
+    added_speed_[r] += follow * (std::min(kFastest, added) - added_speed_[r]);
+    const float free = kFreeShare * (speed_[r] + kStillSpeed);
+    const float slowness = std::clamp(added_speed_[r] / free, 1.0f, kSlowest);
+    gain[r] = time.gain(smoothing_seconds_ * (1 + strange * (slowness - 1)));
+  }
+  return gain;
+}
+
+void OutputFilter::step(const StyleDelta& delta, float log_rate, float gate,
+                        const HumanPositions& body, const StepTime& time) noexcept {
+  const std::array<float, kRegions> gain = gains(delta, gate, body, time);
+  const auto smooth = [&](float& value, float wanted, Region region = Region::legs) {
+    approach(value, finite(wanted), gain[static_cast<size_t>(region)], kNear);
   };
-  for (size_t j = 0; j < kHumanJoints; ++j) {
-    smooth(delta_.rotations[j].x, delta.rotations[j].x);
-    smooth(delta_.rotations[j].y, delta.rotations[j].y);
-    smooth(delta_.rotations[j].z, delta.rotations[j].z);
+  for (int j = 0; j < kHumanJoints; ++j) {
+    const Region region = region_of(j);
+    smooth(delta_.rotations[j].x, delta.rotations[j].x, region);
+    smooth(delta_.rotations[j].y, delta.rotations[j].y, region);
+    smooth(delta_.rotations[j].z, delta.rotations[j].z, region);
   }
   smooth(delta_.hips_height, delta.hips_height);
   smooth(delta_.velocity_left, delta.velocity_left);

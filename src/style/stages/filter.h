@@ -1,19 +1,28 @@
 #pragma once
 // Fourth stage, after the networks: their outputs without jitter.
 
+#include <array>
+
 #include "pose/style_delta.h"
+#include "style/shape.h"
 #include "style/stages/step_time.h"
 
 namespace panache {
 
 // One-pole filters on the change and on the tempo, never on the input. Numbers that are not finite
-// count as 0.
+// count as 0. Where the change would move legs, torso or an arm more than the input moves them, it
+// is smoothed up to five times as long: calm motion stays calm.
 class OutputFilter {
  public:
   explicit OutputFilter(float smoothing_seconds) : smoothing_seconds_(smoothing_seconds) {}
 
-  void reset() noexcept { delta_ = {}, log_rate_ = 0; }
-  void step(const StyleDelta& delta, float log_rate, const StepTime& time) noexcept;
+  void reset() noexcept {
+    delta_ = {}, log_rate_ = 0;
+    gate_ = 1, speed_ = {}, added_speed_ = {};
+  }
+  // `gate`: how well the motion is known, 0 to 1; `body`: the input in the body frame, metres.
+  void step(const StyleDelta& delta, float log_rate, float gate, const HumanPositions& body,
+            const StepTime& time) noexcept;
 
   const StyleDelta& delta() const noexcept { return delta_; }
   float log_rate() const noexcept { return log_rate_; }
@@ -22,12 +31,21 @@ class OutputFilter {
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
     visit(self.delta_), visit(self.log_rate_);
+    visit(self.body_), visit(self.gate_), visit(self.speed_), visit(self.added_speed_);
   }
 
  private:
+  // Of the filters of the regions at this step.
+  std::array<float, kRegions> gains(const StyleDelta& delta, float gate, const HumanPositions& body,
+                                    const StepTime& time) noexcept;
+
   float smoothing_seconds_;
   StyleDelta delta_;
   float log_rate_ = 0;
+  HumanPositions body_{};  // At the last step.
+  float gate_ = 1;         // Mean over a few seconds.
+  // Mean speeds of the joints of a region, m/s: the input's, and what the change would add.
+  std::array<float, kRegions> speed_{}, added_speed_{};
 };
 
 }  // namespace panache

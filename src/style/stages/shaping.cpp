@@ -11,16 +11,6 @@ namespace {
 constexpr float kPostureSeconds = 0.8f;
 constexpr float kNear = 1e-7f;
 
-constexpr size_t region_of(int joint) {
-  using enum HumanJoint;
-  if (joint == index(hips) || joint >= index(left_upper_leg)) {
-    return static_cast<size_t>(Region::legs);
-  }
-  if (joint <= index(head)) return static_cast<size_t>(Region::torso);
-  const bool left = joint < index(right_shoulder);
-  return static_cast<size_t>(left ? Region::left_arm : Region::right_arm);
-}
-
 float legs_of(const Shape& shape) { return shape.regions[static_cast<size_t>(Region::legs)]; }
 
 // A joint's own part of the change is what it turns beyond the joint that it hangs on.
@@ -28,7 +18,7 @@ void weigh_regions(const Shape& shape, std::array<Quat, kHumanJoints>& rotations
   if (shape.regions == Shape{}.regions) return;
   const std::array<Quat, kHumanJoints> whole = rotations;
   for (int j = 0; j < kHumanJoints; ++j) {
-    const float weight = shape.regions[region_of(j)];
+    const float weight = shape.regions[static_cast<size_t>(region_of(j))];
     const int parent = kHumanParent[j];
     const Quat own = parent < 0 ? whole[j] : conjugate(whole[parent]) * whole[j];
     const Quat weighed = exp_rotation(log_rotation(own) * weight);
