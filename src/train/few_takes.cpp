@@ -21,10 +21,9 @@ constexpr float kElsewhere = 0.35f, kUnusual = 1.75f;
 // An action says how a style holds its arms if it does so in this share of its samples.
 constexpr float kEnough = 0.2f;
 
-constexpr int kArmJoints = 4;
-constexpr std::array kShoulders = {HumanJoint::left_shoulder, HumanJoint::right_shoulder};
-constexpr std::array kHands = {HumanJoint::left_hand, HumanJoint::right_hand};
-using Arm = std::array<Vec3, kArmJoints>;  // Rotation vectors, of the left side.
+constexpr int kArm = index(HumanJoint::left_shoulder);  // The first of an arm's four joints.
+using Arm = std::array<Vec3, 4>;                        // Rotation vectors, of the left side.
+constexpr size_t kSides = 2;
 
 using Action = std::pair<int, std::string>;  // Set and content.
 struct Cell {
@@ -118,50 +117,47 @@ void take_off_common_change(const std::vector<Cell>& cells, SampleSet& set) {
   }
 }
 
-Vec3 across(Vec3 v) { return {-v.x, v.y, v.z}; }           // Positions, left for right,
-Vec3 rotated_across(Vec3 r) { return {r.x, -r.y, -r.z}; }  // and rotation vectors.
-
 // Where the change puts the hands, relative to the chest and to where they were; both as left ones.
-std::array<Vec3, 2> hand_ways(const std::vector<Take>& takes, const SampleSet& set, size_t i) {
+std::array<Vec3, kSides> hand_ways(const std::vector<Take>& takes, const SampleSet& set, size_t i) {
   const Sample& sample = set.samples()[i];
   const HumanPositions before = body_at(takes[sample.take], sample.frame);
   const HumanPositions after = change_body(before, change_of(set, i));
-  std::array<Vec3, 2> ways;
-  for (size_t side = 0; side < ways.size(); ++side) {
-    const auto from_chest = [&](const HumanPositions& body) {
-      return body[index(kHands[side])] - body[index(HumanJoint::chest)];
+  std::array<Vec3, kSides> ways;
+  for (size_t side = 0; side < kSides; ++side) {
+    const auto hand = [&](const HumanPositions& body) {
+      const HumanPositions seen = side == 0 ? body : mirrored(body);
+      return seen[index(HumanJoint::left_hand)] - seen[index(HumanJoint::chest)];
     };
-    const Vec3 way = from_chest(after) - from_chest(before);
-    ways[side] = side == 0 ? way : across(way);
+    ways[side] = hand(after) - hand(before);
   }
   return ways;
 }
 
+// The arm of this side, as a left one.
 Arm arm_of(const StyleDelta& change, size_t side) {
+  const StyleDelta seen = side == 0 ? change : mirrored(change);
   Arm arm;
-  for (int j = 0; j < kArmJoints; ++j) {
-    const Vec3 r = change.rotations[index(kShoulders[side]) + j];
-    arm[j] = side == 0 ? r : rotated_across(r);
-  }
+  std::copy_n(&seen.rotations[kArm], arm.size(), arm.begin());
   return arm;
 }
 
 void put_arm(const Arm& arm, size_t side, StyleDelta& change) {
-  for (int j = 0; j < kArmJoints; ++j) {
-    change.rotations[index(kShoulders[side]) + j] = side == 0 ? arm[j] : rotated_across(arm[j]);
-  }
+  if (side == 1) change = mirrored(change);
+  std::copy(arm.begin(), arm.end(), &change.rotations[kArm]);
+  if (side == 1) change = mirrored(change);
 }
 
 // Step 2, for the cells of one style. Returns how many arms it replaced.
 int replace_arms(const std::vector<Take>& takes, const std::vector<const Cell*>& cells,
                  SampleSet& set) {
-  std::vector<std::vector<std::array<Vec3, 2>>> ways(cells.size());
+  std::vector<std::vector<std::array<Vec3, kSides>>> ways(cells.size());
   std::vector<float> x, y, z;
   for (size_t c = 0; c < cells.size(); ++c) {
     Vec3 mean{};
     for (const size_t i : cells[c]->samples) {
       ways[c].push_back(hand_ways(takes, set, i));
-      mean = mean + ways[c].back()[0] + ways[c].back()[1];
+      mean += ways[c].back()[0];
+      mean += ways[c].back()[1];
     }
     mean = mean / static_cast<float>(2 * ways[c].size());
     x.push_back(mean.x);
@@ -188,18 +184,18 @@ int replace_arms(const std::vector<Take>& takes, const std::vector<const Cell*>&
     float count = 0;
     for (size_t k = 0; k < ways[c].size(); ++k) {
       const size_t i = cells[c]->samples[k];
-      for (size_t side = 0; side < kShoulders.size(); ++side) {
+      for (size_t side = 0; side < kSides; ++side) {
         if (cells[c]->few && length(ways[c][k][side] - usual) > most) {
           elsewhere.push_back({i, side});
           continue;
         }
         const Arm arm = arm_of(change_of(set, i), side);
-        for (int j = 0; j < kArmJoints; ++j) sum[j] = sum[j] + arm[j];
+        for (size_t j = 0; j < sum.size(); ++j) sum[j] += arm[j];
         ++count;
       }
     }
     if (count < kEnough * static_cast<float>(2 * ways[c].size())) continue;
-    for (int j = 0; j < kArmJoints; ++j) mean[j] = mean[j] + sum[j] / count;
+    for (size_t j = 0; j < sum.size(); ++j) mean[j] += sum[j] / count;
     ++actions;
   }
   if (actions == 0) return 0;
