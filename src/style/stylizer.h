@@ -23,7 +23,7 @@ struct CrowdMember;
 struct StylizerOptions {
   // A change of strength or shape takes about this long to arrive.
   float ease_seconds = 0.15f;
-  // Time constant of the filter on the change, never on the input.
+  // Time constant of the filter on the change, never on the input; see OutputFilter.
   float smoothing_seconds = 0.04f;
   bool foot_lock = true;
   bool root = true;  // Style the root motion, not only the pose.

@@ -103,12 +103,15 @@ void take_off_common_change(const std::vector<Cell>& cells, SampleSet& set) {
       add(usual[cells[c].style], -share, alike);
     }
     const StyleDelta common = unpack(alike);
+    std::array<Quat, kHumanJoints> back;
+    for (int j = 0; j < kHumanJoints; ++j) {
+      back[j] = conjugate(exp_rotation(common.rotations[j]));
+    }
     for (const size_t c : members) {
       for (const size_t i : cells[c].samples) {
         StyleDelta change = change_of(set, i);
         for (int j = 0; j < kHumanJoints; ++j) {
-          change.rotations[j] = log_rotation(exp_rotation(change.rotations[j]) *
-                                             conjugate(exp_rotation(common.rotations[j])));
+          change.rotations[j] = log_rotation(exp_rotation(change.rotations[j]) * back[j]);
         }
         change.hips_height -= common.hips_height;
         pack(change, set.target(i).first<StyleDelta::kSize>());
