@@ -71,16 +71,17 @@ struct GuidanceSettings {
   int guides = 4;            // Networks of the guide,
   int guide_steps = 2500;    // and steps of training each.
   float weight = 1.4f;       // Of the sum of the following, beside the loss of the pairs.
-  float style = 0.16f;       // Of not being recognised by them as the style asked for,
+  float style = 0.22f;       // Of not being recognised by them as the style asked for,
   float statistics = 0.15f;  // and of not being so by a discriminant of statistics.
-  float velocity = 0.5f;     // Of hands and feet that no longer move as the input's.
+  float velocity = 0.7f;     // Of hands and feet that move otherwise or less than the input's.
   float smoothness = 1.2f;   // Of the change from one instant to the next.
   float balance = 1;         // Of leaving the feet's support, or sinking through the floor.
   float prior = 0.05f;       // Of changes that the pairs never show.
   float signature = 0.3f;    // Of posture and speed that change otherwise than in real takes.
   float anatomy = 0.1f;      // Of joints that leave their range of motion.
+  float standing = 0.12f;    // Of moving feet that stand.
   float ramp = 0.2f;         // Share of the training until all of it counts in full.
-  float spliced = 0.4f;      // Share of the sequences with arms of another take.
+  float spliced = 0.6f;      // Share of the sequences with arms or upper body of another take.
   // Other people, two thirds as far from those of the takes as in kOtherPeople.
   Disturbance disturbance = {.scale = 0.06f,
                              .floor = 0.01f,

@@ -8,6 +8,7 @@
 
 #include "learn/disturbance.h"
 #include "train/anatomy_loss.h"
+#include "train/standing_loss.h"
 #include "train/styled_bodies.h"
 
 namespace panache {
@@ -43,7 +44,8 @@ const torch::Tensor& foot_joints() {
   return list;
 }
 
-// 1 - correlation of how hands, forearms and feet move in and out; those that move more count more.
+// How hands, forearms and feet move in and out: 1 - correlation, or 1 - covariance / variance of
+// the input where they move less than it; those that move more count more.
 // [sequences][instants][21][3]
 torch::Tensor velocity_loss(const torch::Tensor& in, const torch::Tensor& out) {
   const auto velocity = [](const torch::Tensor& positions) {
@@ -52,7 +54,8 @@ torch::Tensor velocity_loss(const torch::Tensor& in, const torch::Tensor& out) {
   };
   const torch::Tensor a = velocity(in), b = velocity(out);
   const torch::Tensor in_square = a.square().sum({1, 3}), out_square = b.square().sum({1, 3});
-  const torch::Tensor root = (in_square * out_square + std::pow(kStill, 4.0f)).sqrt();
+  const torch::Tensor least = torch::maximum(out_square, in_square);
+  const torch::Tensor root = (in_square * least + std::pow(kStill, 4.0f)).sqrt();
   const torch::Tensor weight = in_square.sqrt();
   return ((1 - (a * b).sum({1, 3}) / root) * weight).sum() / (weight.sum() + 1e-5);
 }
@@ -234,11 +237,12 @@ torch::Tensor Guidance::loss(const NetworkTrainer& pose, double share, Random& r
 
   const torch::Tensor in = raw.slice(1, 0, 3 * kHumanJoints).view({rows, kHumanJoints, 3});
   const torch::Tensor out = styled_bodies(in, change);
-  const torch::Tensor root =
-      raw.slice(1, 3 * kHumanJoints, kNumbers) + change.slice(1, kHipsHeight + 1);
+  const torch::Tensor root = raw.slice(1, 3 * kHumanJoints, kNumbers);
+  const torch::Tensor root_change = change.slice(1, kHipsHeight + 1);
 
   const torch::Tensor seen =
-      torch::cat({out.reshape({rows, 3 * kHumanJoints}), root}, 1).view({n, kClassifiedInputs});
+      torch::cat({out.reshape({rows, 3 * kHumanJoints}), root + root_change}, 1)
+          .view({n, kClassifiedInputs});
   const torch::Tensor asked = torch::tensor(styles);
   const torch::Tensor style = guides_.networks.loss(seen, asked, kLabelSmoothing, random);
   const auto sequences = [&](const torch::Tensor& positions) {
@@ -254,8 +258,13 @@ torch::Tensor Guidance::loss(const NetworkTrainer& pose, double share, Random& r
         .slice(1, 0, kSequenceInstants, kAnatomyStride)
         .reshape({-1, kHumanJoints, 3});
   };
+  const auto by_instant = [&](const torch::Tensor& numbers) {
+    return numbers.view({n, kSequenceInstants, -1});
+  };
+  const torch::Tensor standing =
+      standing_loss(sequences(in), sequences(out), by_instant(root), by_instant(root_change));
   const torch::Tensor anatomy = anatomy_loss(some_instants(in), some_instants(out));
-  const torch::Tensor by_time = answer.view({n, kSequenceInstants, -1});
+  const torch::Tensor by_time = by_instant(answer);
   const torch::Tensor smooth = (by_time.slice(1, 1) - by_time.slice(1, 0, -1)).square().mean();
   const torch::Tensor index = torch::tensor(of_row);
   const torch::Tensor apart =
@@ -266,7 +275,8 @@ torch::Tensor Guidance::loss(const NetworkTrainer& pose, double share, Random& r
   return ramp * (settings_.style * style + settings_.statistics * statistics +
                  settings_.velocity * velocity + settings_.smoothness * smooth +
                  settings_.balance * balance_loss(in, out) + settings_.prior * prior +
-                 settings_.signature * signature + settings_.anatomy * anatomy);
+                 settings_.signature * signature + settings_.anatomy * anatomy +
+                 settings_.standing * standing);
 }
 
 }  // namespace panache

@@ -12,9 +12,11 @@ namespace {
 
 constexpr int kNumbers = pose_feature_count(PoseLayout::positions);
 constexpr int kWindowNumbers = kWindowPoses * kNumbers;
-constexpr float kTempo = 0.1f;     // Deviation of the logarithm of how fast a sequence is played.
-constexpr float kLongTake = 400;   // Frames; a longer take is drawn as often as this one.
-constexpr float kBothArms = 0.6f;  // Share of the spliced sequences that take both.
+constexpr float kTempo = 0.1f;    // Deviation of the logarithm of how fast a sequence is played.
+constexpr float kLongTake = 400;  // Frames; a longer take is drawn as often as this one.
+// Share of the spliced sequences that take the whole upper body of another, and of those that take
+// arms, of both.
+constexpr float kUpperBody = 0.5f, kBothArms = 0.6f;
 
 using Sequence = std::array<float, kSequenceNumbers>;
 
@@ -31,14 +33,14 @@ void draw_sequence(const Take& take, Random& random, std::span<float, kSequenceN
   if (random.bits() & 1) mirror_poses(PoseLayout::positions, out);
 }
 
-// Puts the arm that begins with this shoulder on the body in its place, carried by the chest.
-void splice_arm(const Sequence& from, int shoulder, std::span<float, kSequenceNumbers> to) {
-  constexpr int kArmJoints = 4;
+// Puts the joints from one to the other on the body in their place, carried by another joint.
+void splice(const Sequence& from, HumanJoint carrier, HumanJoint first, HumanJoint last,
+            std::span<float, kSequenceNumbers> to) {
   for (size_t at = 0; at < to.size(); at += kNumbers) {
-    const float* chest = &to[at] + 3 * index(HumanJoint::chest);
-    const float* other_chest = &from[at] + 3 * index(HumanJoint::chest);
-    for (int n = 3 * shoulder; n < 3 * (shoulder + kArmJoints); ++n) {
-      to[at + n] = from[at + n] + chest[n % 3] - other_chest[n % 3];
+    const float* carried = &to[at] + 3 * index(carrier);
+    const float* other = &from[at] + 3 * index(carrier);
+    for (int n = 3 * index(first); n < 3 * (index(last) + 1); ++n) {
+      to[at + n] = from[at + n] + carried[n % 3] - other[n % 3];
     }
   }
 }
@@ -72,10 +74,14 @@ void UnlabelledMotion::draw(float spliced_share, Random& random,
   Sequence other;
   draw_sequence(neutral_.draw(random), random, other);
   if (random.bits() & 1) std::swap_ranges(other.begin(), other.end(), out.begin());
-  const int left = index(HumanJoint::left_shoulder), right = index(HumanJoint::right_shoulder);
+  using enum HumanJoint;
+  if (random.uniform() < kUpperBody) {
+    splice(other, hips, spine, right_hand, out);
+    return;
+  }
   const bool both = random.uniform() < kBothArms, first = random.bits() & 1;
-  if (both || first) splice_arm(other, left, out);
-  if (both || !first) splice_arm(other, right, out);
+  if (both || first) splice(other, chest, left_shoulder, left_hand, out);
+  if (both || !first) splice(other, chest, right_shoulder, right_hand, out);
 }
 
 }  // namespace panache

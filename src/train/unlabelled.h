@@ -20,13 +20,13 @@ inline constexpr int kSequenceNumbers =
 class UnlabelledMotion {
  public:
   // `takes`: the motion itself. `neutral`: of these takes (numbers in layout positions) those
-  // listed in `spliced` lend it their arms, and themselves borrow its.
+  // listed in `spliced` lend it arms or upper bodies, and themselves borrow its.
   UnlabelledMotion(const std::vector<Take>& takes, const std::vector<Take>& neutral,
                    const std::vector<int>& spliced);
 
   // A sequence of any take, half of them mirrored. A share of the sequences is put together from
-  // this motion and a neutral take, one giving the arms (or one arm) as they hang on its chest, the
-  // other everything else: actions that no one captured.
+  // this motion and a neutral take, one giving the arms (or one arm) as they hang on its chest, or
+  // all above its hips, the other everything else: actions that no one captured.
   // out[instants][kWindowPoses][numbers of a pose]
   void draw(float spliced_share, Random& random, std::span<float, kSequenceNumbers> out) const;
 

@@ -11,7 +11,7 @@ namespace {
 constexpr float kRateSeconds = 0.05f;  // Time constant of the tempo.
 // A change may move joints at this share of their own speed, to which a little is added so that who
 // stands still is not frozen; m/s. Beyond, it is smoothed so many times as long at most.
-constexpr float kFreeShare = 0.2f, kStillSpeed = 0.1f, kSlowest = 5;
+constexpr float kFreeShare = 0.2f, kStillSpeed = 0.1f, kSlowest = 7;
 constexpr float kSpeedSeconds = 0.1f;  // Over which speeds are averaged.
 // So it is where the gate closes by this much or more, in the mean over this time. Where it is
 // open, what a style does was captured or trained, and nothing is held back.
