@@ -44,22 +44,6 @@ const torch::Tensor& foot_joints() {
   return list;
 }
 
-// How hands, forearms and feet move in and out: 1 - correlation, or 1 - covariance / variance of
-// the input where they move less than it; those that move more count more.
-// [sequences][instants][21][3]
-torch::Tensor velocity_loss(const torch::Tensor& in, const torch::Tensor& out) {
-  const auto velocity = [](const torch::Tensor& positions) {
-    const torch::Tensor some = positions.index_select(2, moving_joints());
-    return some.slice(1, 1) - some.slice(1, 0, -1);
-  };
-  const torch::Tensor a = velocity(in), b = velocity(out);
-  const torch::Tensor in_square = a.square().sum({1, 3}), out_square = b.square().sum({1, 3});
-  const torch::Tensor least = torch::maximum(out_square, in_square);
-  const torch::Tensor root = (in_square * least + std::pow(kStill, 4.0f)).sqrt();
-  const torch::Tensor weight = in_square.sqrt();
-  return ((1 - (a * b).sum({1, 3}) / root) * weight).sum() / (weight.sum() + 1e-5);
-}
-
 // The body stays over its feet as the input's does, and above the floor. [rows][21][3]
 torch::Tensor balance_loss(const torch::Tensor& in, const torch::Tensor& out) {
   const auto lean = [](const torch::Tensor& positions) {
@@ -115,6 +99,19 @@ torch::Tensor signature_loss(const torch::Tensor& changes, const torch::Tensor& 
 }
 
 }  // namespace
+
+torch::Tensor velocity_loss(const torch::Tensor& in, const torch::Tensor& out) {
+  const auto velocity = [](const torch::Tensor& positions) {
+    const torch::Tensor some = positions.index_select(2, moving_joints());
+    return some.slice(1, 1) - some.slice(1, 0, -1);
+  };
+  const torch::Tensor a = velocity(in), b = velocity(out);
+  const torch::Tensor in_square = a.square().sum({1, 3}), out_square = b.square().sum({1, 3});
+  const torch::Tensor least = torch::maximum(out_square, in_square);
+  const torch::Tensor root = (in_square * least + std::pow(kStill, 4.0f)).sqrt();
+  const torch::Tensor weight = in_square.sqrt();
+  return ((1 - (a * b).sum({1, 3}) / root) * weight).sum() / (weight.sum() + 1e-5);
+}
 
 torch::Tensor trait_changes(const torch::Tensor& before, const torch::Tensor& after) {
   return traits_of(after) - traits_of(before);

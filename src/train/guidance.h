@@ -28,6 +28,11 @@ Guides train_guides(const std::vector<Take>& takes, const SampleSet& set,
                     const std::vector<int>& choice, const std::vector<std::string>& styles,
                     const GuidanceSettings& settings, uint64_t seed);
 
+// How hands, forearms and feet move in and out: 1 - correlation of their velocities, or 1 -
+// covariance / variance of the input's where they move less than it; those that move more count
+// more. Both [sequences][instants][21][3], metres.
+torch::Tensor velocity_loss(const torch::Tensor& in, const torch::Tensor& out);
+
 // The change of the first traits of kTraits, those that a second of motion shows, in their units.
 // before, after: [sequences][instants][21][3] -> [sequences][kGuidedTraits]
 inline constexpr int64_t kGuidedTraits = 7;

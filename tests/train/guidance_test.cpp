@@ -40,6 +40,25 @@ TEST(TraitChanges, are_differences_of_traits) {
   EXPECT_GT(found[0][kGuidedTraits - 1].item<double>() * (after[6] - before[6]), 0);
 }
 
+TEST(VelocityLoss, movement_that_differs_or_shrinks_costs) {
+  // A hand that swings by so many metres about any place.
+  const auto swinging = [](float metres, float place = 0) {
+    torch::Tensor bodies = torch::zeros({1, kSequenceInstants, kHumanJoints, 3});
+    bodies.select(2, index(HumanJoint::left_hand)).select(2, 1) =
+        place + metres * torch::arange(kSequenceInstants).sin();
+    return bodies;
+  };
+  const auto loss = [&](const torch::Tensor& out) {
+    return velocity_loss(swinging(0.1f), out).item<float>();
+  };
+  EXPECT_NEAR(loss(swinging(0.1f)), 0, 0.01f);
+  EXPECT_NEAR(loss(swinging(0.1f, 1)), 0, 0.01f);
+  EXPECT_NEAR(loss(swinging(0.2f)), 0, 0.01f);
+  EXPECT_NEAR(loss(swinging(0.05f)), 0.5f, 0.01f);
+  EXPECT_NEAR(loss(swinging(0)), 1, 0.01f);
+  EXPECT_NEAR(loss(swinging(-0.1f)), 2, 0.01f);
+}
+
 // Walks in two styles, and waving that nobody showed in any.
 class GuidanceTest : public testing::Test {
  protected:
