@@ -107,8 +107,8 @@ torch::Tensor velocity_loss(const torch::Tensor& in, const torch::Tensor& out) {
   };
   const torch::Tensor a = velocity(in), b = velocity(out);
   const torch::Tensor in_square = a.square().sum({1, 3}), out_square = b.square().sum({1, 3});
-  const torch::Tensor least = torch::maximum(out_square, in_square);
-  const torch::Tensor root = (in_square * least + std::pow(kStill, 4.0f)).sqrt();
+  const torch::Tensor larger = torch::maximum(out_square, in_square);
+  const torch::Tensor root = (in_square * larger + std::pow(kStill, 4.0f)).sqrt();
   const torch::Tensor weight = in_square.sqrt();
   return ((1 - (a * b).sum({1, 3}) / root) * weight).sum() / (weight.sum() + 1e-5);
 }
