@@ -170,7 +170,7 @@ typedef struct panache_character_options {
   uint32_t struct_size;
   float ease_seconds;      /* A change of strength takes about this long; 0 to 10. */
   /* Time constant of the filter on what a style adds; 0 to 10. Calm motion that is unlike what was
-   * captured is filtered up to seven times as long. */
+   * captured is filtered up to eleven times as long. */
   float smoothing_seconds;
   int32_t hold_feet;       /* 1: planted feet are held in place. */
   int32_t style_root;      /* 1: root motion is styled too. */

@@ -17,6 +17,9 @@ constexpr float kStands = 0.5f, kLeaves = 0.7f;
 // far itself, as in a walk in place; where the input stands, that would throw it aside (11 cm in a
 // quarter of a second).
 constexpr float kHeld = 0.09f, kMaxOffset = 0.12f;  // Metres.
+// A planted foot that the style wants elsewhere than where it landed gets there slowly: to within
+// kSettled, at kCreep at most, and with kCreepSeconds as the time constant of the rest.
+constexpr float kSettled = 0.01f, kCreep = 0.04f, kCreepSeconds = 0.5f;  // Metres, m/s, s.
 // A foot comes to rest and leaves without a jerk: its speed at the plant dies away with this time
 // constant, and the correction of a released foot as a critically damped spring of this rate.
 constexpr float kRestSeconds = 0.03f;
@@ -63,6 +66,14 @@ Vec3 held(Vec3 pull) {
   if (far <= kHeld) return pull;
   if (!std::isfinite(far)) return {};
   return pull * ((kHeld + kGives * (1 - exponential((kHeld - far) / kGives))) / far);
+}
+
+// What a planted foot creeps in so many seconds towards what is `way` from it.
+Vec3 crept(Vec3 way, float seconds) {
+  const float far = length(way);
+  if (!(far > kSettled && std::isfinite(far))) return {};
+  const float eased = (far - kSettled) * (1 - exponential(-seconds / kCreepSeconds));
+  return way * (std::min(kCreep * seconds, eased) / far);
 }
 
 }  // namespace
@@ -145,6 +156,8 @@ void FootLock::follow(Foot& foot, Vec3 input, Vec3 toe, float contact, float sec
   if (foot.state == State::planted) {
     foot.anchor += foot.glide * seconds;
     foot.glide *= exponential(-seconds / kRestSeconds);
+    // What the input's foot slides by itself is not followed.
+    foot.anchor += crept(toe - foot.anchor - (input - foot.stood), seconds);
     const Vec3 pull = foot.anchor - toe;
     foot.offset = held(pull);
     foot.speed = seconds > 0 ? (foot.offset - last_offset) / seconds : Vec3{};

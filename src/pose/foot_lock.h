@@ -1,5 +1,6 @@
 #pragma once
-// Holds planted feet where they landed, with two-bone inverse kinematics. Causal: no look-ahead.
+// Holds planted feet where they landed, with two-bone inverse kinematics, and lets them creep
+// slowly to where a style wants them to stand. Causal: no look-ahead.
 
 #include <array>
 #include <span>

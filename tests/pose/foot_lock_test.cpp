@@ -163,8 +163,22 @@ TEST(FootLock, a_planted_foot_stays_and_a_free_one_slides) {
     held = locked.step(f, 1, 1);
     slid = loose.step(f, 0, 1);
   }
-  EXPECT_LT(length(held - start), 0.002f);
+  EXPECT_LT(length(held - start), 0.015f) << "it creeps";
   EXPECT_NEAR(length(slid - start), 0.04f, 1e-3);
+}
+
+TEST(FootLock, a_planted_foot_creeps_to_where_the_style_wants_it) {
+  // The style takes it 6 cm aside within a second, and leaves it there for nine.
+  Sliding body;
+  const Vec3 start = body.step(0, 1, 1), wanted = start + Vec3{0.06f, 0, 0};
+  Vec3 last = start;
+  for (int f = 1; f <= 300; ++f) {
+    const Vec3 toe = body.step(std::min(f, 30), 1, 1);
+    EXPECT_GE(toe.x, last.x - 1e-4f) << f;
+    EXPECT_LT(length(toe - last), 0.04f / 30 + 1e-4f) << f;
+    last = toe;
+  }
+  EXPECT_LT(length(last - wanted), 0.011f) << "a little is left";
 }
 
 TEST(FootLock, a_released_foot_comes_back_without_a_jump) {
@@ -187,8 +201,9 @@ TEST(FootLock, a_foot_that_lands_moving_comes_to_rest_without_a_jerk) {
   EXPECT_NEAR(way(9), 0.01f, 1e-4);
   // A hard stop would take all of its speed within a frame.
   EXPECT_GT(way(10), 0.003f);
-  for (int f = 11; f < 19; ++f) EXPECT_LE(way(f), way(f - 1) + 1e-4f) << f;
-  EXPECT_LT(way(16), 0.001f) << "and it stands within a fifth of a second";
+  for (int f = 11; f < 14; ++f) EXPECT_LE(way(f), way(f - 1) + 1e-4f) << f;
+  // From then on it follows the style by 4 cm/s at most.
+  for (int f = 16; f < 19; ++f) EXPECT_LT(way(f), 0.04f / 30 + 3e-4f) << f;
 }
 
 TEST(FootLock, a_foot_pulled_too_far_trails_behind_without_a_jump) {
@@ -201,9 +216,9 @@ TEST(FootLock, a_foot_pulled_too_far_trails_behind_without_a_jump) {
     EXPECT_LE(length(toe - last), 0.0021f) << f;
     last = toe;
   }
-  EXPECT_NEAR(length(last - start), 0.4f - 0.12f, 2e-3);
-  for (int f = 199; f >= 0; --f) last = body.step(f, 1, 1);
-  EXPECT_LT(length(last - start), 2e-3f);
+  EXPECT_NEAR(length(last - start), 0.4f - 0.12f, 6e-3);
+  for (int f = 199; f >= -150; --f) last = body.step(std::max(0, f), 1, 1);
+  EXPECT_LT(length(last - start), 0.011f) << "it creeps back";
 }
 
 TEST(FootLock, a_foot_that_slides_in_the_input_is_let_go) {

@@ -42,10 +42,10 @@ TEST(Filter, a_change_of_a_body_that_moves_as_much_is_smoothed_as_usual) {
   EXPECT_NEAR(share_after(100, 0.5f), 1 - std::exp(-0.1f / 0.04f), 1e-3f);
 }
 
-TEST(Filter, a_change_of_a_body_that_hardly_moves_takes_up_to_seven_times_as_long) {
+TEST(Filter, a_change_of_a_body_that_hardly_moves_takes_up_to_eleven_times_as_long) {
   const float share = share_after(0.02f, 0.5f);
   EXPECT_LT(share, 0.5f);
-  EXPECT_GT(share, 0.99f * (1 - std::exp(-0.1f / 0.28f)));
+  EXPECT_GT(share, 0.99f * (1 - std::exp(-0.1f / 0.44f)));
   EXPECT_LT(share, share_after(10, 0.5f));
 }
 

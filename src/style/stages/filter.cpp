@@ -11,7 +11,7 @@ namespace {
 constexpr float kRateSeconds = 0.05f;  // Time constant of the tempo.
 // A change may move joints at this share of their own speed, to which a little is added so that who
 // stands still is not frozen; m/s. Beyond, it is smoothed so many times as long at most.
-constexpr float kFreeShare = 0.2f, kStillSpeed = 0.1f, kSlowest = 7;
+constexpr float kFreeShare = 0.2f, kStillSpeed = 0.1f, kSlowest = 11;
 constexpr float kSpeedSeconds = 0.1f;  // Over which speeds are averaged.
 // So it is where the gate closes by this much or more, in the mean over this time. Where it is
 // open, what a style does was captured or trained, and nothing is held back.
@@ -49,6 +49,7 @@ std::array<float, kRegions> OutputFilter::gains(const StyleDelta& delta, float g
     const float added = change[r] * kLever / (joints[r] * kUsualSeconds);
     speed_[r] += follow * (std::min(kFastest, own) - speed_[r]);
     added_speed_[r] += follow * (std::min(kFastest, added) - added_speed_[r]);
+    if (strange == 0) continue;
     const float free = kFreeShare * (speed_[r] + kStillSpeed);
     const float slowness = std::clamp(added_speed_[r] / free, 1.0f, kSlowest);
     gain[r] = time.gain(smoothing_seconds_ * (1 + strange * (slowness - 1)));

@@ -11,7 +11,7 @@ namespace panache {
 
 // One-pole filters on the change and on the tempo, never on the input. Numbers that are not finite
 // count as 0. In motion that is unlike what was captured, where the change would move legs, torso
-// or an arm more than the input moves them, it is smoothed up to seven times as long: calm motion
+// or an arm more than the input moves them, it is smoothed up to eleven times as long: calm motion
 // stays calm.
 class OutputFilter {
  public:
