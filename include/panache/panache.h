@@ -172,7 +172,7 @@ typedef struct panache_character_options {
   /* Time constant of the filter on what a style adds; 0 to 10. Calm motion that is unlike what was
    * captured is filtered up to eleven times as long. */
   float smoothing_seconds;
-  int32_t hold_feet;       /* 1: planted feet are held in place. */
+  int32_t hold_feet;       /* 1: planted feet are held; they creep slowly to a style's stance. */
   int32_t style_root;      /* 1: root motion is styled too. */
   /* 1: skip or repeat whole cycles of a walk (or other repetitive motion) to stay within the
    * limits, so that the style's tempo lasts. Needs a max_lag longer than a cycle, say 1.5 seconds.
