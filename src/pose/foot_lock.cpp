@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/elementary.h"
+#include "base/one_pole.h"
 
 namespace panache {
 namespace {
@@ -72,7 +73,7 @@ Vec3 held(Vec3 pull) {
 Vec3 crept(Vec3 way, float seconds) {
   const float far = length(way);
   if (!(far > kSettled && std::isfinite(far))) return {};
-  const float eased = (far - kSettled) * (1 - exponential(-seconds / kCreepSeconds));
+  const float eased = (far - kSettled) * filter_gain(seconds, kCreepSeconds);
   return way * (std::min(kCreep * seconds, eased) / far);
 }
 

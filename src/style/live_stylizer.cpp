@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "base/one_pole.h"
 #include "style/cycle_search.h"
 #include "style/pose_change.h"
 #include "style/state_bytes.h"

@@ -111,6 +111,31 @@ TEST_F(AnatomyTest, knees_do_not_bend_forward_nor_elbows_back) {
   EXPECT_LT(bend(elbow, left_upper_arm, left_lower_arm, left_hand), 15);
 }
 
+TEST_F(AnatomyTest, a_torso_is_not_turned_around_and_its_arms_go_with_it) {
+  float last = 0;
+  for (int degrees = 0; degrees <= 170; degrees += 10) {
+    const Quat asked = rotation_y(static_cast<float>(degrees) * kDegree);
+    const BodyChange given = kept(turned(spine, right_hand, asked));
+    const float turn = length(log_rotation(given.rotations[index(spine)])) / kDegree;
+    if (degrees <= 60) {
+      EXPECT_EQ(given.rotations[index(spine)], asked) << degrees;
+    } else {
+      EXPECT_LT(turn, std::min(90, degrees - 1)) << degrees;
+      EXPECT_GT(turn, last) << degrees;
+    }
+    last = turn;
+    for (const HumanJoint joint : {chest, head, left_shoulder, right_hand}) {
+      const Quat own = conjugate(given.rotations[index(spine)]) * given.rotations[index(joint)];
+      EXPECT_LT(length(log_rotation(own)), 1e-3f) << degrees;
+    }
+    EXPECT_EQ(given.rotations[index(left_upper_leg)], Quat{});
+  }
+  EXPECT_GT(last, 75);
+  // Arms may turn further: raised, or folded.
+  const Quat raised = rotation_y(100 * kDegree);
+  EXPECT_EQ(kept(turned(left_shoulder, left_hand, raised)).rotations[index(left_shoulder)], raised);
+}
+
 // A foot that is held pulls its thigh across the other after the limits were kept.
 TEST_F(AnatomyTest, a_thigh_that_is_pulled_across_the_other_is_noticed) {
   const auto share = [&](float degrees, size_t side, bool right = false) {
@@ -144,6 +169,19 @@ TEST_F(AnatomyTest, a_limit_comes_and_goes_gradually) {
     last = wrist(given);
   }
   EXPECT_LT(last, 81);
+
+  const BodyChange easy = turned(left_hand, left_hand, axis_angle(kLeft, 60 * kDegree));
+  const auto taken_back = [&] {
+    given = easy;
+    anatomy.step(body_, rig_.rig(), later, given);
+    return wrist(easy) - wrist(given);
+  };
+  const float at_first = taken_back();
+  ASSERT_GT(at_first, 15);
+  for (int i = 0; i < 10; ++i) last = taken_back();
+  EXPECT_GT(last, 0.4f * at_first) << "after 0.2 s";
+  for (int i = 0; i < 100; ++i) last = taken_back();
+  EXPECT_LT(last, 0.1f);
 }
 
 TEST_F(AnatomyTest, a_lean_stops_before_the_body_falls) {

@@ -20,9 +20,13 @@ constexpr float deg(float degrees) { return degrees * std::numbers::pi_v<float> 
 // A change is taken back over this much before a limit; where the input is beyond its limit, or
 // near it, over at least kLeast beyond the input.
 constexpr float kSoft = deg(10), kLeast = deg(2);
-// Time constant of the shares. With half of it, legs and hands jumped by more than 6 cm in a frame,
-// three times as often.
-constexpr float kShareSeconds = 0.16f;
+// Time constants of the shares, as they grow and as they go. With half of the first, legs and hands
+// jumped by more than 6 cm in a frame, three times as often; with it for both, knees did.
+constexpr float kTakeSeconds = 0.16f, kGiveSeconds = 0.3f;
+
+// No joint of legs or torso is turned further than kTurned + kTurnedSoftly beyond what it hangs on;
+// up to kTurned all that is asked for is given. On captured walks styles turn them by 37 degrees.
+constexpr float kTurned = deg(60), kTurnedSoftly = deg(30), kCosHalfTurned = .8660f;
 
 // The limits are the normal ranges of motion and 10 degrees more, as several joints share a
 // movement. Radians. Hinges have no margin the wrong way: it is seen at once.
@@ -45,6 +49,25 @@ constexpr float kUnknownWrist = deg(40);
 float share_back(float out, float in) {
   const float from = std::max(in, -kSoft), room = std::max(kLeast, -from), over = out - from;
   return over > 0 ? over / (over + room) * (over / (out - in)) : 0.0f;
+}
+
+void bound_turns(std::array<Quat, kHumanJoints>& rotations) {
+  std::array<Quat, kHumanJoints> own;  // Beyond the joint that each hangs on.
+  bool bounded = false;
+  for (int j = index(spine); j < kHumanJoints; ++j) {
+    own[j] = conjugate(rotations[kHumanParent[j]]) * rotations[j];
+    const bool arm = j >= index(left_shoulder) && j <= index(right_hand);
+    if (arm || std::abs(own[j].w) > kCosHalfTurned) continue;
+    const Vec3 turn = log_rotation(own[j]);
+    const float far = length(turn), over = far - kTurned;
+    if (!(over > 0)) continue;
+    own[j] = exp_rotation(turn * ((kTurned + kTurnedSoftly * over / (over + kTurnedSoftly)) / far));
+    bounded = true;
+  }
+  if (!bounded) return;
+  for (int j = index(spine); j < kHumanJoints; ++j) {
+    rotations[j] = normalized(rotations[kHumanParent[j]] * own[j]);
+  }
 }
 
 float angle_between(Vec3 a, Vec3 b) { return arc_tangent(length(cross(a, b)), dot(a, b)); }
@@ -97,10 +120,12 @@ Bend bend_of(Vec3 upper, Vec3 lower, const Hinge& hinge) {
 
 class Limits {
  public:
-  Limits(const BodyPose& body, const Rig& rig, float gain, float* shares, BodyChange& change)
+  Limits(const BodyPose& body, const Rig& rig, const StepTime& time, float* shares,
+         BodyChange& change)
       : body_(body),
         rig_(rig),
-        gain_(gain),
+        take_(time.gain(kTakeSeconds)),
+        give_(time.gain(kGiveSeconds)),
         share_(shares),
         change_(change),
         to_heading_(rotation_y(-body.facing)) {}
@@ -147,7 +172,7 @@ class Limits {
   }
   // Eases the next of the shares to `wanted`.
   float eased(float wanted) {
-    approach(*share_, wanted, gain_, 1e-4f);
+    approach(*share_, wanted, wanted > *share_ ? take_ : give_, 1e-4f);
     return *share_++;
   }
   // Turns all joints from one to the other by that share of what takes the direction `from` to
@@ -241,8 +266,8 @@ class Limits {
 
   const BodyPose& body_;
   const Rig& rig_;
-  float gain_;    // Of the shares,
-  float* share_;  // and the next of them.
+  float take_, give_;  // Gains of the shares,
+  float* share_;       // and the next of them.
   BodyChange& change_;
   Quat to_heading_;
   Frame hips_, chest_;  // Of the input, heading frame.
@@ -252,13 +277,14 @@ class Limits {
 
 void Anatomy::step(const BodyPose& body, const Rig& rig, const StepTime& time,
                    BodyChange& change) noexcept {
-  Limits(body, rig, time.gain(kShareSeconds), shares_.data(), change).keep_all();
+  bound_turns(change.rotations);
+  Limits(body, rig, time, shares_.data(), change).keep_all();
 }
 
 void Anatomy::watch_thighs(const BodyPose& body, const Rig& rig, const StepTime& time,
                            const BodyChange& change) noexcept {
   BodyChange same = change;
-  Limits(body, rig, time.gain(kShareSeconds), thigh_shares_.data(), same).watch_thighs();
+  Limits(body, rig, time, thigh_shares_.data(), same).watch_thighs();
 }
 
 }  // namespace panache

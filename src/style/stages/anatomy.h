@@ -12,8 +12,9 @@ namespace panache {
 // Takes back a share of what a change bends torso, neck, shoulders, elbows, wrists, hips and knees
 // where that goes beyond the range of motion of people and the input itself does not: from nothing
 // of it 10 degrees before the limit to nearly all. So a limb is always between where the input has
-// it and where the style wants it. The shares come and go gradually, so that nothing pops. Where a
-// change leaves a joint as it is, this does, too, to the bit.
+// it and where the style wants it. The shares come gradually, and go more slowly, so that nothing
+// pops. Nor is a joint of legs or torso turned by more than 90 degrees beyond what it hangs on, as
+// that would be another motion. Where a change leaves a joint as it is, this does, too, to the bit.
 class Anatomy {
  public:
   void reset() noexcept { shares_ = {}, thigh_shares_ = {}; }

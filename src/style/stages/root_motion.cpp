@@ -30,7 +30,7 @@ void RootMotion::step(const StyleDelta& delta, float gate, const Observer& obser
   // Steps that lead nowhere give a style no say in the heading, and keep their length: stretched
   // ahead and not back, they would carry the body away.
   const float speed = window.forward_speed();
-  const float follow = 1 - exponential(-dt / kTravelSeconds);
+  const float follow = filter_gain(dt, kTravelSeconds);
   mean_forward_ += follow * (speed - mean_forward_);
   mean_speed_ += follow * (window.ground_speed() - mean_speed_);
   const float travel = std::min(1.0f, std::abs(mean_forward_) / (mean_speed_ + kNoSpeed));
