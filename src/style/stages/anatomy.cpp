@@ -24,8 +24,8 @@ constexpr float kSoft = deg(10), kLeast = deg(2);
 // jumped by more than 6 cm in a frame, three times as often; with it for both, knees did.
 constexpr float kTakeSeconds = 0.16f, kGiveSeconds = 0.3f;
 
-// No joint of legs or torso is turned further than kTurned + kTurnedSoftly beyond what it hangs on;
-// up to kTurned all that is asked for is given. On captured walks styles turn them by 37 degrees.
+// No joint of legs or torso is turned by more than kTurned beyond what it hangs on, softly up to
+// kTurnedSoftly more. On a captured walk styles turn them by up to 37 degrees.
 constexpr float kTurned = deg(60), kTurnedSoftly = deg(30), kCosHalfTurned = .8660f;
 
 // The limits are the normal ranges of motion and 10 degrees more, as several joints share a
