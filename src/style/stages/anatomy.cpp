@@ -9,6 +9,7 @@
 #include "base/elementary.h"
 #include "rig/canonical_body.h"
 #include "rig/range_of_motion.h"
+#include "style/shape.h"
 
 namespace panache {
 namespace {
@@ -56,8 +57,9 @@ void bound_turns(std::array<Quat, kHumanJoints>& rotations) {
   bool bounded = false;
   for (int j = index(spine); j < kHumanJoints; ++j) {
     own[j] = conjugate(rotations[kHumanParent[j]]) * rotations[j];
-    const bool arm = j >= index(left_shoulder) && j <= index(right_hand);
-    if (arm || std::abs(own[j].w) > kCosHalfTurned) continue;
+    const Region region = region_of(j);
+    if (region != Region::legs && region != Region::torso) continue;
+    if (std::abs(own[j].w) > kCosHalfTurned) continue;
     const Vec3 turn = log_rotation(own[j]);
     const float far = length(turn), over = far - kTurned;
     if (!(over > 0)) continue;
