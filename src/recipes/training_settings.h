@@ -80,6 +80,7 @@ struct GuidanceSettings {
   float signature = 0.3f;    // Of posture and speed that change otherwise than in real takes.
   float anatomy = 0.1f;      // Of joints that leave their range of motion.
   float standing = 0.12f;    // Of moving feet that stand.
+  float tempo = 0.1f;        // Of a tempo unlike that of real takes, beside the timing's own loss.
   float ramp = 0.2f;         // Share of the training until all of it counts in full.
   float spliced = 0.6f;      // Share of the sequences with arms or upper body of another take.
   // Other people, two thirds as far from those of the takes as in kOtherPeople.

@@ -94,7 +94,7 @@ uint64_t hash_settings(const TrainOptions& options) {
   hash.add_list(
       std::to_array({guidance.style, guidance.statistics, guidance.velocity, guidance.smoothness,
                      guidance.balance, guidance.prior, guidance.signature, guidance.anatomy,
-                     guidance.ramp, guidance.spliced}));
+                     guidance.standing, guidance.tempo, guidance.ramp, guidance.spliced}));
   hash_disturbance(guidance.disturbance, hash);
   const OptimizerSettings& optimizer = settings.optimizer;
   hash.add(optimizer.learning_rate);

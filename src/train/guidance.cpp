@@ -90,12 +90,19 @@ torch::Tensor traits_of(const torch::Tensor& bodies) {
                       1);
 }
 
+// How far a change of a trait may be from that of the real takes.
+double tolerance_of(const Signature& real, size_t trait) {
+  const double least = kTraits[trait].least, share = kTolerated * std::abs(real.change[trait]);
+  return real.certain[trait] ? std::max(least / 2, std::min(real.deviation[trait], share))
+                             : std::max(least, real.deviation[trait]);
+}
+
 // How far changes are from what real takes show, beyond what is tolerated; no sequence alone
-// decides. All [sequences][kGuidedTraits].
-torch::Tensor signature_loss(const torch::Tensor& changes, const torch::Tensor& real,
-                             const torch::Tensor& tolerance) {
+// decides. All of one shape.
+torch::Tensor beyond_tolerance(const torch::Tensor& changes, const torch::Tensor& real,
+                               const torch::Tensor& tolerance) {
   const torch::Tensor off = ((changes - real).abs() / tolerance - 1).relu();
-  return (off.square() / (1 + off)).mean();
+  return off.square() / (1 + off);
 }
 
 }  // namespace
@@ -187,12 +194,16 @@ Guidance::Guidance(const SampleSet& set, const std::vector<int>& choice, const O
   tolerance_ = torch::full({styles_, kGuidedTraits}, INFINITY);
   for (int s = 0; s < styles_; ++s) {
     for (int t = 0; signatures[s] && t < kGuidedTraits; ++t) {
-      const Signature& real = *signatures[s];
-      signature_[s][t] = real.change[t];
-      const double least = kTraits[t].least, share = kTolerated * std::abs(real.change[t]);
-      tolerance_[s][t] = real.certain[t] ? std::max(least / 2, std::min(real.deviation[t], share))
-                                         : std::max(least, real.deviation[t]);
+      signature_[s][t] = signatures[s]->change[t];
+      tolerance_[s][t] = tolerance_of(*signatures[s], t);
     }
+  }
+  tempo_ = torch::zeros({styles_});
+  tempo_tolerance_ = torch::full({styles_}, INFINITY);
+  for (int s = 0; s < styles_; ++s) {
+    if (!signatures[s] || !signatures[s]->certain[kTempoTrait]) continue;
+    tempo_[s] = signatures[s]->change[kTempoTrait] / 100;
+    tempo_tolerance_[s] = tolerance_of(*signatures[s], kTempoTrait) / 100;
   }
 }
 
@@ -211,24 +222,26 @@ torch::Tensor Guidance::windows(int sequences, Random& random) const {
   return normalised(raw);
 }
 
-torch::Tensor Guidance::loss(const NetworkTrainer& pose, double share, Random& random) const {
-  const int64_t n = settings_.sequences, rows = n * kSequenceInstants;
-  std::vector<int64_t> styles(n);
-  for (int64_t& style : styles) style = random.below(static_cast<uint32_t>(styles_));
-  std::sort(styles.begin(), styles.end());  // As the heads want it.
-  std::vector<int64_t> groups(styles_), of_row;
-  for (const int64_t style : styles) groups[style] += kSequenceInstants;
-  of_row.reserve(rows);
-  for (const int64_t style : styles) of_row.insert(of_row.end(), kSequenceInstants, style);
-
-  const torch::Tensor raw = torch::empty({rows, kWindowPoses * kNumbers});
-  for (int64_t s = 0; s < n; ++s) {
-    const std::span<float, kSequenceNumbers> sequence(raw.data_ptr<float>() + s * kSequenceNumbers,
-                                                      kSequenceNumbers);
+Guidance::Drawn Guidance::draw(Random& random) const {
+  const int64_t n = settings_.sequences;
+  Drawn drawn{torch::empty({n * kSequenceInstants, kWindowPoses * kNumbers}),
+              std::vector<int64_t>(n), std::vector<int64_t>(styles_)};
+  for (int64_t& style : drawn.styles) style = random.below(static_cast<uint32_t>(styles_));
+  std::sort(drawn.styles.begin(), drawn.styles.end());
+  for (const int64_t style : drawn.styles) drawn.group_sizes[style] += kSequenceInstants;
+  float* first = drawn.windows.data_ptr<float>();
+  for (int64_t s = 0; s < n; ++s, first += kSequenceNumbers) {
+    const std::span<float, kSequenceNumbers> sequence(first, kSequenceNumbers);
     motion_.draw(settings_.spliced, random, sequence);
     disturb(draw_disturbance(settings_.disturbance, input_units_, random), settings_.disturbance,
             random, sequence);
   }
+  return drawn;
+}
+
+torch::Tensor Guidance::loss(const NetworkTrainer& pose, double share, Random& random) const {
+  const int64_t n = settings_.sequences, rows = n * kSequenceInstants;
+  const auto& [raw, styles, groups] = draw(random);
   const torch::Tensor answer = pose.forward(normalised(raw), groups, &random);
   const torch::Tensor change = answer * output_scale_;
 
@@ -248,8 +261,9 @@ torch::Tensor Guidance::loss(const NetworkTrainer& pose, double share, Random& r
   const torch::Tensor velocity = velocity_loss(sequences(in), sequences(out));
   const torch::Tensor statistics = guides_.statistics.loss(sequences(out), asked, kLabelSmoothing);
   const torch::Tensor signature =
-      signature_loss(trait_changes(sequences(in), sequences(out)),
-                     signature_.index_select(0, asked), tolerance_.index_select(0, asked));
+      beyond_tolerance(trait_changes(sequences(in), sequences(out)),
+                       signature_.index_select(0, asked), tolerance_.index_select(0, asked))
+          .mean();
   const auto some_instants = [&](const torch::Tensor& positions) {
     return sequences(positions)
         .slice(1, 0, kSequenceInstants, kAnatomyStride)
@@ -263,7 +277,7 @@ torch::Tensor Guidance::loss(const NetworkTrainer& pose, double share, Random& r
   const torch::Tensor anatomy = anatomy_loss(some_instants(in), some_instants(out));
   const torch::Tensor by_time = by_instant(answer);
   const torch::Tensor smooth = (by_time.slice(1, 1) - by_time.slice(1, 0, -1)).square().mean();
-  const torch::Tensor index = torch::tensor(of_row);
+  const torch::Tensor index = asked.repeat_interleave(kSequenceInstants);
   const torch::Tensor apart =
       (answer - style_mean_.index_select(0, index)).abs() / style_deviation_.index_select(0, index);
   const torch::Tensor prior = (apart - 1).relu().square().mean();
@@ -274,6 +288,18 @@ torch::Tensor Guidance::loss(const NetworkTrainer& pose, double share, Random& r
                  settings_.balance * balance_loss(in, out) + settings_.prior * prior +
                  settings_.signature * signature + settings_.anatomy * anatomy +
                  settings_.standing * standing);
+}
+
+torch::Tensor Guidance::tempo_loss(const NetworkTrainer& timing, double share,
+                                   Random& random) const {
+  const auto& [raw, styles, groups] = draw(random);
+  const torch::Tensor tempo = timing.forward(normalised(raw), groups, &random)
+                                  .view({settings_.sequences, kSequenceInstants})
+                                  .mean(1);
+  const torch::Tensor asked = torch::tensor(styles);
+  const torch::Tensor off = beyond_tolerance(tempo, tempo_.index_select(0, asked),
+                                             tempo_tolerance_.index_select(0, asked));
+  return std::min(1.0, share / settings_.ramp) * settings_.tempo * off.mean();
 }
 
 }  // namespace panache

@@ -49,11 +49,21 @@ class Guidance {
 
   // What to add to the pose network's loss, after this share of the training.
   torch::Tensor loss(const NetworkTrainer& pose, double share, Random& random) const;
+  // The same for the timing network: the motion is played at the tempo of a style's real takes,
+  // where they agree on one.
+  torch::Tensor tempo_loss(const NetworkTrainer& timing, double share, Random& random) const;
 
   // Undisturbed windows of the motion as networks see them. [sequences * instants][inputs]
   torch::Tensor windows(int sequences, Random& random) const;
 
  private:
+  // Sequences in order of their styles, as the heads want them.
+  struct Drawn {
+    torch::Tensor windows;             // [sequences * instants][inputs], not normalised
+    std::vector<int64_t> styles;       // Of each sequence.
+    std::vector<int64_t> group_sizes;  // Windows of each style.
+  };
+  Drawn draw(Random& random) const;
   torch::Tensor normalised(const torch::Tensor& windows) const;
 
   const UnlabelledMotion& motion_;
@@ -69,6 +79,8 @@ class Guidance {
   // What each style changes of the guided traits, and what it may be off; infinite where there is
   // no signature.
   torch::Tensor signature_, tolerance_;  // [styles][kGuidedTraits]
+  // The same of the logarithm of the tempo; also infinite where real takes do not agree on it.
+  torch::Tensor tempo_, tempo_tolerance_;  // [styles]
 };
 
 }  // namespace panache

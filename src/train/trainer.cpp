@@ -97,7 +97,9 @@ class Training {
     const int64_t keep = 5 * report;
     std::vector<double> sums(job.networks.size());
     for (int64_t step = job.step(); step < settings_.steps && !is_unsaved(); ++step) {
-      Random random(options_.seed * 1000003 + job.seed * 7919 + static_cast<uint64_t>(step) * 2);
+      const uint64_t start =
+          options_.seed * 1000003 + job.seed * 7919 + static_cast<uint64_t>(step) * 2;
+      Random random(start), guided(start + (uint64_t{1} << 32));
       const Batch batch = batches_.make(random);
       for (size_t n = 0; n < job.networks.size(); ++n) {
         NetworkTrainer& network = *job.networks[n];
@@ -109,9 +111,13 @@ class Training {
         if (positions_ && network.shape().name == "pose") {
           loss = loss + settings_.positions * (*positions_)(out, batch);
         }
-        if (guidance_ && network.shape().name == "pose" && step % settings_.guidance.every == 0) {
+        if (guidance_ && step % settings_.guidance.every == 0) {
           const double share = static_cast<double>(step) / static_cast<double>(settings_.steps);
-          loss = loss + settings_.guidance.weight * guidance_->loss(network, share, random);
+          if (network.shape().name == "pose") {
+            loss = loss + settings_.guidance.weight * guidance_->loss(network, share, random);
+          } else if (network.shape().name == "timing") {
+            loss = loss + guidance_->tempo_loss(network, share, guided);
+          }
         }
         network.learn(loss);
       }

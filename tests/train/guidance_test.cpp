@@ -1,10 +1,15 @@
 #include "train/guidance.h"
 
+#include <filesystem>
+#include <numeric>
+#include <optional>
+
 #include <gtest/gtest.h>
 
 #include "body_tensor.h"
 #include "known_recipes.h"
 #include "make_styled_takes.h"
+#include "temporary_folder.h"
 #include "train/export.h"
 #include "train/matrix_products.h"
 #include "train/trainer.h"
@@ -76,7 +81,21 @@ class GuidanceTest : public testing::Test {
       (data_.takes[i].row.neutral ? neutral : styled).push_back(static_cast<int>(i));
     }
     data_.pairings = pair_takes(data_.takes, styled, neutral);
-    for (const char* name : {"old", "proud"}) styles_.push_back({name, {name}, ""});
+    for (const std::string& name : names_) styles_.push_back({name, {name}, ""});
+    set_.emplace(data_.takes, data_.pairings, names_, test::kPanache, false);
+    motion_.emplace(data_.unlabelled, data_.takes, std::vector<int>{});
+  }
+
+  // `signature`: of old, or null.
+  Guidance guidance_of(const Signature* signature, int guide_steps) const {
+    std::vector<int> choice(set_->samples().size());
+    std::iota(choice.begin(), choice.end(), 0);
+    GuidanceSettings guides = test::kPanache.training.guidance;
+    guides.guide_steps = guide_steps;
+    return Guidance(*set_, choice, output_units(*set_, choice), *motion_,
+                    train_guides(data_.takes, *set_, choice, names_, guides, 5),
+                    {signature, nullptr}, test::kPanache.training.guidance,
+                    test::kPanache.training.batch.input_clip);
   }
 
   TrainOptions options(int64_t steps) const {
@@ -87,24 +106,16 @@ class GuidanceTest : public testing::Test {
     return options;
   }
 
+  const std::vector<std::string> names_ = {"old", "proud"};
   TrainingData data_;
   std::vector<StyleName> styles_;
+  std::optional<SampleSet> set_;
+  std::optional<UnlabelledMotion> motion_;
 };
 
 TEST_F(GuidanceTest, what_it_adds_falls_when_it_is_learnt) {
-  const Recipe& recipe = test::kPanache;
-  const SampleSet set(data_.takes, data_.pairings, {"old", "proud"}, recipe, false);
-  std::vector<int> choice(set.samples().size());
-  for (size_t i = 0; i < choice.size(); ++i) choice[i] = static_cast<int>(i);
-  const OutputUnits units = output_units(set, choice);
-  const UnlabelledMotion motion(data_.unlabelled, data_.takes, {});
-  GuidanceSettings guides = recipe.training.guidance;
-  guides.guide_steps = 100;
-  const Guidance guidance(set, choice, units, motion,
-                          train_guides(data_.takes, set, choice, {"old", "proud"}, guides, 5),
-                          {nullptr, nullptr}, recipe.training.guidance,
-                          recipe.training.batch.input_clip);
-  NetworkTrainer pose(network_shapes(set, 2)[0], recipe.training.optimizer, 150, 1);
+  const Guidance guidance = guidance_of(nullptr, 100);
+  NetworkTrainer pose(network_shapes(*set_, 2)[0], test::kPanache.training.optimizer, 150, 1);
   const auto mean_loss = [&] {
     torch::NoGradGuard no_gradients;
     Random random(9);
@@ -123,6 +134,36 @@ TEST_F(GuidanceTest, what_it_adds_falls_when_it_is_learnt) {
   EXPECT_NEAR(guidance.loss(pose, 0.1, again).item<float>(), 0.5f * whole, 1e-3f * whole);
 }
 
+TEST_F(GuidanceTest, motion_is_played_at_the_tempo_that_real_takes_agree_on) {
+  Signature signature;
+  signature.change[kTempoTrait] = -30;
+  signature.deviation[kTempoTrait] = 5;
+  NetworkTrainer timing(network_shapes(*set_, 2)[1], test::kPanache.training.optimizer, 200, 1);
+  Random random(3);
+  EXPECT_EQ(guidance_of(&signature, 1).tempo_loss(timing, 1, random).item<float>(), 0);
+
+  signature.certain[kTempoTrait] = true;
+  const Guidance guidance = guidance_of(&signature, 1);
+  const float before = guidance.tempo_loss(timing, 1, random).item<float>();
+  for (int step = 0; step < 200; ++step) {
+    timing.learn(guidance.tempo_loss(timing, 1, random));
+  }
+  EXPECT_LT(guidance.tempo_loss(timing, 1, random).item<float>(), 0.1f * before);
+  // What it answers to all of the motion as "old", whose signature it is, and as "proud".
+  const torch::Tensor windows = guidance.windows(8, random);
+  const auto tempo = [&](std::vector<int64_t> group_sizes) {
+    torch::NoGradGuard no_gradients;
+    return timing.forward(windows, group_sizes, nullptr).mean().item<float>();
+  };
+  EXPECT_NEAR(tempo({windows.size(0), 0}), -0.3f, 0.07f);
+  EXPECT_GT(tempo({0, windows.size(0)}), -0.15f);
+
+  Random same(4), again(4);
+  const float whole = guidance_of(&signature, 1).tempo_loss(timing, 0.2, same).item<float>();
+  const float half = guidance_of(&signature, 1).tempo_loss(timing, 0.1, again).item<float>();
+  EXPECT_NEAR(half, 0.5f * whole, 1e-3f * whole);
+}
+
 TEST_F(GuidanceTest, the_same_seed_gives_the_same_model_and_other_motion_another) {
   const auto bytes = [&](const TrainingData& data) {
     const auto trained = train(data, styles_, options(12));
@@ -134,6 +175,20 @@ TEST_F(GuidanceTest, the_same_seed_gives_the_same_model_and_other_motion_another
   TrainingData other = data_;
   other.unlabelled.pop_back();
   EXPECT_NE(bytes(other), once);
+}
+
+TEST_F(GuidanceTest, the_network_beside_the_timing_does_not_hang_on_its_guidance) {
+  const test::TemporaryFolder folder;
+  const auto whole = train(data_, styles_, options(12));
+  ASSERT_TRUE(whole.ok()) << whole.error().message;
+  TrainOptions kept = options(12);
+  kept.checkpoint = folder.path() + "model.safetensors";
+  ASSERT_TRUE(train(data_, styles_, kept).ok());
+  // Interrupted where the timing network was there whole and the contact network was not.
+  std::filesystem::remove(kept.checkpoint + ".contact.checkpoint");
+  const auto resumed = train(data_, styles_, kept);
+  ASSERT_TRUE(resumed.ok()) << resumed.error().message;
+  EXPECT_EQ(format_safetensors(resumed->model), format_safetensors(whole->model));
 }
 
 TEST_F(GuidanceTest, so_many_steps_are_guided_and_with_this_weight) {

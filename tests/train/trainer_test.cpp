@@ -128,7 +128,7 @@ TEST_F(TrainerTest, training_does_not_go_on_from_a_checkpoint_of_another) {
   };
   EXPECT_EQ(rejection(styles_, begun), "");
 
-  std::vector<TrainOptions> others(7, begun);
+  std::vector<TrainOptions> others(9, begun);
   others[0].seed = 9;
   others[1].settings.steps = 6;
   others[2].settings.batch.size = 128;
@@ -136,6 +136,8 @@ TEST_F(TrainerTest, training_does_not_go_on_from_a_checkpoint_of_another) {
   others[4].settings.optimizer.learning_rate = 0.001f;
   others[5].settings.smoothness = 0;
   others[6].settings.positions = 0;
+  others[7].settings.guidance.standing = 0;
+  others[8].settings.guidance.tempo = 0;
   for (size_t i = 0; i < others.size(); ++i) {
     EXPECT_EQ(rejection(styles_, others[i]), expected("settings")) << i;
   }
