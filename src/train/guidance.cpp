@@ -192,18 +192,18 @@ Guidance::Guidance(const SampleSet& set, const std::vector<int>& choice, const O
 
   signature_ = torch::zeros({styles_, kGuidedTraits});
   tolerance_ = torch::full({styles_, kGuidedTraits}, INFINITY);
-  for (int s = 0; s < styles_; ++s) {
-    for (int t = 0; signatures[s] && t < kGuidedTraits; ++t) {
-      signature_[s][t] = signatures[s]->change[t];
-      tolerance_[s][t] = tolerance_of(*signatures[s], t);
-    }
-  }
   tempo_ = torch::zeros({styles_});
   tempo_tolerance_ = torch::full({styles_}, INFINITY);
   for (int s = 0; s < styles_; ++s) {
-    if (!signatures[s] || !signatures[s]->certain[kTempoTrait]) continue;
-    tempo_[s] = signatures[s]->change[kTempoTrait] / 100;
-    tempo_tolerance_[s] = tolerance_of(*signatures[s], kTempoTrait) / 100;
+    if (!signatures[s]) continue;
+    const Signature& real = *signatures[s];
+    for (int t = 0; t < kGuidedTraits; ++t) {
+      signature_[s][t] = real.change[t];
+      tolerance_[s][t] = tolerance_of(real, t);
+    }
+    if (!real.certain[kTempoTrait]) continue;
+    tempo_[s] = real.change[kTempoTrait] / 100;
+    tempo_tolerance_[s] = tolerance_of(real, kTempoTrait) / 100;
   }
 }
 
@@ -224,11 +224,12 @@ torch::Tensor Guidance::windows(int sequences, Random& random) const {
 
 Guidance::Drawn Guidance::draw(Random& random) const {
   const int64_t n = settings_.sequences;
-  Drawn drawn{torch::empty({n * kSequenceInstants, kWindowPoses * kNumbers}),
-              std::vector<int64_t>(n), std::vector<int64_t>(styles_)};
-  for (int64_t& style : drawn.styles) style = random.below(static_cast<uint32_t>(styles_));
-  std::sort(drawn.styles.begin(), drawn.styles.end());
-  for (const int64_t style : drawn.styles) drawn.group_sizes[style] += kSequenceInstants;
+  std::vector<int64_t> styles(n);
+  for (int64_t& style : styles) style = random.below(static_cast<uint32_t>(styles_));
+  std::sort(styles.begin(), styles.end());
+  Drawn drawn{torch::empty({n * kSequenceInstants, kWindowPoses * kNumbers}), torch::tensor(styles),
+              std::vector<int64_t>(styles_)};
+  for (const int64_t style : styles) drawn.group_sizes[style] += kSequenceInstants;
   float* first = drawn.windows.data_ptr<float>();
   for (int64_t s = 0; s < n; ++s, first += kSequenceNumbers) {
     const std::span<float, kSequenceNumbers> sequence(first, kSequenceNumbers);
@@ -241,7 +242,7 @@ Guidance::Drawn Guidance::draw(Random& random) const {
 
 torch::Tensor Guidance::loss(const NetworkTrainer& pose, double share, Random& random) const {
   const int64_t n = settings_.sequences, rows = n * kSequenceInstants;
-  const auto& [raw, styles, groups] = draw(random);
+  const auto& [raw, asked, groups] = draw(random);
   const torch::Tensor answer = pose.forward(normalised(raw), groups, &random);
   const torch::Tensor change = answer * output_scale_;
 
@@ -253,7 +254,6 @@ torch::Tensor Guidance::loss(const NetworkTrainer& pose, double share, Random& r
   const torch::Tensor seen =
       torch::cat({out.reshape({rows, 3 * kHumanJoints}), root + root_change}, 1)
           .view({n, kClassifiedInputs});
-  const torch::Tensor asked = torch::tensor(styles);
   const torch::Tensor style = guides_.networks.loss(seen, asked, kLabelSmoothing, random);
   const auto sequences = [&](const torch::Tensor& positions) {
     return positions.view({n, kSequenceInstants, kHumanJoints, 3});
@@ -292,11 +292,10 @@ torch::Tensor Guidance::loss(const NetworkTrainer& pose, double share, Random& r
 
 torch::Tensor Guidance::tempo_loss(const NetworkTrainer& timing, double share,
                                    Random& random) const {
-  const auto& [raw, styles, groups] = draw(random);
+  const auto& [raw, asked, groups] = draw(random);
   const torch::Tensor tempo = timing.forward(normalised(raw), groups, &random)
                                   .view({settings_.sequences, kSequenceInstants})
                                   .mean(1);
-  const torch::Tensor asked = torch::tensor(styles);
   const torch::Tensor off = beyond_tolerance(tempo, tempo_.index_select(0, asked),
                                              tempo_tolerance_.index_select(0, asked));
   return std::min(1.0, share / settings_.ramp) * settings_.tempo * off.mean();

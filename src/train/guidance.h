@@ -49,8 +49,8 @@ class Guidance {
 
   // What to add to the pose network's loss, after this share of the training.
   torch::Tensor loss(const NetworkTrainer& pose, double share, Random& random) const;
-  // The same for the timing network: the motion is played at the tempo of a style's real takes,
-  // where they agree on one.
+  // The same for the timing network: the mean tempo of a sequence should be that of the style's
+  // real takes, where they agree on one.
   torch::Tensor tempo_loss(const NetworkTrainer& timing, double share, Random& random) const;
 
   // Undisturbed windows of the motion as networks see them. [sequences * instants][inputs]
@@ -60,7 +60,7 @@ class Guidance {
   // Sequences in order of their styles, as the heads want them.
   struct Drawn {
     torch::Tensor windows;             // [sequences * instants][inputs], not normalised
-    std::vector<int64_t> styles;       // Of each sequence.
+    torch::Tensor styles;              // [sequences]
     std::vector<int64_t> group_sizes;  // Windows of each style.
   };
   Drawn draw(Random& random) const;

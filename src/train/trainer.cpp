@@ -99,7 +99,9 @@ class Training {
     for (int64_t step = job.step(); step < settings_.steps && !is_unsaved(); ++step) {
       const uint64_t start =
           options_.seed * 1000003 + job.seed * 7919 + static_cast<uint64_t>(step) * 2;
-      Random random(start), guided(start + (uint64_t{1} << 32));
+      Random random(start);
+      // Of its own, so that what the contact network draws does not depend on the timing network.
+      Random tempo_random(start + (uint64_t{1} << 32));
       const Batch batch = batches_.make(random);
       for (size_t n = 0; n < job.networks.size(); ++n) {
         NetworkTrainer& network = *job.networks[n];
@@ -116,7 +118,7 @@ class Training {
           if (network.shape().name == "pose") {
             loss = loss + settings_.guidance.weight * guidance_->loss(network, share, random);
           } else if (network.shape().name == "timing") {
-            loss = loss + guidance_->tempo_loss(network, share, guided);
+            loss = loss + guidance_->tempo_loss(network, share, tempo_random);
           }
         }
         network.learn(loss);
