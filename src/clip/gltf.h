@@ -4,9 +4,12 @@
 //
 // Conventions: metres and Y up are what glTF wants, but the numbers of a clip are those of the
 // file's nodes, so a scale or a turn of a node above the body is the parent joints' and counts as
-// in the file. Only scale is not a joint's to have: the resting scale of the nodes above a joint
-// (one number, the cube root of the product where the axes differ) multiplies its translations on
-// the way in and divides them on the way out; animated scale stays in the file and does not count.
+// in the file. Only scale is not a joint's to have. Every joint of a clip is where glTF's matrices
+// have it, at rest and in motion, for scales of any sign, even or not, animated or not, and it is
+// turned by what is left without them: the scales of the nodes above a joint go into its
+// translations on the way in, and out of them on the way out. A body that a scale of 0 takes away
+// for a while keeps the size that it has at rest; a resting scale of 0 along one or two axes above
+// other joints is rejected.
 //
 // Joints are the nodes that are in a skin, animated or named by a VRM humanoid, and all above them.
 // Read are LINEAR, STEP and CUBICSPLINE keys of floats and of normalised whole numbers, sparse or

@@ -6,6 +6,7 @@
 #include "clip/decimal.h"
 #include "clip/gltf_accessor.h"
 #include "clip/gltf_document.h"
+#include "clip/gltf_scales.h"
 
 namespace panache {
 namespace {
@@ -190,6 +191,11 @@ class ClipReader {
   bool fill(size_t which) {
     GltfAnimation& animation = document_.animations[which];
     Clip& clip = animation.clip;
+    GltfScales scales(document_, animation, tracks_);
+    if (!scales.is_still()) {
+      const int far = fill_stretched_clip(document_, animation, tracks_, scales);
+      return far < 0 || fail_far(which, static_cast<size_t>(far));
+    }
     for (int f = 0; f < clip.frames; ++f) {
       std::ranges::copy(document_.rest.rotations, clip.pose(f).rotations.begin());
       std::ranges::copy(document_.rest.translations, clip.pose(f).translations.begin());
@@ -199,12 +205,14 @@ class ClipReader {
       if (channel.path == GltfPath::other || joint_of(channel) < 0) continue;
       if (channel.path == GltfPath::rotation) fill_rotations(animation, channel, tracks_[c]);
       if (channel.path != GltfPath::translation) continue;
-      if (!fill_translations(animation, channel, tracks_[c])) {
-        return checker_.fail(item_path(member_path(animation_path(which), "channels"), c),
-                             "expected places within a thousand million, found one beyond");
-      }
+      if (!fill_translations(animation, channel, tracks_[c])) return fail_far(which, c);
     }
     return true;
+  }
+
+  bool fail_far(size_t which, size_t channel) {
+    return checker_.fail(item_path(member_path(animation_path(which), "channels"), channel),
+                         "expected places within a thousand million, found one beyond");
   }
 
   // -1 of a node that carries an expression or a gaze.
@@ -216,11 +224,12 @@ class ClipReader {
                       const GltfTrack& track) const {
     Clip& clip = animation.clip;
     const auto joint = static_cast<size_t>(joint_of(channel));
+    const Quat turn = document_.nodes[static_cast<size_t>(channel.node)].own.turn;
     for (int f = 0; f < clip.frames; ++f) {
       const double seconds = animation.start + f * clip.frame_time;
       float v[4];
       track.evaluate(seconds, key_tolerance(seconds, clip.frame_time), v);
-      clip.pose(f).rotations[joint] = clip_rotation({v[0], v[1], v[2], v[3]});
+      clip.pose(f).rotations[joint] = clip_rotation({v[0], v[1], v[2], v[3]}, turn);
     }
   }
 
@@ -233,15 +242,12 @@ class ClipReader {
       const double seconds = animation.start + f * clip.frame_time;
       float v[3];
       track.evaluate(seconds, key_tolerance(seconds, clip.frame_time), v);
-      const Vec3 place = clip_translation({v[0], v[1], v[2]}, document_.scales[joint]);
-      for (const float x : {place.x, place.y, place.z}) {
-        if (!(std::abs(static_cast<double>(x)) <= kLargestNumber)) return false;
-      }
+      const Vec3 place = document_.above[joint].apply({v[0], v[1], v[2]});
+      if (!is_within_reach(place)) return false;
       clip.pose(f).translations[joint] = place;
     }
     return true;
   }
-
   GltfDocument& document_;
   GltfChecker& checker_;
   std::vector<GltfTrack> tracks_;  // [channels] of the animation in hand.

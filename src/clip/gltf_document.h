@@ -9,6 +9,7 @@
 #include "clip/clip.h"
 #include "clip/gltf_container.h"
 #include "clip/gltf_track.h"
+#include "clip/stretch.h"
 #include "clip/unique_name.h"
 
 namespace panache {
@@ -17,16 +18,17 @@ struct GltfNode {
   std::string name;  // "node 7" where the file has none.
   int parent = -1;
   std::vector<int> children;
-  Vec3 translation;      // As in the file.
-  Quat rotation;         // As in the file, perhaps not unit.
-  double scale = 1;      // Of its children, as one number.
-  bool matrix = false;   // Placed by a matrix, so that nothing may animate it.
-  bool skinned = false;  // A joint of a skin.
-  bool carrier = false;  // Its transform is the weight of an expression or a gaze: no joint.
-  bool moves = false;    // In a skin, named in a humanoid, animated, or above such a node.
-  int joint = -1;        // In the clips' skeleton; -1 for one that does not move.
-  std::string role;      // As in Joint.
-  int skin = -1;         // As in Joint.
+  Vec3 translation;         // As in the file.
+  Quat rotation;            // As in the file, perhaps not unit.
+  Vec3d scale = {1, 1, 1};  // As in the file; of a matrix in `own` alone.
+  NodeScale own;            // What that does to the joint and to those below it.
+  bool matrix = false;      // Placed by a matrix, so that nothing may animate it.
+  bool skinned = false;     // A joint of a skin.
+  bool carrier = false;     // Its transform is the weight of an expression or a gaze: no joint.
+  bool moves = false;       // In a skin, named in a humanoid, animated, or above such a node.
+  int joint = -1;           // In the clips' skeleton; -1 for one that does not move.
+  std::string role;         // As in Joint.
+  int skin = -1;            // As in Joint.
   float skin_weight = 0;
 };
 
@@ -52,7 +54,8 @@ struct GltfDocument {
   GltfContainer container;
   std::vector<GltfNode> nodes;
   std::vector<int> joint_nodes;  // [joints]
-  std::vector<double> scales;    // [joints] by which what is above multiplies translations.
+  std::vector<Stretch> above;    // [joints] what the nodes above do to its place, at rest.
+  bool bends = false;            // Whether that depends on the pose, for some joint.
   Skeleton skeleton;             // Of the rest pose.
   std::vector<GltfAnimation> animations;
   Clip rest;  // One frame; the clip of a file without animations.
@@ -89,9 +92,9 @@ bool read_gltf_track(const GltfDocument& document, size_t which, const GltfChann
 // The same for a joint that no channel moves: where it rests.
 GltfTrack rest_gltf_track(const GltfNode& node, GltfPath path);
 
-// A number of the file as the clip has it: unit rotations, translations that the scale of the nodes
-// above multiplies.
-Quat clip_rotation(Quat in_file);
-Vec3 clip_translation(Vec3 in_file, double scale);
+// A rotation of the file as the clip has it: unit, with the half turn of the node's own scale.
+Quat clip_rotation(Quat in_file, Quat scale_turn);
+// The same back.
+Quat file_rotation(Quat in_clip, Quat scale_turn);
 
 }  // namespace panache

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "clip/gltf_scales.h"
+
 namespace panache {
 namespace {
 
@@ -41,6 +43,7 @@ class AnimationWriter {
       keeps_time_ = keeps_time_ && source_frames_[static_cast<size_t>(i)] == i;
     }
     if (!keeps_time_) sample_source();
+    find_places();
   }
 
   // The animation's JSON; no channels in it where the file has no animation and nothing moves.
@@ -73,16 +76,81 @@ class AnimationWriter {
     }
   }
 
+  // Where places depend on scales that change or on the pose: what every frame is in the file, and
+  // what of it the file does not have.
+  void find_places() {
+    std::vector<GltfTrack> tracks;
+    if (animation_) tracks = read_scale_tracks();
+    GltfScales scales =
+        animation_ ? GltfScales(document_, *animation_, tracks) : GltfScales(document_);
+    if (scales.is_still()) return;
+    in_file_.skeleton = clip_.skeleton;
+    in_file_.resize(changed_.frames);
+    moved_.resize(in_file_.translations.size());
+    std::vector<Stretch> above(clip_.joints());
+    for (int i = 0; i < changed_.frames; ++i) {
+      const double at = source_seconds(i), tolerance = key_tolerance(at, frame_time_);
+      const ConstPose then = source_pose(i), now = changed_.pose(i);
+      scales.set_clip_pose(at, tolerance, then.rotations);
+      for (size_t j = 0; j < clip_.joints(); ++j) above[j] = scales.above(j);
+      scales.set_clip_pose(at, tolerance, now.rotations);
+      for (size_t j = 0; j < clip_.joints(); ++j) {
+        in_file_.pose(i).rotations[j] = file_rotation(now.rotations[j], scales.turn(j));
+        in_file_.pose(i).translations[j] = scales.above(j).undo(now.translations[j]);
+        moved_[static_cast<size_t>(i) * clip_.joints() + j] =
+            !(now.translations[j] == then.translations[j]) || !(scales.above(j) == above[j]);
+      }
+    }
+  }
+  std::vector<GltfTrack> read_scale_tracks() const {
+    std::vector<GltfTrack> tracks(animation_->channels.size());
+    for (size_t c = 0; c < tracks.size(); ++c) {
+      if (animation_->channels[c].path == GltfPath::scale) {
+        tracks[c] = track_of(animation_->channels[c]);
+      }
+    }
+    return tracks;
+  }
+  GltfTrack track_of(const GltfChannel& channel) const {
+    GltfChecker checker("");
+    GltfTrack track;
+    [[maybe_unused]] const bool read = read_gltf_track(document_, place(), channel, checker, track);
+    assert(read);  // It was read before.
+    return track;
+  }
+
+  ConstPose source_pose(int frame) const {
+    return keeps_time_ ? clip_.pose(frame) : sampled_.pose(frame);
+  }
+  // In the file, of the frame that the new one came from.
+  double source_seconds(int frame) const {
+    const double source = source_frames_[static_cast<size_t>(frame)], last = clip_.frames - 1;
+    return seconds(source > 0 ? std::min(source, last) : 0.0);
+  }
+
+  // A joint's rotation and translation as the file has them.
+  Quat rotation_in_file(int frame, size_t joint) const {
+    if (in_file_.frames > 0) return in_file_.pose(frame).rotations[joint];
+    const int node = document_.joint_nodes[joint];
+    return file_rotation(changed_.pose(frame).rotations[joint],
+                         document_.nodes[static_cast<size_t>(node)].own.turn);
+  }
+  Vec3 translation_in_file(int frame, size_t joint) const {
+    if (in_file_.frames > 0) return in_file_.pose(frame).translations[joint];
+    return document_.above[joint].undo(changed_.pose(frame).translations[joint]);
+  }
+
   // Whether the joint of a channel is at `frame` what it was in the file; scale, weights and nodes
   // that are no joints (-1) are nobody's to change.
   bool is_same(int frame, int which, GltfPath path) const {
     if (which < 0) return true;
     const auto joint = static_cast<size_t>(which);
     const ConstPose now = changed_.pose(frame);
-    const ConstPose then = keeps_time_ ? clip_.pose(frame) : sampled_.pose(frame);
+    const ConstPose then = source_pose(frame);
     if (path == GltfPath::rotation) return now.rotations[joint] == then.rotations[joint];
-    if (path == GltfPath::translation) return now.translations[joint] == then.translations[joint];
-    return true;
+    if (path != GltfPath::translation) return true;
+    if (!moved_.empty()) return !moved_[static_cast<size_t>(frame) * clip_.joints() + joint];
+    return now.translations[joint] == then.translations[joint];
   }
   bool is_same(int joint, GltfPath path) const {
     if (path != GltfPath::rotation && path != GltfPath::translation) return true;
@@ -112,10 +180,7 @@ class AnimationWriter {
     const bool same = is_same(joint, channel.path);
     if (same && keeps_time_) return keep(std::move(json), channel, sampler);
 
-    GltfChecker checker("");
-    GltfTrack track;
-    [[maybe_unused]] const bool read = read_gltf_track(document_, place(), channel, checker, track);
-    assert(read);  // It was read before.
+    const GltfTrack track = track_of(channel);
     // A single key holds at all times, unless it is beyond the new end.
     const bool holds = track.times.size() == 1 &&
                        static_cast<double>(track.times[0]) <= seconds(changed_.frames - 1);
@@ -168,16 +233,13 @@ class AnimationWriter {
     for (int i = 0; i < changed_.frames; ++i) {
       const std::span<float> out = std::span(numbers).subspan(static_cast<size_t>(i) * n, n);
       if (is_same(i, which, path)) {
-        const double frame = source_frames_[static_cast<size_t>(i)];
-        const double last = clip_.frames - 1;
-        const double at = seconds(frame > 0 ? std::min(frame, last) : 0.0);
+        const double at = source_seconds(i);
         track.evaluate(at, key_tolerance(at, frame_time_), out);
       } else if (path == GltfPath::translation) {
-        const Vec3d place = changed_.pose(i).translations[joint].as<double>();
-        const Vec3 v = (place / document_.scales[joint]).as<float>();
+        const Vec3 v = translation_in_file(i, joint);
         out[0] = v.x, out[1] = v.y, out[2] = v.z;
       } else {
-        Quat q = changed_.pose(i).rotations[joint];
+        Quat q = rotation_in_file(i, joint);
         // Of the two quaternions of a rotation the one on the side of the frame before.
         const float* p = out.data() - 4;
         if (i > 0 && dot(q, Quat{p[0], p[1], p[2], p[3]}) < 0) q = {-q.x, -q.y, -q.z, -q.w};
@@ -212,6 +274,8 @@ class AnimationWriter {
   double start_ = 0;
   bool keeps_time_ = false;
   Clip sampled_;                    // Empty where the time is kept.
+  Clip in_file_;                    // Empty, as is the next, where scales are still.
+  std::vector<char> moved_;         // [frames][joints] 1 where the file has another place.
   std::vector<int> kept_samplers_;  // [samplers of the file] where each went; -1 for nowhere yet.
   GltfJson channels_ = GltfJson::array();
   GltfJson samplers_ = GltfJson::array();

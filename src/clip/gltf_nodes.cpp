@@ -12,14 +12,6 @@ namespace {
 Quat quat_of(const std::array<double, 4>& v) { return Quatd{v[0], v[1], v[2], v[3]}.as<float>(); }
 Vec3 vec_of(const std::array<double, 3>& v) { return Vec3d{v[0], v[1], v[2]}.as<float>(); }
 
-// Three scales as the one that comes nearest to them.
-double uniform(double x, double y, double z) {
-  // A cube root is not exact, and most scales are uniform.
-  const double scale = x == y && y == z ? std::abs(x) : std::cbrt(std::abs(x * y * z));
-  // What is scaled away entirely has no size to get wrong.
-  return scale > 0 ? scale : 1;
-}
-
 // VRM 0.x counts the joints of a thumb from the hand's first phalanx on, VRM 1.0 from the bone in
 // the palm; all other names are the same.
 std::string role_of_vrm0(const std::string& name) {
@@ -102,20 +94,18 @@ class NodeReader {
     }
     node.translation = vec_of(translation);
     node.rotation = quat_of(rotation);
-    node.scale = uniform(scale[0], scale[1], scale[2]);
+    node.scale = {scale[0], scale[1], scale[2]};
+    node.own = split_scale(node.scale);
     return true;
   }
 
-  // Columns one after the other. What shears is taken for the nearest that does not.
+  // Columns one after the other.
   static void place_by_matrix(const std::array<double, 16>& m, GltfNode& node) {
     const auto column = [&](size_t c) { return Vec3d{m[4 * c], m[4 * c + 1], m[4 * c + 2]}; };
-    Vec3d x = column(0), y = column(1), z = column(2);
+    const SplitMatrix split = split_matrix({column(0), column(1), column(2)});
     node.translation = column(3).as<float>();
-    node.scale = uniform(length(x), length(y), length(z));
-    if (dot(cross(x, y), z) < 0) x = -x;  // A mirror image is no rotation.
-    x = normalized(x, {1, 0, 0});
-    y = normalized(y - x * dot(x, y), {0, 1, 0});
-    node.rotation = from_axes(x, y, normalized(cross(x, y), {0, 0, 1})).as<float>();
+    node.rotation = split.rotation;
+    node.own.stretch = split.stretch;
   }
 
   bool read_skins() {
@@ -311,31 +301,40 @@ class SkeletonBuilder {
     joint.skin = node.skin;
     joint.skin_weight = node.skin_weight;
     joint.can_rotate = !node.matrix;
-    double scale = 1;
+    Stretch above;
     bool below_skin = false;
     if (node.parent >= 0) {
       // The parent of what moves is a joint too, and an earlier one.
       const GltfNode& parent = nodes_[static_cast<size_t>(node.parent)];
-      const size_t above = static_cast<size_t>(parent.joint);
+      const size_t p = static_cast<size_t>(parent.joint);
       joint.parent = parent.joint;
-      scale = document_.scales[above] * parent.scale;
-      below_skin = below_skin_[above] || parent.skinned;
+      if (!parent.own.stretch.can_undo()) return reject_flat(static_cast<size_t>(node.parent));
+      above = document_.above[p].below(document_.skeleton.joints[p].rest, parent.own.stretch);
+      document_.bends = document_.bends || !document_.above[p].is_even();
+      below_skin = below_skin_[p] || parent.skinned;
     }
     joint.can_translate = !node.matrix && (joint.parent < 0 || (node.skinned && !below_skin));
-    joint.rest = clip_rotation(node.rotation);
-    joint.offset = clip_translation(node.translation, scale);
+    joint.rest = clip_rotation(node.rotation, node.own.turn);
+    joint.offset = above.apply(node.translation);
     const double reach = static_cast<double>(
         std::max({std::abs(joint.offset.x), std::abs(joint.offset.y), std::abs(joint.offset.z)}));
-    if (!(scale <= kLargestNumber) || !(scale >= 1 / kLargestNumber) ||
+    const auto lengths = above.lengths();
+    const auto [least, most] = std::minmax_element(lengths.begin(), lengths.end());
+    if (!(*most <= kLargestNumber) || !(*least >= 1 / kLargestNumber) ||
         !(reach <= kLargestNumber)) {
       return checker_.fail(item_path("nodes", which),
                            "expected a place and a scale within a thousand million, found the "
                            "nodes above to scale it beyond that");
     }
     document_.skeleton.joints.push_back(std::move(joint));
-    document_.scales.push_back(scale);
+    document_.above.push_back(above);
     below_skin_.push_back(below_skin);
     return true;
+  }
+  bool reject_flat(size_t which) {
+    return checker_.fail(item_path("nodes", which),
+                         "expected a scale that leaves each of its axes some length, as other "
+                         "joints are below it, found one that is flat");
   }
 
   void build_rest() { document_.rest = rest_clip(document_.skeleton); }
@@ -348,16 +347,19 @@ class SkeletonBuilder {
 
 }  // namespace
 
-Quat clip_rotation(Quat in_file) {
+Quat clip_rotation(Quat in_file, Quat scale_turn) {
   const Quatd exact = in_file.as<double>();
   // A unit quaternion that was rounded to floats is left alone: it is as good as ours would be, and
   // comes back as it was. Its length squared is off by 4 times 2^-24 at most; files whose writers
   // computed with floats are off by some more.
-  return std::abs(dot(exact, exact) - 1) < 5e-7 ? in_file : normalized(exact).as<float>();
+  const Quat unit =
+      std::abs(dot(exact, exact) - 1) < 5e-7 ? in_file : normalized(exact).as<float>();
+  // A product with half a turn about an axis only changes places and signs of the numbers.
+  return scale_turn == Quat{} ? unit : unit * scale_turn;
 }
 
-Vec3 clip_translation(Vec3 in_file, double scale) {
-  return (in_file.as<double>() * scale).as<float>();
+Quat file_rotation(Quat in_clip, Quat scale_turn) {
+  return scale_turn == Quat{} ? in_clip : in_clip * conjugate(scale_turn);
 }
 
 bool read_gltf_nodes(GltfDocument& document, GltfChecker& checker) {

@@ -93,14 +93,26 @@ class Calibrator {
   }
 
   Result<void> find_scale() {
-    float leg = 0;
-    for (auto [upper, lower, foot] : {std::array{left_upper_leg, left_lower_leg, left_foot},
-                                      std::array{right_upper_leg, right_lower_leg, right_foot}}) {
-      leg += length(file(0, upper) - file(0, lower)) + length(file(0, lower) - file(0, foot));
-    }
+    std::vector<float> legs;
+    for (int f = 0; f < frames_.count(); ++f) legs.push_back(both_legs(f));
+    float leg = legs.front();
+    const auto middle = legs.begin() + static_cast<std::ptrdiff_t>(legs.size() / 2);
+    std::nth_element(legs.begin(), middle, legs.end());
+    // A body that grows at the beginning or shrinks at the end is as large as it is in between.
+    constexpr float kStays = 0.01f;
+    if (std::abs(leg - *middle) > kStays * *middle) leg = *middle;
     out_.scale = 2 * kProportions.leg / leg;
     if (!std::isfinite(out_.scale)) return Error{"the legs of the humanoid have no length"};
     return {};
+  }
+  float both_legs(int frame) const {
+    float leg = 0;
+    for (auto [upper, lower, foot] : {std::array{left_upper_leg, left_lower_leg, left_foot},
+                                      std::array{right_upper_leg, right_lower_leg, right_foot}}) {
+      leg += length(file(frame, upper) - file(frame, lower)) +
+             length(file(frame, lower) - file(frame, foot));
+    }
+    return leg;
   }
 
   // Fills where one wrist is if there is no hand: at the End Site of the lower arm, else straight

@@ -1,0 +1,58 @@
+#pragma once
+// The scales of a glTF file's nodes while an animation plays, and what they make of its poses.
+// Private to the folder.
+
+#include <span>
+#include <vector>
+
+#include "clip/gltf_document.h"
+
+namespace panache {
+
+class GltfScales {
+ public:
+  // tracks: [channels of `animation`], of which those of scales are read; without an animation the
+  // scales are those of the rest pose. All of it outlives the object.
+  explicit GltfScales(const GltfDocument& document) : document_(document) {}
+  GltfScales(const GltfDocument& document, const GltfAnimation& animation,
+             std::span<const GltfTrack> tracks);
+
+  // Whether what is above each joint does the same to places in every pose and at all times, as it
+  // does at rest.
+  bool is_still() const { return tracks_.empty() && !document_.bends; }
+
+  // Sets the time, seconds in the file, and the pose: [joints] rotations in the file's terms, which
+  // become the clip's; or the clip's, which stay.
+  void set_file_pose(double seconds, double tolerance, std::span<Quat> rotations);
+  void set_clip_pose(double seconds, double tolerance, std::span<const Quat> rotations);
+
+  // Once they are set: the half turn of the joint's own scale, and what the nodes above the joint
+  // do to its place.
+  Quat turn(size_t joint) const { return own_[joint].turn; }
+  const Stretch& above(size_t joint) const { return above_[joint]; }
+
+ private:
+  struct Moving {
+    size_t joint;
+    const GltfTrack* track;
+  };
+
+  void set_time(double seconds, double tolerance);
+  void place(size_t joint, std::span<const Quat> rotations);
+
+  const GltfDocument& document_;
+  std::vector<Moving> tracks_;  // Of nodes above joints, where they say more than the node.
+  std::vector<NodeScale> own_;  // [joints]
+  std::vector<Stretch> above_;  // [joints]
+};
+
+// Fills the frames of an animation whose scales are not still, all joints; what is moved by a scale
+// becomes a joint that translates. tracks: [channels]. Returns the channel that takes a joint too
+// far, or -1.
+int fill_stretched_clip(const GltfDocument& document, GltfAnimation& animation,
+                        std::span<const GltfTrack> tracks, GltfScales& scales);
+
+// Whether a place is one that a clip may have.
+bool is_within_reach(Vec3 place);
+
+}  // namespace panache
