@@ -6,6 +6,7 @@
 #include "clip/deform_skeleton.h"
 #include "clip/gltf_document.h"
 #include "clip/gltf_encode.h"
+#include "clip/vrma_rest.h"
 
 namespace panache {
 namespace {
@@ -76,6 +77,9 @@ Result<std::unique_ptr<MotionFile>> parse_vrma(std::string bytes, const std::str
                  ": extensions.VRMC_vrm_animation: expected a humanoid with hips, found none; a "
                  "file without it is a .glb"};
   }
+  const std::vector<Vec3> offsets = t_pose_offsets(document->rest);
+  stand_in_t_pose(offsets, document->rest);
+  for (GltfAnimation& animation : document->animations) stand_in_t_pose(offsets, animation.clip);
   return make_file(*std::move(document), true);
 }
 

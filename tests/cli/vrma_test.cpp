@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/program.h"
+#include "clip/fk.h"
 #include "clip/gltf.h"
 #include "clip/make_character.h"
 #include "rig/posed_rig.h"
@@ -49,6 +50,18 @@ GltfParts with_expression(const std::string& vrma) {
   parts.add_channel(0, gaze, "rotation", "LINEAR", times,
                     parts.add(std::vector<float>{0, 0, 0, 1, 0, 0.6f, 0, 0.8f}, "VEC4", 4));
   return parts;
+}
+
+std::vector<Vec3> world_places_of(const Clip& clip, int frame) {
+  std::vector<Quat> rotations(clip.joints());
+  std::vector<Vec3> places(clip.joints());
+  world_pose(clip.skeleton, clip.pose(frame), {rotations, places});
+  return places;
+}
+size_t joint_of(const Clip& clip, const std::string& name) {
+  size_t j = 0;
+  while (j + 1 < clip.joints() && clip.skeleton.joints[j].name != name) ++j;
+  return j;
 }
 
 class Vrma : public ProgramTest {
@@ -107,7 +120,9 @@ class Vrma : public ProgramTest {
     double worst_deg = 0;
     for (size_t i = 0; i < std::size(kTimes); ++i) {
       BodyPose body;
-      reader.read(motion.pose(static_cast<int>(std::lround(kTimes[i] / motion.frame_time))), body);
+      const auto frame = static_cast<int>(std::lround(kTimes[i] / motion.frame_time));
+      if (frame >= motion.frames) continue;
+      reader.read(motion.pose(frame), body);
       const Json& joints = seen["poses"][i]["joints"];
       const auto at = [&](int joint) {
         const Json& p = joints[std::string(human_joint_name(joint))];
@@ -162,6 +177,61 @@ TEST_F(Vrma, motion_of_every_makers_rig_is_shown_as_it_is) {
     must({"convert", "maker.glb", "--force", "-o", "maker.vrma"});
     expect_seen(clip, "maker.vrma");
   }
+}
+
+// The file with its arms, one thigh and the head turned at rest, and not turned back.
+GltfParts with_turned_rest(const std::string& vrma, float degrees) {
+  GltfParts parts = glb_parts(vrma);
+  const float angle = degrees * 3.14159265f / 180;
+  const auto turn = [&](const char* name, Vec3 axis, float by) {
+    for (Json& node : parts.json["nodes"]) {
+      if (node["name"] != name) continue;
+      const Quat q = axis_angle(axis, by);
+      node["rotation"] = {q.x, q.y, q.z, q.w};
+    }
+  };
+  turn("leftUpperArm", {0, 0, 1}, -angle);
+  turn("rightUpperArm", {0, 0, 1}, angle);
+  turn("rightLowerArm", {0, 1, 0}, angle / 2);
+  turn("leftUpperLeg", {1, 0, 0}, -angle / 2);
+  turn("head", {0, 1, 0}, angle);
+  return parts;
+}
+
+// Of a VRM animation whose rest pose is any, and of what becomes of it, the avatar shows what the
+// clip has.
+TEST_F(Vrma, rotations_are_against_the_rest_pose_whatever_that_is) {
+  if (const std::string what = missing(); !what.empty()) GTEST_SKIP() << what;
+  for (const float degrees : {40.0f, -25.0f}) {
+    write("bent.vrma", to_glb(with_turned_rest(read("walk.vrma"), degrees)));
+    const auto bent = open("bent.vrma");
+    ASSERT_TRUE(bent);
+    expect_seen(bent->clip(), "bent.vrma");
+    // The arm of the avatar turns by the angle of the rest pose, against that of the plain file.
+    const auto plain = open("walk.vrma");
+    const auto arm = [](const Clip& clip) {
+      const auto at = world_places_of(clip, 10);
+      const size_t upper = joint_of(clip, "leftUpperArm"), lower = joint_of(clip, "leftLowerArm");
+      return normalized(at[lower] - at[upper]);
+    };
+    EXPECT_GT(angle_deg(arm(bent->clip()), arm(plain->clip())), 5);
+    must({"stylize", "bent.vrma", "--style", "old=1", "--force", "-o", "bent-old.vrma"});
+    expect_seen(open("bent-old.vrma")->clip(), "bent-old.vrma");
+    must({"convert", "bent.vrma", "--force", "-o", "bent.bvh"});
+    must({"convert", "bent.bvh", "--force", "-o", "again.vrma"});
+    expect_seen(bent->clip(), "again.vrma");
+    must({"retarget", "walk.bvh", "--onto", "bent.vrma", "--force", "-o", "onto.vrma"});
+    expect_seen(open("walk.bvh")->clip(), "onto.vrma");
+  }
+}
+
+// Where the player leaves the avatar as it rests, the clip stands in a T-pose.
+TEST_F(Vrma, the_rest_pose_is_the_t_pose) {
+  write("bent.vrma", to_glb(with_turned_rest(read("walk.vrma"), 40)));
+  const auto bent = open("bent.vrma"), plain = open("walk.vrma");
+  ASSERT_TRUE(bent && plain);
+  const auto a = world_places_of(bent->rest(), 0), b = world_places_of(plain->rest(), 0);
+  for (size_t j = 0; j < a.size(); ++j) EXPECT_LT(length(a[j] - b[j]), 1e-5f) << j;
 }
 
 TEST_F(Vrma, fingers_come_along) {
