@@ -9,11 +9,24 @@
 #include "base/os/part_file.h"
 
 namespace panache {
+namespace {
+
+// Names of what this process has open already: its standard input, and what a shell puts at
+// <(command).
+bool is_open_already(const std::string& path) {
+  return path == "/dev/stdin" || path.starts_with("/dev/fd/") || path.starts_with("/proc/self/fd/");
+}
+
+}  // namespace
 
 Result<std::string> read_file(const std::string& path) {
   std::error_code status;
-  if (std::filesystem::is_directory(path, status)) {
-    return Error{path + ": is a folder; expected a file"};
+  const std::filesystem::file_status there = std::filesystem::status(path, status);
+  if (std::filesystem::is_directory(there)) return Error{path + ": is a folder; expected a file"};
+  // Opening a named pipe waits until somebody writes to it, and devices may never end.
+  if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there) &&
+      !is_open_already(path)) {
+    return Error{path + ": is a device, pipe or socket; expected a regular file"};
   }
   // Closes the file also where the memory for its bytes runs out.
   const auto close = [](std::FILE* open_file) { std::fclose(open_file); };

@@ -13,7 +13,8 @@ namespace panache {
 inline constexpr uint64_t kMaxFileBytes = uint64_t{1} << 31;
 
 // The bytes of the file at `path`. The message names the path and the cause ("walk.bvh: cannot be
-// read: No such file or directory").
+// read: No such file or directory"). Devices, named pipes and sockets are rejected, as they may
+// never end, unless this process has them open already (/dev/stdin, /dev/fd/N).
 Result<std::string> read_file(const std::string& path);
 
 // Puts `bytes` at `path`, whole or not at all: writes PATH.part beside it, then renames. An

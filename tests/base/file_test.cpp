@@ -51,6 +51,30 @@ TEST_F(WriteFile, a_file_of_more_than_2_GB_is_rejected_before_it_is_read) {
             path("large") + ": is larger than 2 GB; expected a smaller file");
 }
 
+TEST_F(WriteFile, what_may_never_end_is_not_read) {
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  fs::create_symlink("pipe", path("link"));
+  for (const std::string& name : {path("pipe"), path("link"), std::string("/dev/zero")}) {
+    const Result<std::string> bytes = read_file(name);
+    ASSERT_FALSE(bytes.ok());
+    EXPECT_EQ(bytes.error().message,
+              name + ": is a device, pipe or socket; expected a regular file");
+  }
+}
+
+TEST_F(WriteFile, a_pipe_that_is_open_already_is_read_as_a_shell_hands_it_over) {
+  for (const std::string folder : {"/dev/fd/", "/proc/self/fd/"}) {
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0);
+    ASSERT_EQ(::write(ends[1], "text", 4), 4);
+    ::close(ends[1]);
+    const Result<std::string> bytes = read_file(folder + std::to_string(ends[0]));
+    ::close(ends[0]);
+    ASSERT_TRUE(bytes.ok()) << bytes.error().message;
+    EXPECT_EQ(*bytes, "text");
+  }
+}
+
 TEST_F(WriteFile, an_existing_file_is_replaced_only_by_force) {
   ASSERT_TRUE(write_file(path("a"), "old and longer", false).ok());
   EXPECT_EQ(rejection("a", false), "a: exists already");
