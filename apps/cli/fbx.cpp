@@ -16,7 +16,7 @@ namespace panache::cli {
 namespace {
 
 constexpr size_t kLargestFile = size_t{1} << 30;  // Bytes.
-constexpr int kLongestRead = 600;                 // Seconds of the processor.
+constexpr int kLongestRead = 600;                 // Seconds.
 
 bool is_fbx(const std::string& bytes) {
   // Text files begin with a comment or with their first section.
@@ -59,15 +59,16 @@ Result<std::string> convert(const std::string& bytes, const std::string& path) {
 Result<std::string> fbx_to_glb(const std::string& path) {
   Result<std::string> glb = run_in_child(kFbxReader, path, "",
                                          "the FBX reader crashed on it; the file may be damaged; "
-                                         "exporting it again, or as GLB, may help");
+                                         "exporting it again, or as GLB, may help",
+                                         kLongestRead);
   if (!glb) return glb.error();
   return with_pictures(*std::move(glb), path);
 }
 
 int read_fbx_as_child(const std::string& path) {
-  return answer_as_child([&] { return read_fbx(path); },
-                         [&](const std::string& bytes) { return convert(bytes, path); },
-                         kLongestRead);
+  return answer_as_child(
+      path, [&] { return read_fbx(path); },
+      [&](const std::string& bytes) { return convert(bytes, path); }, kLongestRead);
 }
 
 }  // namespace panache::cli

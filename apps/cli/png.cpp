@@ -21,7 +21,7 @@ extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfi
 namespace panache::cli {
 namespace {
 
-constexpr unsigned kLongestDrawing = 50;  // Seconds.
+constexpr int kLongestDrawing = 50;  // Seconds.
 // Without these the libraries that read fonts leave the text out, or wait for ever.
 constexpr size_t kFontFiles = 8;
 constexpr size_t kFontMemory = size_t{128} << 20;
@@ -84,15 +84,14 @@ Result<std::string> draw(const std::string& svg, const std::string& path) {
 }  // namespace
 
 Result<std::string> svg_to_png(const std::string& svg, const std::string& path) {
-  return run_in_child(kPngDrawer, path, svg, kFailure);
+  return run_in_child(kPngDrawer, path, svg, kFailure, kLongestDrawing);
 }
 
 int draw_png_as_child(const std::string& path) {
-  ::alarm(kLongestDrawing);
   // Fonts are read while it draws.
-  return answer_as_child([&] { return draw(read_input_as_child(), path); },
-                         [](const std::string& png) { return Result<std::string>(png); },
-                         static_cast<int>(kLongestDrawing));
+  return answer_as_child(
+      path, [&] { return draw(read_input_as_child(), path); },
+      [](const std::string& png) { return Result<std::string>(png); }, kLongestDrawing);
 }
 
 }  // namespace panache::cli

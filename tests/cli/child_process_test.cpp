@@ -1,0 +1,154 @@
+// Processes that the program starts for its work: they wait for nothing that may never come, end
+// with the program, and do nothing where they cannot be locked.
+
+#include "child_process.h"
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <functional>
+#include <thread>
+
+#include <sys/prctl.h>
+#include <sys/stat.h>
+
+#include "cli/make_fbx.h"
+#include "cli/program.h"
+
+#ifdef PANACHE_SECCOMP
+#include <seccomp.h>
+#endif
+
+namespace panache::test {
+namespace {
+
+using std::chrono::steady_clock;
+
+bool becomes_true(const std::function<bool()>& is_true) {
+  const auto end = steady_clock::now() + std::chrono::seconds(20);
+  while (!is_true()) {
+    if (steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return true;
+}
+
+class ChildProcess : public ProgramTest {
+ protected:
+  bool has_fbx() const {
+    write("walk.fbx", format_fbx(walking_clip(5)));
+    return run({"info", "walk.fbx"}).err.find("this build reads no FBX files") == std::string::npos;
+  }
+};
+
+TEST_F(ChildProcess, a_named_pipe_is_not_waited_for) {
+  for (const std::string extension :
+       {"fbx", "bvh", "glb", "gltf", "vrm", "vrma", "npz", "amc", "safetensors", "csv"}) {
+    const std::string name = "x." + extension;
+    ASSERT_EQ(::mkfifo(path(name).c_str(), 0600), 0);
+    const std::vector<std::string> arguments =
+        extension == "safetensors" ? std::vector<std::string>{"styles", name}
+        : extension == "csv"
+            ? std::vector<std::string>{"stylize", "w.bvh", "--strengths", name, "-o", "o.bvh"}
+            : std::vector<std::string>{"info", name};
+    write_walk("w.bvh");
+    const Ran ran = run(arguments);
+    EXPECT_NE(ran.exit, 0) << name;
+    EXPECT_EQ(ran.err,
+              "panache: " + name + ": is a device, pipe or socket; expected a regular file\n");
+  }
+}
+
+TEST_F(ChildProcess, it_ends_with_the_program_however_that_ends) {
+  if (!has_fbx()) GTEST_SKIP() << "this build has no Assimp";
+  // Long enough to be caught at it: seconds of work.
+  write("long.fbx", format_fbx(walking_clip(20000)));
+  // What the program leaves behind comes here, instead of to the first process of the machine.
+  ASSERT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 1), 0);
+  for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+    for (const bool is_stopped : {false, true}) {
+      const pid_t program = start({"info", "long.fbx"});
+      const std::string id = std::to_string(program);
+      const std::string children = "/proc/" + id + "/task/" + id + "/children";
+      ASSERT_TRUE(becomes_true([&] { return !read_file(children)->empty(); }));
+      const pid_t child = std::stoi(*read_file(children));
+      if (is_stopped) {  // At work: from then on its output goes nowhere.
+        const std::string output = "/proc/" + std::to_string(child) + "/fd/1";
+        std::error_code gone;
+        EXPECT_TRUE(becomes_true(
+            [&] { return std::filesystem::read_symlink(output, gone) == "/dev/null"; }));
+        ::kill(child, SIGSTOP);
+      }
+      ::kill(program, signal);
+      ::waitpid(program, nullptr, 0);
+      int status = 0;
+      EXPECT_TRUE(becomes_true([&] { return ::waitpid(child, &status, WNOHANG) == child; }))
+          << signal << is_stopped;
+      ::kill(child, SIGKILL);
+    }
+  }
+  ::prctl(PR_SET_CHILD_SUBREAPER, 0);
+}
+
+// What this program does when it is started as a child. These tests are run by the one below only.
+TEST(AsChild, DISABLED_never_answers) { ::pause(); }
+TEST(AsChild, DISABLED_answers_and_never_ends) {
+  ::close(STDOUT_FILENO);
+  ::pause();
+}
+
+TEST_F(ChildProcess, one_that_takes_too_long_is_stopped) {
+  const std::string all = "--gtest_also_run_disabled_tests";  // In the place of a path.
+  for (const std::string name : {"never_answers", "answers_and_never_ends"}) {
+    const auto begin = steady_clock::now();
+    const Result<std::string> answer =
+        cli::run_in_child("--gtest_filter=AsChild.DISABLED_" + name, all, "", "breaks down", 1);
+    ASSERT_FALSE(answer.ok());
+    EXPECT_EQ(answer.error().message,
+              all +
+                  ": the process that works on it was stopped after 1 s; is the machine very busy, "
+                  "or the file larger than it should be?");
+    EXPECT_GE(steady_clock::now() - begin, std::chrono::seconds(1));
+    EXPECT_LT(steady_clock::now() - begin, std::chrono::seconds(10));
+    EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1);  // It is gone.
+  }
+}
+
+#if defined(PANACHE_SECCOMP) && !defined(PANACHE_SANITIZED)  // Not under the sanitizers.
+TEST_F(ChildProcess, without_a_lock_nothing_is_read_and_nothing_drawn) {
+  if (!has_fbx()) GTEST_SKIP() << "this build has no Assimp";
+  write_walk("walk.bvh");
+  const std::vector<std::string> verbs[] = {{"convert", "walk.fbx", "-o", "out.glb"},
+                                            {"strip", "walk.bvh", "-o", "out.png"}};
+  for (const auto& arguments : verbs) {
+    // As in a container that forbids seccomp to those inside.
+    const pid_t watcher = ::fork();
+    if (watcher == 0) {
+      scmp_filter_ctx rules = ::seccomp_init(SCMP_ACT_ALLOW);
+      const bool done =
+          rules && ::seccomp_rule_add(rules, SCMP_ACT_ERRNO(EPERM), SCMP_SYS(seccomp), 0) == 0 &&
+          ::seccomp_rule_add(rules, SCMP_ACT_ERRNO(EPERM), SCMP_SYS(prctl), 1,
+                             SCMP_A0(SCMP_CMP_EQ, PR_SET_SECCOMP)) == 0 &&
+          ::seccomp_load(rules) == 0;
+      if (!done) ::_exit(77);
+      const Ran ran = run(arguments);
+      const std::string expected =
+          "panache: " + arguments[arguments[0] == "strip" ? 3 : 1] +
+          ": the process that works on it could not be locked away from files and networks; "
+          "expected a system that permits seccomp, or this motion in another format\n";
+      const bool good = ran.exit == 1 && ran.err == expected && ran.out.empty();
+      if (!good) write("said.txt", std::to_string(ran.exit) + ran.err + ran.out);
+      ::_exit(good ? 0 : 1);
+    }
+    int status = 0;
+    ::waitpid(watcher, &status, 0);
+    ASSERT_TRUE(WIFEXITED(status));
+    if (WEXITSTATUS(status) == 77) GTEST_SKIP() << "this kernel has no filters";
+    EXPECT_EQ(WEXITSTATUS(status), 0) << read("said.txt");
+    EXPECT_FALSE(exists(arguments.back()));
+  }
+}
+#endif
+
+}  // namespace
+}  // namespace panache::test
