@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <system_error>
 
 #include "base/os/part_file.h"
 
@@ -19,12 +20,14 @@ bool is_open_already(const std::string& path) {
 
 }  // namespace
 
+namespace fs = std::filesystem;
+
 Result<std::string> read_file(const std::string& path) {
   std::error_code status;
-  const std::filesystem::file_status there = std::filesystem::status(path, status);
-  if (std::filesystem::is_directory(there)) return Error{path + ": is a folder; expected a file"};
+  const fs::file_status there = fs::status(path, status);
+  if (fs::is_directory(there)) return Error{path + ": is a folder; expected a file"};
   // Opening a named pipe waits until somebody writes to it, and devices may never end.
-  if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there) &&
+  if (fs::exists(there) && !fs::is_regular_file(there) &&
       !is_open_already(path)) {
     return Error{path + ": is a device, pipe or socket; expected a regular file"};
   }
@@ -34,7 +37,7 @@ Result<std::string> read_file(const std::string& path) {
   if (!file) return Error{path + ": cannot be read: " + std::strerror(errno)};
   std::string bytes;
   const Error too_large{path + ": is larger than 2 GB; expected a smaller file"};
-  const auto size = std::filesystem::file_size(path, status);
+  const auto size = fs::file_size(path, status);
   if (!status && size > kMaxFileBytes) return too_large;
   if (!status) bytes.reserve(size);
   char block[1 << 16];
@@ -47,8 +50,25 @@ Result<std::string> read_file(const std::string& path) {
   return bytes;
 }
 
+namespace {
+
+// Where the links of a path lead, also where there is no file yet: the system follows 40 of them.
+fs::path without_links(fs::path path, std::error_code& status) {
+  for (int i = 0; i < 40; ++i) {
+    if (!fs::is_symlink(fs::symlink_status(path, status))) {
+      status.clear();  // Of a file that is not there.
+      return path;
+    }
+    path = path.parent_path() / fs::read_symlink(path, status);
+    if (status) return path;
+  }
+  status = std::make_error_code(std::errc::too_many_symbolic_link_levels);
+  return path;
+}
+
+}  // namespace
+
 Result<void> write_file(const std::string& path, std::string_view bytes, bool force) {
-  namespace fs = std::filesystem;
   std::error_code status;
   const fs::file_status there = fs::status(path, status);
   if (fs::is_directory(there)) return Error{path + ": is a folder; expected a file name"};
@@ -56,18 +76,22 @@ Result<void> write_file(const std::string& path, std::string_view bytes, bool fo
     return Error{path +
                  ": is a device, pipe or socket, which is not replaced; expected a file name"};
   }
-  if (!force && fs::exists(there)) return Error{path + ": exists already"};
+  const Error taken{path + ": exists already"};
+  if (!force && fs::exists(there)) return taken;
   const fs::path parent = fs::path(path).parent_path();
   if (!parent.empty()) fs::create_directories(parent, status);
+  const fs::path target = without_links(path, status);
+  const std::string cannot = path + ": cannot be written: ";
+  if (status) return Error{cannot + std::strerror(status.value())};
 
-  const std::string target = fs::exists(there) ? fs::canonical(path, status).string() : path;
-  Result<PartFile> part = PartFile::open(target, path);
+  Result<PartFile> part = PartFile::open(target.string(), path);
   if (!part) return part.error();
-  if (!part->write(bytes) || (fs::exists(there) && !part->set_permissions(there.permissions())) ||
-      !part->keep()) {
-    return Error{path + ": cannot be written: " + std::strerror(errno)};
+  if (part->write(bytes) && (!fs::exists(there) || part->set_permissions(there.permissions())) &&
+      part->keep(force)) {
+    return {};
   }
-  return {};
+  if (!force && errno == EEXIST) return taken;  // Another process was faster.
+  return Error{cannot + std::strerror(errno)};
 }
 
 }  // namespace panache

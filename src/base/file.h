@@ -17,11 +17,12 @@ inline constexpr uint64_t kMaxFileBytes = uint64_t{1} << 31;
 // never end, unless this process has them open already (/dev/stdin, /dev/fd/N).
 Result<std::string> read_file(const std::string& path);
 
-// Puts `bytes` at `path`, whole or not at all: writes PATH.part beside it, then renames. An
-// existing file is left alone and rejected unless `force`, which keeps its permissions and writes
-// to where a link points. What is not a regular file (a device, a pipe, a folder) is never
-// replaced. Missing folders on the way are made. A .part that a killed process left behind is used
-// up; one that another process is writing is rejected.
+// Puts `bytes` at `path`, whole or not at all: writes a new file beside it, then renames. An
+// existing file is left alone and rejected unless `force`, which keeps its permissions; of several
+// processes that write a new file without it, one succeeds. Where a link points is written to. What
+// is not a regular file (a device, a pipe, a folder) is never replaced. Missing folders on the way
+// are made. The file beside it is .NAME.PID.part, with the number of this process: what a killed
+// process left of the same NAME is removed, where it is this user's.
 Result<void> write_file(const std::string& path, std::string_view bytes, bool force);
 
 }  // namespace panache

@@ -2,15 +2,20 @@
 
 #include "base/file.h"
 
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
@@ -28,6 +33,9 @@ class WriteFile : public testing::Test {
   std::string rejection(const std::string& name, bool force) const {
     const Result<void> written = write_file(path(name), "new", force);
     return written ? "" : written.error().message.substr(path("").size());
+  }
+  void write_raw(const std::string& name, const std::string& text) const {
+    std::ofstream(path(name)) << text;
   }
   size_t entries() const {
     return static_cast<size_t>(
@@ -112,30 +120,121 @@ TEST_F(WriteFile, what_is_no_regular_file_is_never_replaced) {
   EXPECT_EQ(entries(), 2u);
 }
 
-TEST_F(WriteFile, what_a_killed_process_left_is_used_up) {
-  ASSERT_TRUE(
-      write_file(path("a.part"), "half of something that is longer than the rest", false).ok());
+// A process that lives no more.
+pid_t dead_process() {
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(0);
+  ::waitpid(child, nullptr, 0);
+  return child;
+}
+
+TEST_F(WriteFile, no_other_file_is_touched_whatever_its_name) {
+  const std::string pid = std::to_string(::getpid()), dead = std::to_string(dead_process());
+  write_raw("precious", "theirs");
+  const std::vector<std::string> theirs = {"a.part",
+                                           "a.part.part",
+                                           ".a.part",
+                                           ".a." + pid + ".part",  // Our own next name.
+                                           "a." + dead + ".part",
+                                           ".b." + dead + ".part",
+                                           ".a." + dead + ".part2",
+                                           ".a.0" + dead + ".part",
+                                           ".a.-1.part",
+                                           ".a..part",
+                                           ".a.99999999999999999999.part"};
+  for (const std::string& name : theirs) write_raw(name, "theirs");
+  fs::create_hard_link(path("precious"), path("link.part"));
+  // Of a dead process by their names, but not left by a write.
+  fs::create_symlink("precious", path(".a." + std::to_string(dead_process()) + ".part"));
+  fs::create_directory(path(".a." + std::to_string(dead_process()) + ".part"));
+  const size_t before = entries();
+  for (const bool force : {false, true}) {
+    EXPECT_EQ(rejection("a", force), "");
+    EXPECT_EQ(rejection("link", force), "");
+  }
+  EXPECT_EQ(entries(), before + 2);
+  for (const std::string& name : theirs) EXPECT_EQ(*read_file(path(name)), "theirs") << name;
+  EXPECT_EQ(*read_file(path("precious")), "theirs");
+  EXPECT_EQ(*read_file(path("a")), "new");
+}
+
+TEST_F(WriteFile, what_a_killed_process_left_of_a_file_goes_with_its_next_write) {
+  write_raw(".a." + std::to_string(dead_process()) + ".part", "half of it");
+  write_raw(".a." + std::to_string(dead_process()) + "-3.part", "half of it");
   EXPECT_EQ(rejection("a", false), "");
   EXPECT_EQ(*read_file(path("a")), "new");
   EXPECT_EQ(entries(), 1u);
 }
 
 TEST_F(WriteFile, what_another_process_is_writing_is_left_alone) {
-  const int other = ::open(path("a.part").c_str(), O_WRONLY | O_CREAT, 0600);
+  // Locked: the process lives, where its number may not tell.
+  const std::string locked = ".a." + std::to_string(dead_process()) + ".part";
+  const int other = ::open(path(locked).c_str(), O_WRONLY | O_CREAT, 0600);
   ASSERT_EQ(::flock(other, LOCK_EX), 0);
-  ASSERT_EQ(::write(other, "theirs", 6), 6);
-  EXPECT_EQ(rejection("a", false), "a: is being written by another process");
-  EXPECT_FALSE(fs::exists(path("a")));
-  EXPECT_EQ(*read_file(path("a.part")), "theirs");
-  ::close(other);
+  write_raw(".a." + std::to_string(::getppid()) + ".part", "theirs");
   EXPECT_EQ(rejection("a", false), "");
+  EXPECT_TRUE(fs::exists(path(locked)));
+  EXPECT_EQ(entries(), 3u);
+  ::close(other);
 }
 
-TEST_F(WriteFile, a_link_in_place_of_the_part_is_not_followed) {
-  ASSERT_TRUE(write_file(path("precious"), "theirs", false).ok());
-  fs::create_symlink("precious", path("a.part"));
-  EXPECT_TRUE(rejection("a", false).starts_with("a: cannot be written: "));
-  EXPECT_EQ(*read_file(path("precious")), "theirs");
+TEST_F(WriteFile, of_many_writers_one_wins_unless_they_may_overwrite) {
+  for (const bool force : {false, true}) {
+    const std::string name = force ? "b" : "a";
+    std::atomic<int> written = 0;
+    std::vector<std::thread> writers;
+    for (int i = 0; i < 8; ++i) {
+      writers.emplace_back([&, i] {
+        const std::string text(100'000, static_cast<char>('a' + i));
+        const Result<void> one = write_file(path(name), text, force);
+        EXPECT_EQ(one ? "" : one.error().message, one ? "" : path(name) + ": exists already");
+        written += one.ok();
+      });
+    }
+    for (std::thread& writer : writers) writer.join();
+    EXPECT_EQ(written, force ? 8 : 1);
+    const std::string text = *read_file(path(name));
+    EXPECT_EQ(text, std::string(100'000, text[0]));  // Whole, and of one writer.
+  }
+  EXPECT_EQ(entries(), 2u);
+}
+
+TEST_F(WriteFile, a_name_may_be_as_long_as_the_system_allows) {
+  const std::string longest(255, 'a');
+  EXPECT_EQ(rejection(longest, false), "");
+  EXPECT_EQ(rejection(longest, true), "");
+  EXPECT_EQ(*read_file(path(longest)), "new");
+  const std::string umlauts = std::string(1, 'a') + [] {
+    std::string text;
+    for (int i = 0; i < 127; ++i) text += "\xc3\xa4";
+    return text;
+  }();
+  EXPECT_EQ(rejection(umlauts, false), "");
+  EXPECT_EQ(rejection(longest + "a", false), longest + "a: cannot be written: File name too long");
+  EXPECT_EQ(entries(), 2u);
+}
+
+TEST_F(WriteFile, a_new_file_has_the_permissions_that_the_user_gives_to_new_files) {
+  const mode_t before = ::umask(027);
+  EXPECT_EQ(rejection("a", false), "");
+  ::umask(before);
+  EXPECT_EQ(fs::status(path("a")).permissions(), fs::perms(0640));
+}
+
+TEST_F(WriteFile, a_link_to_nothing_stays_and_gets_its_file) {
+  fs::create_directory(path("folder"));
+  fs::create_symlink("folder/second", path("first"));
+  fs::create_symlink("a", path("folder/second"));
+  EXPECT_EQ(rejection("first", false), "");
+  EXPECT_TRUE(fs::is_symlink(path("first")));
+  EXPECT_TRUE(fs::is_symlink(path("folder/second")));
+  EXPECT_EQ(*read_file(path("folder/a")), "new");
+  fs::create_symlink("round", path("round"));
+  for (const bool force : {false, true}) {
+    EXPECT_EQ(rejection("round", force),
+              "round: cannot be written: Too many levels of symbolic links");
+  }
+  EXPECT_TRUE(fs::is_symlink(path("round")));
 }
 
 TEST_F(WriteFile, too_many_open_files_are_named_as_the_cause) {

@@ -11,8 +11,8 @@ using Train = test::ProgramTest;
 
 TEST_F(Train, a_checkpoint_that_cannot_be_saved_ends_it_with_one_message) {
   test::write_manifest(path(""));
-  // Where a checkpoint is to be written there is a folder.
-  std::filesystem::create_directory(path("mine.safetensors.pose.checkpoint.part"));
+  // Where a checkpoint is to be written there is a link into a folder that does not exist.
+  std::filesystem::create_symlink("none/x", path("mine.safetensors.pose.checkpoint"));
   const test::Ran ran = run({"train", "manifest.csv", "--steps", "5", "-o", "mine.safetensors"});
   EXPECT_EQ(ran.exit, 1);
   EXPECT_NE(ran.err.find("panache: mine.safetensors.pose.checkpoint: cannot be written"),

@@ -106,7 +106,7 @@ TEST_F(TrainerTest, interrupted_training_goes_on_as_if_it_had_not_been) {
 TEST_F(TrainerTest, training_ends_with_a_message_where_a_checkpoint_cannot_be_saved) {
   TrainOptions unsavable = options(test::kPanache, 40);
   unsavable.checkpoint = folder_ + "model.safetensors";
-  std::filesystem::create_directory(unsavable.checkpoint + ".timing.checkpoint.part");
+  std::filesystem::create_symlink("none/x", unsavable.checkpoint + ".timing.checkpoint");
   const auto trained = train(rows_, styles_, unsavable);
   ASSERT_FALSE(trained.ok());
   EXPECT_NE(trained.error().message.find(".timing.checkpoint: cannot be written"),

@@ -2,6 +2,7 @@
 // A file on its way to its name.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -9,25 +10,36 @@
 
 namespace panache {
 
-// TARGET.part, ours alone for as long as it is open: a lock, which ends with the process that holds
-// it, tells a file that is being written from one that a killed process left.
+// A new file beside its target, ".NAME.PID.part", with the number of this process; ours alone. A
+// lock, which ends with the process that holds it, tells it from one that a killed process left.
 class PartFile {
  public:
-  // `path` is what messages call the target.
+  // Removes what killed processes left of this target, too. `path` is what messages call the
+  // target.
   static Result<PartFile> open(const std::string& target, const std::string& path);
   PartFile(PartFile&& other) noexcept;
   PartFile& operator=(PartFile&&) = delete;
   ~PartFile();  // Removes it, unless it was kept.
 
-  // These three set errno where they fail. All bytes at once, in place of what is in it:
+  // These three set errno where they fail. All bytes at once:
   bool write(std::string_view bytes);
   bool set_permissions(std::filesystem::perms permissions);
-  // Makes it the target.
-  bool keep();
+  // Makes it the target; EEXIST where there is one, unless it may `replace` it.
+  bool keep(bool replace);
 
  private:
   PartFile(std::string target, std::string name, int file);
-  std::string target_, name_;  // The name is empty where the file is not ours to remove.
+
+  // Those of each operating system. The file is new, ours and locked; -1 sets errno.
+  static int create(const std::string& name);
+  // Whether `name` is a file of ours that no process is writing: not `pid`, nor any other.
+  static bool is_abandoned(const std::string& name, long pid);
+  static long own_pid();
+  static size_t longest_name(const std::filesystem::path& folder);  // In bytes.
+
+  static void remove_abandoned(const std::filesystem::path& folder, const std::string& stem);
+
+  std::string target_, name_;  // The name is empty where nothing is left to remove.
   int file_;
 };
 

@@ -1,13 +1,13 @@
-#include "base/os/part_file.h"
-
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
-#include <cstring>
 
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "base/os/part_file.h"
 
 namespace panache {
 
@@ -18,31 +18,34 @@ PartFile::~PartFile() {
   errno = cause;
 }
 
-Result<PartFile> PartFile::open(const std::string& target, const std::string& path) {
-  const std::string name = target + ".part";
-  for (;;) {
-    // Without waiting, should there be a pipe of this name.
-    constexpr int kHow = O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
-    const int file = ::open(name.c_str(), kHow, 0666);
-    if (file < 0) return Error{path + ": cannot be written: " + std::strerror(errno)};
-    PartFile part(target, name, file);
-    // Where a file system knows no locks, nobody else's can be in the way.
-    if (::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-      part.name_.clear();  // Another process's, which it will rename or remove.
-      return Error{path + ": is being written by another process"};
-    }
-    // Between opening and locking, its former owner may have renamed it.
-    struct stat opened = {}, named = {};
-    if (::fstat(file, &opened) == 0 && ::stat(name.c_str(), &named) == 0 &&
-        opened.st_ino == named.st_ino) {
-      return part;
-    }
-    part.name_.clear();
-  }
+int PartFile::create(const std::string& name) {
+  const int file = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
+  // Where a file system knows no locks, nobody takes the file for abandoned either.
+  if (file >= 0) ::flock(file, LOCK_EX | LOCK_NB);
+  return file;
+}
+
+bool PartFile::is_abandoned(const std::string& name, long pid) {
+  if (::kill(static_cast<pid_t>(pid), 0) == 0 || errno != ESRCH) return false;
+  // Without waiting, should there be a pipe of this name.
+  const int file = ::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+  if (file < 0) return false;
+  struct stat status = {};
+  // The process may be one of another machine or container: it holds the lock.
+  const bool ours = ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) &&
+                    status.st_uid == ::geteuid() && ::flock(file, LOCK_EX | LOCK_NB) == 0;
+  ::close(file);
+  return ours;
+}
+
+long PartFile::own_pid() { return ::getpid(); }
+
+size_t PartFile::longest_name(const std::filesystem::path& folder) {
+  const long longest = ::pathconf(folder.empty() ? "." : folder.c_str(), _PC_NAME_MAX);
+  return longest > 0 ? static_cast<size_t>(longest) : 255;
 }
 
 bool PartFile::write(std::string_view bytes) {
-  if (::ftruncate(file_, 0) != 0) return false;
   while (!bytes.empty()) {
     const ssize_t count = ::write(file_, bytes.data(), bytes.size());
     if (count < 0 && errno == EINTR) continue;
@@ -56,10 +59,20 @@ bool PartFile::set_permissions(std::filesystem::perms permissions) {
   return ::fchmod(file_, static_cast<mode_t>(permissions)) == 0;
 }
 
-bool PartFile::keep() {
+bool PartFile::keep(bool replace) {
   // Network file systems tell of a full disk only where a file is closed; the lock stays.
   const int copy = ::dup(file_);
   if (copy < 0 || ::close(copy) != 0) return false;
+  if (!replace) {
+    // A second name is given only where it is free; the destructor removes the first.
+    if (::link(name_.c_str(), target_.c_str()) == 0) return true;
+    if (errno == EEXIST) return false;
+    // A file system without links, such as that of a memory card.
+    if (::access(target_.c_str(), F_OK) == 0) {
+      errno = EEXIST;
+      return false;
+    }
+  }
   if (std::rename(name_.c_str(), target_.c_str()) != 0) return false;
   name_.clear();
   return true;

@@ -1,9 +1,7 @@
-#include "base/os/part_file.h"
-
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
+#include <filesystem>
 #include <utility>
 
 #include <windows.h>
@@ -12,6 +10,8 @@
 #include <io.h>
 #include <share.h>
 #include <sys/stat.h>
+
+#include "base/os/part_file.h"
 
 namespace panache {
 
@@ -23,14 +23,29 @@ PartFile::~PartFile() {
 }
 
 // Nobody else can open a file that is not shared.
-Result<PartFile> PartFile::open(const std::string& target, const std::string& path) {
-  const std::string name = target + ".part";
+int PartFile::create(const std::string& name) {
   int file = -1;
-  constexpr int kHow = _O_WRONLY | _O_CREAT | _O_TRUNC | _O_BINARY | _O_NOINHERIT;
-  const int failure = ::_sopen_s(&file, name.c_str(), kHow, _SH_DENYRW, _S_IREAD | _S_IWRITE);
-  if (failure != 0) return Error{path + ": cannot be written: " + std::strerror(failure)};
-  return PartFile(target, name, file);
+  constexpr int kHow = _O_WRONLY | _O_CREAT | _O_EXCL | _O_BINARY | _O_NOINHERIT;
+  errno = ::_sopen_s(&file, name.c_str(), kHow, _SH_DENYRW, _S_IREAD | _S_IWRITE);
+  return file;
 }
+
+bool PartFile::is_abandoned(const std::string& name, long pid) {
+  const HANDLE process = ::OpenProcess(SYNCHRONIZE, FALSE, static_cast<DWORD>(pid));
+  if (process != nullptr) ::CloseHandle(process);
+  if (process != nullptr || ::GetLastError() != ERROR_INVALID_PARAMETER) return false;
+  std::error_code status;
+  if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(name, status)))
+    return false;
+  int file = -1;
+  if (::_sopen_s(&file, name.c_str(), _O_RDONLY | _O_NOINHERIT, _SH_DENYRW, 0) != 0) return false;
+  ::_close(file);
+  return true;
+}
+
+long PartFile::own_pid() { return static_cast<long>(::GetCurrentProcessId()); }
+
+size_t PartFile::longest_name(const std::filesystem::path&) { return 255; }
 
 bool PartFile::write(std::string_view bytes) {
   while (!bytes.empty()) {
@@ -45,11 +60,12 @@ bool PartFile::write(std::string_view bytes) {
 // Windows keeps the rights of a folder for the files in it.
 bool PartFile::set_permissions(std::filesystem::perms) { return true; }
 
-bool PartFile::keep() {
+bool PartFile::keep(bool replace) {
   const bool closed = ::_close(std::exchange(file_, -1)) == 0;
   if (!closed) return false;
-  if (!::MoveFileExA(name_.c_str(), target_.c_str(), MOVEFILE_REPLACE_EXISTING)) {
-    errno = EACCES;
+  if (!::MoveFileExA(name_.c_str(), target_.c_str(), replace ? MOVEFILE_REPLACE_EXISTING : 0)) {
+    const DWORD cause = ::GetLastError();
+    errno = cause == ERROR_ALREADY_EXISTS || cause == ERROR_FILE_EXISTS ? EEXIST : EACCES;
     return false;
   }
   name_.clear();
