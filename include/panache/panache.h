@@ -232,8 +232,9 @@ typedef struct panache_output_pose {
 
 /* Styles the next pose of a character; `seconds` have gone by since the last. Both poses may be the
  * same arrays. With all strengths at 0, `out` is `in` bit for bit (models of recipe panache).
- * Poses that are not finite are replaced by the last good one; after half a second without a step,
- * or a jump, the past is forgotten. */
+ * Poses that are not finite are replaced by the last good one, and `seconds` below 0 or NaN count as
+ * 0. After half a second without a step (infinite `seconds` included) or a jump, the past is
+ * forgotten. */
 PANACHE_API void panache_character_step(panache_character* character, panache_input_pose in,
                                         double seconds, panache_output_pose out);
 /* Does the same for many characters at once: in[i] becomes out[i], bit for bit as alone, in less

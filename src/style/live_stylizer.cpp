@@ -184,7 +184,7 @@ void LiveStylizer::step(ConstPose in, std::span<const float> strengths, double s
                         Pose out) noexcept {
   if (!playback_) return stylizer_.step(in, strengths, seconds, out);
   Playback& p = *playback_;
-  if (!(seconds >= 0)) seconds = 0;
+  seconds = bounded_seconds(seconds);
   take_input(in, seconds);
 
   const double rate = stylizer_.rate();

@@ -73,8 +73,8 @@ void Stylizer::step(ConstPose in, std::span<const float> strengths, double input
 Stylizer::TakenIn Stylizer::take_in(ConstPose in, std::span<const float> strengths,
                                     double input_seconds, double output_seconds,
                                     std::span<float> room, StageClock* clock) noexcept {
-  if (!(input_seconds >= 0)) input_seconds = 0;
-  if (!(output_seconds >= 0)) output_seconds = 0;
+  input_seconds = bounded_seconds(input_seconds);
+  output_seconds = bounded_seconds(output_seconds);
   if (output_seconds > Observer::kMaxGap) observer_.reset();
   if (!observer_.observe(in, input_seconds)) forget();
   tell(clock, Stage::observe);

@@ -1,9 +1,19 @@
 #pragma once
 // What every stage of a step knows of time.
 
+#include <algorithm>
+
 #include "base/one_pole.h"
 
 namespace panache {
+
+// The seconds since the last step as a step takes them, whatever a clock gives: none where they are
+// negative or not a number, and an hour where they are longer or infinite. A pause of more than
+// Observer::kMaxGap is forgotten in any case.
+inline double bounded_seconds(double seconds) noexcept {
+  constexpr double kLongest = 3600;
+  return seconds > 0 ? std::min(seconds, kLongest) : 0.0;
+}
 
 struct StepTime {
   double input = 0;   // Seconds of the input since the last step,
