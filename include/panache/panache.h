@@ -264,7 +264,8 @@ PANACHE_API panache_status panache_character_get_report(const panache_character*
 /* A character's memory, to return to a moment (rollback, rewind): bytes for memory, not for files.
  * save() writes panache_character_state_size() bytes. restore() takes them into any character of
  * the same model, skeleton and options, which then goes on bit for bit; strengths as they were set
- * are not part of it. On failure the character is as before. */
+ * are not part of it. Characters with the same history since their creation or reset save the same
+ * bytes. On failure the character is as before. */
 PANACHE_API size_t panache_character_state_size(const panache_character* character);
 PANACHE_API void panache_character_save(const panache_character* character, void* out);
 PANACHE_API panache_status panache_character_restore(panache_character* character,

@@ -140,12 +140,12 @@ float floor_depth(const BodyPose& body, const HumanPositions& joints,
 }
 
 void FootLock::follow(Foot& foot, Vec3 input, Vec3 toe, float contact, float seconds) noexcept {
-  const Vec3 last_offset = foot.offset, last_toe = foot.seen ? foot.toe : toe;
+  const bool first = foot.state == State::unseen;
+  const Vec3 last_offset = foot.offset, last_toe = first ? toe : foot.toe;
   foot.toe = toe;
-  const float moved = foot.seen && seconds > 0 ? length(input - foot.input) / seconds : 0.0f;
+  const float moved = !first && seconds > 0 ? length(input - foot.input) / seconds : 0.0f;
   foot.input = input;
-  foot.seen = true;
-  if (contact < kRelease || moved > kLeaves) foot.state = State::free;
+  if (first || contact < kRelease || moved > kLeaves) foot.state = State::free;
   const Vec3 velocity = seconds > 0 ? (toe - last_toe) / seconds + foot.speed : Vec3{};
   const bool stands = contact > kPlant && moved < kStands && length(velocity) < kMaxGlide;
   if (foot.state == State::free && stands) {

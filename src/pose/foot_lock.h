@@ -57,9 +57,10 @@ class FootLock {
   }
 
  private:
-  enum class State { free, planted, let_go };  // Let go: slid in the input, free until it lifts.
+  // Unseen: before the first step. Let go: slid in the input, free until it lifts.
+  enum class State { unseen, free, planted, let_go };
   struct Foot {
-    State state = State::free;
+    State state = State::unseen;
     Vec3 toe;     // World position of the toe, uncorrected, at the last step,
     Vec3 input;   // and in the input.
     Vec3 stood;   // Where the input's toe was when the foot was planted.
@@ -68,7 +69,6 @@ class FootLock {
     Vec3 offset;  // World correction in force, metres; fades after release,
     Vec3 speed;   // m/s, without a jump in its velocity.
     Vec3 knee;    // To which side its knee went, heading frame, length 1; 0 if it was not moved.
-    bool seen = false;
   };
   // Follows one foot whose toe is at `input`, and at `toe` with the change, uncorrected (world).
   static void follow(Foot& foot, Vec3 input, Vec3 toe, float contact, float seconds) noexcept;

@@ -14,7 +14,7 @@ class PoseHistory {
   explicit PoseHistory(PoseLayout layout)
       : layout_(layout), features_(size_t(kCapacity) * stored_features(layout)) {}
 
-  void clear() noexcept { count_ = 0; }
+  void clear() noexcept { head_ = kCapacity - 1, count_ = 0; }
   // Adds the pose at `time` (seconds, never before the last one). The same time again replaces it.
   void push(double time, const HumanPositions& body, const RootPose& root) noexcept;
   // Writes the window that ends at the newest pose: kWindowPoses times pose_feature_count(layout),
@@ -28,12 +28,14 @@ class PoseHistory {
   // Calls visit(member) for everything that tells one history from another of its layout.
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
-    visit(self.head_), visit(self.count_), visit(self.ring_), visit(self.features_);
+    const auto used = static_cast<size_t>(self.count_);
+    visit(self.head_), visit(self.count_), visit(self.ring_, used * sizeof(Entry));
+    visit(self.features_, used * stored_features(self.layout_) * sizeof(float));
   }
 
  private:
   struct Entry {
-    double time;
+    double time = 0;
     RootPose root;
   };
   // The stored poses around a time, as places in the ring: earlier, later, and how far between.
@@ -65,8 +67,8 @@ class PoseHistory {
   static constexpr int kCapacity = 30;
 
   PoseLayout layout_;
-  int head_ = 0, count_ = 0;
-  std::array<Entry, kCapacity> ring_;
+  int head_ = kCapacity - 1, count_ = 0;  // The newest; the first that is pushed has place 0.
+  std::array<Entry, kCapacity> ring_{};
   std::vector<float> features_;  // [kCapacity][stored_features]
 };
 

@@ -20,7 +20,7 @@ Observer::Observer(Rig rig)
 bool Observer::observe(ConstPose in, double seconds) noexcept {
   if (seconds > kMaxGap) reset();
   sanitize_pose(in);
-  last_root_ = now_.root;
+  last_root_ = started_ ? now_.root : RootPose{};
   panache::observe(rig_, pose(), started_ ? last_root_.facing : 0, now_);
   const float most = kMaxGroundSpeed * static_cast<float>(std::max(seconds, 1e-3));
   const bool continues = started_ && !(length(now_.root.position - last_root_.position) > most);

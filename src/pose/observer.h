@@ -41,7 +41,7 @@ class Observer {
   // The pose as taken in: every number of it is finite.
   ConstPose pose() const noexcept { return {rotations_, translations_}; }
   const Observation& now() const noexcept { return now_; }
-  // Where the body stood and looked at the pose before; meaningless at the first.
+  // Where the body stood and looked at the pose before; the origin at the first.
   const RootPose& last_root() const noexcept { return last_root_; }
   const Rig& rig() const noexcept { return rig_.rig(); }
 

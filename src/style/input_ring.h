@@ -15,13 +15,13 @@ class InputRing {
   // Room for `seconds` of poses of that many joints, whatever their rate.
   InputRing(size_t joints, double seconds);
 
-  void clear() noexcept { count_ = 0; }
+  void clear() noexcept { head_ = times_.size() - 1, count_ = 0; }
   // Adds a pose at `time` (seconds, never before the last one), with what the rig made of it.
   void push(double time, ConstPose pose, const HumanPositions& body, const RootPose& root) noexcept;
 
   bool empty() const noexcept { return count_ == 0; }
-  double oldest() const noexcept { return entry(count_ - 1).time; }
-  double newest() const noexcept { return entry(0).time; }
+  double oldest() const noexcept { return time(count_ - 1); }
+  double newest() const noexcept { return time(0); }
   // The input at `time`, which is held within oldest() and newest(): joints, body (in the body
   // frame) and ground, straight between two poses. Nothing if empty.
   void pose(double time, Pose out) const noexcept;
@@ -31,14 +31,16 @@ class InputRing {
   // Calls visit(member) for everything that tells one ring from another of its size.
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
-    visit(self.entries_), visit(self.rotations_), visit(self.translations_), visit(self.head_);
-    visit(self.count_);
+    visit(self.head_), visit(self.count_), visit(self.times_, self.count_ * sizeof(double));
+    visit(self.bodies_, self.count_ * sizeof(Body));
+    visit(self.rotations_, self.count_ * self.joints_ * sizeof(Quat));
+    visit(self.translations_, self.count_ * self.joints_ * sizeof(Vec3));
   }
 
  private:
-  struct Entry {
-    double time = 0;
-    HumanPositions body{};
+  // What the rig made of a pose. Times stand apart, as beside them it would have padding.
+  struct Body {
+    HumanPositions positions{};
     RootPose root;
   };
   struct Between {
@@ -50,16 +52,17 @@ class InputRing {
   static constexpr double kMinGap = 0.008;
 
   size_t index_of(size_t age) const noexcept {
-    return (head_ + entries_.size() - age) % entries_.size();
+    return (head_ + times_.size() - age) % times_.size();
   }
-  const Entry& entry(size_t age) const noexcept { return entries_[index_of(age)]; }
+  double time(size_t age) const noexcept { return times_[index_of(age)]; }
   Between find(double time) const noexcept;
 
   size_t joints_;
-  std::vector<Entry> entries_;
+  std::vector<double> times_;
+  std::vector<Body> bodies_;
   std::vector<Quat> rotations_;     // [entries][joints]
   std::vector<Vec3> translations_;  // Likewise.
-  size_t head_ = 0, count_ = 0;
+  size_t head_, count_ = 0;  // The newest; the first that is pushed has place 0.
 };
 
 }  // namespace panache

@@ -89,7 +89,7 @@ void LiveStylizer::forget() noexcept {
   p.ahead = {};
   p.time = p.searched = 0;
   p.offset = p.old_offset = {};
-  p.blended = 1;
+  p.old_ahead = 0, p.blended = 1;
 }
 
 void LiveStylizer::take_input(ConstPose in, double seconds) noexcept {

@@ -25,8 +25,9 @@ PosePredictor::PosePredictor(std::shared_ptr<const Model> model)
 }
 
 void PosePredictor::reset() noexcept {
-  time_ = 0;
+  time_ = predicted_at_ = 0;
   history_.clear();
+  newest_ = {}, predictions_ = {};
   errors_.fill(kFirstErrors);
   weights_.fill(weights_of(kFirstErrors));
   checked_ = kChecks.size();

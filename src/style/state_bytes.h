@@ -1,5 +1,6 @@
 #pragma once
-// Members of a character's memory as bytes, for those who save and restore it.
+// Members of a character's memory as bytes, for those who save and restore it. Characters with the
+// same history save the same bytes: members are set before they are saved and have no padding.
 
 #include <algorithm>
 #include <cstddef>
@@ -37,19 +38,22 @@ inline uint64_t hash_of(std::span<const std::byte> bytes) {
 }
 
 // A state is the hash of what follows it, and all members that `visit_all` visits, one behind the
-// other. `visit_all(visitor)` calls visitor(member) for each.
+// other. `visit_all(visitor)` calls visitor(member) for each, or visitor(member, used) where only
+// the first `used` bytes mean anything: the others are saved as zeros.
 template <class VisitAll>
 size_t state_bytes(VisitAll&& visit_all) {
   size_t size = sizeof(uint64_t);
-  visit_all([&](const auto& member) { size += bytes_of(member).size(); });
+  visit_all([&](const auto& member, size_t = 0) { size += bytes_of(member).size(); });
   return size;
 }
 template <class VisitAll>
 void write_state(std::span<std::byte> out, VisitAll&& visit_all) {
   std::byte* to = out.data() + sizeof(uint64_t);
-  visit_all([&](const auto& member) {
+  visit_all([&](const auto& member, size_t used = SIZE_MAX) {
     const std::span<const std::byte> bytes = bytes_of(member);
-    to = std::copy(bytes.begin(), bytes.end(), to);
+    used = std::min(used, bytes.size());
+    to = std::copy_n(bytes.begin(), used, to);
+    to = std::fill_n(to, bytes.size() - used, std::byte{});
   });
   const uint64_t hash = hash_of(out.subspan(sizeof(uint64_t)));
   std::memcpy(out.data(), &hash, sizeof hash);
@@ -63,7 +67,7 @@ inline bool is_whole_state(std::span<const std::byte> in) {
 template <class VisitAll>
 void read_state(std::span<const std::byte> in, VisitAll&& visit_all) {
   const std::byte* from = in.data() + sizeof(uint64_t);
-  visit_all([&](auto& member) {
+  visit_all([&](auto& member, size_t = 0) {
     const std::span<std::byte> bytes = bytes_of(member);
     std::copy_n(from, bytes.size(), bytes.begin());
     from += bytes.size();
