@@ -98,7 +98,51 @@ def steps():
     now = seen()
     assert max((now[n] - baked[n]).length for n in baked) < 1e-4
     assert armature().animation_data.nla_tracks[0].mute
+    yield from preview_across_undo()
     print('ok', flush=True)
+
+
+def preview_across_undo():
+    """Undo makes bones anew, and its steps hold what the preview shows: a bone without keys is where
+    it was all the same."""
+    turned = (0.8, 0.6, 0, 0)
+    scene = bpy.context.scene
+
+    def neck():
+        return tuple(round(x, 4) for x in armature().pose.bones['neck'].rotation_quaternion)
+
+    def undo_or_redo(operator):
+        with bpy.context.temp_override(**view()):
+            operator()
+
+    walk = bpy.data.actions['walk']
+    armature().animation_data.action = walk
+    for curve in [c for c in walk.fcurves if '"neck"' in c.data_path]:
+        walk.fcurves.remove(curve)
+    armature().pose.bones['neck'].rotation_quaternion = turned
+    scene.frame_set(60)
+    assert neck() == turned
+    bpy.ops.ed.undo_push(message='A neck')
+    yield
+    armature().panache.preview = True
+    assert neck() != turned
+    bpy.ops.ed.undo_push(message='Preview')
+    yield
+    for _ in range(3):
+        undo_or_redo(bpy.ops.ed.undo)
+        yield
+        assert not armature().panache.preview and neck() == turned, neck()
+        bpy.context.scene.frame_set(61)
+        assert neck() == turned, neck()
+        undo_or_redo(bpy.ops.ed.redo)
+        yield
+        assert armature().panache.preview
+        bpy.context.scene.frame_set(61)
+        assert neck() != turned
+    armature().panache.styles.old = 1.5
+    assert neck() != turned
+    armature().panache.preview = False
+    assert neck() == turned, neck()
 
 
 def seen():

@@ -17,10 +17,11 @@ def register():
     settings.register()
     operators.register()
     panel.register()
+    preview.register()
 
 
 def unregister():
-    preview.stop()
+    preview.unregister()
     panel.unregister()
     operators.unregister()
     settings.unregister()

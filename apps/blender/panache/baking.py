@@ -2,14 +2,15 @@
 
 import json
 
-from . import controls, sampling
+import bpy
+
+from . import actions, controls, sampling
 
 _SAME = 1e-6  # Metres and parts of quaternions: what evaluation loses.
 
 
 def source_action(armature):
     """What the armature plays, or what that was baked from; None without an action."""
-    import bpy
     data = armature.animation_data
     action = data.action if data else None
     if action is None:
@@ -30,12 +31,12 @@ def bake(context, armature, sampled, styled, action, name):
         sources = [sampled.first + f for f in styled.source_frames]
         keeps_time = sources == frames
         if not keeps_time:
-            _retime(new, sources, frames)
+            _retime(armature, new, sources, frames)
         for target, tracks in values.items():
-            _write_tracks(new, target, tracks, frames, keeps_time)
+            _write_tracks(armature, new, target, tracks, frames, keeps_time)
     new[sampling.SOURCE] = action.name
     _keep_as_track(armature, action)
-    armature.animation_data.action = new
+    actions.play(armature, new)
     return new
 
 
@@ -73,7 +74,7 @@ def _solve(context, armature, sampled, styled, action, plan):
                 tracks[name].note(tracks[name].new, target)
                 _keep_sign(tracks[name])
         solver.restore()
-    return tracks, solver.unkeyed_values()
+    return tracks, solver.unkeyed
 
 
 # A quaternion and its negative are one rotation: the one nearer to the frame before is written.
@@ -85,21 +86,14 @@ def _keep_sign(track):
         numbers[-1] = tuple(-a for a in numbers[-1])
 
 
-def _path(bone, name):
-    return name if bone is None else 'pose.bones["%s"].%s' % (
-        bone.replace('\\', '\\\\').replace('"', '\\"'), name)
-
-
-def _write_tracks(action, bone, track, frames, keeps_time):
+def _write_tracks(armature, action, bone, track, frames, keeps_time):
     for kind, name in (('location', 'location'), ('rotation', track.rotation)):
         if not track.has_changed(kind):
             continue  # The channels are those of the old action, at their new times.
-        path = _path(bone, name)
+        path = actions.data_path(bone, name)
         for index in range(len(track.new[kind][0])):
-            curve = action.fcurves.find(path, index=index)
-            if curve:
-                action.fcurves.remove(curve)
-            curve = action.fcurves.new(path, index=index, action_group=bone or 'Object Transforms')
+            curve = actions.replace_curve(armature, action, path, index,
+                                          bone or 'Object Transforms')
             _set_keys(curve, frames, [numbers[index] for numbers in track.new[kind]])
 
 
@@ -113,8 +107,8 @@ def _set_keys(curve, frames, values):
 
 
 # All channels at the times that a style's tempo gives them.
-def _retime(action, sources, frames):
-    for curve in action.fcurves:
+def _retime(armature, action, sources, frames):
+    for curve in actions.curves(armature, action):
         values = [curve.evaluate(frame) for frame in sources]
         stepped = all(p.interpolation == 'CONSTANT' for p in curve.keyframe_points)
         while len(curve.keyframe_points):
@@ -132,5 +126,6 @@ def _keep_as_track(armature, action):
             return
     track = data.nla_tracks.new()
     track.name = action.name
-    track.strips.new(action.name, int(round(action.frame_range[0])), action)
+    first, _ = sampling.frame_span(armature, action)
+    actions.add_strip(track, action.name, first, armature, action)
     track.mute = True

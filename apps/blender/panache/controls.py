@@ -5,7 +5,7 @@ import math
 
 from mathutils import Matrix, Quaternion
 
-from . import sampling
+from . import actions, sampling
 
 # Rigify: control, and the bone (without ORG-) that follows it. Parents first. The other controls
 # of a limb are those of IK or of FK, as the limb's own switch says.
@@ -151,22 +151,18 @@ class Solver:
     def __init__(self, context, armature, plan, action):
         self.context, self.armature, self.plan = context, armature, plan
         # What the action does not key stays where it was put, beyond the next change of the frame.
-        keyed = {curve.data_path for curve in action.fcurves}
-        targets = [(armature, '')] + [(armature.pose.bones[name], 'pose.bones["%s"].' % name)
-                                      for name in plan.controls()]
-        self.unkeyed = [(target, path + name, name, tuple(getattr(target, name)))
-                        for target, path in targets
+        # [[data path, numbers], ...], without references to bones, which editing makes anew.
+        keyed = {curve.data_path for curve in actions.curves(armature, action)}
+        targets = [(None, armature)] + [(name, armature.pose.bones[name])
+                                        for name in plan.controls()]
+        self.unkeyed = [[actions.data_path(bone, name), list(getattr(target, name))]
+                        for bone, target in targets
                         for name in ('location', rotation_property(target))
-                        if path + name not in keyed]
+                        if actions.data_path(bone, name) not in keyed]
 
     def restore(self):
         """Puts back what no key puts back, before the next frame is set."""
-        for target, _, name, value in self.unkeyed:
-            setattr(target, name, value)
-
-    def unkeyed_values(self):
-        """[[data path, numbers], ...] of what restore() puts back."""
-        return [[path, value] for _, path, _, value in self.unkeyed]
+        actions.put_back(self.armature, self.unkeyed)
 
     def put(self, wanted):
         """wanted: [joints] (rotation, place), world. The armature is in the unstyled pose of that

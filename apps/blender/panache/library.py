@@ -83,7 +83,6 @@ def _open():
     library.panache_model_style_name.restype = c_char_p
     library.panache_model_style_name.argtypes = [c_void_p, c_int32]
     library.panache_model_style_count.argtypes = [c_void_p]
-    library.panache_model_find_style.argtypes = [c_void_p, c_char_p]
     library.panache_skeleton_find.argtypes = [c_void_p, c_char_p]
     for kind in ('model', 'skeleton', 'styled_clip', 'learnt'):
         getattr(library, 'panache_%s_destroy' % kind).argtypes = [c_void_p]
@@ -115,9 +114,18 @@ def library():
     return _library
 
 
+# Text of any bytes: what is not UTF-8 is replaced, as nothing here is looked up by such a name.
+def _text(content):
+    return content.decode(errors='replace')
+
+
+def _bytes(text):
+    return text.encode(errors='replace')
+
+
 def _check(status):
     if status != 0:
-        raise PanacheError(library().panache_last_error().decode())
+        raise PanacheError(_text(library().panache_last_error()))
 
 
 class _Handle:
@@ -147,7 +155,7 @@ class Model(_Handle):
         _check(library().panache_model_create(self.content, len(self.content), byref(out)))
         super().__init__(out)
         count = library().panache_model_style_count(out)
-        self.styles = [library().panache_model_style_name(out, i).decode() for i in range(count)]
+        self.styles = [_text(library().panache_model_style_name(out, i)) for i in range(count)]
 
 
 class Motion:
@@ -169,7 +177,7 @@ class Skeleton(_Handle):
         self.handle = None
         array = (_Joint * len(joints))()
         for slot, (name, parent, rotation, translation) in zip(array, joints):
-            slot.name, slot.parent = name.encode(), parent
+            slot.name, slot.parent = _bytes(name), parent
             slot.rotation[:], slot.translation[:] = rotation, translation
         options = _SkeletonOptions(struct_size=sizeof(_SkeletonOptions),
                                    rotations=motion.rotations, translations=motion.translations,
@@ -211,7 +219,7 @@ def stylize(model, skeleton, motion, frame_seconds, strengths, shape):
     keys = []
     for track, (style, strength) in zip(tracks, strengths.items()):
         keys.append(_Key(0, strength))
-        track.style = library().panache_model_find_style(model.handle, style.encode())
+        track.style = model.styles.index(style)
         track.key_count, track.keys = 1, ctypes.pointer(keys[-1])
     amounts = _Shape(sizeof(_Shape), *[shape.get(name, 1.0) for name in SHAPE])
     options = _StylizeOptions(sizeof(_StylizeOptions), 0.15, 0.04, 1, 1, 1,
@@ -223,19 +231,20 @@ def stylize(model, skeleton, motion, frame_seconds, strengths, shape):
     return Styled(out, len(skeleton.names))
 
 
-def learn(model, pairs, name):
-    """pairs: (neutral clip, styled clip) as Skeleton.clip gives them. Returns the bytes of the
-    model with the style and what is to say about it."""
+def learn(model, pairs, name, replace):
+    """pairs: (neutral clip, styled clip) as Skeleton.clip gives them. A style of that name is
+    replaced if `replace`, else it is an error. Returns the bytes of the model with the style and
+    what is to say about it."""
     array = (_Pair * len(pairs))(*[_Pair(neutral, styled) for neutral, styled in pairs])
     out = c_void_p()
     _check(library().panache_learn(model.content, len(model.content), array, len(pairs),
-                                   name.encode(), 1, byref(out)))
+                                   _bytes(name), int(replace), byref(out)))
     size = c_size_t()
     data = library().panache_learnt_model(out, byref(size))
     content = ctypes.string_at(data, size.value)
     report = _LearntReport(struct_size=sizeof(_LearntReport))
     _check(library().panache_learnt_get_report(out, byref(report)))
-    lines = (report.warnings or b'').decode().splitlines()
+    lines = _text(report.warnings or b'').splitlines()
     if report.was_tested:
         lines.insert(0, 'learnt %s: %.1f cm off on what was held back, %.1f without it' % (
             name, report.held_back_cm, report.untouched_cm))

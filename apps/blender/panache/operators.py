@@ -19,10 +19,13 @@ class _OnArmature:
 
     def execute(self, context):
         try:
-            return self.run(context, context.object)
+            with preview.paused(context):
+                return self.run(context, context.object)
         except library.PanacheError as error:
             self.report({'ERROR'}, str(error))
-            return {'CANCELLED'}
+        except OSError as error:
+            self.report({'ERROR'}, '%s: %s' % (error.filename, error.strerror))
+        return {'CANCELLED'}
 
     def source(self, armature):
         action = baking.source_action(armature)
@@ -39,8 +42,7 @@ class PANACHE_OT_bake(_OnArmature, bpy.types.Operator):
 
     def run(self, context, armature):
         action = self.source(armature)
-        armature.panache['preview'] = False
-        preview.stop()
+        armature.panache.preview = False
         strengths = settings.strengths(armature)
         sampled = sampling.Sampled(context, armature, action)
         styled = sampled.stylize(settings.model(), strengths, settings.shape(armature))
@@ -86,15 +88,12 @@ class PANACHE_OT_learn(_OnArmature, bpy.types.Operator):
             sampled = sampling.Sampled(context, armature, action)
             clips.append((sampled, sampled.skeleton.clip(sampled.motion, sampled.frame_seconds)))
         name = found.style_name.strip()
-        content, lines = library.learn(settings.model(), [(clips[0][1], clips[1][1])], name)
-        path = settings.learnt_path()
-        with open(path, 'wb') as file:
-            file.write(content)
-        addon = context.preferences.addons.get(__package__)
-        if addon.preferences.model != path:
-            addon.preferences.model = path
-        else:
-            settings.reload_styles()
+        known = settings.learnt_style(name)
+        content, lines = library.learn(settings.model(), [(clips[0][1], clips[1][1])],
+                                       known or name, replace=known is not None)
+        settings.keep_learnt(content)
+        if known:
+            lines.insert(0, "'%s' was learnt before and is replaced" % known)
         for line in lines:
             self.report({'INFO'}, line)
         return {'FINISHED'}

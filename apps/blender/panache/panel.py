@@ -23,9 +23,10 @@ class PANACHE_PT_style(_Panel, bpy.types.Panel):
         data = context.object.animation_data
         if not data or not data.action:
             layout.label(text='This armature plays no action', icon='INFO')
+        settings.draw_problem(layout)
         column = layout.column(align=True)
         for name in settings.model().styles:
-            column.prop(found.styles, name, slider=True)
+            column.prop(found.styles, settings.property_of(name), slider=True)
         layout.prop(found, 'preview', toggle=True, icon='HIDE_OFF')
         row = layout.row()
         row.scale_y = 1.4
@@ -55,7 +56,7 @@ class PANACHE_PT_rig(_Panel, bpy.types.Panel):
             layout.label(text=note, icon='INFO')
         column = layout.column(align=True)
         for line in found.mapping.splitlines():
-            human, name = line.split('\t')
+            human, _, name = line.partition('\t')
             row = column.split(factor=0.45)
             row.label(text=human)
             row.label(text=name)

@@ -1,22 +1,38 @@
 """The style at the current frame, while sliders move. Nothing of the file is changed: the next
 change of the frame without preview shows the action again."""
 
+import contextlib
+import json
+
 import bpy
 
-from . import baking, controls, sampling
+from . import actions, baking, controls, library, sampling
 
-_state = None  # Of the armature that is shown styled.
+# On an armature that is shown styled: what its unkeyed controls were, [[data path, numbers], ...]
+# in JSON. Undo steps and saved files hold the styled pose, so they must hold this too.
+SHOWN = 'panache_shown'
+
+# Of the armature that is shown styled. It refers to data of Blender, which undo and loading make
+# anew: both drop it.
+_state = None
+_may_resume = False  # Whether an armature may be in preview without a state.
 _busy = False
+_rendering = False
+_ERRORS = (library.PanacheError, OSError)
 
 
 class _State:
     def __init__(self, context, armature):
         self.armature = armature
         self.action = baking.source_action(armature)
+        if self.action is None:
+            raise library.PanacheError('%s plays no action; expected one to restyle' %
+                                       armature.name)
         self.sampled = sampling.Sampled(context, armature, self.action)
         self.plan = controls.Plan(armature, self.sampled.joints)
         with sampling.shown_alone(context, armature, self.action):
             self.solver = controls.Solver(context, armature, self.plan, self.action)
+        armature[SHOWN] = json.dumps(self.solver.unkeyed)
         self.styled = None
 
     def stylize(self):
@@ -26,6 +42,7 @@ class _State:
         note(self.armature, self.sampled, self.styled, self.plan)
 
     def show(self, context):
+        """The armature is in the unstyled pose of the current frame."""
         frame = min(max(context.scene.frame_current - self.sampled.first, 0),
                     self.styled.frame_count - 1)
         self.solver.put(self.sampled.world_pose(self.styled, frame))
@@ -41,72 +58,191 @@ def note(armature, sampled, styled, plan):
     found.notes = '\n'.join(plan.notes)
 
 
-def refresh(context):
-    """A slider was moved."""
+@contextlib.contextmanager
+def _quiet():
+    """While it lasts, changes of the frame show no style."""
     global _busy
-    if _state is None or _busy or context.object != _state.armature:
-        return
-    _busy = True
+    before, _busy = _busy, True
     try:
-        if baking.source_action(_state.armature) != _state.action:
-            start(context, _state.armature)
-        _state.stylize()
-        _state.solver.restore()
-        context.scene.frame_set(context.scene.frame_current)
-        _state.show(context)
+        yield
     finally:
-        _busy = False
+        _busy = before
+
+
+def _unstyle(armature):
+    """Puts back what no key puts back."""
+    if SHOWN in armature:
+        actions.put_back(armature, json.loads(armature[SHOWN]))
+        del armature[SHOWN]
+
+
+def _start(context, armature):
+    global _state
+    stop()
+    with _quiet():
+        _unstyle(armature)
+        state = _State(context, armature)
+        state.stylize()
+    _state = state
+
+
+def stop():
+    """Shows no style; the poses that are keyed come back with the next change of the frame."""
+    global _state, _may_resume
+    if _state is not None:
+        try:
+            _unstyle(_state.armature)
+        except ReferenceError:  # The armature is gone.
+            pass
+    _state = None
+    _may_resume = True
+
+
+def _resume(context):
+    """After what has dropped the state, the armature that is in preview is shown again."""
+    global _may_resume
+    _may_resume = False
+    for armature in _armatures(bpy.data.objects):
+        if armature.panache.preview:
+            try:
+                _start(context, armature)
+            except _ERRORS as error:
+                _fail(armature, error)
+            return
+
+
+def _armatures(objects):
+    return [o for o in objects if o.type == 'ARMATURE' and o.library is None]
+
+
+def refresh(armature):
+    """A slider of `armature` was moved."""
+    context = bpy.context
+    if _busy or not armature.panache.preview:
+        return
+    with _quiet():
+        try:
+            if (_state is None or _state.armature != armature or
+                    baking.source_action(armature) != _state.action):
+                _start(context, armature)
+            _state.stylize()
+            _state.solver.restore()
+            context.scene.frame_set(context.scene.frame_current)
+            _state.show(context)
+        except _ERRORS as error:
+            _fail(armature, error)
 
 
 def toggled(found, context):
-    armature = context.object
+    armature = found.id_data
     if not found.preview:
-        stop()
+        if _state is None or _state.armature == armature:
+            stop()
+        _unstyle(armature)
         context.scene.frame_set(context.scene.frame_current)
         return
+    for other in _armatures(bpy.data.objects):  # One is shown at a time.
+        if other != armature and other.panache.preview:
+            other.panache.preview = False
     try:
-        start(context, armature)
-    except Exception as error:
-        stop()
-        found['preview'] = False
-        found.notes = str(error)
+        _start(context, armature)
+    except _ERRORS as error:
+        _fail(armature, error)
         return
     _on_frame(context.scene)
 
 
-def start(context, armature):
-    global _state
-    if armature is None or baking.source_action(armature) is None:
-        raise ValueError('the armature plays no action; expected one to restyle')
-    _state = _State(context, armature)
-    _state.stylize()
-    if _on_frame not in bpy.app.handlers.frame_change_post:
-        bpy.app.handlers.frame_change_post.append(_on_frame)
+def _fail(armature, error):
+    armature.panache.preview = False
+    armature.panache.notes = str(error)
 
 
-def stop():
-    global _state
-    if _state is not None:
-        try:
-            _state.solver.restore()
-        except ReferenceError:
-            pass
-    _state = None
-    if _on_frame in bpy.app.handlers.frame_change_post:
-        bpy.app.handlers.frame_change_post.remove(_on_frame)
+@contextlib.contextmanager
+def paused(context):
+    """While it lasts, no armature is shown styled."""
+    was_shown = _state is not None
+    stop()
+    with _quiet():
+        if was_shown:
+            context.scene.frame_set(context.scene.frame_current)
+        yield
+    if was_shown:
+        _on_frame(context.scene)
 
 
 @bpy.app.handlers.persistent
 def _on_frame(_scene, _depsgraph=None):
-    global _busy
-    if _state is None or _busy:
+    # Renders change the frame in a thread of their own, on data of their own.
+    if _busy or _rendering or (_state is None and not _may_resume):
         return
-    _busy = True
-    try:
-        _state.solver.restore()
-        bpy.context.view_layer.update()
-        _state.show(bpy.context)
-    except ReferenceError:  # The armature is gone.
-        stop()
-    finally:
-        _busy = False
+    context = bpy.context
+    with _quiet():
+        try:
+            if _state is None:
+                _resume(context)
+            if _state is None:
+                return
+            _state.solver.restore()
+            context.view_layer.update()
+            _state.show(context)
+        except (ReferenceError, KeyError):  # The armature or one of its bones is gone.
+            stop()
+
+
+@bpy.app.handlers.persistent
+def _after_undo(*_):
+    _drop_state()
+
+
+@bpy.app.handlers.persistent
+def _before_load(*_):
+    _drop_state()
+
+
+def _drop_state():
+    global _state, _may_resume
+    _state, _may_resume = None, True
+
+
+@bpy.app.handlers.persistent
+def _after_load(*_):
+    """A file that was saved during a preview shows its action."""
+    with _quiet():
+        for armature in _armatures(bpy.data.objects):
+            if armature.panache.preview:
+                armature.panache.preview = False
+                armature.update_tag(refresh={'TIME'})  # Of no effect yet is a change of the frame.
+
+
+@bpy.app.handlers.persistent
+def _before_render(*_):
+    """A render shows the action."""
+    global _rendering
+    _rendering = True
+    if _state is not None:
+        try:
+            _state.solver.restore()
+        except ReferenceError:
+            stop()
+
+
+@bpy.app.handlers.persistent
+def _after_render(*_):
+    global _rendering
+    _rendering = False
+
+
+_handlers = {'frame_change_post': _on_frame, 'undo_post': _after_undo, 'redo_post': _after_undo,
+             'load_pre': _before_load, 'load_post': _after_load, 'render_init': _before_render,
+             'render_complete': _after_render, 'render_cancel': _after_render}
+
+
+def register():
+    for name, handler in _handlers.items():
+        getattr(bpy.app.handlers, name).append(handler)
+
+
+def unregister():
+    stop()
+    for name, handler in _handlers.items():
+        getattr(bpy.app.handlers, name).remove(handler)

@@ -5,7 +5,7 @@ import json
 
 from mathutils import Quaternion, Vector
 
-from . import library
+from . import actions, library
 
 # On a baked action: the name of the action that it was made of, and what the controls were that only
 # the baked one keys, [[data path, numbers], ...] in JSON. Without its keys they would stay as they
@@ -99,9 +99,9 @@ def set_frame(scene, frame):
     scene.frame_set(whole, subframe=frame - whole)
 
 
-def frame_span(action):
-    """The first frame of an action and how many it has."""
-    first, last = (int(round(frame)) for frame in action.frame_range)
+def frame_span(armature, action):
+    """The first frame of an armature's action and how many it has."""
+    first, last = (int(round(frame)) for frame in actions.frame_range(armature, action))
     return first, max(1, last - first + 1)
 
 
@@ -111,7 +111,7 @@ class Sampled:
     def __init__(self, context, armature, action):
         scene = context.scene
         self.joints = joints_of(armature)
-        self.first, count = frame_span(action)
+        self.first, count = frame_span(armature, action)
         self.frame_seconds = scene.render.fps_base / scene.render.fps
         rotations, translations = [], []
         with shown_alone(context, armature, action):
@@ -161,18 +161,17 @@ class shown_alone:
 
     def __enter__(self):
         data = self.armature.animation_data
-        self.before = (data.action, data.use_nla, self.scene.frame_current,
+        self.before = (actions.playing(self.armature), data.use_nla, self.scene.frame_current,
                        self.scene.frame_subframe)
         stored = '[]'
         if data.action and data.action.get(SOURCE) == self.action.name:
             stored = data.action.get(UNKEYED, '[]')
-        data.action = self.action
+        actions.play(self.armature, self.action)
         data.use_nla = False
-        for path, numbers in json.loads(stored):
-            owner, _, name = path.rpartition('.')
-            setattr(self.armature.path_resolve(owner) if owner else self.armature, name, numbers)
+        actions.put_back(self.armature, json.loads(stored))
 
     def __exit__(self, *_):
         data = self.armature.animation_data
-        data.action, data.use_nla, frame, subframe = self.before
+        played, data.use_nla, frame, subframe = self.before
+        actions.play_slot(self.armature, *played)
         self.scene.frame_set(frame, subframe=subframe)

@@ -1,7 +1,9 @@
 """What a user sets: a slider per style and per part of the shape, and what is remembered of the
 last look at the motion."""
 
+import hashlib
 import os
+import tempfile
 
 import bpy
 from bpy.props import (BoolProperty, FloatProperty, PointerProperty, StringProperty)
@@ -20,22 +22,38 @@ SHAPE = {
     'right_arm': ('Right Arm', 'Of what the style does to the right arm', 1.0),
 }
 _model = None
-_style_class = None
+_problem = ''  # Why the model of the preferences is not in use.
+_path = ''     # Of the model in use where the add-on has no preferences: started by a script.
 
 
 def model():
-    """The model in use: the one that was learnt into, else the shipped one."""
-    global _model
-    path = model_path()
-    if _model is None or _model.path != path:
-        _model = library.Model(path)
+    """The model in use: that of the preferences, or the shipped one if there is none or it cannot
+    be read, which draw_problem() says."""
+    if _model is None:
+        _load_model()
     return _model
 
 
-def model_path():
+def _load_model():
+    global _model, _problem
     addon = bpy.context.preferences.addons.get(__package__)
-    path = bpy.path.abspath(addon.preferences.model) if addon else ''
-    return path if path and os.path.exists(path) else SHIPPED
+    preferences = addon.preferences if addon else None
+    path = bpy.path.abspath(preferences.model if preferences else _path)
+    _problem = ''
+    if path:
+        try:
+            _model = library.Model(path)
+            return
+        except (library.PanacheError, OSError) as error:
+            _problem = '%s: %s; the shipped model is in use' % (
+                path, error.strerror if isinstance(error, OSError) else error)
+    _model = library.Model(SHIPPED)
+
+
+def draw_problem(layout):
+    model()
+    if _problem:
+        layout.label(text=_problem, icon='ERROR')
 
 
 def learnt_path():
@@ -44,8 +62,58 @@ def learnt_path():
                         'styles.safetensors')
 
 
-def _changed(_, context):
-    preview.refresh(context)
+def learnt_style(name):
+    """The style of this name in the model in use if it was learnt here, so that it may be replaced;
+    None if there is no such style. Fails if it is one of another model, as the shipped ones are, and
+    if learning would lose the styles that were learnt before. Names that differ in case alone are
+    one name."""
+    if model().path != learnt_path() and os.path.exists(learnt_path()):
+        raise library.PanacheError(
+            '%s holds styles that were learnt before, but is not the model in use; expected it as '
+            "the model in the add-on's preferences, or moved away" % learnt_path())
+    known = {style.casefold(): style for style in model().styles}.get(name.casefold())
+    if known is None:
+        return None
+    shipped = {style.casefold() for style in library.Model(SHIPPED).styles}
+    if model().path != learnt_path() or name.casefold() in shipped:
+        raise library.PanacheError(
+            "style name '%s': the model has a style of that name; choose another" % name)
+    return known
+
+
+def keep_learnt(content):
+    """Makes these bytes the model of learnt styles, and that the model in use. The file is whole at
+    any time: the old one or the new one."""
+    global _path
+    path = learnt_path()
+    handle, part = tempfile.mkstemp(prefix='.styles.', suffix='.part', dir=os.path.dirname(path))
+    try:
+        with os.fdopen(handle, 'wb') as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(part, path)
+    except BaseException:
+        os.unlink(part)
+        raise
+    addon = bpy.context.preferences.addons.get(__package__)
+    if addon is None or addon.preferences is None:
+        _path = path
+    elif addon.preferences.model != path:
+        addon.preferences.model = path  # Reloads.
+        return
+    reload_styles()
+
+
+def property_of(style):
+    """The name of a style's slider: that of the style, unless Blender takes none like it."""
+    if len(style.encode(errors='replace')) <= 63 and not style.startswith('_'):
+        return style
+    return 'style ' + hashlib.sha1(style.encode(errors='replace')).hexdigest()[:16]
+
+
+def _changed(found, _):
+    preview.refresh(found.id_data)
 
 
 def _model_changed(_, context):
@@ -60,14 +128,15 @@ class PanachePreferences(bpy.types.AddonPreferences):
 
     def draw(self, _):
         self.layout.prop(self, 'model')
+        draw_problem(self.layout)
 
 
 def _make_style_class():
     """A slider per style of the model."""
-    sliders = {name: FloatProperty(name=name.replace('-', ' ').title(), default=0, min=-4, max=4,
-                                   soft_min=0, soft_max=2, step=5, update=_changed,
-                                   description='0 is the motion as it is, 1 the style as captured')
-               for name in model().styles}
+    sliders = {property_of(name): FloatProperty(
+        name=name.replace('-', ' ').title(), default=0, min=-4, max=4, soft_min=0, soft_max=2,
+        step=5, update=_changed, description='0 is the motion as it is, 1 the style as captured')
+        for name in model().styles}
     return type('PanacheStyles', (bpy.types.PropertyGroup,), {'__annotations__': sliders})
 
 
@@ -107,9 +176,8 @@ def _unregister_sliders():
 
 def reload_styles():
     """After the model was changed."""
-    global _model
-    _model = None
     preview.stop()
+    _load_model()
     _unregister_sliders()
     _register_sliders()
 
@@ -118,7 +186,7 @@ def strengths(armature):
     """{style: strength} of the sliders that are not at 0."""
     styles = armature.panache.styles
     return {name: value for name in model().styles
-            if (value := getattr(styles, name, 0.0)) != 0}
+            if (value := getattr(styles, property_of(name), 0.0)) != 0}
 
 
 def shape(armature):
@@ -127,7 +195,12 @@ def shape(armature):
 
 def register():
     bpy.utils.register_class(PanachePreferences)
-    _register_sliders()
+    try:
+        _load_model()
+        _register_sliders()
+    except Exception:  # Without a library nothing stays registered, so that it can be tried again.
+        bpy.utils.unregister_class(PanachePreferences)
+        raise
 
 
 def unregister():
