@@ -127,9 +127,12 @@ void add_batch_options(CLI::App& verb, BatchFlags& flags) {
   verb.add_option("--report", flags.report, "Also write this JSON to a file")->type_name("FILE");
 }
 
-Result<std::unique_ptr<MotionFile>> open_input(const FileJob& file) {
-  if (!file.bytes) return open_motion(file.input);
-  return find_format(formats(), extension_of(file.input))->parse(*file.bytes, file.input);
+Result<std::unique_ptr<MotionFile>> open_input(FileJob& file, const ReadOptions& options) {
+  auto motion = file.bytes ? find_format(formats(), extension_of(file.input))
+                                 ->parse(*file.bytes, file.input, options)
+                           : open_motion(file.input, options);
+  if (motion) file.notes = (*motion)->notes();
+  return motion;
 }
 
 Result<void> write_output(const FileJob& file, std::string_view bytes, bool force) {

@@ -63,8 +63,8 @@ struct OutputNaming {
 Result<std::vector<FileJob>> plan_batch(const BatchFlags& flags, const OutputNaming& naming,
                                         int& exit_code);
 
-// The motion file of a job.
-Result<std::unique_ptr<MotionFile>> open_input(const FileJob& file);
+// The motion file of a job, whose notes become those of the job.
+Result<std::unique_ptr<MotionFile>> open_input(FileJob& file, const ReadOptions& options);
 // Puts the result of a job where it goes.
 Result<void> write_output(const FileJob& file, std::string_view bytes, bool force);
 

@@ -22,6 +22,7 @@ namespace {
 
 struct ConvertVerb {
   BatchFlags batch;
+  ReadOptions read;
   RigFlags rig;
   OntoFlags onto;
   std::string to;    // An extension without its point, or empty.
@@ -35,8 +36,9 @@ void account(FileJob& file, const std::string& name, const Clip& clip) {
 }
 
 // All of a file that keeps its format.
-Result<std::string> whole_file(const MotionFile& motion, const FileJob& file) {
-  if (must_be_encoded(extension_of(file.input))) {
+Result<std::string> whole_file(const MotionFile& motion, const FileJob& file,
+                               const ReadOptions& read) {
+  if (must_be_encoded(extension_of(file.input)) || read.fps || motion.is_mended()) {
     return in_container(motion.encode({}, EditMode::replace), file.input, file.output);
   }
   return file.bytes ? *file.bytes : read_file(file.input);
@@ -57,12 +59,12 @@ Result<std::string> convert_whole(const MotionFile& motion, FileJob& file,
   for (size_t i = 0; i < names.size(); ++i) {
     account(file, names[i], motion.clip(static_cast<int>(i)));
   }
-  return whole_file(motion, file);
+  return whole_file(motion, file, verb.read);
 }
 
 Result<std::string> convert_motion(const MotionFile& motion, FileJob& file, const ConvertVerb& verb,
                                    const RigOptions& options) {
-  Result<std::vector<int>> picked = pick_clips(motion, verb.clip, file.input);
+  Result<std::vector<int>> picked = pick_clips(motion, verb.clip, options, file.input, file.notes);
   if (!picked) return picked.error();
   if (auto fits = check_fits(motion, *picked, file.input, file.output); !fits) return fits.error();
   const Clip& clip = motion.clip(picked->front());
@@ -73,6 +75,7 @@ Result<std::string> convert_motion(const MotionFile& motion, FileJob& file, cons
   const Result<Rig> rig = make_rig(clip, options, file.input);
   if (rig) {
     file.mapping = mapping_json(*rig);
+    note_rate(clip, *rig, file.input, file.notes);
     return with_path(file.input, format_clip(clip, &*rig, title, placement_of(*rig), extension));
   }
   // What the user says of joints is meant for a humanoid.
@@ -87,7 +90,7 @@ Result<std::string> convert_motion(const MotionFile& motion, FileJob& file, cons
 }
 
 Result<void> convert_file(FileJob& file, const ConvertVerb& verb, const RigOptions& options) {
-  Result<std::unique_ptr<MotionFile>> motion = open_input(file);
+  Result<std::unique_ptr<MotionFile>> motion = open_input(file, verb.read);
   if (!motion) return motion.error();
   Result<std::string> bytes = keeps_format(extension_of(file.input), extension_of(file.output))
                                   ? convert_whole(**motion, file, verb)
@@ -109,12 +112,13 @@ int convert_onto(const ConvertVerb& verb) {
     return fail({"--to " + verb.to + ": expected none with --onto, whose file decides the format"},
                 kBadUsage);
   }
-  return retarget_files({verb.batch, verb.rig, verb.onto, {}, verb.clip}, {}, "converting",
-                        "converted");
+  return retarget_files({verb.batch, verb.read, verb.rig, verb.onto, {}, verb.clip}, {},
+                        "converting", "converted");
 }
 
 int convert(const ConvertVerb& verb) {
   if (auto rig = check_rig_flags(verb.rig); !rig) return fail(rig.error(), kBadUsage);
+  if (auto read = check_read_options(verb.read); !read) return fail(read.error(), kBadUsage);
   if (!verb.onto.file.empty()) return convert_onto(verb);
   Result<std::string> extension = wanted_extension(verb);
   if (!extension) return fail(extension.error(), kBadUsage);
@@ -156,6 +160,7 @@ void add_convert(CLI::App& app, int& exit_code) {
       ->type_name("NAME");
   add_onto_options(*verb, options->onto);
   add_rig_options(*verb, options->rig);
+  add_read_options(*verb, options->read);
   verb->footer(
       "docs/formats.md lists what each conversion keeps and loses.\n\n"
       "Examples:\n"

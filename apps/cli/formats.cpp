@@ -20,10 +20,10 @@
 namespace panache::cli {
 namespace {
 
-Result<std::unique_ptr<MotionFile>> read_fbx(const std::string& path) {
+Result<std::unique_ptr<MotionFile>> read_fbx(const std::string& path, const ReadOptions& options) {
   Result<std::string> glb = fbx_to_glb(path);
   if (!glb) return glb.error();
-  return parse_gltf(*std::move(glb), path);
+  return parse_gltf(*std::move(glb), path, options);
 }
 
 // The formats that hold a body of their own in T-pose, which a motion has to be put on.
@@ -129,8 +129,8 @@ Result<void> check_format(const std::string& input, const std::string& output) {
 Result<void> check_fits(const MotionFile& file, std::span<const int> clips,
                         const std::string& input, const std::string& output) {
   if (clips.size() == 1 || keeps_format(extension_of(input), extension_of(output))) return {};
-  return Error{input + ": holds " + plural(clips.size(), "motion") + " (" + list_clips(file) +
-               ") and " + output + " takes one; --clip NAME picks it"};
+  return Error{input + ": holds " + plural(clips.size(), "motion") + " (" +
+               list_clips(file, clips) + ") and " + output + " takes one; --clip NAME picks it"};
 }
 
 Placement placement_of(const Rig& rig) { return {rig.unit(), *turn_up(rig.up_axis())}; }

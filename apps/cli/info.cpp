@@ -12,6 +12,7 @@
 #include "messages.h"
 #include "model_edit.h"
 #include "model_report.h"
+#include "rig/body_motions.h"
 #include "rig_options.h"
 #include "rig_report.h"
 #include "verbs.h"
@@ -50,8 +51,13 @@ std::string describe_length(const Clip& clip) {
          " a second: " + fixed(clip.duration(), 2) + " s";
 }
 
+bool moves(const BodyMotions& body, size_t clip) {
+  return std::count(body.clips.begin(), body.clips.end(), static_cast<int>(clip)) > 0;
+}
+
 // `shown` is the motion that the rest of the report is about.
-std::string describe(const std::string& path, const MotionFile& file, size_t shown) {
+std::string describe(const std::string& path, const MotionFile& file, const BodyMotions& body,
+                     size_t shown) {
   const std::vector<std::string> names = file.clip_names();
   const std::vector<Joint>& joints = file.clip(static_cast<int>(shown)).skeleton.joints;
   const auto rotating = std::count_if(joints.begin(), joints.end(),
@@ -67,12 +73,15 @@ std::string describe(const std::string& path, const MotionFile& file, size_t sho
   for (size_t i = 0; i < names.size(); ++i) {
     text += "  motion  " + (width ? padded(names[i], width + 2) : "") +
             describe_length(file.clip(static_cast<int>(i))) +
+            (moves(body, i)  ? ""
+             : body.humanoid ? ", no joint of the humanoid"
+                             : ", no joint") +
             (names.size() > 1 && i == shown ? " (shown below)\n" : "\n");
   }
   return text;
 }
 
-Json clips_json(const MotionFile& file) {
+Json clips_json(const MotionFile& file, const BodyMotions& body) {
   Json clips = Json::array();
   const std::vector<std::string> names = file.clip_names();
   for (size_t i = 0; i < names.size(); ++i) {
@@ -80,7 +89,8 @@ Json clips_json(const MotionFile& file) {
     clips.push_back({{"name", names[i]},
                      {"frames", clip.frames},
                      {"frame_time", clip.frame_time},
-                     {"seconds", clip.duration()}});
+                     {"seconds", clip.duration()},
+                     {"moves", moves(body, i)}});
   }
   return clips;
 }
@@ -100,6 +110,7 @@ Json skeleton_json(const Skeleton& skeleton) {
 struct InfoVerb {
   std::vector<std::string> files;
   std::string clip;
+  ReadOptions read;
   RigFlags rig;
   bool tree = false;
   bool json = false;
@@ -109,31 +120,49 @@ struct InfoVerb {
 struct Info {
   std::string text;
   Json json;
+  std::vector<std::string> notes = {};
   Result<void> good = {};
 };
 
-Result<Info> motion_info(const std::string& path, const InfoVerb& verb, const RigOptions& options) {
-  Result<std::unique_ptr<MotionFile>> file = open_motion(path);
-  if (!file) return file.error();
-  size_t shown = 0;
-  if (!verb.clip.empty() || !(*file)->clip_names().empty()) {
-    Result<std::vector<int>> picked = pick_clips(**file, verb.clip, path);
-    if (!picked) return picked.error();
-    shown = static_cast<size_t>(picked->front());
+// The motion that a report is about: the one that is asked for, whatever it moves, or the first of
+// those that the other verbs take. `notes` and `good` get what these say of the file.
+Result<size_t> pick_shown(const MotionFile& file, const BodyMotions& body, const std::string& path,
+                          const InfoVerb& verb, const RigOptions& options, Info& info) {
+  const std::vector<std::string> names = file.clip_names();
+  const auto asked = std::find(names.begin(), names.end(), verb.clip);
+  if (!verb.clip.empty() && asked != names.end()) {
+    return static_cast<size_t>(asked - names.begin());
   }
-  const Clip& clip = (*file)->clip(static_cast<int>(shown));
+  if (verb.clip.empty() && names.empty()) return size_t{0};
+  Result<std::vector<int>> picked = pick_clips(file, verb.clip, options, path, info.notes);
+  if (picked) return static_cast<size_t>(picked->front());
+  if (!verb.clip.empty() || !body.clips.empty()) return picked.error();
+  info.good = picked.error();
+  return size_t{0};
+}
+
+Result<Info> motion_info(const std::string& path, const InfoVerb& verb, const RigOptions& options) {
+  Result<std::unique_ptr<MotionFile>> file = open_motion(path, verb.read);
+  if (!file) return file.error();
+  Info info;
+  info.notes = (*file)->notes();
+  const BodyMotions body = find_body_motions(**file, options);
+  const Result<size_t> shown = pick_shown(**file, body, path, verb, options, info);
+  if (!shown) return shown.error();
+  const Clip& clip = (*file)->clip(static_cast<int>(*shown));
   // A file that is no humanoid is still a file that one may want to look at.
   const Result<Rig> rig = make_rig(clip, options, path);
-  Info info;
+  if (rig) note_rate(clip, *rig, path, info.notes);
+  if (!rig && info.good) info.good = rig.error();
   info.json = {{"file", path},
-               {"clips", clips_json(**file)},
+               {"clips", clips_json(**file, body)},
                {"skeleton", skeleton_json(clip.skeleton)},
                {"mapping", rig ? mapping_json(*rig) : Json()},
-               {"error", rig ? Json() : Json(rig.error().message)}};
-  info.text = describe(path, **file, shown);
+               {"notes", info.notes},
+               {"error", info.good ? Json() : Json(info.good.error().message)}};
+  info.text = describe(path, **file, body, *shown);
   if (rig) info.text += describe_mapping(*rig, options);
   if (verb.tree) info.text += "\nSkeleton:\n" + draw_tree(clip.skeleton);
-  if (!rig) info.good = rig.error();
   return info;
 }
 
@@ -161,6 +190,7 @@ Result<Info> model_info(const std::string& path) {
 // Several files are told of one after another, in JSON as a list.
 int show(const InfoVerb& verb) {
   if (auto flags = check_rig_flags(verb.rig); !flags) return fail(flags.error(), kBadUsage);
+  if (auto read = check_read_options(verb.read); !read) return fail(read.error(), kBadUsage);
   const Result<RigOptions> options = read_rig_options(verb.rig);
   if (!options) return fail(options.error(), kBadInput);
   const Result<FoundFiles> found = find_inputs(verb.files, "");
@@ -175,6 +205,7 @@ int show(const InfoVerb& verb) {
                                   : motion_info(file.path, verb, *options);
     if (info && !verb.json) print(std::exchange(between, "\n") + info->text);
     if (info && verb.json && !many) print(info->json);
+    if (info) print_notes(info->notes);
     const Result<void> good = info ? info->good : Result<void>(info.error());
     if (!good) exit_code = fail(good.error(), kBadInput);
     list.push_back(info ? info->json : Json{{"file", file.path}, {"error", good.error().message}});
@@ -199,6 +230,7 @@ void add_info(CLI::App& app, int& exit_code) {
                    "Motion to infer the rig from, if a file has\nseveral; default: the first")
       ->type_name("NAME");
   add_rig_options(*verb, options->rig);
+  add_read_options(*verb, options->read);
   verb->add_flag("--tree", options->tree, "Also draw the skeleton");
   verb->add_flag("--json", options->json, "Print JSON");
   verb->footer(

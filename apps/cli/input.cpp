@@ -1,45 +1,87 @@
 #include "input.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "clip/text_cursor.h"
 #include "formats.h"
+#include "messages.h"
+#include "pose/step_rate.h"
+#include "rig/body_motions.h"
 
 namespace panache::cli {
-
 bool is_motion_extension(const std::string& extension) { return find_format(formats(), extension); }
 
 std::string motion_extensions() { return list_extensions(formats()); }
 
-Result<std::unique_ptr<MotionFile>> open_motion(const std::string& path) {
-  return read_motion(path, formats());
+Result<std::unique_ptr<MotionFile>> open_motion(const std::string& path,
+                                                const ReadOptions& options) {
+  return read_motion(path, formats(), options);
 }
 
-std::string list_clips(const MotionFile& file) {
+void add_read_options(CLI::App& verb, ReadOptions& options) {
+  verb.add_option("--fps", options.fps, "Frames a second, where a file's rate is wrong or missing")
+      ->type_name("N");
+}
+
+Result<void> check_read_options(const ReadOptions& options) {
+  return options.fps ? check_range("--fps", *options.fps, kMinFps, kMaxFps) : Result<void>();
+}
+
+std::string list_clips(const MotionFile& file, std::span<const int> clips) {
+  const std::vector<std::string> names = file.clip_names();
   std::string list;
-  for (const std::string& name : file.clip_names()) {
-    list += (list.empty() ? "" : ", ") + panache::quoted(name);
+  for (const int clip : clips) {
+    list += (list.empty() ? "" : ", ") + panache::quoted(names[static_cast<size_t>(clip)]);
   }
   return list;
 }
 
 Result<std::vector<int>> pick_clips(const MotionFile& file, const std::string& wanted,
-                                    const std::string& path) {
+                                    const RigOptions& rig, const std::string& path,
+                                    std::vector<std::string>& notes) {
   const std::vector<std::string> names = file.clip_names();
   if (names.empty()) {
     return Error{path + ": holds a skeleton and no motion; expected a file with an animation"};
   }
+  const BodyMotions body = find_body_motions(file, rig);
   std::vector<int> picked;
+  std::vector<std::string> passed_over;
   for (size_t i = 0; i < names.size(); ++i) {
-    if (wanted.empty() || names[i] == wanted) picked.push_back(static_cast<int>(i));
+    if (!wanted.empty() && names[i] != wanted) continue;
+    const int clip = static_cast<int>(i);
+    if (std::find(body.clips.begin(), body.clips.end(), clip) != body.clips.end()) {
+      picked.push_back(clip);
+    } else {
+      passed_over.push_back(names[i]);
+    }
   }
-  if (!picked.empty()) return picked;
+  if (!picked.empty()) {
+    if (!passed_over.empty()) notes.push_back(path + ": " + note_passed_over(file, body));
+    return picked;
+  }
+  if (!passed_over.empty()) {
+    return Error{
+        path + ": " + describe_still(passed_over, body.humanoid) + "; expected " +
+        (body.clips.empty() ? "an animation that does" : "one of " + list_clips(file, body.clips))};
+  }
   if (names.size() == 1 && names[0].empty()) {
     return Error{path + ": holds one motion, which has no name; expected no --clip, found " +
                  panache::quoted(wanted)};
   }
   return Error{path + ": holds no motion " + panache::quoted(wanted) + "; expected one of " +
-               list_clips(file)};
+               list_clips(file, body.clips)};
+}
+
+void note_rate(const Clip& clip, const Rig& rig, const std::string& path,
+               std::vector<std::string>& notes) {
+  if (const auto doubt = doubtful_rate(clip, rig)) {
+    notes.push_back(with_hint(path + ": " + *doubt));
+  }
+}
+
+void print_notes(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) print_message(note);
 }
 
 std::string title_of(const std::string& clip_name, const std::string& path) {

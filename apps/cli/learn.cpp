@@ -23,6 +23,7 @@ namespace {
 struct LearnVerb {
   std::vector<std::string> clips;
   std::string name, model, description, action;
+  ReadOptions read;
   RigFlags rig;
   bool base = false, force = false, json = false;
 };
@@ -31,24 +32,29 @@ struct LearnVerb {
 struct OpenClip {
   std::string path;
   std::unique_ptr<MotionFile> file;
+  int clip;
   Rig rig;
 
-  LearnClip to_learn() const { return {file->clip(), rig, path}; }
+  LearnClip to_learn() const { return {file->clip(clip), rig, path}; }
 };
 
-Result<OpenClip> open(const std::string& path, const RigOptions& options) {
-  Result<std::unique_ptr<MotionFile>> file = open_motion(path);
+Result<OpenClip> open(const std::string& path, const ReadOptions& read, const RigOptions& options) {
+  Result<std::unique_ptr<MotionFile>> file = open_motion(path, read);
   if (!file) return file.error();
-  Result<std::vector<int>> picked = pick_clips(**file, "", path);
+  std::vector<std::string> notes = (*file)->notes();
+  Result<std::vector<int>> picked = pick_clips(**file, "", options, path, notes);
   if (!picked) return picked.error();
   if (picked->size() > 1) {
     return Error{path + ": holds " + std::to_string(picked->size()) + " motions (" +
-                 list_clips(**file) +
+                 list_clips(**file, *picked) +
                  "); expected one; panache convert --clip NAME takes one out of it"};
   }
-  Result<Rig> rig = make_rig((*file)->clip(), options, path);
+  const int only = picked->front();
+  Result<Rig> rig = make_rig((*file)->clip(only), options, path);
   if (!rig) return rig.error();
-  return OpenClip{path, *std::move(file), *std::move(rig)};
+  note_rate((*file)->clip(only), *rig, path, notes);
+  print_notes(notes);
+  return OpenClip{path, *std::move(file), only, *std::move(rig)};
 }
 
 Result<std::shared_ptr<const WalkerModel>> load_walker() {
@@ -62,7 +68,7 @@ Result<std::vector<LearnPair>> open_pairs(const LearnVerb& verb) {
   if (!options) return options.error();
   std::vector<OpenClip> clips;
   for (const std::string& path : verb.clips) {
-    Result<OpenClip> clip = open(path, *options);
+    Result<OpenClip> clip = open(path, verb.read, *options);
     if (!clip) return clip.error();
     clips.push_back(*std::move(clip));
   }
@@ -147,6 +153,7 @@ Result<void> check_usage(const LearnVerb& verb) {
       return Error{"--action: " + known.error().message};
     }
   }
+  if (auto read = check_read_options(verb.read); !read) return read;
   return check_rig_flags(verb.rig);
 }
 
@@ -240,6 +247,7 @@ void add_learn(CLI::App& app, int& exit_code) {
                  "Start a new MODEL as a copy of the base instead: it has\n"
                  "no styles of its own, and may be used for anything");
   add_rig_options(*verb, options->rig);
+  add_read_options(*verb, options->read);
   verb->add_flag("--force", options->force, "Replace a style of the same name");
   verb->add_flag("--json", options->json, "Print what was learnt as JSON");
   verb->footer(

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <string_view>
 
+#include "clip/motion_file.h"
+
 namespace panache::cli {
 
 void print_message(const std::string& message) {
@@ -25,6 +27,7 @@ std::string with_hint(const std::string& message) {
       Hint{"'learn.mean' and 'learn.scale'", ", as panache train writes it"},
       Hint{"'; rename them", " with --styles"},
       Hint{"the model has no styles yet", "; panache learn adds one"},
+      Hint{kGiveRate, " (--fps N; panache convert --fps N writes the file with it)"},
   };
   for (const Hint& one : kHints) {
     if (message.ends_with(one.end)) return message + std::string(one.hint);

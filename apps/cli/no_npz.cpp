@@ -4,7 +4,8 @@
 
 namespace panache::cli {
 
-Result<std::unique_ptr<MotionFile>> parse_npz(std::string, const std::string& path) {
+Result<std::unique_ptr<MotionFile>> parse_npz(std::string, const std::string& path,
+                                              const ReadOptions&) {
   return Error{path + ": this build reads no .npz files; build with libzip-dev"};
 }
 

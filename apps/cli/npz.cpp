@@ -130,10 +130,11 @@ std::string write_npz(const Clip& clip, const std::string&, const Placement&, co
 
 }  // namespace
 
-Result<std::unique_ptr<MotionFile>> parse_npz(std::string bytes, const std::string& path) {
+Result<std::unique_ptr<MotionFile>> parse_npz(std::string bytes, const std::string& path,
+                                              const ReadOptions& options) {
   Result<std::vector<NpzMember>> members = unpack_all(bytes, path);
   if (!members) return members.error();
-  return parse_smpl(*std::move(members), std::move(bytes), pack, path);
+  return parse_smpl(*std::move(members), std::move(bytes), pack, path, options);
 }
 
 std::string (*const kWriteNpz)(const Clip&, const std::string&, const Placement&,

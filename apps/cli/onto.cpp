@@ -6,6 +6,7 @@
 #include "input.h"
 #include "messages.h"
 #include "retarget/find_body.h"
+#include "rig/body_motions.h"
 #include "rig_options.h"
 
 namespace panache::cli {
@@ -25,7 +26,9 @@ Result<CharacterFile> CharacterFile::open(const OntoFlags& flags) {
   if (!file) return file.error();
   Result<RigOptions> options = read_rig_options({{}, "", flags.map});
   if (!options) return options.error();
-  const Clip* motion = (*file)->clip_names().empty() ? nullptr : &(*file)->clip(0);
+  print_notes((*file)->notes());
+  const bool moves = !(*file)->clip_names().empty();
+  const Clip* motion = moves ? &(*file)->clip(first_body_motion(**file, *options)) : nullptr;
   Result<std::pair<Clip, Rig>> body = find_body((*file)->rest(), motion, *options);
   if (!body) return Error{flags.file + ": " + body.error().message};
   return CharacterFile(flags.file, *std::move(file), *std::move(options), std::move(body->first),

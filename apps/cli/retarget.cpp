@@ -4,6 +4,7 @@
 #include <string>
 
 #include "batch.h"
+#include "input.h"
 #include "new_motions.h"
 #include "onto.h"
 #include "retarget_file.h"
@@ -37,6 +38,7 @@ void add_retarget(CLI::App& app, int& exit_code) {
   verb->add_flag("--no-feet", options->no_feet, "Leave feet and floor to the angles alone");
   verb->add_flag("--no-hands", options->no_hands, "Leave hands that meet to the angles alone");
   add_rig_options(*verb, options->flags.rig);
+  add_read_options(*verb, options->flags.read);
   verb->footer(
       "The output is the character's file with the motions in it (FBX becomes GLB); as\n"
       ".bvh, or .glb from a BVH, its joints alone. docs/retargeting.md says how it is done.\n\n"

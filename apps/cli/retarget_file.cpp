@@ -17,9 +17,10 @@ namespace {
 Result<void> retarget_file(FileJob& file, const CharacterFile& character,
                            const RetargetFlags& flags, const RigOptions& rig_options,
                            const RetargetOptions& options) {
-  Result<std::unique_ptr<MotionFile>> motion = open_input(file);
+  Result<std::unique_ptr<MotionFile>> motion = open_input(file, flags.read);
   if (!motion) return motion.error();
-  Result<std::vector<int>> picked = pick_clips(**motion, flags.clip, file.input);
+  Result<std::vector<int>> picked =
+      pick_clips(**motion, flags.clip, rig_options, file.input, file.notes);
   if (!picked) return picked.error();
   const std::vector<std::string> all_names = (*motion)->clip_names();
   std::vector<NewMotion> motions;
@@ -43,6 +44,7 @@ Result<void> retarget_file(FileJob& file, const CharacterFile& character,
     file.frames += put->frames;
     file.seconds += put->duration();
     if (file.mapping.is_null()) file.mapping = mapping_json(*rig);
+    note_rate(from, *rig, place, file.notes);
     motions.push_back({*std::move(put), ""});
   }
   if (motions.empty()) return failures.front();
@@ -64,6 +66,7 @@ Result<void> retarget_file(FileJob& file, const CharacterFile& character,
 int retarget_files(const RetargetFlags& flags, const RetargetOptions& options,
                    const std::string& doing, const std::string& done) {
   if (auto rig = check_rig_flags(flags.rig); !rig) return fail(rig.error(), kBadUsage);
+  if (auto read = check_read_options(flags.read); !read) return fail(read.error(), kBadUsage);
   Result<CharacterFile> character = CharacterFile::open(flags.onto);
   if (!character) return fail(character.error(), kBadInput);
   int exit_code = kDone;

@@ -12,6 +12,7 @@ namespace panache::cli {
 
 struct RetargetFlags {
   BatchFlags batch;
+  ReadOptions read;
   RigFlags rig;
   OntoFlags onto;
   PlaceFlags place;

@@ -124,8 +124,11 @@ int send(const SendOptions& options) {
   if (!rig_options) return fail(rig_options.error(), kBadInput);
   Result<std::unique_ptr<MotionFile>> motion = open_motion(options.input);
   if (!motion) return fail(motion.error(), kBadInput);
-  Result<std::vector<int>> picked = pick_clips(**motion, options.clip, options.input);
+  std::vector<std::string> notes = (*motion)->notes();
+  Result<std::vector<int>> picked =
+      pick_clips(**motion, options.clip, *rig_options, options.input, notes);
   if (!picked) return fail(picked.error(), kBadInput);
+  print_notes(notes);
   const Clip& clip = (*motion)->clip(picked->front());
   Result<Rig> rig = make_rig(clip, *rig_options, options.input);
   if (!rig) return fail(rig.error(), kBadInput);

@@ -70,8 +70,10 @@ Result<StripRow> read_row(const std::string& path, const StripVerb& verb,
                           const RigOptions& options) {
   Result<std::unique_ptr<MotionFile>> file = open_motion(path);
   if (!file) return file.error();
-  Result<std::vector<int>> picked = pick_clips(**file, verb.clip, path);
+  std::vector<std::string> notes = (*file)->notes();
+  Result<std::vector<int>> picked = pick_clips(**file, verb.clip, options, path, notes);
   if (!picked) return picked.error();
+  print_notes(notes);
   const Clip& clip = (*file)->clip(picked->front());
   Result<Rig> rig = make_rig(clip, options, path);
   if (!rig) return rig.error();

@@ -29,6 +29,7 @@ namespace {
 
 struct StylizeOptions {
   BatchFlags batch;
+  ReadOptions read;
   RigFlags rig;
   ShapeFlags shape;
   std::vector<std::string> styles;
@@ -90,6 +91,7 @@ Result<RestyledClip> restyle_clip(const MotionFile& motion, int which, const std
   Result<Rig> rig = make_rig(motion.clip(which), wanted.rig, place);
   if (!rig) return rig.error();
   if (file.mapping.is_null()) file.mapping = mapping_json(*rig);
+  note_rate(motion.clip(which), *rig, place, file.notes);
   // On a character first, then styled there: as two runs of the program would do it.
   Clip put;
   if (wanted.onto) {
@@ -169,9 +171,10 @@ Result<std::string> encode_onto(const CharacterFile& character,
 
 Result<void> stylize_file(FileJob& file, const Wanted& wanted, const StylizeOptions& options,
                           const std::function<void(double)>& progress) {
-  Result<std::unique_ptr<MotionFile>> motion = open_input(file);
+  Result<std::unique_ptr<MotionFile>> motion = open_input(file, options.read);
   if (!motion) return motion.error();
-  Result<std::vector<int>> picked = pick_clips(**motion, options.clip, file.input);
+  Result<std::vector<int>> picked =
+      pick_clips(**motion, options.clip, wanted.rig, file.input, file.notes);
   if (!picked) return picked.error();
   if (!wanted.onto) {
     auto fits = check_fits(**motion, *picked, file.input, file.output);
@@ -262,6 +265,7 @@ std::string name_styles(const StylizeOptions& options) {
 
 int stylize(const StylizeOptions& options) {
   if (auto rig = check_rig_flags(options.rig); !rig) return fail(rig.error(), kBadUsage);
+  if (auto read = check_read_options(options.read); !read) return fail(read.error(), kBadUsage);
   Result<Shape> shape = read_shape(options.shape);
   if (!shape) return fail(shape.error(), kBadUsage);
   std::optional<CharacterFile> onto;
@@ -328,6 +332,7 @@ void add_stylize(CLI::App& app, int& exit_code) {
   verb->add_flag("--verbose", options->verbose,
                  "Show how similar each motion is to the training data\nof the styles");
   add_rig_options(*verb, options->rig);
+  add_read_options(*verb, options->read);
   verb->footer(
       "Rig, joint names, channel order and frame rate are kept. An FBX file is written\n"
       "as GLB. The output may be of another format (docs/formats.md).\n\n"

@@ -427,6 +427,12 @@ typedef struct panache_motion_file panache_motion_file;
  * beside it. */
 PANACHE_API panache_status panache_motion_file_create(const void* bytes, size_t size,
                                                       const char* name, panache_motion_file** out);
+/* The same for a file whose rate is wrong or missing: reads and writes it as if it had so many
+ * frames a second (0.01 to 10000). In glTF the keys of all animations that move joints are moved. */
+PANACHE_API panache_status panache_motion_file_create_at_rate(const void* bytes, size_t size,
+                                                              const char* name,
+                                                              double frames_per_second,
+                                                              panache_motion_file** out);
 /* Does nothing with NULL. */
 PANACHE_API void panache_motion_file_destroy(panache_motion_file* file);
 
@@ -440,6 +446,14 @@ PANACHE_API int32_t panache_motion_file_clip_count(const panache_motion_file* fi
  * motion at that place. */
 PANACHE_API const char* panache_motion_file_clip_name(const panache_motion_file* file,
                                                       int32_t clip);
+/* 1 where a motion moves a joint of the humanoid; 0 where it moves others alone, such as a prop, or
+ * none, as animations of morph weights do: restyling it would make a motion of nothing. */
+PANACHE_API int32_t panache_motion_file_clip_moves(const panache_motion_file* file, int32_t clip);
+/* What is odd about the file although it was read, one sentence a line: a BVH file whose count of
+ * frames is wrong or whose last row is cut, keys before 0 s, motions that move no joint of the
+ * humanoid, steps far too fast or slow for the legs. Empty where there is nothing. */
+PANACHE_API panache_status panache_motion_file_get_notes(const panache_motion_file* file,
+                                                         panache_bytes** out);
 /* A motion, or one frame at rest where `clip` is -1. Its arrays are valid as long as the file; its
  * skeleton is NULL, for the caller to set. */
 PANACHE_API panache_status panache_motion_file_get_clip(const panache_motion_file* file,

@@ -6,7 +6,9 @@
 #include "api/rig_options.h"
 #include "api/sized_struct.h"
 #include "clip/motion_format.h"
+#include "pose/motion_notes.h"
 #include "retarget/find_body.h"
+#include "rig/body_motions.h"
 
 using namespace panache;
 using namespace panache::api;
@@ -98,17 +100,49 @@ Result<std::vector<Edit>> read_edits(const panache_motion_file& file, const pana
   return edits;
 }
 
+panache_status create(const void* bytes, size_t size, const char* name, const ReadOptions& options,
+                      panache_motion_file** out) {
+  start(out);
+  return guarded([&] {
+    auto file = parse_motion({static_cast<const char*>(bytes), size}, name, options);
+    if (!file) return fail(PANACHE_BAD_FILE, file.error().message);
+    auto names = (*file)->clip_names();
+    std::vector<char> moves(names.size());
+    for (const int clip : find_body_motions(**file).clips) moves[static_cast<size_t>(clip)] = 1;
+    Clip rest = (*file)->rest();
+    *out = new panache_motion_file{*std::move(file), name, std::move(names), std::move(moves),
+                                   std::move(rest)};
+    return PANACHE_OK;
+  });
+}
+
 }  // namespace
 
 panache_status panache_motion_file_create(const void* bytes, size_t size, const char* name,
                                           panache_motion_file** out) {
+  return create(bytes, size, name, {}, out);
+}
+
+panache_status panache_motion_file_create_at_rate(const void* bytes, size_t size, const char* name,
+                                                  double frames_per_second,
+                                                  panache_motion_file** out) {
+  if (auto good = check_fps(frames_per_second); !good) {
+    start(out);
+    return fail(PANACHE_BAD_ARGUMENT, good.error().message);
+  }
+  return create(bytes, size, name, {frames_per_second}, out);
+}
+
+int32_t panache_motion_file_clip_moves(const panache_motion_file* file, int32_t clip) {
+  return clip >= 0 && find_clip(*file, clip) ? file->moves[static_cast<size_t>(clip)] : 0;
+}
+
+panache_status panache_motion_file_get_notes(const panache_motion_file* file, panache_bytes** out) {
   start(out);
   return guarded([&] {
-    auto file = parse_motion({static_cast<const char*>(bytes), size}, name);
-    if (!file) return fail(PANACHE_BAD_FILE, file.error().message);
-    auto names = (*file)->clip_names();
-    Clip rest = (*file)->rest();
-    *out = new panache_motion_file{*std::move(file), name, std::move(names), std::move(rest)};
+    std::string text;
+    for (const std::string& note : motion_notes(*file->file, file->path)) text += note + "\n";
+    *out = new panache_bytes{std::move(text)};
     return PANACHE_OK;
   });
 }
@@ -159,8 +193,9 @@ panache_status panache_motion_file_create_skeleton(const panache_motion_file* fi
     if (!found) return fail(PANACHE_BAD_ARGUMENT, no_clip(*file, clip).message);
     const auto how = read_rig_options(*given, panache_motion_file_joint_count(file));
     if (!how) return fail(PANACHE_BAD_ARGUMENT, how.error().message);
-    auto body =
-        clip == -1 ? find_body(file->rest, find_clip(*file, 0), *how) : with_rig(*found, *how);
+    auto body = clip == -1
+                    ? find_body(file->rest, find_clip(*file, first_body_motion(*file->file)), *how)
+                    : with_rig(*found, *how);
     if (!body) return fail(PANACHE_BAD_SKELETON, file->path + ": " + body.error().message);
     Skeleton joints = body->first.skeleton;
     *out = new panache_skeleton{std::move(body->second), std::move(joints), std::move(body->first)};

@@ -41,6 +41,7 @@ struct panache_motion_file {
   std::unique_ptr<panache::MotionFile> file;
   std::string path;
   std::vector<std::string> names;  // Of its motions.
+  std::vector<char> moves;         // Likewise: whether it moves the humanoid.
   panache::Clip rest;
 };
 struct panache_samples {

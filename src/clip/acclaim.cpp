@@ -472,7 +472,8 @@ Result<Skeleton> parse_asf(const std::string& text, const std::string& name) {
 }
 
 // As all formats of the table are read. NOLINTNEXTLINE(performance-unnecessary-value-param)
-Result<std::unique_ptr<MotionFile>> parse_amc(std::string text, const std::string& path) {
+Result<std::unique_ptr<MotionFile>> parse_amc(std::string text, const std::string& path,
+                                              const ReadOptions& options) {
   Result<std::string> asf = find_asf(path);
   if (!asf) return asf.error();
   Result<std::string> bytes = read_file(*asf);
@@ -481,6 +482,7 @@ Result<std::unique_ptr<MotionFile>> parse_amc(std::string text, const std::strin
   if (!skeleton) return skeleton.error();
   Result<Clip> clip = AmcReader(text, path, *skeleton).read();
   if (!clip) return clip.error();
+  if (options.fps) clip->frame_time = 1 / *options.fps;
   return parse_bvh(format_bvh(*clip), path);
 }
 

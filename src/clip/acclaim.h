@@ -26,6 +26,7 @@ Result<Skeleton> parse_asf(const std::string& text, const std::string& name);
 // Reads an .amc. Its skeleton is the .asf beside it (`path` is where): "05.asf" for "05_10.amc",
 // else one of its own name, else the only one in the folder. A bone that a frame leaves out keeps
 // what it had. The motion is kept as a BVH file, which is what encode() gives.
-Result<std::unique_ptr<MotionFile>> parse_amc(std::string text, const std::string& path);
+Result<std::unique_ptr<MotionFile>> parse_amc(std::string text, const std::string& path,
+                                              const ReadOptions& options = {});
 
 }  // namespace panache

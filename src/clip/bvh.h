@@ -7,9 +7,11 @@
 //
 // Read is what Blender reads, and a little more: any subset of the six channels in any order on any
 // joint, any line ends, tabs, a byte order mark, exponents, names with spaces, several End Sites,
-// End Sites with names, several roots, keywords in any case, empty lines, and frames beyond the
-// announced count. A line is a frame, as in Blender; where Blender drops the surplus of a long line
-// and stops at a short one, both are rejected here with their place.
+// End Sites with names, several roots, keywords in any case, and empty lines. A line is a frame, as
+// in Blender; where Blender drops the surplus of a long line and stops at a short one, both are
+// rejected here with their place. All rows are read, whatever the announced count says; notes() of
+// the file says where it is wrong, and where the end of the file cuts the last row, which is left
+// out. encode() gives an unchanged file byte for byte, and a changed one without such faults.
 
 #include <memory>
 #include <string>
@@ -27,7 +29,8 @@ inline constexpr double kBvhMinFrameTime = 1e-6;  // Seconds.
 
 // Reads a BVH file from its bytes; `name` stands in front of the message of a failure, followed by
 // line and column (bytes, both from 1).
-Result<std::unique_ptr<MotionFile>> parse_bvh(std::string text, const std::string& name);
+Result<std::unique_ptr<MotionFile>> parse_bvh(std::string text, const std::string& name,
+                                              const ReadOptions& options = {});
 
 // A new BVH file for a clip that came from no BVH file: positions then Z, X, Y rotations for roots
 // and joints that translate, Z, X, Y rotations for all others, six decimals, joints depth first.

@@ -26,13 +26,19 @@ struct BvhDocument {
   int numbers = 0;                    // Numbers in a frame, above zero.
   size_t count_begin = 0;             // Where in the text the frame count stands.
   size_t count_end = 0;
-  std::vector<size_t> lines;  // [frames], where in the text each frame's line begins.
+  bool count_fits = true;              // As many rows follow as it says.
+  std::vector<size_t> lines;           // [frames], where in the text each frame's line begins.
+  size_t cut_row = std::string::npos;  // Where an incomplete last row begins; npos for none.
+  std::vector<std::string> notes;      // As MotionFile::notes().
 };
 
 // bvh_reader.cpp: everything from the text.
 Result<BvhDocument> read_bvh_document(std::string text, const std::string& name);
+// The text with this rate in place of what it says of its frame time, whatever that is, or nothing.
+Result<std::string> with_bvh_rate(const std::string& text, const std::string& name, double fps);
 
-// bvh_writer.cpp: MotionFile::encode for a BVH file.
+// bvh_writer.cpp: MotionFile::encode for a BVH file. What is changed gets the right count and no
+// cut row.
 std::string encode_bvh(const BvhDocument& document, const Clip& changed,
                        std::span<const double> source_frames);
 

@@ -5,6 +5,7 @@
 
 #include "clip/bvh.h"
 #include "clip/bvh_document.h"
+#include "clip/decimal.h"
 #include "clip/text_cursor.h"
 
 namespace panache {
@@ -28,12 +29,34 @@ class BvhReader {
  public:
   // Fills `document`, whose text is there already.
   BvhReader(BvhDocument& document, const std::string& name)
-      : document_(document), clip_(document.clip), cursor_(document.text, name) {}
+      : document_(document),
+        clip_(document.clip),
+        cursor_(document.text, name),
+        before_count_(cursor_) {}
 
   Result<void> read() {
     if (auto done = read_hierarchy(); !done) return done;
-    if (auto done = read_motion_head(); !done) return done;
+    if (auto done = read_count(); !done) return done;
+    if (auto done = read_frame_time(); !done) return done;
     return read_frames();
+  }
+
+  // Finds what says the rate, without reading it: the rest of the line of "Frame Time:", or the
+  // place where that line is missing.
+  struct RatePlace {
+    size_t begin = 0, end = 0;
+    bool has_label = false;
+  };
+  Result<RatePlace> find_rate() {
+    if (auto done = read_hierarchy(); !done) return done.error();
+    if (auto done = read_count(); !done) return done.error();
+    cursor_.skip_space();
+    RatePlace place;
+    place.has_label = cursor_.take_label("Frame Time");
+    cursor_.skip_spaces();
+    place.begin = place.end = cursor_.offset();
+    if (place.has_label) cursor_.take_name(), place.end = cursor_.offset();
+    return place;
   }
 
  private:
@@ -183,37 +206,39 @@ class BvhReader {
     return nullptr;
   }
 
-  // Frames: and Frame Time:
-  Result<void> read_motion_head() {
+  Result<void> read_count() {
     cursor_.skip_space();
     if (!cursor_.take_label("Frames")) return cursor_.error("'Frames:' after 'MOTION'");
     cursor_.skip_spaces();
-    const TextCursor before_count = cursor_;
+    before_count_ = cursor_;
     document_.count_begin = cursor_.offset();
-    if (!cursor_.take_count(announced_)) return before_count.error("a number of frames");
+    if (!cursor_.take_count(announced_)) return before_count_.error("a number of frames");
     document_.count_end = cursor_.offset();
-    if (announced_ > max_frames()) return before_count.error(at_most(max_frames()));
-    // A number takes a byte at least, and a space or line end each but for the last.
-    const uint64_t room =
-        (cursor_.remaining() + 1) / (2 * static_cast<uint64_t>(document_.numbers));
-    if (announced_ > room) {
-      Error error = before_count.error("at most " + plural(room, "frame") + " in the " +
-                                       plural(cursor_.remaining(), "byte") + " that follow");
-      error.message += "; the file is cut short or the count is wrong";
-      return error;
-    }
+    return {};
+  }
 
+  Result<void> read_frame_time() {
     cursor_.skip_space();
-    if (!cursor_.take_label("Frame Time")) return cursor_.error("'Frame Time:' after 'Frames:'");
+    if (!cursor_.take_label("Frame Time")) {
+      return without_rate(cursor_.error("'Frame Time:' after 'Frames:'"));
+    }
     cursor_.skip_spaces();
     const TextCursor before_time = cursor_;
-    if (!cursor_.take_number(clip_.frame_time)) return cursor_.number_error("the frame time");
+    if (!cursor_.take_number(clip_.frame_time)) {
+      return without_rate(cursor_.number_error("the frame time"));
+    }
     if (clip_.frame_time < kBvhMinFrameTime) {
-      return before_time.error("a frame time of a millionth of a second or more");
+      return without_rate(before_time.error("a frame time of a millionth of a second or more"));
     }
     cursor_.skip_spaces();
-    if (!cursor_.at_line_end()) return cursor_.error("the end of the line after the frame time");
+    if (!cursor_.at_line_end()) {
+      return without_rate(cursor_.error("the end of the line after the frame time"));
+    }
     return {};
+  }
+  static Error without_rate(Error error) {
+    error.message += std::string("; ") + kGiveRate;
+    return error;
   }
 
   // A joint without channels takes memory in every frame but no byte of the file, so the bytes
@@ -229,12 +254,19 @@ class BvhReader {
            plural(document_.text.size(), "byte");
   }
 
-  // The table to the end of the file. The announced count must be reached; as in Blender, it may be
-  // exceeded.
+  // The rows that can follow, if there are as many as announced. A number takes a byte at least,
+  // and a space or line end each but for the last.
+  uint64_t likely_frames() const {
+    const uint64_t room =
+        (cursor_.remaining() + 1) / (2 * static_cast<uint64_t>(document_.numbers));
+    return std::min({announced_, room, max_frames()});
+  }
+
+  // The table to the end of the file, as in Blender: the announced count may be any.
   Result<void> read_frames() {
     std::vector<double> numbers(static_cast<size_t>(document_.numbers));
-    document_.lines.reserve(static_cast<size_t>(announced_));
-    clip_.resize(static_cast<int>(announced_));
+    document_.lines.reserve(static_cast<size_t>(likely_frames()));
+    clip_.resize(static_cast<int>(likely_frames()));
     uint64_t frame = 0;
     for (;; ++frame) {
       cursor_.skip_space();
@@ -243,21 +275,52 @@ class BvhReader {
       if (frame == static_cast<uint64_t>(clip_.frames)) {
         clip_.resize(static_cast<int>(std::min(max_frames(), frame + frame / 2 + 16)));
       }
+      if (frame > 0 && is_cut_row()) break;
       document_.lines.push_back(cursor_.line_begin());
       if (auto done = read_line(frame, numbers); !done) return done;
       set_pose(numbers, clip_.pose(static_cast<int>(frame)));
     }
-    if (frame < announced_) {
-      const std::string cure =
-          frame > 0 ? "; a count of " + std::to_string(frame) + " reads what is there" : "";
-      Error error = cursor_.error("frame " + std::to_string(frame + 1) + " of the " +
-                                  std::to_string(announced_) + " announced");
-      error.message += cure;
-      return error;
-    }
     if (frame == 0) return cursor_.error("a frame at least");
     clip_.resize(static_cast<int>(frame));
+    document_.count_fits = frame == announced_;
+    if (!document_.count_fits) note_count(frame);
     return {};
+  }
+
+  // Whether the row here is the last of the file, and what is there of it is the beginning of a
+  // row. If so, notes it.
+  bool is_cut_row() {
+    TextCursor ahead = cursor_;
+    int count = 0;
+    for (double unused; ahead.take_number(unused); ahead.skip_spaces()) ++count;
+    const TextCursor end = ahead;
+    if (count >= document_.numbers) return false;
+    if (is_cut_number(ahead.word())) {
+      ahead.take(ahead.word());
+    } else {
+      ahead.skip_space();
+    }
+    if (!ahead.at_end()) return false;
+    document_.cut_row = cursor_.line_begin();
+    document_.notes.push_back(end.error("channel " + std::to_string(count + 1) + " of " +
+                                        std::to_string(document_.numbers) + " in the last row")
+                                  .message +
+                              "; this row is left out");
+    return true;
+  }
+  // "-", "1.5e": the beginning of a number, and none itself.
+  static bool is_cut_number(std::string_view word) {
+    return !word.empty() && std::string_view("+-.eE").find(word.back()) != std::string_view::npos &&
+           word.find_first_not_of("+-.0123456789eE") == std::string_view::npos;
+  }
+
+  void note_count(uint64_t rows) {
+    document_.notes.push_back(
+        before_count_
+            .error("a count of " + std::to_string(rows) + ", the complete rows that follow")
+            .message +
+        (rows == 1 ? "; that one is read" : "; all of them are read") +
+        (rows < announced_ ? ", and the file may be cut short" : ""));
   }
 
   Result<void> read_line(uint64_t frame, std::vector<double>& numbers) {
@@ -320,10 +383,24 @@ class BvhReader {
   BvhDocument& document_;
   Clip& clip_;
   TextCursor cursor_;
+  TextCursor before_count_;
   uint64_t announced_ = 0;  // Frames that the file says it has.
 };
 
 }  // namespace
+
+Result<std::string> with_bvh_rate(const std::string& text, const std::string& name, double fps) {
+  BvhDocument document;
+  document.text = text;
+  Result<BvhReader::RatePlace> place = BvhReader(document, name).find_rate();
+  if (!place) return place.error();
+  std::string time;
+  append_fixed(time, 1 / fps, 9);
+  if (!place->has_label) time = "Frame Time: " + time + "\n";
+  if (place->has_label && text[place->begin - 1] == ':') time = " " + time;
+  document.text.replace(place->begin, place->end - place->begin, time);
+  return std::move(document.text);
+}
 
 Result<BvhDocument> read_bvh_document(std::string text, const std::string& name) {
   BvhDocument document;

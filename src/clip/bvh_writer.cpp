@@ -32,15 +32,19 @@ class BvhEncoder {
                     (static_cast<size_t>(changed.frames) + 1) +
                 document_.lines[0]);
     append_head(out, changed.frames);
+    bool same = changed.frames == clip.frames;
     for (int i = 0; i < changed.frames; ++i) {
       const int nearest = nearest_frame(source_frames[static_cast<size_t>(i)]);
       split_line(nearest);
       choose_numbers(changed.pose(i), clip.pose(nearest), i == 0);
+      same =
+          same && nearest == i && std::find(changed_.begin(), changed_.end(), 1) == changed_.end();
       append_line(out, nearest);
       if (i + 1 < changed.frames) append_gap(out, nearest);
     }
+    if (same) return document_.text;
     split_line(clip.frames - 1);
-    return out += text.substr(line_end_);
+    return out += text.substr(line_end_, document_.cut_row - line_end_);
   }
 
  private:
@@ -77,12 +81,11 @@ class BvhEncoder {
     line_end_ = begin + cursor.offset();
   }
 
-  // Everything before the first frame, with the new count. A count that the file got wrong stays as
-  // it is while the frames do.
+  // Everything before the first frame, with the new count.
   void append_head(std::string& out, int frames) const {
     const std::string_view text = document_.text;
     const size_t first_line = document_.lines[0];
-    if (frames == document_.clip.frames) {
+    if (frames == document_.clip.frames && document_.count_fits) {
       out += text.substr(0, first_line);
       return;
     }

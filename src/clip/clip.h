@@ -22,6 +22,9 @@ struct Joint {
   std::string role;            // What the file itself says the joint is ("leftHand"), or empty.
   int skin = -1;          // Which of the file's skins has vertices that follow it; -1 for none.
   float skin_weight = 0;  // Vertices of that skin that follow it, by weight.
+  // The file's animation leaves it at rest from beginning to end, as one of morph weights or props
+  // does; never in formats that hold nothing but the motion of joints.
+  bool still = false;
 };
 
 struct Skeleton {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "clip/fk.h"
+#include "clip/still_joints.h"
 
 namespace panache {
 namespace {
@@ -300,6 +301,7 @@ Clip on_tree(const Clip& clip, const DeformTree& tree) {
       pose.translations[j] = now.position;
     }
   }
+  mark_still_joints(out);
   return out;
 }
 
@@ -317,6 +319,8 @@ class JoinedFile final : public MotionFile {
   std::vector<std::string> clip_names() const override { return file_->clip_names(); }
   const Clip& clip(int which) const override { return clips_[static_cast<size_t>(which)]; }
   Clip rest() const override { return rest_; }
+  std::vector<std::string> notes() const override { return file_->notes(); }
+  bool is_mended() const override { return file_->is_mended(); }
   std::string encode(std::span<const ClipEdit> edits, EditMode mode) const override {
     std::vector<Clip> changed;
     changed.reserve(edits.size());

@@ -7,6 +7,7 @@
 #include "clip/gltf_document.h"
 #include "clip/gltf_encode.h"
 #include "clip/vrma_rest.h"
+#include "clip/gltf_retime.h"
 
 namespace panache {
 namespace {
@@ -22,6 +23,8 @@ class GltfFile final : public MotionFile {
     for (const GltfAnimation& animation : document_.animations) names.push_back(animation.name);
     return names;
   }
+  std::vector<std::string> notes() const override { return document_.notes; }
+  bool is_mended() const override { return !document_.notes.empty(); }
   const Clip& clip(int which) const override {
     assert(which >= 0);
     if (document_.animations.empty()) return document_.rest;
@@ -41,7 +44,8 @@ class GltfFile final : public MotionFile {
   bool one_motion_;
 };
 
-Result<GltfDocument> read_document(std::string bytes, const std::string& name) {
+Result<GltfDocument> read_once(std::string bytes, const std::string& name,
+                               std::optional<double> fps) {
   GltfChecker checker(name);
   GltfDocument document;
   if (!read_gltf_container(std::move(bytes), name, checker, document.container) ||
@@ -49,9 +53,23 @@ Result<GltfDocument> read_document(std::string bytes, const std::string& name) {
     return checker.error();
   }
   read_gltf_weights(document);
-  if (!build_gltf_skeleton(document, checker) || !read_gltf_clips(document, checker)) {
+  if (!build_gltf_skeleton(document, checker) || !read_gltf_clips(document, checker, fps)) {
     return checker.error();
   }
+  return document;
+}
+
+// Where times are not as they should be, the file is read again with such as are.
+Result<GltfDocument> read_document(std::string bytes, const std::string& name,
+                                   const ReadOptions& options) {
+  Result<GltfDocument> document = read_once(std::move(bytes), name, {});
+  if (!document) return document;
+  RetimedGltf retimed;
+  GltfChecker checker(name);
+  if (!retime_gltf(*document, options.fps, name, checker, retimed)) return checker.error();
+  if (retimed.bytes.empty()) return document;
+  document = read_once(std::move(retimed.bytes), name, options.fps);
+  if (document) document->notes = std::move(retimed.notes);
   return document;
 }
 
@@ -61,14 +79,16 @@ std::unique_ptr<MotionFile> make_file(GltfDocument document, bool one_motion) {
 
 }  // namespace
 
-Result<std::unique_ptr<MotionFile>> parse_gltf(std::string bytes, const std::string& name) {
-  Result<GltfDocument> document = read_document(std::move(bytes), name);
+Result<std::unique_ptr<MotionFile>> parse_gltf(std::string bytes, const std::string& name,
+                                               const ReadOptions& options) {
+  Result<GltfDocument> document = read_document(std::move(bytes), name, options);
   if (!document) return document.error();
   return join_deforming_joints(make_file(*std::move(document), false));
 }
 
-Result<std::unique_ptr<MotionFile>> parse_vrma(std::string bytes, const std::string& name) {
-  Result<GltfDocument> document = read_document(std::move(bytes), name);
+Result<std::unique_ptr<MotionFile>> parse_vrma(std::string bytes, const std::string& name,
+                                               const ReadOptions& options) {
+  Result<GltfDocument> document = read_document(std::move(bytes), name, options);
   if (!document) return document.error();
   const GltfJson& json = document->container.json;
   const GltfJson::json_pointer hips("/extensions/VRMC_vrm_animation/humanoid/humanBones/hips/node");

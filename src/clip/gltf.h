@@ -44,11 +44,16 @@ namespace panache {
 // is as it was keeps its keys, of whatever kind they are; others get linear keys at the frames, and
 // a value that is as it was on a key has that key's bits. Where frames come from other times than
 // their own, all channels but those of unknown extensions follow, scale and morph weights too.
-Result<std::unique_ptr<MotionFile>> parse_gltf(std::string bytes, const std::string& name);
+//
+// An animation with keys before 0, which glTF does not allow, is read with all its keys that much
+// later, and so written; notes() says it.
+Result<std::unique_ptr<MotionFile>> parse_gltf(std::string bytes, const std::string& name,
+                                               const ReadOptions& options = {});
 
 // The same for a .vrma, which has to name a humanoid with hips. encode() puts an edit in the place
 // of its motion whatever the mode: players take the first animation.
-Result<std::unique_ptr<MotionFile>> parse_vrma(std::string bytes, const std::string& name);
+Result<std::unique_ptr<MotionFile>> parse_vrma(std::string bytes, const std::string& name,
+                                               const ReadOptions& options = {});
 
 // A new GLB for a clip that came from no glTF file, with a figure that any viewer shows: `body`, or
 // sticks where that is null.

@@ -7,6 +7,7 @@
 #include "clip/gltf_accessor.h"
 #include "clip/gltf_document.h"
 #include "clip/gltf_scales.h"
+#include "clip/still_joints.h"
 
 namespace panache {
 namespace {
@@ -107,8 +108,8 @@ class ChannelReader {
 
 class ClipReader {
  public:
-  ClipReader(GltfDocument& document, GltfChecker& checker)
-      : document_(document), checker_(checker) {}
+  ClipReader(GltfDocument& document, GltfChecker& checker, std::optional<double> fps)
+      : document_(document), checker_(checker), fps_(fps) {}
 
   bool read() {
     const size_t skeletons = document_.animations.size() * document_.joint_nodes.size();
@@ -119,6 +120,7 @@ class ClipReader {
     }
     for (size_t a = 0; a < document_.animations.size(); ++a) {
       if (!read_tracks(a) || !make_room(a) || !fill(a)) return false;
+      mark_still_joints(document_.animations[a].clip);
     }
     return true;
   }
@@ -170,7 +172,10 @@ class ClipReader {
       last = any ? std::max(last, end) : end;
       any = true;
     }
-    const FrameGrid grid = find_grid(deciding_track(animation), first, last);
+    const GltfTrack* deciding = deciding_track(animation);
+    animation.has_rate = deciding && deciding->times.size() > 1;
+    const FrameGrid grid = animation.has_rate && fps_ ? find_grid(deciding, first, last, 1 / *fps_)
+                                                      : find_grid(deciding, first, last);
     const double joints = static_cast<double>(document_.joint_nodes.size());
     poses_ += grid.frames * joints;
     const size_t most = gltf_max_poses(document_.container.size);
@@ -250,6 +255,7 @@ class ClipReader {
   }
   GltfDocument& document_;
   GltfChecker& checker_;
+  std::optional<double> fps_;
   std::vector<GltfTrack> tracks_;  // [channels] of the animation in hand.
   size_t values_ = 0;
   double poses_ = 0;
@@ -338,8 +344,8 @@ bool read_gltf_channels(GltfDocument& document, GltfChecker& checker) {
   return ChannelReader(document, checker).read();
 }
 
-bool read_gltf_clips(GltfDocument& document, GltfChecker& checker) {
-  return ClipReader(document, checker).read();
+bool read_gltf_clips(GltfDocument& document, GltfChecker& checker, std::optional<double> fps) {
+  return ClipReader(document, checker, fps).read();
 }
 
 }  // namespace panache

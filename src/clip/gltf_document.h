@@ -3,6 +3,7 @@
 // to the folder.
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,8 +45,9 @@ struct GltfChannel {
 };
 
 struct GltfAnimation {
-  std::string name;  // As MotionFile::clip_names() says it.
-  double start = 0;  // Seconds in the file, of the clip's first frame.
+  std::string name;       // As MotionFile::clip_names() says it.
+  double start = 0;       // Seconds in the file, of the clip's first frame.
+  bool has_rate = false;  // Keys of joints say the clip's rate; else it is a usual one.
   Clip clip;
   std::vector<GltfChannel> channels;  // [channels of the file]
 };
@@ -58,7 +60,8 @@ struct GltfDocument {
   bool bends = false;            // Whether that depends on the pose, for some joint.
   Skeleton skeleton;             // Of the rest pose.
   std::vector<GltfAnimation> animations;
-  Clip rest;  // One frame; the clip of a file without animations.
+  Clip rest;                       // One frame; the clip of a file without animations.
+  std::vector<std::string> notes;  // As MotionFile::notes().
 };
 
 // What a file may not exceed, so that no small file makes a large motion or takes long to read.
@@ -82,8 +85,9 @@ void read_gltf_weights(GltfDocument& document);
 bool read_gltf_channels(GltfDocument& document, GltfChecker& checker);
 // gltf_nodes.cpp: the joints and the rest pose, once it is known which nodes move.
 bool build_gltf_skeleton(GltfDocument& document, GltfChecker& checker);
-// gltf_animation.cpp: the clips.
-bool read_gltf_clips(GltfDocument& document, GltfChecker& checker);
+// gltf_animation.cpp: the clips. Where `fps` is given, the frames of those whose keys say a rate
+// lie so many a second.
+bool read_gltf_clips(GltfDocument& document, GltfChecker& checker, std::optional<double> fps);
 
 // The keys of a channel of animation `which`. Fails only while the file is being read: what was
 // read once can be read again.

@@ -137,10 +137,11 @@ bool GltfTrack::is_constant() const {
   return true;
 }
 
-FrameGrid find_grid(const GltfTrack* deciding, double first, double last) {
+FrameGrid find_grid(const GltfTrack* deciding, double first, double last,
+                    std::optional<double> frame_time) {
   FrameGrid grid;
   grid.start = first;
-  grid.frame_time = frame_time_of(deciding);
+  grid.frame_time = frame_time ? *frame_time : frame_time_of(deciding);
   const double span = last - first - key_tolerance(last, grid.frame_time);
   grid.frames = 1 + std::max(0.0, std::ceil(span / grid.frame_time));
   return grid;

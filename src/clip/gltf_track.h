@@ -1,6 +1,7 @@
 #pragma once
 // The keys of one channel of a glTF animation, as a function of time. Private to the folder.
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,7 +36,9 @@ double key_tolerance(double seconds, double frame_time);
 
 // The grid that `deciding` (null for none) and the span of all tracks, `first` to `last` seconds,
 // give: its keys' own rate where they lie on one, and a usual rate where they do not. Keys that are
-// further apart than a frame of motion should be get frames between them.
-FrameGrid find_grid(const GltfTrack* deciding, double first, double last);
+// further apart than a frame of motion should be get frames between them. `frame_time` is theirs
+// where it is known, seconds.
+FrameGrid find_grid(const GltfTrack* deciding, double first, double last,
+                    std::optional<double> frame_time = {});
 
 }  // namespace panache

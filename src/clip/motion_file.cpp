@@ -1,5 +1,7 @@
 #include "clip/motion_file.h"
 
+#include <string>
+
 #include "clip/motion_format.h"
 
 namespace panache {
@@ -12,8 +14,14 @@ std::span<const MotionFormat> known_formats = motion_formats();
 void set_motion_formats(std::span<const MotionFormat> formats) { known_formats = formats; }
 std::span<const MotionFormat> known_motion_formats() { return known_formats; }
 
-Result<std::unique_ptr<MotionFile>> read_motion(const std::string& path) {
-  return read_motion(path, known_formats);
+Result<void> check_fps(double fps) {
+  if (fps >= kMinFps && fps <= kMaxFps) return {};
+  return Error{"expected a rate of 0.01 to 10000 frames a second, found " + std::to_string(fps)};
+}
+
+Result<std::unique_ptr<MotionFile>> read_motion(const std::string& path,
+                                                const ReadOptions& options) {
+  return read_motion(path, known_formats, options);
 }
 
 }  // namespace panache

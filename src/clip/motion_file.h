@@ -2,6 +2,7 @@
 // A motion file as a whole: the clips in it, and all else that must survive a round trip.
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,6 +27,19 @@ struct ClipEdit {
   std::string name;
 };
 
+// What a user says of a file in place of what the file says.
+struct ReadOptions {
+  // Frames a second, for a file whose rate is wrong or missing. The file is as if it had that rate:
+  // what encode() gives has it, too. The keys of glTF have times in place of a rate; there the
+  // frames of every clip that moves joints are set so many a second, and all keys with them.
+  std::optional<double> fps;
+};
+inline constexpr double kMinFps = 0.01, kMaxFps = 10'000;
+// At the end of messages about a rate that is missing or wrong.
+inline constexpr const char* kGiveRate = "give its rate";
+// Rejects a rate beyond these bounds, or none.
+Result<void> check_fps(double fps);
+
 // What becomes of the clip that an edit came from: it goes, or stays, with the edits at the end or
 // at the beginning of the list of motions, where viewers look first. In `replace` a new clip takes
 // the place of all motions of the file.
@@ -44,6 +58,12 @@ class MotionFile {
   // The skeleton at rest in one frame, its joints as free as a new motion of the file may have
   // them.
   virtual Clip rest() const = 0;
+  // What is wrong with the file although it could be read, and how it was read: one sentence each,
+  // that begins with the file's name as the message of a failure does.
+  virtual std::vector<std::string> notes() const { return {}; }
+  // Whether encode() without edits gives other bytes than were read although nothing was asked for:
+  // what was wrong in them is mended.
+  virtual bool is_mended() const { return false; }
 
   // The bytes of the same file with the edited clips in it; those of different edits differ. A
   // joint that equals the pose of the frame that it came from keeps the very numbers of the file;
@@ -60,6 +80,7 @@ class MotionFile {
 // Reads the motion file at `path`, whose extension decides which format it has: one of
 // motion_formats(), or of those that a program has set (clip/motion_format.h). A .gltf may have its
 // data in files beside and below it.
-Result<std::unique_ptr<MotionFile>> read_motion(const std::string& path);
+Result<std::unique_ptr<MotionFile>> read_motion(const std::string& path,
+                                                const ReadOptions& options = {});
 
 }  // namespace panache

@@ -104,19 +104,21 @@ std::string list_extensions(std::span<const MotionFormat> formats) {
 }
 
 Result<std::unique_ptr<MotionFile>> read_motion(const std::string& path,
-                                                std::span<const MotionFormat> formats) {
+                                                std::span<const MotionFormat> formats,
+                                                const ReadOptions& options) {
   Result<const MotionFormat*> format = format_of(path, formats);
   if (!format) return format.error();
-  if ((*format)->read) return (*format)->read(path);
+  if ((*format)->read) return (*format)->read(path, options);
   auto bytes = read_file(path);
   if (!bytes) return bytes.error();
-  return (*format)->parse(std::move(*bytes), path);
+  return (*format)->parse(std::move(*bytes), path, options);
 }
 
-Result<std::unique_ptr<MotionFile>> parse_motion(std::string bytes, const std::string& path) {
+Result<std::unique_ptr<MotionFile>> parse_motion(std::string bytes, const std::string& path,
+                                                 const ReadOptions& options) {
   Result<const MotionFormat*> format = format_of(path, kFormats);
   if (!format) return format.error();
-  return (*format)->parse(std::move(bytes), path);
+  return (*format)->parse(std::move(bytes), path, options);
 }
 
 }  // namespace panache

@@ -24,10 +24,11 @@ struct MotionFormat {
 
   // Reads a file from its bytes. `path` stands in front of the message of a failure and is where
   // files beside it are looked for.
-  Result<std::unique_ptr<MotionFile>> (*parse)(std::string bytes,
-                                               const std::string& path) = nullptr;
+  Result<std::unique_ptr<MotionFile>> (*parse)(std::string bytes, const std::string& path,
+                                               const ReadOptions& options) = nullptr;
   // Instead of `parse`, where it is not this process that may read the bytes.
-  Result<std::unique_ptr<MotionFile>> (*read)(const std::string& path) = nullptr;
+  Result<std::unique_ptr<MotionFile>> (*read)(const std::string& path,
+                                              const ReadOptions& options) = nullptr;
 
   // A new file of one motion alone, called `name` where the format has names, shown on `body` (may
   // be null) where it has meshes; none where such files are only written as they were read.
@@ -65,9 +66,11 @@ std::string list_extensions(std::span<const MotionFormat> formats);
 
 // Reads the motion file at `path`, whose extension decides which of the formats it has.
 Result<std::unique_ptr<MotionFile>> read_motion(const std::string& path,
-                                                std::span<const MotionFormat> formats);
+                                                std::span<const MotionFormat> formats,
+                                                const ReadOptions& options = {});
 
 // The same from the bytes of a file of the library's formats.
-Result<std::unique_ptr<MotionFile>> parse_motion(std::string bytes, const std::string& path);
+Result<std::unique_ptr<MotionFile>> parse_motion(std::string bytes, const std::string& path,
+                                                 const ReadOptions& options = {});
 
 }  // namespace panache

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -14,6 +15,12 @@ namespace {
 
 constexpr size_t kMaxPoses = 50'000'000;  // Joints times frames.
 constexpr double kMinRate = 1e-3, kMaxRate = 1e6;
+// Arrays that hold the frames per second, in the order of preference: those of AMASS first.
+constexpr const char* kRateNames[] = {"mocap_framerate", "mocap_frame_rate", "fps", "framerate",
+                                      "frame_rate"};
+bool is_rate(const std::string& array) {
+  return std::find(std::begin(kRateNames), std::end(kRateNames), array) != std::end(kRateNames);
+}
 
 // Names of arrays that repeat some of the columns of `poses`, by the model.
 struct Part {
@@ -52,7 +59,8 @@ class SmplFile final : public MotionFile {
   SmplFile(std::vector<NpzMember> members, std::string whole, PackNpz pack)
       : members_(std::move(members)), whole_(std::move(whole)), pack_(pack) {}
 
-  Result<void> read(const std::string& name) {
+  Result<void> read(const std::string& name, const ReadOptions& options) {
+    if (options.fps) set_rate(*options.fps);
     Result<Table> poses = table("poses", name), trans = table("trans", name);
     if (!poses) return poses.error();
     if (!trans) return trans.error();
@@ -100,9 +108,8 @@ class SmplFile final : public MotionFile {
         out.push_back({member.name, to_npy(name == "poses" ? poses : trans)});
       } else if (const std::optional<Table> part = part_of(poses, name)) {
         out.push_back({member.name, to_npy(*part)});
-      } else if (is_new && (name == "mocap_framerate" || name == "mocap_frame_rate")) {
-        const double rate = rate_of(changed);
-        out.push_back({member.name, format_npy(npy_array({&rate, 1}, {}, "<f8"))});
+      } else if (is_new && is_rate(name)) {
+        out.push_back({member.name, rate_bytes(rate_of(changed))});
       } else if (!has_row_per_frame(member)) {
         out.push_back(member);
       }
@@ -151,17 +158,35 @@ class SmplFile final : public MotionFile {
     return Table{read->type, read->shape, *std::move(numbers)};
   }
 
+  static std::string rate_bytes(double rate) {
+    return format_npy(npy_array({&rate, 1}, {}, "<f8"));
+  }
+
+  // Makes the archive one of this rate.
+  void set_rate(double rate) {
+    bool has_rate = false;
+    for (NpzMember& member : members_) {
+      if (!is_rate(array_name(member))) continue;
+      member.bytes = rate_bytes(rate);
+      has_rate = true;
+    }
+    if (!has_rate) members_.push_back({std::string(kRateNames[0]) + ".npy", rate_bytes(rate)});
+    whole_ = pack_(members_);
+  }
+
   Result<void> read_rate(const std::string& name) {
-    const bool second = !find("mocap_framerate") && find("mocap_frame_rate");
-    const std::string array = second ? "mocap_frame_rate" : "mocap_framerate";
+    const auto known = std::find_if(std::begin(kRateNames), std::end(kRateNames),
+                                    [&](const char* array) { return find(array); });
+    const std::string array = known == std::end(kRateNames) ? kRateNames[0] : *known;
     Result<Table> rate = table(array, name);
-    if (!rate) return rate.error();
+    if (!rate) return Error{rate.error().message + "; " + kGiveRate};
     if (rate->numbers.size() != 1 ||
         !(rate->numbers[0] >= kMinRate && rate->numbers[0] <= kMaxRate)) {
       return Error{name + ": " + array +
                    ": expected a number of frames per second above 0, found " +
                    (rate->numbers.size() == 1 ? std::to_string(rate->numbers[0])
-                                              : std::to_string(rate->numbers.size()) + " numbers")};
+                                              : std::to_string(rate->numbers.size()) + " numbers") +
+                   "; " + kGiveRate};
     }
     clip_.frame_time = 1 / rate->numbers[0];
     return {};
@@ -271,9 +296,10 @@ class SmplFile final : public MotionFile {
 }  // namespace
 
 Result<std::unique_ptr<MotionFile>> parse_smpl(std::vector<NpzMember> members, std::string whole,
-                                               PackNpz pack, const std::string& name) {
+                                               PackNpz pack, const std::string& name,
+                                               const ReadOptions& options) {
   auto file = std::make_unique<SmplFile>(std::move(members), std::move(whole), pack);
-  if (auto done = file->read(name); !done) return done.error();
+  if (auto done = file->read(name, options); !done) return done.error();
   return std::unique_ptr<MotionFile>(std::move(file));
 }
 

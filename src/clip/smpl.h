@@ -3,9 +3,9 @@
 // archive .npz of arrays, which others unpack and pack.
 //
 // Read are `poses` [frames, 72, 156 or 165], a rotation vector for each joint; `trans` [frames, 3],
-// metres; and `mocap_framerate` or `mocap_frame_rate`, frames per second. The axes are those of the
-// numbers: Z up in AMASS, Y up elsewhere. All other arrays, betas and gender among them, are kept;
-// the shape of the body is not applied (clip/smpl_skeleton.h).
+// metres; and `mocap_framerate`, `mocap_frame_rate`, `fps`, `framerate` or `frame_rate`, frames per
+// second. The axes are those of the numbers: Z up in AMASS, Y up elsewhere. All other arrays, betas
+// and gender among them, are kept; the shape of the body is not applied (clip/smpl_skeleton.h).
 
 #include <memory>
 #include <string>
@@ -31,7 +31,8 @@ using PackNpz = std::string (*)(const std::vector<NpzMember>& members);
 // numbers. Arrays that hold parts of the poses (root_orient, pose_body, ...) are made anew, other
 // arrays with a row per frame (dmpls, markers) are left out: they are of another motion.
 Result<std::unique_ptr<MotionFile>> parse_smpl(std::vector<NpzMember> members, std::string whole,
-                                               PackNpz pack, const std::string& name);
+                                               PackNpz pack, const std::string& name,
+                                               const ReadOptions& options = {});
 
 // The body of SMPL-H in T-pose, one frame.
 Clip smpl_body();

@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "clip/motion_file.h"
+#include "rig/body_motions.h"
 
 namespace panache {
 
@@ -14,7 +15,7 @@ double TestInput::take_frame(double clip_frame) const {
 Result<TestInput> load_input(const ManifestRow& row) {
   Result<std::unique_ptr<MotionFile>> file = read_motion(row.path);
   if (!file) return file.error();
-  const Clip& clip = (*file)->clip();
+  const Clip& clip = (*file)->clip(first_body_motion(**file));
   Result<Rig> rig = Rig::create(clip);
   if (!rig) return Error{row.path + ": " + rig.error().message};
   Take take = make_take(clip, *rig, PoseLayout::positions);

@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "clip/motion_file.h"
 #include "pose/observer.h"
+#include "rig/body_motions.h"
 
 namespace panache {
 
@@ -60,7 +61,7 @@ Take make_take(const Clip& clip, const Rig& rig, PoseLayout layout) {
 Result<Take> load_take(const ManifestRow& row, PoseLayout layout) {
   Result<std::unique_ptr<MotionFile>> file = read_motion(row.path);
   if (!file) return file.error();
-  const Clip& clip = (*file)->clip();
+  const Clip& clip = (*file)->clip(first_body_motion(**file));
   Result<Rig> rig = Rig::create(clip);
   if (!rig) return Error{row.path + ": " + rig.error().message};
   Take take = make_take(clip, *rig, layout);

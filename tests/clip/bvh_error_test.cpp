@@ -159,7 +159,9 @@ TEST(BvhErrors, a_motion_without_its_head) {
   EXPECT_EQ(pieces.rejection(), "walk.bvh:12:1: expected 'Frames:' after 'MOTION', found 'Frame'");
   pieces = {};
   pieces.time = "";
-  EXPECT_EQ(pieces.rejection(), "walk.bvh:13:1: expected 'Frame Time:' after 'Frames:', found '1'");
+  EXPECT_EQ(pieces.rejection(),
+            "walk.bvh:13:1: expected 'Frame Time:' after 'Frames:', found '1'; give its "
+            "rate");
 }
 
 TEST(BvhErrors, wrong_frame_counts) {
@@ -169,21 +171,6 @@ TEST(BvhErrors, wrong_frame_counts) {
     EXPECT_EQ(pieces.rejection(),
               std::string("walk.bvh:12:9: expected a number of frames, found '") + count + "'");
   }
-  pieces.count = "Frames: 5\n";  // Three numbers take six bytes, and 30 follow.
-  EXPECT_EQ(
-      pieces.rejection(),
-      "walk.bvh:16:1: expected frame 3 of the 5 announced, found the end of the file; a count "
-      "of 2 reads what is there");
-  pieces.count = "Frames: 6\n";
-  EXPECT_EQ(pieces.rejection(),
-            "walk.bvh:12:9: expected at most 5 frames in the 30 bytes that follow, found '6'; the "
-            "file is cut short or the count is wrong");
-  pieces.count = "Frames: 1000000000000\n";
-  EXPECT_EQ(pieces.rejection(),
-            "walk.bvh:12:9: expected at most 1000000 frames for a skeleton of 1 joint in a file of "
-            "176 bytes, found '1000000000000'");
-  pieces.count = "Frames: 99999999999999999999999999\n";
-  EXPECT_NE(pieces.rejection().find("walk.bvh:12:9: expected at most"), std::string::npos);
   pieces.count = "Frames: 0\n";
   pieces.frames = "";
   EXPECT_EQ(pieces.rejection(),
@@ -198,8 +185,8 @@ TEST(BvhErrors, still_joints_may_not_fill_the_memory) {
   for (int i = 0; i < 1000; ++i) text += "1\n";
   EXPECT_EQ(
       rejection(text),
-      "walk.bvh:50003:9: expected at most 140 frames for a skeleton of 10000 joints in a file "
-      "of 352054 bytes, found '1000'");
+      "walk.bvh:50145:1: expected at most 140 frames for a skeleton of 10000 joints in a file "
+      "of 352054 bytes, found '1'");
   EXPECT_EQ(
       rejection(replaced(text, "Frames: 1000", "Frames: 1")),
       "walk.bvh:50145:1: expected at most 140 frames for a skeleton of 10000 joints in a file "
@@ -213,14 +200,15 @@ TEST(BvhErrors, wrong_frame_times) {
     EXPECT_EQ(pieces.rejection(),
               std::string("walk.bvh:13:13: expected a frame time of a millionth of "
                           "a second or more, found '") +
-                  time + "'");
+                  time + "'; give its rate");
   }
   pieces.time = "Frame Time: nan\n";
   EXPECT_EQ(pieces.rejection(),
-            "walk.bvh:13:13: expected a number for the frame time, found 'nan'");
+            "walk.bvh:13:13: expected a number for the frame time, found 'nan'; give its rate");
   pieces.time = "Frame Time: 0.04 1 2 3\n";
   EXPECT_EQ(pieces.rejection(),
-            "walk.bvh:13:18: expected the end of the line after the frame time, found '1'");
+            "walk.bvh:13:18: expected the end of the line after the frame time, found '1'; "
+            "give its rate");
 }
 
 TEST(BvhErrors, wrong_numbers_in_a_frame) {
@@ -263,19 +251,18 @@ TEST(BvhErrors, a_line_is_a_frame) {
 
 TEST(BvhErrors, a_truncated_motion) {
   Pieces pieces;
-  pieces.frames = "1 2 3\n4 5";
+  pieces.frames = "1 2";
   EXPECT_EQ(pieces.rejection(),
-            "walk.bvh:15:4: expected a number for channel 3 of joint 'Hips', found the end of the "
+            "walk.bvh:14:4: expected a number for channel 3 of joint 'Hips', found the end of the "
             "file");
-  pieces.frames = "1 2 3\n\n";
-  EXPECT_EQ(
-      pieces.rejection(),
-      "walk.bvh:16:1: expected frame 2 of the 2 announced, found the end of the file; a count "
-      "of 1 reads what is there");
+  pieces.frames = "1 2\n4 5 6\n";
+  EXPECT_EQ(pieces.rejection(),
+            "walk.bvh:14:4: expected a number for channel 3 of joint 'Hips', found the end of the "
+            "line");
   pieces.count = "Frames: 1\n";
   pieces.frames = "";
   EXPECT_EQ(pieces.rejection(),
-            "walk.bvh:14:1: expected frame 1 of the 1 announced, found the end of the file");
+            "walk.bvh:14:1: expected a frame at least, found the end of the file");
 }
 
 TEST(BvhErrors, text_after_the_last_frame) {

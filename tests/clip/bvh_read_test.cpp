@@ -116,14 +116,78 @@ TEST(BvhReading, line_ends_spaces_and_byte_order_marks_change_nothing) {
   }
 }
 
-TEST(BvhReading, frames_beyond_the_announced_count_are_read_as_in_blender) {
-  for (const char* count : {"0", "1", "2"}) {
+TEST(BvhReading, all_rows_are_read_and_a_wrong_count_is_noted_as_in_blender) {
+  using Notes = std::vector<std::string>;
+  EXPECT_EQ(must_parse(read_fixture("plain.bvh"))->notes(), Notes{});
+  for (const char* count : {"0", "1", "2", "4", "1000000000000", "99999999999999999999999999"}) {
     const auto file = must_parse(
         replaced(read_fixture("plain.bvh"), "Frames: 3", std::string("Frames: ") + count));
     ASSERT_TRUE(file);
     EXPECT_EQ(file->clip().frames, 3);
     EXPECT_EQ(broken_promise(file->clip()), "");
+    const bool short_file = count[0] > '3' || count[1] != '\0';
+    EXPECT_EQ(file->notes(),
+              Notes{std::string("test.bvh:26:9: expected a count of 3, the complete rows that "
+                                "follow, found '") +
+                    count + "'; all of them are read" +
+                    (short_file ? ", and the file may be cut short" : "")});
   }
+}
+
+TEST(BvhReading, a_last_row_that_the_end_of_the_file_cuts_is_left_out_and_noted) {
+  using Notes = std::vector<std::string>;
+  const std::string head =
+      "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Xrotation Yrotation Zposition\n}\nMOTION\n"
+      "Frames: 2\nFrame Time: 0.1\n1 2 3\n4 5 6\n";
+  // What is there of the row, where the fault is, and how the message names what is there.
+  const struct {
+    std::string row, place, found;
+  } cases[] = {{"7", "12:2", "channel 2 of 3 in the last row, found the end of the file"},
+               {"7 8", "12:4", "channel 3 of 3 in the last row, found the end of the file"},
+               {"7 8\n", "12:4", "channel 3 of 3 in the last row, found the end of the line"},
+               {"7 8 \r\n\n ", "12:5", "channel 3 of 3 in the last row, found the end of the line"},
+               {"7 8 -", "12:5", "channel 3 of 3 in the last row, found '-'"},
+               {"7 8.5e", "12:3", "channel 2 of 3 in the last row, found '8.5e'"},
+               {"-", "12:1", "channel 1 of 3 in the last row, found '-'"}};
+  for (const auto& one : cases) {
+    const auto file = must_parse(head + one.row);
+    ASSERT_TRUE(file);
+    EXPECT_EQ(file->clip().frames, 2);
+    EXPECT_EQ(file->notes(), Notes{"test.bvh:" + one.place + ": expected " + one.found +
+                                   "; this row is left out"});
+  }
+  // Announced, so that the count is wrong, too.
+  const auto file = must_parse(replaced(head, "Frames: 2", "Frames: 3") + "7 8");
+  ASSERT_TRUE(file);
+  EXPECT_EQ(file->notes().size(), 2u);
+  // A row that others follow is no end of a file.
+  for (const char* row : {"7 8\n9 10 11\n", "7 8 x", "7 8 1e400", "x"}) {
+    EXPECT_NE(rejection(head + row), "(accepted)") << row;
+  }
+}
+
+TEST(BvhReading, a_rate_that_is_given_takes_the_place_of_whatever_the_file_says) {
+  const std::string plain = read_fixture("plain.bvh");
+  const ReadOptions at_50 = {.fps = 50};
+  const std::string right = replaced(plain, "0.033333\n", "0.020000000\n");
+  for (const char* line : {"Frame Time: 0.033333\n", "Frame Time: 0\n", "Frame Time: -1 \n",
+                           "Frame Time: nan\n", "Frame Time:\n", "Frame Time: 1e-12\n", ""}) {
+    const std::string text = replaced(plain, "Frame Time: 0.033333\n", line);
+    const auto file = parse_bvh(text, "walk.bvh", at_50);
+    ASSERT_TRUE(file.ok()) << file.error().message;
+    EXPECT_EQ((*file)->clip().frame_time, 0.02);
+    EXPECT_EQ((*file)->clip().frames, 3);
+    // All that is written has the rate: the file as it is, and a changed one.
+    EXPECT_EQ(replaced_all((*file)->encode({}, EditMode::replace), ' ', ""),
+              replaced_all(right, ' ', ""));
+    Clip clip = (*file)->clip();
+    clip.resize(2);
+    EXPECT_EQ(must_parse((*file)->encode(clip, same_frames(2)))->clip().frame_time, 0.02);
+  }
+  // Other line ends, and a rate that no decimal number is.
+  const auto file = parse_bvh(replaced_all(plain, '\n', "\r\n"), "walk.bvh", {.fps = 120});
+  ASSERT_TRUE(file.ok()) << file.error().message;
+  EXPECT_NEAR((*file)->clip().frame_time, 1.0 / 120, 5e-10);
 }
 
 TEST(BvhReading, depth_and_joint_count_may_reach_their_limits) {

@@ -81,9 +81,25 @@ TEST(BvhWriting, an_unchanged_file_comes_back_byte_for_byte) {
   }
 }
 
-TEST(BvhWriting, a_count_that_was_too_small_stays_while_the_frames_do) {
-  const std::string text = replaced(read_fixture("plain.bvh"), "Frames: 3", "Frames: 1");
-  EXPECT_EQ(encode_same(*must_parse(text)), text);
+TEST(BvhWriting, a_wrong_count_and_a_cut_row_stay_while_the_file_does) {
+  const std::string plain = read_fixture("plain.bvh");
+  for (const char* count : {"Frames: 1", "Frames: 3", "Frames: 44"}) {
+    for (const char* cut : {"", "1 2 3", "1 2 3\r\n"}) {
+      const std::string text = replaced(plain, "Frames: 3", count) + cut;
+      const auto file = must_parse(text);
+      EXPECT_EQ(encode_same(*file), text);
+      EXPECT_EQ(file->encode({}, EditMode::replace), text);
+      // With a change, the result is a sound file.
+      Clip clip = file->clip();
+      clip.pose(1).translations[0].x += 1;
+      const auto back = must_parse(file->encode(clip, same_frames(3)));
+      EXPECT_EQ(back->clip().frames, 3);
+      EXPECT_EQ(back->notes(), std::vector<std::string>{});
+      clip.resize(2);
+      EXPECT_EQ(must_parse(file->encode(clip, same_frames(2)))->notes(),
+                std::vector<std::string>{});
+    }
+  }
 }
 
 TEST(BvhWriting, frames_may_be_left_out_repeated_and_reordered) {

@@ -23,7 +23,7 @@ TEST(MotionFormat, what_one_writes_it_reads) {
     if (!format.write) continue;
     ++written;
     const std::string bytes = format.write(clip, "walk", {}, nullptr);
-    const auto file = format.parse(bytes, "walk");
+    const auto file = format.parse(bytes, "walk", {});
     ASSERT_TRUE(file.ok()) << file.error().message;
     EXPECT_EQ((*file)->clip().frames, 20) << format.extension;
     EXPECT_EQ(format.encoded_as, format.extension);
@@ -39,13 +39,13 @@ TEST(MotionFormat, what_one_writes_it_reads) {
 
 TEST(MotionFormat, a_format_of_a_program_of_its_own_is_read_like_the_others) {
   static std::string asked;
-  constexpr MotionFormat kOwn[] = {
-      {.extension = ".own",
-       .read = [](const std::string& path) -> Result<std::unique_ptr<MotionFile>> {
-         asked = path;
-         return Error{path + ": is none"};
-       },
-       .encoded_as = ".own"}};
+  constexpr MotionFormat kOwn[] = {{.extension = ".own",
+                                    .read = [](const std::string& path, const ReadOptions&)
+                                        -> Result<std::unique_ptr<MotionFile>> {
+                                      asked = path;
+                                      return Error{path + ": is none"};
+                                    },
+                                    .encoded_as = ".own"}};
   EXPECT_EQ(read_motion("nowhere/walk.OWN", kOwn).error().message, "nowhere/walk.OWN: is none");
   EXPECT_EQ(asked, "nowhere/walk.OWN");
   EXPECT_EQ(read_motion("walk.bvh", kOwn).error().message,

@@ -245,6 +245,35 @@ TEST(Smpl, frames_from_other_times_keep_the_numbers_of_whole_ones) {
   EXPECT_NEAR(numbers_in(out, "poses")[72 + 16 * 3 + 2], -kQuarter / 2, 1e-6);
 }
 
+TEST(Smpl, the_rate_may_have_any_usual_name) {
+  for (const char* name : {"mocap_frame_rate", "fps", "framerate", "frame_rate"}) {
+    std::vector<NpzMember> members = small_motion();
+    members[2] = member(name, {25}, {});
+    EXPECT_EQ(must_read(members)->clip().frame_time, 1.0 / 25) << name;
+  }
+}
+
+TEST(Smpl, a_rate_that_is_given_takes_the_place_of_one_that_is_wrong_or_missing) {
+  const ReadOptions at_50 = {.fps = 50};
+  for (const bool missing : {false, true}) {
+    std::vector<NpzMember> members = small_motion();
+    members[2] = member(missing ? "unrelated" : "mocap_framerate", {0}, {});
+    EXPECT_FALSE(parse_smpl(members, pack(members), pack, "a.npz").ok());
+    const auto file = parse_smpl(members, pack(members), pack, "a.npz", at_50);
+    ASSERT_TRUE(file.ok()) << file.error().message;
+    EXPECT_EQ((*file)->clip().frame_time, 1.0 / 50);
+    // What is written has it, and all else of the file.
+    if (missing) {
+      members.push_back(member("mocap_framerate", {50}, {}));
+    } else {
+      members[2] = member("mocap_framerate", {50}, {});
+    }
+    EXPECT_EQ((*file)->encode({}, EditMode::replace), pack(members));
+    const Clip clip = (*file)->clip();
+    EXPECT_EQ((*file)->encode(clip, same_frames(clip.frames)), pack(members));
+  }
+}
+
 TEST(Smpl, a_new_clip_brings_its_own_rate) {
   const auto file = must_read(small_motion());
   Clip clip = file->clip();
@@ -281,9 +310,9 @@ TEST(Smpl, what_is_wrong_is_said) {
             "a.npz: expected an array trans, as in AMASS, found poses, transl, mocap_framerate, "
             "betas, dmpls, root_orient, gender, note.txt");
   EXPECT_EQ(
-      smpl_rejection(with(2, {"fps.npy", ""})),
-      "a.npz: expected an array mocap_framerate, as in AMASS, found poses, trans, fps, betas, "
-      "dmpls, root_orient, gender, note.txt");
+      smpl_rejection(with(2, {"speed.npy", ""})),
+      "a.npz: expected an array mocap_framerate, as in AMASS, found poses, trans, speed, betas, "
+      "dmpls, root_orient, gender, note.txt; give its rate");
   EXPECT_EQ(smpl_rejection(with(0, member("poses", std::vector<double>(18), {3, 6}))),
             "a.npz: poses: expected frames of 72 (SMPL), 156 (SMPL-H) or 165 (SMPL-X) numbers, "
             "found (3, 6)");
@@ -293,7 +322,8 @@ TEST(Smpl, what_is_wrong_is_said) {
             "a.npz: trans: expected (3, 3), as many frames as poses has, found (1, 3)");
   EXPECT_EQ(
       smpl_rejection(with(2, member("mocap_framerate", {0}, {}))),
-      "a.npz: mocap_framerate: expected a number of frames per second above 0, found 0.000000");
+      "a.npz: mocap_framerate: expected a number of frames per second above 0, found 0.000000; "
+      "give its rate");
   EXPECT_EQ(smpl_rejection(with(1, member("trans", {NAN, 1, 2}, {1, 3}))),
             "a.npz: trans: expected numbers within a thousand million, found one beyond or none");
   EXPECT_EQ(smpl_rejection(with(1, {"trans.npy", "text"})),

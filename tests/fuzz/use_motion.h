@@ -28,7 +28,8 @@ inline const std::shared_ptr<const Model>& small_model() {
 
 // The file, if it was read, to the end. What this writes must be readable.
 inline void use(Result<std::unique_ptr<MotionFile>> file, const std::string& extension,
-                Result<std::unique_ptr<MotionFile>> (*parse)(std::string, const std::string&)) {
+                Result<std::unique_ptr<MotionFile>> (*parse)(std::string, const std::string&,
+                                                             const ReadOptions&)) {
   if (!file) {
     if (file.error().message.empty()) fail("an error without a message");
     return;
@@ -51,7 +52,7 @@ inline void use(Result<std::unique_ptr<MotionFile>> file, const std::string& ext
     frames = std::move(styled->source_frames);
   }
   const std::string bytes = (*file)->encode(changed, frames);
-  const Result<std::unique_ptr<MotionFile>> again = parse(bytes, "again" + extension);
+  const Result<std::unique_ptr<MotionFile>> again = parse(bytes, "again" + extension, {});
   if (!again) fail("what was written cannot be read: " + again.error().message);
   if ((*again)->clip(0).joints() != clip.joints()) fail("another number of joints");
 }

@@ -1,0 +1,168 @@
+#include "clip/gltf_retime.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "clip/gltf_accessor.h"
+#include "clip/gltf_encode.h"
+
+namespace panache {
+namespace {
+
+// A time t of the file becomes t scale + shift.
+struct Retiming {
+  double scale = 1, shift = 0;
+  bool changes() const { return scale != 1 || shift != 0; }
+};
+
+// "12.5" for messages.
+std::string brief(double seconds) {
+  std::string text = std::to_string(seconds);
+  text.erase(text.find_last_not_of('0') + 1);
+  return text.ends_with('.') ? text + "0" : text;
+}
+
+class Retimer {
+ public:
+  Retimer(const GltfDocument& document, GltfChecker& checker)
+      : document_(document), checker_(checker), json_(document.container.json) {}
+
+  bool retime(std::optional<double> fps, const std::string& name, RetimedGltf& out) {
+    bool any = false;
+    for (size_t a = 0; a < document_.animations.size(); ++a) {
+      const GltfAnimation& animation = document_.animations[a];
+      const double begin = begin_of(a);
+      Retiming to;
+      if (fps && animation.has_rate) to.scale = 1 / (*fps * animation.clip.frame_time);
+      if (begin < 0) {
+        to.shift = -begin * to.scale;
+        out.notes.push_back(name + ": " + item_path("animations", a) +
+                            ": expected no key before 0 s, found one at " + brief(begin) +
+                            " s; all keys of this animation are read that much later");
+      }
+      if (!to.changes()) continue;
+      if (!retime_animation(a, to)) return false;
+      any = true;
+    }
+    if (any) out.bytes = write_gltf_container(document_.container, std::move(json_), added_);
+    return true;
+  }
+
+ private:
+  // The accessor that a member of a sampler names; -1 where it is none that can be read. What no
+  // channel of ours uses may be anything.
+  int accessor_of(const GltfJson& sampler, const char* member) const {
+    const auto found = sampler.find(member);
+    const auto accessors = document_.container.json.find("accessors");
+    if (found == sampler.end() || accessors == document_.container.json.end() ||
+        !found->is_number_unsigned() || found->get<uint64_t>() >= accessors->size()) {
+      return -1;
+    }
+    return found->get<int>();
+  }
+  bool read(int accessor, GltfValues& out) const {
+    GltfChecker unread("");
+    return accessor >= 0 && read_gltf_accessor(document_.container, accessor, "", unread, out) &&
+           out.count > 0;
+  }
+  const GltfJson& samplers(size_t animation) const {
+    static const GltfJson kNone = GltfJson::array();
+    const GltfJson& json = document_.container.json["animations"][animation];
+    const auto found = json.find("samplers");
+    return found != json.end() && found->is_array() ? *found : kNone;
+  }
+
+  // The first time of any sampler, seconds; 0 where there are none.
+  double begin_of(size_t animation) {
+    double begin = INFINITY;
+    for (const GltfJson& sampler : samplers(animation)) {
+      const int accessor = sampler.is_object() ? accessor_of(sampler, "input") : -1;
+      const auto known = begins_.find(accessor);
+      if (known == begins_.end()) {
+        GltfValues times;
+        const bool good = read(accessor, times) && times.components == 1;
+        begins_[accessor] = good ? static_cast<double>(times.numbers[0]) : INFINITY;
+      }
+      begin = std::min(begin, begins_[accessor]);
+    }
+    return std::isfinite(begin) ? begin : 0;
+  }
+
+  bool retime_animation(size_t animation, Retiming to) {
+    const size_t count = samplers(animation).size();
+    for (size_t s = 0; s < count; ++s) {
+      const GltfJson& sampler = samplers(animation)[s];
+      if (!sampler.is_object()) continue;
+      const int input = accessor_of(sampler, "input"), output = accessor_of(sampler, "output");
+      GltfValues times;
+      if (!read(input, times) || times.components != 1) continue;
+      GltfJson& changed = json_["animations"][animation]["samplers"][s];
+      changed["input"] = times_at(input, times, to);
+      if (to.scale != 1 && sampler.value("interpolation", GltfJson()) == "CUBICSPLINE") {
+        const int tangents = tangents_at(output, times.count, to.scale);
+        if (tangents >= 0) changed["output"] = tangents;
+      }
+      if (added_.size() / 4 <= gltf_max_values(document_.container.size)) continue;
+      return checker_.fail(item_path("animations", animation),
+                           "expected at most " +
+                               std::to_string(gltf_max_values(document_.container.size)) +
+                               " numbers in keys of another time, found more");
+    }
+    return true;
+  }
+
+  // A writer of its own for each accessor, so that times and values do not share a view.
+  GltfDataWriter writer() {
+    return GltfDataWriter(gltf_added_at(document_.container), json_, added_);
+  }
+
+  int times_at(int accessor, const GltfValues& old, Retiming to) {
+    int& made = times_.emplace(std::tuple(accessor, to.scale, to.shift), -1).first->second;
+    if (made >= 0) return made;
+    std::vector<float> times;
+    for (const float old_time : old.numbers) {
+      const double exact = static_cast<double>(old_time) * to.scale + to.shift;
+      float time = static_cast<float>(std::max(0.0, exact));
+      // Where floats are further apart than the keys, times have to increase all the same.
+      if (!times.empty()) time = std::max(time, std::nextafter(times.back(), HUGE_VALF));
+      times.push_back(time);
+    }
+    return made = static_cast<int>(writer().add(times, "SCALAR", 1, true));
+  }
+
+  // The values of a cubic spline: its tangents are per second. -1 where there are none.
+  int tangents_at(int accessor, size_t keys, double scale) {
+    int& made = tangents_.emplace(std::pair(accessor, scale), -1).first->second;
+    if (made >= 0) return made;
+    GltfValues values;
+    if (!read(accessor, values) || values.numbers.size() % (3 * keys) != 0) return -1;
+    const size_t width = values.numbers.size() / (3 * keys);
+    for (size_t i = 0; i < values.numbers.size(); ++i) {
+      if (i / width % 3 == 1) continue;
+      values.numbers[i] = static_cast<float>(static_cast<double>(values.numbers[i]) / scale);
+    }
+    constexpr const char* kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
+    return made = static_cast<int>(
+               writer().add(values.numbers, kTypes[values.components - 1], values.components));
+  }
+
+  const GltfDocument& document_;
+  GltfChecker& checker_;
+  GltfJson json_;
+  std::string added_;
+  std::map<int, double> begins_;                          // By accessor.
+  std::map<std::tuple<int, double, double>, int> times_;  // Accessor, scale, shift.
+  std::map<std::pair<int, double>, int> tangents_;        // Accessor, scale.
+};
+
+}  // namespace
+
+bool retime_gltf(const GltfDocument& document, std::optional<double> fps, const std::string& name,
+                 GltfChecker& checker, RetimedGltf& out) {
+  return Retimer(document, checker).retime(fps, name, out);
+}
+
+}  // namespace panache

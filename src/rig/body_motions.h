@@ -1,0 +1,32 @@
+#pragma once
+// Which motions of a file are a person's: files also hold animations of morph weights, materials,
+// cameras and props.
+
+#include <string>
+#include <vector>
+
+#include "clip/motion_file.h"
+#include "rig/rig.h"
+
+namespace panache {
+
+// Whether a motion moves the humanoid of `rig`: one of its joints, a joint between them, or one
+// that carries them all. `joints` are those of the motion, with what it leaves still.
+bool moves_humanoid(const Skeleton& joints, const Rig& rig);
+
+struct BodyMotions {
+  std::vector<int> clips;  // As in MotionFile::clip(), in their order.
+  bool humanoid = false;   // Told by the humanoid; else all that move any joint, as there is none.
+};
+BodyMotions find_body_motions(const MotionFile& file, const RigOptions& options = {});
+
+// "'blink' and 'lamp' move no joint of the humanoid", for messages.
+std::string describe_still(const std::vector<std::string>& names, bool humanoid);
+// The same of all motions that `body` of a file lacks, "... and are passed over"; empty where there
+// are none.
+std::string note_passed_over(const MotionFile& file, const BodyMotions& body);
+
+// The first of them, or 0: what stands for a file of which one motion is wanted.
+int first_body_motion(const MotionFile& file, const RigOptions& options = {});
+
+}  // namespace panache
