@@ -204,11 +204,17 @@ public sealed class Clip {
   public float[] Translations;  // [frames * joints * 3]
   public int FrameCount => Rotations.Length / (4 * Skeleton.JointCount);
 
-  /// A motion of a BVH, GLB, glTF or VRM file.
-  public static Clip Load(string path, int motion = 0) {
+  /// A motion of a BVH, GLB, glTF or VRM file; framesPerSecond above 0 where its rate is wrong or
+  /// missing.
+  public static Clip Load(string path, int motion = 0, double framesPerSecond = 0) {
     byte[] bytes = File.ReadAllBytes(path);
-    Native.Check(Native.panache_motion_file_create(bytes, (UIntPtr)bytes.Length, Native.Utf8(path),
-                                                   out IntPtr created));
+    IntPtr created;
+    Native.Check(framesPerSecond == 0
+        ? Native.panache_motion_file_create(bytes, (UIntPtr)bytes.Length, Native.Utf8(path),
+                                            out created)
+        : Native.panache_motion_file_create_at_rate(bytes, (UIntPtr)bytes.Length,
+                                                    Native.Utf8(path), framesPerSecond,
+                                                    out created));
     using (var file = new Handle(created, Native.panache_motion_file_destroy)) {
       Native.Check(Native.panache_motion_file_get_clip(file, motion, out Native.Clip found));
       Native.Check(Native.panache_motion_file_create_skeleton(file, motion, IntPtr.Zero,
@@ -427,6 +433,10 @@ internal static class Native {
   [DllImport(Library)]
   internal static extern int panache_motion_file_create(byte[] bytes, UIntPtr size, byte[] name,
                                                         out IntPtr file);
+  [DllImport(Library)]
+  internal static extern int panache_motion_file_create_at_rate(byte[] bytes, UIntPtr size,
+                                                                byte[] name, double fps,
+                                                                out IntPtr file);
   [DllImport(Library)] internal static extern void panache_motion_file_destroy(IntPtr file);
   [DllImport(Library)]
   internal static extern int panache_motion_file_get_clip(Handle file, int motion, out Clip clip);

@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import warnings
 from ctypes import byref
 from dataclasses import dataclass
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Union
@@ -24,13 +25,22 @@ class MotionFile:
 
     joint_names, parents: of its joints, parents before children.
     clip_names:           of its motions, '' where they have none (BVH).
+    moves:                of its motions: whether each moves a joint of the humanoid. Those that do
+                          not, such as animations of morph weights or props, are passed over where
+                          whole files are styled or retargeted.
+
+    fps: frames a second, for a file whose rate is wrong or missing; it is read and written so.
     """
 
-    def __init__(self, path: Path):
+    def __init__(self, path: Path, fps: Optional[float] = None):
         self.path = str(path)
         content = read_bytes(path)
-        self._handle = Handle('motion_file', lib.motion_file_create, content, len(content),
-                              self.path.encode())
+        if fps is None:
+            self._handle = Handle('motion_file', lib.motion_file_create, content, len(content),
+                                  self.path.encode())
+        else:
+            self._handle = Handle('motion_file', lib.motion_file_create_at_rate, content,
+                                  len(content), self.path.encode(), fps)
         at, joint = self._handle.pointer, c.Joint()
         self.joint_names: List[str] = []
         self.parents: List[int] = []
@@ -41,6 +51,26 @@ class MotionFile:
         self.clip_names: List[str] = [
             lib.motion_file_clip_name(at, i).decode(errors='replace')
             for i in range(lib.motion_file_clip_count(at))]
+        self.moves: List[bool] = [lib.motion_file_clip_moves(at, i) != 0
+                                  for i in range(len(self.clip_names))]
+
+    @property
+    def notes(self) -> List[str]:
+        """What is odd about the file although it was read, a sentence each: a wrong count of frames,
+        keys before 0 s, motions that are passed over, steps too fast or slow for the legs."""
+        text = take_bytes(lib.motion_file_get_notes, self._handle.pointer)
+        return text.decode(errors='replace').splitlines()
+
+    def _body_motions(self) -> List[int]:
+        """The places of the motions that move the humanoid; warns of all that is noted."""
+        self._place(0)
+        found = [i for i, moves in enumerate(self.moves) if moves]
+        if not found:
+            raise PanacheError(f'{self.path}: none of its motions moves a joint of the humanoid; '
+                               'expected an animation that does')
+        for note in self.notes:
+            warnings.warn(note, stacklevel=3)
+        return found
 
     def __repr__(self) -> str:
         return (f'<panache.MotionFile {self.path!r}: {len(self.joint_names)} joints, '
@@ -139,9 +169,13 @@ class Edit:
             self.source_frames = self.clip.source_frames
 
 
-def read(path: Path, which: Union[int, str] = 0) -> Clip:
-    """A motion of a file, by its place or name."""
-    return MotionFile(path).clip(which)
+def read(path: Path, which: Union[int, str, None] = None, fps: Optional[float] = None) -> Clip:
+    """A motion of a file, by its place or name; the first that moves the humanoid where none is
+    asked for. `fps` as for `MotionFile`. What is odd about the file comes as warnings."""
+    file = MotionFile(path, fps)
+    if which is None:
+        return file.clip(file._body_motions()[0])
+    return file.clip(which)
 
 
 def _title(name: str, path: str) -> str:
@@ -157,50 +191,57 @@ def _amount(strength: Strength) -> str:
 
 def stylize_file(source: Path, output: Path, styles: Mapping[str, Strength],
                  model: Optional[Model] = None, *, mode: str = 'last', force: bool = False,
-                 **options: Any) -> None:
+                 fps: Optional[float] = None, **options: Any) -> None:
     """Restyles all motions of a file into another of the same format, as `panache stylize` does:
-    the same bytes. Options are those of `stylize()`; the model is the shipped default."""
-    file = MotionFile(source)
-    file._place(0)
+    the same bytes. Options are those of `stylize()`, `fps` as for `MotionFile`; the model is the
+    shipped default. Motions that move no joint of the humanoid stay, with a warning."""
+    file = MotionFile(source, fps)
+    motions = file._body_motions()
     file._check_output(output, force)
     model = model_of(model)
     text = ', '.join(f'{name} {_amount(strength)}' for name, strength in styles.items())
     edits = [Edit(stylize(model, file.clip(i), styles, **options), i,
-                  f'{_title(name, file.path)} ({text})')
-             for i, name in enumerate(file.clip_names)]
+                  f'{_title(file.clip_names[i], file.path)} ({text})')
+             for i in motions]
     write(output, file.encode(edits, mode), force)
 
 
 def retarget_file(source: Path, character: Path, output: Path, *, mode: str = 'last',
-                  force: bool = False, **options: Any) -> None:
+                  force: bool = False, fps: Optional[float] = None, **options: Any) -> None:
     """Puts all motions of a file on the character of another, as `panache retarget` does: the
-    output is the character's file with the motions in it. Options are those of `retarget()`."""
-    file, onto = MotionFile(source), MotionFile(character)
-    file._place(0)
+    output is the character's file with the motions in it. Options are those of `retarget()`; `fps`
+    as for `MotionFile`, of the motions. Those that move no joint of the humanoid are left out, with
+    a warning."""
+    file, onto = MotionFile(source, fps), MotionFile(character)
+    motions = file._body_motions()
     onto._check_output(output, force)
     skeleton = onto.skeleton(-1)
-    edits = [Edit(retarget(file.clip(i), skeleton, **options), -1, _title(name, file.path))
-             for i, name in enumerate(file.clip_names)]
+    edits = [Edit(retarget(file.clip(i), skeleton, **options), -1,
+                  _title(file.clip_names[i], file.path))
+             for i in motions]
     write(output, onto.encode(edits, mode), force)
 
 
-def info(path: Path) -> Dict[str, Any]:
-    """What a file is. Of a motion file: 'joints' (names), 'clips' (name, frames, seconds), 'mapping'
-    (the joint of each human joint; None where there is no humanoid, with 'error' for the reason).
-    Of a model: 'styles' and 'metadata'."""
+def info(path: Path, fps: Optional[float] = None) -> Dict[str, Any]:
+    """What a file is. Of a motion file: 'joints' (names), 'clips' (name, frames, seconds, moves),
+    'notes' (as MotionFile.notes), 'mapping' (the joint of each human joint; None where there is no
+    humanoid, with 'error' for the reason). `fps` as for `MotionFile`. Of a model: 'styles' and 'metadata'."""
     if pathlib.Path(path).suffix == '.safetensors':
         model = Model(path)
         return {'styles': model.styles, 'metadata': model.metadata}
-    file = MotionFile(path)
+    file = MotionFile(path, fps)
     clips = []
     for i, name in enumerate(file.clip_names):
         clip = c.Clip()
         check(lib.motion_file_get_clip(file._handle.pointer, i, clip))
         clips.append({'name': name, 'frames': clip.frame_count,
-                      'seconds': clip.frame_count * clip.frame_seconds})
-    out: Dict[str, Any] = {'joints': file.joint_names, 'clips': clips, 'mapping': None}
+                      'seconds': clip.frame_count * clip.frame_seconds,
+                      'moves': file.moves[i]})
+    out: Dict[str, Any] = {'joints': file.joint_names, 'clips': clips, 'notes': file.notes,
+                           'mapping': None}
     try:
-        out['mapping'] = file.skeleton(0 if clips else -1).mapping()
+        shown = file.moves.index(True) if True in file.moves else 0
+        out['mapping'] = file.skeleton(shown if clips else -1).mapping()
     except PanacheError as error:
         out['error'] = str(error)
     return out

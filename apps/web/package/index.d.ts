@@ -204,7 +204,10 @@ export class Panache {
   extractStyle(name: string): Uint8Array;
   removeStyle(name: string): void;
   /** Reads a .bvh, .glb, .gltf (self-contained), .vrm or .vrma; the extension of `name` decides. */
-  openFile(bytes: ArrayBuffer | Uint8Array, name: string): MotionFile;
+  openFile(bytes: ArrayBuffer | Uint8Array, name: string, options?: {
+    /** Frames a second, where the file's rate is wrong or missing. */
+    fps?: number;
+  }): MotionFile;
   /** Somebody who walks as she is steered, on a skeleton of humanJoints. */
   createWalker(): Walk;
   /** Finds the humanoid among the joints of a skeleton of yours, or throws. */
@@ -228,6 +231,8 @@ export interface ClipInfo {
   frameTime: number;
   /** From the first frame to the last. */
   seconds: number;
+  /** Whether it moves a joint of the humanoid; animations of morph weights or props do not. */
+  moves: boolean;
 }
 
 export class MotionFile {
@@ -236,6 +241,8 @@ export class MotionFile {
   readonly extension: string;
   /** Empty where the file has a skeleton and no motion; clip 0 is then its rest pose. */
   readonly clips: readonly ClipInfo[];
+  /** What is odd about the file although it was read, a sentence each. */
+  readonly notes: readonly string[];
   /** Parents before children; -1 above a root. */
   readonly joints: readonly { name: string; parent: number }[];
   /** Fails where the skeleton is no humanoid. The file may be freed first. */

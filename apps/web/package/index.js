@@ -112,14 +112,14 @@ export class Panache {
     return stylizeClip(this, skeleton, clip, strengths, options);
   }
 
-  openFile(bytes, name) {
+  openFile(bytes, name, { fps = 0 } = {}) {
     const extension = (/\.[^.]*$/.exec(name)?.[0] ?? '').toLowerCase();
     if (!['.bvh', '.glb', '.gltf', '.vrm', '.vrma'].includes(extension)) {
       throw new PanacheError(
         `${name}: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma), found ` +
           (extension ? `the extension '${extension}'` : 'no extension'));
     }
-    return new MotionFile(this, this.#wasm, bytes, name, extension);
+    return new MotionFile(this, this.#wasm, bytes, name, extension, fps);
   }
 
   createWalker() {
@@ -173,20 +173,21 @@ export class Panache {
 export class MotionFile {
   #panache; #wasm; #file; #extension;
 
-  constructor(panache, wasm, bytes, name, extension) {
+  constructor(panache, wasm, bytes, name, extension, fps) {
     this.#panache = panache;
     this.#wasm = wasm;
     this.#extension = extension;
     this.#file = panache._arena((arena) => panache._checked(wasm.panache_page_file_create(
       arena.copy(bytes), bytes.byteLength,
-      arena.text(name.slice(0, name.length - extension.length) + extension))));
-    const { clips, joints } = JSON.parse(new TextDecoder().decode(
-      panache._take(wasm.panache_page_file_describe(this.#file))));
+      arena.text(name.slice(0, name.length - extension.length) + extension), fps)));
+    const { clips, joints, notes } = panache._arena((arena) => JSON.parse(new TextDecoder().decode(
+      panache._take(wasm.panache_page_file_describe(this.#file, arena.text(name))))));
     this.name = name;
     this.extension = extension;
     this.joints = joints;
-    this.clips = clips.map(({ name: title, frames, frameTime }) => (
-      { name: title, frames, frameTime, seconds: Math.max(0, frames - 1) * frameTime }));
+    this.notes = notes;
+    this.clips = clips.map(({ name: title, frames, frameTime, moves }) => (
+      { name: title, frames, frameTime, seconds: Math.max(0, frames - 1) * frameTime, moves }));
   }
 
   get _handle() { return this.#file; }

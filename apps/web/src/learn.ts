@@ -4,7 +4,7 @@ import type { LearnReport, MotionFile, Panache } from '../package/index.js';
 import { PanacheError } from '../package/index.js';
 import { element } from './dom';
 import { drawMatch, kMatchPlotHeight } from './match_plot';
-import { openFile } from './source';
+import { firstMotion, openFile } from './source';
 
 type Role = 'neutral' | 'styled';
 const kTitles = { neutral: 'Neutral', styled: 'In the style' };
@@ -76,14 +76,15 @@ class Slot {
 
   async open(file: File) {
     const opened = (await openFile(this.host.panache, file)).file;
+    const first = firstMotion(opened);
     this.file?.free();
     this.file = opened;
     this.action = null;
     const { clips } = opened;
-    this.#clips.replaceChildren(...clips.map(({ name }, i) =>
-      element('option', { value: i }, name || `motion ${i + 1}`)));
-    this.#clips.hidden = clips.length < 2;
-    this.#say(`${opened.name}, ${(clips[0]?.seconds ?? 0).toFixed(1)} s`);
+    this.#clips.replaceChildren(...clips.flatMap(({ name, moves }, i) =>
+      (moves ? [element('option', { value: i }, name || `motion ${i + 1}`)] : [])));
+    this.#clips.hidden = this.#clips.childElementCount < 2;
+    this.#say(`${opened.name}, ${(clips[first]?.seconds ?? 0).toFixed(1)} s`);
   }
 
   #actions() {

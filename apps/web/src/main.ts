@@ -24,7 +24,7 @@ import {
   fromAddress, rememberInAddress, shapeOf, Store, toAddress, type Settings,
 } from './settings';
 import {
-  clipSource, isModel, openFile, putTogether, titleOf, walkSource, type Source,
+  clipSource, firstMotion, isModel, openFile, putTogether, titleOf, walkSource, type Source,
 } from './source';
 import { Stage } from './stage';
 import { kPaces, Steering, type Pace } from './steering';
@@ -418,13 +418,14 @@ class Page {
     const opened = await openFile(this.#panache, file);
     let source: Source;
     try {
-      source = await clipSource(opened.file, opened.bytes, 0);
+      source = await clipSource(opened.file, opened.bytes, firstMotion(opened.file));
     } catch (error) {
       opened.file.free();
       throw error;
     }
     this.#bytes = opened.bytes;
     this.#use(source);
+    if (opened.file.notes.length > 0) this.#alert(opened.file.notes.join('\n'));
   }
 
   async #playClip(clip: number) {

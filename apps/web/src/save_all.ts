@@ -17,7 +17,8 @@ function addFile(out: Exports, file: MotionFile, prepare: (player: Playback) => 
     nameOf: (source: string) => string) {
   const title = titleOf(file.name);
   try {
-    file.clips.forEach(({ name }, i) => {
+    file.clips.forEach(({ name, moves }, i) => {
+      if (!moves) return;
       const player = file.createPlayer(i);
       try {
         prepare(player);

@@ -23,7 +23,26 @@ export async function openFile(panache: Panache, file: File): Promise<{ file: Mo
       `${Math.ceil(file.size / (1 << 20))} MB; the program panache takes files of any size`);
   }
   const bytes = await file.arrayBuffer();
-  return { file: panache.openFile(bytes, file.name), bytes };
+  const open = (fps = 0) => ({ file: panache.openFile(bytes, file.name, { fps }), bytes });
+  try {
+    return open();
+  } catch (error) {
+    // The library says so where a file has no rate, or one that cannot be.
+    if (!(error instanceof PanacheError) || !error.message.endsWith('give its rate')) throw error;
+    const fps = Number(window.prompt(`${error.message}\n\nFrames a second of ${file.name}:`) ?? '');
+    if (!(fps > 0)) throw error;
+    return open(fps);
+  }
+}
+
+/** The first motion of the humanoid. Rejects a file that has motions, and none of it. */
+export function firstMotion({ clips, name }: MotionFile): number {
+  const first = clips.findIndex(({ moves }) => moves);
+  if (first < 0 && clips.length > 0) {
+    throw new PanacheError(`${name}: none of its motions moves a joint of the humanoid; expected ` +
+      'an animation that does');
+  }
+  return Math.max(first, 0);
 }
 
 /** A file's name without its extension. */
@@ -45,7 +64,7 @@ export async function putTogether(panache: Panache, files: File[]): Promise<File
     const onto = (await openFile(panache, character)).file;
     try {
       const title = `${titleOf(motion.name)}-on-${character.name}`;
-      return [new File([from.putOn(onto) as BlobPart], title)];
+      return [new File([from.putOn(onto, firstMotion(from)) as BlobPart], title)];
     } finally {
       onto.free();
     }

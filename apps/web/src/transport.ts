@@ -107,9 +107,9 @@ export class TransportBar {
 
   show(file: MotionFile, clip: number) {
     this.#seconds = file.clips[clip]?.seconds ?? 0;
-    this.#clips.replaceChildren(...file.clips.map(({ name }, i) =>
-      element('option', { value: i, selected: i === clip }, name || `motion ${i + 1}`)));
-    this.#clips.hidden = file.clips.length < 2;
+    this.#clips.replaceChildren(...file.clips.flatMap(({ name, moves }, i) => (moves
+      ? [element('option', { value: i, selected: i === clip }, name || `motion ${i + 1}`)] : [])));
+    this.#clips.hidden = this.#clips.childElementCount < 2;
     this.#now = 0;
     this.clearRange();
   }

@@ -15,8 +15,10 @@
 #include "exports.h"
 #include "golden.h"
 #include "player.h"
+#include "pose/motion_notes.h"
 #include "retarget/find_body.h"
 #include "retarget/retarget.h"
+#include "rig/body_motions.h"
 
 using namespace panache;
 using namespace panache::web;
@@ -33,10 +35,15 @@ PANACHE_EXPORT WalkerHandle* panache_page_walker_create(const char* data, uint32
 }
 PANACHE_EXPORT void panache_page_walker_free(WalkerHandle* walker) { delete walker; }
 
-// The extension of `name` decides.
+// The extension of `name` decides. `fps` as in ReadOptions; 0: the file's.
 PANACHE_EXPORT FileHandle* panache_page_file_create(const char* data, uint32_t size,
-                                                    const char* name) {
-  auto file = parse_motion(std::string(bytes_at(data, size)), name);
+                                                    const char* name, double fps) {
+  ReadOptions options;
+  if (fps != 0) {
+    if (auto good = check_fps(fps); !good) return fail(good.error());
+    options.fps = fps;
+  }
+  auto file = parse_motion(std::string(bytes_at(data, size)), name, options);
   if (file) return new FileHandle(*std::move(file));
   return fail(file.error());
 }
@@ -46,7 +53,9 @@ PANACHE_EXPORT panache_bytes* panache_page_file_put_on(FileHandle* motion, int32
   const Clip& clip = (*motion)->clip(which);
   const Result<Rig> rig = Rig::create(clip);
   if (!rig) return fail(rig.error());
-  const Clip* own = (*character)->clip_names().empty() ? nullptr : &(*character)->clip(0);
+  const Clip* own = (*character)->clip_names().empty()
+                        ? nullptr
+                        : &(*character)->clip(first_body_motion(**character));
   const Result<std::pair<Clip, Rig>> body = find_body((*character)->rest(), own, {});
   if (!body) return fail(body.error());
   const Result<Retargeted> done = retarget(clip, *rig, body->first, body->second);
@@ -59,17 +68,24 @@ PANACHE_EXPORT panache_bytes* panache_page_file_put_on(FileHandle* motion, int32
   return new panache_bytes{(*character)->encode({&edit, 1}, EditMode::replace)};
 }
 PANACHE_EXPORT void panache_page_file_free(FileHandle* file) { delete file; }
-PANACHE_EXPORT panache_bytes* panache_page_file_describe(FileHandle* file) {
+// `name` is that of the file, for its notes.
+PANACHE_EXPORT panache_bytes* panache_page_file_describe(FileHandle* file, const char* name) {
   nlohmann::json clips = nlohmann::json::array(), joints = nlohmann::json::array();
   const std::vector<std::string> names = (*file)->clip_names();
+  const std::vector<int> body = find_body_motions(**file).clips;
   for (size_t i = 0; i < names.size(); ++i) {
-    const Clip& clip = (*file)->clip(static_cast<int>(i));
-    clips.push_back({{"name", names[i]}, {"frames", clip.frames}, {"frameTime", clip.frame_time}});
+    const int which = static_cast<int>(i);
+    const Clip& clip = (*file)->clip(which);
+    clips.push_back({{"name", names[i]},
+                     {"frames", clip.frames},
+                     {"frameTime", clip.frame_time},
+                     {"moves", std::find(body.begin(), body.end(), which) != body.end()}});
   }
   for (const Joint& joint : (*file)->clip().skeleton.joints) {
     joints.push_back({{"name", joint.name}, {"parent", joint.parent}});
   }
-  const nlohmann::json all = {{"clips", clips}, {"joints", joints}};
+  const nlohmann::json all = {
+      {"clips", clips}, {"joints", joints}, {"notes", motion_notes(**file, name)}};
   // Names are the file's, and may be no UTF-8.
   return new panache_bytes{all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
 }
