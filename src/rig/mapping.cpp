@@ -8,6 +8,7 @@
 #include "rig/limb_shape.h"
 #include "rig/limbs_by_name.h"
 #include "rig/limbs_by_shape.h"
+#include "rig/standard_names.h"
 
 namespace panache {
 namespace {
@@ -66,12 +67,23 @@ class Mapper {
     if (by_shape && limbs.side_confidence < 0.3f) {
       map_.notes.push_back("left and right are guessed: nothing shows which way the body faces");
     }
+    for (size_t side : {0, 1}) prefer_limb_names(side);
     find_torso();
     if (!missing_.empty()) return rejection(joints_, missing_);
+    prefer_torso_names();
     find_head();
+    prefer_name(neck, [&](int j) { return is_between(neck_base(), j, at(head)); });
     find_spine();
+    if (at(chest) >= 0) {
+      prefer_name(spine, [&](int j) { return is_between(at(hips), j, at(chest)); });
+    }
     for (size_t side : {0, 1}) {
-      find_shoulder(side ? right_shoulder : left_shoulder, side);
+      const HumanJoint shoulder = side ? right_shoulder : left_shoulder;
+      find_shoulder(shoulder, side);
+      prefer_name(shoulder, [&](int j) {
+        return is_between(neck_base(), j, at(kLimbNames[0][side].upper)) &&
+               !tree_.is_above(j, arm_tips_[1 - side]);
+      });
       find_toes(side ? right_toes : left_toes, kLimbNames[1][side].end);
     }
     if (const auto done = apply_overrides(); !done) return done.error();
@@ -106,6 +118,71 @@ class Mapper {
     put(names.lower, limb.lower, limb.end < 0 ? "by its name" : above(names.end), kByTree);
     put(names.upper, limb.upper, above(names.lower), kByTree);
   }
+  // Whether `joint` is strictly below one joint and above another; one that is -1 is no limit.
+  bool is_between(int above, int joint, int below) const {
+    return (above < 0 || (joint != above && tree_.is_above(above, joint))) &&
+           (below < 0 || (joint != below && tree_.is_above(joint, below)));
+  }
+  int neck_base() const { return at(chest) >= 0 ? at(chest) : at(hips); }
+
+  // A joint that has the standards' own name for `joint` takes the place of one that was found by
+  // its place and has no such name, where it fits into the tree and the mesh does not follow the
+  // other instead.
+  template <class Fits>
+  void prefer_name(HumanJoint joint, Fits fits) {
+    if (by_shape_ || known_.contains(index(joint))) return;
+    const int guess = at(joint);
+    if (guess >= 0 && is_standard_name(names_[guess])) return;
+    int best = -1, misplaced = -1;
+    for (int j = 0; j < tree_.count(); ++j) {
+      if (!is_standard_name_of(names_[j], joint) || is_taken(j)) continue;
+      if (!fits(j)) {
+        misplaced = misplaced < 0 ? j : misplaced;
+      } else if (best < 0 || joints_[j].skin_weight > joints_[best].skin_weight) {
+        best = j;
+      }
+    }
+    const auto say = [&](int j, const std::string& why) {
+      if (guess < 0) return;
+      map_.notes.push_back("'" + joints_[j].name + "' is named as " + name_of(joint) + " and " +
+                           why + ": '" + joints_[guess].name + "' is taken");
+    };
+    if (best < 0 && misplaced >= 0) return say(misplaced, "is not where that hangs");
+    if (best < 0) return;
+    if (guess >= 0 && joints_[guess].skin >= 0 && joints_[best].skin < 0) {
+      return say(best, "moves no mesh of its own");
+    }
+    put(joint, best, "by its name", kByName);
+  }
+  bool is_taken(int joint) const {
+    return std::find(map_.joint_of.begin(), map_.joint_of.end(), joint) != map_.joint_of.end();
+  }
+
+  void prefer_limb_names(size_t side) {
+    for (const auto& limbs : kLimbNames) {
+      const LimbNames& limb = limbs[side];
+      const LimbNames& other = limbs[1 - side];
+      const int other_tip = at(other.end) >= 0 ? at(other.end) : at(other.lower);
+      if (at(limb.end) >= 0) {
+        prefer_name(limb.lower, [&](int j) {
+          return is_between(-1, j, at(limb.end)) && !tree_.is_above(j, other_tip);
+        });
+      }
+      prefer_name(limb.upper, [&](int j) {
+        return is_between(-1, j, at(limb.lower)) && !tree_.is_above(j, other_tip);
+      });
+    }
+  }
+  void prefer_torso_names() {
+    prefer_name(hips, [&](int j) {
+      return is_between(-1, j, at(left_upper_leg)) && is_between(-1, j, at(right_upper_leg)) &&
+             tree_.is_above(j, arm_tips_[0]) && tree_.is_above(j, arm_tips_[1]) && j != at(chest);
+    });
+    prefer_name(chest, [&](int j) {
+      return is_between(at(hips), j, arm_tips_[0]) && is_between(at(hips), j, arm_tips_[1]);
+    });
+  }
+
   template <class Where>
   int find(Side side, bool (*is)(const JointName&), Where where) const {
     return find_named(tree_, names_, side, is, where);

@@ -55,6 +55,34 @@ TEST(Mapping, our_own_skeleton_maps_to_itself) {
   EXPECT_TRUE(got->notes.empty());
 }
 
+// VRM's names with a group wherever a guess by place would take it.
+TEST(Mapping, a_standards_own_name_goes_before_a_guess_by_place) {
+  expect_mapping({{"hips", "", hips},
+                  {"group 1", "hips", hips, 0.99f},
+                  {"spine", "group 1", spine},
+                  {"group 2", "spine", spine, 1.2f},
+                  {"chest", "group 2", chest, 0.8f},
+                  {"group 3", "chest", chest},
+                  {"neck", "group 3", neck, 0.9f},
+                  {"group 4", "neck", neck},
+                  {"head", "group 4", head},
+                  {"*Shoulder", "group 3", left_shoulder, 0.9f},
+                  {"group 5*", "*Shoulder", left_shoulder},
+                  {"*UpperArm", "group 5*", left_upper_arm, 0.9f},
+                  {"group 6*", "*UpperArm", left_upper_arm},
+                  {"*LowerArm", "group 6*", left_lower_arm, 0.9f},
+                  {"group 7*", "*LowerArm", left_lower_arm},
+                  {"*Hand", "group 7*", left_hand},
+                  {"*UpperLeg", "group 1", left_upper_leg},
+                  {"*LowerLeg", "*UpperLeg", left_lower_leg, 0.9f},
+                  {"group 8*", "*LowerLeg", left_lower_leg},
+                  {"*Foot", "group 8*", left_foot},
+                  {"*Toes", "*Foot", left_toes}},
+                 "left", "right",
+                 {"hips", "spine", "chest", "neck", "head", "*Shoulder", "*UpperArm", "*LowerArm",
+                  "*Hand", "*UpperLeg", "*LowerLeg", "*Foot", "*Toes"});
+}
+
 const std::vector<Line> kMixamo = {
     {"m:Hips", "", hips},
     {"m:Spine", "m:Hips", spine, 0.5f},
