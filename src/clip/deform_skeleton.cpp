@@ -90,6 +90,8 @@ class TreeFinder {
     find_pieces();
     if (!is_in_pieces()) return std::nullopt;
     look_at_motion();
+    pick_carriers();
+    if (!is_in_pieces()) return std::nullopt;
     join_pieces();
     return in_order();
   }
@@ -150,6 +152,59 @@ class TreeFinder {
     for (int f = 0; f < clip_.frames; f += step) {
       poses_.push_back(place(clip_.skeleton, clip_.pose(f)));
     }
+  }
+
+  // Picks what deforms nothing and carries several pieces: hips that are not in the skin's list, on
+  // which legs and spine hang. Unlike the root or a control of a rig, they are near to their
+  // pieces, which keep their places on them in motion. The lowest come first.
+  void pick_carriers() {
+    const float size = body_size();
+    for (size_t j = count(); j-- > 0;) {
+      if (picked_[j]) continue;
+      std::vector<size_t> between;  // It, and what lies between it and its pieces.
+      int pieces = 0;
+      for (size_t root = j + 1; root < count(); ++root) {
+        if (!picked_[root] || parent_[root] >= 0) continue;
+        std::vector<size_t> path;
+        if (!hangs_on(root, j, size, path)) continue;
+        ++pieces;
+        between.insert(between.end(), path.begin(), path.end());
+      }
+      if (pieces < 2) continue;
+      for (const size_t joint : between) picked_[joint] = 1;
+      find_pieces();
+    }
+  }
+
+  // Whether all between the root of a piece and a joint above it stays put in motion, near to it;
+  bool hangs_on(size_t root, size_t above, float size, std::vector<size_t>& path) const {
+    constexpr float kStays = 1e-3f, kNear = 0.25f;  // Of the body's size.
+    for (size_t at = root; at != above;) {
+      const int up = joints_[at].parent;
+      if (up < 0 || static_cast<size_t>(up) < above) return false;
+      const auto parent = static_cast<size_t>(up);
+      if (picked_[parent]) return false;
+      const Vec3 first = seen_from(poses_.front()[parent], poses_.front()[at].position);
+      for (const auto& pose : poses_) {
+        const Vec3 place = seen_from(pose[parent], pose[at].position);
+        if (length(place - first) > kStays * size) return false;
+      }
+      path.push_back(parent);
+      at = parent;
+    }
+    const std::vector<Placed>& first = poses_.front();
+    return length(first[root].position - first[above].position) <= kNear * size;
+  }
+  // The longest way between two deforming joints along one axis.
+  float body_size() const {
+    Vec3 low{INFINITY, INFINITY, INFINITY}, high = -low;
+    for (size_t j = 0; j < count(); ++j) {
+      if (!picked_[j]) continue;
+      const Vec3 p = poses_.front()[j].position;
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
   }
 
   // How far the root of a piece is from following joint `above`, in the file's units: by how much

@@ -290,6 +290,20 @@ TEST(GltfRead, an_animated_node_outside_of_skins_is_a_joint) {
   EXPECT_EQ(clip.pose(3).translations[lamp], (Vec3{0.3f, 1, 0}));
 }
 
+// What hangs on the hips, and they themselves, stay with the legs and the spine that they carry.
+TEST(GltfRead, hips_that_are_in_no_skin_stay_in_the_tree) {
+  GltfParts parts = test::character();
+  Json& joints = parts.json["skins"][0]["joints"];
+  ASSERT_EQ(joints[0], 1);
+  joints[0] = 2;  // What followed the hips follows the spine.
+  const auto plain = must_read(test::character()), file = must_read(parts);
+  ASSERT_TRUE(plain && file);
+  ASSERT_EQ(file->clip().joints(), plain->clip().joints());
+  for (size_t j = 0; j < plain->clip().joints(); ++j) {
+    EXPECT_EQ(file->clip().skeleton.joints[j].parent, plain->clip().skeleton.joints[j].parent);
+  }
+}
+
 TEST(GltfRead, a_matrix_is_taken_apart_and_stays_put) {
   GltfParts parts = small_gltf();
   // A quarter turn about y, twice the size, at (1, 2, 3).
