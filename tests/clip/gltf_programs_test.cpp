@@ -103,6 +103,17 @@ TEST_F(GltfPrograms, the_khronos_validator_finds_no_error) {
     add("text" + number + ".gltf",
         changed(*must_read(test::to_gltf_text(parts)), EditMode::add_beside));
   }
+  // Keys before 0 are an error, and what is made of them is none.
+  test::GltfParts early = test::character();
+  const size_t times = early.add_bounded(test::key_times(31, 30, -0.5f), "SCALAR", 1);
+  early.json["animations"][0]["samplers"][0]["input"] = times;
+  put("early.glb", test::to_glb(early));
+  EXPECT_NE(run("validate.mjs", "early.glb"), "");
+  const auto mended = must_read(early);
+  add("whole.glb", mended->encode({}, EditMode::replace));
+  for (const EditMode mode : {EditMode::add_beside, EditMode::replace}) {
+    add("mended" + std::to_string(static_cast<int>(mode)) + ".glb", changed(*mended, mode));
+  }
   for (const char* fixture : kBvhFixtures) {
     const auto bvh = must_parse(read_fixture(fixture));
     add(std::string(fixture) + ".glb", format_glb(bvh->clip(), "a walk", 0.01, {}));
