@@ -18,8 +18,9 @@
 //
 // A VRM animation (.vrma, the extension VRMC_vrm_animation) is a GLB of which a humanoid names the
 // joints, and one animation. Its nodes at rest are the T-pose, facing +z, whatever they look like:
-// the clip has the rotations of the file and stands in a T-pose where these are the resting ones. Nodes that carry the weights of
-// expressions or the gaze are no joints; their keys follow the frames.
+// the clip has the rotations of the file and stands in a T-pose where these are the resting ones.
+// Nodes that carry the weights of expressions or the gaze are no joints; their keys follow the
+// frames.
 //
 // Everything else in a file stays: the JSON is edited in place, and new data goes to its end.
 
