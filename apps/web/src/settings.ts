@@ -53,15 +53,19 @@ export function bounded(value: number, least: number, most: number, otherwise: n
   return Math.round(Math.min(most, Math.max(least, value)) * 100) / 100 || 0;
 }
 
-/** "old=0.5&view=over": what differs from the defaults; "neutral" where nothing does, and nothing
- * for what a visitor sees first. */
+// Styles have a space of their own in an address: a learnt style may be called as a setting is.
+const kStyle = 'style.';
+const kKeys = 'keys.';
+
+/** "style.old=0.5&view=over": what differs from the defaults; "neutral" where nothing does, and
+ * nothing for what a visitor sees first. */
 export function toAddress(settings: Settings): string {
   if (same(settings, kOpening)) return '';
   const out = new URLSearchParams();
   for (const [name, value] of Object.entries(settings.styles)) {
-    if (value !== 0) out.set(name, String(value));
+    if (value !== 0) out.set(kStyle + name, String(value));
   }
-  for (const [name, keys] of Object.entries(settings.keys)) out.set(`${name}.keys`, toText(keys));
+  for (const [name, keys] of Object.entries(settings.keys)) out.set(kKeys + name, toText(keys));
   for (const key of kAmounts) if (settings[key] !== 1) out.set(key, String(settings[key]));
   for (const key of kSwitches) {
     if (settings[key] !== kDefaults[key]) out.set(key, settings[key] ? 'on' : 'off');
@@ -72,19 +76,26 @@ export function toAddress(settings: Settings): string {
 
 const same = (a: object, b: object): boolean => JSON.stringify(a) === JSON.stringify(b);
 
-/** The settings of an address; what it says that is unknown or wrong counts as not said. */
+/** The settings of an address; what it says that is unknown or wrong counts as not said. Addresses
+ * of before, "old=0.5" and "old.keys=...", are read where the name is no setting's. */
 export function fromAddress(text: string, styles: readonly string[]): Settings {
   const given = new URLSearchParams(text.replace(/^#/, ''));
   if (given.size === 0) return { ...kOpening, styles: { ...kOpening.styles } };
   const settings: Settings = { ...kDefaults, styles: {}, keys: {} };
   for (const [key, value] of given) {
     const number = value.trim() === '' ? NaN : Number(value);
-    if (styles.includes(key)) {
+    const setStyle = (name: string) => {
       const strength = bounded(number, kLeast, kMost, 0);
-      if (strength !== 0) settings.styles[key] = strength;
-    } else if (key.endsWith('.keys') && styles.includes(key.slice(0, -5))) {
+      if (strength !== 0) settings.styles[name] = strength;
+    };
+    const setKeys = (name: string) => {
       const keys = fromText(value);
-      if (keys.length) settings.keys[key.slice(0, -5)] = keys;
+      if (keys.length) settings.keys[name] = keys;
+    };
+    if (key.startsWith(kStyle) && styles.includes(key.slice(kStyle.length))) {
+      setStyle(key.slice(kStyle.length));
+    } else if (key.startsWith(kKeys) && styles.includes(key.slice(kKeys.length))) {
+      setKeys(key.slice(kKeys.length));
     } else if (kAmounts.includes(key as Amount)) {
       settings[key as Amount] = bounded(number, 0, 2, 1);
     } else if (kSwitches.includes(key as (typeof kSwitches)[number])) {
@@ -93,6 +104,10 @@ export function fromAddress(text: string, styles: readonly string[]): Settings {
       }
     } else if (key === 'view' && kViews.includes(value as View)) {
       settings.view = value as View;
+    } else if (key !== 'view' && styles.includes(key)) {
+      setStyle(key);
+    } else if (key.endsWith('.keys') && styles.includes(key.slice(0, -5))) {
+      setKeys(key.slice(0, -5));
     }
   }
   return settings;

@@ -24,6 +24,29 @@ describe('the address', () => {
   });
 });
 
+describe('a style that is called as a setting is', () => {
+  const names = ['view', 'legs', 'strength', 'posture', 'trail', 'neutral', 'old', 'old.keys',
+    'style.old', 'keys.old', 'a=b&c#%', '__proto_'];
+  it('has a link of its own, and leaves the setting alone', () => {
+    for (const name of names) {
+      const keys = [[1, 0.5]] as const;
+      const sets = [
+        { ...kDefaults, styles: { [name]: 0.5 } },
+        { ...kDefaults, keys: { [name]: keys } },
+        { ...kDefaults, styles: { [name]: 0.5 }, view: 'over' as const, legs: false, strength: 0.3 },
+        { ...kDefaults, view: 'over' as const, legs: false, strength: 0.3, trail: false },
+      ];
+      for (const set of sets) expect(fromAddress(`#${toAddress(set)}`, names), name).toEqual(set);
+    }
+  });
+  it('is not what an older link means', () => {
+    const read = fromAddress('#old=1&view=over&legs=off&strength=0.5', names);
+    expect(read).toEqual(
+      { ...kDefaults, styles: { old: 1 }, view: 'over', legs: false, strength: 0.5 });
+    expect(fromAddress('#proud=0.5', ['proud'])).toEqual({ ...kDefaults, styles: { proud: 0.5 } });
+  });
+});
+
 describe('a number', () => {
   it('is brought within its bounds and to two decimals', () => {
     expect(bounded(1.2345, 0, 2, 1)).toBe(1.23);
@@ -40,7 +63,7 @@ describe('the store', () => {
     store.listen((settings) => heard.push(toAddress(settings)));
     store.setStyle('old', 0.5);
     store.setStyle('old', 0);
-    expect(heard).toEqual(['neutral', 'old=0.5', 'neutral']);
+    expect(heard).toEqual(['neutral', 'style.old=0.5', 'neutral']);
   });
 });
 

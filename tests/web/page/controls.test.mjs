@@ -36,7 +36,7 @@ test('a field takes the exact value, and holds it within the bounds', async () =
   await field('Old').press('Enter');
   assert.equal((await told(tab)).strengths.old, 2);
   await settle();
-  assert.equal(await address(), '#old=2');
+  assert.equal(await address(), '#style.old=2');
 });
 
 test('an amount counts for all styles, or for what it says', async () => {
@@ -105,7 +105,8 @@ test('what is set is in the address, and comes back from it', async () => {
   }));
   assert.deepEqual(settings, { old: '1.2', sad: '-0.3', posture: '0.5', view: 'over' });
   await other.waitForTimeout(300);
-  assert.equal(await other.evaluate(() => location.hash), `#${link}`);
+  const renewed = link.replace('old=', 'style.old=').replace('sad=', 'style.sad=');
+  assert.equal(await other.evaluate(() => location.hash), `#${renewed}`);
   await other.close();
 });
 

@@ -143,7 +143,7 @@ test('what is saved has the keys: the file is what the program makes of the same
   assert.equal(frameCount('keyed.glb'), frameCount('keyed.bvh'));
   // The address brings them back.
   const link = await tab.evaluate(() => location.hash);
-  assert.equal(link, '#old.keys=0.25_0*1.5_1.2*2_0.3');
+  assert.equal(link, '#keys.old=0.25_0*1.5_1.2*2_0.3');
 });
 
 test('a VRMA is what the program converts to', async () => {
