@@ -144,9 +144,13 @@ int view(const ViewVerb& verb) {
   // What follows a rejected request on its connection is not read as another one.
   server.set_keep_alive_max_count(1);
   const int port = server.bind_to_any_port(kAddress);
-  if (port < 0 || !server.set_mount_point("/", *page)) {
+  const std::string address = std::string(kAddress) + ":" + std::to_string(port);
+  if (port < 0) {
     return fail({"no port of " + std::string(kAddress) + " is free to serve the page on"},
                 kBadInput);
+  }
+  if (!server.set_mount_point("/", *page)) {
+    return fail({*page + ": this folder of the page cannot be served"}, kBadInput);
   }
   server.set_pre_routing_handler(
       [port](const httplib::Request& request, httplib::Response& answer) {
@@ -163,16 +167,17 @@ int view(const ViewVerb& verb) {
   };
   serve("/open/.*", motion);
   serve("/model/.*", model);
-  print("http://" + std::string(kAddress) + ":" + std::to_string(port) + "/" + query + "\n");
+  print("http://" + address + "/" + query + "\n");
   print_message("open this address in a browser; Ctrl-C ends");
   std::fflush(stdout);
   try {
+    // Ctrl-C ends the program, so this returns after a failure alone.
     server.listen_after_bind();
+    return fail({address + ": listening failed, so the page is not served any more"}, kBadInput);
   } catch (const std::system_error& error) {
     return fail({"no thread to serve the page could be started: " + error.code().message()},
                 kBadInput);
   }
-  return kDone;
 }
 
 }  // namespace
