@@ -12,6 +12,11 @@ cmake --install "$build" --prefix "$work/panache" >"$work/install.log"
   exit 1
 }
 
+[[ -f $work/panache/share/doc/panache/LICENSE ]] || {
+  echo "installed.sh: the licence was not installed" >&2
+  exit 1
+}
+
 for sample in one_character crowd; do
   cmake -S "$samples/$sample" -B "$work/$sample" -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_PREFIX_PATH="$work/panache" >"$work/$sample.log"
@@ -21,7 +26,30 @@ cp -r "$samples/plain_c" "$samples/common" "$work"
 libraries=$(dirname "$(find "$work/panache" -name 'libpanache.so')")
 PKG_CONFIG_PATH=$libraries/pkgconfig make -C "$work/plain_c" CFLAGS='-Wall -Wextra -Werror -pedantic'
 
+# The static library in projects of C alone, by CMake and by pkg-config.
+mkdir "$work/c_only"
+cat >"$work/c_only/CMakeLists.txt" <<END
+cmake_minimum_required(VERSION 3.20)
+project(c_only LANGUAGES C)
+find_package(Panache REQUIRED)
+foreach(library panache panache_static)
+  add_executable(with_\${library} $samples/plain_c/main.c)
+  target_link_libraries(with_\${library} PRIVATE Panache::\${library} m)
+endforeach()
+END
+cmake -S "$work/c_only" -B "$work/c_only/build" -DCMAKE_PREFIX_PATH="$work/panache" >"$work/c.log"
+cmake --build "$work/c_only/build" >>"$work/c.log"
+static_flags=$(PKG_CONFIG_PATH=$libraries/pkgconfig pkg-config --static --cflags --libs panache)
+# shellcheck disable=SC2086
+cc -std=c99 "$samples/plain_c/main.c" ${static_flags/-lpanache/-l:libpanache.a} \
+  -o "$work/c_only/by_pkg_config"
+for program in build/with_panache_static by_pkg_config; do
+  "$work/c_only/$program" "$model" >"$work/c_only/$program.txt"
+done
+
 export LD_LIBRARY_PATH=$libraries
+"$work/c_only/build/with_panache" "$model" >"$work/shared.txt"
+cmp "$work/shared.txt" "$work/c_only/build/with_panache_static.txt"
 "$work/one_character/one_character" "$model" old | tee "$work/old.txt"
 # The last line: an old figure's head is well ahead of where it was.
 read -r _ before after < <(tail -n 1 "$work/old.txt")
