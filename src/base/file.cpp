@@ -27,8 +27,7 @@ Result<std::string> read_file(const std::string& path) {
   const fs::file_status there = fs::status(path, status);
   if (fs::is_directory(there)) return Error{path + ": is a folder; expected a file"};
   // Opening a named pipe waits until somebody writes to it, and devices may never end.
-  if (fs::exists(there) && !fs::is_regular_file(there) &&
-      !is_open_already(path)) {
+  if (fs::exists(there) && !fs::is_regular_file(there) && !is_open_already(path)) {
     return Error{path + ": is a device, pipe or socket; expected a regular file"};
   }
   // Closes the file also where the memory for its bytes runs out.

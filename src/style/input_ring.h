@@ -62,7 +62,7 @@ class InputRing {
   std::vector<Body> bodies_;
   std::vector<Quat> rotations_;     // [entries][joints]
   std::vector<Vec3> translations_;  // Likewise.
-  size_t head_, count_ = 0;  // The newest; the first that is pushed has place 0.
+  size_t head_, count_ = 0;         // The newest; the first that is pushed has place 0.
 };
 
 }  // namespace panache
