@@ -9,7 +9,9 @@
 
 #include "base/file.h"
 #include "child_process.h"
+#include "fbx_binary.h"
 #include "fbx_scene.h"
+#include "fbx_text_scene.h"
 #include "glb.h"
 
 namespace panache::cli {
@@ -35,15 +37,37 @@ Result<std::string> read_fbx(const std::string& path) {
   return bytes;
 }
 
-Result<std::string> convert(const std::string& bytes, const std::string& path) {
+// What Assimp reads of a file: FBX 7.1 and later, binary or text.
+Result<std::unique_ptr<aiScene>> read_by_assimp(const std::string& bytes, const std::string& path) {
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_CAMERAS, false);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_LIGHTS, false);
-  if (!importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "fbx")) {
-    return Error{path + ": cannot be read as FBX: " + importer.GetErrorString()};
+  if (importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "fbx")) {
+    return std::unique_ptr<aiScene>(importer.GetOrphanedScene());
   }
-  const std::unique_ptr<aiScene> scene(importer.GetOrphanedScene());
+  return Error{path + ": cannot be read as FBX: " + importer.GetErrorString()};
+}
+
+// FBX 6, and text that Assimp rejects, have only a skeleton and motions.
+Result<std::unique_ptr<aiScene>> read_scene(const std::string& bytes, const std::string& path) {
+  const int version = binary_fbx_version(bytes);
+  if (version > 0 && version < 7000) {
+    Result<std::string> text = fbx_text_of(bytes, path);
+    if (!text) return text.error();
+    return fbx_text_scene(*text, path + " (as text)");
+  }
+  Result<std::unique_ptr<aiScene>> scene = read_by_assimp(bytes, path);
+  if (scene || bytes.starts_with("Kaydara")) return scene;
+  Result<std::unique_ptr<aiScene>> read = fbx_text_scene(bytes, path);
+  return read && !*read ? std::move(scene) : std::move(read);
+}
+
+Result<std::string> convert(const std::string& bytes, const std::string& path) {
+  Result<std::unique_ptr<aiScene>> read = read_scene(bytes, path);
+  if (!read) return read.error();
+  const std::unique_ptr<aiScene>& scene = *read;
+  if (!scene) return Error{path + ": expected joints (models of FBX), found none"};
   repair_scene(*scene);
   Assimp::Exporter exporter;
   Assimp::ExportProperties properties;

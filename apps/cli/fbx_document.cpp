@@ -1,0 +1,168 @@
+#include "fbx_document.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <system_error>
+
+#include "clip/decimal.h"
+#include "clip/text_cursor.h"
+
+namespace panache::cli {
+namespace {
+
+constexpr int kDeepest = 64;  // Files have ten levels.
+
+// "NAME:LINE:COLUMN: expected EXPECTED, found FOUND".
+Error error_at(std::string_view text, size_t offset, const std::string& name,
+               const std::string& expected, const std::string& found) {
+  const std::string_view before = text.substr(0, offset);
+  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  const size_t begin = before.rfind('\n') + 1;  // 0 in the first line.
+  return {name + ":" + std::to_string(line) + ":" + std::to_string(offset - begin + 1) +
+          ": expected " + expected + ", found " + found};
+}
+
+class Parser {
+ public:
+  Parser(std::string_view text, const std::string& name) : text_(text), name_(name) {}
+
+  Result<void> read(FbxNode& root) {
+    if (auto good = read_children(root, 0); !good) return good;
+    if (!is_end()) return error("the end of the file");  // A brace that closes nothing.
+    return {};
+  }
+
+ private:
+  bool is_end() const { return at_ == text_.size(); }
+  char here() const { return is_end() ? '\0' : text_[at_]; }
+
+  void skip_space() {
+    while (!is_end()) {
+      if (here() == ';') {  // A comment.
+        at_ = std::min(text_.find('\n', at_), text_.size());
+      } else if (std::strchr(" \t\r\n\v\f", here())) {
+        ++at_;
+      } else {
+        return;
+      }
+    }
+  }
+
+  std::string_view word() const {
+    return text_.substr(at_, text_.find_first_of(" \t\r\n\v\f,:;{}\"", at_) - at_);
+  }
+
+  // Whether `Name:` is here.
+  bool is_at_name() const {
+    const size_t after = text_.find_first_not_of(" \t", at_ + word().size());
+    return !word().empty() && after < text_.size() && text_[after] == ':';
+  }
+
+  Error error(const std::string& expected) const {
+    const std::string_view here_is = word().empty() ? text_.substr(at_, 1) : word();
+    return error_at(text_, at_, name_, expected,
+                    is_end() ? "the end of the file" : panache::quoted(here_is));
+  }
+
+  Result<void> read_children(FbxNode& parent, int depth) {
+    if (depth > kDeepest) return error("at most " + std::to_string(kDeepest) + " open braces");
+    for (skip_space(); !is_end() && here() != '}'; skip_space()) {
+      if (!is_at_name()) return error("a name with a colon behind it");
+      FbxNode& node = parent.children.emplace_back();
+      node.name = word();
+      at_ = text_.find(':', at_) + 1;
+      if (auto good = read_values(node); !good) return good;
+      if (here() != '{') continue;
+      ++at_;
+      if (auto good = read_children(node, depth + 1); !good) return good;
+      if (here() != '}') return error("'}'");
+      ++at_;
+    }
+    return {};
+  }
+
+  // Values go on in the next line where that begins with none of the names.
+  Result<void> read_values(FbxNode& node) {
+    for (skip_space(); !is_end(); skip_space()) {
+      if (here() == ',') {
+        ++at_;
+      } else if (here() == '"') {
+        const size_t end = text_.find('"', at_ + 1);
+        if (end == std::string_view::npos) return error("a string with another '\"' at its end");
+        node.values.push_back(text_.substr(at_ + 1, end - at_ - 1));
+        at_ = end + 1;
+      } else if (!word().empty() && !is_at_name()) {
+        node.values.push_back(word());
+        at_ += word().size();
+      } else {
+        return {};
+      }
+    }
+    return {};
+  }
+
+  std::string_view text_;
+  const std::string& name_;
+  size_t at_ = 0;
+};
+
+}  // namespace
+
+const FbxNode* FbxNode::child(std::string_view wanted) const {
+  const auto found = std::find_if(children.begin(), children.end(),
+                                  [&](const FbxNode& node) { return node.name == wanted; });
+  return found == children.end() ? nullptr : &*found;
+}
+
+std::string_view FbxNode::value(size_t index) const {
+  return index < values.size() ? values[index] : std::string_view();
+}
+
+Result<FbxDocument> FbxDocument::parse(std::string_view text, const std::string& name) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  FbxDocument out(text, name);
+  if (auto good = Parser(out.text_, out.name_).read(out.root_); !good) return good.error();
+  return out;
+}
+
+int FbxDocument::version() const {
+  const FbxNode* header = root_.child("FBXHeaderExtension");
+  const FbxNode* node = header ? header->child("FBXVersion") : nullptr;
+  const std::string_view text = node ? node->value(0) : "";
+  int out = 0;
+  std::from_chars(text.data(), text.data() + text.size(), out);
+  return out;
+}
+
+Error FbxDocument::error(std::string_view found, const std::string& expected) const {
+  // What a node lacks has no place.
+  if (found.data() < text_.data() || found.data() > text_.data() + text_.size()) {
+    return {name_ + ": expected " + expected + ", found nothing"};
+  }
+  return error_at(text_, static_cast<size_t>(found.data() - text_.data()), name_, expected,
+                  panache::quoted(found));
+}
+
+Result<double> FbxDocument::number(std::string_view text, const std::string& of_what) const {
+  double out = 0;
+  const char* const end = text.data() + text.size();
+  const auto [after, failure] = std::from_chars(text.data(), end, out);
+  const bool is_tiny = failure == std::errc::result_out_of_range && std::abs(out) < 1;
+  if (after == end && (failure == std::errc() || is_tiny) && std::abs(out) <= kLargestNumber) {
+    return out;
+  }
+  return error(text, "a number between -1e9 and 1e9 for " + of_what);
+}
+
+Result<int64_t> FbxDocument::time(std::string_view text) const {
+  int64_t out = 0;
+  const char* const end = text.data() + text.size();
+  const auto [after, failure] = std::from_chars(text.data(), end, out);
+  if (after == end && failure == std::errc()) return out;
+  return error(text, "a time, which is a whole number");
+}
+
+}  // namespace panache::cli
