@@ -60,7 +60,13 @@ Result<std::unique_ptr<aiScene>> read_scene(const std::string& bytes, const std:
   Result<std::unique_ptr<aiScene>> scene = read_by_assimp(bytes, path);
   if (scene || bytes.starts_with("Kaydara")) return scene;
   Result<std::unique_ptr<aiScene>> read = fbx_text_scene(bytes, path);
-  return read && !*read ? std::move(scene) : std::move(read);
+  if (read) return *read ? std::move(read) : std::move(scene);
+  // Of version 7 Assimp knows more, and says more.
+  const std::string_view start = std::string_view(bytes).substr(0, 4096);
+  const bool is_old = start.find("; FBX 6") != start.npos || start.find("; FBX 5") != start.npos ||
+                      start.find("FBXVersion: 6") != start.npos ||
+                      start.find("FBXVersion: 5") != start.npos;
+  return is_old ? std::move(read) : std::move(scene);
 }
 
 Result<std::string> convert(const std::string& bytes, const std::string& path) {
