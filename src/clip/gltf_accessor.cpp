@@ -179,7 +179,7 @@ class AccessorReader {
       if (extensions && extensions->contains(name)) {
         return checker_.fail(asked_at_, "expected plain motion, found it packed with " +
                                             std::string(name) +
-                                            "; save the file without compression");
+                                            "; 'gltf-transform copy IN.glb OUT.glb' unpacks it");
       }
     }
     return true;
