@@ -12,7 +12,7 @@
 namespace panache::cli {
 namespace {
 
-constexpr int kDeepest = 64;  // Files have ten levels.
+constexpr int kMaxDepth = 64;  // Files have ten levels.
 
 // "NAME:LINE:COLUMN: expected EXPECTED, found FOUND".
 Error error_at(std::string_view text, size_t offset, const std::string& name,
@@ -67,7 +67,7 @@ class Parser {
   }
 
   Result<void> read_children(FbxNode& parent, int depth) {
-    if (depth > kDeepest) return error("at most " + std::to_string(kDeepest) + " open braces");
+    if (depth > kMaxDepth) return error("at most " + std::to_string(kMaxDepth) + " open braces");
     for (skip_space(); !is_end() && here() != '}'; skip_space()) {
       if (!is_at_name()) return error("a name with a colon behind it");
       FbxNode& node = parent.children.emplace_back();

@@ -10,7 +10,7 @@
 namespace panache::cli {
 namespace {
 
-constexpr size_t kMostModels = 10'000, kDeepest = 500, kLongestName = 200;
+constexpr size_t kMostModels = 10'000, kMaxParents = 500, kLongestName = 200;
 
 Vec3d product(Vec3d a, Vec3d b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
@@ -230,9 +230,9 @@ Result<std::vector<FbxModel>> fbx_models(const FbxDocument& document) {
   }
   size_t reached = 0;
   for (size_t depth = 0; !level.empty(); ++depth) {
-    if (depth > kDeepest) {
+    if (depth > kMaxParents) {
       return document.error(found[level[0].first].id,
-                            "at most " + std::to_string(kDeepest) + " models below each other");
+                            "at most " + std::to_string(kMaxParents) + " models below each other");
     }
     std::vector<std::pair<size_t, int>> next;
     for (const auto& [i, parent] : level) {
