@@ -10,7 +10,7 @@ namespace {
 
 // Angles and places in the file have at least six decimals, and floats carry them: along seven
 // joints of half a metre, and pivots of 6 cm, less than this. Metres.
-constexpr float kNear = 2e-5f;
+constexpr float kPlaceTolerance = 2e-5f;
 
 class FbxText : public ProgramTest {
  protected:
@@ -29,7 +29,7 @@ class FbxText : public ProgramTest {
       ASSERT_EQ(ran.exit, 0) << ran.err;
       const auto file = read_motion(path(name));
       ASSERT_TRUE(file.ok()) << file.error().message;
-      expect_same_positions(walk, (*file)->clip(), kNear);
+      expect_same_positions(walk, (*file)->clip(), kPlaceTolerance);
     }
   }
   std::string rejection(const std::string& bytes) {
