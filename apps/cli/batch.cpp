@@ -4,10 +4,12 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdio>
+#include <filesystem>
 #include <mutex>
 #include <new>
 
 #include "base/file.h"
+#include "base/os/os.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "formats.h"
@@ -56,6 +58,21 @@ Json to_json(const FileJob& file) {
           {"notes", file.notes}};
 }
 
+// The objects of all files, as dump() prints them in a list. Taken one by one: as trees of JSON
+// those of ten thousand files would fill 250 MB.
+std::string list_accounts(const std::vector<FileJob>& files) {
+  std::string list;
+  for (const FileJob& file : files) {
+    const std::string object = file.account.empty() ? dump(to_json(file)) : file.account;
+    list += list.empty() ? "[\n  " : ",\n  ";
+    for (const char letter : std::string_view(object).substr(0, object.size() - 1)) {
+      list += letter;
+      if (letter == '\n') list += "  ";
+    }
+  }
+  return list + "\n]\n";
+}
+
 std::string summary(const std::vector<FileJob>& files, const std::string& done, double spent) {
   const std::string in = " in " + fixed(spent, 1) + " s\n";
   const auto failed = std::count_if(files.begin(), files.end(),
@@ -72,8 +89,9 @@ std::string summary(const std::vector<FileJob>& files, const std::string& done, 
   }
   if (files.size() > 1) {
     return done + " " + std::to_string(good) + " of " + plural(files.size(), "file") +
-           (failed ? ", " + std::to_string(failed) + " failed," : "") +
-           (skipped ? ", " + std::to_string(skipped) + " skipped," : "") + in;
+           (failed ? ", " + std::to_string(failed) + " failed" : "") +
+           (skipped ? ", " + std::to_string(skipped) + " skipped" : "") +
+           (failed || skipped ? "," : "") + in;
   }
   if (failed) return "";
   const FileJob& file = files[0];
@@ -81,6 +99,42 @@ std::string summary(const std::vector<FileJob>& files, const std::string& done, 
   return done + " " + file.input + " into " + file.output + " (" +
          plural(static_cast<size_t>(file.frames), "frame") + ", " + fixed(file.seconds, 1) + " s)" +
          in;
+}
+
+// Does the work on one file, and keeps what is told of it in the end.
+void run_file(FileJob& file, const BatchFlags& flags, const FileWork& work,
+              const std::function<void(double)>& show) {
+  std::error_code status;
+  const auto is_taken = [&] {
+    return flags.skip_existing && !file.to_stdout && std::filesystem::exists(file.output, status);
+  };
+  file.skipped = file.skipped || is_taken();
+  if (file.skipped) return show(1);
+  const auto share = [&](double part) {
+    if (stop_asked()) throw Stopped();
+    show(std::min(part, 0.99));
+  };
+  try {
+    share(0);
+    if (auto worked = work(file, share); !worked) {
+      if (stop_asked()) throw Stopped();  // A wait that Ctrl-C ended, or a child process.
+      if (is_taken()) {                   // Another process wrote it meanwhile, and tells of it.
+        FileJob skipped;
+        std::swap(skipped.input, file.input);
+        std::swap(skipped.output, file.output);
+        file = std::move(skipped);
+        file.skipped = true;
+      } else {
+        file.error = with_hint(worked.error().message);
+      }
+    }
+  } catch (const std::bad_alloc&) {
+    file.error = file.input + ": out of memory";
+  } catch (const Stopped&) {
+    file.stopped = true;
+    return;
+  }
+  show(1);
 }
 
 int tell_plan(const std::vector<FileJob>& files, bool json) {
@@ -145,38 +199,25 @@ int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::st
   watch_stop_signals();
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
+  const bool counted = flags.json || !flags.report.empty();
   {
     JointProgress progress(doing, files.size());
+    // Processes that share a tree begin at different places, or all would do the same work at once.
+    const size_t first = flags.skip_existing ? process_number() * 7919 % files.size() : 0;
     const auto run = [&](int i) {
-      const auto n = static_cast<size_t>(i);
+      const size_t n = (static_cast<size_t>(i) + first) % files.size();
       FileJob& file = files[n];
-      const auto show = [&](double part) {
+      run_file(file, flags, work, [&](double part) {
         if (!flags.quiet) progress.update(n, part);
-      };
-      if (file.skipped) return show(1);
-      const auto share = [&](double part) {
-        if (stop_asked()) throw Stopped();
-        show(std::min(part, 0.99));
-      };
-      try {
-        share(0);
-        if (auto worked = work(file, share); !worked) {
-          if (stop_asked()) throw Stopped();  // A wait that Ctrl-C ended, or a child process.
-          file.error = with_hint(worked.error().message);
-        }
-      } catch (const std::bad_alloc&) {
-        file.error = file.input + ": out of memory";
-      } catch (const Stopped&) {
-        file.stopped = true;
-        return;
-      }
-      show(1);
+      });
+      if (counted) file.account = dump(to_json(file));
+      file.bytes.reset();
+      file.clips = file.mapping = Json();
     };
     parallel_for(static_cast<int>(files.size()), run, flags.jobs);
   }
   const double spent = std::chrono::duration<double>(Clock::now() - begin).count();
 
-  Json results = Json::array();
   bool all_good = true, stopped = false;
   // Where the motion goes to stdout, what is told of it does not.
   const auto tell = [&](const std::string& text) {
@@ -193,8 +234,8 @@ int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::st
     if (!file.error.empty()) print_message(file.error);
     all_good = all_good && file.error.empty() && !file.stopped;
     stopped = stopped || file.stopped;
-    results.push_back(to_json(file));
   }
+  const std::string results = counted ? list_accounts(files) : "";
   if (flags.json) {
     print(results);
   } else if (!flags.quiet) {
@@ -207,7 +248,7 @@ int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::st
     }
   }
   if (!flags.report.empty()) {
-    auto written = write_file(flags.report, dump(results), flags.force);
+    auto written = write_file(flags.report, results, flags.force);
     if (!written) return fail(written.error(), kBadInput);
   }
   return stopped ? kStopped : all_good ? kDone : kBadInput;

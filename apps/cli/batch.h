@@ -50,6 +50,7 @@ struct FileJob {
   int frames = 0;                    // Of the result, all motions together.
   double seconds = 0;                // Likewise.
   Json mapping;                      // Of the rig, null where there was none.
+  std::string account;               // All of this as JSON, where that is asked for.
 };
 
 // How outputs are called that the user did not name.

@@ -1,6 +1,7 @@
 // panache: the program. Each verb is a file of its own.
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -15,6 +16,7 @@
 #include "messages.h"
 #include "option_table.h"
 #include "png.h"
+#include "standard_streams.h"
 #include "usage_error.h"
 #include "verbs.h"
 
@@ -83,13 +85,22 @@ int run(int argc, char** argv) {
   return exit_code;
 }
 
+// The exit code once it is known whether all that was printed arrived. A reader that has left, as
+// head does, has what it wanted.
+int check_printed(int exit_code) {
+  const Result<void> printed = finish_stdout();
+  if (printed) return exit_code;
+  if (errno != EPIPE) print_message(printed.error().message);
+  return exit_code == kDone ? kBadInput : exit_code;
+}
+
 }  // namespace
 }  // namespace panache::cli
 
 int main(int argc, char** argv) {
   using namespace panache::cli;
   try {
-    return run(argc, argv);
+    return check_printed(run(argc, argv));
   } catch (const std::bad_alloc&) {
     print_message("out of memory");
   } catch (const std::exception& error) {

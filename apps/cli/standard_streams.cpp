@@ -43,10 +43,19 @@ Result<StdinMotion> read_stdin() {
 }
 
 Result<void> write_stdout(std::string_view bytes) {
-  if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size() &&
-      std::fflush(stdout) == 0) {
-    return {};
-  }
+  if (Result<void> printed = finish_stdout(); !printed) return printed;
+  std::fwrite(bytes.data(), 1, bytes.size(), stdout);
+  Result<void> written = finish_stdout();
+  if (!written) std::clearerr(stdout);
+  return written;
+}
+
+Result<void> finish_stdout() {
+  // Where an earlier write failed, another one tells the cause.
+  if (std::ferror(stdout)) std::fputc('\n', stdout);
+  errno = 0;
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return {};
+  if (errno == 0) errno = EIO;  // It came back to order meanwhile.
   return Error{std::string("stdout: cannot be written: ") + std::strerror(errno)};
 }
 

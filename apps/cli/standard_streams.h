@@ -1,5 +1,5 @@
 #pragma once
-// Motion through stdin and stdout, which the name "-" stands for.
+// Motion through stdin and stdout, which the name "-" stands for, and what is printed.
 
 #include <string>
 #include <string_view>
@@ -21,5 +21,9 @@ struct StdinMotion {
 Result<StdinMotion> read_stdin();
 
 Result<void> write_stdout(std::string_view bytes);
+
+// Whether all that was printed arrived: what write_stdout reports is not reported again. Called
+// once, at the end of the program. Sets errno where it fails.
+Result<void> finish_stdout();
 
 }  // namespace panache::cli

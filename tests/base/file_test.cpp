@@ -20,6 +20,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/os/part_file.h"
 #include "temporary_folder.h"
 
 namespace panache {
@@ -197,6 +198,19 @@ TEST_F(WriteFile, of_many_writers_one_wins_unless_they_may_overwrite) {
     EXPECT_EQ(text, std::string(100'000, text[0]));  // Whole, and of one writer.
   }
   EXPECT_EQ(entries(), 2u);
+}
+
+TEST_F(WriteFile, of_two_writes_at_once_the_first_to_end_wins) {
+  Result<PartFile> first = PartFile::open(path("a"), "a");
+  Result<PartFile> second = PartFile::open(path("a"), "a");
+  ASSERT_TRUE(first.ok() && second.ok());
+  ASSERT_TRUE(first->write("first") && second->write("second"));
+  EXPECT_TRUE(first->keep(false));
+  EXPECT_FALSE(second->keep(false));
+  EXPECT_EQ(errno, EEXIST);
+  EXPECT_EQ(*read_file(path("a")), "first");
+  EXPECT_TRUE(second->keep(true));
+  EXPECT_EQ(*read_file(path("a")), "second");
 }
 
 TEST_F(WriteFile, a_name_may_be_as_long_as_the_system_allows) {

@@ -94,6 +94,54 @@ TEST_F(Batch, what_is_done_already_can_be_skipped) {
   EXPECT_EQ(stylize({"takes", "-o", "out", "--skip-existing", "--force"}).exit, 2);
 }
 
+TEST_F(Batch, processes_that_share_a_tree_write_each_file_once) {
+  for (int i = 0; i < 60; ++i) write_walk("many/" + std::to_string(i) + ".bvh", 8);
+  const auto share = [&](const std::string& name) {
+    return start({"-c", PANACHE_PROGRAM " stylize many --style old=1 -o out --skip-existing >" +
+                            name + " 2>&1"},
+                 "model.safetensors", "/bin/sh");
+  };
+  const pid_t first = share("first"), second = share("second");
+  for (const pid_t process : {first, second}) {
+    int status = 0;
+    ::waitpid(process, &status, 0);
+    EXPECT_EQ(status, 0);
+  }
+  int written = 0;
+  for (const std::string name : {"first", "second"}) {
+    int count = 0;
+    ASSERT_EQ(std::sscanf(read(name).c_str(), "restyled %d of 60 files", &count), 1) << read(name);
+    EXPECT_EQ(read(name).find("failed"), std::string::npos) << read(name);
+    written += count;
+  }
+  EXPECT_EQ(written, 60);
+  EXPECT_EQ(entries("out").size(), 60u);
+}
+
+TEST_F(Batch, what_another_process_wrote_meanwhile_is_skipped) {
+  // It reads its input only after the other has written the output.
+  ASSERT_EQ(::mkfifo(path("pipe.bvh").c_str(), 0600), 0);
+  write_walk("walk.bvh");
+  const pid_t batch =
+      start({"stylize", "pipe.bvh", "--style", "old=1", "-o", "a.bvh", "--skip-existing"});
+  const int pipe = ::open(path("pipe.bvh").c_str(), O_WRONLY);
+  write("a.bvh", "theirs");
+  const std::string walk = read("walk.bvh");
+  EXPECT_EQ(::write(pipe, walk.data(), walk.size()), static_cast<ssize_t>(walk.size()));
+  ::close(pipe);
+  const Ran ran = finish(batch);
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_EQ(ran.out, "skipped pipe.bvh: a.bvh exists already\n");
+  EXPECT_EQ(read("a.bvh"), "theirs");
+}
+
+TEST_F(Batch, the_last_line_counts_what_failed_and_what_was_skipped) {
+  write("takes/bad.bvh", "HIERARCHY");
+  ASSERT_EQ(stylize({"takes/a.bvh", "-o", "out/"}).exit, 0);
+  const Ran both = stylize({"takes", "-o", "out", "--skip-existing"});
+  EXPECT_TRUE(both.out.starts_with("restyled 3 of 5 files, 1 failed, 1 skipped, in ")) << both.out;
+}
+
 TEST_F(Batch, a_dry_run_shows_what_would_be_written_and_writes_nothing) {
   const Ran ran = stylize({"takes/a.bvh", "takes/b.bvh", "-o", "out", "--dry-run"});
   EXPECT_EQ(ran.exit, 0) << ran.err;

@@ -57,6 +57,30 @@ TEST_F(Streams, the_walker_walks_into_a_pipe) {
   EXPECT_EQ(ran.err, "");
 }
 
+TEST_F(Streams, output_that_is_lost_is_an_error) {
+  const std::string full = "panache: stdout: cannot be written: No space left on device\n";
+  for (const std::string verb :
+       {"info walk.bvh", "info walk.bvh --json", "styles", "styles --json", "--version",
+        "help info", "convert walk.bvh -o a.glb --force --json",
+        "convert walk.bvh -o a.glb --force", "stylize walk.bvh --style old=1 --dry-run"}) {
+    const Ran ran =
+        run({"-c", PANACHE_PROGRAM " " + verb + " >/dev/full"}, "model.safetensors", "/bin/sh");
+    EXPECT_EQ(ran.exit, 1) << verb;
+    EXPECT_EQ(ran.err, full) << verb;
+  }
+  const Ran motion =
+      run({"-c", PANACHE_PROGRAM " stylize walk.bvh --style old=1 -o - --quiet >/dev/full"},
+          "model.safetensors", "/bin/sh");
+  EXPECT_EQ(motion.exit, 1);
+  EXPECT_EQ(motion.err, full);  // Once.
+  // A reader that leaves is no failure to tell of, also where its signal is ignored.
+  for (const std::string ignored : {"", "trap '' PIPE; "}) {
+    const Ran head = run({"-c", ignored + "(sleep 0.1; " PANACHE_PROGRAM " styles) | true"},
+                         "model.safetensors", "/bin/sh");
+    EXPECT_EQ(head.err, "");
+  }
+}
+
 TEST_F(Streams, what_cannot_be_is_rejected) {
   const auto expect_rejected = [&](const std::string& input, std::vector<std::string> arguments,
                                    const std::string& message) {

@@ -17,6 +17,9 @@ bool fits_pattern(const std::string& name, const std::string& pattern);
 // Calls `handler` at the first Ctrl-C, or other wish that this process end; the second one ends it.
 void on_stop_signal(void (*handler)(int));
 
+// What tells this process from all others of the machine.
+unsigned process_number();
+
 // The path of the running program, without symbolic links; empty where it cannot be told.
 std::string program_path();
 

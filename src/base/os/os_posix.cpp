@@ -26,6 +26,8 @@ void on_stop_signal(void (*handler)(int)) {
   ::sigaction(SIGTERM, &action, nullptr);
 }
 
+unsigned process_number() { return static_cast<unsigned>(::getpid()); }
+
 std::string program_path() {
   std::error_code status;
   return std::filesystem::read_symlink("/proc/self/exe", status).string();

@@ -24,6 +24,8 @@ bool fits_pattern(const std::string& name, const std::string& pattern) {
 // Windows forgets a handler that it has called.
 void on_stop_signal(void (*handler)(int)) { std::signal(SIGINT, handler); }
 
+unsigned process_number() { return ::GetCurrentProcessId(); }
+
 std::string program_path() {
   wchar_t path[1 << 15];  // No path is longer.
   const DWORD size = ::GetModuleFileNameW(nullptr, path, std::size(path));

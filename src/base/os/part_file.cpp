@@ -1,5 +1,3 @@
-#include "base/os/part_file.h"
-
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -7,6 +5,9 @@
 #include <mutex>
 #include <utility>
 #include <vector>
+
+#include "base/os/os.h"
+#include "base/os/part_file.h"
 
 namespace panache {
 namespace {
@@ -78,7 +79,8 @@ Result<PartFile> PartFile::open(const std::string& target, const std::string& pa
   const std::string stem = shortened("." + name, room) + ".";
   remove_abandoned(folder, stem);
   for (int i = 1; i <= kMaxTries; ++i) {
-    const std::string pid = std::to_string(own_pid()) + (i == 1 ? "" : "-" + std::to_string(i));
+    const std::string pid =
+        std::to_string(process_number()) + (i == 1 ? "" : "-" + std::to_string(i));
     const std::string part = (folder / (stem + pid + std::string(kExtension))).string();
     const int file = create(part);
     if (file >= 0) return PartFile(target, part, file);

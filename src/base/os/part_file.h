@@ -34,7 +34,6 @@ class PartFile {
   static int create(const std::string& name);
   // Whether `name` is a file of ours that no process is writing: not `pid`, nor any other.
   static bool is_abandoned(const std::string& name, long pid);
-  static long own_pid();
   static size_t longest_name(const std::filesystem::path& folder);  // In bytes.
 
   static void remove_abandoned(const std::filesystem::path& folder, const std::string& stem);

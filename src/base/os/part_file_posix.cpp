@@ -38,8 +38,6 @@ bool PartFile::is_abandoned(const std::string& name, long pid) {
   return ours;
 }
 
-long PartFile::own_pid() { return ::getpid(); }
-
 size_t PartFile::longest_name(const std::filesystem::path& folder) {
   const long longest = ::pathconf(folder.empty() ? "." : folder.c_str(), _PC_NAME_MAX);
   return longest > 0 ? static_cast<size_t>(longest) : 255;

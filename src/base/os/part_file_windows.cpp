@@ -43,8 +43,6 @@ bool PartFile::is_abandoned(const std::string& name, long pid) {
   return true;
 }
 
-long PartFile::own_pid() { return static_cast<long>(::GetCurrentProcessId()); }
-
 size_t PartFile::longest_name(const std::filesystem::path&) { return 255; }
 
 bool PartFile::write(std::string_view bytes) {
