@@ -58,19 +58,19 @@ Json to_json(const FileJob& file) {
           {"notes", file.notes}};
 }
 
-// The objects of all files, as dump() prints them in a list. Taken one by one: as trees of JSON
-// those of ten thousand files would fill 250 MB.
-std::string list_accounts(const std::vector<FileJob>& files) {
-  std::string list;
+// Hands over the objects of all files piece by piece, as dump() prints them in a list.
+void list_accounts(const std::vector<FileJob>& files,
+                   const std::function<void(const std::string&)>& put) {
   for (const FileJob& file : files) {
     const std::string object = file.account.empty() ? dump(to_json(file)) : file.account;
-    list += list.empty() ? "[\n  " : ",\n  ";
+    std::string text = &file == &files[0] ? "[\n  " : ",\n  ";
     for (const char letter : std::string_view(object).substr(0, object.size() - 1)) {
-      list += letter;
-      if (letter == '\n') list += "  ";
+      text += letter;
+      if (letter == '\n') text += "  ";
     }
+    put(text);
   }
-  return list + "\n]\n";
+  put("\n]\n");
 }
 
 std::string summary(const std::vector<FileJob>& files, const std::string& done, double spent) {
@@ -210,7 +210,10 @@ int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::st
       run_file(file, flags, work, [&](double part) {
         if (!flags.quiet) progress.update(n, part);
       });
-      if (counted) file.account = dump(to_json(file));
+      if (counted) {
+        file.account = dump(to_json(file));
+        file.account.shrink_to_fit();  // Of ten thousand files, 160 MB.
+      }
       file.bytes.reset();
       file.clips = file.mapping = Json();
     };
@@ -235,9 +238,8 @@ int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::st
     all_good = all_good && file.error.empty() && !file.stopped;
     stopped = stopped || file.stopped;
   }
-  const std::string results = counted ? list_accounts(files) : "";
   if (flags.json) {
-    print(results);
+    list_accounts(files, [](const std::string& text) { print(text); });
   } else if (!flags.quiet) {
     tell(summary(files, done, spent));
     if (files.size() == 1 && all_good) {
@@ -248,6 +250,8 @@ int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::st
     }
   }
   if (!flags.report.empty()) {
+    std::string results;
+    list_accounts(files, [&](const std::string& text) { results += text; });
     auto written = write_file(flags.report, results, flags.force);
     if (!written) return fail(written.error(), kBadInput);
   }

@@ -20,6 +20,7 @@
 #include "rig_options.h"
 #include "rig_report.h"
 #include "shape_options.h"
+#include "standard_streams.h"
 #include "strengths.h"
 #include "style/restyle.h"
 #include "verbs.h"
@@ -263,6 +264,31 @@ std::string name_styles(const StylizeOptions& options) {
   return name;
 }
 
+// The first mistake of all: a file, and no word on what to make of it.
+Result<void> check_asked(const StylizeOptions& options, int& exit_code) {
+  const std::vector<std::string>& inputs = options.batch.inputs;
+  const bool asked = !options.styles.empty() || !options.strengths.empty() ||
+                     options.batch.output || !options.onto.file.empty() ||
+                     inputs[0] == kStandardStream;
+  if (asked) return {};
+  exit_code = kBadInput;
+  Result<std::string> path = find_model(options.model);
+  if (!path) return path.error();
+  Result<std::shared_ptr<const Model>> model = Model::load(*path);
+  if (!model) return model.error();
+  exit_code = kBadUsage;
+  const std::vector<StyleInfo>& styles = (*model)->styles();
+  std::string some;
+  for (size_t i = 0; i < styles.size() && i < 5; ++i) {
+    some += (some.empty() ? "" : ", ") + styles[i].name;
+  }
+  const std::string first = styles.empty() ? "NAME" : styles[0].name;
+  return Error{"a style is missing: expected --style NAME=STRENGTH, such as --style " + first +
+               "=1" +
+               (some.empty() ? "" : "; there are " + some + (styles.size() > 5 ? ", ..." : "")) +
+               " (panache styles lists all)"};
+}
+
 int stylize(const StylizeOptions& options) {
   if (auto rig = check_rig_flags(options.rig); !rig) return fail(rig.error(), kBadUsage);
   if (auto read = check_read_options(options.read); !read) return fail(read.error(), kBadUsage);
@@ -275,6 +301,7 @@ int stylize(const StylizeOptions& options) {
     onto = *std::move(character);
   }
   int exit_code = kDone;
+  if (auto asked = check_asked(options, exit_code); !asked) return fail(asked.error(), exit_code);
   Result<std::vector<FileJob>> files =
       plan_batch(options.batch, {onto ? onto->extension() : "", name_styles(options)}, exit_code);
   if (!files) return fail(files.error(), exit_code);

@@ -142,6 +142,17 @@ TEST_F(Batch, the_last_line_counts_what_failed_and_what_was_skipped) {
   EXPECT_TRUE(both.out.starts_with("restyled 3 of 5 files, 1 failed, 1 skipped, in ")) << both.out;
 }
 
+TEST_F(Batch, a_style_that_is_missing_is_named_before_the_output) {
+  for (const std::string input : {"takes/a.bvh", "takes"}) {
+    const Ran ran = run({"stylize", input});
+    EXPECT_EQ(ran.exit, 2);
+    EXPECT_EQ(
+        ran.err,
+        "panache: a style is missing: expected --style NAME=STRENGTH, such as --style angry=1; "
+        "there are angry, old, proud, sad (panache styles lists all)\n");
+  }
+}
+
 TEST_F(Batch, a_dry_run_shows_what_would_be_written_and_writes_nothing) {
   const Ran ran = stylize({"takes/a.bvh", "takes/b.bvh", "-o", "out", "--dry-run"});
   EXPECT_EQ(ran.exit, 0) << ran.err;
