@@ -16,7 +16,7 @@
 namespace panache {
 namespace {
 
-constexpr double kStep = 1.0 / 60, kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kStepSeconds = 1.0 / 60, kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 class OddSteps : public testing::Test {
@@ -25,9 +25,9 @@ class OddSteps : public testing::Test {
     auto walker = *WalkerModel::load(std::string(PANACHE_SOURCE_DIR "/models/walker.safetensors"));
     Walker walk(walker);
     walk_.skeleton = canonical_skeleton();
-    walk_.frame_time = kStep;
+    walk_.frame_time = kStepSeconds;
     walk_.resize(kFrames);
-    for (int f = 0; f < kFrames; ++f) walk.step(1.3f, 0.2f, kStep, walk_.pose(f));
+    for (int f = 0; f < kFrames; ++f) walk.step(1.3f, 0.2f, kStepSeconds, walk_.pose(f));
     model_ = *Model::load(std::string(PANACHE_SOURCE_DIR "/models/panache.safetensors"));
     strengths_.resize(model_->styles().size());
     strengths_[static_cast<size_t>(*model_->find_style("old"))] = 1;
@@ -50,7 +50,7 @@ class OddSteps : public testing::Test {
       std::vector<float> strengths = strengths_;
       if (f == kOdd) spoil(in.pose(f), strengths, character);
       if (f == kOdd + 1) character.stylizer().set_shape({});
-      character.step(in.pose(f), strengths, f == kOdd ? seconds : kStep, out.pose(f));
+      character.step(in.pose(f), strengths, f == kOdd ? seconds : kStepSeconds, out.pose(f));
       for (size_t j = 0; j < out.joints(); ++j) {
         const Quat q = out.pose(f).rotations[j];
         EXPECT_NEAR(dot(q, q), 1, 0.01f) << "frame " << f;
@@ -125,7 +125,7 @@ TEST_F(OddSteps, a_crowd_takes_the_same_seconds_as_one_alone) {
     for (int f = 0; f < kFrames; ++f) {
       const CrowdMember crowd[] = {
           {&member.stylizer(), std::as_const(walk_).pose(f), strengths_, out.pose(f)}};
-      step_crowd(crowd, f == kOdd ? seconds : kStep);
+      step_crowd(crowd, f == kOdd ? seconds : kStepSeconds);
     }
     EXPECT_TRUE(same_rotations(out, expected)) << seconds;
   }
@@ -134,7 +134,7 @@ TEST_F(OddSteps, a_crowd_takes_the_same_seconds_as_one_alone) {
 TEST_F(OddSteps, numbers_of_any_size_in_a_pose_a_strength_or_the_shape_pass_by) {
   const LiveOptions late = ways()[1];
   LiveStylizer even = character({});
-  const Clip expected = play(even, kStep);
+  const Clip expected = play(even, kStepSeconds);
   for (const double size : {1e4, 1e8, 9e8, 1e18, 1e30, 3e38, kInfinity, kNan, 1e-40}) {
     const auto number = static_cast<float>(size);
     const auto place = [&](size_t joint) {
@@ -154,8 +154,8 @@ TEST_F(OddSteps, numbers_of_any_size_in_a_pose_a_strength_or_the_shape_pass_by) 
     const auto check = [&](auto&& spoil) {
       LiveStylizer odd = character({}), odd_and_late = character(late);
       // One frame of rest pose alone leaves 0.21 degrees, by filters of seconds.
-      EXPECT_LT(apart(play(odd, kStep, spoil), expected, kOdd + 200), 0.5f) << number;
-      play(odd_and_late, kStep, spoil);  // Where it is in its cycle is up to its lag.
+      EXPECT_LT(apart(play(odd, kStepSeconds, spoil), expected, kOdd + 200), 0.5f) << number;
+      play(odd_and_late, kStepSeconds, spoil);  // Where it is in its cycle is up to its lag.
     };
     for (const size_t joint : {size_t{0}, size_t{3}, size_t{14}, walk_.joints() - 1}) {
       check(place(joint));

@@ -10,7 +10,7 @@
 namespace panache {
 namespace {
 
-constexpr double kStep = 1.0 / 60;
+constexpr double kPoseStep = 1.0 / 60;
 
 std::shared_ptr<const Model> predicting_model(float size) {
   TensorFile file = test::make_model({"old"});
@@ -29,7 +29,7 @@ TEST(PosePredictor, constant_velocity_is_continued) {
   PosePredictor predictor(predicting_model(0));
   double time = 0;
   for (int f = 0; f < 240; ++f) {
-    time = f * kStep;
+    time = f * kPoseStep;
     push(predictor, time, 1 + 0.5f * static_cast<float>(time), 2 * static_cast<float>(time));
   }
   for (const double ahead : {0.0, 0.03, 0.1, 0.25}) {
@@ -44,7 +44,7 @@ TEST(PosePredictor, constant_velocity_is_continued) {
 TEST(PosePredictor, nothing_ahead_is_now) {
   PosePredictor predictor(predicting_model(0.1f));
   for (int f = 0; f < 60; ++f)
-    push(predictor, f * kStep, std::sin(0.1f * static_cast<float>(f)), 0);
+    push(predictor, f * kPoseStep, std::sin(0.1f * static_cast<float>(f)), 0);
   const PredictedPose body = predictor.predict(0);
   EXPECT_EQ(body.body[5].y, std::sin(5.9f));
   EXPECT_EQ(body.root.position, Vec3{});
@@ -56,7 +56,7 @@ TEST(PosePredictor, who_was_wrong_loses_weight) {
   const auto error_at = [&](int from, int frames) {
     float sum = 0;
     for (int f = from; f < from + frames; ++f) {
-      const double time = f * kStep;
+      const double time = f * kPoseStep;
       const auto height = [](double t) { return 1 + 0.3f * std::sin(3 * static_cast<float>(t)); };
       push(predictor, time, height(time), 0);
       sum += std::abs(predictor.predict(0.1).body[4].y - height(time + 0.1));

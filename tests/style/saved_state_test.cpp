@@ -14,7 +14,7 @@
 namespace panache {
 namespace {
 
-constexpr double kStepSeconds = 1.0 / 60;
+constexpr double kFrameSeconds = 1.0 / 60;
 
 // Fills what the stack will be of functions called next.
 [[gnu::noinline]] void fill_stack(int garbage) {
@@ -29,9 +29,9 @@ class SavedState : public testing::Test {
     auto walker = *WalkerModel::load(std::string(PANACHE_SOURCE_DIR "/models/walker.safetensors"));
     Walker walk(walker);
     walk_.skeleton = canonical_skeleton();
-    walk_.frame_time = kStepSeconds;
+    walk_.frame_time = kFrameSeconds;
     walk_.resize(400);
-    for (int f = 0; f < walk_.frames; ++f) walk.step(1.3f, 0.2f, kStepSeconds, walk_.pose(f));
+    for (int f = 0; f < walk_.frames; ++f) walk.step(1.3f, 0.2f, kFrameSeconds, walk_.pose(f));
     model_ = *Model::load(std::string(PANACHE_SOURCE_DIR "/models/panache.safetensors"));
     strengths_.resize(model_->styles().size());
     strengths_[static_cast<size_t>(*model_->find_style("old"))] = 1;
@@ -48,7 +48,7 @@ class SavedState : public testing::Test {
     Clip out = walk_;
     for (int f = from; f < to; ++f) {
       if (garbage) fill_stack(garbage);
-      character.step(walk_.pose(f), strengths_, kStepSeconds, out.pose(f));
+      character.step(walk_.pose(f), strengths_, kFrameSeconds, out.pose(f));
     }
   }
   static std::vector<std::byte> saved(const LiveStylizer& character) {
@@ -96,7 +96,7 @@ TEST_F(SavedState, after_a_reset_or_a_pause_has_nothing_of_the_past) {
       play(paused, 0, 220);
       for (LiveStylizer* one : {&fresh, &reset, &paused}) {
         Clip out = walk_;
-        one->step(walk_.pose(220), strengths_, one == &reset ? kStepSeconds : 2, out.pose(0));
+        one->step(walk_.pose(220), strengths_, one == &reset ? kFrameSeconds : 2, out.pose(0));
         play(*one, 221, 220 + frames);
       }
       EXPECT_EQ(differ(saved(fresh), saved(paused)), -1) << frames << " frames";
