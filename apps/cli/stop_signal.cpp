@@ -7,14 +7,14 @@
 namespace panache::cli {
 namespace {
 
-volatile std::sig_atomic_t stop_asked = 0;
+volatile std::sig_atomic_t stop_flag = 0;
 
 }  // namespace
 
 void watch_stop_signals() {
-  on_stop_signal([](int) { stop_asked = 1; });
+  on_stop_signal([](int) { stop_flag = 1; });
 }
 
-bool stop_asked() { return stop_asked != 0; }
+bool stop_asked() { return stop_flag != 0; }
 
 }  // namespace panache::cli
