@@ -6,8 +6,9 @@
 #include "clip/deform_skeleton.h"
 #include "clip/gltf_document.h"
 #include "clip/gltf_encode.h"
-#include "clip/vrma_rest.h"
 #include "clip/gltf_retime.h"
+#include "clip/gltf_unpack.h"
+#include "clip/vrma_rest.h"
 
 namespace panache {
 namespace {
@@ -48,11 +49,25 @@ Result<GltfDocument> read_once(std::string bytes, const std::string& name,
                                std::optional<double> fps) {
   GltfChecker checker(name);
   GltfDocument document;
-  if (!read_gltf_container(std::move(bytes), name, checker, document.container) ||
-      !read_gltf_nodes(document, checker) || !read_gltf_channels(document, checker)) {
+  if (!read_gltf_container(std::move(bytes), name, checker, document.container)) {
     return checker.error();
   }
-  read_gltf_weights(document);
+  // Packed meshes alone stay as they are in what is written.
+  std::optional<GltfContainer> plain;
+  if (has_packed_data(document.container)) {
+    const bool is_needed = has_packed_motion(document.container);
+    GltfChecker unpacking(name);
+    GltfContainer unpacked;
+    if (unpack_gltf(document.container, unpacking, unpacked)) {
+      (is_needed ? document.container : plain.emplace()) = std::move(unpacked);
+    } else if (is_needed) {
+      return unpacking.error();
+    }
+  }
+  if (!read_gltf_nodes(document, checker) || !read_gltf_channels(document, checker)) {
+    return checker.error();
+  }
+  read_gltf_weights(plain ? *plain : document.container, document);
   if (!build_gltf_skeleton(document, checker) || !read_gltf_clips(document, checker, fps)) {
     return checker.error();
   }

@@ -11,10 +11,11 @@ namespace {
 // compressed mesh, says nothing: motion does not depend on it. Nor does what is too much to read.
 class WeightReader {
  public:
-  explicit WeightReader(GltfDocument& document)
-      : document_(document),
-        json_(document.container.json),
-        left_(gltf_max_values(document.container.size)) {}
+  WeightReader(const GltfContainer& container, GltfDocument& document)
+      : container_(container),
+        document_(document),
+        json_(container.json),
+        left_(gltf_max_values(container.size)) {}
 
   void read() {
     for (const GltfJson& node : list(json_, "nodes")) {
@@ -76,9 +77,10 @@ class WeightReader {
   bool values(const GltfJson& attributes, const std::string& name, GltfValues& out) const {
     const int accessor = index(attributes, name.c_str(), "accessors");
     GltfChecker unheard("");
-    return accessor >= 0 && read_gltf_accessor(document_.container, accessor, "", unheard, out);
+    return accessor >= 0 && read_gltf_accessor(container_, accessor, "", unheard, out);
   }
 
+  const GltfContainer& container_;
   GltfDocument& document_;
   const GltfJson& json_;
   // Numbers and sets that may still be read: nodes and primitives may share a large mesh.
@@ -87,6 +89,8 @@ class WeightReader {
 
 }  // namespace
 
-void read_gltf_weights(GltfDocument& document) { WeightReader(document).read(); }
+void read_gltf_weights(const GltfContainer& container, GltfDocument& document) {
+  WeightReader(container, document).read();
+}
 
 }  // namespace panache

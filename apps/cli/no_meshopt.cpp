@@ -1,0 +1,7 @@
+#include "meshopt.h"
+
+namespace panache::cli {
+
+const MeshoptDecoder kMeshoptDecoder = nullptr;
+
+}  // namespace panache::cli

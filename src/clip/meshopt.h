@@ -1,0 +1,28 @@
+#pragma once
+// Data of glTF files that is packed (EXT_meshopt_compression), which a program may decode.
+
+#include <cstddef>
+#include <string_view>
+
+namespace panache {
+
+enum class MeshoptMode { attributes, triangles, indices };
+enum class MeshoptFilter { none, octahedral, quaternion, exponential };
+
+// A packed part of a buffer, with numbers that the extension allows.
+struct MeshoptView {
+  MeshoptMode mode = MeshoptMode::attributes;
+  MeshoptFilter filter = MeshoptFilter::none;  // Of attributes only.
+  size_t count = 0;                            // Elements, at least one; whole triangles.
+  size_t stride = 0;  // Bytes of an element: attributes 4 to 256 in fours, indices 2 or 4.
+};
+
+// Decodes `packed`, which may be any bytes, to view.count * view.stride bytes at `out`; false where
+// that cannot be done.
+using MeshoptDecoder = bool (*)(const MeshoptView& view, std::string_view packed, char* out);
+
+// What files are decoded with from here on; null, as from the start, where packed motion is to be
+// rejected. Called before any thread reads.
+void set_meshopt_decoder(MeshoptDecoder decoder);
+
+}  // namespace panache
