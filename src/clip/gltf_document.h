@@ -79,8 +79,8 @@ inline size_t gltf_max_values(size_t bytes) { return std::max<size_t>(10'000'000
 
 // gltf_nodes.cpp: the tree of nodes, with what skins and humanoids say of them.
 bool read_gltf_nodes(GltfDocument& document, GltfChecker& checker);
-// gltf_weights.cpp: what of the meshes follows each node; `container` is the document's, or the same
-// without packed data.
+// gltf_weights.cpp: what of the meshes follows each node; `container` is the document's, or the
+// same without packed data.
 void read_gltf_weights(const GltfContainer& container, GltfDocument& document);
 // gltf_animation.cpp: what the animations move.
 bool read_gltf_channels(GltfDocument& document, GltfChecker& checker);
