@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
-# part.sh PROJECT SAMPLES MODEL: a project of C has PROJECT as a part, by add_subdirectory. It gets the
-# library under the names of an installation, and neither the program nor the tests.
+# part.sh PROJECT SAMPLES MODEL BUILD_FOLDER: a project of C has PROJECT as a part, by
+# add_subdirectory. It gets the library under the names of an installation, and neither the program nor
+# the tests. One module and one source of the interface are compiled in the part; the C program is
+# linked with the libraries of BUILD_FOLDER in their place, because all of them take minutes.
 set -euo pipefail
-project=$1 samples=$2 model=$3
+project=$1 samples=$2 model=$3 built=$4
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cat >"$work/CMakeLists.txt" <<END
@@ -18,12 +20,22 @@ foreach(library panache panache_static)
   target_link_libraries(with_\${library} PRIVATE Panache::\${library} m)
 endforeach()
 END
-launcher=$(command -v ccache || true)
-cmake -G Ninja -S "$work" -B "$work/build" -DCMAKE_BUILD_TYPE=Debug \
-  -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher" >"$work/log"
-nice cmake --build "$work/build" -j 2 >>"$work/log" || { tail -n 40 "$work/log"; exit 1; }
+cmake -G Ninja -S "$work" -B "$work/build" -DCMAKE_BUILD_TYPE=Debug >"$work/log"
+cd "$work/build"
+ninja panache_base part/src/api/CMakeFiles/panache_api.dir/panache.cpp.o >>"$work/log" || {
+  tail -n 40 "$work/log"
+  exit 1
+}
+[[ -z $(ninja -t targets all | grep '/tests/\|/apps/cli/') ]] || {
+  echo "part.sh: the part has the program or the tests" >&2
+  exit 1
+}
+cp -P "$built"/src/api/libpanache.* part/src/api/
 for library in panache panache_static; do
-  "$work/build/with_$library" "$model" >"$work/$library.txt"
+  # The commands of the program alone, without those that build the libraries.
+  object=$(ninja -t targets all | grep -o "^CMakeFiles/with_$library\.dir/.*main\.c\.o")
+  { ninja -t commands -s "$object"; ninja -t commands -s "with_$library"; } >"$work/commands"
+  sh -e "$work/commands"
+  "./with_$library" "$model" >"$work/$library.txt"
 done
 cmp "$work/panache.txt" "$work/panache_static.txt"
-[[ ! -e $work/build/panache ]]
