@@ -1,7 +1,9 @@
 // panache view: the page, served to this machine alone.
 
 #include <cctype>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -146,7 +148,8 @@ int view(const ViewVerb& verb) {
   const int port = server.bind_to_any_port(kAddress);
   const std::string address = std::string(kAddress) + ":" + std::to_string(port);
   if (port < 0) {
-    return fail({"no port of " + std::string(kAddress) + " is free to serve the page on"},
+    return fail({std::string(kAddress) + ": no port to serve the page on: " + std::strerror(errno) +
+                 "; is the loopback interface up, and may programs listen on it?"},
                 kBadInput);
   }
   if (!server.set_mount_point("/", *page)) {

@@ -1,12 +1,18 @@
 // panache view: the page, served to this machine alone.
 
+#include <cerrno>
 #include <csignal>
+#include <functional>
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 
 #include "cli/program.h"
+
+#ifdef PANACHE_SECCOMP
+#include <seccomp.h>
+#endif
 
 namespace panache::test {
 namespace {
@@ -215,6 +221,48 @@ TEST_F(ViewVerb, keeps_pages_of_others_from_showing_or_reading_it) {
   EXPECT_EQ(answer.find("Access-Control-Allow-Origin"), std::string::npos);
   EXPECT_EQ(answer.find(" 'unsafe-eval'"), std::string::npos);
 }
+
+#if defined(PANACHE_SECCOMP) && !defined(PANACHE_SANITIZED)  // Not under the sanitizers.
+// Runs `start` where `call` fails with `error`; its exit code is that of the process it starts.
+pid_t start_where_fails(int call, int error, const std::function<pid_t()>& start) {
+  const pid_t watcher = ::fork();
+  if (watcher != 0) return watcher;
+  scmp_filter_ctx rules = ::seccomp_init(SCMP_ACT_ALLOW);
+  int status = 0;
+  if (rules && ::seccomp_rule_add(rules, SCMP_ACT_ERRNO(error), call, 0) == 0 &&
+      ::seccomp_load(rules) == 0) {
+    ::waitpid(start(), &status, 0);
+    ::_exit(WIFEXITED(status) ? WEXITSTATUS(status) : 99);
+  }
+  ::_exit(77);
+}
+
+TEST_F(ViewVerb, fails_with_the_reason_where_it_cannot_listen) {
+  write("web/index.html", "the page");
+  const struct {
+    int call, error;
+    std::string begin, end;
+  } cases[] = {
+      {SCMP_SYS(socket), EMFILE, "panache: 127.0.0.1: no port to serve the page on: ",
+       "Too many open files; is the loopback interface up, and may programs listen on it?\n"},
+      {SCMP_SYS(bind), EADDRINUSE, "panache: 127.0.0.1: no port to serve the page on: ",
+       "Address already in use; is the loopback interface up, and may programs listen on it?\n"},
+      {SCMP_SYS(listen), EADDRINUSE, "panache: 127.0.0.1: no port to serve the page on: ",
+       "Address already in use; is the loopback interface up, and may programs listen on it?\n"},
+      {SCMP_SYS(accept), EPERM,
+       "panache: open this address in a browser; Ctrl-C ends\npanache: 127.0.0.1:",
+       ": listening failed, so the page is not served any more\n"},
+  };
+  for (const auto& [call, error, begin, end] : cases) {
+    const Ran ran = finish(start_where_fails(call, error, [&] {
+      return start({"view", "walk one.bvh"}, "model.safetensors", program_);
+    }));
+    if (ran.exit == 77) GTEST_SKIP() << "this kernel has no filters";
+    EXPECT_EQ(ran.exit, 1) << call;
+    EXPECT_TRUE(ran.err.starts_with(begin) && ran.err.ends_with(end)) << ran.err;
+  }
+}
+#endif
 
 }  // namespace
 }  // namespace panache::test
