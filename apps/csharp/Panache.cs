@@ -204,20 +204,21 @@ public sealed class Clip {
   public float[] Translations;  // [frames * joints * 3]
   public int FrameCount => Rotations.Length / (4 * Skeleton.JointCount);
 
-  /// A motion of a BVH, GLB, glTF or VRM file; framesPerSecond above 0 where its rate is wrong or
-  /// missing.
-  public static Clip Load(string path, int motion = 0, double framesPerSecond = 0) {
+  /// A motion of a BVH, GLB, glTF or VRM file, the first that moves the humanoid where none is asked
+  /// for; framesPerSecond where its rate is wrong or missing.
+  public static Clip Load(string path, int? motion = null, double? framesPerSecond = null) {
     byte[] bytes = File.ReadAllBytes(path);
     IntPtr created;
-    Native.Check(framesPerSecond == 0
-        ? Native.panache_motion_file_create(bytes, (UIntPtr)bytes.Length, Native.Utf8(path),
-                                            out created)
-        : Native.panache_motion_file_create_at_rate(bytes, (UIntPtr)bytes.Length,
-                                                    Native.Utf8(path), framesPerSecond,
-                                                    out created));
+    Native.Check(framesPerSecond.HasValue
+        ? Native.panache_motion_file_create_at_rate(bytes, (UIntPtr)bytes.Length,
+                                                    Native.Utf8(path), framesPerSecond.Value,
+                                                    out created)
+        : Native.panache_motion_file_create(bytes, (UIntPtr)bytes.Length, Native.Utf8(path),
+                                            out created));
     using (var file = new Handle(created, Native.panache_motion_file_destroy)) {
-      Native.Check(Native.panache_motion_file_get_clip(file, motion, out Native.Clip found));
-      Native.Check(Native.panache_motion_file_create_skeleton(file, motion, IntPtr.Zero,
+      int which = motion ?? FirstOfTheBody(file, path);
+      Native.Check(Native.panache_motion_file_get_clip(file, which, out Native.Clip found));
+      Native.Check(Native.panache_motion_file_create_skeleton(file, which, IntPtr.Zero,
                                                               out IntPtr skeleton));
       var clip = new Clip { Skeleton = new Skeleton(skeleton), FrameSeconds = found.frameSeconds };
       clip.Rotations = new float[4 * found.frameCount * clip.Skeleton.JointCount];
@@ -226,6 +227,15 @@ public sealed class Clip {
       Marshal.Copy(found.translations, clip.Translations, 0, clip.Translations.Length);
       return clip;
     }
+  }
+  static int FirstOfTheBody(Handle file, string path) {
+    int count = Native.panache_motion_file_clip_count(file);
+    for (int i = 0; i < count; ++i) {
+      if (Native.panache_motion_file_clip_moves(file, i) != 0) return i;
+    }
+    if (count == 0) return 0;  // The library says so.
+    throw new PanacheException(path + ": none of its motions moves a joint of the humanoid; " +
+                               "expected an animation that does");
   }
   internal Native.Clip ToNative(Kept kept) {
     int values = 4 * Skeleton.JointCount * FrameCount;
@@ -438,6 +448,9 @@ internal static class Native {
                                                                 byte[] name, double fps,
                                                                 out IntPtr file);
   [DllImport(Library)] internal static extern void panache_motion_file_destroy(IntPtr file);
+  [DllImport(Library)] internal static extern int panache_motion_file_clip_count(Handle file);
+  [DllImport(Library)]
+  internal static extern int panache_motion_file_clip_moves(Handle file, int motion);
   [DllImport(Library)]
   internal static extern int panache_motion_file_get_clip(Handle file, int motion, out Clip clip);
   [DllImport(Library)]

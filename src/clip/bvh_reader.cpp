@@ -317,7 +317,7 @@ class BvhReader {
   void note_count(uint64_t rows) {
     document_.notes.push_back(
         before_count_
-            .error("a count of " + std::to_string(rows) + ", the complete rows that follow")
+            .error("a count of " + std::to_string(rows) + ", that of the complete rows that follow")
             .message +
         (rows == 1 ? "; that one is read" : "; all of them are read") +
         (rows < announced_ ? ", and the file may be cut short" : ""));

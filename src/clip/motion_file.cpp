@@ -1,5 +1,6 @@
 #include "clip/motion_file.h"
 
+#include <cstdio>
 #include <string>
 
 #include "clip/motion_format.h"
@@ -16,7 +17,9 @@ std::span<const MotionFormat> known_motion_formats() { return known_formats; }
 
 Result<void> check_fps(double fps) {
   if (fps >= kMinFps && fps <= kMaxFps) return {};
-  return Error{"expected a rate of 0.01 to 10000 frames a second, found " + std::to_string(fps)};
+  char found[32];
+  std::snprintf(found, sizeof found, "%g", fps);
+  return Error{std::string("expected a rate of 0.01 to 10000 frames a second, found ") + found};
 }
 
 Result<std::unique_ptr<MotionFile>> read_motion(const std::string& path,

@@ -290,8 +290,8 @@ std::optional<std::string> doubtful_rate(const Clip& clip, const Rig& rig) {
   if (!doubtful) return std::nullopt;
   return "expected steps that legs of " + brief(walk.leg) + " m can take, found " +
          brief(a_second) + " a second, too " + (many ? "fast" : "slow") +
-         " to keep the balance; if " + brief(1 / clip.frame_time) + " frames a second are wrong, " +
-         kGiveRate;
+         " to keep balance; if it was not recorded at " + brief(1 / clip.frame_time) +
+         " frames a second, " + kGiveRate;
 }
 
 }  // namespace panache

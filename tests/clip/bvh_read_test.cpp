@@ -127,8 +127,8 @@ TEST(BvhReading, all_rows_are_read_and_a_wrong_count_is_noted_as_in_blender) {
     EXPECT_EQ(broken_promise(file->clip()), "");
     const bool short_file = count[0] > '3' || count[1] != '\0';
     EXPECT_EQ(file->notes(),
-              Notes{std::string("test.bvh:26:9: expected a count of 3, the complete rows that "
-                                "follow, found '") +
+              Notes{std::string("test.bvh:26:9: expected a count of 3, that of the complete rows "
+                                "that follow, found '") +
                     count + "'; all of them are read" +
                     (short_file ? ", and the file may be cut short" : "")});
   }

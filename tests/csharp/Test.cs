@@ -1,11 +1,12 @@
-// Test.exe MODEL NEUTRAL.bvh STYLED.bvh POSES: C# against the C interface. POSES is what c_step
-// wrote of NEUTRAL.bvh.
+// Test.exe MODEL NEUTRAL.bvh STYLED.bvh POSES LIT LAMP: C# against the C interface. POSES is what
+// c_step wrote of NEUTRAL.bvh; LIT and LAMP are what lamp.py wrote.
 
 using System;
 using System.Collections.Generic;
 using System.Diagnostics;
 using System.IO;
 using System.Linq;
+using System.Text.RegularExpressions;
 using Panache;
 
 static class Test {
@@ -145,6 +146,22 @@ static class Test {
     ExpectRejection(walk + ": there is no motion 3; it has 1", () => Clip.Load(walk, 3));
   }
 
+  static void FilesAreReadAtAGivenRateAndForTheirBody(string walk, string lit, string lamp) {
+    string zero = walk + ".zero.bvh";
+    File.WriteAllText(zero, Regex.Replace(File.ReadAllText(walk), "Frame Time:.*", "Frame Time: 0"));
+    string found = Rejection(() => Clip.Load(zero));
+    Expect(found.StartsWith(zero + ":") && found.EndsWith("give its rate"), found);
+    Expect(Clip.Load(zero, framesPerSecond: 50).FrameSeconds == 1.0 / 50, "the rate that is given");
+    Expect(Clip.Load(zero, framesPerSecond: 50).FrameCount == Clip.Load(walk).FrameCount, "all frames");
+    foreach (double wrong in new[] { 0, -5, 20000, double.NaN, double.PositiveInfinity })
+      ExpectRejection("expected a rate of 0.01 to 10000", () => Clip.Load(walk, null, wrong));
+    float[] first = Clip.Load(lit).Rotations;
+    Expect(first.SequenceEqual(Clip.Load(lit, 1).Rotations), "the body's motion, not the lamp's");
+    Expect(!first.SequenceEqual(Clip.Load(lit, 0).Rotations), "the lamp's where it is asked for");
+    ExpectRejection(lamp + ": none of its motions moves a joint of the humanoid",
+                    () => Clip.Load(lamp));
+  }
+
   static int Main(string[] arguments) {
     var model = Model.Load(arguments[0]);
     Clip walk = Clip.Load(arguments[1]), styled = Clip.Load(arguments[2]);
@@ -153,6 +170,7 @@ static class Test {
     ASkeletonIsFoundAmongJoints(model);
     AStyleIsLearnt(model, walk, styled);
     ErrorsAreTheLibrarysSentences(model, arguments[1]);
+    FilesAreReadAtAGivenRateAndForTheirBody(arguments[1], arguments[4], arguments[5]);
     for (int i = 0; i < 200; ++i) new Character(model, walk.Skeleton);  // Given back by themselves.
     GC.Collect();
     GC.WaitForPendingFinalizers();

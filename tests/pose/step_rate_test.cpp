@@ -24,9 +24,10 @@ TEST(StepRate, a_walk_is_doubted_far_from_its_rate_and_not_near_it) {
 }
 
 TEST(StepRate, the_message_says_what_was_found_and_the_cure) {
-  EXPECT_EQ(doubt(test::walking_clip(240), 4),
-            "expected steps that legs of 0.8 m can take, found 8 a second, too fast to keep the "
-            "balance; if 120 frames a second are wrong, give its rate");
+  EXPECT_EQ(
+      doubt(test::walking_clip(240), 4),
+      "expected steps that legs of 0.8 m can take, found 8 a second, too fast to keep balance; "
+      "if it was not recorded at 120 frames a second, give its rate");
   EXPECT_NE(doubt(test::walking_clip(240), 0.25).find("found 0.5 a second, too slow"),
             std::string::npos);
 }

@@ -238,7 +238,9 @@ def test_training_samples_are_windows_and_what_the_style_does(model, walk, walk_
 
 def test_info_tells_of_motions_and_models(walk_file, shipped, tmp_path):
     walk = panache.info(walk_file)
-    assert walk['clips'] == [{'name': '', 'frames': 240, 'seconds': pytest.approx(4, abs=0.01)}]
+    assert walk['clips'] == [{'name': '', 'frames': 240, 'seconds': pytest.approx(4, abs=0.01),
+                              'moves': True}]
+    assert walk['notes'] == []
     assert walk['mapping']['hips'] in walk['joints']
     assert panache.info(shipped)['metadata']['recipe'] == 'panache'
     (tmp_path / 'rod.bvh').write_text(

@@ -37,6 +37,7 @@ def write(path, content: bytes, force: bool) -> None:
         if permissions is not None:
             os.chmod(part, permissions)
         _rename(part, target, force)
+        part = None  # Another thread may have made a new one of this name.
     except FileExistsError as error:
         raise _taken(path) from error
     except OSError as error:
@@ -84,7 +85,8 @@ def _rename(part: str, target: str, force: bool) -> None:
         if os.name == 'nt':
             return os.rename(part, target)  # Replaces nothing there.
         try:
-            return os.link(part, target)  # Replaces nothing anywhere; write() removes the part.
+            os.link(part, target)  # Replaces nothing anywhere.
+            return os.unlink(part)
         except FileExistsError:
             raise
         except OSError:  # A file system without links.

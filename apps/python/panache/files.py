@@ -56,8 +56,9 @@ class MotionFile:
 
     @property
     def notes(self) -> List[str]:
-        """What is odd about the file although it was read, a sentence each: a wrong count of frames,
-        keys before 0 s, motions that are passed over, steps too fast or slow for the legs."""
+        """What is odd about the file although it was read, a sentence each: a wrong count of
+        frames, keys before 0 s, motions that are passed over, steps too fast or slow for the
+        legs."""
         text = take_bytes(lib.motion_file_get_notes, self._handle.pointer)
         return text.decode(errors='replace').splitlines()
 
@@ -225,7 +226,8 @@ def retarget_file(source: Path, character: Path, output: Path, *, mode: str = 'l
 def info(path: Path, fps: Optional[float] = None) -> Dict[str, Any]:
     """What a file is. Of a motion file: 'joints' (names), 'clips' (name, frames, seconds, moves),
     'notes' (as MotionFile.notes), 'mapping' (the joint of each human joint; None where there is no
-    humanoid, with 'error' for the reason). `fps` as for `MotionFile`. Of a model: 'styles' and 'metadata'."""
+    humanoid, with 'error' for the reason). `fps` as for `MotionFile`. Of a model: 'styles' and
+    'metadata'."""
     if pathlib.Path(path).suffix == '.safetensors':
         model = Model(path)
         return {'styles': model.styles, 'metadata': model.metadata}
