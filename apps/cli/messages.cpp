@@ -22,10 +22,16 @@ std::string with_hint(const std::string& message) {
   constexpr std::array kHints = {
       Hint{": exists already", "; --force overwrites it"},
       Hint{"; replace it or give one of the two another name", " (--force, --rename)"},
+      Hint{"; expected a safetensors file", ", as models and styles are"},
+      Hint{"found the extension '.safetensors'", ", which models and styles have"},
       Hint{": is a style file, not a model", "; panache styles MODEL --add FILE puts it into one"},
       Hint{"or learn it again with this one", " (panache learn)"},
       Hint{"'learn.mean' and 'learn.scale'", ", as panache train writes it"},
       Hint{"'; rename them", " with --styles"},
+      Hint{"; give it another name", " (--styles)"},
+      Hint{"; add one, or leave the style out", " (--styles lists those to learn)"},
+      Hint{"; add one, or leave the styles out", " (--styles lists those to learn)"},
+      Hint{"; add some, or leave the style out", " (--styles lists those to learn)"},
       Hint{"the model has no styles yet", "; panache learn adds one"},
       Hint{kGiveRate, " (--fps N; panache convert --fps N writes the file with it)"},
   };

@@ -13,6 +13,11 @@ namespace {
 // The name of a result that the user did not name: "takes/walk-old.bvh" of "takes/walk.bvh".
 Result<std::string> default_output(const FoundFiles& found, const OutputNaming& naming) {
   if (found.is_batch) {
+    const std::string& last = found.files.back().path;
+    std::error_code status;
+    if (!std::filesystem::exists(last, status)) {
+      return Error{last + ": there is no such file; an output is given as --output " + last};
+    }
     return Error{"--output is required: a folder for the results of " +
                  plural(found.files.size(), "file")};
   }

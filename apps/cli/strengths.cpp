@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <string_view>
 
@@ -49,15 +50,44 @@ Result<int> find_style(const std::string& name, const Model& model) {
   return alike.size() == 1 ? Result<int>(alike[0]) : exact;
 }
 
+// What is wrong with a --style that gives no strength: "old", "old:1", "olld".
+Error without_strength(const std::string& text, const Model& model) {
+  std::string name;
+  for (const StyleInfo& style : model.styles()) {
+    if (text.starts_with(style.name) && style.name.size() > name.size()) name = style.name;
+  }
+  if (name.empty()) {
+    if (Result<int> style = find_style(text, model); !style) return style.error();
+    name = text;
+  }
+  return Error{"--style " + text + ": expected a name and a strength, as in '" + name + "=1'"};
+}
+
+// The usual mistakes of "1=old" and "old=1,proud=1".
+Result<void> check_order(const std::string& text, const std::string& name, const std::string& value,
+                         const Model& model) {
+  if (!find_style(name, model) && parse_number(name) && find_style(value, model)) {
+    return Error{"--style " + text + ": expected the name before the strength, as in '" + value +
+                 "=" + name + "'"};
+  }
+  const size_t second = value.find('=');
+  const size_t end = value.find_first_of(",;+ ");
+  if (second != std::string::npos && end < second) {
+    return Error{"--style " + text + ": expected one style; the others go with an option each, " +
+                 "as in --style " + name + "=" + value.substr(0, end) + " --style " +
+                 value.substr(value.find_first_not_of(",;+ ", end))};
+  }
+  return {};
+}
+
 // "NAME=STRENGTH" or "NAME=STRENGTH..STRENGTH".
 Result<StrengthWish> parse_style(const std::string& text, const Model& model) {
   const size_t equals = text.find('=');
-  if (equals == std::string::npos) {
-    return Error{"--style " + text + ": expected a name and a strength, as in '" + text + "=1'"};
-  }
-  Result<int> style = find_style(text.substr(0, equals), model);
+  if (equals == std::string::npos) return without_strength(text, model);
+  const std::string name = text.substr(0, equals), value = text.substr(equals + 1);
+  if (auto order = check_order(text, name, value, model); !order) return order.error();
+  Result<int> style = find_style(name, model);
   if (!style) return style.error();
-  const std::string value = text.substr(equals + 1);
   const size_t dots = value.find("..");
   const std::string begin = value.substr(0, dots);
   const std::string end = dots == std::string::npos ? begin : value.substr(dots + 2);
@@ -109,6 +139,31 @@ Result<StrengthColumns> read_columns(const CsvTable& table, const std::string& w
 }
 
 }  // namespace
+
+Error missing_style(const std::vector<std::string>& files, const Model& model) {
+  for (const std::string& file : files) {
+    const size_t equals = file.find('=');
+    std::error_code status;
+    if (!find_style(file.substr(0, equals), model) || std::filesystem::exists(file, status))
+      continue;
+    return Error{file + ": there is no such file; a style is given as --style " + file +
+                 (equals == std::string::npos ? "=1" : "")};
+  }
+  std::vector<std::string> names;
+  for (const StyleInfo& style : model.styles()) names.push_back(style.name);
+  if (names.empty()) return Error{"a style is missing; the model has no styles yet"};
+  constexpr size_t kListed = 12;
+  const size_t listed = std::min(names.size(), kListed);
+  std::string list = names[0];
+  for (size_t i = 1; i < listed; ++i) {
+    list += (i + 1 == names.size() ? " and " : ", ") + names[i];
+  }
+  if (listed < names.size()) {
+    list += " and " + std::to_string(names.size() - listed) + " more (panache styles lists all)";
+  }
+  return Error{"a style is missing; expected one, as in --style " + names[0] +
+               "=1, or a table of strengths (--strengths); the model has " + list};
+}
 
 Result<std::vector<StrengthWish>> parse_styles(const std::vector<std::string>& texts,
                                                const Model& model) {

@@ -19,6 +19,10 @@ struct StrengthWish {
   bool over_clip = false;  // The times are shares of the clip, 0 to 1, not seconds.
 };
 
+// What to say where no style is asked for: how that is done, and which styles there are. `files`:
+// the input files; a style among them lacks its option.
+Error missing_style(const std::vector<std::string>& files, const Model& model);
+
 // Reads "old=1" and "old=1..0" (from the first to the last frame).
 Result<std::vector<StrengthWish>> parse_styles(const std::vector<std::string>& texts,
                                                const Model& model);

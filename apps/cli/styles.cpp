@@ -121,6 +121,9 @@ Result<void> check_usage(const StylesVerb& verb) {
   if (std::ranges::count(wishes, true) > 1) {
     return Error{"--extract, --add, --remove and --rename: expected one of them at a time"};
   }
+  if (changes(verb) && !verb.output.empty()) {
+    return Error{"--output: goes with --extract; --add, --remove and --rename change MODEL itself"};
+  }
   if (verb.extract.empty() != verb.output.empty()) {
     return Error{"--extract NAME and --output FILE: expected both or neither"};
   }

@@ -20,7 +20,6 @@
 #include "rig_options.h"
 #include "rig_report.h"
 #include "shape_options.h"
-#include "standard_streams.h"
 #include "strengths.h"
 #include "style/restyle.h"
 #include "verbs.h"
@@ -218,9 +217,7 @@ Result<std::vector<StrengthWish>> collect_wishes(const StylizeOptions& options, 
                                                  int& exit_code) {
   exit_code = kBadUsage;
   if (options.styles.empty() && options.strengths.empty()) {
-    const std::string example = model.styles().empty() ? "old" : model.styles().front().name;
-    return Error{"expected a style, as in --style " + example +
-                 "=1, or a table of strengths (--strengths)"};
+    return missing_style(options.batch.inputs, model);
   }
   Result<std::vector<StrengthWish>> wishes = parse_styles(options.styles, model);
   if (!wishes || options.strengths.empty()) return wishes;
@@ -264,56 +261,31 @@ std::string name_styles(const StylizeOptions& options) {
   return name;
 }
 
-// The first mistake of all: a file, and no word on what to make of it.
-Result<void> check_asked(const StylizeOptions& options, int& exit_code) {
-  const std::vector<std::string>& inputs = options.batch.inputs;
-  const bool asked = !options.styles.empty() || !options.strengths.empty() ||
-                     options.batch.output || !options.onto.file.empty() ||
-                     inputs[0] == kStandardStream;
-  if (asked) return {};
-  exit_code = kBadInput;
-  Result<std::string> path = find_model(options.model);
-  if (!path) return path.error();
-  Result<std::shared_ptr<const Model>> model = Model::load(*path);
-  if (!model) return model.error();
-  exit_code = kBadUsage;
-  const std::vector<StyleInfo>& styles = (*model)->styles();
-  std::string some;
-  for (size_t i = 0; i < styles.size() && i < 5; ++i) {
-    some += (some.empty() ? "" : ", ") + styles[i].name;
-  }
-  const std::string first = styles.empty() ? "NAME" : styles[0].name;
-  return Error{"a style is missing: expected --style NAME=STRENGTH, such as --style " + first +
-               "=1" +
-               (some.empty() ? "" : "; there are " + some + (styles.size() > 5 ? ", ..." : "")) +
-               " (panache styles lists all)"};
-}
-
 int stylize(const StylizeOptions& options) {
   if (auto rig = check_rig_flags(options.rig); !rig) return fail(rig.error(), kBadUsage);
   if (auto read = check_read_options(options.read); !read) return fail(read.error(), kBadUsage);
   Result<Shape> shape = read_shape(options.shape);
   if (!shape) return fail(shape.error(), kBadUsage);
+  Result<std::string> path = find_model(options.model);
+  if (!path) return fail(path.error(), kBadInput);
+  Result<std::shared_ptr<const Model>> model = Model::load(*path);
+  if (!model) return fail(model.error(), kBadInput);
+  // Before the files: who forgets the style shall not be asked for an output.
+  int exit_code = kDone;
+  Result<std::vector<StrengthWish>> wishes = collect_wishes(options, **model, exit_code);
+  if (!wishes) return fail(wishes.error(), exit_code);
   std::optional<CharacterFile> onto;
   if (!options.onto.file.empty()) {
     Result<CharacterFile> character = CharacterFile::open(options.onto);
     if (!character) return fail(character.error(), kBadInput);
     onto = *std::move(character);
   }
-  int exit_code = kDone;
-  if (auto asked = check_asked(options, exit_code); !asked) return fail(asked.error(), exit_code);
   Result<std::vector<FileJob>> files =
       plan_batch(options.batch, {onto ? onto->extension() : "", name_styles(options)}, exit_code);
   if (!files) return fail(files.error(), exit_code);
   if (auto formats = check_formats(*files, onto); !formats) {
     return fail(formats.error(), kBadUsage);
   }
-  Result<std::string> path = find_model(options.model);
-  if (!path) return fail(path.error(), kBadInput);
-  Result<std::shared_ptr<const Model>> model = Model::load(*path);
-  if (!model) return fail(model.error(), kBadInput);
-  Result<std::vector<StrengthWish>> wishes = collect_wishes(options, **model, exit_code);
-  if (!wishes) return fail(wishes.error(), exit_code);
   Result<RigOptions> rig = read_rig_options(options.rig);
   if (!rig) return fail(rig.error(), kBadInput);
 

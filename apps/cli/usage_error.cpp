@@ -18,16 +18,15 @@ std::string one_line(std::string text) {
   return text;
 }
 
-// Of arguments that no option takes, the first one. CLI11 keeps them last first where an option is
-// among them.
-std::string describe_extra(const CLI::App& verb) {
-  const std::vector<std::string> extras = verb.remaining(true);
-  std::string option;
-  for (const std::string& extra : extras) {
-    if (extra.size() > 1 && extra[0] == '-' && option.empty()) option = extra;
+// Of arguments that no option takes, the first that looks like an option, or none.
+std::string unknown_option(const CLI::App& verb) {
+  for (const std::string& extra : verb.remaining(true)) {
+    if (extra.size() > 1 && extra[0] == '-') return extra.substr(0, extra.find('='));
   }
-  if (option.empty()) return "unexpected argument " + panache::quoted(extras.front());
-  option = option.substr(0, option.find('='));
+  return "";
+}
+
+std::string describe_option(const CLI::App& verb, const std::string& option) {
   std::vector<std::string> names;
   for (const CLI::Option* known : verb.get_options()) {
     for (const std::string& name : known->get_lnames()) names.push_back("--" + name);
@@ -38,11 +37,25 @@ std::string describe_extra(const CLI::App& verb) {
          (nearest.empty() ? "" : "; the nearest " + is_or_are(nearest));
 }
 
+// Of arguments that no option takes, the first one. CLI11 keeps them last first where an option is
+// among them.
+std::string describe_extra(const CLI::App& verb) {
+  const std::string option = unknown_option(verb);
+  if (option.empty()) return "unexpected argument " + panache::quoted(verb.remaining(true).front());
+  return describe_option(verb, option);
+}
+
 }  // namespace
 
 std::string describe(const CLI::ParseError& error, const CLI::App& verb) {
   std::string text = one_line(error.what());
   if (dynamic_cast<const CLI::ExtrasError*>(&error)) return describe_extra(verb);
+  if (dynamic_cast<const CLI::RequiredError*>(&error)) {
+    if (!verb.get_parent()) return "expected a command first, as in 'panache info FILE'";
+    // A mistyped option is why the right one is missing.
+    const std::string option = unknown_option(verb);
+    return option.empty() ? text : describe_option(verb, option) + "; " + text;
+  }
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) {
     // "--style: 1 required STYLE missing".
     return text.substr(0, text.find(':')) + ": expected a value after it";

@@ -107,6 +107,8 @@ Result<std::unique_ptr<MotionFile>> read_motion(const std::string& path,
                                                 std::span<const MotionFormat> formats,
                                                 const ReadOptions& options) {
   Result<const MotionFormat*> format = format_of(path, formats);
+  std::error_code status;
+  if (!format && !std::filesystem::exists(path, status)) return read_file(path).error();
   if (!format) return format.error();
   if ((*format)->read) return (*format)->read(path, options);
   auto bytes = read_file(path);

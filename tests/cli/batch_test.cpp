@@ -88,6 +88,9 @@ TEST_F(Batch, what_is_done_already_can_be_skipped) {
   EXPECT_EQ(read("out/a.bvh"), a);
   EXPECT_EQ(read("out/b.bvh"), "mine");
   EXPECT_TRUE(exists("out/day 2/deep/C.BVH"));
+  write("takes/broken.bvh", "nothing");
+  const Ran more = stylize({"takes", "-o", "out", "--skip-existing"});
+  EXPECT_TRUE(more.out.starts_with("restyled 0 of 5 files, 1 failed, 4 skipped, in ")) << more.out;
   const Ran one = stylize({"takes/b.bvh", "-o", "out/b.bvh", "--skip-existing"});
   EXPECT_EQ(one.out, "skipped takes/b.bvh: out/b.bvh exists already\n");
   EXPECT_EQ(one.exit, 0);
@@ -149,10 +152,9 @@ TEST_F(Batch, a_style_that_is_missing_is_named_before_the_output) {
   for (const std::string input : {"takes/a.bvh", "takes"}) {
     const Ran ran = run({"stylize", input});
     EXPECT_EQ(ran.exit, 2);
-    EXPECT_EQ(
-        ran.err,
-        "panache: a style is missing: expected --style NAME=STRENGTH, such as --style angry=1; "
-        "there are angry, old, proud, sad (panache styles lists all)\n");
+    EXPECT_EQ(ran.err,
+              "panache: a style is missing; expected one, as in --style angry=1, or a table of "
+              "strengths (--strengths); the model has angry, old, proud and sad\n");
   }
 }
 

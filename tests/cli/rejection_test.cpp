@@ -80,7 +80,53 @@ TEST_F(Rejection, a_style_has_one_strength) {
 
 TEST_F(Rejection, a_style_is_needed) {
   expect_rejected({"stylize", "walk.bvh", "-o", "out.bvh"}, 2,
-                  "expected a style, as in --style angry=1, or a table of strengths (--strengths)");
+                  "a style is missing; expected one, as in --style angry=1, or a table of "
+                  "strengths (--strengths); "
+                  "the model has angry, old, proud and sad");
+  // Before anything is said about the output.
+  expect_rejected({"stylize", "walk.bvh"}, 2,
+                  "a style is missing; expected one, as in --style angry=1, or a table of "
+                  "strengths (--strengths); "
+                  "the model has angry, old, proud and sad");
+  std::vector<std::string> many;
+  for (char c = 'a'; c < 'o'; ++c) many.emplace_back(1, c);
+  write("many.safetensors", format_safetensors(make_model(many)));
+  expect_rejected(
+      {"stylize", "walk.bvh", "--model", "many.safetensors"}, 2,
+      "a style is missing; expected one, as in --style a=1, or a table of strengths (--strengths); "
+      "the "
+      "model has a, b, c, d, e, f, g, h, i, j, k, l and 2 more (panache styles lists all)");
+}
+
+TEST_F(Rejection, a_style_that_is_not_written_as_one) {
+  expect_rejected({"stylize", "walk.bvh", "old=1"}, 2,
+                  "old=1: there is no such file; a style is given as --style old=1");
+  expect_rejected({"stylize", "walk.bvh", "old", "-o", "out.bvh"}, 2,
+                  "old: there is no such file; a style is given as --style old=1");
+  expect_style_rejected("old:1", "--style old:1: expected a name and a strength, as in 'old=1'");
+  expect_style_rejected("olld",
+                        "unknown style 'olld'; the nearest is old (panache styles lists all)");
+  expect_style_rejected("1=old",
+                        "--style 1=old: expected the name before the strength, as in 'old=1'");
+  expect_style_rejected("old=1,proud=0.5",
+                        "--style old=1,proud=0.5: expected one style; the others go with an option "
+                        "each, as in --style old=1 --style proud=0.5");
+}
+
+TEST_F(Rejection, an_output_without_its_option) {
+  expect_rejected({"convert", "walk.bvh", "walk.glb"}, 2,
+                  "walk.glb: there is no such file; an output is given as --output walk.glb");
+  expect_rejected({"styles", "model.safetensors", "--remove", "old", "-o", "out.safetensors"}, 2,
+                  "--output: goes with --extract; --add, --remove and --rename change MODEL "
+                  "itself");
+}
+
+TEST_F(Rejection, a_file_that_holds_no_motion) {
+  expect_rejected({"info", "none"}, 1, "none: cannot be read: No such file or directory");
+  expect_rejected(
+      {"retarget", "walk.bvh", "--onto", "model.safetensors", "-o", "out.glb"}, 1,
+      "model.safetensors: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc, "
+      ".fbx, .npz), found the extension '.safetensors', which models and styles have");
 }
 
 TEST_F(Rejection, a_wrong_table_is_explained_with_its_line) {
@@ -224,7 +270,7 @@ TEST_F(Rejection, a_model_with_a_wrong_shape) {
 TEST_F(Rejection, a_model_that_is_none) {
   expect_rejected({"styles", "walk.bvh"}, 1,
                   "walk.bvh: does not start with the length of a header (at most 4194304 bytes); "
-                  "expected a safetensors file");
+                  "expected a safetensors file, as models and styles are");
   expect_rejected({"styles", "none.safetensors"}, 1,
                   "none.safetensors: cannot be read: No such file or directory");
 }
@@ -258,6 +304,11 @@ TEST_F(Rejection, a_command_that_is_incomplete) {
                   "unexpected argument 'more'; see panache quantize --help");
   expect_rejected({"stylize", "--style", "old=1", "-o", "out.bvh"}, 2,
                   "IN is required; see panache stylize --help");
+  expect_rejected({"learn", "walk.bvh", "--nam", "limp"}, 2,
+                  "there is no option '--nam'; the nearest is --name; --name is required; see "
+                  "panache learn --help");
+  expect_rejected({"--style", "old=1", "walk.bvh"}, 2,
+                  "expected a command first, as in 'panache info FILE'; see panache --help");
   expect_rejected({"info"}, 2, "FILE is required; see panache info --help");
   expect_rejected({"stylize", "walk.bvh", "-o", "out.bvh", "--style", "old=1", "--jobs", "-1"}, 2,
                   "--jobs: expected a number from 0 to 1024, found -1");
