@@ -24,6 +24,8 @@ class JointTree {
   // Whether `above` is `joint` or one of its ancestors.
   bool is_above(int above, int joint) const;
   int depth(int joint) const;  // 1 for a root.
+  // Whether vertices of a mesh follow the joint, as far as the file says.
+  bool moves_mesh(int joint) const { return skeleton_.joints[joint].skin >= 0; }
   // How many of the joint and what is above it have more than one child.
   int forks(int joint) const { return joint < 0 ? 0 : forks_[joint]; }
   // The lowest joint that is above both; -1 where they have no tree in common, or one is -1.

@@ -4,14 +4,16 @@
 #include <cmath>
 
 #include "rig/joint_words.h"
+#include "rig/standard_names.h"
 
 namespace panache {
 namespace {
 
 constexpr Side kSides[] = {Side::left, Side::right};
 // How much the plain order of the joints, the same with numbered pieces counted as joints, and a
-// name such as "knee" weigh against odd lengths, in the units of limb_oddity().
-constexpr float kPlainOrder = 12, kAllPieces = 8, kNamed = 20;
+// name such as "knee" weigh against odd lengths, in the units of limb_oddity(); and so do joints
+// that both have the standards' own names.
+constexpr float kPlainOrder = 12, kAllPieces = 8, kNamed = 20, kOwnNames = 40;
 
 bool is_plain_forearm(const JointName& name) { return is_forearm(name) && !is_twist(name); }
 
@@ -21,7 +23,8 @@ class LimbFinder {
       : tree_(tree), names_(names) {}
 
   // Of the ways to read the joints above the end, the one that looks most like a limb.
-  Limb find(LimbKind kind, const Limb& known, int other_tip) const {
+  Limb find(const LimbNames& human, const Limb& known, int other_tip) const {
+    const LimbKind kind = human.kind;
     const int branch = tree_.meeting(lowest_joint(known), other_tip);
     Limb best{-1, -1, known.end};
     float least = INFINITY;
@@ -38,6 +41,11 @@ class LimbFinder {
       consider({above(lower, other_tip, skip_pieces), lower, known.end},
                skip_pieces ? kPlainOrder : kAllPieces);
     }
+    const int own_lower = known.end < 0 ? known.lower : own_above(known.end, human.lower);
+    const int own_upper = own_lower < 0 ? -1 : own_above(own_lower, human.upper);
+    if (own_upper >= 0 && !tree_.is_above(own_upper, other_tip)) {
+      consider({own_upper, own_lower, known.end}, kOwnNames);
+    }
     if (known.end >= 0 && branch >= 0) {
       const std::vector<int> chain = limb_chain(tree_, branch, known.end);
       consider(most_usual_limb(tree_, kind, branch, chain, known.end), 0);
@@ -46,6 +54,12 @@ class LimbFinder {
   }
 
  private:
+  // The nearest joint above that has the standards' own name for `human`; -1 where there is none.
+  int own_above(int joint, HumanJoint human) const {
+    int q = tree_.parent(joint);
+    while (q >= 0 && !is_standard_name_of(names_[q], human)) q = tree_.parent(q);
+    return q;
+  }
   // Whether `joint` is a later piece of its parent's limb: "forearm.001" below "forearm".
   bool is_piece(int joint) const {
     const int above = tree_.parent(joint);
@@ -68,6 +82,38 @@ class LimbFinder {
   std::span<const JointName> names_;
 };
 
+// Whether what is called hand or foot, below a wrist or an ankle, is only the palm or the front of
+// the foot: it carries no thumb or index finger, or the forearm has another name; or it carries no
+// toes.
+bool is_front(const JointTree& tree, std::span<const JointName> names, const LimbNames& limb,
+              int joint) {
+  const auto carries = [&](auto is) {
+    for (int j = joint + 1; j < tree.count(); ++j) {
+      if (is(names[j]) && tree.is_above(joint, j)) return true;
+    }
+    return false;
+  };
+  if (limb.kind == LimbKind::leg) return !carries(is_toe);
+  if (!carries([](const JointName& n) { return n.has("thumb") || n.has("index"); })) return true;
+  for (int q = tree.parent(joint); q >= 0; q = tree.parent(q)) {
+    if (is_standard_name_of(names[q], limb.lower)) return false;
+  }
+  return true;
+}
+
+// The end of a limb: the joint with the plainest name, or another in line with it that has the
+// standards' own.
+int find_end(const JointTree& tree, std::span<const JointName> names, const LimbNames& limb,
+             Side side) {
+  const auto is = limb.kind == LimbKind::arm ? is_hand : is_foot;
+  const int plainest = find_named(tree, names, side, is, [](int) { return true; });
+  if (plainest < 0) return -1;
+  return find_own_named(tree, names, limb.end, side, is, [&](int j) {
+    if (j == plainest || tree.is_above(j, plainest)) return true;
+    return tree.is_above(plainest, j) && !is_front(tree, names, limb, j);
+  });
+}
+
 }  // namespace
 
 int find_named(const JointTree& tree, std::span<const JointName> names, Side side,
@@ -82,25 +128,40 @@ int find_named(const JointTree& tree, std::span<const JointName> names, Side sid
   return best;
 }
 
+int find_own_named(const JointTree& tree, std::span<const JointName> names, HumanJoint joint,
+                   Side side, bool (*is)(const JointName&), const std::function<bool(int)>& where) {
+  const int plainest = find_named(tree, names, side, is, where);
+  if (plainest < 0 || is_standard_name_of(names[plainest], joint)) return plainest;
+  const int own = find_named(tree, names, side, is, [&](int j) {
+    return is_standard_name_of(names[j], joint) && where(j) &&
+           (tree.moves_mesh(j) || !tree.moves_mesh(plainest));
+  });
+  return own < 0 ? plainest : own;
+}
+
 Limbs find_limbs_by_name(const JointTree& tree, std::span<const JointName> names,
                          const std::map<int, int>& known, std::vector<HumanJoint>& missing) {
-  const auto find = [&](HumanJoint joint, size_t side, bool (*is)(const JointName&)) {
+  const auto find_known = [&](HumanJoint joint, auto otherwise) {
     const auto found = known.find(index(joint));
-    if (found != known.end()) return found->second;
-    return find_named(tree, names, kSides[side], is, [](int) { return true; });
+    return found != known.end() ? found->second : otherwise();
+  };
+  const auto find_end_of = [&](const LimbNames& limb, size_t side) {
+    return find_known(limb.end, [&] { return find_end(tree, names, limb, kSides[side]); });
   };
   Limbs out;
   out.confidence = out.side_confidence = 1;
   for (size_t side : {0, 1}) {
     const LimbNames& arm = kLimbNames[0][side];
-    out.arms[side].end = find(arm.end, side, is_hand);
+    out.arms[side].end = find_end_of(arm, side);
     if (out.arms[side].end >= 0) continue;
-    out.arms[side].lower = find(arm.lower, side, is_plain_forearm);
+    out.arms[side].lower = find_known(arm.lower, [&] {
+      return find_named(tree, names, kSides[side], is_plain_forearm, [](int) { return true; });
+    });
     if (out.arms[side].lower < 0) missing.push_back(arm.end);
   }
   for (size_t side : {0, 1}) {
     const LimbNames& leg = kLimbNames[1][side];
-    out.legs[side].end = find(leg.end, side, is_foot);
+    out.legs[side].end = find_end_of(leg, side);
     if (out.legs[side].end < 0) missing.push_back(leg.end);
   }
   if (!missing.empty()) {
@@ -115,7 +176,7 @@ Limbs find_limbs_by_name(const JointTree& tree, std::span<const JointName> names
     const std::array<int, 2> tips = {lowest_joint(limbs[0]), lowest_joint(limbs[1])};
     for (size_t side : {0, 1}) {
       const LimbNames& limb = kLimbNames[kind][side];
-      limbs[side] = finder.find(limb.kind, limbs[side], tips[1 - side]);
+      limbs[side] = finder.find(limb, limbs[side], tips[1 - side]);
       if (limbs[side].lower < 0) missing.push_back(limb.lower);
       if (limbs[side].upper < 0) missing.push_back(limb.upper);
     }

@@ -35,6 +35,11 @@ inline constexpr std::array<std::array<LimbNames, 2>, 2> kLimbNames = {
 int find_named(const JointTree& tree, std::span<const JointName> names, Side side,
                bool (*is)(const JointName&), const std::function<bool(int)>& where);
 
+// The same, but a joint that has the standards' own name for `joint` goes before plainer ones,
+// unless a mesh follows the plainest and not that one.
+int find_own_named(const JointTree& tree, std::span<const JointName> names, HumanJoint joint,
+                   Side side, bool (*is)(const JointName&), const std::function<bool(int)>& where);
+
 // Hands and feet by their names, what is above them by the tree. A missing hand leaves `end` -1
 // where a forearm is named. known: skeleton joints of human joints, which go before names. What was
 // not found is added to `missing`; the result then lacks it.

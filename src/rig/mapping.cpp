@@ -72,6 +72,7 @@ class Mapper {
     if (!missing_.empty()) return rejection(joints_, missing_);
     prefer_torso_names();
     find_head();
+    prefer_piece(neck, neck_base());
     prefer_name(neck, [&](int j) { return is_between(neck_base(), j, at(head)); });
     find_spine();
     if (at(chest) >= 0) {
@@ -85,6 +86,10 @@ class Mapper {
                !tree_.is_above(j, arm_tips_[1 - side]);
       });
       find_toes(side ? right_toes : left_toes, kLimbNames[1][side].end);
+    }
+    for (const HumanJoint joint :
+         {head, left_hand, right_hand, left_foot, right_foot, left_toes, right_toes}) {
+      note_contradiction(joint);
     }
     if (const auto done = apply_overrides(); !done) return done.error();
     for (int j = 0; j < kHumanJoints; ++j) {
@@ -142,17 +147,46 @@ class Mapper {
         best = j;
       }
     }
-    const auto say = [&](int j, const std::string& why) {
-      if (guess < 0) return;
-      map_.notes.push_back("'" + joints_[j].name + "' is named as " + name_of(joint) + " and " +
-                           why + ": '" + joints_[guess].name + "' is taken");
-    };
-    if (best < 0 && misplaced >= 0) return say(misplaced, "is not where that hangs");
+    if (best < 0 && misplaced >= 0) return note_contradiction(joint, misplaced);
     if (best < 0) return;
-    if (guess >= 0 && joints_[guess].skin >= 0 && joints_[best].skin < 0) {
-      return say(best, "moves no mesh of its own");
+    if (guess >= 0 && tree_.moves_mesh(guess) && !tree_.moves_mesh(best)) {
+      return note_contradiction(joint, best);
     }
     put(joint, best, "by its name", kByName);
+  }
+  // Of the pieces of torso or neck above the one that was found by its place, and below `end`, the
+  // nearest that has a standard's own name takes its place.
+  void prefer_piece(HumanJoint joint, int end) {
+    const int guess = at(joint);
+    if (by_shape_ || known_.contains(index(joint)) || guess < 0) return;
+    if (is_standard_name(names_[guess])) return;
+    for (int q = parent(guess); q >= 0 && q != end; q = parent(q)) {
+      if (!is_standard_piece_of(names_[q], joint)) continue;
+      if (tree_.moves_mesh(guess) && !tree_.moves_mesh(q)) continue;
+      return put(joint, q, "by its name", kByName);
+    }
+  }
+  // Says of a joint that has the standards' own name for `joint` why another is taken.
+  void note_contradiction(HumanJoint joint, int named) {
+    const int taken = at(joint);
+    if (taken < 0) return;
+    const bool no_mesh = tree_.moves_mesh(taken) && !tree_.moves_mesh(named);
+    map_.notes.push_back("'" + joints_[named].name + "' is named as " + name_of(joint) + " and " +
+                         (no_mesh ? "moves no mesh of its own" : "is not where that hangs") +
+                         ": '" + joints_[taken].name + "' is taken");
+  }
+  // The same where there is such a joint and it is not taken.
+  void note_contradiction(HumanJoint joint) {
+    const int taken = at(joint);
+    if (by_shape_ || known_.contains(index(joint)) || taken < 0) return;
+    if (is_standard_name_of(names_[taken], joint)) return;
+    for (int j = 0; j < tree_.count(); ++j) {
+      if (!is_standard_name_of(names_[j], joint) || is_taken(j)) continue;
+      const bool no_mesh = tree_.moves_mesh(taken) && !tree_.moves_mesh(j);
+      // In its line and no other reason: a palm, which is no contradiction.
+      if (tree_.is_above(taken, j) && !no_mesh) continue;
+      return note_contradiction(joint, j);
+    }
   }
   bool is_taken(int joint) const {
     return std::find(map_.joint_of.begin(), map_.joint_of.end(), joint) != map_.joint_of.end();
@@ -178,14 +212,15 @@ class Mapper {
       return is_between(-1, j, at(left_upper_leg)) && is_between(-1, j, at(right_upper_leg)) &&
              tree_.is_above(j, arm_tips_[0]) && tree_.is_above(j, arm_tips_[1]) && j != at(chest);
     });
+    prefer_piece(chest, at(hips));
     prefer_name(chest, [&](int j) {
       return is_between(at(hips), j, arm_tips_[0]) && is_between(at(hips), j, arm_tips_[1]);
     });
   }
 
   template <class Where>
-  int find(Side side, bool (*is)(const JointName&), Where where) const {
-    return find_named(tree_, names_, side, is, where);
+  int find(HumanJoint joint, Side side, bool (*is)(const JointName&), Where where) const {
+    return find_own_named(tree_, names_, joint, side, is, where);
   }
 
   void find_torso() {
@@ -225,9 +260,9 @@ class Mapper {
     const auto below = [&](int root) {
       return [this, root](int j) { return j != root && tree_.is_above(root, j); };
     };
-    int found = find(Side::none, is_head, below(top));
+    int found = find(head, Side::none, is_head, below(top));
     if (found < 0) {  // Beside the neck, but not the torso, whatever that is called.
-      found = find(Side::none, is_head,
+      found = find(head, Side::none, is_head,
                    [&](int j) { return tree_.is_above(at(hips), j) && !tree_.is_above(j, top); });
     }
     put(head, found, "by its name", kByName);
@@ -308,12 +343,17 @@ class Mapper {
     for (int q = at(chest); q != at(hips); q = parent(q), ++count) {
       total += tree_.distance(q, parent(q));
     }
-    float walked = 0, best = 2;
+    // Pieces without a standard's own name, such as a group, come after those with one.
+    constexpr float kNoPiece = 2;
+    float walked = 0, best = 2 * kNoPiece;
     int found = -1;
     for (int q = at(chest); parent(q) != at(hips);) {
       walked += tree_.distance(q, parent(q));
       q = parent(q);
-      const float off = std::abs(1 - walked / std::max(total, 1e-9f) - 0.64f);
+      const bool is_piece =
+          is_standard_name(names_[q]) && (tree_.moves_mesh(q) || !tree_.moves_mesh(at(chest)));
+      const float off = std::abs(1 - walked / std::max(total, 1e-9f) - 0.64f) +
+                        (by_shape_ || is_piece ? 0 : kNoPiece);
       if (tree_.apart(q, at(chest)) && off < best) found = q, best = off;
     }
     put(spine, found, "nearest to 64 % of the way from hips to chest", count > 1 ? 0.9f : kByTree);
@@ -332,13 +372,13 @@ class Mapper {
     const int foot = at(foot_joint);
     const auto below = [&](int j) { return j != foot && tree_.is_above(foot, j); };
     for (const Side side : {Side::left, Side::right, Side::none}) {
-      const int found = find(side, is_toe, below);
+      const int found = find(joint, side, is_toe, below);
       put(joint, found, "by its name", kByName);
       if (found >= 0) return;
     }
     // Where the foot is called ankle, what is called foot is the front of it.
     const Side side = names_[foot].side;
-    const int front = !is_ankle(names_[foot]) ? -1 : find(side, is_foot, below);
+    const int front = !is_ankle(names_[foot]) ? -1 : find(joint, side, is_foot, below);
     put(joint, front, "next joint below an ankle", kByTree);
     if (front >= 0 || !by_shape_) return;
     const std::vector<int> chain = limb_chain(tree_, foot, farthest_below(tree_, foot));

@@ -40,6 +40,7 @@ constexpr Standard kStandards[] = {
     {"foot", left_foot},
     {"toes", left_toes},
     {"toebase", left_toes},
+    {"toe", left_toes},
     {"ball", left_toes},
 };
 
@@ -76,6 +77,16 @@ bool is_standard_name_of(const JointName& name, HumanJoint joint) {
     return (name.side == Side::left && index(joint) == left) ||
            (name.side == Side::right && index(joint) == right);
   });
+}
+
+bool is_standard_piece_of(const JointName& name, HumanJoint joint) {
+  if (name.side != Side::none) return false;
+  const std::string text = plain(name, true);
+  if (joint == neck) return text == "neck";
+  // One spine alone is below the chest.
+  const bool numbered = text != plain(name, false);
+  return joint == chest &&
+         (text == "chest" || text == "upperchest" || (numbered && text == "spine"));
 }
 
 bool is_standard_name(const JointName& name) {

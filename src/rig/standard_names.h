@@ -12,6 +12,11 @@ namespace panache {
 // name, as it counts the pieces of a chain.
 bool is_standard_name_of(const JointName& name, HumanJoint joint);
 
+// Whether it is one for a piece of the torso or the neck, of which there may be several: a name of
+// spine or chest for `chest`, of the neck for `neck`, a number behind it or not ("spine_03",
+// "upperChest", "neck_01").
+bool is_standard_piece_of(const JointName& name, HumanJoint joint);
+
 // Whether it is one for any joint, or with a number behind it for one of a chain ("spine_03"), or
 // "upperChest".
 bool is_standard_name(const JointName& name);

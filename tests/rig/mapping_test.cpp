@@ -83,6 +83,89 @@ TEST(Mapping, a_standards_own_name_goes_before_a_guess_by_place) {
                   "*Hand", "*UpperLeg", "*LowerLeg", "*Foot", "*Toes"});
 }
 
+// Unreal's names, with a group wherever a guess by place would take it, and other tools' names for
+// the ends of limbs above their own.
+const std::vector<Line> kUnrealGrouped = {{"pelvis", "", hips},
+                                          {"spine_01", "pelvis", spine, 0.5f},
+                                          {"spine_02", "spine_01", spine},
+                                          {"spine_03", "spine_02", chest, 0.9f},
+                                          {"group 1", "spine_03", chest},
+                                          {"neck_01", "group 1", neck, 0.9f},
+                                          {"group 2", "neck_01", head, 0.5f},
+                                          {"skull", "group 2", head, 0.9f},
+                                          {"head", "skull", head},
+                                          {"clavicle_*", "group 1", left_shoulder},
+                                          {"upperarm_*", "clavicle_*", left_upper_arm},
+                                          {"lowerarm_*", "upperarm_*", left_lower_arm},
+                                          {"wrist_*", "lowerarm_*", left_hand, 0.9f},
+                                          {"hand_*", "wrist_*", left_hand},
+                                          {"thumb_01_*", "hand_*", left_hand, 1.1f},
+                                          {"thigh_*", "pelvis", left_upper_leg},
+                                          {"calf_*", "thigh_*", left_lower_leg},
+                                          {"ankle_*", "calf_*", left_foot, 0.9f},
+                                          {"foot_*", "ankle_*", left_foot},
+                                          {"forefoot_*", "foot_*", left_toes, 0.9f},
+                                          {"ball_*", "forefoot_*", left_toes}};
+const Expected kUnrealJoints = {"pelvis",     "spine_02",   "spine_03",   "neck_01", "head",
+                                "clavicle_*", "upperarm_*", "lowerarm_*", "hand_*",  "thigh_*",
+                                "calf_*",     "foot_*",     "ball_*"};
+
+TEST(Mapping, ends_of_limbs_and_numbered_pieces_obey_a_standards_own_name) {
+  expect_mapping(kUnrealGrouped, "l", "r", kUnrealJoints);
+}
+
+TEST(Mapping, a_foot_below_an_ankle_without_toes_is_its_front) {
+  std::vector<Line> lines = kUnrealGrouped;
+  std::erase_if(lines, [](const Line& l) { return l.place == left_toes; });
+  Expected want = kUnrealJoints;
+  want.foot = "ankle_*";
+  want.toes = "foot_*";
+  expect_mapping(lines, "l", "r", want);
+}
+
+TEST(Mapping, a_group_below_upper_chest_is_not_the_chest) {
+  std::vector<Line> lines = kUnrealGrouped;
+  for (Line& line : lines) {
+    for (std::string* name : {&line.name, &line.parent}) {
+      if (*name == "spine_02") *name = "chest";
+      if (*name == "spine_03") *name = "upperChest";
+    }
+  }
+  Expected want = kUnrealJoints;
+  want.spine = "chest";
+  want.chest = "upperChest";
+  expect_mapping(lines, "l", "r", want);
+}
+
+// What a mesh or the hierarchy contradicts is not taken for its name, and a note says so.
+TEST(Mapping, a_contradicted_name_gets_a_note) {
+  const auto notes = [](const MadeUp& rig) {
+    const Result<Mapping> got = map_made_up(rig);
+    EXPECT_TRUE(got.ok()) << got.error().message;
+    return got ? got->notes : std::vector<std::string>();
+  };
+  MadeUp rig = make_up(kUnrealGrouped, "l", "r");
+  EXPECT_TRUE(notes(rig).empty() || notes(rig).front().find("is named as") == std::string::npos);
+  for (Joint& joint : rig.skeleton.joints) joint.skin = 0, joint.skin_weight = 10;
+  for (const char* name : {"hand_l", "head"}) rig.skeleton.joints[rig.joint.at(name)].skin = -1;
+  const auto has = [](const std::vector<std::string>& all, const std::string& note) {
+    return std::count(all.begin(), all.end(), note) == 1;
+  };
+  EXPECT_TRUE(has(notes(rig),
+                  "'hand_l' is named as leftHand and moves no mesh of its own: "
+                  "'wrist_l' is taken"));
+  EXPECT_TRUE(
+      has(notes(rig), "'head' is named as head and moves no mesh of its own: 'skull' is taken"));
+  // Beside the leg instead of in it.
+  std::vector<Line> lines = kUnrealGrouped;
+  for (Line& line : lines) {
+    if (line.name == "ball_*") line.parent = "pelvis";
+  }
+  EXPECT_TRUE(has(notes(make_up(lines, "l", "r")),
+                  "'ball_r' is named as rightToes and is not where that hangs: 'forefoot_r' is "
+                  "taken"));
+}
+
 const std::vector<Line> kMixamo = {
     {"m:Hips", "", hips},
     {"m:Spine", "m:Hips", spine, 0.5f},
