@@ -205,6 +205,9 @@ class Handle:
         if getattr(self, 'pointer', None):
             self._destroy(self.pointer)
 
+    def __reduce__(self):  # By pickle and copy: two would give the same object back.
+        raise TypeError('an object of the library cannot be copied; make another one')
+
     def view(self, address: int, shape, dtype=np.float32) -> np.ndarray:
         """An array of the library's memory, read-only, which keeps this object. No copy."""
         dtype = np.dtype(dtype)
@@ -233,6 +236,12 @@ def floats(array, shape, what: str) -> np.ndarray:
         raise PanacheError(f'{what}: expected an array of shape ({wanted}), found '
                            f'{tuple(out.shape)}')
     return out
+
+
+def fixed(shape) -> np.ndarray:
+    """Zeros, float32, in memory that stays where it is: such an array cannot be resized."""
+    size = int(np.prod(shape)) * 4
+    return np.frombuffer(bytearray(size), np.float32).reshape(shape)
 
 
 def sized(struct, **fields):

@@ -7,7 +7,7 @@ from typing import Sequence, Tuple
 import numpy as np
 
 from . import _library as c
-from ._library import Handle, check, floats, lib, sized
+from ._library import Handle, check, fixed, floats, lib, sized
 from .clips import Skeleton
 from .model import Model
 
@@ -38,7 +38,8 @@ class Character:
             use(character.rotations, character.translations)
 
     These arrays are the character's own for good: float32, rotations [joints, 4] and translations
-    [joints, 3]. A step allocates nothing in the library.
+    [joints, 3]. An array that is assigned to an input is copied into it; the outputs cannot be
+    assigned. A step allocates nothing in the library.
 
     ease_seconds:      a change of strength takes about this long; 0 to 10.
     smoothing_seconds: time constant of the filter on what a style adds; 0 to 10.
@@ -61,14 +62,44 @@ class Character:
                               skeleton._handle.pointer, options)
         self._pointer = self._handle.pointer
         joints = len(skeleton)
-        self.input_rotations = np.tile(np.float32([0, 0, 0, 1]), (joints, 1))
-        self.input_translations = np.zeros((joints, 3), np.float32)
-        self.rotations = self.input_rotations.copy()
-        self.translations = self.input_translations.copy()
+        self._input_rotations = fixed((joints, 4))
+        self._input_rotations[:, 3] = 1
+        self._input_translations = fixed((joints, 3))
+        self._rotations, self._translations = fixed((joints, 4)), fixed((joints, 3))
+        self._rotations[:, 3] = 1
         # Made once: what a step costs beyond the library's own time is one call.
-        self._in = c.Pose(self.input_rotations.ctypes.data, self.input_translations.ctypes.data)
-        self._out = c.Pose(self.rotations.ctypes.data, self.translations.ctypes.data)
+        self._in = c.Pose(self._input_rotations.ctypes.data, self._input_translations.ctypes.data)
+        self._out = c.Pose(self._rotations.ctypes.data, self._translations.ctypes.data)
         self._step = lib.character_step
+
+    @property
+    def input_rotations(self) -> np.ndarray:
+        """[joints, 4], what the next step reads."""
+        return self._input_rotations
+
+    @input_rotations.setter
+    def input_rotations(self, rotations: np.ndarray) -> None:
+        self._input_rotations[:] = floats(rotations, self._input_rotations.shape, 'rotations')
+
+    @property
+    def input_translations(self) -> np.ndarray:
+        """[joints, 3], likewise."""
+        return self._input_translations
+
+    @input_translations.setter
+    def input_translations(self, translations: np.ndarray) -> None:
+        self._input_translations[:] = floats(translations, self._input_translations.shape,
+                                             'translations')
+
+    @property
+    def rotations(self) -> np.ndarray:
+        """[joints, 4], what the last step gave."""
+        return self._rotations
+
+    @property
+    def translations(self) -> np.ndarray:
+        """[joints, 3], likewise."""
+        return self._translations
 
     def step(self, seconds: float) -> None:
         """Styles the pose in `input_rotations` and `input_translations` into `rotations` and
@@ -80,9 +111,7 @@ class Character:
                 seconds: float) -> Tuple[np.ndarray, np.ndarray]:
         """The same for a pose in other arrays, [joints, 4] and [joints, 3]: copies them in, and
         copies of the result out."""
-        joints = len(self.skeleton)
-        self.input_rotations[:] = floats(rotations, (joints, 4), 'rotations')
-        self.input_translations[:] = floats(translations, (joints, 3), 'translations')
+        self.input_rotations, self.input_translations = rotations, translations
         self.step(seconds)
         return self.rotations.copy(), self.translations.copy()
 
@@ -121,12 +150,16 @@ class Crowd:
     each bit for bit as alone. None may come twice."""
 
     def __init__(self, characters: Sequence[Character]):
-        self.characters = list(characters)
-        count = len(self.characters)
-        self._handles = (ctypes.c_void_p * count)(*[one._pointer.value for one in self.characters])
-        self._in = (c.Pose * count)(*[one._in for one in self.characters])
-        self._out = (c.Pose * count)(*[one._out for one in self.characters])
+        self._characters = tuple(characters)  # Whose arrays the step reads and writes.
+        count = len(self._characters)
+        self._handles = (ctypes.c_void_p * count)(*[one._pointer.value for one in self._characters])
+        self._in = (c.Pose * count)(*[one._in for one in self._characters])
+        self._out = (c.Pose * count)(*[one._out for one in self._characters])
+
+    @property
+    def characters(self) -> Tuple[Character, ...]:
+        return self._characters
 
     def step(self, seconds: float) -> None:
         """`Character.step()` of all."""
-        lib.step_many(self._handles, len(self.characters), self._in, seconds, self._out)
+        lib.step_many(self._handles, len(self._handles), self._in, seconds, self._out)

@@ -89,7 +89,7 @@ def _options(metres_per_unit=0.0, up_axis=None, human_joints=None):
     return options, [array]
 
 
-@dataclass
+@dataclass(frozen=True, eq=False)
 class Clip:
     """Motion of a rig at a constant rate.
 
@@ -97,7 +97,8 @@ class Clip:
     translations:  float32 [frames, joints, 3], relative to the parent, in the rig's units.
     frame_seconds: from one frame to the next.
 
-    Arrays that are contiguous float32 are kept as they are, others converted.
+    Arrays that are contiguous float32 are kept as they are, others converted. A clip cannot be
+    given other arrays afterwards; `dataclasses.replace(clip, translations=...)` makes another.
     """
     skeleton: Skeleton
     rotations: np.ndarray
@@ -106,9 +107,10 @@ class Clip:
 
     def __post_init__(self):
         joints = len(self.skeleton)
-        self.rotations = floats(self.rotations, (None, joints, 4), 'rotations')
-        self.translations = floats(self.translations, (len(self.rotations), joints, 3),
-                                   'translations')
+        set_once = object.__setattr__
+        set_once(self, 'rotations', floats(self.rotations, (None, joints, 4), 'rotations'))
+        set_once(self, 'translations', floats(self.translations, (len(self.rotations), joints, 3),
+                                              'translations'))
 
     def __len__(self) -> int:
         return len(self.rotations)
@@ -118,12 +120,13 @@ class Clip:
         return len(self) * self.frame_seconds
 
     def _struct(self) -> c.Clip:
-        """Points into the arrays."""
+        """Points into the arrays, whose shape may have been changed in place."""
+        Clip.__post_init__(self)
         return c.Clip(self.skeleton._handle.pointer, len(self), self.frame_seconds,
                       self.rotations.ctypes.data, self.translations.ctypes.data)
 
 
-@dataclass
+@dataclass(frozen=True, eq=False)
 class StyledClip(Clip):
     """A clip that the library made. Its arrays are read-only views of the library's memory.
 
