@@ -33,23 +33,6 @@ std::optional<float> parse_strength(std::string_view text) {
   return static_cast<float>(*value);
 }
 
-// The style of that name, in any case where that tells it.
-Result<int> find_style(const std::string& name, const Model& model) {
-  Result<int> exact = model.find_style(name);
-  if (exact) return exact;
-  const auto lower = [](std::string text) {
-    for (char& c : text) {
-      if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
-    return text;
-  };
-  std::vector<int> alike;
-  for (size_t i = 0; i < model.styles().size(); ++i) {
-    if (lower(model.styles()[i].name) == lower(name)) alike.push_back(static_cast<int>(i));
-  }
-  return alike.size() == 1 ? Result<int>(alike[0]) : exact;
-}
-
 // What is wrong with a --style that gives no strength: "old", "old:1", "olld".
 Error without_strength(const std::string& text, const Model& model) {
   std::string name;
@@ -57,7 +40,7 @@ Error without_strength(const std::string& text, const Model& model) {
     if (text.starts_with(style.name) && style.name.size() > name.size()) name = style.name;
   }
   if (name.empty()) {
-    if (Result<int> style = find_style(text, model); !style) return style.error();
+    if (Result<int> style = model.find_style_in_any_case(text); !style) return style.error();
     name = text;
   }
   return Error{"--style " + text + ": expected a name and a strength, as in '" + name + "=1'"};
@@ -66,7 +49,7 @@ Error without_strength(const std::string& text, const Model& model) {
 // The usual mistakes of "1=old" and "old=1,proud=1".
 Result<void> check_order(const std::string& text, const std::string& name, const std::string& value,
                          const Model& model) {
-  if (!find_style(name, model) && parse_number(name) && find_style(value, model)) {
+  if (!model.find_style_in_any_case(name) && parse_number(name) && model.find_style_in_any_case(value)) {
     return Error{"--style " + text + ": expected the name before the strength, as in '" + value +
                  "=" + name + "'"};
   }
@@ -86,7 +69,7 @@ Result<StrengthWish> parse_style(const std::string& text, const Model& model) {
   if (equals == std::string::npos) return without_strength(text, model);
   const std::string name = text.substr(0, equals), value = text.substr(equals + 1);
   if (auto order = check_order(text, name, value, model); !order) return order.error();
-  Result<int> style = find_style(name, model);
+  Result<int> style = model.find_style_in_any_case(name);
   if (!style) return style.error();
   const size_t dots = value.find("..");
   const std::string begin = value.substr(0, dots);
@@ -131,7 +114,7 @@ Result<StrengthColumns> read_columns(const CsvTable& table, const std::string& w
     if (std::count(names.begin(), names.end(), names[c]) > 1) {
       return Error{where + "column " + panache::quoted(names[c]) + " is there twice"};
     }
-    Result<int> style = c == out.seconds ? Result<int>(-1) : find_style(names[c], model);
+    Result<int> style = c == out.seconds ? Result<int>(-1) : model.find_style_in_any_case(names[c]);
     if (!style) return Error{where + style.error().message};
     out.styles.push_back(*style);
   }

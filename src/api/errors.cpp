@@ -1,5 +1,7 @@
 #include "api/errors.h"
 
+#include "base/utf8.h"
+
 namespace panache::api {
 namespace {
 
@@ -11,7 +13,7 @@ thread_local const char* last_error = "";
 }  // namespace
 
 panache_status fail(panache_status status, const std::string& message) {
-  made_error = message;
+  made_error = to_utf8(message);  // Names and paths may be bytes of any kind.
   last_error = made_error.c_str();
   return status;
 }

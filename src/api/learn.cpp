@@ -3,6 +3,7 @@
 #include "api/objects.h"
 #include "api/poses.h"
 #include "api/sized_struct.h"
+#include "base/utf8.h"
 #include "learn/style_file.h"
 
 using namespace panache;
@@ -51,7 +52,7 @@ panache_status panache_learn(const void* model_bytes, size_t model_size, const p
     if (!merged) return fail(PANACHE_BAD_MODEL, merged.error().message);
     std::string warnings;
     for (const PairReport& pair : style->pairs) {
-      for (const std::string& warning : pair.warnings) warnings += warning + "\n";
+      for (const std::string& warning : pair.warnings) warnings += to_utf8(warning) + "\n";
     }
     *out = new panache_learnt{format_safetensors(*merged), *std::move(style), std::move(warnings)};
     return PANACHE_OK;

@@ -26,8 +26,10 @@ const char* panache_model_style_name(const panache_model* model, int32_t style) 
 }
 
 int32_t panache_model_find_style(const panache_model* model, const char* name) {
-  for (int32_t i = 0; i < panache_model_style_count(model); ++i) {
-    if (model->model->styles()[static_cast<size_t>(i)].name == name) return i;
+  try {
+    const Result<int> found = model->model->find_style_in_any_case(name);
+    return found ? *found : -1;
+  } catch (...) {  // No memory for a message that nobody reads.
+    return -1;
   }
-  return -1;
 }

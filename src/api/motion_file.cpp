@@ -5,6 +5,7 @@
 #include "api/poses.h"
 #include "api/rig_options.h"
 #include "api/sized_struct.h"
+#include "base/utf8.h"
 #include "clip/motion_format.h"
 #include "pose/motion_notes.h"
 #include "retarget/find_body.h"
@@ -110,6 +111,8 @@ panache_status create(const void* bytes, size_t size, const char* name, const Re
     std::vector<char> moves(names.size());
     for (const int clip : find_body_motions(**file).clips) moves[static_cast<size_t>(clip)] = 1;
     Clip rest = (*file)->rest();
+    for (std::string& clip_name : names) clip_name = to_utf8(clip_name);
+    for (Joint& joint : rest.skeleton.joints) joint.name = to_utf8(joint.name);
     *out = new panache_motion_file{*std::move(file), name, std::move(names), std::move(moves),
                                    std::move(rest)};
     return PANACHE_OK;
@@ -141,7 +144,7 @@ panache_status panache_motion_file_get_notes(const panache_motion_file* file, pa
   start(out);
   return guarded([&] {
     std::string text;
-    for (const std::string& note : motion_notes(*file->file, file->path)) text += note + "\n";
+    for (const std::string& note : motion_notes(*file->file, file->path)) text += to_utf8(note) + "\n";
     *out = new panache_bytes{std::move(text)};
     return PANACHE_OK;
   });

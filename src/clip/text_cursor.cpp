@@ -9,6 +9,7 @@
 #include <fast_float/fast_float.h>
 
 #include "base/lower_case.h"
+#include "base/utf8.h"
 #include "clip/decimal.h"
 
 namespace panache {
@@ -17,17 +18,6 @@ namespace {
 bool same_letters(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](char x, char y) { return lower_case(x) == lower_case(y); });
-}
-
-// Bytes of the well-formed UTF-8 character of more than one byte at the start of `text`, or 0.
-size_t utf8_length(std::string_view text) {
-  const auto byte = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
-  const size_t length = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : byte(0) >= 0xc2 ? 2 : 0;
-  if (byte(0) > 0xf4 || length > text.size()) return 0;
-  for (size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xc0) != 0x80) return 0;
-  }
-  return length;
 }
 
 // Reads a number at the start of [p, end); null where there is none. Beyond a double it is
@@ -50,7 +40,7 @@ std::string quoted(std::string_view text) {
   size_t i = 0;
   while (i < text.size() && i < kLongest) {
     const unsigned char c = static_cast<unsigned char>(text[i]);
-    const size_t length = c < 0x80 ? 1 : utf8_length(text.substr(i));
+    const size_t length = utf8_length(text.substr(i));
     if (length == 0 || c < 0x20 || c == 0x7f) {
       out += {'\\', 'x', kHex[c >> 4], kHex[c & 15]};
       ++i;

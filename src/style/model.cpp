@@ -1,8 +1,10 @@
 #include "style/model.h"
 
+#include <algorithm>
 #include <sstream>
 
 #include "base/file.h"
+#include "base/lower_case.h"
 #include "base/nearest_names.h"
 #include "base/one_of.h"
 #include "recipes/recipes.h"
@@ -144,6 +146,17 @@ Result<int> Model::find_style(std::string_view style) const {
   return Error{
       "unknown style '" + std::string(style) + "'; " +
       (nearest.empty() ? "expected " + one_of(names) : "the nearest " + is_or_are(nearest))};
+}
+
+Result<int> Model::find_style_in_any_case(std::string_view style) const {
+  Result<int> exact = find_style(style);
+  if (exact) return exact;
+  const auto alike = [&](const StyleInfo& other) {
+    return std::equal(style.begin(), style.end(), other.name.begin(), other.name.end(),
+                      [](char a, char b) { return lower_case(a) == lower_case(b); });
+  };
+  if (std::count_if(styles_.begin(), styles_.end(), alike) != 1) return exact;
+  return static_cast<int>(std::find_if(styles_.begin(), styles_.end(), alike) - styles_.begin());
 }
 
 }  // namespace panache

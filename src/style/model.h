@@ -56,6 +56,8 @@ class Model {
   const std::map<std::string, std::string>& metadata() const { return metadata_; }
   // The index of the style called `style`; failing that, a message with the nearest names.
   Result<int> find_style(std::string_view style) const;
+  // The same, in any case of the letters A to Z where that tells one style from all others.
+  Result<int> find_style_in_any_case(std::string_view style) const;
   size_t parameter_count() const { return parameter_count_; }
   // What predicts input that has not arrived; null in models without one.
   const PredictorNetwork* predictor() const { return predictor_.get(); }
