@@ -283,6 +283,64 @@ def test_errors_are_the_librarys_sentences(model, walk, walk_file, shipped, tmp_
     assert sorted(path.name for path in tmp_path.iterdir()) == ['broken.bvh', 'o.bvh']
 
 
+def test_mistakes_with_types_and_numbers_are_sentences_too(model, walk, walk_file, monkeypatch):
+    def rejection(function, *arguments, **options):
+        with pytest.raises(panache.PanacheError) as caught:
+            function(*arguments, **options)
+        assert len(str(caught.value)) < 400
+        return str(caught.value)
+    for kind in (bytearray, memoryview):
+        assert panache.Model(kind(model.content)).styles == model.styles
+        assert 'safetensors' in rejection(panache.Model, kind(b'x' * 100000))
+    assert rejection(panache.Model, 7) == 'model: expected a path, a name or bytes, found int'
+    character = panache.Character(model, walk.skeleton)
+    for strength in ('much', None, [1]):
+        assert rejection(character.set_strength, 'old', strength).startswith(
+            'old: expected a number, found')
+        rejection(panache.stylize, model, walk, {'old': strength})
+    assert rejection(character.set_strength, 5, 1) == 'style: expected a string, found int'
+    rejection(character.set_shape, legs='much')
+    assert rejection(panache.learn, model, [(walk, 3)], 'mine') == \
+        'expected a Clip or a path, found int'
+    for pairs in ([walk], [(walk,)], [(walk, walk, walk)]):
+        rejection(panache.learn, model, pairs, 'mine')
+    assert rejection(panache.learn, model, [(walk, walk)], 5) == 'name: expected a string, found int'
+    file = panache.MotionFile(walk_file)
+    for which in (-1, 1, -2):
+        assert rejection(file.clip, which) == \
+            f'{walk_file}: there is no motion {which}; it has 1, from 0'
+        rejection(panache.read, walk_file, which)
+    rejection(file.clip, 0.5)
+    monkeypatch.setattr(panache.model, '_MODELS', pathlib.Path('/nowhere'))
+    assert rejection(panache.Model).endswith('the shipped models are missing')
+
+
+def test_styles_are_found_in_any_case(model, walk):
+    assert model.find_style('OLD') == model.find_style('old') == model.find_style('Old')
+    assert panache.stylize(model, walk, {'Old': 1}).rotations.tobytes() == \
+        panache.stylize(model, walk, {'old': 1}).rotations.tobytes()
+
+
+def test_names_and_paths_of_any_bytes_reach_python(walk_file, tmp_path):
+    def place(name):
+        return os.fsdecode(os.fsencode(tmp_path) + b'/' + name)
+    walk = place(b'w\xfclk.bvh')
+    text = walk_file.read_bytes()
+    root = text.split(b'ROOT ', 1)[1].split()[0]
+    pathlib.Path(walk).write_bytes(text.replace(b'ROOT ' + root, b'ROOT ' + root + b'\xfc', 1))
+    for path in (walk, pathlib.Path(walk)):
+        file = panache.MotionFile(path)
+        assert len(file.clip()) == 240
+        assert file.joint_names[0] == root.decode() + '\ufffd'
+    panache.stylize_file(walk, place(b'\xe4.bvh'), {'old': 1})
+    assert b'ROOT ' + root + b'\xfc' in pathlib.Path(place(b'\xe4.bvh')).read_bytes()
+    rod = place(b'r\xf6d.bvh')
+    pathlib.Path(rod).write_bytes(
+        b'HIERARCHY\nROOT a\xfc\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\nEnd Site\n{\n'
+        b'OFFSET 0 1 0\n}\n}\nMOTION\nFrames: 1\nFrame Time: 0.1\n0\n')
+    assert 'r\ufffdd.bvh: ' in panache.info(rod)['error']
+
+
 def test_memory_of_the_library_outlives_what_made_it(model, walk_file):
     rotations = panache.stylize(model, panache.read(walk_file), {'old': 1}).rotations
     before = rotations.tobytes()

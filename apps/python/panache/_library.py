@@ -187,6 +187,21 @@ def version() -> str:
     return f'{number // 10000}.{number // 100 % 100}.{number % 100}'
 
 
+def utf8(text, what: str) -> bytes:
+    """A name as the library takes it; bytes of a path that are no UTF-8 stay what they are."""
+    if not isinstance(text, str):
+        raise PanacheError(f'{what}: expected a string, found {type(text).__name__}')
+    return text.encode(errors='surrogateescape')
+
+
+def number(value, what: str) -> float:
+    """A number of any type."""
+    try:
+        return float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise PanacheError(f'{what}: expected a number, found {str(value)[:40]!r}') from None
+
+
 def check(status: int) -> None:
     """Raises what the library says of a failure."""
     if status != 0:
@@ -258,4 +273,4 @@ def shape_of(amounts) -> Shape:
         if name not in SHAPE:
             raise PanacheError(f'there is no amount {name!r} of a shape; expected one of '
                                f'{", ".join(SHAPE)}')
-    return sized(Shape, **{name: amounts.get(name, 1.0) for name in SHAPE})
+    return sized(Shape, **{name: number(amounts.get(name, 1.0), name) for name in SHAPE})

@@ -7,7 +7,7 @@ from typing import Sequence, Tuple
 import numpy as np
 
 from . import _library as c
-from ._library import Handle, check, fixed, floats, lib, sized
+from ._library import Handle, check, fixed, floats, lib, number, sized
 from .clips import Skeleton
 from .model import Model
 
@@ -117,7 +117,8 @@ class Character:
 
     def set_strength(self, style: str, strength: float) -> None:
         """How strongly a style acts from now on: 0 not at all, 1 as captured; -4 to 4, eased."""
-        lib.character_set_strength(self._pointer, self.model.find_style(style), strength)
+        lib.character_set_strength(self._pointer, self.model.find_style(style),
+                                   number(strength, style))
 
     def set_shape(self, **amounts: float) -> None:
         """How much is given of what the styles do, 0 to 2 each; what is not named is 1:

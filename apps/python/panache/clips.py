@@ -7,7 +7,7 @@ from typing import Dict, Mapping, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from . import _library as c
-from ._library import Handle, PanacheError, floats, lib, sized
+from ._library import Handle, PanacheError, floats, lib, number, sized, utf8
 from .model import Model
 
 HUMAN_JOINTS = ('hips', 'spine', 'chest', 'neck', 'head') + tuple(
@@ -45,7 +45,7 @@ class Skeleton:
         translations = floats(translations, (count, 3), 'translations')
         array = (c.Joint * max(count, 1))()
         for j, name in enumerate(names):
-            array[j].name, array[j].parent = name.encode(), int(parents[j])
+            array[j].name, array[j].parent = utf8(name, 'joint'), int(parents[j])
             array[j].rotation[:] = rotations[j].tolist()
             array[j].translation[:] = translations[j].tolist()
         options, kept = _options(metres_per_unit, up_axis, human_joints)
@@ -71,7 +71,7 @@ class Skeleton:
 
     def find(self, human_joint: str) -> int:
         """The place of the joint that is this joint of the humanoid ('leftHand'), or -1."""
-        return lib.skeleton_find(self._handle.pointer, human_joint.encode())
+        return lib.skeleton_find(self._handle.pointer, utf8(human_joint, 'human joint'))
 
     def mapping(self) -> Dict[str, Optional[str]]:
         """The name of each human joint's joint, None where the rig has none."""
@@ -81,10 +81,10 @@ class Skeleton:
 
 def _options(metres_per_unit=0.0, up_axis=None, human_joints=None):
     """The struct, and what it points to."""
-    human = [c.HumanJoint(name.encode(), joint) for name, joint in (human_joints or {}).items()]
+    human = [c.HumanJoint(utf8(name, 'human joint'), joint) for name, joint in (human_joints or {}).items()]
     array = (c.HumanJoint * max(len(human), 1))(*human)
     options = sized(c.SkeletonOptions, metres_per_unit=metres_per_unit,
-                    up_axis=up_axis.encode() if up_axis else None, human_joint_count=len(human),
+                    up_axis=utf8(up_axis, 'up_axis') if up_axis else None, human_joint_count=len(human),
                     human_joints=array)
     return options, [array]
 
@@ -150,6 +150,14 @@ def _styled(handle: Handle, skeleton: Skeleton, frame_seconds: float) -> StyledC
         handle.view(lib.styled_clip_gates(at), (frames,)))
 
 
+def _keys(name: str, strength: Strength) -> list:
+    """A strength as (seconds, strength) pairs."""
+    pairs = [(0.0, strength)] if np.ndim(strength) == 0 else strength
+    if any(np.shape(pair) != (2,) for pair in pairs):
+        raise PanacheError(f'{name}: expected a number, or pairs (seconds, strength)')
+    return [(number(seconds, name), number(amount, name)) for seconds, amount in pairs]
+
+
 def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *, timing: bool = True,
             hold_feet: bool = True, style_root: bool = True, ease_seconds: float = 0.15,
             smoothing_seconds: float = 0.04,
@@ -166,7 +174,7 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *, timing:
     """
     tracks = (c.Track * max(len(styles), 1))()
     for track, (name, strength) in zip(tracks, styles.items()):
-        keys = [(0.0, strength)] if np.isscalar(strength) else list(strength)
+        keys = _keys(name, strength)
         track.style, track.key_count = model.find_style(name), len(keys)
         track.keys = (c.Key * max(len(keys), 1))(*keys)
     options = sized(c.StylizeOptions, ease_seconds=ease_seconds,

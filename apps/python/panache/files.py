@@ -1,5 +1,6 @@
 """Motion files: BVH, GLB, glTF and VRM."""
 
+import operator
 import os
 import pathlib
 import warnings
@@ -11,7 +12,7 @@ import numpy as np
 
 from . import _library as c
 from ._files import check_free, read_bytes, write
-from ._library import Handle, PanacheError, check, lib, take_bytes
+from ._library import Handle, PanacheError, check, lib, number, take_bytes, utf8
 from .clips import Clip, Skeleton, Strength, StyledClip, _options, retarget, stylize
 from .model import Model, model_of
 
@@ -33,14 +34,14 @@ class MotionFile:
     """
 
     def __init__(self, path: Path, fps: Optional[float] = None):
-        self.path = str(path)
+        self.path = os.fsdecode(path)
         content = read_bytes(path)
         if fps is None:
             self._handle = Handle('motion_file', lib.motion_file_create, content, len(content),
-                                  self.path.encode())
+                                  os.fsencode(path))
         else:
             self._handle = Handle('motion_file', lib.motion_file_create_at_rate, content,
-                                  len(content), self.path.encode(), fps)
+                                  len(content), os.fsencode(path), number(fps, 'fps'))
         at, joint = self._handle.pointer, c.Joint()
         self.joint_names: List[str] = []
         self.parents: List[int] = []
@@ -104,7 +105,17 @@ class MotionFile:
         if isinstance(which, str) and which not in self.clip_names:
             raise PanacheError(f'{self.path}: holds no motion {which!r}; expected one of '
                                f'{", ".join(map(repr, self.clip_names))}')
-        return self.clip_names.index(which) if isinstance(which, str) else which
+        if isinstance(which, str):
+            return self.clip_names.index(which)
+        try:
+            place = operator.index(which)
+        except TypeError:
+            raise PanacheError(f'{self.path}: expected the place or name of a motion, found '
+                               f'{type(which).__name__}') from None
+        if not 0 <= place < len(self.clip_names):
+            raise PanacheError(f'{self.path}: there is no motion {place}; it has '
+                               f'{len(self.clip_names)}, from 0')
+        return place
 
     def encode(self, edits: Sequence['Edit'], mode: str = 'last') -> bytes:
         """The bytes of the file with other frames in it. What they leave as it was keeps the very
@@ -118,7 +129,7 @@ class MotionFile:
         array = (c.ClipEdit * max(len(edits), 1))()
         kept = []
         for slot, edit in zip(array, edits):
-            slot.clip, slot.name = edit.which, edit.name.encode()
+            slot.clip, slot.name = edit.which, utf8(edit.name, 'name')
             slot.frames = edit.clip._struct()
             if len(edit.clip.skeleton) != len(self.joint_names):
                 raise PanacheError(f'{self.path}: has {len(self.joint_names)} joints, and the clip '

@@ -1,6 +1,7 @@
 """New styles, and samples for training of your own."""
 
 import ctypes
+import os
 from ctypes import c_size_t
 from dataclasses import dataclass
 from typing import List, Optional, Sequence, Tuple, Union
@@ -8,7 +9,7 @@ from typing import List, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from . import _library as c
-from ._library import Handle, check, lib, sized
+from ._library import Handle, PanacheError, check, lib, sized, utf8
 from .clips import Clip
 from .files import Path, read
 from .model import Model
@@ -53,7 +54,11 @@ class Samples:
 
 
 def _clip(source: ClipOrPath) -> Clip:
-    return source if isinstance(source, Clip) else read(source)
+    if isinstance(source, Clip):
+        return source
+    if not isinstance(source, (str, os.PathLike)):
+        raise PanacheError(f'expected a Clip or a path, found {type(source).__name__}')
+    return read(source)
 
 
 def learn(model: Model, pairs: Sequence[Tuple[ClipOrPath, ClipOrPath]], name: str,
@@ -61,10 +66,13 @@ def learn(model: Model, pairs: Sequence[Tuple[ClipOrPath, ClipOrPath]], name: st
     """Learns the style `name` from pairs of one action, (neutral, styled), by the same skeleton: 2
     to 3 seconds of a walk, or the whole of a gesture. Clips, or paths of files. The model stays as
     it is; a style of this name is replaced only with `replace`."""
+    for pair in pairs:
+        if not isinstance(pair, (tuple, list)) or len(pair) != 2:
+            raise PanacheError('pairs: expected (neutral, styled) each, of clips or paths')
     clips = [(_clip(neutral), _clip(styled)) for neutral, styled in pairs]
     array = (c.Pair * max(len(clips), 1))(*[(a._struct(), b._struct()) for a, b in clips])
     handle = Handle('learnt', lib.learn, model.content, len(model.content), array, len(clips),
-                    name.encode(), replace)
+                    utf8(name, 'name'), bool(replace))
     size = c_size_t()
     data = lib.learnt_model(handle.pointer, size)
     report = sized(c.LearntReport)

@@ -8,7 +8,7 @@ from typing import Dict, List, Optional, Union
 import numpy as np
 
 from ._files import write
-from ._library import HERE, Handle, PanacheError, lib, take_bytes
+from ._library import HERE, Handle, PanacheError, lib, take_bytes, utf8
 
 _MODELS = HERE / 'models'
 _DEFAULT = 'panache-int8'  # As the program's.
@@ -28,17 +28,21 @@ class Model:
     'panache-int8', ...), the bytes of a file, or None for the shipped default.
     """
 
-    def __init__(self, source: Union[str, os.PathLike, bytes, None] = None):
-        if isinstance(source, bytes):
-            self.content = source
+    def __init__(self, source: Union[str, os.PathLike, bytes, bytearray, memoryview, None] = None):
+        if isinstance(source, (bytes, bytearray, memoryview)):
+            self.content = bytes(source)
+        elif source is not None and not isinstance(source, (str, os.PathLike)):
+            raise PanacheError(f'model: expected a path, a name or bytes, found '
+                               f'{type(source).__name__}')
         else:
-            shipped = _MODELS / f'{source or _DEFAULT}.safetensors'
-            path = shipped if shipped.exists() else pathlib.Path(source)
+            name = source or _DEFAULT
+            shipped = _MODELS / f'{name}.safetensors'
+            path = shipped if shipped.exists() else pathlib.Path(name)
             try:
                 self.content = path.read_bytes()
             except OSError as error:
                 raise PanacheError(f'{path}: cannot be read: {error.strerror}; the shipped models '
-                                   f'are {", ".join(shipped_models())}') from error
+                                   f'are {", ".join(shipped_models()) or "missing"}') from error
         self._handle = Handle('model', lib.model_create, self.content, len(self.content))
         count = lib.model_style_count(self._handle.pointer)
         self.styles: List[str] = [
@@ -50,7 +54,7 @@ class Model:
 
     def find_style(self, name: str) -> int:
         """The place of a style. Raises PanacheError where the model has none of that name."""
-        place = lib.model_find_style(self._handle.pointer, name.encode())
+        place = lib.model_find_style(self._handle.pointer, utf8(name, 'style'))
         if place < 0:
             raise PanacheError(f'unknown style {name!r}; the model has '
                                f'{", ".join(self.styles) or "no styles yet"}')
@@ -83,7 +87,7 @@ class Model:
 
     def extract(self, style: str) -> bytes:
         """The style file of a style, for `add()` and `panache styles --add`."""
-        return take_bytes(lib.styles_extract, self.content, len(self.content), style.encode())
+        return take_bytes(lib.styles_extract, self.content, len(self.content), utf8(style, 'style'))
 
     def add(self, style_file: bytes, replace: bool = False) -> 'Model':
         """A model with the style of a style file too. All others stay bit for bit."""
@@ -93,7 +97,7 @@ class Model:
     def remove(self, style: str) -> 'Model':
         """A model without a style."""
         return Model(take_bytes(lib.styles_remove, self.content, len(self.content),
-                                style.encode()))
+                                utf8(style, 'style')))
 
 
 def model_of(model: Optional[Model]) -> Model:
