@@ -1,9 +1,9 @@
 // The npm package under Node: what the module exports, and poses of the caller's own.
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
-import { cp, mkdir, mkdtemp, readFile, rm, symlink } from 'node:fs/promises';
+import { execFileSync, spawnSync } from 'node:child_process';
+import { cp, mkdir, mkdtemp, readFile, rm, symlink, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { basename, join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 
@@ -11,13 +11,15 @@ const root = fileURLToPath(new URL('../../', import.meta.url));
 const read = (path) => readFile(join(root, path));
 const kJoints = 19, kFrames = 180;
 
-let folder, panache, wasm, PanacheError, createFigure, humanBones, StyledBones;
+let folder, panache, createWithWalker, wasm, PanacheError, createFigure, humanBones, StyledBones;
 before(async () => {
   // The package and the sample as a user has them.
   folder = await mkdtemp(join(tmpdir(), 'panache-'));
   await cp(join(root, 'apps/web/package'), join(folder, 'package'), { recursive: true });
-  await cp(join(root, 'build/wasm/panache.wasm'), join(folder, 'package/panache.wasm'));
-  await cp(join(root, 'models/panache-int8.safetensors'), join(folder, 'package/panache-int8.safetensors'));
+  for (const path of ['LICENSE', 'build/wasm/panache.wasm', 'models/panache-int8.safetensors',
+    'models/walker.safetensors']) {
+    await cp(join(root, path), join(folder, 'package', basename(path)));
+  }
   await mkdir(join(folder, 'three_js'));
   for (const name of ['main.mjs', 'package.json', 'stick_figure.mjs', 'styled_bones.mjs']) {
     await cp(join(root, 'samples/three_js', name), join(folder, 'three_js', name));
@@ -29,11 +31,69 @@ before(async () => {
   const module = await load('package/index.js');
   PanacheError = module.PanacheError;
   wasm = await WebAssembly.compile(await readFile(join(folder, 'package/panache.wasm')));
-  panache = await module.Panache.create({ wasm, model: await read('models/panache-int8.safetensors') });
+  const model = await read('models/panache-int8.safetensors');
+  panache = await module.Panache.create({ wasm, model });
+  createWithWalker = (walker) => module.Panache.create({ wasm, model, walker });
 });
 after(async () => {
   panache?.free();
   await rm(folder, { recursive: true });
+});
+
+// A project with the package in it, as npm installs it.
+async function install() {
+  const project = join(folder, 'project'), installed = join(project, 'node_modules/panache');
+  await mkdir(installed, { recursive: true });
+  execFileSync('npm', ['pack', '--silent', '--pack-destination', project],
+    { cwd: join(folder, 'package') });
+  execFileSync('tar', ['-xzf', `panache-${version}.tgz`, '-C', installed, '--strip-components=1'],
+    { cwd: project });
+  return { project, installed };
+}
+const { version } = JSON.parse(await read('apps/web/package/package.json'));
+
+test('the package is whole: licence, example and types', async () => {
+  const { project, installed } = await install();
+  assert.match((await readFile(join(installed, 'LICENSE'))).toString(), /Apache License/);
+  const { license } = JSON.parse(await readFile(join(installed, 'package.json')));
+  assert.equal(license, 'Apache-2.0 AND CC-BY-NC-4.0');
+  assert.ok((await readFile(join(installed, 'README.md'))).toString().includes(`\`${license}\``));
+
+  // The example where it lies, and copied into the project.
+  await cp(join(installed, 'example.mjs'), join(project, 'example.mjs'));
+  const walker = await readFile(join(installed, 'walker.safetensors'));
+  const made = await createWithWalker(walker);
+  const walk = made.createWalker();
+  for (let f = 0; f < 60; ++f) walk.step(1 / 60);
+  await writeFile(join(project, 'walk.bvh'), walk.exportAs('.bvh'));
+  const styled = ['example.mjs', 'node_modules/panache/example.mjs'].map((example) =>
+    execFileSync(process.execPath, [example, 'walk.bvh', 'old=1'], { cwd: project }).toString());
+  assert.match(styled[0], /^MOTION$/m);
+  assert.equal(styled[1], styled[0]);
+  walk.free();
+  made.free();
+
+  await writeFile(join(project, 'use.mts'), `
+    import { Panache, PanacheError, type Pose, type Shape } from 'panache';
+    export async function use(bytes: Uint8Array, pose: Pose): Promise<string> {
+      const panache = await Panache.create({ wasm: bytes, model: bytes });
+      const shape: Partial<Shape> = { legs: 0 };
+      const skeleton = panache.createSkeleton([]);
+      const character = panache.createCharacter(skeleton, { maxLag: 1 });
+      character.setShape(shape);
+      character.step(pose, pose, 1 / 60);
+      // @ts-expect-error A name of a style is a string.
+      character.setStrength(1, 1);
+      return panache.openFile(bytes, 'walk.bvh').joints[0].name + new PanacheError('').message;
+    }`);
+  const tsc = join(root, 'apps/web/node_modules/typescript/bin/tsc');
+  for (const [module, resolution] of [['node16', 'node16'], ['esnext', 'bundler']]) {
+    const ran = spawnSync(process.execPath, [tsc, '--noEmit', '--strict', '--target', 'es2022',
+      '--module', module, '--moduleResolution', resolution, 'use.mts'],
+    { cwd: project });
+    assert.equal(ran.stdout.toString(), '', resolution);
+    assert.equal(ran.status, 0, resolution);
+  }
 });
 
 test('the module exports panache.h without files and samples, the page\'s own functions, and nothing else of ours', async () => {
@@ -99,6 +159,14 @@ test('the three.js sample runs, and an old figure stoops', () => {
   assert.ok(after > before + 3, lines.at(-1));
 });
 
+function refusal(action, message) {
+  assert.throws(action, (error) => {
+    assert.ok(error instanceof PanacheError, error.stack);
+    assert.match(error.message, message);
+    return true;
+  });
+}
+
 function skeleton(options) {
   const joints = [];
   const index = new Map();
@@ -151,12 +219,9 @@ test('a character tells what went on, and what is wrong is said in a sentence', 
   assert.ok(ahead <= 0 && ahead >= -0.5, ahead);
   assert.equal(contacts.length, 2);
   character.reset();
-  const refusal = (action, message) => assert.throws(action, (error) => {
-    assert.ok(error instanceof PanacheError);
-    assert.match(error.message, message);
-    return true;
-  });
-  refusal(() => character.setStrength('nobody', 1), /^there is no style 'nobody'$/);
+  character.setStrength('Old', 1);
+  refusal(() => character.setStrength('nobody', 1),
+    /^there is no style 'nobody'; the model has active, /);
   refusal(() => character.setShape({ spine: 0 }), /^there is no option 'spine'$/);
   refusal(() => character.step({ ...pose, rotations: pose.rotations.slice(1) }, pose, 0.1),
     /^input.rotations: expected a Float32Array of 76 numbers, found one of 75$/);
@@ -166,4 +231,104 @@ test('a character tells what went on, and what is wrong is said in a sentence', 
   refusal(() => panache.createSkeleton(joints.slice(0, 3)), /^no humanoid found/);
   character.free();
   made.free();
+});
+
+test('what is no skeleton, strength, key or file is rejected with what was found', async () => {
+  const { joints, made } = skeleton();
+  const without = (key, i = 3, value = undefined) =>
+    joints.map((joint, at) => (at === i ? { ...joint, [key]: value } : joint));
+  const create = (list, options) => () => panache.createSkeleton(list, options);
+  const name = joints[3].name;
+  const rejected = [
+    [create(joints.map(({ name, parent, translation }) => ({ name, parent, translation }))),
+      `joint 0 '${joints[0].name}': rotation: expected 4 finite numbers (x y z w), found nothing`],
+    [create(without('rotation', 3, [0, 0, 0])),
+      `joint 3 '${name}': rotation: expected 4 finite numbers (x y z w), found [0, 0, 0]`],
+    [create(without('rotation', 3, { x: 0, y: 0, z: 0, w: 1 })),
+      `joint 3 '${name}': rotation: expected 4 finite numbers (x y z w), found an object of the class Object`],
+    [create(without('rotation', 3, [0, 0, NaN, 1])),
+      `joint 3 '${name}': rotation: expected 4 finite numbers (x y z w), found [0, 0, NaN, 1]`],
+    [create(without('translation')),
+      `joint 3 '${name}': translation: expected 3 finite numbers (x y z), found nothing`],
+    [create(without('parent')), `joint 3 '${name}': parent: expected a whole number, found nothing`],
+    [create(without('name')), 'joint 3: name: expected a string, found nothing'],
+    [create(undefined), 'joints: expected an array of joints, found nothing'],
+    [create({ joints }), 'joints: expected an array of joints, found an object of the class Object'],
+    [create(joints, null), 'options: expected an object, found nothing'],
+    [create(joints, { humanJoints: { head: 'Head' } }),
+      "humanJoints.head: expected a whole number, found 'Head'"],
+    [create(joints, { poses: [undefined] }),
+      'poses[0].rotations: expected a Float32Array of 76 numbers, found nothing'],
+    [() => panache.stylizeClip(made, {}, { old: 1 }),
+      'clip.rotations: expected a Float32Array with 4 numbers for each joint of each frame, found nothing'],
+    [() => panache.openFile(readFile('no file'), 'walk.bvh'),
+      'walk.bvh: expected an ArrayBuffer or a Uint8Array, found an object of the class Promise'],
+    [() => panache.setModel('model.safetensors'),
+      "the model: expected an ArrayBuffer or a Uint8Array, found 'model.safetensors'"],
+  ];
+  const clip = { rotations: new Float32Array(4 * joints.length).fill(0.5),
+    translations: new Float32Array(3 * joints.length), frameSeconds: 1 / 60 };
+  for (const [strength, message] of [
+    [undefined, "strength of 'old': expected a number or keys [seconds, strength], found nothing"],
+    [[[0]], "strength of 'old': key 0: expected 2 finite numbers (seconds, strength), found [0]"]]) {
+    rejected.push([() => panache.stylizeClip(made, clip, { old: strength }), message]);
+  }
+  const character = panache.createCharacter(made);
+  for (const [strength, found] of [[undefined, 'nothing'], ['1', "'1'"], [NaN, 'NaN']]) {
+    rejected.push([() => character.setStrength('old', strength),
+      `strength of 'old': expected a finite number, found ${found}`]);
+  }
+  rejected.push([() => character.step(clip, clip), 'seconds: expected a number, found nothing'],
+    [() => character.step(clip.rotations, clip, 0.1),
+      'input.rotations: expected a Float32Array of 76 numbers, found nothing']);
+  for (const [action, message] of rejected) {
+    assert.throws(action, (error) => error instanceof PanacheError && error.message === message ||
+      assert.fail(`expected '${message}', found '${error.stack}'`));
+  }
+  await assert.rejects(createWithWalker('walker'), PanacheError);
+  character.free();
+  made.free();
+});
+
+test('what was freed throws, and so does what another Panache has made', async () => {
+  const other = await createWithWalker(await read('models/walker.safetensors'));
+  const walk = other.createWalker();
+  walk.step(0.1);
+  const file = other.openFile(walk.exportAs('.bvh'), 'walk.bvh');
+  const player = file.createPlayer();
+  const { joints, made } = skeleton();
+  const character = panache.createCharacter(made);
+  const pose = { rotations: new Float32Array(4 * joints.length),
+    translations: new Float32Array(3 * joints.length) };
+  refusal(() => other.createCharacter(made), /^this skeleton is of another Panache; /);
+  refusal(() => other.stylizeClip(made, { ...pose, frameSeconds: 0.1 }, {}), /of another Panache/);
+  refusal(() => panache.learnStyle('mine', { file }, { file }),
+    /^walk.bvh: this file is open in another Panache; /);
+
+  for (const thing of [character, made, player, walk, file]) {
+    thing.free();
+    thing.free();
+  }
+  const freed = {
+    character: [() => character.step(pose, pose, 0.1), () => character.report(),
+      () => character.reset(), () => character.setShape({}), () => character.setStrength('old', 1)],
+    skeleton: [() => made.find('head'), () => panache.createCharacter(made)],
+    player: [() => player.step(0.1), () => player.parts('styled'), () => player.pose('input', 2),
+      () => player.gate, () => player.exportAs('.bvh'), () => player.setStrength('old', 1),
+      () => player.setTrack('old', [[0, 1]]), () => player.seek(0), () => player.body,
+      () => walk.steer(1, 0), () => walk.step(0.1)],
+    file: [() => file.createPlayer(), () => file.putOn(file),
+      () => other.learnStyle('mine', { file }, 'walk')],
+  };
+  other.free();
+  other.free();
+  freed.Panache = [() => other.createWalker(), () => other.goldenHash(),
+    () => other.setModel(panache.modelBytes), () => other.removeStyle('old'),
+    () => other.createCharacter(other.createSkeleton(joints))];
+  for (const [what, actions] of Object.entries(freed)) {
+    for (const action of actions) {
+      refusal(action, new RegExp(
+        `^this ${what} was freed and cannot be used any more; create another one$`));
+    }
+  }
 });

@@ -1,5 +1,9 @@
 // Styling poses of the caller's own: panache.h for JavaScript. See index.d.ts.
-import { PanacheError, struct } from './memory.js';
+import {
+  PanacheError, checkClip, checkFinite, checkInteger, checkJoints, checkKeys, checkPose, inUse,
+  unexpected,
+} from './checks.js';
+import { struct } from './memory.js';
 
 const kJoint = struct(['name', 'i32'], ['parent', 'i32'], ['rotation', 'f32', 4],
   ['translation', 'f32', 3]);
@@ -32,6 +36,7 @@ const kStylizing = { easeSeconds: 0.15, smoothingSeconds: 0.04, holdFeet: true, 
 
 // A caller's options over the defaults, of which there is one for each that is known.
 function optionsOf(defaults, given) {
+  if (given === null || typeof given !== 'object') throw unexpected('options', 'an object', given);
   const unknown = Object.keys(given).find((key) => !(key in defaults));
   if (unknown) throw new PanacheError(`there is no option '${unknown}'`);
   return { ...defaults, ...given };
@@ -41,32 +46,23 @@ export function writeShape(arena, shape) {
   return arena.write(kShape, { size: kShape.size, ...optionsOf(kNeutralShape, shape) });
 }
 
-function check(array, type, length, what) {
-  if (array instanceof type && array.length === length) return;
-  throw new PanacheError(`${what}: expected a ${type.name} of ${length} numbers, found ` +
-    (array instanceof type ? `one of ${array.length}` : 'something else'));
-}
-function checkPose({ rotations, translations }, joints, what) {
-  check(rotations, Float32Array, 4 * joints, `${what}.rotations`);
-  check(translations, Float32Array, 3 * joints, `${what}.translations`);
-}
-
 export class Skeleton {
-  #wasm; #panache;
+  #wasm; #panache; #skeleton;
 
   constructor(panache, joints, options) {
     const { metresPerUnit, upAxis, humanJoints, poses } = optionsOf(
       { metresPerUnit: 0, upAxis: null, humanJoints: {}, poses: [] }, options);
+    checkJoints(joints);
     this.#panache = panache;
     this.#wasm = panache._wasm;
     this.jointCount = joints.length;
-    this._skeleton = panache._arena((arena) => {
+    this.#skeleton = panache._arena((arena) => {
       const list = arena.array(kJoint, joints.map((joint) => ({
         name: arena.text(joint.name), parent: joint.parent, rotation: joint.rotation,
         translation: joint.translation,
       })));
       const map = Object.entries(humanJoints).map(([name, joint]) => (
-        { name: arena.text(name), joint }));
+        { name: arena.text(name), joint: checkInteger(joint, `humanJoints.${name}`) }));
       poses.forEach((pose, i) => checkPose(pose, joints.length, `poses[${i}]`));
       const all = (key) => arena.copy(
         Float32Array.from(poses.flatMap((pose) => Array.from(pose[key]))));
@@ -83,12 +79,20 @@ export class Skeleton {
 
   find(humanJoint) {
     return this.#panache._arena((arena) => this.#wasm.panache_skeleton_find(
-      this._skeleton, arena.text(humanJoint)));
+      this._handleFor(this.#panache), arena.text(humanJoint)));
+  }
+  // Handles are addresses in the memory of their own module.
+  _handleFor(panache) {
+    if (panache !== this.#panache) {
+      throw new PanacheError(
+        'this skeleton is of another Panache; create one with createSkeleton()');
+    }
+    return inUse(this.#skeleton, 'skeleton');
   }
 
   free() {
-    this.#wasm.panache_skeleton_destroy(this._skeleton);
-    this._skeleton = 0;
+    this.#wasm.panache_skeleton_destroy(this.#skeleton);
+    this.#skeleton = 0;
   }
 }
 
@@ -104,7 +108,7 @@ export class Character {
     this.#character = panache._arena((arena) => {
       const at = arena.write(kCharacterOptions, { size: kCharacterOptions.size, ...told });
       return arena.create((out) => this.#wasm.panache_character_create(
-        panache._model(), skeleton._skeleton, at, out));
+        panache._model(), skeleton._handleFor(panache), at, out));
     });
     // A pose, styled in place, and where it is.
     this.#block = this.#wasm.malloc(28 * this.#joints + kPose.size);
@@ -118,24 +122,28 @@ export class Character {
   }
 
   setStrength(style, strength) {
+    const character = this.#handle();
+    const index = this.#panache._styleIndex(style, this.#styles);
     this.#wasm.panache_character_set_strength(
-      this.#character, this.#panache._styleIndex(style, this.#styles), strength);
+      character, index, checkFinite(strength, `strength of '${style}'`));
   }
   setShape(shape) {
     this.#panache._arena((arena) => arena.check(this.#wasm.panache_character_set_shape(
-      this.#character, writeShape(arena, shape))));
+      this.#handle(), writeShape(arena, shape))));
   }
 
   step(input, output, seconds) {
+    const character = this.#handle();
     checkPose(input, this.#joints, 'input');
     checkPose(output, this.#joints, 'output');
+    if (typeof seconds !== 'number') throw unexpected('seconds', 'a number', seconds);
     const { buffer } = this.#wasm.memory;
     const rotations = new Float32Array(buffer, this.#block, 4 * this.#joints);
     const translations = new Float32Array(
       buffer, this.#block + 16 * this.#joints, 3 * this.#joints);
     rotations.set(input.rotations);
     translations.set(input.translations);
-    this.#wasm.panache_character_step(this.#character, this.#pose, seconds, this.#pose);
+    this.#wasm.panache_character_step(character, this.#pose, seconds, this.#pose);
     output.rotations.set(rotations);
     output.translations.set(translations);
   }
@@ -143,24 +151,25 @@ export class Character {
   report() {
     return this.#panache._arena((arena) => {
       const at = arena.write(kReport, { size: kReport.size });
-      arena.check(this.#wasm.panache_character_get_report(this.#character, at));
+      arena.check(this.#wasm.panache_character_get_report(this.#handle(), at));
       const [gate, contacts, rate, ahead] = ['gate', 'contacts', 'rate', 'ahead'].map(
         (name) => arena.read(kReport, name, at));
       return { gate, contacts, rate, ahead };
     });
   }
-  reset() { this.#wasm.panache_character_reset(this.#character); }
+  reset() { this.#wasm.panache_character_reset(this.#handle()); }
 
   free() {
     this.#wasm.panache_character_destroy(this.#character);
     this.#wasm.free(this.#block);
     this.#character = this.#block = 0;
   }
+  #handle() { return inUse(this.#character, 'character'); }
 }
 
 // A number, or keys [seconds, strength].
 function writeTrack(arena, panache, name, strength) {
-  const keys = typeof strength === 'number' ? [[0, strength]] : strength;
+  const keys = checkKeys(typeof strength === 'number' ? [[0, strength]] : strength, name);
   return {
     style: panache._styleIndex(name), keyCount: keys.length,
     keys: arena.array(kKey, keys.map(([seconds, value]) => ({ seconds, strength: value }))),
@@ -171,11 +180,10 @@ export function stylizeClip(panache, skeleton, clip, strengths, options) {
   const wasm = panache._wasm;
   const { shape, ...told } = optionsOf({ ...kStylizing, styleTiming: true, shape: {} }, options);
   const joints = skeleton.jointCount;
-  const frameCount = Math.floor(clip.rotations.length / (4 * joints));
-  checkPose(clip, frameCount * joints, 'clip');
+  const frameCount = checkClip(clip, joints);
   const styled = panache._arena((arena) => {
     const from = arena.write(kClip, {
-      skeleton: skeleton._skeleton, frameCount, frameSeconds: clip.frameSeconds,
+      skeleton: skeleton._handleFor(panache), frameCount, frameSeconds: clip.frameSeconds,
       rotations: arena.copy(clip.rotations), translations: arena.copy(clip.translations),
     });
     const tracks = Object.entries(strengths).map(

@@ -1,12 +1,14 @@
 // node example.mjs walk.bvh old=1 proud=0.5 > styled.bvh: restyles a file.
 import { readFile } from 'node:fs/promises';
-import { Panache } from './index.js';
+import { createRequire } from 'node:module';
+import { Panache } from 'panache';
 
-const here = (name) => readFile(new URL(name, import.meta.url));
+const { resolve } = createRequire(import.meta.url);
+const fileOf = (name) => readFile(resolve(`panache/${name}`));
 const [path, ...styles] = process.argv.slice(2);
 const panache = await Panache.create({
-  wasm: await here('panache.wasm'),
-  model: await here('panache-int8.safetensors'),
+  wasm: await fileOf('panache.wasm'),
+  model: await fileOf('panache-int8.safetensors'),
 });
 try {
   const file = panache.openFile(await readFile(path), path);

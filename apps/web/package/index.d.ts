@@ -1,5 +1,7 @@
-// Panache for JavaScript. Objects live in WebAssembly memory: call free() on what you made. Typed
-// arrays that are views are good until the next call into the module.
+// Panache for JavaScript. Objects live in WebAssembly memory: call free() on what you made; after
+// that all its other methods throw a PanacheError. Objects of one Panache are no use to another.
+// Names of styles match without case. Typed arrays that are views are good until the next call into
+// the module.
 
 /** The 21 joints of a humanoid, in the order of `parts` and `offsets`; parents before children. */
 export const humanJoints: readonly string[];
@@ -161,7 +163,8 @@ export class Skeleton {
 /** One character of yours in motion. */
 export class Character {
   private constructor();
-  /** 0 is neutral, 1 the style as captured, more exaggerates it (-4 to 4). Eased in. */
+  /** 0 is neutral, 1 the style as captured, more exaggerates it (-4 to 4). Eased in. Throws where
+   * the model has no such style, or the strength is not finite. */
   setStrength(style: string, strength: number): void;
   /** What is left out is 1. Eased in. */
   setShape(shape: Partial<Shape>): void;
@@ -271,7 +274,8 @@ export interface Body {
 
 /** A source of motion and the character that it moves. */
 declare class Player {
-  /** 0 is neutral, 1 the style as captured, more exaggerates it (-4 to 4). Eased in. */
+  /** 0 is neutral, 1 the style as captured, more exaggerates it (-4 to 4). Eased in. Throws where
+   * the model has no such style, or the strength is not finite. */
   setStrength(style: string, strength: number): void;
   /** What is left out is 1. Eased in. */
   setShape(shape: Partial<Shape>): void;

@@ -2,7 +2,8 @@
 // promises.
 
 import { Character, Skeleton, stylizeClip, writeShape } from './character.js';
-import { Arena, PanacheError } from './memory.js';
+import { PanacheError, checkBytes, checkFinite, checkKeys, inUse } from './checks.js';
+import { Arena } from './memory.js';
 
 const kHumanJoints = 21;
 const kPartNumbers = 7;
@@ -48,14 +49,20 @@ export class Panache {
 
   constructor(wasm, model, walker) {
     this.#wasm = wasm;
-    this.setModel(model);
+    this.#useModel(model, 'the model');
     if (walker) {
+      checkBytes(walker, 'the walker');
       this.#walker = this._arena((arena) => this._checked(
         wasm.panache_page_walker_create(arena.copy(walker), walker.byteLength)));
     }
   }
 
   setModel(bytes, name = 'the model') {
+    this._model();
+    this.#useModel(bytes, name);
+  }
+  #useModel(bytes, name) {
+    checkBytes(bytes, name);
     const wasm = this.#wasm;
     const model = this._arena((arena) => this._checked(wasm.panache_page_model_create(
       arena.copy(bytes), bytes.byteLength, arena.text(name))));
@@ -74,10 +81,12 @@ export class Panache {
   get modelBytes() { return this.#bytes; }
 
   isStyle(bytes) {
+    checkBytes(bytes, 'the style');
     return this._arena((arena) =>
       this.#wasm.panache_page_is_style(arena.copy(bytes), bytes.byteLength) !== 0);
   }
   addStyle(bytes, { name = 'the style', replace = false } = {}) {
+    checkBytes(bytes, name);
     this.setModel(this._arena((arena) => this._take(this._checked(
       this.#wasm.panache_page_style_add(arena.copy(this.#bytes), this.#bytes.byteLength,
         arena.copy(bytes), bytes.byteLength, arena.text(name), replace ? 1 : 0)))));
@@ -98,8 +107,8 @@ export class Panache {
       const [before, after] = [action ? null : neutral, styled];
       const bytes = this._take(this._checked(this.#wasm.panache_page_learn(
         arena.copy(this.#bytes), this.#bytes.byteLength,
-        before?.file._handle ?? 0, before?.clip ?? 0, arena.text(before?.file.name ?? ''),
-        this.#walker, arena.text(action), after.file._handle, after.clip ?? 0,
+        before?.file._handleFor(this) ?? 0, before?.clip ?? 0, arena.text(before?.file.name ?? ''),
+        this.#walker, arena.text(action), after.file._handleFor(this), after.clip ?? 0,
         arena.text(after.file.name), arena.text(style), out)));
       const [report] = new Uint32Array(this.#wasm.memory.buffer, out, 1);
       return { bytes, report: JSON.parse(new TextDecoder().decode(this._take(report))) };
@@ -119,19 +128,21 @@ export class Panache {
         `${name}: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma), found ` +
           (extension ? `the extension '${extension}'` : 'no extension'));
     }
+    checkBytes(bytes, name);
     return new MotionFile(this, this.#wasm, bytes, name, extension, fps);
   }
 
   createWalker() {
+    const model = this._model();
     if (!this.#walker) throw new PanacheError('no walker was given to Panache.create');
-    const player = this.#wasm.panache_page_player_walk(this.#model, this.#walker);
+    const player = this.#wasm.panache_page_player_walk(model, this.#walker);
     return new Walk(this, this.#wasm, this._checked(player), '');
   }
 
   goldenHash() {
     return this._arena((arena) => {
       const at = arena.allocate(8);
-      this.#wasm.panache_page_golden(this.#model, at);
+      this.#wasm.panache_page_golden(this._model(), at);
       const [low, high] = new Uint32Array(this.#wasm.memory.buffer, at, 2);
       return high.toString(16).padStart(8, '0') + low.toString(16).padStart(8, '0');
     });
@@ -145,11 +156,18 @@ export class Panache {
 
   // For the other classes.
   get _wasm() { return this.#wasm; }
-  _model() { return this.#model; }
+  _model() { return inUse(this.#model, 'Panache'); }
   _players() { return this.#players; }
   _styleIndex(name, styles = this.styles) {
-    const index = styles.findIndex((style) => style.name === name);
-    if (index < 0) throw new PanacheError(`there is no style '${name}'`);
+    let index = styles.findIndex((style) => style.name === name);
+    if (index < 0) {  // As the program: without case where that is needed.
+      const wanted = String(name).toLowerCase();
+      index = styles.findIndex((style) => style.name.toLowerCase() === wanted);
+    }
+    if (index < 0) {
+      throw new PanacheError(`there is no style '${name}'; the model has ` +
+        styles.map((style) => style.name).join(', '));
+    }
     return index;
   }
   _checked(handle) {
@@ -190,16 +208,25 @@ export class MotionFile {
       { name: title, frames, frameTime, seconds: Math.max(0, frames - 1) * frameTime, moves }));
   }
 
-  get _handle() { return this.#file; }
+  // Handles are addresses in the memory of their own module.
+  _handleFor(panache) {
+    if (panache !== this.#panache) {
+      throw new PanacheError(`${this.name}: this file is open in another Panache; open it with ` +
+        'openFile()');
+    }
+    return inUse(this.#file, 'file');
+  }
 
   createPlayer(clip = 0) {
-    const player = this.#wasm.panache_page_player_clip(this.#panache._model(), this.#file, clip);
+    const player = this.#wasm.panache_page_player_clip(
+      this.#panache._model(), this._handleFor(this.#panache), clip);
     return new Playback(this.#panache, this.#wasm, this.#panache._checked(player), this.#extension);
   }
 
   putOn(character, clip = 0) {
     return this.#panache._take(this.#panache._checked(
-      this.#wasm.panache_page_file_put_on(this.#file, clip, character.#file)));
+      this.#wasm.panache_page_file_put_on(
+        this._handleFor(this.#panache), clip, character._handleFor(this.#panache))));
   }
 
   free() {
@@ -209,13 +236,13 @@ export class MotionFile {
 }
 
 class Player {
-  #panache; #extension;
+  #panache; #player; #extension;
 
   constructor(panache, wasm, player, extension) {
     this.#panache = panache;
     this.#extension = extension;
     this._wasm = wasm;
-    this._player = player;
+    this.#player = player;
     panache._players().add(this);
   }
   _useModel() {
@@ -223,8 +250,11 @@ class Player {
       this._wasm.panache_page_player_use_model(this._player, this.#panache._model())));
   }
 
+  get _player() { return inUse(this.#player, 'player'); }
+
   setStrength(style, strength) {
     const index = this.#panache._styleIndex(style);
+    checkFinite(strength, `strength of '${style}'`);
     const at = this._wasm.panache_page_player_strengths(this._player);
     this._floats(at, index + 1)[index] = strength;
   }
@@ -282,11 +312,12 @@ class Player {
 
   free() {
     this.#panache._players().delete(this);
-    this._wasm.panache_page_player_free(this._player);
-    this._player = 0;
+    this._wasm.panache_page_player_free(this.#player);
+    this.#player = 0;
   }
   _setTrack(style, keys) {
     const index = this.#panache._styleIndex(style);
+    checkKeys(keys, style);
     this.#panache._arena((arena) => this._wasm.panache_page_player_set_track(
       this._player, index, arena.copy(Float64Array.from(keys.flat())), keys.length));
   }

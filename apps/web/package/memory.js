@@ -1,8 +1,7 @@
 // The memory of the WebAssembly module: what a call needs there, and structs of panache.h as the
 // module lays them out.
 
-/** Bad input; the message is one sentence. */
-export class PanacheError extends Error {}
+import { PanacheError } from './checks.js';
 
 const kSizes = { i32: 4, f32: 4, f64: 8 };
 

@@ -1,0 +1,84 @@
+// What callers pass, checked before it reaches the module: the message says what was expected and
+// what was found.
+
+/** Bad input; the message is one sentence. */
+export class PanacheError extends Error {}
+
+function describe(value) {
+  if (value === undefined || value === null) return 'nothing';
+  if (typeof value === 'string') return `'${value}'`;
+  if (typeof value !== 'object') return String(value);
+  return `an object of the class ${value.constructor?.name ?? 'Object'}`;
+}
+export function unexpected(what, expectation, value) {
+  return new PanacheError(`${what}: expected ${expectation}, found ${describe(value)}`);
+}
+
+// The handle of an object that is still in use; 0 is that of a freed one.
+export function inUse(handle, what) {
+  if (handle) return handle;
+  throw new PanacheError(`this ${what} was freed and cannot be used any more; create another one`);
+}
+
+export function checkBytes(bytes, what) {
+  if (typeof bytes?.byteLength === 'number') return bytes;
+  throw unexpected(what, 'an ArrayBuffer or a Uint8Array', bytes);
+}
+export function checkFinite(value, what) {
+  if (Number.isFinite(value)) return value;
+  throw unexpected(what, 'a finite number', value);
+}
+export function checkInteger(value, what) {
+  if (Number.isInteger(value)) return value;
+  throw unexpected(what, 'a whole number', value);
+}
+function checkNumbers(list, count, what, names) {
+  const found = Array.isArray(list) || ArrayBuffer.isView(list) ? list.length : undefined;
+  if (found === count && Array.prototype.every.call(list, Number.isFinite)) return;
+  const expectation = `${count} finite numbers (${names})`;
+  if (found === undefined) throw unexpected(what, expectation, list);
+  throw new PanacheError(
+    `${what}: expected ${expectation}, found [${Array.from(list).join(', ')}]`);
+}
+
+export function checkJoints(joints) {
+  if (!Array.isArray(joints)) throw unexpected('joints', 'an array of joints', joints);
+  joints.forEach((joint, i) => {
+    if (typeof joint?.name !== 'string') {
+      throw unexpected(`joint ${i}: name`, 'a string', joint?.name);
+    }
+    const place = `joint ${i} '${joint.name}'`;
+    checkInteger(joint.parent, `${place}: parent`);
+    checkNumbers(joint.rotation, 4, `${place}: rotation`, 'x y z w');
+    checkNumbers(joint.translation, 3, `${place}: translation`, 'x y z');
+  });
+}
+
+function checkArray(array, length, what) {
+  if (array instanceof Float32Array && array.length === length) return;
+  const expectation = `a Float32Array of ${length} numbers`;
+  if (!(array instanceof Float32Array)) throw unexpected(what, expectation, array);
+  throw new PanacheError(`${what}: expected ${expectation}, found one of ${array.length}`);
+}
+export function checkPose(pose, joints, what) {
+  checkArray(pose?.rotations, 4 * joints, `${what}.rotations`);
+  checkArray(pose?.translations, 3 * joints, `${what}.translations`);
+}
+// How many frames of so many joints there are.
+export function checkClip(clip, joints) {
+  if (!(clip?.rotations instanceof Float32Array)) {
+    throw unexpected('clip.rotations', 'a Float32Array with 4 numbers for each joint of each frame',
+      clip?.rotations);
+  }
+  const frames = Math.floor(clip.rotations.length / (4 * joints));
+  checkPose(clip, frames * joints, 'clip');
+  return frames;
+}
+
+// Keys [seconds, strength] of a style.
+export function checkKeys(keys, style) {
+  const what = `strength of '${style}'`;
+  if (!Array.isArray(keys)) throw unexpected(what, 'a number or keys [seconds, strength]', keys);
+  keys.forEach((key, i) => checkNumbers(key, 2, `${what}: key ${i}`, 'seconds, strength'));
+  return keys;
+}
