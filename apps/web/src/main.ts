@@ -53,7 +53,8 @@ class Page {
   #help = buildHelp();
   #source: Source;
   #files: File[] = [];  // That were opened together.
-  #bytes = new ArrayBuffer(0);  // Of the file that is open.
+  #file: File | null = null;    // That is open.
+  #bytes = new ArrayBuffer(0);  // Of that file.
   #cut = true;
   #last = 0;
   #seconds = 0;
@@ -68,6 +69,7 @@ class Page {
     this.#transport = new TransportBar({
       onSeek: (seconds) => this.#seek(seconds),
       onClip: (clip) => void this.#attempt(() => this.#playClip(clip)),
+      onRate: (fps) => void this.#attempt(() => this.#setRate(fps)),
       onLoop: (loop) => this.#source.kind === 'clip' && (this.#source.player.loop = loop),
       onStep: (frames) => this.#stepFrames(frames),
     });
@@ -414,15 +416,17 @@ class Page {
     menu.hidden = list.length < 2;
   }
 
-  async #open(file: File) {
-    const opened = await openFile(this.#panache, file);
+  /** Plays a motion of a file, the first of a body where none is asked for. */
+  async #open(file: File, clip?: number, fps?: number) {
+    const opened = await openFile(this.#panache, file, fps);
     let source: Source;
     try {
-      source = await clipSource(opened.file, opened.bytes, firstMotion(opened.file));
+      source = await clipSource(opened.file, opened.bytes, clip ?? firstMotion(opened.file));
     } catch (error) {
       opened.file.free();
       throw error;
     }
+    this.#file = file;
     this.#bytes = opened.bytes;
     this.#use(source);
     if (opened.file.notes.length > 0) this.#alert(opened.file.notes.join('\n'));
@@ -431,6 +435,14 @@ class Page {
   async #playClip(clip: number) {
     if (this.#source.kind !== 'clip') return;
     this.#use(await clipSource(this.#source.file, this.#bytes, clip));
+  }
+
+  /** Reads the file that is open as if it had so many frames a second; 0: at its own rate. */
+  async #setRate(fps: number) {
+    const source = this.#source;
+    if (source.kind !== 'clip' || !this.#file) return;
+    this.#transport.showRate(source.file, source.clip);  // What stays, if that fails.
+    await this.#open(this.#file, source.clip, fps);
   }
 
   /** Tells of what is wrong with a file; everything else is a fault of ours. */

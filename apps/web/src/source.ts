@@ -15,23 +15,31 @@ export function walkSource(panache: Panache): Source {
   return { kind: 'walk', player: panache.createWalker(), joints: 21, own: null };
 }
 
-/** Rejects with the library's message. */
-export async function openFile(panache: Panache, file: File): Promise<{ file: MotionFile;
-    bytes: ArrayBuffer }> {
+/** Frames a second of opened files whose own rate is wrong or missing. */
+const rates = new WeakMap<File, number>();
+
+/** Reads a file, at `fps` frames a second or at its own rate where that is 0; what was given for a
+ * file stays with it. Rejects with the library's message. */
+export async function openFile(panache: Panache, file: File, fps = rates.get(file) ?? 0):
+    Promise<{ file: MotionFile; bytes: ArrayBuffer }> {
   if (file.size > kLargestFile) {
     throw new PanacheError(`${file.name}: expected at most ${kLargestFile >> 20} MB, found ` +
       `${Math.ceil(file.size / (1 << 20))} MB; the program panache takes files of any size`);
   }
   const bytes = await file.arrayBuffer();
-  const open = (fps = 0) => ({ file: panache.openFile(bytes, file.name, { fps }), bytes });
+  const open = (rate: number) => {
+    const opened = panache.openFile(bytes, file.name, { fps: rate });
+    rates.set(file, rate);
+    return { file: opened, bytes };
+  };
   try {
-    return open();
+    return open(fps);
   } catch (error) {
     // The library says so where a file has no rate, or one that cannot be.
     if (!(error instanceof PanacheError) || !error.message.endsWith('give its rate')) throw error;
-    const fps = Number(window.prompt(`${error.message}\n\nFrames a second of ${file.name}:`) ?? '');
-    if (!(fps > 0)) throw error;
-    return open(fps);
+    const given = Number(window.prompt(`${error.message}\n\nFrames a second of ${file.name}:`));
+    if (!(given > 0)) throw error;
+    return open(given);
   }
 }
 

@@ -21,6 +21,8 @@ export function clock(seconds: number): string {
 export interface TransportEvents {
   onSeek(seconds: number): void;
   onClip(clip: number): void;
+  /** Frames a second of the file; 0: its own. */
+  onRate(fps: number): void;
   onLoop(loop: boolean): void;
   /** One frame on, or back. */
   onStep(frames: number): void;
@@ -33,6 +35,8 @@ export class TransportBar {
     'aria-label': 'Time in the clip' });
   #time = element('output', { 'aria-live': 'off' });
   #clips = element('select', { id: 'clips', 'aria-label': 'Motion of the file' });
+  #rate = element('input', { type: 'number', id: 'fps', min: 0.01, max: 10000, step: 'any',
+    ...hinted('Frames a second of the file; empty: its own rate') });
   #range = element('span', { class: 'range', title: 'From the in point to the out point' });
   #loop = element('button', { type: 'button', id: 'loop', 'aria-pressed': 'true' }, 'Loop');
   #seconds = 0;
@@ -54,12 +58,14 @@ export class TransportBar {
         { id: 'in', ...hinted('Begin here (I); again at the same place: at the beginning') }),
       button('Out', () => this.setOut(),
         { id: 'out', ...hinted('End here (O); again at the same place: at the end') }),
-      this.#clips, this.#loop, speed);
+      this.#clips, this.#loop, speed,
+      element('label', { class: 'word', for: 'fps' }, 'fps'), this.#rate);
     this.#play.addEventListener('click', () => this.setPlaying(!this.state.playing));
     this.#scrub.addEventListener('input', () => {
       this.events.onSeek(Number(this.#scrub.value) * this.#seconds);
     });
     this.#clips.addEventListener('change', () => this.events.onClip(Number(this.#clips.value)));
+    this.#rate.addEventListener('change', () => this.events.onRate(Number(this.#rate.value)));
     this.#loop.addEventListener('click', () => {
       this.state.loop = !this.state.loop;
       this.#loop.setAttribute('aria-pressed', String(this.state.loop));
@@ -110,8 +116,13 @@ export class TransportBar {
     this.#clips.replaceChildren(...file.clips.flatMap(({ name, moves }, i) => (moves
       ? [element('option', { value: i, selected: i === clip }, name || `motion ${i + 1}`)] : [])));
     this.#clips.hidden = this.#clips.childElementCount < 2;
+    this.showRate(file, clip);
     this.#now = 0;
     this.clearRange();
+  }
+  showRate(file: MotionFile, clip: number) {
+    const frameTime = file.clips[clip]?.frameTime ?? 0;
+    this.#rate.value = frameTime > 0 ? String(Number((1 / frameTime).toFixed(2))) : '';
   }
 
   at(seconds: number) {

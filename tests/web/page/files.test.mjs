@@ -250,6 +250,99 @@ test('a .vrma opens, and several files become a list', async () => {
   await frames(tab);
 });
 
+/** The GLB with an animation of a lamp before and one after its own. */
+function withLamp(bytes) {
+  const length = bytes.readUInt32LE(12), rest = bytes.subarray(20 + length);
+  const json = JSON.parse(bytes.subarray(20, 20 + length).toString());
+  const [own] = json.animations;
+  const { sampler } = own.channels.find(({ target }) => target.path === 'translation');
+  const lamp = (name) => ({ name, samplers: [own.samplers[sampler]],
+    channels: [{ sampler: 0, target: { node: json.nodes.length, path: 'translation' } }] });
+  json.animations = [lamp('lamp'), own, lamp('lamp again')];
+  json.scenes[json.scene ?? 0].nodes.push(json.nodes.length);
+  json.nodes.push({ name: 'lamp' });
+  const text = JSON.stringify(json), padded = Buffer.from(text.padEnd(4 * Math.ceil(text.length / 4)));
+  const out = Buffer.concat([bytes.subarray(0, 20), padded, rest]);
+  out.writeUInt32LE(out.length, 8);
+  out.writeUInt32LE(padded.length, 12);
+  return out;
+}
+
+test('animations that move no body are passed over with a note', async () => {
+  const lit = withLamp(readFileSync(at('walk.glb')));
+  writeFileSync(at('lit.glb'), lit);
+  await choose('lit.glb');
+  await tab.waitForFunction(() => window.page.source.file?.name === 'lit.glb');
+  assert.equal(await alertText(),
+    "lit.glb: 'lamp' and 'lamp again' move no joint of the humanoid and are passed over");
+  assert.equal(await tab.evaluate(() => window.page.source.clip), 1);
+  assert.ok(await tab.locator('#clips').isHidden());
+  panache('stylize', 'lit.glb', '--style', 'old=1', '-o', 'lit-old.glb');
+  await choose('lit-old.glb');
+  await tab.waitForFunction(() => window.page.source.file?.name === 'lit-old.glb');
+  assert.deepEqual(await tab.locator('#clips option').allTextContents(), ['walk', 'walk (old 1)']);
+  await tab.locator('#clips').selectOption('walk (old 1)');
+  await tab.waitForFunction(() => window.page.source.clip === 3);
+});
+
+/** The walk with other counts and rates. */
+const writeWalk = (name, from, to) =>
+  writeFileSync(at(name), readFileSync(at('walk.bvh'), 'utf8').replace(from, to));
+
+test('what is odd about a file is told, and the file is played', async () => {
+  writeWalk('many.bvh', /Frames:\s*\d+/, 'Frames: 999');
+  await choose('many.bvh');
+  await tab.waitForFunction(() => window.page.source.file?.name === 'many.bvh');
+  assert.match(await alertText(), /^many\.bvh:\d+:\d+: expected .*180.*found '999'/);
+  assert.equal(await tab.evaluate(() => window.page.source.file.clips[0].frames), 180);
+});
+
+test('a wrong rate is noted, corrected, kept and saved', async () => {
+  writeWalk('slow.bvh', /Frame Time:.*/, 'Frame Time: 0.1');
+  const rate = tab.locator('#fps');
+  const seconds = () => tab.evaluate(() => window.page.source.file.clips[0].seconds);
+  const takes = (wanted) => tab.waitForFunction((s) =>
+    Math.abs(window.page.source.file?.clips[0].seconds - s) < 1e-3, wanted);
+  await tab.setInputFiles('#file', [at('slow.bvh'), at('walk.bvh')]);
+  await takes(17.9);
+  assert.match(await alertText(), /^slow\.bvh: expected steps .*too slow.* give its rate$/);
+  assert.equal(await rate.inputValue(), '10');
+  await rate.fill('60');
+  await rate.press('Enter');
+  await takes(179 / 60);
+  assert.ok(await tab.locator('#alert').isHidden());
+  // It stays with the file while that is listed.
+  await tab.locator('#files').selectOption('walk.bvh');
+  await tab.waitForFunction(() => window.page.source.file?.name === 'walk.bvh');
+  await tab.locator('#files').selectOption('slow.bvh');
+  await tab.waitForFunction(() => window.page.source.file?.name === 'slow.bvh');
+  assert.equal(await rate.inputValue(), '60');
+  panache('convert', 'slow.bvh', '--fps', '60', '-o', 'right.bvh');
+  assert.deepEqual(readFileSync(await save('BVH', '.bvh')), readFileSync(at('right.bvh')));
+  // What cannot be is refused, and the rate stays.
+  await rate.fill('99999');
+  await rate.press('Enter');
+  assert.match(await alertText(), /expected a rate of 0\.01 to 10000 frames a second, found 99999$/);
+  assert.equal(await rate.inputValue(), '60');
+  assert.ok(Math.abs(await seconds() - 179 / 60) < 1e-3);
+  // Empty: the file's own.
+  await rate.fill('');
+  await rate.press('Enter');
+  await takes(17.9);
+  assert.equal(await rate.inputValue(), '10');
+});
+
+test('the rate of a file that has none is asked for', async () => {
+  writeWalk('zero.bvh', /Frame Time:.*/, 'Frame Time: 0');
+  tab.once('dialog', (dialog) => dialog.dismiss());
+  await choose('zero.bvh');
+  assert.match(await alertText(), /^zero\.bvh:\d+:\d+: .*give its rate$/);
+  tab.once('dialog', (dialog) => dialog.accept('60'));
+  await choose('zero.bvh');
+  await tab.waitForFunction(() => window.page.source.file?.name === 'zero.bvh');
+  assert.equal(await tab.locator('#fps').inputValue(), '60');
+});
+
 test('a wrong file is refused with the library\'s sentence, and the old one goes on', async () => {
   await drop('damaged.bvh');
   assert.match(await alertText(), /^damaged\.bvh:\d+:\d+: expected .*OFSET/);
