@@ -47,15 +47,13 @@ Result<TestSet> prepare(const EvaluateOptions& options) {
   }
   for (const ManifestRow& row : styled) styles.insert(row.style);
   progress.update(0.5, "training the classifiers");
-  Result<Evaluator> evaluator =
-      Evaluator::create(training->takes, test, options.floor, options.seed);
-  if (!evaluator) return evaluator.error();
+  Evaluator evaluator = Evaluator::create(training->takes, test, options.seed);
   const double units = 1 / styled_inputs->front().rig.scale();
   return TestSet{*std::move(training),
                  *std::move(inputs),
                  *std::move(styled_inputs),
                  AlignedTakes(std::move(test)),
-                 *std::move(evaluator),
+                 std::move(evaluator),
                  {styles.begin(), styles.end()},
                  units};
 }

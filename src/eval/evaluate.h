@@ -50,8 +50,8 @@ struct EvaluateOptions {
 // The test takes whose style and content a training take shows: nothing can be said of the others.
 std::vector<ManifestRow> rows_to_evaluate(const EvaluateOptions& options);
 
-// Fails where takes cannot be read, where the test takes lack what is judged, or where the
-// classifiers are no judges (see Evaluator::create). Shows its progress on a terminal.
+// Fails where takes cannot be read, or where the test takes lack what is judged. Shows its progress
+// on a terminal.
 Result<Report> evaluate(const EvaluateOptions& options);
 
 // The test takes and everything that judges motion made from them.

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/result.h"
 #include "eval/aligned_takes.h"
 #include "train/classifier.h"
 #include "eval/measure.h"
@@ -28,7 +27,8 @@ MetricsTable by_style(const StyleContentTable& cells);
 StyleContentTable of_contents(const StyleContentTable& cells,
                               const std::vector<std::string>& contents);
 
-// Below these shares of real held-out windows the classifiers may not judge others.
+// Below these shares of real held-out windows, what the classifiers say of other motion means
+// little by itself: the report says so, and that it is to be compared with real motion.
 struct AccuracyFloor {
   double style = 0.95, content = 0.90;
 };
@@ -36,10 +36,8 @@ struct AccuracyFloor {
 class Evaluator {
  public:
   // `training`: takes the classifiers learn from; `test`: real takes they do not; numbers in layout
-  // positions. Styles and contents to tell apart are those of `test`, "neutral" included. Fails
-  // where real test takes score below the floor: then no accuracy means anything.
-  static Result<Evaluator> create(const std::vector<Take>& training, std::vector<Take> test,
-                                  const AccuracyFloor& floor, uint64_t seed);
+  // positions. Styles and contents to tell apart are those of `test`, "neutral" included.
+  static Evaluator create(const std::vector<Take>& training, std::vector<Take> test, uint64_t seed);
 
   // Real styled test takes, judged like outputs.
   const StyleContentTable& real() const { return real_; }

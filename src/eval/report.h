@@ -84,8 +84,9 @@ struct SignatureReport {
 struct Report {
   std::vector<std::string> trained_on, tested_on;  // Manifests, as they were given.
   std::vector<std::string> styles, contents;
-  double style_floor = 0, content_floor = 0;  // Real held-out accuracy below which nothing counts.
-  Metrics real;                               // Real held-out takes of the styles.
+  // Real held-out accuracy below which figures of the classifiers mean little by themselves.
+  double style_floor = 0, content_floor = 0;
+  Metrics real;   // Real held-out takes of the styles.
   Metrics input;  // The neutral takes themselves, as if they were the output.
   MetricsTable real_by_content, real_by_style;
   MetricsTable input_by_content;
@@ -100,6 +101,9 @@ struct Report {
   std::vector<ContactReport> contacts;
   double seconds = 0;  // What the evaluation took.
 };
+
+// A sentence for each classifier that recognises too little of real takes: how to read its figures.
+std::vector<std::string> ceiling_notes(const Report& report);
 
 // report.json: numbers that were not measured are null.
 std::string report_json(const Report& report);

@@ -231,6 +231,7 @@ std::string report_json(const Report& report) {
   out["seconds"] = number(report.seconds);
   out["style_floor"] = number(report.style_floor);
   out["content_floor"] = number(report.content_floor);
+  out["notes"] = ceiling_notes(report);
   out["real"] = metrics_json(report.real);
   out["input"] = metrics_json(report.input);
   out["real_by_content"] = table_json(report.real_by_content);

@@ -69,10 +69,10 @@ void add_fact(std::string& facts, const std::string& term, const std::string& te
   facts += "<dt>" + xml_escaped(term) + "</dt><dd>" + xml_escaped(text) + "</dd>\n";
 }
 
-// "0.992 (needed: 0.950)".
+// "0.992 (usual: at least 0.950)".
 std::string with_floor(double value, double floor) {
   std::string out = number_text(value, 3);
-  return out + " (needed: " + number_text(floor, 3) + ")";
+  return out + " (usual: at least " + number_text(floor, 3) + ")";
 }
 
 // All measures of each row of one system.
@@ -210,19 +210,7 @@ std::string page_evaluated(const Report& report) {
   }
   add_fact(facts, "Time taken", duration_text(report.seconds));
   std::string out = "<dl class=\"facts\">\n" + facts + "</dl>\n";
-  const auto fails = [](double value, double floor) { return !(value >= floor); };
-  if (fails(report.real["style_accuracy"], report.style_floor)) {
-    out += html_paragraph(
-        "The style classifier does not reach what is needed of it on real takes: no style "
-        "accuracy below counts.",
-        "warning");
-  }
-  if (fails(report.real["content_accuracy"], report.content_floor)) {
-    out += html_paragraph(
-        "The content classifier does not reach what is needed of it on real takes: no content "
-        "accuracy below counts.",
-        "warning");
-  }
+  for (const std::string& note : ceiling_notes(report)) out += html_paragraph(note, "warning");
   return out;
 }
 

@@ -23,6 +23,20 @@ std::string titled(const std::string& title, const std::string& body) {
   return body.empty() ? "" : title + "\n" + body + "\n";
 }
 
+// Broken into lines at spaces.
+std::string wrapped(const std::string& text) {
+  std::string out;
+  for (size_t begin = 0, width = 0; begin < text.size();) {
+    const size_t end = std::min(text.find(' ', begin), text.size());
+    const bool fits = width + 1 + (end - begin) <= kTextWidth;
+    if (!out.empty()) out += fits ? ' ' : '\n';
+    width = fits && !out.empty() ? width + 1 + (end - begin) : end - begin;
+    out.append(text, begin, end - begin);
+    begin = end + 1;
+  }
+  return out;
+}
+
 std::string overall(const Report& report) {
   TextTable table("");
   std::vector<std::string> labels;
@@ -55,13 +69,15 @@ std::vector<std::string> four_numbers(const Metrics& metrics) {
 
 std::string by_content(const Report& report) {
   TextTable table("content");
+  table.add_columns("real takes", {"style", "content"});
   std::vector<const MetricsTable*> tables;
   for (const SystemReport& system : report.systems) {
     table.add_columns(system.name, {"style", "content", "jerk", "deg"});
     tables.push_back(&system.by_content);
   }
   for (const std::string& content : names_of(tables, report.contents)) {
-    std::vector<std::string> cells;
+    std::vector<std::string> cells =
+        texts(line_of(report.real_by_content, content), {"style_accuracy", "content_accuracy"});
     for (const MetricsTable* of : tables) {
       for (const std::string& cell : four_numbers(line_of(*of, content))) cells.push_back(cell);
     }
@@ -216,14 +232,7 @@ std::string prediction(const SystemReport& system) {
 std::string report_text(const Report& report) {
   std::string text =
       titled("Overall: held-out takes, means over styles and contents", overall(report));
-  if (!(report.real["style_accuracy"] >= report.style_floor)) {
-    text += "The style classifier is below " + number_text(report.style_floor, 3) +
-            " on real takes: no style accuracy counts.\n\n";
-  }
-  if (!(report.real["content_accuracy"] >= report.content_floor)) {
-    text += "The content classifier is below " + number_text(report.content_floor, 3) +
-            " on real takes: no content accuracy counts.\n\n";
-  }
+  for (const std::string& note : ceiling_notes(report)) text += wrapped(note) + "\n\n";
   for (const SystemReport& system : report.systems) {
     if (!system.recorded) continue;
     text += cut_text(system.name + ": " + std::to_string(system.recorded->evaluated) + " of " +
@@ -233,8 +242,12 @@ std::string report_text(const Report& report) {
   }
   text += titled("By content: style, content, jerk against real takes, pose error in degrees",
                  by_content(report));
-  text += titled("Style recognised by strength", strengths(report, "style_accuracy"));
-  text += titled("Content kept by strength", strengths(report, "content_accuracy"));
+  const auto beside_real = [&](const std::string& title, const char* key) {
+    return titled(title + " (real takes: " + texts(report.real, {key}).front() + ")",
+                  strengths(report, key));
+  };
+  text += beside_real("Style recognised by strength", "style_accuracy");
+  text += beside_real("Content kept by strength", "content_accuracy");
   text += titled("Jerk against real takes by strength", strengths(report, "jerk_ratio"));
   for (const SystemReport& system : report.systems) {
     for (const UnseenReport& split : system.unseen) {

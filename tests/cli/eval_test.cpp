@@ -266,11 +266,43 @@ TEST_F(Eval, two_models_of_one_name_are_rejected) {
       "models by their files, so give one another name");
 }
 
+// Two styles of which training takes say the opposite of test takes: no classifier can know them.
+TEST_F(Eval, figures_come_also_where_the_classifier_does_not_know_real_takes) {
+  std::string rows = read("takes.csv");
+  for (size_t at = 0; (at = rows.find('\n', at + 1)) != std::string::npos;) {
+    const size_t end = rows.find('\n', at + 1);
+    if (end == std::string::npos) break;
+    std::string line = rows.substr(at, end - at);
+    if (!line.ends_with("train")) continue;
+    const bool old = line.find(",old,") != std::string::npos;
+    const std::string from = old ? ",old," : ",proud,", to = old ? ",proud," : ",old,";
+    if (const size_t cell = line.find(from); cell != std::string::npos) {
+      line.replace(cell, from.size(), to);
+      rows.replace(at, end - at, line);
+    }
+  }
+  write("exchanged.csv", rows);
+  const Ran ran = run(
+      {"eval", "exchanged.csv", "--model", "model.safetensors", "--report", "report", "--json"});
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const Json report = Json::parse(ran.out);
+  EXPECT_LT(report["real"]["style_accuracy"], 0.5);
+  ASSERT_EQ(report["notes"].size(), 1u);
+  const std::string note = report["notes"][0];
+  EXPECT_TRUE(note.starts_with("The style classifier recognises 0.")) << note;
+  EXPECT_NE(read("report/index.html").find(note), std::string::npos);
+  const Json& seen = report["systems"]["model"]["seen"];
+  for (const char* key :
+       {"pose_error_cm", "pose_error_deg", "jerk_ratio", "skating_cm_s", "cadence_ratio"}) {
+    EXPECT_TRUE(seen[key].is_number()) << key;
+  }
+}
+
 TEST_F(Eval, a_manifest_or_model_that_is_none_is_explained) {
   expect_rejected({"eval", "none.csv"}, "none.csv: cannot be read: No such file or directory");
   expect_rejected({"eval", "takes.csv", "--model", "takes.csv"},
                   "takes.csv: does not start with the length of a header (at most 4194304 bytes); "
-                  "expected a safetensors file");
+                  "expected a safetensors file, as models and styles are");
   EXPECT_EQ(run({"eval", "takes.csv", "--steps", "0"}).exit, 2);
 }
 

@@ -103,29 +103,27 @@ void expect_unknown_cells_left_out(const Evaluator& evaluator) {
 TEST(Evaluator, real_takes_are_recognised_and_what_is_not_like_them_is_not) {
   EXPECT_TRUE(prepare_matrix_products().ok());
   const std::vector<std::string> styles = {"neutral", "old", "proud"};
-  const Result<Evaluator> evaluator = Evaluator::create(test::styled_takes(styles, {0, 1, 2}),
-                                                        test::styled_takes(styles, {4, 5}), {}, 1);
-  ASSERT_TRUE(evaluator.ok()) << evaluator.error().message;
-  expect_real_takes_told_apart(*evaluator);
-  expect_real_takes_as_good_as_real(*evaluator);
-  expect_neutral_takes_not_recognised_as_old(*evaluator);
-  expect_wrong_content_noticed(*evaluator);
-  expect_distance_from_the_source_frame(*evaluator);
-  expect_unknown_cells_left_out(*evaluator);
+  const Evaluator evaluator = Evaluator::create(test::styled_takes(styles, {0, 1, 2}),
+                                                test::styled_takes(styles, {4, 5}), 1);
+  expect_real_takes_told_apart(evaluator);
+  expect_real_takes_as_good_as_real(evaluator);
+  expect_neutral_takes_not_recognised_as_old(evaluator);
+  expect_wrong_content_noticed(evaluator);
+  expect_distance_from_the_source_frame(evaluator);
+  expect_unknown_cells_left_out(evaluator);
 }
 
-TEST(Evaluator, an_evaluator_that_does_not_know_real_takes_is_rejected) {
+TEST(Evaluator, one_that_does_not_know_real_takes_still_measures_them) {
   EXPECT_TRUE(prepare_matrix_products().ok());
   // What it learns from has the names of two styles exchanged.
   std::vector<Take> training = test::styled_takes({"old", "proud"}, {0, 1});
   for (Take& take : training) take.row.style = take.row.style == "old" ? "proud" : "old";
-  const auto evaluator =
-      Evaluator::create(training, test::styled_takes({"old", "proud"}, {4}), {}, 1);
-  ASSERT_FALSE(evaluator.ok());
-  EXPECT_EQ(evaluator.error().message,
-            "the style classifier recognises 0.000 of the windows of real test takes; expected at "
-            "least 0.950, so its accuracy on other motion is meaningless; add training takes of "
-            "the styles and contents of the test takes");
+  const Evaluator evaluator =
+      Evaluator::create(training, test::styled_takes({"old", "proud"}, {4}), 1);
+  const Metrics real = mean_metrics(evaluator.real());
+  EXPECT_LT(real["style_accuracy"], 0.1);
+  EXPECT_EQ(real["jerk_ratio"], 1);
+  EXPECT_GE(real["skating_cm_s"], 0);
 }
 
 // Made-up numbers of two cells of one style and one of another.

@@ -1,5 +1,6 @@
 #include "eval/report.h"
 
+#include <algorithm>
 #include <sstream>
 #include <vector>
 
@@ -55,6 +56,31 @@ TEST(ReportText, columns_are_aligned) {
     EXPECT_EQ(column_count(table[line]), column_count(table[2])) << table[line];
   }
   EXPECT_NE(table[5].find("0.801"), std::string::npos);
+}
+
+TEST(ReportText, a_weak_classifier_is_set_beside_real_takes) {
+  Report report = made_up_report();
+  EXPECT_TRUE(ceiling_notes(report).empty());
+  EXPECT_NE(report_text(report).find("Style recognised by strength (real takes: 0.97"),
+            std::string::npos);
+  report.real["style_accuracy"] = 0.72;
+  report.real["content_accuracy"] = 0.5;
+  const std::vector<std::string> notes = ceiling_notes(report);
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_EQ(notes[0],
+            "The style classifier recognises 0.720 of the windows of real held-out takes, less "
+            "than 0.950: compare its figures (style, style probability, strengths and mixes) with "
+            "those of the real takes, not with 1.");
+  EXPECT_TRUE(notes[1].starts_with("The content classifier recognises 0.500 of the windows"));
+  std::string text = report_text(report);
+  EXPECT_EQ(too_wide(text), "");
+  EXPECT_NE(text.find("(real takes: 0.720)"), std::string::npos);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  for (const std::string& note : notes) {
+    EXPECT_NE(text.find(note), std::string::npos) << text;
+    EXPECT_NE(report_page(report).find(note), std::string::npos);
+    EXPECT_NE(report_json(report).find(note), std::string::npos);
+  }
 }
 
 TEST(ReportText, all_its_parts_are_there) {
