@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -161,6 +162,12 @@ int run(const Options& options) {
   }
   Result<EvaluateOptions> evaluation = read_options(options);
   if (!evaluation) return fail(evaluation.error(), kBadInput);
+  std::vector<ManifestRow> read = rows_to_evaluate(*evaluation);
+  for (const auto* part : {&evaluation->training, &evaluation->unlabelled}) {
+    std::copy_if(part->begin(), part->end(), std::back_inserter(read),
+                 [](const ManifestRow& row) { return !row.test; });
+  }
+  if (Result<void> there = check_files(read); !there) return fail(there.error(), kBadInput);
   if (!options.requests.empty()) {
     const std::string csv = recorded_requests(rows_to_evaluate(*evaluation));
     if (Result<void> written = write_file(options.requests, csv, true); !written) {

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "messages.h"
+
 namespace panache::cli {
 
 CLI::Option* add_manifest_options(CLI::App& verb, ManifestOptions& options) {
@@ -36,8 +38,18 @@ Result<Manifests> read_manifests(const ManifestOptions& options) {
     if (!styles) return styles.error();
     data.styles = *std::move(styles);
   }
+  data.left_out = list_unnamed_styles(data.styles, data.rows);
   if (Result<void> named = apply_style_names(data.styles, data.rows); !named) return named.error();
   return data;
+}
+
+Result<void> check_files(const std::vector<ManifestRow>& rows) {
+  const std::vector<std::string> missing = list_missing_files(rows);
+  for (const std::string& line : missing) print_message(line);
+  if (missing.empty()) return {};
+  return Error{std::to_string(missing.size()) + " of " + plural(rows.size(), "take") + " " +
+               (missing.size() == 1 ? "is" : "are") +
+               " missing; expected paths that start at the folder of their manifest"};
 }
 
 Result<void> check_free(const std::string& output, bool force) {

@@ -23,8 +23,13 @@ struct Manifests {
   std::vector<ManifestRow> rows;  // Styles renamed.
   std::vector<StyleName> styles;
   std::vector<ManifestRow> unlabelled;  // Motion without styles, for training.
+  std::vector<std::string> left_out;    // A sentence for each style that is not used.
 };
 Result<Manifests> read_manifests(const ManifestOptions& options);
+
+// Names all files of `rows` that do not exist, each in a message of its own, and fails where there
+// are any.
+Result<void> check_files(const std::vector<ManifestRow>& rows);
 
 // Rejects an output that exists, unless `force`.
 Result<void> check_free(const std::string& output, bool force);

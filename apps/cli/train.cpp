@@ -1,12 +1,17 @@
 // panache train: from manifests to a model.
 
 #include <algorithm>
-#include <cstdio>
+#include <atomic>
+#include <chrono>
 #include <cstdlib>
+#include <iterator>
+#include <optional>
+#include <thread>
 
 #include "base/file.h"
 #include "manifests.h"
 #include "messages.h"
+#include "stop_signal.h"
 #include "train/checkpoint.h"
 #include "train/train_base.h"
 #include "train/trainer.h"
@@ -23,6 +28,80 @@ struct Options {
   uint64_t seed = 1;
   bool force = false, json = false;
 };
+
+// What an interrupted training leaves, and how to go on.
+std::string describe_stop(const std::string& output) {
+  const std::vector<std::string> saved = find_checkpoints(output);
+  if (saved.empty()) return "stopped; nothing is kept yet, and the same command starts anew";
+  std::string list;
+  for (const std::string& file : saved) list += (list.empty() ? "" : ", ") + file;
+  return "stopped; the same command goes on from the last " +
+         std::string(saved.size() == 1 ? "checkpoint" : "checkpoints") + " (" + list +
+         "); delete " + (saved.size() == 1 ? "it" : "them") + " to start anew";
+}
+
+// While it lives, Ctrl-C ends the program with a message, wherever the training is: checkpoints
+// are written whole or not at all.
+class StopWatch {
+ public:
+  explicit StopWatch(const std::string& output) {
+    watch_stop_signals();
+    thread_ = std::thread([this, output] {
+      while (!done_) {
+        if (stop_asked()) {
+          print_message(describe_stop(output));
+          std::_Exit(kStopped);
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      }
+    });
+  }
+  ~StopWatch() {
+    done_ = true;
+    thread_.join();
+  }
+
+ private:
+  std::atomic<bool> done_ = false;
+  std::thread thread_;
+};
+
+// The takes of `data` that are read.
+std::vector<ManifestRow> rows_to_read(const Manifests& data) {
+  std::vector<ManifestRow> rows;
+  for (const auto* part : {&data.rows, &data.unlabelled}) {
+    std::copy_if(part->begin(), part->end(), std::back_inserter(rows),
+                 [](const ManifestRow& row) { return !row.test; });
+  }
+  return rows;
+}
+
+// What each style was learnt from.
+std::string style_table(const std::vector<StyleCoverage>& styles) {
+  if (styles.empty()) return "";
+  size_t width = 6;
+  for (const StyleCoverage& style : styles) width = std::max(width, style.style.size() + 1);
+  const auto right = [](const std::string& text) {
+    return std::string(text.size() < 9 ? 9 - text.size() : 1, ' ') + text;
+  };
+  std::string text = padded("style", width) + right("takes") + right("seconds") + right("samples");
+  for (const StyleCoverage& style : styles) {
+    text += "\n" + padded(style.style, width) + right(std::to_string(style.takes)) +
+            right(fixed(style.seconds, 1)) + right(std::to_string(style.samples));
+  }
+  return text + "\n";
+}
+
+Json to_json(const std::vector<StyleCoverage>& styles) {
+  Json list = Json::array();
+  for (const StyleCoverage& style : styles) {
+    list.push_back({{"name", style.style},
+                    {"takes", style.takes},
+                    {"seconds", style.seconds},
+                    {"samples", style.samples}});
+  }
+  return list;
+}
 
 int run(const Options& options) {
   const bool is_base = options.data.paths.empty();
@@ -45,7 +124,16 @@ int run(const Options& options) {
   if (Result<void> free = check_free(options.output, options.force); !free) {
     return fail(free.error(), kBadInput);
   }
+  if (Result<void> there = check_files(rows_to_read(*data)); !there) {
+    return fail(there.error(), kBadInput);
+  }
+  std::vector<std::string> left_out;
   TrainOptions train_options(recipe);
+  train_options.note = [&](const std::string& line) {
+    print_message(line);
+    left_out.push_back(line);
+  };
+  for (const std::string& line : data->left_out) train_options.note(line);
   if (options.steps > 0) {
     TrainingSettings& settings = train_options.settings;
     settings.steps = settings.base_steps = options.steps;
@@ -55,9 +143,11 @@ int run(const Options& options) {
   train_options.data = options.data_name;
   train_options.licence = options.licence;
   train_options.checkpoint = options.output;
+  std::optional<StopWatch> watch(options.output);
   Result<Trained> trained = is_base
                                 ? train_base(data->unlabelled, train_options)
                                 : train(data->rows, data->styles, train_options, data->unlabelled);
+  watch.reset();
   if (!trained) return fail(trained.error(), kBadInput);
 
   const std::string bytes = format_safetensors(trained->model);
@@ -75,6 +165,8 @@ int run(const Options& options) {
     print(Json{{"model", options.output},
                {"bytes", bytes.size()},
                {"samples", trained->samples},
+               {"styles", to_json(trained->styles)},
+               {"left_out", left_out},
                {"read_seconds", trained->read_seconds},
                {"pair_seconds", trained->pair_seconds},
                {"train_seconds", trained->train_seconds},
@@ -89,7 +181,7 @@ int run(const Options& options) {
         (is_base ? ""
                  : "; the export differs from libtorch's forward pass by at most " +
                        brief(trained->export_error)) +
-        "\n");
+        "\n" + style_table(trained->styles));
   return kDone;
 }
 
@@ -118,9 +210,10 @@ void add_train(CLI::App& app, int& exit_code) {
   verb->add_flag("--force", options->force, "Overwrite the model if it exists");
   verb->add_flag("--json", options->json, "Print the result as JSON");
   verb->footer(
-      "Interrupted training resumes from its last checkpoint when it is run again. Without a\n"
-      "manifest of styled motion, but with --unlabelled, a base is trained: a model without\n"
-      "styles that panache learn adds styles to.\n\n"
+      "Training that Ctrl-C or a crash ends leaves checkpoints beside the model\n"
+      "(OUT.*.checkpoint) and goes on from them when it is run again. Without a manifest of\n"
+      "styled motion, but with --unlabelled, a base is trained: a model without styles that\n"
+      "panache learn adds styles to.\n\n"
       "Examples:\n"
       "  panache train mine.csv -o mine.safetensors\n"
       "  panache train --unlabelled walks.csv -o base.safetensors");

@@ -1,5 +1,6 @@
 #pragma once
-// A progress bar on stderr, for people only: silent unless stderr is a terminal.
+// How far a long work has come: a bar on stderr, or, where that is no terminal, a line of a log now
+// and then.
 
 #include <chrono>
 #include <mutex>
@@ -9,7 +10,9 @@ namespace panache {
 
 class Progress {
  public:
-  explicit Progress(std::string title);
+  using Clock = std::chrono::steady_clock;
+  // `every`: the time between two lines of a log.
+  explicit Progress(std::string title, Clock::duration every = std::chrono::seconds(30));
   ~Progress();  // Leaves the finished bar standing, on a line of its own.
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -19,12 +22,12 @@ class Progress {
   void update(double share, const std::string& text = "");
 
  private:
-  using Clock = std::chrono::steady_clock;
   const std::string title_;
-  const bool shown_;
+  const bool is_bar_;
+  const Clock::duration every_;
   const Clock::time_point begin_;
   std::mutex mutex_;
-  Clock::time_point drawn_;
+  Clock::time_point drawn_;  // The last bar or line.
   bool any_ = false;
 };
 

@@ -62,8 +62,16 @@ Result<void> evaluate_unseen(const UnseenSplit& split, const EvaluateOptions& op
   std::erase_if(training_data.pairings, [&](const Pairing& pairing) {
     return is_among(split.contents, test_set.training.takes[pairing.styled].row.content);
   });
+  // Styles that are shown in these contents alone are not learnt at all.
+  EvaluateOptions learnt = options;
+  std::erase_if(learnt.styles, [&](const StyleName& style) {
+    return std::none_of(training_data.pairings.begin(), training_data.pairings.end(),
+                        [&](const Pairing& pairing) {
+                          return training_data.takes[pairing.styled].row.style == style.name;
+                        });
+  });
   const MetricsTable blind = evaluate_blind(split, test_set, options.seed);
-  const SystemData data = system_data(training_data, options);
+  const SystemData data = system_data(training_data, learnt);
   Result<std::unique_ptr<System>> posture = make_mean_posture("mean posture", data);
   if (!posture) return posture.error();
   Result<StyleContentTable> posture_cells = evaluate_contents(**posture, test_set, split.contents);
@@ -87,7 +95,7 @@ Result<void> evaluate_unseen(const UnseenSplit& split, const EvaluateOptions& op
   for (size_t s = 0; s < models.size(); ++s) {
     const Recipe* recipe = &models[s].model->recipe();
     if (!evaluated.contains(recipe)) {
-      Result<NamedModel> model = train_system(*recipe, models[s].name, training_data, options);
+      Result<NamedModel> model = train_system(*recipe, models[s].name, training_data, learnt);
       if (!model) return Error{"unseen " + split.name + ": " + model.error().message};
       Result<StyleContentTable> cells =
           evaluate_contents(ModelSystem(model->name, model->model), test_set, split.contents);

@@ -4,10 +4,21 @@
 #include <filesystem>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "base/csv.h"
+#include "learn/style_file.h"
 
 namespace panache {
+
+namespace {
+
+// "takes.csv:12: ", or nothing.
+std::string where(const ManifestRow& row) {
+  return row.manifest.empty() ? "" : row.manifest + ":" + std::to_string(row.line) + ": ";
+}
+
+}  // namespace
 
 Result<std::vector<ManifestRow>> read_manifest(const std::string& path, int set) {
   Result<CsvTable> table = read_csv(path, {"path", "style", "content", "take", "neutral", "split"});
@@ -32,6 +43,8 @@ Result<std::vector<ManifestRow>> read_manifest(const std::string& path, int set)
     row.style = row.neutral ? "neutral" : cells.values[1];
     row.test = split == "test";
     row.set = set;
+    row.manifest = path;
+    row.line = cells.line;
     rows.push_back(std::move(row));
   }
   if (rows.empty()) return Error{path + ": lists no takes"};
@@ -42,19 +55,58 @@ Result<std::vector<StyleName>> read_style_names(const std::string& path) {
   Result<CsvTable> table = read_csv(path, {"name", "from", "description"});
   if (!table) return table.error();
   std::vector<StyleName> names;
+  std::set<std::string> known, taken;
   for (const CsvRow& cells : table->rows) {
     StyleName style{cells.values[0], {}, cells.values[2]};
+    const std::string where = path + ":" + std::to_string(cells.line) + ": ";
+    if (auto good = check_style_name(style.name); !good) return Error{where + good.error().message};
+    if (!known.insert(style.name).second) {
+      return Error{where + "style '" + style.name +
+                   "' is listed already; expected one line with all its names in column from"};
+    }
     size_t begin = 0;
     const std::string& from = cells.values[1];
     while (begin < from.size()) {
       const size_t end = std::min(from.find(' ', begin), from.size());
       if (end > begin) style.from.push_back(from.substr(begin, end - begin));
+      if (end > begin && !taken.insert(style.from.back()).second) {
+        return Error{where + "'" + style.from.back() +
+                     "' is in column from already; expected it for one style"};
+      }
       begin = end + 1;
     }
     names.push_back(std::move(style));
   }
   if (names.empty()) return Error{path + ": lists no styles"};
   return names;
+}
+
+std::vector<std::string> list_missing_files(const std::vector<ManifestRow>& rows) {
+  std::vector<std::string> lines;
+  for (const ManifestRow& row : rows) {
+    std::error_code status;
+    if (std::filesystem::exists(row.path, status)) continue;
+    lines.push_back(where(row) + row.path + ": there is no such file");
+  }
+  return lines;
+}
+
+std::vector<std::string> list_unnamed_styles(const std::vector<StyleName>& names,
+                                             const std::vector<ManifestRow>& rows) {
+  if (names.empty()) return {};
+  std::set<std::string> named;
+  for (const StyleName& style : names) named.insert(style.from.begin(), style.from.end());
+  std::map<std::pair<std::string, std::string>, int> dropped;  // Manifest and style, takes.
+  for (const ManifestRow& row : rows) {
+    if (!row.neutral && !named.contains(row.style)) ++dropped[{row.manifest, row.style}];
+  }
+  std::vector<std::string> lines;
+  for (const auto& [style, takes] : dropped) {
+    lines.push_back(style.first + ": style '" + style.second +
+                    "' is left out: it is not among the styles to learn (" + std::to_string(takes) +
+                    (takes == 1 ? " take)" : " takes)"));
+  }
+  return lines;
 }
 
 std::vector<ManifestRow> rename_styles(const std::vector<StyleName>& names,
@@ -79,7 +131,10 @@ Result<void> apply_style_names(std::vector<StyleName>& names, std::vector<Manife
   if (names.empty()) {
     std::set<std::string> seen;
     for (const ManifestRow& row : rows) {
-      if (!row.neutral) seen.insert(row.style);
+      if (row.neutral || !seen.insert(row.style).second) continue;
+      if (auto good = check_style_name(row.style); !good) {
+        return Error{where(row) + good.error().message + "; give it another name"};
+      }
     }
     for (const std::string& style : seen) names.push_back({style, {style}, ""});
   }

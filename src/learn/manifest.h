@@ -16,6 +16,8 @@ struct ManifestRow {
   bool neutral = false;
   bool test = false;  // Held out: no model may be trained on it.
   int set = 0;        // Which manifest it came from: styles are compared with their own neutral.
+  std::string manifest = {};  // The file of that manifest, and
+  int line = 0;               // the line in it; for messages.
 };
 
 // The styles to learn, in the order of the model, and what the manifests call them.
@@ -29,16 +31,24 @@ struct StyleName {
 // marks its rows.
 Result<std::vector<ManifestRow>> read_manifest(const std::string& path, int set);
 
-// Reads a CSV with the columns name, from, description; several `from` are divided by spaces.
+// Reads a CSV with the columns name, from, description; several `from` are divided by spaces. Fails
+// where a name is none that a style can have, or is listed twice, or one `from` has two names.
 Result<std::vector<StyleName>> read_style_names(const std::string& path);
+
+// A sentence for each row whose file does not exist, with the manifest and line that name it.
+std::vector<std::string> list_missing_files(const std::vector<ManifestRow>& rows);
+
+// A sentence for each style of a manifest that `names` does not list, where it lists any.
+std::vector<std::string> list_unnamed_styles(const std::vector<StyleName>& names,
+                                             const std::vector<ManifestRow>& rows);
 
 // Renames the styles of `rows`; rows of styles that `names` does not list are dropped.
 std::vector<ManifestRow> rename_styles(const std::vector<StyleName>& names,
                                        std::vector<ManifestRow> rows);
 
-// The same, and every style of `names` must have a take. With no
-// names given, `names` becomes all styles of the rows, in order of the alphabet, called what they
-// are.
+// The same, and every style of `names` must have a take. With no names given, `names` becomes all
+// styles of the rows, in order of the alphabet, called what they are; these names must be those
+// that a style can have (check_style_name), as read_style_names() wants of its own.
 Result<void> apply_style_names(std::vector<StyleName>& names, std::vector<ManifestRow>& rows);
 
 }  // namespace panache

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/lower_case.h"
 #include "base/xml.h"
 #include "clip/text_cursor.h"
 #include "recipes/recipes.h"
@@ -179,6 +180,11 @@ Result<void> check_style_name(const std::string& name) {
     return Error{where + "begins or ends with a space"};
   }
   if (name.starts_with('-')) return Error{where + "begins like an option"};
+  std::string lower = name;
+  for (char& c : lower) c = lower_case(c);
+  if (lower == "neutral") {
+    return Error{where + "is the name of motion without a style"};
+  }
   if (name == "seconds") {
     return Error{where + "is the name of the time column in tables of strengths"};
   }

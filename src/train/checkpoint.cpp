@@ -76,10 +76,21 @@ Result<void> load_checkpoint(const std::string& path, const Fingerprint& trainin
   return {};
 }
 
-void remove_checkpoints(const std::string& path) {
+std::vector<std::string> find_checkpoints(const std::string& path) {
+  std::vector<std::string> found;
   for (const char* network : {"pose", "timing", "contact"}) {
     std::error_code ignored;
-    std::filesystem::remove(file_of(path, network), ignored);
+    if (std::filesystem::exists(file_of(path, network), ignored)) {
+      found.push_back(file_of(path, network));
+    }
+  }
+  return found;
+}
+
+void remove_checkpoints(const std::string& path) {
+  for (const std::string& file : find_checkpoints(path)) {
+    std::error_code ignored;
+    std::filesystem::remove(file, ignored);
   }
 }
 

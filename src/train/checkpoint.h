@@ -20,6 +20,9 @@ Result<void> save_checkpoint(const std::string& path, const Fingerprint& trainin
 Result<void> load_checkpoint(const std::string& path, const Fingerprint& training,
                              NetworkTrainer& network, std::vector<LossPoint>& losses);
 
+// The checkpoints that are beside `path`.
+std::vector<std::string> find_checkpoints(const std::string& path);
+
 void remove_checkpoints(const std::string& path);
 
 }  // namespace panache

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdio>
 
 #include "base/plot.h"
@@ -5,13 +6,22 @@
 
 namespace panache {
 
+namespace {
+
+std::string cell(float loss) {
+  if (std::isnan(loss)) return "";
+  char text[64];
+  std::snprintf(text, sizeof text, "%.6f", loss);
+  return text;
+}
+
+}  // namespace
+
 std::string losses_csv(const std::vector<LossPoint>& losses) {
   std::string text = "network,step,train,validation\n";
   for (const LossPoint& point : losses) {
-    char line[128];
-    std::snprintf(line, sizeof line, "%s,%lld,%.6f,%.6f\n", point.network.c_str(),
-                  static_cast<long long>(point.step), point.train, point.validation);
-    text += line;
+    text += point.network + "," + std::to_string(point.step) + "," + cell(point.train) + "," +
+            cell(point.validation) + "\n";
   }
   return text;
 }
@@ -33,12 +43,13 @@ std::string losses_svg(const std::vector<LossPoint>& losses) {
       if (point.network != network) continue;
       train.x.push_back(static_cast<double>(point.step));
       train.y.push_back(point.train);
+      if (std::isnan(point.validation)) continue;
       validation.x.push_back(static_cast<double>(point.step));
       validation.y.push_back(point.validation);
     }
     if (train.x.empty()) continue;
     series.push_back(std::move(train));
-    series.push_back(std::move(validation));
+    if (!validation.x.empty()) series.push_back(std::move(validation));
   }
   return line_plot("Loss while training", "step", "loss", series, true);
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string>
 
 #include <torch/types.h>
@@ -153,7 +154,8 @@ class BaseTraining {
     Progress progress("training the base");
     const int64_t report = std::max<int64_t>(1, steps_ / 50);
     Random fixed(9);
-    const Rows validation = draw(held_.empty() ? places_ : held_, fixed, false);
+    std::optional<Rows> validation;
+    if (!held_.empty()) validation = draw(held_, fixed, false);
     std::array<double, 2> sums{};
     for (int64_t step = 0; step < steps_; ++step) {
       Random random(seed_ * 1000003 + static_cast<uint64_t>(step) * 2);
@@ -167,9 +169,10 @@ class BaseTraining {
       if ((step + 1) % report != 0) continue;
       torch::NoGradGuard no_gradients;
       for (size_t n = 0; n < networks_.size(); ++n) {
-        losses.push_back({networks_[n].shape().name, step + 1,
-                          static_cast<float>(sums[n] / static_cast<double>(report)),
-                          loss_of(n, validation, nullptr).item<float>()});
+        LossPoint point{networks_[n].shape().name, step + 1,
+                        static_cast<float>(sums[n] / static_cast<double>(report))};
+        if (validation) point.validation = loss_of(n, *validation, nullptr).item<float>();
+        losses.push_back(point);
       }
       sums = {};
     }

@@ -125,8 +125,8 @@ class PredictorTraining {
     measure(first);
     fit_linear(first);
     Random validation_random(9);
-    const torch::Tensor validation =
-        draw_batch(held_.empty() ? places_ : held_, 1024, false, validation_random);
+    torch::Tensor validation;
+    if (!held_.empty()) validation = draw_batch(held_, 1024, false, validation_random);
     const int64_t report = std::max<int64_t>(1, steps / 50);
     double sum = 0;
     for (int64_t step = 0; step < steps; ++step) {
@@ -135,8 +135,9 @@ class PredictorTraining {
       network_.learn(loss);
       if ((step + 1) % report != 0) continue;
       torch::NoGradGuard no_gradients;
-      losses.push_back({"predict", step + 1, static_cast<float>(sum / static_cast<double>(report)),
-                        loss_of(validation, nullptr).item<float>()});
+      LossPoint point{"predict", step + 1, static_cast<float>(sum / static_cast<double>(report))};
+      if (!held_.empty()) point.validation = loss_of(validation, nullptr).item<float>();
+      losses.push_back(point);
       sum = 0;
       if (progress) progress(static_cast<double>(step + 1) / static_cast<double>(steps));
     }

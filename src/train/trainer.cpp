@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -12,6 +13,7 @@
 #include "base/stopwatch.h"
 #include "learn/fit_style.h"
 #include "train/checkpoint.h"
+#include "train/coverage.h"
 #include "train/export.h"
 #include "train/few_takes.h"
 #include "train/fingerprint.h"
@@ -181,16 +183,19 @@ class Training {
       const std::lock_guard lock(mutex_);
       if (point.network == "pose") {
         char text[64];
-        std::snprintf(text, sizeof text, "pose loss %.4f, validation %.4f", point.train,
-                      point.validation);
+        std::snprintf(text, sizeof text, "pose loss %.4f", point.train);
         status_ = text;
+        if (!std::isnan(point.validation)) {
+          std::snprintf(text, sizeof text, ", validation %.4f", point.validation);
+          status_ += text;
+        }
       }
       losses.push_back(std::move(point));
     }
   }
 
   float validation_loss(const NetworkTrainer& network) const {
-    if (validation_.empty()) return 0;
+    if (validation_.empty()) return std::numeric_limits<float>::quiet_NaN();
     torch::NoGradGuard no_gradients;
     Batch batch = batches_.plain(validation_);
     batch.group_sizes = validation_groups_;
@@ -263,6 +268,11 @@ std::vector<int> neutral_takes_of(const SampleSet& set, const std::vector<int>& 
 
 Result<Trained> train(const std::vector<ManifestRow>& rows, const std::vector<StyleName>& styles,
                       const TrainOptions& options, const std::vector<ManifestRow>& unlabelled) {
+  // Before hours of motion are read.
+  if (Result<void> good = check_styles(rows, styles); !good) return good.error();
+  if (options.note) {
+    for (const std::string& line : list_unpaired(rows)) options.note(line);
+  }
   Result<TrainingData> data = prepare_training(rows, PoseLayout::positions, unlabelled);
   if (!data) return data.error();
   return train(*std::move(data), styles, options);
@@ -288,6 +298,13 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
     (styled >= 0 && validates[styled] ? held : choice).push_back(static_cast<int>(i));
   }
 
+  Trained trained;
+  trained.styles = cover_styles(data.takes, set, choice, names);
+  if (options.note) {
+    for (const std::string& line : list_too_short(data.takes, set)) options.note(line);
+  }
+  if (Result<void> good = check_samples(trained.styles); !good) return good.error();
+
   const OutputUnits units = output_units(set, choice);
   const BatchMaker batches(set, choice, count, settings.batch, units);
   std::vector<NetworkTrainer> networks;
@@ -295,7 +312,6 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
     networks.emplace_back(shape, settings.optimizer, settings.steps,
                           options.seed * 31 + networks.size());
   }
-  Trained trained;
   trained.samples = choice.size();
   trained.read_seconds = data.read_seconds;
   trained.pair_seconds = data.pair_seconds;

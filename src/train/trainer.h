@@ -1,7 +1,9 @@
 #pragma once
 // From manifests to a model: pairs, samples, networks, a file.
 
+#include <functional>
 #include <memory>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,7 @@
 #include "learn/samples.h"
 #include "net/safetensors.h"
 #include "recipes/recipes.h"
+#include "train/coverage.h"
 #include "train/training_data.h"
 
 namespace panache {
@@ -23,26 +26,30 @@ struct TrainOptions {
   uint64_t seed = 1;
   std::string data, licence;  // What the data is and its terms, for the model's metadata.
   std::string checkpoint;     // File to resume from and to save to now and then; empty: none.
+  // Gets a sentence for whatever of the takes is left out, before training begins; may be empty.
+  std::function<void(const std::string&)> note;
 };
 
 // One line of the loss table.
 struct LossPoint {
   std::string network;
   int64_t step = 0;
-  float train = 0;       // Mean since the last line.
-  float validation = 0;  // On takes left out of training.
+  float train = 0;  // Mean since the last line.
+  // On takes left out of training; not a number where there are none.
+  float validation = std::numeric_limits<float>::quiet_NaN();
 };
 
 struct Trained {
   TensorFile model;
   std::vector<LossPoint> losses;
   size_t samples = 0;
+  std::vector<StyleCoverage> styles;  // In order of the model.
   double read_seconds = 0, pair_seconds = 0, train_seconds = 0;
   float export_error =
       0;  // Largest difference between the exported model's outputs and libtorch's.
 };
 
-// Trains on prepared takes, in whatever layout.
+// Trains on prepared takes, in whatever layout. Fails where a style has no samples.
 Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
                       const TrainOptions& options);
 
@@ -51,7 +58,8 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
 Result<Trained> train(const std::vector<ManifestRow>& rows, const std::vector<StyleName>& styles,
                       const TrainOptions& options, const std::vector<ManifestRow>& unlabelled = {});
 
-// "step,network,train,validation" lines, and the same as a picture.
+// "network,step,train,validation" lines, cells empty where nothing was measured, and the same as a
+// picture.
 std::string losses_csv(const std::vector<LossPoint>& losses);
 std::string losses_svg(const std::vector<LossPoint>& losses);
 

@@ -1,5 +1,8 @@
 // panache train, where it cannot go on.
+#include <csignal>
 #include <filesystem>
+
+#include <nlohmann/json.hpp>
 
 #include "cli/program.h"
 #include "make_manifest.h"
@@ -40,6 +43,82 @@ TEST_F(Train, motion_without_styles_is_only_for_recipes_that_can_use_it) {
             "panache: --unlabelled: recipe smith2019 learns from styled takes alone; leave the "
             "option out\n");
   EXPECT_FALSE(exists("mine.safetensors"));
+}
+
+TEST_F(Train, a_style_that_cannot_be_learnt_is_an_error_and_whatever_is_left_out_is_told) {
+  test::write_manifest(path(""));
+  const std::string rows = read("manifest.csv");
+  write("manifest.csv", rows + "old.bvh,sad,crawl,001,0,train\nold.bvh,old,crawl,001,0,train\n");
+  const std::vector<std::string> command = {"train", "manifest.csv",  "--steps",  "5",
+                                            "-o",    "m.safetensors", "--styles", "styles.csv"};
+  test::Ran ran = run({command.begin(), command.end() - 2});
+  EXPECT_EQ(ran.exit, 1);
+  EXPECT_EQ(ran.err,
+            "panache: nothing can be learnt of 1 style: 'sad' (crawl); expected a neutral take of "
+            "one of these contents, to train on, in the manifest of the style; add one, or leave "
+            "the style out (--styles lists those to learn)\n");
+  EXPECT_FALSE(exists("m.safetensors"));
+  write("styles.csv", "name,from,description\nold,old,\n");
+  ran = run(command);
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_TRUE(ran.err.starts_with(
+      "panache: manifest.csv: style 'sad' is left out: it is not among the styles to learn (1 "
+      "take)\n"
+      "panache: manifest.csv: content 'crawl' is left out: it has no neutral take (1 take of "
+      "old)\n"))
+      << ran.err;
+  EXPECT_NE(ran.out.find("\nstyle     takes  seconds  samples\nold           1      "),
+            std::string::npos)
+      << ran.out;
+  // Nothing is held back of two takes.
+  const std::string losses = read("m.safetensors.losses.csv");
+  EXPECT_NE(losses.find("pose,5,"), std::string::npos) << losses;
+  EXPECT_EQ(losses.find("0.000000"), std::string::npos) << losses;
+  EXPECT_NE(losses.find(",\n"), std::string::npos) << losses;
+  std::vector<std::string> json = command;
+  json.insert(json.end(), {"--json", "--force"});
+  const auto report = nlohmann::json::parse(run(json).out);
+  EXPECT_EQ(report["left_out"].size(), 2u);
+  EXPECT_EQ(report["styles"].size(), 1u);
+  EXPECT_EQ(report["styles"][0]["name"], "old");
+  EXPECT_EQ(report["styles"][0]["takes"], 1);
+  EXPECT_EQ(report["styles"][0]["samples"], report["samples"]);
+}
+
+TEST_F(Train, all_missing_files_are_named_at_once) {
+  test::write_manifest(path(""));
+  write("manifest.csv", read("manifest.csv") +
+                            "a.bvh,old,walk,002,0,train\nb/c.bvh,old,walk,003,0,train\n"
+                            "d.bvh,old,walk,004,0,test\n");
+  const test::Ran ran = run({"train", "manifest.csv", "--steps", "5", "-o", "m.safetensors"});
+  EXPECT_EQ(ran.exit, 1);
+  EXPECT_EQ(ran.err,
+            "panache: manifest.csv:4: a.bvh: there is no such file\n"
+            "panache: manifest.csv:5: b/c.bvh: there is no such file\n"
+            "panache: 2 of 4 takes are missing; expected paths that start at the folder of their "
+            "manifest\n");
+}
+
+TEST_F(Train, ctrl_c_says_what_is_left_and_the_same_command_goes_on) {
+  test::write_manifest(path(""));
+  const std::vector<std::string> command = {"train", "manifest.csv", "--steps",
+                                            "400",   "-o",           "m.safetensors"};
+  const pid_t training = start(command);
+  while (!exists("m.safetensors.pose.checkpoint")) {
+    ASSERT_EQ(::kill(training, 0), 0);
+    ::usleep(1000);
+  }
+  ::kill(training, SIGINT);
+  test::Ran ran = finish(training);
+  ASSERT_EQ(ran.exit, 130) << ran.err;
+  EXPECT_TRUE(
+      ran.err.starts_with("panache: stopped; the same command goes on from the last checkpoint"))
+      << ran.err;
+  EXPECT_NE(ran.err.find("m.safetensors.pose.checkpoint"), std::string::npos) << ran.err;
+  EXPECT_FALSE(exists("m.safetensors"));
+  ran = run(command);
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_FALSE(exists("m.safetensors.pose.checkpoint"));
 }
 
 TEST_F(Train, manifests_may_name_files_that_only_the_program_reads) {

@@ -75,6 +75,62 @@ TEST_F(ManifestTest, styles_are_renamed_merged_and_left_out) {
             "style 'angry' has no take in any manifest");
 }
 
+TEST_F(ManifestTest, names_that_nobody_can_ask_for_are_rejected_with_their_line) {
+  const auto applied = [&](const std::string& style) {
+    auto rows = read_manifest(
+        put(std::string(kHeader) + "n.bvh,normal,walk,1,1,train\na.bvh,old,walk,1,0,train\n" +
+            "b.bvh,\"" + style + "\",walk,1,0,train\n"),
+        0);
+    std::vector<StyleName> names;
+    const Result<void> good = apply_style_names(names, *rows);
+    return good.ok() ? "" : good.error().message;
+  };
+  EXPECT_EQ(applied("very old"), "");
+  EXPECT_EQ(applied("a=b"), path_ +
+                                ":4: style name 'a=b': holds a '=', which separates names from "
+                                "strengths; give it another name");
+  EXPECT_EQ(applied("Neutral"), path_ +
+                                    ":4: style name 'Neutral': is the name of motion without a "
+                                    "style; give it another name");
+  for (const std::string bad : {"old, bent", "neutral", "-old", "seconds", "", " old"}) {
+    EXPECT_TRUE(applied(bad).starts_with(path_ + ":4: style name '")) << bad;
+  }
+}
+
+TEST_F(ManifestTest, a_list_of_styles_names_each_once) {
+  const auto rejection = [&](const std::string& rows) {
+    const auto names = read_style_names(put("name,from,description\n" + rows));
+    return names.ok() ? "" : names.error().message;
+  };
+  EXPECT_EQ(rejection("old,aged,\nproud,tall,\n"), "");
+  EXPECT_EQ(rejection("old,aged,\na=b,tall,\n"),
+            path_ + ":3: style name 'a=b': holds a '=', which separates names from strengths");
+  EXPECT_EQ(rejection("old,aged,\nold,elderly,\n"),
+            path_ +
+                ":3: style 'old' is listed already; expected one line with all its names in "
+                "column from");
+  EXPECT_EQ(rejection("old,aged,\nproud,tall aged,\n"),
+            path_ + ":3: 'aged' is in column from already; expected it for one style");
+}
+
+TEST_F(ManifestTest, what_is_missing_or_not_used_is_listed_with_its_place) {
+  EXPECT_TRUE(write_file(temporary_.path() + "there.bvh", "x", true).ok());
+  const auto rows = read_manifest(
+      put(std::string(kHeader) + "there.bvh,old,walk,1,0,train\nx/a.bvh,sad,walk,1,0,train\n" +
+          "b.bvh,sad,run,1,0,test\nb.bvh,normal,run,1,1,train\n"),
+      0);
+  const std::string folder = temporary_.path();
+  EXPECT_EQ(list_missing_files(*rows),
+            (std::vector<std::string>{path_ + ":3: " + folder + "x/a.bvh: there is no such file",
+                                      path_ + ":4: " + folder + "b.bvh: there is no such file",
+                                      path_ + ":5: " + folder + "b.bvh: there is no such file"}));
+  EXPECT_TRUE(list_unnamed_styles({}, *rows).empty());
+  EXPECT_EQ(list_unnamed_styles({{"aged", {"old"}, ""}}, *rows),
+            (std::vector<std::string>{
+                path_ + ": style 'sad' is left out: it is not among the styles to learn (2 "
+                        "takes)"}));
+}
+
 TEST(RenameStyles, takes_of_other_styles_are_dropped_without_complaint) {
   std::vector<ManifestRow> rows(4);
   rows[0].style = "elderly";
