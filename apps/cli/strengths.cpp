@@ -49,7 +49,8 @@ Error without_strength(const std::string& text, const Model& model) {
 // The usual mistakes of "1=old" and "old=1,proud=1".
 Result<void> check_order(const std::string& text, const std::string& name, const std::string& value,
                          const Model& model) {
-  if (!model.find_style_in_any_case(name) && parse_number(name) && model.find_style_in_any_case(value)) {
+  if (!model.find_style_in_any_case(name) && parse_number(name) &&
+      model.find_style_in_any_case(value)) {
     return Error{"--style " + text + ": expected the name before the strength, as in '" + value +
                  "=" + name + "'"};
   }
@@ -127,7 +128,8 @@ Error missing_style(const std::vector<std::string>& files, const Model& model) {
   for (const std::string& file : files) {
     const size_t equals = file.find('=');
     std::error_code status;
-    if (!find_style(file.substr(0, equals), model) || std::filesystem::exists(file, status))
+    if (!model.find_style_in_any_case(file.substr(0, equals)) ||
+        std::filesystem::exists(file, status))
       continue;
     return Error{file + ": there is no such file; a style is given as --style " + file +
                  (equals == std::string::npos ? "=1" : "")};

@@ -73,7 +73,7 @@ typedef enum panache_status {
   PANACHE_BAD_ARGUMENT = 3, /* An option is out of its range. */
   PANACHE_BAD_STATE = 4,    /* The bytes are no state of such a character. */
   PANACHE_NO_MEMORY = 5,
-  PANACHE_BAD_CLIP = 6, /* A clip has bad numbers, or pairs are none to learn a style from. */
+  PANACHE_BAD_CLIP = 6,  /* A clip has bad numbers, or pairs are none to learn a style from. */
   PANACHE_BAD_STYLE = 7, /* The bytes are no style file, or none that goes with the model. */
   PANACHE_BAD_FILE = 8   /* The bytes are no motion file that this library reads. */
 } panache_status;
@@ -169,12 +169,12 @@ typedef struct panache_character panache_character;
 /* How a character is styled. Start with PANACHE_CHARACTER_OPTIONS. */
 typedef struct panache_character_options {
   uint32_t struct_size;
-  float ease_seconds;      /* A change of strength takes about this long; 0 to 10. */
+  float ease_seconds; /* A change of strength takes about this long; 0 to 10. */
   /* Time constant of the filter on what a style adds; 0 to 10. Calm motion that is unlike what was
    * captured is filtered up to eleven times as long. */
   float smoothing_seconds;
-  int32_t hold_feet;       /* 1: planted feet are held; they creep slowly to a style's stance. */
-  int32_t style_root;      /* 1: root motion is styled too. */
+  int32_t hold_feet;  /* 1: planted feet are held; they creep slowly to a style's stance. */
+  int32_t style_root; /* 1: root motion is styled too. */
   /* 1: skip or repeat whole cycles of a walk (or other repetitive motion) to stay within the
    * limits, so that the style's tempo lasts. Needs a max_lag longer than a cycle, say 1.5 seconds.
    * The character is then at another place than its input. */
@@ -233,8 +233,8 @@ typedef struct panache_output_pose {
 
 /* Styles the next pose of a character; `seconds` have gone by since the last. Both poses may be the
  * same arrays. With all strengths at 0, `out` is `in` bit for bit (models of recipe panache).
- * Poses that are not finite are replaced by the last good one, and `seconds` below 0 or NaN count as
- * 0. After half a second without a step (infinite `seconds` included) or a jump, the past is
+ * Poses that are not finite are replaced by the last good one, and `seconds` below 0 or NaN count
+ * as 0. After half a second without a step (infinite `seconds` included) or a jump, the past is
  * forgotten. */
 PANACHE_API void panache_character_step(panache_character* character, panache_input_pose in,
                                         double seconds, panache_output_pose out);
@@ -429,7 +429,8 @@ typedef struct panache_motion_file panache_motion_file;
 PANACHE_API panache_status panache_motion_file_create(const void* bytes, size_t size,
                                                       const char* name, panache_motion_file** out);
 /* The same for a file whose rate is wrong or missing: reads and writes it as if it had so many
- * frames a second (0.01 to 10000). In glTF the keys of all animations that move joints are moved. */
+ * frames a second (0.01 to 10000). In glTF the keys of all animations that move joints are moved.
+ */
 PANACHE_API panache_status panache_motion_file_create_at_rate(const void* bytes, size_t size,
                                                               const char* name,
                                                               double frames_per_second,
@@ -481,9 +482,9 @@ typedef struct panache_clip_edit {
 /* What becomes of the file's own motions. A BVH or VRMA file holds one, which is always
  * replaced. */
 typedef enum panache_edit_mode {
-  PANACHE_REPLACE = 0,   /* The new frames replace the motion; a new motion replaces all. */
-  PANACHE_ADD_LAST = 1,  /* They are added after the file's own, */
-  PANACHE_ADD_FIRST = 2  /* or before. */
+  PANACHE_REPLACE = 0,  /* The new frames replace the motion; a new motion replaces all. */
+  PANACHE_ADD_LAST = 1, /* They are added after the file's own, */
+  PANACHE_ADD_FIRST = 2 /* or before. */
 } panache_edit_mode;
 
 /* The bytes of the file with the edits in it. What they leave as it was keeps the very numbers of
@@ -493,7 +494,8 @@ PANACHE_API panache_status panache_motion_file_write(const panache_motion_file* 
                                                      int32_t edit_count, panache_edit_mode mode,
                                                      panache_bytes** out);
 
-/* ---- Training samples -------------------------------------------------------------------------- */
+/* ---- Training samples --------------------------------------------------------------------------
+ */
 
 /* What the networks of recipe panache are trained on, for training of your own. */
 typedef struct panache_samples panache_samples;

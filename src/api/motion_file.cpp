@@ -144,7 +144,8 @@ panache_status panache_motion_file_get_notes(const panache_motion_file* file, pa
   start(out);
   return guarded([&] {
     std::string text;
-    for (const std::string& note : motion_notes(*file->file, file->path)) text += to_utf8(note) + "\n";
+    for (const std::string& note : motion_notes(*file->file, file->path))
+      text += to_utf8(note) + "\n";
     *out = new panache_bytes{std::move(text)};
     return PANACHE_OK;
   });

@@ -1,5 +1,6 @@
 #pragma once
-// The tree of the joints that deform a mesh, where a file has them in pieces. Private to the folder.
+// The tree of the joints that deform a mesh, where a file has them in pieces. Private to the
+// folder.
 
 #include <optional>
 #include <vector>
