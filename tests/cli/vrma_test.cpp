@@ -100,8 +100,8 @@ class Vrma : public ProgramTest {
            0;
   }
   // What three-vrm shows of a file at kTimes.
-  Json played(const std::string& name) {
-    write("avatar.vrm", to_glb(avatar()));
+  Json played(const std::string& name, const GltfParts& on = avatar()) {
+    write("avatar.vrm", to_glb(on));
     std::string times;
     for (const double seconds : kTimes) times += " " + std::to_string(seconds);
     EXPECT_TRUE(node("'" + kWeb + "play-vrma.mjs' " + name + " avatar.vrm" + times))
@@ -222,6 +222,55 @@ TEST_F(Vrma, rotations_are_against_the_rest_pose_whatever_that_is) {
     expect_seen(bent->clip(), "again.vrma");
     must({"retarget", "walk.bvh", "--onto", "bent.vrma", "--force", "-o", "onto.vrma"});
     expect_seen(open("walk.bvh")->clip(), "onto.vrma");
+  }
+}
+
+// An avatar as a VRM 0 file, which faces -z.
+GltfParts old_avatar() {
+  GltfParts parts = character({.vrm = CharacterOptions::Vrm::vrm0});
+  parts.json["nodes"][0]["rotation"] = {0, 1, 0, 0};
+  parts.json["extensions"]["VRM"]["meta"] = {{"title", "boxes"}, {"author", "nobody"}};
+  return parts;
+}
+
+// A motion put on a .vrm of either version is what the player shows of the motion on it.
+TEST_F(Vrma, avatars_of_both_versions_get_what_the_player_shows) {
+  if (const std::string what = missing(); !what.empty()) GTEST_SKIP() << what;
+  write("bent.vrma", to_glb(with_turned_rest(read("walk.vrma"), 40)));
+  for (const bool is_old : {true, false}) {
+    const Json seen = played("bent.vrma", is_old ? old_avatar() : avatar());
+    ASSERT_TRUE(seen.is_object());
+    must({"retarget", "bent.vrma", "--onto", "avatar.vrm", "--replace", "--force", "-o",
+          "onto.vrm"});
+    const auto onto = open("onto.vrm");
+    ASSERT_TRUE(onto);
+    const Clip& clip = onto->clip();
+    double worst_deg = 0;
+    for (size_t i = 0; i < std::size(kTimes); ++i) {
+      const auto frame = static_cast<int>(std::lround(kTimes[i] / clip.frame_time));
+      if (frame >= clip.frames) continue;
+      const std::vector<Vec3> places = world_places_of(clip, frame);
+      const auto place = [&](int human) {
+        size_t j = 0;
+        while (clip.skeleton.joints[j].role != human_joint_name(human)) ++j;
+        return places[j];
+      };
+      const auto shown = [&](int human) {
+        const Json& p = seen["poses"][i]["joints"][std::string(human_joint_name(human))];
+        // The player leaves an avatar of version 0 as it faces, where we face as the motion does.
+        const float turn = is_old ? -1.0f : 1.0f;
+        return Vec3{turn * p[0].get<float>(), p[1].get<float>(), turn * p[2].get<float>()};
+      };
+      for (const HumanJoint joint : {left_lower_arm, left_hand, right_lower_arm, right_hand,
+                                     left_lower_leg, left_foot, right_lower_leg, right_foot}) {
+        const int j = index(joint), parent = kHumanParent[j];
+        worst_deg = std::max(worst_deg, angle_deg(normalized(place(j) - place(parent)),
+                                                  normalized(shown(j) - shown(parent))));
+      }
+    }
+    std::printf("VRM %d: worst limb %.4f deg\n", is_old ? 0 : 1, worst_deg);
+    // Floats along a chain of eight joints.
+    EXPECT_LT(worst_deg, 0.1) << is_old;
   }
 }
 
