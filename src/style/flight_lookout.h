@@ -1,11 +1,26 @@
 #pragma once
-// Looks for flights ahead of a play head that goes through a whole clip.
+// How a play head goes through a whole clip: flights ahead of it, and where it comes to next.
 
+#include <algorithm>
+#include <cmath>
+
+#include "base/elementary.h"
 #include "clip/clip.h"
 #include "rig/posed_rig.h"
 #include "style/stages/flight.h"
 
 namespace panache {
+
+// How many frames a play head at `frame` goes on, which a style asks to go at `rate`. Between two
+// frames an impact is a mean of both and loses its edge: where a flight (FlightWatch::amount())
+// takes the rate to 1, the head is drawn to whole frames, and stays on those that it is on.
+inline double clip_advance(double frame, double rate, float flight) {
+  constexpr float kMost = 0.06f, kTurn = 6.2831853f;
+  const double next = frame + rate;
+  const float share = std::max(0.0f, 2 * flight - 1);
+  return rate + static_cast<double>(-kMost * share *
+                                    sine(kTurn * static_cast<float>(next - std::round(next))));
+}
 
 // The clip outlives it.
 class FlightLookout {

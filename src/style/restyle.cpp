@@ -3,22 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/elementary.h"
 #include "style/flight_lookout.h"
 
 namespace panache {
-namespace {
-
-// Between two frames an impact is a mean of both and loses its edge: where a flight takes the rate
-// to 1, the head is drawn to whole frames. By how many frames, and by none at whole ones.
-double to_whole_frame(double frame, float flight) {
-  constexpr float kMost = 0.06f, kTurn = 6.2831853f;
-  const float share = std::max(0.0f, 2 * flight - 1);
-  return static_cast<double>(-kMost * share *
-                             sine(kTurn * static_cast<float>(frame - std::round(frame))));
-}
-
-}  // namespace
 
 float StrengthTrack::at(double seconds) const {
   const auto later = std::upper_bound(points.begin(), points.end(), seconds,
@@ -70,8 +57,7 @@ Result<Restyled> restyle(const Clip& clip, const Rig& rig,
     const std::span<const float> planted = stylizer->contacts();
     result.contacts.push_back({planted[0] > 0.5f, planted[1] > 0.5f});
     result.gates.push_back(stylizer->gate());
-    advance = options.timing ? stylizer->rate() : 1.0;
-    if (options.timing) advance += to_whole_frame(frame + advance, flight);
+    advance = options.timing ? clip_advance(frame, stylizer->rate(), flight) : 1.0;
     frame += advance;
     if (progress && result.clip.frames % 64 == 0) progress(frame / clip.frames);
   }

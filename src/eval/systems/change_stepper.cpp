@@ -60,11 +60,12 @@ ChangedClip change_clip(const TestInput& input, ChangeSource& source, float amou
   double frame = first, advance = 0;
   while (frame <= clip.frames - 1 + 1e-6) {
     sample(clip, frame, pose);
-    stepper.step(pose, static_cast<float>(input.take_frame(frame)), lookout.flight(frame),
+    const float flight = lookout.flight(frame);
+    stepper.step(pose, static_cast<float>(input.take_frame(frame)), flight,
                  advance * clip.frame_time, clip.frame_time, pose);
     result.clip.append(pose);
     result.source_frames.push_back(frame);
-    advance = timing ? stepper.rate() : 1.0;
+    advance = timing ? clip_advance(frame, stepper.rate(), flight) : 1.0;
     frame += advance;
   }
   return result;
