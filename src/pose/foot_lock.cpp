@@ -139,11 +139,12 @@ float floor_depth(const BodyPose& body, const HumanPositions& joints,
   return std::max(0.0f, toe_floor(body) - (mid_hip(body).y + change.translation.y + lowest));
 }
 
-void FootLock::follow(Foot& foot, Vec3 input, Vec3 toe, float contact, float seconds) noexcept {
+void FootLock::follow(Foot& foot, Vec3 input, Vec3 toe, float contact, Seconds time) noexcept {
+  const float seconds = time.output;
   const bool first = foot.state == State::unseen;
   const Vec3 last_offset = foot.offset, last_toe = first ? toe : foot.toe;
   foot.toe = toe;
-  const float moved = !first && seconds > 0 ? length(input - foot.input) / seconds : 0.0f;
+  const float moved = !first && time.input > 0 ? length(input - foot.input) / time.input : 0.0f;
   foot.input = input;
   if (first || contact < kRelease || moved > kLeaves) foot.state = State::free;
   const Vec3 velocity = seconds > 0 ? (toe - last_toe) / seconds + foot.speed : Vec3{};
@@ -191,7 +192,7 @@ Vec3 FootLock::bend(Foot& foot, Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 ahead, flo
 }
 
 void FootLock::step(const BodyPose& body, const HumanPositions& joints,
-                    std::span<const float, kFeet> contacts, float amount, float seconds,
+                    std::span<const float, kFeet> contacts, float amount, Seconds seconds,
                     BodyChange& change) noexcept {
   const float floor = toe_floor(body);
   const Quat to_world = rotation_y(body.facing + change.turn);
@@ -214,9 +215,9 @@ void FootLock::step(const BodyPose& body, const HumanPositions& joints,
         easy_target(joints[hip], joints[knee], joints[ankle], joints[ankle] + shift, depth);
     const float firm = std::min(1.0f, length(shift) / kFirmShift);
     const Vec3 ahead = knee_way(joints[ankle], joints[index(kToes[f])]);
-    const TwoBoneTurn turn =
-        two_bone_ik(joints[hip], joints[knee], joints[ankle], target,
-                    bend(foot, joints[hip], joints[knee], joints[ankle], ahead, firm, seconds));
+    const TwoBoneTurn turn = two_bone_ik(
+        joints[hip], joints[knee], joints[ankle], target,
+        bend(foot, joints[hip], joints[knee], joints[ankle], ahead, firm, seconds.output));
     change.rotations[hip] = turn.upper * change.rotations[hip];
     change.rotations[knee] = turn.lower * change.rotations[knee];
   }

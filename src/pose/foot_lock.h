@@ -41,13 +41,19 @@ float floor_depth(const BodyPose& body, const HumanPositions& joints,
 
 class FootLock {
  public:
+  // Seconds since the last step: of the input's own time, by which the input's toe leaves or
+  // stands, and of the viewer's, in which everything that is shown moves. A style's tempo tells
+  // them apart.
+  struct Seconds {
+    float input, output;
+  };
   void reset() noexcept { feet_ = {}; }
   // Adjusts the legs of `change`, and draws toes up that are below toe_floor() as far as the legs
   // can easily see to it. `joints`: changed_joints() of body and change; `contacts`: probability
   // that each foot is planted, 0 to 1; `amount`: how much of the correction to apply, 0 (none at
-  // all) to 1; `seconds` since the last step.
+  // all) to 1.
   void step(const BodyPose& body, const HumanPositions& joints,
-            std::span<const float, kFeet> contacts, float amount, float seconds,
+            std::span<const float, kFeet> contacts, float amount, Seconds seconds,
             BodyChange& change) noexcept;
 
   // Calls visit(member) for everything that tells one foot lock from another.
@@ -71,7 +77,7 @@ class FootLock {
     Vec3 knee;    // To which side its knee went, heading frame, length 1; 0 if it was not moved.
   };
   // Follows one foot whose toe is at `input`, and at `toe` with the change, uncorrected (world).
-  static void follow(Foot& foot, Vec3 input, Vec3 toe, float contact, float seconds) noexcept;
+  static void follow(Foot& foot, Vec3 input, Vec3 toe, float contact, Seconds time) noexcept;
 
   // To which side the knee of a leg goes whose foot is moved. `ahead`: where the foot points;
   // `firm`: how much a nearly straight knee goes there, 0 to 1.

@@ -92,7 +92,7 @@ std::vector<Vec3> knees_of(const std::vector<float>& aheads) {
     joints[toe] = joints[ankle] + foot;
     BodyChange change;
     change.translation.y = -0.03f - (mid_hip(body).y + joints[toe].y);
-    lock.step(body, joints, contacts, 1, 1 / 120.0f, change);
+    lock.step(body, joints, contacts, 1, {1 / 120.0f, 1 / 120.0f}, change);
     knees.push_back(rotate(change.rotations[hip], joints[knee] - joints[hip]));
   }
   return knees;
@@ -134,6 +134,12 @@ class Sliding {
     for (Vec3& joint : body.joints) joint.x += 0.002f * static_cast<float>(f);
     return lock(body, {}, contact, 1);
   }
+  // The same where it slides at this speed, in m/s of its own time.
+  Vec3 step_of_input_at(float speed, int f, float contact) {
+    return step_of_sliding_input(static_cast<int>(speed * rate_ / 30 * f / 0.002f), contact);
+  }
+  // Input seconds per output second.
+  void play_at(float rate) { rate_ = rate; }
 
  private:
   Vec3 lock(const BodyPose& body, Vec3 moved, float contact, float amount) {
@@ -142,7 +148,7 @@ class Sliding {
     const float contacts[kFeet] = {contact, 0};
     HumanPositions joints;
     changed_joints(body, change, joints);
-    lock_.step(body, joints, contacts, amount, 1 / 30.0f, change);
+    lock_.step(body, joints, contacts, amount, {rate_ / 30, 1 / 30.0f}, change);
     changed_joints(body, change, joints);
     const Vec3 toe = joints[index(HumanJoint::left_toes)];
     return mid_hip(body) + change.translation + rotate(rotation_y(body.facing), toe);
@@ -152,6 +158,7 @@ class Sliding {
   PosedRig rig_;
   BodyPose body_;
   FootLock lock_;
+  float rate_ = 1;
 };
 
 TEST(FootLock, a_planted_foot_stays_and_a_free_one_slides) {
@@ -229,6 +236,26 @@ TEST(FootLock, a_foot_that_slides_in_the_input_is_let_go) {
   EXPECT_LT(length(toe - start), 2e-3f) << "held for 6 cm";
   for (int f = 31; f <= 200; ++f) toe = body.step_of_sliding_input(f, 1);
   EXPECT_NEAR(toe.x - start.x, 0.4f, 2e-3);
+}
+
+// Whether a foot leaves or stands is told by the input's own time, whatever tempo a style plays it
+// at: at 0.9 m/s it leaves, at 0.4 m/s it stands.
+TEST(FootLock, a_tempo_neither_holds_a_foot_that_leaves_nor_lets_one_go_that_stands) {
+  for (const float rate : {0.6f, 1.0f, 1.5f}) {
+    Sliding leaving, standing;
+    leaving.play_at(rate), standing.play_at(rate);
+    for (int f = 0; f < 5; ++f) leaving.step_of_sliding_input(0, 1);
+    const Vec3 start = leaving.step_of_input_at(0.9f, 0, 1);
+    Vec3 left;
+    for (int f = 1; f <= 6; ++f) left = leaving.step_of_input_at(0.9f, f, 1);
+    EXPECT_GT(left.x - start.x, 0.6f * 0.9f * rate * 6 / 30) << rate;
+    // It lands within the first frames, and is held for the next.
+    for (int f = 0; f <= 3; ++f) standing.step_of_input_at(0.4f, f, 0);
+    Vec3 landed, held;
+    for (int f = 4; f <= 6; ++f) landed = standing.step_of_input_at(0.4f, f, 1);
+    for (int f = 7; f <= 9; ++f) held = standing.step_of_input_at(0.4f, f, 1);
+    EXPECT_LT(length(held - landed), 0.35f * 0.4f * rate * 3 / 30) << rate;
+  }
 }
 
 // The contact comes late in a spin or a kick: the foot is on its way before it is told to be free.
@@ -309,7 +336,7 @@ TEST(FootLock, a_straight_leg_does_not_let_its_knee_fly) {
     FootLock lock;
     BodyChange change;
     const float contacts[kFeet] = {0, 0};
-    lock.step(body, joints, contacts, 1, 1 / 60.0f, change);
+    lock.step(body, joints, contacts, 1, {1 / 60.0f, 1 / 60.0f}, change);
     return length(log_rotation(change.rotations[index(HumanJoint::left_upper_leg)]));
   };
   // All of 1 mm would bend it by acos(0.799 / 0.8) = 0.05 radians.

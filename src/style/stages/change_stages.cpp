@@ -43,7 +43,7 @@ void ChangeStages::step(const AskedChange& asked, const ChangeControl& control,
   }
   if (control.foot_lock) {
     foot_lock_.step(now.world, joints, contacts_, control.amount * control.shape.foot_lock,
-                    time.output, change_);
+                    {static_cast<float>(time.input), time.output}, change_);
     anatomy_.watch_thighs(now.world, observer.rig(), time, change_);
   }
   tell(clock, Stage::feet);
