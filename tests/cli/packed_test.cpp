@@ -171,7 +171,9 @@ class Packed : public ProgramTest {
     return out;
   }
   // Members in any order.
-  static nlohmann::json sorted(const Json& json) { return nlohmann::json::parse(json.dump()); }
+  static nlohmann::json sorted(const Json& document) {
+    return nlohmann::json::parse(document.dump());
+  }
 };
 
 TEST_F(Packed, files_give_what_the_plain_file_gives) {
