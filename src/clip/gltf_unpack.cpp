@@ -154,7 +154,8 @@ class Unpacker {
       return false;
     }
     if (mode < 0) return checker_.fail(path, "expected a mode, found none");
-    out = {static_cast<MeshoptMode>(mode), static_cast<MeshoptFilter>(filter), count, stride};
+    out = {static_cast<MeshoptMode>(mode), static_cast<MeshoptFilter>(filter),
+           static_cast<size_t>(count), static_cast<size_t>(stride)};
     const bool is_attribute = out.mode == MeshoptMode::attributes;
     const bool fits =
         is_attribute ? stride >= 4 && stride <= 256 && stride % 4 == 0 : stride == 2 || stride == 4;

@@ -192,7 +192,7 @@ TEST_F(Eval, outputs_with_a_manifest_that_is_wrong_are_rejected_at_once) {
                   "theirs/manifest.csv: exists already; --force overwrites it");
 }
 
-TEST_F(Eval, takes_that_differ_in_name_only_make_no_evaluator) {
+TEST_F(Eval, takes_that_differ_in_name_only_are_evaluated_beside_what_real_takes_get) {
   // Who is called old in training is called proud in the test.
   std::string rows;
   for (const std::string content : kContents) {
@@ -204,11 +204,14 @@ TEST_F(Eval, takes_that_differ_in_name_only_make_no_evaluator) {
     rows += "old-" + content + "-2.bvh,proud," + content + ",2,0,test\n";
   }
   write("crossed.csv", table(rows));
-  expect_rejected({"eval", "crossed.csv", "--model", "model.safetensors", "--report", "report"},
-                  "the style classifier recognises 0.000 of the windows of real test takes; "
-                  "expected at least 0.950, so its accuracy on other motion is meaningless; add "
-                  "training takes of the styles and contents of the test takes");
-  EXPECT_FALSE(exists("report"));
+  const Ran ran =
+      run({"eval", "crossed.csv", "--model", "model.safetensors", "--report", "report"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_NE(ran.out.find("The style classifier recognises 0.000 of the windows of real held-out "
+                         "takes, less than 0.950"),
+            std::string::npos)
+      << ran.out;
+  EXPECT_TRUE(exists("report"));
 }
 
 TEST_F(Eval, without_test_takes_there_is_nothing_to_judge_by) {

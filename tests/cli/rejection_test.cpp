@@ -186,6 +186,7 @@ TEST_F(Rejection, an_unknown_extension) {
       "walk.c3d: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc, .fbx, .npz), found "
       "the extension "
       "'.c3d'");
+  write("walk", "");
   expect_rejected({"stylize", "walk", "--style", "old=1", "-o", "out.bvh"}, 1,
                   "walk: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc, .fbx, "
                   ".npz), found no extension");

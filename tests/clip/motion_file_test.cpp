@@ -1,5 +1,8 @@
 #include "clip/motion_file.h"
 
+#include <filesystem>
+
+#include "base/file.h"
 #include "fixtures.h"
 
 namespace panache {
@@ -22,12 +25,17 @@ TEST(MotionFile, the_extension_decides_the_format_in_any_case) {
 }
 
 TEST(MotionFile, an_unknown_extension_is_answered_with_the_known_ones) {
-  EXPECT_EQ(read_rejection("a/walk.fbx"),
-            "a/walk.fbx: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc), found the "
-            "extension '.fbx'");
-  EXPECT_EQ(read_rejection("a.b/walk"),
-            "a.b/walk: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc), found no "
-            "extension");
+  const std::string folder = testing::TempDir() + "panache_motion.file";
+  for (const auto& [name, found] :
+       {std::pair("/walk.fbx", "the extension '.fbx'"), std::pair("/walk", "no extension")}) {
+    ASSERT_TRUE(write_file(folder + name, "", true).ok());
+    EXPECT_EQ(read_rejection(folder + name),
+              folder + name +
+                  ": expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc), found " +
+                  found);
+  }
+  std::filesystem::remove_all(folder);
+  EXPECT_EQ(read_rejection("a/walk.fbx"), "a/walk.fbx: cannot be read: No such file or directory");
 }
 
 TEST(MotionFile, a_file_that_cannot_be_read_says_why) {

@@ -1,5 +1,8 @@
 #include "clip/motion_format.h"
 
+#include <filesystem>
+
+#include "base/file.h"
 #include "fixtures.h"
 #include "make_clip.h"
 
@@ -48,8 +51,11 @@ TEST(MotionFormat, a_format_of_a_program_of_its_own_is_read_like_the_others) {
                                     .encoded_as = ".own"}};
   EXPECT_EQ(read_motion("nowhere/walk.OWN", kOwn).error().message, "nowhere/walk.OWN: is none");
   EXPECT_EQ(asked, "nowhere/walk.OWN");
-  EXPECT_EQ(read_motion("walk.bvh", kOwn).error().message,
-            "walk.bvh: expected a motion file (.own), found the extension '.bvh'");
+  const std::string other = testing::TempDir() + "panache_motion_format.bvh";
+  ASSERT_TRUE(write_file(other, "", true).ok());
+  EXPECT_EQ(read_motion(other, kOwn).error().message,
+            other + ": expected a motion file (.own), found the extension '.bvh'");
+  std::filesystem::remove(other);
   // As a manifest is read.
   set_motion_formats(kOwn);
   EXPECT_EQ(read_motion("nowhere/run.own").error().message, "nowhere/run.own: is none");

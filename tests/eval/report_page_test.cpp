@@ -139,10 +139,10 @@ TEST(ReportPage, classifiers_that_are_not_good_enough_are_told_of) {
   EXPECT_EQ(occurrences(report_page(report), "class=\"warning\""), 0u);
   report.real["style_accuracy"] = 0.94;
   EXPECT_EQ(occurrences(report_page(report), "class=\"warning\""), 1u);
-  EXPECT_EQ(occurrences(report_text(report), "no style accuracy counts"), 1u);
+  EXPECT_EQ(occurrences(report_text(report), "The style classifier recognises 0.940"), 1u);
   report.real["content_accuracy"] = kNotMeasured;
   EXPECT_EQ(occurrences(report_page(report), "class=\"warning\""), 2u);
-  EXPECT_EQ(occurrences(report_text(report), "no content accuracy counts"), 1u);
+  EXPECT_EQ(occurrences(report_text(report), "The content classifier recognises"), 1u);
 }
 
 TEST(ReportPage, a_planted_foot_is_a_bar_as_long_as_it_stands) {

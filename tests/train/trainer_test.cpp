@@ -172,12 +172,16 @@ TEST_F(TrainerTest, what_cannot_be_learnt_from_is_said) {
   std::vector<ManifestRow> rows = rows_;
   rows[0].neutral = false;
   rows[0].style = "old";
-  EXPECT_EQ(train(rows, styles_, options(test::kPanache, 1)).error().message,
-            "no neutral take to learn from; expected rows with neutral 1");
+  EXPECT_EQ(
+      train(rows, styles_, options(test::kPanache, 1)).error().message,
+      "nothing can be learnt of 1 style: 'old' (walk); expected a neutral take of one of these "
+      "contents, to train on, in the manifest of the style; add one, or leave the style out");
   rows = rows_;
   rows[1].content = "run";
-  EXPECT_EQ(train(rows, styles_, options(test::kPanache, 1)).error().message,
-            "no styled take has a neutral take of the same content in its manifest");
+  EXPECT_EQ(
+      train(rows, styles_, options(test::kPanache, 1)).error().message,
+      "nothing can be learnt of 1 style: 'old' (run); expected a neutral take of one of these "
+      "contents, to train on, in the manifest of the style; add one, or leave the style out");
   rows = rows_;
   rows[1].path = folder_ + "none.bvh";
   EXPECT_EQ(train(rows, styles_, options(test::kPanache, 1)).error().message,
