@@ -25,9 +25,10 @@ void sort_keys(std::vector<FbxKey>& keys) {
   keys.resize(kept);
 }
 
-class Reader {
+class TakesReader {
  public:
-  Reader(const FbxDocument& document, const std::vector<FbxModel>& models) : document_(document) {
+  TakesReader(const FbxDocument& document, const std::vector<FbxModel>& models)
+      : document_(document) {
     for (size_t i = 0; i < models.size(); ++i) places_.emplace(models[i].id, i);
   }
 
@@ -257,7 +258,7 @@ double FbxCurve::at(int64_t time, double fallback) const {
 
 Result<std::vector<FbxTake>> fbx_takes(const FbxDocument& document,
                                        const std::vector<FbxModel>& models) {
-  return Reader(document, models).read();
+  return TakesReader(document, models).read();
 }
 
 std::vector<int64_t> fbx_pose_times(const FbxTake& take, const FbxCurves& curves, double rate) {

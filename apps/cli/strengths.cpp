@@ -35,6 +35,10 @@ std::optional<float> parse_strength(std::string_view text) {
 
 // What is wrong with a --style that gives no strength: "old", "old:1", "olld".
 Error without_strength(const std::string& text, const Model& model) {
+  if (text.starts_with('-')) {
+    return Error{"--style: expected a name and a strength after it, found " +
+                 panache::quoted(text)};
+  }
   std::string name;
   for (const StyleInfo& style : model.styles()) {
     if (text.starts_with(style.name) && style.name.size() > name.size()) name = style.name;

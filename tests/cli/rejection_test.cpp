@@ -103,6 +103,8 @@ TEST_F(Rejection, a_style_that_is_not_written_as_one) {
                   "old=1: there is no such file; a style is given as --style old=1");
   expect_rejected({"stylize", "walk.bvh", "old", "-o", "out.bvh"}, 2,
                   "old: there is no such file; a style is given as --style old=1");
+  expect_style_rejected("--force",
+                        "--style: expected a name and a strength after it, found '--force'");
   expect_style_rejected("old:1", "--style old:1: expected a name and a strength, as in 'old=1'");
   expect_style_rejected("olld",
                         "unknown style 'olld'; the nearest is old (panache styles lists all)");

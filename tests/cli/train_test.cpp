@@ -104,10 +104,12 @@ TEST_F(Train, ctrl_c_says_what_is_left_and_the_same_command_goes_on) {
   const std::vector<std::string> command = {"train", "manifest.csv", "--steps",
                                             "400",   "-o",           "m.safetensors"};
   const pid_t training = start(command);
-  while (!exists("m.safetensors.pose.checkpoint")) {
-    ASSERT_EQ(::kill(training, 0), 0);
-    ::usleep(1000);
-  }
+  const auto is_over = [&] {
+    siginfo_t info{};
+    constexpr int kLook = WEXITED | WNOHANG | WNOWAIT;
+    return ::waitid(P_PID, static_cast<id_t>(training), &info, kLook) != 0 || info.si_pid != 0;
+  };
+  while (!exists("m.safetensors.pose.checkpoint") && !is_over()) ::usleep(1000);
   ::kill(training, SIGINT);
   test::Ran ran = finish(training);
   ASSERT_EQ(ran.exit, 130) << ran.err;

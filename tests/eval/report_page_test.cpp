@@ -142,7 +142,7 @@ TEST(ReportPage, classifiers_that_are_not_good_enough_are_told_of) {
   EXPECT_EQ(occurrences(report_text(report), "The style classifier recognises 0.940"), 1u);
   report.real["content_accuracy"] = kNotMeasured;
   EXPECT_EQ(occurrences(report_page(report), "class=\"warning\""), 2u);
-  EXPECT_EQ(occurrences(report_text(report), "The content classifier recognises"), 1u);
+  EXPECT_EQ(occurrences(report_text(report), "The content classifier recognises \xe2\x80\x93"), 1u);
 }
 
 TEST(ReportPage, a_planted_foot_is_a_bar_as_long_as_it_stands) {
