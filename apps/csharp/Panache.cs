@@ -120,6 +120,9 @@ public sealed class CharacterOptions {
   public int SkipCycles = 0;              // 1: whole cycles are skipped or repeated to keep time.
   public double MaxLag = 0;               // Seconds behind the input, 0 to 4,
   public double MaxLead = 0;              // and ahead of it, 0 to 0.25, that a tempo may take.
+  // m/s; faster hips have jumped, and the style starts afresh. Bodies on vehicles need more; 0 or
+  // infinity: nothing is a jump.
+  public double MaxSpeed = 15;
 }
 
 /// What went on at the last step.

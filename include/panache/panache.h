@@ -183,9 +183,14 @@ typedef struct panache_character_options {
    * maximum lead (0 to 0.25; missing input is predicted, if the model can). With both at 0 no
    * latency is added, and the tempo stays the input's. */
   double max_lag, max_lead;
+  /* Hips that move faster over the ground than this, in m/s, have jumped: the past is forgotten, and
+   * the style starts afresh. A body on a vehicle or a moving platform, in world space, needs a
+   * higher limit, or it is styled anew at each frame. 0 or INFINITY: no distance is a jump, and
+   * panache_character_reset() tells of one. A sprinter reaches 12 m/s. */
+  double max_speed;
 } panache_character_options;
 #define PANACHE_CHARACTER_OPTIONS \
-  { sizeof(panache_character_options), 0.15f, 0.04f, 1, 1, 0, 0, 0 }
+  { sizeof(panache_character_options), 0.15f, 0.04f, 1, 1, 0, 0, 0, 15 }
 
 /* `options` may be NULL. */
 PANACHE_API panache_status panache_character_create(const panache_model* model,
@@ -234,8 +239,8 @@ typedef struct panache_output_pose {
 /* Styles the next pose of a character; `seconds` have gone by since the last. Both poses may be the
  * same arrays. With all strengths at 0, `out` is `in` bit for bit (models of recipe panache).
  * Poses that are not finite are replaced by the last good one, and `seconds` below 0 or NaN count
- * as 0. After half a second without a step (infinite `seconds` included) or a jump, the past is
- * forgotten. */
+ * as 0. After half a second without a step (infinite `seconds` included) or a jump (max_speed),
+ * the past is forgotten. */
 PANACHE_API void panache_character_step(panache_character* character, panache_input_pose in,
                                         double seconds, panache_output_pose out);
 /* Does the same for many characters at once: in[i] becomes out[i], bit for bit as alone, in less
@@ -305,9 +310,10 @@ typedef struct panache_stylize_options {
   int32_t style_root;
   int32_t style_timing;       /* 1: the clip gets the tempo of the style; 0: frame by frame. */
   const panache_shape* shape; /* NULL: all of it at 1. */
+  double max_speed;           /* As in panache_character_options. */
 } panache_stylize_options;
 #define PANACHE_STYLIZE_OPTIONS \
-  { sizeof(panache_stylize_options), 0.15f, 0.04f, 1, 1, 1, NULL }
+  { sizeof(panache_stylize_options), 0.15f, 0.04f, 1, 1, 1, NULL, 15 }
 
 /* A clip that was styled. */
 typedef struct panache_styled_clip panache_styled_clip;

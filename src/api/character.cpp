@@ -25,6 +25,7 @@ panache_status panache_character_create(const panache_model* model,
     how.stylizer.smoothing_seconds = given->smoothing_seconds;
     how.stylizer.foot_lock = given->hold_feet != 0;
     how.stylizer.root = given->style_root != 0;
+    how.stylizer.max_speed = read_max_speed(given->max_speed);
     how.max_lag = given->max_lag;
     how.max_lead = given->max_lead;
     how.skip_cycles = given->skip_cycles != 0;

@@ -57,6 +57,7 @@ Result<RestyleOptions> read_options(const panache_stylize_options* options) {
   out.stylizer.smoothing_seconds = given->smoothing_seconds;
   out.stylizer.foot_lock = given->hold_feet != 0;
   out.stylizer.root = given->style_root != 0;
+  out.stylizer.max_speed = read_max_speed(given->max_speed);
   out.timing = given->style_timing != 0;
   out.stylizer.shape = *shape;
   return out;

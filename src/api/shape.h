@@ -1,5 +1,7 @@
 #pragma once
-// The shape of a style as the library has it.
+// Options of styling as the library has them.
+
+#include <limits>
 
 #include "base/result.h"
 #include "panache/panache.h"
@@ -9,5 +11,10 @@ namespace panache::api {
 
 // Null: all of it at 1.
 Result<Shape> read_shape(const panache_shape* given);
+
+// Metres per second, where 0 is no limit.
+inline float read_max_speed(double given) {
+  return given == 0 ? std::numeric_limits<float>::infinity() : static_cast<float>(given);
+}
 
 }  // namespace panache::api

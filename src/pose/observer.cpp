@@ -12,8 +12,9 @@ void observe(PosedRig& rig, ConstPose pose, float last_facing, Observation& out)
   to_body_frame(out.world.positions, out.root, out.body_frame);
 }
 
-Observer::Observer(Rig rig)
-    : rig_(std::move(rig)),
+Observer::Observer(Rig rig, float max_speed)
+    : max_speed_(max_speed),
+      rig_(std::move(rig)),
       rotations_(rig_.rig().joint_count()),
       translations_(rig_.rig().joint_count()) {}
 
@@ -22,7 +23,7 @@ bool Observer::observe(ConstPose in, double seconds) noexcept {
   sanitize_pose(in);
   last_root_ = started_ ? now_.root : RootPose{};
   panache::observe(rig_, pose(), started_ ? last_root_.facing : 0, now_);
-  const float most = kMaxGroundSpeed * static_cast<float>(std::max(seconds, 1e-3));
+  const float most = max_speed_ * static_cast<float>(std::max(seconds, 1e-3));
   const bool continues = started_ && !(length(now_.root.position - last_root_.position) > most);
   started_ = true;
   return continues;

@@ -25,11 +25,12 @@ class Observer {
  public:
   // A pose that comes after a longer gap does not continue what was before. Seconds.
   static constexpr double kMaxGap = 0.5;
-  // Nor does one that is further away than this speed over the ground would bring it. m/s; a
-  // sprinter reaches 12.
+  // Nor does one that is further away than its greatest speed over the ground would bring it: by
+  // default this, m/s; a sprinter reaches 12. Bodies on vehicles are faster.
   static constexpr float kMaxGroundSpeed = 15;
 
-  explicit Observer(Rig rig);
+  // `max_speed`: m/s, more than 0; with infinity no way is too far.
+  explicit Observer(Rig rig, float max_speed = kMaxGroundSpeed);
 
   // Forgets the motion so far.
   void reset() noexcept { started_ = false; }
@@ -64,6 +65,7 @@ class Observer {
  private:
   void sanitize_pose(ConstPose in) noexcept;
 
+  float max_speed_;
   PosedRig rig_;
   std::vector<Quat> rotations_;     // [joints]
   std::vector<Vec3> translations_;  // [joints]

@@ -23,9 +23,9 @@ float smooth(double t) { return static_cast<float>(t * t * (3 - 2 * t)); }
 
 LiveStylizer::Playback::Playback(const Rig& rig, std::shared_ptr<const Model> model,
                                  const LiveOptions& options)
-    : input(rig),
+    : input(rig, options.stylizer.max_speed),
       // A candidate for a cycle needs what was before it.
-      ring(rig.joint_count(), options.max_lag + kBeforeCycle + kBlend),
+      ring(rig.joint_count(), options.max_lag + (options.skip_cycles ? kBeforeCycle + kBlend : 0)),
       shown_rotations(rig.joint_count()),
       old_rotations(rig.joint_count()),
       shown_translations(rig.joint_count()),

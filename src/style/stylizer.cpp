@@ -20,13 +20,17 @@ Result<Stylizer> Stylizer::create(std::shared_ptr<const Model> model, Rig rig,
                    " seconds; expected 0 to 10 seconds"};
     }
   }
+  if (!(options.max_speed > 0)) {
+    return Error{"max_speed of " + std::to_string(options.max_speed) +
+                 " m/s; expected more than 0"};
+  }
   return Stylizer(std::move(model), std::move(rig), options);
 }
 
 Stylizer::Stylizer(std::shared_ptr<const Model> model, Rig rig, const StylizerOptions& options)
     : options_(options),
       shape_(options.shape),
-      observer_(std::move(rig)),
+      observer_(std::move(rig), options.max_speed),
       strengths_(model->styles().size(), options.ease_seconds),
       window_(model->layout()),
       networks_(std::move(model)),

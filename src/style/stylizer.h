@@ -28,6 +28,9 @@ struct StylizerOptions {
   bool foot_lock = true;
   bool root = true;  // Style the root motion, not only the pose.
   Shape shape;       // At first, see Stylizer::set_shape().
+  // Hips that are faster over the ground, m/s, have jumped, and the past is forgotten. Bodies on
+  // vehicles need more; infinity: nothing is a jump.
+  float max_speed = Observer::kMaxGroundSpeed;
 };
 
 // One character's memory. create() allocates everything and may fail; step() does neither.

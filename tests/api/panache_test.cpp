@@ -263,6 +263,39 @@ TEST_F(Api, a_character_may_be_late_and_says_by_how_much) {
   for (panache_character* one : {timed, plain, again}) panache_character_destroy(one);
 }
 
+TEST_F(Api, a_limit_of_speed_tells_a_jump_from_a_vehicle) {
+  const auto ride = [&](double max_speed) {
+    panache_character_options options = PANACHE_CHARACTER_OPTIONS;
+    EXPECT_EQ(options.max_speed, 15);
+    options.max_speed = max_speed;
+    panache_character* one = nullptr;
+    EXPECT_EQ(panache_character_create(model_, skeleton_, &options, &one), PANACHE_OK)
+        << panache_last_error();
+    panache_character_set_strength(one, panache_model_find_style(model_, "OLD"), 1);
+    std::vector<stick_pose> out(90);
+    for (int f = 0; f < 90; ++f) {
+      stick_pose in;
+      stick_walk(f / 60.0, 0, &in);
+      // Of whatever unit: far beyond 15 m/s.
+      in.translations[0][0] += 3000.0f * static_cast<float>(f) / 60;
+      panache_character_step(one, stick_input(&in), 1 / 60.0,
+                             stick_output(&out[static_cast<size_t>(f)]));
+    }
+    panache_character_destroy(one);
+    return out;
+  };
+  EXPECT_TRUE(same(ride(0), ride(INFINITY)));
+  EXPECT_TRUE(same(ride(0), ride(1e5)));
+  EXPECT_FALSE(same(ride(0), ride(15)));
+  panache_character_options options = PANACHE_CHARACTER_OPTIONS;
+  panache_character* none = nullptr;
+  for (const double bad : {-1.0, double(NAN)}) {
+    options.max_speed = bad;
+    EXPECT_EQ(panache_character_create(model_, skeleton_, &options, &none), PANACHE_BAD_ARGUMENT);
+    EXPECT_NE(std::string(panache_last_error()).find("max_speed of "), std::string::npos);
+  }
+}
+
 TEST_F(Api, every_prefix_of_a_model_is_rejected) {
   const std::string bytes = model_bytes();
   for (size_t size = 0; size < bytes.size(); size += 1 + size / 2) {

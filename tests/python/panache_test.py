@@ -174,6 +174,23 @@ def test_a_character_is_saved_shaped_and_reports(model, walk):
         character.set_shape(arm=1)
 
 
+def test_a_body_on_a_vehicle_keeps_its_style_where_the_limit_allows_its_speed(model, walk):
+    moved = np.array(walk.translations)  # In metres.
+    moved[:, 0, 0] += 30 * walk.frame_seconds * np.arange(len(walk))
+    train = panache.Clip(walk.skeleton, walk.rotations, moved, walk.frame_seconds)
+
+    def live(**options):
+        character = panache.Character(model, walk.skeleton, **options)
+        character.set_strength('old', 1)
+        return b''.join(character.stylize(train.rotations[f], moved[f], 1 / 60)[0].tobytes()
+                        for f in range(60))
+    assert live(max_speed=0) == live(max_speed=np.inf) == live(max_speed=40) != live()
+    free, bound = (panache.stylize(model, train, {'old': 1}, max_speed=speed) for speed in (0, 15))
+    assert free.rotations.tobytes() != bound.rotations.tobytes()
+    with pytest.raises(panache.PanacheError, match='max_speed of -1'):
+        live(max_speed=-1)
+
+
 def test_a_skeleton_is_made_of_arrays(model, walk_file):
     file = panache.MotionFile(walk_file)
     rest = panache.MotionFile(walk_file).clip(0)

@@ -36,6 +36,7 @@ int main() {
   FIELD(character_options, skip_cycles);
   FIELD(character_options, max_lag);
   FIELD(character_options, max_lead);
+  FIELD(character_options, max_speed);
   STRUCT(shape);
   FIELD(shape, struct_size);
   FIELD(shape, strength);
@@ -80,6 +81,7 @@ int main() {
   FIELD(stylize_options, style_root);
   FIELD(stylize_options, style_timing);
   FIELD(stylize_options, shape);
+  FIELD(stylize_options, max_speed);
   STRUCT(retarget_options);
   FIELD(retarget_options, struct_size);
   FIELD(retarget_options, hold_feet);

@@ -165,5 +165,33 @@ TEST_F(OddSteps, numbers_of_any_size_in_a_pose_a_strength_or_the_shape_pass_by) 
   }
 }
 
+// A walk on a train: at a limit below its speed the style starts afresh at each frame.
+TEST_F(OddSteps, a_body_on_a_vehicle_keeps_its_style_where_the_limit_allows_its_speed) {
+  const auto ride = [&](float speed, float max_speed, LiveOptions options) {
+    options.stylizer.max_speed = max_speed;
+    LiveStylizer one = character(options);
+    Clip out = walk_;
+    for (int f = 0; f < kFrames; ++f) {
+      const Pose pose = out.pose(f);
+      pose.translations[0].x += speed * static_cast<float>(f * kStepSeconds);
+      one.step(pose, strengths_, kStepSeconds, pose);
+    }
+    return out;
+  };
+  const auto infinity = static_cast<float>(kInfinity);
+  for (const LiveOptions& options : ways()) {
+    for (const float speed : {0.0f, 10.0f, 40.0f, 80.0f}) {
+      const Clip free = ride(speed, infinity, options);
+      EXPECT_TRUE(same_rotations(free, ride(speed, 100, options))) << speed;
+      EXPECT_EQ(same_rotations(free, ride(speed, 15, options)), speed < 15) << speed;
+    }
+  }
+  LiveOptions none;
+  for (const double limit : {0.0, -1.0, kNan}) {
+    none.stylizer.max_speed = static_cast<float>(limit);
+    EXPECT_FALSE(LiveStylizer::create(model_, *Rig::create(walk_), none)) << limit;
+  }
+}
+
 }  // namespace
 }  // namespace panache

@@ -33,7 +33,8 @@ class SkeletonOptions(Structure):
 class CharacterOptions(Structure):
     _fields_ = [('struct_size', c_uint32), ('ease_seconds', c_float),
                 ('smoothing_seconds', c_float), ('hold_feet', c_int32), ('style_root', c_int32),
-                ('skip_cycles', c_int32), ('max_lag', c_double), ('max_lead', c_double)]
+                ('skip_cycles', c_int32), ('max_lag', c_double), ('max_lead', c_double),
+                ('max_speed', c_double)]
 
 
 class Shape(Structure):
@@ -68,7 +69,7 @@ class Track(Structure):
 class StylizeOptions(Structure):
     _fields_ = [('struct_size', c_uint32), ('ease_seconds', c_float),
                 ('smoothing_seconds', c_float), ('hold_feet', c_int32), ('style_root', c_int32),
-                ('style_timing', c_int32), ('shape', POINTER(Shape))]
+                ('style_timing', c_int32), ('shape', POINTER(Shape)), ('max_speed', c_double)]
 
 
 class RetargetOptions(Structure):

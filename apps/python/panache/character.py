@@ -47,17 +47,20 @@ class Character:
     style_root:        root motion is styled too.
     max_lag, max_lead: seconds that a style's own tempo may take behind the input (to 4) or ahead of
                        it (to 0.25); with both at 0 the tempo stays the input's.
+    max_speed:         m/s; faster hips have jumped, and the style starts afresh. Bodies on vehicles
+                       need more; 0 or infinity: nothing is a jump.
     skip_cycles:       whole cycles are skipped or repeated to stay within these limits.
     """
 
     def __init__(self, model: Model, skeleton: Skeleton, *, ease_seconds: float = 0.15,
                  smoothing_seconds: float = 0.04, hold_feet: bool = True, style_root: bool = True,
-                 skip_cycles: bool = False, max_lag: float = 0, max_lead: float = 0):
+                 skip_cycles: bool = False, max_lag: float = 0, max_lead: float = 0,
+                 max_speed: float = 15):
         self.model, self.skeleton = model, skeleton
         options = sized(c.CharacterOptions, ease_seconds=ease_seconds,
                         smoothing_seconds=smoothing_seconds, hold_feet=hold_feet,
                         style_root=style_root, skip_cycles=skip_cycles, max_lag=max_lag,
-                        max_lead=max_lead)
+                        max_lead=max_lead, max_speed=max_speed)
         self._handle = Handle('character', lib.character_create, model._handle.pointer,
                               skeleton._handle.pointer, options)
         self._pointer = self._handle.pointer

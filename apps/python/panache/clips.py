@@ -160,8 +160,8 @@ def _keys(name: str, strength: Strength) -> list:
 
 def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *, timing: bool = True,
             hold_feet: bool = True, style_root: bool = True, ease_seconds: float = 0.15,
-            smoothing_seconds: float = 0.04,
-            shape: Optional[Mapping[str, float]] = None) -> StyledClip:
+            smoothing_seconds: float = 0.04, shape: Optional[Mapping[str, float]] = None,
+            max_speed: float = 15) -> StyledClip:
     """A clip in a style, or a mix of styles.
 
     styles: {name: strength}; 0 is neutral, 1 the style as captured, -4 to 4. A list of
@@ -169,6 +169,7 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *, timing:
     timing: the clip gets the tempo of the style, and so other frames than the input.
     shape:  how much is given of what the styles do, 0 to 2 each: {'posture': 0.5, 'left_arm': 0},
             see panache_shape.
+    max_speed: m/s; faster hips have jumped, see Character.
 
     With all strengths at 0 the result is the clip bit for bit (models of recipe panache).
     """
@@ -180,7 +181,7 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *, timing:
     options = sized(c.StylizeOptions, ease_seconds=ease_seconds,
                     smoothing_seconds=smoothing_seconds, hold_feet=hold_feet,
                     style_root=style_root, style_timing=timing,
-                    shape=ctypes.pointer(c.shape_of(shape or {})))
+                    shape=ctypes.pointer(c.shape_of(shape or {})), max_speed=max_speed)
     handle = Handle('styled_clip', lib.stylize_clip, model._handle.pointer, clip._struct(), tracks,
                     len(styles), options)
     return _styled(handle, clip.skeleton, clip.frame_seconds)

@@ -13,10 +13,10 @@ const kSkeletonOptions = struct(['size', 'i32'], ['metresPerUnit', 'f32'], ['upA
   ['humanJoints', 'i32']);
 const kCharacterOptions = struct(['size', 'i32'], ['easeSeconds', 'f32'],
   ['smoothingSeconds', 'f32'], ['holdFeet', 'i32'], ['styleRoot', 'i32'], ['skipCycles', 'i32'],
-  ['maxLag', 'f64'], ['maxLead', 'f64']);
+  ['maxLag', 'f64'], ['maxLead', 'f64'], ['maxSpeed', 'f64']);
 const kStylizeOptions = struct(['size', 'i32'], ['easeSeconds', 'f32'],
   ['smoothingSeconds', 'f32'], ['holdFeet', 'i32'], ['styleRoot', 'i32'], ['styleTiming', 'i32'],
-  ['shape', 'i32']);
+  ['shape', 'i32'], ['maxSpeed', 'f64']);
 const kShape = struct(['size', 'i32'], ['strength', 'f32'], ['posture', 'f32'],
   ['dynamics', 'f32'], ['timing', 'f32'], ['legs', 'f32'], ['torso', 'f32'], ['leftArm', 'f32'],
   ['rightArm', 'f32'], ['footLock', 'f32']);
@@ -32,7 +32,8 @@ const kNeutralShape = {
   strength: 1, posture: 1, dynamics: 1, timing: 1, legs: 1, torso: 1, leftArm: 1, rightArm: 1,
   footLock: 1,
 };
-const kStylizing = { easeSeconds: 0.15, smoothingSeconds: 0.04, holdFeet: true, styleRoot: true };
+const kStylizing = { easeSeconds: 0.15, smoothingSeconds: 0.04, holdFeet: true, styleRoot: true,
+  maxSpeed: 15 };
 
 // A caller's options over the defaults, of which there is one for each that is known.
 function optionsOf(defaults, given) {

@@ -112,6 +112,9 @@ interface StylizingOptions {
   holdFeet?: boolean;
   /** The root motion is styled too; true. */
   styleRoot?: boolean;
+  /** Hips that are faster, in m/s, have jumped, and the style starts afresh; 15. A body on a vehicle
+   * needs more; 0 or Infinity: nothing is a jump. */
+  maxSpeed?: number;
 }
 export interface CharacterOptions extends StylizingOptions {
   /** How far the character may be shown behind its input, and ahead of it, seconds; 0. */
