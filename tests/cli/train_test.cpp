@@ -102,7 +102,7 @@ TEST_F(Train, all_missing_files_are_named_at_once) {
 TEST_F(Train, ctrl_c_says_what_is_left_and_the_same_command_goes_on) {
   test::write_manifest(path(""));
   const std::vector<std::string> command = {"train", "manifest.csv", "--steps",
-                                            "400",   "-o",           "m.safetensors"};
+                                            "100",   "-o",           "m.safetensors"};
   const pid_t training = start(command);
   const auto is_over = [&] {
     siginfo_t info{};
