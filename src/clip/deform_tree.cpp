@@ -124,8 +124,13 @@ class TreeFinder {
 
   // Picks what deforms nothing and carries several pieces: hips that are not in the skin's list, on
   // which legs and spine hang. Unlike the root or a control of a rig, they are near to their
-  // pieces, which keep their places on them in motion. The lowest come first.
+  // pieces, which keep their places on them in motion. The lowest come first. A control rig has
+  // many such joints, each with a piece or two: it keeps none of them.
   void pick_carriers() {
+    constexpr int kJointsOfCarrier = 3;  // At most one carrier to so many joints that deform.
+    const std::vector<char> deforming = picked_;
+    const auto picked = [&] { return std::count(picked_.begin(), picked_.end(), 1); };
+    const auto most = picked() + picked() / kJointsOfCarrier;
     const float size = body_size();
     for (size_t j = count(); j-- > 0;) {
       if (picked_[j]) continue;
@@ -142,6 +147,9 @@ class TreeFinder {
       for (const size_t joint : between) picked_[joint] = 1;
       find_pieces();
     }
+    if (picked() <= most) return;
+    picked_ = deforming;
+    find_pieces();
   }
 
   // Whether the root of a piece keeps its place on a joint above it in motion, near to it. `path`
