@@ -1,6 +1,9 @@
 #include "fbx.h"
 
+#include <algorithm>
+#include <array>
 #include <memory>
+#include <string_view>
 
 #include <assimp/Exporter.hpp>
 #include <assimp/Importer.hpp>
@@ -49,6 +52,14 @@ Result<std::unique_ptr<aiScene>> read_by_assimp(const std::string& bytes, const 
   return Error{path + ": cannot be read as FBX: " + importer.GetErrorString()};
 }
 
+// Whether text is of a version that Assimp does not read.
+bool is_old_text(std::string_view bytes) {
+  const std::string_view start = bytes.substr(0, 4096);
+  return std::ranges::any_of(
+      std::array{"; FBX 6", "; FBX 5", "FBXVersion: 6", "FBXVersion: 5"},
+      [&](const char* sign) { return start.find(sign) != std::string_view::npos; });
+}
+
 // FBX 6, and text that Assimp rejects, have only a skeleton and motions.
 Result<std::unique_ptr<aiScene>> read_scene(const std::string& bytes, const std::string& path) {
   const int version = binary_fbx_version(bytes);
@@ -57,16 +68,12 @@ Result<std::unique_ptr<aiScene>> read_scene(const std::string& bytes, const std:
     if (!text) return text.error();
     return fbx_text_scene(*text, path + " (as text)");
   }
+  if (is_old_text(bytes)) return fbx_text_scene(bytes, path);
   Result<std::unique_ptr<aiScene>> scene = read_by_assimp(bytes, path);
   if (scene || bytes.starts_with("Kaydara")) return scene;
+  // Of what is wrong with version 7, Assimp says more.
   Result<std::unique_ptr<aiScene>> read = fbx_text_scene(bytes, path);
-  if (read) return *read ? std::move(read) : std::move(scene);
-  // Of version 7 Assimp knows more, and says more.
-  const std::string_view start = std::string_view(bytes).substr(0, 4096);
-  const bool is_old = start.find("; FBX 6") != start.npos || start.find("; FBX 5") != start.npos ||
-                      start.find("FBXVersion: 6") != start.npos ||
-                      start.find("FBXVersion: 5") != start.npos;
-  return is_old ? std::move(read) : std::move(scene);
+  return read && *read ? std::move(read) : std::move(scene);
 }
 
 Result<std::string> convert(const std::string& bytes, const std::string& path) {

@@ -261,7 +261,7 @@ test('what is no skeleton, strength, key or file is rejected with what was found
       'poses[0].rotations: expected a Float32Array of 76 numbers, found nothing'],
     [() => panache.stylizeClip(made, {}, { old: 1 }),
       'clip.rotations: expected a Float32Array with 4 numbers for each joint of each frame, found nothing'],
-    [() => panache.openFile(readFile('no file'), 'walk.bvh'),
+    [() => panache.openFile(Promise.resolve(new Uint8Array()), 'walk.bvh'),
       'walk.bvh: expected an ArrayBuffer or a Uint8Array, found an object of the class Promise'],
     [() => panache.setModel('model.safetensors'),
       "the model: expected an ArrayBuffer or a Uint8Array, found 'model.safetensors'"],
@@ -320,6 +320,8 @@ test('what was freed throws, and so does what another Panache has made', async (
     file: [() => file.createPlayer(), () => file.putOn(file),
       () => other.learnStyle('mine', { file }, 'walk')],
   };
+  for (const action of freed.file) refusal(action, /^this file was freed and cannot be used/);
+  delete freed.file;
   other.free();
   other.free();
   freed.Panache = [() => other.createWalker(), () => other.goldenHash(),

@@ -286,8 +286,8 @@ test('animations that move no body are passed over with a note', async () => {
 });
 
 /** The walk with other counts and rates. */
-const writeWalk = (name, from, to) =>
-  writeFileSync(at(name), readFileSync(at('walk.bvh'), 'utf8').replace(from, to));
+const writeWalk = (name, from, to, walk = 'walk.bvh') =>
+  writeFileSync(at(name), readFileSync(at(walk), 'utf8').replace(from, to));
 
 test('what is odd about a file is told, and the file is played', async () => {
   writeWalk('many.bvh', /Frames:\s*\d+/, 'Frames: 999');
@@ -298,18 +298,19 @@ test('what is odd about a file is told, and the file is played', async () => {
 });
 
 test('a wrong rate is noted, corrected, kept and saved', async () => {
-  writeWalk('slow.bvh', /Frame Time:.*/, 'Frame Time: 0.1');
+  panache('walker', '-o', 'steps.bvh', '--seconds', '8');  // Enough steps to tell their rate by.
+  writeWalk('slow.bvh', /Frame Time:.*/, 'Frame Time: 0.1', 'steps.bvh');
   const rate = tab.locator('#fps');
   const seconds = () => tab.evaluate(() => window.page.source.file.clips[0].seconds);
   const takes = (wanted) => tab.waitForFunction((s) =>
     Math.abs(window.page.source.file?.clips[0].seconds - s) < 1e-3, wanted);
   await tab.setInputFiles('#file', [at('slow.bvh'), at('walk.bvh')]);
-  await takes(17.9);
+  await takes(47.9);
   assert.match(await alertText(), /^slow\.bvh: expected steps .*too slow.* give its rate$/);
   assert.equal(await rate.inputValue(), '10');
   await rate.fill('60');
   await rate.press('Enter');
-  await takes(179 / 60);
+  await takes(479 / 60);
   assert.ok(await tab.locator('#alert').isHidden());
   // It stays with the file while that is listed.
   await tab.locator('#files').selectOption('walk.bvh');
@@ -324,11 +325,11 @@ test('a wrong rate is noted, corrected, kept and saved', async () => {
   await rate.press('Enter');
   assert.match(await alertText(), /expected a rate of 0\.01 to 10000 frames a second, found 99999$/);
   assert.equal(await rate.inputValue(), '60');
-  assert.ok(Math.abs(await seconds() - 179 / 60) < 1e-3);
+  assert.ok(Math.abs(await seconds() - 479 / 60) < 1e-3);
   // Empty: the file's own.
   await rate.fill('');
   await rate.press('Enter');
-  await takes(17.9);
+  await takes(47.9);
   assert.equal(await rate.inputValue(), '10');
 });
 
