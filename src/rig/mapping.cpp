@@ -8,6 +8,8 @@
 #include "rig/limb_shape.h"
 #include "rig/limbs_by_name.h"
 #include "rig/limbs_by_shape.h"
+#include "rig/mapping_draft.h"
+#include "rig/name_preferences.h"
 #include "rig/standard_names.h"
 
 namespace panache {
@@ -15,9 +17,7 @@ namespace {
 
 using enum HumanJoint;
 
-constexpr float kByName = 1, kByTree = 0.95f, kByPlace = 0.7f, kByShape = 0.8f;
-
-std::string name_of(HumanJoint joint) { return std::string(human_joint_name(index(joint))); }
+constexpr float kByTree = 0.95f, kByPlace = 0.7f, kByShape = 0.8f;
 
 // The message for a skeleton that lacks these.
 Error rejection(const std::vector<Joint>& joints, const std::vector<HumanJoint>& missing) {
@@ -48,18 +48,15 @@ class Mapper {
  public:
   Mapper(const Skeleton& skeleton, const JointTree& tree, const std::vector<JointName>& names,
          const KnownJoints& known)
-      : joints_(skeleton.joints), tree_(tree), names_(names), known_(known) {
-    map_.joint_of.fill(-1);
-    map_.reasons.fill("missing");
-  }
+      : draft_(skeleton.joints, tree, names, known) {}
 
   // limbs: all that there are.
   Result<Mapping> run(const Limbs& limbs, bool by_shape) {
-    by_shape_ = by_shape;
+    draft_.by_shape = by_shape;
     for (size_t side : {0, 1}) {
       take(limbs.arms[side], kLimbNames[0][side], limbs);
       take(limbs.legs[side], kLimbNames[1][side], limbs);
-      arm_tips_[side] = lowest_joint(limbs.arms[side]);
+      draft_.arm_tips[side] = lowest_joint(limbs.arms[side]);
     }
     if (by_shape) {
       map_.notes.push_back("the names of the joints are not conclusive: mapped by shape");
@@ -67,30 +64,20 @@ class Mapper {
     if (by_shape && limbs.side_confidence < 0.3f) {
       map_.notes.push_back("left and right are guessed: nothing shows which way the body faces");
     }
-    for (size_t side : {0, 1}) prefer_limb_names(side);
+    for (size_t side : {0, 1}) prefer_.limbs(side);
     find_torso();
     if (!missing_.empty()) return rejection(joints_, missing_);
-    prefer_torso_names();
+    prefer_.torso();
     find_head();
-    prefer_piece(neck, neck_base());
-    prefer_name(neck, [&](int j) { return is_between(neck_base(), j, at(head)); });
+    prefer_.neck();
     find_spine();
-    if (at(chest) >= 0) {
-      prefer_name(spine, [&](int j) { return is_between(at(hips), j, at(chest)); });
-    }
+    prefer_.spine();
     for (size_t side : {0, 1}) {
-      const HumanJoint shoulder = side ? right_shoulder : left_shoulder;
-      find_shoulder(shoulder, side);
-      prefer_name(shoulder, [&](int j) {
-        return is_between(neck_base(), j, at(kLimbNames[0][side].upper)) &&
-               !tree_.is_above(j, arm_tips_[1 - side]);
-      });
+      find_shoulder(side ? right_shoulder : left_shoulder, side);
+      prefer_.shoulder(side);
       find_toes(side ? right_toes : left_toes, kLimbNames[1][side].end);
     }
-    for (const HumanJoint joint :
-         {head, left_hand, right_hand, left_foot, right_foot, left_toes, right_toes}) {
-      note_contradiction(joint);
-    }
+    prefer_.note_ends();
     if (const auto done = apply_overrides(); !done) return done.error();
     for (int j = 0; j < kHumanJoints; ++j) {
       if (map_.joint_of[j] < 0) {
@@ -102,16 +89,13 @@ class Mapper {
 
  private:
   int parent(int joint) const { return tree_.parent(joint); }
-  int at(HumanJoint joint) const { return map_.joint_of[index(joint)]; }
+  int at(HumanJoint joint) const { return draft_.at(joint); }
   void put(HumanJoint joint, int found, std::string reason, float confidence) {
-    if (found < 0) return;
-    map_.joint_of[index(joint)] = found;
-    map_.reasons[index(joint)] = std::move(reason);
-    map_.confidence[index(joint)] = confidence;
+    draft_.put(joint, found, std::move(reason), confidence);
   }
   void take(const Limb& limb, const LimbNames& names, const Limbs& limbs) {
     const float sure = limbs.confidence * std::min(1.0f, 0.3f + limbs.side_confidence);
-    if (by_shape_) {
+    if (draft_.by_shape) {
       const std::string reason = "by the skeleton's shape, its side " + limbs.side_reason;
       put(names.upper, limb.upper, reason, sure);
       put(names.lower, limb.lower, reason, sure);
@@ -123,100 +107,6 @@ class Mapper {
     put(names.lower, limb.lower, limb.end < 0 ? "by its name" : above(names.end), kByTree);
     put(names.upper, limb.upper, above(names.lower), kByTree);
   }
-  // Whether `joint` is strictly below one joint and above another; one that is -1 is no limit.
-  bool is_between(int above, int joint, int below) const {
-    return (above < 0 || (joint != above && tree_.is_above(above, joint))) &&
-           (below < 0 || (joint != below && tree_.is_above(joint, below)));
-  }
-  int neck_base() const { return at(chest) >= 0 ? at(chest) : at(hips); }
-
-  // A joint that has the standards' own name for `joint` takes the place of one that was found by
-  // its place and has no such name, where it fits into the tree and the mesh does not follow the
-  // other instead.
-  template <class Fits>
-  void prefer_name(HumanJoint joint, Fits fits) {
-    if (by_shape_ || known_.contains(index(joint))) return;
-    const int guess = at(joint);
-    if (guess >= 0 && is_standard_name(names_[guess])) return;
-    int best = -1, misplaced = -1;
-    for (int j = 0; j < tree_.count(); ++j) {
-      if (!is_standard_name_of(names_[j], joint) || is_taken(j)) continue;
-      if (!fits(j)) {
-        misplaced = misplaced < 0 ? j : misplaced;
-      } else if (best < 0 || joints_[j].skin_weight > joints_[best].skin_weight) {
-        best = j;
-      }
-    }
-    if (best < 0 && misplaced >= 0) return note_contradiction(joint, misplaced);
-    if (best < 0) return;
-    if (guess >= 0 && tree_.moves_mesh(guess) && !tree_.moves_mesh(best)) {
-      return note_contradiction(joint, best);
-    }
-    put(joint, best, "by its name", kByName);
-  }
-  // Of the pieces of torso or neck above the one that was found by its place, and below `end`, the
-  // nearest that has a standard's own name takes its place.
-  void prefer_piece(HumanJoint joint, int end) {
-    const int guess = at(joint);
-    if (by_shape_ || known_.contains(index(joint)) || guess < 0) return;
-    if (is_standard_name(names_[guess])) return;
-    for (int q = parent(guess); q >= 0 && q != end; q = parent(q)) {
-      if (!is_standard_piece_of(names_[q], joint)) continue;
-      if (tree_.moves_mesh(guess) && !tree_.moves_mesh(q)) continue;
-      return put(joint, q, "by its name", kByName);
-    }
-  }
-  // Says of a joint that has the standards' own name for `joint` why another is taken.
-  void note_contradiction(HumanJoint joint, int named) {
-    const int taken = at(joint);
-    if (taken < 0) return;
-    const bool no_mesh = tree_.moves_mesh(taken) && !tree_.moves_mesh(named);
-    map_.notes.push_back("'" + joints_[named].name + "' is named as " + name_of(joint) + " and " +
-                         (no_mesh ? "moves no mesh of its own" : "is not where that hangs") +
-                         ": '" + joints_[taken].name + "' is taken");
-  }
-  // The same where there is such a joint and it is not taken.
-  void note_contradiction(HumanJoint joint) {
-    const int taken = at(joint);
-    if (by_shape_ || known_.contains(index(joint)) || taken < 0) return;
-    if (is_standard_name_of(names_[taken], joint)) return;
-    for (int j = 0; j < tree_.count(); ++j) {
-      if (!is_standard_name_of(names_[j], joint) || is_taken(j)) continue;
-      const bool no_mesh = tree_.moves_mesh(taken) && !tree_.moves_mesh(j);
-      // In its line and no other reason: a palm, which is no contradiction.
-      if (tree_.is_above(taken, j) && !no_mesh) continue;
-      return note_contradiction(joint, j);
-    }
-  }
-  bool is_taken(int joint) const {
-    return std::find(map_.joint_of.begin(), map_.joint_of.end(), joint) != map_.joint_of.end();
-  }
-
-  void prefer_limb_names(size_t side) {
-    for (const auto& limbs : kLimbNames) {
-      const LimbNames& limb = limbs[side];
-      const LimbNames& other = limbs[1 - side];
-      const int other_tip = at(other.end) >= 0 ? at(other.end) : at(other.lower);
-      if (at(limb.end) >= 0) {
-        prefer_name(limb.lower, [&](int j) {
-          return is_between(-1, j, at(limb.end)) && !tree_.is_above(j, other_tip);
-        });
-      }
-      prefer_name(limb.upper, [&](int j) {
-        return is_between(-1, j, at(limb.lower)) && !tree_.is_above(j, other_tip);
-      });
-    }
-  }
-  void prefer_torso_names() {
-    prefer_name(hips, [&](int j) {
-      return is_between(-1, j, at(left_upper_leg)) && is_between(-1, j, at(right_upper_leg)) &&
-             tree_.is_above(j, arm_tips_[0]) && tree_.is_above(j, arm_tips_[1]) && j != at(chest);
-    });
-    prefer_piece(chest, at(hips));
-    prefer_name(chest, [&](int j) {
-      return is_between(at(hips), j, arm_tips_[0]) && is_between(at(hips), j, arm_tips_[1]);
-    });
-  }
 
   template <class Where>
   int find(HumanJoint joint, Side side, bool (*is)(const JointName&), Where where) const {
@@ -225,7 +115,7 @@ class Mapper {
 
   void find_torso() {
     const int feet = tree_.meeting(at(left_foot), at(right_foot));
-    const int arms = tree_.meeting(arm_tips_[0], arm_tips_[1]);
+    const int arms = tree_.meeting(draft_.arm_tips[0], draft_.arm_tips[1]);
     int low = feet;
     std::string reason = "where the legs meet";
     if (!tree_.is_above(low, arms)) {
@@ -265,7 +155,7 @@ class Mapper {
       found = find(head, Side::none, is_head,
                    [&](int j) { return tree_.is_above(at(hips), j) && !tree_.is_above(j, top); });
     }
-    put(head, found, "by its name", kByName);
+    put(head, found, "by its name", kCertain);
     if (found < 0) find_head_by_place(top);
     if (at(head) >= 0 && at(neck) < 0) find_neck();
   }
@@ -278,7 +168,8 @@ class Mapper {
       for (const int j : tree_.children(next)) {
         if (names_[j].side != Side::none || is_near(names_[j]) || is_on_head(names_[j])) continue;
         if (!is_central(j)) continue;
-        if (tree_.is_above(j, arm_tips_[0]) || tree_.is_above(j, arm_tips_[1])) continue;
+        if (tree_.is_above(j, draft_.arm_tips[0]) || tree_.is_above(j, draft_.arm_tips[1]))
+          continue;
         if (tree_.is_above(j, at(left_foot)) || tree_.is_above(j, at(right_foot))) continue;
         const float reach = tree_.distance(next, j) + tree_.reach(j);
         if (reach > most) most = reach, middle = j;
@@ -353,7 +244,7 @@ class Mapper {
       const bool is_piece =
           is_standard_name(names_[q]) && (tree_.moves_mesh(q) || !tree_.moves_mesh(at(chest)));
       const float off = std::abs(1 - walked / std::max(total, 1e-9f) - 0.64f) +
-                        (by_shape_ || is_piece ? 0 : kNoPiece);
+                        (draft_.by_shape || is_piece ? 0 : kNoPiece);
       if (tree_.apart(q, at(chest)) && off < best) found = q, best = off;
     }
     put(spine, found, "nearest to 64 % of the way from hips to chest", count > 1 ? 0.9f : kByTree);
@@ -364,8 +255,8 @@ class Mapper {
     const HumanJoint arm = kLimbNames[0][side].upper;
     int q = parent(at(arm));
     while (q >= 0 && is_twist(names_[q])) q = parent(q);
-    if (q < 0 || tree_.is_above(q, arm_tips_[1 - side])) return;
-    put(joint, q, "parent of " + name_of(arm), by_shape_ ? kByShape : kByTree);
+    if (q < 0 || tree_.is_above(q, draft_.arm_tips[1 - side])) return;
+    put(joint, q, "parent of " + name_of(arm), draft_.by_shape ? kByShape : kByTree);
   }
 
   void find_toes(HumanJoint joint, HumanJoint foot_joint) {
@@ -373,14 +264,14 @@ class Mapper {
     const auto below = [&](int j) { return j != foot && tree_.is_above(foot, j); };
     for (const Side side : {Side::left, Side::right, Side::none}) {
       const int found = find(joint, side, is_toe, below);
-      put(joint, found, "by its name", kByName);
+      put(joint, found, "by its name", kCertain);
       if (found >= 0) return;
     }
     // Where the foot is called ankle, what is called foot is the front of it.
     const Side side = names_[foot].side;
     const int front = !is_ankle(names_[foot]) ? -1 : find(joint, side, is_foot, below);
     put(joint, front, "next joint below an ankle", kByTree);
-    if (front >= 0 || !by_shape_) return;
+    if (front >= 0 || !draft_.by_shape) return;
     const std::vector<int> chain = limb_chain(tree_, foot, farthest_below(tree_, foot));
     const int found = most_usual(chain, kProportions.length[index(left_toes)],
                                  [&](int below_it) { return tree_.distance(foot, below_it); });
@@ -389,7 +280,7 @@ class Mapper {
 
   // Puts what is known in place of what was found.
   Result<void> apply_overrides() {
-    for (const auto& [human, joint] : known_) {
+    for (const auto& [human, joint] : draft_.known) {
       for (int j = 0; j < kHumanJoints; ++j) {
         if (joint >= 0 && map_.joint_of[j] == joint) clear(j);
       }
@@ -407,7 +298,7 @@ class Mapper {
     }
     if (at(hips) < 0) missing_.push_back(hips);
     if (!missing_.empty()) return rejection(joints_, missing_);
-    for (const auto& [human, joint] : known_) {
+    for (const auto& [human, joint] : draft_.known) {
       int above = kHumanParent[human];
       while (above >= 0 && map_.joint_of[above] < 0) above = kHumanParent[above];
       if (joint < 0 || above < 0 || tree_.is_above(map_.joint_of[above], joint)) continue;
@@ -424,14 +315,13 @@ class Mapper {
     map_.confidence[human] = 0;
   }
 
-  const std::vector<Joint>& joints_;
-  const JointTree& tree_;
-  const std::vector<JointName>& names_;
-  const KnownJoints& known_;
-  std::array<int, 2> arm_tips_ = {-1, -1};  // The lowest known joint of each arm.
-  bool by_shape_ = false;
+  MappingDraft draft_;
+  const std::vector<Joint>& joints_ = draft_.joints;
+  const JointTree& tree_ = draft_.tree;
+  const std::vector<JointName>& names_ = draft_.names;
+  Mapping& map_ = draft_.map;
+  NamePreferences prefer_{draft_};
   std::vector<HumanJoint> missing_;
-  Mapping map_;
 };
 
 // What the file says of its joints goes before their names.
