@@ -13,12 +13,12 @@
 namespace panache::test {
 
 inline TensorFile shipped_model(const std::string& name = "panache.safetensors") {
-  const std::string path = std::string(PANACHE_SOURCE_DIR) + "/models/" + name;
+  const std::string path = PANACHE_SOURCE_DIR "/models/" + name;
   return parse_safetensors(read_file(path).value(), path).value();
 }
 
 inline std::shared_ptr<const WalkerModel> shipped_walker() {
-  return WalkerModel::load(std::string(PANACHE_SOURCE_DIR) + "/models/walker.safetensors").value();
+  return WalkerModel::load(PANACHE_SOURCE_DIR "/models/walker.safetensors").value();
 }
 
 inline Clip neutral_walk(double seconds = 4, float speed = 1.4f) {

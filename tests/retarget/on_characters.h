@@ -19,7 +19,7 @@ inline Clip neutral_walk(double seconds = 4) {
   options.seconds = seconds;
   options.fps = 30;
   options.turn = 0.3f;
-  const std::string models = std::string(PANACHE_SOURCE_DIR) + "/models/";
+  const std::string models = PANACHE_SOURCE_DIR "/models/";
   return walk_clip(*WalkerModel::load(models + "walker.safetensors"), options);
 }
 

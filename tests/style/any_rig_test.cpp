@@ -20,7 +20,7 @@ namespace {
 using namespace test;
 namespace fs = std::filesystem;
 
-std::string models() { return std::string(PANACHE_SOURCE_DIR) + "/models/"; }
+std::string models() { return PANACHE_SOURCE_DIR "/models/"; }
 
 std::shared_ptr<const Model> shipped_model() {
   static const std::shared_ptr<const Model> model = *Model::load(models() + "panache.safetensors");

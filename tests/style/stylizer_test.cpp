@@ -398,7 +398,7 @@ TEST_F(StylizerTest, a_state_that_is_damaged_or_of_another_model_is_rejected) {
 }
 
 TEST_F(StylizerTest, a_character_takes_at_most_16_kilobytes_beside_model_and_rig) {
-  const auto model = Model::load(std::string(PANACHE_SOURCE_DIR) + "/models/panache.safetensors");
+  const auto model = Model::load(PANACHE_SOURCE_DIR "/models/panache.safetensors");
   const Rig rig = *Rig::create(clip_);
   const size_t before = test::allocated_bytes;
   const Stylizer character = *Stylizer::create(*model, rig);

@@ -119,8 +119,7 @@ TEST(FitWalkerData, the_shipped_walker_is_what_the_command_makes) {
   ASSERT_TRUE(rows.ok()) << rows.error().message;
   const Result<FittedWalker> fitted = fit_walker(*rows, "", "");
   ASSERT_TRUE(fitted.ok()) << fitted.error().message;
-  const auto shipped =
-      WalkerModel::load(std::string(PANACHE_SOURCE_DIR) + "/models/walker.safetensors");
+  const auto shipped = WalkerModel::load(PANACHE_SOURCE_DIR "/models/walker.safetensors");
   ASSERT_TRUE(shipped.ok()) << shipped.error().message;
   for (const auto& [ours, theirs] : {std::pair{&fitted->model.walk(), &(*shipped)->walk()},
                                      std::pair{&fitted->model.run(), &(*shipped)->run()}}) {

@@ -23,8 +23,7 @@ namespace {
 constexpr float kDegree = std::numbers::pi_v<float> / 180;
 
 std::shared_ptr<const WalkerModel> shipped() {
-  static const auto model =
-      WalkerModel::load(std::string(PANACHE_SOURCE_DIR) + "/models/walker.safetensors");
+  static const auto model = WalkerModel::load(PANACHE_SOURCE_DIR "/models/walker.safetensors");
   EXPECT_TRUE(model.ok()) << (model.ok() ? "" : model.error().message);
   return *model;
 }
