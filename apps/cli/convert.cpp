@@ -13,6 +13,7 @@
 #include "messages.h"
 #include "onto.h"
 #include "retarget_file.h"
+#include "rig/body_motions.h"
 #include "rig_options.h"
 #include "rig_report.h"
 #include "verbs.h"
@@ -49,8 +50,8 @@ Result<std::string> with_path(const std::string& path, Result<std::string> bytes
   return bytes;
 }
 
-Result<std::string> convert_whole(const MotionFile& motion, FileJob& file,
-                                  const ConvertVerb& verb) {
+Result<std::string> convert_whole(const MotionFile& motion, FileJob& file, const ConvertVerb& verb,
+                                  const RigOptions& options) {
   if (!verb.clip.empty()) {
     return Error{file.input + ": all its motions are written to " + file.output +
                  "; expected no --clip, which is for formats that hold one motion"};
@@ -58,6 +59,13 @@ Result<std::string> convert_whole(const MotionFile& motion, FileJob& file,
   const std::vector<std::string> names = motion.clip_names();
   for (size_t i = 0; i < names.size(); ++i) {
     account(file, names[i], motion.clip(static_cast<int>(i)));
+  }
+  for (const int clip : find_body_motions(motion, options).clips) {
+    const std::string& name = names[static_cast<size_t>(clip)];
+    const std::string place = name.empty() ? file.input : file.input + ": " + name;
+    // What is no humanoid has no steps.
+    const Result<Rig> rig = make_rig(motion.clip(clip), options, place);
+    if (rig) note_rate(motion.clip(clip), *rig, place, file.notes);
   }
   return whole_file(motion, file, verb.read);
 }
@@ -93,7 +101,7 @@ Result<void> convert_file(FileJob& file, const ConvertVerb& verb, const RigOptio
   Result<std::unique_ptr<MotionFile>> motion = open_input(file, verb.read);
   if (!motion) return motion.error();
   Result<std::string> bytes = keeps_format(extension_of(file.input), extension_of(file.output))
-                                  ? convert_whole(**motion, file, verb)
+                                  ? convert_whole(**motion, file, verb, options)
                                   : convert_motion(**motion, file, verb, options);
   if (!bytes) return bytes.error();
   return write_output(file, *bytes, verb.batch.force);

@@ -1,6 +1,7 @@
 // What the verbs do with files that are odd and can be used all the same: animations beside the
 // body, rates and counts that are wrong.
 
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "cli/program.h"
@@ -84,6 +85,39 @@ TEST_F(OddFiles, a_rate_is_given_and_written) {
     const Ran ran = run(verb);
     EXPECT_EQ(ran.exit, 0) << ran.err;
     EXPECT_NE(read("out.bvh").find("Frame Time: 0.020000000\n"), std::string::npos) << verb[0];
+  }
+}
+
+// Its text with another frame time.
+std::string with_frame_time(std::string text, const std::string& time) {
+  const size_t at = text.find("Frame Time:");
+  return text.replace(at, text.find('\n', at) - at, "Frame Time: " + time);
+}
+
+TEST_F(OddFiles, every_verb_takes_a_rate_and_doubts_one_that_no_walk_has) {
+  ASSERT_EQ(run({"walker", "-o", "steady.bvh", "--seconds", "6", "--force"}).exit, 0);
+  write("zero.bvh", with_frame_time(read("steady.bvh"), "0"));
+  const std::vector<std::vector<std::string>> verbs = {
+      {"info"},
+      {"convert", "-o", "out.bvh", "--force"},
+      {"convert", "-o", "out.glb", "--force"},
+      {"stylize", "--style", "old=1", "-o", "out.bvh", "--force"},
+      {"retarget", "--onto", "walk.bvh", "-o", "out.bvh", "--force"}};
+  for (const auto& [file, fps, found] :
+       {std::array{"fast.bvh", "240", "too fast"}, std::array{"slow.bvh", "12", "too slow"}}) {
+    write(file, with_frame_time(read("steady.bvh"), std::to_string(1 / std::stod(fps))));
+    for (std::vector<std::string> verb : verbs) {
+      verb.insert(verb.begin() + 1, file);
+      const Ran doubted = run(verb);
+      EXPECT_EQ(doubted.exit, 0) << verb[0] << doubted.err;
+      EXPECT_NE(doubted.err.find(found), std::string::npos) << verb[0] << doubted.err;
+      EXPECT_NE(doubted.err.find("give its rate (--fps N"), std::string::npos) << doubted.err;
+      verb[1] = "zero.bvh";
+      verb.insert(verb.end(), {"--fps", fps});
+      EXPECT_NE(run(verb).err.find(found), std::string::npos) << verb[0];
+      verb.back() = "60";
+      EXPECT_EQ(run(verb).err.find("give its rate"), std::string::npos) << verb[0];
+    }
   }
 }
 
