@@ -124,6 +124,17 @@ TEST_F(Acclaim, bones_turn_about_the_ends_of_those_above_in_axes_of_their_own) {
   EXPECT_LT(angle_between(clip.pose(1).rotations[2], hand.as<float>()), 1e-6);
 }
 
+// The format itself says none.
+TEST_F(Acclaim, a_rate_that_is_given_takes_the_place_of_120_frames_a_second) {
+  put("05.asf", kAsf);
+  for (const double fps : {60.0, 24.0, 7.5}) {
+    const auto file = parse_amc(kAmc, path("05_10.amc"), {.fps = fps});
+    ASSERT_TRUE(file.ok()) << file.error().message;
+    EXPECT_NEAR((*file)->clip().frame_time, 1 / fps, 1e-9);
+    EXPECT_EQ((*file)->clip().frames, 2);
+  }
+}
+
 TEST_F(Acclaim, a_body_comes_out_in_its_places_and_is_recognised) {
   const Clip walk = test::walking_clip(20);
   test::AcclaimMaker maker(walk);

@@ -134,6 +134,27 @@ TEST(GltfScale, a_mirroring_matrix_is_taken_apart) {
   expect_read_and_written(parts, "shear", 2 * kRounding);
 }
 
+// A matrix says what three scales say.
+TEST(GltfScale, a_joint_is_turned_by_a_matrix_as_by_scales) {
+  for (const Signs& signs : kSigns) {
+    GltfParts scaled = character();
+    test::rescale(scaled, "Armature", signs, 0.5);
+    Json& armature = scaled.json["nodes"][0];
+    armature.erase("rotation");
+    GltfParts matrix = scaled;
+    const Json scale = armature["scale"];
+    Json& same = matrix.json["nodes"][0];
+    same.erase("scale");
+    same["matrix"] = {scale[0], 0, 0, 0, 0, scale[1], 0, 0, 0, 0, scale[2], 0, 0, 0, 0, 1};
+    const auto a = must_read(scaled), b = must_read(matrix);
+    ASSERT_TRUE(a && b);
+    for (size_t j = 0; j < a->clip().joints(); ++j) {
+      EXPECT_LT(angle_between(a->clip().pose(7).rotations[j], b->clip().pose(7).rotations[j]), 1e-6)
+          << Json(signs) << " " << j;
+    }
+  }
+}
+
 TEST(GltfScale, uneven_scales_are_in_the_places) {
   for (const std::string name : {"Armature", "Hips", "Chest", "LeftArm"}) {
     for (const Signs& scale : {Signs{1, 1.25, 0.8}, Signs{2, 0.5, 1}, Signs{-1.5, 1, 0.75}}) {
