@@ -174,6 +174,30 @@ TEST_F(MotionFileApi, what_is_wrong_with_a_file_is_said) {
             PANACHE_BAD_ARGUMENT);
 }
 
+// Bytes of no character are replaced in what is shown, and stay in the file.
+TEST_F(MotionFileApi, names_and_messages_are_utf_8_whatever_the_bytes_of_a_file_are) {
+  std::string text = walk_bvh(kFrames);
+  text.replace(text.find("LeftToes"), 8, "Left\xfcToes");
+  text.replace(text.find("Frames: "), 9, "Frames: 9");
+  const File file = open(text, "w\xe4lk.bvh");
+  panache_joint joint;
+  panache_motion_file_get_joint(file.get(), 14, &joint);
+  EXPECT_STREQ(joint.name, "Left\xef\xbf\xbdToes");
+  EXPECT_EQ(write(file, {0, nullptr, clip_of(file), nullptr}), text);
+  panache_bytes* notes = nullptr;
+  ASSERT_EQ(panache_motion_file_get_notes(file.get(), &notes), PANACHE_OK);
+  const std::string note(static_cast<const char*>(panache_bytes_data(notes)),
+                         panache_bytes_size(notes));
+  panache_bytes_destroy(notes);
+  EXPECT_TRUE(note.starts_with("w\xef\xbf\xbdlk.bvh:")) << note;
+  panache_motion_file* none = nullptr;
+  EXPECT_EQ(panache_motion_file_create("HIERARCHY\nROOT \xff x", 17, "r\xf6t.bvh", &none),
+            PANACHE_BAD_FILE);
+  const std::string message = panache_last_error();
+  EXPECT_TRUE(message.starts_with("r\xef\xbf\xbdt.bvh:")) << message;
+  EXPECT_EQ(message.find_first_of("\xff\xf6"), std::string::npos) << message;
+}
+
 TEST_F(MotionFileApi, a_vrm_animation_takes_one_edit) {
   const std::string bytes = R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}],
     "nodes": [{"name": "hips"}], "extensions": {"VRMC_vrm_animation": {"specVersion": "1.0",
