@@ -59,8 +59,9 @@ std::vector<std::string> list_unpaired(const std::vector<ManifestRow>& rows) {
     const auto& [content, takes] = *at;
     const bool is_first = at == contents.begin() || std::prev(at)->first.first != content.first;
     if (is_first && !learns[content.first]) {
-      lines.push_back(place_of(takes.manifest) +
-                      "is left out: no content of it has both a neutral and a styled take");
+      lines.push_back(
+          place_of(takes.manifest) +
+          "the manifest is left out: no content of it has both a neutral and a styled take");
     }
     const std::string what =
         place_of(takes.manifest) + "content '" + content.second + "' is left out: ";

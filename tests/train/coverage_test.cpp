@@ -34,7 +34,8 @@ TEST(Coverage, contents_and_manifests_without_a_pair_are_named) {
   // A neutral take of another manifest is no help, and neither is one that is held out.
   EXPECT_EQ(list_unpaired({row("neutral", "walk"), row("old", "walk"), row("old", "walk", 1),
                            row("neutral", "walk", 1, true)}),
-            (Lines{"two.csv: is left out: no content of it has both a neutral and a styled take",
+            (Lines{"two.csv: the manifest is left out: no content of it has both a neutral and a "
+                   "styled take",
                    "two.csv: content 'walk' is left out: it has no neutral take (1 take of old)"}));
 }
 
