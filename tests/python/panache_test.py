@@ -322,7 +322,27 @@ def test_mistakes_with_types_and_numbers_are_sentences_too(model, walk, walk_fil
     for pairs in ([walk], [(walk,)], [(walk, walk, walk)]):
         rejection(panache.learn, model, pairs, 'mine')
     assert rejection(panache.learn, model, [(walk, walk)], 5) == 'name: expected a string, found int'
+    rejection(panache.learn, model, 5, 'mine')
+    assert panache.learn(model, iter([(walk, walk)]), 'mine').model.styles == [*model.styles, 'mine']
+    file_skeleton = panache.MotionFile(walk_file).skeleton
+    assert rejection(file_skeleton, 'walk') == "clip: expected a whole number, found 'walk'"
+    for styles in (['old'], 'old', 1, None):
+        assert rejection(panache.stylize, model, walk, styles).startswith(
+            'styles: expected a dict of names and numbers, found')
+    rejection(panache.stylize_file, walk_file, '/nowhere/o.bvh', 'old')
+    rejection(panache.stylize, model, walk, {'old': 1}, shape=['legs'])
+    for option in ('max_speed', 'ease_seconds', 'hold_feet', 'timing'):
+        text = rejection(panache.stylize, model, walk, {'old': 1}, **{option: 'x'})
+        assert text.startswith(f'{option}: expected'), text
+    rejection(panache.Character, model, walk.skeleton, max_lag=[])
+    for joint in ('LeftHand', 1.5, np.nan):
+        assert rejection(file_skeleton, human_joints={'leftHand': joint}) == \
+            f"leftHand: expected a whole number, found '{joint}'"
+    assert rejection(character.step, 'soon') == "seconds: expected a number, found 'soon'"
+    character.step(np.float32(0.1))
     file = panache.MotionFile(walk_file)
+    assert rejection(file.clip, 'jump') == \
+        f"{walk_file}: holds one motion, which has no name; expected 0, found 'jump'"
     for which in (-1, 1, -2):
         assert rejection(file.clip, which) == \
             f'{walk_file}: there is no motion {which}; it has 1, from 0'

@@ -1,7 +1,9 @@
 """The C interface (include/panache/panache.h) by ctypes."""
 
 import ctypes
+import operator
 import pathlib
+from collections.abc import Mapping
 from ctypes import (POINTER, Structure, byref, c_char_p, c_double, c_float, c_int32, c_size_t,
                     c_uint32, c_void_p, sizeof)
 
@@ -203,6 +205,14 @@ def number(value, what: str) -> float:
         raise PanacheError(f'{what}: expected a number, found {str(value)[:40]!r}') from None
 
 
+def whole(value, what: str) -> int:
+    """A place or a count."""
+    try:
+        return operator.index(value)
+    except TypeError:
+        raise PanacheError(f'{what}: expected a whole number, found {str(value)[:40]!r}') from None
+
+
 def check(status: int) -> None:
     """Raises what the library says of a failure."""
     if status != 0:
@@ -260,8 +270,27 @@ def fixed(shape) -> np.ndarray:
     return np.frombuffer(bytearray(size), np.float32).reshape(shape)
 
 
+def mapping(value, what: str):
+    """Names with numbers, or an error."""
+    if not isinstance(value, Mapping):
+        raise PanacheError(f'{what}: expected a dict of names and numbers, found '
+                           f'{type(value).__name__}')
+    return value
+
+
+def flag(value, what: str) -> int:
+    """True or False, or a count."""
+    if not isinstance(value, (int, np.integer, np.bool_)):
+        raise PanacheError(f'{what}: expected True or False, found {str(value)[:40]!r}')
+    return int(value)
+
+
 def sized(struct, **fields):
-    """A struct that begins with its size."""
+    """A struct that begins with its size; of fields that are numbers any type will do."""
+    takes = {c_float: number, c_double: number, c_int32: flag}
+    for name, kind in struct._fields_:
+        if name in fields and kind in takes:
+            fields[name] = takes[kind](fields[name], name)
     return struct(struct_size=sizeof(struct), **fields)
 
 
@@ -270,7 +299,7 @@ SHAPE = tuple(name for name, _ in Shape._fields_[1:])
 
 def shape_of(amounts) -> Shape:
     """A panache_shape: 1 where `amounts` names nothing else."""
-    for name in amounts:
+    for name in mapping(amounts, 'shape'):
         if name not in SHAPE:
             raise PanacheError(f'there is no amount {name!r} of a shape; expected one of '
                                f'{", ".join(SHAPE)}')

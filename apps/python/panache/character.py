@@ -108,7 +108,10 @@ class Character:
         """Styles the pose in `input_rotations` and `input_translations` into `rotations` and
         `translations`; `seconds` have gone by since the last step. Cannot fail: numbers that are
         not finite are replaced by the last good pose."""
-        self._step(self._pointer, self._in, seconds, self._out)
+        try:
+            self._step(self._pointer, self._in, seconds, self._out)
+        except ctypes.ArgumentError:
+            self._step(self._pointer, self._in, number(seconds, 'seconds'), self._out)
 
     def stylize(self, rotations: np.ndarray, translations: np.ndarray,
                 seconds: float) -> Tuple[np.ndarray, np.ndarray]:

@@ -7,7 +7,7 @@ from typing import Dict, Mapping, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from . import _library as c
-from ._library import Handle, PanacheError, floats, lib, number, sized, utf8
+from ._library import Handle, PanacheError, floats, lib, mapping, number, sized, utf8
 from .model import Model
 
 HUMAN_JOINTS = ('hips', 'spine', 'chest', 'neck', 'head') + tuple(
@@ -81,7 +81,8 @@ class Skeleton:
 
 def _options(metres_per_unit=0.0, up_axis=None, human_joints=None):
     """The struct, and what it points to."""
-    human = [c.HumanJoint(utf8(name, 'human joint'), joint) for name, joint in (human_joints or {}).items()]
+    human = [c.HumanJoint(utf8(name, 'human joint'), c.whole(joint, name))
+             for name, joint in mapping(human_joints or {}, 'human_joints').items()]
     array = (c.HumanJoint * max(len(human), 1))(*human)
     options = sized(c.SkeletonOptions, metres_per_unit=metres_per_unit,
                     up_axis=utf8(up_axis, 'up_axis') if up_axis else None, human_joint_count=len(human),
@@ -173,6 +174,7 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *, timing:
 
     With all strengths at 0 the result is the clip bit for bit (models of recipe panache).
     """
+    mapping(styles, 'styles')
     tracks = (c.Track * max(len(styles), 1))()
     for track, (name, strength) in zip(tracks, styles.items()):
         keys = _keys(name, strength)
@@ -180,7 +182,7 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *, timing:
         track.keys = (c.Key * max(len(keys), 1))(*keys)
     options = sized(c.StylizeOptions, ease_seconds=ease_seconds,
                     smoothing_seconds=smoothing_seconds, hold_feet=hold_feet,
-                    style_root=style_root, style_timing=timing,
+                    style_root=style_root, style_timing=c.flag(timing, 'timing'),
                     shape=ctypes.pointer(c.shape_of(shape or {})), max_speed=max_speed)
     handle = Handle('styled_clip', lib.stylize_clip, model._handle.pointer, clip._struct(), tracks,
                     len(styles), options)

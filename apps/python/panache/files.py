@@ -12,7 +12,7 @@ import numpy as np
 
 from . import _library as c
 from ._files import check_free, read_bytes, write
-from ._library import Handle, PanacheError, check, lib, number, take_bytes, utf8
+from ._library import Handle, PanacheError, check, lib, mapping, number, take_bytes, utf8
 from .clips import Clip, Skeleton, Strength, StyledClip, _options, retarget, stylize
 from .model import Model, model_of
 
@@ -84,8 +84,8 @@ class MotionFile:
         """The skeleton that a motion shows; with clip=-1 that of the character at rest, to
         `retarget()` motion on. Options as those of `Skeleton`."""
         options, kept = _options(metres_per_unit, up_axis, human_joints)
-        handle = Handle('skeleton', lib.motion_file_create_skeleton, self._handle.pointer, clip,
-                        options)
+        handle = Handle('skeleton', lib.motion_file_create_skeleton, self._handle.pointer,
+                        c.whole(clip, 'clip'), options)
         return Skeleton.__new__(Skeleton)._adopt(handle, self.joint_names, self.parents)
 
     def clip(self, which: Union[int, str] = 0, skeleton: Optional[Skeleton] = None) -> Clip:
@@ -102,6 +102,9 @@ class MotionFile:
         if not self.clip_names:
             raise PanacheError(f'{self.path}: holds a skeleton and no motion; expected a file with '
                                'an animation')
+        if isinstance(which, str) and self.clip_names == [''] and which:
+            raise PanacheError(f'{self.path}: holds one motion, which has no name; expected 0, '
+                               f'found {which!r}')
         if isinstance(which, str) and which not in self.clip_names:
             raise PanacheError(f'{self.path}: holds no motion {which!r}; expected one of '
                                f'{", ".join(map(repr, self.clip_names))}')
@@ -211,7 +214,8 @@ def stylize_file(source: Path, output: Path, styles: Mapping[str, Strength],
     motions = file._body_motions()
     file._check_output(output, force)
     model = model_of(model)
-    text = ', '.join(f'{name} {_amount(strength)}' for name, strength in styles.items())
+    text = ', '.join(f'{name} {_amount(strength)}'
+                     for name, strength in mapping(styles, 'styles').items())
     edits = [Edit(stylize(model, file.clip(i), styles, **options), i,
                   f'{_title(file.clip_names[i], file.path)} ({text})')
              for i in motions]

@@ -4,7 +4,7 @@ import ctypes
 import os
 from ctypes import c_size_t
 from dataclasses import dataclass
-from typing import List, Optional, Sequence, Tuple, Union
+from typing import Iterable, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -66,6 +66,7 @@ def learn(model: Model, pairs: Sequence[Tuple[ClipOrPath, ClipOrPath]], name: st
     """Learns the style `name` from pairs of one action, (neutral, styled), by the same skeleton: 2
     to 3 seconds of a walk, or the whole of a gesture. Clips, or paths of files. The model stays as
     it is; a style of this name is replaced only with `replace`."""
+    pairs = list(pairs) if isinstance(pairs, Iterable) else [pairs]
     for pair in pairs:
         if not isinstance(pair, (tuple, list)) or len(pair) != 2:
             raise PanacheError('pairs: expected (neutral, styled) each, of clips or paths')
