@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
+#include "base/utf8.h"
 #include "clip/unique_name.h"
 
 namespace panache::cli {
@@ -86,21 +85,12 @@ const FbxNode* model_template(const FbxDocument& document) {
   return nullptr;
 }
 
-// Bytes that are no UTF-8, as programs of one country wrote them, cannot be in a GLB.
-std::string name_of(std::string_view text) {
-  const size_t colons = text.find("::");
-  if (colons != text.npos) text.remove_prefix(colons + 2);
-  using Json = nlohmann::json;
-  const std::string name(text.substr(0, kLongestName));
-  return Json::parse(Json(name).dump(-1, ' ', false, Json::error_handler_t::replace));
-}
-
 Result<FbxModel> read_model(const FbxDocument& document, const FbxNode& node,
                             const FbxNode* fallback) {
   FbxModel out;
   // Identified by a number (FBX 7) or by its name (FBX 6).
   out.id = node.value(0);
-  out.name = name_of(node.value(node.values.size() > 2 ? 1 : 0));
+  out.name = fbx_name(fbx_without_class(node.value(node.values.size() > 2 ? 1 : 0)));
   Properties properties(document, node, fallback);
   int is_active = 0, order = 0;
   Vec3d before, after;
@@ -136,6 +126,13 @@ Trs FbxModel::trs(const FbxPlace& at) const {
   return {at.translation + rotation_offset + rotation_pivot + rotate(rotation, below), rotation,
           at.scale};
 }
+
+std::string_view fbx_without_class(std::string_view text) {
+  const size_t colons = text.find("::");
+  return colons == text.npos ? text : text.substr(colons + 2);
+}
+
+std::string fbx_name(std::string_view text) { return to_utf8(text.substr(0, kLongestName)); }
 
 std::vector<std::string_view> fbx_property(const FbxNode& object, std::string_view name) {
   for (const auto& [list, item, skipped] :

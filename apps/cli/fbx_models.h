@@ -58,6 +58,12 @@ Result<FbxSettings> fbx_settings(const FbxDocument& document);
 // 10,000 models, more than 500 below each other, and those that are each other's parents.
 Result<std::vector<FbxModel>> fbx_models(const FbxDocument& document);
 
+// "Hips" of "Model::Hips".
+std::string_view fbx_without_class(std::string_view text);
+// `text` as a GLB can hold it: 200 bytes of it at most, and U+FFFD for each that is no UTF-8, as
+// programs of one country wrote them.
+std::string fbx_name(std::string_view text);
+
 // The values of a property of an object, of FBX 6 (`Property:`) or 7 (`P:`); null where it has
 // none. Only those of the property itself, without its name, types and flags.
 std::vector<std::string_view> fbx_property(const FbxNode& object, std::string_view name);

@@ -75,7 +75,7 @@ class TakesReader {
   // FBX 6: a channel has channels, down to those of a single number.
   Result<void> read_take(const FbxNode& node) {
     FbxTake& take = takes_.emplace_back();
-    take.name = node.value(0);
+    take.name = fbx_name(node.value(0));
     for (const FbxNode& model : node.children) {
       const auto place = places_.find(model.value(0));
       if (model.name != "Model" || place == places_.end()) continue;
@@ -152,9 +152,7 @@ class TakesReader {
     }
     for (const FbxNode* stack : stacks) {
       FbxTake& take = takes_.emplace_back();
-      take.name = stack->value(1);
-      const size_t colons = take.name.find("::");
-      if (colons != std::string::npos) take.name.erase(0, colons + 2);
+      take.name = fbx_name(fbx_without_class(stack->value(1)));
       for (const FbxConnection& layer : below[stack->value(0)]) {
         for (const FbxConnection& node : below[layer.child]) {
           for (const FbxConnection& on : above[node.child]) {
@@ -236,6 +234,14 @@ class TakesReader {
   std::vector<FbxTake> takes_;
 };
 
+// Whether any number is another at the later time, no key lying between.
+bool moves_between(const FbxCurves& curves, int64_t earlier, int64_t later) {
+  return std::ranges::any_of(curves, [&](const auto& axes) {
+    return std::ranges::any_of(
+        axes, [&](const FbxCurve& curve) { return curve.at(earlier, 0) != curve.at(later, 0); });
+  });
+}
+
 double& part(FbxPlace& place, size_t what, size_t axis) {
   Vec3d& vector = what == 0 ? place.translation : what == 1 ? place.rotation : place.scale;
   return axis == 0 ? vector.x : axis == 1 ? vector.y : vector.z;
@@ -272,11 +278,7 @@ std::vector<int64_t> fbx_pose_times(const FbxTake& take, const FbxCurves& curves
   std::vector<int64_t> out;
   const double frame = kFbxSecond / rate;
   for (const int64_t time : keys) {
-    const bool turns =
-        !out.empty() && std::any_of(curves[1].begin(), curves[1].end(), [&](const FbxCurve& curve) {
-          return curve.at(out.back(), 0) != curve.at(time, 0);
-        });
-    if (turns) {
+    if (!out.empty() && moves_between(curves, out.back(), time)) {
       const int64_t last = out.back();
       // Not where a frame and a key are meant to be one.
       const auto begin = static_cast<double>(last - take.begin) / frame;

@@ -43,7 +43,7 @@ Result<std::vector<FbxTake>> fbx_takes(const FbxDocument& document,
                                        const std::vector<FbxModel>& models);
 
 // When a pose of a model is to be taken so that straight lines between the poses say what its
-// curves do: at all keys, and at every frame between keys where angles change.
+// curves do in the file's frames: at all keys, and at every frame between keys that differ.
 std::vector<int64_t> fbx_pose_times(const FbxTake& take, const FbxCurves& curves, double rate);
 
 // Where the model is then; `rest` has what no curve changes.

@@ -6,6 +6,7 @@
 #include <system_error>
 #include <vector>
 
+#include "base/utf8.h"
 #include "clip/gltf_json.h"
 #include "clip/gltf_uri.h"
 
@@ -102,7 +103,8 @@ std::string with_pictures(std::string glb, const std::string& path) {
   const size_t begin = kHeader + kChunkHeader, length = number_at(glb, kHeader);
   if (length > glb.size() - begin) return glb;
   GltfJson json;  // What is wrong with it, its reader says.
-  if (!GltfChecker(path).parse({glb.data() + begin, length}, json)) return glb;
+  // Assimp writes names of any bytes.
+  if (!GltfChecker(path).parse(to_utf8({glb.data() + begin, length}), json)) return glb;
   drop_specular_glossiness(json);
   GltfJson no_images = GltfJson::array();
   for (GltfJson& image : json.contains("images") ? json["images"] : no_images) {

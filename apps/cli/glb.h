@@ -9,7 +9,8 @@ namespace panache::cli {
 
 // `glb` with every picture's address such that the file at `path` can have it: below that file's
 // folder, or by its bare name beside it; a white pixel in the place of those that are nowhere.
-// Without KHR_materials_pbrSpecularGlossiness, an extension that is no longer supported.
+// Bytes that are no UTF-8 become U+FFFD, which JSON wants. Without
+// KHR_materials_pbrSpecularGlossiness, an extension that is no longer supported.
 std::string with_pictures(std::string glb, const std::string& path);
 
 // The GLB of a .gltf that stands alone: what it holds in data URIs goes into the binary chunk.

@@ -1,7 +1,9 @@
 // FBX that Assimp does not read: version 6, and text with what it rejects.
 
+#include "cli/binary_fbx6.h"
 #include "cli/make_fbx.h"
 #include "cli/make_fbx6.h"
+#include "cli/make_fbx6_curves.h"
 #include "cli/program.h"
 #include "cli/same_positions.h"
 
@@ -51,8 +53,142 @@ TEST_F(FbxText, version_6_keeps_places_in_every_rotation_order_and_unit) {
   const Clip walk = walking_clip(20);
   for (int order = 0; order < 6; ++order) {
     SCOPED_TRACE(order);
-    expect_is(walk, Fbx6Maker(walk, order, order == 3 ? 2.54 : 1).make());
+    const std::string text = Fbx6Maker(walk, order, order == 3 ? 2.54 : 1).make();
+    expect_is(walk, text);
+    expect_is(walk, to_binary_fbx6(text));
   }
+}
+
+// Every joint below the root turns, some grow around a pivot, some hold their keys, and no two axes
+// have their keys at the same times.
+const std::vector<CurveModel> kChain = {
+    {"root", -1, {{"Lcl Translation", {0, 90, 0}}}},
+    {"held", 0, {{"Lcl Translation", {10, 20, 0}}, {"Lcl Rotation", {0, 10, 0}}}},
+    {"grown",
+     1,
+     {{"Lcl Translation", {0, 30, 5}},
+      {"Lcl Rotation", {5, 0, 0}},
+      {"RotationOffset", {1, -2, 0.5}},
+      {"RotationPivot", {2, 3, -4}},
+      {"ScalingOffset", {-1, 2, 3}},
+      {"ScalingPivot", {4, -3, 6}},
+      {"Lcl Scaling", {1.5, 1.5, 1.5}}}},
+    {"turned", 2, {{"Lcl Translation", {0, 25, 0}}}},
+    {"still", 3, {{"Lcl Translation", {3, 12, -4}}, {"Lcl Rotation", {20, 30, 40}}}},
+    {"uneven",
+     4,
+     {{"Lcl Translation", {8, 6, 4}}, {"ScalingPivot", {1, 2, 3}}, {"Lcl Scaling", {2, 0.5, 1}}}}};
+const std::vector<CurveTake> kChainTakes = {
+    {"First",
+     {{0, {{{{{{0, 0}, {24, 60}}, {{6, 90}, {13, 95}}, {}}}, {}, {}}}},
+      {1,
+       {{{{{{0, 10, true}, {7, 14, true}, {15, 10}}, {{4, 20, true}, {21, 26}}, {}}},
+         {{{{0, 0, true}, {11, 40}}, {}, {{3, 0, true}, {9, 25, true}, {19, -20}}}},
+         {}}}},
+      {2,
+       {{{},
+         {{{{2, 5}, {14, 65}}, {}, {}}},
+         {{{{0, 1.5}, {24, 0.5}}, {{0, 1.5}, {24, 0.5}}, {{0, 1.5}, {24, 0.5}}}}}}},
+      {3, {{{}, {{{{1, 0}, {20, 90}}, {{5, -30}, {17, 30}}, {{0, 0}, {12, 50}, {24, 0}}}}, {}}}},
+      {5, {{{}, {}, {{{{0, 2, true}, {10, 3}}, {}, {{8, 1}, {16, 2}}}}}}}}},
+    {"No keys", {{1, {}}}},
+    {"Places alone", {{0, {{{{{{3, 0}, {13, 20}, {22, 0}}, {}, {}}}, {}, {}}}}}},
+};
+
+TEST_F(FbxText, keys_at_any_times_and_scales_around_pivots_are_as_the_formula_says) {
+  const std::string text = format_fbx6(kChain, kChainTakes);
+  for (const std::string& bytes : {text, to_binary_fbx6(text)}) {
+    write("in.fbx", bytes);
+    ASSERT_EQ(run({"convert", "in.fbx", "--force", "-o", "out.glb"}).exit, 0);
+    const auto glb = read_motion(path("out.glb"));
+    ASSERT_TRUE(glb.ok()) << glb.error().message;
+    ASSERT_EQ((*glb)->clip_names(), (std::vector<std::string>{"First", "Places alone"}));
+    for (const size_t t : {0, 2}) {
+      const CurveTake& take = kChainTakes[t];
+      const Ran ran = run({"convert", "in.fbx", "--clip", take.name, "--force", "-o", "out.bvh"});
+      ASSERT_EQ(ran.exit, 0) << ran.err;
+      const auto bvh = read_motion(path("out.bvh"));
+      ASSERT_TRUE(bvh.ok()) << bvh.error().message;
+      const int first = t == 0 ? 0 : 3, frames = t == 0 ? 25 : 20;
+      Clip expected;
+      for (const CurveModel& model : kChain) {
+        expected.skeleton.joints.emplace_back().name = model.name;
+      }
+      expected.frame_time = 1 / kCurveRate;
+      expected.resize(frames);
+      for (int f = 0; f < frames; ++f) {
+        for (size_t m = 0; m < kChain.size(); ++m) {
+          expected.pose(f).rotations[m] = {};
+          expected.pose(f).translations[m] =
+              place_by_formula(kChain, take, m, first + f).as<float>();
+        }
+      }
+      expect_same_positions(expected, (*glb)->clip(t == 0 ? 0 : 1), kPlaceTolerance);
+      expect_same_positions(expected, (*bvh)->clip(), kPlaceTolerance);
+    }
+  }
+}
+
+TEST_F(FbxText, names_may_have_any_bytes) {
+  std::vector<CurveModel> models = kChain;
+  models[0].name = "The root";
+  models[1].name =
+      "H\xc3\xbc"
+      "fte \xe8\x85\xb0";
+  models[2].name = "Fu\xdf";  // Latin-1.
+  models[3].name = "a:b{c},;d";
+  models[4].name = "rig::head";
+  std::vector<CurveTake> takes = kChainTakes;
+  takes[0].name =
+      "Gehen, gr\xf6\xdf"
+      "er";
+  takes[2].name = "Caf\xc3\xa9: 2";
+  const std::string text = format_fbx6(models, takes);
+  for (const std::string& bytes : {text, to_binary_fbx6(text)}) {
+    write("in.fbx", bytes);
+    const Ran ran = run({"convert", "in.fbx", "--force", "-o", "out.glb"});
+    ASSERT_EQ(ran.exit, 0) << ran.err;
+    const auto file = read_motion(path("out.glb"));
+    ASSERT_TRUE(file.ok()) << file.error().message;
+    EXPECT_EQ((*file)->clip_names(), (std::vector<std::string>{"Gehen, gr\ufffd\ufffd"
+                                                               "er",
+                                                               "Caf\u00e9: 2"}));
+    const std::vector<std::string> expected = {"The root", models[1].name, "Fu\ufffd", "a:b{c},;d",
+                                               "rig::head"};
+    for (const std::string& name : expected) {
+      const auto& joints = (*file)->clip().skeleton.joints;
+      EXPECT_TRUE(std::ranges::any_of(joints, [&](const Joint& j) { return j.name == name; }))
+          << name;
+    }
+  }
+}
+
+TEST_F(FbxText, Assimp_reads_names_of_any_bytes_too) {
+  FbxOptions options;
+  options.motion =
+      "gr\xf6\xdf"
+      "er";
+  const std::string text =
+      changed(format_fbx(walking_clip(5), options), "Model::head", "Model::h\xe9");
+  write("in.fbx", text);
+  const Ran ran = run({"convert", "in.fbx", "--force", "-o", "out.glb"});
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const auto file = read_motion(path("out.glb"));
+  ASSERT_TRUE(file.ok()) << file.error().message;
+  EXPECT_EQ((*file)->clip_names(), (std::vector<std::string>{"gr\ufffd\ufffd"
+                                                             "er"}));
+}
+
+TEST_F(FbxText, a_damaged_binary_file_is_rejected) {
+  const std::string good = to_binary_fbx6(Fbx6Maker(walking_clip(5), 0, 1).make());
+  const size_t nodes = good.size() - 13 - 41;  // Without the empty node and what is behind it.
+  for (size_t size = 100; size < nodes; size += nodes / 23) {
+    EXPECT_TRUE(rejection(good.substr(0, size)).starts_with("panache: in.fbx:")) << size;
+  }
+  std::string longer = good;
+  longer[27 + 3] = 1;  // The end of the first node.
+  EXPECT_NE(rejection(longer).find("expected binary FBX, found something else at byte"),
+            std::string::npos);
 }
 
 TEST_F(FbxText, version_7_text_that_Assimp_rejects_keeps_places) {
