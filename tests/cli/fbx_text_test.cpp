@@ -73,11 +73,13 @@ const std::vector<CurveModel> kChain = {
       {"ScalingOffset", {-1, 2, 3}},
       {"ScalingPivot", {4, -3, 6}},
       {"Lcl Scaling", {1.5, 1.5, 1.5}}}},
-    {"turned", 2, {{"Lcl Translation", {0, 25, 0}}}},
+    {"turned", 2, {{"Lcl Translation", {0, 25, 0}}, {"Lcl Scaling", {1, -1, 1}}}},
     {"still", 3, {{"Lcl Translation", {3, 12, -4}}, {"Lcl Rotation", {20, 30, 40}}}},
     {"uneven",
      4,
-     {{"Lcl Translation", {8, 6, 4}}, {"ScalingPivot", {1, 2, 3}}, {"Lcl Scaling", {2, 0.5, 1}}}}};
+     {{"Lcl Translation", {8, 6, 4}}, {"ScalingPivot", {1, 2, 3}}, {"Lcl Scaling", {2, 0.5, 1}}}},
+    {"below it", 5, {{"Lcl Translation", {8, 6, 4}}, {"RotationPivot", {2, -1, 1}}}},
+    {"leaf", 6, {{"Lcl Translation", {4, -2, 7}}}}};
 const std::vector<CurveTake> kChainTakes = {
     {"First",
      {{0, {{{{{{0, 0}, {24, 60}}, {{6, 90}, {13, 95}}, {}}}, {}, {}}}},
@@ -90,7 +92,9 @@ const std::vector<CurveTake> kChainTakes = {
          {{{{2, 5}, {14, 65}}, {}, {}}},
          {{{{0, 1.5}, {24, 0.5}}, {{0, 1.5}, {24, 0.5}}, {{0, 1.5}, {24, 0.5}}}}}}},
       {3, {{{}, {{{{1, 0}, {20, 90}}, {{5, -30}, {17, 30}}, {{0, 0}, {12, 50}, {24, 0}}}}, {}}}},
-      {5, {{{}, {}, {{{{0, 2, true}, {10, 3}}, {}, {{8, 1}, {16, 2}}}}}}}}},
+      {5, {{{}, {}, {{{{0, 2, true}, {10, 3}}, {}, {{8, 1}, {16, 2}}}}}}},
+      {6, {{{}, {{{{3, 0}, {13, 40}}, {}, {{0, 0}, {20, 90}}}}, {}}}},
+      {7, {{{}, {{{}, {{4, 0}, {5, 1}}, {}}}, {}}}}}},
     {"No keys", {{1, {}}}},
     {"Places alone", {{0, {{{{{{3, 0}, {13, 20}, {22, 0}}, {}, {}}}, {}, {}}}}}},
 };

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,11 +14,13 @@
 namespace panache::test {
 
 struct FbxOptions {
-  double centimetres = 1;           // Per unit of the file; the clip's numbers are metres.
-  bool z_up = false;                // The axes of Max and of Blender.
-  Quat pre_rotation;                // Of every joint but the roots, as Maya's joint orients.
-  double first_key = 0;             // Seconds.
-  std::string motion = "Take 001";  // Its name; empty for none.
+  double centimetres = 1;               // Per unit of the file; the clip's numbers are metres.
+  bool z_up = false;                    // The axes of Max and of Blender.
+  Quat pre_rotation;                    // Of every joint but the roots, as Maya's joint orients.
+  double first_key = 0;                 // Seconds.
+  std::string motion = "Take 001";      // Its name; empty for none.
+  std::map<std::string, Vec3d> scales;  // Of the joints so called, as they are in the clip's axes.
+  bool has_scale_keys = false;          // Whether they stand in the motion, too.
 };
 
 class FbxMaker {
@@ -42,7 +45,7 @@ class FbxMaker {
 
   static int64_t joint_id(size_t joint) { return 1000 + static_cast<int64_t>(joint); }
   static int64_t node_id(size_t joint, int what) {
-    return 100'000 + 10 * static_cast<int64_t>(joint) + what;
+    return 100'000 + 20 * static_cast<int64_t>(joint) + what;
   }
   static std::string vector(Vec3d v) {
     return std::to_string(v.x) + "," + std::to_string(v.y) + "," + std::to_string(v.z);
@@ -107,6 +110,9 @@ class FbxMaker {
     add_number("PreRotation", "Vector3D", vector(pre_angles(j)));
     add_number("Lcl Translation", "Lcl Translation", vector(place(j, joint.offset)));
     add_number("Lcl Rotation", "Lcl Rotation", vector(angles(j, joint.rest, near)));
+    if (const auto scale = options_.scales.find(joint.name); scale != options_.scales.end()) {
+      add_number("Lcl Scaling", "Lcl Scaling", vector(scale->second));
+    }
     text_ += "\t}\n\t}\n";
     const auto parent = joint.parent < 0 ? 0 : joint_id(static_cast<size_t>(joint.parent));
     connect("OO", joint_id(j), parent);
@@ -130,6 +136,9 @@ class FbxMaker {
       }
       if (is_root(j)) add_curves(j, 0, "T", "Lcl Translation", places);
       add_curves(j, 5, "R", "Lcl Rotation", turns);
+      const auto scale = options_.scales.find(clip_.skeleton.joints[j].name);
+      if (!options_.has_scale_keys || scale == options_.scales.end()) continue;
+      add_curves(j, 10, "S", "Lcl Scaling", std::vector<Vec3d>(places.size(), scale->second));
     }
   }
 

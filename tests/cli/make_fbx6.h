@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <string>
 
 #include "clip/clip.h"
@@ -14,8 +15,10 @@ namespace panache::test {
 class Fbx6Maker {
  public:
   // `order` is the file's number of a rotation order, 0 to 5, of all joints but the roots; their
-  // own is 0, as they are not "active". `unit` is centimetres.
-  Fbx6Maker(const Clip& clip, int order, double unit) : clip_(clip), order_(order), unit_(unit) {}
+  // own is 0, as they are not "active". `unit` is centimetres. `scales` are those of the joints so
+  // called, at rest and in keys, as they are in the clip's axes.
+  Fbx6Maker(const Clip& clip, int order, double unit, std::map<std::string, Vec3d> scales = {})
+      : clip_(clip), order_(order), unit_(unit), scales_(std::move(scales)) {}
 
   std::string make() {
     text_ =
@@ -59,6 +62,10 @@ class Fbx6Maker {
     const double k = 1 + static_cast<double>(j % 3);
     return {a * k, b * k, c * k};
   }
+  Vec3d scale(size_t j) const {
+    const auto found = scales_.find(clip_.skeleton.joints[j].name);
+    return found == scales_.end() ? Vec3d{1, 1, 1} : found->second;
+  }
   static Vec3d pre(size_t j) { return own(j, 10, -20, 15); }
   static Vec3d post(size_t j) { return own(j, -5, 12, 25); }
   static Vec3d pivot(size_t j) { return own(j, 1, -2, 3); }
@@ -91,7 +98,7 @@ class Fbx6Maker {
     property("RotationPivot", "Vector3D", text(pivot(j)));
     property("Lcl Translation", "Lcl Translation", text(place(j, joint.offset, joint.rest)));
     property("Lcl Rotation", "Lcl Rotation", text(angles(j, joint.rest, near)));
-    property("Lcl Scaling", "Lcl Scaling", "1,1,1");
+    property("Lcl Scaling", "Lcl Scaling", text(scale(j)));
     text_ += "\t\t}\n\t}\n";
     const std::string parent =
         is_root(j) ? "Scene" : clip_.skeleton.joints[static_cast<size_t>(joint.parent)].name;
@@ -110,6 +117,7 @@ class Fbx6Maker {
     }
     add_channel("T", places);
     add_channel("R", turns);
+    if (!scales_.empty()) add_channel("S", std::vector<Vec3d>(turns.size(), scale(j)));
     text_ += "\t\t\t}\n\t\t}\n";
   }
 
@@ -140,6 +148,7 @@ class Fbx6Maker {
   const Clip& clip_;
   const int order_;
   const double unit_;
+  const std::map<std::string, Vec3d> scales_;
   size_t j_ = 0;
   std::string text_, connections_;
 };
