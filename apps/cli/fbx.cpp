@@ -22,6 +22,9 @@ namespace {
 
 constexpr size_t kLargestFile = size_t{1} << 30;  // Bytes.
 constexpr int kLongestRead = 600;                 // Seconds.
+constexpr const char* kMeshesLeftOut =
+    "its meshes are left out, as only skeletons and motions are read of FBX 6 and of text that "
+    "Assimp rejects; Autodesk's FBX Converter makes FBX 7 of it, which keeps them";
 
 bool is_fbx(const std::string& bytes) {
   // Text files begin with a comment or with their first section.
@@ -41,13 +44,13 @@ Result<std::string> read_fbx(const std::string& path) {
 }
 
 // What Assimp reads of a file: FBX 7.1 and later, binary or text.
-Result<std::unique_ptr<aiScene>> read_by_assimp(const std::string& bytes, const std::string& path) {
+Result<FbxScene> read_by_assimp(const std::string& bytes, const std::string& path) {
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_CAMERAS, false);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_LIGHTS, false);
   if (importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "fbx")) {
-    return std::unique_ptr<aiScene>(importer.GetOrphanedScene());
+    return FbxScene{std::unique_ptr<aiScene>(importer.GetOrphanedScene())};
   }
   return Error{path + ": cannot be read as FBX: " + importer.GetErrorString()};
 }
@@ -61,7 +64,7 @@ bool is_old_text(std::string_view bytes) {
 }
 
 // FBX 6, and text that Assimp rejects, have only a skeleton and motions.
-Result<std::unique_ptr<aiScene>> read_scene(const std::string& bytes, const std::string& path) {
+Result<FbxScene> read_scene(const std::string& bytes, const std::string& path) {
   const int version = binary_fbx_version(bytes);
   if (version > 0 && version < 7000) {
     Result<std::string> text = fbx_text_of(bytes, path);
@@ -69,17 +72,18 @@ Result<std::unique_ptr<aiScene>> read_scene(const std::string& bytes, const std:
     return fbx_text_scene(*text, path + " (as text)");
   }
   if (is_old_text(bytes)) return fbx_text_scene(bytes, path);
-  Result<std::unique_ptr<aiScene>> scene = read_by_assimp(bytes, path);
+  Result<FbxScene> scene = read_by_assimp(bytes, path);
   if (scene || bytes.starts_with("Kaydara")) return scene;
   // Of what is wrong with version 7, Assimp says more.
-  Result<std::unique_ptr<aiScene>> read = fbx_text_scene(bytes, path);
-  return read && *read ? std::move(read) : std::move(scene);
+  Result<FbxScene> read = fbx_text_scene(bytes, path);
+  return read && read->scene ? std::move(read) : std::move(scene);
 }
 
+// A note of the file or nothing, the end of a line, and the GLB.
 Result<std::string> convert(const std::string& bytes, const std::string& path) {
-  Result<std::unique_ptr<aiScene>> read = read_scene(bytes, path);
+  Result<FbxScene> read = read_scene(bytes, path);
   if (!read) return read.error();
-  const std::unique_ptr<aiScene>& scene = *read;
+  const std::unique_ptr<aiScene>& scene = read->scene;
   if (!scene) return Error{path + ": expected joints (models of FBX), found none"};
   repair_scene(*scene);
   Assimp::Exporter exporter;
@@ -88,18 +92,24 @@ Result<std::string> convert(const std::string& bytes, const std::string& path) {
   properties.SetPropertyBool("GLTF2_NODE_IN_TRS", true);
   const aiExportDataBlob* glb = exporter.ExportToBlob(scene.get(), "glb2", 0, &properties);
   if (!glb) return Error{path + ": cannot be turned into GLB: " + exporter.GetErrorString()};
-  return std::string(static_cast<const char*>(glb->data), glb->size);
+  const char* const note = read->lacks_meshes ? kMeshesLeftOut : "";
+  return note + ("\n" + std::string(static_cast<const char*>(glb->data), glb->size));
 }
 
 }  // namespace
 
-Result<std::string> fbx_to_glb(const std::string& path) {
-  Result<std::string> glb = run_in_child(kFbxReader, path, "",
-                                         "the FBX reader crashed on it; the file may be damaged; "
-                                         "exporting it again, or as GLB, may help",
-                                         kLongestRead);
-  if (!glb) return glb.error();
-  return with_pictures(*std::move(glb), path);
+Result<FbxAsGlb> fbx_to_glb(const std::string& path) {
+  Result<std::string> answer =
+      run_in_child(kFbxReader, path, "",
+                   "the FBX reader crashed on it; the file may be damaged; "
+                   "exporting it again, or as GLB, may help",
+                   kLongestRead);
+  if (!answer) return answer.error();
+  const size_t line = std::min(answer->find('\n'), answer->size());
+  FbxAsGlb out;
+  if (line > 0) out.notes.push_back(path + ": " + answer->substr(0, line));
+  out.glb = with_pictures(answer->erase(0, line + 1), path);
+  return out;
 }
 
 int read_fbx_as_child(const std::string& path) {

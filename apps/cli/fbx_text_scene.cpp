@@ -83,9 +83,19 @@ aiAnimation* make_animation(const std::vector<FbxModel>& models, const FbxTake& 
   return animation;
 }
 
+// They are geometries in FBX 7, and models in FBX 6.
+bool has_meshes(const FbxDocument& document) {
+  return std::ranges::any_of(document.root().children, [](const FbxNode& section) {
+    return section.name == "Objects" &&
+           std::ranges::any_of(section.children, [](const FbxNode& node) {
+             return !node.values.empty() && node.values.back() == "Mesh";
+           });
+  });
+}
+
 }  // namespace
 
-Result<std::unique_ptr<aiScene>> fbx_text_scene(std::string_view text, const std::string& path) {
+Result<FbxScene> fbx_text_scene(std::string_view text, const std::string& path) {
   Result<FbxDocument> document = FbxDocument::parse(text, path);
   if (!document) return document.error();
   if (const int version = document->version(); version > 0 && version < 6000) {
@@ -96,7 +106,7 @@ Result<std::unique_ptr<aiScene>> fbx_text_scene(std::string_view text, const std
   if (!settings) return settings.error();
   Result<std::vector<FbxModel>> models = fbx_models(*document);
   if (!models) return models.error();
-  if (models->empty()) return std::unique_ptr<aiScene>();
+  if (models->empty()) return FbxScene();
   Result<std::vector<FbxTake>> takes = fbx_takes(*document, *models);
   if (!takes) return takes.error();
   double poses = 0;
@@ -117,7 +127,7 @@ Result<std::unique_ptr<aiScene>> fbx_text_scene(std::string_view text, const std
   for (const FbxTake& take : *takes) {
     scene->mAnimations[scene->mNumAnimations++] = make_animation(*models, take, settings->rate);
   }
-  return scene;
+  return FbxScene{std::move(scene), has_meshes(*document)};
 }
 
 }  // namespace panache::cli

@@ -20,10 +20,38 @@
 namespace panache::cli {
 namespace {
 
+// A file with more to say of how it was read.
+class NotedFile : public MotionFile {
+ public:
+  NotedFile(std::unique_ptr<MotionFile> file, std::vector<std::string> notes)
+      : file_(std::move(file)), notes_(std::move(notes)) {}
+
+  std::vector<std::string> clip_names() const override { return file_->clip_names(); }
+  const Clip& clip(int which) const override { return file_->clip(which); }
+  Clip rest() const override { return file_->rest(); }
+  std::vector<std::string> notes() const override {
+    std::vector<std::string> all = notes_;
+    const std::vector<std::string> own = file_->notes();
+    all.insert(all.end(), own.begin(), own.end());
+    return all;
+  }
+  bool is_mended() const override { return file_->is_mended(); }
+  std::string encode(std::span<const ClipEdit> edits, EditMode mode) const override {
+    return file_->encode(edits, mode);
+  }
+
+ private:
+  std::unique_ptr<MotionFile> file_;
+  std::vector<std::string> notes_;
+};
+
 Result<std::unique_ptr<MotionFile>> read_fbx(const std::string& path, const ReadOptions& options) {
-  Result<std::string> glb = fbx_to_glb(path);
-  if (!glb) return glb.error();
-  return parse_gltf(*std::move(glb), path, options);
+  Result<FbxAsGlb> fbx = fbx_to_glb(path);
+  if (!fbx) return fbx.error();
+  Result<std::unique_ptr<MotionFile>> file = parse_gltf(std::move(fbx->glb), path, options);
+  if (!file || fbx->notes.empty()) return file;
+  return std::unique_ptr<MotionFile>(
+      std::make_unique<NotedFile>(*std::move(file), std::move(fbx->notes)));
 }
 
 // The formats that hold a body of their own in T-pose, which a motion has to be put on.

@@ -5,7 +5,7 @@
 
 namespace panache::cli {
 
-Result<std::string> fbx_to_glb(const std::string& path) {
+Result<FbxAsGlb> fbx_to_glb(const std::string& path) {
   return Error{path + ": this build reads no FBX files; build with libassimp-dev"};
 }
 

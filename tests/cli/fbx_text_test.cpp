@@ -214,6 +214,35 @@ TEST_F(FbxText, stylize_adds_a_motion_and_cameras_are_no_joints) {
   EXPECT_EQ(read("out.glb").find("Producer"), std::string::npos);
 }
 
+TEST_F(FbxText, a_note_says_that_meshes_are_left_out) {
+  const std::string six = Fbx6Maker(walking_clip(40), 0, 1).make();
+  const std::string six_mesh =
+      changed(six, "Objects:  {\n",
+              "Objects:  {\n\tModel: \"Model::Body\", \"Mesh\" {\n\t\tVertices: 0,0,0,1,0,0,0,1,0\n"
+              "\t\tPolygonVertexIndex: 0,1,-3\n\t}\n");
+  const std::string seven =
+      changed(format_fbx(walking_clip(40)), "FBXVersion: 7400", "FBXVersion: 7000");
+  const std::string seven_mesh = changed(
+      seven, "Objects:  {\n",
+      "Objects:  {\n\tGeometry: 7, \"Geometry::\", \"Mesh\" {\n\t\tVertices: *9 {\n\t\t\ta: "
+      "0,0,0,1,0,0,0,1,0\n\t\t}\n\t\tPolygonVertexIndex: *3 {\n\t\t\ta: 0,1,-3\n\t\t}\n\t}\n");
+  const std::string note =
+      "panache: in.fbx: its meshes are left out, as only skeletons and motions are read of FBX 6 "
+      "and of text that Assimp rejects; Autodesk's FBX Converter makes FBX 7 of it, which keeps "
+      "them\n";
+  const std::vector<std::pair<std::string, std::string>> expected = {
+      {six, ""},   {six_mesh, note},   {to_binary_fbx6(six), ""}, {to_binary_fbx6(six_mesh), note},
+      {seven, ""}, {seven_mesh, note},
+  };
+  for (const auto& [bytes, said] : expected) {
+    write("in.fbx", bytes);
+    EXPECT_EQ(run({"info", "in.fbx"}).err, said);
+    const Ran ran = run({"stylize", "in.fbx", "--style", "old=1", "--force", "-o", "out.glb"});
+    EXPECT_EQ(ran.exit, 0);
+    EXPECT_EQ(ran.err, said);
+  }
+}
+
 TEST_F(FbxText, a_damaged_file_is_rejected_with_its_line) {
   const std::string good = Fbx6Maker(walking_clip(5), 0, 1).make();
   for (size_t size = 100; size < good.size() - 2; size += good.size() / 23) {
