@@ -69,6 +69,37 @@ void drop_idle_keys(aiNodeAnim& channel, const aiNode& node) {
   }
 }
 
+// Keys of several curves that a program meant to be at one time may be a tick apart, which is
+// nothing in the floats of glTF, where times have to grow. The last of them counts, as after a
+// jump.
+template <class Key>
+void join_close_keys(Key* keys, unsigned& count, double ticks_per_second) {
+  constexpr double kSame = 1e-5;  // Seconds.
+  const auto seconds = [&](const Key& key) { return key.mTime / ticks_per_second; };
+  unsigned kept = 0;
+  for (unsigned i = 0; i < count; ++i) {
+    const bool is_new = kept == 0 || (seconds(keys[i]) - seconds(keys[kept - 1]) > kSame &&
+                                      static_cast<float>(seconds(keys[i])) >
+                                          static_cast<float>(seconds(keys[kept - 1])));
+    if (is_new) {
+      keys[kept++] = keys[i];
+    } else {
+      keys[kept - 1].mValue = keys[i].mValue;
+    }
+  }
+  count = kept;
+}
+
+void join_close_keys(const aiAnimation& animation) {
+  const double ticks = animation.mTicksPerSecond > 0 ? animation.mTicksPerSecond : 1;
+  for (unsigned c = 0; c < animation.mNumChannels; ++c) {
+    aiNodeAnim& channel = *animation.mChannels[c];
+    join_close_keys(channel.mPositionKeys, channel.mNumPositionKeys, ticks);
+    join_close_keys(channel.mRotationKeys, channel.mNumRotationKeys, ticks);
+    join_close_keys(channel.mScalingKeys, channel.mNumScalingKeys, ticks);
+  }
+}
+
 // Whether all animations have keys for the node, so that its own place counts for none of them.
 bool is_always_animated(const aiScene& scene, const aiNode& node) {
   const auto has_keys = [&](const aiAnimation* animation) {
@@ -263,6 +294,7 @@ void repair_scene(aiScene& scene) {
   for (const aiNode* node : all_nodes(scene)) nodes.emplace(node->mName.C_Str(), node);
   for (unsigned a = 0; a < scene.mNumAnimations; ++a) {
     aiAnimation& animation = *scene.mAnimations[a];
+    join_close_keys(animation);
     for (unsigned c = 0; c < animation.mNumChannels; ++c) {
       const auto node = nodes.find(animation.mChannels[c]->mNodeName.C_Str());
       if (node != nodes.end()) drop_idle_keys(*animation.mChannels[c], *node->second);

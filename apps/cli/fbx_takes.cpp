@@ -10,6 +10,8 @@
 namespace panache::cli {
 namespace {
 
+constexpr double kSparse = kFbxSecond / 20;  // Between keys that are poses and no frames.
+constexpr double kSameFrame = 0.1;           // In frames: how far apart a key and a frame may be.
 // Half a century; differences of times stay far from overflowing.
 constexpr int64_t kLatest = int64_t{1} << 56;
 
@@ -277,15 +279,22 @@ std::vector<int64_t> fbx_pose_times(const FbxTake& take, const FbxCurves& curves
   if (keys.empty()) keys.insert(take.begin);
   std::vector<int64_t> out;
   const double frame = kFbxSecond / rate;
+  const auto frames_to = [&](int64_t time) {
+    return static_cast<double>(time - take.begin) / frame;
+  };
+  // Keys beside the frames say that the rate is not the motion's own. Then those that follow each
+  // other closely are its frames.
+  const bool are_on_frames = std::ranges::all_of(keys, [&](int64_t key) {
+    return std::abs(frames_to(key) - std::round(frames_to(key))) < kSameFrame;
+  });
+  const double closest = std::max((1 + kSameFrame) * frame, are_on_frames ? 0 : kSparse);
   for (const int64_t time : keys) {
-    if (!out.empty() && moves_between(curves, out.back(), time)) {
-      const int64_t last = out.back();
-      // Not where a frame and a key are meant to be one.
-      const auto begin = static_cast<double>(last - take.begin) / frame;
-      for (double f = std::floor(begin + 1.1);; ++f) {
-        const auto at = take.begin + static_cast<int64_t>(std::llround(f * frame));
-        if (static_cast<double>(time - at) < 0.1 * frame) break;
-        out.push_back(at);
+    if (!out.empty() && static_cast<double>(time - out.back()) > closest &&
+        moves_between(curves, out.back(), time)) {
+      const double begin = frames_to(out.back());
+      for (double f = std::floor(begin + 1 + kSameFrame);; ++f) {
+        if (frames_to(time) - f < kSameFrame) break;
+        out.push_back(take.begin + static_cast<int64_t>(std::llround(f * frame)));
       }
     }
     out.push_back(time);

@@ -43,7 +43,9 @@ Result<std::vector<FbxTake>> fbx_takes(const FbxDocument& document,
                                        const std::vector<FbxModel>& models);
 
 // When a pose of a model is to be taken so that straight lines between the poses say what its
-// curves do in the file's frames: at all keys, and at every frame between keys that differ.
+// curves do in the file's frames: at all keys, and at every frame between keys that differ. Where
+// keys are beside the frames, the rate is not that of the motion, and only keys more than a
+// twentieth of a second apart have frames between them.
 std::vector<int64_t> fbx_pose_times(const FbxTake& take, const FbxCurves& curves, double rate);
 
 // Where the model is then; `rest` has what no curve changes.

@@ -133,6 +133,25 @@ TEST_F(FbxText, keys_at_any_times_and_scales_around_pivots_are_as_the_formula_sa
   }
 }
 
+TEST_F(FbxText, keys_a_tick_apart_are_one) {
+  const Clip walk = walking_clip(20);
+  // The second key of the first curve.
+  const std::string seven = changed(format_fbx(walk), ",1539538600,", ",1539538601,");
+  expect_is(walk, seven);
+  expect_is(walk, changed(seven, "FBXVersion: 7400", "FBXVersion: 7000"));
+  // It begins at 2 s.
+  expect_is(walk, changed(Fbx6Maker(walk, 0, 1).make(), "93911854600,", "93911854601,"));
+}
+
+TEST_F(FbxText, a_rate_that_is_not_that_of_the_keys_changes_nothing) {
+  const Clip walk = walking_clip(20, 50);
+  const std::string text = Fbx6Maker(walk, 0, 1).make();
+  for (const char* rate : {"24", "25", "30", "48", "60", "120"}) {
+    SCOPED_TRACE(rate);
+    expect_is(walk, changed(text, "FrameRate: \"30\"", "FrameRate: \"" + std::string(rate) + "\""));
+  }
+}
+
 TEST_F(FbxText, names_may_have_any_bytes) {
   std::vector<CurveModel> models = kChain;
   models[0].name = "The root";
