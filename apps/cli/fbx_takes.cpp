@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kSparse = kFbxSecond / 20;  // Between keys that are poses and no frames.
 constexpr double kSameFrame = 0.1;           // In frames: how far apart a key and a frame may be.
-// Half a century; differences of times stay far from overflowing.
+// 18 days; differences of times stay far from overflowing.
 constexpr int64_t kLatest = int64_t{1} << 56;
 
 // In order of time; the last of those at one time counts, as a jump has two.
@@ -68,7 +68,7 @@ class TakesReader {
   Result<FbxKey> read_key(std::string_view time, std::string_view value) const {
     Result<int64_t> when = document_.time(time);
     if (!when) return when.error();
-    if (std::abs(*when) > kLatest) return document_.error(time, "a time within 50 years");
+    if (*when > kLatest || *when < -kLatest) return document_.error(time, "a time within 18 days");
     Result<double> number = document_.number(value, "a key");
     if (!number) return number.error();
     return FbxKey{*when, *number};

@@ -284,6 +284,24 @@ TEST_F(FbxText, a_damaged_file_is_rejected_with_its_line) {
   EXPECT_NE(rejection(deep).find("expected at most 64 open braces"), std::string::npos);
 }
 
+TEST_F(FbxText, a_small_file_of_a_long_motion_is_rejected_at_once) {
+  const std::vector<CurveModel> models = {{"root", -1, {}}};
+  const auto make = [&](double frames) {
+    return format_fbx6(models, {{"Long", {{0, {{{{{{0, 0}, {frames, 1}}, {}, {}}}, {}, {}}}}}}});
+  };
+  for (const double frames : {1.1e6, 1.5e7, 4e7}) {
+    EXPECT_NE(rejection(make(frames)).find("is the time of a key wrong?"), std::string::npos)
+        << frames;
+  }
+  EXPECT_NE(rejection(make(1e9)).find("expected a time within 18 days, found '15"),
+            std::string::npos);
+  EXPECT_NE(rejection(changed(make(9), "Key: 0,", "Key: -9223372036854775808,"))
+                .find("expected a time within 18 days, found '-9223372036854775808'"),
+            std::string::npos);
+  write("in.fbx", make(100'000));
+  EXPECT_NE(run({"info", "in.fbx"}).out.find("100001 frames"), std::string::npos);
+}
+
 TEST_F(FbxText, models_in_a_circle_are_rejected) {
   EXPECT_NE(rejection("; FBX 6.1.0 project file\nObjects: {\n Model: \"Model::a\", \"Limb\" {\n }\n"
                       " Model: \"Model::b\", \"Limb\" {\n }\n}\nConnections: {\n"
