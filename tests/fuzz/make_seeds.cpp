@@ -1,9 +1,13 @@
 // make_seeds FOLDER: the inputs that fuzzing starts from, FOLDER/TARGET/NAME: small files of each
 // kind as the library writes them.
 
+#include <algorithm>
 #include <cstdio>
 
 #include "base/file.h"
+#include "cli/binary_fbx6.h"
+#include "cli/make_fbx.h"
+#include "cli/make_fbx6.h"
 #include "clip/bvh.h"
 #include "clip/gltf.h"
 #include "clip/make_acclaim.h"
@@ -43,6 +47,20 @@ std::string glb_of(std::string json) {
   const auto size = static_cast<uint32_t>(json.size());
   return "glTF" + fuzz::bytes_of(uint32_t{2}) + fuzz::bytes_of(20 + size) + fuzz::bytes_of(size) +
          "JSON" + json;
+}
+
+// Two frames of the first joints of a clip: fuzzing is slow with large files.
+Clip first_joints(const Clip& clip, size_t count) {
+  Clip out;
+  const auto& joints = clip.skeleton.joints;
+  out.skeleton.joints.assign(joints.begin(), joints.begin() + static_cast<std::ptrdiff_t>(count));
+  out.frame_time = clip.frame_time;
+  out.resize(2);
+  for (int f = 0; f < out.frames; ++f) {
+    std::ranges::copy(clip.pose(f).rotations.first(count), out.pose(f).rotations.begin());
+    std::ranges::copy(clip.pose(f).translations.first(count), out.pose(f).translations.begin());
+  }
+  return out;
 }
 
 #ifdef PANACHE_NPZ
@@ -134,6 +152,11 @@ int main(int argc, char** argv) {
           std::string(1, '\0') + "name,from,description\nold,old a,bent\n");
   add("vmc/calls", std::string(300, '\x37') + std::string(100, '\x01'));
   add("fbx/calls", std::string(300, '\x37') + std::string(100, '\x01'));
+  const Clip steps = first_joints(walk, 3);
+  const std::string six = test::Fbx6Maker(steps, 2, 1, {{"hips", {-1, 1, 1}}}).make();
+  add("fbx/text6", six);
+  add("fbx/binary6", test::to_binary_fbx6(six));
+  add("fbx/text7", test::format_fbx(steps));
   add("text/strengths", "\3seconds,old\n0,0\n1.5,1e0\n");
   return 0;
 }
