@@ -52,9 +52,17 @@ TEST_F(ChildProcess, a_named_pipe_is_not_waited_for) {
             ? std::vector<std::string>{"stylize", "w.bvh", "--strengths", name, "-o", "o.bvh"}
             : std::vector<std::string>{"info", name};
     write_walk("w.bvh");
-    const Ran ran = run(arguments);
-    EXPECT_NE(ran.exit, 0) << name;
-    EXPECT_EQ(ran.err,
+    const pid_t program = start(arguments);
+    siginfo_t ended = {};
+    const bool ends = becomes_true([&] {
+      return ::waitid(P_PID, static_cast<id_t>(program), &ended, WEXITED | WNOHANG | WNOWAIT) ==
+                 0 &&
+             ended.si_pid == program;
+    });
+    if (!ends) ::kill(program, SIGKILL);
+    const Ran ran = finish(program);
+    EXPECT_GT(ran.exit, 0) << name;
+    ASSERT_EQ(ran.err,
               "panache: " + name + ": is a device, pipe or socket; expected a regular file\n");
   }
 }
