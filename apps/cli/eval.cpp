@@ -48,8 +48,9 @@ Result<std::vector<ManifestRow>> read_tests(const std::vector<std::string>& test
   std::vector<ManifestRow> judged;
   int set = 0;
   for (const std::string& path : tests) {
-    Result<std::vector<ManifestRow>> rows = read_manifest(path, set++);
+    Result<std::vector<ManifestRow>> rows = read_manifest(path, set);
     if (!rows) return rows.error();
+    set = next_set(*rows);
     const bool marked =
         std::any_of(rows->begin(), rows->end(), [](const ManifestRow& row) { return row.test; });
     for (ManifestRow& row : *rows) {

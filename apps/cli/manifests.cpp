@@ -9,7 +9,8 @@ namespace panache::cli {
 CLI::Option* add_manifest_options(CLI::App& verb, ManifestOptions& options) {
   CLI::Option* manifests =
       verb.add_option("manifests", options.paths,
-                      "CSV files with the columns path, style, content, take, neutral, split");
+                      "CSV files with the columns path, style, content, take, neutral, split "
+                      "and, for several performers, person");
   verb.add_option("--styles", options.styles,
                   "CSV with the columns name, from, description: which styles of the manifests to "
                   "use, under which names");
@@ -23,8 +24,8 @@ CLI::Option* add_manifest_options(CLI::App& verb, ManifestOptions& options) {
 
 Result<Manifests> read_manifests(const ManifestOptions& options) {
   Manifests data;
-  for (size_t i = 0; i < options.paths.size(); ++i) {
-    Result<std::vector<ManifestRow>> rows = read_manifest(options.paths[i], static_cast<int>(i));
+  for (const std::string& path : options.paths) {
+    Result<std::vector<ManifestRow>> rows = read_manifest(path, next_set(data.rows));
     if (!rows) return rows.error();
     data.rows.insert(data.rows.end(), rows->begin(), rows->end());
   }

@@ -37,14 +37,15 @@ std::vector<std::string> take_row(const std::string& text, size_t& at) {
 
 }  // namespace
 
-Result<CsvTable> read_csv(const std::string& path, const std::vector<std::string>& columns) {
+Result<CsvTable> read_csv(const std::string& path, const std::vector<std::string>& columns,
+                          const std::vector<std::string>& optional) {
   Result<std::string> text = read_file(path);
   if (!text) return text.error();
   size_t at = text->starts_with("\xef\xbb\xbf") ? 3 : 0;
   CsvTable table;
   const std::vector<std::string> header = take_row(*text, at);
   table.columns = columns.empty() ? header : columns;
-  std::vector<size_t> order;
+  std::vector<size_t> order;  // Of the cells; header.size() where a column is missing.
   for (const std::string& column : table.columns) {
     const auto found = std::find(header.begin(), header.end(), column);
     if (found == header.end()) {
@@ -53,6 +54,10 @@ Result<CsvTable> read_csv(const std::string& path, const std::vector<std::string
                    "columns"};
     }
     order.push_back(found - header.begin());
+  }
+  for (const std::string& column : optional) {
+    table.columns.push_back(column);
+    order.push_back(std::find(header.begin(), header.end(), column) - header.begin());
   }
   int line = 1;
   for (size_t counted = 0; at < text->size();) {
@@ -65,7 +70,7 @@ Result<CsvTable> read_csv(const std::string& path, const std::vector<std::string
                    " cells; expected " + std::to_string(header.size()) + " as in the first line"};
     }
     CsvRow row{line, {}};
-    for (const size_t i : order) row.values.push_back(cells[i]);
+    for (const size_t i : order) row.values.push_back(i < cells.size() ? cells[i] : "");
     table.rows.push_back(std::move(row));
   }
   return table;

@@ -18,7 +18,9 @@ struct CsvTable {
 };
 
 // Reads the table in the file at `path`. With `columns` given, rows hold just these, in this order,
-// and a missing one is an error; without, all columns of the file. Cells may be quoted.
-Result<CsvTable> read_csv(const std::string& path, const std::vector<std::string>& columns = {});
+// and a missing one is an error; without, all columns of the file. `optional` columns follow them:
+// cells of one that the file lacks are empty. Cells may be quoted.
+Result<CsvTable> read_csv(const std::string& path, const std::vector<std::string>& columns = {},
+                          const std::vector<std::string>& optional = {});
 
 }  // namespace panache

@@ -21,10 +21,12 @@ std::string where(const ManifestRow& row) {
 }  // namespace
 
 Result<std::vector<ManifestRow>> read_manifest(const std::string& path, int set) {
-  Result<CsvTable> table = read_csv(path, {"path", "style", "content", "take", "neutral", "split"});
+  Result<CsvTable> table =
+      read_csv(path, {"path", "style", "content", "take", "neutral", "split"}, {"person"});
   if (!table) return table.error();
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   std::vector<ManifestRow> rows;
+  std::map<std::string, int> sets;  // Of each performer.
   for (const CsvRow& cells : table->rows) {
     ManifestRow row;
     row.path = (folder / cells.values[0]).string();
@@ -42,13 +44,20 @@ Result<std::vector<ManifestRow>> read_manifest(const std::string& path, int set)
     row.neutral = neutral == "1";
     row.style = row.neutral ? "neutral" : cells.values[1];
     row.test = split == "test";
-    row.set = set;
+    row.person = cells.values[6];
+    row.set = sets.try_emplace(row.person, set + static_cast<int>(sets.size())).first->second;
     row.manifest = path;
     row.line = cells.line;
     rows.push_back(std::move(row));
   }
   if (rows.empty()) return Error{path + ": lists no takes"};
   return rows;
+}
+
+int next_set(const std::vector<ManifestRow>& rows) {
+  int next = 0;
+  for (const ManifestRow& row : rows) next = std::max(next, row.set + 1);
+  return next;
 }
 
 Result<std::vector<StyleName>> read_style_names(const std::string& path) {

@@ -15,9 +15,10 @@ struct ManifestRow {
   std::string take;
   bool neutral = false;
   bool test = false;  // Held out: no model may be trained on it.
-  int set = 0;        // Which manifest it came from: styles are compared with their own neutral.
-  std::string manifest = {};  // The file of that manifest, and
-  int line = 0;               // the line in it; for messages.
+  int set = 0;        // A performer of a manifest: styles are compared with their own neutral.
+  std::string manifest = {};  // The file of the manifest,
+  int line = 0;               // the line in it, for messages,
+  std::string person = {};    // and the performer; "" where the manifest names none.
 };
 
 // The styles to learn, in the order of the model, and what the manifests call them.
@@ -27,9 +28,13 @@ struct StyleName {
   std::string description;
 };
 
-// Reads a CSV with the columns path, style, content, take, neutral, split, in any order. `set`
-// marks its rows.
+// Reads a CSV with the columns path, style, content, take, neutral, split and, where it has it,
+// person, in any order. The sets of its performers are numbered from `set` on, in their order in
+// the file; a manifest without the column is one set.
 Result<std::vector<ManifestRow>> read_manifest(const std::string& path, int set);
+
+// The number that follows those of the sets of `rows`.
+int next_set(const std::vector<ManifestRow>& rows);
 
 // Reads a CSV with the columns name, from, description; several `from` are divided by spaces. Fails
 // where a name is none that a style can have, or is listed twice, or one `from` has two names.

@@ -37,6 +37,21 @@ TEST_F(ManifestTest, rows_are_read_in_any_order_of_columns) {
   EXPECT_EQ((*rows)[1].set, 3);
 }
 
+TEST_F(ManifestTest, each_performer_is_a_set_of_its_own) {
+  const auto rows = read_manifest(put("path,style,content,take,neutral,split,person\n"
+                                      "a.bvh,old,walk,001,0,train,mia\n"
+                                      "b.bvh,old,walk,001,0,train,jo\n"
+                                      "c.bvh,normal,walk,001,1,train,mia\n"),
+                                  4);
+  ASSERT_TRUE(rows.ok()) << rows.error().message;
+  EXPECT_EQ((*rows)[0].person, "mia");
+  EXPECT_EQ((*rows)[0].set, 4);
+  EXPECT_EQ((*rows)[1].set, 5);
+  EXPECT_EQ((*rows)[2].set, 4);
+  EXPECT_EQ(next_set(*rows), 6);
+  EXPECT_EQ(next_set({}), 0);
+}
+
 TEST_F(ManifestTest, a_wrong_table_is_explained_with_its_line) {
   EXPECT_EQ(read_manifest(put("path,style\n"), 0).error().message,
             path_ + ":1: column 'content' is missing; the first line must name the columns");

@@ -50,7 +50,7 @@ std::vector<Take> takes_of(const std::vector<std::string>& manifests, PoseLayout
   if (manifests.empty()) return walker_takes(layout);
   std::vector<ManifestRow> all, some;
   for (const std::string& manifest : manifests) {
-    const auto rows = must(read_manifest(manifest, static_cast<int>(all.size())));
+    const auto rows = must(read_manifest(manifest, next_set(all)));
     all.insert(all.end(), rows.begin(), rows.end());
   }
   const size_t step = std::max<size_t>(1, all.size() / kTakes);
