@@ -103,11 +103,9 @@ std::vector<std::string> list_missing_files(const std::vector<ManifestRow>& rows
 std::vector<std::string> list_unnamed_styles(const std::vector<StyleName>& names,
                                              const std::vector<ManifestRow>& rows) {
   if (names.empty()) return {};
-  std::set<std::string> named;
-  for (const StyleName& style : names) named.insert(style.from.begin(), style.from.end());
   std::map<std::pair<std::string, std::string>, int> dropped;  // Manifest and style, takes.
   for (const ManifestRow& row : rows) {
-    if (!row.neutral && !named.contains(row.style)) ++dropped[{row.manifest, row.style}];
+    if (!row.neutral && !find_style_name(names, row)) ++dropped[{row.manifest, row.style}];
   }
   std::vector<std::string> lines;
   for (const auto& [style, takes] : dropped) {
@@ -118,18 +116,25 @@ std::vector<std::string> list_unnamed_styles(const std::vector<StyleName>& names
   return lines;
 }
 
+const StyleName* find_style_name(const std::vector<StyleName>& names, const ManifestRow& row) {
+  const auto find = [&](const std::string& from) -> const StyleName* {
+    for (const StyleName& style : names) {
+      if (std::find(style.from.begin(), style.from.end(), from) != style.from.end()) return &style;
+    }
+    return nullptr;
+  };
+  const StyleName* own = row.person.empty() ? nullptr : find(row.person + "/" + row.style);
+  return own ? own : find(row.style);
+}
+
 std::vector<ManifestRow> rename_styles(const std::vector<StyleName>& names,
                                        std::vector<ManifestRow> rows) {
-  std::map<std::string, std::string> renamed;
-  for (const StyleName& style : names) {
-    for (const std::string& from : style.from) renamed[from] = style.name;
-  }
   std::vector<ManifestRow> kept;
   for (ManifestRow& row : rows) {
     if (!row.neutral) {
-      const auto found = renamed.find(row.style);
-      if (found == renamed.end()) continue;
-      row.style = found->second;
+      const StyleName* style = find_style_name(names, row);
+      if (!style) continue;
+      row.style = style->name;
     }
     kept.push_back(std::move(row));
   }

@@ -24,7 +24,8 @@ struct ManifestRow {
 // The styles to learn, in the order of the model, and what the manifests call them.
 struct StyleName {
   std::string name;               // "old"
-  std::vector<std::string> from;  // Names in manifests, {"old"} or several.
+  std::vector<std::string> from;  // Names in manifests, {"old"} or several; "PERSON/old" is the
+                                  // style of this performer, and is not among "old" then.
   std::string description;
 };
 
@@ -46,6 +47,9 @@ std::vector<std::string> list_missing_files(const std::vector<ManifestRow>& rows
 // A sentence for each style of a manifest that `names` does not list, where it lists any.
 std::vector<std::string> list_unnamed_styles(const std::vector<StyleName>& names,
                                              const std::vector<ManifestRow>& rows);
+
+// What `names` call the style of a row; null where they do not list it.
+const StyleName* find_style_name(const std::vector<StyleName>& names, const ManifestRow& row);
 
 // Renames the styles of `rows`; rows of styles that `names` does not list are dropped.
 std::vector<ManifestRow> rename_styles(const std::vector<StyleName>& names,

@@ -310,16 +310,26 @@ std::optional<double> step_agreement(const std::vector<Take>& takes,
 std::vector<Pairing> pair_takes(const std::vector<Take>& takes, const std::vector<int>& styled,
                                 const std::vector<int>& neutral, const PairingOptions& options,
                                 const std::function<void(double)>& progress) {
-  using Cell = std::tuple<int, std::string, std::string>;  // Set, content, style.
-  std::map<Cell, std::vector<int>> cells, references;
+  std::map<std::tuple<int, std::string, std::string>, std::vector<int>>
+      cells;                                                               // Set, content, style.
+  std::map<std::pair<int, std::string>, std::vector<int>> own;             // Set, content.
+  std::map<std::pair<std::string, std::string>, std::vector<int>> shared;  // Manifest, content.
   for (const int t : styled) {
     const ManifestRow& row = takes[t].row;
     cells[{row.set, row.content, row.style}].push_back(t);
   }
   for (const int t : neutral) {
     const ManifestRow& row = takes[t].row;
-    references[{row.set, row.content, ""}].push_back(t);
+    own[{row.set, row.content}].push_back(t);
+    if (!row.person.empty()) shared[{row.manifest, row.content}].push_back(t);
   }
+  const auto references = [&](const ManifestRow& row) -> const std::vector<int>* {
+    if (const auto found = own.find({row.set, row.content}); found != own.end()) {
+      return &found->second;
+    }
+    const auto found = shared.find({row.manifest, row.content});
+    return row.person.empty() || found == shared.end() ? nullptr : &found->second;
+  };
   struct Job {
     std::shared_ptr<const Group> styled;
     int reference;
@@ -327,19 +337,20 @@ std::vector<Pairing> pair_takes(const std::vector<Take>& takes, const std::vecto
   };
   std::vector<Group> neutral_groups;
   std::vector<Track> tracks;
-  std::map<Cell, int> reference_index;
-  for (auto& [cell, members] : references) {
-    reference_index[cell] = static_cast<int>(tracks.size());
-    neutral_groups.push_back(make_group(takes, members));
-    tracks.push_back(make_track(neutral_groups.back()));
-  }
+  std::map<const std::vector<int>*, int> reference_index;
   std::vector<Job> jobs;
   for (auto& [cell, members] : cells) {
-    const auto found = reference_index.find({std::get<0>(cell), std::get<1>(cell), ""});
-    if (found == reference_index.end()) continue;
+    const std::vector<int>* wanted = references(takes[members.front()].row);
+    if (!wanted) continue;
+    const auto [reference, is_new] =
+        reference_index.try_emplace(wanted, static_cast<int>(tracks.size()));
+    if (is_new) {
+      neutral_groups.push_back(make_group(takes, *wanted));
+      tracks.push_back(make_track(neutral_groups.back()));
+    }
     const auto group = std::make_shared<const Group>(make_group(takes, members));
     for (size_t i = 0; i < group->takes.size(); ++i) {
-      jobs.push_back({group, found->second, static_cast<int>(i)});
+      jobs.push_back({group, reference->second, static_cast<int>(i)});
     }
   }
   std::vector<std::vector<Pairing>> found(jobs.size());

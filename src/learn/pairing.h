@@ -32,9 +32,10 @@ struct PairingOptions {
 inline constexpr PairingOptions kShortWindows = {.window_seconds = 0.45, .hop_seconds = 0.15};
 
 // Pairs the styled takes among `styled` with the neutral takes among `neutral` (indices into
-// `takes`) of the same set and content. Contents without a neutral take are left out. A take that
-// matches badly and much better in short windows is paired in these. Over all cores; `progress`
-// gets the share done.
+// `takes`) of the same set and content; those of a performer who has none of a content, with the
+// neutral takes of all other performers of the manifest. Contents without a neutral take are left
+// out. A take that matches badly and much better in short windows is paired in these. Over all
+// cores; `progress` gets the share done.
 std::vector<Pairing> pair_takes(const std::vector<Take>& takes, const std::vector<int>& styled,
                                 const std::vector<int>& neutral, const PairingOptions& options = {},
                                 const std::function<void(double)>& progress = {});

@@ -53,6 +53,7 @@ class SampleSet {
   int inputs() const { return kWindowPoses * numbers(); }
   int outputs() const { return recipe_.outputs; }
   const std::vector<Sample>& samples() const { return samples_; }
+  Sample& sample(size_t i) { return samples_[i]; }
   // What the pose network should answer for sample i, in the model's units. [outputs]
   std::span<const float> target(size_t i) const {
     return {&targets_[i * outputs()], static_cast<size_t>(outputs())};

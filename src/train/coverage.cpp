@@ -13,13 +13,14 @@ namespace {
 
 using Content = std::pair<int, std::string>;  // Set, content.
 
-// The takes of a content in one manifest.
+// The takes of a content by one performer, or in a manifest that names none.
 struct Takes {
-  std::string manifest;
+  std::string manifest, person;
   size_t neutral = 0, styled = 0;
+  bool borrows = false;  // Other performers of the manifest have neutral takes, this one has none.
   std::set<std::string> styles;
 
-  bool is_paired() const { return neutral > 0 && styled > 0; }
+  bool is_paired() const { return (neutral > 0 || borrows) && styled > 0; }
 };
 
 std::map<Content, Takes> contents_of(const std::vector<ManifestRow>& rows) {
@@ -28,8 +29,17 @@ std::map<Content, Takes> contents_of(const std::vector<ManifestRow>& rows) {
     if (row.test) continue;
     Takes& takes = contents[{row.set, row.content}];
     takes.manifest = row.manifest;
+    takes.person = row.person;
     ++(row.neutral ? takes.neutral : takes.styled);
     if (!row.neutral) takes.styles.insert(row.style);
+  }
+  std::set<std::pair<std::string, std::string>> shared;  // Manifest, content.
+  for (const auto& [content, takes] : contents) {
+    if (takes.neutral > 0) shared.emplace(takes.manifest, content.second);
+  }
+  for (auto& [content, takes] : contents) {
+    takes.borrows = !takes.person.empty() && takes.neutral == 0 &&
+                    shared.contains({takes.manifest, content.second});
   }
   return contents;
 }
@@ -44,8 +54,9 @@ std::string count(size_t number, const std::string& noun) {
   return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
 }
 
-std::string place_of(const std::string& manifest) {
-  return manifest.empty() ? "" : manifest + ": ";
+std::string place_of(const Takes& takes) {
+  return (takes.manifest.empty() ? "" : takes.manifest + ": ") +
+         (takes.person.empty() ? "" : "performer '" + takes.person + "': ");
 }
 
 }  // namespace
@@ -59,13 +70,17 @@ std::vector<std::string> list_unpaired(const std::vector<ManifestRow>& rows) {
     const auto& [content, takes] = *at;
     const bool is_first = at == contents.begin() || std::prev(at)->first.first != content.first;
     if (is_first && !learns[content.first]) {
-      lines.push_back(
-          place_of(takes.manifest) +
-          "the manifest is left out: no content of it has both a neutral and a styled take");
+      lines.push_back(place_of(takes) +
+                      (takes.person.empty() ? "the manifest is" : "all takes are") +
+                      " left out: no content of " + (takes.person.empty() ? "it" : "theirs") +
+                      " has both a neutral and a styled take");
     }
-    const std::string what =
-        place_of(takes.manifest) + "content '" + content.second + "' is left out: ";
-    if (takes.neutral == 0) {
+    const std::string where = place_of(takes) + "content '" + content.second + "' ";
+    const std::string what = where + "is left out: ";
+    if (takes.borrows) {
+      lines.push_back(where + "has no neutral take: styled takes are compared with the neutral " +
+                      "ones of the other performers");
+    } else if (takes.neutral == 0) {
       lines.push_back(what + "it has no neutral take (" + count(takes.styled, "take") + " of " +
                       joined(takes.styles) + ")");
     } else if (takes.styled == 0) {
@@ -141,7 +156,7 @@ std::vector<std::string> list_too_short(const std::vector<Take>& takes, const Sa
     const auto& [number, content, style] = cell;
     char text[32];
     std::snprintf(text, sizeof text, "%.1f", seconds);
-    lines.push_back(place_of(contents.at({number, content}).manifest) + "style '" + style +
+    lines.push_back(place_of(contents.at({number, content})) + "style '" + style +
                     "' is left out in content '" + content +
                     "': its takes or the neutral ones are too short (its longest has " + text +
                     " s)");

@@ -18,9 +18,10 @@ struct StyleCoverage {
   size_t samples = 0;
 };
 
-// A sentence for each content of each manifest, and for each whole manifest, that no style is
-// learnt from because either its neutral takes or its styled ones are missing. Rows marked test do
-// not count.
+// A sentence for each content of each manifest and performer, and for each of these as a whole,
+// that no style is learnt from because either the neutral takes or the styled ones are missing, and
+// for each content that is compared with other performers' neutral takes. Rows marked test do not
+// count.
 std::vector<std::string> list_unpaired(const std::vector<ManifestRow>& rows);
 
 // Fails, with the names of all of them, where a style has no take with a neutral take of the same

@@ -19,6 +19,7 @@
 #include "train/fingerprint.h"
 #include "train/gate.h"
 #include "train/guidance.h"
+#include "train/performers.h"
 #include "train/position_loss.h"
 #include "train/train_predictor.h"
 
@@ -290,7 +291,10 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
   for (const StyleName& style : styles) names.push_back(style.name);
   const int count = static_cast<int>(names.size());
   SampleSet set(data.takes, data.pairings, names, recipe, settings.neutral_samples);
-  if (recipe.learns_styles) correct_few_takes(data.takes, set);
+  if (recipe.learns_styles) {
+    take_off_performers(data.takes, set);
+    correct_few_takes(data.takes, set);
+  }
   const std::vector<bool> validates = validation_takes(data.takes);
   std::vector<int> choice, held;
   for (size_t i = 0; i < set.samples().size(); ++i) {

@@ -52,6 +52,25 @@ TEST_F(ManifestTest, each_performer_is_a_set_of_its_own) {
   EXPECT_EQ(next_set({}), 0);
 }
 
+TEST_F(ManifestTest, a_style_of_one_performer_can_have_a_name_of_its_own) {
+  auto names = read_style_names(
+      put("name,from,description\nsexy,sexy,\nsexy2,jo/sexy,\nold,mia/elderly jo/aged,\n"));
+  ASSERT_TRUE(names.ok()) << names.error().message;
+  auto rows = *read_manifest(put("path,style,content,take,neutral,split,person\n"
+                                 "a.bvh,sexy,walk,001,0,train,mia\n"
+                                 "b.bvh,sexy,walk,001,0,train,jo\n"
+                                 "c.bvh,elderly,walk,001,0,train,mia\n"
+                                 "d.bvh,elderly,walk,001,0,train,jo\n"
+                                 "e.bvh,aged,walk,001,0,train,jo\n"),
+                             0);
+  ASSERT_TRUE(apply_style_names(*names, rows).ok());
+  ASSERT_EQ(rows.size(), 4);  // Without jo's 'elderly', which is not listed.
+  EXPECT_EQ(rows[0].style, "sexy");
+  EXPECT_EQ(rows[1].style, "sexy2");
+  EXPECT_EQ(rows[2].style, "old");
+  EXPECT_EQ(rows[3].style, "old");
+}
+
 TEST_F(ManifestTest, a_wrong_table_is_explained_with_its_line) {
   EXPECT_EQ(read_manifest(put("path,style\n"), 0).error().message,
             path_ + ":1: column 'content' is missing; the first line must name the columns");

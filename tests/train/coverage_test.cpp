@@ -39,6 +39,20 @@ TEST(Coverage, contents_and_manifests_without_a_pair_are_named) {
                    "two.csv: content 'walk' is left out: it has no neutral take (1 take of old)"}));
 }
 
+TEST(Coverage, a_performer_without_a_neutral_take_is_compared_with_others_of_the_manifest) {
+  std::vector<ManifestRow> rows = {row("neutral", "walk"), row("old", "walk"), row("sad", "walk"),
+                                   row("sad", "run")};
+  rows[0].person = rows[1].person = "ann";
+  rows[2].person = rows[3].person = "bob";
+  rows[2].set = rows[3].set = 1;
+  EXPECT_EQ(list_unpaired(rows),
+            (Lines{"one.csv: performer 'bob': content 'run' is left out: it has no neutral take (1 "
+                   "take of sad)",
+                   "one.csv: performer 'bob': content 'walk' has no neutral take: styled takes are "
+                   "compared with the neutral ones of the other performers"}));
+  EXPECT_TRUE(check_styles(rows, {{"old", {"old"}, ""}, {"sad", {"sad"}, ""}}).ok());
+}
+
 TEST(Coverage, all_styles_that_cannot_be_learnt_are_named_at_once) {
   const std::vector<StyleName> styles = {
       {"old", {"old"}, ""}, {"sad", {"sad"}, ""}, {"shy", {"shy"}, ""}, {"tired", {"tired"}, ""}};
