@@ -103,9 +103,11 @@ std::vector<std::string> list_missing_files(const std::vector<ManifestRow>& rows
 std::vector<std::string> list_unnamed_styles(const std::vector<StyleName>& names,
                                              const std::vector<ManifestRow>& rows) {
   if (names.empty()) return {};
-  std::map<std::pair<std::string, std::string>, int> dropped;  // Manifest and style, takes.
+  std::map<std::pair<std::string, std::string>, int> dropped;  // Performer and style, takes.
   for (const ManifestRow& row : rows) {
-    if (!row.neutral && !find_style_name(names, row)) ++dropped[{row.manifest, row.style}];
+    if (row.neutral || find_style_name(names, row)) continue;
+    ++dropped[{row.manifest + (row.person.empty() ? "" : ": performer '" + row.person + "'"),
+               row.style}];
   }
   std::vector<std::string> lines;
   for (const auto& [style, takes] : dropped) {

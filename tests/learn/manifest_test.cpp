@@ -63,6 +63,10 @@ TEST_F(ManifestTest, a_style_of_one_performer_can_have_a_name_of_its_own) {
                                  "d.bvh,elderly,walk,001,0,train,jo\n"
                                  "e.bvh,aged,walk,001,0,train,jo\n"),
                              0);
+  EXPECT_EQ(
+      list_unnamed_styles(*names, rows),
+      std::vector{path_ + ": performer 'jo': style 'elderly' is left out: it is not among the "
+                          "styles to learn (1 take)"});
   ASSERT_TRUE(apply_style_names(*names, rows).ok());
   ASSERT_EQ(rows.size(), 4);  // Without jo's 'elderly', which is not listed.
   EXPECT_EQ(rows[0].style, "sexy");
