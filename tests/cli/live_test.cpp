@@ -92,8 +92,8 @@ class LiveVerb : public ProgramTest {
     arguments.insert(arguments.begin(), {"live", "--vmc-in", host + std::to_string(in_),
                                          "--vmc-out", "127.0.0.1:" + sink_.port_name()});
     live_ = start("live", arguments, model);
-    for (int i = 0; i < 1000 && !exists("live.err"); ++i) nap(5);
-    for (int i = 0; i < 1000 && read("live.err").find("relaying") == std::string::npos; ++i) nap(5);
+    for (int i = 0; i < kPatience && !exists("live.err"); ++i) nap(5);
+    for (int i = 0; i < kPatience && read("live.err").find("relaying") == std::string::npos; ++i) nap(5);
     ASSERT_NE(read("live.err").find("relaying"), std::string::npos) << read("live.err");
   }
 
@@ -115,15 +115,31 @@ class LiveVerb : public ProgramTest {
     Peer tracker;
     const pid_t sender = start("send", {"send", "walk.bvh", "--to", tracker.port_name(), "--loop",
                                         "--seconds", std::to_string(seconds)});
-    while (std::optional<Bytes> datagram = tracker.receive(sent_.empty() ? 5000 : 1500)) {
+    const size_t already = got_.size();
+    size_t sent = 0;
+    for (bool is_over = false;;) {
+      const std::optional<Bytes> datagram = tracker.receive(is_over ? 0 : 20);
+      if (!datagram) {
+        if (is_over) break;
+        siginfo_t ended{};  // What it sent before it ended is in the socket.
+        is_over = ::waitid(P_PID, static_cast<id_t>(sender), &ended, WEXITED | WNOHANG | WNOWAIT) ||
+                  ended.si_pid == sender;
+        continue;
+      }
       for (const Bytes& part : change(*datagram)) {
         tracker_.send(in_, part);
         sent_.push_back(part);
+        ++sent;
       }
       collect(0);
     }
     EXPECT_EQ(end(sender, 0).exit, 0);
-    collect(500);
+    collect_until(already + sent);
+  }
+  // Until so many datagrams have come, and all that come right after them.
+  void collect_until(size_t count) {
+    for (int i = 0; i < kPatience && got_.size() < count; ++i) collect(5);
+    collect(100);
   }
   void collect(int milliseconds) {
     while (std::optional<Bytes> datagram = sink_.receive(milliseconds)) got_.push_back(*datagram);
@@ -133,6 +149,7 @@ class LiveVerb : public ProgramTest {
     std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
   }
 
+  static constexpr int kPatience = 12000;  // Times 5 ms: what takes longer hangs.
   Peer tracker_, sink_;
   std::vector<Bytes> sent_, got_;
   uint16_t in_ = 0;
@@ -214,12 +231,12 @@ TEST_F(LiveVerb, sigterm_ends_it_with_a_recording_of_all_frames) {
   play(1.5);
   const Ran ran = end_live(SIGTERM);
   EXPECT_EQ(ran.exit, 0) << ran.err;
-  // 60 a second; a stall of this machine between the datagrams of one may make two of it.
+  // 60 a second; a stall of this machine between the datagrams of one makes two of it.
   int relayed = 0;
   ASSERT_EQ(std::sscanf(ran.out.c_str(), "relayed %d frames of 1 sender in ", &relayed), 1)
       << ran.out;
   EXPECT_GE(relayed, 90);
-  EXPECT_LE(relayed, 100);
+  EXPECT_LE(relayed, static_cast<int>(sent_.size()));
   EXPECT_NE(ran.out.find("\nrecorded " + std::to_string(relayed) + " frames ("), std::string::npos)
       << ran.out;
   const auto file = read_motion(path("take.bvh"));
@@ -248,7 +265,7 @@ TEST_F(LiveVerb, each_sender_has_a_character_of_its_own) {
       peer->send(in_, bundle({bone_message("Hips")}));
     }
   }
-  collect(500);
+  collect_until(15);
   EXPECT_EQ(got_.size(), 15u);
   const Ran ran = end_live();
   EXPECT_EQ(ran.out.find("relayed 15 frames of 3 senders in "), 0u) << ran.out;
@@ -264,7 +281,7 @@ TEST_F(LiveVerb, what_waits_of_a_sender_is_sent_when_it_makes_room_for_another) 
   tracker_.send(in_, begun);
   // All in less than the 20 ms after which it would be sent anyway.
   for (const Peer& other : others) other.send(in_, bundle({bone_message("Head")}));
-  collect(500);
+  collect_until(17);
   EXPECT_EQ(std::count(got_.begin(), got_.end(), begun), 1);
   EXPECT_EQ(got_.size(), 17u);
 }
@@ -303,7 +320,10 @@ TEST_F(LiveVerb, garbage_does_not_end_it) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   throw_at(style_message("old", kNan));
   throw_at(bundle({bone_message("Hips", kNan, 1e38f, kNan), bone_message("Head", 0, 0, 0)}));
-  collect(200);
+  // All of it is through when this is: a sender's datagrams keep their order.
+  const Bytes last = blend_message(0.75f);
+  tracker_.send(in_, last);
+  for (int i = 0; i < kPatience && (got_.empty() || got_.back() != last); ++i) collect(5);
   got_.clear();
 
   // Bundles are opened, but not without end.
@@ -311,7 +331,7 @@ TEST_F(LiveVerb, garbage_does_not_end_it) {
   // A frame that stays incomplete goes out all the same, and in finite numbers.
   tracker_.send(in_, bundle({bone_message("Hips", kNan, 1e38f, kNan)}));
   tracker_.send(in_, blend_message(0.25f));
-  collect(500);
+  collect_until(2);
   ASSERT_EQ(got_.size(), 2u);
   EXPECT_TRUE(is_finite(bones_of(got_[0])["Hips"].position));
   EXPECT_TRUE(is_finite(bones_of(got_[0])["Hips"].rotation));
@@ -325,7 +345,7 @@ TEST_F(LiveVerb, listens_where_it_is_told) {
   start_live({});
   tracker_.send(in_, blend_message(1), 2);  // 127.0.0.2 is this machine too.
   tracker_.send(in_, blend_message(2), 1);
-  collect(300);
+  collect_until(2);
   EXPECT_EQ(got_, (std::vector<Bytes>{blend_message(1), blend_message(2)}));
   EXPECT_EQ(end_live().exit, 0);
 
@@ -334,7 +354,7 @@ TEST_F(LiveVerb, listens_where_it_is_told) {
   start_live({}, "model.safetensors", "127.0.0.1:");
   tracker_.send(in_, blend_message(3), 2);
   tracker_.send(in_, blend_message(4), 1);
-  collect(300);
+  collect_until(1);
   EXPECT_EQ(got_, std::vector<Bytes>{blend_message(4)});
   EXPECT_EQ(end_live().exit, 0);
 }
@@ -395,7 +415,7 @@ TEST_F(LiveVerb, does_not_grow_in_a_flood_of_senders) {
   [[maybe_unused]] const long before = resident_pages();
   bytes = 0;
   // How much gets through at a time depends on the machine.
-  for (int i = 0; i < 100 && bytes <= 16u << 20; ++i) flood(8);
+  for (int i = 0; i < 2000 && bytes <= 16u << 20; ++i) flood(8);
   ASSERT_GT(bytes, 16u << 20);
 #ifndef PANACHE_SANITIZED  // The sanitizer keeps what is freed for a while.
   // Pages of 4 KB: what waits for its frame for 20 ms stays below 8 MB.

@@ -188,7 +188,7 @@ class Relay:
             player.wait()
         self.run_for(0.5)
         self.process.send_signal(signal.SIGINT)
-        summary = self.process.communicate(timeout=30)[0].strip()
+        summary = self.process.communicate(timeout=300)[0].strip()
         require(self.process.returncode == 0, f'panache live ends with {self.process.returncode}')
         self.avatar.settimeout(0.2)
         try:
@@ -235,7 +235,7 @@ class Page(threading.Thread):
         self.paused = threading.Lock()
 
     def ask(self, question):
-        with socket.create_connection((kLocal, self.port), timeout=30) as connection:
+        with socket.create_connection((kLocal, self.port), timeout=300) as connection:
             connection.sendall(question)
             answer = b''
             while block := connection.recv(1 << 16):
@@ -259,7 +259,7 @@ class Page(threading.Thread):
         require(status == b'403' and not body, 'another host gets the page')
         self.counts['rejected'] += 1
         # A connection that ends in the middle: of the question, or of the answer.
-        with socket.create_connection((kLocal, self.port), timeout=30) as connection:
+        with socket.create_connection((kLocal, self.port), timeout=300) as connection:
             question = f'GET / HTTP/1.1\r\nHost: {kLocal}:{self.port}\r\n\r\n'.encode()
             connection.sendall(question[:self.chance.randrange(len(question) + 1)])
         self.counts['broken'] += 1

@@ -24,7 +24,7 @@ import tempfile
 import threading
 import time
 
-kSeconds = 60
+kSeconds = 600
 kOther = 54321  # A user who may write where it is allowed to, as root may anywhere.
 kVerbs = [
     ['info', 'walk.bvh'],

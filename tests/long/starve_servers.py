@@ -23,7 +23,7 @@ import time
 import starve
 from starve import Failure, least
 
-kSeconds = 30
+kSeconds = 300
 kPatience = 3  # Of who asks for the page.
 kLocal = '127.0.0.1'
 

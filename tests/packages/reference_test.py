@@ -17,7 +17,7 @@ def expect(holds, message):
 
 
 def output(*command, **more):
-    return subprocess.run(command, capture_output=True, text=True, timeout=60, **more).stdout
+    return subprocess.run(command, capture_output=True, text=True, timeout=600, **more).stdout
 
 
 def read(name):

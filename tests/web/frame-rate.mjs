@@ -1,5 +1,5 @@
 // node frame-rate.mjs: how fast the built page draws without a graphics card, side by side at 1440 x
-// 900: frames a second, where the time of a frame goes, and how long a push of a slider takes to be
+// 900: how soon it moves, what a step costs, frames a second, where the time of a frame goes, and how long a push of a slider takes to be
 // seen.
 
 import { frames, start } from './page/browser.mjs';
@@ -7,7 +7,28 @@ import { frames, start } from './page/browser.mjs';
 const kSettle = 6000, kSeconds = 5;
 
 const site = await start();
+const opening = performance.now();
 const tab = await site.open('', { viewport: { width: 1440, height: 900 } });
+console.log(`moves ${Math.round(performance.now() - opening)} ms after opening`);
+const steps = await tab.evaluate(() => {
+  const { source: { player }, panache } = window.page;
+  const median = (count, work) => Array.from({ length: count }, () => {
+    const begin = performance.now();
+    work();
+    return performance.now() - begin;
+  }).sort((a, b) => a - b)[count >> 1];
+  const players = Array.from({ length: 20 }, () => panache.createWalker());
+  for (const each of players) {
+    each.setStrength('old', 1);
+    each.steer(1.3, 0);
+  }
+  const one = median(400, () => player.measure(64)) / 64;
+  const crowd = median(240, () => players.forEach((each) => each.step(1 / 60)));
+  for (const each of players) each.free();
+  return { one, crowd };
+});
+console.log(`a step: ${(1000 * steps.one).toFixed(1)} us; twenty characters, walkers and all: ` +
+  `${steps.crowd.toFixed(2)} ms a frame`);
 await tab.waitForTimeout(kSettle);  // The figures are drawn, sharpness is given up where it must.
 const measured = await tab.evaluate((seconds) => new Promise((done) => {
   const { stage } = window.page;

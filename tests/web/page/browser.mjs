@@ -17,6 +17,9 @@ export const nativeHashes = () =>
   execFileSync(process.env.PANACHE_GOLDEN, [join(models, 'panache-int8.safetensors')])
     .toString().trim().split('\n').map((line) => line.split(' ')[1]);
 
+// Milliseconds after which something is taken to hang, on a busy machine too.
+const kPatience = 180000;
+
 const types = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css' };
 
 /** The page at an address with a path of its own, as it may lie on any server. */
@@ -88,6 +91,7 @@ export async function start() {
   async function open(hash = 'neutral', options = {}) {
     const { url = address, steady, card, ...look } = options;
     const tab = await browser.newPage({ viewport: { width: 1280, height: 800 }, ...look });
+    tab.setDefaultTimeout(kPatience);
     if (steady) await tab.addInitScript(steadyFrames);
     if (card) await tab.addInitScript(graphicsCard);
     if (isFirefox) await tab.addInitScript(keepDownloads);
@@ -99,12 +103,13 @@ export async function start() {
     tab.on('pageerror', (error) => complaints.push(error.message));
     tab.on('request', (request) => requests.push(request.url()));
     await tab.goto(url + (hash ? `#${hash}` : ''));
-    await tab.waitForFunction(() => window.page?.frames > 2, null, { timeout: 60000 });
+    await tab.waitForFunction(() => window.page?.frames > 2);
     return tab;
   }
   /** A page of somebody else. */
   async function plain(url) {
     const tab = await browser.newPage();
+    tab.setDefaultTimeout(kPatience);
     await tab.goto(url);
     return tab;
   }
@@ -151,11 +156,11 @@ function keepDownloads() {
 export async function download(tab, press) {
   if (isFirefox) {
     await press();
-    await tab.waitForFunction(() => window.downloads.length > 0, null, { timeout: 120000 });
+    await tab.waitForFunction(() => window.downloads.length > 0);
     const { name, text } = await tab.evaluate(() => window.downloads.shift());
     return { name, bytes: Buffer.from(text, 'base64') };
   }
-  const coming = tab.waitForEvent('download', { timeout: 120000 });
+  const coming = tab.waitForEvent('download');
   await press();
   const file = await coming;
   return { name: file.suggestedFilename(), bytes: await readFile(await file.path()) };
@@ -174,8 +179,7 @@ export async function doubleClick(tab, x, y) {
 /** Waits until the page has drawn some more frames. */
 export async function frames(tab, count = 3) {
   const begin = await tab.evaluate(() => window.page.frames);
-  await tab.waitForFunction((until) => window.page.frames >= until, begin + count,
-    { timeout: 60000 });
+  await tab.waitForFunction((until) => window.page.frames >= until, begin + count);
 }
 
 /** Where the styled body is, and how each of its parts is turned. */

@@ -12,8 +12,9 @@ before(async () => {
 });
 after(() => site.close());
 
-const address = () => tab.evaluate(() => location.hash);
-const settle = () => tab.waitForTimeout(300);
+// The address follows after a moment.
+const address = (wanted, where = tab) =>
+  where.waitForFunction((hash) => location.hash === hash, wanted);
 const field = (title) => tab.getByLabel(`${title}, exact`);
 const button = (name) => tab.getByRole('button', { name, exact: true });
 
@@ -35,8 +36,7 @@ test('a field takes the exact value, and holds it within the bounds', async () =
   await field('Old').fill('99');
   await field('Old').press('Enter');
   assert.equal((await told(tab)).strengths.old, 2);
-  await settle();
-  assert.equal(await address(), '#style.old=2');
+  await address('#style.old=2');
 });
 
 test('an amount counts for all styles, or for what it says', async () => {
@@ -104,9 +104,8 @@ test('what is set is in the address, and comes back from it', async () => {
     view: document.body.dataset.view,
   }));
   assert.deepEqual(settings, { old: '1.2', sad: '-0.3', posture: '0.5', view: 'over' });
-  await other.waitForTimeout(300);
   const renewed = link.replace('old=', 'style.old=').replace('sad=', 'style.sad=');
-  assert.equal(await other.evaluate(() => location.hash), `#${renewed}`);
+  await address(`#${renewed}`, other);
   await other.close();
 });
 
@@ -250,8 +249,7 @@ test('every change is undone and redone, and Reset all resets all', async () => 
   const { strengths, shape } = await told(tab);
   assert.deepEqual(Object.values(strengths).filter((s) => s !== 0), []);
   assert.deepEqual(Object.values(shape).filter((s) => s !== 1), []);
-  await settle();
-  assert.equal(await address(), '#neutral');
+  await address('#neutral');
 });
 
 test('styles are found by their words', async () => {

@@ -63,7 +63,7 @@ async function embed() {
 test('a page that embeds the npm package needs no unsafe-eval', async () => {
   const server = await embed();
   const tab = await site.plain(`http://127.0.0.1:${server.address().port}/`);
-  await tab.waitForFunction(() => window.done, null, { timeout: 60000 });
+  await tab.waitForFunction(() => window.done);
   const done = await tab.evaluate(() => window.done);
   assert.equal(done.error, undefined);
   for (const hash of nativeHashes()) assert.equal(done.hash, hash);
