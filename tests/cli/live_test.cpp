@@ -93,7 +93,8 @@ class LiveVerb : public ProgramTest {
                                          "--vmc-out", "127.0.0.1:" + sink_.port_name()});
     live_ = start("live", arguments, model);
     for (int i = 0; i < kPatience && !exists("live.err"); ++i) nap(5);
-    for (int i = 0; i < kPatience && read("live.err").find("relaying") == std::string::npos; ++i) nap(5);
+    for (int i = 0; i < kPatience && read("live.err").find("relaying") == std::string::npos; ++i)
+      nap(5);
     ASSERT_NE(read("live.err").find("relaying"), std::string::npos) << read("live.err");
   }
 

@@ -1,6 +1,8 @@
 // How much of a style is given: --posture, --dynamics, --timing and --region.
 
+#include "base/quat.h"
 #include "cli/program.h"
+#include "clip/motion_format.h"
 
 namespace panache::test {
 namespace {
@@ -35,11 +37,40 @@ TEST_F(ShapeOptions, all_at_one_is_the_whole_style) {
 
 TEST_F(ShapeOptions, each_changes_the_result) {
   const std::string whole = restyled({});
-  for (const std::vector<std::string>& more : {std::vector<std::string>{"--posture", "0.5"},
-                                               {"--dynamics", "0"},
-                                               {"--timing", "0"},
-                                               {"--region", "left_arm=0"}}) {
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"--posture", "0.5"}, {"--dynamics", "0"}}) {
     EXPECT_TRUE(restyled(more) != whole) << more[0];
+  }
+}
+
+TEST_F(ShapeOptions, without_timing_and_an_arm_those_are_the_inputs) {
+  restyled({"--timing", "0"});
+  const auto whole = read_motion(path("out.bvh"));
+  restyled({"--timing", "0", "--region", "left_arm=0"});
+  const auto without = read_motion(path("out.bvh")), walk = read_motion(path("walk.bvh"));
+  ASSERT_TRUE(whole.ok() && without.ok() && walk.ok());
+  const Clip &a = (*whole)->clip(), &b = (*without)->clip(), &in = (*walk)->clip();
+  ASSERT_EQ(b.frames, in.frames);
+  // How far the rotations of joints whose name begins so are from those of another clip.
+  const auto apart = [&](const Clip& other, const std::string& name) {
+    float most = 0;
+    for (int f = 0; f < b.frames; ++f) {
+      for (size_t j = 0; j < b.joints(); ++j) {
+        if (!b.skeleton.joints[j].name.starts_with(name)) continue;
+        const Quat turn = conjugate(b.pose(f).rotations[j]) * other.pose(f).rotations[j];
+        most = std::max(most, length(turn.xyz()));
+      }
+    }
+    return most;
+  };
+  constexpr float kRounding = 1e-5f;  // Of floats, and of six decimals of a degree.
+  for (const char* joint : {"leftUpperArm", "leftLowerArm", "leftHand"}) {
+    EXPECT_LT(apart(in, joint), kRounding) << joint;
+    EXPECT_GT(apart(a, joint), 0.01f) << joint;
+  }
+  for (const char* joint : {"rightUpperArm", "rightLowerArm", "rightHand"}) {
+    EXPECT_LT(apart(a, joint), kRounding) << joint;
+    EXPECT_GT(apart(in, joint), 0.01f) << joint;
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "allocations.h"
 #include "make_clip.h"
 #include "make_model.h"
 #include "net/quantize.h"
@@ -152,7 +153,11 @@ TEST(Crowd, poses_may_be_styled_in_place) {
   }
 }
 
-TEST(Crowd, of_nobody_is_no_work) { step_crowd({}, kSeconds); }
+TEST(Crowd, of_nobody_allocates_nothing) {
+  const long before = test::allocations;
+  step_crowd({}, kSeconds);
+  EXPECT_EQ(test::allocations, before);
+}
 
 }  // namespace
 }  // namespace panache
