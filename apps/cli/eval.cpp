@@ -45,6 +45,11 @@ Result<std::vector<ManifestRow>> read_tests(const std::vector<std::string>& test
   for (const ManifestRow& row : training.rows) {
     if (!row.test) learnt.insert(std::filesystem::path(row.path).lexically_normal().string());
   }
+  // Performers keep their numbers; where manifests name none, their order tells.
+  std::map<std::string, int> persons;
+  for (const ManifestRow& row : training.rows) {
+    if (!row.person.empty()) persons.try_emplace(row.person, row.set);
+  }
   std::vector<ManifestRow> judged;
   int set = 0;
   for (const std::string& path : tests) {
@@ -54,6 +59,10 @@ Result<std::vector<ManifestRow>> read_tests(const std::vector<std::string>& test
     const bool marked =
         std::any_of(rows->begin(), rows->end(), [](const ManifestRow& row) { return row.test; });
     for (ManifestRow& row : *rows) {
+      if (!persons.empty() && !row.person.empty()) {
+        const int next = next_set(training.rows) + static_cast<int>(persons.size());
+        row.set = persons.try_emplace(row.person, next).first->second;
+      }
       if (marked && !row.test) continue;
       if (learnt.contains(std::filesystem::path(row.path).lexically_normal().string())) continue;
       row.test = true;
@@ -133,8 +142,8 @@ Result<EvaluateOptions> read_options(const Options& options) {
     evaluation.unseen.push_back({name, options.unseen});
   }
   for (const std::string& name : options.splits) {
-    Result<UnseenSplit> split = named_split(name);
-    if (!split) return split.error();
+    Result<UnseenSplit> split = read_split(name);
+    if (!split) return Error{"--unseen-split: " + split.error().message};
     evaluation.unseen.push_back(*split);
   }
   for (const std::string& path : options.ood) {
@@ -212,7 +221,8 @@ void add_eval(CLI::App& app, int& exit_code) {
                    "several times")
       ->allow_extra_args(false);
   verb->add_option("--unseen-split", options->splits,
-                   "The same for a split of docs/evaluation.md: A, B or C")
+                   "The same for several contents with commas between them, or for a split of "
+                   "docs/evaluation.md: A, B or C; may be given several times")
       ->allow_extra_args(false);
   verb->add_option("--out-of-distribution", options->ood,
                    "A motion file, a folder of them or a manifest (of which contents without "

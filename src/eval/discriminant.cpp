@@ -6,8 +6,7 @@
 namespace panache {
 namespace {
 
-// A window is a second; as many frames lie between the first ones of two windows.
-constexpr int kFrames = 30, kLearntHop = 15, kHop = 10;
+constexpr int kLearntHop = 15, kHop = 10;  // Frames between the first ones of two windows.
 constexpr int kBones = kHumanJoints - 1;
 // Directions of the bones, their deviations, speeds of the joints, height of the hips.
 constexpr int kStatistics = 3 * kBones + 3 * kBones + kHumanJoints + 2;
@@ -21,8 +20,9 @@ std::vector<HumanPositions> mirrored_body(const Take& take) {
   return body;
 }
 
-void write_statistics(const std::vector<HumanPositions>& body, int first, float* out) {
-  const int last = std::min(first + kFrames, static_cast<int>(body.size()));
+void write_statistics(const std::vector<HumanPositions>& body, int first, int window_frames,
+                      float* out) {
+  const int last = std::min(first + window_frames, static_cast<int>(body.size()));
   const float frames = static_cast<float>(last - first);
   float* mean = out;
   float* deviation = out + 3 * kBones;
@@ -55,31 +55,40 @@ void write_statistics(const std::vector<HumanPositions>& body, int first, float*
   out[kStatistics - 1] = std::sqrt(std::max(squared_height - height * height, 0.0f)) / kBobUnit;
 }
 
-// Of the windows of a second, or of a take that is shorter. [windows][kStatistics]
-torch::Tensor statistics(const std::vector<HumanPositions>& body, int hop) {
-  const int windows = 1 + std::max(0, static_cast<int>(body.size()) - kFrames) / hop;
+// Of the windows of a take, or of all of one that is shorter. [windows][kStatistics]
+torch::Tensor statistics(const std::vector<HumanPositions>& body, int window_frames, int hop) {
+  const int windows = 1 + std::max(0, static_cast<int>(body.size()) - window_frames) / hop;
   torch::Tensor rows = torch::empty({windows, kStatistics});
   for (int w = 0; w < windows; ++w) {
-    write_statistics(body, w * hop, rows.data_ptr<float>() + size_t(w) * kStatistics);
+    write_statistics(body, w * hop, window_frames,
+                     rows.data_ptr<float>() + size_t(w) * kStatistics);
   }
   return rows.to(torch::kFloat64);
 }
 
 // Of all windows of a take, left as right too. [windows][kStatistics]
-torch::Tensor statistics_of(const Take& take) {
-  return torch::cat(
-      {statistics(take.body, kLearntHop), statistics(mirrored_body(take), kLearntHop)});
+torch::Tensor both_sides(const Take& take, int window_frames) {
+  return torch::cat({statistics(take.body, window_frames, kLearntHop),
+                     statistics(mirrored_body(take), window_frames, kLearntHop)});
 }
 
 }  // namespace
 
 Discriminant::Discriminant(const std::vector<Take>& takes, const std::vector<std::string>& labels,
-                           const std::vector<std::string>& classes)
-    : discriminant_(rows_of_classes(takes, labels, classes, kStatistics, statistics_of)) {}
+                           const std::vector<std::string>& classes, int window_frames)
+    : window_frames_(window_frames),
+      discriminant_(rows_of_classes(takes, labels, classes, kStatistics, [&](const Take& take) {
+        return both_sides(take, window_frames);
+      })) {}
 
-torch::Tensor Discriminant::scores(const Take& take) const {
+torch::Tensor Discriminant::scores(const Take& take, const torch::Tensor& shift) const {
   torch::NoGradGuard no_gradients;
-  return discriminant_.scores(statistics(take.body, kHop));
+  const torch::Tensor rows = statistics(take.body, window_frames_, kHop);
+  return discriminant_.scores(shift.defined() ? rows + shift : rows);
+}
+
+torch::Tensor Discriminant::mean_statistics(const Take& take) const {
+  return both_sides(take, window_frames_).mean(0);
 }
 
 }  // namespace panache

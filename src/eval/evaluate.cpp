@@ -49,13 +49,11 @@ Result<TestSet> prepare(const EvaluateOptions& options) {
   progress.update(0.5, "training the classifiers");
   Evaluator evaluator = Evaluator::create(training->takes, test, options.seed);
   const double units = 1 / styled_inputs->front().rig.scale();
-  return TestSet{*std::move(training),
-                 *std::move(inputs),
-                 *std::move(styled_inputs),
-                 AlignedTakes(std::move(test)),
-                 std::move(evaluator),
-                 {styles.begin(), styles.end()},
-                 units};
+  PerformerJudges performers(training->takes, test);
+  return TestSet{*std::move(training),           *std::move(inputs),
+                 *std::move(styled_inputs),      AlignedTakes(std::move(test)),
+                 std::move(evaluator),           std::move(performers),
+                 {styles.begin(), styles.end()}, units};
 }
 
 Result<std::vector<NamedModel>> find_models(const EvaluateOptions& options,
@@ -187,6 +185,25 @@ Result<void> judge_ood_references(const TestSet& test_set, const StyleJudges& ju
   return {};
 }
 
+// Contents to be left out need styled test takes: these are what is judged.
+Result<void> check_unseen(const EvaluateOptions& options) {
+  std::set<std::string> contents;
+  for (const ManifestRow& row : rows_to_evaluate(options)) {
+    if (!row.neutral) contents.insert(row.content);
+  }
+  std::string shown;
+  for (const std::string& content : contents) shown += (shown.empty() ? "" : ", ") + content;
+  for (const UnseenSplit& split : options.unseen) {
+    for (const std::string& content : split.contents) {
+      if (contents.contains(content)) continue;
+      return Error{
+          "unseen content '" + content +
+          "' has no styled test take; expected contents of the styled test takes: " + shown};
+    }
+  }
+  return {};
+}
+
 // The lines that stand beside all systems: real takes, and the neutral takes themselves.
 void judge_references(const TestSet& test_set, Report& report) {
   const StyleContentTable& real = test_set.evaluator.real();
@@ -198,6 +215,8 @@ void judge_references(const TestSet& test_set, Report& report) {
                                   takes_of(test_set.inputs), test_set.aligned.untouched_errors());
   report.input = mean_metrics(input);
   report.input_by_content = by_content(input);
+  report.real_clips = test_set.performers.real();
+  report.real_clips_across = test_set.performers.judge_across(test_set.evaluator.test());
   report.sc_floor = report.cc_floor =
       distance_to_real(test_set.evaluator.test(), test_set.training.takes,
                        test_set.evaluator.test()) *
@@ -242,14 +261,9 @@ Result<Report> evaluate(const EvaluateOptions& options) {
   // First, as it takes no time to tell what is wrong with them.
   Result<Systems> recorded = read_recorded(options);
   if (!recorded) return recorded.error();
+  if (Result<void> shown = check_unseen(options); !shown) return shown.error();
   Result<TestSet> test_set = prepare(options);
   if (!test_set) return test_set.error();
-  for (const UnseenSplit& split : options.unseen) {
-    for (const std::string& content : split.contents) {
-      if (test_set->evaluator.contents().find(content) >= 0) continue;
-      return Error{"unseen content '" + content + "' has no test take"};
-    }
-  }
   Result<std::vector<NamedModel>> models = find_models(options, *test_set);
   if (!models) return models.error();
   Result<Systems> comparisons = make_comparisons(options, *test_set);

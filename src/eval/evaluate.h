@@ -9,6 +9,7 @@
 #include "base/result.h"
 #include "eval/aligned_takes.h"
 #include "eval/evaluator.h"
+#include "eval/performer_judges.h"
 #include "eval/report.h"
 #include "eval/system.h"
 #include "eval/systems/table.h"
@@ -21,8 +22,9 @@ struct UnseenSplit {
   std::string name;
   std::vector<std::string> contents;
 };
-// The splits A, B and C of docs/evaluation.md; fails where there is none of that name.
-Result<UnseenSplit> named_split(const std::string& name);
+// A, B or C: the splits of docs/evaluation.md. Anything else is a list of contents with commas
+// between them; it fails where one of them is empty or named twice.
+Result<UnseenSplit> read_split(const std::string& text);
 
 struct NamedModel {
   std::string name;
@@ -61,6 +63,7 @@ struct TestSet {
   std::vector<TestInput> styled;  // and styled ones.
   AlignedTakes aligned;
   Evaluator evaluator;
+  PerformerJudges performers;
   std::vector<std::string> styles;  // That have real test takes, in order.
   double units_per_metre = 1;       // Of the first test file: the unit of CC and SC++.
 };
@@ -77,8 +80,12 @@ Result<NamedModel> train_system(const Recipe& recipe, const std::string& name,
 Result<SystemReport> evaluate_system(const System& system, const TestSet& test_set);
 
 // The same of these contents only, at strength 1.
-Result<StyleContentTable> evaluate_contents(const System& system, const TestSet& test_set,
-                                            const std::vector<std::string>& contents);
+struct ContentsEvaluation {
+  StyleContentTable cells;
+  std::vector<ClipVerdict> clips;  // Before the judges of the performers.
+};
+Result<ContentsEvaluation> evaluate_contents(const System& system, const TestSet& test_set,
+                                             const std::vector<std::string>& contents);
 
 // Trains the recipes of `models` and builds the systems of `options` without the contents of
 // `split`, which have test takes, judges them, and adds what was found to the first reports, in the

@@ -82,6 +82,31 @@ std::vector<Job> jobs_at(const System& system, const std::vector<std::string>& s
   return jobs;
 }
 
+// Every style that a judge of another performer can tell, put on this performer's neutral motion.
+std::vector<Job> jobs_across(const System& system, const std::vector<std::string>& styles,
+                             const TestSet& test_set) {
+  std::vector<Job> jobs;
+  for (size_t i = 0; i < test_set.inputs.size(); ++i) {
+    for (const std::string& style : styles) {
+      ManifestRow row = test_set.inputs[i].take.row;
+      row.style = style;
+      const StyleRequest request{style, {{style, 1.0f}}};
+      if (test_set.performers.is_judged_across(row) &&
+          system.can_run(test_set.inputs[i], request)) {
+        jobs.push_back({static_cast<int>(i), request});
+      }
+    }
+  }
+  return jobs;
+}
+
+std::vector<Take> takes_of(const std::vector<StyledTake>& outputs) {
+  std::vector<Take> takes;
+  takes.reserve(outputs.size());
+  for (const StyledTake& output : outputs) takes.push_back(output.take);
+  return takes;
+}
+
 // Nothing where the system can make no mix of the two.
 Result<std::optional<MixReport>> evaluate_mix(const System& system, const TestSet& test_set,
                                               const std::string& first, const std::string& second) {
@@ -184,8 +209,8 @@ Result<void> judge_strengths(const System& system, const TestSet& test_set,
     report.seen = mean_metrics(cells);
     report.by_content = by_content(cells);
     report.by_style = by_style(cells);
-    std::vector<Take> outputs;
-    for (const StyledTake& output : run->outputs) outputs.push_back(output.take);
+    const std::vector<Take> outputs = takes_of(run->outputs);
+    report.clips = test_set.performers.judge(outputs);
     report.sc = distance_to_real(outputs, test_set.training.takes, test_set.evaluator.test()) *
                 test_set.units_per_metre;
   }
@@ -196,14 +221,15 @@ Result<void> judge_strengths(const System& system, const TestSet& test_set,
 
 }  // namespace
 
-Result<StyleContentTable> evaluate_contents(const System& system, const TestSet& test_set,
-                                            const std::vector<std::string>& contents) {
+Result<ContentsEvaluation> evaluate_contents(const System& system, const TestSet& test_set,
+                                             const std::vector<std::string>& contents) {
   const std::vector<std::string> styles = common_styles(system, test_set);
   Result<Run> run =
       run_jobs(system, test_set.inputs, jobs_at(system, styles, 1, test_set, contents));
   if (!run) return run.error();
-  return test_set.evaluator.evaluate(run->outputs, takes_of(test_set.inputs),
-                                     test_set.aligned.errors(system));
+  return ContentsEvaluation{test_set.evaluator.evaluate(run->outputs, takes_of(test_set.inputs),
+                                                        test_set.aligned.errors(system)),
+                            test_set.performers.judge(takes_of(run->outputs))};
 }
 
 Result<SystemReport> evaluate_system(const System& system, const TestSet& test_set) {
@@ -220,6 +246,9 @@ Result<SystemReport> evaluate_system(const System& system, const TestSet& test_s
   if (Result<void> done = judge_strengths(system, test_set, styles, progress, report); !done) {
     return done.error();
   }
+  Result<Run> across = run_jobs(system, test_set.inputs, jobs_across(system, styles, test_set));
+  if (!across) return across.error();
+  report.clips_across = test_set.performers.judge_across(takes_of(across->outputs));
   for (size_t a = 0; a < styles.size(); ++a) {
     for (size_t b = a + 1; b < styles.size(); ++b) {
       progress.update(0.67 + 0.33 * static_cast<double>(a) / static_cast<double>(styles.size()));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "eval/clip_verdict.h"
 #include "eval/disturbances.h"
 #include "eval/metrics.h"
 #include "eval/ood.h"
@@ -26,6 +27,10 @@ struct UnseenReport {
   MetricsTable seen_by_content;          // The same contents by the model that saw them.
   MetricsTable blind_by_content;         // Real takes, judged by classifiers that never saw them.
   MetricsTable mean_posture_by_content;  // The style's mean posture, for comparison.
+  // Clips of the unseen contents before the judges of the performers: outputs, those of the mean
+  // posture, and real test takes; and the same real takes before judges that never saw the
+  // contents.
+  std::vector<ClipVerdict> clips, mean_posture_clips, real_clips, blind_clips;
 };
 
 // Half of one style, half of another.
@@ -47,6 +52,9 @@ struct SystemReport {
   double slider_distance = kNotMeasured;  // Of strength 0..2 with the distance from the input.
   std::vector<MixReport> mixes;
   std::vector<UnseenReport> unseen;
+  // At strength 1: each performer's own motion in each of this performer's styles before the
+  // performer's own judge, and other performers' motion in the style before that judge.
+  std::vector<ClipVerdict> clips, clips_across;
   std::vector<OodRow> ood;
   std::vector<DisturbanceRow> disturbances;
   std::vector<PredictionRow> prediction;        // Empty where the model predicts nothing.
@@ -91,6 +99,9 @@ struct Report {
   MetricsTable real_by_content, real_by_style;
   MetricsTable input_by_content;
   double cc_floor = kNotMeasured, sc_floor = kNotMeasured;  // Real takes against real takes.
+  // Real test takes, neutral ones too, before their performer's judge; styled ones before the
+  // judges of other performers who have the style.
+  std::vector<ClipVerdict> real_clips, real_clips_across;
   // The judges of out-of-distribution motion: what they say of real test takes, such judges of real
   // takes of actions unseen by them, and the judges of the clips themselves, as if they were the
   // output.

@@ -33,6 +33,47 @@ Json table_json(const MetricsTable& table) {
   return out;
 }
 
+Json clip_summary_json(const ClipSummary& summary) {
+  return {{"clips", summary.clips},
+          {"recognised", number(summary.recognised)},
+          {"cm", number(summary.cm)},
+          {"hand_speed", number(summary.hand_speed)},
+          {"hand_sharpness", number(summary.hand_sharpness)}};
+}
+
+// `real`: what the shares recognised are divided by, in the same groups; null of real takes.
+Json clips_json(const std::vector<ClipVerdict>& clips, const std::vector<ClipVerdict>* real) {
+  const auto entry = [](const std::vector<ClipVerdict>& of,
+                        const std::vector<ClipVerdict>* beside) {
+    const ClipSummary summary = summarize_clips(of);
+    Json out = clip_summary_json(summary);
+    if (beside) out["of_real"] = number(summary.recognised / summarize_clips(*beside).recognised);
+    return out;
+  };
+  const std::vector<ClipVerdict> real_styled = real ? styled_clips(*real) : clips;
+  Json out;
+  out["all"] = entry(styled_clips(clips), real ? &real_styled : nullptr);
+  const struct {
+    const char* key;
+    std::string ClipVerdict::*name;
+  } kGroups[] = {{"by_style", &ClipVerdict::style},
+                 {"by_performer", &ClipVerdict::performer},
+                 {"by_content", &ClipVerdict::content}};
+  for (const auto& [key, name] : kGroups) {
+    const bool styles = name == &ClipVerdict::style;  // Of which neutral is one.
+    ClipGroups beside = clips_by(name, real_styled);
+    out[key] = Json::object();
+    for (const auto& [group, members] : clips_by(name, styles ? clips : styled_clips(clips))) {
+      out[key][group] = entry(members, real ? &beside[group] : nullptr);
+    }
+  }
+  out["confusion"] = Json::object();
+  for (const auto& [pair, count] : confusion(clips)) {
+    out["confusion"][pair.first][pair.second] = count;
+  }
+  return out;
+}
+
 Json strength_json(const SystemReport& system) {
   Json out = Json::object();
   for (const auto& [strength, metrics] : system.strength) out[strength] = metrics_json(metrics);
@@ -79,6 +120,11 @@ Json unseen_splits_json(const std::vector<UnseenReport>& splits) {
     entry["seen"] = table_json(split.seen_by_content);
     entry["blind"] = table_json(split.blind_by_content);
     entry["mean_posture"] = table_json(split.mean_posture_by_content);
+    entry["performers"] = {
+        {"unseen", clips_json(split.clips, &split.real_clips)},
+        {"mean_posture", clips_json(split.mean_posture_clips, &split.real_clips)},
+        {"real", clips_json(split.real_clips, nullptr)},
+        {"blind", clips_json(split.blind_clips, nullptr)}};
     out[split.name] = std::move(entry);
   }
   return out;
@@ -191,12 +237,17 @@ Json prediction_json(const std::vector<PredictionRow>& rows) {
   return out;
 }
 
-Json system_json(const SystemReport& system) {
+Json system_json(const SystemReport& system, const Report& report) {
   Json out;
   out["recipe"] = system.recipe.empty() ? Json(nullptr) : Json(system.recipe);
   out["seen"] = metrics_json(system.seen);
   out["seen_by_content"] = table_json(system.by_content);
   out["seen_by_style"] = table_json(system.by_style);
+  const std::vector<ClipVerdict> shared = shared_clips(report.real_clips, report.real_clips);
+  out["performers"] = {
+      {"own", clips_json(system.clips, &report.real_clips)},
+      {"across", clips_json(system.clips_across, &report.real_clips_across)},
+      {"shared", clips_json(shared_clips(report.real_clips, system.clips), &shared)}};
   out["strength"] = strength_json(system);
   out["strength_by_style"] = strength_by_style_json(system);
   out["slider"] = {{"style", number(system.slider_style)},
@@ -237,6 +288,10 @@ std::string report_json(const Report& report) {
   out["real_by_content"] = table_json(report.real_by_content);
   out["real_by_style"] = table_json(report.real_by_style);
   out["input_by_content"] = table_json(report.input_by_content);
+  out["performers"] = {
+      {"own", clips_json(report.real_clips, nullptr)},
+      {"across", clips_json(report.real_clips_across, nullptr)},
+      {"shared", clips_json(shared_clips(report.real_clips, report.real_clips), nullptr)}};
   out["cc_floor"] = number(report.cc_floor);
   out["sc_floor"] = number(report.sc_floor);
   out["foreign_reference"] = {{"real", style_summary_json(report.ood_real)},
@@ -252,7 +307,7 @@ std::string report_json(const Report& report) {
   out["systems"] = Json::object();
   for (const SystemReport& system : report.systems) {
     assert(!out["systems"].contains(system.name));
-    out["systems"][system.name] = system_json(system);
+    out["systems"][system.name] = system_json(system, report);
   }
   // Names come from files; bytes that are not UTF-8 are no reason to lose a report.
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

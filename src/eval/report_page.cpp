@@ -33,6 +33,11 @@ std::vector<Section> sections_of(const Report& report) {
       {"style", "By style",
        "Means over the contents; the best system of each row is in bold, with a dot.",
        page_by_style(report)},
+      {"performers", "Judges of performers",
+       "Each performer's judge knows this performer's training takes alone, and tells whole clips "
+       "of real held-out takes and of restyled neutral motion among the performer's styles. What "
+       "it recognises of real takes is as much as there is to recognise.",
+       page_clips(report)},
       {"strength", "Strength",
        "The effect of strength: 0 is the input, 1 the style as captured, above 1 exaggeration.",
        page_strength(report)},

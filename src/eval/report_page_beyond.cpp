@@ -230,7 +230,7 @@ std::string page_unseen(const Report& report) {
     for (const UnseenReport& split : system.unseen) {
       const std::string table = unseen_table(report, split);
       if (table.empty()) continue;
-      out += heading(system.name + ", split " + split.name) + table;
+      out += heading(system.name + ", split " + split.name) + table + page_unseen_clips(split);
     }
   }
   return out;

@@ -19,6 +19,17 @@ struct Definition {
 // Beside those of the measures.
 constexpr Definition kDefinitions[] = {
     {"takes, windows", "How many takes were evaluated, and how many windows they have."},
+    {"judge of a performer",
+     "Tells one performer's styles and neutral motion apart, from this performer's training takes "
+     "alone, in windows of two seconds; a clip is taken for what most of its windows are."},
+    {"recognised, of real",
+     "Share of clips taken for the style asked for, and the same divided by the share of real "
+     "held-out takes."},
+    {"cm beside recognised",
+     "Mean distance of the joints in the body frame from the nearest real take of that style, "
+     "action and performer, warped in time; of real held-out takes from training takes."},
+    {"hands' speed, hands' sharpness",
+     "Mean speed of the hands, and their jerk per speed, divided by those of the real takes."},
     {"unseen, seen",
      "Results on contents whose styled takes were left out of training, and of the same system "
      "trained with them."},

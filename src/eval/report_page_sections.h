@@ -32,6 +32,10 @@ std::string page_ood(const Report& report);
 std::string page_disturbances(const Report& report);
 std::string page_mixes(const Report& report);
 
+// report_page_clips.cpp: whole clips before the judges of performers.
+std::string page_clips(const Report& report);
+std::string page_unseen_clips(const UnseenReport& split);
+
 // report_page_prediction.cpp: input that has not come yet.
 std::string page_prediction(const Report& report);
 

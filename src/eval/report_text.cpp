@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "eval/measure.h"
+#include "eval/report_clips.h"
 #include "eval/report_numbers.h"
 #include "eval/report_ood.h"
 #include "eval/report_text_table.h"
@@ -140,6 +141,18 @@ std::string unseen(const Report& report, const UnseenReport& split) {
   return table.str();
 }
 
+std::string clips(const ClipTable& from) {
+  TextTable table(from.names);
+  for (const auto& [label, columns] : from.groups) table.add_columns(label, columns);
+  for (const auto& [name, cells] : from.rows) {
+    std::vector<std::string> texts;
+    texts.reserve(cells.size());
+    for (const ClipCell& cell : cells) texts.push_back(number_text(cell.value, cell.digits));
+    table.add_row(name, std::move(texts));
+  }
+  return table.str();
+}
+
 std::string ood(const Report& report) {
   TextTable table("");
   table.add_columns("", {"clips"});
@@ -242,6 +255,10 @@ std::string report_text(const Report& report) {
   }
   text += titled("By content: style, content, jerk against real takes, pose error in degrees",
                  by_content(report));
+  text += titled("Whole clips before the judge of their performer", clips(own_clips_table(report)));
+  text +=
+      titled("Motion of other performers, before the judge of the style's performer and their own",
+             clips(clips_across_table(report)));
   const auto beside_real = [&](const std::string& title, const char* key) {
     return titled(title + " (real takes: " + texts(report.real, {key}).front() + ")",
                   strengths(report, key));
@@ -255,6 +272,8 @@ std::string report_text(const Report& report) {
           titled(cut_text("Contents left out of training: " + system.name + ", split " + split.name,
                           kTextWidth),
                  unseen(report, split));
+      text += titled("The same clips before the judges of their performers",
+                     clips(unseen_clips_table(split)));
     }
   }
   text += titled("Out-of-distribution motion: every clip in every style", ood(report));

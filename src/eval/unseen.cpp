@@ -39,9 +39,21 @@ MetricsTable evaluate_blind(const UnseenSplit& split, const TestSet& test_set, u
   return by_content(cells);
 }
 
+// The same by judges of the performers.
+std::vector<ClipVerdict> judge_blind(const UnseenSplit& split, const TestSet& test_set) {
+  std::vector<Take> known, unseen;
+  for (const Take& take : test_set.training.takes) {
+    if (!is_among(split.contents, take.row.content)) known.push_back(take);
+  }
+  for (const Take& take : test_set.evaluator.test()) {
+    if (is_among(split.contents, take.row.content)) unseen.push_back(take);
+  }
+  return PerformerJudges(known, unseen).real();
+}
+
 }  // namespace
 
-Result<UnseenSplit> named_split(const std::string& name) {
+Result<UnseenSplit> read_split(const std::string& text) {
   const std::vector<UnseenSplit> splits = {
       {"A", {"run", "wave-left-hand", "walk-turn-left"}},
       {"B",
@@ -49,9 +61,21 @@ Result<UnseenSplit> named_split(const std::string& name) {
         "walk-turn-right"}},
       {"C", {"raise-up-both-hands", "raise-up-left-hand", "raise-up-right-hand", "walk"}}};
   for (const UnseenSplit& split : splits) {
-    if (split.name == name) return split;
+    if (split.name == text) return split;
   }
-  return Error{"no split '" + name + "'; expected A, B or C"};
+  UnseenSplit split;
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t end = std::min(text.find(',', begin), text.size());
+    const std::string content = text.substr(begin, end - begin);
+    if (content.empty() || is_among(split.contents, content)) {
+      return Error{"split '" + text +
+                   "'; expected A, B or C, or different contents with commas between them"};
+    }
+    split.contents.push_back(content);
+    split.name += (begin == 0 ? "" : "+") + content;
+    begin = end + 1;
+  }
+  return split;
 }
 
 Result<void> evaluate_unseen(const UnseenSplit& split, const EvaluateOptions& options,
@@ -74,33 +98,40 @@ Result<void> evaluate_unseen(const UnseenSplit& split, const EvaluateOptions& op
   const SystemData data = system_data(training_data, learnt);
   Result<std::unique_ptr<System>> posture = make_mean_posture("mean posture", data);
   if (!posture) return posture.error();
-  Result<StyleContentTable> posture_cells = evaluate_contents(**posture, test_set, split.contents);
-  if (!posture_cells) return posture_cells.error();
-  const auto add = [&](SystemReport& system, const StyleContentTable& cells) {
+  Result<ContentsEvaluation> mean_posture = evaluate_contents(**posture, test_set, split.contents);
+  if (!mean_posture) return mean_posture.error();
+  const std::vector<ClipVerdict> blind_clips = judge_blind(split, test_set);
+  const auto add = [&](SystemReport& system, const ContentsEvaluation& evaluation) {
     UnseenReport report;
     report.name = split.name;
-    report.mean = mean_metrics(cells);
-    report.by_content = by_content(cells);
+    report.mean = mean_metrics(evaluation.cells);
+    report.by_content = by_content(evaluation.cells);
+    report.clips = evaluation.clips;
+    report.mean_posture_clips = mean_posture->clips;
+    report.blind_clips = blind_clips;
+    for (const ClipVerdict& clip : styled_clips(test_set.performers.real())) {
+      if (is_among(split.contents, clip.content)) report.real_clips.push_back(clip);
+    }
     for (const std::string& content : split.contents) {
       const auto seen = system.by_content.find(content);
       if (seen != system.by_content.end()) report.seen_by_content.insert(*seen);
     }
     report.blind_by_content = blind;
-    report.mean_posture_by_content = by_content(*posture_cells);
+    report.mean_posture_by_content = by_content(mean_posture->cells);
     system.unseen.push_back(std::move(report));
   };
 
-  std::map<const Recipe*, StyleContentTable>
+  std::map<const Recipe*, ContentsEvaluation>
       evaluated;  // A recipe trained once serves all models of it.
   for (size_t s = 0; s < models.size(); ++s) {
     const Recipe* recipe = &models[s].model->recipe();
     if (!evaluated.contains(recipe)) {
       Result<NamedModel> model = train_system(*recipe, models[s].name, training_data, learnt);
       if (!model) return Error{"unseen " + split.name + ": " + model.error().message};
-      Result<StyleContentTable> cells =
+      Result<ContentsEvaluation> evaluation =
           evaluate_contents(ModelSystem(model->name, model->model), test_set, split.contents);
-      if (!cells) return cells.error();
-      evaluated[recipe] = *std::move(cells);
+      if (!evaluation) return evaluation.error();
+      evaluated[recipe] = *std::move(evaluation);
     }
     add(reports[s], evaluated[recipe]);
   }
@@ -108,9 +139,9 @@ Result<void> evaluate_unseen(const UnseenSplit& split, const EvaluateOptions& op
     if (options.systems[s].make == make_mean_posture) continue;
     Result<std::unique_ptr<System>> system = options.systems[s].make(options.systems[s].name, data);
     if (!system) return Error{"unseen " + split.name + ": " + system.error().message};
-    Result<StyleContentTable> cells = evaluate_contents(**system, test_set, split.contents);
-    if (!cells) return cells.error();
-    add(reports[models.size() + s], *cells);
+    Result<ContentsEvaluation> evaluation = evaluate_contents(**system, test_set, split.contents);
+    if (!evaluation) return evaluation.error();
+    add(reports[models.size() + s], *evaluation);
   }
   return {};
 }

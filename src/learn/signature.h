@@ -6,6 +6,7 @@
 #include <array>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "learn/pairing.h"
@@ -32,6 +33,12 @@ inline constexpr std::array kTraits = std::to_array<Trait>({
     {"tempo", "tempo, %", 5},
 });
 inline constexpr size_t kTempoTrait = kTraits.size() - 1;
+// The place of a key of the table.
+consteval size_t trait_index(std::string_view key) {
+  size_t t = 0;
+  while (key != kTraits[t].key) ++t;
+  return t;
+}
 using Traits = std::array<double, kTraits.size()>;
 
 // Means over the frames of a take; percentages as 100 log, so that differences of them are changes.

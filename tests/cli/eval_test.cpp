@@ -65,7 +65,7 @@ void expect_system(const Json& system) {
 TEST_F(Eval, judges_models_by_real_takes_it_holds_out_and_says_so_in_a_report) {
   const Ran ran =
       run({"eval", "takes.csv", "--model", "model.safetensors", "--system", "xia2015", "--system",
-           "yumer2016", "--unseen", "wave", "--steps", "20", "--report", "report", "--json"});
+           "yumer2016", "--unseen-split", "wave", "--steps", "20", "--report", "report", "--json"});
   ASSERT_EQ(ran.exit, 0) << ran.err;
   EXPECT_EQ(ran.err, "");
   EXPECT_EQ(entries("report"), (std::vector<std::string>{"index.html", "report.json"}));
@@ -112,6 +112,15 @@ TEST_F(Eval, judges_models_by_real_takes_it_holds_out_and_says_so_in_a_report) {
   EXPECT_LT(posture["seen"]["pose_error_cm"], report["input"]["pose_error_cm"]);
   EXPECT_GT(posture["slider"]["distance"], 0.9);
 
+  // One performer, whose judge knows all real takes, and most of what bends like them.
+  EXPECT_EQ(report["performers"]["own"]["all"]["recognised"], 1);
+  EXPECT_EQ(report["performers"]["own"]["all"]["clips"], 8);
+  EXPECT_EQ(report["performers"]["own"]["confusion"]["neutral"], Json({{"neutral", 4}}));
+  EXPECT_EQ(posture["performers"]["own"]["all"]["clips"], 8);
+  EXPECT_GT(posture["performers"]["own"]["all"]["of_real"], 0.9);
+  EXPECT_EQ(posture["performers"]["across"]["all"]["clips"], 0);
+  EXPECT_TRUE(posture["performers"]["own"]["by_performer"].contains("takes"));
+
   expect_metrics(model["unseen"]["wave"]);
   EXPECT_FALSE(model["unseen"].contains("walk"));
   const Json& split = model["unseen_splits"]["wave"];
@@ -119,6 +128,10 @@ TEST_F(Eval, judges_models_by_real_takes_it_holds_out_and_says_so_in_a_report) {
   expect_metrics(split["seen"]["wave"]);
   EXPECT_TRUE(split["blind"]["wave"]["style_accuracy"].is_number());
   expect_metrics(split["mean_posture"]["wave"]);
+  for (const char* of : {"unseen", "mean_posture", "real", "blind"}) {
+    EXPECT_EQ(split["performers"][of]["all"]["clips"], 4) << of;
+    EXPECT_EQ(split["performers"][of]["by_content"].size(), 1u) << of;
+  }
 }
 
 TEST_F(Eval, a_system_that_nobody_knows_is_rejected_with_those_that_there_are) {
@@ -250,8 +263,20 @@ TEST_F(Eval, takes_that_were_trained_on_or_are_of_other_styles_do_not_judge) {
 }
 
 TEST_F(Eval, an_unknown_split_is_rejected) {
-  expect_rejected({"eval", "takes.csv", "--model", "model.safetensors", "--unseen-split", "D"},
-                  "no split 'D'; expected A, B or C");
+  const std::vector<std::string> arguments = {"eval", "takes.csv", "--model", "model.safetensors",
+                                              "--unseen-split"};
+  const auto with = [&](const std::string& split) {
+    std::vector<std::string> all = arguments;
+    all.push_back(split);
+    return all;
+  };
+  expect_rejected(
+      with("D"),
+      "unseen content 'D' has no styled test take; expected contents of the styled test "
+      "takes: walk, wave");
+  expect_rejected(with("walk,,wave"),
+                  "--unseen-split: split 'walk,,wave'; expected A, B or C, or different contents "
+                  "with commas between them");
 }
 
 TEST_F(Eval, a_report_that_exists_is_kept) {

@@ -60,14 +60,28 @@ TEST_F(EvaluateTest, a_test_take_that_cannot_be_read_is_named) {
   EXPECT_EQ(rejection(), temporary_.path() + "none.bvh: cannot be read: No such file or directory");
 }
 
-TEST(NamedSplit, there_are_three_and_no_more) {
-  EXPECT_EQ(named_split("A")->contents.size(), 3u);
-  EXPECT_EQ(named_split("B")->contents.size(), 5u);
-  EXPECT_EQ(named_split("C")->contents.size(), 4u);
-  EXPECT_EQ(named_split("C")->name, "C");
-  const auto none = named_split("a");
-  ASSERT_FALSE(none.ok());
-  EXPECT_EQ(none.error().message, "no split 'a'; expected A, B or C");
+// Known before a classifier is trained.
+TEST_F(EvaluateTest, an_unseen_content_without_a_styled_test_take_is_named) {
+  options_.unseen = {*read_split("wave,kick")};
+  EXPECT_EQ(rejection(),
+            "unseen content 'kick' has no styled test take; expected contents of the styled test "
+            "takes: walk, wave");
+}
+
+TEST(ReadSplit, three_have_names) {
+  EXPECT_EQ(read_split("A")->contents.size(), 3u);
+  EXPECT_EQ(read_split("B")->contents.size(), 5u);
+  EXPECT_EQ(read_split("C")->contents.size(), 4u);
+  EXPECT_EQ(read_split("C")->name, "C");
+}
+
+TEST(ReadSplit, others_are_lists_of_contents) {
+  EXPECT_EQ(read_split("wait")->contents, (std::vector<std::string>{"wait"}));
+  EXPECT_EQ(read_split("pick-up,wait")->contents, (std::vector<std::string>{"pick-up", "wait"}));
+  EXPECT_EQ(read_split("pick-up,wait")->name, "pick-up+wait");
+  for (const char* wrong : {"", ",", "wait,", ",wait", "walk,,wait", "wait,wait"}) {
+    EXPECT_FALSE(read_split(wrong).ok()) << wrong;
+  }
 }
 
 }  // namespace

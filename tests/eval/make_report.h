@@ -68,6 +68,14 @@ inline SystemReport made_up_system(const std::string& name, double seed) {
     row.gate = 0.1 * i;
     system.ood.push_back(row);
   }
+  system.clips = {{"ann", "ann", "old", "walk", "old", 6.25, 1.5, 0.5},
+                  {"ann", "ann", "old", "walk", "proud", 8.25, 0.75, 2},
+                  {"bob", "bob", "proud", "walk", "proud", 3.5, 1, 1}};
+  system.clips_across = {{"bob", "ann", "old", "walk", "old"}};
+  system.unseen[0].clips = {{"ann", "ann", "old", "run", "old", 9.5, 1.25, 1}};
+  system.unseen[0].real_clips = {{"ann", "ann", "old", "run", "old", 2.5, 1, 1}};
+  system.unseen[0].mean_posture_clips = {{"ann", "ann", "old", "run", "neutral", 12.5, 0.5, 1}};
+  system.unseen[0].blind_clips = {{"ann", "ann", "old", "run", "proud", 2.5, 1, 1}};
   system.disturbances = {{"none", 2.25}, {"floor -5 cm", 2.75}};
   system.prediction = {{"walk", 100, {0.5, 1.25, 3.5}, {6.5, 12.5, 30.5}, {1.5, 4.5, 15.5}}};
   system.cc = 8.5;
@@ -94,6 +102,12 @@ inline Report made_up_report() {
   report.input_by_content = {{"walk", numbers(0.03)}};
   report.cc_floor = 4.25;
   report.sc_floor = 55.5;
+  report.real_clips = {{"ann", "ann", "neutral", "walk", "neutral", 1.5, 1, 1},
+                       {"ann", "ann", "old", "walk", "old", 2.25, 1, 1},
+                       {"ann", "ann", "old", "walk", "neutral", 2.75, 1, 1},
+                       {"ann", "ann", "proud", "walk", "proud", 2.5, 1, 1},
+                       {"bob", "bob", "proud", "walk", "proud", 1.25, 1, 1}};
+  report.real_clips_across = {{"bob", "ann", "proud", "walk", "old"}};
   report.systems = {made_up_system("panache", 0.8), made_up_system(kRude, 0.7)};
   report.strips = {{"walk, old", {{"input", {standing(0), standing(1)}, ""}}, 0.25}};
   report.contacts = {{"walk, old", {{"input", 10, {{true, false}, {true, true}, {false, true}}}}}};

@@ -55,6 +55,9 @@ TEST(ReportPage, names_are_escaped_wherever_they_stand) {
   report.systems[0].ood[0].clip = report.systems[0].ood[0].style = kRude;
   report.systems[0].disturbances[0].name = kRude;
   report.systems[0].recipe = report.systems[0].unseen[0].name = kRude;
+  report.systems[0].clips[0].style = report.systems[0].clips[0].verdict = kRude;
+  report.systems[0].clips_across[0].style = report.real_clips[0].style = kRude;
+  report.systems[0].unseen[0].clips[0].content = kRude;
   report.systems[0].unseen[0].by_content[kRude] = numbers(0.5);
   report.strips[0].title = report.strips[0].rows[0].label = kRude;
   report.contacts[0].title = report.contacts[0].rows[0].label = kRude;
@@ -71,6 +74,8 @@ TEST(ReportPage, a_section_without_data_is_left_out) {
   Report report = made_up_report();
   report.strips.clear();
   report.contacts.clear();
+  report.real_clips.clear();
+  report.real_clips_across.clear();
   for (SystemReport& system : report.systems) {
     SystemReport bare;
     bare.name = system.name;
@@ -79,8 +84,8 @@ TEST(ReportPage, a_section_without_data_is_left_out) {
   }
   const std::string page = report_page(report);
   for (const char* section :
-       {"content", "style", "strength", "mixes", "unseen", "foreign", "disturbances", "foresight",
-        "strips", "contacts", "literature", "cost"}) {
+       {"content", "style", "performers", "strength", "mixes", "unseen", "foreign", "disturbances",
+        "foresight", "strips", "contacts", "literature", "cost"}) {
     const std::string id = "<section id=\"" + std::string(section) + "\">";
     EXPECT_EQ(occurrences(full, id), 1u) << section;
     EXPECT_EQ(occurrences(page, id), 0u) << section;
@@ -88,6 +93,13 @@ TEST(ReportPage, a_section_without_data_is_left_out) {
   for (const char* section : {"judged", "overall", "definitions"}) {
     EXPECT_EQ(occurrences(page, "<section id=\"" + std::string(section) + "\">"), 1u) << section;
   }
+}
+
+TEST(ReportPage, confusions_are_drawn_of_real_takes_and_of_each_system) {
+  const std::string page = report_page(made_up_report());
+  EXPECT_EQ(occurrences(page, "aria-label=\"Confusion of styles, real takes\""), 1u);
+  EXPECT_EQ(occurrences(page, "aria-label=\"Confusion of styles, panache\""), 1u);
+  EXPECT_EQ(occurrences(page, "What clips are taken for"), 3u);
 }
 
 TEST(ReportPage, every_column_of_the_overall_table_is_defined) {

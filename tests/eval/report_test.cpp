@@ -89,6 +89,36 @@ TEST(ReportJson, an_unseen_content_is_that_of_the_first_split_that_has_it) {
   EXPECT_EQ(unseen["walk"]["style_accuracy"].get<double>(), numbers(0.68)["style_accuracy"]);
 }
 
+TEST(ReportJson, clips_before_judges_of_performers_are_summed_up) {
+  Json json = Json::parse(report_json(made_up_report()));
+  Json& real = json["performers"]["own"];
+  EXPECT_EQ(real["all"]["clips"], 4);  // Neutral is no style,
+  EXPECT_EQ(real["all"]["recognised"], 0.75);
+  EXPECT_EQ(real["by_style"]["neutral"]["clips"], 1);  // but it may be taken for one.
+  EXPECT_EQ(real["by_style"]["old"]["cm"], 2.5);
+  EXPECT_FALSE(real["all"].contains("of_real"));
+  EXPECT_EQ(real["confusion"]["old"], Json({{"neutral", 1}, {"old", 1}}));
+  Json& own = json["systems"]["panache"]["performers"]["own"];
+  EXPECT_EQ(own["by_style"]["old"]["recognised"], 0.5);
+  EXPECT_EQ(own["by_style"]["old"]["of_real"], 1);
+  EXPECT_EQ(own["by_style"]["old"]["cm"], 7.25);
+  EXPECT_DOUBLE_EQ(own["by_style"]["old"]["hand_sharpness"], 1);  // Half and twice.
+  EXPECT_NEAR(own["all"]["of_real"], 2 / 3.0 / 0.75, 1e-12);
+  EXPECT_EQ(own["by_performer"]["bob"]["clips"], 1);
+  // Both ann and bob are proud; only ann is old.
+  EXPECT_EQ(json["performers"]["shared"]["all"]["clips"], 2);
+  EXPECT_EQ(json["systems"]["panache"]["performers"]["shared"]["all"]["clips"], 1);
+  Json& across = json["systems"]["panache"]["performers"]["across"];
+  EXPECT_EQ(across["by_style"]["old"]["recognised"], 1);
+  EXPECT_TRUE(across["by_style"]["old"]["of_real"].is_null());  // No real take of another.
+  EXPECT_TRUE(across["all"]["cm"].is_null());
+  Json& unseen = json["systems"]["panache"]["unseen_splits"]["A"]["performers"];
+  EXPECT_EQ(unseen["unseen"]["by_content"]["run"]["hand_speed"], 1.25);
+  EXPECT_EQ(unseen["unseen"]["all"]["of_real"], 1);
+  EXPECT_EQ(unseen["mean_posture"]["all"]["recognised"], 0);
+  EXPECT_EQ(unseen["blind"]["all"]["recognised"], 0);
+}
+
 TEST(ReportJson, out_of_distribution_rows_are_kept_and_summed_up) {
   Json json = Json::parse(report_json(made_up_report()));
   Json& ood = json["systems"]["panache"]["foreign"];

@@ -88,7 +88,8 @@ TEST(ReportText, all_its_parts_are_there) {
   for (const char* part :
        {"Overall", "By content", "Style recognised by strength", "Content kept by strength",
         "split A", "split B", "Out-of-distribution motion", "Disturbed windows", "floor -5 cm",
-        "Input prediction"}) {
+        "Whole clips before the judge of their performer", "Motion of other performers",
+        "The same clips before the judges", "all styles", "Input prediction"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part;
   }
   EXPECT_EQ(occurrences(report_text(Report()), "Foreign"), 0u);
