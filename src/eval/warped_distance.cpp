@@ -7,7 +7,7 @@
 namespace panache {
 namespace {
 
-constexpr int kHop = 15;  // Frames.
+constexpr int kWindowHop = 15;  // Frames.
 
 // Mean over the joints, metres. [frames of take][frames of real]
 std::vector<float> distances(const Take& take, const Take& real) {
@@ -53,7 +53,7 @@ double warped_distance(const Take& take, const Take& real) {
   const int rows = std::min({kWarpedFrames, take.frames(), real.frames()});
   double sum = 0;
   int windows = 0;
-  for (int first = 0; first + rows <= take.frames(); first += kHop, ++windows) {
+  for (int first = 0; first + rows <= take.frames(); first += kWindowHop, ++windows) {
     sum += best_path(distance, real.frames(), first, rows);
   }
   return 100 * sum / windows;
