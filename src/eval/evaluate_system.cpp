@@ -107,7 +107,8 @@ std::vector<Take> takes_of(const std::vector<StyledTake>& outputs) {
   return takes;
 }
 
-// Nothing where the system can make no mix of the two.
+// On motion of performers who show both styles; nothing where there is none, or where the system can
+// make no mix of the two.
 Result<std::optional<MixReport>> evaluate_mix(const System& system, const TestSet& test_set,
                                               const std::string& first, const std::string& second) {
   MixReport mix{first, second, 0, 0, 0};
@@ -118,6 +119,8 @@ Result<std::optional<MixReport>> evaluate_mix(const System& system, const TestSe
   for (const double share : kMixShares) {
     std::vector<Job> jobs;
     for (size_t i = 0; i < test_set.inputs.size(); ++i) {
+      const TestInput& input = test_set.inputs[i];
+      if (!is_shown(first, input, test_set) || !is_shown(second, input, test_set)) continue;
       const StyleRequest request{
           first, {{first, static_cast<float>(1 - share)}, {second, static_cast<float>(share)}}};
       if (system.can_run(test_set.inputs[i], request))
