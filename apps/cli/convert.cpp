@@ -63,7 +63,7 @@ Result<std::string> convert_whole(const MotionFile& motion, FileJob& file, const
   for (const int clip : find_body_motions(motion, options).clips) {
     const std::string& name = names[static_cast<size_t>(clip)];
     const std::string place = name.empty() ? file.input : file.input + ": " + name;
-    // What is no humanoid has no steps.
+    // Only a humanoid has steps.
     const Result<Rig> rig = make_rig(motion.clip(clip), options, place);
     if (rig) note_rate(motion.clip(clip), *rig, place, file.notes);
   }

@@ -27,7 +27,7 @@ struct ClipVerdict {
   bool recognised() const { return verdict == style; }
 };
 
-// Clips of one kind; shares and means are NaN where there are none.
+// Clips of one kind. Without clips, shares and means are NaN.
 struct ClipSummary {
   size_t clips = 0;
   double recognised = kNotMeasured;  // Share of the clips.
@@ -40,7 +40,7 @@ ClipSummary summarize_clips(const std::vector<ClipVerdict>& clips);
 using ClipGroups = std::map<std::string, std::vector<ClipVerdict>>;
 ClipGroups clips_by(std::string ClipVerdict::*name, const std::vector<ClipVerdict>& clips);
 
-// Those that are no real neutral takes.
+// All but the real neutral takes.
 std::vector<ClipVerdict> styled_clips(const std::vector<ClipVerdict>& clips);
 // Those of styles that several performers have, where each is judged by the performer's own judge.
 std::vector<ClipVerdict> shared_clips(const std::vector<ClipVerdict>& real,

@@ -3,7 +3,6 @@
 // nobody else. One judge of all performers would tell persons as much as styles.
 
 #include <map>
-#include <memory>
 #include <string>
 #include <tuple>
 #include <vector>

@@ -20,7 +20,7 @@ seen = set()
 for line in filter(None, lines):
     name, size, *fields = line.split()
     struct = getattr(library, names.get(name, '_' + name.title().replace('_', '')), None)
-    if struct is None:  # One that the add-on has no use for.
+    if struct is None:  # The add-on does not use it.
         continue
     assert ctypes.sizeof(struct) == int(size), name
     assert [text for field, _ in struct._fields_

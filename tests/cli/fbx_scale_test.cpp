@@ -2,9 +2,8 @@
 // without them is, whichever reader reads them.
 
 #include "cli/binary_fbx6.h"
-#include "cli/make_fbx.h"
+#include "cli/fbx_program_test.h"
 #include "cli/make_fbx6.h"
-#include "cli/program.h"
 #include "cli/same_positions.h"
 
 namespace panache::test {
@@ -62,15 +61,8 @@ const std::vector<std::pair<std::string, JointScales>> kScaled = {
 // which the step sees as another input: its networks multiply that by about ten.
 constexpr float kStyledAlike = 10 * 2.5f * 13 * 4 * 0x1p-23f;
 
-class FbxScales : public ProgramTest {
+class FbxScales : public FbxProgramTest {
  protected:
-  void SetUp() override {
-    ProgramTest::SetUp();
-    write("walk.fbx", format_fbx(walking_clip(5)));
-    if (run({"info", "walk.fbx"}).err.find("this build reads no FBX files") != std::string::npos) {
-      GTEST_SKIP() << "this build has no Assimp";
-    }
-  }
   std::unique_ptr<MotionFile> styled(const std::string& bytes) {
     write("in.fbx", bytes);
     const Ran ran = run({"stylize", "in.fbx", "--style", "old=1", "--force", "-o", "out.glb"});

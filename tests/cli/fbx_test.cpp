@@ -4,8 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/make_fbx.h"
-#include "cli/program.h"
+#include "cli/fbx_program_test.h"
 #include "cli/same_positions.h"
 #include "clip/make_gltf.h"
 
@@ -16,15 +15,8 @@ namespace {
 // joints of half a metre that adds up to less than this. Metres.
 constexpr float kNear = 2e-5f;
 
-class Fbx : public ProgramTest {
+class Fbx : public FbxProgramTest {
  protected:
-  void SetUp() override {
-    ProgramTest::SetUp();
-    write("walk.fbx", format_fbx(walking_clip(5)));
-    if (run({"info", "walk.fbx"}).err.find("this build reads no FBX files") != std::string::npos) {
-      GTEST_SKIP() << "this build has no Assimp";
-    }
-  }
   // The file brought to `name` and read again.
   std::unique_ptr<MotionFile> converted(const std::string& from, const std::string& name) {
     const Ran ran = run({"convert", from, "--force", "-o", name});

@@ -1,10 +1,9 @@
 // FBX that Assimp does not read: version 6, and text with what it rejects.
 
 #include "cli/binary_fbx6.h"
-#include "cli/make_fbx.h"
+#include "cli/fbx_program_test.h"
 #include "cli/make_fbx6.h"
 #include "cli/make_fbx6_curves.h"
-#include "cli/program.h"
 #include "cli/same_positions.h"
 
 namespace panache::test {
@@ -14,15 +13,8 @@ namespace {
 // joints of half a metre, and pivots of 6 cm, less than this. Metres.
 constexpr float kPlaceTolerance = 2e-5f;
 
-class FbxText : public ProgramTest {
+class FbxText : public FbxProgramTest {
  protected:
-  void SetUp() override {
-    ProgramTest::SetUp();
-    write("walk.fbx", format_fbx(walking_clip(5)));
-    if (run({"info", "walk.fbx"}).err.find("this build reads no FBX files") != std::string::npos) {
-      GTEST_SKIP() << "this build has no Assimp";
-    }
-  }
   void expect_is(const Clip& walk, const std::string& bytes) {
     write("in.fbx", bytes);
     for (const std::string name : {"out.bvh", "out.glb"}) {

@@ -55,7 +55,8 @@ TEST_F(PerformerJudgesTest, real_takes_are_recognised_by_their_own_judge) {
   EXPECT_EQ(clips_by(&ClipVerdict::performer, judges.real())["bob"].size(), 4u);
 }
 
-// What training takes call old, test takes call proud. Whoever has seen the test takes would know.
+// What training takes call old, test takes call proud. Only a judge that has seen the test takes
+// tells them.
 TEST_F(PerformerJudgesTest, test_takes_are_not_learnt_from) {
   std::vector<Take> test = takes_of(0, {"neutral", "old", "proud"}, {4, 5, 6});
   for (Take& take : test) {
