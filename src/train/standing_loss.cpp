@@ -12,6 +12,8 @@ constexpr double kUnit = 0.2;      // m/s.
 constexpr double kStands = 0.3;    // m/s: a toe that is faster does not stand.
 constexpr double kLow = 0.05;      // Metres above the lowest toe of the sequence.
 constexpr double kNoSpeed = 0.02;  // m/s.
+// Metres that a style may move one standing foot from the other, and the unit beyond.
+constexpr double kStance = 0.06, kStanceUnit = 0.1;
 constexpr double kStep = kClassifiedSpacing / kTakeRate;  // Seconds between instants.
 
 // Between neighbouring instants.
@@ -52,7 +54,17 @@ torch::Tensor standing_loss(const torch::Tensor& in, const torch::Tensor& out,
   const torch::Tensor low = height - height.amin({1, 2}, true) < kLow;
   const torch::Tensor stands = (1 - before.square().sum(3).sqrt() / kStands).relu() * low;
   const torch::Tensor moved = ((after - before).square().sum(3) + 1e-6).sqrt() / kUnit;
-  return (moved.square() / (1 + moved) * stands).sum() / (stands.sum() + 1e-5);
+  // Where both stand, neither comes to stand elsewhere: legs of a walk are none for a body at rest.
+  const auto apart = [](const torch::Tensor& both) {
+    const torch::Tensor between = halfway(both.select(2, 0) - both.select(2, 1));
+    return torch::stack({between.select(2, 0), between.select(2, 2)}, 2);
+  };
+  const torch::Tensor stance =
+      (((apart(toes_of(out)) - apart(toes)).square().sum(2) + 1e-6).sqrt() - kStance).relu() /
+      kStanceUnit;
+  const torch::Tensor rests = stands.prod(2);
+  return (moved.square() / (1 + moved) * stands).sum() / (stands.sum() + 1e-5) +
+         (stance.square() / (1 + stance) * rests).sum() / (rests.sum() + 1e-5);
 }
 
 }  // namespace panache
