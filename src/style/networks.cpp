@@ -3,6 +3,7 @@
 
 #include "base/elementary.h"
 #include "style/networks_scratch.h"
+#include "style/stages/strengths.h"
 
 namespace panache {
 
@@ -32,7 +33,9 @@ void StyleNetworks::add_heads(std::span<const Pass> passes, int network, Rows<co
   // Heads that are active whatever the styles: the only one, or that of no style.
   const size_t always = heads.count > m.built_in() || !m.recipe().style_heads;
   const auto strength = [&](size_t p, size_t h) {
-    return h < always ? 1.0f : exaggerated(passes[p].networks->strengths_[h - always]);
+    if (h < always) return 1.0f;
+    const float asked = passes[p].networks->strengths_[h - always];
+    return network == Model::kPose ? posture_strength(asked) : movement_strength(asked);
   };
   ScratchArena room = arena;
   const Rows<float> answers = room.rows(passes.size(), heads.layers.front().width());
@@ -118,11 +121,10 @@ void StyleNetworks::answer_constants() noexcept {
   contact_out_ = {};
   for (size_t s = 0; s < strengths_.size(); ++s) {
     const Model::ConstantStyle& style = model_->constants_[s];
-    const float strength = exaggerated(strengths_[s]);
     std::array<float, StyleDelta::kSize> change;
     pack(style.change, change);
-    add_scaled(strength, change, pose_out_);
-    timing_out_[0] += strength * style.log_rate;
+    add_scaled(posture_strength(strengths_[s]), change, pose_out_);
+    timing_out_[0] += movement_strength(strengths_[s]) * style.log_rate;
   }
 }
 

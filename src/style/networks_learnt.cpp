@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "style/networks_scratch.h"
+#include "style/stages/strengths.h"
 
 namespace panache {
 
@@ -31,8 +32,8 @@ void StyleNetworks::add_learnt(std::span<const Pass> passes, std::span<const flo
     StyleNetworks& self = *passes[p].networks;
     bool gathered = false;
     for (size_t k = 0; k < m.learnt_.size(); ++k) {
-      const float strength = exaggerated(self.strengths_[first + k]);
-      if (strength == 0) continue;
+      const float asked = self.strengths_[first + k];
+      if (asked == 0) continue;
       if (!gathered) m.trunks_.all_layers(Model::kPose, p, passes.size(), scratch, activations);
       gathered = true;
       const Model::Learnt& learnt = m.learnt_[k];
@@ -47,9 +48,9 @@ void StyleNetworks::add_learnt(std::span<const Pass> passes, std::span<const flo
       const std::span<float> answer = rest.take(learnt.head.width());
       learnt.head.forward({drawn.data(), 1, 0}, {answer.data(), 1, 0});
       constexpr int kChange = StyleDelta::kSize;
-      add_scaled(strength, answer.first<kChange>(), self.pose_out_);
-      add_scaled(strength, answer.subspan<kChange, 1>(), self.timing_out_);
-      add_scaled(strength, answer.subspan<kChange + 1, 2>(), self.contact_out_);
+      add_scaled(posture_strength(asked), answer.first<kChange>(), self.pose_out_);
+      add_scaled(movement_strength(asked), answer.subspan<kChange, 1>(), self.timing_out_);
+      add_scaled(movement_strength(asked), answer.subspan<kChange + 1, 2>(), self.contact_out_);
     }
   }
 }

@@ -9,15 +9,6 @@
 
 namespace panache {
 
-// Beyond strength 1 the heads are driven this share as fast: at twice its size a style's change
-// tears the motion apart, and the upper half of the slider would be of no use.
-inline constexpr float kExaggeration = 0.3f;
-
-inline float exaggerated(float strength) {
-  const float size = std::abs(strength);
-  return size <= 1 ? strength : std::copysign(1 + kExaggeration * (size - 1), strength);
-}
-
 // Moves a gate by `share` of the way; at 1 to the very bit, wherever it was.
 inline void ease_gate(float wanted, float share, float& open) {
   open = share < 1 ? open + share * (wanted - open) : wanted;

@@ -19,6 +19,7 @@
 #include "train/fingerprint.h"
 #include "train/gate.h"
 #include "train/guidance.h"
+#include "train/neutral_tempos.h"
 #include "train/performers.h"
 #include "train/position_loss.h"
 #include "train/train_predictor.h"
@@ -292,6 +293,7 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
   const int count = static_cast<int>(names.size());
   SampleSet set(data.takes, data.pairings, names, recipe, settings.neutral_samples);
   if (recipe.learns_styles) {
+    level_neutral_tempos(data.takes, data.pairings, set);
     take_off_performers(data.takes, set);
     correct_few_takes(data.takes, set);
   }

@@ -118,9 +118,9 @@ TEST(MeanPosture, no_foot_is_ever_planted) {
   for (const float planted : networks.contact()) EXPECT_LT(planted, 1e-6f);
 }
 
-TEST(MeanPosture, above_strength_1_it_is_exaggerated_more_gently_as_any_style) {
+TEST(MeanPosture, at_strength_2_it_holds_twice_as_much_as_any_style) {
   const auto model = mean_posture_model(made_data());
-  EXPECT_NEAR(answer(model, {2, 0}).pose[6], 1.3f * answer(model, {1, 0}).pose[6], 1e-5);
+  EXPECT_NEAR(answer(model, {2, 0}).pose[6], 2 * answer(model, {1, 0}).pose[6], 1e-5);
 }
 
 TEST(MeanPosture, is_a_system_of_the_styles_with_a_number_for_each_part_of_a_change) {

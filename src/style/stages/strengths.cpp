@@ -13,7 +13,15 @@ float bounded(float amount, float max) {
   return std::isfinite(amount) ? std::clamp(amount, 0.0f, max) : 1.0f;
 }
 
+float exaggerated(float strength, float even) {
+  const float size = std::abs(strength);
+  return size <= even ? strength : std::copysign(even + 0.3f * (size - even), strength);
+}
+
 }  // namespace
+
+float posture_strength(float strength) noexcept { return exaggerated(strength, 2); }
+float movement_strength(float strength) noexcept { return exaggerated(strength, 1); }
 
 void EasedStrengths::step(std::span<const float> strengths, const Shape& shape,
                           const StepTime& time) noexcept {
@@ -31,12 +39,16 @@ void EasedStrengths::step(std::span<const float> strengths, const Shape& shape,
   }
 
   const float all = bounded(shape.strength, Shape::kMax);
-  float total = 0;
+  float total = 0, posture = 0, movement = 0;
   for (size_t i = 0; i < now_.size(); ++i) {
     const float wanted = std::isfinite(strengths[i]) ? strengths[i] * all : 0.0f;
     approach(now_[i], std::clamp(wanted, -kMaxStrength, kMaxStrength), gain, kNear);
     total += std::abs(now_[i]);
+    posture += std::abs(posture_strength(now_[i]));
+    movement += std::abs(movement_strength(now_[i]));
   }
+  in_force_ = shape_;
+  if (movement < posture) in_force_.dynamics *= movement / posture;
   amount_ = std::min(1.0f, 4 * total);
 }
 
