@@ -109,10 +109,10 @@ int live(const Options& options) {
     auto free = check_output("", options.record, options.force);
     if (!free) return fail(free.error(), kBadInput);
   }
-  Result<Shape> shape = read_shape(options.shape);
-  if (!shape) return fail(shape.error(), kBadUsage);
   LiveOptions how = options.time;
-  how.stylizer.shape = *shape;
+  if (auto shape = read_shape(options.shape, how.stylizer); !shape) {
+    return fail(shape.error(), kBadUsage);
+  }
   Result<std::string> path = find_model(options.model);
   if (!path) return fail(path.error(), kBadInput);
   Result<std::shared_ptr<const Model>> model = Model::load(*path);

@@ -35,7 +35,11 @@ void add_shape_options(CLI::App& verb, ShapeFlags& flags) {
       "How much of the lasting part of the style: 0 to 2;\ndefault: 1");
   add("--dynamics", flags.shape.dynamics,
       "How much of its movement and root motion: 0 to 2;\ndefault: 1");
-  add("--timing", flags.shape.timing, "How much of its tempo: 0 to 2; default: 1");
+  verb.add_option(
+          "--timing", flags.timing,
+          "Where it has its tempo: where the feet step (steps,\nthe default), everywhere "
+          "(all) or nowhere (off: frame\nby frame); or how much of it where they step: 0 to 2")
+      ->type_name("TIMING");
   verb.add_option(
           "--region", flags.regions,
           "REGION=AMOUNT: how much of the style legs, torso,\nleft_arm or right_arm get, 0 to 2. "
@@ -44,8 +48,17 @@ void add_shape_options(CLI::App& verb, ShapeFlags& flags) {
       ->type_name("REGION");
 }
 
-Result<Shape> read_shape(const ShapeFlags& flags) {
+Result<void> read_shape(const ShapeFlags& flags, StylizerOptions& how) {
   Shape shape = flags.shape;
+  how.tempo_everywhere = flags.timing == "all";
+  const std::optional<float> timing = flags.timing == "steps" || flags.timing == "all" ? 1.0f
+                                      : flags.timing == "off"                          ? 0.0f
+                                                              : amount(flags.timing);
+  if (!timing) {
+    return Error{"--timing " + panache::quoted(flags.timing) +
+                 ": expected steps, all, off or an amount of 0 to 2"};
+  }
+  shape.timing = *timing;
   std::array<bool, kRegions> given{};
   for (const std::string& text : flags.regions) {
     const size_t equals = text.find('=');
@@ -66,7 +79,8 @@ Result<Shape> read_shape(const ShapeFlags& flags) {
     given[*region] = true;
     shape.regions[*region] = *value;
   }
-  return shape;
+  how.shape = shape;
+  return {};
 }
 
 }  // namespace panache::cli

@@ -7,20 +7,21 @@
 #include <CLI/CLI.hpp>
 
 #include "base/result.h"
-#include "style/shape.h"
+#include "style/stylizer.h"
 
 namespace panache::cli {
 
 struct ShapeFlags {
-  Shape shape;                       // All but the regions.
+  Shape shape;                       // All but regions and timing.
+  std::string timing = "steps";      // As typed.
   std::vector<std::string> regions;  // As typed: "legs=0.5".
 };
 
 // Gives `verb` the four options; `flags` must outlive it.
 void add_shape_options(CLI::App& verb, ShapeFlags& flags);
 
-// The shape with its regions. Fails with a message where one is unknown, out of range or given
-// twice.
-Result<Shape> read_shape(const ShapeFlags& flags);
+// Writes the shape, and where the style has its tempo, to `how`. Fails with a message where a
+// region is unknown, out of range or given twice, or the timing is unknown.
+Result<void> read_shape(const ShapeFlags& flags, StylizerOptions& how);
 
 }  // namespace panache::cli

@@ -264,8 +264,10 @@ std::string name_styles(const StylizeOptions& options) {
 int stylize(const StylizeOptions& options) {
   if (auto rig = check_rig_flags(options.rig); !rig) return fail(rig.error(), kBadUsage);
   if (auto read = check_read_options(options.read); !read) return fail(read.error(), kBadUsage);
-  Result<Shape> shape = read_shape(options.shape);
-  if (!shape) return fail(shape.error(), kBadUsage);
+  RestyleOptions how;
+  if (auto shape = read_shape(options.shape, how.stylizer); !shape) {
+    return fail(shape.error(), kBadUsage);
+  }
   Result<std::string> path = find_model(options.model);
   if (!path) return fail(path.error(), kBadInput);
   Result<std::shared_ptr<const Model>> model = Model::load(*path);
@@ -289,10 +291,9 @@ int stylize(const StylizeOptions& options) {
   Result<RigOptions> rig = read_rig_options(options.rig);
   if (!rig) return fail(rig.error(), kBadInput);
 
-  Wanted wanted{*std::move(model), *std::move(wishes), *std::move(rig), {}, std::move(onto)};
-  wanted.how.timing = !options.no_timing;
+  Wanted wanted{*std::move(model), *std::move(wishes), *std::move(rig), how, std::move(onto)};
   wanted.how.stylizer.foot_lock = !options.no_feet;
-  wanted.how.stylizer.shape = *shape;
+  wanted.how.timing = !options.no_timing;
   return run_batch(*std::move(files), options.batch, "restyling", "restyled",
                    [&](FileJob& file, const std::function<void(double)>& progress) {
                      auto done = stylize_file(file, wanted, options, progress);
@@ -326,7 +327,7 @@ void add_stylize(CLI::App& app, int& exit_code) {
   add_onto_options(*verb, options->onto);
   add_place_options(*verb, options->place, "the original animations");
   add_shape_options(*verb, options->shape);
-  verb->add_flag("--no-timing", options->no_timing, "Keep the tempo and the number of frames");
+  verb->add_flag("--no-timing", options->no_timing, "The same as --timing off");
   verb->add_flag("--no-feet", options->no_feet, "Do not hold planted feet in place");
   verb->add_flag("--verbose", options->verbose,
                  "Show how similar each motion is to the training data\nof the styles");

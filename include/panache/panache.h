@@ -183,8 +183,8 @@ typedef struct panache_character_options {
    * maximum lead (0 to 0.25; missing input is predicted, if the model can). With both at 0 no
    * latency is added, and the tempo stays the input's. */
   double max_lag, max_lead;
-  /* Hips that move faster over the ground than this, in m/s, have jumped: the past is forgotten, and
-   * the style starts afresh. A body on a vehicle or a moving platform, in world space, needs a
+  /* Hips that move faster over the ground than this, in m/s, have jumped: the past is forgotten,
+   * and the style starts afresh. A body on a vehicle or a moving platform, in world space, needs a
    * higher limit, or it is styled anew at each frame. 0 or INFINITY: no distance is a jump, and
    * panache_character_reset() tells of one. A sprinter reaches 12 m/s. */
   double max_speed;
@@ -308,7 +308,8 @@ typedef struct panache_stylize_options {
   float smoothing_seconds;
   int32_t hold_feet;
   int32_t style_root;
-  int32_t style_timing;       /* 1: the clip gets the tempo of the style; 0: frame by frame. */
+  int32_t style_timing; /* 1: where the feet step the clip gets the tempo of the style, so that
+                         * talk and gestures keep their length; 2: everywhere; 0: frame by frame. */
   const panache_shape* shape; /* NULL: all of it at 1. */
   double max_speed;           /* As in panache_character_options. */
 } panache_stylize_options;

@@ -59,6 +59,7 @@ Result<RestyleOptions> read_options(const panache_stylize_options* options) {
   out.stylizer.root = given->style_root != 0;
   out.stylizer.max_speed = read_max_speed(given->max_speed);
   out.timing = given->style_timing != 0;
+  out.stylizer.tempo_everywhere = given->style_timing == 2;
   out.stylizer.shape = *shape;
   return out;
 }

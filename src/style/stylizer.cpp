@@ -102,9 +102,10 @@ void Stylizer::give_out(const StepTime& time, Pose out, StageClock* clock) noexc
   asked.log_rate = networks_.log_rate();
   std::ranges::copy(networks_.contact(), asked.contacts.begin());
   asked.gate = networks_.gate();
-  stages_.step(
-      asked, {strengths_.shape(), strengths_.amount(), flight_, options_.root, options_.foot_lock},
-      observer_, window_, time, clock);
+  stages_.step(asked,
+               {strengths_.shape(), strengths_.amount(), flight_, options_.root, options_.foot_lock,
+                options_.tempo_everywhere},
+               observer_, window_, time, clock);
   observer_.write(stages_.change(), out);
   tell(clock, Stage::write);
   started_ = true;

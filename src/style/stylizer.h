@@ -27,7 +27,9 @@ struct StylizerOptions {
   float smoothing_seconds = 0.04f;
   bool foot_lock = true;
   bool root = true;  // Style the root motion, not only the pose.
-  Shape shape;       // At first, see Stylizer::set_shape().
+  // The style's tempo also where the feet stand; otherwise such motion keeps its input's time.
+  bool tempo_everywhere = false;
+  Shape shape;  // At first, see Stylizer::set_shape().
   // Hips that are faster over the ground, m/s, have jumped, and the past is forgotten. Bodies on
   // vehicles need more; infinity: nothing is a jump.
   float max_speed = Observer::kMaxGroundSpeed;
@@ -75,7 +77,8 @@ class Stylizer {
   bool restore(std::span<const std::byte> in) noexcept;
 
   // Input seconds per output second that style and shape ask for at the last step; 1 without a
-  // style, and while the body is in the air: it falls as its input does.
+  // style, while the body is in the air, because it falls as its input does, and where the feet
+  // stand, see StylizerOptions::tempo_everywhere.
   double rate() const noexcept;
   // How much any style is in force: 0 without one, 1 from a quarter strength on; at the last step.
   float amount() const noexcept { return strengths_.amount(); }

@@ -26,6 +26,13 @@ FlightWatch watch(const Clip& clip, double until = 1e9) {
   return flights;
 }
 
+// A jump from standing has no steps.
+const RestyleOptions kTempoEverywhere = [] {
+  RestyleOptions options;
+  options.stylizer.tempo_everywhere = true;
+  return options;
+}();
+
 float most(const FlightWatch& flights, double seconds) {
   float out = 0;
   for (double t = 0; t < seconds; t += 0.01) out = std::max(out, flights.amount(t));
@@ -156,7 +163,8 @@ TEST(Flight, a_jump_falls_as_its_input_does_in_every_shipped_style) {
   const auto model = shipped();
   bool slower = false;
   for (size_t s = 0; s < model->styles().size(); ++s) {
-    const auto styled = restyle(clip, *Rig::create(clip), model, {{static_cast<int>(s), {{0, 1}}}});
+    const auto styled = restyle(clip, *Rig::create(clip), model, {{static_cast<int>(s), {{0, 1}}}},
+                                kTempoEverywhere);
     std::vector<double> times;
     for (const double frame : styled->source_frames) times.push_back(frame * clip.frame_time);
     EXPECT_NEAR(fall_in_flight(jump, styled->clip, times), -test::kGravity, 0.1 * test::kGravity)
@@ -193,7 +201,7 @@ TEST(Flight, a_jump_lands_on_a_whole_frame_of_its_input) {
     TensorFile file = test::make_model({"slow"});
     test::set_rate(file, 0.83);
     const auto model = *Model::parse(format_safetensors(file), "test model");
-    const auto styled = restyle(clip, *Rig::create(clip), model, {{0, {{0, 1}}}});
+    const auto styled = restyle(clip, *Rig::create(clip), model, {{0, {{0, 1}}}}, kTempoEverywhere);
     const double landing = jump.landing() / clip.frame_time;
     double on_foot = 0;
     for (const double frame : styled->source_frames) {
@@ -212,6 +220,7 @@ TEST(Flight, live_a_jump_falls_as_its_input_does_in_every_shipped_style) {
   const Clip clip = jump.clip();
   const auto model = shipped();
   LiveOptions options;
+  options.stylizer = kTempoEverywhere.stylizer;
   options.max_lag = 1.5;
   for (size_t s = 0; s < model->styles().size(); ++s) {
     LiveStylizer live = *LiveStylizer::create(model, *Rig::create(clip), options);
@@ -242,6 +251,7 @@ TEST(Flight, a_jump_goes_on_bit_for_bit_where_it_was_saved) {
   const test::Jump jump;
   const Clip clip = jump.clip();
   LiveOptions options;
+  options.stylizer = kTempoEverywhere.stylizer;
   options.max_lag = 1;
   LiveStylizer live = *LiveStylizer::create(shipped(), *Rig::create(clip), options);
   std::vector<float> strengths(live.stylizer().strengths().size());

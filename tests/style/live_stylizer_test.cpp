@@ -50,7 +50,9 @@ class LiveWalk {
 
 class LiveStylizerTest : public testing::Test {
  protected:
-  LiveStylizer live(std::shared_ptr<const Model> model, const LiveOptions& options) const {
+  // The play head is the matter here, whether or not feet step.
+  LiveStylizer live(std::shared_ptr<const Model> model, LiveOptions options) const {
+    options.stylizer.tempo_everywhere = true;
     Result<LiveStylizer> made = LiveStylizer::create(model, *Rig::create(clip_), options);
     EXPECT_TRUE(made.ok()) << (made ? "" : made.error().message);
     return *std::move(made);

@@ -164,8 +164,10 @@ TEST_F(ShapeTest, timing_scales_the_logarithm_of_the_rate_within_its_range) {
   const auto rate = [&](float timing) {
     TensorFile file = test::make_model({"old", "proud"}, 3);
     file.tensors["timing.head.0.bias"].values = {0.3f};
+    StylizerOptions options;
+    options.tempo_everywhere = true;
     Stylizer stylizer =
-        *Stylizer::create(*Model::parse(format_safetensors(file), "test model"), rig_);
+        *Stylizer::create(*Model::parse(format_safetensors(file), "test model"), rig_, options);
     Shape shape;
     shape.timing = timing;
     stylizer.set_shape(shape);

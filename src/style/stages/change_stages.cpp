@@ -6,6 +6,7 @@
 namespace panache {
 
 void ChangeStages::reset() noexcept {
+  steps_.reset();
   filter_.reset();
   root_.reset();
   shaping_.reset();
@@ -19,6 +20,8 @@ void ChangeStages::step(const AskedChange& asked, const ChangeControl& control,
                         const Observer& observer, const InputWindow& window, const StepTime& time,
                         StageClock* clock) noexcept {
   const Observation& now = observer.now();
+  steps_.step(now.world.positions, time);
+  tempo_share_ = control.tempo_everywhere ? 1 : steps_.amount();
   filter_.step(asked.delta, asked.log_rate, asked.gate, now.body_frame, time);
   tell(clock, Stage::filter);
   if (control.root) root_.step(filter_.delta(), asked.gate, observer, window, time);
@@ -50,7 +53,7 @@ void ChangeStages::step(const AskedChange& asked, const ChangeControl& control,
 }
 
 double ChangeStages::rate(float timing, float flight) const noexcept {
-  const float log_rate = bounded_log_rate(timing * filter_.log_rate());
+  const float log_rate = bounded_log_rate(timing * tempo_share_ * filter_.log_rate());
   return static_cast<double>(exponential(log_rate * (1 - flight)));
 }
 

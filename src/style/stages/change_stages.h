@@ -15,6 +15,7 @@
 #include "style/stages/floor.h"
 #include "style/stages/root_motion.h"
 #include "style/stages/shaping.h"
+#include "style/stages/step_watch.h"
 #include "style/stages/step_time.h"
 #include "style/stages/window.h"
 
@@ -34,6 +35,7 @@ struct ChangeControl {
   float amount = 1;  // How much of any style is in force, see EasedStrengths::amount().
   float flight = 0;  // See FlightWatch::amount().
   bool root = true, foot_lock = true;
+  bool tempo_everywhere = false;  // Otherwise only where the feet step.
 };
 
 class ChangeStages {
@@ -47,7 +49,8 @@ class ChangeStages {
             const InputWindow& window, const StepTime& time, StageClock* clock) noexcept;
 
   // At the last step: what is to be done to the input, the probability that each foot is planted,
-  // and input seconds per output second, `timing` of the change's own tempo; 1 in a flight.
+  // and input seconds per output second, `timing` of the change's own tempo; 1 in a flight, and
+  // where the feet stand.
   const BodyChange& change() const noexcept { return change_; }
   std::span<const float, kFeet> contacts() const noexcept { return contacts_; }
   double rate(float timing, float flight) const noexcept;
@@ -56,6 +59,8 @@ class ChangeStages {
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
     visit(self.contacts_), visit(self.change_);
+    visit(self.tempo_share_);
+    StepWatch::visit_state(self.steps_, visit);
     OutputFilter::visit_state(self.filter_, visit);
     RootMotion::visit_state(self.root_, visit);
     Shaping::visit_state(self.shaping_, visit);
@@ -66,6 +71,8 @@ class ChangeStages {
   }
 
  private:
+  StepWatch steps_;
+  float tempo_share_ = 1;  // Of the change's own tempo, at the last step.
   OutputFilter filter_;
   RootMotion root_;
   Shaping shaping_;

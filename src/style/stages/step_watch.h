@@ -1,0 +1,33 @@
+#pragma once
+// Whether the feet step. A style's tempo is that of its steps; a body that stands and talks, waits
+// or works keeps the time of its input.
+
+#include <array>
+
+#include "pose/contacts.h"
+#include "rig/humanoid.h"
+#include "style/stages/step_time.h"
+
+namespace panache {
+
+class StepWatch {
+ public:
+  void reset() noexcept { *this = {}; }
+  // `world`: canonical joints of the input, metres.
+  void step(const HumanPositions& world, const StepTime& time) noexcept;
+  // 0 where the feet stand, 1 where they walk or run; eases in and out over half a second.
+  float amount() const noexcept;
+
+  // Calls visit(member) for everything that tells one character from another.
+  template <class Self, class Visit>
+  static void visit_state(Self& self, Visit&& visit) {
+    visit(self.feet_), visit(self.speed_), visit(self.seen_);
+  }
+
+ private:
+  std::array<Vec3, kFeet> feet_{};  // At the last step.
+  float speed_ = 0;                 // Of both together over the ground, smoothed, m/s.
+  bool seen_ = false;               // Whether a speed is known.
+};
+
+}  // namespace panache
