@@ -166,7 +166,7 @@ Result<Info> motion_info(const std::string& path, const InfoVerb& verb, const Ri
   return info;
 }
 
-// As styles, and all else that the file says of itself.
+// In short what styles prints, and all else that the file says of itself.
 Result<Info> model_info(const std::string& path) {
   const Result<TensorFile> file = read_tensors(path);
   if (file && is_style_file(*file)) {
@@ -177,11 +177,11 @@ Result<Info> model_info(const std::string& path) {
   Result<LoadedModel> loaded = load_model(path);
   if (!loaded) return loaded.error();
   const auto& metadata = loaded->model->metadata();
-  Info info{describe(*loaded) + "\nMetadata:\n", to_json(*loaded)};
+  Info info{summarize(*loaded) + "\nMetadata:\n", to_json(*loaded)};
   info.json["metadata"] = metadata;
   for (const auto& [key, value] : metadata) {
     // These stand above.
-    if (key == "styles" || key == "style_descriptions" || key == "style_origins") continue;
+    if (key == "styles" || key.starts_with("style_")) continue;
     info.text += "  " + padded(key, 16) + value + "\n";
   }
   return info;

@@ -39,6 +39,59 @@ std::string describe(const StyleInfo& style, size_t width) {
   return text.empty() ? "  " + name + "\n" : text;
 }
 
+struct Group {
+  std::string title;  // Empty where the model has no groups.
+  std::vector<const StyleInfo*> styles;
+};
+
+// The styles by their groups, each where the first of its styles stands.
+std::vector<Group> group_styles(const std::vector<StyleInfo>& styles) {
+  const auto has_group = [](const StyleInfo& style) { return !style.group.empty(); };
+  const bool any = std::ranges::any_of(styles, has_group);
+  std::vector<Group> groups;
+  for (const StyleInfo& style : styles) {
+    std::string title = style.group;
+    if (any && title.empty()) title = style.learnt ? "learnt" : "others";
+    auto found = std::ranges::find(groups, title, &Group::title);
+    if (found == groups.end()) found = groups.insert(found, {title, {}});
+    found->styles.push_back(&style);
+  }
+  return groups;
+}
+
+// Names with commas between them, in lines of at most 80 letters that begin with `indent` spaces.
+std::string list_names(const Group& group, size_t indent) {
+  constexpr size_t kWidth = 80;
+  std::string text;
+  size_t column = indent;
+  for (const StyleInfo* style : group.styles) {
+    const bool last = style == group.styles.back();
+    const std::string word = style->name + (last ? "" : ",");
+    if (!text.empty() && column + 1 + word.size() > kWidth) {
+      text += "\n" + std::string(indent, ' ');
+      column = indent;
+    } else if (!text.empty()) {
+      text += " ";
+      ++column;
+    }
+    text += word;
+    column += word.size();
+  }
+  return text + "\n";
+}
+
+// All but the styles.
+std::string describe_head(const LoadedModel& loaded) {
+  const Model& model = *loaded.model;
+  std::string text = loaded.path + "\n";
+  text += "  recipe       " + entry(model, "recipe") + "\n";
+  text += "  size         " + fixed(static_cast<double>(loaded.bytes) / 1000, 0) + " KB, " +
+          std::to_string(model.parameter_count()) + " numbers\n";
+  text += describe_data(model.metadata()) + "\n";
+  if (model.styles().empty()) return text + "no styles yet: panache learn adds them\n";
+  return text + plural(model.styles().size(), "style") + ":\n";
+}
+
 }  // namespace
 
 Result<LoadedModel> load_model(const std::string& path) {
@@ -60,18 +113,26 @@ Result<LoadedStyle> load_style(const std::string& path) {
 }
 
 std::string describe(const LoadedModel& loaded) {
-  const Model& model = *loaded.model;
-  std::string text = loaded.path + "\n";
-  text += "  recipe       " + entry(model, "recipe") + "\n";
-  text += "  size         " + fixed(static_cast<double>(loaded.bytes) / 1000, 0) + " KB, " +
-          std::to_string(model.parameter_count()) + " numbers\n";
-  text += describe_data(model.metadata()) + "\n";
+  const std::vector<StyleInfo>& styles = loaded.model->styles();
+  std::string text = describe_head(loaded);
   size_t width = 0;
-  for (const StyleInfo& style : model.styles()) width = std::max(width, style.name.size());
-  if (model.styles().empty()) return text + "no styles yet: panache learn adds them\n";
-  text += plural(model.styles().size(), "style") + ":\n";
-  for (const StyleInfo& style : model.styles()) {
-    text += describe(style, width + 2);
+  for (const StyleInfo& style : styles) width = std::max(width, style.name.size());
+  for (const Group& group : group_styles(styles)) {
+    if (!group.title.empty()) text += "\n" + group.title + ":\n";
+    for (const StyleInfo* style : group.styles) text += describe(*style, width + 2);
+  }
+  return text;
+}
+
+std::string summarize(const LoadedModel& loaded) {
+  const std::vector<Group> groups = group_styles(loaded.model->styles());
+  std::string text = describe_head(loaded);
+  size_t width = 0;
+  for (const Group& group : groups) width = std::max(width, group.title.size());
+  const size_t indent = width == 0 ? 2 : width + 4;
+  for (const Group& group : groups) {
+    text += width == 0 ? "  " : "  " + padded(group.title, width + 2);
+    text += list_names(group, indent);
   }
   return text;
 }
@@ -82,6 +143,7 @@ Json to_json(const LoadedModel& loaded) {
   for (const StyleInfo& style : model.styles()) {
     styles.push_back({{"name", style.name},
                       {"description", style.description},
+                      {"group", style.group},
                       {"learnt", style.learnt},
                       {"origin", style.origin}});
   }
@@ -98,6 +160,7 @@ std::string describe(const LoadedStyle& loaded) {
   std::string text = loaded.path + "\n";
   text += "  size         " + fixed(static_cast<double>(loaded.bytes) / 1000, 0) + " KB\n";
   text += "  trunk        " + entry(loaded.file.metadata, "trunk") + "\n";
+  if (!loaded.info.group.empty()) text += "  group        " + loaded.info.group + "\n";
   text += describe_data(loaded.file.metadata);
   return text + "\n1 style:\n" + describe(loaded.info, loaded.info.name.size() + 2);
 }
@@ -106,6 +169,7 @@ Json to_json(const LoadedStyle& loaded) {
   return {{"style_file", loaded.path},
           {"name", loaded.info.name},
           {"description", loaded.info.description},
+          {"group", loaded.info.group},
           {"learnt", loaded.info.learnt},
           {"origin", loaded.info.origin},
           {"trunk", entry(loaded.file.metadata, "trunk")},

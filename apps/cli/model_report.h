@@ -17,8 +17,10 @@ struct LoadedModel {
 };
 Result<LoadedModel> load_model(const std::string& path);
 
-// A few lines about the model, then a line for each style.
+// A few lines about the model, then a line for each style, by groups where the model has them.
 std::string describe(const LoadedModel& loaded);
+// The same, but only the names of the styles.
+std::string summarize(const LoadedModel& loaded);
 Json to_json(const LoadedModel& loaded);
 
 struct LoadedStyle {

@@ -34,15 +34,21 @@ public sealed class Model : IDisposable {
   public byte[] File { get; }
   /// The names of its styles, in the model's order.
   public IReadOnlyList<string> Styles { get; }
+  /// What each of them is listed under, "moods"; "" for learnt ones, and in models without groups.
+  public IReadOnlyList<string> Groups { get; }
 
   public Model(byte[] file) {
     File = file;
     Native.Check(Native.panache_model_create(file, (UIntPtr)file.Length, out IntPtr model));
     Handle = new Handle(model, Native.panache_model_destroy);
     var styles = new List<string>();
-    for (int i = 0; i < Native.panache_model_style_count(Handle); ++i)
+    var groups = new List<string>();
+    for (int i = 0; i < Native.panache_model_style_count(Handle); ++i) {
       styles.Add(Native.Text(Native.panache_model_style_name(Handle, i)));
+      groups.Add(Native.Text(Native.panache_model_style_group(Handle, i)));
+    }
     Styles = styles;
+    Groups = groups;
   }
   public static Model Load(string path) => new Model(System.IO.File.ReadAllBytes(path));
   /// The place of a style; throws where the model has none of that name.
@@ -410,6 +416,8 @@ internal static class Native {
   [DllImport(Library)] internal static extern int panache_model_style_count(Handle model);
   [DllImport(Library)]
   internal static extern IntPtr panache_model_style_name(Handle model, int style);
+  [DllImport(Library)]
+  internal static extern IntPtr panache_model_style_group(Handle model, int style);
   [DllImport(Library)]
   internal static extern int panache_model_find_style(Handle model, byte[] name);
   [DllImport(Library)]

@@ -108,6 +108,9 @@ PANACHE_API void panache_model_destroy(panache_model* model);
 PANACHE_API int32_t panache_model_style_count(const panache_model* model);
 /* The name of a style ("old"), valid as long as the model; NULL where none is at that place. */
 PANACHE_API const char* panache_model_style_name(const panache_model* model, int32_t style);
+/* What a style is listed under ("moods"), valid as long as the model; "" for learnt styles and where
+ * the model names no groups, NULL where no style is at that place. */
+PANACHE_API const char* panache_model_style_group(const panache_model* model, int32_t style);
 /* The place of the style of that name, or -1. The case of A to Z counts only where two styles have
  * the same letters. */
 PANACHE_API int32_t panache_model_find_style(const panache_model* model, const char* name);

@@ -25,6 +25,11 @@ const char* panache_model_style_name(const panache_model* model, int32_t style) 
   return model->model->styles()[static_cast<size_t>(style)].name.c_str();
 }
 
+const char* panache_model_style_group(const panache_model* model, int32_t style) {
+  if (style < 0 || style >= panache_model_style_count(model)) return nullptr;
+  return model->model->styles()[static_cast<size_t>(style)].group.c_str();
+}
+
 int32_t panache_model_find_style(const panache_model* model, const char* name) {
   try {
     const Result<int> found = model->model->find_style_in_any_case(name);

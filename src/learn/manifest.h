@@ -27,6 +27,7 @@ struct StyleName {
   std::vector<std::string> from;  // Names in manifests, {"old"} or several; "PERSON/old" is the
                                   // style of this performer, and is not among "old" then.
   std::string description;
+  std::string group = {};  // What it is listed under, "moods"; "" where the table names none.
 };
 
 // Reads a CSV with the columns path, style, content, take, neutral, split and, where it has it,
@@ -37,8 +38,9 @@ Result<std::vector<ManifestRow>> read_manifest(const std::string& path, int set)
 // The number that follows those of the sets of `rows`.
 int next_set(const std::vector<ManifestRow>& rows);
 
-// Reads a CSV with the columns name, from, description; several `from` are divided by spaces. Fails
-// where a name is none that a style can have, or is listed twice, or one `from` has two names.
+// Reads a CSV with the columns name, from, description and, where it has it, group, in any order;
+// several `from` are divided by spaces. Fails where a name is none that a style can have, or is
+// listed twice, or one `from` has two names, or a description or group is not one line of UTF-8.
 Result<std::vector<StyleName>> read_style_names(const std::string& path);
 
 // A sentence for each row whose file does not exist, with the manifest and line that name it.

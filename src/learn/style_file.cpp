@@ -81,18 +81,22 @@ Parts take_apart(const TensorFile& model, const Model& parsed) {
 
 // The lists of styles that a model carries as text.
 void write_lists(const std::vector<Style>& styles, std::map<std::string, std::string>& metadata) {
-  std::string names, descriptions, origins;
-  bool has_origin = false;
+  std::string names, descriptions, origins, groups;
+  bool has_origin = false, has_group = false;
   for (const Style& style : styles) {
     names += style.info.name + "\n";
     descriptions += style.info.description + "\n";
     origins += style.info.origin + "\n";
+    groups += style.info.group + "\n";
     has_origin = has_origin || !style.info.origin.empty();
+    has_group = has_group || !style.info.group.empty();
   }
   metadata["styles"] = names;
   metadata["style_descriptions"] = descriptions;
   metadata.erase("style_origins");
   if (has_origin) metadata["style_origins"] = origins;
+  metadata.erase("style_groups");
+  if (has_group) metadata["style_groups"] = groups;
 }
 
 TensorFile put_together(Parts parts) {
@@ -112,13 +116,6 @@ Result<void> check_has_heads(const Model& model, const std::string& name) {
   return Error{name + ": is of recipe " + model.recipe().name +
                ", whose styles are inputs of all its layers; expected a model of recipe " +
                learning_recipe_names() + ", where each has a head of its own"};
-}
-
-bool is_one_line(const std::string& text) {
-  const auto is_space = [](char c) { return c == '\t' || c == '\n' || c == '\r'; };
-  if (std::ranges::any_of(text, is_space)) return false;
-  // Everything else that no line of UTF-8 holds is replaced there.
-  return xml_escaped(text).find("\xef\xbf\xbd") == std::string::npos;
 }
 
 // `text` as one line of UTF-8: what it may not hold is replaced.
@@ -164,6 +161,13 @@ std::string trunk_fingerprint(const TensorFile& model) {
   return text;
 }
 
+bool is_one_line(const std::string& text) {
+  const auto is_space = [](char c) { return c == '\t' || c == '\n' || c == '\r'; };
+  if (std::ranges::any_of(text, is_space)) return false;
+  // Everything else that no line of UTF-8 holds is replaced there.
+  return xml_escaped(text).find("\xef\xbf\xbd") == std::string::npos;
+}
+
 Result<void> check_style_name(const std::string& name) {
   const std::string where = "style name " + quoted(name) + ": ";
   if (name.empty()) return Error{where + "is empty"};
@@ -206,9 +210,10 @@ Result<StyleInfo> read_style_info(const TensorFile& file, const std::string& nam
                  "; this program reads version " + kStyleVersion};
   }
   StyleInfo info{metadata_of(file, "style"), metadata_of(file, "description"),
-                 metadata_of(file, "origin"), file.tensors.contains("head.weight")};
+                 metadata_of(file, "origin"), file.tensors.contains("head.weight"),
+                 metadata_of(file, "group")};
   if (auto fit = check_style_name(info.name); !fit) return Error{name + ": " + fit.error().message};
-  for (const char* key : {"description", "origin", "trunk", "data", "licence"}) {
+  for (const char* key : {"description", "origin", "group", "trunk", "data", "licence"}) {
     if (is_one_line(metadata_of(file, key))) continue;
     return Error{name + ": metadata '" + key + "' is no line of UTF-8 text"};
   }
@@ -235,6 +240,7 @@ TensorFile make_style_file(const TensorFile& model, const StyleInfo& info,
                    {"description", in_one_line(info.description)},
                    {"origin", in_one_line(info.origin)},
                    {"trunk", trunk_fingerprint(model)}};
+  if (!info.group.empty()) file.metadata["group"] = in_one_line(info.group);
   for (const char* key : {"data", "licence"}) {
     if (model.metadata.contains(key)) file.metadata[key] = model.metadata.at(key);
   }

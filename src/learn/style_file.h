@@ -20,6 +20,10 @@ std::string trunk_fingerprint(const TensorFile& model);
 // by tables of strengths.
 Result<void> check_style_name(const std::string& name);
 
+// Whether this is valid UTF-8 without control characters, as each entry in a model's lists of
+// styles must be.
+bool is_one_line(const std::string& text);
+
 // Whether the file says that it is a style, and not a model.
 bool is_style_file(const TensorFile& file);
 // What a style file says of its style. Files are rejected that extract_style() does not write:

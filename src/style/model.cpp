@@ -1,7 +1,6 @@
 #include "style/model.h"
 
 #include <algorithm>
-#include <sstream>
 
 #include "base/file.h"
 #include "base/lower_case.h"
@@ -17,10 +16,14 @@ namespace {
 constexpr const char* kFormatVersion = "1";
 constexpr std::string_view kScale = ".scale";  // Of a layer of bytes.
 
-std::vector<std::string> split_lines(const std::string& text) {
+// Without streams: with them, the module of the page would hold all of the library's locales.
+std::vector<std::string> split_lines(std::string_view text) {
   std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  while (!text.empty()) {
+    const size_t end = std::min(text.find('\n'), text.size());
+    lines.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
   return lines;
 }
 
@@ -115,6 +118,7 @@ Result<void> Model::read_metadata(const TensorFile& file, const std::string& nam
   Result<std::string> descriptions = require(file, "style_descriptions", name);
   if (!descriptions) return descriptions.error();
   const auto origins = file.metadata.find("style_origins");
+  const auto groups = file.metadata.find("style_groups");
   const std::vector<std::string> texts = split_lines(*descriptions);
   const std::vector<std::string> sources =
       origins == file.metadata.end() ? std::vector<std::string>() : split_lines(origins->second);
@@ -122,6 +126,14 @@ Result<void> Model::read_metadata(const TensorFile& file, const std::string& nam
     const size_t i = styles_.size();
     styles_.push_back(
         {style, i < texts.size() ? texts[i] : "", i < sources.size() ? sources[i] : "", false});
+  }
+  if (groups != file.metadata.end()) {
+    const std::vector<std::string> lines = split_lines(groups->second);
+    if (lines.size() != styles_.size()) {
+      return Error{name + ": metadata 'style_groups' has " + std::to_string(lines.size()) +
+                   " lines; expected " + std::to_string(styles_.size()) + ", one per style"};
+    }
+    for (size_t i = 0; i < lines.size(); ++i) styles_[i].group = lines[i];
   }
   // Styles may be learnt on it.
   if (styles_.empty() && !recipe_->learns_styles) return Error{name + ": has no styles"};

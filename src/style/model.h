@@ -30,6 +30,8 @@ struct StyleInfo {
   std::string description;  // What it looks like, for people.
   std::string origin;       // What a learnt style was learnt from; empty for others.
   bool learnt = false;      // By learn_style(), from activations that other styles trained.
+  std::string group = {};   // What it is listed under, "moods"; "" for learnt ones and where the
+                            // model names no groups.
 };
 
 class Model {

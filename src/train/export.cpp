@@ -26,12 +26,13 @@ std::vector<NetworkShape> network_shapes(const SampleSet& set, int styles) {
 
 std::map<std::string, std::string> model_metadata(const Recipe& recipe,
                                                   const std::vector<StyleName>& styles) {
-  std::string names, descriptions;
+  std::string names, descriptions, groups;
   for (const StyleName& style : styles) {
     names += style.name + "\n";
     descriptions += style.description + "\n";
+    groups += style.group + "\n";
   }
-  return {
+  std::map<std::string, std::string> metadata = {
       {"format", "panache"},
       {"format_version", "1"},
       {"recipe", recipe.name},
@@ -41,6 +42,9 @@ std::map<std::string, std::string> model_metadata(const Recipe& recipe,
       {"styles", names},
       {"style_descriptions", descriptions},
   };
+  const auto has_group = [](const StyleName& style) { return !style.group.empty(); };
+  if (std::ranges::any_of(styles, has_group)) metadata["style_groups"] = groups;
+  return metadata;
 }
 
 TensorFile model_header(const Recipe& recipe, const std::vector<StyleName>& styles,

@@ -1,6 +1,7 @@
 """A plain rig: baked in Blender it is what panache stylize makes of its GLB, at strength 0 it is
 what it was, and the style learnt from two of its actions is a slider."""
 
+import importlib
 import os
 import sys
 
@@ -64,6 +65,18 @@ assert bpy.ops.panache.learn() == {'FINISHED'}
 assert 'limp' in armature.panache.styles.bl_rna.properties
 armature.animation_data.action = walk
 armature.panache.styles.old, armature.panache.styles.limp = 0, 1
+
+# The panel lists the styles by their groups, the learnt one under none; of a group that is folded,
+# the sliders that are not at 0.
+settings = importlib.import_module('panache.settings')
+groups = settings.model().groups
+assert sorted(sum(groups.values(), [])) == sorted(settings.model().styles)
+assert groups[''][-1] == 'limp', groups
+for group in groups:
+    assert getattr(armature.panache.groups, settings.property_of_group(group)) is True
+assert settings.sliders_shown(armature.panache, groups[''], True) == groups['']
+assert settings.sliders_shown(armature.panache, groups[''], False) == ['limp']
+
 assert bpy.ops.panache.bake() == {'FINISHED'}
 assert armature.animation_data.action.name == 'walk (limp 1)'
 assert checks.channels(armature.animation_data.action) != before

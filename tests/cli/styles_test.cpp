@@ -64,6 +64,56 @@ TEST_F(StylesVerb, lists_learnt_styles_with_what_they_were_learnt_from) {
   EXPECT_EQ(model["styles"][4]["origin"], "limp.bvh");
 }
 
+TEST_F(StylesVerb, lists_styles_by_their_groups) {
+  TensorFile model = *parse_safetensors(read("mine.safetensors"), "mine");
+  model.metadata["style_groups"] = "moods\nages\n\nmoods\n\n";
+  write("mine.safetensors", format_safetensors(model));
+  const std::string text = run({"styles", "mine.safetensors"}).out;
+  EXPECT_TRUE(
+      text.ends_with("\n5 styles:\n"
+                     "\nmoods:\n"
+                     "  angry    looks angry\n"
+                     "  sad      looks sad\n"
+                     "\nages:\n"
+                     "  old      looks old\n"
+                     "\nothers:\n"
+                     "  proud    looks proud\n"
+                     "\nlearnt:\n"
+                     "  limping  looks limping\n"
+                     "           learnt from limp.bvh\n"))
+      << text;
+  const auto json = nlohmann::json::parse(run({"styles", "mine.safetensors", "--json"}).out);
+  EXPECT_EQ(json["styles"][1]["group"], "ages");
+  EXPECT_EQ(json["styles"][4]["group"], "");
+  // The file of a style says it too, after the model was quantized as well.
+  ASSERT_EQ(run({"quantize", "mine.safetensors", "-o", "int8.safetensors"}).exit, 0);
+  ASSERT_EQ(run({"styles", "int8.safetensors", "--extract", "old", "-o", "old.safetensors"}).exit,
+            0);
+  EXPECT_NE(run({"styles", "old.safetensors"}).out.find("\n  group        ages\n"),
+            std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(run({"styles", "old.safetensors", "--json"}).out)["group"],
+            "ages");
+}
+
+TEST_F(StylesVerb, info_lists_only_the_names_of_a_model) {
+  EXPECT_NE(run({"info", "mine.safetensors"})
+                .out.find("\n5 styles:\n  angry, old, proud, sad, limping\n\nMetadata:\n"),
+            std::string::npos);
+  TensorFile model = *parse_safetensors(read("mine.safetensors"), "mine");
+  model.metadata["style_groups"] = "moods\nages\n\nmoods\n\n";
+  write("mine.safetensors", format_safetensors(model));
+  const std::string text = run({"info", "mine.safetensors"}).out;
+  EXPECT_NE(text.find("\n5 styles:\n"
+                      "  moods   angry, sad\n"
+                      "  ages    old\n"
+                      "  others  proud\n"
+                      "  learnt  limping\n"
+                      "\nMetadata:\n"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("style_groups"), std::string::npos) << text;
+}
+
 TEST_F(StylesVerb, a_learnt_style_shows_even_if_nobody_knows_from_what) {
   TensorFile model = *parse_safetensors(read("mine.safetensors"), "mine");
   model.metadata.erase("style_origins");

@@ -119,9 +119,11 @@ static class Test {
   }
 
   static void AStyleIsLearnt(Model model, Clip neutral, Clip styled) {
+    Expect(model.Groups.Count == model.Styles.Count, "a group for each style");
     Learnt learnt = Learnt.Learn(model, "mine", neutral, styled);
     Expect(learnt.WasTested && learnt.HeldBackCm < learnt.UntouchedCm, "nearer with the style");
     using (var mine = new Model(learnt.ModelFile)) {
+      Expect(mine.Groups.Last() == "", "a learnt style has no group");
       Expect(mine.Styles.SequenceEqual(model.Styles.Concat(new[] { "mine" })), "one style more");
       using (var character = new Character(mine, neutral.Skeleton)) {
         character.SetStrength("mine", 1);

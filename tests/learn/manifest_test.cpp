@@ -91,6 +91,36 @@ TEST_F(ManifestTest, a_wrong_table_is_explained_with_its_line) {
   EXPECT_EQ(read_manifest(put(kHeader), 0).error().message, path_ + ": lists no takes");
 }
 
+TEST_F(ManifestTest, styles_are_listed_in_groups_where_the_table_names_them) {
+  const auto grouped =
+      read_style_names(put("group,name,from,description\nmoods,sad,sad,\n\"ways, of "
+                           "\"\"walking\"\"\",limp,limp,\n,mine,mine,\n"));
+  ASSERT_TRUE(grouped.ok()) << grouped.error().message;
+  EXPECT_EQ((*grouped)[0].group, "moods");
+  EXPECT_EQ((*grouped)[1].group, "ways, of \"walking\"");
+  EXPECT_EQ((*grouped)[2].group, "");
+  const auto plain = read_style_names(put("name,from,description\nold,old,bent\n"));
+  ASSERT_TRUE(plain.ok()) << plain.error().message;
+  EXPECT_EQ((*plain)[0].group, "");
+}
+
+// A model keeps a line for each style, so a second one would be that of the next style.
+TEST_F(ManifestTest, descriptions_and_groups_of_several_lines_are_rejected) {
+  const std::string header = "name,from,description,group\n";
+  EXPECT_EQ(read_style_names(put(header + "old,old,\"bent,\nslow\",ages\n")).error().message,
+            path_ +
+                ":2: column description is not one line of UTF-8 text; expected no line breaks "
+                "and no tabs in it");
+  for (const std::string group : {"\"ages\nold\"", "ages\told", "\xe4ges"}) {
+    EXPECT_EQ(
+        read_style_names(put(header + "sad,sad,,moods\nold,old,," + group + "\n")).error().message,
+        path_ +
+            ":3: column group is not one line of UTF-8 text; expected no line breaks and no "
+            "tabs in it")
+        << group;
+  }
+}
+
 TEST_F(ManifestTest, styles_are_renamed_merged_and_left_out) {
   auto names = read_style_names(
       put("name,from,description\nold,elderly aged,\"bent, slow\"\nproud,proud,tall\n"));

@@ -209,6 +209,39 @@ TEST(StyleFile, styles_go_behind_those_of_their_kind) {
   EXPECT_EQ(read(four)->styles()[1].description, "looks proud");
 }
 
+std::string groups_of(const TensorFile& file) {
+  std::string groups;
+  for (const StyleInfo& style : read(file)->styles()) groups += style.group + "|";
+  return groups;
+}
+
+TEST(StyleFile, styles_keep_their_groups_wherever_they_go) {
+  TensorFile model = mixed_model();
+  ASSERT_EQ(styles_of(model), (Names{"old", "proud", "limping", "sneaking"}));
+  const TensorFile plain = extract(model, "proud");
+  EXPECT_FALSE(plain.metadata.contains("group"));
+  model.metadata["style_groups"] = "ages\nmoods\n\n\n";
+  const TensorFile proud = extract(model, "proud"), limping = extract(model, "limping");
+  EXPECT_EQ(read_style_info(proud, "proud")->group, "moods");
+  EXPECT_EQ(read_style_info(limping, "limping")->group, "");
+  EXPECT_EQ(groups_of(removed(model, "proud")), "ages|||");
+  EXPECT_EQ(groups_of(added(removed(model, "proud"), proud)), "ages|moods|||");
+  EXPECT_EQ(groups_of(added(removed(model, "limping"), limping)), "ages|moods|||");
+  EXPECT_EQ(groups_of(added(model, plain, true)), "ages||||");
+  EXPECT_EQ(groups_of(*rename_style(model, "old", "aged", "m.safetensors")), "ages|moods|||");
+  // With the last group goes the list.
+  EXPECT_FALSE(removed(removed(model, "proud"), "old").metadata.contains("style_groups"));
+  // A model without groups gets them with the first style that has one.
+  EXPECT_EQ(groups_of(added(removed(mixed_model(), "proud"), proud)), "|moods|||");
+}
+
+TEST(StyleFile, a_group_of_several_lines_is_rejected) {
+  TensorFile style = extract(mixed_model(), "proud");
+  style.metadata["group"] = "moods\nages";
+  EXPECT_EQ(rejection(mixed_model(), style),
+            "s.safetensors: metadata 'group' is no line of UTF-8 text");
+}
+
 // A clip may be called anything, and no one should have to rename it before its style can be kept.
 TEST(StyleFile, of_any_description_and_origin_goes_into_a_model) {
   const TensorFile model = mixed_model();

@@ -1,6 +1,7 @@
 """The Python package against the program and the library."""
 
 import ctypes
+import json
 import os
 import pathlib
 import subprocess
@@ -345,6 +346,17 @@ def test_mistakes_with_types_and_numbers_are_sentences_too(model, walk, walk_fil
     rejection(file.clip, 0.5)
     monkeypatch.setattr(panache.model, '_MODELS', pathlib.Path('/nowhere'))
     assert rejection(panache.Model).endswith('the shipped models are missing')
+
+
+def test_styles_have_the_groups_of_the_model(model):
+    size = int.from_bytes(model.content[:8], 'little')
+    header = json.loads(model.content[8:8 + size])
+    groups = [f'gröup {i // 2}' for i in range(len(model.styles))]
+    header['__metadata__']['style_groups'] = ''.join(group + '\n' for group in groups)
+    text = json.dumps(header).encode()
+    text += b' ' * (-len(text) % 8)
+    content = len(text).to_bytes(8, 'little') + text + model.content[8 + size:]
+    assert panache.Model(content).groups == groups
 
 
 def test_styles_are_found_in_any_case(model, walk):

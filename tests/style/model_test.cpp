@@ -25,6 +25,30 @@ TEST(Model, what_was_written_is_read) {
   EXPECT_EQ(&(*model)->recipe(), &test::kPanache);
 }
 
+TEST(Model, styles_are_in_groups_where_the_model_names_them) {
+  TensorFile file = test::make_model({"old", "proud", "mine"});
+  const auto groups = [&] {
+    const auto model = Model::parse(format_safetensors(file), "m.safetensors");
+    std::vector<std::string> out;
+    if (model) {
+      for (const StyleInfo& style : (*model)->styles()) out.push_back(style.group);
+    }
+    return out;
+  };
+  using Groups = std::vector<std::string>;
+  EXPECT_EQ(groups(), (Groups{"", "", ""}));
+  file.metadata["style_groups"] = "ages\nmoods of a day\n\n";
+  EXPECT_EQ(groups(), (Groups{"ages", "moods of a day", ""}));
+  file = quantize(file);
+  EXPECT_EQ(groups(), (Groups{"ages", "moods of a day", ""}));
+  file.metadata["style_groups"] = "ages\nmoods\n";
+  EXPECT_EQ(rejection(file),
+            "m.safetensors: metadata 'style_groups' has 2 lines; expected 3, one per style");
+  file.metadata["style_groups"] = "ages\nmoods\n\nmoods\n";
+  EXPECT_EQ(rejection(file),
+            "m.safetensors: metadata 'style_groups' has 4 lines; expected 3, one per style");
+}
+
 TEST(Model, tensors_in_memory_make_the_same_model_as_their_file) {
   const TensorFile file = quantize(test::make_model({"old", "proud"}));
   const auto answer = [](const Result<std::shared_ptr<const Model>>& model) {

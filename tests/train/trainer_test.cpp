@@ -11,6 +11,7 @@
 #include "style/model.h"
 #include "temporary_folder.h"
 #include "train/checkpoint.h"
+#include "train/export.h"
 
 namespace panache {
 namespace {
@@ -51,6 +52,16 @@ TEST_F(TrainerTest, both_recipes_learn_and_the_export_is_libtorchs_forward_pass)
     }
     EXPECT_LT(last, 0.5f * first);
   }
+}
+
+TEST(Export, a_model_has_the_groups_of_the_table_of_styles_if_it_names_any) {
+  std::vector<StyleName> styles = {{"sad", {"sad"}, "hanging head", "moods"}, {"old", {"old"}, ""}};
+  const auto metadata = model_metadata(test::kPanache, styles);
+  EXPECT_EQ(metadata.at("styles"), "sad\nold\n");
+  EXPECT_EQ(metadata.at("style_descriptions"), "hanging head\n\n");
+  EXPECT_EQ(metadata.at("style_groups"), "moods\n\n");
+  styles[0].group.clear();
+  EXPECT_FALSE(model_metadata(test::kPanache, styles).contains("style_groups"));
 }
 
 TEST_F(TrainerTest, the_same_seed_gives_the_same_model_and_another_another) {

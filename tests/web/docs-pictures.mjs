@@ -10,8 +10,8 @@ const out = fileURLToPath(new URL('../../docs/pictures', import.meta.url));
 const phone = { viewport: { width: 390, height: 844 }, deviceScaleFactor: 1.5, isMobile: true,
   hasTouch: true };
 const looks = [['web', ''], ['web-phone', 'old=2&view=styled', phone],
-  ['web-dark', 'giant=0.8&proud=0.6&view=over', { colorScheme: 'dark' }]];
-if (clip) looks.push(['web-clip', 'tired=1&view=side', {}, clip]);
+  ['web-dark', 'robot=0.8&proud=0.6&view=over', { colorScheme: 'dark' }]];
+if (clip) looks.push(['web-clip', 'limping=1&view=side', {}, clip]);
 
 const site = await start();
 for (const [name, hash, options, file] of looks) {

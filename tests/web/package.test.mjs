@@ -119,6 +119,22 @@ class Hash {  // FNV-1a of the bits.
   toString() { return this.#value.toString(16).padStart(16, '0'); }
 }
 
+test('styles have the groups of the model', async () => {
+  const bytes = await readFile(join(root, 'models/panache-int8.safetensors'));
+  const size = Number(bytes.readBigUInt64LE());
+  const header = JSON.parse(bytes.subarray(8, 8 + size).toString());
+  const groups = panache.styles.map((_, i) => `gröup ${i >> 1}`);
+  header.__metadata__.style_groups = groups.map((group) => `${group}\n`).join('');
+  const text = Buffer.from(JSON.stringify(header));
+  const padded = Buffer.concat([text, Buffer.alloc((8 - (text.length % 8)) % 8, ' ')]);
+  const length = Buffer.alloc(8);
+  length.writeBigUInt64LE(BigInt(padded.length));
+  const own = panache.modelBytes;
+  panache.setModel(Buffer.concat([length, padded, bytes.subarray(8 + size)]));
+  assert.deepEqual(panache.styles.map(({ group }) => group), groups);
+  panache.setModel(own);
+});
+
 test('a three.js skeleton, C and the library give the same bits', async () => {
   const file = join(folder, 'poses');
   const model = join(root, 'models/panache-int8.safetensors');

@@ -82,6 +82,8 @@ def _open():
     library.panache_last_error.restype = c_char_p
     library.panache_model_style_name.restype = c_char_p
     library.panache_model_style_name.argtypes = [c_void_p, c_int32]
+    library.panache_model_style_group.restype = c_char_p
+    library.panache_model_style_group.argtypes = [c_void_p, c_int32]
     library.panache_model_style_count.argtypes = [c_void_p]
     library.panache_skeleton_find.argtypes = [c_void_p, c_char_p]
     for kind in ('model', 'skeleton', 'styled_clip', 'learnt'):
@@ -156,6 +158,11 @@ class Model(_Handle):
         super().__init__(out)
         count = library().panache_model_style_count(out)
         self.styles = [_text(library().panache_model_style_name(out, i)) for i in range(count)]
+        # {group: its styles}, in the model's order; '' has the styles of no group.
+        self.groups = {}
+        for i, style in enumerate(self.styles):
+            group = _text(library().panache_model_style_group(out, i))
+            self.groups.setdefault(group, []).append(style)
 
 
 class Motion:

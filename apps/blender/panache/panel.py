@@ -15,6 +15,20 @@ class _Panel:
         return context.object is not None and context.object.type == 'ARMATURE'
 
 
+def _draw_styles(layout, found):
+    """A slider per style, by groups that fold; what is not at 0 stays. A model without groups has
+    no headings."""
+    groups = settings.model().groups
+    for group, styles in groups.items():
+        column, key = layout.column(align=True), settings.property_of_group(group)
+        is_open = list(groups) == [''] or getattr(found.groups, key)
+        if list(groups) != ['']:
+            column.prop(found.groups, key, emboss=False,
+                        icon='TRIA_DOWN' if is_open else 'TRIA_RIGHT')
+        for name in settings.sliders_shown(found, styles, is_open):
+            column.prop(found.styles, settings.property_of(name), slider=True)
+
+
 class PANACHE_PT_style(_Panel, bpy.types.Panel):
     bl_label = 'Style'
 
@@ -24,9 +38,7 @@ class PANACHE_PT_style(_Panel, bpy.types.Panel):
         if not data or not data.action:
             layout.label(text='This armature plays no action', icon='INFO')
         settings.draw_problem(layout)
-        column = layout.column(align=True)
-        for name in settings.model().styles:
-            column.prop(found.styles, settings.property_of(name), slider=True)
+        _draw_styles(layout, found)
         layout.prop(found, 'preview', toggle=True, icon='HIDE_OFF')
         row = layout.row()
         row.scale_y = 1.4

@@ -140,12 +140,28 @@ def _make_style_class():
     return type('PanacheStyles', (bpy.types.PropertyGroup,), {'__annotations__': sliders})
 
 
-def _make_settings_class(styles):
+def title_of(group):
+    return group.capitalize() if group else 'Other Styles'
+
+
+def property_of_group(group):
+    """The name of the switch that folds a group, which may be called ''."""
+    return property_of('group:' + group)
+
+
+def _make_groups_class():
+    """Whether the sliders of each group are shown."""
+    shown = {property_of_group(group): BoolProperty(name=title_of(group), default=True)
+             for group in model().groups}
+    return type('PanacheGroups', (bpy.types.PropertyGroup,), {'__annotations__': shown})
+
+
+def _make_settings_class(styles, groups):
     fields = {name: FloatProperty(name=label, description=text, default=default, min=0, max=2,
                                   update=_changed)
               for name, (label, text, default) in SHAPE.items()}
     fields.update(
-        styles=PointerProperty(type=styles),
+        styles=PointerProperty(type=styles), groups=PointerProperty(type=groups),
         preview=BoolProperty(name='Live Preview', update=preview.toggled,
                              description='Show the style at the current frame while sliders move'),
         neutral=PointerProperty(name='Neutral', type=bpy.types.Action),
@@ -159,12 +175,12 @@ _classes = []
 
 
 def _register_sliders():
-    styles = _make_style_class()
-    bpy.utils.register_class(styles)
-    settings = _make_settings_class(styles)
-    bpy.utils.register_class(settings)
+    styles, groups = _make_style_class(), _make_groups_class()
+    settings = _make_settings_class(styles, groups)
+    for cls in (styles, groups, settings):
+        bpy.utils.register_class(cls)
     bpy.types.Object.panache = PointerProperty(type=settings)
-    _classes[:] = [styles, settings]
+    _classes[:] = [styles, groups, settings]
 
 
 def _unregister_sliders():
@@ -187,6 +203,12 @@ def strengths(armature):
     styles = armature.panache.styles
     return {name: value for name in model().styles
             if (value := getattr(styles, property_of(name), 0.0)) != 0}
+
+
+def sliders_shown(found, styles, is_open):
+    """Those of the styles of a group that the panel draws: all, or those that are not at 0."""
+    return [name for name in styles
+            if is_open or getattr(found.styles, property_of(name), 0.0) != 0]
 
 
 def shape(armature):

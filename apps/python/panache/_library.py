@@ -106,6 +106,7 @@ _FUNCTIONS = {
     'model_destroy': (None, [_H]),
     'model_style_count': (c_int32, [_H]),
     'model_style_name': (c_char_p, [_H, c_int32]),
+    'model_style_group': (c_char_p, [_H, c_int32]),
     'model_find_style': (c_int32, [_H, c_char_p]),
     'skeleton_create': (c_int32, [POINTER(Joint), c_int32, POINTER(SkeletonOptions), _OUT]),
     'skeleton_destroy': (None, [_H]),

@@ -48,6 +48,10 @@ class Model:
         self.styles: List[str] = [
             lib.model_style_name(self._handle.pointer, i).decode() for i in range(count)]
         """The names of the styles, in the model's order."""
+        self.groups: List[str] = [
+            lib.model_style_group(self._handle.pointer, i).decode() for i in range(count)]
+        """What each of the styles is listed under, 'moods'; '' for learnt ones, and in models
+        without groups."""
 
     def __repr__(self) -> str:
         return f'<panache.Model of {len(self.styles)} styles>'

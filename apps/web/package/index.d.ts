@@ -14,6 +14,8 @@ export interface Style {
   name: string;
   /** What it looks like, for people. */
   description: string;
+  /** What it is listed under, "moods"; "" for learnt styles, and in models without groups. */
+  group: string;
   /** From a pair of clips, see learnStyle(). */
   learnt: boolean;
 }

@@ -73,6 +73,7 @@ export class Panache {
     this.styles = Array.from({ length: wasm.panache_model_style_count(model) }, (_, style) => ({
       name: this._text(wasm.panache_model_style_name(model, style)),
       description: this._text(wasm.panache_page_style_description(model, style)),
+      group: this._text(wasm.panache_model_style_group(model, style)),
       learnt: wasm.panache_page_style_learnt(model, style) !== 0,
     }));
     for (const player of this.#players) player._useModel();

@@ -15,7 +15,8 @@ export class Cross {
     if (![kUp, kDown, kLeft, kRight].some(on)) this.#wait = 0;
     if (!pad || this.#wait > 0 || ![kUp, kDown, kLeft, kRight].some(on)) return;
     this.#wait = kRepeat;
-    const sliders = [...document.querySelectorAll<HTMLInputElement>('.panel input[type=range]')];
+    const sliders = [...document.querySelectorAll<HTMLInputElement>('.panel input[type=range]')]
+      .filter((slider) => slider.checkVisibility());
     const focused = sliders.indexOf(document.activeElement as HTMLInputElement);
     if (on(kUp) || on(kDown)) {
       const next = focused < 0 ? 0 : focused + (on(kDown) ? 1 : -1);

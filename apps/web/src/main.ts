@@ -92,7 +92,7 @@ class Page {
         this.#seek(seconds);
       },
     });
-    this.#track.setStyles(names);
+    this.#track.setStyles(panache.styles);
     find('#clip-controls').append(this.#track.toggle);
     this.#panel = buildPanel(this.#store, panache.styles, {
       onStrength: (name, value) => this.#setStrength(name, value),
@@ -275,7 +275,7 @@ class Page {
     this.#panel.setStyles(styles, changed);
     this.#figures.show(this.#panel.rows);
     this.#plots.styles = styles.map(({ name }) => name);
-    this.#track.setStyles(this.#plots.styles);
+    this.#track.setStyles(styles);
     this.#store.keepStyles(this.#plots.styles);
   }
 

@@ -1,7 +1,9 @@
 // The pad on the page: a field to drag in, and four menus that say what its corners are.
 
+import type { Style } from '../package/index.js';
 import { place, shares } from './blend';
 import { element } from './dom';
+import { styleOptions } from './groups';
 import type { Store } from './settings';
 
 const kStep = 0.05;
@@ -58,10 +60,10 @@ export function buildPad(store: Store, first: readonly string[]) {
     return menu;
   });
   /** The styles to choose from; a corner whose style is gone gets another. */
-  const setStyles = (styles: readonly string[]) => menus.forEach((menu, i) => {
-    if (!styles.includes(corners[i])) corners[i] = styles[i % styles.length];
-    menu.replaceChildren(...styles.map((style) =>
-      element('option', { value: style, selected: style === corners[i] }, style)));
+  const setStyles = (styles: readonly Style[]) => menus.forEach((menu, i) => {
+    const known = styles.some(({ name }) => name === corners[i]);
+    if (!known && styles.length) corners[i] = styles[i % styles.length].name;
+    menu.replaceChildren(...styleOptions(styles, corners[i]));
   });
   store.listen(({ styles: strengths }) => {
     Object.assign(at, place(corners.map((corner) => strengths[corner] ?? 0)));

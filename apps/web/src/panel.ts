@@ -1,13 +1,15 @@
 // Everything that is set by hand: presets, styles, the pad, how much, and of which part.
 
 import type { Style } from '../package/index.js';
-import { button, element, find, hinted } from './dom';
+import { button, element, find } from './dom';
+import { capitalized } from './groups';
 import { buildPad } from './pad';
 import { kCorners, kPresets } from './presets';
 import {
-  kAmounts, kDefaults, kLeast, kMost, kRegions, type Region, type Settings, type Store, type View,
+  kAmounts, kDefaults, kRegions, type Region, type Settings, type Store, type View,
 } from './settings';
 import { Slider } from './slider';
+import { StyleRows, type StyleEvents } from './style_rows';
 
 const kAmountHints = {
   strength: 'Multiplies all styles',
@@ -27,8 +29,6 @@ const kRegionHints: Record<Region, string> = {
 const kViewTitles: Record<View, string> = {
   styled: 'Styled', side: 'Side by side', over: 'Overlaid',
 };
-
-const title = (name: string) => name[0].toUpperCase() + name.slice(1);
 
 function toggle(text: string, hint: string, pressed: (s: Settings) => boolean, store: Store,
     press: (s: Settings) => Partial<Settings>) {
@@ -56,93 +56,10 @@ function presets(store: Store) {
   return { group, setStyles };
 }
 
-export interface StyleEvents {
-  /** A slider was pushed. */
-  onStrength(name: string, value: number): void;
-  /** Back to neutral. */
-  onReset(name: string): void;
-  /** Of a style that was learnt. */
-  onSave(name: string): void;
-  onRemove(name: string): void;
-}
-
-/** A slider for each style; those that were learnt come first. */
-class StyleRows {
-  readonly element = element('div', { id: 'style-rows' });
-  readonly rows = new Map<string, HTMLElement>();
-  #styles: readonly Style[] = [];
-  #sliders = new Map<string, Slider>();
-
-  constructor(private store: Store, private events: StyleEvents) {
-    store.listen(() => this.#show());
-  }
-
-  /** The strengths of styles that have keys. */
-  showNow(strengths: Record<string, number>) {
-    for (const [name, value] of Object.entries(strengths)) {
-      this.#sliders.get(name)?.show(Math.round(value * 100) / 100);
-    }
-  }
-
-  /** Leaves rows as they are where they say the same, and `changed` is not theirs. */
-  set(styles: readonly Style[], changed: string) {
-    const known = new Map(this.#styles.map((style) => [style.name, style]));
-    const sliders = new Map<string, Slider>();
-    this.#styles = [...styles].sort((a, b) => Number(b.learnt) - Number(a.learnt));
-    for (const style of this.#styles) {
-      const before = known.get(style.name);
-      const same = before && before.description === style.description &&
-        before.learnt === style.learnt && changed !== style.name;
-      sliders.set(style.name, (same && this.#sliders.get(style.name)) || this.#make(style));
-    }
-    this.#sliders = sliders;
-    this.rows.clear();
-    for (const [name, { row }] of sliders) this.rows.set(name, row);
-    this.element.replaceChildren(...this.rows.values());
-    this.#show();
-  }
-  /** Leaves the styles whose name or description holds all words; how many these are. */
-  filter(words: string[]) {
-    let found = 0;
-    for (const { name, description } of this.#styles) {
-      const text = `${name} ${description}`.toLowerCase();
-      const shown = words.every((word) => text.includes(word));
-      this.rows.get(name)!.hidden = !shown;
-      found += Number(shown);
-    }
-    return found;
-  }
-
-  #make({ name, description, learnt }: Style) {
-    const slider = new Slider({
-      id: `style-${encodeURIComponent(name)}`, title: title(name), hint: description || undefined,
-      least: kLeast, most: kMost, rest: 0,
-      onChange: (value) => this.events.onStrength(name, value),
-      onReset: () => this.events.onReset(name),
-    });
-    const words = element('p', { class: 'words' }, description);
-    if (learnt) {
-      words.className = 'own';
-      words.append(
-        button('Save', () => this.events.onSave(name), hinted(`Save ${name} as a style file`)),
-        button('Remove', () => this.events.onRemove(name), hinted(`Remove ${name}`)));
-    }
-    slider.row.append(words);
-    return slider;
-  }
-  #show() {
-    const { styles, keys } = this.store.settings;
-    for (const [name, slider] of this.#sliders) {
-      slider.row.classList.toggle('keyed', name in keys);
-      if (!(name in keys)) slider.show(styles[name] ?? 0);
-    }
-  }
-}
-
 function amountSliders(store: Store) {
   return kAmounts.map((key) => {
     const slider = new Slider({
-      id: `amount-${key}`, title: title(key), hint: kAmountHints[key], least: 0, most: 2, rest: 1,
+      id: `amount-${key}`, title: capitalized(key), hint: kAmountHints[key], least: 0, most: 2, rest: 1,
       onChange: (value) => store.set({ [key]: value }),
     });
     store.listen((settings) => slider.show(settings[key]));
@@ -150,7 +67,7 @@ function amountSliders(store: Store) {
   });
 }
 
-/** A field that leaves the styles whose name or description holds all its words. */
+/** A field that leaves the styles whose name, group or description holds all its words. */
 function search(rows: StyleRows) {
   const field = element('input', { type: 'search', id: 'search', placeholder: 'Search: slow, arms …',
     'aria-label': 'Search the styles' });
@@ -221,7 +138,7 @@ export function buildPanel(store: Store, styles: readonly Style[], events: Style
     rows.set(now, changed);
     found.filter();
     chips.setStyles(names);
-    pad.setStyles(names);
+    pad.setStyles(now);
   };
   setStyles(styles);
   return { rows: rows.rows, setStyles, showNow: (strengths) => rows.showNow(strengths) };

@@ -27,9 +27,11 @@ export function histogram(numbers: readonly number[], bins: number, width: numbe
   return out;
 }
 
+const kGoldenAngle = 137.508;  // Degrees: many colours, and neighbours in the list far apart.
+
 /** A colour that one style always has. */
-export function styleColour(index: number, count: number): string {
-  return `hsl(${(index / count) * 360 + 18} 65% var(--plot-light))`;
+export function styleColour(index: number): string {
+  return `hsl(${(index * kGoldenAngle + 18) % 360} 65% var(--plot-light))`;
 }
 
 export class Plots {
@@ -69,7 +71,7 @@ export class Plots {
       this.#scale(context, width, height, -0.5, 2, [0, 1, 2]);
       const names = new Set(this.#moments.flatMap((m) => m.strengths.map(([name]) => name)));
       for (const name of names) {
-        context.strokeStyle = styleColour(this.styles.indexOf(name), this.styles.length)
+        context.strokeStyle = styleColour(this.styles.indexOf(name))
           .replace('var(--plot-light)', colour('plot-light'));
         this.#line(context, width, height, now, -0.5, 2,
           (m) => m.strengths.find(([n]) => n === name)?.[1] ?? 0);

@@ -9,12 +9,14 @@ export const kPresets: readonly Preset[] = [
   { title: 'Neutral', styles: {} },
   { title: 'Old', styles: { old: 1 } },
   { title: 'Very old', styles: { old: 2 } },
-  { title: 'Proud giant', styles: { proud: 0.6, giant: 0.8 } },
-  { title: 'Sad child', styles: { childlike: 0.8, sad: 0.8 } },
-  { title: 'Monday', styles: { tired: 1, sad: 0.5 } },
-  { title: 'Friday', styles: { happy: 0.9, musical: 0.6 } },
-  { title: 'Not old at all', styles: { old: -0.5, youthful: 1 } },
+  { title: 'Zombie', styles: { zombie: 1 } },
+  { title: 'Proud robot', styles: { robot: 0.8, proud: 0.6 } },
+  { title: 'Drunken pirate', styles: { drunk: 0.8, 'dragging a leg': 0.6 } },
+  { title: 'Sneaking cat', styles: { cat: 0.7, sneaking: 0.5 } },
+  { title: 'Scared chicken', styles: { chicken: 0.8, scared: 0.5 } },
+  { title: 'Sulking teenager', styles: { teenager: 0.8, depressed: 0.6 } },
+  { title: 'Friday', styles: { joyful: 0.7, strutting: 0.6 } },
 ];
 
 /** The corners of the pad, as they are at first. */
-export const kCorners = ['old', 'proud', 'sad', 'happy'] as const;
+export const kCorners = ['old', 'proud', 'childlike', 'zombie'] as const;

@@ -1,6 +1,8 @@
 // The track under the time line: the keys of one style, to be pushed about.
 
+import type { Style } from '../package/index.js';
 import { button, element, find } from './dom';
+import { styleOptions } from './groups';
 import { moved, strengthAt, withKey, type Key } from './keys';
 import { kLeast, kMost, type Store } from './settings';
 
@@ -65,10 +67,8 @@ export class Track {
     if (open && !this.keys.length) this.#choose();
     this.#show();
   }
-  setStyles(names: readonly string[]) {
-    const before = this.style;
-    this.#styles.replaceChildren(...names.map((name) =>
-      element('option', { value: name, selected: name === before }, name)));
+  setStyles(styles: readonly Style[]) {
+    this.#styles.replaceChildren(...styleOptions(styles, this.style));
     this.#choose();
     this.#show();
   }

@@ -33,8 +33,8 @@ std::vector<Model::ConstantStyle> mean_changes(const SystemData& data) {
   std::vector<Model::ConstantStyle> styles;
   for (size_t s = 0; s < sums.size(); ++s) {
     const double count = std::max(1.0, sums[s].count);
-    Model::ConstantStyle& style =
-        styles.emplace_back(StyleInfo{names[s], data.styles[s].description, ""});
+    Model::ConstantStyle& style = styles.emplace_back(
+        StyleInfo{names[s], data.styles[s].description, "", false, data.styles[s].group});
     std::array<float, StyleDelta::kSize> change;
     for (int n = 0; n < StyleDelta::kSize; ++n) {
       change[n] = static_cast<float>(sums[s].change[n] / count);

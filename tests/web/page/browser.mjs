@@ -121,6 +121,12 @@ export async function start() {
   return { open, plain, close, address, requests };
 }
 
+/** The slider of a style, which may have any name. */
+export const slider = (tab, style) => tab.locator(`[id="style-${encodeURIComponent(style)}"]`);
+/** Opens all groups of styles. */
+export const unfold = (tab) => tab.evaluate(() =>
+  document.querySelectorAll('details.fold').forEach((box) => (box.open = true)));
+
 /** Drops files, by their names and bytes, on the element that `selector` finds. */
 export async function drop(tab, selector, files) {
   await tab.evaluate(async ([where, list]) => {

@@ -2,12 +2,13 @@ import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { frames, listen, pictures, start, styledParts, told } from './browser.mjs';
+import { frames, listen, pictures, slider, start, styledParts, told, unfold } from './browser.mjs';
 
 let site, tab;
 before(async () => {
   site = await start();
   tab = await site.open();
+  await unfold(tab);
   await listen(tab);
 });
 after(() => site.close());
@@ -20,9 +21,9 @@ const button = (name) => tab.getByRole('button', { name, exact: true });
 
 test('every style has a slider that sets its strength, and no other', async () => {
   const styles = await tab.evaluate(() => window.page.panache.styles.map((style) => style.name));
-  assert.ok(styles.length >= 17);
+  assert.ok(styles.length >= 50);
   for (const style of styles) {
-    await tab.locator(`#style-${style}`).fill('1.5');
+    await slider(tab, style).fill('1.5');
     const { strengths } = await told(tab);
     for (const other of styles) assert.equal(strengths[other], other === style ? 1.5 : 0, style);
     await button(`Reset ${style[0].toUpperCase()}${style.slice(1)}`).click();
@@ -65,12 +66,15 @@ test('a part of the body is switched off and on', async () => {
 });
 
 test('presets mix, and say that they are on', async () => {
-  await button('Proud giant').click();
+  await button('Proud robot').click();
   const { strengths } = await told(tab);
   assert.equal(strengths.proud, 0.6);
-  assert.equal(strengths.giant, 0.8);
+  assert.equal(strengths.robot, 0.8);
   assert.equal(strengths.old, 0);
-  assert.equal(await button('Proud giant').getAttribute('aria-pressed'), 'true');
+  assert.equal(await button('Proud robot').getAttribute('aria-pressed'), 'true');
+  // The model has the styles of every preset, so none is hidden.
+  assert.equal(await tab.locator('#presets button:visible').count(),
+    await tab.locator('#presets button').count());
   await button('Neutral').click();
   assert.equal((await told(tab)).strengths.proud, 0);
 });
@@ -82,7 +86,7 @@ test('the pad blends four styles, by mouse and by keys', async () => {
   await tab.mouse.click(box.x + 3, box.y + 3);
   assert.ok((await told(tab)).strengths.old > 0.9);
   await tab.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
-  for (const style of ['old', 'proud', 'sad', 'happy']) {
+  for (const style of ['old', 'proud', 'childlike', 'zombie']) {
     assert.ok(Math.abs((await told(tab)).strengths[style] - 0.25) < 0.02, style);
   }
   await pad.focus();
@@ -95,16 +99,16 @@ test('the pad blends four styles, by mouse and by keys', async () => {
 });
 
 test('what is set is in the address, and comes back from it', async () => {
-  const link = 'old=1.2&sad=-0.3&strength=0.8&posture=0.5&leftArm=off&trail=off&view=over';
+  const link = 'old=1.2&on+toes=-0.3&strength=0.8&posture=0.5&leftArm=off&trail=off&view=over';
   const other = await site.open(link);
   const settings = await other.evaluate(() => ({
     old: document.querySelector('#style-old').value,
-    sad: document.querySelector('#style-sad').value,
+    toes: document.querySelector('[id="style-on%20toes"]').value,
     posture: document.querySelector('#amount-posture').value,
     view: document.body.dataset.view,
   }));
-  assert.deepEqual(settings, { old: '1.2', sad: '-0.3', posture: '0.5', view: 'over' });
-  const renewed = link.replace('old=', 'style.old=').replace('sad=', 'style.sad=');
+  assert.deepEqual(settings, { old: '1.2', toes: '-0.3', posture: '0.5', view: 'over' });
+  const renewed = link.replace('old=', 'style.old=').replace('on+', 'style.on+');
   await address(`#${renewed}`, other);
   await other.close();
 });
@@ -255,13 +259,81 @@ test('every change is undone and redone, and Reset all resets all', async () => 
 test('styles are found by their words', async () => {
   const shown = () => tab.locator('.slider:has(.figure):visible label').allTextContents();
   const all = await shown();
-  await tab.locator('#search').fill('head slow');
-  assert.deepEqual(await shown(), ['Sad']);
+  await tab.locator('#search').fill('stiff slow');
+  assert.deepEqual(await shown(), ['Aching']);
+  // Of a group by its name, and what is active besides.
+  await tab.locator('#search').fill('injuries');
+  assert.deepEqual(await shown(),
+    ['Aching', 'Dragging a leg', 'Hobbling', 'Hurt stomach', 'Limping']);
+  await button('Old').click();
+  await frames(tab, 2);
+  assert.deepEqual((await shown())[0], 'Old');
+  await button('Neutral').click();
+  await frames(tab, 2);
+  assert.deepEqual((await shown())[0], 'Aching');
   await tab.locator('#search').fill('xyzzy');
   assert.deepEqual(await shown(), []);
   assert.ok(await tab.getByText('No style is described like that.').isVisible());
   await tab.locator('#search').fill('');
   assert.deepEqual(await shown(), all);
+});
+
+test('styles stand in groups that fold, and a search looks into all of them', async () => {
+  const other = await site.open();
+  const sliders = other.locator('#style-rows input[type=range]:visible');
+  const groups = other.locator('details.fold');
+  const titles = await groups.locator('h3').allTextContents();
+  assert.deepEqual(titles,
+    ['Moods', 'Ages', 'Bodies', 'Creatures', 'Ways of walking', 'Injuries']);
+  const open = () => groups.evaluateAll((boxes) => boxes.map((box) => box.open && !box.hidden));
+  assert.deepEqual(await open(), [true, false, false, false, false, false]);
+  const moods = await sliders.count();
+  assert.equal(await groups.nth(0).locator('.count').textContent(), String(moods));
+  await groups.nth(1).locator('summary').press('Enter');
+  assert.deepEqual(await open(), [true, true, false, false, false, false]);
+  await groups.nth(0).locator('summary').click();
+  assert.deepEqual(await open(), [false, true, false, false, false, false]);
+  await other.locator('#search').fill('undead');
+  assert.deepEqual(await open(), [false, false, false, true, false, false]);
+  assert.equal(await sliders.count(), 1);
+  await other.locator('#search').fill('');
+  assert.deepEqual(await open(), [false, true, false, false, false, false]);
+  await other.close();
+});
+
+test('active styles are on top, and none moves while it is in use', async () => {
+  const other = await site.open();
+  await unfold(other);
+  const active = () => other.locator('#active-styles label').allTextContents();
+  const top = async (style) => (await slider(other, style).boundingBox()).y;
+  assert.ok(!(await other.locator('#active-styles').isVisible()));
+  await slider(other, 'shy').focus();
+  const before = await top('shy');
+  await other.keyboard.press('End');
+  await other.keyboard.press('ArrowLeft');
+  assert.deepEqual(await active(), []);
+  assert.equal(await top('shy'), before);
+  // The next slider has the focus now and stays where it was on the screen.
+  await slider(other, 'singing').focus();
+  const next = await top('singing');
+  await other.waitForFunction(() => document.querySelector('#active-styles label'));
+  assert.deepEqual(await active(), ['Shy']);
+  assert.ok(Math.abs(await top('singing') - next) < 1.5);
+  assert.equal(await slider(other, 'shy').inputValue(), '1.99');
+  // In the order of the model, also where their group is closed.
+  await other.locator('details.fold').nth(3).locator('summary').click();
+  await other.getByRole('button', { name: 'Proud robot' }).click();
+  await frames(other, 2);
+  assert.deepEqual(await active(), ['Proud', 'Robot']);
+  assert.ok(await slider(other, 'robot').isVisible());
+  await other.getByRole('button', { name: 'Neutral' }).click();
+  await frames(other, 2);
+  assert.deepEqual(await active(), []);
+  assert.ok(!(await slider(other, 'robot').isVisible()));
+  const order = await other.locator('#style-rows label').allTextContents();
+  assert.deepEqual(order.map((text) => text.toLowerCase()),
+    await other.evaluate(() => window.page.panache.styles.map(({ name }) => name)));
+  await other.close();
 });
 
 test('a style shows itself as a figure, which moves while it is pointed at', async () => {

@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { download, drop as dropFiles, frames, models, start } from './browser.mjs';
+import { download, drop as dropFiles, frames, models, start, unfold } from './browser.mjs';
 
 const program = process.env.PANACHE_PROGRAM;
 const folder = mkdtempSync(join(tmpdir(), 'panache-page-'));
@@ -20,6 +20,7 @@ before(async () => {
   writeFileSync(at('damaged.bvh'), readFileSync(at('walk.bvh'), 'utf8').replace('OFFSET', 'OFSET'));
   site = await start();
   tab = await site.open();
+  await unfold(tab);
 });
 after(async () => {
   await site.close();

@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { doubleClick, download, frames, models, pictures, start } from './browser.mjs';
+import { doubleClick, download, frames, models, pictures, start, unfold } from './browser.mjs';
 
 const model = join(models, 'panache-int8.safetensors');
 const folder = mkdtempSync(join(tmpdir(), 'panache-page-'));
@@ -20,6 +20,7 @@ before(async () => {
   panache('walker', '-o', 'stroll.bvh', '--seconds', '2', '--speed', '0.8');
   site = await start();
   tab = await site.open();
+  await unfold(tab);
   await tab.setInputFiles('#file', [at('walk.bvh'), at('stroll.bvh')]);
   await tab.waitForFunction(() => window.page.source.kind === 'clip');
   await button('Pause').click();

@@ -5,7 +5,9 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { download, drop, frames, listen, models, pictures, start, told } from './browser.mjs';
+import {
+  download, drop, frames, listen, models, pictures, start, told, unfold,
+} from './browser.mjs';
 
 const program = process.env.PANACHE_PROGRAM;
 const model = join(models, 'panache-int8.safetensors');
@@ -17,9 +19,10 @@ const file = (name) => [name, readFileSync(at(name))];
 let site, tab;
 before(async () => {
   panache('walker', '-o', 'walk.bvh', '--seconds', '3');
-  panache('stylize', 'walk.bvh', '--model', model, '--style', 'giant=1', '-o', 'lumbering.bvh');
+  panache('stylize', 'walk.bvh', '--model', model, '--style', 'gorilla=1', '-o', 'lumbering.bvh');
   site = await start();
   tab = await site.open();
+  await unfold(tab);
   await listen(tab);
 });
 after(async () => {
@@ -142,7 +145,7 @@ test('what is wrong with clips, names and files is said with the library\'s sent
 });
 
 test('a style is learnt from what is seen: recorded walk and sliders', async () => {
-  await button('Proud giant').click();
+  await button('Proud robot').click();
   const record = (slot) => tab.locator(`[data-slot=${slot}]`).getByRole('button',
     { name: /^(Record|Take) / });
   await record('neutral').click();
@@ -151,7 +154,7 @@ test('a style is learnt from what is seen: recorded walk and sliders', async () 
   await tab.waitForTimeout(3500);
   await record('neutral').click();
   await record('styled').click();
-  await tab.waitForFunction(() => /proud.*giant.*s$/.test(
+  await tab.waitForFunction(() => /robot.*proud.*s$/.test(
     document.querySelector('[data-slot=styled] .what').textContent));
   await learn('mix');
   assert.ok((await styles()).includes('mix'), await report());

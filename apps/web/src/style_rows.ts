@@ -1,0 +1,193 @@
+// The sliders of the styles: those that are not at 0 on top, all others in groups that fold.
+
+import type { Style } from '../package/index.js';
+import { button, element, hinted } from './dom';
+import { capitalized, groupStyles } from './groups';
+import { kLeast, kMost, type Store } from './settings';
+import { Slider } from './slider';
+
+const kManyStyles = 20;  // Of more than these, only the first group is open at first.
+
+export interface StyleEvents {
+  /** A slider was pushed. */
+  onStrength(name: string, value: number): void;
+  /** Back to neutral. */
+  onReset(name: string): void;
+  /** Of a style that was learnt. */
+  onSave(name: string): void;
+  onRemove(name: string): void;
+}
+
+interface Row {
+  style: Style;
+  slider: Slider;
+  /** Where it is while the style is not active. */
+  list: HTMLElement;
+}
+/** What folds. */
+interface Fold {
+  title: string;
+  box: HTMLDetailsElement;
+  list: HTMLElement;
+  count: HTMLElement;
+}
+
+export class StyleRows {
+  readonly element = element('div', { id: 'style-rows' });
+  /** By the names of the styles. */
+  readonly rows = new Map<string, HTMLElement>();
+  #rows: Row[] = [];
+  #folds: Fold[] = [];
+  #open = new Map<string, boolean>();  // The groups that somebody opened or closed.
+  #words: string[] = [];
+  #activeRows = element('div');
+  #active = element('div',
+    { id: 'active-styles', role: 'group', 'aria-label': 'Active styles', hidden: true },
+    element('h3', {}, 'Active'), this.#activeRows);
+  #pressed = false;
+
+  constructor(private store: Store, private events: StyleEvents) {
+    store.listen(() => this.#show());
+    // A row that is in use stays where it is, and nothing moves below a finger. A menu that opens
+    // may keep the end of the press to itself.
+    addEventListener('pointerdown', (event) => {
+      this.#pressed = !(event.target as Element).closest('select');
+    }, true);
+    for (const end of ['pointerup', 'pointercancel']) {
+      addEventListener(end, () => setTimeout(() => {
+        this.#pressed = false;
+        this.#arrange();
+      }), true);
+    }
+    this.element.addEventListener('focusout', () => setTimeout(() => this.#arrange()));
+  }
+
+  /** The strengths of styles that have keys. */
+  showNow(strengths: Record<string, number>) {
+    for (const { style: { name }, slider } of this.#rows) {
+      if (name in strengths) slider.show(Math.round(strengths[name] * 100) / 100);
+    }
+  }
+
+  /** Leaves rows as they are where they say the same, and `changed` is not theirs. */
+  set(styles: readonly Style[], changed: string) {
+    const known = new Map(this.#rows.map((row) => [row.style.name, row]));
+    const groups = groupStyles(styles);
+    this.#rows = [];
+    this.#folds = [];
+    this.rows.clear();
+    this.element.replaceChildren(this.#active);
+    for (const { title, styles: own } of groups) {
+      const list = element('div');
+      const first = this.#folds.length === 0;
+      this.element.append(title
+        ? this.#fold(title, list, this.#open.get(title) ?? (first || styles.length <= kManyStyles))
+        : list);
+      for (const style of own) {
+        const before = known.get(style.name);
+        const same = before && before.style.description === style.description &&
+          before.style.learnt === style.learnt && changed !== style.name;
+        const slider = same ? before.slider : this.#make(style);
+        list.append(slider.row);
+        this.#rows.push({ style, slider, list });
+        this.rows.set(style.name, slider.row);
+      }
+    }
+    this.#activeRows.replaceChildren();
+    this.#show();
+  }
+
+  /** Leaves the styles whose name, group or description holds all words, and those that are active;
+   * how many hold them. */
+  filter(words: string[]) {
+    this.#words = words.filter((word) => word);
+    let found = 0;
+    for (const { style: { name, group, description }, slider, list } of this.#rows) {
+      const text = `${name} ${group} ${description}`.toLowerCase();
+      const fits = this.#words.every((word) => text.includes(word));
+      slider.row.hidden = !fits && slider.row.parentElement === list;
+      slider.row.dataset.fits = String(fits);
+      found += Number(fits);
+    }
+    for (const { title, box } of this.#folds) {
+      box.open = this.#words.length > 0 || this.#open.get(title)!;
+    }
+    this.#showFolds();
+    return found;
+  }
+
+  #fold(title: string, list: HTMLElement, open: boolean) {
+    const count = element('span', { class: 'count' });
+    const box = element('details', { class: 'fold', open },
+      element('summary', {}, element('h3', {}, title), count), list);
+    this.#open.set(title, open);
+    box.addEventListener('toggle', () => {
+      if (this.#words.length === 0) this.#open.set(title, box.open);
+    });
+    this.#folds.push({ title, box, list, count });
+    return box;
+  }
+
+  #make({ name, description, learnt }: Style) {
+    const slider = new Slider({
+      id: `style-${encodeURIComponent(name)}`, title: capitalized(name),
+      hint: description || undefined, least: kLeast, most: kMost, rest: 0,
+      onChange: (value) => this.events.onStrength(name, value),
+      onReset: () => this.events.onReset(name),
+    });
+    const words = element('p', { class: 'words' }, description);
+    if (learnt) {
+      words.className = 'own';
+      words.append(
+        button('Save', () => this.events.onSave(name), hinted(`Save ${name} as a style file`)),
+        button('Remove', () => this.events.onRemove(name), hinted(`Remove ${name}`)));
+    }
+    slider.row.append(words);
+    return slider;
+  }
+
+  #show() {
+    const { styles, keys } = this.store.settings;
+    for (const { style: { name }, slider } of this.#rows) {
+      slider.row.classList.toggle('keyed', name in keys);
+      if (!(name in keys)) slider.show(styles[name] ?? 0);
+    }
+    this.#arrange();
+  }
+
+  /** Puts rows where they belong; what has the focus stays where it is on the screen. */
+  #arrange() {
+    if (this.#pressed) return;
+    const { styles, keys } = this.store.settings;
+    const focus = document.activeElement;
+    const anchor = focus?.closest('#panel') ? focus : null;
+    const top = anchor?.getBoundingClientRect().top ?? 0;
+    let moved = false;
+    for (const [i, { style: { name }, slider: { row }, list }] of this.#rows.entries()) {
+      const wanted = (styles[name] ?? 0) !== 0 || name in keys ? this.#activeRows : list;
+      if (row.parentElement === wanted || row.contains(focus)) continue;
+      const next = this.#rows.slice(i + 1).find((other) => other.slider.row.parentElement === wanted);
+      wanted.insertBefore(row, next?.slider.row ?? null);
+      row.hidden = wanted === list && row.dataset.fits === 'false';
+      moved = true;
+    }
+    if (!moved) return;
+    this.#showFolds();
+    if (!anchor) return;
+    const panel = anchor.closest('#panel')!;
+    const scrolls = panel.scrollHeight > panel.clientHeight &&
+      getComputedStyle(panel).overflowY === 'auto';
+    (scrolls ? panel : document.scrollingElement)?.scrollBy({
+      top: anchor.getBoundingClientRect().top - top, behavior: 'instant',
+    });
+  }
+
+  #showFolds() {
+    this.#active.hidden = this.#activeRows.childElementCount === 0;
+    for (const { box, list, count } of this.#folds) {
+      const shown = [...list.children].filter((row) => !(row as HTMLElement).hidden).length;
+      count.textContent = String(shown);
+      box.hidden = shown === 0;
+    }
+  }
+}
