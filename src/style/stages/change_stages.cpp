@@ -7,6 +7,7 @@ namespace panache {
 
 void ChangeStages::reset() noexcept {
   steps_.reset();
+  seat_.reset();
   filter_.reset();
   root_.reset();
   shaping_.reset();
@@ -21,12 +22,15 @@ void ChangeStages::step(const AskedChange& asked, const ChangeControl& control,
                         StageClock* clock) noexcept {
   const Observation& now = observer.now();
   steps_.step(now.world.positions, time);
+  seat_.step(now.world.positions, time);
   tempo_share_ = control.tempo_everywhere ? 1 : steps_.amount();
   filter_.step(asked.delta, asked.log_rate, asked.gate, now.body_frame, time);
   tell(clock, Stage::filter);
   if (control.root) root_.step(filter_.delta(), asked.gate, observer, window, time);
   tell(clock, Stage::root);
-  shaping_.step(control.shape, filter_.delta(), root_.offset(), time, change_);
+  Shape shape = control.shape;
+  shape.regions[static_cast<size_t>(Region::legs)] *= 1 - seat_.amount();
+  shaping_.step(shape, filter_.delta(), root_.offset(), time, change_);
   tell(clock, Stage::shape);
   anatomy_.step(now.world, observer.rig(), time, change_);
   tell(clock, Stage::anatomy);

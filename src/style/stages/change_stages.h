@@ -14,6 +14,7 @@
 #include "style/stages/filter.h"
 #include "style/stages/floor.h"
 #include "style/stages/root_motion.h"
+#include "style/stages/seat.h"
 #include "style/stages/shaping.h"
 #include "style/stages/step_watch.h"
 #include "style/stages/step_time.h"
@@ -61,6 +62,7 @@ class ChangeStages {
     visit(self.contacts_), visit(self.change_);
     visit(self.tempo_share_);
     StepWatch::visit_state(self.steps_, visit);
+    SeatWatch::visit_state(self.seat_, visit);
     OutputFilter::visit_state(self.filter_, visit);
     RootMotion::visit_state(self.root_, visit);
     Shaping::visit_state(self.shaping_, visit);
@@ -72,6 +74,7 @@ class ChangeStages {
 
  private:
   StepWatch steps_;
+  SeatWatch seat_;
   float tempo_share_ = 1;  // Of the change's own tempo, at the last step.
   OutputFilter filter_;
   RootMotion root_;

@@ -1,0 +1,54 @@
+#include "style/stages/seat.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace panache {
+namespace {
+
+// Of the canonical body, whose hips stand at 0.9 m: on a chair they are at 0.5, in a deep lunge at
+// 0.7. Metres.
+constexpr float kLowHips = 0.55f, kHighHips = 0.66f;
+// From the middle of the feet to that of the body, over the ground: more than a body can balance.
+constexpr float kOverFeet = 0.14f, kBeyondFeet = 0.22f;
+// m/s: hips that move faster are on their way.
+constexpr float kRestingHips = 0.15f, kMovingHips = 0.35f;
+constexpr float kHipsSeconds = 0.15f, kSeatSeconds = 0.2f;  // Time constants.
+
+// 0 up to `from`, 1 from `to` on; either may be the larger.
+float share(float value, float from, float to) {
+  const float t = std::clamp((value - from) / (to - from), 0.0f, 1.0f);
+  return t * t * (3 - 2 * t);
+}
+
+// How far the middle of the body is from that of the feet.
+float beyond_feet(const HumanPositions& world) {
+  Vec3 body, feet;
+  for (const Vec3& joint : world) body += joint / static_cast<float>(kHumanJoints);
+  for (const HumanJoint joint : {HumanJoint::left_foot, HumanJoint::right_foot,
+                                 HumanJoint::left_toes, HumanJoint::right_toes}) {
+    feet += world[index(joint)] / 4;
+  }
+  return std::hypot(body.x - feet.x, body.z - feet.z);
+}
+
+}  // namespace
+
+void SeatWatch::step(const HumanPositions& world, const StepTime& time) noexcept {
+  const Vec3 hips = world[index(HumanJoint::hips)];
+  const float seconds = static_cast<float>(time.input);
+  if (time.first) *this = {};
+  if (!time.first && seconds > 0) {
+    const float speed = std::min(length(hips - hips_) / seconds, 2 * kMovingHips);
+    speed_ += (seen_ ? filter_gain(seconds, kHipsSeconds) : 1.0f) * (speed - speed_);
+    const float held = std::max(share(hips.y, kHighHips, kLowHips),
+                                share(beyond_feet(world), kOverFeet, kBeyondFeet));
+    const float wanted = held * share(speed_, kMovingHips, kRestingHips);
+    // A clip that begins on a chair begins with it.
+    approach(amount_, wanted, seen_ ? filter_gain(seconds, kSeatSeconds) : 1.0f, 1e-4f);
+    seen_ = true;
+  }
+  hips_ = hips;
+}
+
+}  // namespace panache
