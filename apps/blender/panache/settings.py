@@ -11,6 +11,7 @@ from bpy.props import (BoolProperty, FloatProperty, PointerProperty, StringPrope
 from . import library, preview
 
 SHIPPED = os.path.join(os.path.dirname(__file__), 'models', 'panache-int8.safetensors')
+MANY_STYLES = 20
 # name: (label, what it says, default)
 SHAPE = {
     'posture': ('Posture', 'Of the lasting part of the style', 1.0),
@@ -150,9 +151,12 @@ def property_of_group(group):
 
 
 def _make_groups_class():
-    """Whether the sliders of each group are shown."""
-    shown = {property_of_group(group): BoolProperty(name=title_of(group), default=True)
-             for group in model().groups}
+    """Whether the sliders of each group are shown. Of many styles, only the first group and learnt
+    styles are at first, so that the buttons below them stay in sight."""
+    few = len(model().styles) <= MANY_STYLES
+    shown = {property_of_group(group): BoolProperty(name=title_of(group),
+                                                    default=few or i == 0 or group == '')
+             for i, group in enumerate(model().groups)}
     return type('PanacheGroups', (bpy.types.PropertyGroup,), {'__annotations__': shown})
 
 
