@@ -15,7 +15,6 @@
 #include "train/checkpoint.h"
 #include "train/coverage.h"
 #include "train/export.h"
-#include "train/few_takes.h"
 #include "train/fingerprint.h"
 #include "train/gate.h"
 #include "train/guidance.h"
@@ -295,7 +294,6 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
   if (recipe.learns_styles) {
     level_neutral_tempos(data.takes, data.pairings, set);
     take_off_performers(data.takes, set);
-    correct_few_takes(data.takes, set);
   }
   const std::vector<bool> validates = validation_takes(data.takes);
   std::vector<int> choice, held;
