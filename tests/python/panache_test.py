@@ -41,7 +41,7 @@ def test_structs_are_those_of_the_header():
 
 
 def test_shipped_models_load_and_their_tensors_are_arrays():
-    assert {'panache', 'panache-base', 'panache-int8', 'smith2019'} <= set(panache.shipped_models())
+    assert {'panache', 'panache-int8', 'smith2019'} <= set(panache.shipped_models())
     for name in panache.shipped_models():
         model = panache.Model(name)
         tensors = model.tensors()
