@@ -234,9 +234,9 @@ void add_learn(CLI::App& app, int& exit_code) {
   verb->footer(
       "The clips of a pair need one skeleton and start with the same foot or hand.\n\n"
       "Examples:\n"
-      "  panache learn walk.bvh drunk.bvh --name drunk --into mine.safetensors\n"
-      "  panache learn drunk.bvh --action walk --name drunk --into mine.safetensors\n"
-      "  panache stylize run.bvh --model mine.safetensors --style drunk=1 -o out.bvh");
+      "  panache learn walk.bvh dizzy.bvh --name dizzy --into mine.safetensors\n"
+      "  panache learn dizzy.bvh --action walk --name dizzy --into mine.safetensors\n"
+      "  panache stylize run.bvh --model mine.safetensors --style dizzy=1 -o out.bvh");
   verb->callback([options, &exit_code] { exit_code = learn(*options); });
 }
 

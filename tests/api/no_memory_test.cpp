@@ -112,8 +112,8 @@ void starve(const char* name, Call&& call, Destroy&& destroy, long step = 1) {
   std::printf("%s: %ld allocations failed\n", name, failed);
 }
 
-// A model of which nothing but one style is left: each call is repeated once per allocation, and each
-// style costs some.
+// A model of which nothing but one style is left: each call is repeated once per allocation, and
+// each style costs some.
 std::string with_style_alone(const void* data, size_t size, const std::string& style) {
   std::string bytes(static_cast<const char*>(data), size);
   panache_model* model = nullptr;
