@@ -25,7 +25,7 @@ struct LearnVerb {
   std::string name, model, description, action;
   ReadOptions read;
   RigFlags rig;
-  bool base = false, force = false, json = false;
+  bool force = false, json = false;
 };
 
 // A motion file and its rig.
@@ -157,34 +157,18 @@ Result<void> check_usage(const LearnVerb& verb) {
   return check_rig_flags(verb.rig);
 }
 
-// A model that is there already, and of which --base says that it is on the base.
-Result<void> check_on_base(const TensorFile& model, const std::string& name) {
-  Result<std::string> path = find_shipped(kBaseModel);
-  if (!path) return path.error();
-  Result<TensorFile> base = read_tensors(*path);
-  if (!base) return base.error();
-  if (trunk_fingerprint(model) == trunk_fingerprint(*base)) return {};
-  return Error{"--base: " + name + " exists and is not made on the base; expected one that is, " +
-               "or a new name"};
-}
-
 int learn(const LearnVerb& verb) {
   if (auto usage = check_usage(verb); !usage) return fail(usage.error(), kBadUsage);
-  // A model that is not there yet begins as a copy of one shipped.
+  // A model that is not there yet begins as a copy of the shipped one.
   std::error_code unknown;
   const bool is_new = !std::filesystem::exists(verb.model, unknown);
-  Result<std::string> base = !is_new     ? Result<std::string>(verb.model)
-                             : verb.base ? find_shipped(kBaseModel)
-                                         : find_model("");
+  Result<std::string> base = is_new ? find_model("") : Result<std::string>(verb.model);
   if (!base) return fail(base.error(), kBadInput);
   if (!is_new) {
     if (auto open = check_writable(verb.model); !open) return fail(open.error(), kBadInput);
   }
   Result<TensorFile> model = read_tensors(*base);
   if (!model) return fail(model.error(), kBadInput);
-  if (verb.base && !is_new) {
-    if (auto same = check_on_base(*model, verb.model); !same) return fail(same.error(), kBadInput);
-  }
   // Before the work: a name that is taken.
   Result<std::shared_ptr<const Model>> read = Model::create(*model, *base);
   if (!read) return fail(read.error(), kBadInput);
@@ -243,9 +227,6 @@ void add_learn(CLI::App& app, int& exit_code) {
                    "All CLIPS are styled clips of this action, walk or run; a\n"
                    "built-in neutral clip is paired with them")
       ->type_name("ACTION");
-  verb->add_flag("--base", options->base,
-                 "Start a new MODEL as a copy of the base instead: it has\n"
-                 "no styles of its own, and may be used for anything");
   add_rig_options(*verb, options->rig);
   add_read_options(*verb, options->read);
   verb->add_flag("--force", options->force, "Replace a style of the same name");
@@ -253,10 +234,9 @@ void add_learn(CLI::App& app, int& exit_code) {
   verb->footer(
       "The clips of a pair need one skeleton and start with the same foot or hand.\n\n"
       "Examples:\n"
-      "  panache learn walk.bvh drunk.bvh --name drunk --into mine.safetensors\n"
-      "  panache learn drunk.bvh --action walk --name drunk --into mine.safetensors\n"
-      "  panache learn walk.bvh drunk.bvh --name drunk --into free.safetensors --base\n"
-      "  panache stylize run.bvh --model mine.safetensors --style drunk=1 -o out.bvh");
+      "  panache learn walk.bvh dizzy.bvh --name dizzy --into mine.safetensors\n"
+      "  panache learn dizzy.bvh --action walk --name dizzy --into mine.safetensors\n"
+      "  panache stylize run.bvh --model mine.safetensors --style dizzy=1 -o out.bvh");
   verb->callback([options, &exit_code] { exit_code = learn(*options); });
 }
 

@@ -340,7 +340,7 @@ void add_stylize(CLI::App& app, int& exit_code) {
       "  panache stylize walk.bvh --style old=1 -o old.bvh\n"
       "  panache stylize walk.bvh --style old=1           (into walk-old.bvh)\n"
       "  panache stylize takes/ --style proud=0.7 --style angry=0..1 -o restyled/\n"
-      "  panache stylize hero.glb --clip walk --style sad=1 -o sad-hero.glb");
+      "  panache stylize hero.glb --clip walk --style moping=1 -o moping-hero.glb");
   verb->callback([options, &exit_code] { exit_code = stylize(*options); });
 }
 

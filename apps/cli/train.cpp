@@ -13,7 +13,6 @@
 #include "messages.h"
 #include "stop_signal.h"
 #include "train/checkpoint.h"
-#include "train/train_base.h"
 #include "train/trainer.h"
 #include "usage_error.h"
 #include "verbs.h"
@@ -104,16 +103,8 @@ Json to_json(const std::vector<StyleCoverage>& styles) {
 }
 
 int run(const Options& options) {
-  const bool is_base = options.data.paths.empty();
-  if (is_base && options.data.unlabelled.empty()) {
-    return fail({"expected manifests of styled motion, or --unlabelled alone for a base that "
-                 "styles are learnt on"},
-                kBadUsage);
-  }
   const Recipe& recipe = *find_recipe(options.recipe);
-  const bool uses_unlabelled =
-      is_base ? recipe.training.base_steps > 0 : recipe.training.guidance.sequences > 0;
-  if (!options.data.unlabelled.empty() && !uses_unlabelled) {
+  if (!options.data.unlabelled.empty() && recipe.training.guidance.sequences == 0) {
     return fail({"--unlabelled: recipe " + options.recipe +
                  " learns from styled takes alone; leave the option out"},
                 kBadInput);
@@ -136,7 +127,7 @@ int run(const Options& options) {
   for (const std::string& line : data->left_out) train_options.note(line);
   if (options.steps > 0) {
     TrainingSettings& settings = train_options.settings;
-    settings.steps = settings.base_steps = options.steps;
+    settings.steps = options.steps;
     settings.predictor_steps = std::min(settings.predictor_steps, options.steps);
   }
   train_options.seed = options.seed;
@@ -144,9 +135,7 @@ int run(const Options& options) {
   train_options.licence = options.licence;
   train_options.checkpoint = options.output;
   std::optional<StopWatch> watch(options.output);
-  Result<Trained> trained = is_base
-                                ? train_base(data->unlabelled, train_options)
-                                : train(data->rows, data->styles, train_options, data->unlabelled);
+  Result<Trained> trained = train(data->rows, data->styles, train_options, data->unlabelled);
   watch.reset();
   if (!trained) return fail(trained.error(), kBadInput);
 
@@ -170,18 +159,16 @@ int run(const Options& options) {
                {"read_seconds", trained->read_seconds},
                {"pair_seconds", trained->pair_seconds},
                {"train_seconds", trained->train_seconds},
-               {"export_error", is_base ? Json() : Json(trained->export_error)}});
+               {"export_error", trained->export_error}});
     return kDone;
   }
   print("trained " + options.output + " (" + std::to_string(bytes.size()) + " bytes, " +
         plural(data->styles.size(), "style") + ") on " + std::to_string(trained->samples) +
         " samples: reading " + fixed(trained->read_seconds, 1) + " s, pairing " +
         fixed(trained->pair_seconds, 1) + " s, training " + fixed(trained->train_seconds, 1) +
-        " s\nlosses: " + options.output + ".losses.csv and .losses.svg" +
-        (is_base ? ""
-                 : "; the export differs from libtorch's forward pass by at most " +
-                       brief(trained->export_error)) +
-        "\n" + style_table(trained->styles));
+        " s\nlosses: " + options.output + ".losses.csv and .losses.svg; the export differs from " +
+        "libtorch's forward pass by at most " + brief(trained->export_error) + "\n" +
+        style_table(trained->styles));
   return kDone;
 }
 
@@ -190,7 +177,7 @@ int run(const Options& options) {
 void add_train(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   CLI::App* verb = app.add_subcommand("train", "Train a model on your own motion");
-  add_manifest_options(*verb, options->data);
+  add_manifest_options(*verb, options->data)->required();
   verb->add_option("-o,--output", options->output, "The model file to write")->required();
   std::vector<std::string> names;
   std::string meanings;
@@ -211,12 +198,10 @@ void add_train(CLI::App& app, int& exit_code) {
   verb->add_flag("--json", options->json, "Print the result as JSON");
   verb->footer(
       "Training that Ctrl-C or a crash ends leaves checkpoints beside the model\n"
-      "(OUT.*.checkpoint) and goes on from them when it is run again. Without a manifest of\n"
-      "styled motion, but with --unlabelled, a base is trained: a model without styles that\n"
-      "panache learn adds styles to.\n\n"
+      "(OUT.*.checkpoint) and goes on from them when it is run again.\n\n"
       "Examples:\n"
       "  panache train mine.csv -o mine.safetensors\n"
-      "  panache train --unlabelled walks.csv -o base.safetensors");
+      "  panache train mine.csv --unlabelled others.csv -o mine.safetensors");
   verb->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

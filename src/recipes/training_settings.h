@@ -105,7 +105,6 @@ struct TrainingSettings {
   float positions = 0;             // and of that on where changes put the joints: PositionLoss.
   GuidanceSettings guidance = {};  // Where there is motion without styles.
   int64_t predictor_steps = 0;     // Of the network that predicts input; 0: the model has none.
-  int64_t base_steps = 0;          // Of a base, see train_base(); 0: the recipe has none.
 };
 
 }  // namespace panache

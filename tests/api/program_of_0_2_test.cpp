@@ -61,7 +61,7 @@ TEST(ProgramOf02, runs_on_the_library_of_today) {
 
   const panache_clip clip = {skeleton, 120, 1 / 60.0, rotations.data(), translations.data()};
   const panache_strength_key key = {0, 1};
-  const panache_strength_track track = {panache_model_find_style(model, "old"), 1, &key};
+  const panache_strength_track track = {panache_model_find_style(model, "proud"), 1, &key};
   panache_stylize_options how = PANACHE_STYLIZE_OPTIONS;
   how.shape = &shape;
   panache_styled_clip* styled = nullptr;

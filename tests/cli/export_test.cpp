@@ -51,9 +51,9 @@ TEST_F(ExportVerb, says_what_it_cannot_export) {
   expect_rejected({"old.safetensors", "-o", "out.onnx"}, 1,
                   "old.safetensors: is a style file, not a model; panache styles MODEL --add FILE "
                   "puts it into one");
-  write("base.safetensors", *read_file(PANACHE_SOURCE_DIR "/models/panache-base.safetensors"));
-  expect_rejected({"base.safetensors", "-o", "out.onnx"}, 1,
-                  "base.safetensors: has no styles; expected a model with at least one");
+  write("empty.safetensors", format_safetensors(make_model({})));
+  expect_rejected({"empty.safetensors", "-o", "out.onnx"}, 1,
+                  "empty.safetensors: has no styles; expected a model with at least one");
 }
 
 }  // namespace

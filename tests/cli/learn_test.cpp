@@ -227,35 +227,6 @@ TEST_F(LearnVerb, another_style_joins_the_one_learnt_before) {
   EXPECT_EQ(styles.back()["name"], "stooped");
 }
 
-TEST_F(LearnVerb, a_model_that_starts_from_the_base_has_its_own_styles_alone) {
-  const Names on_base = {"walk.bvh", "bent.bvh", "--into", "free.safetensors", "--base"};
-  const auto named = [&](const std::string& name) {
-    Names arguments = on_base;
-    arguments.insert(arguments.end(), {"--name", name});
-    return arguments;
-  };
-  for (const char* name : {"bent", "bowed"}) {
-    const Ran ran = learn(named(name));
-    EXPECT_EQ(ran.exit, 0) << ran.err;
-  }
-  const json styles = styles_of("free.safetensors");
-  ASSERT_EQ(styles.size(), 2u);
-  EXPECT_EQ(styles[0]["name"], "bent");
-  EXPECT_EQ(styles[1]["name"], "bowed");
-  EXPECT_EQ(read("free.safetensors").find("Bandai"), std::string::npos);
-  EXPECT_EQ(run({"stylize", "walk.bvh", "--model", "free.safetensors", "--style", "bent=1", "-o",
-                 "out.bvh"},
-                "")
-                .exit,
-            0);
-  // A model that is there keeps its own trunk.
-  ASSERT_EQ(learn_bent("mine.safetensors").exit, 0);
-  expect_rejected({"walk.bvh", "bent.bvh", "--into", "mine.safetensors", "--base", "--name", "b"},
-                  1,
-                  "--base: mine.safetensors exists and is not made on the base; expected one that "
-                  "is, or a new name");
-}
-
 TEST_F(LearnVerb, a_wrong_command_is_rejected) {
   const std::string cure =
       "; expected NEUTRAL STYLED, or several such pairs; for styled clips alone name their action, "

@@ -128,39 +128,31 @@ TEST_F(Train, manifests_may_name_files_that_only_the_program_reads) {
   const test::Ran converted = run({"convert", "neutral.bvh", "-o", "neutral.npz"});
   if (converted.exit != 0) GTEST_SKIP() << "this build has no libzip";
   write("pool.csv", "path,style,content,take,neutral,split\nneutral.npz,any,walk,001,1,train\n");
-  const test::Ran ran =
-      run({"train", "--unlabelled", "pool.csv", "--steps", "5", "-o", "base.safetensors"});
+  const test::Ran ran = run({"train", "manifest.csv", "--unlabelled", "pool.csv", "--steps", "5",
+                             "-o", "mine.safetensors"});
   EXPECT_EQ(ran.exit, 0) << ran.err;
-  EXPECT_TRUE(exists("base.safetensors"));
+  EXPECT_TRUE(exists("mine.safetensors"));
 }
 
-TEST_F(Train, motion_without_styles_alone_makes_a_base) {
+TEST_F(Train, unlabelled_motion_is_of_no_use_to_a_recipe_without_guidance) {
   test::write_manifest(path(""));
-  write("pool.csv", "path,style,content,take,neutral,split\nneutral.bvh,any,walk,001,1,train\n");
-  const std::vector<std::string> command = {"train", "--unlabelled", "pool.csv",        "--steps",
-                                            "5",     "-o",           "base.safetensors"};
-  test::Ran ran = run(command);
-  EXPECT_EQ(ran.exit, 0) << ran.err;
-  EXPECT_NE(ran.out.find("0 styles"), std::string::npos) << ran.out;
-  ran = run({"styles", "base.safetensors"});
-  EXPECT_NE(ran.out.find("no styles yet: panache learn adds them\n"), std::string::npos) << ran.out;
-  EXPECT_EQ(run({"stylize", "neutral.bvh", "--model", "base.safetensors", "--style", "old=1", "-o",
-                 "out.bvh"})
-                .err,
-            "panache: unknown style 'old'; the model has no styles yet; panache learn adds one\n");
-  std::vector<std::string> smith = command;
-  smith.insert(smith.end(), {"--recipe", "smith2019", "--force"});
-  EXPECT_EQ(run(smith).err,
+  const test::Ran ran = run({"train", "manifest.csv", "--unlabelled", "manifest.csv", "--recipe",
+                             "smith2019", "-o", "mine.safetensors"});
+  EXPECT_EQ(ran.exit, 1);
+  EXPECT_EQ(ran.err,
             "panache: --unlabelled: recipe smith2019 learns from styled takes alone; leave the "
             "option out\n");
 }
 
-TEST_F(Train, motion_of_any_kind_is_needed) {
-  const test::Ran ran = run({"train", "-o", "mine.safetensors"});
-  EXPECT_EQ(ran.exit, 2);
-  EXPECT_EQ(ran.err,
-            "panache: expected manifests of styled motion, or --unlabelled alone for a base that "
-            "styles are learnt on\n");
+TEST_F(Train, motion_in_styles_is_needed) {
+  write("pool.csv", "path,style,content,take,neutral,split\nneutral.bvh,any,walk,001,1,train\n");
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"train", "-o", "mine.safetensors"},
+        {"train", "--unlabelled", "pool.csv", "-o", "mine.safetensors"}}) {
+    const test::Ran ran = run(arguments);
+    EXPECT_EQ(ran.exit, 2);
+    EXPECT_EQ(ran.err, "panache: manifests is required; see panache train --help\n");
+  }
 }
 
 }  // namespace

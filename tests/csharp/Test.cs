@@ -66,7 +66,7 @@ static class Test {
   static void ACharacterIsSavedShapedAndReports(Model model, Clip walk) {
     var options = new CharacterOptions { HoldFeet = 0, MaxLag = 1 };
     using (var character = new Character(model, walk.Skeleton, options)) {
-      character.SetStrength("old", 1);
+      character.SetStrength("proud", 1);
       Play(character, walk, 0, 120);
       byte[] state = character.Save();
       byte[] first = Play(character, walk, 120, 150);
@@ -141,7 +141,7 @@ static class Test {
   static void ErrorsAreTheLibrarysSentences(Model model, string walk) {
     Expect(model.Styles.Contains("old"), "a style");
     ExpectRejection("model: has 3 bytes; expected a safetensors file", () => new Model(new byte[] { 1, 2, 3 }));
-    ExpectRejection("unknown style 'odl'; the model has active, ", () => model.FindStyle("odl"));
+    ExpectRejection("unknown style 'odl'; the model has angry, ", () => model.FindStyle("odl"));
     string broken = walk + ".broken.bvh";
     File.WriteAllText(broken, File.ReadAllText(walk).Substring(0, 300));
     ExpectRejection(broken + ":", () => Clip.Load(broken));

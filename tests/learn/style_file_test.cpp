@@ -145,7 +145,7 @@ TEST(StyleFile, a_style_taken_out_and_put_back_moves_as_before_bit_for_bit) {
   const TensorFile back = added(without, extract(whole, "old"));
   EXPECT_EQ(answers(back, "old"), answers(whole, "old"));
   EXPECT_EQ(format_safetensors(back).size(), format_safetensors(whole).size());
-  for (const char* other : {"active", "proud", "youthful"}) {
+  for (const char* other : {"angry", "proud", "zombie"}) {
     EXPECT_EQ(answers(without, other), answers(whole, other)) << other;
     EXPECT_EQ(answers(back, other), answers(whole, other)) << other;
   }
@@ -153,16 +153,16 @@ TEST(StyleFile, a_style_taken_out_and_put_back_moves_as_before_bit_for_bit) {
 
 TEST(StyleFile, a_learnt_style_taken_out_and_put_back_gives_the_same_file) {
   TensorFile whole = shipped("panache.safetensors");
-  test::add_learnt(whole, 0, "limping", "limp.bvh");
-  const TensorFile without = removed(whole, "limping"), style = extract(whole, "limping");
+  test::add_learnt(whole, 0, "swimming", "swim.bvh");
+  const TensorFile without = removed(whole, "swimming"), style = extract(whole, "swimming");
   EXPECT_TRUE(format_safetensors(added(without, style)) == format_safetensors(whole));
-  EXPECT_EQ(answers(added(removed(without, "old"), style), "limping"), answers(whole, "limping"));
+  EXPECT_EQ(answers(added(removed(without, "old"), style), "swimming"), answers(whole, "swimming"));
 }
 
 TEST(StyleFile, is_small) {
   TensorFile model = shipped("panache.safetensors");
-  test::add_learnt(model, 0, "limping", "limp.bvh");
-  for (const char* name : {"limping", "old"}) {
+  test::add_learnt(model, 0, "swimming", "swim.bvh");
+  for (const char* name : {"swimming", "old"}) {
     const TensorFile style = extract(model, name);
     EXPECT_LE(format_safetensors(style).size(), 110'000u) << name;
     EXPECT_LE(format_safetensors(quantize(style)).size(), 55'000u) << name;
@@ -171,9 +171,9 @@ TEST(StyleFile, is_small) {
 
 TEST(StyleFile, a_model_and_its_int8_twin_exchange_styles) {
   TensorFile whole = shipped("panache.safetensors");
-  test::add_learnt(whole, 0, "limping", "limp.bvh");
+  test::add_learnt(whole, 0, "swimming", "swim.bvh");
   const TensorFile half = quantize(whole);
-  for (const char* name : {"old", "limping"}) {
+  for (const char* name : {"old", "swimming"}) {
     const TensorFile style = extract(whole, name), half_style = extract(half, name);
     EXPECT_TRUE(format_safetensors(quantize(style)) == format_safetensors(half_style)) << name;
     EXPECT_TRUE(format_safetensors(added(half, half_style, true)) == format_safetensors(half));

@@ -28,7 +28,6 @@ slow.bvh,slow,walk,2,0,test
 '''
 kVerbs = [
     ['train', 'walks.csv', '-o', 'out.safetensors', '--steps', '20'],
-    ['train', '--unlabelled', 'walks.csv', '-o', 'out.safetensors', '--steps', '20'],
     ['eval', 'walks.csv', '--model', 'slow.safetensors'],
 ]
 kBuffer = 130 << 20  # What each thread of OpenBLAS takes.

@@ -69,10 +69,10 @@ def test_outputs_cannot_be_replaced_and_no_array_can_be_resized_or_removed(chara
 def test_a_crowd_reads_what_is_assigned_and_steps_whom_it_was_made_of(model, walk):
     characters = [panache.Character(model, walk.skeleton) for _ in range(3)]
     for one in characters:
-        one.set_strength('sad', 1)
+        one.set_strength('moping', 1)
     crowd = panache.Crowd(characters)
     alone = panache.Character(model, walk.skeleton)
-    alone.set_strength('sad', 1)
+    alone.set_strength('moping', 1)
     with pytest.raises(AttributeError):
         crowd.characters.append(alone)
     with pytest.raises(AttributeError):

@@ -106,13 +106,15 @@ Difference difference(const std::vector<HumanPositions>& a, const std::vector<Hu
 // about a degree in such frames, and rounding.
 constexpr double kMeanDeg = 0.04, kMaxDeg = 4.5;
 // This one's arms hang on its neck and its legs on its spine. So it is read a little differently
-// even without a style, 0.2 to 0.4 degrees in the mean, and its arms turn with the neck's share of
-// one. The promise, rounded.
+// even without a style, 0.2 to 1.1 degrees in the mean, and its arms turn with the neck's share of
+// one. The promise, rounded, and a share of the mean change of styles that change more.
 constexpr const char* kArmsOnNeck = "3ds Max Biped";
 constexpr double kArmsOnNeckMeanDeg = 1.2, kArmsOnNeckMaxDeg = 8;
+constexpr double kArmsOnNeckMean = 0.085, kArmsOnNeckMax = 0.45;
 
 void expect_same_style_on_all_rigs(const Clip& motion, const std::string& style, float strength) {
   const std::vector<HumanPositions> want = styled(motion, style, strength);
+  const double change = difference(want, styled(motion, style, 0)).mean_deg;
   for (const Maker& maker : makers()) {
     const Clip character = put_on(maker, motion).clip;
     const Difference plain = difference(styled(motion, style, 0), styled(character, style, 0));
@@ -121,10 +123,13 @@ void expect_same_style_on_all_rigs(const Clip& motion, const std::string& style,
                 style.c_str(), off.mean_deg, off.max_deg,
                 std::string(human_joint_name(off.joint)).c_str(), plain.mean_deg, plain.max_deg,
                 std::string(human_joint_name(plain.joint)).c_str());
-    const bool arms_on_neck = maker.name == std::string(kArmsOnNeck);
-    EXPECT_LE(off.mean_deg, arms_on_neck ? kArmsOnNeckMeanDeg : kMeanDeg) << maker.name;
-    EXPECT_LE(off.max_deg, arms_on_neck ? kArmsOnNeckMaxDeg : kMaxDeg)
-        << maker.name << " " << human_joint_name(off.joint);
+    double mean = kMeanDeg, max = kMaxDeg;
+    if (maker.name == std::string(kArmsOnNeck)) {
+      mean = std::max(kArmsOnNeckMeanDeg, plain.mean_deg + kArmsOnNeckMean * change);
+      max = std::max(kArmsOnNeckMaxDeg, plain.max_deg + kArmsOnNeckMax * change);
+    }
+    EXPECT_LE(off.mean_deg, mean) << maker.name;
+    EXPECT_LE(off.max_deg, max) << maker.name << " " << human_joint_name(off.joint);
   }
 }
 
@@ -137,8 +142,8 @@ TEST(AnyRig, a_walk_gets_the_same_style_on_every_makers_rig) {
 TEST(AnyRig, real_motion_gets_the_same_style_on_every_makers_rig) {
   const char* data = std::getenv("PANACHE_DATA");
   if (!data) GTEST_SKIP() << "PANACHE_DATA is not set: no real motion to read";
-  for (const char* name : {"bandai-1/dataset-1_run_normal_001.bvh", "formats/cmu21/kick.bvh",
-                           "bandai-1/dataset-1_bow_normal_001.bvh"}) {
+  for (const char* name :
+       {"cmu-more/127_03.bvh", "formats/cmu21/kick.bvh", "cmu-styles/137_27b.bvh"}) {
     const auto file = read_motion((fs::path(data) / name).string());
     ASSERT_TRUE(file.ok()) << file.error().message;
     std::printf("%s\n", name);
@@ -309,19 +314,20 @@ TEST(AnyRig, missing_joints_are_lived_with) {
   const Clip motion = walk();
   const std::vector<HumanPositions> want = styled(motion, "old", 1);
   const Maker& maker = makers().front();
-  // Degrees of the mean that a body cannot keep without these: a head of its own to nod with, a
-  // spine to bend.
+  // Shares of what the style changes that a body cannot keep without these: a head of its own to
+  // nod with, a spine to bend.
+  const double change = difference(want, styled(motion, "old", 0)).mean_deg;
   const std::vector<std::pair<std::vector<std::string>, double>> cases = {
-      {{"Toe"}, 0.02},
-      {{"Hand"}, 0.02},
-      {{"Shoulder"}, 0.9},
-      {{"Neck"}, 1.6},
-      {{"Head"}, 3.3},
-      {{"Spine1", "Spine2"}, 1.5},
-      {{"Toe", "Neck", "Head", "Shoulder", "Spine", "Hand"}, 6}};
+      {{"Toe"}, 0.0015},
+      {{"Hand"}, 0.0015},
+      {{"Shoulder"}, 0.075},
+      {{"Neck"}, 0.135},
+      {{"Head"}, 0.28},
+      {{"Spine1", "Spine2"}, 0.125},
+      {{"Toe", "Neck", "Head", "Shoulder", "Spine", "Hand"}, 0.51}};
   for (const auto& [words, most] : cases) {
     const Clip clip = without(put_on(maker, motion).clip, words);
-    EXPECT_LE(difference(want, styled(clip, "old", 1)).mean_deg, most) << words[0];
+    EXPECT_LE(difference(want, styled(clip, "old", 1)).mean_deg, most * change) << words[0];
   }
 }
 

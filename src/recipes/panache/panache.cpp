@@ -68,8 +68,7 @@ const Recipe& panache_recipe() noexcept {
                                              .smoothness = 0.6f,
                                              .positions = 4,
                                              .guidance = {.sequences = 20},
-                                             .predictor_steps = 6000,
-                                             .base_steps = 4000}};
+                                             .predictor_steps = 6000}};
   return recipe;
 }
 
