@@ -34,7 +34,7 @@ inline constexpr Disturbance kUsualDisturbance = {.scale = 0.08f,
                                                   .tempo = 0.1f};
 
 // What a style learnt from one person must hold on: the usual, and other people. Found on walks of
-// four performers that a style of a fifth was put on (docs/learning.md).
+// four performers that a style of a fifth was put on.
 inline constexpr Disturbance kOtherPeople = [] {
   Disturbance how = kUsualDisturbance;
   how.torso = how.legs = 0.09f;
