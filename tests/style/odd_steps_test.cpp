@@ -136,6 +136,9 @@ TEST_F(OddSteps, numbers_of_any_size_in_a_pose_a_strength_or_the_shape_pass_by) 
   const LiveOptions late = ways()[1];
   LiveStylizer even = character({});
   const Clip expected = play(even, kStepSeconds);
+  // A body that jumps far away and back starts afresh, as after a pause.
+  LiveStylizer paused = character({});
+  const Clip afresh = play(paused, 1);
   for (const double size : {1e4, 1e8, 9e8, 1e18, 1e30, 3e38, kInfinity, kNan, 1e-40}) {
     const auto number = static_cast<float>(size);
     const auto place = [&](size_t joint) {
@@ -155,7 +158,9 @@ TEST_F(OddSteps, numbers_of_any_size_in_a_pose_a_strength_or_the_shape_pass_by) 
     const auto check = [&](auto&& spoil) {
       LiveStylizer odd = character({}), odd_and_late = character(late);
       // One frame of rest pose alone leaves 0.21 degrees, by filters of seconds.
-      EXPECT_LT(apart(play(odd, kStepSeconds, spoil), expected, kOdd + 200), 0.5f) << number;
+      const Clip out = play(odd, kStepSeconds, spoil);
+      const int later = kOdd + 200;
+      EXPECT_LT(std::min(apart(out, expected, later), apart(out, afresh, later)), 0.5f) << number;
       play(odd_and_late, kStepSeconds, spoil);  // Where it is in its cycle is up to its lag.
     };
     for (const size_t joint : {size_t{0}, size_t{3}, size_t{14}, walk_.joints() - 1}) {

@@ -37,18 +37,18 @@ float beyond_feet(const HumanPositions& world) {
 void SeatWatch::step(const HumanPositions& world, const StepTime& time) noexcept {
   const Vec3 hips = world[index(HumanJoint::hips)];
   const float seconds = static_cast<float>(time.input);
-  if (time.first) *this = {};
+  // A first pose counts as one at rest, so that a clip that begins on a chair does so from there.
+  if (time.first) speed_ = 0;
   if (!time.first && seconds > 0) {
     const float speed = std::min(length(hips - hips_) / seconds, 2 * kMovingHips);
-    speed_ += (seen_ ? filter_gain(seconds, kHipsSeconds) : 1.0f) * (speed - speed_);
-    const float held = std::max(share(hips.y, kHighHips, kLowHips),
-                                share(beyond_feet(world), kOverFeet, kBeyondFeet));
-    const float wanted = held * share(speed_, kMovingHips, kRestingHips);
-    // A clip that begins on a chair begins with it.
-    approach(amount_, wanted, seen_ ? filter_gain(seconds, kSeatSeconds) : 1.0f, 1e-4f);
-    seen_ = true;
+    speed_ += filter_gain(seconds, kHipsSeconds) * (speed - speed_);
   }
   hips_ = hips;
+  const float held = std::max(share(hips.y, kHighHips, kLowHips),
+                              share(beyond_feet(world), kOverFeet, kBeyondFeet));
+  const float wanted = held * share(speed_, kMovingHips, kRestingHips);
+  const float gain = time.first ? 1.0f : filter_gain(seconds, kSeatSeconds);
+  approach(amount_, wanted, gain, 1e-4f);
 }
 
 }  // namespace panache

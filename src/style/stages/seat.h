@@ -19,14 +19,13 @@ class SeatWatch {
   // Calls visit(member) for everything that tells one character from another.
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
-    visit(self.hips_), visit(self.speed_), visit(self.amount_), visit(self.seen_);
+    visit(self.hips_), visit(self.speed_), visit(self.amount_);
   }
 
  private:
   Vec3 hips_;        // At the last step.
   float speed_ = 0;  // Of the hips, smoothed, m/s.
   float amount_ = 0;
-  bool seen_ = false;  // Whether a speed is known.
 };
 
 }  // namespace panache
