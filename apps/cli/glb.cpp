@@ -153,9 +153,6 @@ class PictureRepair {
       whiten(material, "pbrMetallicRoughness", "baseColorTexture", "baseColorFactor");
       whiten(material, "", "emissiveTexture", "emissiveFactor");
       renumber(material, texture_places);
-      if (material.is_object() && material.contains("pbrMetallicRoughness")) {
-        renumber(material["pbrMetallicRoughness"], texture_places);
-      }
     }
     set_or_drop("images", kept);
     set_or_drop("textures", std::move(textures));
@@ -184,13 +181,16 @@ class PictureRepair {
     }
   }
 
-  // Takes textures out that are gone, and gives the others their new places.
+  // Takes textures out that are gone, and gives the others their new places, in extensions too.
   static void renumber(GltfJson& object, const std::vector<int>& places) {
     if (!object.is_object()) return;
     std::vector<std::string> gone;
     for (auto& [key, value] : object.items()) {
       const int index = key.ends_with("Texture") ? index_in(value, "index", places.size()) : -1;
-      if (index < 0) continue;
+      if (index < 0) {
+        renumber(value, places);
+        continue;
+      }
       value["index"] = places[static_cast<size_t>(index)];
       if (places[static_cast<size_t>(index)] < 0) gone.push_back(key);
     }

@@ -25,7 +25,7 @@ std::string feet_advice(const std::vector<Joint>& joints, const Limbs& limbs,
                         const std::vector<HumanJoint>& missing) {
   for (size_t side : {0, 1}) {
     const int foot = limbs.legs[side].end;
-    const auto lacks = std::ranges::find(missing, kLimbNames[1][side].lower);
+    const auto lacks = std::find(missing.begin(), missing.end(), kLimbNames[1][side].lower);
     if (foot < 0 || lacks == missing.end()) continue;
     const int above = joints[static_cast<size_t>(foot)].parent;
     return "; the foot '" + joints[static_cast<size_t>(foot)].name + "' hangs on " +

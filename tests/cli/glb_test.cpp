@@ -51,7 +51,7 @@ TEST(Glb, pictures_that_are_none_are_taken_out_of_their_materials) {
           R"({"images":[7,{"uri":"gone.png"},{"uri":"data:,x"},{"bufferView":9}],"textures":[)"
           R"({"source":1},{"source":0},7,{"source":2},{"source":-1}],"materials":[{)"
           R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0},"baseColorFactor":[0,0,0,1]},)"
-          R"("normalTexture":{"index":1},"emissiveTexture":{"index":3}},)"
+          R"("normalTexture":{"index":1},"emissiveTexture":{"index":3},"extensions":{"a":{"bTexture":{"index":1}}}},)"
           R"({"pbrMetallicRoughness":7,"normalTexture":{"index":"a"}},7]})"),
       "in.fbx", to_png, &notes);
   const GltfJson json = GltfJson::parse(glb.substr(20));
@@ -60,6 +60,7 @@ TEST(Glb, pictures_that_are_none_are_taken_out_of_their_materials) {
   EXPECT_FALSE(json["materials"][0]["pbrMetallicRoughness"].contains("baseColorTexture"));
   EXPECT_FALSE(json["materials"][0].contains("emissiveTexture"));
   EXPECT_EQ(json["materials"][0]["normalTexture"]["index"], 0);
+  EXPECT_EQ(json["materials"][0]["extensions"]["a"]["bTexture"]["index"], 0);
   EXPECT_EQ(notes.size(), 2u);
 }
 
