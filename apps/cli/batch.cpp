@@ -168,6 +168,9 @@ void add_batch_options(CLI::App& verb, BatchFlags& flags) {
                   "its end, a folder; - is stdout. Default for one file:\n"
                   "a new name beside it")
       ->type_name("OUT");
+  verb.add_option("--to", flags.to,
+                  list_writable_names() + ": the format of files if OUT is a folder")
+      ->type_name("FORMAT");
   CLI::Option* force = verb.add_flag("--force", flags.force, "Overwrite files");
   verb.add_flag("--skip-existing", flags.skip_existing,
                 "Leave out what has an output already, as to go on\nwith a batch")

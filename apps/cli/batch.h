@@ -20,6 +20,7 @@ namespace panache::cli {
 struct BatchFlags {
   std::vector<std::string> inputs;
   std::optional<std::string> output;
+  std::string to;      // The format of files in an output folder, or empty.
   std::string report;  // A file to write, or empty.
   bool force = false;
   bool skip_existing = false;
@@ -29,7 +30,8 @@ struct BatchFlags {
   int jobs = 0;  // 0: one per core.
 };
 
-// Gives `verb` inputs, --output, --force, --skip-existing, --dry-run, --jobs, --quiet, --json and
+// Gives `verb` inputs, --output, --to, --force, --skip-existing, --dry-run, --jobs, --quiet, --json
+// and
 // --report; `flags` must outlive it.
 void add_batch_options(CLI::App& verb, BatchFlags& flags);
 

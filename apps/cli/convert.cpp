@@ -2,18 +2,19 @@
 
 #include <functional>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <vector>
 
 #include "base/file.h"
 #include "batch.h"
-#include "clip/text_cursor.h"
 #include "formats.h"
 #include "input.h"
 #include "messages.h"
 #include "onto.h"
 #include "retarget_file.h"
 #include "rig/body_motions.h"
+#include "rig/in_place.h"
 #include "rig_options.h"
 #include "rig_report.h"
 #include "verbs.h"
@@ -26,8 +27,9 @@ struct ConvertVerb {
   ReadOptions read;
   RigFlags rig;
   OntoFlags onto;
-  std::string to;    // An extension without its point, or empty.
+  FigureFlags figure;
   std::string clip;  // The motion to take, or empty.
+  bool in_place = false;
 };
 
 void account(FileJob& file, const std::string& name, const Clip& clip) {
@@ -36,13 +38,39 @@ void account(FileJob& file, const std::string& name, const Clip& clip) {
   file.seconds += clip.duration();
 }
 
+// The motions of a file on the spot, those of a body; the others without frames.
+std::vector<Clip> clips_in_place(const MotionFile& motion, const RigOptions& options) {
+  std::vector<Clip> out(motion.clip_names().size());
+  for (const int which : find_body_motions(motion, options).clips) {
+    const Result<Rig> rig = Rig::create(motion.clip(which), options);
+    if (!rig) continue;
+    out[static_cast<size_t>(which)] = motion.clip(which);
+    stay_in_place(*rig, out[static_cast<size_t>(which)]);
+  }
+  return out;
+}
+
 // All of a file that keeps its format.
 Result<std::string> whole_file(const MotionFile& motion, const FileJob& file,
-                               const ReadOptions& read) {
-  if (must_be_encoded(extension_of(file.input)) || read.fps || motion.is_mended()) {
-    return in_container(motion.encode({}, EditMode::replace), file.input, file.output);
+                               const ConvertVerb& verb, const RigOptions& options) {
+  const std::string from = extension_of(file.input);
+  const bool is_changed =
+      must_be_encoded(from) || verb.read.fps || motion.is_mended() || verb.in_place;
+  const std::vector<Clip> clips =
+      verb.in_place ? clips_in_place(motion, options) : std::vector<Clip>();
+  std::vector<ClipEdit> edits;
+  std::vector<std::vector<double>> frames;
+  for (size_t i = 0; i < clips.size(); ++i) {
+    if (clips[i].frames == 0) continue;
+    std::vector<double>& own = frames.emplace_back(static_cast<size_t>(clips[i].frames));
+    std::iota(own.begin(), own.end(), 0.0);
+    edits.push_back({static_cast<int>(i), &clips[i], own, ""});
   }
-  return file.bytes ? *file.bytes : read_file(file.input);
+  Result<std::string> bytes = is_changed   ? motion.encode(edits, EditMode::replace)
+                              : file.bytes ? Result<std::string>(*file.bytes)
+                                           : read_file(file.input);
+  if (!bytes || from == extension_of(file.output)) return bytes;
+  return in_container(*std::move(bytes), file.input, file.output, options, verb.figure);
 }
 
 Result<std::string> with_path(const std::string& path, Result<std::string> bytes) {
@@ -67,7 +95,7 @@ Result<std::string> convert_whole(const MotionFile& motion, FileJob& file, const
     const Result<Rig> rig = make_rig(motion.clip(clip), options, place);
     if (rig) note_rate(motion.clip(clip), *rig, place, file.notes);
   }
-  return whole_file(motion, file, verb.read);
+  return whole_file(motion, file, verb, options);
 }
 
 Result<std::string> convert_motion(const MotionFile& motion, FileJob& file, const ConvertVerb& verb,
@@ -75,7 +103,7 @@ Result<std::string> convert_motion(const MotionFile& motion, FileJob& file, cons
   Result<std::vector<int>> picked = pick_clips(motion, verb.clip, options, file.input, file.notes);
   if (!picked) return picked.error();
   if (auto fits = check_fits(motion, *picked, file.input, file.output); !fits) return fits.error();
-  const Clip& clip = motion.clip(picked->front());
+  Clip clip = motion.clip(picked->front());
   const std::string name = motion.clip_names()[static_cast<size_t>(picked->front())];
   account(file, name, clip);
   const std::string title = title_of(name, file.input);
@@ -84,17 +112,20 @@ Result<std::string> convert_motion(const MotionFile& motion, FileJob& file, cons
   if (rig) {
     file.mapping = mapping_json(*rig);
     note_rate(clip, *rig, file.input, file.notes);
-    return with_path(file.input, format_clip(clip, &*rig, title, placement_of(*rig), extension));
+    if (verb.in_place) stay_in_place(*rig, clip);
+    return with_path(file.input,
+                     format_clip(clip, &*rig, title, placement_of(*rig), extension, verb.figure));
   }
   // What the user says of joints is meant for a humanoid.
-  if (!options.joints.empty() || holds_humanoids(extension)) return rig.error();
+  if (!options.joints.empty() || holds_humanoids(extension) || verb.in_place) return rig.error();
   if (find_format(formats(), extension)->in_metres &&
       !(options.metres_per_unit && options.up_axis)) {
     file.notes.push_back(file.input +
                          ": is not a humanoid, so unit and up axis cannot be inferred; taken as "
                          "metres and +Y unless --scale and --up are given");
   }
-  return with_path(file.input, format_clip(clip, nullptr, title, placement_of(options), extension));
+  return with_path(
+      file.input, format_clip(clip, nullptr, title, placement_of(options), extension, verb.figure));
 }
 
 Result<void> convert_file(FileJob& file, const ConvertVerb& verb, const RigOptions& options) {
@@ -107,31 +138,19 @@ Result<void> convert_file(FileJob& file, const ConvertVerb& verb, const RigOptio
   return write_output(file, *bytes, verb.batch.force);
 }
 
-// The extension of files in an output folder. A single output file says its format itself.
-Result<std::string> wanted_extension(const ConvertVerb& verb) {
-  if (verb.to.empty()) return std::string();
-  if (has_writer("." + verb.to)) return "." + verb.to;
-  return Error{"--to: expected " + list_writable_names() + ", found " + panache::quoted(verb.to)};
-}
-
 // The motions on a character.
 int convert_onto(const ConvertVerb& verb) {
-  if (!verb.to.empty()) {
-    return fail({"--to " + verb.to + ": expected none with --onto, whose file decides the format"},
-                kBadUsage);
-  }
-  return retarget_files({verb.batch, verb.read, verb.rig, verb.onto, {}, verb.clip}, {},
-                        "converting", "converted");
+  return retarget_files(
+      {verb.batch, verb.read, verb.rig, verb.onto, {}, verb.figure, verb.clip, verb.in_place}, {},
+      "converting", "converted");
 }
 
 int convert(const ConvertVerb& verb) {
   if (auto rig = check_rig_flags(verb.rig); !rig) return fail(rig.error(), kBadUsage);
   if (auto read = check_read_options(verb.read); !read) return fail(read.error(), kBadUsage);
   if (!verb.onto.file.empty()) return convert_onto(verb);
-  Result<std::string> extension = wanted_extension(verb);
-  if (!extension) return fail(extension.error(), kBadUsage);
   int exit_code = kDone;
-  Result<std::vector<FileJob>> files = plan_batch(verb.batch, {*extension, ""}, exit_code);
+  Result<std::vector<FileJob>> files = plan_batch(verb.batch, {}, exit_code);
   if (!files) return fail(files.error(), exit_code);
   for (const FileJob& file : *files) {
     auto format = check_format(file.input, file.output);
@@ -139,12 +158,8 @@ int convert(const ConvertVerb& verb) {
   }
   const FileJob& first = files->front();
   const std::string output = verb.batch.output.value_or(first.output);
-  if (extension->empty() && !first.to_stdout && first.output != output) {
+  if (verb.batch.to.empty() && !first.to_stdout && first.output != output) {
     return fail({"--output " + output + ": is a folder; expected --to with it, as in --to bvh"},
-                kBadUsage);
-  }
-  if (!extension->empty() && extension_of(files->front().output) != *extension) {
-    return fail({"--to " + verb.to + ": " + files->front().output + " has another format"},
                 kBadUsage);
   }
   Result<RigOptions> rig = read_rig_options(verb.rig);
@@ -161,12 +176,11 @@ void add_convert(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("convert", "Convert motion files to another format");
   auto options = std::make_shared<ConvertVerb>();
   add_batch_options(*verb, options->batch);
-  verb->add_option("--to", options->to,
-                   list_writable_names() + ": the format of files if OUT is a folder")
-      ->type_name("FORMAT");
   verb->add_option("--clip", options->clip, "Motion to convert, if a file has several")
       ->type_name("NAME");
   add_onto_options(*verb, options->onto);
+  add_in_place_option(*verb, options->in_place);
+  add_figure_options(*verb, options->figure);
   add_rig_options(*verb, options->rig);
   add_read_options(*verb, options->read);
   verb->footer(

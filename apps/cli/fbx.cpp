@@ -16,6 +16,7 @@
 #include "fbx_scene.h"
 #include "fbx_text_scene.h"
 #include "glb.h"
+#include "picture.h"
 
 namespace panache::cli {
 namespace {
@@ -108,7 +109,9 @@ Result<FbxAsGlb> fbx_to_glb(const std::string& path) {
   const size_t line = std::min(answer->find('\n'), answer->size());
   FbxAsGlb out;
   if (line > 0) out.notes.push_back(path + ": " + answer->substr(0, line));
-  out.glb = with_pictures(answer->erase(0, line + 1), path);
+  out.glb = with_pictures(
+      answer->erase(0, line + 1), path,
+      [&](const std::string& picture) { return picture_to_png(picture, path); }, &out.notes);
   return out;
 }
 

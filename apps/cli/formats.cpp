@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cassert>
+#include <filesystem>
 #include <iterator>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "clip/gltf.h"
@@ -12,8 +15,10 @@
 #include "input.h"
 #include "messages.h"
 #include "npz.h"
+#include "retarget/find_body.h"
 #include "retarget/retarget.h"
 #include "retarget/t_pose_body.h"
+#include "rig/body_motions.h"
 #include "rig/rig_body.h"
 #include "rig/up_axis.h"
 
@@ -93,6 +98,23 @@ std::string list_without(size_t skipped) {
   return list;
 }
 
+// How a GLB becomes the FBX file that was asked for.
+std::string fbx_by_blender(const std::string& fbx) {
+  const std::string glb = std::filesystem::path(fbx).replace_extension(".glb").string();
+  return "write " + glb +
+         ", which Blender turns into FBX: blender -b --python-expr \"import bpy; "
+         "bpy.ops.wm.read_homefile(use_empty=True); bpy.context.scene.render.fps = 30; "
+         "bpy.ops.import_scene.gltf(filepath='" +
+         glb + "'); bpy.ops.export_scene.fbx(filepath='" + fbx +
+         "', add_leaf_bones=False, bake_anim_simplify_factor=0)\" (30: the frames a second of the "
+         "motion)";
+}
+
+// To the measure of the rig of `clip`.
+SkinnedBody body_of(const Rig& rig, const Clip& clip) {
+  return make_rig_body(rig, clip.pose(std::min(rig.first_frame(), clip.frames - 1)));
+}
+
 // The motion on the body that the format has.
 Result<Clip> put_on(const OwnBody& own, const Clip& clip, const Rig& rig) {
   const Clip body = own.make(clip, rig);
@@ -124,10 +146,31 @@ bool keeps_format(const std::string& input, const std::string& output) {
   return format && !format->fits_into.empty() && format->fits_into == output;
 }
 
+void add_figure_options(CLI::App& verb, FigureFlags& flags) {
+  verb.add_flag("--no-body", flags.no_body,
+                "Show joints that have no mesh as sticks in GLB files,\nnot as a body");
+}
+
 Result<std::string> in_container(std::string bytes, const std::string& input,
-                                 const std::string& output) {
-  if (extension_of(input) != ".gltf" || extension_of(output) != ".glb") return bytes;
-  return gltf_to_glb(bytes, input);
+                                 const std::string& output, const RigOptions& rig,
+                                 const FigureFlags& figure) {
+  if (extension_of(output) != ".glb") return bytes;
+  if (extension_of(input) == ".gltf") {
+    Result<std::string> glb = gltf_to_glb(bytes, input);
+    if (!glb) return glb;
+    bytes = *std::move(glb);
+  }
+  // A skin that another program has made for glTF is as its maker wants it.
+  const bool is_fbx = extension_of(input) == ".fbx";
+  return whole_character(std::move(bytes), input, is_fbx, [&](const MotionFile& file) {
+    std::optional<SkinnedBody> body;
+    const bool moves = !file.clip_names().empty();
+    const Clip* motion = moves ? &file.clip(first_body_motion(file, rig)) : nullptr;
+    if (figure.no_body) return body;
+    const Result<std::pair<Clip, Rig>> found = find_body(file.rest(), motion, rig);
+    if (found) body = body_of(found->second, found->first);
+    return body;
+  });
 }
 
 bool must_be_encoded(const std::string& extension) {
@@ -151,7 +194,8 @@ Result<void> check_format(const std::string& input, const std::string& output) {
   if (has_own && to == from) return {};
   return Error{output + ": expected a name that ends in " +
                (has_own && !format->write ? from + ", " : "") + list_writable() +
-               ", or a folder (with a '/' at its end)"};
+               ", or a folder (with a '/' at its end)" +
+               (to == ".fbx" ? "; " + fbx_by_blender(output) : "")};
 }
 
 Result<void> check_fits(const MotionFile& file, std::span<const int> clips,
@@ -179,7 +223,8 @@ bool holds_one_motion(const std::string& extension) {
 }
 
 Result<std::string> format_clip(const Clip& clip, const Rig* rig, const std::string& name,
-                                const Placement& placement, const std::string& extension) {
+                                const Placement& placement, const std::string& extension,
+                                const FigureFlags& figure) {
   const MotionFormat* format = find_format(formats(), extension);
   for (const OwnBody& own : kOwnBodies) {
     if (own.extension != extension) continue;
@@ -188,9 +233,10 @@ Result<std::string> format_clip(const Clip& clip, const Rig* rig, const std::str
     if (!put) return put.error();
     return format->write(*put, name, {}, nullptr);
   }
-  if (!rig || !format->has_meshes) return format->write(clip, name, placement, nullptr);
-  const int reference = std::min(rig->first_frame(), clip.frames - 1);
-  const SkinnedBody body = make_rig_body(*rig, clip.pose(reference));
+  if (!rig || !format->has_meshes || figure.no_body) {
+    return format->write(clip, name, placement, nullptr);
+  }
+  const SkinnedBody body = body_of(*rig, clip);
   return format->write(clip, name, placement, &body);
 }
 

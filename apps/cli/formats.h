@@ -4,6 +4,8 @@
 #include <span>
 #include <string>
 
+#include <CLI/CLI.hpp>
+
 #include "base/result.h"
 #include "clip/motion_format.h"
 #include "rig/rig.h"
@@ -17,9 +19,18 @@ std::span<const MotionFormat> formats();
 // `output`, and with it all that is in it beside motion. Those of glTF count as one: an FBX file is
 // a GLB by then.
 bool keeps_format(const std::string& input, const std::string& output);
-// What a file gave that keeps its format, in the container that the output's extension asks for.
+// What joints without a mesh are shown on in a GLB.
+struct FigureFlags {
+  bool no_body = false;  // Sticks instead of a body.
+};
+// Gives `verb` --no-body; `flags` must outlive it.
+void add_figure_options(CLI::App& verb, FigureFlags& flags);
+
+// What a file gave that keeps its format, in the container that the output's extension asks for. A
+// GLB of joints alone gets a figure, `rig` as the user says where its humanoid is.
 Result<std::string> in_container(std::string bytes, const std::string& input,
-                                 const std::string& output);
+                                 const std::string& output, const RigOptions& rig,
+                                 const FigureFlags& figure);
 // Whether the bytes of a file with this extension are not all of it, or none that are handed on:
 // MotionFile::encode gives those.
 bool must_be_encoded(const std::string& extension);
@@ -50,6 +61,7 @@ bool holds_humanoids(const std::string& extension);
 // A new file of this motion alone, with an extension that has a writer. Formats that hold
 // humanoids get the motion on a body of their own; `rig` may be null for others.
 Result<std::string> format_clip(const Clip& clip, const Rig* rig, const std::string& name,
-                                const Placement& placement, const std::string& extension);
+                                const Placement& placement, const std::string& extension,
+                                const FigureFlags& figure);
 
 }  // namespace panache::cli

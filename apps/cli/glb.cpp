@@ -3,22 +3,20 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
+#include "base/file.h"
 #include "base/utf8.h"
 #include "clip/gltf_json.h"
 #include "clip/gltf_uri.h"
+#include "clip/text_cursor.h"
 
 namespace panache::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A PNG of one white pixel.
-constexpr const char* kWhite =
-    "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR42mP4DwABAQEAHLCM"
-    "mQAAAABJRU5ErkJggg==";
 
 // The header of 12 bytes (magic, version, length of all), then chunks: length, type, bytes. The
 // first holds the JSON, the second, which may be absent, the binary data.
@@ -51,13 +49,18 @@ std::string format_glb_file(const GltfJson& json, const std::string& bin) {
   return out += chunks;
 }
 
+// A picture at its own path below `folder`, or at the end of that path: of "C:/art/tex/skin.png"
+// also "tex/skin.png" and "skin.png".
 std::string find_picture(std::string uri, const fs::path& folder) {
   for (char& c : uri) {
     if (c == '\\') c = '/';
   }
   std::error_code status;
-  for (const fs::path& place : {fs::path(uri), fs::path(uri).filename()}) {
+  for (size_t at = 0; at < uri.size();) {
+    const fs::path place = uri.substr(at);
     if (place.is_relative() && fs::is_regular_file(folder / place, status)) return place.string();
+    const size_t next = uri.find('/', at);
+    at = next == std::string::npos ? uri.size() : next + 1;
   }
   return "";
 }
@@ -96,9 +99,185 @@ void drop_specular_glossiness(GltfJson& json) {
   if (used.empty()) json.erase("extensionsUsed");
 }
 
+// A list of the file; empty where it is something else.
+GltfJson& list_of(GltfJson& json, const char* key) {
+  static thread_local GltfJson none;
+  const auto list = json.find(key);
+  if (list != json.end() && list->is_array()) return *list;
+  return none = GltfJson::array();
+}
+
+// The member `key` as a place in a list of `size`; -1 where it is none.
+int index_in(const GltfJson& object, const char* key, size_t size) {
+  if (!object.is_object()) return -1;
+  const auto member = object.find(key);
+  if (member == object.end() || !member->is_number_unsigned()) return -1;
+  const auto place = member->get<uint64_t>();
+  return place < size ? static_cast<int>(place) : -1;
+}
+
+// "image/png" or "image/jpeg", which glTF holds; else empty.
+std::string kind_of(std::string_view picture) {
+  if (picture.starts_with("\x89PNG")) return "image/png";
+  return picture.starts_with("\xFF\xD8\xFF") ? "image/jpeg" : "";
+}
+
+// Puts the pictures of materials in order.
+class PictureRepair {
+ public:
+  PictureRepair(GltfJson& json, std::string& bin, const std::string& path,
+                const PictureToPng& to_png, std::vector<std::string>& notes)
+      : json_(json), bin_(bin), path_(path), to_png_(to_png), notes_(notes) {}
+
+  void run() {
+    GltfJson& images = list_of(json_, "images");
+    std::vector<int> image_places, texture_places;  // Where each goes; -1 for nowhere.
+    std::vector<GltfJson> kept;
+    for (size_t i = 0; i < images.size(); ++i) {
+      const bool good = repair(i);
+      image_places.push_back(good ? static_cast<int>(kept.size()) : -1);
+      if (good) kept.push_back(json_["images"][i]);
+    }
+    const size_t count = images.size();
+    GltfJson textures = GltfJson::array();
+    for (GltfJson& texture : list_of(json_, "textures")) {
+      const int image = index_in(texture, "source", count);
+      const int place = image < 0 ? -1 : image_places[static_cast<size_t>(image)];
+      texture_places.push_back(image >= 0 && place < 0 ? -1 : static_cast<int>(textures.size()));
+      if (texture_places.back() < 0) continue;
+      if (image >= 0) texture["source"] = place;
+      textures.push_back(std::move(texture));
+    }
+    for (GltfJson& material : list_of(json_, "materials")) {
+      // A texture takes the place of the colour in FBX, and is multiplied by it in glTF.
+      whiten(material, "pbrMetallicRoughness", "baseColorTexture", "baseColorFactor");
+      whiten(material, "", "emissiveTexture", "emissiveFactor");
+      renumber(material, texture_places);
+    }
+    set_or_drop("images", kept);
+    set_or_drop("textures", std::move(textures));
+  }
+
+ private:
+  void set_or_drop(const char* key, GltfJson list) {
+    if (!json_.contains(key)) return;
+    if (list.empty()) {
+      json_.erase(key);
+    } else {
+      json_[key] = std::move(list);
+    }
+  }
+
+  // The colour where there is a texture; its opacity stays.
+  static void whiten(GltfJson& material, const char* part, const char* texture,
+                     const char* factor) {
+    if (!material.is_object() || (*part && !material.contains(part))) return;
+    GltfJson& object = *part ? material[part] : material;
+    if (!object.is_object() || !object.contains(texture)) return;
+    if (!*part) {
+      object[factor] = {1.0, 1.0, 1.0};
+    } else if (object.contains(factor) && object[factor].is_array() && object[factor].size() == 4) {
+      for (size_t i = 0; i < 3; ++i) object[factor][i] = 1.0;
+    }
+  }
+
+  // Takes textures out that are gone, and gives the others their new places, in extensions too.
+  static void renumber(GltfJson& object, const std::vector<int>& places) {
+    if (!object.is_object()) return;
+    std::vector<std::string> gone;
+    for (auto& [key, value] : object.items()) {
+      const int index = key.ends_with("Texture") ? index_in(value, "index", places.size()) : -1;
+      if (index < 0) {
+        renumber(value, places);
+        continue;
+      }
+      value["index"] = places[static_cast<size_t>(index)];
+      if (places[static_cast<size_t>(index)] < 0) gone.push_back(key);
+    }
+    for (const std::string& key : gone) object.erase(key);
+  }
+
+  // Whether the picture is one that programs show afterwards.
+  bool repair(size_t which) {
+    GltfJson& image = json_["images"][which];
+    if (!image.is_object()) return true;  // What is wrong with it, its reader says.
+    const GltfJson& views = list_of(json_, "bufferViews");
+    const int view = index_in(image, "bufferView", views.size());
+    if (view >= 0) {
+      const std::string name = image.contains("name") && image["name"].is_string()
+                                   ? image["name"].get<std::string>()
+                                   : "texture " + std::to_string(which);
+      return embed(image, bytes_of(views[static_cast<size_t>(view)]), name);
+    }
+    if (!image.contains("uri") || !image["uri"].is_string()) return true;
+    const std::string uri = image["uri"];
+    if (uri.starts_with("data:")) {
+      const Result<std::string> bytes = decode_data_uri(uri);
+      return !bytes || embed(image, *bytes, "texture " + std::to_string(which));
+    }
+    const fs::path folder = fs::path(path_).parent_path();
+    const std::string found = find_picture(uri, folder);
+    if (found.empty()) {
+      return leave_out(panache::quoted(uri) + " is neither there nor beside the file");
+    }
+    Result<std::string> bytes = read_file((folder / found).string());
+    if (!bytes) return leave_out(bytes.error().message);
+    if (!kind_of(*bytes).empty()) {
+      image["uri"] = percent_encoded(found);
+      image["mimeType"] = kind_of(*bytes);
+      return true;
+    }
+    image.erase("uri");
+    return embed(image, *bytes, found);
+  }
+
+  std::string bytes_of(const GltfJson& view) const {
+    if (!view.is_object()) return "";
+    const auto number = [&](const char* key) -> uint64_t {
+      const auto member = view.find(key);
+      return member != view.end() && member->is_number_unsigned() ? member->get<uint64_t>() : 0;
+    };
+    const uint64_t begin = number("byteOffset"), size = number("byteLength");
+    return begin > bin_.size() || size > bin_.size() - begin ? "" : bin_.substr(begin, size);
+  }
+
+  // Gives the image these bytes, as a PNG where they are of another kind.
+  bool embed(GltfJson& image, const std::string& bytes, const std::string& name) {
+    if (const std::string kind = kind_of(bytes); !kind.empty()) {
+      image["mimeType"] = kind;
+      return true;
+    }
+    const Result<std::string> png = to_png_ ? to_png_(bytes) : Error{"its kind is not supported"};
+    if (!png) return leave_out(panache::quoted(name) + ": " + png.error().message);
+    bin_.resize((bin_.size() + 3) / 4 * 4);
+    GltfJson view = {{"buffer", 0}, {"byteOffset", bin_.size()}, {"byteLength", png->size()}};
+    bin_ += *png;
+    image.erase("uri");
+    image["mimeType"] = "image/png";
+    if (!json_.contains("bufferViews")) json_["bufferViews"] = GltfJson::array();
+    image["bufferView"] = json_["bufferViews"].size();
+    json_["bufferViews"].push_back(std::move(view));
+    if (list_of(json_, "buffers").empty()) json_["buffers"] = {{{"byteLength", 0}}};
+    json_["buffers"][0]["byteLength"] = bin_.size();
+    return true;
+  }
+
+  bool leave_out(const std::string& what) {
+    notes_.push_back(path_ + ": texture " + what + "; the material is written without it");
+    return false;
+  }
+
+  GltfJson& json_;
+  std::string& bin_;
+  const std::string& path_;
+  const PictureToPng& to_png_;
+  std::vector<std::string>& notes_;
+};
+
 }  // namespace
 
-std::string with_pictures(std::string glb, const std::string& path) {
+std::string with_pictures(std::string glb, const std::string& path, const PictureToPng& to_png,
+                          std::vector<std::string>* notes) {
   if (glb.size() < kHeader + kChunkHeader) return glb;
   const size_t begin = kHeader + kChunkHeader, length = number_at(glb, kHeader);
   if (length > glb.size() - begin) return glb;
@@ -106,16 +285,11 @@ std::string with_pictures(std::string glb, const std::string& path) {
   // Assimp writes names of any bytes.
   if (!GltfChecker(path).parse(to_utf8({glb.data() + begin, length}), json)) return glb;
   drop_specular_glossiness(json);
-  GltfJson no_images = GltfJson::array();
-  for (GltfJson& image : json.contains("images") ? json["images"] : no_images) {
-    if (!image.contains("uri") || !image["uri"].is_string()) continue;
-    const std::string uri = image["uri"];
-    if (uri.starts_with("data:")) continue;
-    const std::string found = find_picture(uri, fs::path(path).parent_path());
-    image["uri"] = found.empty() ? kWhite : percent_encoded(found);
-  }
-  const size_t bin = begin + length + kChunkHeader;
-  return format_glb_file(json, bin < glb.size() ? glb.substr(bin) : "");
+  const size_t bin_at = begin + length + kChunkHeader;
+  std::string bin = bin_at < glb.size() ? glb.substr(bin_at) : "";
+  std::vector<std::string> unheard;
+  PictureRepair(json, bin, path, to_png, notes ? *notes : unheard).run();
+  return format_glb_file(json, bin);
 }
 
 Result<std::string> gltf_to_glb(const std::string& gltf, const std::string& path) {

@@ -10,6 +10,12 @@
 #include "rig/body_motions.h"
 
 namespace panache::cli {
+namespace {
+
+constexpr const char* kClipTakesPose = "; --clip NAME takes one all the same";
+
+}  // namespace
+
 bool is_motion_extension(const std::string& extension) { return find_format(formats(), extension); }
 
 std::string motion_extensions() { return list_extensions(formats()); }
@@ -50,14 +56,21 @@ Result<std::vector<int>> pick_clips(const MotionFile& file, const std::string& w
   for (size_t i = 0; i < names.size(); ++i) {
     if (!wanted.empty() && names[i] != wanted) continue;
     const int clip = static_cast<int>(i);
-    if (std::find(body.clips.begin(), body.clips.end(), clip) != body.clips.end()) {
+    const auto is_in = [&](const std::vector<int>& list) {
+      return std::find(list.begin(), list.end(), clip) != list.end();
+    };
+    // Who names a pose means it.
+    if (is_in(body.clips) || (!wanted.empty() && is_in(body.poses))) {
       picked.push_back(clip);
     } else {
       passed_over.push_back(names[i]);
     }
   }
   if (!picked.empty()) {
-    if (!passed_over.empty()) notes.push_back(path + ": " + note_passed_over(file, body));
+    if (!passed_over.empty()) {
+      notes.push_back(path + ": " + note_passed_over(file, body) +
+                      (body.poses.empty() ? "" : kClipTakesPose));
+    }
     return picked;
   }
   if (!passed_over.empty()) {

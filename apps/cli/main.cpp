@@ -16,6 +16,7 @@
 #include "meshopt.h"
 #include "messages.h"
 #include "option_table.h"
+#include "picture.h"
 #include "png.h"
 #include "standard_streams.h"
 #include "usage_error.h"
@@ -42,6 +43,9 @@ Result<void> check_verb(const CLI::App& app, const std::string& verb) {
 int run(int argc, char** argv) {
   if (argc == 3 && argv[1] == std::string_view(kFbxReader)) return read_fbx_as_child(argv[2]);
   if (argc == 3 && argv[1] == std::string_view(kPngDrawer)) return draw_png_as_child(argv[2]);
+  if (argc == 3 && argv[1] == std::string_view(kPictureReader)) {
+    return read_picture_as_child(argv[2]);
+  }
   set_meshopt_decoder(kMeshoptDecoder);
   set_motion_formats(formats());  // Those of manifests, too.
   int exit_code = kDone;

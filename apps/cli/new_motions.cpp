@@ -22,30 +22,39 @@ std::string list(const std::vector<std::string>& names) {
 }  // namespace
 
 void add_place_options(CLI::App& verb, PlaceFlags& flags, const std::string& whose) {
-  CLI::Option* replace = verb.add_flag("--replace", flags.replace,
-                                       "Replace " + whose +
-                                           " instead of adding\nnew ones (a BVH file holds only "
-                                           "one)");
-  verb.add_flag("--first", flags.first,
-                "Put new animations first, for viewers that play\nthe first one")
-      ->excludes(replace);
+  CLI::Option* replace = verb.add_flag(
+      "--replace", flags.replace,
+      "Replace " + whose + " instead of adding\nnew ones (a BVH file holds only one)");
+  CLI::Option* first = verb.add_flag("--first", flags.first,
+                                     "Put new animations before those of the file, where\nviewers "
+                                     "look; the default but with --onto, which\nleaves those out");
+  verb.add_flag("--last", flags.last, "Put new animations after those of the file")
+      ->excludes(replace)
+      ->excludes(first);
+  first->excludes(replace);
 }
 
-EditMode edit_mode(const PlaceFlags& flags) {
-  if (flags.replace) return EditMode::replace;
-  return flags.first ? EditMode::add_first : EditMode::add_beside;
+EditMode edit_mode(const PlaceFlags& flags, bool onto) {
+  if (flags.last) return EditMode::add_beside;
+  return flags.replace || (onto && !flags.first) ? EditMode::replace : EditMode::add_first;
 }
 
 void name_new_motions(FileJob& file, const std::vector<std::string>& has, const PlaceFlags& flags,
-                      std::vector<std::string>& names) {
+                      bool onto, std::vector<std::string>& names) {
   if (holds_one_motion(extension_of(file.output)) || flags.replace) return;
+  const EditMode mode = edit_mode(flags, onto);
   TakenNames taken;
-  for (const std::string& name : has) unique_name(name, taken);
+  if (mode != EditMode::replace) {
+    for (const std::string& name : has) unique_name(name, taken);
+  }
   for (std::string& name : names) name = unique_name(name, taken);
   std::string text = "new: " + list(names);
-  if (!has.empty() && flags.first) text += ", before " + list(has);
-  if (!has.empty() && !flags.first) {
-    text += ", after " + list(has) + "; --first puts it before, --replace in its place";
+  if (!has.empty() && mode == EditMode::replace) {
+    text += "; the character's own (" + list(has) + ") are left out, --first keeps them";
+  } else if (!has.empty() && mode == EditMode::add_first) {
+    text += ", before " + list(has) + "; --last puts it after, --replace in its place";
+  } else if (!has.empty()) {
+    text += ", after " + list(has);
   }
   file.added.push_back(text);
 }

@@ -60,7 +60,8 @@ Result<Rig> CharacterFile::rig_of(const Clip& clip, const std::string& place) co
 }
 
 Result<std::string> CharacterFile::encode(const std::vector<NewMotion>& motions, EditMode mode,
-                                          const std::string& output) const {
+                                          const std::string& output,
+                                          const FigureFlags& figure) const {
   const std::string to = extension_of(output);
   const bool whole = keeps_format(extension_of(path_), to);
   if (motions.size() > 1 && (!whole || holds_one_motion(to))) {
@@ -70,14 +71,14 @@ Result<std::string> CharacterFile::encode(const std::vector<NewMotion>& motions,
   if (!whole) {
     const NewMotion& only = motions.front();
     const Result<Rig> rig = rig_of(only.clip, only.name);
-    return format_clip(only.clip, rig ? &*rig : &rig_, only.name, placement_of(rig_), to);
+    return format_clip(only.clip, rig ? &*rig : &rig_, only.name, placement_of(rig_), to, figure);
   }
   std::vector<ClipEdit> edits;
   edits.reserve(motions.size());
   for (const NewMotion& motion : motions) {
     edits.push_back({kNewClip, &motion.clip, {}, motion.name});
   }
-  return in_container(file_->encode(edits, mode), path_, output);
+  return in_container(file_->encode(edits, mode), path_, output, options_, figure);
 }
 
 }  // namespace panache::cli

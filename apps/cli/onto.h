@@ -9,6 +9,7 @@
 
 #include "batch.h"
 #include "clip/motion_file.h"
+#include "formats.h"
 #include "retarget/retarget.h"
 #include "rig/rig.h"
 
@@ -47,7 +48,7 @@ class CharacterFile {
   // The bytes of the character's file with these motions; a file of another format has the joints
   // alone, and one motion.
   Result<std::string> encode(const std::vector<NewMotion>& motions, EditMode mode,
-                             const std::string& output) const;
+                             const std::string& output, const FigureFlags& figure) const;
   // The motions that the file has.
   std::vector<std::string> clip_names() const { return file_->clip_names(); }
 

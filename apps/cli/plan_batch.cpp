@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "batch.h"
+#include "clip/text_cursor.h"
 #include "formats.h"
 #include "standard_streams.h"
 
@@ -96,12 +97,24 @@ Result<std::vector<FileJob>> name_jobs(const BatchFlags& flags, const OutputNami
 
 }  // namespace
 
-Result<std::vector<FileJob>> plan_batch(const BatchFlags& flags, const OutputNaming& naming,
+Result<std::vector<FileJob>> plan_batch(const BatchFlags& flags, const OutputNaming& wanted,
                                         int& exit_code) {
   exit_code = kBadUsage;
+  OutputNaming naming = wanted;
+  if (!flags.to.empty()) {
+    naming.extension = "." + flags.to;
+    if (!has_writer(naming.extension)) {
+      return Error{"--to: expected " + list_writable_names() + ", found " +
+                   panache::quoted(flags.to)};
+    }
+  }
   if (auto jobs = check_range("--jobs", flags.jobs, 0, 1024); !jobs) return jobs.error();
   Result<std::vector<FileJob>> files = name_jobs(flags, naming, exit_code);
   if (!files) return files.error();
+  if (!flags.to.empty() && extension_of(files->front().output) != naming.extension) {
+    exit_code = kBadUsage;
+    return Error{"--to " + flags.to + ": " + files->front().output + " has another format"};
+  }
   std::vector<FilePair> pairs;
   for (const FileJob& file : *files) {
     if (!file.to_stdout) pairs.push_back({file.input, file.output});

@@ -35,6 +35,8 @@ void add_retarget(CLI::App& app, int& exit_code) {
                    "Motion to take, if a file has several; default: all")
       ->type_name("NAME");
   add_place_options(*verb, options->flags.place, "the character's animations");
+  add_in_place_option(*verb, options->flags.in_place);
+  add_figure_options(*verb, options->flags.figure);
   verb->add_flag("--no-feet", options->no_feet, "Leave feet and floor to the angles alone");
   verb->add_flag("--no-hands", options->no_hands, "Leave hands that meet to the angles alone");
   add_rig_options(*verb, options->flags.rig);

@@ -6,6 +6,7 @@
 
 #include "input.h"
 #include "messages.h"
+#include "rig/in_place.h"
 #include "rig_report.h"
 
 namespace panache::cli {
@@ -32,6 +33,11 @@ Result<void> retarget_file(FileJob& file, const CharacterFile& character,
     const Clip& from = (*motion)->clip(which);
     const Result<Rig> rig = make_rig(from, rig_options, place);
     Result<Clip> put = rig ? character.put(from, *rig, place, options) : Result<Clip>(rig.error());
+    if (put && flags.in_place) {
+      Result<Rig> onto = character.rig_of(*put, place);
+      if (onto) stay_in_place(*onto, *put);
+      if (!onto) put = onto.error();
+    }
     if (!put) {
       failures.push_back(put.error());
       continue;
@@ -51,12 +57,13 @@ Result<void> retarget_file(FileJob& file, const CharacterFile& character,
   for (const Error& failure : failures) {
     file.notes.push_back(failure.message + "; this motion is left out");
   }
-  name_new_motions(file, character.clip_names(), flags.place, names);
+  name_new_motions(file, character.clip_names(), flags.place, true, names);
   for (size_t i = 0; i < motions.size(); ++i) {
     motions[i].name = names[i];
     file.clips[i]["result"] = names[i];
   }
-  Result<std::string> bytes = character.encode(motions, edit_mode(flags.place), file.output);
+  Result<std::string> bytes =
+      character.encode(motions, edit_mode(flags.place, true), file.output, flags.figure);
   if (!bytes) return bytes.error();
   return write_output(file, *bytes, flags.batch.force);
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "batch.h"
+#include "formats.h"
 #include "new_motions.h"
 #include "onto.h"
 #include "rig_options.h"
@@ -16,7 +17,9 @@ struct RetargetFlags {
   RigFlags rig;
   OntoFlags onto;
   PlaceFlags place;
+  FigureFlags figure;
   std::string clip;  // The motion to take, or empty for all.
+  bool in_place = false;
 };
 
 // Writes the character with the motions of each input. `doing`, `done`: as for run_batch(). The

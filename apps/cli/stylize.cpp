@@ -17,6 +17,7 @@
 #include "model_path.h"
 #include "new_motions.h"
 #include "onto.h"
+#include "rig/in_place.h"
 #include "rig_options.h"
 #include "rig_report.h"
 #include "shape_options.h"
@@ -38,6 +39,8 @@ struct StylizeOptions {
   std::string clip;  // The motion to restyle, or empty for all.
   OntoFlags onto;
   PlaceFlags place;
+  FigureFlags figure;
+  bool in_place = false;
   bool no_timing = false;
   bool no_feet = false;
   bool verbose = false;
@@ -49,6 +52,7 @@ struct Wanted {
   std::vector<StrengthWish> wishes;
   RigOptions rig;
   RestyleOptions how;
+  bool in_place = false;
   std::optional<CharacterFile> onto;
 };
 
@@ -108,6 +112,7 @@ Result<RestyledClip> restyle_clip(const MotionFile& motion, int which, const std
   if (!restyled) return Error{place + ": " + restyled.error().message};
   RestyledClip out{which, result_name(title_of(name, file.input), wanted), *std::move(rig),
                    *std::move(restyled)};
+  if (wanted.in_place) stay_in_place(out.rig, out.result.clip);
   // A calibration pose in front is no motion, and is not restyled.
   const auto first = static_cast<size_t>(std::min(out.rig.first_frame(), clip.frames - 1));
   const GateReport gate = report_gate(std::span(out.result.gates).subspan(first));
@@ -128,18 +133,20 @@ Result<RestyledClip> restyle_clip(const MotionFile& motion, int which, const std
 // The bytes of the result: the file with its new motions, or a new file of another format that
 // holds the only one.
 Result<std::string> encode(const MotionFile& motion, const std::vector<RestyledClip>& clips,
-                           const FileJob& file, const StylizeOptions& options) {
+                           const FileJob& file, const StylizeOptions& options,
+                           const RigOptions& rig) {
   if (keeps_format(extension_of(file.input), extension_of(file.output))) {
     std::vector<ClipEdit> edits;
     edits.reserve(clips.size());
     for (const RestyledClip& clip : clips) {
       edits.push_back({clip.clip, &clip.result.clip, clip.result.source_frames, clip.name});
     }
-    return in_container(motion.encode(edits, edit_mode(options.place)), file.input, file.output);
+    return in_container(motion.encode(edits, edit_mode(options.place, false)), file.input,
+                        file.output, rig, options.figure);
   }
   const RestyledClip& only = clips.front();
   return format_clip(only.result.clip, &only.rig, only.name, placement_of(only.rig),
-                     extension_of(file.output));
+                     extension_of(file.output), options.figure);
 }
 
 // Gives the results names that are free in the file that they go into.
@@ -152,7 +159,7 @@ void name_results(std::vector<RestyledClip>& clips, const Wanted& wanted, const 
     has = motion.clip_names();
   }
   for (const RestyledClip& clip : clips) names.push_back(clip.name);
-  name_new_motions(file, has, place, names);
+  name_new_motions(file, has, place, wanted.onto.has_value(), names);
   for (size_t i = 0; i < clips.size(); ++i) {
     clips[i].name = names[i];
     file.clips[i]["result"] = names[i];
@@ -166,7 +173,7 @@ Result<std::string> encode_onto(const CharacterFile& character,
   std::vector<NewMotion> motions;
   motions.reserve(clips.size());
   for (const RestyledClip& clip : clips) motions.push_back({clip.result.clip, clip.name});
-  return character.encode(motions, edit_mode(options.place), file.output);
+  return character.encode(motions, edit_mode(options.place, true), file.output, options.figure);
 }
 
 Result<void> stylize_file(FileJob& file, const Wanted& wanted, const StylizeOptions& options,
@@ -207,7 +214,7 @@ Result<void> stylize_file(FileJob& file, const Wanted& wanted, const StylizeOpti
   }
   name_results(clips, wanted, **motion, file, options.place);
   Result<std::string> bytes = wanted.onto ? encode_onto(*wanted.onto, clips, file, options)
-                                          : encode(**motion, clips, file, options);
+                                          : encode(**motion, clips, file, options, wanted.rig);
   if (!bytes) return bytes.error();
   return write_output(file, *bytes, options.batch.force);
 }
@@ -291,7 +298,8 @@ int stylize(const StylizeOptions& options) {
   Result<RigOptions> rig = read_rig_options(options.rig);
   if (!rig) return fail(rig.error(), kBadInput);
 
-  Wanted wanted{*std::move(model), *std::move(wishes), *std::move(rig), how, std::move(onto)};
+  Wanted wanted{*std::move(model), *std::move(wishes), *std::move(rig), how,
+                options.in_place,  std::move(onto)};
   wanted.how.stylizer.foot_lock = !options.no_feet;
   wanted.how.timing = !options.no_timing;
   return run_batch(*std::move(files), options.batch, "restyling", "restyled",
@@ -326,6 +334,8 @@ void add_stylize(CLI::App& app, int& exit_code) {
       ->type_name("NAME");
   add_onto_options(*verb, options->onto);
   add_place_options(*verb, options->place, "the original animations");
+  add_in_place_option(*verb, options->in_place);
+  add_figure_options(*verb, options->figure);
   add_shape_options(*verb, options->shape);
   verb->add_flag("--no-timing", options->no_timing, "The same as --timing off");
   verb->add_flag("--no-feet", options->no_feet, "Do not hold planted feet in place");

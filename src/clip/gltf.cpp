@@ -6,6 +6,7 @@
 #include "clip/deform_skeleton.h"
 #include "clip/gltf_document.h"
 #include "clip/gltf_encode.h"
+#include "clip/gltf_figure.h"
 #include "clip/gltf_retime.h"
 #include "clip/gltf_unpack.h"
 #include "clip/vrma_rest.h"
@@ -99,6 +100,21 @@ Result<std::unique_ptr<MotionFile>> parse_gltf(std::string bytes, const std::str
   Result<GltfDocument> document = read_document(std::move(bytes), name, options);
   if (!document) return document.error();
   return join_deforming_joints(make_file(*std::move(document), false));
+}
+
+Result<std::string> whole_character(
+    std::string bytes, const std::string& name, bool completes_skin,
+    const std::function<std::optional<SkinnedBody>(const MotionFile&)>& make_body) {
+  Result<GltfDocument> document = read_document(bytes, name, {});
+  if (!document) return document.error();
+  const auto skins = document->container.json.find("skins");
+  if (skins != document->container.json.end() && skins->size() == 1) {
+    return completes_skin ? with_whole_skin(*document) : bytes;
+  }
+  if (!lacks_figure(*document)) return bytes;
+  const GltfFile file(*document, false);
+  const std::optional<SkinnedBody> body = make_body(file);
+  return with_figure(*document, body ? &*body : nullptr);
 }
 
 Result<std::unique_ptr<MotionFile>> parse_vrma(std::string bytes, const std::string& name,

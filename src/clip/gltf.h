@@ -24,7 +24,9 @@
 //
 // Everything else in a file stays: the JSON is edited in place, and new data goes to its end.
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "base/quat.h"
@@ -51,8 +53,16 @@ namespace panache {
 Result<std::unique_ptr<MotionFile>> parse_gltf(std::string bytes, const std::string& name,
                                                const ReadOptions& options = {});
 
-// The same for a .vrma, which has to name a humanoid with hips. encode() puts an edit in the place
-// of its motion whatever the mode: players take the first animation.
+// The file as one skinned character, of which programs build an armature: where there is no skin,
+// and no mesh on the joints, with what `make_body` makes for the motions of the file, or with
+// sticks where that is nothing; where there is one skin and `completes_skin`, with the joints in it
+// that no vertex follows. Others come back as they are.
+Result<std::string> whole_character(
+    std::string bytes, const std::string& name, bool completes_skin,
+    const std::function<std::optional<SkinnedBody>(const MotionFile&)>& make_body);
+
+// The same as parse_gltf() for a .vrma, which has to name a humanoid with hips. encode() puts an
+// edit in the place of its motion whatever the mode: players take the first animation.
 Result<std::unique_ptr<MotionFile>> parse_vrma(std::string bytes, const std::string& name,
                                                const ReadOptions& options = {});
 

@@ -75,8 +75,9 @@ float component(const char* bytes, uint64_t type, bool normalized) {
 
 class AccessorReader {
  public:
-  AccessorReader(const GltfContainer& container, const std::string& asked_at, GltfChecker& checker)
-      : container_(container), asked_at_(asked_at), checker_(checker) {}
+  AccessorReader(const GltfContainer& container, const std::string& asked_at, GltfChecker& checker,
+                 bool matrices)
+      : container_(container), asked_at_(asked_at), checker_(checker), matrices_(matrices) {}
 
   bool read(int which, GltfValues& out) {
     path_ = item_path("accessors", static_cast<size_t>(which));
@@ -123,6 +124,11 @@ class AccessorReader {
     if (!checker_.text(accessor, path_, "type", shape)) return false;
     if (component_bytes(type_) == 0) {
       return fail("expected a componentType of 5120 to 5126, found " + std::to_string(type_));
+    }
+    if (matrices_ && shape == "MAT4" && type_ == kFloat) {
+      out.components = 16;
+      out.count = count;
+      return count > 0 || fail("expected a count above 0, found 0");
     }
     constexpr std::string_view kShapes[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
     const auto found = std::find(std::begin(kShapes), std::end(kShapes), shape);
@@ -273,6 +279,7 @@ class AccessorReader {
   const GltfContainer& container_;
   const std::string& asked_at_;
   GltfChecker& checker_;
+  bool matrices_;
   std::string path_;
   uint64_t type_ = 0;
   bool normalized_ = false;
@@ -282,7 +289,13 @@ class AccessorReader {
 
 bool read_gltf_accessor(const GltfContainer& container, int which, const std::string& path,
                         GltfChecker& checker, GltfValues& out) {
-  return AccessorReader(container, path, checker).read(which, out);
+  return AccessorReader(container, path, checker, false).read(which, out);
+}
+
+bool read_gltf_matrices(const GltfContainer& container, int which, const std::string& path,
+                        GltfChecker& checker, GltfValues& out) {
+  return AccessorReader(container, path, checker, true).read(which, out) &&
+         (out.components == 16 || checker.fail(path, "expected matrices of floats (MAT4)"));
 }
 
 }  // namespace panache

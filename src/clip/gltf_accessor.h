@@ -10,7 +10,7 @@ namespace panache {
 
 struct GltfValues {
   size_t count = 0;            // Elements.
-  size_t components = 0;       // Numbers in an element, 1 to 4.
+  size_t components = 0;       // Numbers in an element, 1 to 4; 16 of a matrix.
   std::vector<float> numbers;  // [count][components], finite and within kLargestNumber.
 };
 
@@ -18,6 +18,10 @@ struct GltfValues {
 // place. Whole numbers come as the fractions that they stand for where the accessor is normalised.
 // What is read takes no more memory than a few times the bytes of the file.
 bool read_gltf_accessor(const GltfContainer& container, int which, const std::string& path,
+                        GltfChecker& checker, GltfValues& out);
+
+// The same for matrices of floats (MAT4), columns one after the other; nothing else is accepted.
+bool read_gltf_matrices(const GltfContainer& container, int which, const std::string& path,
                         GltfChecker& checker, GltfValues& out);
 
 }  // namespace panache

@@ -26,12 +26,17 @@ struct GltfNode {
   bool matrix = false;      // Placed by a matrix, so that nothing may animate it.
   bool skinned = false;     // A joint of a skin.
   bool carrier = false;     // Its transform is the weight of an expression or a gaze: no joint.
+  bool end = false;         // An End Site of its parent, which only points somewhere: no joint.
   bool moves = false;       // In a skin, named in a humanoid, animated, or above such a node.
   int joint = -1;           // In the clips' skeleton; -1 for one that does not move.
   std::string role;         // As in Joint.
   int skin = -1;            // As in Joint.
   float skin_weight = 0;
 };
+
+// The member of a node's extras that is true where the node is an End Site (Joint::ends). A skin
+// has it as a joint, so that programs know where the last joint of a limb points.
+inline constexpr const char* kEndSite = "panacheEndSite";
 
 // What a channel of an animation moves.
 enum class GltfPath { rotation, translation, scale, weights, other };

@@ -55,6 +55,9 @@ class NodeReader {
                                      " bytes, found " + std::to_string(node.name.size()));
     }
     if (node.name.empty()) node.name = "node " + std::to_string(which);
+    const auto extras = json.find("extras");
+    node.end = extras != json.end() && extras->is_object() && extras->contains(kEndSite) &&
+               !json.contains("children");
     return read_children(json, path, which) && read_place(json, path, node);
   }
 
@@ -120,6 +123,7 @@ class NodeReader {
         const std::string joint_path = item_path(member_path(path, "joints"), i);
         int node = -1;
         if (!checker_.index_value((*joints)[i], joint_path, nodes_.size(), node)) return false;
+        if (nodes_[static_cast<size_t>(node)].end) continue;
         nodes_[static_cast<size_t>(node)].skinned = true;
         nodes_[static_cast<size_t>(node)].moves = true;
       }
@@ -316,6 +320,11 @@ class SkeletonBuilder {
     joint.can_translate = !node.matrix && (joint.parent < 0 || (node.skinned && !below_skin));
     joint.rest = clip_rotation(node.rotation, node.own.turn);
     joint.offset = above.apply(node.translation);
+    const Stretch below = above.below(joint.rest, node.own.stretch);
+    for (const int child : node.children) {
+      const GltfNode& end = nodes_[static_cast<size_t>(child)];
+      if (end.end && !end.moves) joint.ends.push_back(below.apply(end.translation));
+    }
     const double reach = static_cast<double>(
         std::max({std::abs(joint.offset.x), std::abs(joint.offset.y), std::abs(joint.offset.z)}));
     const auto lengths = above.lengths();

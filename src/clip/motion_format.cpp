@@ -75,7 +75,11 @@ Result<const MotionFormat*> format_of(const std::string& path,
   if (const MotionFormat* format = find_format(formats, extension)) return format;
   return Error{
       path + ": expected a motion file (" + list_extensions(formats) + "), found " +
-      (extension.empty() ? "no extension" : "the extension " + panache::quoted(extension))};
+      (extension.empty() ? "no extension" : "the extension " + panache::quoted(extension)) +
+      (extension == ".fbx"
+           ? "; 'panache convert IN.fbx -o OUT.glb' makes a GLB of it, and 'panache "
+             "view IN.fbx' shows it"
+           : "")};
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 #include "rig/body_motions.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "clip/text_cursor.h"
+#include "rig/joint_name.h"
 
 namespace panache {
 namespace {
@@ -20,7 +22,34 @@ bool moves_humanoid(const Skeleton& joints, const Rig& rig) {
   return false;
 }
 
-BodyMotions find_body_motions(const MotionFile& file, const RigOptions& options) {
+bool is_pose(const std::string& name, int frames) {
+  if (frames < 2) return true;
+  // "pose" after a kind of it, in one word or two, or nothing but "rest".
+  const std::vector<std::string> words = without_number(parse_joint_name(name).words);
+  for (size_t i = 0; i < words.size(); ++i) {
+    for (const char* kind : {"t", "rest", "bind", "reference"}) {
+      if (words[i] == std::string(kind) + "pose") return true;
+      if (words[i] == kind && i + 1 < words.size() && words[i + 1] == "pose") return true;
+    }
+  }
+  return words.size() == 1 && (words[0] == "rest" || words[0] == "apose");
+}
+
+namespace {
+
+// Those of `out.clips` that are poses go to `out.poses`, unless nothing else is there.
+BodyMotions without_poses(const MotionFile& file, BodyMotions out) {
+  const std::vector<std::string> names = file.clip_names();
+  const auto pose = [&](int i) {
+    return is_pose(names[static_cast<size_t>(i)], file.clip(i).frames);
+  };
+  if (std::all_of(out.clips.begin(), out.clips.end(), pose)) return out;
+  std::copy_if(out.clips.begin(), out.clips.end(), std::back_inserter(out.poses), pose);
+  std::erase_if(out.clips, pose);
+  return out;
+}
+
+BodyMotions find_moving(const MotionFile& file, const RigOptions& options) {
   BodyMotions out;
   bool all_move = true;
   const int count = static_cast<int>(file.clip_names().size());
@@ -41,7 +70,16 @@ BodyMotions find_body_motions(const MotionFile& file, const RigOptions& options)
   return out;
 }
 
-std::string describe_still(const std::vector<std::string>& names, bool humanoid) {
+}  // namespace
+
+BodyMotions find_body_motions(const MotionFile& file, const RigOptions& options) {
+  return without_poses(file, find_moving(file, options));
+}
+
+namespace {
+
+// "'a', 'b' and 3 more".
+std::string list_few(const std::vector<std::string>& names) {
   constexpr size_t kNamed = 4;
   const size_t named = std::min(names.size(), kNamed), more = names.size() - named;
   std::string text;
@@ -49,19 +87,32 @@ std::string describe_still(const std::vector<std::string>& names, bool humanoid)
     text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + quoted(names[i]);
   }
   if (more) text += " and " + std::to_string(more) + " more";
-  return text + (names.size() == 1 ? " moves" : " move") +
+  return text;
+}
+
+}  // namespace
+
+std::string describe_still(const std::vector<std::string>& names, bool humanoid) {
+  return list_few(names) + (names.size() == 1 ? " moves" : " move") +
          (humanoid ? " no joint of the humanoid" : " no joint");
 }
 
 std::string note_passed_over(const MotionFile& file, const BodyMotions& body) {
   const std::vector<std::string> all = file.clip_names();
-  std::vector<std::string> names;
+  std::vector<std::string> names, poses;
   for (size_t i = 0; i < all.size(); ++i) {
-    const auto found = std::find(body.clips.begin(), body.clips.end(), static_cast<int>(i));
-    if (found == body.clips.end()) names.push_back(all[i]);
+    const auto is_in = [&](const std::vector<int>& list) {
+      return std::find(list.begin(), list.end(), static_cast<int>(i)) != list.end();
+    };
+    if (!is_in(body.clips)) (is_in(body.poses) ? poses : names).push_back(all[i]);
   }
-  if (names.empty()) return "";
-  return describe_still(names, body.humanoid) +
+  std::string text;
+  if (!poses.empty()) {
+    text = list_few(poses) + (poses.size() == 1 ? " is a pose, not a motion, and is passed over"
+                                                : " are poses, not motions, and are passed over");
+  }
+  if (names.empty()) return text;
+  return (text.empty() ? "" : text + "; ") + describe_still(names, body.humanoid) +
          (names.size() == 1 ? " and is passed over" : " and are passed over");
 }
 

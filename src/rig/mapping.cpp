@@ -19,8 +19,27 @@ using enum HumanJoint;
 
 constexpr float kByTree = 0.95f, kByPlace = 0.7f, kByShape = 0.8f;
 
+// What to do about feet that no leg carries, as those of game characters whose legs follow targets
+// (inverse kinematics); empty where all feet are below a shin.
+std::string feet_advice(const std::vector<Joint>& joints, const Limbs& limbs,
+                        const std::vector<HumanJoint>& missing) {
+  for (size_t side : {0, 1}) {
+    const int foot = limbs.legs[side].end;
+    const auto lacks = std::find(missing.begin(), missing.end(), kLimbNames[1][side].lower);
+    if (foot < 0 || lacks == missing.end()) continue;
+    const int above = joints[static_cast<size_t>(foot)].parent;
+    return "; the foot '" + joints[static_cast<size_t>(foot)].name + "' hangs on " +
+           (above < 0 ? std::string("nothing")
+                      : "'" + joints[static_cast<size_t>(above)].name + "'") +
+           ", not on a shin, as in rigs whose legs follow targets (IK); bake the motion onto a "
+           "skeleton of hips, thighs, shins and feet that are one below the other, and export that";
+  }
+  return "";
+}
+
 // The message for a skeleton that lacks these.
-Error rejection(const std::vector<Joint>& joints, const std::vector<HumanJoint>& missing) {
+Error rejection(const std::vector<Joint>& joints, const std::vector<HumanJoint>& missing,
+                const std::string& advice = "") {
   constexpr size_t kNamed = 12;
   std::string text = "no humanoid found: ";
   for (size_t i = 0; i < missing.size(); ++i) {
@@ -34,6 +53,7 @@ Error rejection(const std::vector<Joint>& joints, const std::vector<HumanJoint>&
   // Hips, and of each limb the joints down to the foot or forearm.
   constexpr size_t kFewest = 11;
   text += " (" + std::to_string(joints.size()) + (joints.size() == 1 ? " joint)" : " joints)");
+  if (!advice.empty()) return {text + advice};
   if (joints.size() < kFewest) {
     return {text +
             "; expected a person's joints: hips, two legs down to the feet and two arms down to "
@@ -361,8 +381,10 @@ Result<Mapping> map_humanoid(const Skeleton& skeleton, std::span<const JointPosi
   const std::vector<JointName> names = read_names(skeleton);
   std::vector<HumanJoint> missing;
   const Limbs limbs = find_limbs_by_name(tree, names, known, missing);
-  Result<Mapping> named = missing.empty() ? Mapper(skeleton, tree, names, known).run(limbs, false)
-                                          : Result<Mapping>(rejection(skeleton.joints, missing));
+  Result<Mapping> named =
+      missing.empty() ? Mapper(skeleton, tree, names, known).run(limbs, false)
+                      : Result<Mapping>(rejection(skeleton.joints, missing,
+                                                  feet_advice(skeleton.joints, limbs, missing)));
   if (named && is_plausible(tree, limbs)) return named;
   if (const std::optional<Limbs> shaped = find_limbs_by_shape(tree, names)) {
     return Mapper(skeleton, tree, names, known).run(*shaped, true);

@@ -131,7 +131,7 @@ TEST_F(Fbx, stylize_gives_a_glb_with_both_motions) {
   EXPECT_EQ(entries("out"), std::vector<std::string>{"walk.glb"});
   const auto file = read_motion(path("out/walk.glb"));
   ASSERT_TRUE(file.ok()) << file.error().message;
-  EXPECT_EQ((*file)->clip_names(), (std::vector<std::string>{"Take 001", "Take 001 (old 1)"}));
+  EXPECT_EQ((*file)->clip_names(), (std::vector<std::string>{"Take 001 (old 1)", "Take 001"}));
 }
 
 TEST_F(Fbx, a_skeleton_without_motion_has_nothing_to_restyle) {

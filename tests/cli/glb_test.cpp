@@ -43,6 +43,27 @@ TEST(Glb, extensions_of_a_material_that_are_none_stay) {
   EXPECT_FALSE(json.contains("extensionsUsed"));
 }
 
+TEST(Glb, pictures_that_are_none_are_taken_out_of_their_materials) {
+  std::vector<std::string> notes;
+  const auto to_png = [](const std::string&) { return Result<std::string>(Error{"no picture"}); };
+  const std::string glb = with_pictures(
+      glb_of(
+          R"({"images":[7,{"uri":"gone.png"},{"uri":"data:,x"},{"bufferView":9}],"textures":[)"
+          R"({"source":1},{"source":0},7,{"source":2},{"source":-1}],"materials":[{)"
+          R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0},"baseColorFactor":[0,0,0,1]},)"
+          R"("normalTexture":{"index":1},"emissiveTexture":{"index":3},"extensions":{"a":{"bTexture":{"index":1}}}},)"
+          R"({"pbrMetallicRoughness":7,"normalTexture":{"index":"a"}},7]})"),
+      "in.fbx", to_png, &notes);
+  const GltfJson json = GltfJson::parse(glb.substr(20));
+  EXPECT_EQ(json["images"].dump(), R"([7,{"bufferView":9}])");
+  EXPECT_EQ(json["textures"].dump(), R"([{"source":0},7,{"source":-1}])");
+  EXPECT_FALSE(json["materials"][0]["pbrMetallicRoughness"].contains("baseColorTexture"));
+  EXPECT_FALSE(json["materials"][0].contains("emissiveTexture"));
+  EXPECT_EQ(json["materials"][0]["normalTexture"]["index"], 0);
+  EXPECT_EQ(json["materials"][0]["extensions"]["a"]["bTexture"]["index"], 0);
+  EXPECT_EQ(notes.size(), 2u);
+}
+
 TEST(Glb, a_gltf_whose_parts_are_none_is_rejected_with_their_place) {
   const auto message = [](const std::string& json) {
     const Result<std::string> glb = gltf_to_glb(json, "in.gltf");

@@ -37,9 +37,9 @@ constexpr const char* kPassedOver =
 
 TEST_F(OddFiles, an_animation_of_weights_is_passed_over_and_stays) {
   const std::vector<std::vector<std::string>> verbs = {
-      {"stylize", "hero.glb", "--style", "old=1", "-o", "out.glb", "--force"},
+      {"stylize", "hero.glb", "--style", "old=1", "--last", "-o", "out.glb", "--force"},
       {"stylize", "hero.glb", "--style", "old=1", "--replace", "-o", "out.glb", "--force"},
-      {"retarget", "hero.glb", "--onto", "hero.glb", "-o", "out.glb", "--force"}};
+      {"retarget", "hero.glb", "--onto", "hero.glb", "--last", "-o", "out.glb", "--force"}};
   for (const auto& verb : verbs) {
     const Ran ran = run(verb);
     EXPECT_EQ(ran.exit, 0) << ran.err;

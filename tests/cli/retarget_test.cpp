@@ -28,22 +28,27 @@ class RetargetVerb : public ProgramTest {
   using Names = std::vector<std::string>;
 };
 
-TEST_F(RetargetVerb, a_motion_goes_beside_those_of_the_character_with_its_own_rate) {
+TEST_F(RetargetVerb, a_motion_takes_the_place_of_the_characters_with_its_own_rate) {
   write("slow.bvh", format_bvh(walking_clip(30, 24)));
   const Ran ran = run({"retarget", "slow.bvh", "--onto", "hero.glb", "-o", "out.glb"});
   ASSERT_EQ(ran.exit, 0) << ran.err;
-  EXPECT_NE(ran.out.find("\n  new: 'slow', after 'Walk', 'Wave'; --first puts it before, --replace "
-                         "in its place\n"),
+  EXPECT_NE(ran.out.find("\n  new: 'slow'; the character's own ('Walk', 'Wave') are left out, "
+                         "--first keeps them\n"),
             std::string::npos)
       << ran.out;
   const auto file = open("out.glb");
   ASSERT_TRUE(file);
-  EXPECT_EQ(file->clip_names(), (Names{"Walk", "Wave", "slow"}));
-  EXPECT_EQ(file->clip(2).frames, 30);
-  EXPECT_NEAR(file->clip(2).frame_time, 1.0 / 24, 1e-6);
+  EXPECT_EQ(file->clip_names(), (Names{"slow"}));
+  EXPECT_EQ(file->clip(0).frames, 30);
+  EXPECT_NEAR(file->clip(0).frame_time, 1.0 / 24, 1e-6);
   EXPECT_EQ(glb_parts(read("out.glb")).json["meshes"], character().json["meshes"]);
-  // What was there keeps its bits.
-  const auto before = open("hero.glb");
+}
+
+TEST_F(RetargetVerb, motions_that_stay_keep_their_bits) {
+  ASSERT_EQ(run({"retarget", "walk.bvh", "--onto", "hero.glb", "--last", "-o", "last.glb"}).exit,
+            0);
+  const auto file = open("last.glb"), before = open("hero.glb");
+  EXPECT_EQ(file->clip_names(), (Names{"Walk", "Wave", "walk"}));
   EXPECT_EQ(file->clip(0).rotations, before->clip(0).rotations);
 }
 
@@ -57,7 +62,7 @@ TEST_F(RetargetVerb, motions_go_first_or_alone_when_asked) {
 }
 
 TEST_F(RetargetVerb, a_name_that_is_taken_gets_a_number) {
-  ASSERT_EQ(run({"retarget", "hero.glb", "--onto", "hero.glb", "-o", "out.glb"}).exit, 0);
+  ASSERT_EQ(run({"retarget", "hero.glb", "--onto", "hero.glb", "--last", "-o", "out.glb"}).exit, 0);
   EXPECT_EQ(open("out.glb")->clip_names(), (Names{"Walk", "Wave", "Walk (2)", "Wave (2)"}));
 }
 
@@ -92,8 +97,8 @@ TEST_F(RetargetVerb, strength_0_onto_a_character_is_retarget_alone_bit_for_bit) 
       0);
   const auto alone = open("alone.glb"), styled = open("styled.glb");
   EXPECT_EQ(styled->clip_names().back(), "walk (old 0)");
-  EXPECT_EQ(alone->clip(2).rotations, styled->clip(2).rotations);
-  EXPECT_EQ(alone->clip(2).translations, styled->clip(2).translations);
+  EXPECT_EQ(alone->clip(0).rotations, styled->clip(0).rotations);
+  EXPECT_EQ(alone->clip(0).translations, styled->clip(0).translations);
 }
 
 TEST_F(RetargetVerb, a_style_onto_a_character_is_the_style_of_the_retargeted_motion) {
@@ -115,19 +120,23 @@ TEST_F(RetargetVerb, many_motions_go_into_files_of_the_characters_format) {
   write_walk("in/b.bvh");
   ASSERT_EQ(run({"retarget", "in", "--onto", "hero.glb", "-o", "many"}).exit, 0);
   EXPECT_EQ(entries("many"), (Names{"a.glb", "b.glb"}));
+  for (const std::string verb : {"retarget", "convert"}) {
+    ASSERT_EQ(run({verb, "in", "--onto", "hero.glb", "--to", "bvh", "-o", verb}).exit, 0);
+    EXPECT_EQ(entries(verb), (Names{"a.bvh", "b.bvh"}));
+  }
 }
 
 TEST_F(RetargetVerb, bad_wishes_are_rejected) {
   expect_rejected(
-      {"retarget", "walk.bvh", "--onto", "hero.glb", "-o", "out.fbx"}, 2,
-      "out.fbx: expected a name that ends in .bvh, .glb, .vrma or .npz, or a folder (with a "
+      {"retarget", "walk.bvh", "--onto", "hero.glb", "-o", "out.txt"}, 2,
+      "out.txt: expected a name that ends in .bvh, .glb, .vrma or .npz, or a folder (with a "
       "'/' at its end)");
   expect_rejected({"retarget", "walk.bvh", "--onto", "none.glb", "-o", "out.glb"}, 1,
                   "none.glb: cannot be read: No such file or directory");
   expect_rejected({"retarget", "hero.glb", "--onto", "walk.bvh", "-o", "out.bvh"}, 1,
                   "out.bvh: takes one motion, found 2 motions; --clip NAME picks one");
-  expect_rejected({"convert", "walk.bvh", "--onto", "hero.glb", "--to", "glb", "-o", "out/"}, 2,
-                  "--to glb: expected none with --onto, whose file decides the format");
+  expect_rejected({"retarget", "walk.bvh", "--onto", "hero.glb", "--to", "amc", "-o", "out/"}, 2,
+                  "--to: expected bvh, glb, vrma or npz, found 'amc'");
   write("dog.bvh",
         "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n"
         "{\nOFFSET 0 1 0\n}\n}\nMOTION\nFrames: 1\nFrame Time: 0.1\n0 0 0\n");

@@ -133,7 +133,7 @@ TEST_F(Scales, a_style_is_the_plain_characters) {
     write("other.glb", to_glb(parts));
     must({"stylize", "other.glb", "--style", "old=1", "--clip", "Walk", "--force", "-o",
           "other-old.glb"});
-    expect_alike("plain-old.glb", "other-old.glb", 2, variant.name, kSameInput);
+    expect_alike("plain-old.glb", "other-old.glb", 0, variant.name, kSameInput);
     must({"stylize", "other.glb", "--style", "old=0", "--replace", "--force", "-o", "same.glb"});
     EXPECT_EQ(glb_parts(read("same.glb")).bin, parts.bin) << variant.name;
   }
@@ -148,7 +148,7 @@ TEST_F(Scales, motion_of_others_is_put_on_it_as_on_the_plain_one) {
     variant.rewrite(parts);
     write("other.glb", to_glb(parts));
     must({"retarget", "walk.bvh", "--onto", "other.glb", "--force", "-o", "other-walk.glb"});
-    expect_alike("plain-walk.glb", "other-walk.glb", 2, variant.name, kSameInput);
+    expect_alike("plain-walk.glb", "other-walk.glb", 0, variant.name, kSameInput);
   }
 }
 

@@ -11,6 +11,7 @@
 namespace panache {
 namespace {
 
+using test::GltfParts;
 using test::Json;
 
 const std::string kWeb = PANACHE_SOURCE_DIR "/tests/web/";
@@ -143,6 +144,28 @@ TEST_F(GltfPrograms, three_js_shows_the_motion_that_we_read_and_wrote) {
 TEST_F(GltfPrograms, three_js_shows_sticks_for_a_clip_from_elsewhere) {
   if (const std::string what = missing(true); !what.empty()) GTEST_SKIP() << what;
   expect_seen_alike(format_glb(must_read(test::character())->clip(), "sticks", 1, {}), 0, 10);
+}
+
+TEST_F(GltfPrograms, three_js_shows_a_body_on_joints_that_came_alone) {
+  if (const std::string what = missing(true); !what.empty()) GTEST_SKIP() << what;
+  const Clip walk = test::walking_clip(20);
+  GltfParts parts = test::glb_parts(format_glb(walk, "walk", 1, {}));
+  parts.json.erase("skins");
+  parts.json.erase("meshes");
+  parts.json["nodes"].erase(parts.json["nodes"].size() - 1);  // The mesh's.
+  parts.json["scenes"][0]["nodes"] = {0};
+  const Result<std::string> whole =
+      whole_character(test::to_glb(parts), "walk.glb", true, [](const MotionFile& file) {
+        return std::optional(make_rig_body(*Rig::create(file.clip()), file.clip().pose(0)));
+      });
+  ASSERT_TRUE(whole.ok()) << whole.error().message;
+  expect_seen_alike(*whole, 0, 10);
+  // A person's size, not a heap at the origin.
+  const Json seen = Json::parse(*read_file(folder_.path() + "out.txt"));
+  const float height = seen["box"][1][1].get<float>() - seen["box"][0][1].get<float>();
+  EXPECT_GT(height, 1.4f);
+  EXPECT_LT(height, 2.2f);
+  EXPECT_EQ(run("validate.mjs", "seen.glb"), "");
 }
 
 }  // namespace

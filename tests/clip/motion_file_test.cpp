@@ -27,7 +27,7 @@ TEST(MotionFile, the_extension_decides_the_format_in_any_case) {
 TEST(MotionFile, an_unknown_extension_is_answered_with_the_known_ones) {
   const std::string folder = testing::TempDir() + "panache_motion.file";
   for (const auto& [name, found] :
-       {std::pair("/walk.fbx", "the extension '.fbx'"), std::pair("/walk", "no extension")}) {
+       {std::pair("/walk.c3d", "the extension '.c3d'"), std::pair("/walk", "no extension")}) {
     ASSERT_TRUE(write_file(folder + name, "", true).ok());
     EXPECT_EQ(read_rejection(folder + name),
               folder + name +

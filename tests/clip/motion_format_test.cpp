@@ -36,7 +36,8 @@ TEST(MotionFormat, what_one_writes_it_reads) {
   }
   EXPECT_EQ(parse_motion("", "walk.fbx").error().message,
             "walk.fbx: expected a motion file (.bvh, .glb, .gltf, .vrm, .vrma, .amc), found the "
-            "extension '.fbx'");
+            "extension '.fbx'; 'panache convert IN.fbx -o OUT.glb' makes a GLB of it, and 'panache "
+            "view IN.fbx' shows it");
   EXPECT_EQ(written, 2);
 }
 

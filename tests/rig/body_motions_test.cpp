@@ -107,5 +107,17 @@ TEST(BodyMotions, those_that_are_passed_over_are_named) {
             "'a', 'b', 'c', 'd' and 2 more move no joint of the humanoid");
 }
 
+TEST(BodyMotions, poses_are_told_by_their_names_or_their_length) {
+  for (const char* name : {"T-Pose", "TPose", "tpose", "Armature|T-Pose.001", "Hero_T_Pose", "Rest",
+                           "rest pose", "BindPose", "reference pose"}) {
+    EXPECT_TRUE(is_pose(name, 100)) << name;
+  }
+  for (const char* name : {"Walk", "", "first pose", "last_pose", "Resting", "rest a while",
+                           "strike a pose", "Take 001"}) {
+    EXPECT_FALSE(is_pose(name, 100)) << name;
+    EXPECT_TRUE(is_pose(name, 1)) << name;
+  }
+}
+
 }  // namespace
 }  // namespace panache
