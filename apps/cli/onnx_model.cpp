@@ -9,11 +9,11 @@
 #include "onnx_graph.h"
 #include "pose/features.h"
 #include "style/model.h"
+#include "style/stages/strengths.h"
 
 namespace panache::cli {
 namespace {
 
-constexpr float kExaggeration = 0.3f;  // As in src/style/networks_scratch.h.
 constexpr const char* kSmith2019 = "smith2019";
 
 // The graph of one model. Names of values are those of its tensors, where they come from one.
@@ -32,7 +32,10 @@ class OnnxWriter {
                             "layout, which metadata 'input' names");
     strengths_ = graph_.input("strengths", styles_, "Of each style, in the model's order; -4 to 4");
     const std::string input = write_input();
-    if (model_.recipe().style_heads) exaggerate();
+    if (model_.recipe().style_heads) {
+      posture_ = driven("posture", kPostureEven);
+      movement_ = driven("movement", kMovementEven);
+    }
     pose_ = layers("pose", input);
     std::string hidden = pose_.back();
     if (file_.tensors.contains("gate.limit")) hidden = shrink(hidden);
@@ -87,14 +90,16 @@ class OnnxWriter {
     return graph_.concat("input.all", {input, neutral, strengths_});
   }
 
-  // Beyond 1 a strength counts less.
-  void exaggerate() {
-    const std::string core =
-        graph_.add("Clip", "strengths.core", {strengths_, graph_.constant("minus_one", -1), one_});
-    std::string more = graph_.add("Sub", "strengths.more", {strengths_, core});
-    more = graph_.add("Mul", "strengths.exaggeration",
-                      {more, graph_.constant("exaggeration", kExaggeration)});
-    driven_ = graph_.add("Add", "strengths.driven", {core, more});
+  // Strengths as they count: in full up to `even`, less beyond.
+  std::string driven(const std::string& what, float even) {
+    const std::string name = "strengths." + what;
+    const std::string core = graph_.add("Clip", name + ".core",
+                                        {strengths_, graph_.constant(name + ".least", -even),
+                                         graph_.constant(name + ".even", even)});
+    std::string more = graph_.add("Sub", name + ".more", {strengths_, core});
+    more =
+        graph_.add("Mul", name + ".beyond", {more, graph_.constant(name + ".share", kBeyondEven)});
+    return graph_.add("Add", name, {core, more});
   }
   // [batch, count]
   std::string columns(const std::string& name, const std::string& value, size_t first,
@@ -171,7 +176,8 @@ class OnnxWriter {
         graph_.add("Reshape", name + ".by_style",
                    {answers, graph_.integers(name + ".shape", {-1, static_cast<int64_t>(styles),
                                                                static_cast<int64_t>(width)})});
-    std::string by = columns(name + ".strengths", driven_, 0, styles);
+    std::string by =
+        columns(name + ".strengths", network == "pose" ? posture_ : movement_, 0, styles);
     by = graph_.add("Unsqueeze", name + ".strengths_by_style",
                     {by, graph_.integers(name + ".axis", {2})});
     answers = graph_.add("Mul", name + ".driven", {answers, by});
@@ -204,13 +210,18 @@ class OnnxWriter {
     const std::string open = graph_.add("Div", name + ".open",
                                         {one_, graph_.add("Max", name + ".bounded", {far, one_})});
     learnt_gates_.push_back(open);
-    std::string answer = dense(name + ".head", drawn(name, mean, centred, open));
-    answer = graph_.add("Mul", name + ".driven",
-                        {answer, columns(name + ".strength", driven_, built_in() + k, 1)});
+    const std::string answer = dense(name + ".head", drawn(name, mean, centred, open));
+    const auto part = [&](const std::string& what, const std::string& strengths, size_t first,
+                          size_t count) {
+      const std::string of = name + "." + what;
+      return graph_.add("Mul", of,
+                        {columns(of + ".answer", answer, first, count),
+                         columns(of + ".strength", strengths, built_in() + k, 1)});
+    };
     constexpr size_t kChange = StyleDelta::kSize;
-    pose.push_back(columns(name + ".change", answer, 0, kChange));
-    timing.push_back(columns(name + ".timing", answer, kChange, 1));
-    contact.push_back(columns(name + ".contact", answer, kChange + 1, 2));
+    pose.push_back(part("change", posture_, 0, kChange));
+    timing.push_back(part("timing", movement_, kChange, 1));
+    contact.push_back(part("contact", movement_, kChange + 1, 2));
   }
 
   void write_outputs(const std::vector<std::string>& pose, const std::vector<std::string>& timing,
@@ -259,10 +270,10 @@ class OnnxWriter {
   const Model& model_;
   size_t styles_, learnt_ = 0;
   std::string one_, windows_, strengths_;
-  std::string driven_;             // Strengths after exaggeration.
-  std::vector<std::string> pose_;  // Activations of the hidden layers of the pose network.
-  std::string activations_;        // All of these, where styles are learnt ones.
-  std::string gate_;               // Of the built-in styles; empty in models without.
+  std::string posture_, movement_;  // Strengths as they count.
+  std::vector<std::string> pose_;   // Activations of the hidden layers of the pose network.
+  std::string activations_;         // All of these, where styles are learnt ones.
+  std::string gate_;                // Of the built-in styles; empty in models without.
   std::vector<std::string> learnt_gates_;
 };
 

@@ -109,7 +109,7 @@ constexpr double kMeanDeg = 0.04, kMaxDeg = 4.5;
 // even without a style, 0.2 to 1.1 degrees in the mean, and its arms turn with the neck's share of
 // one. The promise, rounded, and a share of the mean change of styles that change more.
 constexpr const char* kArmsOnNeck = "3ds Max Biped";
-constexpr double kArmsOnNeckMeanDeg = 1.2, kArmsOnNeckMaxDeg = 8;
+constexpr double kArmsOnNeckMeanDeg = 1.2, kArmsOnNeckMaxDeg = 12;
 constexpr double kArmsOnNeckMean = 0.085, kArmsOnNeckMax = 0.45;
 
 void expect_same_style_on_all_rigs(const Clip& motion, const std::string& style, float strength) {
@@ -227,7 +227,8 @@ TEST(AnyRig, the_gate_knows_a_motion_on_any_rig_and_of_any_proportions) {
     };
     for (const Maker& maker : makers()) note(maker.name, put_on(maker, motion).clip);
     for (const auto& [of, by] : bodies) note(of, of_proportions(motion, by));
-    EXPECT_LT(most - least, 0.05) << name;
+    // What is hardly known depends on the body's proportions.
+    EXPECT_LT(most - least, own > 0.95 ? 0.05 : 0.2) << name;
   }
 }
 

@@ -15,13 +15,13 @@ float bounded(float amount, float max) {
 
 float exaggerated(float strength, float even) {
   const float size = std::abs(strength);
-  return size <= even ? strength : std::copysign(even + 0.3f * (size - even), strength);
+  return size <= even ? strength : std::copysign(even + kBeyondEven * (size - even), strength);
 }
 
 }  // namespace
 
-float posture_strength(float strength) noexcept { return exaggerated(strength, 2); }
-float movement_strength(float strength) noexcept { return exaggerated(strength, 1); }
+float posture_strength(float strength) noexcept { return exaggerated(strength, kPostureEven); }
+float movement_strength(float strength) noexcept { return exaggerated(strength, kMovementEven); }
 
 void EasedStrengths::step(std::span<const float> strengths, const Shape& shape,
                           const StepTime& time) noexcept {

@@ -11,7 +11,8 @@ namespace panache {
 
 // How far a strength drives what a style changes. The posture grows evenly up to strength 2, so
 // that the slider pushes as far as the body allows. Movement, tempo and contacts grow evenly up to
-// 1, because twice the movement is another motion. Beyond, each unit counts 0.3.
+// 1, because twice the movement is another motion. Beyond, each unit counts kBeyondEven.
+inline constexpr float kPostureEven = 2, kMovementEven = 1, kBeyondEven = 0.3f;
 float posture_strength(float strength) noexcept;
 float movement_strength(float strength) noexcept;
 
