@@ -89,7 +89,7 @@ def test_animations_beside_the_body_are_passed_over(lamps, shipped, run, tmp_pat
         warnings.simplefilter('error')
         assert len(panache.read(lit, 'lamp')) == len(file.clip('lamp'))
     a, b = tmp_path / 'a.glb', tmp_path / 'b.glb'
-    for mode, option in (('last', []), ('replace', ['--replace'])):
+    for mode, option in (('first', []), ('last', ['--last']), ('replace', ['--replace'])):
         with pytest.warns(UserWarning, match=re.escape(passed_over)):
             panache.stylize_file(lit, a, {'old': 1}, mode=mode, force=True)
         run('stylize', lit, '--model', shipped, '--style', 'old=1', *option, '-o', b, '--force')

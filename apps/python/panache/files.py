@@ -120,7 +120,7 @@ class MotionFile:
                                f'{len(self.clip_names)}, from 0')
         return place
 
-    def encode(self, edits: Sequence['Edit'], mode: str = 'last') -> bytes:
+    def encode(self, edits: Sequence['Edit'], mode: str = 'first') -> bytes:
         """The bytes of the file with other frames in it. What they leave as it was keeps the very
         numbers of the file.
 
@@ -147,13 +147,13 @@ class MotionFile:
         return take_bytes(lib.motion_file_write, self._handle.pointer, array, len(edits),
                           _MODES.index(mode))
 
-    def write(self, path: Path, clip: Clip, which: int = 0, name: str = '', mode: str = 'last',
+    def write(self, path: Path, clip: Clip, which: int = 0, name: str = '', mode: str = 'first',
               force: bool = False) -> None:
         """Writes the file with `clip` in it, whole or not at all: frames of the motion `which`, or
         a new motion where that is -1. Over an existing file only with `force`."""
         self.write_all(path, [Edit(clip, which, name)], mode, force)
 
-    def write_all(self, path: Path, edits: Sequence['Edit'], mode: str = 'last',
+    def write_all(self, path: Path, edits: Sequence['Edit'], mode: str = 'first',
                   force: bool = False) -> None:
         """The same for several motions."""
         self._check_output(path, force)
@@ -205,7 +205,7 @@ def _amount(strength: Strength) -> str:
 
 
 def stylize_file(source: Path, output: Path, styles: Mapping[str, Strength],
-                 model: Optional[Model] = None, *, mode: str = 'last', force: bool = False,
+                 model: Optional[Model] = None, *, mode: str = 'first', force: bool = False,
                  fps: Optional[float] = None, **options: Any) -> None:
     """Restyles all motions of a file into another of the same format, as `panache stylize` does:
     the same bytes. Options are those of `stylize()`, `fps` as for `MotionFile`; the model is the
@@ -222,12 +222,12 @@ def stylize_file(source: Path, output: Path, styles: Mapping[str, Strength],
     write(output, file.encode(edits, mode), force)
 
 
-def retarget_file(source: Path, character: Path, output: Path, *, mode: str = 'last',
+def retarget_file(source: Path, character: Path, output: Path, *, mode: str = 'replace',
                   force: bool = False, fps: Optional[float] = None, **options: Any) -> None:
     """Puts all motions of a file on the character of another, as `panache retarget` does: the
-    output is the character's file with the motions in it. Options are those of `retarget()`; `fps`
-    as for `MotionFile`, of the motions. Those that move no joint of the humanoid are left out, with
-    a warning."""
+    output is the character's file with the motions in it, in the place of its own unless `mode`
+    says otherwise. Options are those of `retarget()`; `fps` as for `MotionFile`, of the motions.
+    Those that move no joint of the humanoid are left out, with a warning."""
     file, onto = MotionFile(source, fps), MotionFile(character)
     motions = file._body_motions()
     onto._check_output(output, force)
