@@ -118,7 +118,7 @@ float cadence(const Gait& gait, float speed) noexcept {
          std::pow(std::max(speed, 1e-3f) / learnt, kFreeExponent);
 }
 
-float way_over_foot(const Gait& gait, float speed) noexcept {
+float way_over_foot(const Gait& gait, float speed) {
   constexpr float kFrom = 0.2f, kTo = 0.8f;  // Of the stance: the whole sole is down.
   const float stance = gait.lifts[0] - gait.lands[0];
   const auto toe_ahead = [&](float share) {
