@@ -179,31 +179,39 @@ class Mapper {
     if (found < 0) find_head_by_place(top);
     if (at(head) >= 0 && at(neck) < 0) find_neck();
   }
+  // The child of a joint that leads the farthest up in the middle between the arms; -1 where none
+  // does. `most_off`: how far beside the middle it may be.
+  int middle_child(int joint, float most_off) const {
+    int middle = -1;
+    float most = 0;
+    for (const int j : tree_.children(joint)) {
+      if (names_[j].side != Side::none || is_near(names_[j]) || is_on_head(names_[j])) continue;
+      if (!(off_centre(j) < most_off)) continue;
+      if (tree_.is_above(j, draft_.arm_tips[0]) || tree_.is_above(j, draft_.arm_tips[1])) continue;
+      if (tree_.is_above(j, at(left_foot)) || tree_.is_above(j, at(right_foot))) continue;
+      const float reach = tree_.distance(joint, j) + tree_.reach(j);
+      if (reach > most) most = reach, middle = j;
+    }
+    return middle;
+  }
   // What leaves the top of the torso besides the arms, in the middle between them.
   std::vector<int> chain_above(int top) const {
+    // In poses that lean, and with one shoulder forward, a neck is farther off than anything else
+    // there is; a joint for a breast would be at 0.45.
+    constexpr float kStraight = 0.2f, kLeaning = 0.35f;
     std::vector<int> chain;
+    const bool leans = middle_child(top, kStraight) < 0;
     for (int next = top; next >= 0;) {
-      int middle = -1;
-      float most = 0;
-      for (const int j : tree_.children(next)) {
-        if (names_[j].side != Side::none || is_near(names_[j]) || is_on_head(names_[j])) continue;
-        if (!is_central(j)) continue;
-        if (tree_.is_above(j, draft_.arm_tips[0]) || tree_.is_above(j, draft_.arm_tips[1]))
-          continue;
-        if (tree_.is_above(j, at(left_foot)) || tree_.is_above(j, at(right_foot))) continue;
-        const float reach = tree_.distance(next, j) + tree_.reach(j);
-        if (reach > most) most = reach, middle = j;
-      }
-      next = middle;
+      next = middle_child(next, leans ? kLeaning : kStraight);
       if (next >= 0 && tree_.apart(next, chain.empty() ? top : chain.back())) chain.push_back(next);
     }
     return chain;
   }
-  // Whether a joint is about as far from one shoulder as from the other.
-  bool is_central(int joint) const {
+  // How much farther a joint is from one shoulder than from the other, of their distance.
+  float off_centre(int joint) const {
     const float left = tree_.distance(joint, at(left_upper_arm));
     const float right = tree_.distance(joint, at(right_upper_arm));
-    return std::abs(left - right) < 0.2f * tree_.distance(at(left_upper_arm), at(right_upper_arm));
+    return std::abs(left - right) / tree_.distance(at(left_upper_arm), at(right_upper_arm));
   }
   // The joint of a chain whose distance from a place is nearest to what it is in a body with legs
   // as long as these; -1 where there is none.

@@ -55,6 +55,19 @@ TEST(Mapping, our_own_skeleton_maps_to_itself) {
   EXPECT_TRUE(got->notes.empty());
 }
 
+// As of a Rigify rig whose bones are left in a pose that leans, with one shoulder forward.
+TEST(Mapping, a_head_without_its_name_is_found_in_a_pose_that_leans) {
+  Skeleton body = canonical_skeleton();
+  body.joints[index(neck)].name = "spine.004";
+  body.joints[index(head)].name = "spine.005";
+  HumanPositions pose = t_pose();
+  for (const HumanJoint joint : {neck, head}) pose[index(joint)].x += 0.03f;
+  const Result<Mapping> got =
+      map_humanoid(body, std::vector<JointPositions>{{pose.begin(), pose.end()}});
+  ASSERT_TRUE(got.ok()) << got.error().message;
+  for (int j = 0; j < kHumanJoints; ++j) EXPECT_EQ(got->joint_of[j], j) << human_joint_name(j);
+}
+
 // VRM's names with a group wherever a guess by place would take it.
 TEST(Mapping, a_standards_own_name_goes_before_a_guess_by_place) {
   expect_mapping({{"hips", "", hips},
