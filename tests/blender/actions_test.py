@@ -267,7 +267,8 @@ class Sources(unittest.TestCase):
                 continue
             with open(os.path.join(ADDON, name)) as file:
                 text = file.read()
-            for word in ('fcurves', '.groups', 'data.action =', 'strips.new', 'frame_range'):
+            for word in ('fcurves', 'action.groups', '.groups.new', 'data.action =', 'strips.new',
+                         'frame_range'):
                 self.assertFalse(word in text.replace('actions.frame_range', ''), (name, word))
 
 
