@@ -210,8 +210,9 @@ TEST(StyleFile, styles_go_behind_those_of_their_kind) {
 }
 
 std::string groups_of(const TensorFile& file) {
+  const auto model = read(file);
   std::string groups;
-  for (const StyleInfo& style : read(file)->styles()) groups += style.group + "|";
+  for (const StyleInfo& style : model->styles()) groups += style.group + "|";
   return groups;
 }
 

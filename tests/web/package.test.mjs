@@ -237,7 +237,7 @@ test('a character tells what went on, and what is wrong is said in a sentence', 
   character.reset();
   character.setStrength('Old', 1);
   refusal(() => character.setStrength('nobody', 1),
-    /^there is no style 'nobody'; the model has active, /);
+    /^there is no style 'nobody'; the model has angry, /);
   refusal(() => character.setShape({ spine: 0 }), /^there is no option 'spine'$/);
   refusal(() => character.step({ ...pose, rotations: pose.rotations.slice(1) }, pose, 0.1),
     /^input.rotations: expected a Float32Array of 76 numbers, found one of 75$/);
