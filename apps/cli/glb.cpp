@@ -107,7 +107,7 @@ GltfJson& list_of(GltfJson& json, const char* key) {
   return none = GltfJson::array();
 }
 
-// The member `key` as a place in a list of `size`; -1 where it is none.
+// The member `key` as a place in a list of `size` entries; -1 if it is no such index.
 int index_in(const GltfJson& object, const char* key, size_t size) {
   if (!object.is_object()) return -1;
   const auto member = object.find(key);

@@ -148,7 +148,7 @@ class SkeletonNodes {
 
 namespace {
 
-// Lets lists be lists, and the scene one that shows all nodes if it is none.
+// Adds missing lists, and a scene that shows all nodes if there is no scene.
 void make_room(const GltfDocument& document, GltfJson& json) {
   for (const char* key : {"accessors", "bufferViews", "materials", "meshes", "skins", "scenes"}) {
     if (json.contains(key) && !json[key].is_array()) json.erase(key);

@@ -39,7 +39,7 @@ Result<std::vector<ManifestRow>> read_manifest(const std::string& path, int set)
 int next_set(const std::vector<ManifestRow>& rows);
 
 // Reads a CSV with the columns name, from, description and, where it has it, group, in any order;
-// several `from` are divided by spaces. Fails where a name is none that a style can have, or is
+// several `from` are divided by spaces. Fails where a style cannot have a name, or is
 // listed twice, or one `from` has two names, or a description or group is not one line of UTF-8.
 Result<std::vector<StyleName>> read_style_names(const std::string& path);
 

@@ -47,6 +47,9 @@ std::map<std::string, std::string> model_metadata(const Recipe& recipe,
   return metadata;
 }
 
+namespace {
+
+// A model file without networks: what it is made of, and how its inputs are normalised.
 TensorFile model_header(const Recipe& recipe, const std::vector<StyleName>& styles,
                         const TrainOptions& options, const InputUnits& inputs, float input_clip) {
   TensorFile file;
@@ -60,6 +63,8 @@ TensorFile model_header(const Recipe& recipe, const std::vector<StyleName>& styl
   if (recipe.output_scale) file.tensors["output.scale"] = vector_tensor(recipe.output_scale());
   return file;
 }
+
+}  // namespace
 
 TensorFile export_model(const SampleSet& set, const OutputUnits& units,
                         const std::vector<StyleName>& styles,

@@ -18,10 +18,6 @@ std::vector<NetworkShape> network_shapes(const SampleSet& set, int styles);
 std::map<std::string, std::string> model_metadata(const Recipe& recipe,
                                                   const std::vector<StyleName>& styles);
 
-// A model file without networks: what it is made of, and how its inputs are normalised.
-TensorFile model_header(const Recipe& recipe, const std::vector<StyleName>& styles,
-                        const TrainOptions& options, const InputUnits& inputs, float input_clip);
-
 TensorFile export_model(const SampleSet& set, const OutputUnits& units,
                         const std::vector<StyleName>& styles,
                         const std::vector<NetworkTrainer>& networks, const TrainOptions& options);

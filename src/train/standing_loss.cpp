@@ -54,7 +54,7 @@ torch::Tensor standing_loss(const torch::Tensor& in, const torch::Tensor& out,
   const torch::Tensor low = height - height.amin({1, 2}, true) < kLow;
   const torch::Tensor stands = (1 - before.square().sum(3).sqrt() / kStands).relu() * low;
   const torch::Tensor moved = ((after - before).square().sum(3) + 1e-6).sqrt() / kUnit;
-  // Where both stand, neither comes to stand elsewhere: legs of a walk are none for a body at rest.
+  // Where both stand, they keep their stance: a body at rest does not get the legs of a walk.
   const auto apart = [](const torch::Tensor& both) {
     const torch::Tensor between = halfway(both.select(2, 0) - both.select(2, 1));
     return torch::stack({between.select(2, 0), between.select(2, 2)}, 2);

@@ -14,16 +14,6 @@ constexpr float kLever = 0.05f;
 
 constexpr float kJoints = kHumanJoints;
 
-// From the middle of the feet to that of the joints.
-Vec3 centre_over_feet(const HumanPositions& joints) {
-  Vec3 sum, feet;
-  for (const Vec3& joint : joints) sum += joint;
-  for (size_t f = 0; f < kFeet; ++f) {
-    feet += joints[index(kAnkles[f])] + joints[index(kToes[f])];
-  }
-  return sum / kJoints - feet / (2.0f * kFeet);
-}
-
 // From mid-hip to mid-shoulder, unit.
 Vec3 torso(const HumanPositions& joints) {
   return normalized(joints[index(left_upper_arm)] + joints[index(right_upper_arm)] -
@@ -31,6 +21,15 @@ Vec3 torso(const HumanPositions& joints) {
 }
 
 }  // namespace
+
+Vec3 centre_over_feet(const HumanPositions& joints) noexcept {
+  Vec3 sum, feet;
+  for (const Vec3& joint : joints) sum += joint;
+  for (size_t f = 0; f < kFeet; ++f) {
+    feet += joints[index(kAnkles[f])] + joints[index(kToes[f])];
+  }
+  return sum / kJoints - feet / (2.0f * kFeet);
+}
 
 void keep_balance(const BodyPose& body, HumanPositions& joints, BodyChange& change) noexcept {
   const Quat to_heading = rotation_y(-body.facing);

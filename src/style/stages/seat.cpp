@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/smooth_step.h"
+#include "style/stages/balance.h"
+
 namespace panache {
 namespace {
 
@@ -16,20 +19,12 @@ constexpr float kRestingHips = 0.15f, kMovingHips = 0.35f;
 constexpr float kHipsSeconds = 0.15f, kSeatSeconds = 0.2f;  // Time constants.
 
 // 0 up to `from`, 1 from `to` on; either may be the larger.
-float share(float value, float from, float to) {
-  const float t = std::clamp((value - from) / (to - from), 0.0f, 1.0f);
-  return t * t * (3 - 2 * t);
-}
+float share(float value, float from, float to) { return smooth_step((value - from) / (to - from)); }
 
-// How far the middle of the body is from that of the feet.
+// How far the middle of the body is from that of the feet, over the ground.
 float beyond_feet(const HumanPositions& world) {
-  Vec3 body, feet;
-  for (const Vec3& joint : world) body += joint / static_cast<float>(kHumanJoints);
-  for (const HumanJoint joint : {HumanJoint::left_foot, HumanJoint::right_foot,
-                                 HumanJoint::left_toes, HumanJoint::right_toes}) {
-    feet += world[index(joint)] / 4;
-  }
-  return std::hypot(body.x - feet.x, body.z - feet.z);
+  const Vec3 off = centre_over_feet(world);
+  return std::hypot(off.x, off.z);
 }
 
 }  // namespace

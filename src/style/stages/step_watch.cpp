@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/smooth_step.h"
+
 namespace panache {
 namespace {
 
@@ -32,9 +34,7 @@ void StepWatch::step(const HumanPositions& world, const StepTime& time) noexcept
 }
 
 float StepWatch::amount() const noexcept {
-  const float share =
-      std::clamp((speed_ - kStandingFeet) / (kSteppingFeet - kStandingFeet), 0.0f, 1.0f);
-  return share * share * (3 - 2 * share);
+  return smooth_step((speed_ - kStandingFeet) / (kSteppingFeet - kStandingFeet));
 }
 
 }  // namespace panache
