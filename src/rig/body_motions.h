@@ -22,7 +22,8 @@ struct BodyMotions {
   // Poses beside motions, in their order: they have one frame, or are called a T-pose, a rest or a
   // bind pose. In a file without other motions they are in `clips`.
   std::vector<int> poses;
-  bool humanoid = false;  // Whether the file has a humanoid; otherwise all motions count that move a joint.
+  bool humanoid =
+      false;  // Whether the file has a humanoid; otherwise all motions count that move a joint.
 };
 BodyMotions find_body_motions(const MotionFile& file, const RigOptions& options = {});
 
