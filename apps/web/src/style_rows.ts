@@ -118,11 +118,12 @@ export class StyleRows {
 
   #fold(title: string, list: HTMLElement, open: boolean) {
     const count = element('span', { class: 'count' });
-    const box = element('details', { class: 'fold', open },
-      element('summary', {}, element('h3', {}, title), count), list);
+    const summary = element('summary', {}, element('h3', {}, title), count);
+    const box = element('details', { class: 'fold', open }, summary, list);
     this.#open.set(title, open);
-    box.addEventListener('toggle', () => {
-      if (this.#words.length === 0) this.#open.set(title, box.open);
+    // A click comes before the box changes. Its `toggle` comes later, and may meet a new search.
+    summary.addEventListener('click', () => {
+      if (this.#words.length === 0) this.#open.set(title, !box.open);
     });
     this.#folds.push({ title, box, list, count });
     return box;

@@ -125,7 +125,7 @@ export async function start() {
 export const slider = (tab, style) => tab.locator(`[id="style-${encodeURIComponent(style)}"]`);
 /** Opens all groups of styles. */
 export const unfold = (tab) => tab.evaluate(() =>
-  document.querySelectorAll('details.fold').forEach((box) => (box.open = true)));
+  document.querySelectorAll('details.fold:not([open]) summary').forEach((fold) => fold.click()));
 
 /** Drops files, by their names and bytes, on the element that `selector` finds. */
 export async function drop(tab, selector, files) {
