@@ -102,7 +102,6 @@ Json to_json(const LearntStyle& learnt, const LearnVerb& verb, size_t bytes, dou
                      {"seconds", pair.seconds},
                      {"tempo", pair.tempo},
                      {"match", pair.match},
-                     {"judgement", pair.judgement()},
                      {"warnings", pair.warnings}});
   }
   const auto measured = [&](double cm) { return learnt.judged ? Json(cm) : Json(); };
@@ -113,6 +112,8 @@ Json to_json(const LearntStyle& learnt, const LearnVerb& verb, size_t bytes, dou
           {"held_back_cm", measured(learnt.held_back_cm)},
           {"mean_posture_cm", measured(learnt.mean_posture_cm)},
           {"untouched_cm", measured(learnt.untouched_cm)},
+          {"verdict", learnt.judged ? Json(learnt.verdict()) : Json()},
+          {"warnings", learnt.warnings},
           {"pairs", pairs}};
 }
 
@@ -123,15 +124,14 @@ std::string describe(const LearntStyle& learnt, const LearnVerb& verb, size_t by
                      " KB)\n";
   for (const PairReport& pair : learnt.pairs) {
     text += "  " + pair.neutral_name + " -> " + pair.styled_name + ": " + fixed(pair.seconds, 1) +
-            " s, match " + fixed(pair.match, 2) + " (" + pair.judgement() + "), tempo " +
-            fixed(1 / pair.tempo, 2) + " x\n";
+            " s, match " + fixed(pair.match, 2) + ", tempo " + fixed(1 / pair.tempo, 2) + " x\n";
   }
   if (!learnt.judged) {
     return text + "  too short to hold a quarter back, so the error is unknown\n";
   }
-  text += "  held-back quarter: joints " + fixed(learnt.held_back_cm, 1) +
-          " cm off (mean posture alone " + fixed(learnt.mean_posture_cm, 1) + ", no style " +
-          fixed(learnt.untouched_cm, 1) + ")\n";
+  text += std::string("  ") + learnt.verdict() + ": joints " + fixed(learnt.held_back_cm, 1) +
+          " cm off on the held-back quarter (mean posture alone " +
+          fixed(learnt.mean_posture_cm, 1) + ", no style " + fixed(learnt.untouched_cm, 1) + ")\n";
   return text;
 }
 
@@ -193,6 +193,7 @@ int learn(const LearnVerb& verb) {
   for (const PairReport& pair : learnt->pairs) {
     for (const std::string& warning : pair.warnings) print_message("warning: " + warning);
   }
+  for (const std::string& warning : learnt->warnings) print_message("warning: " + warning);
   const size_t bytes = format_safetensors(learnt->file).size();
   if (verb.json) {
     print(to_json(*learnt, verb, bytes, seconds));
@@ -232,7 +233,8 @@ void add_learn(CLI::App& app, int& exit_code) {
   verb->add_flag("--force", options->force, "Replace a style of the same name");
   verb->add_flag("--json", options->json, "Print what was learnt as JSON");
   verb->footer(
-      "The clips of a pair need one skeleton and start with the same foot or hand.\n\n"
+      "The clips of a pair need joints of the same names and parents, and start with the\n"
+      "same foot or hand; their rest poses and bone lengths may differ.\n\n"
       "Examples:\n"
       "  panache learn walk.bvh dizzy.bvh --name dizzy --into mine.safetensors\n"
       "  panache learn dizzy.bvh --action walk --name dizzy --into mine.safetensors\n"

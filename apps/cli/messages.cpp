@@ -27,6 +27,8 @@ std::string with_hint(const std::string& message) {
       Hint{": is a style file, not a model", "; panache styles MODEL --add FILE puts it into one"},
       Hint{"or learn it again with this one", " (panache learn)"},
       Hint{"'learn.mean' and 'learn.scale'", ", as panache train writes it"},
+      Hint{"or retarget the styled clip onto the neutral one",
+           " (panache retarget STYLED --onto NEUTRAL)"},
       Hint{"'; rename them", " with --styles"},
       Hint{"; give it another name", " (--styles)"},
       Hint{"; add one, or leave the style out", " (--styles lists those to learn)"},

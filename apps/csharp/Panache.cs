@@ -271,6 +271,9 @@ public sealed class Learnt {
   public bool WasTested { get; private set; }
   public double HeldBackCm { get; private set; }
   public double UntouchedCm { get; private set; }
+  /// By these distances "good", "fair", or "poor" where the style is no better than the neutral
+  /// motion; "" where it was not tested.
+  public string Verdict { get; private set; }
 
   /// Learns the style `name` from one action, done neutrally and in the style, by one skeleton: 2 to
   /// 3 seconds of a walk, or the whole of a gesture. A style of this name is replaced only where
@@ -295,7 +298,7 @@ public sealed class Learnt {
           Warnings = Native.Text(report.warnings).Split(new[] { '\n' },
                                                         StringSplitOptions.RemoveEmptyEntries),
           WasTested = report.wasTested != 0, HeldBackCm = report.heldBackCm,
-          UntouchedCm = report.untouchedCm
+          UntouchedCm = report.untouchedCm, Verdict = Native.Text(Native.panache_learnt_verdict(learnt))
         };
       }
     }
@@ -474,6 +477,8 @@ internal static class Native {
   [DllImport(Library)] internal static extern void panache_learnt_destroy(IntPtr learnt);
   [DllImport(Library)]
   internal static extern IntPtr panache_learnt_model(Handle learnt, out UIntPtr size);
+  [DllImport(Library)]
+  internal static extern IntPtr panache_learnt_verdict(Handle learnt);
   [DllImport(Library)]
   internal static extern int panache_learnt_get_report(Handle learnt, ref LearntReport report);
 }

@@ -366,8 +366,9 @@ PANACHE_API panache_status panache_retarget_clip(const panache_clip* clip,
 /* ---- Learning a style -------------------------------------------------------------------------
  */
 
-/* One action, done neutrally and in the style, by the same skeleton. 2 to 3 seconds of a walk, or
- * the whole of a gesture, are enough. */
+/* One action, done neutrally and in the style, by skeletons whose joints have the same names and
+ * parents; rest poses and bone lengths may differ. 2 to 3 seconds of a walk, or the whole of a
+ * gesture, are enough. */
 typedef struct panache_pair {
   panache_clip neutral, styled;
 } panache_pair;
@@ -404,6 +405,11 @@ typedef struct panache_learnt_report {
 /* Fills the report as far as its struct_size goes. */
 PANACHE_API panache_status panache_learnt_get_report(const panache_learnt* learnt,
                                                      panache_learnt_report* report);
+
+/* By these distances "good"; "fair" where the style removes little of the distance, or its mean
+ * posture alone more; "poor" where it is no better than the neutral motion, which is also one of
+ * the warnings; "" where it was not tested. */
+PANACHE_API const char* panache_learnt_verdict(const panache_learnt* learnt);
 
 /* ---- Styles as files --------------------------------------------------------------------------
  */

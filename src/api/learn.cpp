@@ -51,6 +51,7 @@ panache_status panache_learn(const void* model_bytes, size_t model_size, const p
     Result<TensorFile> merged = add_style(model->file, kModelName, style->file, name, true);
     if (!merged) return fail(PANACHE_BAD_MODEL, merged.error().message);
     std::string warnings;
+    for (const std::string& warning : style->warnings) warnings += to_utf8(warning) + "\n";
     for (const PairReport& pair : style->pairs) {
       for (const std::string& warning : pair.warnings) warnings += to_utf8(warning) + "\n";
     }
@@ -65,6 +66,8 @@ const void* panache_learnt_model(const panache_learnt* learnt, size_t* size) {
   *size = learnt->model.size();
   return learnt->model.data();
 }
+
+const char* panache_learnt_verdict(const panache_learnt* learnt) { return learnt->style.verdict(); }
 
 panache_status panache_learnt_get_report(const panache_learnt* learnt,
                                          panache_learnt_report* report) {

@@ -3,6 +3,7 @@
 #include "api/errors.h"
 #include "api/objects.h"
 #include "api/poses.h"
+#include "learn/cycle.h"
 #include "recipes/recipes.h"
 
 using namespace panache;
@@ -30,7 +31,7 @@ Result<void> add_pair(LearnPair pair, panache_samples& out) {
   std::vector<Take> takes = {std::move(pair.neutral), std::move(pair.styled)};
   takes[0].row.neutral = true;
   takes[1].row.style = "styled";
-  const std::vector<Pairing> pairings = pair_takes(takes, {1}, {0});
+  const std::vector<Pairing> pairings = pair_in_phase(takes, 1, 0, pair.neutral_cycle);
   if (pairings.empty()) {
     return Error{pair.neutral_name + " and " + pair.styled_name +
                  ": no match was found between them, as the neutral one is too short for the "

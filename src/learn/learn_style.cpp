@@ -2,25 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
-#include <numbers>
+#include <optional>
 
 #include "base/parallel.h"
+#include "learn/cycle.h"
 #include "learn/fit_style.h"
+#include "learn/number_text.h"
 #include "learn/pairing.h"
 #include "learn/pose_error.h"
 #include "learn/style_file.h"
 #include "recipes/recipes.h"
-#include "rig/canonical_skeleton.h"
-#include "walker/walker.h"
 
 namespace panache {
 namespace {
 
-// Less teaches nothing: the ends of a warped window are left out.
-constexpr int kMinFrames = 15;
-constexpr double kShort = 1;  // Seconds.
+constexpr double kShort = 2;  // Seconds.
 // Mean squared distances of takes of one action are below kGoodMatch, of different ones mostly
 // above the first of these; beyond the second nothing was laid together at all. Found on takes of
 // 22 styles.
@@ -35,17 +32,10 @@ constexpr double kInStep = 0.85;
 constexpr double kSameMotion = 0.001;
 constexpr double kMirrored = 0.6, kNearlyEqual = 0.1;
 constexpr double kSlowest = 0.5, kFastest = 2;  // Tempo.
-// Rests that are further apart than this are two rigs'.
-constexpr double kSameRest = 5;     // Degrees.
 constexpr double kHeldBack = 0.75;  // The share of a styled clip from which on it is held back.
-constexpr float kWalkSpeed = 1.4f, kRunSpeed = 3.0f;  // m/s.
-constexpr double kWalkSeconds = 8;
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f", value);
-  return text;
-}
+// What is left of the distance to the styled motion, of what it is without a style. Of pairs whose
+// clips show another action 0.84 to 1.03 is left, of pairs of one action 0.3 to 0.86.
+constexpr double kNoBetter = 0.9, kGoodShare = 0.75, kMostShare = 0.25;
 
 // Of a path, as a model may tell it to others: without folders, on one line.
 std::string file_name(const std::string& path) {
@@ -56,77 +46,6 @@ std::string file_name(const std::string& path) {
   return name;
 }
 
-Result<Take> take_of(const LearnClip& from) {
-  const double seconds = (from.clip.frames - from.rig.first_frame()) * from.clip.frame_time;
-  // Files round the time of a frame: half a frame less is the same.
-  if (seconds * kTakeRate < kMinFrames - 0.5) {
-    return Error{from.name + ": has " + number(std::max(0.0, seconds)) +
-                 " s of motion; a style is learnt from " + number(kMinFrames / kTakeRate) +
-                 " s at least, better from 2 to 3 s; give a longer clip"};
-  }
-  return make_take(from.clip, from.rig, PoseLayout::positions);
-}
-
-// Which joints the body's bones go through. The hips and what is above them are not among these:
-// files put there where the body was, not how it is made. Nor are props.
-std::vector<bool> joints_below_hips(const std::vector<Joint>& joints, const Rig& rig) {
-  std::vector<bool> below(joints.size());
-  const int hips = rig.joints()[index(HumanJoint::hips)];
-  for (int joint : rig.joints()) {
-    for (; joint > hips; joint = joints[static_cast<size_t>(joint)].parent) below[joint] = true;
-  }
-  return below;
-}
-
-// Often called like the file or the scene, and not like a part of the body.
-std::vector<bool> joints_above_hips(const std::vector<Joint>& joints, const Rig& rig) {
-  std::vector<bool> above(joints.size());
-  int joint = rig.joints()[index(HumanJoint::hips)];
-  while ((joint = joints[static_cast<size_t>(joint)].parent) >= 0) above[joint] = true;
-  return above;
-}
-
-Result<void> check_one_skeleton(const LearnClip& neutral, const LearnClip& styled) {
-  const std::vector<Joint>& a = neutral.clip.skeleton.joints;
-  const std::vector<Joint>& b = styled.clip.skeleton.joints;
-  const std::string where = neutral.name + " and " + styled.name + ": have different skeletons (";
-  const std::string cure =
-      "); a pair needs one skeleton: export both from one rig, or leave the neutral clip out and "
-      "name the action";
-  if (a.size() != b.size()) {
-    return Error{where + std::to_string(a.size()) + " and " + std::to_string(b.size()) + " joints" +
-                 cure};
-  }
-  const std::vector<bool> in_body = joints_below_hips(a, neutral.rig);
-  const std::vector<bool> above = joints_above_hips(a, neutral.rig);
-  for (size_t j = 0; j < a.size(); ++j) {
-    if ((a[j].name != b[j].name && !above[j]) || a[j].parent != b[j].parent) {
-      return Error{where + "joint " + std::to_string(j + 1) + " is '" + a[j].name + "' and '" +
-                   b[j].name + "'" + cure};
-    }
-    // What stands on its parent has no direction.
-    const float lengths = length(a[j].offset) * length(b[j].offset);
-    if (!in_body[j] || !(lengths > 0)) continue;
-    const double cosine = static_cast<double>(dot(a[j].offset, b[j].offset) / lengths);
-    const double limit = kSameRest * std::numbers::pi / 180;
-    if (std::acos(std::clamp(cosine, -1.0, 1.0)) > limit) {
-      return Error{where + "'" + a[j].name + "' rests in another direction" + cure};
-    }
-  }
-  return {};
-}
-
-// Rotations that follow from the positions alone, the same for every rig.
-void forget_twist(Take& take) {
-  for (int f = 0; f < take.frames(); ++f) canonical_frames(take.body[f], 0, take.rotations[f]);
-}
-
-double mean_cost(const std::vector<Pairing>& pairings) {
-  double sum = 0;
-  for (const Pairing& pairing : pairings) sum += static_cast<double>(pairing.cost);
-  return sum / static_cast<double>(pairings.size());
-}
-
 double mean_tempo(const std::vector<Pairing>& pairings) {
   double sum = 0, count = 0;
   for (const Pairing& pairing : pairings) {
@@ -135,8 +54,9 @@ double mean_tempo(const std::vector<Pairing>& pairings) {
   return sum / count;
 }
 
-// Windows overlap: of each styled frame, in the window whose middle is nearest.
-std::vector<MatchedInstant> matched_instants(const std::vector<Pairing>& pairings) {
+// Windows overlap: of each styled frame, in the window whose middle is nearest. `cycle`: frames
+// after which the neutral motion starts again, or 0.
+std::vector<MatchedInstant> matched_instants(const std::vector<Pairing>& pairings, int cycle) {
   struct Placed {
     double from_middle;
     MatchedInstant instant;
@@ -146,10 +66,11 @@ std::vector<MatchedInstant> matched_instants(const std::vector<Pairing>& pairing
     const int count = static_cast<int>(pairing.neutral_frames.size());
     for (int i = 0; i < count; ++i) {
       const int frame = pairing.first + i;
+      double neutral = static_cast<double>(pairing.neutral_frames[i]);
+      if (cycle) neutral = std::fmod(std::max(neutral, 0.0), cycle);
       const Placed placed = {
           std::abs(i - (count - 1) / 2.0),
-          {frame / kTakeRate, static_cast<double>(pairing.neutral_frames[i]) / kTakeRate,
-           static_cast<double>(pairing.cost)}};
+          {frame / kTakeRate, neutral / kTakeRate, static_cast<double>(pairing.cost)}};
       const auto [at, is_new] = by_frame.try_emplace(frame, placed);
       if (!is_new && placed.from_middle < at->second.from_middle) at->second = placed;
     }
@@ -163,15 +84,21 @@ std::vector<MatchedInstant> matched_instants(const std::vector<Pairing>& pairing
 Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& pairings,
                             const std::vector<Take>& takes, int neutral, int styled) {
   const std::string both = pair.neutral_name + " and " + pair.styled_name;
-  PairReport report{
-      pair.neutral_name,         pair.styled_name, takes[styled].frames() / kTakeRate, 1, 0, {},
-      matched_instants(pairings)};
+  const bool repeats = takes[neutral].frames() > pair.neutral.frames();
+  PairReport report{pair.neutral_name,
+                    pair.styled_name,
+                    takes[styled].frames() / kTakeRate,
+                    1,
+                    0,
+                    {},
+                    matched_instants(pairings, repeats ? pair.neutral_cycle : 0)};
   if (!pairings.empty()) report.match = mean_cost(pairings);
   if (pairings.empty() || report.match > kNoMatch) {
     return Error{both + ": no match was found between them" +
-                 (pairings.empty() ? ", as the neutral one is too short for the styled one"
-                                   : " (distance " + number(report.match) + ", good is below " +
-                                         number(double(kGoodMatch)) + ")") +
+                 (pairings.empty()
+                      ? ", as the neutral one is too short for the styled one"
+                      : " (distance " + number_text(report.match) + ", good is below " +
+                            number_text(double(kGoodMatch)) + ")") +
                  "; a pair shows one action, done neutrally and in the style"};
   }
   report.tempo = mean_tempo(pairings);
@@ -190,8 +117,8 @@ Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& p
                               ": match better with left and right exchanged; record the action "
                               "with the same hand or foot first in both");
   } else if (report.match > kPoorMatch) {
-    report.warnings.push_back(both + ": match badly (distance " + number(report.match) +
-                              ", good is below " + number(double(kGoodMatch)) +
+    report.warnings.push_back(both + ": match badly (distance " + number_text(report.match) +
+                              ", good is below " + number_text(double(kGoodMatch)) +
                               "); are they of the same action, from its beginning to its end?");
   }
   const std::optional<double> in_step = step_agreement(takes, pairings);
@@ -201,17 +128,18 @@ Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& p
                               "give a neutral clip of four steps or more");
   }
   if (report.tempo < kSlowest || report.tempo > kFastest) {
-    report.warnings.push_back(both + ": the style takes " + number(1 / report.tempo) +
+    report.warnings.push_back(both + ": the style takes " + number_text(1 / report.tempo) +
                               " times as long as the neutral motion, expected " +
-                              number(1 / kFastest) + " to " + number(1 / kSlowest) +
+                              number_text(1 / kFastest) + " to " + number_text(1 / kSlowest) +
                               "; beyond that the tempo is not followed; record a neutral take "
                               "nearer to it");
   }
-  for (const int t : {neutral, styled}) {
-    const double seconds = takes[t].frames() / kTakeRate;
-    if (seconds >= kShort) continue;
-    report.warnings.push_back((t == neutral ? pair.neutral_name : pair.styled_name) +
-                              ": has only " + number(seconds) +
+  for (const bool is_neutral : {true, false}) {
+    const double seconds = (is_neutral ? pair.neutral : pair.styled).frames() / kTakeRate;
+    // A clip of as long has up to two frames less, by where its frames lie.
+    if (seconds > kShort - 1.5 / kTakeRate) continue;
+    report.warnings.push_back((is_neutral ? pair.neutral_name : pair.styled_name) + ": has only " +
+                              number_text(seconds) +
                               " s; 2 to 3 s of a walk, or the whole of an action, teach more");
   }
   return report;
@@ -253,41 +181,12 @@ void measure(const std::shared_ptr<const Model>& model, const std::string& style
 
 }  // namespace
 
-const char* PairReport::judgement() const {
-  return match < double(kGoodMatch) ? "good" : match <= kPoorMatch ? "fair" : "poor";
-}
-
-Result<void> check_action(const std::string& action) {
-  if (action == "walk" || action == "run") return {};
-  return Error{"there is no built-in neutral '" + action +
-               "'; expected walk or run, or a neutral clip of the same skeleton"};
-}
-
-Result<LearnPair> make_learn_pair(const LearnClip& neutral, const LearnClip& styled) {
-  if (auto same = check_one_skeleton(neutral, styled); !same) return same.error();
-  Result<Take> before = take_of(neutral), after = take_of(styled);
-  if (!before) return before.error();
-  if (!after) return after.error();
-  return LearnPair{neutral.name, styled.name, *std::move(before), *std::move(after)};
-}
-
-Result<LearnPair> make_learn_pair(const LearnClip& styled, const std::string& action,
-                                  std::shared_ptr<const WalkerModel> walker) {
-  if (auto known = check_action(action); !known) return known.error();
-  Result<Take> after = take_of(styled);
-  if (!after) return after.error();
-  WalkClipOptions options;
-  options.seconds = kWalkSeconds;
-  options.fps = kTakeRate;
-  options.speed = action == "walk" ? kWalkSpeed : kRunSpeed;
-  const Clip clip = walk_clip(std::move(walker), options);
-  Result<Rig> rig = Rig::create(clip);
-  if (!rig) return rig.error();
-  LearnPair pair{"the walker's " + action, styled.name,
-                 make_take(clip, *rig, PoseLayout::positions), *std::move(after)};
-  forget_twist(pair.neutral);
-  forget_twist(pair.styled);
-  return pair;
+const char* LearntStyle::verdict() const {
+  if (!judged) return "";
+  if (held_back_cm >= kNoBetter * untouched_cm) return "poor";
+  if (held_back_cm < kMostShare * untouched_cm) return "good";
+  const bool beats_posture = held_back_cm < mean_posture_cm;
+  return beats_posture && held_back_cm < kGoodShare * untouched_cm ? "good" : "fair";
 }
 
 Error cannot_learn(const std::string& name) {
@@ -323,7 +222,7 @@ Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
       takes[t].row.style = t == styled ? style : "neutral";
       takes[t].row.neutral = t == neutral;
     }
-    const std::vector<Pairing> found = pair_takes(takes, {styled}, {neutral});
+    const std::vector<Pairing> found = pair_in_phase(takes, styled, neutral, pair.neutral_cycle);
     Result<PairReport> report = describe(pair, found, takes, neutral, styled);
     if (!report) return report.error();
     seconds += report->seconds;
@@ -340,7 +239,7 @@ Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
   }
   StyleInfo info{style, description, "", true};
   info.origin = std::to_string(pairs.size()) + (pairs.size() == 1 ? " pair, " : " pairs, ") +
-                number(seconds) + " s:";
+                number_text(seconds) + " s:";
   for (const PairReport& pair : learnt.pairs) {
     info.origin += " " + file_name(pair.neutral_name) + " -> " + file_name(pair.styled_name) + ";";
   }
@@ -357,6 +256,14 @@ Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
     auto read = Model::create(*with_it, name);
     if (!read) return read.error();
     measure(*read, style, takes, set, first, held_back, learnt);
+    if (learnt.verdict() == std::string("poor")) {
+      learnt.warnings.push_back(
+          "'" + style +
+          "' is no better than the input on the part of the clips that was held back (" +
+          number_text(learnt.held_back_cm) + " cm off, the input " +
+          number_text(learnt.untouched_cm) +
+          "); record 2 to 3 s of one action, neutrally and in the style");
+    }
   }
   learnt.file = make_style_file(file, info, std::move(fits[0].tensors));
   return learnt;

@@ -7,39 +7,10 @@
 #include <vector>
 
 #include "base/result.h"
-#include "clip/clip.h"
-#include "learn/take.h"
+#include "learn/learn_pair.h"
 #include "net/safetensors.h"
-#include "rig/rig.h"
-#include "walker/walker_model.h"
 
 namespace panache {
-
-// A clip to learn from.
-struct LearnClip {
-  const Clip& clip;
-  const Rig& rig;
-  std::string name;  // Of its file, for messages.
-};
-
-// An action done neutrally and in the style, on the canonical body.
-struct LearnPair {
-  std::string neutral_name, styled_name;
-  Take neutral, styled;
-};
-
-// Rejects what is no action that a neutral of our own is made for: they are "walk" and "run".
-Result<void> check_action(const std::string& action);
-
-// Both clips are of one skeleton: joints of the same names in the same tree (what is above the
-// hips may have any), resting in the same directions, of any length. Clips of other skeletons are
-// rejected, and those too short to learn from.
-Result<LearnPair> make_learn_pair(const LearnClip& neutral, const LearnClip& styled);
-// With a neutral of our own making in place of a recorded one: the walker's, see check_action().
-// What tells the walker's body and gait from the performer's becomes part of the style,
-// and the turn of a limb about its own axis is not learnt.
-Result<LearnPair> make_learn_pair(const LearnClip& styled, const std::string& action,
-                                  std::shared_ptr<const WalkerModel> walker);
 
 // An instant of the styled clip and the one of the neutral clip that it goes together with.
 struct MatchedInstant {
@@ -53,7 +24,6 @@ struct PairReport {
   double seconds = 0;  // Of the styled clip.
   double tempo = 1;    // Neutral seconds per styled second, the mean.
   double match = 0;  // Mean squared distance of what was laid together, in deviations: 0 is equal.
-  const char* judgement() const;  // Of `match`: "good", "fair" or "poor".
   // What about it may spoil the style, and the cure. Sentences.
   std::vector<std::string> warnings;
   std::vector<MatchedInstant> instants;  // Of each styled frame that was laid somewhere, in order.
@@ -67,6 +37,12 @@ struct LearntStyle {
   // the neutral motion as it is. 0 where the clips are too short for it: `judged` tells.
   bool judged = false;
   double held_back_cm = 0, mean_posture_cm = 0, untouched_cm = 0;
+  // By these distances: "good"; "fair" where the style removes little of the distance or its mean
+  // posture alone removes more; "poor" where it is no better than the neutral motion as it is; ""
+  // where it was not judged.
+  const char* verdict() const;
+  // Of the style as a whole, as PairReport::warnings: where its verdict is "poor".
+  std::vector<std::string> warnings;
 };
 
 // The message for a model without a trunk that styles can be learnt on.

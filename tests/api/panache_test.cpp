@@ -334,6 +334,7 @@ TEST_F(Api, learns_a_style_from_a_pair_of_clips) {
   EXPECT_EQ(report.was_tested, 1);
   EXPECT_STREQ(report.warnings, "");
   EXPECT_LT(report.held_back_cm, 0.25 * report.untouched_cm);
+  EXPECT_STREQ(panache_learnt_verdict(learnt), "good");
 
   size_t size = 0;
   const void* with_it = panache_learnt_model(learnt, &size);

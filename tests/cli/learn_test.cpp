@@ -114,13 +114,14 @@ TEST_F(LearnVerb, a_pair_becomes_a_style_of_a_new_model) {
   EXPECT_EQ(ran.err, "");
   EXPECT_TRUE(std::regex_match(
       ran.out,
-      std::regex("learnt 'bent' in [0-9]+\\.[0-9]{2} s into mine\\.safetensors \\(the style is "
-                 "[0-9]+\\.[0-9] "
-                 "KB\\)\n"
-                 "  walk\\.bvh -> bent\\.bvh: 4\\.0 s, match 0\\.[0-9]{2} \\(good\\), tempo "
-                 "1\\.00 x\n"
-                 "  held-back quarter: joints [0-9]+\\.[0-9] cm off \\(mean posture alone "
-                 "[0-9]+\\.[0-9], no style [0-9]+\\.[0-9]\\)\n")))
+      std::regex(
+          "learnt 'bent' in [0-9]+\\.[0-9]{2} s into mine\\.safetensors \\(the style is "
+          "[0-9]+\\.[0-9] "
+          "KB\\)\n"
+          "  walk\\.bvh -> bent\\.bvh: 4\\.0 s, match 0\\.[0-9]{2}, tempo "
+          "1\\.00 x\n"
+          "  good: joints [0-9]+\\.[0-9] cm off on the held-back quarter \\(mean posture alone "
+          "[0-9]+\\.[0-9], no style [0-9]+\\.[0-9]\\)\n")))
       << ran.out;
   EXPECT_EQ(entries(), (Names{"bent.bvh", "mine.safetensors", "model.safetensors", "walk.bvh"}));
   EXPECT_TRUE(read_file(shipped_path).value() == before);
@@ -152,7 +153,8 @@ TEST_F(LearnVerb, tells_machines_in_json_what_was_learnt) {
   EXPECT_NEAR(pair["seconds"].get<double>(), 4, 1.01 / 30);  // The file rounds times of frames.
   EXPECT_NEAR(pair["tempo"].get<double>(), 1, 0.03);  // Whole frames, smoothed over 7 of them.
   EXPECT_LT(pair["match"], 0.35);
-  EXPECT_EQ(pair["judgement"], "good");
+  EXPECT_EQ(out["verdict"], "good");
+  EXPECT_EQ(out["warnings"], json::array());
   EXPECT_EQ(pair["warnings"], json::array());
   EXPECT_EQ(styles_of("mine.safetensors").back()["description"], "bent forward");
 }
@@ -305,8 +307,9 @@ TEST_F(LearnVerb, clips_that_are_no_pair_are_rejected) {
   const std::string joint = std::to_string(spine_of(clip_of("walk.bvh")) + 1);
   expect_rejected({"walk.bvh", "renamed.bvh", "--name", "bent", "--into", "mine.safetensors"}, 1,
                   "walk.bvh and renamed.bvh: have different skeletons (joint " + joint +
-                      " is 'spine' and 'Spine1'); a pair needs one skeleton: export both from one "
-                      "rig, or leave the neutral clip out and name the action");
+                      " is 'spine' and 'Spine1'); a pair needs joints of the same names and "
+                      "parents: leave the neutral clip out and name the action, or retarget the "
+                      "styled clip onto the neutral one (panache retarget STYLED --onto NEUTRAL)");
   // Half a second that may advance by 3 frames at a time, and wait twice in a row.
   write_clip("brief.bvh", cut(clip_of("walk.bvh"), 15));
   expect_rejected({"brief.bvh", "bent.bvh", "--name", "bent", "--into", "mine.safetensors"}, 1,
@@ -338,9 +341,57 @@ TEST_F(LearnVerb, what_is_too_short_to_be_judged_is_learnt_and_not_judged) {
       << ran.out;
   arguments.insert(arguments.end(), {"--force", "--json"});
   const json out = json::parse(learn(arguments).out);
-  for (const char* key : {"held_back_cm", "mean_posture_cm", "untouched_cm"}) {
+  for (const char* key : {"held_back_cm", "mean_posture_cm", "untouched_cm", "verdict"}) {
     EXPECT_TRUE(out[key].is_null()) << key;
   }
+}
+
+TEST_F(LearnVerb, a_style_that_is_no_better_than_the_input_says_so) {
+  // Upright in the quarter that is held back.
+  Clip half = clip_of("bent.bvh");
+  const Clip walk = clip_of("walk.bvh");
+  const auto from = static_cast<long>(walk.joints() * static_cast<size_t>(walk.frames * 3 / 4));
+  std::copy(walk.rotations.begin() + from, walk.rotations.end(), half.rotations.begin() + from);
+  write_clip("half.bvh", half);
+  Names arguments = {"walk.bvh", "half.bvh", "--name", "bent", "--into", "mine.safetensors"};
+  const Ran ran = learn(arguments);
+  EXPECT_EQ(ran.exit, 0);
+  EXPECT_TRUE(
+      ran.err.starts_with("panache: warning: 'bent' is no better than the input on the "
+                          "part of the clips that was held back ("))
+      << ran.err;
+  EXPECT_NE(ran.out.find("\n  poor: joints "), std::string::npos) << ran.out;
+  arguments.insert(arguments.end(), {"--force", "--json"});
+  const json out = json::parse(learn(arguments).out);
+  EXPECT_EQ(out["verdict"], "poor");
+  EXPECT_EQ(out["warnings"].size(), 1u);
+}
+
+TEST_F(LearnVerb, clips_with_other_rest_poses_teach_as_well) {
+  // Arms that rest 40 degrees lower: the same motion in other axes.
+  Clip other = clip_of("bent.bvh");
+  const std::vector<Joint> joints = other.skeleton.joints;
+  std::vector<Quat> turns(joints.size());
+  for (size_t j = 0; j < joints.size(); ++j) {
+    const Quat above = joints[j].parent < 0 ? Quat{} : turns[static_cast<size_t>(joints[j].parent)];
+    const float angle = joints[j].name == "leftUpperArm"    ? -0.7f
+                        : joints[j].name == "rightUpperArm" ? 0.7f
+                                                            : 0;
+    turns[j] = axis_angle(Vec3{0, 0, 1}, angle) * above;
+    other.skeleton.joints[j].offset = rotate(above, joints[j].offset);
+    for (Vec3& end : other.skeleton.joints[j].ends) end = rotate(turns[j], end);
+    for (int f = 0; f < other.frames; ++f) {
+      const Pose pose = other.pose(f);
+      pose.rotations[j] = above * pose.rotations[j] * conjugate(turns[j]);
+      if (j > 0) pose.translations[j] = other.skeleton.joints[j].offset;
+    }
+  }
+  write_clip("a-pose.bvh", other);
+  const Ran ran = learn({"walk.bvh", "a-pose.bvh", "--name", "bent", "--into", "mine.safetensors"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_EQ(ran.err, "");
+  EXPECT_NE(ran.out.find("\n  good: joints "), std::string::npos) << ran.out;
+  EXPECT_NEAR(learnt_lean("mine.safetensors"), kBend, kBend / 4);
 }
 
 TEST_F(LearnVerb, a_place_that_takes_no_file_is_told) {

@@ -122,6 +122,7 @@ static class Test {
     Expect(model.Groups.Count == model.Styles.Count, "a group for each style");
     Learnt learnt = Learnt.Learn(model, "mine", neutral, styled);
     Expect(learnt.WasTested && learnt.HeldBackCm < learnt.UntouchedCm, "nearer with the style");
+    Expect(learnt.Verdict == "good", "a verdict");
     using (var mine = new Model(learnt.ModelFile)) {
       Expect(mine.Groups.Last() == "", "a learnt style has no group");
       Expect(mine.Styles.SequenceEqual(model.Styles.Concat(new[] { "mine" })), "one style more");

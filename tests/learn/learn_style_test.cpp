@@ -217,47 +217,6 @@ TEST(LearnStyle, half_a_model_learns_too) {
   EXPECT_TRUE(add_style(half, "int8.safetensors", learnt.file, "style", false).ok());
 }
 
-TEST(LearnPair, of_different_skeletons_is_rejected) {
-  const Clip walk = test::neutral_walk(2);
-  Clip fewer = walk, renamed = walk, bent = test::bent_walk(2);
-  renamed.skeleton.joints[5].name = "leftCollar";
-  bent.skeleton.joints[6].offset = {0, -0.1f, 0};
-  const auto rig = Rig::create(walk);
-  const auto message = [&](const Clip& styled) {
-    const auto pair = make_learn_pair({walk, *rig, "a.bvh"}, {styled, *rig, "b.bvh"});
-    return pair.ok() ? "" : pair.error().message;
-  };
-  const std::string start = "a.bvh and b.bvh: have different skeletons (";
-  const std::string end =
-      "); a pair needs one skeleton: export both from one rig, or leave the neutral clip out and "
-      "name the action";
-  EXPECT_EQ(message(renamed), start + "joint 6 is 'leftShoulder' and 'leftCollar'" + end);
-  EXPECT_EQ(message(bent), start + "'leftUpperArm' rests in another direction" + end);
-  fewer.skeleton.joints.pop_back();
-  EXPECT_EQ(message(fewer), start + "21 and 20 joints" + end);
-  // Another size is no other skeleton.
-  Clip larger = walk;
-  for (Joint& joint : larger.skeleton.joints) joint.offset = joint.offset * 1.2f;
-  EXPECT_EQ(message(larger), "");
-}
-
-TEST(LearnPair, of_clips_that_are_empty_or_too_short_is_rejected) {
-  const Clip walk = test::neutral_walk(2);
-  Clip empty = walk, brief = walk;
-  empty.frames = 0;
-  brief.frames = 10;
-  const auto rig = Rig::create(walk);
-  const auto message = [&](const Clip& styled) {
-    const auto pair = make_learn_pair({walk, *rig, "a.bvh"}, {styled, *rig, "b.bvh"});
-    return pair.ok() ? "" : pair.error().message;
-  };
-  const std::string rest =
-      " s of motion; a style is learnt from 0.50 s at least, better from 2 to 3 s; give a longer "
-      "clip";
-  EXPECT_EQ(message(empty), "b.bvh: has 0.00" + rest);
-  EXPECT_EQ(message(brief), "b.bvh: has 0.33" + rest);
-}
-
 TEST(LearnStyle, says_what_it_cannot_learn_on_or_from) {
   const std::vector<LearnPair> pairs = {test::make_pair(test::neutral_walk(2), test::bent_walk(2))};
   const std::string cure =
@@ -303,11 +262,6 @@ TEST(LearnStyle, warns_of_what_does_not_match) {
   ASSERT_EQ(odd.pairs[0].warnings.size(), 1u);
   EXPECT_NE(odd.pairs[0].warnings[0].find("match badly"), std::string::npos)
       << odd.pairs[0].warnings[0];
-  const LearntStyle brief = learn({test::make_pair(test::neutral_walk(3), test::bent_walk(0.8))});
-  ASSERT_EQ(brief.pairs[0].warnings.size(), 1u);
-  EXPECT_EQ(brief.pairs[0].warnings[0],
-            "styled.bvh: has only 0.80 s; 2 to 3 s of a walk, or the whole of an action, teach "
-            "more");
   const LearntStyle slow =
       learn({test::make_pair(test::neutral_walk(6), test::bent_walk(6, 0.3f, 2.4))});
   ASSERT_EQ(slow.pairs[0].warnings.size(), 1u) << slow.pairs[0].tempo;
@@ -317,6 +271,58 @@ TEST(LearnStyle, warns_of_what_does_not_match) {
             "neutral.bvh and styled.bvh: the style takes " + std::string(tempo) +
                 " times as long as the neutral motion, expected 0.50 to 2.00; beyond that the "
                 "tempo is not followed; record a neutral take nearer to it");
+}
+
+TEST(LearnStyle, warns_of_clips_under_two_seconds) {
+  const std::string more = " s; 2 to 3 s of a walk, or the whole of an action, teach more";
+  const auto warnings = [](double neutral, double styled) {
+    return learn({test::make_pair(test::neutral_walk(neutral), test::bent_walk(styled))})
+        .pairs[0]
+        .warnings;
+  };
+  EXPECT_EQ(warnings(3, 0.8), std::vector{"styled.bvh: has only 0.80" + more});
+  EXPECT_EQ(warnings(1.8, 3), std::vector{"neutral.bvh: has only 1.80" + more});
+  EXPECT_EQ(warnings(2, 2), std::vector<std::string>{});
+}
+
+TEST(LearnStyle, its_verdict_follows_the_error_on_what_was_held_back) {
+  const auto verdict = [](double held_back, double mean_posture, double untouched) {
+    LearntStyle learnt;
+    learnt.judged = true;
+    learnt.held_back_cm = held_back;
+    learnt.mean_posture_cm = mean_posture;
+    learnt.untouched_cm = untouched;
+    return std::string(learnt.verdict());
+  };
+  EXPECT_STREQ(LearntStyle{}.verdict(), "");
+  EXPECT_EQ(verdict(2.0, 5.6, 8.8), "good");
+  EXPECT_EQ(verdict(0.3, 0.2, 8.8), "good");  // A style that is nothing but a posture.
+  EXPECT_EQ(verdict(4.0, 3.0, 8.8), "fair");  // Its mean posture alone is better.
+  EXPECT_EQ(verdict(7.5, 8.0, 8.8), "fair");
+  EXPECT_EQ(verdict(8.8, 9.0, 8.8), "poor");
+  EXPECT_EQ(verdict(9.5, 3.0, 8.8), "poor");
+  EXPECT_EQ(verdict(0, 0, 0), "poor");
+}
+
+TEST(LearnStyle, that_is_no_better_than_the_input_says_so_though_the_clips_match) {
+  // Bent in three quarters of the clip, and upright in the one that is held back.
+  Clip half = test::bent_walk(6);
+  const Clip walk = test::neutral_walk(6);
+  for (int f = half.frames * 3 / 4; f < half.frames; ++f) {
+    std::ranges::copy(walk.pose(f).rotations, half.pose(f).rotations.begin());
+  }
+  const LearntStyle learnt = learn({test::make_pair(walk, half)});
+  EXPECT_LT(learnt.pairs[0].match, 0.35);
+  EXPECT_STREQ(learnt.verdict(), "poor");
+  ASSERT_EQ(learnt.warnings.size(), 1u);
+  EXPECT_TRUE(learnt.warnings[0].starts_with(
+      "'bent' is no better than the input on the part of the clips that was held back ("))
+      << learnt.warnings[0];
+  EXPECT_TRUE(
+      learnt.warnings[0].ends_with("; record 2 to 3 s of one action, neutrally and in the style"));
+  const LearntStyle good = learn({test::make_pair(walk, test::bent_walk(6))});
+  EXPECT_STREQ(good.verdict(), "good");
+  EXPECT_TRUE(good.warnings.empty());
 }
 
 TEST(LearnStyle, warns_of_a_gesture_with_the_other_hand) {

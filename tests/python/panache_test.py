@@ -216,6 +216,7 @@ def test_a_style_is_learnt_from_clips_and_from_files(model, walk, walk_file, shi
     learnt = panache.learn(model, [(walk, styled)], 'mine')
     assert learnt.model.styles == model.styles + ['mine']
     assert learnt.held_back_cm < learnt.untouched_cm
+    assert learnt.verdict == 'good'
     mine = panache.stylize(learnt.model, walk, {'mine': 1}, timing=False)
     same = panache.stylize(model, walk, {'old': 1}, timing=False)
     assert angles(mine.rotations, same.rotations).mean() < \

@@ -95,6 +95,8 @@ def _open():
     library.panache_styled_clip_frame_count.argtypes = [c_void_p]
     library.panache_learnt_model.argtypes = [c_void_p, POINTER(c_size_t)]
     library.panache_learnt_model.restype = c_void_p
+    library.panache_learnt_verdict.argtypes = [c_void_p]
+    library.panache_learnt_verdict.restype = c_char_p
     library.panache_learnt_get_report.argtypes = [c_void_p, POINTER(_LearntReport)]
     library.panache_model_create.argtypes = [c_char_p, c_size_t, POINTER(c_void_p)]
     library.panache_skeleton_create.argtypes = [POINTER(_Joint), c_int32,
@@ -253,7 +255,8 @@ def learn(model, pairs, name, replace):
     _check(library().panache_learnt_get_report(out, byref(report)))
     lines = _text(report.warnings or b'').splitlines()
     if report.was_tested:
-        lines.insert(0, 'learnt %s: %.1f cm off on what was held back, %.1f without it' % (
-            name, report.held_back_cm, report.untouched_cm))
+        verdict = _text(library().panache_learnt_verdict(out))
+        lines.insert(0, 'learnt %s (%s): %.1f cm off on what was held back, %.1f without it' % (
+            name, verdict, report.held_back_cm, report.untouched_cm))
     library().panache_learnt_destroy(out)
     return content, lines

@@ -136,6 +136,7 @@ _FUNCTIONS = {
     'learn': (c_int32, [c_char_p, c_size_t, POINTER(Pair), c_int32, c_char_p, c_int32, _OUT]),
     'learnt_destroy': (None, [_H]),
     'learnt_model': (c_void_p, [_H, POINTER(c_size_t)]),
+    'learnt_verdict': (c_char_p, [_H]),
     'learnt_get_report': (c_int32, [_H, POINTER(LearntReport)]),
     'styles_add': (c_int32, [c_char_p, c_size_t, c_char_p, c_size_t, c_int32, _OUT]),
     'styles_remove': (c_int32, [c_char_p, c_size_t, c_char_p, _OUT]),

@@ -25,12 +25,16 @@ class Learnt:
     held_back_cm, mean_posture_cm, untouched_cm: mean distance of the joints on the last quarters of
               the styled clips, held back from a first try, on a body of 1.6 metres: of the style, of
               its mean posture alone, and of the neutral motion; None where the clips are too short.
+    verdict:  by these distances: 'good'; 'fair' where the style removes little of the distance, or
+              its mean posture alone more; 'poor' where it is no better than the neutral motion; None
+              as they are.
     """
     model: Model
     warnings: List[str]
     held_back_cm: Optional[float]
     mean_posture_cm: Optional[float]
     untouched_cm: Optional[float]
+    verdict: Optional[str]
 
 
 @dataclass
@@ -63,8 +67,9 @@ def _clip(source: ClipOrPath) -> Clip:
 
 def learn(model: Model, pairs: Sequence[Tuple[ClipOrPath, ClipOrPath]], name: str,
           replace: bool = False) -> Learnt:
-    """Learns the style `name` from pairs of one action, (neutral, styled), by the same skeleton: 2
-    to 3 seconds of a walk, or the whole of a gesture. Clips, or paths of files. The model stays as
+    """Learns the style `name` from pairs of one action, (neutral, styled): 2 to 3
+    seconds of a walk, or the whole of a gesture, by skeletons whose joints have the same names and
+    parents. Clips, or paths of files. The model stays as
     it is; a style of this name is replaced only with `replace`."""
     pairs = list(pairs) if isinstance(pairs, Iterable) else [pairs]
     for pair in pairs:
@@ -81,7 +86,8 @@ def learn(model: Model, pairs: Sequence[Tuple[ClipOrPath, ClipOrPath]], name: st
     distances = [report.held_back_cm, report.mean_posture_cm, report.untouched_cm]
     return Learnt(Model(ctypes.string_at(data, size.value)),
                   (report.warnings or b'').decode().splitlines(),
-                  *(distances if report.was_tested else [None] * 3))
+                  *(distances if report.was_tested else [None] * 3),
+                  lib.learnt_verdict(handle.pointer).decode() or None)
 
 
 def training_samples(*sources: Union[ClipOrPath, Tuple[ClipOrPath, ClipOrPath]]) -> Samples:

@@ -38,7 +38,6 @@ export interface LearnReport {
   tempo: number;
   /** Mean distance of the two after time alignment; 0 is equal. */
   match: number;
-  judgement: 'good' | 'fair' | 'poor';
   /** What may spoil the style, and what helps. */
   warnings: string[];
   /** Mean distance of the joints from the last quarter of the styled motion, when the style was
@@ -47,6 +46,8 @@ export interface LearnReport {
   heldBackCm: number | null;
   meanPostureCm: number | null;
   untouchedCm: number | null;
+  /** By these distances; 'poor' is no better than the neutral motion. null as they are. */
+  verdict: 'good' | 'fair' | 'poor' | null;
   plot: {
     /** Of both, from the first frame to the last. */
     styledSeconds: number;

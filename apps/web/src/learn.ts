@@ -3,6 +3,7 @@
 import type { LearnReport, MotionFile, Panache } from '../package/index.js';
 import { PanacheError } from '../package/index.js';
 import { element } from './dom';
+import { capitalized } from './groups';
 import { drawMatch, kMatchPlotHeight } from './match_plot';
 import { firstMotion, openFile } from './source';
 
@@ -150,7 +151,7 @@ export class Learn {
       new Slot(role, host, (action) => void this.#attempt(action), () => this.#showButton());
     this.#slots = { neutral: slot('neutral'), styled: slot('styled') };
     this.section = element('section', { id: 'learn', hidden: true, 'aria-label': 'Learn a style' },
-      element('p', { class: 'hint' }, 'Two clips of one skeleton: an action as it is, and the same ' +
+      element('p', { class: 'hint' }, 'Two clips with the same joints: an action as it is, and the same ' +
         'action in the style. 2 to 3 seconds each are enough.'),
       this.#slots.neutral.element, this.#slots.styled.element,
       element('div', { class: 'name' }, this.#name, this.#go), this.#error, this.#report);
@@ -213,7 +214,7 @@ export class Learn {
   }
 
   #showReport(name: string, report: LearnReport, seconds: number) {
-    const { match, judgement, tempo, heldBackCm, meanPostureCm, untouchedCm } = report;
+    const { match, verdict, tempo, heldBackCm, meanPostureCm, untouchedCm } = report;
     const cm = (value: number | null) => (value ?? 0).toFixed(1);
     const canvas = element('canvas', { role: 'img', 'aria-label':
       `Poses of ${report.styled} above, the poses of ${report.neutral} that they go with below` });
@@ -222,14 +223,15 @@ export class Learn {
     save.addEventListener('click', () => this.host.onSave(name));
     this.#report.replaceChildren(
       element('p', {}, element('b', {}, name), ` learnt in ${seconds.toFixed(1)} s: match ` +
-        `${match.toFixed(2)} (${judgement}), tempo ${(1 / tempo).toFixed(2)}×`),
+        `${match.toFixed(2)}, tempo ${(1 / tempo).toFixed(2)}×`),
       canvas,
       element('p', { class: 'hint' }, 'Above the styled clip, below the moments of the neutral one ' +
         'that it goes with.'),
       ...report.warnings.map((text) => element('p', { class: 'warning' }, text)),
       element('p', { class: 'hint' }, heldBackCm === null
         ? 'Too short to hold a quarter back, so the error is unknown.'
-        : `Held-back quarter: joints ${cm(heldBackCm)} cm off (mean posture alone ` +
+        : `${capitalized(verdict ?? '')}: joints ${cm(heldBackCm)} cm off on the held-back quarter ` +
+          `(mean posture alone ` +
           `${cm(meanPostureCm)}, no style ${cm(untouchedCm)}).`),
       save);
     this.#report.hidden = false;

@@ -57,14 +57,16 @@ Result<Learnt> learn_pair(std::string_view model, const Result<LearnPair>& pair,
   const Result<LearntStyle> learnt = learn_style(*file, kModel, {&*pair, 1}, style, "");
   if (!learnt) return learnt.error();
   const PairReport& report = learnt->pairs.front();
+  std::vector<std::string> warnings = learnt->warnings;
+  warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
   const auto measured = [&](double cm) { return learnt->judged ? Json(cm) : Json(); };
   const Json all = {{"neutral", report.neutral_name},
                     {"styled", report.styled_name},
                     {"seconds", report.seconds},
                     {"tempo", report.tempo},
                     {"match", report.match},
-                    {"judgement", report.judgement()},
-                    {"warnings", report.warnings},
+                    {"verdict", learnt->judged ? Json(learnt->verdict()) : Json()},
+                    {"warnings", warnings},
                     {"heldBackCm", measured(learnt->held_back_cm)},
                     {"meanPostureCm", measured(learnt->mean_posture_cm)},
                     {"untouchedCm", measured(learnt->untouched_cm)},

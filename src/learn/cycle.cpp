@@ -1,0 +1,99 @@
+#include "learn/cycle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "pose/observer.h"
+#include "pose/root_pose.h"
+
+namespace panache {
+namespace {
+
+constexpr double kLongestCycle = 2;  // Seconds.
+// How far the last pose of a cycle may be from its first, in metres, or in the steps from frame to
+// frame there: a file may leave out the frame that repeats the first.
+constexpr double kSeam = 0.02, kSeamSteps = 1.6;
+// What is added to a cycle: two windows of a styled take that is half as fast as it.
+constexpr int kAddedFrames = 90;
+// A pair that is nearer than this is in phase. A continued cycle always fits a little better, so it
+// has to by this factor.
+constexpr double kInPhase = 0.1, kBetter = 0.9;
+
+double mean_distance(const HumanPositions& a, const HumanPositions& b) {
+  double sum = 0;
+  for (int j = 0; j < kHumanJoints; ++j) sum += static_cast<double>(length(a[j] - b[j]));
+  return sum / kHumanJoints;
+}
+
+template <class T>
+void repeat(std::vector<T>& frames, size_t cycle, size_t count) {
+  frames.resize(cycle);
+  frames.reserve(count);
+  for (size_t f = cycle; f < count; ++f) frames.push_back(T(frames[f - cycle]));
+}
+
+// `cycle`: as cycle_frames() has it. The take may end a frame before the cycle does, by where its
+// frames lie.
+Take continued(Take take, int cycle) {
+  cycle = std::min(cycle, take.frames());
+  const RootPose begin = take.root.front();
+  RootPose end = take.root.back();
+  if (cycle < take.frames()) end = take.root[static_cast<size_t>(cycle)];
+  if (cycle == take.frames()) end = interpolate(take.root[static_cast<size_t>(cycle) - 2], end, 2);
+  const auto one = static_cast<size_t>(cycle), count = 2 * one + kAddedFrames;
+  repeat(take.body, one, count);
+  repeat(take.rotations, one, count);
+  repeat(take.contacts, one, count);
+  repeat(take.root, one, count);
+  const float turned = end.facing - begin.facing;
+  for (size_t f = one; f < count; ++f) {
+    const RootPose& before = take.root[f - one];
+    take.root[f] = {end.position + rotate(rotation_y(turned), before.position - begin.position),
+                    before.facing + turned};
+  }
+  write_numbers(PoseLayout::positions, take);
+  return take;
+}
+
+}  // namespace
+
+double mean_cost(const std::vector<Pairing>& pairings) {
+  double sum = 0;
+  for (const Pairing& pairing : pairings) sum += static_cast<double>(pairing.cost);
+  return sum / static_cast<double>(pairings.size());
+}
+
+int cycle_frames(const Clip& clip, const Rig& rig) {
+  const int first = rig.first_frame(), last = clip.frames - 1;
+  if (last - first < 3) return 0;
+  PosedRig reader(rig);
+  const auto body_at = [&](int frame) {
+    Observation seen;
+    observe(reader, clip.pose(frame), 0, seen);
+    return seen.body_frame;
+  };
+  const HumanPositions begin = body_at(first), end = body_at(last);
+  const double seam = mean_distance(begin, end);
+  const double first_step = mean_distance(begin, body_at(first + 1));
+  const double last_step = mean_distance(body_at(last - 1), end);
+  if (!(seam < std::max(kSeam, kSeamSteps * std::max(first_step, last_step)))) return 0;
+  const int steps = last - first + (seam < first_step / 2 ? 0 : 1);
+  const double seconds = steps * clip.frame_time;
+  return seconds > kLongestCycle ? 0 : static_cast<int>(std::lround(seconds * kTakeRate));
+}
+
+std::vector<Pairing> pair_in_phase(std::vector<Take>& takes, int styled, int neutral, int cycle) {
+  std::vector<Pairing> found = pair_takes(takes, {styled}, {neutral});
+  if (cycle == 0 || (!found.empty() && mean_cost(found) < kInPhase)) return found;
+  Take one = continued(takes[neutral], cycle);
+  std::swap(one, takes[neutral]);
+  std::vector<Pairing> anywhere = pair_takes(takes, {styled}, {neutral});
+  if (!anywhere.empty() && (found.empty() || mean_cost(anywhere) < kBetter * mean_cost(found))) {
+    return anywhere;
+  }
+  takes[neutral] = std::move(one);
+  return found;
+}
+
+}  // namespace panache

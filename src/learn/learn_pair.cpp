@@ -1,0 +1,184 @@
+#include "learn/learn_pair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "learn/cycle.h"
+#include "learn/number_text.h"
+#include "retarget/retarget.h"
+#include "rig/canonical_skeleton.h"
+#include "walker/walker.h"
+
+namespace panache {
+namespace {
+
+// Less teaches nothing: the ends of a warped window are left out.
+constexpr int kMinFrames = 15;
+// Rests that are further apart than this are two rest poses.
+constexpr double kSameRest = 5;                       // Degrees.
+constexpr float kWalkSpeed = 1.4f, kRunSpeed = 3.0f;  // m/s.
+constexpr double kWalkSeconds = 8;
+
+Result<Take> take_of(const LearnClip& from) {
+  const double seconds = (from.clip.frames - from.rig.first_frame()) * from.clip.frame_time;
+  // Files round the time of a frame: half a frame less is the same.
+  if (seconds * kTakeRate < kMinFrames - 0.5) {
+    return Error{from.name + ": has " + number_text(std::max(0.0, seconds)) +
+                 " s of motion; a style is learnt from " + number_text(kMinFrames / kTakeRate) +
+                 " s at least, better from 2 to 3 s; give a longer clip"};
+  }
+  return make_take(from.clip, from.rig, PoseLayout::positions);
+}
+
+// Of each joint its names from the topmost joint down. The joints above the hips have none: they
+// are often called like the file or the scene, and not like a part of the body.
+std::vector<std::string> joint_paths(const std::vector<Joint>& joints, const Rig& rig) {
+  std::vector<bool> above(joints.size());
+  for (int joint = rig.joints()[index(HumanJoint::hips)];
+       (joint = joints[static_cast<size_t>(joint)].parent) >= 0;) {
+    above[static_cast<size_t>(joint)] = true;
+  }
+  std::vector<std::string> paths;
+  paths.reserve(joints.size());
+  for (size_t j = 0; j < joints.size(); ++j) {
+    const int parent = joints[j].parent;
+    const std::string before = parent < 0 ? "" : paths[static_cast<size_t>(parent)];
+    paths.push_back(before + (above[j] ? "\n" : "\n" + joints[j].name));
+  }
+  return paths;
+}
+
+// The places of joints by their paths, those of the same path in the order of the file.
+std::map<std::string, std::vector<size_t>> places_of(const std::vector<std::string>& paths) {
+  std::map<std::string, std::vector<size_t>> places;
+  for (size_t j = 0; j < paths.size(); ++j) places[paths[j]].push_back(j);
+  return places;
+}
+
+// For each joint of the neutral skeleton the joint of the styled one with its name and parents.
+Result<std::vector<size_t>> match_joints(const LearnClip& neutral, const LearnClip& styled) {
+  const std::vector<Joint>& a = neutral.clip.skeleton.joints;
+  const std::vector<Joint>& b = styled.clip.skeleton.joints;
+  const std::string where = neutral.name + " and " + styled.name + ": have different skeletons (";
+  const std::string cure =
+      "); a pair needs joints of the same names and parents: leave the neutral clip out and name "
+      "the action, or retarget the styled clip onto the neutral one";
+  if (a.size() != b.size()) {
+    return Error{where + std::to_string(a.size()) + " and " + std::to_string(b.size()) + " joints" +
+                 cure};
+  }
+  const std::vector<std::string> paths = joint_paths(a, neutral.rig);
+  const auto before = places_of(paths), after = places_of(joint_paths(b, styled.rig));
+  std::vector<size_t> matches(a.size());
+  for (size_t j = 0; j < a.size(); ++j) {
+    const std::vector<size_t>& same = before.at(paths[j]);
+    const auto found = after.find(paths[j]);
+    if (found == after.end() || found->second.size() != same.size()) {
+      const auto parent = [](const std::vector<Joint>& joints, size_t joint) {
+        const int above = joints[joint].parent;
+        return above < 0 ? "nothing" : "'" + joints[static_cast<size_t>(above)].name + "'";
+      };
+      const std::string difference =
+          a[j].name == b[j].name
+              ? "'" + a[j].name + "' is below " + parent(a, j) + " and " + parent(b, j)
+              : "joint " + std::to_string(j + 1) + " is '" + a[j].name + "' and '" + b[j].name +
+                    "'";
+      return Error{where + difference + cure};
+    }
+    const auto nth = std::find(same.begin(), same.end(), j) - same.begin();
+    matches[j] = found->second[static_cast<size_t>(nth)];
+  }
+  return matches;
+}
+
+// Which joints the body's bones go through. The hips and what is above them are not among these:
+// files put there where the body was, not how it is made. Nor are props.
+std::vector<bool> joints_below_hips(const std::vector<Joint>& joints, const Rig& rig) {
+  std::vector<bool> below(joints.size());
+  const int hips = rig.joints()[index(HumanJoint::hips)];
+  for (int joint : rig.joints()) {
+    for (; joint > hips; joint = joints[static_cast<size_t>(joint)].parent) below[joint] = true;
+  }
+  return below;
+}
+
+// Whether the bones of the body have the same directions at rest, so that rotations of one
+// skeleton mean the same on the other. What stands on its parent has no direction.
+bool rest_alike(const LearnClip& neutral, const LearnClip& styled,
+                const std::vector<size_t>& matches) {
+  const std::vector<Joint>& joints = neutral.clip.skeleton.joints;
+  const std::vector<bool> in_body = joints_below_hips(joints, neutral.rig);
+  for (size_t j = 0; j < joints.size(); ++j) {
+    const Vec3 a = joints[j].offset, b = styled.clip.skeleton.joints[matches[j]].offset;
+    const float lengths = length(a) * length(b);
+    if (!in_body[j] || !(lengths > 0)) continue;
+    const double cosine = static_cast<double>(dot(a, b) / lengths);
+    const double limit = kSameRest * std::numbers::pi / 180;
+    if (std::acos(std::clamp(cosine, -1.0, 1.0)) > limit) return false;
+  }
+  return true;
+}
+
+// The take of the styled motion on the neutral skeleton.
+Result<Take> take_onto(const LearnClip& styled, const LearnClip& neutral) {
+  Result<Retargeted> done = retarget(styled.clip, styled.rig, neutral.clip, neutral.rig);
+  if (!done) return Error{styled.name + " onto " + neutral.name + ": " + done.error().message};
+  RigOptions as_neutral;
+  as_neutral.metres_per_unit = neutral.rig.scale();
+  as_neutral.up_axis = neutral.rig.up_axis();
+  for (int j = 0; j < kHumanJoints; ++j) as_neutral.joint_places[j] = neutral.rig.joints()[j];
+  Result<Rig> rig = Rig::create(done->clip, as_neutral);
+  if (!rig) return Error{styled.name + " onto " + neutral.name + ": " + rig.error().message};
+  return take_of({done->clip, *rig, styled.name});
+}
+
+// Rotations that follow from the positions alone, the same for every rig.
+void forget_twist(Take& take) {
+  for (int f = 0; f < take.frames(); ++f) canonical_frames(take.body[f], 0, take.rotations[f]);
+}
+
+}  // namespace
+
+Result<void> check_action(const std::string& action) {
+  if (action == "walk" || action == "run") return {};
+  return Error{"there is no built-in neutral '" + action +
+               "'; expected walk or run, or a neutral clip of the same skeleton"};
+}
+
+Result<LearnPair> make_learn_pair(const LearnClip& neutral, const LearnClip& styled) {
+  const Result<std::vector<size_t>> matches = match_joints(neutral, styled);
+  if (!matches) return matches.error();
+  Result<Take> before = take_of(neutral);
+  if (!before) return before.error();
+  Result<Take> after = take_of(styled);
+  if (after && !rest_alike(neutral, styled, *matches)) after = take_onto(styled, neutral);
+  if (!after) return after.error();
+  return LearnPair{neutral.name, styled.name, *std::move(before), *std::move(after),
+                   cycle_frames(neutral.clip, neutral.rig)};
+}
+
+Result<LearnPair> make_learn_pair(const LearnClip& styled, const std::string& action,
+                                  std::shared_ptr<const WalkerModel> walker) {
+  if (auto known = check_action(action); !known) return known.error();
+  Result<Take> after = take_of(styled);
+  if (!after) return after.error();
+  WalkClipOptions options;
+  options.seconds = kWalkSeconds;
+  options.fps = kTakeRate;
+  options.speed = action == "walk" ? kWalkSpeed : kRunSpeed;
+  const Clip clip = walk_clip(std::move(walker), options);
+  Result<Rig> rig = Rig::create(clip);
+  if (!rig) return rig.error();
+  LearnPair pair{"the walker's " + action, styled.name,
+                 make_take(clip, *rig, PoseLayout::positions), *std::move(after)};
+  forget_twist(pair.neutral);
+  forget_twist(pair.styled);
+  return pair;
+}
+
+}  // namespace panache
