@@ -42,9 +42,6 @@ constexpr float kFirm = 0.05f, kFirmShift = 0.02f;  // Metres.
 // this.
 constexpr float kKneeRate = 12;  // Radians/s.
 
-// Where a knee points: where the foot does, and ahead where that points down.
-Vec3 knee_way(Vec3 ankle, Vec3 toe) { return normalized(toe - ankle) + Vec3{0, 0, 0.5f}; }
-
 // Where the ankle goes in place of `target`. `depth`: of its toe below the floor, metres.
 Vec3 easy_target(Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 target, float depth) {
   const float leg = length(knee - hip) + length(ankle - knee);
@@ -78,6 +75,10 @@ Vec3 crept(Vec3 way, float seconds) {
 }
 
 }  // namespace
+
+Vec3 knee_way(Vec3 ankle, Vec3 toe) noexcept {
+  return normalized(toe - ankle) + Vec3{0, 0, 0.5f};
+}
 
 TwoBoneTurn two_bone_ik(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 bend) noexcept {
   const float upper = length(middle - root), lower = length(end - middle);
@@ -192,8 +193,8 @@ Vec3 FootLock::bend(Foot& foot, Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 ahead, flo
 }
 
 void FootLock::step(const BodyPose& body, const HumanPositions& joints,
-                    std::span<const float, kFeet> contacts, float amount, Seconds seconds,
-                    BodyChange& change) noexcept {
+                    std::span<const float, kFeet> contacts, std::span<const float, kFeet> level,
+                    float amount, Seconds seconds, BodyChange& change) noexcept {
   const float floor = toe_floor(body);
   const Quat to_world = rotation_y(body.facing + change.turn);
   const Vec3 origin = mid_hip(body) + change.translation;
@@ -202,6 +203,7 @@ void FootLock::step(const BodyPose& body, const HumanPositions& joints,
     const Vec3 toe = origin + rotate(to_world, joints[index(kToes[f])]);
     follow(foot, body.joints[index(kToes[f])], toe, contacts[f], seconds);
     Vec3 offset = foot.offset;
+    offset.y *= 1 - level[f];
     const float depth = std::max(0.0f, floor - (toe.y + offset.y));
     offset.y += depth;
     if (amount <= 0 || offset == Vec3{}) {

@@ -25,6 +25,9 @@ TwoBoneTurn two_bone_ik(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 bend
 // hint, the nearer it is; two thirds of it on the wrong side do not make the chain bend that way.
 Vec3 bend_of(Vec3 root, Vec3 middle, Vec3 end, Vec3 hint, float firm = 0) noexcept;
 
+// Where a knee points: where the foot does, and ahead where that points down. Heading frame.
+Vec3 knee_way(Vec3 ankle, Vec3 toe) noexcept;
+
 // Positions of the user's joints with the rotations of `change` on them, in the heading frame of
 // the input: origin midway between the hip joints, axes turned so that the body faces +z. Turn and
 // translation are left out.
@@ -50,11 +53,11 @@ class FootLock {
   void reset() noexcept { feet_ = {}; }
   // Adjusts the legs of `change`, and draws toes up that are below toe_floor() as far as the legs
   // can easily see to it. `joints`: changed_joints() of body and change; `contacts`: probability
-  // that each foot is planted, 0 to 1; `amount`: how much of the correction to apply, 0 (none at
-  // all) to 1.
+  // that each foot is planted, 0 to 1; `level`: how much of its height is given already, 0 to 1;
+  // `amount`: how much of the correction to apply, 0 (none at all) to 1.
   void step(const BodyPose& body, const HumanPositions& joints,
-            std::span<const float, kFeet> contacts, float amount, Seconds seconds,
-            BodyChange& change) noexcept;
+            std::span<const float, kFeet> contacts, std::span<const float, kFeet> level,
+            float amount, Seconds seconds, BodyChange& change) noexcept;
 
   // Calls visit(member) for everything that tells one foot lock from another.
   template <class Self, class Visit>

@@ -68,7 +68,10 @@ Result<std::shared_ptr<const Model>> Model::create(const TensorFile& file,
 std::shared_ptr<const Model> Model::of_constants(std::vector<ConstantStyle> styles) {
   auto model = std::make_shared<Model>();
   model->recipe_ = &default_recipe();
-  for (const ConstantStyle& style : styles) model->styles_.push_back(style.info);
+  for (const ConstantStyle& style : styles) {
+    model->styles_.push_back(style.info);
+    model->stances_.push_back(stance_of(style.change));
+  }
   const size_t inputs = size_t(kWindowPoses) * pose_feature_count(model->layout());
   model->input_mean_.resize(inputs);
   model->input_factor_.resize(inputs);

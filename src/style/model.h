@@ -15,6 +15,7 @@
 #include "net/mlp.h"
 #include "pose/features.h"
 #include "recipes/recipe.h"
+#include "style/stance.h"
 
 namespace panache {
 
@@ -122,6 +123,7 @@ class Model {
   Result<void> read_activations(const TensorFile& file, const std::string& name);
   Result<Learnt> read_learnt(const TensorFile& file, const std::string& prefix,
                              const std::string& name) const;
+  void measure_stances();
   Result<void> measure_scratch(const std::string& name);
 
   const Recipe* recipe_ = nullptr;
@@ -138,6 +140,7 @@ class Model {
   std::vector<float> activation_mean_, activation_scale_,
       activation_factor_;                 // The last is 1 / scale.
   std::vector<Learnt> learnt_;            // Of the last styles.
+  std::vector<Stance> stances_;           // [styles], or empty where they are not known.
   std::vector<ConstantStyle> constants_;  // In place of networks.
   std::shared_ptr<const PredictorNetwork> predictor_;
   size_t parameter_count_ = 0;
@@ -177,6 +180,8 @@ class StyleNetworks {
   // The pose network's numbers, in the model's own units undone. What change they are,
   // Recipe::to_change() tells. [Recipe::outputs]
   std::span<const float> pose() const { return pose_out_; }
+  // Of the styles in force together, by their strengths.
+  Stance stance() const noexcept;
   float log_rate() const { return timing_out_[0]; }  // log of input seconds per output second.
   std::span<const float> contact() const { return contact_out_; }  // Probability per foot [2].
 

@@ -181,7 +181,21 @@ Result<void> Model::read_numbers(const TensorFile& file, const std::string& name
     predictor_ = std::make_shared<const PredictorNetwork>(*std::move(predictor));
   }
   if (auto read = read_gate(file, name); !read) return read.error();
+  measure_stances();
   return measure_scratch(name);
+}
+
+void Model::measure_stances() {
+  if (!recipe_->style_heads || (built_in() > 0 && !gate_.present())) return;
+  const auto mean_answer = [&](const PackedLayer& head, std::span<const float> activations) {
+    AlignedVector<float> answer(head.width());
+    head.forward({activations.data(), 1, 0}, {answer.data(), 1, 0});
+    std::array<float, StyleDelta::kSize> change;
+    for (size_t i = 0; i < change.size(); ++i) change[i] = answer[i] * output_scale_[i];
+    stances_.push_back(stance_of(unpack(change)));
+  };
+  for (const PackedLayer& head : heads_[kPose].layers) mean_answer(head, gate_.mean);
+  for (const Learnt& learnt : learnt_) mean_answer(learnt.head, learnt.mean);
 }
 
 Result<void> Model::read_gate(const TensorFile& file, const std::string& name) {

@@ -107,6 +107,18 @@ Rows<const float> StyleNetworks::shrink(std::span<const Pass> passes, Rows<const
   return activations;
 }
 
+Stance StyleNetworks::stance() const noexcept {
+  Stance sum;
+  for (size_t s = 0; s < model_->stances_.size(); ++s) {
+    const float strength = posture_strength(strengths_[s]);
+    if (strength == 0) continue;
+    const Stance& own = model_->stances_[s];
+    sum.heel += strength * own.heel;
+    for (size_t f = 0; f < kFeet; ++f) sum.turn[f] += strength * own.turn[f];
+  }
+  return sum;
+}
+
 void StyleNetworks::write_input(std::span<const float> window,
                                 std::span<float> input) const noexcept {
   const Model& m = *model_;

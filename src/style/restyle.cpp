@@ -41,6 +41,10 @@ Result<Restyled> restyle(const Clip& clip, const Rig& rig,
   const Pose pose{rotations, translations};
   std::vector<float> strengths(model->styles().size());
   FlightLookout lookout(clip, rig);
+  if (first + 1 < clip.frames && clip.frame_time > 0) {
+    sample(clip, first + 1, pose);
+    stylizer->set_next(pose, clip.frame_time);
+  }
   double frame = first, advance = 0;
   // The head may stop between the last two frames; the end of the input is never overrun.
   while (frame <= clip.frames - 1 + 1e-6) {

@@ -19,10 +19,11 @@ enum class Stage {
   balance,    // keep_balance()
   floor,      // FloorClearance
   fall,       // FreeFall
+  stance,     // FootStance
   feet,       // FootLock
   write,      // PosedRig
 };
-inline constexpr std::array<const char*, 13> kStageNames = {"observe the pose",
+inline constexpr std::array<const char*, 14> kStageNames = {"observe the pose",
                                                             "ease strengths and shape",
                                                             "history and window",
                                                             "networks, heads and gate",
@@ -33,6 +34,7 @@ inline constexpr std::array<const char*, 13> kStageNames = {"observe the pose",
                                                             "keep the balance",
                                                             "keep above the floor",
                                                             "fall as the input does",
+                                                            "keep resting feet level",
                                                             "hold the feet",
                                                             "write the pose (rig)"};
 

@@ -55,6 +55,13 @@ void Stylizer::forget() noexcept {
   flight_ = 0;
 }
 
+void Stylizer::set_next(ConstPose next, double seconds) noexcept {
+  reset();
+  observer_.observe(next, 0);
+  next_ = {observer_.now().world.positions, static_cast<float>(seconds)};
+  observer_.reset();
+}
+
 void Stylizer::step(ConstPose in, std::span<const float> strengths, double input_seconds,
                     double output_seconds, Pose out) noexcept {
   step(in, strengths, input_seconds, output_seconds, out, nullptr);
@@ -83,7 +90,8 @@ Stylizer::TakenIn Stylizer::take_in(ConstPose in, std::span<const float> strengt
   if (!observer_.observe(in, input_seconds)) forget();
   tell(clock, Stage::observe);
 
-  const StepTime time{input_seconds, static_cast<float>(output_seconds), !started_};
+  const StepTime time{input_seconds, static_cast<float>(output_seconds), !started_,
+                      next_.seconds > 0 ? &next_ : nullptr};
   strengths_.step(strengths, shape_, time);
   networks_.set_strengths(strengths_.now());
   tell(clock, Stage::strengths);
@@ -102,6 +110,7 @@ void Stylizer::give_out(const StepTime& time, Pose out, StageClock* clock) noexc
   asked.log_rate = networks_.log_rate();
   std::ranges::copy(networks_.contact(), asked.contacts.begin());
   asked.gate = networks_.gate();
+  asked.stance = networks_.stance();
   stages_.step(asked,
                {strengths_.shape(), strengths_.amount(), flight_, options_.root, options_.foot_lock,
                 options_.tempo_everywhere},
@@ -109,6 +118,7 @@ void Stylizer::give_out(const StepTime& time, Pose out, StageClock* clock) noexc
   observer_.write(stages_.change(), out);
   tell(clock, Stage::write);
   started_ = true;
+  next_.seconds = 0;
 }
 
 double Stylizer::rate() const noexcept { return stages_.rate(strengths_.shape().timing, flight_); }

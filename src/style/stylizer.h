@@ -67,6 +67,10 @@ class Stylizer {
   // head that has seen poses to come. Otherwise a step learns of flights from the poses so far.
   void set_flight(float amount) noexcept { seen_flight_ = amount; }
 
+  // Before the first step of a motion whose second pose is known: the first step then knows whether
+  // the body moves. Later steps do not need it.
+  void set_next(ConstPose next, double seconds) noexcept;
+
   // The character's memory as bytes, to go back to a moment (rollback, rewind): after restore() the
   // next step gives what it gave after save(), bit for bit, on a stylizer of the same model,
   // skeleton and options, and on the same kind of machine. Neither allocates.
@@ -128,6 +132,7 @@ class Stylizer {
   ChangeStages stages_;
   FlightWatch flights_;
   float flight_ = 0;        // Of FlightWatch::amount(), at the last step.
+  NextPose next_;           // By set_next(), for the first step; no time for none.
   float seen_flight_ = -1;  // By set_flight(), for the next step; below 0 for none.
 };
 

@@ -13,6 +13,8 @@
 namespace panache {
 namespace {
 
+constexpr std::array<float, kFeet> kUnlevelled{};  // No height is given already.
+
 constexpr Vec3 kHip{0, 0.9f, 0}, kKnee{0, 0.48f, 0.05f}, kAnkle{0, 0.08f, 0};
 
 Vec3 reached(const TwoBoneTurn& turn, Vec3 hip, Vec3 knee, Vec3 ankle) {
@@ -92,7 +94,7 @@ std::vector<Vec3> knees_of(const std::vector<float>& aheads) {
     joints[toe] = joints[ankle] + foot;
     BodyChange change;
     change.translation.y = -0.03f - (mid_hip(body).y + joints[toe].y);
-    lock.step(body, joints, contacts, 1, {1 / 120.0f, 1 / 120.0f}, change);
+    lock.step(body, joints, contacts, kUnlevelled, 1, {1 / 120.0f, 1 / 120.0f}, change);
     knees.push_back(rotate(change.rotations[hip], joints[knee] - joints[hip]));
   }
   return knees;
@@ -148,7 +150,7 @@ class Sliding {
     const float contacts[kFeet] = {contact, 0};
     HumanPositions joints;
     changed_joints(body, change, joints);
-    lock_.step(body, joints, contacts, amount, {rate_ / 30, 1 / 30.0f}, change);
+    lock_.step(body, joints, contacts, kUnlevelled, amount, {rate_ / 30, 1 / 30.0f}, change);
     changed_joints(body, change, joints);
     const Vec3 toe = joints[index(HumanJoint::left_toes)];
     return mid_hip(body) + change.translation + rotate(rotation_y(body.facing), toe);
@@ -336,7 +338,7 @@ TEST(FootLock, a_straight_leg_does_not_let_its_knee_fly) {
     FootLock lock;
     BodyChange change;
     const float contacts[kFeet] = {0, 0};
-    lock.step(body, joints, contacts, 1, {1 / 60.0f, 1 / 60.0f}, change);
+    lock.step(body, joints, contacts, kUnlevelled, 1, {1 / 60.0f, 1 / 60.0f}, change);
     return length(log_rotation(change.rotations[index(HumanJoint::left_upper_leg)]));
   };
   // All of 1 mm would bend it by acos(0.799 / 0.8) = 0.05 radians.

@@ -14,6 +14,7 @@ void ChangeStages::reset() noexcept {
   anatomy_.reset();
   floor_.reset();
   fall_.reset();
+  stance_.reset();
   foot_lock_.reset();
 }
 
@@ -48,8 +49,14 @@ void ChangeStages::step(const AskedChange& asked, const ChangeControl& control,
     // Nor is a foot held that turns its thigh further than a hip can.
     contacts_[f] *= 1 - anatomy_.thigh_share(f);
   }
+  const float amount = control.amount * control.shape.foot_lock;
   if (control.foot_lock) {
-    foot_lock_.step(now.world, joints, contacts_, control.amount * control.shape.foot_lock,
+    stance_.step(now.world, joints, asked.stance, amount * (1 - control.flight), steps_.amount(),
+                 time, change_);
+  }
+  tell(clock, Stage::stance);
+  if (control.foot_lock) {
+    foot_lock_.step(now.world, joints, contacts_, stance_.held(), amount,
                     {static_cast<float>(time.input), time.output}, change_);
     anatomy_.watch_thighs(now.world, observer.rig(), time, change_);
   }

@@ -13,6 +13,7 @@
 #include "style/stages/fall.h"
 #include "style/stages/filter.h"
 #include "style/stages/floor.h"
+#include "style/stages/foot_stance.h"
 #include "style/stages/root_motion.h"
 #include "style/stages/seat.h"
 #include "style/stages/shaping.h"
@@ -28,6 +29,7 @@ struct AskedChange {
   float log_rate = 0;                   // Logarithm of input seconds per output second.
   std::array<float, kFeet> contacts{};  // Probability that each foot is planted.
   float gate = 1;                       // How well the motion is known, 0 to 1.
+  Stance stance = {};                   // Of a foot that stands.
 };
 
 // How it is carried out.
@@ -69,6 +71,7 @@ class ChangeStages {
     Anatomy::visit_state(self.anatomy_, visit);
     FloorClearance::visit_state(self.floor_, visit);
     FreeFall::visit_state(self.fall_, visit);
+    FootStance::visit_state(self.stance_, visit);
     FootLock::visit_state(self.foot_lock_, visit);
   }
 
@@ -82,6 +85,7 @@ class ChangeStages {
   Anatomy anatomy_;
   FloorClearance floor_;
   FreeFall fall_;
+  FootStance stance_;
   FootLock foot_lock_;
   std::array<float, kFeet> contacts_{};
   BodyChange change_;

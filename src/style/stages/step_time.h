@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/one_pole.h"
+#include "rig/humanoid.h"
 
 namespace panache {
 
@@ -15,10 +16,17 @@ inline double bounded_seconds(double seconds) noexcept {
   return seconds > 0 ? std::min(seconds, kLongest) : 0.0;
 }
 
+// The pose after a first one, as a clip has it.
+struct NextPose {
+  HumanPositions world{};  // Canonical joints, metres.
+  float seconds = 0;       // After the first pose.
+};
+
 struct StepTime {
   double input = 0;   // Seconds of the input since the last step,
   float output = 0;   // and of the viewer.
   bool first = true;  // No step before this one counts.
+  const NextPose* next = nullptr;  // After a first step, where it is known.
 
   // The gain of a filter with this time constant; the first step goes all the way.
   float gain(float time_constant) const noexcept {

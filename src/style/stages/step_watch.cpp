@@ -18,16 +18,17 @@ constexpr std::array kSteppers = {HumanJoint::left_foot, HumanJoint::right_foot}
 }  // namespace
 
 void StepWatch::step(const HumanPositions& world, const StepTime& time) noexcept {
-  const float seconds = static_cast<float>(time.input);
+  const bool starts = time.first && time.next;
+  const float seconds = starts ? time.next->seconds : static_cast<float>(time.input);
   float speed = 0;
   for (size_t f = 0; f < kFeet; ++f) {
     const Vec3 foot = world[index(kSteppers[f])];
-    const Vec3 moved = foot - feet_[f];
-    if (seconds > 0) speed += std::hypot(moved.x, moved.z) / seconds;
+    const Vec3 other = starts ? time.next->world[index(kSteppers[f])] : feet_[f];
+    if (seconds > 0) speed += std::hypot(foot.x - other.x, foot.z - other.z) / seconds;
     feet_[f] = foot;
   }
   if (time.first) speed_ = 0, seen_ = false;
-  if (time.first || seconds <= 0) return;
+  if ((time.first && !starts) || seconds <= 0) return;
   speed = std::min(speed, kFastestFeet);
   speed_ += (seen_ ? filter_gain(seconds, kFeetSeconds) : 1.0f) * (speed - speed_);
   seen_ = true;

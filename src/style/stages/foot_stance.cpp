@@ -1,0 +1,119 @@
+#include "style/stages/foot_stance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/one_pole.h"
+#include "base/smooth_step.h"
+
+namespace panache {
+namespace {
+
+constexpr float kRestingFoot = 0.1f, kMovingFoot = 0.3f;   // m/s
+constexpr float kFastestFoot = 1;                          // m/s, as far as it counts.
+constexpr float kLowToe = 0.12f, kHighToe = 0.2f;          // Metres: a raised foot is the style's.
+constexpr float kSpeedSeconds = 0.06f, kRestSeconds = 0.1f,
+                kDropSeconds = 0.08f;  // Time constants.
+constexpr float kFreeTurn = 0.17f;  // Radians that a foot may be turned beyond its style's stance.
+constexpr float kReach = 0.985f;    // Of its length, what a leg is stretched to at most.
+constexpr float kFirm = 0.05f;      // See bend_of(), metres.
+
+// How far `turn` rotates about the unit `axis`, radians, -pi to pi.
+float angle_about(Vec3 axis, Quat turn) {
+  const float sign = turn.w < 0 ? -1.0f : 1.0f;
+  return 2 * arc_tangent(sign * dot(axis, turn.xyz()), sign * turn.w);
+}
+
+}  // namespace
+
+void FootStance::watch(const BodyPose& body, int f, const StepTime& time, Foot& foot) noexcept {
+  const Vec3 ankle = body.joints[index(kAnkles[f])], toe = body.joints[index(kToes[f])];
+  const bool starts = time.first && time.next;
+  const float seconds = starts ? time.next->seconds : static_cast<float>(time.input);
+  if (time.first) foot = {};
+  const Vec3 other_ankle = starts ? time.next->world[index(kAnkles[f])] : foot.ankle;
+  const Vec3 other_toe = starts ? time.next->world[index(kToes[f])] : foot.toe;
+  foot.ankle = ankle;
+  foot.toe = toe;
+  if ((time.first && !starts) || seconds <= 0) return;
+  // The first speed that is known counts in full.
+  const auto gain = [&](float time_constant) {
+    return foot.seen ? filter_gain(seconds, time_constant) : 1.0f;
+  };
+  const float speed = std::max(length(ankle - other_ankle), length(toe - other_toe)) / seconds;
+  foot.speed += gain(kSpeedSeconds) * (std::min(speed, kFastestFoot) - foot.speed);
+  const float wanted = smooth_step((kMovingFoot - foot.speed) / (kMovingFoot - kRestingFoot)) *
+                       smooth_step((kHighToe - toe.y) / (kHighToe - kLowToe));
+  // One filter after the other, so that it begins and ends without a jerk.
+  approach(foot.wanted, wanted, gain(kRestSeconds), 1e-4f);
+  approach(foot.rest, foot.wanted, gain(kRestSeconds), 1e-4f);
+  foot.seen = true;
+}
+
+void FootStance::step(const BodyPose& body, HumanPositions& joints, const Stance& stance,
+                      float amount, float stepping, const StepTime& time,
+                      BodyChange& change) noexcept {
+  const float standing = amount * (1 - stepping);
+  const bool fresh = time.first || !feet_[0].seen;
+  for (int f = 0; f < kFeet; ++f) {
+    watch(body, f, time, feet_[f]);
+    held_[f] = standing * feet_[f].rest;
+  }
+  if (!(held_[0] > 0 || held_[1] > 0)) {
+    drop_wanted_ = drop_ = 0;
+    return;
+  }
+
+  const Quat to_heading = rotation_y(-body.facing);
+  for (int f = 0; f < kFeet; ++f) {
+    const int ankle = index(kAnkles[f]), toe = index(kToes[f]);
+    Quat& foot = change.rotations[ankle];
+    const float least = std::min(0.0f, stance.turn[f]), most = std::max(0.0f, stance.turn[f]);
+    const float yaw = angle_about({0, 1, 0}, foot);
+    const Quat turn = rotation_y(std::clamp(yaw, least - kFreeTurn, most + kFreeTurn));
+    Vec3 ahead = rotate(to_heading, body.joints[toe] - body.joints[ankle]);
+    ahead.y = 0;
+    const Vec3 side = cross({0, 1, 0}, normalized(ahead, {0, 0, 1}));
+    const float lift = angle_about(side, rotation_y(-yaw) * foot);
+    const float heel = std::clamp(lift, 0.0f, std::max(0.0f, stance.heel));
+    foot = nlerp(foot, turn * axis_angle(side, heel), held_[f]);
+    Quat& toes = change.rotations[toe];
+    toes = nlerp(toes, turn, held_[f]);
+  }
+  changed_joints(body, change, joints);
+
+  // How much higher each ankle goes, so that its toe is where the input's is; and how much lower
+  // the hips must be for that.
+  const float origin = mid_hip(body).y + change.translation.y;
+  std::array<float, kFeet> rise;
+  float drop = 0;
+  for (int f = 0; f < kFeet; ++f) {
+    const Vec3 hip = joints[index(kUpperLegs[f])], knee = joints[index(kLowerLegs[f])];
+    const Vec3 ankle = joints[index(kAnkles[f])];
+    rise[f] = held_[f] * (feet_[f].toe.y - (origin + joints[index(kToes[f])].y));
+    const Vec3 way = ankle - hip;
+    const float leg = kReach * (length(knee - hip) + length(ankle - knee));
+    const float aside = way.x * way.x + way.z * way.z;
+    const float down = std::sqrt(std::max(0.0f, leg * leg - aside));
+    const float now = std::max(down, -way.y);  // Legs that are straight may stay so.
+    drop = std::max(drop, held_[f] * (-(way.y + rise[f]) - now));
+  }
+  const float gain = fresh ? 1.0f : filter_gain(time.output, kDropSeconds);
+  drop_wanted_ += gain * (drop - drop_wanted_);
+  drop_ += gain * (drop_wanted_ - drop_);
+  change.translation.y -= drop_;
+  for (int f = 0; f < kFeet; ++f) {
+    const float up = rise[f] + held_[f] * drop_;
+    if (!(held_[f] > 0) || up == 0) continue;
+    const int hip = index(kUpperLegs[f]), knee = index(kLowerLegs[f]), ankle = index(kAnkles[f]);
+    const Vec3 ahead = knee_way(joints[ankle], joints[index(kToes[f])]);
+    const TwoBoneTurn turn =
+        two_bone_ik(joints[hip], joints[knee], joints[ankle], joints[ankle] + Vec3{0, up, 0},
+                    bend_of(joints[hip], joints[knee], joints[ankle], ahead, kFirm));
+    change.rotations[hip] = turn.upper * change.rotations[hip];
+    change.rotations[knee] = turn.lower * change.rotations[knee];
+  }
+  changed_joints(body, change, joints);
+}
+
+}  // namespace panache

@@ -1,0 +1,47 @@
+#pragma once
+// Eleventh stage: a foot that rests in the input rests in the output.
+
+#include <array>
+
+#include "pose/foot_lock.h"
+#include "style/stages/step_time.h"
+#include "style/stance.h"
+
+namespace panache {
+
+// Where a body stands, a style that was learnt from steps answers with the mean of its stepping
+// legs: feet hang in the air, on their toes, or turned out. While a foot of the input rests and the
+// feet do not step, its heel and toe stay at the input's heights, lifted and turned no further than
+// the style's own stance. The knee gives way, and the hips where the leg is too short.
+class FootStance {
+ public:
+  void reset() noexcept { *this = {}; }
+  // `joints`: those of changed_joints(), kept up to date. `amount`: how much of a style is in
+  // force, 0 to 1. `stepping`: StepWatch::amount().
+  void step(const BodyPose& body, HumanPositions& joints, const Stance& stance, float amount,
+            float stepping, const StepTime& time, BodyChange& change) noexcept;
+  // How much each foot was held at its height at the last step, 0 to 1.
+  std::span<const float, kFeet> held() const noexcept { return held_; }
+
+  // Calls visit(member) for everything that tells one character from another.
+  template <class Self, class Visit>
+  static void visit_state(Self& self, Visit&& visit) {
+    visit(self.feet_), visit(self.held_);
+    visit(self.drop_wanted_), visit(self.drop_);
+  }
+
+ private:
+  struct Foot {
+    Vec3 ankle, toe;  // Of the input at the last step; world, metres.
+    float speed = 0;  // Of the faster of both, smoothed, m/s.
+    float wanted = 0, rest = 0;  // Whether it rests, 0 to 1: eased once, and twice.
+    bool seen = false;           // Whether a speed is known.
+  };
+  static void watch(const BodyPose& body, int f, const StepTime& time, Foot& foot) noexcept;
+
+  std::array<Foot, kFeet> feet_;
+  std::array<float, kFeet> held_{};
+  float drop_wanted_ = 0, drop_ = 0;  // Of the hips, metres: eased once, and twice.
+};
+
+}  // namespace panache

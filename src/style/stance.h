@@ -1,0 +1,21 @@
+#pragma once
+// How a style sets its feet on the ground.
+
+#include <array>
+
+#include "pose/contacts.h"
+#include "pose/style_delta.h"
+
+namespace panache {
+
+// What a style changes of a foot that stands; zero leaves it as it is.
+struct Stance {
+  float heel = 0;                   // How far the heel is lifted about the toes, radians.
+  std::array<float, kFeet> turn{};  // About +y, radians.
+};
+
+// `mean`: what the style changes in the mean. Only styles on tiptoe lift heels: in other styles a
+// small mean lift comes from their steps.
+Stance stance_of(const StyleDelta& mean) noexcept;
+
+}  // namespace panache
