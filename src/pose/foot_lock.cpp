@@ -76,9 +76,7 @@ Vec3 crept(Vec3 way, float seconds) {
 
 }  // namespace
 
-Vec3 knee_way(Vec3 ankle, Vec3 toe) noexcept {
-  return normalized(toe - ankle) + Vec3{0, 0, 0.5f};
-}
+Vec3 knee_way(Vec3 ankle, Vec3 toe) noexcept { return normalized(toe - ankle) + Vec3{0, 0, 0.5f}; }
 
 TwoBoneTurn two_bone_ik(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 bend) noexcept {
   const float upper = length(middle - root), lower = length(end - middle);

@@ -9,9 +9,9 @@
 namespace panache {
 namespace {
 
-constexpr float kRestingFoot = 0.1f, kMovingFoot = 0.3f;   // m/s
-constexpr float kFastestFoot = 1;                          // m/s, as far as it counts.
-constexpr float kLowToe = 0.12f, kHighToe = 0.2f;          // Metres: a raised foot is the style's.
+constexpr float kRestingFoot = 0.1f, kMovingFoot = 0.3f;  // m/s
+constexpr float kFastestFoot = 1;                         // m/s, as far as it counts.
+constexpr float kLowToe = 0.12f, kHighToe = 0.2f;         // Metres: a raised foot is the style's.
 constexpr float kSpeedSeconds = 0.06f, kRestSeconds = 0.1f,
                 kDropSeconds = 0.08f;  // Time constants.
 constexpr float kFreeTurn = 0.17f;  // Radians that a foot may be turned beyond its style's stance.

@@ -32,8 +32,8 @@ class FootStance {
 
  private:
   struct Foot {
-    Vec3 ankle, toe;  // Of the input at the last step; world, metres.
-    float speed = 0;  // Of the faster of both, smoothed, m/s.
+    Vec3 ankle, toe;             // Of the input at the last step; world, metres.
+    float speed = 0;             // Of the faster of both, smoothed, m/s.
     float wanted = 0, rest = 0;  // Whether it rests, 0 to 1: eased once, and twice.
     bool seen = false;           // Whether a speed is known.
   };

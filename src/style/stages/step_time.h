@@ -23,9 +23,9 @@ struct NextPose {
 };
 
 struct StepTime {
-  double input = 0;   // Seconds of the input since the last step,
-  float output = 0;   // and of the viewer.
-  bool first = true;  // No step before this one counts.
+  double input = 0;                // Seconds of the input since the last step,
+  float output = 0;                // and of the viewer.
+  bool first = true;               // No step before this one counts.
   const NextPose* next = nullptr;  // After a first step, where it is known.
 
   // The gain of a filter with this time constant; the first step goes all the way.
