@@ -25,7 +25,19 @@ constexpr float kStanceShare = 0.3f;
 constexpr float kFloorShare = 0.02f;
 constexpr float kFloorFrames = 2;
 
+// A body stands whose head is so straight above its feet (cosine), in this share of the frames.
+constexpr float kUpright = 0.9f;
+constexpr double kUprightShare = 0.05;
+
 float component(Vec3 v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
+// The axis that is nearest to `v`.
+int main_axis(Vec3 v) {
+  int k = 0;
+  for (const int i : {1, 2}) {
+    if (std::abs(component(v, i)) > std::abs(component(v, k))) k = i;
+  }
+  return k;
+}
 
 class Calibrator {
  public:
@@ -74,20 +86,30 @@ class Calibrator {
     return mapped_joints(frames_.world(frame), of, out_);
   }
 
-  // The axis along which the head is farthest above the feet, on the average.
+  // The axis along which the body stands at rest, where it does so now and then in the motion too:
+  // who lies for most of a clip still gets up. Otherwise the axis along which the head is farthest
+  // above the feet, on the average.
   void find_up() {
     const HumanJoint top = has(head) ? head : has(neck) ? neck : left_upper_arm;
+    std::vector<Vec3> ways;
     Vec3d sum;
     for (int f = 0; f < frames_.count(); ++f) {
-      sum += (file(f, top) - (file(f, left_foot) + file(f, right_foot)) * 0.5f).as<double>();
+      ways.push_back(file(f, top) - (file(f, left_foot) + file(f, right_foot)) * 0.5f);
+      sum += ways.back().as<double>();
     }
-    const Vec3 mean = (sum / static_cast<double>(frames_.count())).as<float>();
-    int k = 0;
-    for (int i : {1, 2}) {
-      if (std::abs(component(mean, i)) > std::abs(component(mean, k))) k = i;
-    }
-    const bool negative = component(mean, k) < 0;
-    out_.up_axis = {negative ? '-' : '+', "XYZ"[k]};
+    const auto at_rest = [&](HumanJoint joint) {
+      return rest_translations_[joint_of_[index(joint)]];
+    };
+    const Vec3 rest = at_rest(top) - (at_rest(left_foot) + at_rest(right_foot)) * 0.5f;
+    const int k = main_axis(rest);
+    const auto upright = std::ranges::count_if(ways, [&](Vec3 way) {
+      return component(way, k) * std::copysign(1.0f, component(rest, k)) > kUpright * length(way);
+    });
+    const Vec3 mean = (sum / static_cast<double>(ways.size())).as<float>();
+    const bool stands =
+        static_cast<double>(upright) >= kUprightShare * static_cast<double>(ways.size());
+    const Vec3 up = stands ? rest : mean;
+    out_.up_axis = {component(up, main_axis(up)) < 0 ? '-' : '+', "XYZ"[main_axis(up)]};
     out_.y_up = *turn_up(out_.up_axis);
     if (out_.up_axis != "+Y") out_.notes.push_back("up is " + out_.up_axis);
   }

@@ -41,6 +41,15 @@ bool has_note(const std::vector<std::string>& notes, const std::string& part) {
   return false;
 }
 
+TEST(Calibration, who_lies_for_most_of_a_clip_still_shows_what_is_up) {
+  Clip clip = random_clip(canonical_skeleton(), 60, 0.2f, 2);
+  const float h = std::sqrt(0.5f);
+  const Clip lying = in_axes(clip, {h, 0, 0, h}, 1, {0, 0.2f, 0});
+  for (int f = 0; f < 54; ++f)
+    std::ranges::copy(lying.pose(f).rotations, clip.pose(f).rotations.begin());
+  EXPECT_EQ(rig_of(clip).up_axis(), "+Y");
+}
+
 TEST(Calibration, any_axis_may_be_up_and_any_unit_a_metre) {
   const Clip clip = random_clip(canonical_skeleton(), 60, 0.4f, 2);
   const float h = std::sqrt(0.5f);

@@ -2,6 +2,7 @@
 
 #include "style/rate.h"
 #include "style/stages/balance.h"
+#include "style/stages/fold.h"
 
 namespace panache {
 
@@ -30,6 +31,7 @@ void ChangeStages::step(const AskedChange& asked, const ChangeControl& control,
   if (control.root) root_.step(filter_.delta(), asked.gate, observer, window, time);
   tell(clock, Stage::root);
   Shape shape = control.shape;
+  for (float& region : shape.regions) region *= share_above_floor(now.world.positions);
   shape.regions[static_cast<size_t>(Region::legs)] *= 1 - seat_.amount();
   shaping_.step(shape, filter_.delta(), root_.offset(), time, change_);
   tell(clock, Stage::shape);
@@ -37,6 +39,7 @@ void ChangeStages::step(const AskedChange& asked, const ChangeControl& control,
   tell(clock, Stage::anatomy);
   HumanPositions joints;
   changed_joints(now.world, change_, joints);
+  limit_fold(now.world, joints, change_);
   keep_balance(now.world, joints, change_);
   tell(clock, Stage::balance);
   floor_.step(now.world, joints, control.amount, time, change_);

@@ -1,0 +1,47 @@
+#include "style/stages/fold.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/smooth_step.h"
+
+namespace panache {
+namespace {
+
+using enum HumanJoint;
+
+// Radians from upright: a lean that is not touched, and how much more it may come to at most.
+constexpr float kFree = 0.9f, kRoom = 0.5f;
+
+constexpr float kLowHead = 0.3f, kHighHead = 0.7f;  // Metres; 1.5 where the body stands.
+
+// From mid-hip to mid-shoulder, unit.
+Vec3 torso(const HumanPositions& joints) {
+  return normalized(joints[index(left_upper_arm)] + joints[index(right_upper_arm)] -
+                    joints[index(left_upper_leg)] - joints[index(right_upper_leg)]);
+}
+
+float lean(Vec3 torso) { return arc_tangent(std::hypot(torso.x, torso.z), torso.y); }
+
+}  // namespace
+
+float share_above_floor(const HumanPositions& world) noexcept {
+  return smooth_step((world[index(head)].y - kLowHead) / (kHighHead - kLowHead));
+}
+
+void limit_fold(const BodyPose& body, HumanPositions& joints, BodyChange& change) noexcept {
+  const Vec3 now = torso(joints);
+  const float leans = lean(now), over = leans - kFree;
+  if (!(over > 0)) return;
+  // Begins without a kink, and ends at kRoom.
+  const float soft = kFree + over * kRoom / (over + kRoom);
+  const float back = leans - std::max(soft, std::min(leans, lean(torso(body.joints))));
+  if (!(back > 0)) return;
+  const Quat turn = axis_angle(normalized(cross(now, Vec3{0, 1, 0})), back);
+  for (int j = index(hips); j <= index(right_hand); ++j) {
+    change.rotations[j] = normalized(turn * change.rotations[j]);
+  }
+  changed_joints(body, change, joints);
+}
+
+}  // namespace panache

@@ -1,0 +1,82 @@
+#include "style/stages/fold.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "make_clip.h"
+#include "rig/posed_rig.h"
+
+namespace panache {
+namespace {
+
+constexpr float kPerDegree = 3.14159265f / 180;  // Radians.
+
+BodyPose standing() {
+  const Clip clip = test::walking_clip(1);
+  PosedRig rig(*Rig::create(clip));
+  BodyPose body;
+  rig.read(clip.pose(0), body);
+  return body;
+}
+
+float lean(const HumanPositions& joints) {
+  using enum HumanJoint;
+  const Vec3 torso = joints[index(left_upper_arm)] + joints[index(right_upper_arm)] -
+                     joints[index(left_upper_leg)] - joints[index(right_upper_leg)];
+  return std::atan2(std::hypot(torso.x, torso.z), torso.y) / kPerDegree;
+}
+
+// Turns the upper body of `joints` forward about the hips.
+void bend(float degrees, HumanPositions& joints) {
+  const Quat turn = axis_angle(Vec3{1, 0, 0}, degrees * kPerDegree);
+  const Vec3 hips =
+      (joints[index(HumanJoint::left_upper_leg)] + joints[index(HumanJoint::right_upper_leg)]) *
+      0.5f;
+  for (int j = index(HumanJoint::spine); j <= index(HumanJoint::right_hand); ++j) {
+    joints[j] = hips + rotate(turn, joints[j] - hips);
+  }
+}
+
+// The lean of a body that leans by `input` degrees already, in a style that adds `added`.
+float styled(float input, float added) {
+  BodyPose body = standing();
+  bend(input - lean(body.joints), body.joints);
+  BodyChange change;
+  for (int j = 0; j <= index(HumanJoint::right_hand); ++j) {
+    change.rotations[j] = axis_angle(Vec3{1, 0, 0}, added * kPerDegree);
+  }
+  HumanPositions joints;
+  changed_joints(body, change, joints);
+  limit_fold(body, joints, change);
+  HumanPositions again;
+  changed_joints(body, change, again);
+  EXPECT_EQ(joints[index(HumanJoint::head)], again[index(HumanJoint::head)]);
+  return lean(joints);
+}
+
+TEST(Fold, a_bent_style_does_not_fold_a_body_that_bends_down) {
+  EXPECT_NEAR(styled(5, 30), 35, 0.5f) << "an old walk stays as it is";
+  EXPECT_LT(styled(45, 40), 70);
+  EXPECT_NEAR(styled(85, 30), 85, 0.5f) << "no further than the input itself";
+  EXPECT_NEAR(styled(80, -30), 50, 0.5f) << "a style that rights the body is left alone";
+  float last = 0;
+  for (float added = 0; added < 60; added += 2) {
+    const float now = styled(30, added);
+    EXPECT_GE(now, last - 0.01f);
+    EXPECT_LT(now - last, added == 0 ? 31 : 2.1f);
+    last = now;
+  }
+}
+
+TEST(Fold, a_body_near_the_floor_keeps_its_own_pose) {
+  HumanPositions world = standing().joints;
+  EXPECT_EQ(share_above_floor(world), 1);
+  world[index(HumanJoint::head)].y = 0.25f;
+  EXPECT_EQ(share_above_floor(world), 0);
+  world[index(HumanJoint::head)].y = 0.5f;
+  EXPECT_NEAR(share_above_floor(world), 0.5f, 1e-3f);
+}
+
+}  // namespace
+}  // namespace panache
