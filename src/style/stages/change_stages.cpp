@@ -1,5 +1,7 @@
 #include "style/stages/change_stages.h"
 
+#include <algorithm>
+
 #include "style/rate.h"
 #include "style/stages/balance.h"
 #include "style/stages/fold.h"
@@ -56,6 +58,8 @@ void ChangeStages::step(const AskedChange& asked, const ChangeControl& control,
   if (control.foot_lock) {
     stance_.step(now.world, joints, asked.stance, amount * (1 - control.flight), steps_.amount(),
                  time, change_);
+    // A foot that rests is planted, whatever the network makes of it.
+    for (size_t f = 0; f < kFeet; ++f) contacts_[f] = std::max(contacts_[f], stance_.held()[f]);
   }
   tell(clock, Stage::stance);
   if (control.foot_lock) {

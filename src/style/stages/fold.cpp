@@ -15,6 +15,8 @@ constexpr float kFree = 0.9f, kRoom = 0.5f;
 
 constexpr float kLowHead = 0.3f, kHighHead = 0.7f;  // Metres; 1.5 where the body stands.
 
+constexpr float kRounding = 1e-3f;  // Radians: an unchanged body is left alone to the bit.
+
 // From mid-hip to mid-shoulder, unit.
 Vec3 torso(const HumanPositions& joints) {
   return normalized(joints[index(left_upper_arm)] + joints[index(right_upper_arm)] -
@@ -35,7 +37,7 @@ void limit_fold(const BodyPose& body, HumanPositions& joints, BodyChange& change
   if (!(over > 0)) return;
   // Begins without a kink, and ends at kRoom.
   const float soft = kFree + over * kRoom / (over + kRoom);
-  const float back = leans - std::max(soft, std::min(leans, lean(torso(body.joints))));
+  const float back = leans - std::max(soft, lean(torso(body.joints)) + kRounding);
   if (!(back > 0)) return;
   const Quat turn = axis_angle(normalized(cross(now, Vec3{0, 1, 0})), back);
   for (int j = index(hips); j <= index(right_hand); ++j) {
