@@ -216,8 +216,12 @@ test('a loop is saved: a cycle of the clip whose end leads to its beginning, or 
 
 test('a clip that is saved is what the program makes of it, byte for byte', async () => {
   const model = join(models, 'panache-int8.safetensors');
-  panache('stylize', 'walk.bvh', '--model', model, '--style', 'proud=1', '-o', 'proud.bvh');
-  assert.deepEqual(readFileSync(await save('BVH', '.bvh')), readFileSync(at('proud.bvh')));
+  for (const tempo of ['all', 'off', 'steps']) {
+    await tab.evaluate((wanted) => window.page.set({ tempo: wanted }), tempo);
+    panache('stylize', 'walk.bvh', '--model', model, '--style', 'proud=1', '--timing', tempo,
+      '-o', 'proud.bvh');
+    assert.deepEqual(readFileSync(await save('BVH', '.bvh')), readFileSync(at('proud.bvh')), tempo);
+  }
 });
 
 test('a clip that no style changes is saved as it was, byte for byte', async () => {
