@@ -139,7 +139,7 @@ test('small screens: nothing overlaps or is scrolled sideways, and the view keep
           const word = document.createRange();
           word.selectNodeContents(e);
           const box = (e.tagName === 'SPAN' ? word : e).getBoundingClientRect();
-          return [e.id || e.textContent, box];
+          return [e.id || e.textContent, box, e];
         });
       const out = [];
       boxes.forEach(([a, p], i) => boxes.slice(i + 1).forEach(([b, q]) => {
@@ -151,7 +151,9 @@ test('small screens: nothing overlaps or is scrolled sideways, and the view keep
         .filter((e) => e.checkVisibility() && e.scrollWidth > e.clientWidth + 1 &&
           ['auto', 'scroll'].includes(getComputedStyle(e).overflowX))
         .map((e) => e.id || e.className);
-      const outside = boxes.filter(([, box]) => box.left < -0.5 || box.right > innerWidth + 0.5);
+      // The bar ends where the panel begins.
+      const end = (e) => (e.closest('.bar') ?? document.body).getBoundingClientRect().right;
+      const outside = boxes.filter(([, box, e]) => box.left < -0.5 || box.right > end(e) + 0.5);
       const view = document.querySelector('#view').getBoundingClientRect();
       return { wide: document.documentElement.scrollWidth, overlaps: out, sideways,
         outside: outside.map(([name]) => name),
