@@ -217,6 +217,12 @@ test('a whole clip gets the tempo of its style', () => {
   assert.equal(old.contacts.length, 2 * old.frameCount);
   assert.notDeepEqual(old.rotations.slice(-4 * joints.length),
     clip.rotations.slice(-4 * joints.length));
+  // Nobody steps in this clip, so only 'all' changes its time.
+  for (const [styleTiming, changes] of [['steps', false], ['all', true], ['off', false],
+    [true, false], [false, false]]) {
+    const { sourceFrames } = panache.stylizeClip(made, clip, { old: 1 }, { styleTiming });
+    assert.equal(sourceFrames.some((frame, i) => frame !== i), changes, String(styleTiming));
+  }
   made.free();
 });
 
@@ -288,6 +294,10 @@ test('what is no skeleton, strength, key or file is rejected with what was found
     [undefined, "strength of 'old': expected a number or keys [seconds, strength], found nothing"],
     [[[0]], "strength of 'old': key 0: expected 2 finite numbers (seconds, strength), found [0]"]]) {
     rejected.push([() => panache.stylizeClip(made, clip, { old: strength }), message]);
+  }
+  for (const [styleTiming, found] of [['fast', "'fast'"], [2, '2'], [null, 'nothing']]) {
+    rejected.push([() => panache.stylizeClip(made, clip, { old: 1 }, { styleTiming }),
+      `styleTiming: expected 'steps', 'all', 'off', true or false, found ${found}`]);
   }
   const character = panache.createCharacter(made);
   for (const [strength, found] of [[undefined, 'nothing'], ['1', "'1'"], [NaN, 'NaN']]) {

@@ -1,7 +1,7 @@
 // Styling poses of the caller's own: panache.h for JavaScript. See index.d.ts.
 import {
   PanacheError, checkClip, checkFinite, checkInteger, checkJoints, checkKeys, checkPose, inUse,
-  unexpected,
+  timingNumber, unexpected,
 } from './checks.js';
 import { struct } from './memory.js';
 
@@ -179,7 +179,8 @@ function writeTrack(arena, panache, name, strength) {
 
 export function stylizeClip(panache, skeleton, clip, strengths, options) {
   const wasm = panache._wasm;
-  const { shape, ...told } = optionsOf({ ...kStylizing, styleTiming: true, shape: {} }, options);
+  const { shape, styleTiming, ...told } = optionsOf(
+    { ...kStylizing, styleTiming: 'steps', shape: {} }, options);
   const joints = skeleton.jointCount;
   const frameCount = checkClip(clip, joints);
   const styled = panache._arena((arena) => {
@@ -190,7 +191,8 @@ export function stylizeClip(panache, skeleton, clip, strengths, options) {
     const tracks = Object.entries(strengths).map(
       ([name, strength]) => writeTrack(arena, panache, name, strength));
     const how = arena.write(kStylizeOptions, {
-      size: kStylizeOptions.size, ...told, shape: writeShape(arena, shape),
+      size: kStylizeOptions.size, ...told, styleTiming: timingNumber(styleTiming, 'styleTiming'),
+      shape: writeShape(arena, shape),
     });
     const list = arena.array(kTrack, tracks);
     return arena.create((out) => wasm.panache_stylize_clip(

@@ -32,6 +32,12 @@ export function checkInteger(value, what) {
   if (Number.isInteger(value)) return value;
   throw unexpected(what, 'a whole number', value);
 }
+// As style_timing in panache.h.
+export function timingNumber(timing, what) {
+  const number = new Map([['off', 0], ['steps', 1], ['all', 2], [false, 0], [true, 1]]).get(timing);
+  if (number !== undefined) return number;
+  throw unexpected(what, "'steps', 'all', 'off', true or false", timing);
+}
 function checkNumbers(list, count, what, names) {
   const found = Array.isArray(list) || ArrayBuffer.isView(list) ? list.length : undefined;
   if (found === count && Array.prototype.every.call(list, Number.isFinite)) return;

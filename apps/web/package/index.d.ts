@@ -126,9 +126,12 @@ export interface CharacterOptions extends StylizingOptions {
   /** Leave out or repeat whole cycles to stay within them; false. */
   skipCycles?: boolean;
 }
+/** Where a motion gets the tempo of its styles: where the feet step, so that talk and gestures keep
+ * their length; everywhere; or nowhere, frame by frame. */
+export type Timing = 'steps' | 'all' | 'off';
 export interface StylizeOptions extends StylizingOptions {
-  /** The clip gets the tempo of the style; true. */
-  styleTiming?: boolean;
+  /** Where the clip gets the tempo of the style; 'steps'. true is 'steps', false 'off'. */
+  styleTiming?: Timing | boolean;
   shape?: Partial<Shape>;
 }
 
@@ -285,11 +288,13 @@ declare class Player {
   setStrength(style: string, strength: number): void;
   /** What is left out is 1. Eased in. */
   setShape(shape: Partial<Shape>): void;
+  /** 'steps' at first; the motion goes on. */
+  setTiming(timing: Timing): void;
   /** Goes on by so many seconds, at most a tenth at once. */
   step(seconds: number): void;
   /** Steps a copy so often with the present pose, to see how long that takes. */
   measure(count: number): void;
-  /** Input seconds per output second that the style asks for. */
+  /** Input seconds per output second: the tempo of the style, 1 where the timing is off. */
   readonly rate: number;
   /** How much of the styles' answer to this very motion is given: 1 where they know a motion like
    * it, 0 where they do not and give no more than their mean posture. */
@@ -327,4 +332,6 @@ export class Playback extends Player {
   setTrack(style: string, keys: readonly (readonly [seconds: number, strength: number])[]): void;
   set loop(loop: boolean);
   readonly seconds: number;
+  /** The frame of the file that plays first, from 0; those before it are a calibration pose. */
+  readonly firstFrame: number;
 }

@@ -2,7 +2,9 @@
 // promises.
 
 import { Character, Skeleton, stylizeClip, writeShape } from './character.js';
-import { PanacheError, checkBytes, checkFinite, checkKeys, inUse } from './checks.js';
+import {
+  PanacheError, checkBytes, checkFinite, checkKeys, inUse, timingNumber,
+} from './checks.js';
 import { Arena } from './memory.js';
 
 const kHumanJoints = 21;
@@ -263,6 +265,9 @@ class Player {
     this.#panache._arena((arena) => arena.check(
       this._wasm.panache_page_player_set_shape(this._player, writeShape(arena, shape))));
   }
+  setTiming(timing) {
+    this._wasm.panache_page_player_set_timing(this._player, timingNumber(timing, 'timing'));
+  }
   step(seconds) { this._wasm.panache_page_player_step(this._player, seconds); }
   measure(count) { this._wasm.panache_page_player_measure(this._player, count); }
 
@@ -336,4 +341,5 @@ export class Playback extends Player {
   setTrack(style, keys) { this._setTrack(style, keys); }
   set loop(loop) { this._wasm.panache_page_player_loop(this._player, loop ? 1 : 0); }
   get seconds() { return this._wasm.panache_page_player_seconds(this._player); }
+  get firstFrame() { return this._wasm.panache_page_player_first_frame(this._player); }
 }

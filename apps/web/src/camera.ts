@@ -3,20 +3,22 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 
-import { humanJoints } from '../package/index.js';
-
 export const kAngles = ['face', 'front', 'side', 'top', 'orbit'] as const;
 export type Angle = (typeof kAngles)[number];
 
+// Both the lean of a style and the swing of its arms and legs are seen from there.
+const kThreeQuarters = Math.PI / 4;
 /** From ahead of the body to its left, and up from the ground, radians. */
 const kPlaces: Record<Angle, [number, number]> = {
-  face: [0.5, 0.14], front: [0, 0.05], side: [Math.PI / 2, 0.05], top: [0, 1.42],
-  orbit: [0.5, 0.14],
+  face: [kThreeQuarters, 0.14], front: [0, 0.05], side: [Math.PI / 2, 0.05], top: [0, 1.42],
+  orbit: [kThreeQuarters, 0.14],
 };
-const kNearest = 1.5, kFarthest = 12;
+const kNearest = 1.5, kFarthest = 12;  // Metres, for a person.
 const kLag = 0.14;          // Seconds behind the body.
-const kOverTheTop = 0.22;   // Metres from the highest joint to the end of a head or hand.
-const kRoom = 1.42;         // Of the view, for a body.
+const kRoom = 1.42;         // Of the view, for the height of a body: words lie over its edges.
+const kEdge = 1.1;          // Of the view, at least, in every direction.
+const kSlimmest = 0.52;     // Width to height of a view that a person always fits in.
+const kTan = Math.tan(THREE.MathUtils.degToRad(15));  // Of half the angle of view.
 const kOrbitSpeed = 4;      // Turns in four minutes.
 
 const reduced = matchMedia('(prefers-reduced-motion: reduce)');
@@ -25,7 +27,8 @@ export class Camera {
   readonly camera = new THREE.PerspectiveCamera(30, 1, 0.1, 80);
   readonly followed = new THREE.Vector3();
   #controls: OrbitControls;
-  #height = 1.6;
+  #middle = new THREE.Vector3(0, 0.8, 0);  // Of what is looked at, from the place that is followed.
+  #width = kSlimmest;  // Width to height of the view that it needs.
 
   constructor(canvas: HTMLCanvasElement) {
     this.#controls = new OrbitControls(this.camera, canvas);
@@ -36,29 +39,57 @@ export class Camera {
     });
   }
 
-  /** Looks at a body from an angle that it keeps, from as far as all of it needs. */
-  look(angle: Angle, parts: Float32Array) {
-    let top = 0.3;
-    for (let j = 0; j < humanJoints.length; ++j) top = Math.max(top, parts[7 * j + 1]);
-    this.#height = top + kOverTheTop;
+  /** Looks from an angle, which it keeps, at what is in a box of the world, from as far as all of it
+   * needs. `parts` tell where the body is and where it faces. */
+  look(angle: Angle, parts: Float32Array, box: THREE.Box3) {
     const facing = new THREE.Vector3(0, 0, 1)
       .applyQuaternion(new THREE.Quaternion().fromArray(parts, 3));
     const [left, up] = kPlaces[angle];
     const ahead = Math.atan2(facing.x, facing.z) + left;
-    const distance = (kRoom * this.#height) / 2 / Math.tan(THREE.MathUtils.degToRad(15));
+    const from = new THREE.Vector3(
+      Math.sin(ahead) * Math.cos(up), Math.sin(up), Math.cos(ahead) * Math.cos(up));
+    const distance = this.#fit(box, from);
     this.followed.set(parts[0], 0, parts[2]);
+    box.getCenter(this.#middle).sub(this.followed);
     this.#aim();
-    this.camera.position.copy(this.#controls.target).add(new THREE.Vector3(
-      Math.sin(ahead) * Math.cos(up), Math.sin(up), Math.cos(ahead) * Math.cos(up))
-      .multiplyScalar(distance));
+    this.camera.position.copy(this.#controls.target).addScaledVector(from, distance);
     this.#controls.autoRotate = angle === 'orbit' && !reduced.matches;
     this.#controls.update();
+  }
+
+  /** How far away all of a box is seen, where the view is wide enough. */
+  #fit(box: THREE.Box3, from: THREE.Vector3): number {
+    const half = box.getSize(new THREE.Vector3()).multiplyScalar(0.5);
+    const around = Math.hypot(half.x, half.z);
+    const right = new THREE.Vector3(0, 1, 0).cross(from).normalize();
+    const over = from.clone().cross(right);
+    let distance = Math.max((kRoom * half.y) / kTan, 1.5 * around);
+    for (let corner = 0; corner < 8; ++corner) {
+      const place = new THREE.Vector3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1)
+        .multiply(half);
+      distance = Math.max(distance,
+        place.dot(from) + (kEdge * Math.abs(place.dot(over))) / kTan);
+    }
+    // From whatever side: it is dragged about.
+    this.#width = Math.max(kSlimmest,
+      (kEdge * around) / Math.sqrt(distance ** 2 - around ** 2) / kTan);
+    this.#controls.minDistance = Math.min(kNearest, distance / 3);
+    this.#controls.maxDistance = Math.max(kFarthest, 2 * distance);
+    this.camera.near = Math.min(0.1, distance / 30);
+    this.camera.far = Math.max(80, 6 * distance);
+    return distance;
+  }
+
+  /** Of a view of this aspect: a narrow one steps back, so that all still fits in. */
+  zoomFor(aspect: number) {
+    return Math.min(1, aspect / this.#width);
   }
 
   /** Sees its own body as `other` sees its. */
   takeAngle(other: Camera) {
     const from = other.camera.position.clone().sub(other.#controls.target);
-    this.#height = other.#height;
+    this.#middle.copy(other.#middle);
+    this.#width = other.#width;
     this.#aim();
     this.camera.position.copy(this.#controls.target).add(from);
     this.#controls.autoRotate = false;
@@ -81,6 +112,6 @@ export class Camera {
   }
 
   #aim() {
-    this.#controls.target.set(this.followed.x, this.#height / 2, this.followed.z);
+    this.#controls.target.copy(this.followed).add(this.#middle);
   }
 }

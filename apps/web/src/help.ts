@@ -9,10 +9,10 @@ const kKeys: [string, string][] = [
   ['F', 'face the character and fit it in'],
   ['1 2 3 4', 'front, side, top, orbit'],
   [', and .', 'one frame back, one frame on'],
-  ['I and O', 'play from here, play to here'],
-  ['K', 'a key: the strength of a style at this moment of a clip'],
-  ['Arrows, Delete (on a key)', 'move it, with Shift by ten frames; remove it'],
-  ['N', 'poses of the last second (onion skin)'],
+  ['I and O', 'loop start, loop end: play from here, to here'],
+  ['K', 'a keyframe: the strength of a style at this moment of a clip'],
+  ['Arrows, Delete (on a keyframe)', 'move it, with Shift by ten frames; remove it'],
+  ['N', 'poses of the last second'],
   ['0', 'no style'],
   ['Ctrl Z, Ctrl Shift Z', 'undo, redo'],
   ['?', 'this page'],
@@ -29,13 +29,13 @@ export function buildHelp(): HTMLDialogElement {
     element('p', {}, 'Move a slider: the same motion in another style, computed in this browser. ' +
       'Drag the view to look around, scroll to come nearer. Drop a motion or a character ' +
       '(BVH, GLB, glTF, VRM, VRMA) on the view and style it; a motion and a character together ' +
-      'are put together. Save the result as BVH, GLB or VRMA, or all opened files as one zip, ' +
+      'are put together, and a character alone walks. Save the result as BVH, GLB or VRMA, or all opened files as one zip, ' +
       'the view as a picture (PNG), a film (WebM) or a loop (GIF). ' +
       'Nothing is uploaded.'),
     element('p', {}, 'Learn a style: give a clip of an action as it is and one of the same action ' +
       'in the style, from files or recorded from the view; a slider for it appears. Save it as a ' +
       'style file (.safetensors), and drop that, or a model, on the view to open it again. ' +
-      'Keys, beside the time line of a clip, change the strength of a style over time.'),
+      'Keyframes, beside the time line of a clip, change the strength of a style over time.'),
     list, close);
   close.addEventListener('click', () => dialog.close());
   find('main').append(dialog);

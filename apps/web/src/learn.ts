@@ -229,9 +229,9 @@ export class Learn {
         'that it goes with.'),
       ...report.warnings.map((text) => element('p', { class: 'warning' }, text)),
       element('p', { class: 'hint' }, heldBackCm === null
-        ? 'Too short to hold a quarter back, so the error is unknown.'
-        : `${capitalized(verdict ?? '')}: joints ${cm(heldBackCm)} cm off on the held-back quarter ` +
-          `(mean posture alone ` +
+        ? 'Too short to keep a part for checking, so the error is unknown.'
+        : `${capitalized(verdict ?? '')}: joints ${cm(heldBackCm)} cm off on the last quarter, ` +
+          'which was kept for checking (its mean posture alone ' +
           `${cm(meanPostureCm)}, no style ${cm(untouchedCm)}).`),
       save);
     this.#report.hidden = false;

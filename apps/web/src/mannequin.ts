@@ -4,12 +4,12 @@
 import * as THREE from 'three';
 
 import { humanJoints, type Body } from '../package/index.js';
+import { boxAround } from './measure';
+import { Translucency } from './translucency';
 
 export interface Look {
   body: THREE.ColorRepresentation;
   accent: THREE.ColorRepresentation;
-  /** 1 is solid. */
-  opacity: number;
 }
 
 const kNumbers = 7;
@@ -62,17 +62,16 @@ const kFragment = `
 export class Mannequin {
   readonly mesh: THREE.SkinnedMesh;
   #bones: THREE.Bone[];
+  #translucency: Translucency;
 
   constructor(geometry: THREE.BufferGeometry, body: Body, look: Look) {
-    const solid = look.opacity === 1;
     const material = new THREE.ShaderMaterial({
       vertexShader: kVertex, fragmentShader: kFragment,
       uniforms: {
         body: { value: new THREE.Color(look.body) },
         accentColour: { value: new THREE.Color(look.accent) },
-        opacity: { value: look.opacity },
+        opacity: { value: 1 },
       },
-      transparent: !solid, depthWrite: solid,
     });
     this.mesh = new THREE.SkinnedMesh(geometry, material);
     this.#bones = humanJoints.map(() => new THREE.Bone());
@@ -84,7 +83,8 @@ export class Mannequin {
     this.mesh.bind(new THREE.Skeleton(this.#bones, inverses), new THREE.Matrix4());
     this.mesh.bindMode = THREE.DetachedBindMode;
     this.mesh.frustumCulled = false;
-    this.mesh.castShadow = solid;
+    this.mesh.castShadow = true;
+    this.#translucency = new Translucency([this.mesh]);
   }
 
   /** Takes the pose that Player.parts() gives, moved by `shift`. */
@@ -98,8 +98,19 @@ export class Mannequin {
     });
   }
 
+  get object() {
+    return this.mesh;
+  }
+  get box() {
+    return boxAround([this.mesh]);
+  }
+  set opacity(opacity: number) {
+    this.#translucency.opacity = opacity;
+  }
+
   /** The geometry stays: others may use it. */
   free() {
+    this.#translucency.free();
     this.mesh.removeFromParent();
     (this.mesh.material as THREE.Material).dispose();
     this.mesh.skeleton.dispose();

@@ -1,12 +1,12 @@
 // Everything that is set by hand: presets, styles, the pad, how much, and of which part.
 
-import type { Style } from '../package/index.js';
+import type { Style, Timing } from '../package/index.js';
 import { button, element, find } from './dom';
 import { capitalized } from './groups';
 import { buildPad } from './pad';
 import { kCorners, kPresets } from './presets';
 import {
-  kAmounts, kDefaults, kRegions, type Region, type Settings, type Store, type View,
+  kAmounts, kDefaults, kRegions, kTempos, type Region, type Settings, type Store, type View,
 } from './settings';
 import { Slider } from './slider';
 import { StyleRows, type StyleEvents } from './style_rows';
@@ -25,6 +25,11 @@ const kRegionHints: Record<Region, string> = {
   torso: 'Style the torso and the head, or not',
   leftArm: 'Style the left arm, or not',
   rightArm: 'Style the right arm, or not',
+};
+const kTempoTitles: Record<Timing, [string, string]> = {
+  steps: ['Steps', 'The tempo of the style where the feet step; talk and gestures keep their length'],
+  all: ['All', 'The tempo of the style everywhere'],
+  off: ['Off', 'The time of the input, frame by frame'],
 };
 const kViewTitles: Record<View, string> = {
   styled: 'Styled', side: 'Side by side', over: 'Overlaid',
@@ -94,11 +99,13 @@ export function buildPanel(store: Store, styles: readonly Style[], events: Style
     learn: { button: HTMLElement; section: HTMLElement }): Panel {
   const regions = kRegions.map((key) => toggle(kRegionTitles[key], kRegionHints[key],
     (s) => s[key], store, (s) => ({ [key]: !s[key] })));
+  const tempos = kTempos.map((tempo) => toggle(...kTempoTitles[tempo], (s) => s.tempo === tempo,
+    store, () => ({ tempo })));
   const feet = toggle('Feet lock', 'Planted feet stay in place', (s) => s.feet, store,
     (s) => ({ feet: !s.feet }));
   const trail = toggle('Foot trails', 'Paths of the toes', (s) => s.trail, store,
     (s) => ({ trail: !s.trail }));
-  const onion = toggle('Onion skin', 'Poses of the last second (N)', (s) => s.onion, store,
+  const onion = toggle('Past poses', 'Poses of the last second (N)', (s) => s.onion, store,
     (s) => ({ onion: !s.onion }));
   const rows = new StyleRows(store, events);
   const chips = presets(store), found = search(rows);
@@ -122,6 +129,8 @@ export function buildPanel(store: Store, styles: readonly Style[], events: Style
     found.field, found.none, rows.element,
     element('h2', {}, 'Blend of four'), pad.element,
     element('h2', {}, 'Amount'), ...amountSliders(store),
+    element('div', { class: 'chips', id: 'tempo', role: 'group', 'aria-label': 'Tempo of the style' },
+      element('span', { class: 'word' }, 'Tempo of the style'), ...tempos),
     element('h2', {}, 'Body parts'),
     element('div', { class: 'chips', role: 'group', 'aria-label': 'Body parts' },
       ...regions),

@@ -1,7 +1,7 @@
 // Motions in all formats that the page writes, for one zip.
 
 import { PanacheError, type MotionFile, type Panache, type Playback, type Walk } from '../package/index.js';
-import { openFile, titleOf } from './source';
+import { openMoving, titleOf } from './source';
 
 const kFormats = ['.bvh', '.glb', '.vrma'];
 
@@ -39,7 +39,7 @@ export async function addFiles(out: Exports, panache: Panache, files: File[],
   for (const file of files) {
     await new Promise((next) => setTimeout(next));  // The page goes on in between.
     try {
-      addFile(out, (await openFile(panache, file)).file, prepare, nameOf);
+      addFile(out, (await openMoving(panache, file)).file, prepare, nameOf);
     } catch (error) {
       if (!(error instanceof PanacheError)) throw error;
       failed.push(error.message);

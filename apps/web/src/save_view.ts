@@ -1,5 +1,6 @@
 // What is seen, as a picture, a film or a loop.
 
+import { attempt } from './alerts';
 import { button } from './dom';
 import { kLongest, kLoopStep, makeLoop, type LoopMotion } from './loop';
 import { Film, saveBytes } from './saving';
@@ -15,12 +16,62 @@ export interface ViewSaving {
   /** Of the file with this extension. */
   nameOf(extension: string): string;
   motion(): LoopMotion;
-  /** Tells what is wrong with an action. */
-  attempt(action: () => Promise<void> | void): Promise<void>;
 }
 
-export function buildViewSaving({ stage, nameOf, motion, attempt }: ViewSaving): HTMLElement[] {
-  const picture = button('PNG', () => askSize({
+export interface ViewSavers {
+  /** Each saves the view in another way. */
+  savers: HTMLElement[];
+  /** Seen while a film or a loop is being made, which they end. */
+  stoppers: HTMLElement[];
+}
+
+function filmSaver({ stage, nameOf }: ViewSaving) {
+  const film = new Film(stage.canvas);
+  const stop = button('Stop recording', () => {
+    film.stop();
+    record.disabled = !(stop.hidden = true);
+  }, { id: 'stop-webm', class: 'running', hidden: true });
+  const record = button('Video (WebM)', () => {
+    film.start(nameOf('.webm'));
+    record.disabled = !(stop.hidden = false);
+  }, { id: 'save-webm', title: 'Record a video of the view, until Stop recording is pressed' });
+  record.hidden = !Film.possible;
+  return { record, stop };
+}
+
+function loopSaver({ stage, nameOf, motion }: ViewSaving) {
+  const stop = button('Stop GIF', () => show(false),
+    { id: 'stop-gif', class: 'running', hidden: true });
+  const show = (making: boolean) => {
+    stop.hidden = !making;
+    loop.disabled = making;
+  };
+  const make = async (width: number, height: number) => {
+    const name = nameOf('.gif');
+    show(true);
+    try {
+      const bytes = await makeLoop(stage, motion(), width, height, (share) => {
+        stop.textContent = `Stop GIF, ${Math.round(100 * share)} %`;
+        return !stop.hidden;
+      });
+      if (bytes) saveBytes(bytes as BlobPart, name, 'image/gif');
+    } finally {
+      show(false);
+    }
+  };
+  const loop = button('Loop (GIF)', () => askSize({
+    title: 'Save a loop of the view', action: 'Save loop', sizes: kLoops,
+    largest: kLargestLoop, seen: stage.seen,
+    hint: 'An animated GIF: one cycle of the motion, or what is between the loop start and the ' +
+      `loop end of a clip, ${Math.round(1 / kLoopStep)} frames a second, ${kLongest} s at most.`,
+    save: (width, height) => attempt(() => make(width, height)),
+  }), { id: 'save-gif', title: 'Save a loop of the view as an animated GIF' });
+  return { loop, stop };
+}
+
+export function buildViewSaving(saving: ViewSaving): ViewSavers {
+  const { stage, nameOf } = saving;
+  const picture = button('Picture (PNG)', () => askSize({
     title: 'Save the view as a picture', action: 'Save picture', sizes: kPictures,
     largest: stage.largestPicture, seen: stage.seen,
     save: async (width, height) => {
@@ -28,48 +79,6 @@ export function buildViewSaving({ stage, nameOf, motion, attempt }: ViewSaving):
       if (blob) saveBytes(blob, nameOf('.png'), 'image/png');
     },
   }), { id: 'save-png', title: 'Save the view as a picture' });
-
-  const film = new Film(stage.canvas);
-  const record = button('WebM', () => {
-    if (film.running) film.stop();
-    else film.start(nameOf('.webm'));
-    record.setAttribute('aria-pressed', String(film.running));
-    record.textContent = film.running ? 'Stop recording' : 'WebM';
-  }, { id: 'save-webm', title: 'Record a video of the view; press again to stop' });
-  record.hidden = !Film.possible;
-
-  let making = false;
-  const show = (text: string) => {
-    loop.setAttribute('aria-pressed', String(making));
-    loop.textContent = text;
-  };
-  const make = async (width: number, height: number) => {
-    const name = nameOf('.gif');
-    making = true;
-    show('Stop GIF');
-    try {
-      const bytes = await makeLoop(stage, motion(), width, height, (share) => {
-        if (making) show(`Stop GIF, ${Math.round(100 * share)} %`);
-        return making;
-      });
-      if (bytes) saveBytes(bytes as BlobPart, name, 'image/gif');
-    } finally {
-      making = false;
-      show('GIF');
-    }
-  };
-  const loop = button('GIF', () => {
-    if (making) {
-      making = false;
-      return;
-    }
-    askSize({
-      title: 'Save a loop of the view', action: 'Save loop', sizes: kLoops,
-      largest: kLargestLoop, seen: stage.seen,
-      hint: 'An animated GIF: one cycle of the motion, or what is between the in and the out point ' +
-        `of a clip, ${Math.round(1 / kLoopStep)} frames a second, ${kLongest} s at most.`,
-      save: (width, height) => attempt(() => make(width, height)),
-    });
-  }, { id: 'save-gif', title: 'Save a loop of the view as an animated GIF' });
-  return [picture, record, loop];
+  const film = filmSaver(saving), loop = loopSaver(saving);
+  return { savers: [picture, film.record, loop.loop], stoppers: [film.stop, loop.stop] };
 }

@@ -1,6 +1,6 @@
 // Everything that a person can set, and its way into the address bar and back.
 
-import type { Shape } from '../package/index.js';
+import type { Shape, Timing } from '../package/index.js';
 import { fromText, toText, type Key } from './keys';
 
 export const kLeast = -0.5;
@@ -8,6 +8,7 @@ export const kMost = 2;
 
 export const kRegions = ['legs', 'torso', 'leftArm', 'rightArm'] as const;
 export const kAmounts = ['strength', 'posture', 'dynamics', 'timing'] as const;
+export const kTempos = ['steps', 'all', 'off'] as const satisfies readonly Timing[];
 export const kViews = ['styled', 'side', 'over'] as const;
 export type Region = (typeof kRegions)[number];
 export type Amount = (typeof kAmounts)[number];
@@ -22,6 +23,8 @@ export interface Settings {
   posture: number;
   dynamics: number;
   timing: number;
+  /** Where the motion gets the tempo of its styles. */
+  tempo: Timing;
   legs: boolean;
   torso: boolean;
   leftArm: boolean;
@@ -36,7 +39,7 @@ export interface Settings {
 export const kDefaults: Readonly<Settings> = {
   styles: {},
   keys: {},
-  strength: 1, posture: 1, dynamics: 1, timing: 1,
+  strength: 1, posture: 1, dynamics: 1, timing: 1, tempo: 'steps',
   legs: true, torso: true, leftArm: true, rightArm: true, feet: true,
   view: 'side',
   trail: true,
@@ -70,6 +73,7 @@ export function toAddress(settings: Settings): string {
   for (const key of kSwitches) {
     if (settings[key] !== kDefaults[key]) out.set(key, settings[key] ? 'on' : 'off');
   }
+  if (settings.tempo !== kDefaults.tempo) out.set('tempo', settings.tempo);
   if (settings.view !== kDefaults.view) out.set('view', settings.view);
   return out.toString() || 'neutral';
 }
@@ -104,7 +108,9 @@ export function fromAddress(text: string, styles: readonly string[]): Settings {
       }
     } else if (key === 'view' && kViews.includes(value as View)) {
       settings.view = value as View;
-    } else if (key !== 'view' && styles.includes(key)) {
+    } else if (key === 'tempo' && kTempos.includes(value as Timing)) {
+      settings.tempo = value as Timing;
+    } else if (key !== 'view' && key !== 'tempo' && styles.includes(key)) {
       setStyle(key);
     } else if (key.endsWith('.keys') && styles.includes(key.slice(0, -5))) {
       setKeys(key.slice(0, -5));

@@ -5,6 +5,8 @@ import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
 import { clone } from 'three/examples/jsm/utils/SkeletonUtils.js';
 
 import type { MotionFile, Playback } from '../package/index.js';
+import { boxAround } from './measure';
+import { Translucency } from './translucency';
 
 /** Names from the top down to a thing; those of equals are numbered in order. */
 function pathsOf(parents: number[], names: string[]): Map<string, number> {
@@ -32,6 +34,8 @@ export class SkinnedCharacter {
   #scene: THREE.Object3D;
   #moved: Moved[] = [];
   #joints: number;
+  #meshes: THREE.Mesh[] = [];
+  #translucency = new Translucency(this.#meshes);
 
   constructor(scene: THREE.Object3D, file: MotionFile, player: Playback) {
     this.#scene = scene;
@@ -60,8 +64,11 @@ export class SkinnedCharacter {
     scene.position.y = -floor;
     this.group.traverse((node) => {
       node.frustumCulled = false;
-      if (node instanceof THREE.Mesh) node.castShadow = true;
+      if (!(node instanceof THREE.Mesh)) return;
+      node.castShadow = true;
+      this.#meshes.push(node);
     });
+    this.opacity = 1;
   }
 
   /** Whether the joints of the library were found among the nodes that three.js made. */
@@ -77,7 +84,24 @@ export class SkinnedCharacter {
     this.group.position.copy(shift);
   }
 
+  get object() {
+    return this.group;
+  }
+  /** Around all that the joints move; what else is in the file, such as a floor, does not count. */
+  get box() {
+    this.group.updateMatrixWorld(true);
+    const joints = new Set(this.#moved.map(({ node }) => node));
+    const isMoved = (node: THREE.Object3D | null): boolean =>
+      node !== null && (joints.has(node) || isMoved(node.parent));
+    return boxAround(this.#meshes.filter((mesh) =>
+      mesh.visible && (mesh instanceof THREE.SkinnedMesh || isMoved(mesh))));
+  }
+  set opacity(opacity: number) {
+    this.#translucency.opacity = opacity;
+  }
+
   free() {
+    this.#translucency.free();
     this.group.removeFromParent();
     this.#scene.traverse((node) => {
       if (node instanceof THREE.Mesh) node.geometry.dispose();

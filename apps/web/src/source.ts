@@ -3,6 +3,7 @@
 import type { MotionFile, Panache, Playback, Walk } from '../package/index.js';
 import { PanacheError } from '../package/index.js';
 import { loadSkinned, type SkinnedCharacter } from './skinned';
+import { kPaces } from './steering';
 
 const kLargestFile = 256 << 20;  // Bytes; a page has about four times that to work in.
 
@@ -41,6 +42,55 @@ export async function openFile(panache: Panache, file: File, fps = rates.get(fil
     if (!(given > 0)) throw error;
     return open(given);
   }
+}
+
+const kWalkSeconds = 12;  // Of the walk that a character without motion gets.
+const kSettle = 3;        // Seconds until the walker has her pace.
+
+/** Whether a file has no motion of a humanoid; one frame is none. */
+const isStill = ({ clips }: MotionFile) => !clips.some(({ moves, frames }) => moves && frames > 1);
+
+/** The walker's walk as a file. */
+function walkFile(panache: Panache): MotionFile {
+  const walker = panache.createWalker();
+  try {
+    walker.steer(kPaces.walk.speed, kPaces.walk.turn);
+    for (let t = 0; t < kSettle + kWalkSeconds; t += 1 / 60) walker.step(1 / 60);
+    const bytes = walker.exportAs('.bvh', { which: 'input', seconds: kWalkSeconds });
+    return panache.openFile(bytes, 'walk.bvh');
+  } finally {
+    walker.free();
+  }
+}
+
+/** Of characters without motion: with the walk on them. */
+const walking = new WeakMap<File, File>();
+
+/** What openFile() gives, and where the file is a character without motion, the same with the
+ * walker's walk on it: `from` has that motion, and `notes` say so. */
+export async function openMoving(panache: Panache, from: File, fps?: number):
+    Promise<{ file: MotionFile; bytes: ArrayBuffer; from: File; notes: readonly string[] }> {
+  const known = walking.get(from);
+  if (known) return { ...await openFile(panache, known, fps), from: known, notes: [] };
+  const opened = await openFile(panache, from, fps);
+  const { file } = opened, { notes } = file;
+  const asItIs = { ...opened, from, notes };
+  if (!isStill(file) || file.extension === '.vrma') return asItIs;
+  try {
+    const walk = walkFile(panache);
+    try {
+      walking.set(from, new File([walk.putOn(file) as BlobPart], from.name));
+    } finally {
+      walk.free();
+    }
+  } catch (error) {
+    if (!(error instanceof PanacheError)) throw error;
+    return { ...asItIs, notes: [...notes, error.message] };
+  }
+  file.free();
+  return { ...await openMoving(panache, from, fps), notes: [...notes,
+    `${from.name} has no motion of its own, so the walker's walk is put on it; ` +
+    'open a motion together with it to use that one instead'] };
 }
 
 /** The first motion of the humanoid. Rejects a file that has motions, and none of it. */

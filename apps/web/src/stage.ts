@@ -10,16 +10,21 @@ import { Ground } from './ground';
 import { bodyGeometry, Mannequin } from './mannequin';
 import { Marks } from './marks';
 import type { View } from './settings';
-import type { SkinnedCharacter } from './skinned';
 import type { Source } from './source';
 
 const kInputLayer = 1, kStyledLayer = 2;
 const kAboveBody = 0.16;      // Of the view: free above a body that is fitted in.
 const kMaxDown = 0.08;        // Of the view.
+const kGhost = 0.4;           // Opacity of the input over the output.
 const kOnions = 3;            // Poses before this one.
 const kOnionSeconds = 0.3;    // Between them.
 
 interface Body {
+  readonly object: THREE.Object3D;
+  /** Around its meshes as they stand, in the world. */
+  readonly box: THREE.Box3;
+  /** 1 is solid. */
+  opacity: number;
   pose(numbers: Float32Array, shift: THREE.Vector3): void;
   free(): void;
 }
@@ -56,7 +61,6 @@ export class Stage {
   #ground: Ground;
   #marks = new Marks();
   #bodies: { input: Body; styled: Body; skinned: boolean } | null = null;
-  #ghost: Mannequin | null = null;
   #inputPlace = new THREE.Vector3();
   #styledPlace = new THREE.Vector3();
   #inputFeet: THREE.Vector3[] = [];
@@ -109,50 +113,51 @@ export class Stage {
     this.#marks.paint(colour('accent'));
   }
 
-  /** Shows the bodies of another player: its own meshes where it has some, else mannequins. */
-  show(player: Walk | Playback, own: [SkinnedCharacter, SkinnedCharacter] | null) {
+  /** Shows the bodies of another source: its own meshes where it has some, else mannequins. */
+  show(source: Source) {
+    const { player, own } = source;
     this.#bodies?.input.free();
     this.#bodies?.styled.free();
-    this.#ghost?.free();
     for (const onion of this.#onions) onion.free();
     this.#geometry?.dispose();
-    const input = { body: '#a9b9cc', accent: '#4d6480' };
     const body = this.#fast ? player.body : player.coarseBody;
     const geometry = (this.#geometry = bodyGeometry(body));
     const place = (object: THREE.Object3D, layer: number) => {
       this.#onLayer(object, layer);
       this.#scene.add(object);
     };
-    this.#ghost = new Mannequin(geometry, body, { ...input, opacity: 0.36 });
-    place(this.#ghost.mesh, kInputLayer);
+    const inputLook = { body: '#a9b9cc', accent: '#4d6480' };
     const styledLook = { body: '#efe6d8', accent: '#d9622b' };
-    this.#onions = Array.from({ length: kOnions }, (_, i) => new Mannequin(geometry, body,
-      { ...styledLook, opacity: 0.4 - 0.1 * i }));
-    for (const onion of this.#onions) place(onion.mesh, kStyledLayer);
-    if (own) {
-      this.#bodies = { input: own[0], styled: own[1], skinned: true };
-      place(own[0].group, kInputLayer);
-      place(own[1].group, kStyledLayer);
-    } else {
-      const solid = new Mannequin(geometry, body, { ...input, opacity: 1 });
-      const styled = new Mannequin(geometry, body, { ...styledLook, opacity: 1 });
-      this.#bodies = { input: solid, styled, skinned: false };
-      place(solid.mesh, kInputLayer);
-      place(styled.mesh, kStyledLayer);
-    }
+    this.#onions = Array.from({ length: kOnions }, () => new Mannequin(geometry, body, styledLook));
+    this.#onions.forEach((onion, i) => {
+      place(onion.mesh, kStyledLayer);
+      onion.opacity = 0.4 - 0.1 * i;
+    });
+    const [input, styled] = own ?? [new Mannequin(geometry, body, inputLook),
+      new Mannequin(geometry, body, styledLook)];
+    this.#bodies = { input, styled, skinned: own !== null };
+    place(input.object, kInputLayer);
+    place(styled.object, kStyledLayer);
     this.#marks.clear();
     this.#past = [];
+    this.update(source, true, 0);
     this.look('face', player);
   }
 
-  /** Turns the camera: it faces the body and fits it, or stands at its side, over it, .... */
+  /** Turns the camera: it faces what is seen and fits it in, or stands at its side, over it, .... */
   look(angle: Angle, player: Walk | Playback) {
-    this.#camera.look(angle, player.parts('styled'));
+    if (!this.#bodies) return;
+    const { input, styled } = this.#bodies;
+    const box = styled.box;
+    if (this.view !== 'styled') {
+      box.union(input.box.translate(this.#styledPlace.clone().sub(this.#inputPlace)));
+    }
+    this.#camera.look(angle, player.parts('styled'), box);
   }
 
   /** Brings the player's last step into view. */
-  update(player: Walk | Playback, joints: number, cut: boolean, seconds: number) {
-    if (!this.#bodies || !this.#ghost) return;
+  update({ player, joints }: Source, cut: boolean, seconds: number) {
+    if (!this.#bodies) return;
     if (cut) this.#marks.clear();
     const input = player.parts('input').slice(), styled = player.parts('styled').slice();
     const here = groundUnder(styled);
@@ -160,7 +165,6 @@ export class Stage {
     // Where both are seen at once, the input walks where the output does.
     const beside = here.clone().sub(groundUnder(input));
     const inputShift = this.view === 'over' ? beside : still;
-    this.#ghost.pose(input, inputShift);
     if (this.#bodies.skinned) {
       this.#bodies.input.pose(player.pose('input', joints).slice(), inputShift);
       this.#bodies.styled.pose(player.pose('styled', joints).slice(), still);
@@ -237,18 +241,18 @@ export class Stage {
     const out = new Stage(document.createElement('canvas'), true);
     out.view = this.view;
     out.trail = false;
-    out.show(source.player, source.own);
+    out.show(source);
     out.#camera.takeAngle(this.#camera);
     return out;
   }
   /** One picture of a loop in which the bodies go `way`: x and z of each that is seen, metres; none
    * where it does not close. `share` of it is over. */
-  drawStill({ player, joints }: Source, width: number, height: number, way: readonly number[],
+  drawStill(source: Source, width: number, height: number, way: readonly number[],
       share: number) {
     const [input, styled] = [way.slice(0, 2), way.slice(-2)].map(([x = 0, z = 0]) =>
       new THREE.Vector2(x, z));
     this.#loops = { input, styled, share };
-    this.update(player, joints, true, 0);
+    this.update(source, true, 0);
     this.#drawAt(width, height);
   }
   free() {
@@ -294,8 +298,7 @@ export class Stage {
       middle: THREE.Vector3) {
     const { height } = this.#size;
     camera.setViewOffset(width, height, 0, -this.#down, width, height);
-    // A narrow view steps back, so that a person still fits in.
-    camera.zoom = Math.min(1, camera.aspect / 0.52);
+    camera.zoom = this.#camera.zoomFor(camera.aspect);
     camera.updateProjectionMatrix();
     camera.layers.set(0);
     for (const layer of layers) camera.layers.enable(layer);
@@ -306,13 +309,7 @@ export class Stage {
     }
     this.#sun.position.set(middle.x + 1.6, 4.2, middle.z + 2);
     this.#sun.target.position.set(middle.x, 0.6, middle.z);
-    if (this.#ghost && this.#bodies) {
-      const over = layers.length > 1;
-      this.#ghost.mesh.visible = over;
-      const input = this.#bodies.input;
-      const solid = input instanceof Mannequin ? input.mesh : (input as SkinnedCharacter).group;
-      solid.visible = !over;
-    }
+    if (this.#bodies) this.#bodies.input.opacity = layers.length > 1 ? kGhost : 1;
     this.#renderer.setViewport(left, 0, width, height);
     this.#renderer.setScissor(left, 0, width, height);
     this.#renderer.setScissorTest(true);

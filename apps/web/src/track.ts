@@ -19,8 +19,8 @@ export interface TrackEvents {
 
 export class Track {
   readonly toggle = element('button', { type: 'button', id: 'show-keys', 'aria-pressed': 'false',
-    title: 'Strength over time' }, 'Keys');
-  #styles = element('select', { id: 'key-style', 'aria-label': 'Style of the keys' });
+    title: 'Strength of a style over time' }, 'Keyframes');
+  #styles = element('select', { id: 'key-style', 'aria-label': 'Style of the keyframes' });
   #field = element('div', { class: 'key-field', role: 'group' });
   #line = document.createElementNS('http://www.w3.org/2000/svg', 'polyline');
   #zero = element('i', { class: 'zero' });
@@ -40,10 +40,10 @@ export class Track {
     picture.append(this.#line);
     this.#zero.style.top = `${this.#down(0)}%`;
     this.#field.append(picture, this.#zero, this.#head);
-    const add = button('Add key', () => this.add(),
-      { id: 'add-key', title: 'A key here, with the strength that the style has (K)' });
+    const add = button('Add keyframe', () => this.add(),
+      { id: 'add-key', title: 'A keyframe here, with the strength that the style has (K)' });
     const clear = button('Clear', () => this.#set([]),
-      { id: 'clear-keys', title: 'Remove all keys of this style' });
+      { id: 'clear-keys', title: 'Remove all keyframes of this style' });
     find('#keys').append(this.#styles, this.#field, add, clear);
     this.#styles.addEventListener('change', () => this.#show());
     this.toggle.addEventListener('click', () => this.open(find('#keys').hidden));
@@ -113,7 +113,7 @@ export class Track {
     if (find('#keys').hidden) return;
     const { keys } = this;
     this.#field.setAttribute('aria-label',
-      `Keys of ${this.style}: click to add one, Delete removes the one that has the focus`);
+      `Keyframes of ${this.style}: click to add one, Delete removes the one that has the focus`);
     const points: Key[] = keys.length
       ? [[0, keys[0][1]], ...keys, [this.#seconds, strengthAt(keys, this.#seconds)]]
       : [[0, this.events.strength(this.style)], [this.#seconds, this.events.strength(this.style)]];
@@ -128,7 +128,7 @@ export class Track {
       key.style.left = `${this.#across(seconds)}%`;
       key.style.top = `${this.#down(strength)}%`;
       key.setAttribute('aria-label',
-        `Key of ${this.style} at ${seconds.toFixed(2)} seconds: ${strength.toFixed(2)}`);
+        `Keyframe of ${this.style} at ${seconds.toFixed(2)} seconds: ${strength.toFixed(2)}`);
     });
   }
 

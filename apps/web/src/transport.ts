@@ -2,6 +2,7 @@
 
 import type { MotionFile } from '../package/index.js';
 import { button, element, find, hinted } from './dom';
+import type { Source } from './source';
 
 const kSpeeds = [0.25, 0.5, 1, 1.5, 2];
 
@@ -11,12 +12,20 @@ export interface Transport {
   speed: number;
 }
 
+/** The frame at this time, from 1 to `frames`; `first` is the one that plays first, from 0. */
+export function frameAt(seconds: number, frameTime: number, first: number, frames: number): number {
+  const frame = frameTime > 0 ? Math.round(seconds / frameTime) : 0;
+  return Math.max(1, Math.min(frames, first + frame + 1));
+}
+
 /** "0:04.2" */
 export function clock(seconds: number): string {
   const tenths = Math.round(seconds * 10);
   const rest = (tenths % 600) / 10;
   return `${Math.floor(tenths / 600)}:${rest < 10 ? '0' : ''}${rest.toFixed(1)}`;
 }
+
+type Clip = Source & { kind: 'clip' };
 
 export interface TransportEvents {
   onSeek(seconds: number): void;
@@ -33,13 +42,16 @@ export class TransportBar {
   #play = element('button', { type: 'button', id: 'play' });
   #scrub = element('input', { type: 'range', id: 'scrub', min: 0, max: 1, step: 0.001,
     'aria-label': 'Time in the clip' });
-  #time = element('output', { 'aria-live': 'off' });
+  #time = element('span', { class: 'seconds' });
+  #frameNow = element('span', { id: 'frame' });
   #clips = element('select', { id: 'clips', 'aria-label': 'Motion of the file' });
   #rate = element('input', { type: 'number', id: 'fps', min: 0.01, max: 10000, step: 'any',
     ...hinted('Frames a second of the file; empty: its own rate') });
-  #range = element('span', { class: 'range', title: 'From the in point to the out point' });
+  #range = element('span', { class: 'range', title: 'From the loop start to the loop end' });
   #loop = element('button', { type: 'button', id: 'loop', 'aria-pressed': 'true' }, 'Loop');
   #seconds = 0;
+  /** "73 / 180" */
+  #frame: (seconds: number) => string = () => '';
   #now = 0;
   #in = 0;
   #out: number | null = null;
@@ -47,19 +59,23 @@ export class TransportBar {
   constructor(private events: TransportEvents) {
     const speed = element('select', { id: 'speed', 'aria-label': 'Speed' },
       ...kSpeeds.map((s) => element('option', { value: s, selected: s === 1 }, `${s}×`)));
-    find('#clip-controls').append(
+    const row = (name: string, ...parts: HTMLElement[]) =>
+      find('#clip-controls').append(element('div', { class: name }, ...parts));
+    row('time-row',
       button('‹', () => this.events.onStep(-1),
         { id: 'back-frame', ...hinted('One frame back (comma)') }),
       this.#play,
       button('›', () => this.events.onStep(1),
         { id: 'next-frame', ...hinted('One frame on (full stop)') }),
-      element('span', { class: 'track' }, this.#scrub, this.#range), this.#time,
-      button('In', () => this.setIn(),
-        { id: 'in', ...hinted('Begin here (I); again at the same place: at the beginning') }),
-      button('Out', () => this.setOut(),
-        { id: 'out', ...hinted('End here (O); again at the same place: at the end') }),
+      element('span', { class: 'track' }, this.#scrub, this.#range),
+      element('output', { 'aria-live': 'off' }, this.#time, this.#frameNow));
+    row('clip-row',
+      button('Loop start', () => this.setIn(), { id: 'in',
+        title: 'Begin here (I); again at the same place: at the beginning' }),
+      button('Loop end', () => this.setOut(), { id: 'out',
+        title: 'End here (O); again at the same place: at the end' }),
       this.#clips, this.#loop, speed,
-      element('label', { class: 'word', for: 'fps' }, 'fps'), this.#rate);
+      element('label', { class: 'word rate', for: 'fps' }, 'fps'), this.#rate);
     this.#play.addEventListener('click', () => this.setPlaying(!this.state.playing));
     this.#scrub.addEventListener('input', () => {
       this.events.onSeek(Number(this.#scrub.value) * this.#seconds);
@@ -111,8 +127,32 @@ export class TransportBar {
     this.#play.textContent = playing ? 'Pause' : 'Play';
   }
 
-  show(file: MotionFile, clip: number) {
-    this.#seconds = file.clips[clip]?.seconds ?? 0;
+  /** Goes on by so many seconds where it plays, from the loop start to the loop end; the seconds of
+   * motion that passed, and whether what is seen has nothing to do with what was. */
+  play({ file, clip, player }: Clip, seconds: number): { passed: number; cut: boolean } {
+    const { playing, speed, loop } = this.state;
+    const before = player.seconds;
+    // Paused too: what is set is seen when the clip goes on, or is scrubbed.
+    player.step(playing ? seconds * speed : 0);
+    let cut = player.seconds < before;
+    const [begin, end] = this.range;
+    const whole = end >= file.clips[clip]?.seconds;
+    if (playing && (player.seconds < begin || (loop && !whole && player.seconds >= end))) {
+      player.seek(begin);
+      cut = true;
+    } else if (playing && !loop && player.seconds >= end) {
+      this.setPlaying(false);
+    }
+    this.at(player.seconds);
+    return { passed: playing ? seconds * speed : 0, cut };
+  }
+
+  show({ file, clip, player }: Clip) {
+    const { seconds, frames, frameTime } = file.clips[clip] ??
+      { seconds: 0, frames: 1, frameTime: 0 };
+    this.#seconds = seconds;
+    const first = player.firstFrame;
+    this.#frame = (now) => `${frameAt(now, frameTime, first, frames)} / ${frames}`;
     this.#clips.replaceChildren(...file.clips.flatMap(({ name, moves }, i) => (moves
       ? [element('option', { value: i, selected: i === clip }, name || `motion ${i + 1}`)] : [])));
     this.#clips.hidden = this.#clips.childElementCount < 2;
@@ -130,8 +170,12 @@ export class TransportBar {
     const share = this.#seconds > 0 ? seconds / this.#seconds : 0;
     this.#scrub.value = String(share);
     this.#scrub.style.setProperty('--to', String(share));
-    this.#scrub.setAttribute('aria-valuetext', `${seconds.toFixed(1)} seconds`);
-    const text = `${clock(seconds)} / ${clock(this.#seconds)}`;
-    if (this.#time.textContent !== text) this.#time.textContent = text;
+    const frame = this.#frame(seconds);
+    this.#scrub.setAttribute('aria-valuetext', `${seconds.toFixed(1)} seconds, frame ${frame}`);
+    const show = (place: HTMLElement, text: string) => {
+      if (place.textContent !== text) place.textContent = text;
+    };
+    show(this.#time, `${clock(seconds)} / ${clock(this.#seconds)}`);
+    show(this.#frameNow, `frame ${frame}`);
   }
 }

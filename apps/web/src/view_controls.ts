@@ -18,7 +18,7 @@ export function buildViewControls(on: ViewActions) {
     on.onLook(menu.value as Angle);
     menu.blur();
   });
-  const compare = button('Hold: input', () => {},
+  const compare = button('Show input (hold)', () => {},
     { id: 'compare', ...hinted('Hold to see the input alone (X)') });
   compare.addEventListener('pointerdown', () => on.onCompare(true));
   for (const end of ['pointerup', 'pointerleave', 'pointercancel']) {

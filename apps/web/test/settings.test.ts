@@ -14,18 +14,20 @@ describe('the address', () => {
   it('brings back whatever was set', () => {
     const set = {
       ...kDefaults, styles: { old: 1.25, proud: -0.5 }, strength: 0.5, posture: 0, timing: 2,
+      tempo: 'all' as const,
       legs: false, feet: false, trail: false, view: 'over' as const,
     };
     expect(fromAddress(`#${toAddress(set)}`, kStyles)).toEqual(set);
   });
   it('is believed as far as it makes sense', () => {
-    const settings = fromAddress('#old=9&proud=x&angry=1&posture=&legs=maybe&view=up', kStyles);
+    const settings = fromAddress('#old=9&proud=x&angry=1&posture=&legs=maybe&tempo=fast&view=up',
+      kStyles);
     expect(settings).toEqual({ ...kDefaults, styles: { old: 2 } });
   });
 });
 
 describe('a style that is called as a setting is', () => {
-  const names = ['view', 'legs', 'strength', 'posture', 'trail', 'neutral', 'old', 'old.keys',
+  const names = ['view', 'tempo', 'legs', 'strength', 'posture', 'trail', 'neutral', 'old', 'old.keys',
     'style.old', 'keys.old', 'a=b&c#%', '__proto_'];
   it('has a link of its own, and leaves the setting alone', () => {
     for (const name of names) {

@@ -135,6 +135,10 @@ PANACHE_EXPORT panache_status panache_page_player_set_shape(Player* player,
   player->shape() = *read;
   return PANACHE_OK;
 }
+// `timing` as style_timing in panache.h.
+PANACHE_EXPORT void panache_page_player_set_timing(Player* player, int32_t timing) {
+  player->set_timing(static_cast<Timing>(timing));
+}
 PANACHE_EXPORT void panache_page_player_step(Player* player, double seconds) {
   player->step(seconds);
 }
@@ -142,7 +146,7 @@ PANACHE_EXPORT void panache_page_player_measure(Player* player, int32_t count) {
   player->measure(count);
 }
 
-// The four below do nothing, or give 0, where the source is of the other kind.
+// The five below do nothing, or give 0, where the source is of the other kind.
 PANACHE_EXPORT void panache_page_player_steer(Player* player, float speed, float turn) {
   if (auto* walk = dynamic_cast<WalkerSource*>(&player->source())) walk->steer(speed, turn);
 }
@@ -156,8 +160,12 @@ PANACHE_EXPORT double panache_page_player_seconds(Player* player) {
   auto* clip = dynamic_cast<ClipSource*>(&player->source());
   return clip ? clip->seconds() : 0;
 }
+PANACHE_EXPORT int32_t panache_page_player_first_frame(Player* player) {
+  auto* clip = dynamic_cast<ClipSource*>(&player->source());
+  return clip ? clip->first_frame() : 0;
+}
 
-PANACHE_EXPORT double panache_page_player_rate(Player* player) { return player->stylizer().rate(); }
+PANACHE_EXPORT double panache_page_player_rate(Player* player) { return player->rate(); }
 PANACHE_EXPORT float panache_page_player_gate(Player* player) { return player->stylizer().gate(); }
 PANACHE_EXPORT float panache_page_player_contact(Player* player, int32_t foot) {
   return player->stylizer().contacts()[static_cast<size_t>(foot)];

@@ -1,6 +1,7 @@
 #include "player.h"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "format_clip.h"
 #include "rig/rig_body.h"
@@ -63,8 +64,25 @@ void Player::set_track(int style, std::vector<StrengthTrack::Point> points) {
   tracks_[static_cast<size_t>(style)] = {style, std::move(points)};
 }
 
+Result<Stylizer> Player::make_stylizer(std::shared_ptr<const Model> model) const {
+  StylizerOptions options;
+  options.tempo_everywhere = timing_ == Timing::all;
+  return Stylizer::create(std::move(model), source_->rig(), options);
+}
+
+void Player::set_timing(Timing timing) {
+  if (timing == timing_) return;
+  timing_ = timing;
+  std::vector<std::byte> state(stylizer_.state_size());
+  stylizer_.save(state);
+  // The same model and rig as before, which suit each other.
+  stylizer_ = *make_stylizer(model_);
+  stylizer_.restore(state);
+  twin_ = stylizer_;
+}
+
 Result<void> Player::use_model(std::shared_ptr<const Model> model) {
-  Result<Stylizer> stylizer = Stylizer::create(model, source_->rig());
+  Result<Stylizer> stylizer = make_stylizer(model);
   if (!stylizer) return stylizer.error();
   model_ = std::move(model);
   stylizer_ = *std::move(stylizer);
@@ -109,7 +127,7 @@ void Player::step(double seconds) {
   stylizer_.set_shape(shape_);
   read_strengths();
   stylizer_.step(input(), strengths_now_, input_seconds, seconds, out);
-  rate_ = stylizer_.rate();
+  rate_ = timing_ == Timing::off ? 1 : stylizer_.rate();
   put_numbers(input(), in_numbers_);
   put_numbers(out, out_numbers_);
   in_mannequin_.read(input(), in_parts_);
@@ -150,6 +168,8 @@ Result<std::string> Player::export_as(const std::string& extension,
   }
   RestyleOptions options;
   if (styled) options.stylizer.shape = shape_;
+  options.timing = timing_ != Timing::off;
+  options.stylizer.tempo_everywhere = timing_ == Timing::all;
   Result<Restyled> restyled =
       restyle(source_->clip(), source_->rig(), model_,
               styled ? file_tracks() : std::vector<StrengthTrack>(), options);

@@ -21,6 +21,10 @@ struct Placement {
   float scale, floor;  // Metres per file unit; metres.
 };
 
+// Where a motion takes the tempo of its styles: nowhere, where the feet step, or everywhere. As
+// style_timing in panache.h.
+enum class Timing { off = 0, steps = 1, all = 2 };
+
 class Player {
  public:
   static Result<std::unique_ptr<Player>> create(std::shared_ptr<const Model> model,
@@ -32,8 +36,12 @@ class Player {
   // Without points it is the constant one again.
   void set_track(int style, std::vector<StrengthTrack::Point> points);
   Shape& shape() { return shape_; }
+  // From the next step on; the motion goes on. Timing::steps at first.
+  void set_timing(Timing timing);
   Source& source() { return *source_; }
   const Stylizer& stylizer() const { return stylizer_; }
+  // Input seconds per output second.
+  double rate() const { return rate_; }
 
   // Goes on with another model: strengths are 0, without tracks. Fails where the rig does not suit.
   Result<void> use_model(std::shared_ptr<const Model> model);
@@ -62,6 +70,8 @@ class Player {
 
  private:
   Player(std::shared_ptr<const Model> model, Stylizer stylizer, std::unique_ptr<Source> source);
+  // A stylizer of the model and timing in force, which has seen nothing yet.
+  Result<Stylizer> make_stylizer(std::shared_ptr<const Model> model) const;
   ConstPose input() const { return {in_rotations_, in_translations_}; }
   // The strengths at this instant, in strengths_now_.
   void read_strengths();
@@ -77,6 +87,7 @@ class Player {
   std::vector<float> strengths_, strengths_now_;  // [styles]
   std::vector<StrengthTrack> tracks_;             // [styles], most without points.
   Shape shape_;
+  Timing timing_ = Timing::steps;
   double rate_ = 1;
   std::vector<Quat> in_rotations_, out_rotations_, twin_rotations_;           // [joints]
   std::vector<Vec3> in_translations_, out_translations_, twin_translations_;  // [joints]

@@ -58,6 +58,7 @@ class ClipSource final : public Source {
   double seconds() const { return head_; }
   double begin() const { return first_ * clip().frame_time; }    // Of the first frame, in the file.
   double duration() const { return last_ * clip().frame_time; }  // From first to last frame.
+  int first_frame() const { return first_; }  // Of the file's frames; those before it do not play.
   const MotionFile& file() const { return *file_; }
   int which() const { return which_; }
 

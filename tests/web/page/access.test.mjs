@@ -90,14 +90,14 @@ test('all of it can be done with the keyboard, and one sees where one is', async
     if (!at) break;
     assert.ok(at.visible, at.name);
     seen.add(at.name);
-    if (/^Ages/.test(at.name)) await tab.keyboard.press('Enter');
+    if (/^Ages|^save$/.test(at.name)) await tab.keyboard.press('Enter');
     if (at.name === 'style-old') {
       await tab.keyboard.press('ArrowRight');
       assert.equal(await tab.locator('#style-old').inputValue(), '0.01');
       await tab.keyboard.press('End');
     }
   }
-  for (const name of ['Styled', 'Walk', 'open', 'save-bvh', 'style-old', 'pad', 'amount-timing',
+  for (const name of ['Styled', 'Walk', 'open', 'save', 'save-bvh', 'copy-link', 'style-old', 'pad', 'amount-timing',
     'Legs', 'Feet lock']) {
     assert.ok(seen.has(name), name);
   }
@@ -139,7 +139,7 @@ test('small screens: nothing overlaps or is scrolled sideways, and the view keep
           const word = document.createRange();
           word.selectNodeContents(e);
           const box = (e.tagName === 'SPAN' ? word : e).getBoundingClientRect();
-          return [e.id || e.textContent, box];
+          return [e.id || e.textContent, box, e];
         });
       const out = [];
       boxes.forEach(([a, p], i) => boxes.slice(i + 1).forEach(([b, q]) => {
@@ -151,7 +151,9 @@ test('small screens: nothing overlaps or is scrolled sideways, and the view keep
         .filter((e) => e.checkVisibility() && e.scrollWidth > e.clientWidth + 1 &&
           ['auto', 'scroll'].includes(getComputedStyle(e).overflowX))
         .map((e) => e.id || e.className);
-      const outside = boxes.filter(([, box]) => box.left < -0.5 || box.right > innerWidth + 0.5);
+      // The bar ends where the panel begins.
+      const end = (e) => (e.closest('.bar') ?? document.body).getBoundingClientRect().right;
+      const outside = boxes.filter(([, box, e]) => box.left < -0.5 || box.right > end(e) + 0.5);
       const view = document.querySelector('#view').getBoundingClientRect();
       return { wide: document.documentElement.scrollWidth, overlaps: out, sideways,
         outside: outside.map(([name]) => name),

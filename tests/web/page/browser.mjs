@@ -172,6 +172,12 @@ export async function download(tab, press) {
   return { name: file.suggestedFilename(), bytes: await readFile(await file.path()) };
 }
 
+/** Chooses from the menu Save: 'bvh', 'png', .... */
+export async function chooseSave(tab, what) {
+  await tab.locator('#save').click();
+  await tab.locator(`#save-${what.toLowerCase()}`).click();
+}
+
 /** A double click at a place of the page. */
 export async function doubleClick(tab, x, y) {
   if (!isFirefox) return tab.mouse.dblclick(x, y);
@@ -197,7 +203,7 @@ export function styledParts(tab) {
 export async function listen(tab) {
   await tab.evaluate(() => {
     const player = window.page.source.player, told = { strengths: {} };
-    const { setStrength, setShape } = player;
+    const { setStrength, setShape, setTiming } = player;
     player.setStrength = (name, value) => {
       told.strengths[name] = value;
       setStrength.call(player, name, value);
@@ -205,6 +211,10 @@ export async function listen(tab) {
     player.setShape = (shape) => {
       told.shape = shape;
       setShape.call(player, shape);
+    };
+    player.setTiming = (timing) => {
+      told.timing = timing;
+      setTiming.call(player, timing);
     };
     player.steer &&= ((steer) => (speed, turn) => {
       told.steer = { speed, turn };

@@ -6,7 +6,9 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { download, drop as dropFiles, frames, models, start, unfold } from './browser.mjs';
+import {
+  chooseSave, download, drop as dropFiles, frames, models, start, unfold,
+} from './browser.mjs';
 
 const program = process.env.PANACHE_PROGRAM;
 const folder = mkdtempSync(join(tmpdir(), 'panache-page-'));
@@ -42,9 +44,10 @@ const drop = (name) => dropFiles(tab, '#view', [[name, readFileSync(at(name))]])
 /** What the page called the files that it saved. */
 const saved = [];
 
-/** Presses a button that saves a file, and puts that beside the others. */
+/** Saves a format of the menu, or presses a button that saves, and puts the file beside the others. */
 async function save(name, extension) {
-  const { name: title, bytes } = await download(tab, () => button(name).click());
+  const { name: title, bytes } = await download(tab, () => (
+    ['BVH', 'GLB'].includes(name) ? chooseSave(tab, name) : button(name).click()));
   const path = at(`saved${extension}`);
   saved.push(title);
   writeFileSync(path, bytes);
@@ -75,7 +78,7 @@ test('a dropped BVH plays, pauses, is scrubbed and loops', async () => {
   await button('Loop').click();
 });
 
-test('a clip goes frame by frame, and from an in point to an out point', async () => {
+test('a clip goes frame by frame, and from the loop start to the loop end', async () => {
   await button('Pause').click();
   const seconds = () => tab.evaluate(() => window.page.source.player.seconds);
   const seek = async (share) => {
@@ -87,6 +90,8 @@ test('a clip goes frame by frame, and from an in point to an out point', async (
   await tab.keyboard.press('.');
   await frames(tab, 2);
   assert.ok(Math.abs((await seconds()) - (frame + 1) / 60) < 1e-6);
+  // Frames count from 1.
+  assert.equal(await tab.locator('#frame').textContent(), `frame ${frame + 2} / 180`);
   await tab.keyboard.press(',');
   await tab.keyboard.press(',');
   await frames(tab, 2);
@@ -126,12 +131,12 @@ test('what is saved reads back: BVH, GLB, a picture and a film', async () => {
     assert.notEqual(kept, 180);  // Who is proud takes another time for the same way.
   }
   const picture = await (async () => {
-    await button('PNG').click();
+    await chooseSave(tab, 'png');
     return readFileSync(await save('Save picture', '.png'));
   })();
   assert.equal(picture.subarray(1, 4).toString(), 'PNG');
   assert.ok(picture.length > 5000, `${picture.length}`);
-  await button('WebM').click();
+  await chooseSave(tab, 'webm');
   await tab.waitForTimeout(1200);
   const film = statSync(await save('Stop recording', '.webm'));
   assert.ok(film.size > 2000, `${film.size}`);
@@ -162,7 +167,7 @@ const steps = (bytes) => tab.evaluate(async (text) => {
 
 test('a loop is saved: a cycle of the clip whose end leads to its beginning, or a part of it', async () => {
   const saveLoop = async () => {
-    await button('GIF').click();
+    await chooseSave(tab, 'gif');
     await tab.getByLabel('Width, pixels').fill('150');
     await tab.getByLabel('Height, pixels').fill('200');
     const begin = await tab.evaluate(() => window.page.frames);
@@ -211,8 +216,12 @@ test('a loop is saved: a cycle of the clip whose end leads to its beginning, or 
 
 test('a clip that is saved is what the program makes of it, byte for byte', async () => {
   const model = join(models, 'panache-int8.safetensors');
-  panache('stylize', 'walk.bvh', '--model', model, '--style', 'proud=1', '-o', 'proud.bvh');
-  assert.deepEqual(readFileSync(await save('BVH', '.bvh')), readFileSync(at('proud.bvh')));
+  for (const tempo of ['all', 'off', 'steps']) {
+    await tab.evaluate((wanted) => window.page.set({ tempo: wanted }), tempo);
+    panache('stylize', 'walk.bvh', '--model', model, '--style', 'proud=1', '--timing', tempo,
+      '-o', 'proud.bvh');
+    assert.deepEqual(readFileSync(await save('BVH', '.bvh')), readFileSync(at('proud.bvh')), tempo);
+  }
 });
 
 test('a clip that no style changes is saved as it was, byte for byte', async () => {

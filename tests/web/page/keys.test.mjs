@@ -6,7 +6,9 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { doubleClick, download, frames, models, pictures, start, unfold } from './browser.mjs';
+import {
+  chooseSave, doubleClick, download, frames, models, pictures, start, unfold,
+} from './browser.mjs';
 
 const model = join(models, 'panache-int8.safetensors');
 const folder = mkdtempSync(join(tmpdir(), 'panache-page-'));
@@ -36,12 +38,12 @@ const seek = async (share) => {
   await tab.locator('#scrub').fill(String(share));
   await frames(tab, 5);
 };
-const save = (name) => download(tab, () => button(name).click());
+const save = (what) => download(tab, () => chooseSave(tab, what));
 /** What counts as a change of its own for undo. */
 const pause = () => tab.waitForTimeout(550);
 
-test('keys are added, moved and removed with the mouse', async () => {
-  await button('Keys').click();
+test('keyframes are added, moved and removed with the mouse', async () => {
+  await button('Keyframes').click();
   await tab.locator('#key-style').selectOption('old');
   const field = await tab.locator('.key-field').boundingBox();
   const place = (x, strength) =>
@@ -85,7 +87,7 @@ test('keys are added, moved and removed with the mouse', async () => {
   assert.deepEqual(await keys(), []);
 });
 
-test('keys are added, moved and removed with the keyboard', async () => {
+test('keyframes are added, moved and removed with the keyboard', async () => {
   await seek(0.5);
   await tab.locator('#style-old').fill('0.5');
   await tab.locator('#view').focus().catch(() => {});
@@ -109,7 +111,7 @@ test('keys are added, moved and removed with the keyboard', async () => {
   assert.deepEqual(await keys(), [[seconds, strength]]);
 });
 
-test('what is seen follows the keys, and the slider sets one', async () => {
+test('what is seen follows the keyframes, and the slider sets one', async () => {
   await tab.evaluate(() => window.page.set({ styles: {}, keys: { old: [[0, 0], [2, 1]] } }));
   await seek(0.335);
   const now = Number(await tab.locator('#style-old').inputValue());
@@ -132,7 +134,7 @@ test('what is seen follows the keys, and the slider sets one', async () => {
   assert.equal((await keys()).length, 3);
 });
 
-test('what is saved has the keys: the file is what the program makes of the same table', async () => {
+test('what is saved has the keyframes: the file is what the program makes of the same table', async () => {
   await tab.evaluate(() => window.page.set({ keys: { old: [[0.25, 0], [1.5, 1.2], [2, 0.3]] } }));
   writeFileSync(at('keys.csv'), 'seconds,old\n0.25,0\n1.5,1.2\n2,0.3\n');
   panache('stylize', 'walk.bvh', '--model', model, '--strengths', 'keys.csv', '-o', 'keyed.bvh');
@@ -167,7 +169,7 @@ test('a VRMA is what the program converts to', async () => {
 });
 
 test('all opened files come in one zip, each in three formats', async () => {
-  const { name, bytes } = await save('Zip');
+  const { name, bytes } = await save('zip');
   assert.equal(name, '2 motions.zip');
   writeFileSync(at('all.zip'), bytes);
   mkdirSync(at('all'));
@@ -179,10 +181,10 @@ test('all opened files come in one zip, each in three formats', async () => {
 });
 
 test('a picture has the size that was asked for', async () => {
-  await button('PNG').click();
+  await chooseSave(tab, 'png');
   await tab.getByLabel('Width, pixels').fill('640');
   await tab.getByLabel('Height, pixels').fill('900');
-  const { name, bytes } = await save('Save picture');
+  const { name, bytes } = await download(tab, () => button('Save picture').click());
   assert.equal(name, 'walk-old.png');
   assert.equal(bytes.subarray(1, 4).toString(), 'PNG');
   assert.deepEqual([bytes.readUInt32BE(16), bytes.readUInt32BE(20)], [640, 900]);

@@ -1,0 +1,33 @@
+// What the settings mean for what is seen.
+
+import { Playback, type Panache, type Walk } from '../package/index.js';
+import { strengthAt, type Key } from './keys';
+import { shapeOf, type Settings } from './settings';
+import type { Source } from './source';
+
+/** Gives a player strengths, keyframes, shape and timing. */
+export function applySettings(panache: Panache, player: Walk | Playback, settings: Settings) {
+  for (const { name } of panache.styles) {
+    player.setStrength(name, (settings.styles[name] ?? 0) * settings.strength);
+    if (!(player instanceof Playback)) continue;
+    player.setTrack(name, (settings.keys[name] ?? [])
+      .map(([seconds, value]): Key => [seconds, value * settings.strength]));
+  }
+  player.setShape(shapeOf(settings));
+  player.setTiming(settings.tempo);
+}
+
+/** The strengths that keyframes give at the play head. */
+export function keyedNow(source: Source, { keys }: Settings): Record<string, number> {
+  if (source.kind !== 'clip') return {};
+  const { seconds } = source.player;
+  return Object.fromEntries(Object.entries(keys)
+    .map(([name, own]) => [name, strengthAt(own, seconds)]));
+}
+
+/** The names of all styles that change a source. */
+export function activeStyles(source: Source, { styles, keys, strength }: Settings): string[] {
+  const named = Object.keys(styles).filter((name) => styles[name] * strength !== 0);
+  if (source.kind !== 'clip') return named;
+  return [...named, ...Object.keys(keys).filter((name) => !named.includes(name))];
+}
