@@ -102,7 +102,7 @@ class Calibrator {
     };
     const Vec3 rest = at_rest(top) - (at_rest(left_foot) + at_rest(right_foot)) * 0.5f;
     const int k = main_axis(rest);
-    const auto upright = std::ranges::count_if(ways, [&](Vec3 way) {
+    const auto upright = std::count_if(ways.begin(), ways.end(), [&](Vec3 way) {
       return component(way, k) * std::copysign(1.0f, component(rest, k)) > kUpright * length(way);
     });
     const Vec3 mean = (sum / static_cast<double>(ways.size())).as<float>();
