@@ -8,9 +8,9 @@
 #include "clip/fk.h"
 #include "pose/contacts.h"
 #include "pose/foot_lock.h"
+#include "pose/hand_contacts.h"
 #include "retarget/further_joints.h"
 #include "retarget/ground.h"
-#include "retarget/meeting_hands.h"
 #include "retarget/reference_pose.h"
 #include "rig/posed_rig.h"
 
@@ -109,13 +109,25 @@ class Retargeter {
     change.translation = in_size(mid_hip(from)) - mid_hip(body_);
     for (int f = 0; f < kFeet; ++f) frame.toes[f] = in_size(from.joints[index(kToes[f])]);
     if (options_.hands) {
-      HumanPositions joints;
-      changed_joints(body_, change, joints);
       const Vec3 between = from.joints[index(right_hand)] - from.joints[index(left_hand)];
-      meet_hands(body_, between / from_reference_.arm, onto_reference_.arm, joints, change);
+      meet_hands(between / from_reference_.arm, change);
     }
     if (options_.feet) match_heights(body_, frame);
     return frame;
+  }
+
+  // Hands that meet in the motion meet on other arms and shoulders, too; the middle between them
+  // keeps its place. `between`: from the left to the right wrist in the motion, in lengths of an
+  // arm.
+  void meet_hands(Vec3 between, BodyChange& change) const {
+    const float amount = hands_nearness(length(between));
+    if (amount <= 0) return;
+    HumanPositions joints;
+    changed_joints(body_, change, joints);
+    Vec3 left = joints[index(left_hand)], right = joints[index(right_hand)];
+    bring_together(between * onto_reference_.arm, amount, 0.5f, left, right);
+    reach_with_limb(arm_joints(0), left, joints, change);
+    reach_with_limb(arm_joints(1), right, joints, change);
   }
 
   // A torso with other joints than the motion's comes near to its shape at once, and to it in a few

@@ -17,13 +17,16 @@ enum class Stage {
   shape,      // Shaping
   anatomy,    // Anatomy
   balance,    // keep_balance()
+  legs,       // LegsApart
   floor,      // FloorClearance
   fall,       // FreeFall
   stance,     // FootStance
-  feet,       // FootLock
+  feet,       // FootLock and LegsApart
+  hands,      // HandContacts
+  arms,       // ArmsClear
   write,      // PosedRig
 };
-inline constexpr std::array<const char*, 14> kStageNames = {"observe the pose",
+inline constexpr std::array<const char*, 17> kStageNames = {"observe the pose",
                                                             "ease strengths and shape",
                                                             "history and window",
                                                             "networks, heads and gate",
@@ -32,10 +35,13 @@ inline constexpr std::array<const char*, 14> kStageNames = {"observe the pose",
                                                             "shape",
                                                             "keep joints in range",
                                                             "keep the balance",
+                                                            "keep the legs apart",
                                                             "keep above the floor",
                                                             "fall as the input does",
                                                             "keep resting feet level",
                                                             "hold the feet",
+                                                            "keep hands in contact",
+                                                            "keep arms outside",
                                                             "write the pose (rig)"};
 
 // Told when each stage of a step is done, to time them.

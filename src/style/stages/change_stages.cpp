@@ -19,6 +19,10 @@ void ChangeStages::reset() noexcept {
   fall_.reset();
   stance_.reset();
   foot_lock_.reset();
+  legs_.reset();
+  held_legs_.reset();
+  hands_.reset();
+  arms_.reset();
 }
 
 void ChangeStages::step(const AskedChange& asked, const ChangeControl& control,
@@ -44,6 +48,8 @@ void ChangeStages::step(const AskedChange& asked, const ChangeControl& control,
   limit_fold(now.world, joints, change_);
   keep_balance(now.world, joints, change_);
   tell(clock, Stage::balance);
+  legs_.step(now.world, control.amount, {}, time, joints, change_);
+  tell(clock, Stage::legs);
   floor_.step(now.world, joints, control.amount, time, change_);
   tell(clock, Stage::floor);
   fall_.step(control.flight, time, change_);
@@ -67,7 +73,13 @@ void ChangeStages::step(const AskedChange& asked, const ChangeControl& control,
                     {static_cast<float>(time.input), time.output}, change_);
     anatomy_.watch_thighs(now.world, observer.rig(), time, change_);
   }
+  changed_joints(now.world, change_, joints);
+  held_legs_.step(now.world, control.amount, contacts_, time, joints, change_);
   tell(clock, Stage::feet);
+  hands_.step(now.world, control.amount, time, joints, change_);
+  tell(clock, Stage::hands);
+  arms_.step(now.world, control.amount, hands_.holds(), time, joints, change_);
+  tell(clock, Stage::arms);
 }
 
 double ChangeStages::rate(float timing, float flight) const noexcept {

@@ -10,10 +10,13 @@
 #include "style/shape.h"
 #include "style/stage_clock.h"
 #include "style/stages/anatomy.h"
+#include "style/stages/arms_clear.h"
 #include "style/stages/fall.h"
 #include "style/stages/filter.h"
 #include "style/stages/floor.h"
 #include "style/stages/foot_stance.h"
+#include "style/stages/hand_contacts.h"
+#include "style/stages/legs_apart.h"
 #include "style/stages/root_motion.h"
 #include "style/stages/seat.h"
 #include "style/stages/shaping.h"
@@ -52,10 +55,11 @@ class ChangeStages {
             const InputWindow& window, const StepTime& time, StageClock* clock) noexcept;
 
   // At the last step: what is to be done to the input, the probability that each foot is planted,
-  // and input seconds per output second, `timing` of the change's own tempo; 1 in a flight, and
-  // where the feet stand.
+  // the contacts of the hands, and input seconds per output second, `timing` of the change's own
+  // tempo; 1 in a flight, and where the feet stand.
   const BodyChange& change() const noexcept { return change_; }
   std::span<const float, kFeet> contacts() const noexcept { return contacts_; }
+  HandHolds hand_holds() const noexcept { return hands_.holds(); }
   double rate(float timing, float flight) const noexcept;
 
   // Calls visit(member) for everything that tells one character from another.
@@ -73,6 +77,10 @@ class ChangeStages {
     FreeFall::visit_state(self.fall_, visit);
     FootStance::visit_state(self.stance_, visit);
     FootLock::visit_state(self.foot_lock_, visit);
+    LegsApart::visit_state(self.legs_, visit);
+    LegsApart::visit_state(self.held_legs_, visit);
+    HandContacts::visit_state(self.hands_, visit);
+    ArmsClear::visit_state(self.arms_, visit);
   }
 
  private:
@@ -87,6 +95,9 @@ class ChangeStages {
   FreeFall fall_;
   FootStance stance_;
   FootLock foot_lock_;
+  LegsApart legs_, held_legs_;  // Before the feet are held, and after.
+  HandContacts hands_;
+  ArmsClear arms_;
   std::array<float, kFeet> contacts_{};
   BodyChange change_;
 };

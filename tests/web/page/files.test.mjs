@@ -219,7 +219,7 @@ test('a clip that is saved is what the program makes of it, byte for byte', asyn
   for (const tempo of ['all', 'off', 'steps']) {
     await tab.evaluate((wanted) => window.page.set({ tempo: wanted }), tempo);
     panache('stylize', 'walk.bvh', '--model', model, '--style', 'proud=1', '--timing', tempo,
-      '-o', 'proud.bvh');
+      '-o', 'proud.bvh', '--force');
     assert.deepEqual(readFileSync(await save('BVH', '.bvh')), readFileSync(at('proud.bvh')), tempo);
   }
 });

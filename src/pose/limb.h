@@ -1,0 +1,61 @@
+#pragma once
+// An arm or a leg as two straight parts that are moved by where their middle and end go.
+
+#include <algorithm>
+#include <array>
+
+#include "pose/foot_lock.h"
+
+namespace panache {
+
+inline constexpr std::array<HumanJoint, 2> kUpperArms = {HumanJoint::left_upper_arm,
+                                                         HumanJoint::right_upper_arm};
+inline constexpr std::array<HumanJoint, 2> kLowerArms = {HumanJoint::left_lower_arm,
+                                                         HumanJoint::right_lower_arm};
+inline constexpr std::array<HumanJoint, 2> kHands = {HumanJoint::left_hand, HumanJoint::right_hand};
+
+// From the nearest point of the line from `a` to `b`.
+inline Vec3 from_line(Vec3 point, Vec3 a, Vec3 b) noexcept {
+  const Vec3 along = b - a;
+  const float squared = dot(along, along);
+  const float t = squared > 0 ? std::clamp(dot(point - a, along) / squared, 0.0f, 1.0f) : 0.0f;
+  return point - (a + along * t);
+}
+
+// Whether the rig has a head: a missing one carries the position of what it would hang on.
+inline bool has_head(const HumanPositions& joints) noexcept {
+  constexpr float kShortest = 0.01f;  // Metres.
+  return length(joints[index(HumanJoint::head)] - joints[index(HumanJoint::neck)]) > kShortest;
+}
+
+// The joints of a limb, and to which side its middle goes where it is straight.
+struct LimbJoints {
+  int root, middle, end;
+  Vec3 hint;
+};
+inline LimbJoints arm_joints(int side) noexcept {
+  return {index(kUpperArms[side]), index(kLowerArms[side]), index(kHands[side]), {0, -1, -0.5f}};
+}
+inline LimbJoints leg_joints(int side) noexcept {
+  return {index(kUpperLegs[side]), index(kLowerLegs[side]), index(kAnkles[side]), {0, 0, 1}};
+}
+
+// Where elbow or knee, and wrist or ankle are moved; metres, in the space of changed_joints().
+struct LimbMove {
+  Vec3 middle, end;
+  friend constexpr bool operator==(LimbMove, LimbMove) = default;
+};
+
+// Turns a limb of `change` so that its end comes to `target`, as far as it reaches. `bend`: see
+// two_bone_ik(). Hand or foot keeps its rotation. `joints`: changed_joints(), of which it keeps up
+// middle and end, but not what hangs on them.
+void turn_limb(const LimbJoints& limb, Vec3 target, Vec3 bend, HumanPositions& joints,
+               BodyChange& change) noexcept;
+// The same; the middle stays on its side of the limb.
+void reach_with_limb(const LimbJoints& limb, Vec3 target, HumanPositions& joints,
+                     BodyChange& change) noexcept;
+// The same; the middle moves as nearly as it can as `move` says.
+void move_limb(const LimbJoints& limb, const LimbMove& move, HumanPositions& joints,
+               BodyChange& change) noexcept;
+
+}  // namespace panache

@@ -1,0 +1,175 @@
+#include "style/stages/arms_clear.h"
+
+namespace panache {
+namespace {
+
+using enum HumanJoint;
+
+// Radii of the canonical body, metres.
+constexpr float kTorso = 0.115f, kSkull = 0.092f, kForearm = 0.036f;
+// The torso goes from between the hip joints so far towards the middle of the shoulders; the skull
+// so far beyond the head's joint, metres.
+constexpr float kTorsoEnd = 0.85f, kSkullLength = 0.09f;
+// The share of a push that a wrist does not give way by where it is held.
+constexpr float kStays = 0.5f;
+constexpr float kEaseSeconds = 0.05f;
+constexpr int kPasses = 3;
+
+// Along a forearm, from the elbow; beyond 1 is the hand. Up to kElbow it has to be on its own side
+// of the torso; hands go anywhere around it.
+constexpr std::array<float, 5> kArmPoints = {0, 0.33f, 0.67f, 1, 1.3f};
+constexpr float kElbow = 0.5f;
+// An elbow of the input that is this far on its own side counts as being there, metres.
+constexpr float kOwnSide = 0.04f;
+
+struct Capsule {
+  Vec3 from, to;
+  float radius;
+};
+using Trunk = std::array<Capsule, 2>;  // Torso and skull.
+
+Trunk trunk_of(const HumanPositions& joints) {
+  const auto at = [&](HumanJoint joint) { return joints[index(joint)]; };
+  const Vec3 mid = (at(left_upper_leg) + at(right_upper_leg)) * 0.5f;
+  const Vec3 shoulders = (at(left_upper_arm) + at(right_upper_arm)) * 0.5f;
+  const Capsule torso = {mid, lerp(mid, shoulders, kTorsoEnd), kTorso};
+  if (!has_head(joints)) return {torso, torso};
+  const Vec3 up = normalized(at(head) - at(neck));
+  return {torso, Capsule{at(head), at(head) + up * kSkullLength, kSkull}};
+}
+
+// From the right to the left shoulder, unit.
+Vec3 across_shoulders(const HumanPositions& joints) {
+  return normalized(joints[index(left_upper_arm)] - joints[index(right_upper_arm)], {1, 0, 0});
+}
+
+struct ArmPush {
+  LimbMove move;
+  float together = 0;  // Metres: of the wrist on the way of both hands, see Pusher::way_of_both().
+};
+
+class Pusher {
+ public:
+  Pusher(const BodyPose& body, const BodyChange& change, const Trunk& trunk)
+      : body_(body), change_(change), trunk_(trunk) {}
+
+  // Across the torso, from its axis to the middle between the hands in the input: where hands go
+  // that hold each other.
+  Vec3 way_of_both() const {
+    const auto at = [&](HumanJoint joint) { return body_.joints[index(joint)]; };
+    const Capsule torso = trunk_of(body_.joints)[0];
+    const Vec3 up = normalized(torso.to - torso.from);
+    const Vec3 hands = (at(left_hand) + at(right_hand)) * 0.5f - torso.from;
+    const Vec3 ahead = cross(at(left_upper_arm) - at(right_upper_arm), up);
+    return normalized(carried(0, hands - up * dot(hands, up) + ahead * 0.2f));
+  }
+
+  ArmPush push_of(const HumanPositions& joints, int side) const {
+    const LimbJoints arm = arm_joints(side);
+    ArmPush push;
+    const Vec3 middle = lerp(joints[arm.middle], joints[arm.end], kArmPoints.back() / 2);
+    const float half = length(middle - joints[arm.middle]);
+    for (size_t c = 0; c < trunk_.size(); ++c) {
+      const float away = length(from_line(middle, trunk_[c].from, trunk_[c].to));
+      // An elbow may have gone through, and be beyond.
+      if (c > 0 && away > half + trunk_[c].radius + kForearm) continue;
+      for (const float place : kArmPoints) {
+        const Vec3 point = lerp(joints[arm.middle], joints[arm.end], place);
+        const Vec3 way = from_line(point, trunk_[c].from, trunk_[c].to);
+        const float reach = trunk_[c].radius + kForearm;
+        if (c == 0 && place < kElbow) {
+          push_elbow(joints, side, place, way, reach, push.move.middle);
+          continue;
+        }
+        if (!(length(way) < reach)) continue;
+        const Vec3 was = before(arm, place, c);
+        const float kept = std::min(reach, length(was)) - kFreeDepth;
+        const Vec3 go = push_out(way, normalized(carried(c, was)), kept);
+        const float depth = length(go);
+        if (!(depth > 0)) continue;
+        raise_push(push.move.middle, go / depth, depth * std::clamp(2 * (1 - place), 0.0f, 1.0f));
+        raise_push(push.move.end, go / depth, depth);
+        // That way may be long where the nearest way out is short.
+        if (c > 0) continue;
+        push.together =
+            std::max(push.together, std::min(push_across(way, way_of_both(), kept), 2 * depth));
+      }
+    }
+    return push;
+  }
+
+ private:
+  // Across the shoulders, to where it is in the input.
+  void push_elbow(const HumanPositions& joints, int side, float place, Vec3 way, float reach,
+                  Vec3& push) const {
+    const float left = side == 0 ? 1.0f : -1.0f;
+    const Vec3 out = across_shoulders(joints) * left;
+    if (!(push_across(way, out, reach) > 0)) return;
+    const Vec3 was = before(arm_joints(side), place, 0);
+    const float own = dot(was, across_shoulders(body_.joints)) * left;
+    const float kept = (std::min(reach, length(was)) - kFreeDepth) * smooth_step(own / kOwnSide);
+    if (kept > 0) raise_push(push, out, push_across(way, out, kept));
+  }
+  // From a capsule to a point of a forearm in the input, world.
+  Vec3 before(const LimbJoints& arm, float place, size_t capsule) const {
+    const Capsule was = trunk_of(body_.joints)[capsule];
+    const Vec3 point = lerp(body_.joints[arm.middle], body_.joints[arm.end], place);
+    return from_line(point, was.from, was.to);
+  }
+
+  // What a way from a capsule in the input, world, is with the change.
+  Vec3 carried(size_t capsule, Vec3 way) const {
+    const Quat turn = change_.rotations[index(capsule == 0 ? chest : head)];
+    return rotate(turn, rotate(rotation_y(-body_.facing), way));
+  }
+
+  const BodyPose& body_;
+  const BodyChange& change_;
+  const Trunk& trunk_;
+};
+
+}  // namespace
+
+void ArmsClear::step(const BodyPose& body, float amount, const HandHolds& holds,
+                     const StepTime& time, HumanPositions& joints, BodyChange& change) noexcept {
+  if (!(amount > 0)) return reset();
+  const Trunk trunk = trunk_of(joints);
+  const Pusher pusher(body, change, trunk);
+  HumanPositions moved = joints;
+  BodyChange scratch;
+  bool pushed = false;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    std::array<ArmPush, 2> pushes = {pusher.push_of(moved, 0), pusher.push_of(moved, 1)};
+    if (pushes[0].move == LimbMove{} && pushes[1].move == LimbMove{}) break;
+    pushed = true;
+    const Vec3 both = pusher.way_of_both() * std::max(pushes[0].together, pushes[1].together);
+    for (int side = 0; side < 2; ++side) {
+      const LimbJoints arm = arm_joints(side);
+      LimbMove push = pushes[side].move;
+      push.end = lerp(push.end, both, holds.together);
+      const float held = std::max(holds.by_body[side], holds.by_body[1 - side] * holds.together);
+      push.end *= 1 - kStays * held;
+      // An elbow swivels by as much as it is bent; the rest is up to the whole arm.
+      const float bent = length(from_line(moved[arm.middle], moved[arm.root], moved[arm.end]));
+      const float far = length(push.middle);
+      if (far > 0) push.end += push.middle * (far / (far + bent) * (1 - holds.together));
+      if (push == LimbMove{}) continue;
+      move_limb(arm, push, moved, scratch);
+    }
+  }
+  if (!pushed && moves_[0].rests() && moves_[1].rests()) return;
+  const float gain = time.gain(kEaseSeconds);
+  for (int side = 0; side < 2; ++side) {
+    const LimbJoints arm = arm_joints(side);
+    LimbMove wanted;
+    if (pushed) {
+      wanted = {(moved[arm.middle] - joints[arm.middle]) * amount,
+                (moved[arm.end] - joints[arm.end]) * amount};
+    }
+    moves_[side].step(wanted, gain);
+    if (moves_[side].rests()) continue;
+    move_limb(arm, moves_[side].now(), joints, change);
+  }
+}
+
+}  // namespace panache

@@ -1,0 +1,233 @@
+#include "style/stages/hand_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/smooth_step.h"
+
+namespace panache {
+namespace {
+
+using enum HumanJoint;
+
+// Of the canonical body, metres: a wrist at this distance from the head's joint touches head or
+// face, holds what it drinks or phones with, or has nothing to do with it.
+constexpr float kAtHead = 0.27f, kOffHead = 0.48f;
+// From the axis of a thigh, or of the hips, to a wrist whose hand lies on them, or does not.
+constexpr float kOnThigh = 0.15f, kOffThigh = 0.22f, kOnHips = 0.17f, kOffHips = 0.23f;
+constexpr float kHipsUp = 0.07f;  // The hips' axis is higher than the hip joints by this.
+// m/s: a hand that rests on a thigh or passes it.
+constexpr float kRests = 0.2f, kPasses = 0.5f;
+constexpr float kSpeedSeconds = 0.12f;
+// Beside a body that stands arms just hang. A hand that is on the hips has a bent arm, by the share
+// of the arm's length from shoulder to wrist; one that is on a thigh has that thigh raised, by the
+// cosine of its angle with the torso.
+constexpr float kBent = 0.75f, kStraight = 0.85f, kRaised = 0.6f, kHanging = 0.8f;
+// Cosines of the angle between an arm and the torso where it does not hang, and hangs; and by how
+// much further apart hands count then.
+constexpr float kAway = 0.75f, kDown = 0.92f, kBesides = 0.4f;
+// Time constants: a contact comes fast and goes slowly, so that hands that clap stay together.
+constexpr float kTakeSeconds = 0.08f, kRestSeconds = 0.15f, kGiveSeconds = 0.3f;
+// The middle between two hands may be so far from where the chest would carry it, softly.
+constexpr float kStray = 0.06f, kMaxStray = 0.12f;
+// A wrist is turned by up to this against its forearm to keep to what the hand touches, radians.
+constexpr float kWristTurn = 0.6f;
+// Cosines of how far an arm turns from which on its elbow no longer follows the style, or fully
+// does.
+constexpr float kFarTurn = 0, kNearTurn = 0.85f;
+constexpr float kElbowSeconds = 0.1f;  // Time constant of the elbow's side.
+constexpr float kNothing = 1e-5f;      // Metres: no correction.
+
+// 1 at `near` and nearer, 0 from `far` on.
+float nearness(float value, float near, float far) {
+  return smooth_step((far - value) / (far - near));
+}
+
+// `far` beyond `free` ends at `most` at the latest.
+Vec3 softly_bounded(Vec3 v, float free, float most) {
+  const float far = length(v), over = far - free, room = most - free;
+  if (!(over > 0)) return v;
+  return v * ((free + over * room / (over + room)) / far);
+}
+
+// How much an arm hangs down along the torso, 0 to 1. `up`: along the torso, unit.
+float hangs(const HumanPositions& joints, int side, Vec3 up) {
+  const Vec3 way = normalized(joints[index(kHands[side])] - joints[index(kUpperArms[side])]);
+  return 1 - nearness(-dot(way, up), kAway, kDown);
+}
+
+float arm_length(const HumanPositions& joints, int side) {
+  const Vec3 elbow = joints[index(kLowerArms[side])];
+  return length(elbow - joints[index(kUpperArms[side])]) +
+         length(joints[index(kHands[side])] - elbow);
+}
+
+// Brings a wrist to `target`, with the elbow on the style's side; or on that of `elbow`, where the
+// input has it, the more, the further the arm turns: what is left of a side after that is chance.
+// `last`: to which side the elbow went, unit, or 0 for none; it goes the share `gain` of the way.
+void reach(int side, Vec3 target, Vec3 elbow, float gain, Vec3& last, HumanPositions& joints,
+           BodyChange& change) {
+  const LimbJoints arm = arm_joints(side);
+  const Vec3 root = joints[arm.root], end = joints[arm.end];
+  const Vec3 from = normalized(end - root), to = normalized(target - root);
+  const Quat swing = rotation_between(from, to);
+  const float own = smooth_step((dot(from, to) - kFarTurn) / (kNearTurn - kFarTurn));
+  const Vec3 style = rotate(swing, normalized(bend_of(root, joints[arm.middle], end, arm.hint)));
+  const Vec3 input = normalized(bend_of(root, elbow, target, arm.hint));
+  const Vec3 wanted = normalized(lerp(input, style, own), input);
+  last = last == Vec3{} ? wanted : normalized(lerp(last, wanted, gain), wanted);
+  const Vec3 across = last - to * dot(last, to);
+  turn_limb(arm, target, rotate(conjugate(swing), across), joints, change);
+}
+
+void ease(float& hold, float wanted, float take, float give) {
+  approach(hold, wanted, wanted > hold ? take : give, 1e-3f);
+}
+
+}  // namespace
+
+void HandContacts::watch(const BodyPose& body, const StepTime& time) noexcept {
+  const HumanPositions& joints = body.joints;
+  const auto at = [&](HumanJoint joint) { return joints[index(joint)]; };
+  const float take = time.gain(kTakeSeconds), give = time.gain(kGiveSeconds);
+  const float rest = time.gain(kRestSeconds);
+  const auto seconds = static_cast<float>(time.input);
+  const float speed_gain = filter_gain(seconds, kSpeedSeconds);
+  const Vec3 up = normalized(at(left_upper_arm) + at(right_upper_arm) - at(left_upper_leg) -
+                             at(right_upper_leg));
+  const float arm = (arm_length(joints, 0) + arm_length(joints, 1)) / 2;
+  // Hands beside a narrow body are near each other, too.
+  const float hang = hangs(joints, 0, up) * hangs(joints, 1, up);
+  const float apart = length(at(right_hand) - at(left_hand)) * (1 + kBesides * hang);
+  ease(hands_, arm > 0 ? hands_nearness(apart / arm) : 0.0f, take, give);
+
+  const auto raised = [&](HumanJoint hip, HumanJoint knee) {
+    return nearness(-dot(normalized(at(knee) - at(hip)), up), kRaised, kHanging);
+  };
+  const std::array<float, 2> thighs = {raised(left_upper_leg, left_lower_leg),
+                                       raised(right_upper_leg, right_lower_leg)};
+  for (int side = 0; side < 2; ++side) {
+    const Vec3 wrist = joints[index(kHands[side])];
+    const float off_head = length(wrist - at(HumanJoint::head));
+    ease(holds_[side][Part::head], has_head(joints) ? nearness(off_head, kAtHead, kOffHead) : 0.0f,
+         take, give);
+    const float reach = length(wrist - joints[index(kUpperArms[side])]);
+    const float bent =
+        nearness(reach / std::max(arm_length(joints, side), 1e-6f), kBent, kStraight);
+    const std::array<Vec3, 3> places = {
+        from_line(wrist, at(left_upper_leg) + up * kHipsUp, at(right_upper_leg) + up * kHipsUp),
+        from_line(wrist, at(left_upper_leg), at(left_lower_leg)),
+        from_line(wrist, at(right_upper_leg), at(right_lower_leg))};
+    for (int p = 0; p < 3; ++p) {
+      float& speed = speeds_[side][p];
+      if (time.first) speed = 0;
+      if (!time.first && seconds > 0) {
+        const float now = std::min(length(places[p] - places_[side][p]) / seconds, 4 * kPasses);
+        speed += speed_gain * (now - speed);
+      }
+      const float near = p == 0 ? bent * nearness(length(places[p]), kOnHips, kOffHips)
+                                : thighs[p - 1] * nearness(length(places[p]), kOnThigh, kOffThigh);
+      ease(holds_[side][Part::hips + p], near * nearness(speed, kRests, kPasses), rest, give);
+    }
+    places_[side] = places;
+  }
+}
+
+HandHolds HandContacts::holds() const noexcept {
+  HandHolds holds;
+  holds.together = hands_;
+  for (size_t side = 0; side < 2; ++side) {
+    holds.by_body[side] = *std::max_element(holds_[side].begin(), holds_[side].end());
+  }
+  return holds;
+}
+
+void HandContacts::step(const BodyPose& body, float amount, const StepTime& time,
+                        HumanPositions& joints, BodyChange& change) noexcept {
+  watch(body, time);
+  const HandHolds holds = this->holds();
+  const float most = std::max({holds.together, holds.by_body[0], holds.by_body[1]});
+  if (!(amount > 0 && most > 0)) {
+    elbows_ = {};
+    return;
+  }
+
+  const Quat to_heading = rotation_y(-body.facing);
+  const Vec3 origin = mid_hip(body);
+  const auto before = [&](HumanJoint joint) {
+    return rotate(to_heading, body.joints[index(joint)] - origin);
+  };
+  const auto turned = [&](HumanJoint joint) { return change.rotations[index(joint)]; };
+  // Where the wrist is if `joint` carries it as in the input.
+  const auto carried = [&](HumanJoint joint, Vec3 wrist) {
+    return joints[index(joint)] + rotate(turned(joint), wrist - before(joint));
+  };
+
+  struct Wrist {
+    Vec3 now, input, wanted;
+    float held = 0;
+    Quat carrier, turn;  // Of what holds it, and what the hand gets of it.
+  };
+  std::array<Wrist, 2> wrists;
+  constexpr std::array<HumanJoint, kParts> kCarriers = {HumanJoint::head, HumanJoint::hips,
+                                                        left_upper_leg, right_upper_leg};
+  for (int side = 0; side < 2; ++side) {
+    Wrist& wrist = wrists[side];
+    wrist.now = joints[index(kHands[side])];
+    wrist.input = before(kHands[side]);
+    wrist.turn = turned(kHands[side]);
+    wrist.held = holds.by_body[side];
+    Vec3 sum;
+    Quat turns{0, 0, 0, 0};
+    float weights = 0;
+    for (int p = 0; p < kParts; ++p) {
+      const float hold = holds_[side][p];
+      if (!(hold > 0)) continue;
+      sum += carried(kCarriers[p], wrist.input) * hold;
+      Quat turn = turned(kCarriers[p]);
+      const float s = dot(turn, turns) < 0 ? -hold : hold;
+      turns = {turns.x + turn.x * s, turns.y + turn.y * s, turns.z + turn.z * s,
+               turns.w + turn.w * s};
+      weights += hold;
+    }
+    wrist.wanted = wrist.now;
+    if (weights > 0) {
+      wrist.wanted = lerp(wrist.now, sum / weights, wrist.held);
+      wrist.carrier = normalized(turns);
+      wrist.turn = nlerp(wrist.turn, wrist.carrier, wrist.held);
+    }
+  }
+  auto& [left, right] = wrists;
+  if (hands_ > 0) {
+    // What holds both carries what they hold, otherwise the chest does.
+    const Quat turn = nlerp(turned(chest), left.carrier, left.held * right.held);
+    const Vec3 between = rotate(turn, right.input - left.input);
+    const Vec3 place = carried(chest, (left.input + right.input) * 0.5f);
+    const Vec3 stray = (left.wanted + right.wanted) * 0.5f - place;
+    const float free = (1 - left.held) * (1 - right.held);
+    const Vec3 back = (softly_bounded(stray, kStray, kMaxStray) - stray) * (hands_ * free);
+    const float of_right = (1.001f - right.held) / (2.002f - left.held - right.held);
+    left.wanted += back;
+    right.wanted += back;
+    bring_together(between, hands_, of_right, left.wanted, right.wanted);
+    for (Wrist& wrist : wrists) wrist.turn = nlerp(wrist.turn, turn, hands_ * (1 - wrist.held));
+  }
+  for (int side = 0; side < 2; ++side) {
+    const Wrist& wrist = wrists[side];
+    const Vec3 shift = (wrist.wanted - wrist.now) * amount;
+    if (!(length(shift) > kNothing)) {
+      elbows_[side] = {};
+      continue;
+    }
+    reach(side, wrist.now + shift, carried(chest, before(kLowerArms[side])),
+          time.gain(kElbowSeconds), elbows_[side], joints, change);
+    const int hand = index(kHands[side]);
+    const Quat forearm = turned(kLowerArms[side]);
+    const Quat wanted = nlerp(turned(kHands[side]), wrist.turn, amount);
+    const Vec3 bend = log_rotation(conjugate(forearm) * wanted);
+    const Vec3 bounded = softly_bounded(bend, kWristTurn, 2 * kWristTurn);
+    change.rotations[hand] = normalized(forearm * exp_rotation(bounded));
+  }
+}
+
+}  // namespace panache

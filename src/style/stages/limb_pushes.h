@@ -1,0 +1,76 @@
+#pragma once
+// What pushes a limb out of the body: for the stages that keep limbs outside of it.
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/one_pole.h"
+#include "base/smooth_step.h"
+#include "pose/limb.h"
+#include "style/stages/step_time.h"
+
+namespace panache {
+
+// Metres: a limb may come this much nearer than it is in the input, so that arms that hang on the
+// torso and legs that brush each other keep their style.
+inline constexpr float kFreeDepth = 0.002f;
+
+// How far something is pushed that is `depth` deep, metres: softly at first, and by all but 6 mm
+// from 12 mm on.
+inline float push_of(float depth) noexcept {
+  constexpr float kSoft = 0.006f;
+  if (!(depth > 0)) return 0;
+  return depth < 2 * kSoft ? depth * depth / (4 * kSoft) : depth - kSoft;
+}
+// How far a point that is `way` from an axis is to be pushed along the unit vector `out`, towards
+// its own side, to be `reach` away. Past the axis it counts the less, the further it passes by.
+inline float push_across(Vec3 way, Vec3 out, float reach) noexcept {
+  const float across = dot(way, out);
+  if (across > reach) return 0;
+  const Vec3 along = way - out * across;
+  const float room = reach * reach - dot(along, along);
+  if (!(room > 0)) return 0;
+  const float wanted = std::sqrt(room);
+  const float depth = wanted - (across < 0 ? across * wanted / reach : across);
+  return push_of(depth) * smooth_step(wanted / 0.01f);
+}
+// How something that is `way` from an axis and nearer than `reach` is to be pushed to be that far:
+// outwards, but not further away from the side `own`, a unit vector, than it is.
+inline Vec3 push_out(Vec3 way, Vec3 own, float reach) noexcept {
+  constexpr float kOwn = 0.05f;  // Metres: how much `own` counts where the axis is met.
+  const float far = length(way), room = reach - far;
+  if (!(room > 0)) return {};
+  const Vec3 ahead = way - own * std::min(0.0f, dot(way, own));
+  const Vec3 to = normalized(ahead + own * (kOwn * std::max(0.0f, 1 - far / reach)), own);
+  const float along = dot(way, to);
+  // Up to where it leaves the circle; from its far side by as much as the circle is wide there.
+  const float half = std::sqrt(std::max(0.0f, reach * reach - far * far));
+  if (along < 0) return to * (half - along * half / reach);
+  const float across = std::sqrt(std::max(0.0f, far * far - along * along));
+  return to * push_of(std::sqrt(std::max(0.0f, reach * reach - across * across)) - along);
+}
+// Makes `push` as long as `length` in the direction `way`, where it is shorter.
+inline void raise_push(Vec3& push, Vec3 way, float length) noexcept {
+  const float lacks = length - dot(push, way);
+  if (lacks > 0) push += way * lacks;
+}
+
+// The move of a limb as it comes and goes.
+class EasedMove {
+ public:
+  // Goes the share `gain` of the way to `wanted`.
+  void step(const LimbMove& wanted, float gain) noexcept {
+    constexpr float kNothing = 1e-4f;  // Metres.
+    move_.middle = lerp(move_.middle, wanted.middle, gain);
+    move_.end = lerp(move_.end, wanted.end, gain);
+    const float far = length(move_.middle) + length(move_.end);
+    if (wanted == LimbMove{} && far < kNothing) move_ = {};
+  }
+  const LimbMove& now() const noexcept { return move_; }
+  bool rests() const noexcept { return move_ == LimbMove{}; }
+
+ private:
+  LimbMove move_;
+};
+
+}  // namespace panache
