@@ -6,7 +6,7 @@ namespace {
 using enum HumanJoint;
 
 // Radii of the canonical body, metres.
-constexpr float kTorso = 0.115f, kSkull = 0.092f, kForearm = 0.036f;
+constexpr float kTorsoRadius = 0.115f, kSkull = 0.092f, kForearm = 0.036f;
 // The torso goes from between the hip joints so far towards the middle of the shoulders; the skull
 // so far beyond the head's joint, metres.
 constexpr float kTorsoEnd = 0.85f, kSkullLength = 0.09f;
@@ -26,13 +26,13 @@ struct Capsule {
   Vec3 from, to;
   float radius;
 };
-using Trunk = std::array<Capsule, 2>;  // Torso and skull.
+using TrunkCapsules = std::array<Capsule, 2>;  // Torso and skull.
 
-Trunk trunk_of(const HumanPositions& joints) {
+TrunkCapsules trunk_of(const HumanPositions& joints) {
   const auto at = [&](HumanJoint joint) { return joints[index(joint)]; };
   const Vec3 mid = (at(left_upper_leg) + at(right_upper_leg)) * 0.5f;
   const Vec3 shoulders = (at(left_upper_arm) + at(right_upper_arm)) * 0.5f;
-  const Capsule torso = {mid, lerp(mid, shoulders, kTorsoEnd), kTorso};
+  const Capsule torso = {mid, lerp(mid, shoulders, kTorsoEnd), kTorsoRadius};
   if (!has_head(joints)) return {torso, torso};
   const Vec3 up = normalized(at(head) - at(neck));
   return {torso, Capsule{at(head), at(head) + up * kSkullLength, kSkull}};
@@ -50,7 +50,7 @@ struct ArmPush {
 
 class Pusher {
  public:
-  Pusher(const BodyPose& body, const BodyChange& change, const Trunk& trunk)
+  Pusher(const BodyPose& body, const BodyChange& change, const TrunkCapsules& trunk)
       : body_(body), change_(change), trunk_(trunk) {}
 
   // Across the torso, from its axis to the middle between the hands in the input: where hands go
@@ -125,7 +125,7 @@ class Pusher {
 
   const BodyPose& body_;
   const BodyChange& change_;
-  const Trunk& trunk_;
+  const TrunkCapsules& trunk_;
 };
 
 }  // namespace
@@ -133,7 +133,7 @@ class Pusher {
 void ArmsClear::step(const BodyPose& body, float amount, const HandHolds& holds,
                      const StepTime& time, HumanPositions& joints, BodyChange& change) noexcept {
   if (!(amount > 0)) return reset();
-  const Trunk trunk = trunk_of(joints);
+  const TrunkCapsules trunk = trunk_of(joints);
   const Pusher pusher(body, change, trunk);
   HumanPositions moved = joints;
   BodyChange scratch;

@@ -14,13 +14,12 @@ constexpr float kLever = 0.05f;
 
 constexpr float kJoints = kHumanJoints;
 
-// From mid-hip to mid-shoulder, unit.
-Vec3 torso(const HumanPositions& joints) {
+}  // namespace
+
+Vec3 torso_way(const HumanPositions& joints) noexcept {
   return normalized(joints[index(left_upper_arm)] + joints[index(right_upper_arm)] -
                     joints[index(left_upper_leg)] - joints[index(right_upper_leg)]);
 }
-
-}  // namespace
 
 Vec3 centre_over_feet(const HumanPositions& joints) noexcept {
   Vec3 sum, feet;
@@ -45,7 +44,7 @@ void keep_balance(const BodyPose& body, HumanPositions& joints, BodyChange& chan
   for (int j = index(hips); j <= index(right_hand); ++j) upper += joints[j] / kJoints;
   const float height = std::max(upper.y, 0.0f);
   const float wanted = back * height / (height * height + kLever * kLever);
-  const float leans = dot(torso(joints) - rotate(to_heading, torso(body.joints)), way);
+  const float leans = dot(torso_way(joints) - rotate(to_heading, torso_way(body.joints)), way);
   const float angle = std::min(wanted, leans);
   if (!(angle > 0)) return;
   const Quat turn = axis_angle(Vec3{-way.z, 0, way.x}, angle);

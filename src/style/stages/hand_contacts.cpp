@@ -17,8 +17,8 @@ constexpr float kAtHead = 0.27f, kOffHead = 0.48f;
 constexpr float kOnThigh = 0.15f, kOffThigh = 0.22f, kOnHips = 0.17f, kOffHips = 0.23f;
 constexpr float kHipsUp = 0.07f;  // The hips' axis is higher than the hip joints by this.
 // m/s: a hand that rests on a thigh or passes it.
-constexpr float kRests = 0.2f, kPasses = 0.5f;
-constexpr float kSpeedSeconds = 0.12f;
+constexpr float kRestingHand = 0.2f, kPassingHand = 0.5f;
+constexpr float kHandSpeedSeconds = 0.12f;
 // Beside a body that stands arms just hang. A hand that is on the hips has a bent arm, by the share
 // of the arm's length from shoulder to wrist; one that is on a thigh has that thigh raised, by the
 // cosine of its angle with the torso.
@@ -27,7 +27,7 @@ constexpr float kBent = 0.75f, kStraight = 0.85f, kRaised = 0.6f, kHanging = 0.8
 // much further apart hands count then.
 constexpr float kAway = 0.75f, kDown = 0.92f, kBesides = 0.4f;
 // Time constants: a contact comes fast and goes slowly, so that hands that clap stay together.
-constexpr float kTakeSeconds = 0.08f, kRestSeconds = 0.15f, kGiveSeconds = 0.3f;
+constexpr float kTakeSeconds = 0.08f, kHandRestSeconds = 0.15f, kGiveSeconds = 0.3f;
 // The middle between two hands may be so far from where the chest would carry it, softly.
 constexpr float kStray = 0.06f, kMaxStray = 0.12f;
 // A wrist is turned by up to this against its forearm to keep to what the hand touches, radians.
@@ -90,9 +90,9 @@ void HandContacts::watch(const BodyPose& body, const StepTime& time) noexcept {
   const HumanPositions& joints = body.joints;
   const auto at = [&](HumanJoint joint) { return joints[index(joint)]; };
   const float take = time.gain(kTakeSeconds), give = time.gain(kGiveSeconds);
-  const float rest = time.gain(kRestSeconds);
+  const float rest = time.gain(kHandRestSeconds);
   const auto seconds = static_cast<float>(time.input);
-  const float speed_gain = filter_gain(seconds, kSpeedSeconds);
+  const float speed_gain = filter_gain(seconds, kHandSpeedSeconds);
   const Vec3 up = normalized(at(left_upper_arm) + at(right_upper_arm) - at(left_upper_leg) -
                              at(right_upper_leg));
   const float arm = (arm_length(joints, 0) + arm_length(joints, 1)) / 2;
@@ -122,12 +122,14 @@ void HandContacts::watch(const BodyPose& body, const StepTime& time) noexcept {
       float& speed = speeds_[side][p];
       if (time.first) speed = 0;
       if (!time.first && seconds > 0) {
-        const float now = std::min(length(places[p] - places_[side][p]) / seconds, 4 * kPasses);
+        const float now =
+            std::min(length(places[p] - places_[side][p]) / seconds, 4 * kPassingHand);
         speed += speed_gain * (now - speed);
       }
       const float near = p == 0 ? bent * nearness(length(places[p]), kOnHips, kOffHips)
                                 : thighs[p - 1] * nearness(length(places[p]), kOnThigh, kOffThigh);
-      ease(holds_[side][Part::hips + p], near * nearness(speed, kRests, kPasses), rest, give);
+      ease(holds_[side][Part::hips + p], near * nearness(speed, kRestingHand, kPassingHand), rest,
+           give);
     }
     places_[side] = places;
   }
