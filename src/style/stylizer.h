@@ -94,6 +94,8 @@ class Stylizer {
   std::span<const float, kFeet> contacts() const noexcept { return stages_.contacts(); }
   // What was done to the input at the last step.
   const BodyChange& change() const noexcept { return stages_.change(); }
+  // What the stages did at the last step.
+  StageFacts stage_facts() const noexcept { return stages_.facts(); }
   const Rig& rig() const noexcept { return observer_.rig(); }
   const Model& model() const noexcept { return networks_.model(); }
 

@@ -17,6 +17,7 @@
 #include "style/stages/root_motion.h"
 #include "style/stages/seat.h"
 #include "style/stages/shaping.h"
+#include "style/stages/stage_facts.h"
 #include "style/stages/step_watch.h"
 #include "style/stages/step_time.h"
 #include "style/stages/window.h"
@@ -57,6 +58,7 @@ class ChangeStages {
   const BodyChange& change() const noexcept { return change_; }
   std::span<const float, kFeet> contacts() const noexcept { return contacts_; }
   double rate(float timing, float flight) const noexcept;
+  StageFacts facts() const noexcept { return {seat_.amount()}; }
 
   // Calls visit(member) for everything that tells one character from another.
   template <class Self, class Visit>
