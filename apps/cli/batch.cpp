@@ -249,6 +249,9 @@ int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::st
       for (const std::string& line : files[0].added) tell("  " + line + "\n");
     }
     for (const FileJob& file : files) {
+      if (file.error.empty() && !stopped) {
+        for (const std::string& line : file.facts) tell("  " + line + "\n");
+      }
       for (const std::string& line : file.details) tell("  " + line + "\n");
     }
   }

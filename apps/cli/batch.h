@@ -47,6 +47,7 @@ struct FileJob {
   std::vector<std::string> notes;  // What a careful user would want to know; for stderr.
   // Lines that name the motions that are new beside others; printed where there is one file.
   std::vector<std::string> added;
+  std::vector<std::string> facts;    // A line for each motion: what was done to it.
   std::vector<std::string> details;  // Lines to print below the summary, where they are asked for.
   Json clips = Json::array();        // An object for each motion that was worked on.
   int frames = 0;                    // Of the result, all motions together.

@@ -12,6 +12,7 @@
 #include "messages.h"
 #include "model_edit.h"
 #include "model_report.h"
+#include "pose/loop.h"
 #include "rig/body_motions.h"
 #include "rig_options.h"
 #include "rig_report.h"
@@ -55,9 +56,21 @@ bool moves(const BodyMotions& body, size_t clip) {
   return std::count(body.clips.begin(), body.clips.end(), static_cast<int>(clip)) > 0;
 }
 
+// Whether each motion is a loop.
+std::vector<bool> find_loops(const MotionFile& file, const BodyMotions& body,
+                             const RigOptions& options) {
+  std::vector<bool> loops(file.clip_names().size());
+  for (const int c : body.clips) {
+    const Clip& clip = file.clip(c);
+    const Result<Rig> rig = Rig::create(clip, options);
+    loops[static_cast<size_t>(c)] = rig && is_loop(measure_seam(clip, *rig), clip.frame_time);
+  }
+  return loops;
+}
+
 // `shown` is the motion that the rest of the report is about.
 std::string describe(const std::string& path, const MotionFile& file, const BodyMotions& body,
-                     size_t shown) {
+                     const std::vector<bool>& loops, size_t shown) {
   const std::vector<std::string> names = file.clip_names();
   const std::vector<Joint>& joints = file.clip(static_cast<int>(shown)).skeleton.joints;
   const auto rotating = std::count_if(joints.begin(), joints.end(),
@@ -72,7 +85,7 @@ std::string describe(const std::string& path, const MotionFile& file, const Body
   for (const std::string& name : names) width = std::max(width, name.size());
   for (size_t i = 0; i < names.size(); ++i) {
     text += "  motion  " + (width ? padded(names[i], width + 2) : "") +
-            describe_length(file.clip(static_cast<int>(i))) +
+            describe_length(file.clip(static_cast<int>(i))) + (loops[i] ? ", a loop" : "") +
             (moves(body, i)  ? ""
              : body.humanoid ? ", no joint of the humanoid"
                              : ", no joint") +
@@ -81,7 +94,7 @@ std::string describe(const std::string& path, const MotionFile& file, const Body
   return text;
 }
 
-Json clips_json(const MotionFile& file, const BodyMotions& body) {
+Json clips_json(const MotionFile& file, const BodyMotions& body, const std::vector<bool>& loops) {
   Json clips = Json::array();
   const std::vector<std::string> names = file.clip_names();
   for (size_t i = 0; i < names.size(); ++i) {
@@ -90,7 +103,8 @@ Json clips_json(const MotionFile& file, const BodyMotions& body) {
                      {"frames", clip.frames},
                      {"frame_time", clip.frame_time},
                      {"seconds", clip.duration()},
-                     {"moves", moves(body, i)}});
+                     {"moves", moves(body, i)},
+                     {"loop", static_cast<bool>(loops[i])}});
   }
   return clips;
 }
@@ -154,13 +168,14 @@ Result<Info> motion_info(const std::string& path, const InfoVerb& verb, const Ri
   const Result<Rig> rig = make_rig(clip, options, path);
   if (rig) note_rate(clip, *rig, path, info.notes);
   if (!rig && info.good) info.good = rig.error();
+  const std::vector<bool> loops = find_loops(**file, body, options);
   info.json = {{"file", path},
-               {"clips", clips_json(**file, body)},
+               {"clips", clips_json(**file, body, loops)},
                {"skeleton", skeleton_json(clip.skeleton)},
                {"mapping", rig ? mapping_json(*rig) : Json()},
                {"notes", info.notes},
                {"error", info.good ? Json() : Json(info.good.error().message)}};
-  info.text = describe(path, **file, body, *shown);
+  info.text = describe(path, **file, body, loops, *shown);
   if (rig) info.text += describe_mapping(*rig, options);
   if (verb.tree) info.text += "\nSkeleton:\n" + draw_tree(clip.skeleton);
   return info;

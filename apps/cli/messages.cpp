@@ -35,6 +35,9 @@ std::string with_hint(const std::string& message) {
       Hint{"; add one, or leave the styles out", " (--styles lists those to learn)"},
       Hint{"; add some, or leave the style out", " (--styles lists those to learn)"},
       Hint{"the model has no styles yet", "; panache learn adds one"},
+      Hint{", as where a clip is cut after a whole cycle", "; --loop auto leaves it open"},
+      Hint{"has another strength at its last frame than at its first",
+           "; --loop auto leaves it open"},
       Hint{kGiveRate, " (--fps N; panache convert --fps N writes the file with it)"},
   };
   for (const Hint& one : kHints) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "batch.h"
+#include "clip/text_cursor.h"
 #include "formats.h"
 #include "gate_report.h"
 #include "input.h"
@@ -17,6 +18,7 @@
 #include "model_path.h"
 #include "new_motions.h"
 #include "onto.h"
+#include "restyle_report.h"
 #include "rig/in_place.h"
 #include "rig_options.h"
 #include "rig_report.h"
@@ -40,6 +42,7 @@ struct StylizeOptions {
   OntoFlags onto;
   PlaceFlags place;
   FigureFlags figure;
+  std::string loop = "auto";
   bool in_place = false;
   bool no_timing = false;
   bool no_feet = false;
@@ -112,9 +115,9 @@ Result<RestyledClip> restyle_clip(const MotionFile& motion, int which, const std
   if (!restyled) return Error{place + ": " + restyled.error().message};
   RestyledClip out{which, result_name(title_of(name, file.input), wanted), *std::move(rig),
                    *std::move(restyled)};
-  if (wanted.in_place) stay_in_place(out.rig, out.result.clip);
   // A calibration pose in front is no motion, and is not restyled.
   const auto first = static_cast<size_t>(std::min(out.rig.first_frame(), clip.frames - 1));
+  const RestyleFacts facts = restyle_facts(clip, out.rig, out.result);
   const GateReport gate = report_gate(std::span(out.result.gates).subspan(first));
   file.clips.push_back({{"name", name},
                         {"result", out.name},
@@ -122,9 +125,12 @@ Result<RestyledClip> restyle_clip(const MotionFile& motion, int which, const std
                         {"frames_out", out.result.clip.frames},
                         {"seconds", out.result.clip.duration()},
                         {"styles", to_json(tracks, *wanted.model)},
-                        {"gate", to_json(gate)}});
+                        {"gate", to_json(gate)},
+                        {"facts", facts_json(facts)}});
+  file.facts.push_back(place + ": " + describe(facts));
   file.details.push_back(place + ": " + describe(gate));
   if (gate.eased > 0.5) file.notes.push_back(place + ": " + describe_eased(gate));
+  if (wanted.in_place) stay_in_place(out.rig, out.result.clip);
   file.frames += out.result.clip.frames;
   file.seconds += out.result.clip.duration();
   return out;
@@ -268,6 +274,13 @@ std::string name_styles(const StylizeOptions& options) {
   return name;
 }
 
+Result<LoopMode> read_loop(const std::string& text) {
+  if (text == "auto") return LoopMode::detect;
+  if (text == "on") return LoopMode::force;
+  if (text == "off") return LoopMode::off;
+  return Error{"--loop " + panache::quoted(text) + ": expected auto, on or off"};
+}
+
 int stylize(const StylizeOptions& options) {
   if (auto rig = check_rig_flags(options.rig); !rig) return fail(rig.error(), kBadUsage);
   if (auto read = check_read_options(options.read); !read) return fail(read.error(), kBadUsage);
@@ -275,6 +288,9 @@ int stylize(const StylizeOptions& options) {
   if (auto shape = read_shape(options.shape, how.stylizer); !shape) {
     return fail(shape.error(), kBadUsage);
   }
+  const Result<LoopMode> loop = read_loop(options.loop);
+  if (!loop) return fail(loop.error(), kBadUsage);
+  how.loop = *loop;
   Result<std::string> path = find_model(options.model);
   if (!path) return fail(path.error(), kBadInput);
   Result<std::shared_ptr<const Model>> model = Model::load(*path);
@@ -337,6 +353,11 @@ void add_stylize(CLI::App& app, int& exit_code) {
   add_in_place_option(*verb, options->in_place);
   add_figure_options(*verb, options->figure);
   add_shape_options(*verb, options->shape);
+  verb->add_option("--loop", options->loop,
+                   "Whether the last pose of the result is its first, travel\n"
+                   "aside: where the motion is a loop (auto, the default),\n"
+                   "always (on) or never (off)")
+      ->type_name("LOOP");
   verb->add_flag("--no-timing", options->no_timing, "The same as --timing off");
   verb->add_flag("--no-feet", options->no_feet, "Do not hold planted feet in place");
   verb->add_flag("--verbose", options->verbose,

@@ -315,9 +315,13 @@ typedef struct panache_stylize_options {
                          * talk and gestures keep their length; 2: everywhere; 0: frame by frame. */
   const panache_shape* shape; /* NULL: all of it at 1. */
   double max_speed;           /* As in panache_character_options. */
+  int32_t loop; /* 1: a clip whose last pose is its first, travel aside, gets a result of which the
+                 * same is true; 2: any clip does, or the call fails where the two are too far
+                 * apart; 0: none does, as in programs of an older header. */
+  int32_t reserved; /* 0. */
 } panache_stylize_options;
 #define PANACHE_STYLIZE_OPTIONS \
-  { sizeof(panache_stylize_options), 0.15f, 0.04f, 1, 1, 1, NULL, 15 }
+  { sizeof(panache_stylize_options), 0.15f, 0.04f, 1, 1, 1, NULL, 15, 1, 0 }
 
 /* A clip that was styled. */
 typedef struct panache_styled_clip panache_styled_clip;
@@ -343,6 +347,8 @@ PANACHE_API const double* panache_styled_clip_source_frames(const panache_styled
 PANACHE_API const uint8_t* panache_styled_clip_contacts(const panache_styled_clip* styled);
 /* As panache_report.gate. [frame_count] */
 PANACHE_API const float* panache_styled_clip_gates(const panache_styled_clip* styled);
+/* 1 where the clip was styled as a loop, see panache_stylize_options.loop, else 0. */
+PANACHE_API int32_t panache_styled_clip_is_loop(const panache_styled_clip* styled);
 
 /* How a clip is put on another skeleton. Start with PANACHE_RETARGET_OPTIONS. */
 typedef struct panache_retarget_options {

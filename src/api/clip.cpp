@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 
 #include "api/errors.h"
@@ -47,8 +48,11 @@ Result<std::vector<StrengthTrack>> read_tracks(const panache_strength_track* fro
 }
 
 Result<RestyleOptions> read_options(const panache_stylize_options* options) {
-  const auto given = read_struct<panache_stylize_options>(options, PANACHE_STYLIZE_OPTIONS,
-                                                          "panache_stylize_options");
+  // Programs of a header without loops get what they always got.
+  panache_stylize_options initial = PANACHE_STYLIZE_OPTIONS;
+  if (options) initial.loop = 0;
+  const auto given =
+      read_struct<panache_stylize_options>(options, initial, "panache_stylize_options");
   if (!given) return given.error();
   const Result<Shape> shape = read_shape(given->shape);
   if (!shape) return shape.error();
@@ -61,6 +65,13 @@ Result<RestyleOptions> read_options(const panache_stylize_options* options) {
   out.timing = given->style_timing != 0;
   out.stylizer.tempo_everywhere = given->style_timing == 2;
   out.stylizer.shape = *shape;
+  if (given->loop < 0 || given->loop > 2 || given->reserved != 0) {
+    return Error{"panache_stylize_options: loop is " + std::to_string(given->loop) +
+                 " and reserved is " + std::to_string(given->reserved) +
+                 "; expected 0, 1 or 2, and 0"};
+  }
+  constexpr std::array kModes = {LoopMode::off, LoopMode::detect, LoopMode::force};
+  out.loop = kModes[static_cast<size_t>(given->loop)];
   return out;
 }
 
@@ -114,4 +125,8 @@ const uint8_t* panache_styled_clip_contacts(const panache_styled_clip* styled) {
 
 const float* panache_styled_clip_gates(const panache_styled_clip* styled) {
   return styled->restyled.gates.data();
+}
+
+int32_t panache_styled_clip_is_loop(const panache_styled_clip* styled) {
+  return styled->restyled.loop.closed;
 }

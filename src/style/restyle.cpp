@@ -3,9 +3,56 @@
 #include <algorithm>
 #include <cmath>
 
-#include "style/flight_lookout.h"
+#include "pose/loop.h"
+#include "style/clip_stepper.h"
+#include "style/restyle_loop.h"
 
 namespace panache {
+namespace {
+
+Result<Restyled> restyle_open(const Clip& clip, const Rig& rig,
+                              const std::shared_ptr<const Model>& model,
+                              const std::vector<StrengthTrack>& tracks,
+                              const RestyleOptions& options,
+                              const std::function<void(double)>& progress) {
+  Result<ClipStepper> stepper = ClipStepper::create(clip, rig, model, tracks, options.stylizer);
+  if (!stepper) return stepper.error();
+  Restyled result;
+  result.clip.skeleton = clip.skeleton;
+  result.clip.frame_time = clip.frame_time;
+  const int first = std::min(rig.first_frame(), clip.frames - 1);
+  append_calibration(clip, first, result);
+  double frame = first, advance = 0;
+  // The head may stop between the last two frames; the end of the input is never overrun.
+  while (frame <= clip.frames - 1 + 1e-6) {
+    stepper->step(frame, advance, frame * clip.frame_time);
+    stepper->append_to(result, frame);
+    const double rate = stepper->stylizer().rate();
+    advance = options.timing ? clip_advance(frame, rate, stepper->flight()) : 1.0;
+    frame += advance;
+    if (progress && result.clip.frames % 64 == 0) progress(frame / clip.frames);
+  }
+  return result;
+}
+
+// Fails where a style is not as strong at the end of the loop as at its beginning.
+Result<void> check_strengths(const LoopSeam& seam, double frame_time, const Model& model,
+                             const std::vector<StrengthTrack>& tracks) {
+  constexpr float kSame = 1e-4f;
+  std::vector<float> begin(model.styles().size()), end = begin;
+  for (const StrengthTrack& track : tracks) {
+    begin[track.style] += track.at(seam.first * frame_time);
+    end[track.style] += track.at(seam.last * frame_time);
+  }
+  for (size_t s = 0; s < begin.size(); ++s) {
+    if (std::abs(begin[s] - end[s]) <= kSame) continue;
+    return Error{"the motion cannot be a loop: style '" + model.styles()[s].name +
+                 "' has another strength at its last frame than at its first"};
+  }
+  return {};
+}
+
+}  // namespace
 
 float StrengthTrack::at(double seconds) const {
   const auto later = std::upper_bound(points.begin(), points.end(), seconds,
@@ -17,55 +64,37 @@ float StrengthTrack::at(double seconds) const {
   return a.strength + static_cast<float>(t) * (later->strength - a.strength);
 }
 
+bool is_unchanged(const Clip& clip, const Restyled& result) {
+  return result.clip.frames == clip.frames && result.clip.rotations == clip.rotations &&
+         result.clip.translations == clip.translations;
+}
+
 Result<Restyled> restyle(const Clip& clip, const Rig& rig,
                          const std::shared_ptr<const Model>& model,
                          const std::vector<StrengthTrack>& tracks, const RestyleOptions& options,
                          const std::function<void(double)>& progress) {
-  Result<Stylizer> stylizer = Stylizer::create(model, rig, options.stylizer);
-  if (!stylizer) return stylizer.error();
-  Restyled result;
-  result.clip.skeleton = clip.skeleton;
-  result.clip.frame_time = clip.frame_time;
-
-  // A calibration pose in front is no motion: it stays what it is.
-  const int first = std::min(rig.first_frame(), clip.frames - 1);
-  for (int f = 0; f < first; ++f) {
-    result.clip.append(clip.pose(f));
-    result.source_frames.push_back(f);
-    result.contacts.push_back({});
-    result.gates.push_back(1);
-  }
-
-  std::vector<Quat> rotations(clip.joints());
-  std::vector<Vec3> translations(clip.joints());
-  const Pose pose{rotations, translations};
-  std::vector<float> strengths(model->styles().size());
-  FlightLookout lookout(clip, rig);
-  if (first + 1 < clip.frames && clip.frame_time > 0) {
-    sample(clip, first + 1, pose);
-    stylizer->set_next(pose, clip.frame_time);
-  }
-  double frame = first, advance = 0;
-  // The head may stop between the last two frames; the end of the input is never overrun.
-  while (frame <= clip.frames - 1 + 1e-6) {
-    std::fill(strengths.begin(), strengths.end(), 0.0f);
-    for (const StrengthTrack& track : tracks) {
-      strengths[track.style] += track.at(frame * clip.frame_time);
+  LoopSeam seam;
+  bool loop = options.loop != LoopMode::off;
+  if (loop) {
+    seam = measure_seam(clip, rig);
+    const Result<void> even = check_strengths(seam, clip.frame_time, *model, tracks);
+    if (options.loop == LoopMode::force) {
+      if (auto closable = check_closable(seam, clip.frame_time); !closable) return closable.error();
+      if (!even) return even.error();
+    } else {
+      loop = even.ok() && is_loop(seam, clip.frame_time);
     }
-    sample(clip, frame, pose);
-    const float flight = lookout.flight(frame);
-    stylizer->set_flight(flight);
-    stylizer->step(pose, strengths, advance * clip.frame_time, clip.frame_time, pose);
-    result.clip.append(pose);
-    result.source_frames.push_back(frame);
-    const std::span<const float> planted = stylizer->contacts();
-    result.contacts.push_back({planted[0] > 0.5f, planted[1] > 0.5f});
-    result.gates.push_back(stylizer->gate());
-    advance = options.timing ? clip_advance(frame, stylizer->rate(), flight) : 1.0;
-    frame += advance;
-    if (progress && result.clip.frames % 64 == 0) progress(frame / clip.frames);
   }
-  return result;
+  if (!loop) return restyle_open(clip, rig, model, tracks, options, progress);
+  const auto half = [&](double begin) {
+    return [&progress, begin](double done) {
+      if (progress) progress(begin + done / 2);
+    };
+  };
+  Result<Restyled> open = restyle_open(clip, rig, model, tracks, options, half(0));
+  // A motion that is left as it is keeps its bits.
+  if (!open || is_unchanged(clip, *open)) return open;
+  return restyle_loop(clip, rig, model, tracks, options, half(0.5));
 }
 
 }  // namespace panache

@@ -1,6 +1,6 @@
 #pragma once
 // A whole clip restyled, with the tempo of the style: the play head runs through the input as fast
-// or as slowly as the style asks.
+// or as slowly as the style asks. A loop becomes a loop.
 
 #include <functional>
 #include <string>
@@ -25,9 +25,26 @@ struct StrengthTrack {
   float at(double seconds) const;
 };
 
+// Whether a clip is restyled as a loop, so that its last pose is its first, travel aside.
+enum class LoopMode {
+  off,
+  detect,  // Where it is one, see is_loop(), and no strength differs between its ends.
+  force,   // Or restyle() fails and says why that cannot be.
+};
+
 struct RestyleOptions {
   StylizerOptions stylizer;
   bool timing = true;  // Change the tempo too; off, the result has the input's frames.
+  LoopMode loop = LoopMode::detect;
+};
+
+// How a clip was made a loop.
+struct LoopFacts {
+  bool closed = false;   // The last pose is the first, travel aside; otherwise all else is 0.
+  int rounds = 0;        // How often it was played, the round before the result included,
+  bool settled = false;  // until one repeated the one before it; false: until the rounds ran out.
+  float input_gap = 0;   // See LoopSeam::gap: of the input, metres,
+  float spread = 0;      // and what was left of it in the result, to be spread over the cycle.
 };
 
 struct Restyled {
@@ -35,7 +52,12 @@ struct Restyled {
   std::vector<double> source_frames;   // Per frame of it, the input's frame (fractional).
   std::vector<FootContacts> contacts;  // Per frame of it.
   std::vector<float> gates;            // Per frame of it, see Stylizer::gate().
+  std::vector<StageFacts> stages;      // Per frame of it.
+  LoopFacts loop;
 };
+
+// Whether `result` is the clip, bit for bit.
+bool is_unchanged(const Clip& clip, const Restyled& result);
 
 // `progress` is called with 0 to 1 now and then; may be empty. With all strengths at 0, model and
 // recipe permitting, the result is the input. Fails where `rig` or the options do not suit.

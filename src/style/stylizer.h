@@ -96,6 +96,8 @@ class Stylizer {
   HandHolds hand_holds() const noexcept { return stages_.hand_holds(); }
   // What was done to the input at the last step.
   const BodyChange& change() const noexcept { return stages_.change(); }
+  // What the stages did at the last step.
+  StageFacts stage_facts() const noexcept { return stages_.facts(); }
   const Rig& rig() const noexcept { return observer_.rig(); }
   const Model& model() const noexcept { return networks_.model(); }
 

@@ -1,6 +1,8 @@
 // A whole clip in one call, and the shape of a style.
 #include "stick_api.h"
 
+#include <cstddef>
+
 namespace {
 
 using panache::test::Walk;
@@ -79,6 +81,38 @@ TEST_F(ClipApi, a_clip_gets_the_tempo_of_its_style_unless_timing_is_off) {
             0);
   panache_character_destroy(live);
   panache_styled_clip_destroy(in_time);
+}
+
+TEST_F(ClipApi, a_loop_stays_one_unless_told_otherwise_or_asked_by_an_old_program) {
+  const Walk strides(skeleton_, 201, false), part(skeleton_, 220, false);  // 3 and 3.3 strides.
+  const auto is_loop = [&](const Walk& walk, const panache_stylize_options* options) {
+    panache_styled_clip* styled = stylize(walk, {{0, 1}}, options);
+    const int32_t loop = panache_styled_clip_is_loop(styled);
+    panache_styled_clip_destroy(styled);
+    return loop;
+  };
+  panache_stylize_options options = PANACHE_STYLIZE_OPTIONS;
+  EXPECT_EQ(is_loop(strides, nullptr), 1);
+  EXPECT_EQ(is_loop(strides, &options), 1);
+  EXPECT_EQ(is_loop(part, &options), 0);
+  options.struct_size = offsetof(panache_stylize_options, loop);
+  EXPECT_EQ(is_loop(strides, &options), 0);
+  options = PANACHE_STYLIZE_OPTIONS;
+  options.loop = 0;
+  EXPECT_EQ(is_loop(strides, &options), 0);
+  const panache_strength_key key = {0, 1};
+  const panache_strength_track track = {0, 1, &key};
+  panache_styled_clip* none = nullptr;
+  options.loop = 2;
+  EXPECT_EQ(panache_stylize_clip(model_, &part.clip, &track, 1, &options, &none),
+            PANACHE_BAD_ARGUMENT);
+  EXPECT_EQ(std::string(panache_last_error()).find("the motion is not a loop: its last pose is "),
+            0u)
+      << panache_last_error();
+  options.loop = 3;
+  EXPECT_EQ(panache_stylize_clip(model_, &part.clip, &track, 1, &options, &none),
+            PANACHE_BAD_ARGUMENT);
+  EXPECT_EQ(none, nullptr);
 }
 
 TEST_F(ClipApi, strength_goes_along_its_keys) {

@@ -21,7 +21,7 @@ ENDS_WITH(panache_skeleton_options, human_joints);
 ENDS_WITH(panache_character_options, max_speed);
 ENDS_WITH(panache_shape, foot_lock);
 ENDS_WITH(panache_report, ahead);
-ENDS_WITH(panache_stylize_options, max_speed);
+ENDS_WITH(panache_stylize_options, reserved);
 ENDS_WITH(panache_retarget_options, meet_hands);
 ENDS_WITH(panache_learnt_report, untouched_cm);
 

@@ -161,7 +161,8 @@ TEST_F(StylizeGltf, a_skeleton_without_motion_is_rejected) {
 TEST_F(StylizeGltf, info_lists_the_motions) {
   const Ran ran = run({"info", "hero.glb", "--clip", "Wave"});
   EXPECT_EQ(ran.exit, 0) << ran.err;
-  EXPECT_NE(ran.out.find("  motion  Walk  31 frames at 30 a second: 1.03 s\n"), std::string::npos)
+  EXPECT_NE(ran.out.find("  motion  Walk  31 frames at 30 a second: 1.03 s, a loop\n"),
+            std::string::npos)
       << ran.out;
   EXPECT_NE(ran.out.find("\n  motion  Wave  "), std::string::npos) << ran.out;
   EXPECT_NE(ran.out.find(" s (shown below)\n"), std::string::npos) << ran.out;

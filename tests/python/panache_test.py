@@ -204,6 +204,20 @@ def test_a_skeleton_is_made_of_arrays(model, walk_file):
                   rest.rotations).max() > 0.1
 
 
+def test_a_loop_stays_one(model, walk):
+    far = [np.abs(walk.rotations[f] - walk.rotations[9]).max() for f in range(60, len(walk))]
+    end = 60 + int(np.argmin(far))
+    cut = panache.Clip(walk.skeleton, walk.rotations[9:end + 1], walk.translations[9:end + 1],
+                       walk.frame_seconds)
+    styled = panache.stylize(model, cut, {'old': 1})
+    assert styled.is_loop and not panache.stylize(model, cut, {'old': 1}, loop='off').is_loop
+    moving = [j for j, parent in enumerate(cut.skeleton.parents) if parent >= 0]
+    assert np.abs(np.abs((styled.rotations[0] * styled.rotations[-1])[moving].sum(-1)) - 1).max() \
+        < 1e-4
+    with pytest.raises(panache.PanacheError, match="loop: expected 'auto', 'on' or 'off'"):
+        panache.stylize(model, cut, {'old': 1}, loop=True)
+
+
 def test_a_strength_follows_its_keys(model, walk):
     styled = panache.stylize(model, walk, {'old': [(1, 0), (3, 1)]}, timing=False, hold_feet=False)
     assert np.array_equal(styled.rotations[:55], walk.rotations[:55])

@@ -82,6 +82,8 @@ int main() {
   FIELD(stylize_options, style_timing);
   FIELD(stylize_options, shape);
   FIELD(stylize_options, max_speed);
+  FIELD(stylize_options, loop);
+  FIELD(stylize_options, reserved);
   STRUCT(retarget_options);
   FIELD(retarget_options, struct_size);
   FIELD(retarget_options, hold_feet);

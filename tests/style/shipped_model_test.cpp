@@ -96,6 +96,7 @@ TEST(ShippedModels, the_int8_one_styles_like_the_float_one) {
     const auto styled = [&](const auto& model) {
       RestyleOptions options;
       options.timing = false;  // So that frames stand side by side.
+      options.loop = LoopMode::off;
       return restyle(walk, *Rig::create(walk), model, {{s, {{0, 1}}}}, options)->clip;
     };
     const Clip a = styled(whole), b = styled(int8);

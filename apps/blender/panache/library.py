@@ -56,7 +56,8 @@ class _Shape(Structure):
 class _StylizeOptions(Structure):
     _fields_ = [('struct_size', c_uint32), ('ease_seconds', c_float),
                 ('smoothing_seconds', c_float), ('hold_feet', c_int32), ('style_root', c_int32),
-                ('style_timing', c_int32), ('shape', POINTER(_Shape)), ('max_speed', c_double)]
+                ('style_timing', c_int32), ('shape', POINTER(_Shape)), ('max_speed', c_double),
+                ('loop', c_int32), ('reserved', c_int32)]
 
 
 class _Pair(Structure):
@@ -232,7 +233,7 @@ def stylize(model, skeleton, motion, frame_seconds, strengths, shape):
         track.key_count, track.keys = 1, ctypes.pointer(keys[-1])
     amounts = _Shape(sizeof(_Shape), *[shape.get(name, 1.0) for name in SHAPE])
     options = _StylizeOptions(sizeof(_StylizeOptions), 0.15, 0.04, 1, 1, 1,
-                              ctypes.pointer(amounts), 15)
+                              ctypes.pointer(amounts), 15, 1, 0)
     out = c_void_p()
     clip = skeleton.clip(motion, frame_seconds)
     _check(library().panache_stylize_clip(model.handle, byref(clip), tracks, len(strengths),

@@ -71,7 +71,8 @@ class Track(Structure):
 class StylizeOptions(Structure):
     _fields_ = [('struct_size', c_uint32), ('ease_seconds', c_float),
                 ('smoothing_seconds', c_float), ('hold_feet', c_int32), ('style_root', c_int32),
-                ('style_timing', c_int32), ('shape', POINTER(Shape)), ('max_speed', c_double)]
+                ('style_timing', c_int32), ('shape', POINTER(Shape)), ('max_speed', c_double),
+                ('loop', c_int32), ('reserved', c_int32)]
 
 
 class RetargetOptions(Structure):
@@ -132,6 +133,7 @@ _FUNCTIONS = {
     'styled_clip_source_frames': (c_void_p, [_H]),
     'styled_clip_contacts': (c_void_p, [_H]),
     'styled_clip_gates': (c_void_p, [_H]),
+    'styled_clip_is_loop': (c_int32, [_H]),
     'retarget_clip': (c_int32, [POINTER(Clip), _H, POINTER(RetargetOptions), _OUT]),
     'learn': (c_int32, [c_char_p, c_size_t, POINTER(Pair), c_int32, c_char_p, c_int32, _OUT]),
     'learnt_destroy': (None, [_H]),

@@ -15,6 +15,7 @@ HUMAN_JOINTS = ('hips', 'spine', 'chest', 'neck', 'head') + tuple(
     for joint in ('Shoulder', 'UpperArm', 'LowerArm', 'Hand', 'UpperLeg', 'LowerLeg', 'Foot',
                   'Toes'))
 Strength = Union[float, Sequence[Tuple[float, float]]]
+_LOOPS = ('off', 'auto', 'on')
 
 
 class Skeleton:
@@ -134,10 +135,12 @@ class StyledClip(Clip):
     source_frames: float64 [frames], the frame of the input that each shows, with fractions.
     contacts:      uint8 [frames, 2], 1 where the left and the right foot are planted.
     gates:         float32 [frames]; 1: motion like what the model knows, 0: unlike it.
+    is_loop:       whether its last pose is its first, travel aside, because the clip's was.
     """
     source_frames: np.ndarray
     contacts: np.ndarray
     gates: np.ndarray
+    is_loop: bool
 
 
 def _styled(handle: Handle, skeleton: Skeleton, frame_seconds: float) -> StyledClip:
@@ -148,7 +151,7 @@ def _styled(handle: Handle, skeleton: Skeleton, frame_seconds: float) -> StyledC
         handle.view(lib.styled_clip_translations(at), (frames, joints, 3)), frame_seconds,
         handle.view(lib.styled_clip_source_frames(at), (frames,), np.float64),
         handle.view(lib.styled_clip_contacts(at), (frames, 2), np.uint8),
-        handle.view(lib.styled_clip_gates(at), (frames,)))
+        handle.view(lib.styled_clip_gates(at), (frames,)), bool(lib.styled_clip_is_loop(at)))
 
 
 def _keys(name: str, strength: Strength) -> list:
@@ -162,7 +165,7 @@ def _keys(name: str, strength: Strength) -> list:
 def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *, timing: bool = True,
             hold_feet: bool = True, style_root: bool = True, ease_seconds: float = 0.15,
             smoothing_seconds: float = 0.04, shape: Optional[Mapping[str, float]] = None,
-            max_speed: float = 15) -> StyledClip:
+            max_speed: float = 15, loop: str = 'auto') -> StyledClip:
     """A clip in a style, or a mix of styles.
 
     styles: {name: strength}; 0 is neutral, 1 the style as captured, -4 to 4. A list of
@@ -171,10 +174,14 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *, timing:
     shape:  how much is given of what the styles do, 0 to 2 each: {'posture': 0.5, 'left_arm': 0},
             see panache_shape.
     max_speed: m/s; faster hips have jumped, see Character.
+    loop:   whether the last pose of the result is its first, travel aside: 'auto', where that is so
+            in the clip; 'on', an error where the two are too far apart; 'off'.
 
     With all strengths at 0 the result is the clip bit for bit (models of recipe panache).
     """
     mapping(styles, 'styles')
+    if loop not in _LOOPS:
+        raise PanacheError(f"loop: expected 'auto', 'on' or 'off', found {str(loop)[:40]!r}")
     tracks = (c.Track * max(len(styles), 1))()
     for track, (name, strength) in zip(tracks, styles.items()):
         keys = _keys(name, strength)
@@ -183,7 +190,8 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *, timing:
     options = sized(c.StylizeOptions, ease_seconds=ease_seconds,
                     smoothing_seconds=smoothing_seconds, hold_feet=hold_feet,
                     style_root=style_root, style_timing=c.flag(timing, 'timing'),
-                    shape=ctypes.pointer(c.shape_of(shape or {})), max_speed=max_speed)
+                    shape=ctypes.pointer(c.shape_of(shape or {})), max_speed=max_speed,
+                    loop=_LOOPS.index(loop))
     handle = Handle('styled_clip', lib.stylize_clip, model._handle.pointer, clip._struct(), tracks,
                     len(styles), options)
     return _styled(handle, clip.skeleton, clip.frame_seconds)

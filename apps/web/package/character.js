@@ -16,7 +16,8 @@ const kCharacterOptions = struct(['size', 'i32'], ['easeSeconds', 'f32'],
   ['maxLag', 'f64'], ['maxLead', 'f64'], ['maxSpeed', 'f64']);
 const kStylizeOptions = struct(['size', 'i32'], ['easeSeconds', 'f32'],
   ['smoothingSeconds', 'f32'], ['holdFeet', 'i32'], ['styleRoot', 'i32'], ['styleTiming', 'i32'],
-  ['shape', 'i32'], ['maxSpeed', 'f64']);
+  ['shape', 'i32'], ['maxSpeed', 'f64'], ['loop', 'i32'], ['reserved', 'i32']);
+const kLoops = ['off', 'auto', 'on'];
 const kShape = struct(['size', 'i32'], ['strength', 'f32'], ['posture', 'f32'],
   ['dynamics', 'f32'], ['timing', 'f32'], ['legs', 'f32'], ['torso', 'f32'], ['leftArm', 'f32'],
   ['rightArm', 'f32'], ['footLock', 'f32']);
@@ -179,8 +180,9 @@ function writeTrack(arena, panache, name, strength) {
 
 export function stylizeClip(panache, skeleton, clip, strengths, options) {
   const wasm = panache._wasm;
-  const { shape, styleTiming, ...told } = optionsOf(
-    { ...kStylizing, styleTiming: 'steps', shape: {} }, options);
+  const { shape, styleTiming, loop, ...told } = optionsOf(
+    { ...kStylizing, styleTiming: 'steps', shape: {}, loop: 'auto' }, options);
+  if (!kLoops.includes(loop)) throw unexpected('loop', "'auto', 'on' or 'off'", loop);
   const joints = skeleton.jointCount;
   const frameCount = checkClip(clip, joints);
   const styled = panache._arena((arena) => {
@@ -192,7 +194,7 @@ export function stylizeClip(panache, skeleton, clip, strengths, options) {
       ([name, strength]) => writeTrack(arena, panache, name, strength));
     const how = arena.write(kStylizeOptions, {
       size: kStylizeOptions.size, ...told, styleTiming: timingNumber(styleTiming, 'styleTiming'),
-      shape: writeShape(arena, shape),
+      shape: writeShape(arena, shape), loop: kLoops.indexOf(loop), reserved: 0,
     });
     const list = arena.array(kTrack, tracks);
     return arena.create((out) => wasm.panache_stylize_clip(
@@ -209,6 +211,7 @@ export function stylizeClip(panache, skeleton, clip, strengths, options) {
     sourceFrames: copy(Float64Array, wasm.panache_styled_clip_source_frames(styled), frames),
     contacts: copy(Uint8Array, wasm.panache_styled_clip_contacts(styled), 2 * frames),
     gates: copy(Float32Array, wasm.panache_styled_clip_gates(styled), frames),
+    isLoop: wasm.panache_styled_clip_is_loop(styled) !== 0,
   };
   wasm.panache_styled_clip_destroy(styled);
   return out;

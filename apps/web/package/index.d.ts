@@ -133,6 +133,9 @@ export interface StylizeOptions extends StylizingOptions {
   /** Where the clip gets the tempo of the style; 'steps'. true is 'steps', false 'off'. */
   styleTiming?: Timing | boolean;
   shape?: Partial<Shape>;
+  /** Whether the last pose of the result is its first, travel aside: where that is so in the clip
+   * ('auto'), always, or an error where the two are too far apart ('on'), or never. */
+  loop?: 'auto' | 'on' | 'off';
 }
 
 /** What went on at the last step. */
@@ -157,6 +160,8 @@ export interface StyledClip extends Clip {
   /** [frames][2]: 1 where the left and the right foot are planted. */
   contacts: Uint8Array;
   gates: Float32Array;
+  /** Whether it was styled as a loop. */
+  isLoop: boolean;
 }
 
 /** A rig of yours, shared by all its characters. */

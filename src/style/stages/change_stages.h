@@ -20,6 +20,7 @@
 #include "style/stages/root_motion.h"
 #include "style/stages/seat.h"
 #include "style/stages/shaping.h"
+#include "style/stages/stage_facts.h"
 #include "style/stages/step_watch.h"
 #include "style/stages/step_time.h"
 #include "style/stages/window.h"
@@ -61,6 +62,7 @@ class ChangeStages {
   std::span<const float, kFeet> contacts() const noexcept { return contacts_; }
   HandHolds hand_holds() const noexcept { return hands_.holds(); }
   double rate(float timing, float flight) const noexcept;
+  StageFacts facts() const noexcept { return {seat_.amount()}; }
 
   // Calls visit(member) for everything that tells one character from another.
   template <class Self, class Visit>

@@ -1,0 +1,12 @@
+#pragma once
+// What the stages did to one instant, for those who want to tell of it.
+
+namespace panache {
+
+struct StageFacts {
+  // 1 where something besides its feet holds the body up, and hips and legs are left as they are;
+  // see SeatWatch.
+  float seated = 0;
+};
+
+}  // namespace panache
