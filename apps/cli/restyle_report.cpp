@@ -16,12 +16,12 @@ std::string describe_loop(const LoopFacts& loop) {
   return "loop closed (its ends were " + fixed(cm(loop.input_gap), 1) + " cm apart)";
 }
 
-// A body that sits or leans now and then is told of from the first share on, and one that always
-// does from the second on.
-std::string describe_seat(float seated) {
+// What was kept in a share of the motion: told of from the first share on, and as always from the
+// second on.
+std::string describe_kept(const std::string& what, float share) {
   constexpr float kNowAndThen = 0.1f, kAlways = 0.9f;
-  if (seated < kNowAndThen) return "";
-  return seated < kAlways ? "seat kept for " + percent(seated) + " of it" : "seat kept";
+  if (share < kNowAndThen) return "";
+  return what + " kept" + (share < kAlways ? " for " + percent(share) + " of it" : "");
 }
 
 // Feet are held where they slide no more than this, m/s, or than in the input. Without the foot
@@ -41,8 +41,9 @@ std::string describe(const RestyleFacts& facts) {
   if (facts.unchanged) return "unchanged";
   std::string text;
   for (const std::string& part :
-       {facts.loop.closed ? describe_loop(facts.loop) : "", describe_seat(facts.seated),
-        describe_feet(facts), percent(facts.known) + " known motion"}) {
+       {facts.loop.closed ? describe_loop(facts.loop) : "", describe_kept("seat", facts.seated),
+        describe_kept("contacts of hands", facts.touching), describe_feet(facts),
+        percent(facts.known) + " known motion"}) {
     if (!part.empty()) text += (text.empty() ? "" : "; ") + part;
   }
   return text;
@@ -58,9 +59,13 @@ Json facts_json(const RestyleFacts& facts) {
               {"gap_before_cm", cm(loop.input_gap)},
               {"spread_cm", cm(loop.spread)}};
   }
-  return {{"unchanged", facts.unchanged},   {"loop", closed},
-          {"seated", number(facts.seated)}, {"planted", number(facts.planted)},
-          {"slide", number(facts.slide)},   {"slide_before", number(facts.input_slide)},
+  return {{"unchanged", facts.unchanged},
+          {"loop", closed},
+          {"touching", number(facts.touching)},
+          {"seated", number(facts.seated)},
+          {"planted", number(facts.planted)},
+          {"slide", number(facts.slide)},
+          {"slide_before", number(facts.input_slide)},
           {"known", number(facts.known)}};
 }
 

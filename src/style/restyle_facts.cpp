@@ -8,7 +8,7 @@
 namespace panache {
 namespace {
 
-constexpr float kSeated = 0.5f;    // Of StageFacts::seated.
+constexpr float kSeated = 0.5f, kTouching = 0.5f;  // Of StageFacts.
 constexpr float kStanding = 0.5f;  // m/s; the foot lock lets faster feet of the input go.
 
 using Toes = std::array<Vec3, kFeet>;
@@ -68,9 +68,11 @@ RestyleFacts restyle_facts(const Clip& clip, const Rig& rig, const Restyled& res
   for (int f = first; f < result.clip.frames; ++f) {
     facts.known += result.gates[f];
     facts.seated += result.stages[f].seated > kSeated;
+    facts.touching += result.stages[f].touching > kTouching;
   }
   facts.known /= frames;
   facts.seated /= frames;
+  facts.touching /= frames;
   measure_feet(clip, rig, result, first, facts);
   return facts;
 }

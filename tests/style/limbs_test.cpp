@@ -12,27 +12,27 @@ namespace {
 using enum HumanJoint;
 using test::kX, test::kY, test::kZ, test::posed_body, test::turned;
 
-constexpr StepTime kStep = {1 / 60.0, 1 / 60.0f, false}, kFirst = {1 / 60.0, 1 / 60.0f, true};
+constexpr StepTime kPushTime = {1 / 60.0, 1 / 60.0f, false}, kFirst = {1 / 60.0, 1 / 60.0f, true};
 
-struct Stepped {
+struct Pushed {
   BodyChange change;
   HumanPositions joints;
   Vec3 at(HumanJoint joint) const { return joints[index(joint)]; }
 };
-Stepped wanted_of(const BodyPose& body, const BodyChange& change) {
-  Stepped out{change, {}};
+Pushed wanted_of(const BodyPose& body, const BodyChange& change) {
+  Pushed out{change, {}};
   changed_joints(body, change, out.joints);
   return out;
 }
-Stepped legs(const BodyPose& body, const BodyChange& wanted, std::array<float, 2> planted = {},
-             float amount = 1) {
-  Stepped out = wanted_of(body, wanted);
+Pushed legs(const BodyPose& body, const BodyChange& wanted, std::array<float, 2> planted = {},
+            float amount = 1) {
+  Pushed out = wanted_of(body, wanted);
   LegsApart().step(body, amount, planted, kFirst, out.joints, out.change);
   return wanted_of(body, out.change);
 }
-Stepped arms(const BodyPose& body, const BodyChange& wanted, const HandHolds& holds = {},
-             float amount = 1) {
-  Stepped out = wanted_of(body, wanted);
+Pushed arms(const BodyPose& body, const BodyChange& wanted, const HandHolds& holds = {},
+            float amount = 1) {
+  Pushed out = wanted_of(body, wanted);
   ArmsClear().step(body, amount, holds, kFirst, out.joints, out.change);
   return wanted_of(body, out.change);
 }
@@ -53,9 +53,9 @@ BodyChange closed(float in) {
 
 TEST(LegsApart, legs_that_a_style_puts_through_each_other_stay_beside_each_other) {
   for (const float in : {0.12f, 0.2f, 0.35f}) {
-    const Stepped missed = wanted_of(standing(), closed(in));
+    const Pushed missed = wanted_of(standing(), closed(in));
     ASSERT_LT((missed.at(left_foot) - missed.at(right_foot)).x, 0) << "crossed";
-    const Stepped out = legs(standing(), closed(in));
+    const Pushed out = legs(standing(), closed(in));
     EXPECT_GT((out.at(left_lower_leg) - out.at(right_lower_leg)).x, 0.1f) << in;
     EXPECT_GT((out.at(left_foot) - out.at(right_foot)).x, 0.06f) << in;
   }
@@ -68,9 +68,9 @@ TEST(LegsApart, bent_knees_swivel_and_planted_feet_stay) {
       turned({{left_upper_leg, axis_angle(kZ, -0.25f)}, {right_upper_leg, axis_angle(kZ, 0.25f)}});
   wanted.rotations[index(left_lower_leg)] = axis_angle(kZ, 0.3f);
   wanted.rotations[index(right_lower_leg)] = axis_angle(kZ, -0.3f);
-  const Stepped missed = wanted_of(body, wanted);
+  const Pushed missed = wanted_of(body, wanted);
   ASSERT_LT((missed.at(left_lower_leg) - missed.at(right_lower_leg)).x, 0.05f);
-  const Stepped out = legs(body, wanted, {1, 1});
+  const Pushed out = legs(body, wanted, {1, 1});
   EXPECT_GT((out.at(left_lower_leg) - out.at(right_lower_leg)).x, 0.09f);
   EXPECT_LT(length(out.at(left_foot) - missed.at(left_foot)), 0.005f);
   EXPECT_LT(length(out.at(right_foot) - missed.at(right_foot)), 0.005f);
@@ -95,9 +95,9 @@ TEST(LegsApart, a_push_comes_and_goes_without_a_jump) {
   Vec3 last, last_wanted;
   for (int f = 0; f < 240; ++f) {
     const float in = 0.15f - 0.15f * cosine(0.0524f * static_cast<float>(f));
-    const Stepped wanted = wanted_of(body, closed(in));
-    Stepped out = wanted;
-    stage.step(body, 1, {}, f == 0 ? kFirst : kStep, out.joints, out.change);
+    const Pushed wanted = wanted_of(body, closed(in));
+    Pushed out = wanted;
+    stage.step(body, 1, {}, f == 0 ? kFirst : kPushTime, out.joints, out.change);
     if (f > 0) {
       const float asked = length(wanted.at(left_foot) - last_wanted);
       EXPECT_LT(length(out.at(left_foot) - last), 2 * asked + 0.004f) << f;
@@ -107,7 +107,7 @@ TEST(LegsApart, a_push_comes_and_goes_without_a_jump) {
 }
 
 // From the axis of the torso.
-float from_torso(const Stepped& body, HumanJoint joint) {
+float from_torso(const Pushed& body, HumanJoint joint) {
   const Vec3 low = (body.at(left_upper_leg) + body.at(right_upper_leg)) * 0.5f;
   const Vec3 high = (body.at(left_upper_arm) + body.at(right_upper_arm)) * 0.5f;
   return length(from_line(body.at(joint), low, lerp(low, high, 0.85f)));
@@ -123,9 +123,9 @@ BodyChange into_belly() { return turned({{left_lower_arm, rotation_y(-1.3f)}}); 
 
 TEST(ArmsClear, a_hand_that_a_style_puts_into_the_torso_stays_outside) {
   const BodyPose body = arm_ahead();
-  const Stepped missed = wanted_of(body, into_belly());
+  const Pushed missed = wanted_of(body, into_belly());
   ASSERT_LT(from_torso(missed, left_hand), 0.12f);
-  const Stepped out = arms(body, into_belly());
+  const Pushed out = arms(body, into_belly());
   EXPECT_GT(from_torso(out, left_hand), 0.14f);
   EXPECT_EQ(out.change.rotations[index(right_upper_arm)], Quat{});
 }
@@ -133,9 +133,9 @@ TEST(ArmsClear, a_hand_that_a_style_puts_into_the_torso_stays_outside) {
 TEST(ArmsClear, an_elbow_stays_on_its_own_side_of_the_torso) {
   const BodyPose body = arm_ahead();
   const BodyChange wanted = turned({{left_upper_arm, axis_angle(kZ, -0.8f)}});
-  const Stepped missed = wanted_of(body, wanted);
+  const Pushed missed = wanted_of(body, wanted);
   ASSERT_LT(from_torso(missed, left_lower_arm), 0.1f);
-  const Stepped out = arms(body, wanted);
+  const Pushed out = arms(body, wanted);
   EXPECT_GT(out.at(left_lower_arm).x, 0.1f);
 }
 
@@ -146,12 +146,12 @@ TEST(ArmsClear, hands_that_hold_each_other_move_together) {
                                     {right_lower_arm, rotation_y(1.3f)}});
   const BodyChange wanted =
       turned({{left_lower_arm, rotation_y(-1.3f)}, {right_lower_arm, rotation_y(1.3f)}});
-  const Stepped missed = wanted_of(body, wanted);
+  const Pushed missed = wanted_of(body, wanted);
   HandHolds holds;
   holds.together = 1;
-  const Stepped out = arms(body, wanted, holds);
+  const Pushed out = arms(body, wanted, holds);
   ASSERT_FALSE(test::same(out.change, wanted));
-  const auto between = [](const Stepped& s) { return s.at(right_hand) - s.at(left_hand); };
+  const auto between = [](const Pushed& s) { return s.at(right_hand) - s.at(left_hand); };
   EXPECT_LT(length(between(out) - between(missed)), 0.005f);
 }
 

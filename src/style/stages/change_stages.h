@@ -1,6 +1,7 @@
 #pragma once
 // The stages of a step that carry out a change, whoever asks for it: from the filter to the feet.
 
+#include <algorithm>
 #include <array>
 #include <span>
 
@@ -62,7 +63,10 @@ class ChangeStages {
   std::span<const float, kFeet> contacts() const noexcept { return contacts_; }
   HandHolds hand_holds() const noexcept { return hands_.holds(); }
   double rate(float timing, float flight) const noexcept;
-  StageFacts facts() const noexcept { return {seat_.amount()}; }
+  StageFacts facts() const noexcept {
+    const HandHolds holds = hands_.holds();
+    return {seat_.amount(), std::max({holds.together, holds.by_body[0], holds.by_body[1]})};
+  }
 
   // Calls visit(member) for everything that tells one character from another.
   template <class Self, class Visit>
