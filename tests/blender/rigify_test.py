@@ -37,7 +37,7 @@ assert not any(name.startswith(('ORG-', 'DEF-', 'MCH-')) for name in keyed), key
 # What the library makes of the same joints.
 from panache import sampling, settings  # noqa: E402
 sampled = sampling.Sampled(bpy.context, rig, walk)
-styled = sampled.stylize(settings.model(), {'old': 1.0}, settings.shape(rig))
+styled = sampled.stylize(settings.model(), {'old': 1.0}, settings.shape(rig), 'steps')
 worst = {'feet': (0, ''), 'rest': (0, '')}
 for i in range(styled.frame_count):
     places = sampled.world_pose(styled, i)

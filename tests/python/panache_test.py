@@ -82,10 +82,12 @@ def test_a_glb_with_two_motions_is_restyled_to_the_programs_bytes(walk_file, shi
     run('stylize', tmp_path / 'one.glb', '--model', shipped, '--style', 'moping=1', '-o',
         tmp_path / 'two.glb')
     assert panache.MotionFile(tmp_path / 'two.glb').clip_names == ['walk (moping 1)', 'walk']
-    panache.stylize_file(tmp_path / 'two.glb', tmp_path / 'a.glb', {'old': 1.5}, timing=False)
-    run('stylize', tmp_path / 'two.glb', '--model', shipped, '--style', 'old=1.5', '--no-timing',
-        '-o', tmp_path / 'b.glb')
-    assert (tmp_path / 'a.glb').read_bytes() == (tmp_path / 'b.glb').read_bytes()
+    for timing, word in ((False, 'off'), ('all', 'all'), ('steps', 'steps')):
+        panache.stylize_file(tmp_path / 'two.glb', tmp_path / 'a.glb', {'old': 1.5}, timing=timing,
+                             force=True)
+        run('stylize', tmp_path / 'two.glb', '--model', shipped, '--style', 'old=1.5', '--timing',
+            word, '-o', tmp_path / 'b.glb', '--force')
+        assert (tmp_path / 'a.glb').read_bytes() == (tmp_path / 'b.glb').read_bytes()
     assert len(panache.MotionFile(tmp_path / 'a.glb').clip_names) == 4
 
 

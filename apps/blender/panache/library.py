@@ -14,6 +14,7 @@ HUMAN_JOINTS = ['hips', 'spine', 'chest', 'neck', 'head'] + [
                   'Toes')]
 SHAPE = ('strength', 'posture', 'dynamics', 'timing', 'legs', 'torso', 'left_arm', 'right_arm',
          'foot_lock')
+TIMINGS = ('off', 'steps', 'all')  # As panache_stylize_options.style_timing counts them.
 
 
 class PanacheError(Exception):
@@ -223,8 +224,8 @@ class Styled:
         library().panache_styled_clip_destroy(handle)
 
 
-def stylize(model, skeleton, motion, frame_seconds, strengths, shape):
-    """strengths: {style: number}; shape: {name of SHAPE: number}."""
+def stylize(model, skeleton, motion, frame_seconds, strengths, shape, timing='steps'):
+    """strengths: {style: number}; shape: {name of SHAPE: number}; timing: one of TIMINGS."""
     tracks = (_Track * max(1, len(strengths)))()
     keys = []
     for track, (style, strength) in zip(tracks, strengths.items()):
@@ -232,7 +233,8 @@ def stylize(model, skeleton, motion, frame_seconds, strengths, shape):
         track.style = model.styles.index(style)
         track.key_count, track.keys = 1, ctypes.pointer(keys[-1])
     amounts = _Shape(sizeof(_Shape), *[shape.get(name, 1.0) for name in SHAPE])
-    options = _StylizeOptions(sizeof(_StylizeOptions), 0.15, 0.04, 1, 1, 1,
+    options = _StylizeOptions(sizeof(_StylizeOptions), 0.15, 0.04, 1, 1,
+                              TIMINGS.index(timing),
                               ctypes.pointer(amounts), 15, 1, 0)
     out = c_void_p()
     clip = skeleton.clip(motion, frame_seconds)

@@ -45,7 +45,8 @@ class PANACHE_OT_bake(_OnArmature, bpy.types.Operator):
         armature.panache.preview = False
         strengths = settings.strengths(armature)
         sampled = sampling.Sampled(context, armature, action)
-        styled = sampled.stylize(settings.model(), strengths, settings.shape(armature))
+        styled = sampled.stylize(settings.model(), strengths, settings.shape(armature),
+                                 armature.panache.timing_where)
         preview.note(armature, sampled, styled, controls.Plan(armature, sampled.joints))
         styles = ', '.join('%s %s' % (name, _amount(value)) for name, value in strengths.items())
         new = baking.bake(context, armature, sampled, styled, action,
@@ -66,7 +67,7 @@ class PANACHE_OT_look(_OnArmature, bpy.types.Operator):
         action = self.source(armature)
         sampled = sampling.Sampled(context, armature, action)
         styled = sampled.stylize(settings.model(), settings.strengths(armature),
-                                 settings.shape(armature))
+                                 settings.shape(armature), armature.panache.timing_where)
         preview.note(armature, sampled, styled, controls.Plan(armature, sampled.joints))
         return {'FINISHED'}
 

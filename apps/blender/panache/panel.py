@@ -53,6 +53,7 @@ class PANACHE_PT_shape(_Panel, bpy.types.Panel):
         column = self.layout.column(align=True)
         for name in settings.SHAPE:
             column.prop(context.object.panache, name, slider=True)
+        self.layout.row().prop(context.object.panache, 'timing_where', expand=True)
 
 
 class PANACHE_PT_rig(_Panel, bpy.types.Panel):

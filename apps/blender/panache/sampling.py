@@ -127,9 +127,9 @@ class Sampled:
         self.motion = library.Motion(count, rotations, translations)
         self.skeleton = library.Skeleton(rest, self.motion)
 
-    def stylize(self, model, strengths, shape):
+    def stylize(self, model, strengths, shape, timing):
         return library.stylize(model, self.skeleton, self.motion, self.frame_seconds, strengths,
-                               shape)
+                               shape, timing)
 
     def is_same(self, styled):
         """Whether a style has left the motion as it was, bit for bit."""

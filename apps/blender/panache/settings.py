@@ -6,7 +6,7 @@ import os
 import tempfile
 
 import bpy
-from bpy.props import (BoolProperty, FloatProperty, PointerProperty, StringProperty)
+from bpy.props import (BoolProperty, EnumProperty, FloatProperty, PointerProperty, StringProperty)
 
 from . import library, preview
 
@@ -165,6 +165,11 @@ def _make_settings_class(styles, groups):
                                   update=_changed)
               for name, (label, text, default) in SHAPE.items()}
     fields.update(
+        timing_where=EnumProperty(
+            name='Tempo', default='steps', update=_changed,
+            description='Where the motion gets the tempo of the style',
+            items=[('steps', 'Steps', 'Where the feet step; talk and gestures keep their length'),
+                   ('all', 'All', 'Everywhere'), ('off', 'Off', 'Every frame stays in its place')]),
         styles=PointerProperty(type=styles), groups=PointerProperty(type=groups),
         preview=BoolProperty(name='Live Preview', update=preview.toggled,
                              description='Show the style at the current frame while sliders move'),

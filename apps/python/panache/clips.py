@@ -16,6 +16,7 @@ HUMAN_JOINTS = ('hips', 'spine', 'chest', 'neck', 'head') + tuple(
                   'Toes'))
 Strength = Union[float, Sequence[Tuple[float, float]]]
 _LOOPS = ('off', 'auto', 'on')
+_TIMINGS = ('off', 'steps', 'all')  # As panache_stylize_options.style_timing counts them.
 
 
 class Skeleton:
@@ -162,7 +163,7 @@ def _keys(name: str, strength: Strength) -> list:
     return [(number(seconds, name), number(amount, name)) for seconds, amount in pairs]
 
 
-def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *, timing: bool = True,
+def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *, timing: Union[bool, str] = 'steps',
             hold_feet: bool = True, style_root: bool = True, ease_seconds: float = 0.15,
             smoothing_seconds: float = 0.04, shape: Optional[Mapping[str, float]] = None,
             max_speed: float = 15, loop: str = 'auto') -> StyledClip:
@@ -170,7 +171,8 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *, timing:
 
     styles: {name: strength}; 0 is neutral, 1 the style as captured, -4 to 4. A list of
             (seconds, strength) instead is followed in straight lines.
-    timing: the clip gets the tempo of the style, and so other frames than the input.
+    timing: where the clip gets the tempo of the style, and so other frames than the input: 'steps',
+            where the feet step; 'all' or 'off'. True is 'steps', False 'off'.
     shape:  how much is given of what the styles do, 0 to 2 each: {'posture': 0.5, 'left_arm': 0},
             see panache_shape.
     max_speed: m/s; faster hips have jumped, see Character.
@@ -182,6 +184,11 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *, timing:
     mapping(styles, 'styles')
     if loop not in _LOOPS:
         raise PanacheError(f"loop: expected 'auto', 'on' or 'off', found {str(loop)[:40]!r}")
+    if isinstance(timing, str):
+        if timing not in _TIMINGS:
+            raise PanacheError(
+                f"timing: expected 'steps', 'all' or 'off', found {timing[:40]!r}")
+        timing = _TIMINGS.index(timing)
     tracks = (c.Track * max(len(styles), 1))()
     for track, (name, strength) in zip(tracks, styles.items()):
         keys = _keys(name, strength)
