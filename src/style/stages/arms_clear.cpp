@@ -13,7 +13,9 @@ constexpr float kTorsoEnd = 0.85f, kSkullLength = 0.09f;
 // The share of a push that a wrist does not give way by where it is held.
 constexpr float kStays = 0.5f;
 constexpr float kEaseSeconds = 0.05f;
+// A push may lead into another, unless it is small, metres.
 constexpr int kPasses = 3;
+constexpr float kSmall = 0.03f;
 
 // Along a forearm, from the elbow; beyond 1 is the hand. Up to kElbow it has to be on its own side
 // of the torso; hands go anywhere around it.
@@ -43,6 +45,8 @@ Vec3 across_shoulders(const HumanPositions& joints) {
   return normalized(joints[index(left_upper_arm)] - joints[index(right_upper_arm)], {1, 0, 0});
 }
 
+float size_of(const LimbMove& move) { return length(move.middle) + length(move.end); }
+
 struct ArmPush {
   LimbMove move;
   float together = 0;  // Metres: of the wrist on the way of both hands, see Pusher::way_of_both().
@@ -51,13 +55,18 @@ struct ArmPush {
 class Pusher {
  public:
   Pusher(const BodyPose& body, const BodyChange& change, const TrunkCapsules& trunk)
-      : body_(body), change_(change), trunk_(trunk) {}
+      : body_(body),
+        change_(change),
+        trunk_(trunk),
+        input_trunk_(trunk_of(body.joints)),
+        input_across_(across_shoulders(body.joints)),
+        to_heading_(rotation_y(-body.facing)) {}
 
   // Across the torso, from its axis to the middle between the hands in the input: where hands go
   // that hold each other.
   Vec3 way_of_both() const {
     const auto at = [&](HumanJoint joint) { return body_.joints[index(joint)]; };
-    const Capsule torso = trunk_of(body_.joints)[0];
+    const Capsule& torso = input_trunk_[0];
     const Vec3 up = normalized(torso.to - torso.from);
     const Vec3 hands = (at(left_hand) + at(right_hand)) * 0.5f - torso.from;
     const Vec3 ahead = cross(at(left_upper_arm) - at(right_upper_arm), up);
@@ -69,6 +78,7 @@ class Pusher {
     ArmPush push;
     const Vec3 middle = lerp(joints[arm.middle], joints[arm.end], kArmPoints.back() / 2);
     const float half = length(middle - joints[arm.middle]);
+    const Vec3 out = across_shoulders(joints) * (side == 0 ? 1.0f : -1.0f);
     for (size_t c = 0; c < trunk_.size(); ++c) {
       const float away = length(from_line(middle, trunk_[c].from, trunk_[c].to));
       // An elbow may have gone through, and be beyond.
@@ -78,7 +88,7 @@ class Pusher {
         const Vec3 way = from_line(point, trunk_[c].from, trunk_[c].to);
         const float reach = trunk_[c].radius + kForearm;
         if (c == 0 && place < kElbow) {
-          push_elbow(joints, side, place, way, reach, push.move.middle);
+          push_elbow(out, side, place, way, reach, push.move.middle);
           continue;
         }
         if (!(length(way) < reach)) continue;
@@ -99,20 +109,17 @@ class Pusher {
   }
 
  private:
-  // Across the shoulders, to where it is in the input.
-  void push_elbow(const HumanPositions& joints, int side, float place, Vec3 way, float reach,
-                  Vec3& push) const {
-    const float left = side == 0 ? 1.0f : -1.0f;
-    const Vec3 out = across_shoulders(joints) * left;
+  // Across the shoulders (`out`, unit, to its own side), to where it is in the input.
+  void push_elbow(Vec3 out, int side, float place, Vec3 way, float reach, Vec3& push) const {
     if (!(push_across(way, out, reach) > 0)) return;
     const Vec3 was = before(arm_joints(side), place, 0);
-    const float own = dot(was, across_shoulders(body_.joints)) * left;
+    const float own = dot(was, input_across_) * (side == 0 ? 1.0f : -1.0f);
     const float kept = (std::min(reach, length(was)) - kFreeDepth) * smooth_step(own / kOwnSide);
     if (kept > 0) raise_push(push, out, push_across(way, out, kept));
   }
   // From a capsule to a point of a forearm in the input, world.
   Vec3 before(const LimbJoints& arm, float place, size_t capsule) const {
-    const Capsule was = trunk_of(body_.joints)[capsule];
+    const Capsule& was = input_trunk_[capsule];
     const Vec3 point = lerp(body_.joints[arm.middle], body_.joints[arm.end], place);
     return from_line(point, was.from, was.to);
   }
@@ -120,12 +127,15 @@ class Pusher {
   // What a way from a capsule in the input, world, is with the change.
   Vec3 carried(size_t capsule, Vec3 way) const {
     const Quat turn = change_.rotations[index(capsule == 0 ? chest : head)];
-    return rotate(turn, rotate(rotation_y(-body_.facing), way));
+    return rotate(turn, rotate(to_heading_, way));
   }
 
   const BodyPose& body_;
   const BodyChange& change_;
   const TrunkCapsules& trunk_;
+  TrunkCapsules input_trunk_;  // World.
+  Vec3 input_across_;          // World.
+  Quat to_heading_;
 };
 
 }  // namespace
@@ -140,7 +150,8 @@ void ArmsClear::step(const BodyPose& body, float amount, const HandHolds& holds,
   bool pushed = false;
   for (int pass = 0; pass < kPasses; ++pass) {
     std::array<ArmPush, 2> pushes = {pusher.push_of(moved, 0), pusher.push_of(moved, 1)};
-    if (pushes[0].move == LimbMove{} && pushes[1].move == LimbMove{}) break;
+    const float largest = size_of(pushes[0].move) + size_of(pushes[1].move);
+    if (largest == 0) break;
     pushed = true;
     const Vec3 both = pusher.way_of_both() * std::max(pushes[0].together, pushes[1].together);
     for (int side = 0; side < 2; ++side) {
@@ -156,6 +167,7 @@ void ArmsClear::step(const BodyPose& body, float amount, const HandHolds& holds,
       if (push == LimbMove{}) continue;
       move_limb(arm, push, moved, scratch);
     }
+    if (largest < kSmall) break;
   }
   if (!pushed && moves_[0].rests() && moves_[1].rests()) return;
   const float gain = time.gain(kEaseSeconds);
