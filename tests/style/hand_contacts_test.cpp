@@ -50,7 +50,7 @@ Stepped step(HandContacts& hands, const BodyPose& body, const BodyChange& wanted
   Stepped out;
   out.change = wanted;
   changed_joints(body, out.change, out.joints);
-  hands.step(body, amount, {kSeconds, kSeconds, first}, out.joints, out.change);
+  hands.step(body, {amount, amount}, {kSeconds, kSeconds, first}, out.joints, out.change);
   changed_joints(body, out.change, out.joints);
   out.holds = hands.holds();
   return out;

@@ -33,7 +33,7 @@ Pushed legs(const BodyPose& body, const BodyChange& wanted, std::array<float, 2>
 Pushed arms(const BodyPose& body, const BodyChange& wanted, const HandHolds& holds = {},
             float amount = 1) {
   Pushed out = wanted_of(body, wanted);
-  ArmsClear().step(body, amount, holds, kFirst, out.joints, out.change);
+  ArmsClear().step(body, {amount, amount}, holds, kFirst, out.joints, out.change);
   return wanted_of(body, out.change);
 }
 

@@ -140,9 +140,9 @@ class Pusher {
 
 }  // namespace
 
-void ArmsClear::step(const BodyPose& body, float amount, const HandHolds& holds,
+void ArmsClear::step(const BodyPose& body, std::array<float, 2> amounts, const HandHolds& holds,
                      const StepTime& time, HumanPositions& joints, BodyChange& change) noexcept {
-  if (!(amount > 0)) return reset();
+  if (!(std::max(amounts[0], amounts[1]) > 0)) return reset();
   const TrunkCapsules trunk = trunk_of(joints);
   const Pusher pusher(body, change, trunk);
   HumanPositions moved = joints;
@@ -175,6 +175,7 @@ void ArmsClear::step(const BodyPose& body, float amount, const HandHolds& holds,
     const LimbJoints arm = arm_joints(side);
     LimbMove wanted;
     if (pushed) {
+      const float amount = amounts[static_cast<size_t>(side)];
       wanted = {(moved[arm.middle] - joints[arm.middle]) * amount,
                 (moved[arm.end] - joints[arm.end]) * amount};
     }

@@ -15,10 +15,10 @@ class ArmsClear {
  public:
   void reset() noexcept { *this = {}; }
   // A wrist that is held stays, and its elbow gives way; hands that hold each other move together.
-  // `amount`: how much of a style is in force, 0 to 1; `joints`: changed_joints() of `body` and
-  // `change`, of which it keeps up the arms.
-  void step(const BodyPose& body, float amount, const HandHolds& holds, const StepTime& time,
-            HumanPositions& joints, BodyChange& change) noexcept;
+  // `amounts`: how much of a style is in force, 0 to 1, for the left and the right arm; `joints`:
+  // changed_joints() of `body` and `change`, of which it keeps up the arms.
+  void step(const BodyPose& body, std::array<float, 2> amounts, const HandHolds& holds,
+            const StepTime& time, HumanPositions& joints, BodyChange& change) noexcept;
 
   // Calls visit(member) for everything that tells one character from another.
   template <class Self, class Visit>

@@ -76,9 +76,14 @@ void ChangeStages::step(const AskedChange& asked, const ChangeControl& control,
   changed_joints(now.world, change_, joints);
   held_legs_.step(now.world, control.amount, contacts_, time, joints, change_);
   tell(clock, Stage::feet);
-  hands_.step(now.world, control.amount, time, joints, change_);
+  // An arm that keeps none of the style keeps its input, too.
+  const auto arm = [&](Region region) {
+    return control.amount * std::min(1.0f, control.shape.regions[static_cast<size_t>(region)]);
+  };
+  const std::array<float, 2> arms = {arm(Region::left_arm), arm(Region::right_arm)};
+  hands_.step(now.world, arms, time, joints, change_);
   tell(clock, Stage::hands);
-  arms_.step(now.world, control.amount, hands_.holds(), time, joints, change_);
+  arms_.step(now.world, arms, hands_.holds(), time, joints, change_);
   tell(clock, Stage::arms);
 }
 

@@ -11,9 +11,9 @@ namespace {
 
 using enum HumanJoint;
 
-// Radians from upright: a lean that is not touched, and how much more it may come to at most.
-constexpr float kFreeLean = 0.9f, kLeanRoom = 0.5f;
-
+// Radians from upright: an input that leans less takes all that a style leans, one that leans more
+// than the second nothing.
+constexpr float kUprightLean = 0.35f, kBentLean = 1.2f;
 constexpr float kLowHead = 0.3f, kHighHead = 0.7f;  // Metres; 1.5 where the body stands.
 
 constexpr float kRounding = 1e-3f;  // Radians: an unchanged body is left alone to the bit.
@@ -28,11 +28,9 @@ float share_above_floor(const HumanPositions& world) noexcept {
 
 void limit_fold(const BodyPose& body, HumanPositions& joints, BodyChange& change) noexcept {
   const Vec3 now = torso_way(joints);
-  const float leans = lean(now), over = leans - kFreeLean;
-  if (!(over > 0)) return;
-  // Begins without a kink, and ends at kLeanRoom.
-  const float soft = kFreeLean + over * kLeanRoom / (over + kLeanRoom);
-  const float back = leans - std::max(soft, lean(torso_way(body.joints)) + kRounding);
+  const float own = lean(torso_way(body.joints));
+  const float added = lean(now) - own - kRounding;
+  const float back = added * smooth_step((own - kUprightLean) / (kBentLean - kUprightLean));
   if (!(back > 0)) return;
   const Quat turn = axis_angle(normalized(cross(now, Vec3{0, 1, 0})), back);
   for (int j = index(hips); j <= index(right_hand); ++j) {

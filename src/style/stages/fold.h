@@ -10,9 +10,9 @@ namespace panache {
 float share_above_floor(const HumanPositions& world) noexcept;
 
 // A bent style adds its lean to that of the input: in a squat, a jump or a fall it would take the
-// head between the knees or through the floor. The upper body turns back by what the lean of the
-// torso exceeds a soft limit, though never to less than the input's own lean. `joints`: those of
-// changed_joints(), kept up to date.
+// head between the knees or through the floor. The upper body turns back by a share of what the
+// torso leans more than in the input: by none of it where that is upright, by all where it bends
+// down. `joints`: those of changed_joints(), kept up to date.
 void limit_fold(const BodyPose& body, HumanPositions& joints, BodyChange& change) noexcept;
 
 }  // namespace panache

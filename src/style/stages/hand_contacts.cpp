@@ -144,12 +144,12 @@ HandHolds HandContacts::holds() const noexcept {
   return holds;
 }
 
-void HandContacts::step(const BodyPose& body, float amount, const StepTime& time,
+void HandContacts::step(const BodyPose& body, std::array<float, 2> amounts, const StepTime& time,
                         HumanPositions& joints, BodyChange& change) noexcept {
   watch(body, time);
   const HandHolds holds = this->holds();
   const float most = std::max({holds.together, holds.by_body[0], holds.by_body[1]});
-  if (!(amount > 0 && most > 0)) {
+  if (!(std::max(amounts[0], amounts[1]) > 0 && most > 0)) {
     elbows_ = {};
     return;
   }
@@ -216,6 +216,7 @@ void HandContacts::step(const BodyPose& body, float amount, const StepTime& time
   }
   for (int side = 0; side < 2; ++side) {
     const Wrist& wrist = wrists[side];
+    const float amount = amounts[static_cast<size_t>(side)];
     const Vec3 shift = (wrist.wanted - wrist.now) * amount;
     if (!(length(shift) > kNothing)) {
       elbows_[side] = {};

@@ -17,10 +17,10 @@ namespace panache {
 class HandContacts {
  public:
   void reset() noexcept { *this = {}; }
-  // `joints`: changed_joints() of `body` and `change`, of which it keeps up the arms; `amount`: how
-  // much of a style is in force, 0 to 1.
-  void step(const BodyPose& body, float amount, const StepTime& time, HumanPositions& joints,
-            BodyChange& change) noexcept;
+  // `joints`: changed_joints() of `body` and `change`, of which it keeps up the arms; `amounts`:
+  // how much of a style is in force, 0 to 1, for the left and the right arm.
+  void step(const BodyPose& body, std::array<float, 2> amounts, const StepTime& time,
+            HumanPositions& joints, BodyChange& change) noexcept;
 
   // How much each hand keeps a contact at the last step.
   HandHolds holds() const noexcept;
