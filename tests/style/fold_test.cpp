@@ -76,7 +76,7 @@ TEST(Fold, a_body_near_the_floor_keeps_its_own_pose) {
   EXPECT_EQ(share_above_floor(world), 1);
   world[index(HumanJoint::head)].y = 0.25f;
   EXPECT_EQ(share_above_floor(world), 0);
-  world[index(HumanJoint::head)].y = 0.5f;
+  world[index(HumanJoint::head)].y = 0.375f;
   EXPECT_NEAR(share_above_floor(world), 0.5f, 1e-3f);
 }
 

@@ -47,7 +47,7 @@ void FootStance::watch(const BodyPose& body, int f, const StepTime& time, Foot& 
   // One filter after the other, so that it begins and ends without a jerk.
   approach(foot.wanted, wanted, gain(kRestSeconds), 1e-4f);
   approach(foot.rest, foot.wanted, gain(kRestSeconds), 1e-4f);
-  foot.seen = true;
+  foot.seen = 1;
 }
 
 void FootStance::step(const BodyPose& body, HumanPositions& joints, const Stance& stance,

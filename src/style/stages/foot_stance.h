@@ -2,6 +2,7 @@
 // Eleventh stage: a foot that rests in the input rests in the output.
 
 #include <array>
+#include <cstdint>
 
 #include "pose/foot_lock.h"
 #include "style/stages/step_time.h"
@@ -35,7 +36,7 @@ class FootStance {
     Vec3 ankle, toe;             // Of the input at the last step; world, metres.
     float speed = 0;             // Of the faster of both, smoothed, m/s.
     float wanted = 0, rest = 0;  // Whether it rests, 0 to 1: eased once, and twice.
-    bool seen = false;           // Whether a speed is known.
+    int32_t seen = 0;  // Whether a speed is known. No bool: states are saved without padding.
   };
   static void watch(const BodyPose& body, int f, const StepTime& time, Foot& foot) noexcept;
 
