@@ -30,6 +30,12 @@ void append_fixed(std::string& out, double value, int decimals) {
   out.append(p, static_cast<size_t>(end - p));
 }
 
+std::string with_decimals(double value, int decimals) {
+  std::string text;
+  append_fixed(text, value, decimals);
+  return text;
+}
+
 int decimals_of(std::string_view number) {
   const size_t point = number.find('.');
   if (point == std::string_view::npos) return 0;

@@ -14,6 +14,9 @@ inline constexpr double kLargestNumber = 1e9;
 // nor as a negative zero. What is beyond kLargestNumber is written as that, what is no number as 0.
 void append_fixed(std::string& out, double value, int decimals);
 
+// The same as a text of its own.
+std::string with_decimals(double value, int decimals);
+
 // Digits after the point of `number`; 0 where it has an exponent, which says nothing about them.
 int decimals_of(std::string_view number);
 

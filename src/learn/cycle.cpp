@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "pose/observer.h"
+#include "pose/pose_distance.h"
 #include "pose/root_pose.h"
 
 namespace panache {
@@ -21,9 +22,7 @@ constexpr int kAddedFrames = 90;
 constexpr double kInPhase = 0.1, kBetter = 0.9;
 
 double mean_distance(const HumanPositions& a, const HumanPositions& b) {
-  double sum = 0;
-  for (int j = 0; j < kHumanJoints; ++j) sum += static_cast<double>(length(a[j] - b[j]));
-  return sum / kHumanJoints;
+  return static_cast<double>(pose_distance(a, b).mean);
 }
 
 template <class T>

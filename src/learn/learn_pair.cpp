@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "clip/decimal.h"
 #include "learn/cycle.h"
-#include "learn/number_text.h"
 #include "retarget/retarget.h"
 #include "rig/canonical_skeleton.h"
 #include "walker/walker.h"
@@ -28,8 +28,9 @@ Result<Take> take_of(const LearnClip& from) {
   const double seconds = (from.clip.frames - from.rig.first_frame()) * from.clip.frame_time;
   // Files round the time of a frame: half a frame less is the same.
   if (seconds * kTakeRate < kMinFrames - 0.5) {
-    return Error{from.name + ": has " + number_text(std::max(0.0, seconds)) +
-                 " s of motion; a style is learnt from " + number_text(kMinFrames / kTakeRate) +
+    return Error{from.name + ": has " + with_decimals(std::max(0.0, seconds), 2) +
+                 " s of motion; a style is learnt from " +
+                 with_decimals(kMinFrames / kTakeRate, 2) +
                  " s at least, better from 2 to 3 s; give a longer clip"};
   }
   return make_take(from.clip, from.rig, PoseLayout::positions);

@@ -26,7 +26,7 @@ struct LearnPair {
   int neutral_cycle = 0;  // Frames, where the neutral clip is one cycle; see cycle_frames().
 };
 
-// Rejects what is no action that a neutral of our own is made for: they are "walk" and "run".
+// Fails unless `action` is "walk" or "run", for which the walker makes the neutral motion.
 Result<void> check_action(const std::string& action);
 
 // Both skeletons have joints of the same names with the same parents, in any order; what is above

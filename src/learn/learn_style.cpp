@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "base/parallel.h"
+#include "clip/decimal.h"
 #include "learn/cycle.h"
 #include "learn/fit_style.h"
-#include "learn/number_text.h"
 #include "learn/pairing.h"
 #include "learn/pose_error.h"
 #include "learn/style_file.h"
@@ -97,8 +97,8 @@ Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& p
     return Error{both + ": no match was found between them" +
                  (pairings.empty()
                       ? ", as the neutral one is too short for the styled one"
-                      : " (distance " + number_text(report.match) + ", good is below " +
-                            number_text(double(kGoodMatch)) + ")") +
+                      : " (distance " + with_decimals(report.match, 2) + ", good is below " +
+                            with_decimals(double(kGoodMatch), 2) + ")") +
                  "; a pair shows one action, done neutrally and in the style"};
   }
   report.tempo = mean_tempo(pairings);
@@ -117,8 +117,8 @@ Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& p
                               ": match better with left and right exchanged; record the action "
                               "with the same hand or foot first in both");
   } else if (report.match > kPoorMatch) {
-    report.warnings.push_back(both + ": match badly (distance " + number_text(report.match) +
-                              ", good is below " + number_text(double(kGoodMatch)) +
+    report.warnings.push_back(both + ": match badly (distance " + with_decimals(report.match, 2) +
+                              ", good is below " + with_decimals(double(kGoodMatch), 2) +
                               "); are they of the same action, from its beginning to its end?");
   }
   const std::optional<double> in_step = step_agreement(takes, pairings);
@@ -128,9 +128,10 @@ Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& p
                               "give a neutral clip of four steps or more");
   }
   if (report.tempo < kSlowest || report.tempo > kFastest) {
-    report.warnings.push_back(both + ": the style takes " + number_text(1 / report.tempo) +
+    report.warnings.push_back(both + ": the style takes " + with_decimals(1 / report.tempo, 2) +
                               " times as long as the neutral motion, expected " +
-                              number_text(1 / kFastest) + " to " + number_text(1 / kSlowest) +
+                              with_decimals(1 / kFastest, 2) + " to " +
+                              with_decimals(1 / kSlowest, 2) +
                               "; beyond that the tempo is not followed; record a neutral take "
                               "nearer to it");
   }
@@ -139,7 +140,7 @@ Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& p
     // A clip of as long has up to two frames less, by where its frames lie.
     if (seconds > kShort - 1.5 / kTakeRate) continue;
     report.warnings.push_back((is_neutral ? pair.neutral_name : pair.styled_name) + ": has only " +
-                              number_text(seconds) +
+                              with_decimals(seconds, 2) +
                               " s; 2 to 3 s of a walk, or the whole of an action, teach more");
   }
   return report;
@@ -239,7 +240,7 @@ Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
   }
   StyleInfo info{style, description, "", true};
   info.origin = std::to_string(pairs.size()) + (pairs.size() == 1 ? " pair, " : " pairs, ") +
-                number_text(seconds) + " s:";
+                with_decimals(seconds, 2) + " s:";
   for (const PairReport& pair : learnt.pairs) {
     info.origin += " " + file_name(pair.neutral_name) + " -> " + file_name(pair.styled_name) + ";";
   }
@@ -260,8 +261,8 @@ Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
       learnt.warnings.push_back(
           "'" + style +
           "' is no better than the input on the part of the clips that was held back (" +
-          number_text(learnt.held_back_cm) + " cm off, the input " +
-          number_text(learnt.untouched_cm) +
+          with_decimals(learnt.held_back_cm, 2) + " cm off, the input " +
+          with_decimals(learnt.untouched_cm, 2) +
           "); record 2 to 3 s of one action, neutrally and in the style");
     }
   }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "pose/foot_lock.h"
+#include "pose/limb.h"
 #include "rig/posed_rig.h"
 
 namespace panache {
@@ -154,8 +154,8 @@ class LoopCloser {
 
   // Puts the foot where it was before, but for its own share of the gap.
   void place_foot(int foot, int frame, const RotatedBodyPose& before, const RotatedBodyPose& body,
-                  const HumanPositions& joints, BodyChange& change) const {
-    const int hip = index(kUpperLegs[foot]), knee = index(kLowerLegs[foot]);
+                  HumanPositions& joints, BodyChange& change) const {
+    const LimbJoints leg = leg_joints(foot);
     const int ankle = index(kAnkles[foot]), toes = index(kToes[foot]);
     const float part = share(foot, frame);
     // The gap is that of the end, which the body sees from another side when it begins.
@@ -169,10 +169,8 @@ class LoopCloser {
                         rotate(turned, before.joints[ankle] - before.joints[toes]);
     const Vec3 target = rotate(to_heading, wanted - origin);
     const Vec3 ahead = knee_way(joints[ankle], joints[toes]);
-    const TwoBoneTurn turn = two_bone_ik(joints[hip], joints[knee], joints[ankle], target,
-                                         bend_of(joints[hip], joints[knee], joints[ankle], ahead));
-    change.rotations[hip] = turn.upper * change.rotations[hip];
-    change.rotations[knee] = turn.lower * change.rotations[knee];
+    turn_limb(leg, target, bend_of(joints[leg.root], joints[leg.middle], joints[leg.end], ahead),
+              joints, change);
     change.rotations[ankle] = change.rotations[toes] =
         in_axes(to_heading, apart(body.rotations[ankle], turned * before.rotations[ankle]));
   }

@@ -4,6 +4,7 @@
 
 #include "clip/decimal.h"
 #include "pose/observer.h"
+#include "pose/pose_distance.h"
 
 namespace panache {
 namespace {
@@ -24,25 +25,6 @@ constexpr float kCutGap = 0.04f, kCutWorst = 0.15f, kCutShare = 0.25f, kCutSecon
 // far apart.
 constexpr float kMaxGap = 0.1f;  // Metres.
 
-struct Apart {
-  float mean = 0, worst = 0;
-};
-Apart distance(const HumanPositions& a, const HumanPositions& b) {
-  Apart apart;
-  for (size_t j = 0; j < a.size(); ++j) {
-    const float far = length(a[j] - b[j]);
-    apart.mean += far / static_cast<float>(a.size());
-    apart.worst = std::max(apart.worst, far);
-  }
-  return apart;
-}
-
-std::string with_decimals(double value, int decimals) {
-  std::string text;
-  append_fixed(text, value, decimals);
-  return text;
-}
-
 bool is_long_enough(const LoopSeam& seam, double frame_time) {
   return seam.frames() >= kFewestFrames && seam.frames() * frame_time > kShortest - 1e-6;
 }
@@ -61,11 +43,11 @@ LoopSeam measure_seam(const Clip& clip, const Rig& rig) {
   for (int f = seam.first; f < seam.last; f += step) {
     observe(reader, clip.pose(f), facing, now);
     facing = now.root.facing;
-    seam.extent = std::max(seam.extent, distance(now.body_frame, begin.body_frame).mean);
+    seam.extent = std::max(seam.extent, pose_distance(now.body_frame, begin.body_frame).mean);
   }
   observe(reader, clip.pose(seam.last), facing, now);
-  const Apart apart = distance(now.body_frame, begin.body_frame);
-  seam.gap = apart.mean, seam.worst = apart.worst;
+  const PoseDistance apart = pose_distance(now.body_frame, begin.body_frame);
+  seam.gap = apart.mean, seam.worst = apart.largest;
   seam.extent = std::max(seam.extent, seam.gap);
   seam.begin = begin.root, seam.end = now.root;
   if (seam.frames() < 2) return seam;

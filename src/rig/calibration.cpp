@@ -25,7 +25,8 @@ constexpr float kStanceShare = 0.3f;
 constexpr float kFloorShare = 0.02f;
 constexpr float kFloorFrames = 2;
 
-// A body stands whose head is so straight above its feet (cosine), in this share of the frames.
+// A body stands if the cosine of the angle between its axis and up is at least the first; the
+// second is the share of the frames in which it has to.
 constexpr float kUpright = 0.9f;
 constexpr double kUprightShare = 0.05;
 
@@ -86,9 +87,9 @@ class Calibrator {
     return mapped_joints(frames_.world(frame), of, out_);
   }
 
-  // The axis along which the body stands at rest, where it does so now and then in the motion too:
-  // who lies for most of a clip still gets up. Otherwise the axis along which the head is farthest
-  // above the feet, on the average.
+  // The axis along which the body stands at rest, if it also stands along it in some of the frames:
+  // a clip of a body that mostly lies shows it getting up. Otherwise the axis along which the head
+  // is farthest above the feet on average.
   void find_up() {
     const HumanJoint top = has(head) ? head : has(neck) ? neck : left_upper_arm;
     std::vector<Vec3> ways;

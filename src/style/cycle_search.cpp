@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pose/pose_distance.h"
+
 namespace panache {
 namespace {
 
@@ -10,20 +12,6 @@ namespace {
 // Cycles of one person's walk differ by two to three centimetres in the mean.
 constexpr float kMaxDistance = 0.04f, kMaxDistanceEach = 0.15f;
 constexpr double kCandidates = 1.0 / 60;  // Seconds between moments that are compared.
-
-// Mean and largest distance of the joints of two bodies, each in its body frame.
-struct PoseDistance {
-  float mean = 0, largest = 0;
-};
-PoseDistance compare(const HumanPositions& a, const HumanPositions& b) {
-  PoseDistance out;
-  for (size_t j = 0; j < a.size(); ++j) {
-    const float apart = length(a[j] - b[j]);
-    out.mean += apart / static_cast<float>(a.size());
-    out.largest = std::max(out.largest, apart);
-  }
-  return out;
-}
 
 }  // namespace
 
@@ -35,8 +23,8 @@ std::optional<double> find_cycle(const InputRing& ring, double at, double neares
   const int candidates = static_cast<int>(std::floor((farthest - nearest) / kCandidates)) + 1;
   for (int c = 0; c < candidates; ++c) {
     const double away = nearest + c * kCandidates, to = at + away;
-    const PoseDistance now = compare(here, ring.body(to)),
-                       then = compare(before, ring.body(to - kBeforeCycle));
+    const PoseDistance now = pose_distance(here, ring.body(to)),
+                       then = pose_distance(before, ring.body(to - kBeforeCycle));
     const float mean = (now.mean + then.mean) / 2;
     if (mean >= least || std::max(now.largest, then.largest) > kMaxDistanceEach) continue;
     least = mean;

@@ -110,8 +110,8 @@ Rows<const float> StyleNetworks::shrink(std::span<const Pass> passes, Rows<const
 Stance StyleNetworks::stance() const noexcept {
   Stance sum;
   for (size_t s = 0; s < model_->stances_.size(); ++s) {
+    if (strengths_[s] == 0) continue;
     const float strength = posture_strength(strengths_[s]);
-    if (strength == 0) continue;
     const Stance& own = model_->stances_[s];
     sum.heel += strength * own.heel;
     for (size_t f = 0; f < kFeet; ++f) sum.turn[f] += strength * own.turn[f];

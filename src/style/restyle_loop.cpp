@@ -6,6 +6,7 @@
 #include "pose/close_loop.h"
 #include "pose/foot_lock.h"
 #include "pose/loop.h"
+#include "pose/pose_distance.h"
 #include "style/clip_stepper.h"
 #include "style/loop_schedule.h"
 
@@ -15,7 +16,8 @@ namespace {
 // A result repeats itself when no pose of a round is further than this from that of the round
 // before it, in the mean of the joints. Metres.
 constexpr float kRepeats = 0.0003f;
-// So long a style may take to settle: the slowest of its filters have forgotten 98 % by then.
+// The longest time that a style may take to settle: the slowest filters have forgotten 98 % by
+// then.
 constexpr double kSettleSeconds = 12;
 constexpr int kFewestRounds = 3;
 
@@ -30,16 +32,10 @@ struct LoopStep {
 };
 using Round = std::vector<LoopStep>;
 
-float distance(const HumanPositions& a, const HumanPositions& b) {
-  float mean = 0;
-  for (size_t j = 0; j < a.size(); ++j) mean += length(a[j] - b[j]) / kHumanJoints;
-  return mean;
-}
-
 bool repeats(const Round& round, const Round& before) {
   if (round.size() != before.size()) return false;
   for (size_t i = 0; i < round.size(); ++i) {
-    if (!(distance(round[i].joints, before[i].joints) <= kRepeats)) return false;
+    if (!(pose_distance(round[i].joints, before[i].joints).mean <= kRepeats)) return false;
   }
   return true;
 }

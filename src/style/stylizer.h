@@ -92,8 +92,6 @@ class Stylizer {
   float gate() const noexcept { return networks_.gate(); }
   // Probability that each foot is planted, at the last step.
   std::span<const float, kFeet> contacts() const noexcept { return stages_.contacts(); }
-  // What each hand touches in the input, and keeps touching, at the last step.
-  HandHolds hand_holds() const noexcept { return stages_.hand_holds(); }
   // What was done to the input at the last step.
   const BodyChange& change() const noexcept { return stages_.change(); }
   // What the stages did at the last step.

@@ -41,7 +41,7 @@ bool has_note(const std::vector<std::string>& notes, const std::string& part) {
   return false;
 }
 
-TEST(Calibration, who_lies_for_most_of_a_clip_still_shows_what_is_up) {
+TEST(Calibration, a_body_that_lies_for_most_of_a_clip_still_shows_what_is_up) {
   Clip clip = random_clip(canonical_skeleton(), 60, 0.2f, 2);
   const float h = std::sqrt(0.5f);
   const Clip lying = in_axes(clip, {h, 0, 0, h}, 1, {0, 0.2f, 0});

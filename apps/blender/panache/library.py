@@ -224,7 +224,7 @@ class Styled:
         library().panache_styled_clip_destroy(handle)
 
 
-def stylize(model, skeleton, motion, frame_seconds, strengths, shape, timing='steps'):
+def stylize(model, skeleton, motion, frame_seconds, strengths, shape, timing):
     """strengths: {style: number}; shape: {name of SHAPE: number}; timing: one of TIMINGS."""
     tracks = (_Track * max(1, len(strengths)))()
     keys = []

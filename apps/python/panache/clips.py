@@ -163,10 +163,11 @@ def _keys(name: str, strength: Strength) -> list:
     return [(number(seconds, name), number(amount, name)) for seconds, amount in pairs]
 
 
-def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *, timing: Union[bool, str] = 'steps',
-            hold_feet: bool = True, style_root: bool = True, ease_seconds: float = 0.15,
-            smoothing_seconds: float = 0.04, shape: Optional[Mapping[str, float]] = None,
-            max_speed: float = 15, loop: str = 'auto') -> StyledClip:
+def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *,
+            timing: Union[bool, str] = 'steps', hold_feet: bool = True, style_root: bool = True,
+            ease_seconds: float = 0.15, smoothing_seconds: float = 0.04,
+            shape: Optional[Mapping[str, float]] = None, max_speed: float = 15,
+            loop: str = 'auto') -> StyledClip:
     """A clip in a style, or a mix of styles.
 
     styles: {name: strength}; 0 is neutral, 1 the style as captured, -4 to 4. A list of

@@ -47,7 +47,7 @@ export async function openFile(panache: Panache, file: File, fps = rates.get(fil
 const kWalkSeconds = 12;  // Of the walk that a character without motion gets.
 const kSettle = 3;        // Seconds until the walker has her pace.
 
-/** Whether a file has no motion of a humanoid; one frame is none. */
+/** Whether no clip of a file moves a humanoid for more than one frame. */
 const isStill = ({ clips }: MotionFile) => !clips.some(({ moves, frames }) => moves && frames > 1);
 
 /** The walker's walk as a file. */

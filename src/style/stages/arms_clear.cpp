@@ -12,7 +12,6 @@ constexpr float kTorsoRadius = 0.115f, kSkull = 0.092f, kForearm = 0.036f;
 constexpr float kTorsoEnd = 0.85f, kSkullLength = 0.09f;
 // The share of a push that a wrist does not give way by where it is held.
 constexpr float kStays = 0.5f;
-constexpr float kEaseSeconds = 0.05f;
 // A push may lead into another, unless it is small, metres.
 constexpr int kPasses = 3;
 constexpr float kSmall = 0.03f;
@@ -49,29 +48,25 @@ float size_of(const LimbMove& move) { return length(move.middle) + length(move.e
 
 struct ArmPush {
   LimbMove move;
-  float together = 0;  // Metres: of the wrist on the way of both hands, see Pusher::way_of_both().
+  float together = 0;  // Metres: of the wrist along Pusher::way_of_both().
 };
 
 class Pusher {
  public:
-  Pusher(const BodyPose& body, const BodyChange& change, const TrunkCapsules& trunk)
+  // `together`: how much the hands hold each other.
+  Pusher(const BodyPose& body, const BodyChange& change, const TrunkCapsules& trunk, float together)
       : body_(body),
         change_(change),
         trunk_(trunk),
         input_trunk_(trunk_of(body.joints)),
         input_across_(across_shoulders(body.joints)),
-        to_heading_(rotation_y(-body.facing)) {}
-
-  // Across the torso, from its axis to the middle between the hands in the input: where hands go
-  // that hold each other.
-  Vec3 way_of_both() const {
-    const auto at = [&](HumanJoint joint) { return body_.joints[index(joint)]; };
-    const Capsule& torso = input_trunk_[0];
-    const Vec3 up = normalized(torso.to - torso.from);
-    const Vec3 hands = (at(left_hand) + at(right_hand)) * 0.5f - torso.from;
-    const Vec3 ahead = cross(at(left_upper_arm) - at(right_upper_arm), up);
-    return normalized(carried(0, hands - up * dot(hands, up) + ahead * 0.2f));
+        to_heading_(rotation_y(-body.facing)) {
+    if (together > 0) way_of_both_ = find_way_of_both();
   }
+
+  // Across the torso, from its axis to the middle between the hands in the input, unit: where hands
+  // go that hold each other; 0 where they do not.
+  Vec3 way_of_both() const { return way_of_both_; }
 
   ArmPush push_of(const HumanPositions& joints, int side) const {
     const LimbJoints arm = arm_joints(side);
@@ -100,15 +95,23 @@ class Pusher {
         raise_push(push.move.middle, go / depth, depth * std::clamp(2 * (1 - place), 0.0f, 1.0f));
         raise_push(push.move.end, go / depth, depth);
         // That way may be long where the nearest way out is short.
-        if (c > 0) continue;
+        if (c > 0 || way_of_both_ == Vec3{}) continue;
         push.together =
-            std::max(push.together, std::min(push_across(way, way_of_both(), kept), 2 * depth));
+            std::max(push.together, std::min(push_across(way, way_of_both_, kept), 2 * depth));
       }
     }
     return push;
   }
 
  private:
+  Vec3 find_way_of_both() const {
+    const auto at = [&](HumanJoint joint) { return body_.joints[index(joint)]; };
+    const Capsule& torso = input_trunk_[0];
+    const Vec3 up = normalized(torso.to - torso.from);
+    const Vec3 hands = (at(left_hand) + at(right_hand)) * 0.5f - torso.from;
+    const Vec3 ahead = cross(at(left_upper_arm) - at(right_upper_arm), up);
+    return normalized(carried(0, hands - up * dot(hands, up) + ahead * 0.2f));
+  }
   // Across the shoulders (`out`, unit, to its own side), to where it is in the input.
   void push_elbow(Vec3 out, int side, float place, Vec3 way, float reach, Vec3& push) const {
     if (!(push_across(way, out, reach) > 0)) return;
@@ -136,6 +139,7 @@ class Pusher {
   TrunkCapsules input_trunk_;  // World.
   Vec3 input_across_;          // World.
   Quat to_heading_;
+  Vec3 way_of_both_;  // Heading frame.
 };
 
 }  // namespace
@@ -144,7 +148,7 @@ void ArmsClear::step(const BodyPose& body, std::array<float, 2> amounts, const H
                      const StepTime& time, HumanPositions& joints, BodyChange& change) noexcept {
   if (!(std::max(amounts[0], amounts[1]) > 0)) return reset();
   const TrunkCapsules trunk = trunk_of(joints);
-  const Pusher pusher(body, change, trunk);
+  const Pusher pusher(body, change, trunk, holds.together);
   HumanPositions moved = joints;
   BodyChange scratch;
   bool pushed = false;
@@ -169,20 +173,8 @@ void ArmsClear::step(const BodyPose& body, std::array<float, 2> amounts, const H
     }
     if (largest < kSmall) break;
   }
-  if (!pushed && moves_[0].rests() && moves_[1].rests()) return;
-  const float gain = time.gain(kEaseSeconds);
-  for (int side = 0; side < 2; ++side) {
-    const LimbJoints arm = arm_joints(side);
-    LimbMove wanted;
-    if (pushed) {
-      const float amount = amounts[static_cast<size_t>(side)];
-      wanted = {(moved[arm.middle] - joints[arm.middle]) * amount,
-                (moved[arm.end] - joints[arm.end]) * amount};
-    }
-    moves_[side].step(wanted, gain);
-    if (moves_[side].rests()) continue;
-    move_limb(arm, moves_[side].now(), joints, change);
-  }
+  move_eased({arm_joints(0), arm_joints(1)}, pushed ? &moved : nullptr, amounts, time, moves_,
+             joints, change);
 }
 
 }  // namespace panache

@@ -1,5 +1,5 @@
 #pragma once
-// Behind the hands: no forearm and no hand goes through torso or head.
+// After the hands: no forearm or hand goes through torso or head.
 
 #include <array>
 
@@ -9,8 +9,8 @@
 namespace panache {
 
 // Where a change puts a forearm or a hand deeper into torso or head than the input has it, elbow
-// and wrist are pushed out. Where they are further away, or as
-// deep in the input, nothing changes, to the bit.
+// and wrist are pushed out. Where they are further away, or as deep in the input, nothing changes,
+// to the bit.
 class ArmsClear {
  public:
   void reset() noexcept { *this = {}; }

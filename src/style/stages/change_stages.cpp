@@ -37,7 +37,8 @@ void ChangeStages::step(const AskedChange& asked, const ChangeControl& control,
   if (control.root) root_.step(filter_.delta(), asked.gate, observer, window, time);
   tell(clock, Stage::root);
   Shape shape = control.shape;
-  for (float& region : shape.regions) region *= share_above_floor(now.world.positions);
+  const float share = share_above_floor(now.world.positions);
+  for (float& region : shape.regions) region *= share;
   shape.regions[static_cast<size_t>(Region::legs)] *= 1 - seat_.amount();
   shaping_.step(shape, filter_.delta(), root_.offset(), time, change_);
   tell(clock, Stage::shape);

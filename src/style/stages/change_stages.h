@@ -57,11 +57,10 @@ class ChangeStages {
             const InputWindow& window, const StepTime& time, StageClock* clock) noexcept;
 
   // At the last step: what is to be done to the input, the probability that each foot is planted,
-  // the contacts of the hands, and input seconds per output second, `timing` of the change's own
+  // and input seconds per output second, `timing` of the change's own
   // tempo; 1 in a flight, and where the feet stand.
   const BodyChange& change() const noexcept { return change_; }
   std::span<const float, kFeet> contacts() const noexcept { return contacts_; }
-  HandHolds hand_holds() const noexcept { return hands_.holds(); }
   double rate(float timing, float flight) const noexcept;
   StageFacts facts() const noexcept {
     const HandHolds holds = hands_.holds();

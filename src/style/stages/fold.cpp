@@ -27,8 +27,9 @@ float share_above_floor(const HumanPositions& world) noexcept {
 }
 
 void limit_fold(const BodyPose& body, HumanPositions& joints, BodyChange& change) noexcept {
-  const Vec3 now = torso_way(joints);
   const float own = lean(torso_way(body.joints));
+  if (own <= kUprightLean) return;
+  const Vec3 now = torso_way(joints);
   const float added = lean(now) - own - kRounding;
   const float back = added * smooth_step((own - kUprightLean) / (kBentLean - kUprightLean));
   if (!(back > 0)) return;

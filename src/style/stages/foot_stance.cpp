@@ -5,6 +5,7 @@
 
 #include "base/one_pole.h"
 #include "base/smooth_step.h"
+#include "pose/limb.h"
 
 namespace panache {
 namespace {
@@ -105,13 +106,10 @@ void FootStance::step(const BodyPose& body, HumanPositions& joints, const Stance
   for (int f = 0; f < kFeet; ++f) {
     const float up = rise[f] + held_[f] * drop_;
     if (!(held_[f] > 0) || up == 0) continue;
-    const int hip = index(kUpperLegs[f]), knee = index(kLowerLegs[f]), ankle = index(kAnkles[f]);
-    const Vec3 ahead = knee_way(joints[ankle], joints[index(kToes[f])]);
-    const TwoBoneTurn turn =
-        two_bone_ik(joints[hip], joints[knee], joints[ankle], joints[ankle] + Vec3{0, up, 0},
-                    bend_of(joints[hip], joints[knee], joints[ankle], ahead, kFirm));
-    change.rotations[hip] = turn.upper * change.rotations[hip];
-    change.rotations[knee] = turn.lower * change.rotations[knee];
+    const LimbJoints leg = leg_joints(f);
+    const Vec3 ankle = joints[leg.end], ahead = knee_way(ankle, joints[index(kToes[f])]);
+    turn_limb(leg, ankle + Vec3{0, up, 0},
+              bend_of(joints[leg.root], joints[leg.middle], ankle, ahead, kFirm), joints, change);
   }
   changed_joints(body, change, joints);
 }

@@ -13,7 +13,6 @@ using enum HumanJoint;
 constexpr float kThigh = 0.064f, kShin = 0.044f;
 // Where thighs are only as far apart as the hips are wide, as a share of their length.
 constexpr float kCrotch = 0.3f;
-constexpr float kEaseSeconds = 0.05f;
 constexpr int kPasses = 4;
 // A leg of the input that is this far on its own side counts as being there, metres.
 constexpr float kOwnSide = 0.02f;
@@ -132,22 +131,10 @@ void LegsApart::step(const BodyPose& body, float amount, std::array<float, 2> pl
                 scratch);
     }
   }
-  bool moves = false;
-  if (!pushed && moves_[0].rests() && moves_[1].rests()) return;
-  const float gain = time.gain(kEaseSeconds);
-  for (int side = 0; side < 2; ++side) {
-    const LimbJoints leg = leg_joints(side);
-    LimbMove wanted;
-    if (pushed) {
-      wanted = {(moved[leg.middle] - joints[leg.middle]) * amount,
-                (moved[leg.end] - joints[leg.end]) * amount};
-    }
-    moves_[side].step(wanted, gain);
-    if (moves_[side].rests()) continue;
-    move_limb(leg, moves_[side].now(), joints, change);
-    moves = true;
+  if (move_eased({leg_joints(0), leg_joints(1)}, pushed ? &moved : nullptr, {amount, amount}, time,
+                 moves_, joints, change)) {
+    changed_joints(body, change, joints);
   }
-  if (moves) changed_joints(body, change, joints);
 }
 
 }  // namespace panache

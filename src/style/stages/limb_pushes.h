@@ -2,6 +2,7 @@
 // What pushes a limb out of the body: for the stages that keep limbs outside of it.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/one_pole.h"
@@ -72,5 +73,30 @@ class EasedMove {
  private:
   LimbMove move_;
 };
+
+// Moves both limbs from where they are in `joints` towards where they are in `moved`, by `amounts`
+// of the way, eased; or back, where `moved` is null. Returns whether any of them moves.
+inline bool move_eased(const std::array<LimbJoints, 2>& limbs, const HumanPositions* moved,
+                       std::array<float, 2> amounts, const StepTime& time,
+                       std::array<EasedMove, 2>& moves, HumanPositions& joints,
+                       BodyChange& change) noexcept {
+  constexpr float kEaseSeconds = 0.05f;
+  if (!moved && moves[0].rests() && moves[1].rests()) return false;
+  const float gain = time.gain(kEaseSeconds);
+  bool any = false;
+  for (size_t side = 0; side < 2; ++side) {
+    const auto [root, middle, end, hint] = limbs[side];
+    LimbMove wanted;
+    if (moved) {
+      wanted = {((*moved)[middle] - joints[middle]) * amounts[side],
+                ((*moved)[end] - joints[end]) * amounts[side]};
+    }
+    moves[side].step(wanted, gain);
+    if (moves[side].rests()) continue;
+    move_limb(limbs[side], moves[side].now(), joints, change);
+    any = true;
+  }
+  return any;
+}
 
 }  // namespace panache
