@@ -1,14 +1,10 @@
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
-import { mkdtempSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { frames, isFirefox, phone, pictures, start, unfold } from './browser.mjs';
+import { frames, isFirefox, phone, pictures, start, unfold, workFolder } from './browser.mjs';
 
-const folder = mkdtempSync(join(tmpdir(), 'panache-page-'));
-const panache = (...given) => execFileSync(process.env.PANACHE_PROGRAM, given, { cwd: folder });
+const { at, panache, remove } = workFolder();
 
 let site;
 before(async () => {
@@ -17,7 +13,7 @@ before(async () => {
 });
 after(async () => {
   await site.close();
-  rmSync(folder, { recursive: true });
+  remove();
 });
 
 /** Role and name of all that is told of the page: by Chromium itself, in Firefox by playwright. */
@@ -170,7 +166,7 @@ test('small screens: nothing overlaps or is scrolled sideways, and the view keep
     };
     await check(`${width}x${height}`);
     // A clip has more controls under the view than the walker.
-    await tab.setInputFiles('#file', join(folder, 'walk.bvh'));
+    await tab.setInputFiles('#file', at('walk.bvh'));
     await tab.waitForFunction(() => window.page.source.kind === 'clip');
     await tab.locator('#show-keys').click();
     await check(`${width}x${height}-keys`);
@@ -189,7 +185,7 @@ test('pictures for a person to look at', async () => {
   for (const [name, hash, options, file] of looks) {
     const tab = await site.open(hash, { ...options, steady: true });
     if (file) {
-      await tab.setInputFiles('#file', join(folder, file));
+      await tab.setInputFiles('#file', at(file));
       await tab.waitForFunction(() => window.page.source.kind === 'clip');
     }
     await frames(tab, 25);

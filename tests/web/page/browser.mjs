@@ -2,8 +2,10 @@
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
+import { mkdtempSync, rmSync } from 'node:fs';
 import { mkdir, readFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
+import { tmpdir } from 'node:os';
 import { extname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import playwright from 'playwright-core';
@@ -16,6 +18,18 @@ export const models = join(root, 'models');
 export const nativeHashes = () =>
   execFileSync(process.env.PANACHE_GOLDEN, [join(models, 'panache-int8.safetensors')])
     .toString().trim().split('\n').map((line) => line.split(' ')[1]);
+
+/** A folder of a test's own: the path of a file in it, the program run there, and its end. */
+export function workFolder() {
+  const folder = mkdtempSync(join(tmpdir(), 'panache-page-'));
+  return {
+    folder,
+    at: (name) => join(folder, name),
+    panache: (...given) => execFileSync(process.env.PANACHE_PROGRAM, given,
+      { cwd: folder, encoding: 'utf8' }),
+    remove: () => rmSync(folder, { recursive: true }),
+  };
+}
 
 // Milliseconds after which something is taken to hang, on a busy machine too.
 const kPatience = 180000;

@@ -1,18 +1,14 @@
 // Characters with meshes of their own: made to walk, fitted in, and seen through.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { chooseSave, download, frames, pictures, start } from './browser.mjs';
+import { chooseSave, download, frames, pictures, start, workFolder } from './browser.mjs';
 import { boxCharacter } from './character.mjs';
 
-const folder = mkdtempSync(join(tmpdir(), 'panache-page-'));
-const at = (name) => join(folder, name);
-const panache = (...given) =>
-  execFileSync(process.env.PANACHE_PROGRAM, given, { cwd: folder, encoding: 'utf8' });
+const { at, panache, remove } = workFolder();
 
 let site, tab;
 before(async () => {
@@ -21,7 +17,7 @@ before(async () => {
 });
 after(async () => {
   await site.close();
-  rmSync(folder, { recursive: true });
+  remove();
 });
 
 async function open(name, ...others) {

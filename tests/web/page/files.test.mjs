@@ -1,19 +1,16 @@
 import assert from 'node:assert/strict';
-import { execFileSync, spawn } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync, statSync, truncateSync, writeFileSync } from 'node:fs';
+import { spawn } from 'node:child_process';
+import { readFileSync, statSync, truncateSync, writeFileSync } from 'node:fs';
 import { request } from 'node:http';
-import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
 import {
-  chooseSave, download, drop as dropFiles, frames, models, start, unfold,
+  chooseSave, download, drop as dropFiles, frames, models, start, unfold, workFolder,
 } from './browser.mjs';
 
 const program = process.env.PANACHE_PROGRAM;
-const folder = mkdtempSync(join(tmpdir(), 'panache-page-'));
-const at = (name) => join(folder, name);
-const panache = (...given) => execFileSync(program, given, { cwd: folder, encoding: 'utf8' });
+const { folder, at, panache, remove } = workFolder();
 
 let site, tab;
 before(async () => {
@@ -26,7 +23,7 @@ before(async () => {
 });
 after(async () => {
   await site.close();
-  rmSync(folder, { recursive: true });
+  remove();
 });
 
 const button = (name) => tab.getByRole('button', { name, exact: true });

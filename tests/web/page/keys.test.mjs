@@ -1,20 +1,16 @@
 // Strength over time, and what is taken away.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
 import {
-  chooseSave, doubleClick, download, frames, models, pictures, start, unfold,
+  chooseSave, doubleClick, download, frames, models, pictures, start, unfold, workFolder,
 } from './browser.mjs';
 
 const model = join(models, 'panache-int8.safetensors');
-const folder = mkdtempSync(join(tmpdir(), 'panache-page-'));
-const at = (name) => join(folder, name);
-const panache = (...given) =>
-  execFileSync(process.env.PANACHE_PROGRAM, given, { cwd: folder, encoding: 'utf8' });
+const { at, panache, remove } = workFolder();
 
 let site, tab;
 before(async () => {
@@ -29,7 +25,7 @@ before(async () => {
 });
 after(async () => {
   await site.close();
-  rmSync(folder, { recursive: true });
+  remove();
 });
 
 const button = (name) => tab.getByRole('button', { name, exact: true });

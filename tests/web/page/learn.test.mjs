@@ -1,19 +1,16 @@
 import assert from 'node:assert/strict';
-import { execFileSync, spawn } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { spawn } from 'node:child_process';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
 import {
-  download, drop, frames, listen, models, pictures, start, told, unfold,
+  download, drop, frames, listen, models, pictures, start, told, unfold, workFolder,
 } from './browser.mjs';
 
 const program = process.env.PANACHE_PROGRAM;
 const model = join(models, 'panache-int8.safetensors');
-const folder = mkdtempSync(join(tmpdir(), 'panache-page-'));
-const at = (name) => join(folder, name);
-const panache = (...given) => execFileSync(program, given, { cwd: folder, encoding: 'utf8' });
+const { folder, at, panache, remove } = workFolder();
 const file = (name) => [name, readFileSync(at(name))];
 
 let site, tab;
@@ -27,7 +24,7 @@ before(async () => {
 });
 after(async () => {
   await site.close();
-  rmSync(folder, { recursive: true });
+  remove();
 });
 
 const button = (name) => tab.getByRole('button', { name, exact: true });
