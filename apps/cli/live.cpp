@@ -1,6 +1,9 @@
 // panache live: motion from trackers in, the same motion in another style out to avatars, while it
 // happens (VMC protocol).
 
+#include <chrono>
+#include <cstdio>
+#include <future>
 #include <memory>
 #include <string>
 #include <vector>
@@ -8,9 +11,11 @@
 #include "base/file.h"
 #include "clip/bvh.h"
 #include "clip/text_cursor.h"
+#include "live_view.h"
 #include "messages.h"
 #include "model_path.h"
 #include "outputs.h"
+#include "page_server.h"
 #include "shape_options.h"
 #include "stop_signal.h"
 #include "strengths.h"
@@ -27,7 +32,7 @@ struct Options {
   std::string model, record;
   panache::LiveOptions time;
   ShapeFlags shape;
-  bool quiet = false, force = false;
+  bool view = false, quiet = false, force = false;
 };
 
 // One strength per style of the model.
@@ -97,6 +102,30 @@ Result<void> write_recording(const VmcRecording& recording, const Options& optio
   return {};
 }
 
+// Answers the page's requests beside the relay, as long as it exists.
+class Serving {
+ public:
+  // `server` may be null.
+  explicit Serving(PageServer* server) : server_(server) {
+    if (!server) return;
+    over_ = std::async(std::launch::async, [server] {
+      if (auto served = server->listen(); !served) print_message(served.error().message);
+    });
+  }
+  ~Serving() {
+    // A stop that comes before the server listens is not heard.
+    while (server_ && over_.wait_for(kStopEvery) != std::future_status::ready) server_->stop();
+  }
+  Serving(const Serving&) = delete;
+  Serving& operator=(const Serving&) = delete;
+
+ private:
+  static constexpr std::chrono::milliseconds kStopEvery{10};
+
+  PageServer* server_;
+  std::future<void> over_;
+};
+
 int live(const Options& options) {
   Result<sockaddr_in> in = parse_address(options.in, "--vmc-in", "0.0.0.0");
   if (!in) return fail(in.error(), kBadUsage);
@@ -125,10 +154,23 @@ int live(const Options& options) {
   Result<UdpSocket> socket = UdpSocket::listen(*in, "--vmc-in");
   if (!socket) return fail(socket.error(), kBadInput);
 
+  LiveView view;
+  std::unique_ptr<PageServer> server;
+  if (options.view) {
+    Result<std::unique_ptr<PageServer>> page = PageServer::create();
+    if (!page) return fail(page.error(), kBadInput);
+    server = *std::move(page);
+    view.serve_on(*server);
+    print("http://" + server->address() + "/?live\n");
+    print_message("open this address in a browser to see what goes out");
+    std::fflush(stdout);
+  }
+
   watch_stop_signals();
+  const Serving serving(server.get());
   VmcRecording recording;
   VmcRelay relay(*std::move(socket), *out, *std::move(model), how, *std::move(strengths),
-                 options.record.empty() ? nullptr : &recording);
+                 options.record.empty() ? nullptr : &recording, server ? &view : nullptr);
   if (!options.quiet) {
     print_message("relaying from " + listened_at(*in) + " to " + to_string(*out) +
                   " until Ctrl-C ends it");
@@ -177,6 +219,8 @@ void add_live(CLI::App& app, int& exit_code) {
   verb->add_flag("--skip-cycles", options->time.skip_cycles,
                  "Skip or repeat whole gait cycles to stay within the\n"
                  "limits, so that a tempo lasts (with --max-lag 1.5)");
+  verb->add_flag("--view", options->view,
+                 "Show the first sender's motion, before and after, on a page in a browser");
   verb->add_flag("--force", options->force, "Overwrite the recording");
   verb->add_flag("--quiet", options->quiet, "No statistics every second");
   verb->footer(

@@ -1,4 +1,4 @@
-// In the place of live.cpp and send.cpp in a build without liblo.
+// In the place of live.cpp and send.cpp in a build without liblo and cpp-httplib.
 
 #include <memory>
 #include <string>
@@ -14,7 +14,7 @@ void add_missing(CLI::App& app, int& exit_code, const std::string& name, const s
   CLI::App* verb = app.add_subcommand(name, help);
   verb->allow_extras();
   verb->callback([&exit_code] {
-    exit_code = fail({"this build has no live input; build with liblo-dev"}, kBadUsage);
+    exit_code = fail({"this build has no live input; build with liblo-dev and libcpp-httplib-dev"}, kBadUsage);
   });
 }
 

@@ -34,8 +34,8 @@ bool same_bits(Quat a, Quat b) { return same_bits(a.xyz(), b.xyz()) && same_bits
 }  // namespace
 
 VmcCharacter::VmcCharacter(std::shared_ptr<const Model> model, const LiveOptions& options,
-                           VmcRecording* recording)
-    : model_(std::move(model)), options_(options), recording_(recording) {}
+                           VmcRecording* recording, LiveView* view)
+    : model_(std::move(model)), options_(options), recording_(recording), view_(view) {}
 
 void VmcCharacter::reset() noexcept {
   if (stylizer_) stylizer_->reset();
@@ -132,6 +132,12 @@ Result<void> VmcCharacter::stand() {
   styled_rotations_.resize(bones_.size());
   styled_translations_.resize(bones_.size());
   last_frame_ = now_.seconds;
+  if (view_ && !view_->started()) {
+    shown_ = true;
+    Clip first = clip;
+    first.resize(1);
+    view_->start(stylizer_->stylizer().rig(), first);
+  }
   if (recording_ && !recording_->started()) {
     records_ = true;
     recording_->start(clip.skeleton);
@@ -162,6 +168,7 @@ void VmcCharacter::style(std::span<const float> strengths) {
     }
   }
   if (records_) recording_->add(now_.seconds, styled);
+  if (shown_) view_->show({rotations_, translations_}, styled);
 }
 
 // Hands out what no bone of an open frame is in or before.

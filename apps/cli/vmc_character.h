@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "live_view.h"
 #include "style/live_stylizer.h"
 #include "vmc_bones.h"
 #include "vmc_messages.h"
@@ -23,10 +24,10 @@ namespace panache::cli {
 // bone comes a second time, or when it has waited too long; datagrams wait for their frame.
 class VmcCharacter {
  public:
-  // `recording` may be null; the first character that is understood fills it, and it must outlive
-  // that.
+  // The first character that is understood fills `recording` and is shown by `view`. Either may be
+  // null, and both must outlive it.
   VmcCharacter(std::shared_ptr<const Model> model, const LiveOptions& options,
-               VmcRecording* recording);
+               VmcRecording* recording, LiveView* view);
 
   // Takes the sender's next datagram with its messages. strengths: one per style of the model.
   void take(Datagram datagram, std::span<const VmcMessage> messages,
@@ -70,7 +71,8 @@ class VmcCharacter {
   std::shared_ptr<const Model> model_;
   LiveOptions options_;
   VmcRecording* recording_;
-  bool records_ = false;  // Fills the recording.
+  LiveView* view_;
+  bool records_ = false, shown_ = false;  // Fills the recording, is in view.
 
   Bones now_;
   VmcBoneSet seen_;            // In this frame.

@@ -24,13 +24,14 @@ bool is_command(const VmcMessage& message) {
 
 VmcRelay::VmcRelay(UdpSocket socket, const sockaddr_in& to, std::shared_ptr<const Model> model,
                    const LiveOptions& options, std::vector<float> strengths,
-                   VmcRecording* recording)
+                   VmcRecording* recording, LiveView* view)
     : socket_(std::move(socket)),
       to_(to),
       model_(std::move(model)),
       options_(options),
       strengths_(std::move(strengths)),
-      recording_(recording) {
+      recording_(recording),
+      view_(view) {
   senders_.reserve(kMaxSenders);
 }
 
@@ -108,7 +109,7 @@ VmcRelay::Sender* VmcRelay::sender_of(const Datagram& datagram, bool meet) {
     senders_.erase(silent);
   }
   senders_.push_back(
-      {datagram.sender, datagram.received, true, VmcCharacter(model_, options_, recording_)});
+      {datagram.sender, datagram.received, true, VmcCharacter(model_, options_, recording_, view_)});
   ++met_;
   return &senders_.back();
 }

@@ -25,9 +25,11 @@ struct VmcCounts {
 
 class VmcRelay {
  public:
-  // `recording` may be null, and must outlive the relay. strengths: one per style of the model.
+  // `recording` and `view` may be null, and must outlive the relay. strengths: one per style of the
+  // model.
   VmcRelay(UdpSocket socket, const sockaddr_in& to, std::shared_ptr<const Model> model,
-           const LiveOptions& options, std::vector<float> strengths, VmcRecording* recording);
+           const LiveOptions& options, std::vector<float> strengths, VmcRecording* recording,
+           LiveView* view);
 
   // Waits for datagrams a little while and sends on what is ready.
   void run_once();
@@ -66,6 +68,7 @@ class VmcRelay {
   LiveOptions options_;
   std::vector<float> strengths_;  // [styles]
   VmcRecording* recording_;
+  LiveView* view_;
   std::vector<Sender> senders_;
   size_t met_ = 0;
   uint32_t lost_before_ = 0;

@@ -4,6 +4,7 @@ import * as files from 'virtual:panache-files';
 
 import { Panache } from '../package/index.js';
 import { find } from './dom';
+import { LiveView } from './live';
 import { Page } from './page';
 import { served } from './served';
 import { unpack } from './unpack';
@@ -18,7 +19,8 @@ async function start() {
     const [wasm, model, walker] = await Promise.all(
       [unpack(files.wasm), findModel(), unpack(files.walker)]);
     const panache = await Panache.create({ wasm, model, walker });
-    Object.assign(window, { page: new Page(panache) });
+    const live = new URLSearchParams(location.search).has('live');
+    Object.assign(window, { page: live ? new LiveView(panache) : new Page(panache) });
   } catch (error) {
     find('#wait').textContent = `This browser cannot show the page: ${(error as Error).message}`;
     throw error;

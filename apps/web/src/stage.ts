@@ -2,7 +2,7 @@
 
 import * as THREE from 'three';
 
-import type { Playback, Walk } from '../package/index.js';
+import type { Walk } from '../package/index.js';
 import { humanJoints } from '../package/index.js';
 import { Camera, type Angle } from './camera';
 import { colour } from './dom';
@@ -10,7 +10,7 @@ import { Ground } from './ground';
 import { bodyGeometry, Mannequin } from './mannequin';
 import { Marks } from './marks';
 import type { View } from './settings';
-import type { Source } from './source';
+import type { SkinnedCharacter } from './skinned';
 
 const kInputLayer = 1, kStyledLayer = 2;
 const kAboveBody = 0.16;      // Of the view: free above a body that is fitted in.
@@ -18,6 +18,13 @@ const kMaxDown = 0.08;        // Of the view.
 const kGhost = 0.4;           // Opacity of the input over the output.
 const kOnions = 3;            // Poses before this one.
 const kOnionSeconds = 0.3;    // Between them.
+
+/** What moves and what it looks like: a source, or as much of one. */
+export interface Seen {
+  readonly player: Pick<Walk, 'body' | 'coarseBody' | 'contacts' | 'parts' | 'pose'>;
+  readonly joints: number;
+  readonly own: readonly [SkinnedCharacter, SkinnedCharacter] | null;
+}
 
 interface Body {
   readonly object: THREE.Object3D;
@@ -114,7 +121,7 @@ export class Stage {
   }
 
   /** Shows the bodies of another source: its own meshes where it has some, else mannequins. */
-  show(source: Source) {
+  show(source: Seen) {
     const { player, own } = source;
     this.#bodies?.input.free();
     this.#bodies?.styled.free();
@@ -145,7 +152,7 @@ export class Stage {
   }
 
   /** Turns the camera: it faces what is seen and fits it in, or stands at its side, over it, .... */
-  look(angle: Angle, player: Walk | Playback) {
+  look(angle: Angle, player: Seen['player']) {
     if (!this.#bodies) return;
     const { input, styled } = this.#bodies;
     const box = styled.box;
@@ -156,7 +163,7 @@ export class Stage {
   }
 
   /** Brings the player's last step into view. */
-  update({ player, joints }: Source, cut: boolean, seconds: number) {
+  update({ player, joints }: Seen, cut: boolean, seconds: number) {
     if (!this.#bodies) return;
     if (cut) this.#marks.clear();
     const input = player.parts('input').slice(), styled = player.parts('styled').slice();
@@ -237,7 +244,7 @@ export class Stage {
     return this.view === 'styled' ? ['styled'] : ['input', 'styled'];
   }
   /** A view of another player like this one, on a canvas of its own; free() it. */
-  studio(source: Source): Stage {
+  studio(source: Seen): Stage {
     const out = new Stage(document.createElement('canvas'), true);
     out.view = this.view;
     out.trail = false;
@@ -247,7 +254,7 @@ export class Stage {
   }
   /** One picture of a loop in which the bodies go `way`: x and z of each that is seen, metres; none
    * where it does not close. `share` of it is over. */
-  drawStill(source: Source, width: number, height: number, way: readonly number[],
+  drawStill(source: Seen, width: number, height: number, way: readonly number[],
       share: number) {
     const [input, styled] = [way.slice(0, 2), way.slice(-2)].map(([x = 0, z = 0]) =>
       new THREE.Vector2(x, z));

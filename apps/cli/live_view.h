@@ -1,0 +1,45 @@
+#pragma once
+// The character of panache live, for the page: its input and what is sent to the avatar.
+
+#include <array>
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "clip/clip.h"
+#include "page_server.h"
+#include "rig/mannequin.h"
+
+namespace panache::cli {
+
+// Shows the first sender that is understood. The relay's thread calls start() and show(), those of
+// the server the rest.
+class LiveView {
+ public:
+  // Poses of `rig` follow. `first`: one frame of its skeleton.
+  void start(const Rig& rig, const Clip& first);
+  bool started() const { return in_.has_value(); }
+  void show(ConstPose in, ConstPose styled);
+
+  // Adds the view to a server: "/live/body.bvh", a clip of one frame, and "/live/poses", an event for
+  // each pose that a reader is fast enough for: Mannequin::read() of the input, then of the output,
+  // numbers in JSON.
+  void serve_on(PageServer& server);
+
+ private:
+  using Parts = std::array<float, kMannequinNumbers>;
+  // The newest pose once its number is not `known`, which then is its number; empty after a while.
+  std::string next(uint64_t& known);
+
+  std::optional<Mannequin> in_, styled_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::string body_;  // Guarded by the mutex, and so is:
+  Parts in_parts_{}, styled_parts_{};
+  uint64_t number_ = 0;
+};
+
+}  // namespace panache::cli

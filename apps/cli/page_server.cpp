@@ -1,0 +1,137 @@
+#include "page_server.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "base/os/os.h"
+#include "view_threads.h"
+
+namespace panache::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kAddress = "127.0.0.1";
+constexpr size_t kThreads = 8;
+constexpr int kForbidden = 403, kNotFound = 404, kMethodNotAllowed = 405;
+// What the page may do: run its own scripts and its WebAssembly, read its own files and those that
+// a user opens, and be shown in no page of others.
+constexpr const char* kPolicy =
+    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; "
+    "img-src 'self' data: blob:; media-src blob:; connect-src 'self' data: blob:; "
+    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+// The folder that ./run web makes: beside an installed program's folder or beside the build's.
+Result<std::string> find_page() {
+  std::error_code status;
+  const fs::path folder = fs::path(program_path()).parent_path();
+  std::string looked;
+  for (const char* web : {"../share/panache/web", "../web"}) {
+    const fs::path page = (folder / web).lexically_normal();
+    if (fs::exists(page / "index.html", status)) return page.string();
+    looked += (looked.empty() ? "" : ", ") + page.string();
+  }
+  return Error{"the page was not found; searched " + looked + "; ./run web makes it"};
+}
+
+// Pages of others must not reach this server: neither under a name of theirs that leads to this
+// machine, nor by requests that their browsers send here.
+int status_of(const httplib::Request& request, int port) {
+  const std::string end = ":" + std::to_string(port);
+  const auto is_own = [&](const std::string& host) {
+    return host == kAddress + end || host == "localhost" + end;
+  };
+  if (request.get_header_value_count("Host") != 1 || !is_own(request.get_header_value("Host"))) {
+    return kForbidden;
+  }
+  for (size_t i = 0; i < request.get_header_value_count("Origin"); ++i) {
+    const std::string origin = request.get_header_value("Origin", i), scheme = "http://";
+    if (!origin.starts_with(scheme) || !is_own(origin.substr(scheme.size()))) return kForbidden;
+  }
+  return request.method == "GET" || request.method == "HEAD" ? 0 : kMethodNotAllowed;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<PageServer>> PageServer::create() {
+  Result<std::string> page = find_page();
+  if (!page) return page.error();
+  std::unique_ptr<PageServer> out(new PageServer);
+  httplib::Server& server = out->server_;
+  server.new_task_queue = [] { return new ViewThreads(kThreads); };
+  // With these a page may read a finer clock, which the times of a step are told by.
+  server.set_default_headers({{"Cross-Origin-Opener-Policy", "same-origin"},
+                              {"Cross-Origin-Embedder-Policy", "require-corp"},
+                              {"Cross-Origin-Resource-Policy", "same-origin"},
+                              {"Content-Security-Policy", kPolicy},
+                              {"X-Content-Type-Options", "nosniff"},
+                              {"Cache-Control", "no-cache"}});
+  // What follows a rejected request on its connection is not read as another one.
+  server.set_keep_alive_max_count(1);
+  const int port = server.bind_to_any_port(kAddress);
+  if (port < 0) {
+    return Error{std::string(kAddress) + ": no port to serve the page on: " +
+                 std::strerror(errno) +
+                 "; is the loopback interface up, and may programs listen on it?"};
+  }
+  out->address_ = std::string(kAddress) + ":" + std::to_string(port);
+  if (!server.set_mount_point("/", *page)) {
+    return Error{*page + ": this folder of the page cannot be served"};
+  }
+  server.set_pre_routing_handler(
+      [port](const httplib::Request& request, httplib::Response& answer) {
+        const int status = status_of(request, port);
+        if (status == 0) return httplib::Server::HandlerResponse::Unhandled;
+        answer.status = status;
+        return httplib::Server::HandlerResponse::Handled;
+      });
+  return out;
+}
+
+void PageServer::serve(const std::string& path, std::function<std::string()> content) {
+  server_.Get(path, [content = std::move(content)](const httplib::Request&,
+                                                   httplib::Response& answer) {
+    std::string bytes = content();
+    if (bytes.empty()) {
+      answer.status = kNotFound;
+    } else {
+      answer.set_content(std::move(bytes), "application/octet-stream");
+    }
+  });
+}
+
+void PageServer::serve_events(const std::string& path,
+                              std::function<std::function<std::string()>()> open) {
+  server_.Get(path, [this, open = std::move(open)](const httplib::Request&,
+                                                   httplib::Response& answer) {
+    answer.set_chunked_content_provider(
+        "text/event-stream", [this, next = open()](size_t, httplib::DataSink& sink) {
+          // A comment where there is no event, so that a reader that has gone is noticed.
+          const std::string text = next();
+          const std::string event = text.empty() ? ":\n\n" : "data: " + text + "\n\n";
+          if (!sink.write(event.data(), event.size())) return false;
+          if (stopped_) sink.done();
+          return true;
+        });
+  });
+}
+
+Result<void> PageServer::listen() {
+  try {
+    const bool listened = server_.listen_after_bind();
+    if (listened && stopped_) return {};
+    return Error{address_ + ": listening failed, so the page is not served any more"};
+  } catch (const std::system_error& error) {
+    return Error{"no thread to serve the page could be started: " + error.code().message()};
+  }
+}
+
+void PageServer::stop() {
+  stopped_ = true;
+  server_.stop();
+}
+
+}  // namespace panache::cli

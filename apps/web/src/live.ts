@@ -1,0 +1,86 @@
+// `panache live --view`: what its relay receives and sends, drawn while it happens.
+
+import type { Panache } from '../package/index.js';
+import { find } from './dom';
+import { Stage, type Seen } from './stage';
+
+const kAskEvery = 500;  // Milliseconds, until a sender is understood.
+const kNumbers = 147;   // Of a body, see Player.parts().
+const kEnded = 'panache live has ended';
+const kStale = 1000;    // Milliseconds without a pose until the page says so.
+
+export class LiveView {
+  /** Drawn so far, for tests; and what was drawn last: input, then output. */
+  frames = 0;
+  get poses() {
+    return this.#newest;
+  }
+  #panache: Panache;
+  #stage = new Stage(find('#view') as HTMLCanvasElement);
+  #newest: Float32Array | null = null;
+  #heard = 0;   // When, milliseconds.
+  #drawn = 0;
+
+  constructor(panache: Panache) {
+    this.#panache = panache;
+    document.body.dataset.source = 'live';
+    document.body.dataset.view = this.#stage.view = 'side';
+    this.#stage.trail = false;
+    void this.#begin();
+  }
+
+  /** The body of the first sender, once there is one. */
+  async #body(): Promise<ArrayBuffer> {
+    for (;;) {
+      const answer = await fetch('live/body.bvh').catch(() => null);
+      if (answer?.ok) return answer.arrayBuffer();
+      this.#say(answer ? 'Waiting for motion from a tracker …' : kEnded);
+      await new Promise((next) => setTimeout(next, kAskEvery));
+    }
+  }
+
+  async #begin() {
+    const file = this.#panache.openFile(await this.#body(), 'live.bvh');
+    const player = file.createPlayer(0);
+    const events = new EventSource('live/poses');
+    events.addEventListener('message', ({ data }) => {
+      this.#newest = new Float32Array(JSON.parse(String(data)) as number[]);
+      this.#heard = performance.now();
+    });
+    let ended = false;
+    events.addEventListener('error', () => {
+      ended = true;
+      events.close();
+    });
+    const shown: Seen['player'] = {
+      body: player.body, coarseBody: player.coarseBody, contacts: [0, 0],
+      parts: (which) => this.#newest?.subarray(...which === 'input'
+        ? [0, kNumbers] as const : [kNumbers, 2 * kNumbers] as const) ?? player.parts(which),
+      pose: () => new Float32Array(),
+    };
+    const source: Seen = { player: shown, joints: 0, own: null };
+    this.#stage.show(source);
+    let first = true;
+    const frame = (now: number) => {
+      const seconds = (now - this.#drawn) / 1000;
+      this.#drawn = now;
+      if (this.#newest) {
+        this.#stage.update(source, first, seconds);
+        if (first) this.#stage.look('face', shown);
+        first = false;
+      }
+      const silent = now - this.#heard > kStale;
+      this.#say(ended ? kEnded : silent ? 'No motion comes in' : '');
+      this.#stage.draw(seconds);
+      ++this.frames;
+      requestAnimationFrame(frame);
+    };
+    requestAnimationFrame(frame);
+  }
+
+  #say(text: string) {
+    const wait = find('#wait');
+    wait.hidden = text === '';
+    if (wait.textContent !== text) wait.textContent = text;
+  }
+}
