@@ -77,6 +77,7 @@ def steps():
     shown = seen()
     assert max((shown[n] - before[n]).length for n in before) > 0.03, 'the preview shows no style'
     assert active_action() == 'walk'
+    yield from cancelled_bake(before)
     with bpy.context.temp_override(**view()):
         bpy.ops.panache.bake('EXEC_DEFAULT', True)
     yield
@@ -100,6 +101,41 @@ def steps():
     assert armature().animation_data.nla_tracks[0].mute
     yield from preview_across_undo()
     print('ok', flush=True)
+
+
+def cancelled_bake(before):
+    """Esc ends a bake of many frames, and nothing is changed; left alone, it comes to its end."""
+    scene = bpy.context.scene
+    walk, frame = bpy.data.actions['walk'], scene.frame_current
+    armature().panache.preview = False
+    walk.frame_range, walk.use_frame_range = (1, 3000), True  # It takes a while.
+    names = [action.name for action in bpy.data.actions]
+    with bpy.context.temp_override(**view()):
+        assert bpy.ops.panache.bake('INVOKE_DEFAULT') == {'RUNNING_MODAL'}
+    for _ in range(3):
+        yield
+    assert scene.frame_current != frame, 'nothing is being baked'
+    subprocess.run(['xdotool', 'key', 'Escape'], check=True)
+    yield
+    yield
+    assert [action.name for action in bpy.data.actions] == names
+    assert active_action() == 'walk' and scene.frame_current == frame
+    assert not armature().animation_data.nla_tracks
+    now = seen()
+    assert max((now[n] - before[n]).length for n in before) < 1e-4, 'a cancelled bake left a pose'
+    walk.use_frame_range = False
+    with bpy.context.temp_override(**view()):
+        assert bpy.ops.panache.bake('INVOKE_DEFAULT') == {'RUNNING_MODAL'}
+    for _ in range(60):
+        yield
+        if active_action() != 'walk':
+            break
+    assert active_action() == 'walk (old 1)', 'a bake from its button never ends'
+    with bpy.context.temp_override(**view()):
+        bpy.ops.ed.undo()
+    yield
+    assert active_action() == 'walk'
+    armature().panache.styles.old = 1  # Undone as well.
 
 
 def preview_across_undo():

@@ -19,14 +19,17 @@ def source_action(armature):
 
 
 def bake(context, armature, sampled, styled, action, name):
-    """Makes the styled motion the armature's action; returns it."""
+    """Makes the styled motion the armature's action. A generator: it yields how much is done, 0 to
+    1, and returns the action. Until it returns, nothing of the file is changed."""
     plan = controls.Plan(armature, sampled.joints)
+    values = {}
+    if not sampled.is_same(styled):
+        frames = [sampled.first + i for i in range(styled.frame_count)]
+        values, unkeyed = yield from _solve(context, armature, sampled, styled, action, plan)
     new = action.copy()
     new.name = name
     new.use_fake_user = True
-    if not sampled.is_same(styled):
-        frames = [sampled.first + i for i in range(styled.frame_count)]
-        values, unkeyed = _solve(context, armature, sampled, styled, action, plan)
+    if values:
         new[sampling.UNKEYED] = json.dumps(unkeyed)
         sources = [sampled.first + f for f in styled.source_frames]
         keeps_time = sources == frames
@@ -57,23 +60,27 @@ class _Track:
                    for a, b in zip(new, old))
 
 
-# {None or name of a bone: _Track}, None is the object; and what UNKEYED holds.
+# A generator like bake(): {None or name of a bone: _Track}, None is the object; and what UNKEYED
+# holds.
 def _solve(context, armature, sampled, styled, action, plan):
     targets = {None: armature}
     targets.update((name, armature.pose.bones[name]) for name in plan.controls())
     tracks = {name: _Track(controls.rotation_property(target)) for name, target in targets.items()}
     with sampling.shown_alone(context, armature, action):
         solver = controls.Solver(context, armature, plan, action)
-        for i, source in enumerate(styled.source_frames):
+        try:
+            for i, source in enumerate(styled.source_frames):
+                yield i / styled.frame_count
+                solver.restore()
+                sampling.set_frame(context.scene, sampled.first + source)
+                for name, target in targets.items():
+                    tracks[name].note(tracks[name].old, target)
+                solver.put(sampled.world_pose(styled, i))
+                for name, target in targets.items():
+                    tracks[name].note(tracks[name].new, target)
+                    _keep_sign(tracks[name])
+        finally:
             solver.restore()
-            sampling.set_frame(context.scene, sampled.first + source)
-            for name, target in targets.items():
-                tracks[name].note(tracks[name].old, target)
-            solver.put(sampled.world_pose(styled, i))
-            for name, target in targets.items():
-                tracks[name].note(tracks[name].new, target)
-                _keep_sign(tracks[name])
-        solver.restore()
     return tracks, solver.unkeyed
 
 

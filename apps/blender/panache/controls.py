@@ -16,7 +16,9 @@ _RIGIFY_LIMBS = [
      'upper_arm_ik_target', 'upper_arm_ik', ['upper_arm', 'forearm', 'hand']),
     ('thigh_parent', ['thigh_fk', 'shin_fk', 'foot_fk'], 'foot_ik', 'thigh_ik_target', 'thigh_ik',
      ['thigh', 'shin', 'foot'])]
-_MOST_ROUNDS = 8  # Of moving controls and looking where the joints went.
+_MOST_ROUNDS = 8  # Of moving a control and looking where its joints went.
+_NEAR = 2e-4      # Radians and metres.
+_STALLED = 0.8    # Of what was left in the round before.
 
 
 class Follow:
@@ -176,17 +178,24 @@ class Solver:
         before = {move.control: self._bones()[move.control].matrix.copy()
                   for move in self.plan.moves}
         self._put_direct(goal)
-        for _ in range(_MOST_ROUNDS if self.plan.moves else 0):
-            moved = 0
-            for move in self.plan.moves:
+        # Parents first: no control moves what one before it has put in place.
+        for move in self.plan.moves:
+            if isinstance(move, Lead):
+                self._approach(lambda: self._lead(move, goal))
+            elif isinstance(move, Knee):
+                self._approach(lambda: self._turn_knee(move, goal))
+            else:
                 self.context.view_layer.update()
-                if isinstance(move, Lead):
-                    moved = max(moved, self._lead(move, goal))
-                elif isinstance(move, Knee):
-                    moved = max(moved, self._turn_knee(move, goal))
-                else:
-                    self._place(move, before[move.control], current, goal)
-            if moved < 2e-4:
+                self._place(move, before[move.control], current, goal)
+
+    def _approach(self, turn):
+        """Calls turn() until what is left to go is little, or does not get less: a control that
+        leads several joints cannot bring them all where they are wanted."""
+        left = math.inf
+        for _ in range(_MOST_ROUNDS):
+            self.context.view_layer.update()
+            before, left = left, turn()
+            if left < _NEAR or left > _STALLED * before:
                 return
 
     def _bones(self):
@@ -235,7 +244,7 @@ class Solver:
             after = goal[at] @ current[at].inverted() @ before
         _set_matrix(self._bones()[move.control], after)
 
-    # These two return by how much the control turned or moved, radians and metres.
+    # These two return how far it was to go, radians and metres.
     def _lead(self, move, goal):
         bone = self._bones()[move.control]
         at = self.plan.place[move.joint]

@@ -1,8 +1,36 @@
 """What the buttons do."""
 
+import contextlib
+import time
+
 import bpy
 
 from . import baking, controls, library, preview, sampling, settings
+
+
+_TICK = 0.01     # Seconds between two turns of a bake,
+_AT_ONCE = 0.1   # and of each.
+_SAMPLING = 0.1  # Of the time of a bake.
+
+
+@contextlib.contextmanager
+def _reported(operator):
+    """A failure inside ends it, and is reported."""
+    try:
+        yield
+    except library.PanacheError as error:
+        operator.report({'ERROR'}, str(error))
+    except OSError as error:
+        operator.report({'ERROR'}, '%s: %s' % (error.filename, error.strerror))
+
+
+def _part(begin, end, work):
+    """Yields what `work` does as the part from `begin` to `end` of more; returns its result."""
+    while True:
+        try:
+            yield begin + (end - begin) * next(work)
+        except StopIteration as stop:
+            return stop.value
 
 
 def _amount(number):
@@ -18,13 +46,8 @@ class _OnArmature:
         return armature is not None and armature.type == 'ARMATURE'
 
     def execute(self, context):
-        try:
-            with preview.paused(context):
-                return self.run(context, context.object)
-        except library.PanacheError as error:
-            self.report({'ERROR'}, str(error))
-        except OSError as error:
-            self.report({'ERROR'}, '%s: %s' % (error.filename, error.strerror))
+        with _reported(self), preview.paused(context):
+            return self.run(context, context.object)
         return {'CANCELLED'}
 
     def source(self, armature):
@@ -40,22 +63,71 @@ class PANACHE_OT_bake(_OnArmature, bpy.types.Operator):
     bl_idname = 'panache.bake'
     bl_label = 'Bake'
 
-    def run(self, context, armature):
+    # From its button it shows how much is done, and Esc cancels it; a script waits for its end.
+    def invoke(self, context, event):
+        if bpy.app.background:
+            return self.execute(context)
+        self._work = self._guarded(context)
+        manager = context.window_manager
+        self._timer = manager.event_timer_add(_TICK, window=context.window)
+        manager.progress_begin(0, 100)
+        manager.modal_handler_add(self)
+        return {'RUNNING_MODAL'}
+
+    def modal(self, context, event):
+        if event.type == 'ESC':
+            self._work.close()
+            self.report({'INFO'}, 'cancelled; nothing is changed')
+            return self._end(context, {'CANCELLED'})
+        if event.type != 'TIMER':
+            return {'RUNNING_MODAL'}  # Nobody changes what is being read.
+        until = time.monotonic() + _AT_ONCE
+        try:
+            while time.monotonic() < until:
+                done = next(self._work)
+        except StopIteration as stop:
+            return self._end(context, stop.value)
+        context.window_manager.progress_update(100 * done)
+        context.workspace.status_text_set('Panache: baking, %.0f %%; Esc cancels' % (100 * done))
+        return {'RUNNING_MODAL'}
+
+    def _end(self, context, result):
+        context.window_manager.event_timer_remove(self._timer)
+        context.window_manager.progress_end()
+        context.workspace.status_text_set(None)
+        return result
+
+    def execute(self, context):
+        work = self._guarded(context)
+        while True:
+            try:
+                next(work)
+            except StopIteration as stop:
+                return stop.value
+
+    # The whole of it, a generator: yields how much is done, 0 to 1.
+    def _guarded(self, context):
+        with _reported(self), preview.paused(context):
+            yield from self._bake(context, context.object)
+            return {'FINISHED'}
+        return {'CANCELLED'}
+
+    def _bake(self, context, armature):
         action = self.source(armature)
         armature.panache.preview = False
         strengths = settings.strengths(armature)
-        sampled = sampling.Sampled(context, armature, action)
+        sampled = yield from _part(0, _SAMPLING, sampling.Sampled.reading(context, armature, action))
         styled = sampled.stylize(settings.model(), strengths, settings.shape(armature),
                                  armature.panache.timing_where)
         preview.note(armature, sampled, styled, controls.Plan(armature, sampled.joints))
         styles = ', '.join('%s %s' % (name, _amount(value)) for name, value in strengths.items())
-        new = baking.bake(context, armature, sampled, styled, action,
-                          '%s (%s)' % (action.name, styles or 'no style'))
+        new = yield from _part(_SAMPLING, 1, baking.bake(
+            context, armature, sampled, styled, action,
+            '%s (%s)' % (action.name, styles or 'no style')))
         if context.scene.frame_end < sampled.first + styled.frame_count - 1:
             context.scene.frame_end = sampled.first + styled.frame_count - 1
         context.scene.frame_set(context.scene.frame_current)
         self.report({'INFO'}, "baked '%s'; '%s' is a muted NLA track" % (new.name, action.name))
-        return {'FINISHED'}
 
 
 class PANACHE_OT_look(_OnArmature, bpy.types.Operator):

@@ -109,6 +109,17 @@ class Sampled:
     """An action of an armature as the library sees it."""
 
     def __init__(self, context, armature, action):
+        for _ in self.read(context, armature, action):
+            pass
+
+    @classmethod
+    def reading(cls, context, armature, action):
+        """Makes one. A generator: it yields how much is done, 0 to 1, and returns the motion."""
+        out = cls.__new__(cls)
+        yield from out.read(context, armature, action)
+        return out
+
+    def read(self, context, armature, action):
         scene = context.scene
         self.joints = joints_of(armature)
         self.first, count = frame_span(armature, action)
@@ -116,6 +127,7 @@ class Sampled:
         rotations, translations = [], []
         with shown_alone(context, armature, action):
             for frame in range(self.first, self.first + count):
+                yield (frame - self.first) / count
                 set_frame(scene, frame)
                 turns, places = _local(world_matrices(context, armature, self.joints), self.joints)
                 for numbers in turns:
