@@ -12,6 +12,8 @@
 #include "base/os/os.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "batch_report.h"
+#include "batch_settings.h"
 #include "formats.h"
 #include "input.h"
 #include "standard_streams.h"
@@ -58,19 +60,28 @@ Json to_json(const FileJob& file) {
           {"notes", file.notes}};
 }
 
-// Hands over the objects of all files piece by piece, as dump() prints them in a list.
-void list_accounts(const std::vector<FileJob>& files,
-                   const std::function<void(const std::string&)>& put) {
+// The same for the report, whose settings name the styles.
+Json report_of(const FileJob& file, bool mapping) {
+  Json object = to_json(file);
+  if (!mapping) object.erase("mapping");
+  for (Json& clip : object["clips"]) clip.erase("styles");
+  return object;
+}
+
+// The objects of all files as dump() prints them in a list, piece by piece.
+void print_accounts(const std::vector<FileJob>& files) {
+  std::string before = "[\n  ";
   for (const FileJob& file : files) {
     const std::string object = file.account.empty() ? dump(to_json(file)) : file.account;
-    std::string text = &file == &files[0] ? "[\n  " : ",\n  ";
+    std::string text = before;
     for (const char letter : std::string_view(object).substr(0, object.size() - 1)) {
       text += letter;
       if (letter == '\n') text += "  ";
     }
-    put(text);
+    print(text);
+    before = ",\n  ";
   }
-  put("\n]\n");
+  print(std::string(files.empty() ? "[]\n" : "\n]\n"));
 }
 
 std::string summary(const std::vector<FileJob>& files, const std::string& done, double spent) {
@@ -87,7 +98,7 @@ std::string summary(const std::vector<FileJob>& files, const std::string& done, 
            in.substr(0, in.size() - 1) +
            (good ? "; --skip-existing goes on with the rest\n" : "\n");
   }
-  if (files.size() > 1) {
+  if (files.size() != 1) {
     return done + " " + std::to_string(good) + " of " + plural(files.size(), "file") +
            (failed ? ", " + std::to_string(failed) + " failed" : "") +
            (skipped ? ", " + std::to_string(skipped) + " skipped" : "") +
@@ -161,8 +172,8 @@ void add_batch_options(CLI::App& verb, BatchFlags& flags) {
                   "Motion files (" + motion_extensions() +
                       "),\nfolders of them, or patterns such as 'takes/**/*.bvh';\n"
                       "- is stdin")
-      ->required()
       ->type_name("");
+  flags.verb = &verb;
   verb.add_option("-o,--output", flags.output,
                   "File to write; for several files, or with a '/' at\n"
                   "its end, a folder; - is stdout. Default for one file:\n"
@@ -171,6 +182,19 @@ void add_batch_options(CLI::App& verb, BatchFlags& flags) {
   verb.add_option("--to", flags.to,
                   list_writable_names() + ": the format of files if OUT is a folder")
       ->type_name("FORMAT");
+  CLI::Option* list =
+      verb.add_option("--files-from", flags.files_from,
+                      "Text file with the name of a motion file in each line;\n- is stdin")
+          ->type_name("LIST");
+  verb.add_option("--below", flags.below,
+                  "Folder that the files of LIST lie in: their results have\n"
+                  "the same folders below OUT")
+      ->needs(list)
+      ->type_name("FOLDER");
+  verb.add_option("--shard", flags.shard,
+                  "Work on the I-th of N parts of the files, I from 1 to N:\n"
+                  "one for each machine")
+      ->type_name("I/N");
   CLI::Option* force = verb.add_flag("--force", flags.force, "Overwrite files");
   verb.add_flag("--skip-existing", flags.skip_existing,
                 "Leave out what has an output already, as to go on\nwith a batch")
@@ -181,7 +205,12 @@ void add_batch_options(CLI::App& verb, BatchFlags& flags) {
   CLI::Option* quiet =
       verb.add_flag("--quiet", flags.quiet, "Print nothing but errors, and show no progress");
   verb.add_flag("--json", flags.json, "Print the result for each file as JSON")->excludes(quiet);
-  verb.add_option("--report", flags.report, "Also write this JSON to a file")->type_name("FILE");
+  CLI::Option* report = verb.add_option("--report", flags.report,
+                                        "Write a line of JSON for each file that is done;\n"
+                                        "with --skip-existing, add to those that are there")
+                            ->type_name("FILE");
+  verb.add_flag("--mapping", flags.mapping, "With the mapping of each rig in the report")
+      ->needs(report);
 }
 
 Result<std::unique_ptr<MotionFile>> open_input(FileJob& file, const ReadOptions& options) {
@@ -196,24 +225,32 @@ Result<void> write_output(const FileJob& file, std::string_view bytes, bool forc
   return file.to_stdout ? write_stdout(bytes) : write_file(file.output, bytes, force);
 }
 
-int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::string& doing,
-              const std::string& done, const FileWork& work) {
+int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::string& model,
+              const std::string& doing, const std::string& done, const FileWork& work) {
   if (flags.dry_run) return tell_plan(files, flags.json);
+  std::unique_ptr<BatchReport> report;
+  if (!flags.report.empty()) {
+    auto opened =
+        BatchReport::open(flags.report, batch_settings(*flags.verb, model), flags.skip_existing);
+    if (!opened) return fail(opened.error(), kBadInput);
+    report = *std::move(opened);
+  }
   watch_stop_signals();
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
-  const bool counted = flags.json || !flags.report.empty();
   {
     JointProgress progress(doing, files.size());
     // Processes that share a tree begin at different places, or all would do the same work at once.
-    const size_t first = flags.skip_existing ? process_number() * 7919 % files.size() : 0;
+    const size_t first =
+        flags.skip_existing && !files.empty() ? process_number() * 7919 % files.size() : 0;
     const auto run = [&](int i) {
       const size_t n = (static_cast<size_t>(i) + first) % files.size();
       FileJob& file = files[n];
       run_file(file, flags, work, [&](double part) {
         if (!flags.quiet) progress.update(n, part);
       });
-      if (counted) {
+      if (report) report->add(report_of(file, flags.mapping));
+      if (flags.json) {
         file.account = dump(to_json(file));
         file.account.shrink_to_fit();  // Of ten thousand files, 160 MB.
       }
@@ -227,7 +264,7 @@ int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::st
   bool all_good = true, stopped = false;
   // Where the motion goes to stdout, what is told of it does not.
   const auto tell = [&](const std::string& text) {
-    if (files[0].to_stdout) {
+    if (!files.empty() && files[0].to_stdout) {
       std::fputs(text.c_str(), stderr);
     } else {
       print(text);
@@ -242,7 +279,7 @@ int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::st
     stopped = stopped || file.stopped;
   }
   if (flags.json) {
-    list_accounts(files, [](const std::string& text) { print(text); });
+    print_accounts(files);
   } else if (!flags.quiet) {
     tell(summary(files, done, spent));
     if (files.size() == 1 && all_good) {
@@ -255,11 +292,8 @@ int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::st
       for (const std::string& line : file.details) tell("  " + line + "\n");
     }
   }
-  if (!flags.report.empty()) {
-    std::string results;
-    list_accounts(files, [&](const std::string& text) { results += text; });
-    auto written = write_file(flags.report, results, flags.force);
-    if (!written) return fail(written.error(), kBadInput);
+  if (report) {
+    if (auto closed = report->close(); !closed) return fail(closed.error(), kBadInput);
   }
   return stopped ? kStopped : all_good ? kDone : kBadInput;
 }

@@ -20,8 +20,12 @@ namespace panache::cli {
 struct BatchFlags {
   std::vector<std::string> inputs;
   std::optional<std::string> output;
-  std::string to;      // The format of files in an output folder, or empty.
-  std::string report;  // A file to write, or empty.
+  std::string files_from, below;  // A list of files and the folder that they lie in, or empty.
+  std::string shard;              // "2/8", or empty.
+  std::string to;                 // The format of files in an output folder, or empty.
+  std::string report;             // A file to write, or empty.
+  const CLI::App* verb = nullptr;
+  bool mapping = false;  // In the report.
   bool force = false;
   bool skip_existing = false;
   bool dry_run = false;
@@ -30,9 +34,7 @@ struct BatchFlags {
   int jobs = 0;  // 0: one per core.
 };
 
-// Gives `verb` inputs, --output, --to, --force, --skip-existing, --dry-run, --jobs, --quiet, --json
-// and
-// --report; `flags` must outlive it.
+// Gives `verb` inputs and the options of a batch; `flags` must outlive it.
 void add_batch_options(CLI::App& verb, BatchFlags& flags);
 
 // One file on its way.
@@ -53,7 +55,7 @@ struct FileJob {
   int frames = 0;                    // Of the result, all motions together.
   double seconds = 0;                // Likewise.
   Json mapping;                      // Of the rig, null where there was none.
-  std::string account;               // All of this as JSON, where that is asked for.
+  std::string account;               // All of this as JSON, where it is printed.
 };
 
 // How outputs are called that the user did not name.
@@ -62,10 +64,10 @@ struct OutputNaming {
   std::string suffix;     // Between the input's name and its extension, where no --output is given.
 };
 
-// Checks the flags, finds the files and names their outputs; reads stdin where that is the input. A
-// failure sets `exit_code`.
+// Checks the flags, finds the files of this shard, maybe none, and names their outputs; reads stdin
+// where that is the input. `model`: its file, or empty. A failure sets `exit_code`.
 Result<std::vector<FileJob>> plan_batch(const BatchFlags& flags, const OutputNaming& naming,
-                                        int& exit_code);
+                                        const std::string& model, int& exit_code);
 
 // The motion file of a job, whose notes become those of the job.
 Result<std::unique_ptr<MotionFile>> open_input(FileJob& file, const ReadOptions& options);
@@ -74,11 +76,11 @@ Result<void> write_output(const FileJob& file, std::string_view bytes, bool forc
 
 // Does `work` for each file, several at once, under a bar titled DOING, and tells of it: errors and
 // notes to stderr, to stdout "DONE walk.bvh into old.bvh ..." or "DONE 18 of 19 files, 1 failed,
-// in 3.2 s", or JSON, which also goes into the report. `work` gets a function to call with the
-// share of the file that is done. The exit code is 1 where a file failed, and kStopped where Ctrl-C
-// came: files that are not done then are left out.
+// in 3.2 s", or JSON. `work` gets a function to call with the share of the file that is done;
+// `model` is that of plan_batch(). The exit code is 1 where a file failed, and kStopped where
+// Ctrl-C came: files that are not done then are left out.
 using FileWork = std::function<Result<void>(FileJob&, const std::function<void(double)>&)>;
-int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::string& doing,
-              const std::string& done, const FileWork& work);
+int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::string& model,
+              const std::string& doing, const std::string& done, const FileWork& work);
 
 }  // namespace panache::cli

@@ -150,7 +150,7 @@ int convert(const ConvertVerb& verb) {
   if (auto read = check_read_options(verb.read); !read) return fail(read.error(), kBadUsage);
   if (!verb.onto.file.empty()) return convert_onto(verb);
   int exit_code = kDone;
-  Result<std::vector<FileJob>> files = plan_batch(verb.batch, {}, exit_code);
+  Result<std::vector<FileJob>> files = plan_batch(verb.batch, {}, "", exit_code);
   if (!files) return fail(files.error(), exit_code);
   for (const FileJob& file : *files) {
     auto format = check_format(file.input, file.output);
@@ -164,7 +164,7 @@ int convert(const ConvertVerb& verb) {
   }
   Result<RigOptions> rig = read_rig_options(verb.rig);
   if (!rig) return fail(rig.error(), kBadInput);
-  return run_batch(*std::move(files), verb.batch, "converting", "converted",
+  return run_batch(*std::move(files), verb.batch, "", "converting", "converted",
                    [&](FileJob& file, const std::function<void(double)>&) {
                      return convert_file(file, verb, *rig);
                    });

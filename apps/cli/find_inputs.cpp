@@ -4,10 +4,14 @@
 #include <filesystem>
 #include <optional>
 #include <set>
+#include <sstream>
+#include <string>
 #include <utility>
 
+#include "base/file.h"
 #include "base/os/os.h"
 #include "input.h"
+#include "standard_streams.h"
 
 namespace panache::cli {
 namespace {
@@ -150,6 +154,36 @@ Result<FoundFiles> find_inputs(const std::vector<std::string>& arguments,
     }
   }
   finder.found.is_batch |= finder.found.files.size() > 1;
+  return finder.found;
+}
+
+Result<FoundFiles> list_inputs(const std::string& list, const std::string& below) {
+  const bool is_stdin = list == kStandardStream;
+  std::error_code status;
+  if (!is_stdin && fs::is_directory(list, status)) {
+    return Error{list + ": is a folder; expected a text file with a file's name in each line"};
+  }
+  const Result<std::string> text = read_file(is_stdin ? "/dev/stdin" : list);
+  if (!text) return text.error();
+  const fs::path base = fs::absolute(below.empty() ? "." : below).lexically_normal();
+  Finder finder("");
+  std::istringstream lines(*text);
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (line.ends_with('\r')) line.pop_back();
+    if (line.empty()) continue;
+    fs::path name = fs::path(line).filename();
+    if (!below.empty()) {
+      name = fs::absolute(line).lexically_normal().lexically_relative(base);
+      if (name.empty() || *name.begin() == "..") {
+        return Error{list + ":" + std::to_string(number) + ": " + line + " is not below " + below};
+      }
+    }
+    finder.add(line, name);
+  }
+  if (finder.found.files.empty()) return Error{list + ": names no file"};
+  finder.found.is_batch = true;
   return finder.found;
 }
 

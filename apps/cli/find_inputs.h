@@ -28,4 +28,8 @@ struct FoundFiles {
 Result<FoundFiles> find_inputs(const std::vector<std::string>& arguments,
                                const std::string& output);
 
+// The files that the lines of the text file `list` name; "-" is stdin. Those of a Windows file and
+// empty lines are understood. With `below` not empty their names are those below that folder.
+Result<FoundFiles> list_inputs(const std::string& list, const std::string& below);
+
 }  // namespace panache::cli

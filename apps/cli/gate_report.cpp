@@ -29,7 +29,8 @@ std::string describe_eased(const GateReport& gate) {
 }
 
 Json to_json(const GateReport& gate) {
-  return {{"mean", gate.mean}, {"least", gate.least}, {"eased", gate.eased}};
+  return {
+      {"mean", rounded(gate.mean)}, {"least", rounded(gate.least)}, {"eased", rounded(gate.eased)}};
 }
 
 }  // namespace panache::cli

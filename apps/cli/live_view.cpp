@@ -10,7 +10,7 @@
 namespace panache::cli {
 namespace {
 
-constexpr std::chrono::milliseconds kLongestWait{500};  // For a pose.
+constexpr std::chrono::milliseconds kPatience{500};  // For a pose.
 
 void append(std::string& out, std::span<const float> numbers) {
   char text[32];
@@ -48,7 +48,7 @@ std::string LiveView::next(uint64_t& known) {
   Parts in, styled;
   {
     std::unique_lock lock(mutex_);
-    if (!changed_.wait_for(lock, kLongestWait, [&] { return number_ != known; })) return "";
+    if (!changed_.wait_for(lock, kPatience, [&] { return number_ != known; })) return "";
     known = number_;
     in = in_parts_;
     styled = styled_parts_;

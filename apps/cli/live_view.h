@@ -24,9 +24,9 @@ class LiveView {
   bool started() const { return in_.has_value(); }
   void show(ConstPose in, ConstPose styled);
 
-  // Adds the view to a server: "/live/body.bvh", a clip of one frame, and "/live/poses", an event for
-  // each pose that a reader is fast enough for: Mannequin::read() of the input, then of the output,
-  // numbers in JSON.
+  // Adds the view to a server: "/live/body.bvh", a clip of one frame, and "/live/poses", an event
+  // for each pose that a reader is fast enough for: Mannequin::read() of the input, then of the
+  // output, numbers in JSON.
   void serve_on(PageServer& server);
 
  private:

@@ -1,5 +1,6 @@
 #include "messages.h"
 
+#include <cmath>
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -76,6 +77,8 @@ std::string brief(double value, int digits) {
   std::snprintf(text, sizeof text, "%.*g", digits, value);
   return text;
 }
+
+double rounded(double value) { return std::round(value * 1e4) / 1e4; }
 
 std::string plural(size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");

@@ -34,6 +34,8 @@ std::string dump(const Json& json);
 std::string fixed(double value, int decimals);
 // `value` with no more digits than it needs, and at most `digits` that count: "120", "0.0564".
 std::string brief(double value, int digits = 6);
+// `value` to four decimals, for JSON.
+double rounded(double value);
 // "1 file", "2 files".
 std::string plural(size_t count, const std::string& noun);
 // `text` followed by spaces up to `width` letters (UTF-8), and at least one space.

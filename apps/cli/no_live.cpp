@@ -14,7 +14,8 @@ void add_missing(CLI::App& app, int& exit_code, const std::string& name, const s
   CLI::App* verb = app.add_subcommand(name, help);
   verb->allow_extras();
   verb->callback([&exit_code] {
-    exit_code = fail({"this build has no live input; build with liblo-dev and libcpp-httplib-dev"}, kBadUsage);
+    exit_code = fail({"this build has no live input; build with liblo-dev and libcpp-httplib-dev"},
+                     kBadUsage);
   });
 }
 

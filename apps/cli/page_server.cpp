@@ -73,8 +73,7 @@ Result<std::unique_ptr<PageServer>> PageServer::create() {
   server.set_keep_alive_max_count(1);
   const int port = server.bind_to_any_port(kAddress);
   if (port < 0) {
-    return Error{std::string(kAddress) + ": no port to serve the page on: " +
-                 std::strerror(errno) +
+    return Error{std::string(kAddress) + ": no port to serve the page on: " + std::strerror(errno) +
                  "; is the loopback interface up, and may programs listen on it?"};
   }
   out->address_ = std::string(kAddress) + ":" + std::to_string(port);
@@ -92,31 +91,32 @@ Result<std::unique_ptr<PageServer>> PageServer::create() {
 }
 
 void PageServer::serve(const std::string& path, std::function<std::string()> content) {
-  server_.Get(path, [content = std::move(content)](const httplib::Request&,
-                                                   httplib::Response& answer) {
-    std::string bytes = content();
-    if (bytes.empty()) {
-      answer.status = kNotFound;
-    } else {
-      answer.set_content(std::move(bytes), "application/octet-stream");
-    }
-  });
+  server_.Get(path,
+              [content = std::move(content)](const httplib::Request&, httplib::Response& answer) {
+                std::string bytes = content();
+                if (bytes.empty()) {
+                  answer.status = kNotFound;
+                } else {
+                  answer.set_content(std::move(bytes), "application/octet-stream");
+                }
+              });
 }
 
 void PageServer::serve_events(const std::string& path,
                               std::function<std::function<std::string()>()> open) {
-  server_.Get(path, [this, open = std::move(open)](const httplib::Request&,
-                                                   httplib::Response& answer) {
-    answer.set_chunked_content_provider(
-        "text/event-stream", [this, next = open()](size_t, httplib::DataSink& sink) {
-          // A comment where there is no event, so that a reader that has gone is noticed.
-          const std::string text = next();
-          const std::string event = text.empty() ? ":\n\n" : "data: " + text + "\n\n";
-          if (!sink.write(event.data(), event.size())) return false;
-          if (stopped_) sink.done();
-          return true;
-        });
-  });
+  server_.Get(path,
+              [this, open = std::move(open)](const httplib::Request&, httplib::Response& answer) {
+                answer.set_chunked_content_provider(
+                    "text/event-stream", [this, next = open()](size_t, httplib::DataSink& sink) {
+                      // A comment where there is no event, so that a reader that has gone is
+                      // noticed.
+                      const std::string text = next();
+                      const std::string event = text.empty() ? ":\n\n" : "data: " + text + "\n\n";
+                      if (!sink.write(event.data(), event.size())) return false;
+                      if (stopped_) sink.done();
+                      return true;
+                    });
+              });
 }
 
 Result<void> PageServer::listen() {

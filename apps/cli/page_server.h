@@ -14,8 +14,8 @@ namespace panache::cli {
 
 class PageServer {
  public:
-  // Finds the folder of the page and binds a free port of the loopback address. Fails with a message
-  // where there is neither.
+  // Finds the folder of the page and binds a free port of the loopback address. Fails with a
+  // message where there is neither.
   static Result<std::unique_ptr<PageServer>> create();
 
   // "127.0.0.1:40123"

@@ -1,9 +1,12 @@
 // Which files a batch reads and writes.
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 
 #include "batch.h"
+#include "batch_report.h"
+#include "batch_settings.h"
 #include "clip/text_cursor.h"
 #include "formats.h"
 #include "standard_streams.h"
@@ -76,7 +79,9 @@ Result<std::vector<FileJob>> name_jobs(const BatchFlags& flags, const OutputNami
     files.push_back(*std::move(file));
     return files;
   }
-  Result<FoundFiles> found = find_inputs(flags.inputs, flags.output.value_or(""));
+  Result<FoundFiles> found = flags.files_from.empty()
+                                 ? find_inputs(flags.inputs, flags.output.value_or(""))
+                                 : list_inputs(flags.files_from, flags.below);
   if (!found) {
     exit_code = kBadInput;
     return found.error();
@@ -95,11 +100,38 @@ Result<std::vector<FileJob>> name_jobs(const BatchFlags& flags, const OutputNami
   return files;
 }
 
+// Leaves the files of a shard: every N-th, so that long takes that stand side by side are shared
+// out.
+Result<void> take_shard(const std::string& text, std::vector<FileJob>& files) {
+  size_t index = 0, count = 0;
+  int length = -1;
+  if (std::sscanf(text.c_str(), "%zu/%zu%n", &index, &count, &length) != 2 ||
+      length != static_cast<int>(text.size()) || index < 1 || index > count) {
+    return Error{"--shard " + panache::quoted(text) +
+                 ": expected I/N with I from 1 to N, such as 2/8"};
+  }
+  std::vector<FileJob> taken;
+  for (size_t i = index - 1; i < files.size(); i += count) taken.push_back(std::move(files[i]));
+  files = std::move(taken);
+  return {};
+}
+
+Result<void> check_sources(const BatchFlags& flags) {
+  if (flags.inputs.empty() && flags.files_from.empty()) {
+    return Error{"IN is required; see panache " + flags.verb->get_name() + " --help"};
+  }
+  if (!flags.inputs.empty() && !flags.files_from.empty()) {
+    return Error{"--files-from: expected no other inputs, found " + flags.inputs.front()};
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<std::vector<FileJob>> plan_batch(const BatchFlags& flags, const OutputNaming& wanted,
-                                        int& exit_code) {
+                                        const std::string& model, int& exit_code) {
   exit_code = kBadUsage;
+  if (auto sources = check_sources(flags); !sources) return sources.error();
   OutputNaming naming = wanted;
   if (!flags.to.empty()) {
     naming.extension = "." + flags.to;
@@ -115,6 +147,9 @@ Result<std::vector<FileJob>> plan_batch(const BatchFlags& flags, const OutputNam
     exit_code = kBadUsage;
     return Error{"--to " + flags.to + ": " + files->front().output + " has another format"};
   }
+  if (!flags.shard.empty()) {
+    if (auto taken = take_shard(flags.shard, *files); !taken) return taken.error();
+  }
   std::vector<FilePair> pairs;
   for (const FileJob& file : *files) {
     if (!file.to_stdout) pairs.push_back({file.input, file.output});
@@ -123,7 +158,12 @@ Result<std::vector<FileJob>> plan_batch(const BatchFlags& flags, const OutputNam
     }
   }
   exit_code = kBadInput;
-  if (!flags.report.empty()) {
+  if (!flags.report.empty() && flags.skip_existing) {
+    std::vector<std::string> outputs;
+    for (const FilePair& pair : pairs) outputs.push_back(pair.output);
+    auto same = check_settings(flags.report, outputs, batch_settings(*flags.verb, model));
+    if (!same) return same.error();
+  } else if (!flags.report.empty()) {
     if (auto free = check_output("", flags.report, flags.force); !free) return free.error();
   }
   if (flags.skip_existing) {

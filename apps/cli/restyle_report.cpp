@@ -50,14 +50,14 @@ std::string describe(const RestyleFacts& facts) {
 }
 
 Json facts_json(const RestyleFacts& facts) {
-  const auto number = [](float value) { return static_cast<double>(value); };
+  const auto number = [](float value) { return rounded(static_cast<double>(value)); };
   const LoopFacts& loop = facts.loop;
   Json closed;
   if (loop.closed) {
     closed = {{"rounds", loop.rounds},
               {"settled", loop.settled},
-              {"gap_before_cm", cm(loop.input_gap)},
-              {"spread_cm", cm(loop.spread)}};
+              {"gap_before_cm", rounded(cm(loop.input_gap))},
+              {"spread_cm", rounded(cm(loop.spread))}};
   }
   return {{"unchanged", facts.unchanged},
           {"loop", closed},

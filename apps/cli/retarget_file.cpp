@@ -79,12 +79,12 @@ int retarget_files(const RetargetFlags& flags, const RetargetOptions& options,
   int exit_code = kDone;
   Result<std::vector<FileJob>> files = plan_batch(
       flags.batch, {character->extension(), "on-" + fs::path(character->path()).stem().string()},
-      exit_code);
+      "", exit_code);
   if (!files) return fail(files.error(), exit_code);
   if (auto fit = character->check_outputs(*files); !fit) return fail(fit.error(), kBadUsage);
   Result<RigOptions> rig = read_rig_options(flags.rig);
   if (!rig) return fail(rig.error(), kBadInput);
-  return run_batch(*std::move(files), flags.batch, doing, done,
+  return run_batch(*std::move(files), flags.batch, "", doing, done,
                    [&](FileJob& file, const std::function<void(double)>&) {
                      return retarget_file(file, *character, flags, *rig, options);
                    });

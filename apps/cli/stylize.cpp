@@ -305,8 +305,8 @@ int stylize(const StylizeOptions& options) {
     if (!character) return fail(character.error(), kBadInput);
     onto = *std::move(character);
   }
-  Result<std::vector<FileJob>> files =
-      plan_batch(options.batch, {onto ? onto->extension() : "", name_styles(options)}, exit_code);
+  Result<std::vector<FileJob>> files = plan_batch(
+      options.batch, {onto ? onto->extension() : "", name_styles(options)}, *path, exit_code);
   if (!files) return fail(files.error(), exit_code);
   if (auto formats = check_formats(*files, onto); !formats) {
     return fail(formats.error(), kBadUsage);
@@ -318,7 +318,7 @@ int stylize(const StylizeOptions& options) {
                 options.in_place,  std::move(onto)};
   wanted.how.stylizer.foot_lock = !options.no_feet;
   wanted.how.timing = !options.no_timing;
-  return run_batch(*std::move(files), options.batch, "restyling", "restyled",
+  return run_batch(*std::move(files), options.batch, *path, "restyling", "restyled",
                    [&](FileJob& file, const std::function<void(double)>& progress) {
                      auto done = stylize_file(file, wanted, options, progress);
                      if (!done || !options.verbose) file.details.clear();

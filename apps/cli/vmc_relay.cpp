@@ -108,8 +108,8 @@ VmcRelay::Sender* VmcRelay::sender_of(const Datagram& datagram, bool meet) {
     send_rest(*silent);
     senders_.erase(silent);
   }
-  senders_.push_back(
-      {datagram.sender, datagram.received, true, VmcCharacter(model_, options_, recording_, view_)});
+  senders_.push_back({datagram.sender, datagram.received, true,
+                      VmcCharacter(model_, options_, recording_, view_)});
   ++met_;
   return &senders_.back();
 }

@@ -1,6 +1,10 @@
 // Many files at once: folders, patterns, and the account at the end.
 
+#include <algorithm>
 #include <csignal>
+#include <filesystem>
+#include <map>
+#include <sstream>
 
 #include <sys/stat.h>
 
@@ -40,6 +44,13 @@ class Batch : public ProgramTest {
     return out;
   }
   using Lines = std::vector<std::string>;
+  using Json = nlohmann::json;
+  std::vector<Json> report(const std::string& name) {
+    std::vector<Json> out;
+    std::istringstream lines(read(name));
+    for (std::string line; std::getline(lines, line);) out.push_back(Json::parse(line));
+    return out;
+  }
 };
 
 TEST_F(Batch, a_folder_means_all_motion_in_it_and_keeps_its_folders) {
@@ -228,27 +239,110 @@ TEST_F(Batch, a_file_that_fails_stops_no_other) {
   EXPECT_EQ(entries("out/day 2"), (Lines{"a.bvh", "deep"}));
 }
 
-TEST_F(Batch, a_report_tells_of_each_file) {
+TEST_F(Batch, a_report_has_a_line_for_each_file) {
   write("takes/bad.bvh", "");
-  const Ran ran = stylize({"takes/*.bvh", "-o", "out", "--report", "report.json", "--json"});
+  const Ran ran = stylize({"takes/*.bvh", "-o", "out", "--report", "new/report.jsonl", "--json"});
   EXPECT_EQ(ran.exit, 1);
-  EXPECT_TRUE(read("report.json") == ran.out);
-  const auto report = nlohmann::json::parse(read("report.json"));
-  ASSERT_EQ(report.size(), 3u);
-  EXPECT_EQ(report[0]["in"], "takes/a.bvh");
-  EXPECT_EQ(report[0]["out"], "out/a.bvh");
-  EXPECT_EQ(report[0]["ok"], true);
-  EXPECT_EQ(report[0]["frames"], report[0]["clips"][0]["frames_out"]);
-  EXPECT_EQ(report[0]["seconds"], report[0]["clips"][0]["seconds"]);
-  EXPECT_EQ(report[0]["mapping"]["up_axis"], "+Y");
-  EXPECT_EQ(report[2]["ok"], false);
-  EXPECT_EQ("panache: " + report[2]["error"].get<std::string>() + "\n", ran.err);
-  EXPECT_EQ(report[2]["clips"].size(), 0u);
-  const Ran again = stylize({"takes/a.bvh", "-o", "x.bvh", "--report", "report.json"});
-  EXPECT_EQ(again.err, "panache: report.json: exists already; --force overwrites it\n");
+  const std::vector<Json> lines = report("new/report.jsonl");
+  ASSERT_EQ(lines.size(), 4u);
+  EXPECT_EQ(lines[0]["of"]["verb"], "stylize");
+  EXPECT_EQ(lines[0]["of"]["options"], (Json{{"--style", {"old=1"}}}));
+  EXPECT_EQ(lines[0]["of"]["model"]["file"], "model.safetensors");
+  std::map<std::string, Json> by_input;
+  for (const Json& line : lines) by_input[line.value("in", "")] = line;
+  Json good = by_input["takes/a.bvh"];
+  EXPECT_EQ(good["out"], "out/a.bvh");
+  EXPECT_EQ(good["ok"], true);
+  EXPECT_EQ(good["settings"], lines[0]["settings"]);
+  EXPECT_EQ(good["frames"], good["clips"][0]["frames_out"]);
+  EXPECT_EQ(good["seconds"], good["clips"][0]["seconds"]);
+  EXPECT_FALSE(good.contains("mapping"));
+  EXPECT_LT(good.dump().size(), 500u);
+  const Json bad = by_input["takes/bad.bvh"];
+  EXPECT_EQ(bad["ok"], false);
+  EXPECT_EQ("panache: " + bad["error"].get<std::string>() + "\n", ran.err);
+  EXPECT_EQ(bad["clips"].size(), 0u);
+  // What is printed has the same, and the mapping.
+  const auto printed = Json::parse(ran.out);
+  ASSERT_EQ(printed.size(), 3u);
+  EXPECT_EQ(printed[0]["mapping"]["up_axis"], "+Y");
+  EXPECT_EQ(printed[0]["clips"][0]["styles"][0]["name"], "old");
+  stylize({"takes/a.bvh", "-o", "y.bvh", "--report", "mapped.jsonl", "--mapping"});
+  EXPECT_EQ(report("mapped.jsonl").at(1)["mapping"]["up_axis"], "+Y");
+  const Ran again = stylize({"takes/a.bvh", "-o", "x.bvh", "--report", "new/report.jsonl"});
+  EXPECT_EQ(again.err, "panache: new/report.jsonl: exists already; --force overwrites it\n");
   const Ran same = stylize({"takes/a.bvh", "-o", "x.bvh", "--report", "x.bvh"});
   EXPECT_EQ(same.err, "panache: --report: x.bvh is an output too; expected a separate file\n");
   EXPECT_EQ(same.exit, 2);
+}
+
+TEST_F(Batch, a_report_grows_while_the_batch_works) {
+  for (int i = 0; i < 200; ++i) write_walk("many/" + std::to_string(i) + ".bvh", 40);
+  const pid_t batch = start({"stylize", "many", "--style", "old=1", "-o", "out", "--jobs", "1",
+                             "--report", "report.jsonl"});
+  while (!exists("report.jsonl") || report("report.jsonl").size() < 3) ::usleep(1000);
+  EXPECT_LT(entries("out").size(), 200u) << "the report came at the end";
+  EXPECT_EQ(finish(batch).exit, 0);
+  EXPECT_EQ(report("report.jsonl").size(), 201u);
+}
+
+TEST_F(Batch, outputs_of_other_settings_are_not_taken_for_done) {
+  EXPECT_EQ(stylize({"takes", "-o", "out", "--report", "r.jsonl"}).exit, 0);
+  EXPECT_EQ(stylize({"takes", "-o", "out", "--report", "r.jsonl", "--skip-existing"}).exit, 0);
+  std::filesystem::remove(path("out/a.bvh"));
+  const Ran rest = stylize({"takes", "-o", "out", "--report", "r.jsonl", "--skip-existing"});
+  EXPECT_TRUE(rest.out.starts_with("restyled 1 of 4 files, 3 skipped, in ")) << rest.out;
+  const std::vector<std::string> others = {
+      "takes", "-o", "out", "--report", "r.jsonl", "--skip-existing", "--style", "proud=1"};
+  const std::string expected =
+      "panache: out/a.bvh and 3 more: made with other settings, as r.jsonl says: options "
+      "{\"--style\":[\"old=1\"]} instead of {\"--style\":[\"old=1\",\"proud=1\"]}; --force makes "
+      "them "
+      "again\n";
+  EXPECT_EQ(stylize(others).err, expected);
+  // Another model under the same name is another setting.
+  write("model.safetensors", read("model.safetensors") + " ");
+  const Ran model =
+      stylize({"takes/a.bvh", "-o", "out/a.bvh", "--report", "r.jsonl", "--skip-existing"});
+  EXPECT_NE(model.exit, 0);
+}
+
+TEST_F(Batch, files_are_named_by_a_list) {
+  write("list.txt", "takes/day 2/a.bvh\r\n\ntakes/b.bvh\n./takes/b.bvh");
+  EXPECT_EQ(pairs({"--files-from", "list.txt", "--below", "takes", "-o", "out"}),
+            (Lines{"takes/day 2/a.bvh > out/day 2/a.bvh", "takes/b.bvh > out/b.bvh"}));
+  EXPECT_EQ(pairs({"--files-from", "list.txt", "-o", "flat"}),
+            (Lines{"takes/day 2/a.bvh > flat/a.bvh", "takes/b.bvh > flat/b.bvh"}));
+  EXPECT_EQ(
+      pairs({"--files-from", "list.txt", "--below", path("."), "-o", "whole"}),
+      (Lines{"takes/day 2/a.bvh > whole/takes/day 2/a.bvh", "takes/b.bvh > whole/takes/b.bvh"}));
+  const Ran beside = stylize({"--files-from", "list.txt", "--below", "takes/day 2", "-o", "x"});
+  EXPECT_EQ(beside.err, "panache: list.txt:3: takes/b.bvh is not below takes/day 2\n");
+  const Ran both = stylize({"takes/a.bvh", "--files-from", "list.txt", "-o", "x"});
+  EXPECT_EQ(both.err, "panache: --files-from: expected no other inputs, found takes/a.bvh\n");
+  write("empty.txt", "\n");
+  EXPECT_EQ(stylize({"--files-from", "empty.txt", "-o", "x"}).err,
+            "panache: empty.txt: names no file\n");
+}
+
+TEST_F(Batch, shards_share_out_the_files) {
+  std::vector<std::string> all;
+  for (const char* shard : {"1/3", "2/3", "3/3"}) {
+    for (const std::string& pair : pairs({"takes", "-o", "out", "--shard", shard})) {
+      all.push_back(pair);
+    }
+  }
+  std::sort(all.begin(), all.end());
+  EXPECT_EQ(all, pairs({"takes", "-o", "out", "--force"}));
+  const Ran none = stylize({"takes", "-o", "out", "--shard", "9/9"});
+  EXPECT_EQ(none.exit, 0);
+  EXPECT_TRUE(none.out.starts_with("restyled 0 of 0 files in ")) << none.out;
+  for (const char* wrong : {"0/3", "4/3", "1", "1/", "a/b", "1/3x", "-1/3"}) {
+    const Ran ran = stylize({"takes", "-o", "out", "--shard", wrong});
+    EXPECT_EQ(ran.exit, 2);
+    EXPECT_EQ(ran.err, "panache: --shard '" + std::string(wrong) +
+                           "': expected I/N with I from 1 to N, such as 2/8\n");
+  }
 }
 
 TEST_F(Batch, one_file_needs_no_output_name) {
