@@ -1,5 +1,6 @@
 // panache learn: a new style from a few seconds of motion.
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -25,20 +26,33 @@ struct LearnVerb {
   std::string name, model, description, action;
   ReadOptions read;
   RigFlags rig;
-  bool force = false, json = false;
+  bool pose = false, force = false, json = false;
 };
 
-// A motion file and its rig.
+// A motion of a file and its rig.
 struct OpenClip {
   std::string path;
-  std::unique_ptr<MotionFile> file;
-  int clip;
+  Clip clip;
   Rig rig;
 
-  LearnClip to_learn() const { return {file->clip(clip), rig, path}; }
+  LearnClip to_learn() const { return {clip, rig, path}; }
 };
 
-Result<OpenClip> open(const std::string& path, const ReadOptions& read, const RigOptions& options) {
+// The first frame of a motion.
+Clip pose_of(const Clip& clip, const Rig& rig) {
+  Clip pose;
+  pose.skeleton = clip.skeleton;
+  pose.frame_time = clip.frame_time;
+  pose.resize(1);
+  const ConstPose first = clip.pose(rig.first_frame());
+  std::copy(first.rotations.begin(), first.rotations.end(), pose.pose(0).rotations.begin());
+  std::copy(first.translations.begin(), first.translations.end(),
+            pose.pose(0).translations.begin());
+  return pose;
+}
+
+Result<OpenClip> open(const std::string& path, const ReadOptions& read, const RigOptions& options,
+                      bool pose) {
   Result<std::unique_ptr<MotionFile>> file = open_motion(path, read);
   if (!file) return file.error();
   std::vector<std::string> notes = (*file)->notes();
@@ -52,9 +66,15 @@ Result<OpenClip> open(const std::string& path, const ReadOptions& read, const Ri
   const int only = picked->front();
   Result<Rig> rig = make_rig((*file)->clip(only), options, path);
   if (!rig) return rig.error();
-  note_rate((*file)->clip(only), *rig, path, notes);
+  const Clip& clip = (*file)->clip(only);
+  if (!pose) note_rate(clip, *rig, path, notes);
   print_notes(notes);
-  return OpenClip{path, *std::move(file), only, *std::move(rig)};
+  if (!pose) return OpenClip{path, clip, *std::move(rig)};
+  OpenClip out{path, pose_of(clip, *rig), *rig};
+  rig = make_rig(out.clip, options, path);
+  if (!rig) return rig.error();
+  out.rig = *std::move(rig);
+  return out;
 }
 
 Result<std::shared_ptr<const WalkerModel>> load_walker() {
@@ -68,7 +88,7 @@ Result<std::vector<LearnPair>> open_pairs(const LearnVerb& verb) {
   if (!options) return options.error();
   std::vector<OpenClip> clips;
   for (const std::string& path : verb.clips) {
-    Result<OpenClip> clip = open(path, verb.read, *options);
+    Result<OpenClip> clip = open(path, verb.read, *options, verb.pose);
     if (!clip) return clip.error();
     clips.push_back(*std::move(clip));
   }
@@ -78,6 +98,10 @@ Result<std::vector<LearnPair>> open_pairs(const LearnVerb& verb) {
     pairs.push_back(*std::move(pair));
     return {};
   };
+  if (verb.pose && clips.size() == 1) {
+    if (auto good = add(make_pose_pair(clips[0].to_learn())); !good) return good.error();
+    return pairs;
+  }
   if (verb.action.empty()) {
     for (size_t i = 0; i < clips.size(); i += 2) {
       auto good = add(make_learn_pair(clips[i].to_learn(), clips[i + 1].to_learn()));
@@ -122,6 +146,10 @@ std::string describe(const LearntStyle& learnt, const LearnVerb& verb, size_t by
   std::string text = "learnt '" + verb.name + "' in " + fixed(seconds, 2) + " s into " +
                      verb.model + " (the style is " + fixed(static_cast<double>(bytes) / 1000, 1) +
                      " KB)\n";
+  if (verb.pose) {
+    return text + "  " + learnt.pairs[0].neutral_name + " -> " + learnt.pairs[0].styled_name +
+           ": a pose; all motion is changed alike\n";
+  }
   for (const PairReport& pair : learnt.pairs) {
     text += "  " + pair.neutral_name + " -> " + pair.styled_name + ": " + fixed(pair.seconds, 1) +
             " s, match " + fixed(pair.match, 2) + ", tempo " + fixed(1 / pair.tempo, 2) + " x\n";
@@ -136,7 +164,11 @@ std::string describe(const LearntStyle& learnt, const LearnVerb& verb, size_t by
 }
 
 Result<void> check_usage(const LearnVerb& verb) {
-  if (verb.action.empty() && verb.clips.size() % 2 != 0) {
+  if (verb.pose && verb.clips.size() > 2) {
+    return Error{"--pose: expected POSE or NEUTRAL POSE, found " +
+                 plural(verb.clips.size(), "clip")};
+  }
+  if (!verb.pose && verb.action.empty() && verb.clips.size() % 2 != 0) {
     return Error{(verb.clips.size() == 1 ? "there is " : "there are ") +
                  plural(verb.clips.size(), "clip") +
                  "; expected NEUTRAL STYLED, or several such pairs; for styled clips alone name "
@@ -224,10 +256,16 @@ void add_learn(CLI::App& app, int& exit_code) {
       ->type_name("MODEL");
   verb->add_option("--description", options->description, "Description, shown by panache styles")
       ->type_name("TEXT");
-  verb->add_option("--action", options->action,
-                   "All CLIPS are styled clips of this action, walk or run; a\n"
-                   "built-in neutral clip is paired with them")
-      ->type_name("ACTION");
+  CLI::Option* action =
+      verb->add_option("--action", options->action,
+                       "All CLIPS are styled clips of this action, walk or run; a\n"
+                       "built-in neutral clip is paired with them")
+          ->type_name("ACTION");
+  verb->add_flag("--pose", options->pose,
+                 "CLIPS are a neutral pose and a posed one, or only the\n"
+                 "latter: of a motion its first frame. The style changes\n"
+                 "all motion by their difference")
+      ->excludes(action);
   add_rig_options(*verb, options->rig);
   add_read_options(*verb, options->read);
   verb->add_flag("--force", options->force, "Replace a style of the same name");

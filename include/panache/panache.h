@@ -374,7 +374,7 @@ PANACHE_API panache_status panache_retarget_clip(const panache_clip* clip,
 
 /* One action, done neutrally and in the style, by skeletons whose joints have the same names and
  * parents; rest poses and bone lengths may differ. 2 to 3 seconds of a walk, or the whole of a
- * gesture, are enough. */
+ * gesture, are enough. Clips of one frame each are two poses: their difference is the style. */
 typedef struct panache_pair {
   panache_clip neutral, styled;
 } panache_pair;

@@ -212,6 +212,25 @@ TensorFile fit_style(const std::shared_ptr<const Model>& model, const SampleSet&
   return file;
 }
 
+TensorFile fit_posture(const Model& model, const StyleDelta& change) {
+  assert(model.can_learn());
+  const size_t size = model.activation_count(), directions = std::min(kDirections, size);
+  std::vector<double> answer(kLearntOutputs), mean;
+  std::array<float, StyleDelta::kSize> numbers;
+  pack(change, numbers);
+  for (size_t n = 0; n < numbers.size(); ++n) answer[n] = numbers[n] / model.output_scale()[n];
+  for (size_t f = 0; f < size; ++f) mean.push_back(model.activation_mean()[f]);
+  TensorFile file;
+  put_layer("head", model, std::vector<double>(size * kLearntOutputs), mean, answer, file);
+  file.tensors["mean"] = tensor({static_cast<int64_t>(size)}, mean);
+  put_layer("gate", model, std::vector<double>(size * directions), mean,
+            std::vector<double>(directions), file);
+  file.tensors["gate.worth"] =
+      tensor({static_cast<int64_t>(directions)}, std::vector<double>(directions));
+  file.tensors["gate.rest"] = tensor({1}, {0});  // All motion is known.
+  return file;
+}
+
 Result<void> add_activation_statistics(const std::vector<Take>& takes, TensorFile& file) {
   // A feature that hardly moves must not count for its noise.
   constexpr double kStill = 0.01;

@@ -17,6 +17,10 @@ namespace panache {
 TensorFile fit_style(const std::shared_ptr<const Model>& model, const SampleSet& set,
                      std::span<const size_t> samples);
 
+// The same of a style that is one change of posture, whatever the motion is; it changes neither
+// tempo nor contacts.
+TensorFile fit_posture(const Model& model, const StyleDelta& change);
+
 // The activations of a window, standardised as they vary over motion of all kinds, tell styles
 // apart that were not there in training. Adds `learn.mean` and `learn.scale`, that mean and
 // deviation over the windows of `takes` (layout positions), to a model file, which can then learn.

@@ -25,6 +25,7 @@ constexpr float kWalkSpeed = 1.4f, kRunSpeed = 3.0f;  // m/s.
 constexpr double kWalkSeconds = 8;
 
 Result<Take> take_of(const LearnClip& from) {
+  if (from.clip.frames == 1) return make_take(from.clip, from.rig, PoseLayout::positions);
   const double seconds = (from.clip.frames - from.rig.first_frame()) * from.clip.frame_time;
   // Files round the time of a frame: half a frame less is the same.
   if (seconds * kTakeRate < kMinFrames - 0.5) {
@@ -138,6 +139,24 @@ Result<Take> take_onto(const LearnClip& styled, const LearnClip& neutral) {
   return take_of({done->clip, *rig, styled.name});
 }
 
+// The canonical body upright, with hanging arms.
+Clip standing_pose() {
+  constexpr float kDown = 1.35f, kBent = 0.2f;  // Radians: upper arms, elbows.
+  Clip clip;
+  clip.skeleton = canonical_skeleton();
+  clip.resize(1);
+  const Pose pose = clip.pose(0);
+  for (size_t j = 0; j < clip.joints(); ++j) {
+    pose.rotations[j] = {};
+    pose.translations[j] = clip.skeleton.joints[j].offset;
+  }
+  pose.rotations[index(HumanJoint::left_upper_arm)] = axis_angle({0, 0, 1}, -kDown);
+  pose.rotations[index(HumanJoint::right_upper_arm)] = axis_angle({0, 0, 1}, kDown);
+  pose.rotations[index(HumanJoint::left_lower_arm)] = axis_angle({0, 1, 0}, -kBent);
+  pose.rotations[index(HumanJoint::right_lower_arm)] = axis_angle({0, 1, 0}, kBent);
+  return clip;
+}
+
 // Rotations that follow from the positions alone, the same for every rig.
 void forget_twist(Take& take) {
   for (int f = 0; f < take.frames(); ++f) canonical_frames(take.body[f], 0, take.rotations[f]);
@@ -159,8 +178,31 @@ Result<LearnPair> make_learn_pair(const LearnClip& neutral, const LearnClip& sty
   Result<Take> after = take_of(styled);
   if (after && !rest_alike(neutral, styled, *matches)) after = take_onto(styled, neutral);
   if (!after) return after.error();
-  return LearnPair{neutral.name, styled.name, *std::move(before), *std::move(after),
-                   cycle_frames(neutral.clip, neutral.rig)};
+  const bool is_pose = neutral.clip.frames == 1;
+  if (is_pose != (styled.clip.frames == 1)) {
+    return Error{(is_pose ? neutral.name : styled.name) +
+                 ": is a pose, and the other of the pair a motion; give two poses or two motions"};
+  }
+  return LearnPair{
+      neutral.name,      styled.name, *std::move(before),
+      *std::move(after), is_pose,     is_pose ? 0 : cycle_frames(neutral.clip, neutral.rig)};
+}
+
+Result<LearnPair> make_pose_pair(const LearnClip& styled) {
+  if (styled.clip.frames != 1) {
+    return Error{styled.name + ": has " + std::to_string(styled.clip.frames) +
+                 " frames; expected a pose, which is one"};
+  }
+  Result<Take> after = take_of(styled);
+  if (!after) return after.error();
+  const Clip stand = standing_pose();
+  Result<Rig> rig = Rig::create(stand);
+  if (!rig) return rig.error();
+  LearnPair pair{"standing upright", styled.name, make_take(stand, *rig, PoseLayout::positions),
+                 *std::move(after), true};
+  forget_twist(pair.neutral);
+  forget_twist(pair.styled);
+  return pair;
 }
 
 Result<LearnPair> make_learn_pair(const LearnClip& styled, const std::string& action,

@@ -180,6 +180,27 @@ void measure(const std::shared_ptr<const Model>& model, const std::string& style
   }
 }
 
+// A style of one pair of poses: their difference, as it is.
+Result<LearntStyle> learn_pose(const TensorFile& file, const Model& model,
+                               std::span<const LearnPair> pairs, const std::string& style,
+                               const std::string& description) {
+  const LearnPair& pair = pairs[0];
+  if (pairs.size() > 1) {
+    return Error{"a style of poses is learnt from one pair of them; found " +
+                 std::to_string(pairs.size()) + " pairs"};
+  }
+  StyleDelta change = change_between(pair.styled, 0, pair.neutral, 0, 1);
+  change.velocity_left = change.velocity_forward = change.turn_rate = 0;
+  const StyleInfo info{style, description, "a pose: " + file_name(pair.styled_name), true};
+  LearntStyle learnt;
+  learnt.file = make_style_file(file, info, fit_posture(model, change).tensors);
+  PairReport report;
+  report.neutral_name = pair.neutral_name;
+  report.styled_name = pair.styled_name;
+  learnt.pairs.push_back(std::move(report));
+  return learnt;
+}
+
 }  // namespace
 
 const char* LearntStyle::verdict() const {
@@ -207,6 +228,9 @@ Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
   if (pairs.empty()) {
     return Error{"there is nothing to learn '" + style +
                  "' from; give a neutral and a styled clip"};
+  }
+  if (std::any_of(pairs.begin(), pairs.end(), [](const LearnPair& pair) { return pair.is_pose; })) {
+    return learn_pose(file, **model, pairs, style, description);
   }
   // Each pair is a set of its own, so that it goes together with nothing else.
   std::vector<Take> takes;

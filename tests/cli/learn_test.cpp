@@ -402,5 +402,19 @@ TEST_F(LearnVerb, a_place_that_takes_no_file_is_told) {
                   longest + ": cannot be written: File name too long");
 }
 
+TEST_F(LearnVerb, a_pose_is_a_style) {
+  const Ran ran = learn({"bent.bvh", "--pose", "--name", "posed", "--into", "new.safetensors"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_TRUE(
+      ran.out.ends_with("  standing upright -> bent.bvh: a pose; all motion is changed alike\n"))
+      << ran.out;
+  const Ran two = learn(
+      {"walk.bvh", "bent.bvh", "--pose", "--name", "bent", "--into", "new.safetensors", "--json"});
+  EXPECT_EQ(json::parse(two.out)["verdict"], json());
+  expect_rejected(
+      {"walk.bvh", "walk.bvh", "bent.bvh", "--pose", "--name", "x", "--into", "x.safetensors"}, 2,
+      "--pose: expected POSE or NEUTRAL POSE, found 3 clips");
+}
+
 }  // namespace
 }  // namespace panache::test
