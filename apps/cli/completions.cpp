@@ -12,13 +12,17 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
-std::string names_of(const std::vector<VerbEntry>& verbs) {
-  std::string names;
+// The words of the verbs of `parent`: of the program where that is empty.
+std::string words_of(const std::vector<VerbEntry>& verbs, const std::string& parent) {
+  std::string words;
   for (const VerbEntry& verb : verbs) {
-    if (!verb.name.empty()) names += verb.name + " ";
+    if (verb.name.empty() || verb.parent() != parent) continue;
+    words += (words.empty() ? "" : " ") + verb.word();
   }
-  return names + "help";
+  return words;
 }
+
+std::string names_of(const std::vector<VerbEntry>& verbs) { return words_of(verbs, "") + " help"; }
 
 // The names of the options of `verb`: all, or those that take a value.
 std::string options_of(const VerbEntry& verb, bool with_value) {
@@ -28,6 +32,23 @@ std::string options_of(const VerbEntry& verb, bool with_value) {
     for (const std::string& name : option.names) out += (out.empty() ? "" : " ") + name;
   }
   return out;
+}
+
+// The verb as a label of a shell's `case`.
+std::string label_of(const VerbEntry& verb) {
+  return verb.parent().empty() ? verb.name : quoted(verb.name);
+}
+
+// A line of bash and zsh, after `start`: where the two words `words` are the name of a verb of a
+// verb, that becomes $verb.
+std::string nested_case(const std::vector<VerbEntry>& verbs, const std::string& start,
+                        const std::string& words) {
+  std::string labels;
+  for (const VerbEntry& verb : verbs) {
+    if (!verb.parent().empty()) labels += (labels.empty() ? "" : " | ") + quoted(verb.name);
+  }
+  if (labels.empty()) return "";
+  return start + "case " + words + " in " + labels + ") verb=" + words + " ;; esac\n";
 }
 
 // The text of a message or description within a specification of _arguments.
@@ -62,14 +83,15 @@ std::string bash_completion(const std::vector<VerbEntry>& verbs) {
   std::string out =
       "# bash completion for panache. Generated from the options of the program.\n"
       "_panache() {\n"
-      "  local current=${COMP_WORDS[COMP_CWORD]} verb=${COMP_WORDS[1]} options values\n"
+      "  local current=${COMP_WORDS[COMP_CWORD]} verb=${COMP_WORDS[1]} options values verbs\n"
       "  COMPREPLY=()\n"
       "  if ((COMP_CWORD == 1)); then\n"
       "    COMPREPLY=($(compgen -W '" +
       names_of(verbs) + " " + options_of(verbs.front(), false) +
       "' -- \"$current\"))\n"
       "    return\n"
-      "  fi\n"
+      "  fi\n" +
+      nested_case(verbs, "  ((COMP_CWORD == 2)) || ", "\"$verb ${COMP_WORDS[2]}\"") +
       "  case $verb in\n"
       "    help)\n"
       "      ((COMP_CWORD > 2)) || COMPREPLY=($(compgen -W '" +
@@ -79,15 +101,19 @@ std::string bash_completion(const std::vector<VerbEntry>& verbs) {
       "      ;;\n";
   for (const VerbEntry& verb : verbs) {
     if (verb.name.empty()) continue;
-    out += "    " + verb.name + ")\n      options='" + options_of(verb, false) +
-           "'\n      values='" + options_of(verb, true) + "'\n      ;;\n";
+    const std::string words = words_of(verbs, verb.name);
+    out += "    " + label_of(verb) + ")\n      options='" + options_of(verb, false) +
+           "'\n      values='" + options_of(verb, true) + "'\n";
+    if (!words.empty()) out += "      ((COMP_CWORD > 2)) || verbs='" + words + "'\n";
+    out += "      ;;\n";
   }
   // Without a reply, "-o default" completes the name of a file.
   return out +
          "    *) return ;;\n"
          "  esac\n"
          "  [[ \" $values \" != *\" ${COMP_WORDS[COMP_CWORD - 1]} \"* ]] || return\n"
-         "  [[ $current != -* ]] || COMPREPLY=($(compgen -W \"$options\" -- \"$current\"))\n"
+         "  [[ $current != -* ]] || verbs=$options\n"
+         "  COMPREPLY=($(compgen -W \"$verbs\" -- \"$current\"))\n"
          "}\n"
          "complete -o default -F _panache panache\n";
 }
@@ -97,9 +123,13 @@ std::string zsh_completion(const std::vector<VerbEntry>& verbs) {
   std::string cases;
   for (const VerbEntry& verb : verbs) {
     if (verb.name.empty()) continue;
-    commands += "    " + quoted(verb.name + ":" + verb.description) + "\n";
-    cases += "    " + verb.name + ")\n      _arguments";
+    if (verb.parent().empty()) {
+      commands += "    " + quoted(verb.name + ":" + verb.description) + "\n";
+    }
+    cases += "    " + label_of(verb) + ")\n      _arguments";
     for (const OptionEntry& option : verb.options) add_zsh_option(cases, option);
+    const std::string words = words_of(verbs, verb.name);
+    if (!words.empty()) cases += " \\\n        " + quoted("::command:(" + words + ")");
     cases += "\n      ;;\n";
   }
   std::string own;
@@ -117,7 +147,9 @@ std::string zsh_completion(const std::vector<VerbEntry>& verbs) {
          own +
          "\n    return\n"
          "  fi\n"
-         "  local verb=$words[2]\n"
+         "  local verb=$words[2]\n" +
+         nested_case(verbs, "  ((CURRENT == 3)) || ", "\"$verb $words[3]\"") +
+         "  [[ $verb != *' '* ]] || { shift words; ((CURRENT--)); }\n"
          "  shift words\n"
          "  ((CURRENT--))\n"
          "  case $verb in\n" +
@@ -132,21 +164,31 @@ std::string zsh_completion(const std::vector<VerbEntry>& verbs) {
          "fi\n";
 }
 
+namespace {
+
+// The start of a completion that fish offers after the verb `name` and no verb of that.
+std::string fish_after(const std::vector<VerbEntry>& verbs, const std::string& name) {
+  const std::string words = words_of(verbs, name);
+  const std::string seen = "__fish_seen_subcommand_from ";
+  return "complete -c panache -n '" + seen + name.substr(name.find(' ') + 1) +
+         (words.empty() ? "" : "; and not " + seen + words) + "'";
+}
+
+}  // namespace
+
 std::string fish_completion(const std::vector<VerbEntry>& verbs) {
   std::string out = "# fish completion for panache. Generated from the options of the program.\n";
   const std::string start = "complete -c panache -n __fish_use_subcommand";
   for (const VerbEntry& verb : verbs) {
     if (verb.name.empty()) continue;
-    out += start + " -f -a " + verb.name + " -d " + quoted(verb.description) + "\n";
+    out += (verb.parent().empty() ? start : fish_after(verbs, verb.parent())) + " -f -a " +
+           verb.word() + " -d " + quoted(verb.description) + "\n";
   }
   out += start + " -f -a help -d 'Show the help of a command'\n";
   out +=
       "complete -c panache -n '__fish_seen_subcommand_from help' -f -a '" + names_of(verbs) + "'\n";
   for (const VerbEntry& verb : verbs) {
-    const std::string when =
-        verb.name.empty()
-            ? start
-            : "complete -c panache -n '__fish_seen_subcommand_from " + verb.name + "'";
+    const std::string when = verb.name.empty() ? start : fish_after(verbs, verb.name);
     for (const OptionEntry& option : verb.options) {
       if (option.is_positional()) continue;
       out += when;

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <functional>
 #include <future>
 #include <memory>
 #include <string>
@@ -16,6 +17,7 @@
 #include "model_path.h"
 #include "outputs.h"
 #include "page_server.h"
+#include "send.h"
 #include "shape_options.h"
 #include "stop_signal.h"
 #include "strengths.h"
@@ -183,6 +185,18 @@ int live(const Options& options) {
   return written ? kDone : fail(written.error(), kBadInput);
 }
 
+// What comes before 'send' would be read for live and then be ignored.
+Result<void> check_nothing_before_send(const CLI::App& live) {
+  for (const CLI::Option* option : live.get_options()) {
+    if (option->count() > 0) {
+      return Error{option->get_name() +
+                   ": 'live send' has no such option; see panache live send "
+                   "--help"};
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 void add_live(CLI::App& app, int& exit_code) {
@@ -229,7 +243,16 @@ void add_live(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  panache live --style old=1\n"
       "  panache live --vmc-in 39539 --vmc-out 192.168.1.20:39540 --record show.bvh");
-  verb->callback([options, &exit_code] { exit_code = live(*options); });
+  const std::function<int()> run_send = add_send(*verb);
+  verb->callback([=, &exit_code] {
+    if (verb->get_subcommands().empty()) {
+      exit_code = live(*options);
+    } else if (auto good = check_nothing_before_send(*verb); !good) {
+      exit_code = fail(good.error(), kBadUsage);
+    } else {
+      exit_code = run_send();
+    }
+  });
 }
 
 }  // namespace panache::cli

@@ -1,122 +1,34 @@
 // panache: the program. Each verb is a file of its own.
 
-#include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <exception>
-#include <new>
-#include <string>
 #include <string_view>
-#include <vector>
 
-#include "base/nearest_names.h"
-#include "base/one_of.h"
-#include "fbx.h"
-#include "formats.h"
-#include "meshopt.h"
-#include "messages.h"
 #include "option_table.h"
-#include "picture.h"
-#include "png.h"
-#include "standard_streams.h"
-#include "usage_error.h"
+#include "program.h"
 #include "verbs.h"
 
 namespace panache::cli {
 namespace {
 
-constexpr std::string_view kHelp = "help";
-
-// The library's own message for a verb that does not exist names no verb that does.
-Result<void> check_verb(const CLI::App& app, const std::string& verb) {
-  std::vector<std::string> names;
-  for (const CLI::App* known : app.get_subcommands([](const CLI::App*) { return true; })) {
-    if (known->get_name() == verb) return {};
-    names.push_back(known->get_name());
-  }
-  const std::vector<std::string> nearest = nearest_names(verb, names, 1);
-  return Error{"there is no command '" + verb + "'" +
-               (nearest.empty() ? "" : "; the nearest " + is_or_are(nearest)) + "; expected " +
-               one_of(names)};
-}
-
-int run(int argc, char** argv) {
-  if (argc == 3 && argv[1] == std::string_view(kFbxReader)) return read_fbx_as_child(argv[2]);
-  if (argc == 3 && argv[1] == std::string_view(kPngDrawer)) return draw_png_as_child(argv[2]);
-  if (argc == 3 && argv[1] == std::string_view(kPictureReader)) {
-    return read_picture_as_child(argv[2]);
-  }
-  set_meshopt_decoder(kMeshoptDecoder);
-  set_motion_formats(formats());  // Those of manifests, too.
-  int exit_code = kDone;
-  CLI::App app(
-      "Panache changes the style of motion: neutral motion in, the same motion in an angry, old or "
-      "proud style out.",
-      "panache");
-  app.set_version_flag("--version", "panache " PANACHE_VERSION);
-  app.require_subcommand(1);
-  app.get_formatter()->column_width(32);
-  app.footer(
-      "'panache help COMMAND' shows details and an example.\n\nExample:\n"
-      "  panache stylize walk.bvh --style old=1 -o old.bvh");
+void add_verbs(CLI::App& app, int& exit_code) {
 #define PANACHE_ADD_VERB(name) add_##name(app, exit_code);
   PANACHE_VERBS(PANACHE_ADD_VERB)
 #undef PANACHE_ADD_VERB
-  if (argc == 3 && argv[1] == std::string_view(kPrintReference)) {
-    return print_reference(app, argv[2], PANACHE_VERSION);
-  }
-  if (argc < 2) {
-    std::fputs(app.help().c_str(), stderr);
-    return kBadUsage;
-  }
-  std::vector<std::string> arguments(argv + 1, argv + argc);
-  if (arguments[0] == kHelp) {  // "help" is "--help", and "help VERB" is "VERB --help".
-    arguments.erase(arguments.begin());
-    arguments.emplace_back("--help");
-  }
-  const std::string verb = arguments[0];
-  if (verb[0] != '-') {
-    if (auto known = check_verb(app, verb); !known) return fail(known.error(), kBadUsage);
-  }
-  try {
-    std::reverse(arguments.begin(), arguments.end());  // As CLI11 wants them.
-    app.parse(std::move(arguments));
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help and --version.
-    const bool named = verb[0] != '-';
-    return fail({describe(error, named ? *app.get_subcommand(verb) : app) + "; see panache " +
-                 (named ? verb + " " : "") + "--help"},
-                kBadUsage);
-  }
-  return exit_code;
 }
 
-// The exit code once it is known whether all that was printed arrived. A reader that has left, as
-// head does, has what it wanted.
-int check_printed(int exit_code) {
-  const Result<void> printed = finish_stdout();
-  if (printed) return exit_code;
-  if (errno != EPIPE) print_message(printed.error().message);
-  return exit_code == kDone ? kBadInput : exit_code;
-}
+constexpr Program kPanache = {
+    "panache",
+    "Panache changes the style of motion: neutral motion in, the same motion in an angry, old or "
+    "proud style out.",
+    "panache stylize walk.bvh --style old=1 -o old.bvh", add_verbs};
 
 }  // namespace
 }  // namespace panache::cli
 
 int main(int argc, char** argv) {
   using namespace panache::cli;
-  try {
-    return check_printed(run(argc, argv));
-  } catch (const std::bad_alloc&) {
-    print_message("out of memory");
-  } catch (const std::exception& error) {
-    // Of libraries below. Those of libtorch go on with where in its sources they come from.
-    const std::string_view text = error.what();
-    if (text.find("can't allocate memory") != std::string_view::npos) {
-      print_message("out of memory");
-    } else {
-      print_message("internal error: " + std::string(text.substr(0, text.find('\n'))));
-    }
+  if (argc == 3 && argv[1] == std::string_view(kPrintReference)) {
+    int unused = 0;
+    return print_reference(*make_app(kPanache, unused), argv[2], PANACHE_VERSION);
   }
-  return kBadInput;
+  return run_program(kPanache, argc, argv);
 }

@@ -9,9 +9,16 @@
 #include "clip/motion_file.h"
 
 namespace panache::cli {
+namespace {
+
+const char* program_name = "panache";
+
+}  // namespace
+
+void set_program_name(const char* name) { program_name = name; }
 
 void print_message(const std::string& message) {
-  std::fprintf(stderr, "panache: %s\n", message.c_str());
+  std::fprintf(stderr, "%s: %s\n", program_name, message.c_str());
 }
 
 std::string with_hint(const std::string& message) {
@@ -27,7 +34,7 @@ std::string with_hint(const std::string& message) {
       Hint{"found the extension '.safetensors'", ", which models and styles have"},
       Hint{": is a style file, not a model", "; panache styles MODEL --add FILE puts it into one"},
       Hint{"or learn it again with this one", " (panache learn)"},
-      Hint{"'learn.mean' and 'learn.scale'", ", as panache train writes it"},
+      Hint{"'learn.mean' and 'learn.scale'", ", as panache-lab train writes it"},
       Hint{"or retarget the styled clip onto the neutral one",
            " (panache retarget STYLED --onto NEUTRAL)"},
       Hint{"'; rename them", " with --styles"},

@@ -14,6 +14,8 @@ inline constexpr int kBadInput = 1;   // A file is not what it should be, or can
 inline constexpr int kBadUsage = 2;   // The command line asks for something that there is not.
 inline constexpr int kStopped = 130;  // By Ctrl-C, as shells count it.
 
+// The name that messages begin with, "panache" at first. It is kept, not copied.
+void set_program_name(const char* name);
 // "panache: MESSAGE" on stderr.
 void print_message(const std::string& message);
 // A message of the library followed by the command or option that helps, where there is one: the

@@ -37,13 +37,29 @@ VerbEntry entry_of(const CLI::App& app, const std::string& name) {
   return entry;
 }
 
+void add_entries(std::vector<VerbEntry>& verbs, const CLI::App& app, const std::string& name) {
+  verbs.push_back(entry_of(app, name));
+  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (verb->get_group().empty()) continue;
+    add_entries(verbs, *verb, (name.empty() ? "" : name + " ") + verb->get_name());
+  }
+}
+
 }  // namespace
 
+std::string VerbEntry::parent() const {
+  const size_t space = name.find(' ');
+  return space == std::string::npos ? "" : name.substr(0, space);
+}
+
+std::string VerbEntry::word() const {
+  const size_t space = name.find(' ');
+  return space == std::string::npos ? name : name.substr(space + 1);
+}
+
 std::vector<VerbEntry> option_table(const CLI::App& app) {
-  std::vector<VerbEntry> verbs = {entry_of(app, "")};
-  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
-    if (!verb->get_group().empty()) verbs.push_back(entry_of(*verb, verb->get_name()));
-  }
+  std::vector<VerbEntry> verbs;
+  add_entries(verbs, app, "");
   return verbs;
 }
 

@@ -21,13 +21,18 @@ struct OptionEntry {
 };
 
 struct VerbEntry {
-  std::string name;
+  std::string name;  // "stylize"; "live send" for a verb of a verb.
   std::string description;
   std::string footer;  // Notes and examples, as --help prints them.
   std::vector<OptionEntry> options;
+
+  // For a verb of a verb, the latter ("live") and its own word ("send"); else "" and the name.
+  std::string parent() const;
+  std::string word() const;
 };
 
-// The program itself, without a name, and then its verbs in the order of --help.
+// The program itself, without a name, and then its verbs in the order of --help, each followed by
+// its own verbs.
 std::vector<VerbEntry> option_table(const CLI::App& app);
 
 // The first argument that makes the program print one of the texts below, and the texts that the

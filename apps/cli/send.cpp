@@ -1,4 +1,4 @@
-// panache send: plays a motion file as a tracker would send it (VMC protocol).
+#include "send.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,6 @@
 #include "rig/posed_rig.h"
 #include "rig_options.h"
 #include "stop_signal.h"
-#include "verbs.h"
 #include "vmc_bones.h"
 #include "vmc_messages.h"
 #include "vmc_socket.h"
@@ -146,8 +145,8 @@ int send(const SendOptions& options) {
 
 }  // namespace
 
-void add_send(CLI::App& app, int& exit_code) {
-  CLI::App* verb = app.add_subcommand("send", "Play a file as a tracker (VMC protocol)");
+std::function<int()> add_send(CLI::App& live) {
+  CLI::App* verb = live.add_subcommand("send", "Play a file as a tracker (VMC protocol)");
   auto options = std::make_shared<SendOptions>();
   verb->add_option("FILE", options->input, "Motion file")->required();
   verb->add_option("--to", options->to,
@@ -160,8 +159,8 @@ void add_send(CLI::App& app, int& exit_code) {
                    "Motion to play, if a file has several;\ndefault: the first")
       ->type_name("NAME");
   add_rig_options(*verb, options->rig);
-  verb->footer("Example:\n  panache send walk.bvh --to 127.0.0.1:39539 --fps 90 --loop");
-  verb->callback([options, &exit_code] { exit_code = send(*options); });
+  verb->footer("Example:\n  panache live send walk.bvh --to 127.0.0.1:39539 --fps 90 --loop");
+  return [options] { return send(*options); };
 }
 
 }  // namespace panache::cli

@@ -51,7 +51,7 @@ std::string describe(const CLI::ParseError& error, const CLI::App& verb) {
   std::string text = one_line(error.what());
   if (dynamic_cast<const CLI::ExtrasError*>(&error)) return describe_extra(verb);
   if (dynamic_cast<const CLI::RequiredError*>(&error)) {
-    if (!verb.get_parent()) return "expected a command first, as in 'panache info FILE'";
+    if (!verb.get_parent()) return "expected a command first";
     // A mistyped option is why the right one is missing.
     const std::string option = unknown_option(verb);
     return option.empty() ? text : describe_option(verb, option) + "; " + text;

@@ -1,5 +1,5 @@
 #pragma once
-// The verbs of the program. A further one is a source file with its add_ function, and a line here.
+// The verbs of panache. A further one is a source file with its add_ function, and a line here.
 
 #include <CLI/CLI.hpp>
 
@@ -7,21 +7,14 @@
 // clang-format off
 #define PANACHE_VERBS(verb) \
   verb(stylize) \
-  verb(convert) \
-  verb(retarget) \
   verb(learn) \
-  verb(styles) \
+  verb(retarget) \
+  verb(convert) \
   verb(info) \
+  verb(styles) \
   verb(walker) \
-  verb(strip) \
-  verb(quantize) \
-  verb(export) \
-  verb(view) \
   verb(live) \
-  verb(send) \
-  verb(train) \
-  verb(eval) \
-  verb(bench)
+  verb(view)
 // clang-format on
 
 namespace panache::cli {

@@ -38,7 +38,7 @@ std::optional<std::vector<VmcMessage>> read_vmc(std::span<const char> datagram);
 void put_position(std::span<char> datagram, size_t place, Vec3 position);
 void put_rotation(std::span<char> datagram, size_t place, Quat rotation);
 
-// What `panache send` says of one frame.
+// What `panache live send` says of one frame.
 struct VmcFrame {
   double seconds = 0;  // Since the start.
   struct Bone {

@@ -1,5 +1,4 @@
-// panache walker: a neutral walk of our own making, for machines without motion data; in builds
-// with training also the fit of its model.
+// panache walker: a neutral walk of our own making, for machines without motion data.
 
 #include <memory>
 #include <numbers>
@@ -15,11 +14,6 @@
 #include "verbs.h"
 #include "walker/walker.h"
 
-#ifdef PANACHE_TRAIN
-#include "manifests.h"
-#include "train/fit_walker.h"
-#endif
-
 namespace panache::cli {
 namespace {
 
@@ -29,8 +23,6 @@ struct WalkerVerb {
   std::string output, model;
   double seconds = 8, speed = 1.4, turn_deg = 0, fps = 60;
   bool start = false, stop = false, force = false;
-  std::vector<std::string> fit;  // Manifests.
-  std::string data, licence;     // What the fitted model says of them.
 };
 
 Result<void> check(const WalkerVerb& verb) {
@@ -79,26 +71,6 @@ int walk(const WalkerVerb& verb) {
   return kDone;
 }
 
-#ifdef PANACHE_TRAIN
-int fit(const WalkerVerb& verb) {
-  if (auto free = check_free(verb.output, verb.force); !free) {
-    return fail(free.error(), kBadInput);
-  }
-  Result<Manifests> data = read_manifests({verb.fit, "", {}});
-  if (!data) return fail(data.error(), kBadInput);
-  Result<FittedWalker> fitted = fit_walker(data->rows, verb.data, verb.licence);
-  if (!fitted) return fail(fitted.error(), kBadInput);
-  auto written = write_file(verb.output, fitted->model.format(), verb.force);
-  if (!written) return fail(written.error(), kBadInput);
-  print("fitted " + verb.output + " to " + std::to_string(fitted->walk_frames) +
-        " frames of walk and " + std::to_string(fitted->run_frames) + " of run in " +
-        plural(static_cast<size_t>(fitted->takes), "take") + "; residual " +
-        brief(fitted->walk_residual, 3) + " rad walking, " + brief(fitted->run_residual, 3) +
-        " running\n");
-  return kDone;
-}
-#endif
-
 }  // namespace
 
 void add_walker(CLI::App& app, int& exit_code) {
@@ -118,27 +90,8 @@ void add_walker(CLI::App& app, int& exit_code) {
   verb->add_option("--model", options->model, "Model of the walker; default: the one shipped")
       ->type_name("FILE");
   verb->add_flag("--force", options->force, "Overwrite the file");
-#ifdef PANACHE_TRAIN
-  verb->add_option("--fit", options->fit,
-                   "Instead of walking, fit the walker's model to the\n"
-                   "neutral takes of these manifests and write that")
-      ->type_name("MANIFEST");
-  verb->add_option("--data", options->data,
-                   "With --fit: name of the data, for the model's metadata")
-      ->type_name("TEXT");
-  verb->add_option("--licence", options->licence, "With --fit: licence of the data, likewise")
-      ->type_name("TEXT");
-#endif
   verb->footer("Example:\n  panache walker -o walk.bvh --seconds 8 --speed 1.4 --turn 20");
-  verb->callback([options, &exit_code] {
-#ifdef PANACHE_TRAIN
-    if (!options->fit.empty()) {
-      exit_code = fit(*options);
-      return;
-    }
-#endif
-    exit_code = walk(*options);
-  });
+  verb->callback([options, &exit_code] { exit_code = walk(*options); });
 }
 
 }  // namespace panache::cli

@@ -64,7 +64,7 @@ struct OptimizerSettings {
 };
 
 // How the pose network is trained on motion without styles, under a style classifier: see
-// src/train/guidance.h.
+// lab/train/guidance.h.
 struct GuidanceSettings {
   int sequences = 0;         // Drawn at each guided step, each in one style; 0: no guidance.
   int every = 2;             // Of so many steps one is guided: it takes as long as two others.

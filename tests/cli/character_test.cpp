@@ -177,15 +177,12 @@ TEST_F(Character, a_missing_texture_is_a_line_with_its_path) {
   }
 }
 
-TEST_F(Character, what_is_styled_comes_first_and_strip_draws_it) {
+TEST_F(Character, what_is_styled_comes_first) {
   write("hero.glb", to_glb(character()));
   must({"stylize", "hero.glb", "--clip", "Walk", "--style", "old=1", "-o", "old.glb"});
   EXPECT_EQ(clips_of("old.glb"), (Names{"Walk (old 1)", "Walk", "Wave"}));
   must({"stylize", "hero.glb", "--clip", "Walk", "--style", "old=1", "--last", "-o", "last.glb"});
   EXPECT_EQ(clips_of("last.glb"), (Names{"Walk", "Wave", "Walk (old 1)"}));
-  must({"strip", "old.glb", "-o", "first.svg", "--label", "a"});
-  must({"strip", "old.glb", "--clip", "Walk (old 1)", "-o", "named.svg", "--label", "a"});
-  EXPECT_TRUE(read("first.svg") == read("named.svg"));
 }
 
 TEST_F(Character, a_characters_own_animations_go_unless_asked_for) {

@@ -263,10 +263,11 @@ TEST_F(LearnVerb, a_model_that_nobody_may_write_to_stays_as_it_is) {
 TEST_F(LearnVerb, a_model_that_cannot_learn_says_so) {
   write("smith.safetensors", format_safetensors(make_model({"old"}, 1, test::kSmith2019)));
   for (const std::string model : {"model.safetensors", "smith.safetensors"}) {
-    expect_rejected({"walk.bvh", "bent.bvh", "--name", "bent", "--into", model}, 1,
-                    model +
-                        ": has no trunk that styles can be learnt on; expected a model of recipe "
-                        "panache with 'learn.mean' and 'learn.scale', as panache train writes it");
+    expect_rejected(
+        {"walk.bvh", "bent.bvh", "--name", "bent", "--into", model}, 1,
+        model +
+            ": has no trunk that styles can be learnt on; expected a model of recipe "
+            "panache with 'learn.mean' and 'learn.scale', as panache-lab train writes it");
   }
 }
 

@@ -1,4 +1,4 @@
-// panache live and panache send, fed and heard by sockets of the test.
+// panache live and panache live send, fed and heard by sockets of the test.
 
 #include <algorithm>
 #include <chrono>
@@ -114,8 +114,8 @@ class LiveVerb : public ProgramTest {
   void play(
       double seconds, const Change& change = [](const Bytes& b) { return std::vector{b}; }) {
     Peer tracker;
-    const pid_t sender = start("send", {"send", "walk.bvh", "--to", tracker.port_name(), "--loop",
-                                        "--seconds", std::to_string(seconds)});
+    const pid_t sender = start("send", {"live", "send", "walk.bvh", "--to", tracker.port_name(),
+                                        "--loop", "--seconds", std::to_string(seconds)});
     const size_t already = got_.size();
     size_t sent = 0;
     for (bool is_over = false;;) {
@@ -161,7 +161,7 @@ class LiveVerb : public ProgramTest {
 TEST_F(LiveVerb, send_plays_a_file_as_a_tracker_would) {
   write("walk.bvh", format_bvh(walking_clip(60, 60)));
   const pid_t sender =
-      start("send", {"send", "walk.bvh", "--to", sink_.port_name(), "--seconds", "0.2"});
+      start("send", {"live", "send", "walk.bvh", "--to", sink_.port_name(), "--seconds", "0.2"});
   const Ran ran = end(sender, 0);
   EXPECT_EQ(ran.exit, 0) << ran.err;
   collect(500);  // The socket has kept it all.
@@ -451,9 +451,18 @@ TEST_F(LiveVerb, explains_a_wrong_wish_before_it_starts) {
   expect_rejected(
       {"live", "--vmc-in", sink_.port_name()}, 1,
       "--vmc-in: cannot listen at port " + sink_.port_name() + ": Address already in use");
-  expect_rejected({"send", "walk.bvh", "--fps", "0"}, 2,
+  expect_rejected({"live", "send", "walk.bvh", "--fps", "0"}, 2,
                   "--fps: expected a number from 1 to 1000, found 0");
-  expect_rejected({"send", "none.bvh"}, 1, "none.bvh: cannot be read: No such file or directory");
+  expect_rejected({"live", "send"}, 2, "FILE is required; see panache live send --help");
+  expect_rejected({"live", "send", "walk.bvh", "--loops"}, 2,
+                  "there is no option '--loops'; the nearest is --loop; see panache live send "
+                  "--help");
+  expect_rejected({"live", "--style", "old=1", "send", "walk.bvh"}, 2,
+                  "--style: 'live send' has no such option; see panache live send --help");
+  expect_rejected({"live", "sned", "walk.bvh"}, 2,
+                  "unexpected argument 'sned'; see panache live --help");
+  expect_rejected({"live", "send", "none.bvh"}, 1,
+                  "none.bvh: cannot be read: No such file or directory");
 }
 
 }  // namespace

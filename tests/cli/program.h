@@ -29,7 +29,7 @@ struct Ran {
 // Each test works in an empty folder that holds nothing but model.safetensors, with the styles
 // angry, old, proud and sad.
 class ProgramTest : public testing::Test {
- protected:
+ public:
   void SetUp() override {
     char name[] = "/tmp/panache-test-XXXXXX";
     ASSERT_NE(::mkdtemp(name), nullptr);

@@ -15,13 +15,15 @@ bool contains(const std::string& text, const std::string& part) {
 
 TEST_F(Program, every_verb_has_help_with_an_example) {
   for (const std::string verb :
-       {"stylize", "convert", "styles", "info", "walker", "strip", "train", "eval"}) {
+       {"stylize", "learn", "retarget", "convert", "info", "styles", "walker", "live", "view"}) {
     const Ran ran = run({verb, "--help"});
     EXPECT_EQ(ran.exit, 0) << verb;
     EXPECT_TRUE(contains(ran.out, "Example")) << verb << "\n" << ran.out;
     EXPECT_EQ(ran.err, "");
     EXPECT_TRUE(contains(run({"--help"}).out, "\n  " + verb)) << verb;
   }
+  EXPECT_EQ(run({"help", "live", "send"}).out, run({"live", "send", "--help"}).out);
+  EXPECT_TRUE(contains(run({"live", "send", "--help"}).out, "\n  panache live send walk.bvh"));
 }
 
 TEST_F(Program, help_is_a_verb_too) {

@@ -288,9 +288,7 @@ TEST_F(Rejection, a_model_that_is_none) {
 TEST_F(Rejection, a_verb_that_does_not_exist) {
   expect_rejected({"stylise", "walk.bvh"}, 2,
                   "there is no command 'stylise'; the nearest is stylize; expected stylize, "
-                  "convert, retarget, learn, "
-                  "styles, info, walker, "
-                  "strip, quantize, export, view, live, send, train, eval or bench");
+                  "learn, retarget, convert, info, styles, walker, live or view");
 }
 
 TEST_F(Rejection, an_option_that_does_not_exist) {
@@ -310,15 +308,15 @@ TEST_F(Rejection, a_command_that_is_incomplete) {
                   "--speed: expected a number, found 'fast'; see panache walker --help");
   expect_rejected({"stylize", "walk.bvh", "--style", "old=1", "--posture", "3"}, 2,
                   "--posture: expected a number from 0 to 2, found 3; see panache stylize --help");
-  expect_rejected({"quantize", "model.safetensors", "more", "-o", "out.safetensors"}, 2,
-                  "unexpected argument 'more'; see panache quantize --help");
+  expect_rejected({"walker", "more", "-o", "out.bvh"}, 2,
+                  "unexpected argument 'more'; see panache walker --help");
   expect_rejected({"stylize", "--style", "old=1", "-o", "out.bvh"}, 2,
                   "IN is required; see panache stylize --help");
   expect_rejected({"learn", "walk.bvh", "--nam", "limp"}, 2,
                   "there is no option '--nam'; the nearest is --name; --name is required; see "
                   "panache learn --help");
   expect_rejected({"--style", "old=1", "walk.bvh"}, 2,
-                  "expected a command first, as in 'panache info FILE'; see panache --help");
+                  "expected a command first; see panache --help");
   expect_rejected({"info"}, 2, "FILE is required; see panache info --help");
   expect_rejected({"stylize", "walk.bvh", "-o", "out.bvh", "--style", "old=1", "--jobs", "-1"}, 2,
                   "--jobs: expected a number from 0 to 1024, found -1");

@@ -1,18 +1,19 @@
 #!/usr/bin/env bash
-# include_order.sh ROOT: fails where a file of src includes a folder that stands below its own in
-# the table of docs/design.md, or where files include each other in a circle; and where either,
+# include_order.sh ROOT: fails where a file of src or lab includes a folder that stands below its
+# own in the table of docs/design.md, or where files include each other in a circle; and where either,
 # planted into a copy, is not found.
 set -euo pipefail
 root=$1
 
-# "including included" for each include of ours, in the folder $1 of modules. Files as FOLDER/NAME.
+# "including included" for each include of ours in src and lab of the folder $1. Files as
+# FOLDER/NAME.
 includes() {
-  (cd "$1" && grep -rHoE '^#include "[a-z_/.0-9]+' --include='*.h' --include='*.cpp' .) |
-    sed -E 's|^\./||; s|:#include "| |'
+  (cd "$1" && grep -rHoE '^#include "[a-z_/.0-9]+' --include='*.h' --include='*.cpp' src lab) |
+    sed -E 's/^(src|lab)\///; s|:#include "| |'
 }
 
-# The folders of src in the order of the table.
-folders=$(sed -nE 's/^\| `src\/([a-z]+)` .*/\1/p' "$root/docs/design.md")
+# Their folders in the order of the table.
+folders=$(sed -nE 's/^\| `(src|lab)\/([a-z]+)` .*/\2/p' "$root/docs/design.md")
 
 # Prints what is wrong with the modules in the folder $1, nothing where all is well.
 faults() {
@@ -27,7 +28,7 @@ faults() {
   includes "$1" | tsort 2>&1 >/dev/null | sed 's/^tsort: //; s/^-: input contains a/in a/' || true
 }
 
-found=$(faults "$root/src")
+found=$(faults "$root")
 if [[ -n $found ]]; then
   echo "$found"
   exit 1
@@ -37,13 +38,14 @@ copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
 # plant FILE INCLUDED WHAT: the same modules with one more include must be found at fault.
 plant() {
-  rm -rf "$copy/src"
-  cp -r "$root/src" "$copy/src"
-  echo "#include \"$2\"" >>"$copy/src/$1"
-  if [[ $(faults "$copy/src") != *"$3"* ]]; then
+  rm -rf "$copy/src" "$copy/lab"
+  cp -r "$root/src" "$root/lab" "$copy"
+  echo "#include \"$2\"" >>"$copy/$1"
+  if [[ $(faults "$copy") != *"$3"* ]]; then
     echo "$1 with an include of $2 was not found at fault"
     exit 1
   fi
 }
-plant rig/rig.h style/model.h 'rig/rig.h includes style/model.h, which stands below it'
-plant base/vec.h base/quat.h 'in a loop'
+plant src/rig/rig.h style/model.h 'rig/rig.h includes style/model.h, which stands below it'
+plant src/learn/take.h train/trainer.h 'learn/take.h includes train/trainer.h, which stands below it'
+plant src/base/vec.h base/quat.h 'in a loop'

@@ -94,7 +94,7 @@ class Relay:
         self.inputs = [udp() for _ in range(kSenders)]
         self.links = [udp() for _ in range(kSenders)]  # The addresses that the relay sees.
         self.players = [subprocess.Popen(
-            [program, 'send', walk, '--to', str(link.getsockname()[1]), '--fps', str(kFps), '--loop', '--seconds',
+            [program, 'live', 'send', walk, '--to', str(link.getsockname()[1]), '--fps', str(kFps), '--loop', '--seconds',
              str(seconds)], stdout=subprocess.DEVNULL) for link in self.inputs]
         self.serial = 0
         self.waiting = {}  # How often a serial has still to arrive.

@@ -80,12 +80,13 @@ def least(enough, most, step):
 
 
 class Program:
-    """The program, and the folder that each run starts with a copy of."""
+    """The program, and the folder that each run starts with a copy of. What is in that, `maker` makes,
+    or else the program."""
 
-    def __init__(self, path, model, folder, fbx=None):
+    def __init__(self, path, model, folder, fbx=None, maker=None):
         self.folder = folder
         os.chmod(folder, 0o755)
-        self.path = shutil.copy(path, os.path.join(folder, 'panache'))
+        self.path = shutil.copy(maker or path, os.path.join(folder, 'panache'))
         os.mkdir(os.path.join(folder, 'models'))
         shutil.copy(os.path.join(os.path.dirname(model), 'walker.safetensors'),
                     os.path.join(folder, 'models'))
@@ -103,6 +104,8 @@ class Program:
             done = self.start(arguments, cwd=self.made)
             if done.returncode != 0:
                 raise Failure(f'{arguments}: {done.stderr.decode()}')
+        if maker:
+            self.path = shutil.copy(path, os.path.join(folder, 'panache-lab'))
         self.inputs = contents(self.made)
         self.runs = 0
         self.fresh()
@@ -148,7 +151,7 @@ class Program:
             return done, what  # What that needs differs a little from run to run.
         if done.returncode not in (0, 1):
             raise Failure(what)
-        if done.returncode == 1 and 'panache: ' not in said:
+        if done.returncode == 1 and os.path.basename(self.path) + ': ' not in said:
             raise Failure(what + ': no message')
         return done, what
 

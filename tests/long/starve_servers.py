@@ -81,7 +81,7 @@ def live(program, limits=(), user=None):
                               '--style', 'old=1', '--record', 'out.bvh'], limits, user)
     said = first_line(process, process.stderr)
     if b'relaying' in said:
-        subprocess.run([program.path, 'send', 'walk.bvh', '--to', f'{kLocal}:{port}', '--fps', '60',
+        subprocess.run([program.path, 'live', 'send', 'walk.bvh', '--to', f'{kLocal}:{port}', '--fps', '60',
                         '--seconds', '1.3'], cwd=program.work, check=True, stdout=subprocess.DEVNULL)
         time.sleep(0.1)
         process.send_signal(signal.SIGINT)

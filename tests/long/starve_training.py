@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""starve_training.py PROGRAM MODEL STEPS: runs panache train and panache eval where something is
-missing. PROGRAM has both.
+"""starve_training.py LABORATORY PROGRAM MODEL STEPS: runs panache-lab train and panache-lab eval where
+something is missing. PROGRAM makes the motion.
 
 - Memory: STEPS amounts from the least with which the program starts to the least that is enough.
 - Open files: as many as the program needs to start, and up to four more.
@@ -49,12 +49,12 @@ class Training(starve.Program):
 
 
 def main():
-    if len(sys.argv) != 4:
+    if len(sys.argv) != 5:
         sys.exit(__doc__)
-    path, model, steps = sys.argv[1], sys.argv[2], int(sys.argv[3])
+    path, maker, model, steps = *sys.argv[1:4], int(sys.argv[4])
     starve.skip_without_other()
     with tempfile.TemporaryDirectory() as folder:
-        program = Training(path, model, folder)
+        program = Training(path, model, folder, maker=maker)
         with open(os.path.join(program.made, 'walks.csv'), 'w', encoding='utf8') as file:
             file.write(kManifest)
         program.fresh()

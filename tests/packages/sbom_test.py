@@ -49,7 +49,7 @@ for package in packages[1:]:
 named = {(package['name'], package['versionInfo']) for package in packages}
 names = {package['name'] for package in packages}
 with open(os.path.join(root, 'scripts/install'), encoding='utf-8') as file:
-    lists = re.findall(r"^[^#\n]*?(?:wanted|build|judge|torch)\+?=\(([^)]*)\)", file.read(), re.MULTILINE)
+    lists = re.findall(r"^[^#\n]*?(?:wanted|build|check|lab)\+?=\(([^)]*)\)", file.read(), re.MULTILINE)
 installed = {word for line in lists for word in re.findall(r'(?<![\w$"{@\[-])[a-z][a-z0-9+.-]+', line)}
 expect(len(installed) > 40, f'scripts/install: only {len(installed)} packages were found')
 for word in sorted(installed):

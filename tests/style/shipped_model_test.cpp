@@ -86,7 +86,7 @@ TEST(ShippedModels, the_int8_one_is_the_default_quantized) {
   const std::string int8 = *read_file(kModels + "panache-int8.safetensors");
   EXPECT_LE(int8.size(), whole.size() / 2);
   EXPECT_TRUE(format_safetensors(quantize(*parse_safetensors(whole, "whole"))) == int8)
-      << "made of another model; panache quantize makes it anew";
+      << "made of another model; panache-lab quantize makes it anew";
 }
 
 TEST(ShippedModels, the_int8_one_styles_like_the_float_one) {

@@ -191,7 +191,7 @@ export class Character {
 }
 
 export class Panache {
-  /** `wasm`: panache.wasm; `model`: a .safetensors of panache train; `walker`: walker.safetensors,
+  /** `wasm`: panache.wasm; `model`: a .safetensors of panache-lab train; `walker`: walker.safetensors,
    * for createWalker(). Fails with a PanacheError where a model is none. */
   static create(files: {
     wasm: BufferSource | WebAssembly.Module;

@@ -41,7 +41,7 @@ test('the page of panache live draws the input and what goes out', async () => {
   const [line] = await once(relay.stdout, 'data');
   const url = String(line).trim();
   assert.match(url, /^http:\/\/127\.0\.0\.1:\d+\/\?live$/);
-  run('send', 'walk.bvh', '--to', `127.0.0.1:${from}`, '--loop');
+  run('live', 'send', 'walk.bvh', '--to', `127.0.0.1:${from}`, '--loop');
   const tab = await site.open('', { url });
   await tab.waitForFunction(() => window.page.poses !== null);
   // The style has come, and the head of an old walk is lower than that of its input.

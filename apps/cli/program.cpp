@@ -1,0 +1,125 @@
+#include "program.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/nearest_names.h"
+#include "base/one_of.h"
+#include "fbx.h"
+#include "formats.h"
+#include "meshopt.h"
+#include "messages.h"
+#include "picture.h"
+#include "standard_streams.h"
+#include "usage_error.h"
+
+namespace panache::cli {
+namespace {
+
+constexpr std::string_view kHelp = "help";
+
+// The library's own message for a verb that does not exist names no verb that does.
+Result<void> check_verb(const CLI::App& app, const std::string& verb) {
+  std::vector<std::string> names;
+  for (const CLI::App* known : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (known->get_name() == verb) return {};
+    names.push_back(known->get_name());
+  }
+  const std::vector<std::string> nearest = nearest_names(verb, names, 1);
+  return Error{"there is no command '" + verb + "'" +
+               (nearest.empty() ? "" : "; the nearest " + is_or_are(nearest)) + "; expected " +
+               one_of(names)};
+}
+
+// The command that a command line got to: the program, a verb, or a verb of a verb.
+const CLI::App& last_command(const CLI::App& app) {
+  const std::vector<CLI::App*> parsed = app.get_subcommands();
+  return parsed.empty() ? app : last_command(*parsed.front());
+}
+
+// "panache stylize".
+std::string full_name(const CLI::App& command) {
+  const CLI::App* parent = command.get_parent();
+  return (parent ? full_name(*parent) + " " : "") + command.get_name();
+}
+
+int run(const Program& program, int argc, char** argv) {
+  if (argc == 3 && argv[1] == std::string_view(kFbxReader)) return read_fbx_as_child(argv[2]);
+  if (argc == 3 && argv[1] == std::string_view(kPictureReader)) {
+    return read_picture_as_child(argv[2]);
+  }
+  set_meshopt_decoder(kMeshoptDecoder);
+  set_motion_formats(formats());  // Those of manifests, too.
+  int exit_code = kDone;
+  const std::unique_ptr<CLI::App> app = make_app(program, exit_code);
+  if (argc < 2) {
+    std::fputs(app->help().c_str(), stderr);
+    return kBadUsage;
+  }
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (arguments[0] == kHelp) {  // "help" is "--help", and "help VERB" is "VERB --help".
+    arguments.erase(arguments.begin());
+    arguments.emplace_back("--help");
+  }
+  if (arguments[0][0] != '-') {
+    if (auto known = check_verb(*app, arguments[0]); !known) return fail(known.error(), kBadUsage);
+  }
+  try {
+    std::reverse(arguments.begin(), arguments.end());  // As CLI11 wants them.
+    app->parse(std::move(arguments));
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app->exit(error);  // --help and --version.
+    const CLI::App& command = last_command(*app);
+    return fail({describe(error, command) + "; see " + full_name(command) + " --help"}, kBadUsage);
+  }
+  return exit_code;
+}
+
+// The exit code once it is known whether all that was printed arrived. A reader that has left, as
+// head does, has what it wanted.
+int check_printed(int exit_code) {
+  const Result<void> printed = finish_stdout();
+  if (printed) return exit_code;
+  if (errno != EPIPE) print_message(printed.error().message);
+  return exit_code == kDone ? kBadInput : exit_code;
+}
+
+}  // namespace
+
+std::unique_ptr<CLI::App> make_app(const Program& program, int& exit_code) {
+  const std::string name = program.name;
+  auto app = std::make_unique<CLI::App>(program.description, name);
+  app->set_version_flag("--version", name + " " PANACHE_VERSION);
+  app->require_subcommand(1);
+  app->get_formatter()->column_width(32);
+  app->footer("'" + name + " help COMMAND' shows details and an example.\n\nExample:\n  " +
+              program.example);
+  program.add_verbs(*app, exit_code);
+  return app;
+}
+
+int run_program(const Program& program, int argc, char** argv) {
+  set_program_name(program.name);
+  try {
+    return check_printed(run(program, argc, argv));
+  } catch (const std::bad_alloc&) {
+    print_message("out of memory");
+  } catch (const std::exception& error) {
+    // Of libraries below. Those of libtorch go on with where in its sources they come from.
+    const std::string_view text = error.what();
+    if (text.find("can't allocate memory") != std::string_view::npos) {
+      print_message("out of memory");
+    } else {
+      print_message("internal error: " + std::string(text.substr(0, text.find('\n'))));
+    }
+  }
+  return kBadInput;
+}
+
+}  // namespace panache::cli

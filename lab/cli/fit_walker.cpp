@@ -1,0 +1,61 @@
+// panache-lab fit-walker: the model of panache walker, from neutral takes.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/file.h"
+#include "lab_verbs.h"
+#include "manifests.h"
+#include "messages.h"
+#include "outputs.h"
+#include "train/fit_walker.h"
+
+namespace panache::cli {
+namespace {
+
+struct Options {
+  std::string output;
+  std::vector<std::string> manifests;
+  std::string data, licence;  // What the fitted model says of them.
+  bool force = false;
+};
+
+int fit(const Options& options) {
+  if (auto free = check_free(options.output, options.force); !free) {
+    return fail(free.error(), kBadInput);
+  }
+  Result<Manifests> data = read_manifests({options.manifests, "", {}});
+  if (!data) return fail(data.error(), kBadInput);
+  Result<FittedWalker> fitted = fit_walker(data->rows, options.data, options.licence);
+  if (!fitted) return fail(fitted.error(), kBadInput);
+  auto written = write_file(options.output, fitted->model.format(), options.force);
+  if (!written) return fail(written.error(), kBadInput);
+  print("fitted " + options.output + " to " + std::to_string(fitted->walk_frames) +
+        " frames of walk and " + std::to_string(fitted->run_frames) + " of run in " +
+        plural(static_cast<size_t>(fitted->takes), "take") + "; residual " +
+        brief(fitted->walk_residual, 3) + " rad walking, " + brief(fitted->run_residual, 3) +
+        " running\n");
+  return kDone;
+}
+
+}  // namespace
+
+void add_fit_walker(CLI::App& app, int& exit_code) {
+  CLI::App* verb = app.add_subcommand("fit-walker", "Fit the model of panache walker");
+  auto options = std::make_shared<Options>();
+  verb->add_option("MANIFEST", options->manifests, "Manifests with neutral takes to fit to")
+      ->required();
+  verb->add_option("-o,--output", options->output, "Model to write (.safetensors)")
+      ->required()
+      ->type_name("OUT");
+  verb->add_option("--data", options->data, "Name of the data, for the model's metadata")
+      ->type_name("TEXT");
+  verb->add_option("--licence", options->licence, "Licence of the data, likewise")
+      ->type_name("TEXT");
+  verb->add_flag("--force", options->force, "Overwrite the file");
+  verb->footer("Example:\n  panache-lab fit-walker takes.csv -o walker.safetensors");
+  verb->callback([options, &exit_code] { exit_code = fit(*options); });
+}
+
+}  // namespace panache::cli

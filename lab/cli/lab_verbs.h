@@ -1,0 +1,25 @@
+#pragma once
+// The verbs of panache-lab. A further one is a source file with its add_ function, and a line here.
+
+#include <CLI/CLI.hpp>
+
+// In the order of --help.
+// clang-format off
+#define PANACHE_LAB_VERBS(verb) \
+  verb(train) \
+  verb(eval) \
+  verb(bench) \
+  verb(strip) \
+  verb(quantize) \
+  verb(export) \
+  verb(fit_walker)
+// clang-format on
+
+namespace panache::cli {
+
+// add_train() and so on: each makes its subcommand; running that sets `exit_code`.
+#define PANACHE_DECLARE_VERB(name) void add_##name(CLI::App& app, int& exit_code);
+PANACHE_LAB_VERBS(PANACHE_DECLARE_VERB)
+#undef PANACHE_DECLARE_VERB
+
+}  // namespace panache::cli

@@ -1,0 +1,16 @@
+#pragma once
+// Runs the program of the laboratory, and that of the product where a test needs both.
+
+#include "cli/program.h"
+
+namespace panache::test {
+
+class LabTest : public ProgramTest {
+ protected:
+  Ran run_panache(const std::vector<std::string>& arguments,
+                  const std::string& model = "model.safetensors") const {
+    return run(arguments, model, PANACHE_PRODUCT);
+  }
+};
+
+}  // namespace panache::test
