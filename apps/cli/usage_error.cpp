@@ -47,7 +47,7 @@ std::string describe_extra(const CLI::App& verb) {
 
 }  // namespace
 
-std::string describe(const CLI::ParseError& error, const CLI::App& verb) {
+std::string usage_message(const CLI::ParseError& error, const CLI::App& verb) {
   std::string text = one_line(error.what());
   if (dynamic_cast<const CLI::ExtrasError*>(&error)) return describe_extra(verb);
   if (dynamic_cast<const CLI::RequiredError*>(&error)) {
