@@ -50,4 +50,16 @@ Confusion confusion(const std::vector<ClipVerdict>& clips) {
   return counts;
 }
 
+std::vector<std::string> confusion_labels(const std::vector<ClipVerdict>& clips) {
+  std::vector<std::string> labels;
+  const auto add = [&](const std::string& label) {
+    if (std::find(labels.begin(), labels.end(), label) == labels.end()) labels.push_back(label);
+  };
+  for (const auto& [performer, own] : clips_by(&ClipVerdict::performer, clips)) {
+    for (const auto& [style, of_style] : clips_by(&ClipVerdict::style, own)) add(style);
+  }
+  for (const ClipVerdict& clip : clips) add(clip.verdict);
+  return labels;
+}
+
 }  // namespace panache

@@ -49,5 +49,8 @@ std::vector<ClipVerdict> shared_clips(const std::vector<ClipVerdict>& real,
 // How many clips of a style (first) are taken for a style (second).
 using Confusion = std::map<std::pair<std::string, std::string>, size_t>;
 Confusion confusion(const std::vector<ClipVerdict>& clips);
+// All names in the confusions of `clips`, the styles of each performer beside each other, in order
+// of the performers.
+std::vector<std::string> confusion_labels(const std::vector<ClipVerdict>& clips);
 
 }  // namespace panache

@@ -116,7 +116,7 @@ struct Report {
 // A sentence for each classifier that recognises too little of real takes: how to read its figures.
 std::vector<std::string> ceiling_notes(const Report& report);
 
-// report.json: numbers that were not measured are null.
+// report.json: numbers that were not measured are null. It has all numbers of the page.
 std::string report_json(const Report& report);
 // One HTML page that needs nothing but itself.
 std::string report_page(const Report& report);

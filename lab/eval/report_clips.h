@@ -1,5 +1,5 @@
 #pragma once
-// The tables of clips before the judges of performers, for the terminal and for the page.
+// The tables of clips before the judges of performers, for the terminal.
 
 #include <string>
 #include <utility>

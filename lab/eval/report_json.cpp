@@ -27,6 +27,20 @@ Json metrics_json(const Metrics& metrics) {
   return out;
 }
 
+// How the measures are called and read.
+Json measures_json() {
+  constexpr const char* kBetter[] = {"higher", "lower", "nearest_one", "neither"};
+  Json out = Json::array();
+  for (const Measure& measure : measures()) {
+    out.push_back({{"key", measure.key},
+                   {"label", measure.label},
+                   {"digits", measure.digits},
+                   {"better", kBetter[static_cast<size_t>(measure.better)]},
+                   {"meaning", measure.meaning}});
+  }
+  return out;
+}
+
 Json table_json(const MetricsTable& table) {
   Json out = Json::object();
   for (const auto& [name, metrics] : table) out[name] = metrics_json(metrics);
@@ -120,6 +134,11 @@ Json unseen_splits_json(const std::vector<UnseenReport>& splits) {
     entry["seen"] = table_json(split.seen_by_content);
     entry["blind"] = table_json(split.blind_by_content);
     entry["mean_posture"] = table_json(split.mean_posture_by_content);
+    entry["means"] = {{"seen", metrics_json(mean_metrics(split.seen_by_content))},
+                      {"blind", metrics_json(mean_metrics(split.blind_by_content))},
+                      {"mean_posture", metrics_json(mean_metrics(split.mean_posture_by_content))}};
+    entry["contents"] = Json::array();
+    for (const auto& [content, metrics] : split.by_content) entry["contents"].push_back(content);
     entry["performers"] = {
         {"unseen", clips_json(split.clips, &split.real_clips)},
         {"mean_posture", clips_json(split.mean_posture_clips, &split.real_clips)},
@@ -191,6 +210,25 @@ Json ood_summary_json(const OodSummary& summary) {
   return out;
 }
 
+// Means over the styles, clip by clip.
+Json ood_by_clip_json(const std::vector<OodRow>& rows) {
+  constexpr std::pair<const char*, double OodRow::*> kNumbers[] = {
+      {"jerk_ratio", &OodRow::jerk_ratio},
+      {"velocity_correlation", &OodRow::velocity_correlation},
+      {"distance_cm", &OodRow::distance_cm},
+      {"under_floor", &OodRow::under_floor},
+      {"gate", &OodRow::gate}};
+  Json out = Json::object();
+  for (const auto& [clip, of_clip] : ood_by_clip(rows)) {
+    for (const auto& [key, value] : kNumbers) {
+      std::vector<double> values;
+      for (const OodRow& row : of_clip) values.push_back(row.*value);
+      out[clip][key] = number(finite_mean(values));
+    }
+  }
+  return out;
+}
+
 Json ood_json(const std::vector<OodRow>& rows) {
   Json list = Json::array();
   for (const OodRow& row : rows) {
@@ -213,6 +251,7 @@ Json ood_json(const std::vector<OodRow>& rows) {
   Json out;
   out["summary"] = ood_summary_json(summarize_ood(rows));
   out["signatures"] = signatures_json(rows);
+  out["by_clip"] = ood_by_clip_json(rows);
   out["rows"] = std::move(list);
   return out;
 }
@@ -235,6 +274,42 @@ Json prediction_json(const std::vector<PredictionRow>& rows) {
     }
   }
   return out;
+}
+
+// The spans of frames, [first, end), in which a foot is planted.
+Json planted_json(const std::vector<FootContacts>& contacts, int foot) {
+  Json out = Json::array();
+  for (size_t f = 0; f < contacts.size(); ++f) {
+    if (!contacts[f][foot]) continue;
+    if (out.empty() || out.back()[1] != f) out.push_back({f, f});
+    out.back()[1] = f + 1;
+  }
+  return out;
+}
+
+Json contacts_json(const std::vector<ContactReport>& reports) {
+  Json out = Json::array();
+  for (const ContactReport& report : reports) {
+    Json rows = Json::array();
+    for (const ContactRow& row : report.rows) {
+      rows.push_back({{"label", row.label},
+                      {"fps", number(row.fps)},
+                      {"frames", row.contacts.size()},
+                      {"left", planted_json(row.contacts, 0)},
+                      {"right", planted_json(row.contacts, 1)}});
+    }
+    out.push_back({{"title", report.title}, {"rows", std::move(rows)}});
+  }
+  return out;
+}
+
+// The rows and columns of all confusions.
+std::vector<std::string> labels_of(const Report& report) {
+  std::vector<ClipVerdict> all = report.real_clips;
+  for (const SystemReport& system : report.systems) {
+    all.insert(all.end(), system.clips.begin(), system.clips.end());
+  }
+  return confusion_labels(all);
 }
 
 Json system_json(const SystemReport& system, const Report& report) {
@@ -279,6 +354,11 @@ std::string report_json(const Report& report) {
   out["tested_on"] = report.tested_on;
   out["styles"] = report.styles;
   out["contents"] = report.contents;
+  out["measures"] = measures_json();
+  out["traits"] = Json::array();
+  for (const Trait& trait : kTraits) {
+    out["traits"].push_back({{"key", trait.key}, {"label", trait.label}});
+  }
   out["seconds"] = number(report.seconds);
   out["style_floor"] = number(report.style_floor);
   out["content_floor"] = number(report.content_floor);
@@ -292,6 +372,7 @@ std::string report_json(const Report& report) {
       {"own", clips_json(report.real_clips, nullptr)},
       {"across", clips_json(report.real_clips_across, nullptr)},
       {"shared", clips_json(shared_clips(report.real_clips, report.real_clips), nullptr)}};
+  out["performers"]["labels"] = labels_of(report);
   out["cc_floor"] = number(report.cc_floor);
   out["sc_floor"] = number(report.sc_floor);
   out["foreign_reference"] = {{"real", style_summary_json(report.ood_real)},
@@ -309,6 +390,7 @@ std::string report_json(const Report& report) {
     assert(!out["systems"].contains(system.name));
     out["systems"][system.name] = system_json(system, report);
   }
+  out["contacts"] = contacts_json(report.contacts);
   // Names come from files; bytes that are not UTF-8 are no reason to lose a report.
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

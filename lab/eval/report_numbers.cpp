@@ -5,25 +5,6 @@
 #include <cmath>
 
 namespace panache {
-namespace {
-
-// How far `value` is from the best that there could be.
-double shortfall(double value, Better better) {
-  switch (better) {
-    case Better::higher:
-      return -value;
-    case Better::lower:
-      return value;
-    case Better::nearest_one:
-      return std::abs(value - 1);
-    case Better::neither:
-      break;
-  }
-  return 0;
-}
-
-}  // namespace
-
 std::string number_text(double value, int digits) {
   // A double has up to 309 digits before the point.
   char text[400];
@@ -37,13 +18,6 @@ std::string number_text(double value, int digits) {
   return std::string(zero && written.starts_with('-') ? written.substr(1) : written);
 }
 
-std::string duration_text(double seconds) {
-  if (!std::isfinite(seconds) || seconds > 1e9) return kDash;
-  const long long whole = std::llround(seconds);
-  if (whole < 60) return std::to_string(whole) + " s";
-  return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
-}
-
 std::string bytes_text(size_t bytes) {
   return bytes == 0 ? kDash : count_text((bytes + 512) / 1024) + " KB";
 }
@@ -53,21 +27,6 @@ std::string count_text(size_t count) {
   std::string text = std::to_string(count);
   for (size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, ",");
   return text;
-}
-
-std::vector<bool> best_of(const std::vector<double>& values, Better better, int digits) {
-  std::vector<bool> best(values.size());
-  size_t measured = 0, least = 0;
-  for (size_t i = 0; i < values.size(); ++i) {
-    if (!std::isfinite(values[i])) continue;
-    if (measured++ == 0 || shortfall(values[i], better) < shortfall(values[least], better)) {
-      least = i;
-    }
-  }
-  if (measured < 2 || better == Better::neither) return best;
-  const std::string text = number_text(values[least], digits);
-  for (size_t i = 0; i < values.size(); ++i) best[i] = number_text(values[i], digits) == text;
-  return best;
 }
 
 double quantile(std::vector<double> values, double at) {

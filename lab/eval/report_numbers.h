@@ -1,5 +1,5 @@
 #pragma once
-// Numbers of a report as people read them, and which of several is the best.
+// Numbers of a report as people read them.
 
 #include <string>
 #include <string_view>
@@ -14,18 +14,11 @@ inline constexpr const char* kDash = "\xe2\x80\x93";  // Stands where nothing wa
 // `value` with so many decimals, whatever the locale; a dash for what is not finite.
 std::string number_text(double value, int digits);
 
-// "7 min 5 s", "42 s".
-std::string duration_text(double seconds);
-
 // "848 KB"; a dash for 0.
 std::string bytes_text(size_t bytes);
 
 // "1,234,567"; a dash for 0.
 std::string count_text(size_t count);
-
-// Marks the best of `values`, as printed with `digits` decimals: none where fewer than two are
-// finite, several where they print alike.
-std::vector<bool> best_of(const std::vector<double>& values, Better better, int digits);
 
 // The value below which the share `at`, 0 to 1, of the finite `values` lie, interpolated between
 // neighbours; NaN of none.

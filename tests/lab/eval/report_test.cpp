@@ -8,6 +8,7 @@
 
 #include "base/file.h"
 #include "eval/make_report.h"
+#include "learn/signature.h"
 #include "temporary_folder.h"
 
 namespace panache {
@@ -82,6 +83,53 @@ TEST(ReportJson, every_number_stands_under_its_key) {
   EXPECT_TRUE(json["systems"].contains(kRude));
 }
 
+TEST(ReportJson, it_says_how_measures_and_traits_are_called_and_read) {
+  const Json json = Json::parse(report_json(Report()));
+  ASSERT_EQ(json["measures"].size(), measures().size());
+  for (size_t m = 0; m < measures().size(); ++m) {
+    EXPECT_EQ(json["measures"][m]["key"], measures()[m].key);
+    EXPECT_EQ(json["measures"][m]["label"], measures()[m].label);
+    EXPECT_EQ(json["measures"][m]["digits"], measures()[m].digits);
+    EXPECT_EQ(json["measures"][m]["meaning"], measures()[m].meaning);
+  }
+  const auto better = [&](const char* key) {
+    for (const Json& measure : json["measures"]) {
+      if (measure["key"] == key) return measure["better"].get<std::string>();
+    }
+    return std::string();
+  };
+  EXPECT_EQ(better("style_accuracy"), "higher");
+  EXPECT_EQ(better("pose_error_cm"), "lower");
+  EXPECT_EQ(better("jerk_ratio"), "nearest_one");
+  ASSERT_EQ(json["traits"].size(), kTraits.size());
+  EXPECT_EQ(json["traits"][0], Json({{"key", "lean"}, {"label", "lean forward, degrees"}}));
+}
+
+TEST(ReportJson, the_means_of_a_split_stand_beside_it) {
+  const Json json = Json::parse(report_json(made_up_report()));
+  const Json& split = json["systems"]["panache"]["unseen_splits"]["A"];
+  EXPECT_EQ(split["contents"], Json({"run"}));
+  EXPECT_EQ(split["means"]["seen"], split["seen"]["run"]);  // Of one content.
+  EXPECT_EQ(split["means"]["blind"], split["blind"]["run"]);
+  EXPECT_EQ(split["means"]["mean_posture"], split["mean_posture"]["run"]);
+  EXPECT_TRUE(json["systems"]["panache"]["unseen_splits"]["B"]["means"]["seen"]["fmd"].is_null());
+}
+
+TEST(ReportJson, styles_of_a_performer_stand_together_in_confusions) {
+  const Json json = Json::parse(report_json(made_up_report()));
+  EXPECT_EQ(json["performers"]["labels"], Json({"neutral", "old", "proud"}));
+}
+
+TEST(ReportJson, a_planted_foot_is_a_span_of_frames) {
+  Report report;
+  ContactRow row{"input", 10, std::vector<FootContacts>(40)};
+  for (size_t f = 0; f < 40; ++f) row.contacts[f] = {f < 20, (f >= 5 && f < 10) || f >= 35};
+  report.contacts = {{"walk", {row}}};
+  const Json json = Json::parse(report_json(report));
+  EXPECT_EQ(json["contacts"], Json::parse(R"([{"title": "walk", "rows": [{"label": "input",
+      "fps": 10, "frames": 40, "left": [[0, 20]], "right": [[5, 10], [35, 40]]}]}])"));
+}
+
 TEST(ReportJson, an_unseen_content_is_that_of_the_first_split_that_has_it) {
   Json json = Json::parse(report_json(made_up_report()));
   Json& unseen = json["systems"]["panache"]["unseen"];
@@ -123,6 +171,8 @@ TEST(ReportJson, out_of_distribution_rows_are_kept_and_summed_up) {
   Json json = Json::parse(report_json(made_up_report()));
   Json& ood = json["systems"]["panache"]["foreign"];
   ASSERT_EQ(ood["rows"].size(), 11u);
+  EXPECT_EQ(ood["by_clip"]["dance"]["distance_cm"], 2.5);  // The mean of 0 to 5.
+  EXPECT_EQ(ood["by_clip"]["box"]["distance_cm"], 8);
   EXPECT_EQ(ood["rows"][3]["clip"], "dance");
   EXPECT_EQ(ood["rows"][3]["beyond_limits"], 0.11);
   Json& summary = ood["summary"];
