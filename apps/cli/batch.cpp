@@ -136,7 +136,7 @@ void run_file(FileJob& file, const BatchFlags& flags, const FileWork& work,
         file = std::move(skipped);
         file.skipped = true;
       } else {
-        file.error = with_hint(worked.error().message);
+        file.error = with_hint(worked.error());
       }
     }
   } catch (const std::bad_alloc&) {

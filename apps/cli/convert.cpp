@@ -74,7 +74,7 @@ Result<std::string> whole_file(const MotionFile& motion, const FileJob& file,
 }
 
 Result<std::string> with_path(const std::string& path, Result<std::string> bytes) {
-  if (!bytes) return Error{path + ": " + bytes.error().message};
+  if (!bytes) return located(path, bytes.error());
   return bytes;
 }
 

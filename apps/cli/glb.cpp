@@ -313,7 +313,7 @@ Result<std::string> gltf_to_glb(const std::string& gltf, const std::string& path
                    ": holds no data of its own; expected a file that needs no extension for it"};
     }
     Result<std::string> bytes = decode_data_uri(uri);
-    if (!bytes) return Error{path + ": " + bytes.error().message};
+    if (!bytes) return located(path, bytes.error());
     bin.resize((bin.size() + 3) / 4 * 4);
     begins.push_back(bin.size());
     bin += *bytes;

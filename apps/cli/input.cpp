@@ -89,7 +89,7 @@ Result<std::vector<int>> pick_clips(const MotionFile& file, const std::string& w
 void note_rate(const Clip& clip, const Rig& rig, const std::string& path,
                std::vector<std::string>& notes) {
   if (const auto doubt = doubtful_rate(clip, rig)) {
-    notes.push_back(with_hint(path + ": " + *doubt));
+    notes.push_back(path + ": " + *doubt + kRateHint);
   }
 }
 
@@ -103,7 +103,7 @@ std::string title_of(const std::string& clip_name, const std::string& path) {
 
 Result<Rig> make_rig(const Clip& clip, const RigOptions& options, const std::string& path) {
   Result<Rig> rig = Rig::create(clip, options);
-  if (!rig) return Error{path + ": " + rig.error().message};
+  if (!rig) return located(path, rig.error());
   return rig;
 }
 

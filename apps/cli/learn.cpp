@@ -178,11 +178,11 @@ Result<void> check_usage(const LearnVerb& verb) {
     return Error{"--into " + verb.model + ": expected a name that ends in .safetensors"};
   }
   if (auto name = check_style_name(verb.name); !name) {
-    return Error{"--name: " + name.error().message};
+    return located("--name", name.error());
   }
   if (!verb.action.empty()) {
     if (auto known = check_action(verb.action); !known) {
-      return Error{"--action: " + known.error().message};
+      return located("--action", known.error());
     }
   }
   if (auto read = check_read_options(verb.read); !read) return read;

@@ -1,17 +1,50 @@
 #include "messages.h"
 
-#include <cmath>
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <cstdio>
 #include <string_view>
-
-#include "clip/motion_file.h"
 
 namespace panache::cli {
 namespace {
 
 const char* program_name = "panache";
+
+std::string_view hint_of(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::file_exists:
+      return "; --force overwrites it";
+    case ErrorKind::rate_needed:
+      return kRateHint;
+    case ErrorKind::unknown_style:
+      return " (panache styles lists all)";
+    case ErrorKind::no_styles:
+      return "; panache learn adds one";
+    case ErrorKind::style_exists:
+      return " (--force, --rename)";
+    case ErrorKind::is_model:
+      return ", as panache styles MODEL --extract NAME -o FILE makes one";
+    case ErrorKind::is_style_file:
+      return "; panache styles MODEL --add FILE puts it into one";
+    case ErrorKind::style_of_another:
+      return " (panache learn)";
+    case ErrorKind::not_safetensors:
+      return ", as models and styles are";
+    case ErrorKind::model_cannot_learn:
+      return ", as panache-lab train writes it";
+    case ErrorKind::other_skeletons:
+      return " (panache retarget STYLED --onto NEUTRAL)";
+    case ErrorKind::loop_open:
+    case ErrorKind::loop_strengths:
+      return "; --loop auto leaves it open";
+    case ErrorKind::bad_style_name:
+      return " (--styles)";
+    case ErrorKind::not_humanoid:
+    case ErrorKind::other:
+      break;
+  }
+  return "";
+}
 
 }  // namespace
 
@@ -21,47 +54,12 @@ void print_message(const std::string& message) {
   std::fprintf(stderr, "%s: %s\n", program_name, message.c_str());
 }
 
-std::string with_hint(const std::string& message) {
-  constexpr std::string_view kUnknown = "unknown style '", kNearest = "; the nearest ",
-                             kModel = ": is a model; expected a style file";
-  struct Hint {
-    std::string_view end, hint;
-  };
-  constexpr std::array kHints = {
-      Hint{": exists already", "; --force overwrites it"},
-      Hint{"; replace it or give one of the two another name", " (--force, --rename)"},
-      Hint{"; expected a safetensors file", ", as models and styles are"},
-      Hint{"found the extension '.safetensors'", ", which models and styles have"},
-      Hint{": is a style file, not a model", "; panache styles MODEL --add FILE puts it into one"},
-      Hint{"or learn it again with this one", " (panache learn)"},
-      Hint{"'learn.mean' and 'learn.scale'", ", as panache-lab train writes it"},
-      Hint{"or retarget the styled clip onto the neutral one",
-           " (panache retarget STYLED --onto NEUTRAL)"},
-      Hint{"'; rename them", " with --styles"},
-      Hint{"; give it another name", " (--styles)"},
-      Hint{"; add one, or leave the style out", " (--styles lists those to learn)"},
-      Hint{"; add one, or leave the styles out", " (--styles lists those to learn)"},
-      Hint{"; add some, or leave the style out", " (--styles lists those to learn)"},
-      Hint{"the model has no styles yet", "; panache learn adds one"},
-      Hint{", as where a clip is cut after a whole cycle", "; --loop auto leaves it open"},
-      Hint{"has another strength at its last frame than at its first",
-           "; --loop auto leaves it open"},
-      Hint{kGiveRate, " (--fps N; panache convert --fps N writes the file with it)"},
-  };
-  for (const Hint& one : kHints) {
-    if (message.ends_with(one.end)) return message + std::string(one.hint);
-  }
-  if (message.ends_with(kModel)) {
-    return message + ", as panache styles " + message.substr(0, message.size() - kModel.size()) +
-           " --extract NAME -o FILE makes one";
-  }
-  if (message.find(kUnknown) == std::string::npos || message.ends_with(')')) return message;
-  if (message.find(kNearest) == std::string::npos) return message;  // It lists all itself.
-  return message + " (panache styles lists all)";
+std::string with_hint(const Error& error) {
+  return error.message + std::string(hint_of(error.kind));
 }
 
 int fail(const Error& error, int exit_code) {
-  print_message(with_hint(error.message));
+  print_message(with_hint(error));
   return exit_code;
 }
 

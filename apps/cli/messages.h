@@ -18,9 +18,12 @@ inline constexpr int kStopped = 130;  // By Ctrl-C, as shells count it.
 void set_program_name(const char* name);
 // "panache: MESSAGE" on stderr.
 void print_message(const std::string& message);
-// A message of the library followed by the command or option that helps, where there is one: the
+// The message of an error followed by the command or option that helps, where its kind has one: the
 // library knows of neither.
-std::string with_hint(const std::string& message);
+std::string with_hint(const Error& error);
+// Where a file's frame rate is in question.
+inline constexpr const char* kRateHint =
+    " (--fps N; panache convert --fps N writes the file with it)";
 // Prints the message with its hint and hands `exit_code` back.
 int fail(const Error& error, int exit_code);
 

@@ -30,7 +30,7 @@ Result<CharacterFile> CharacterFile::open(const OntoFlags& flags) {
   const bool moves = !(*file)->clip_names().empty();
   const Clip* motion = moves ? &(*file)->clip(first_body_motion(**file, *options)) : nullptr;
   Result<std::pair<Clip, Rig>> body = find_body((*file)->rest(), motion, *options);
-  if (!body) return Error{flags.file + ": " + body.error().message};
+  if (!body) return located(flags.file, body.error());
   return CharacterFile(flags.file, *std::move(file), *std::move(options), std::move(body->first),
                        std::move(body->second));
 }
@@ -51,7 +51,7 @@ Result<void> CharacterFile::check_outputs(const std::vector<FileJob>& files) con
 Result<Clip> CharacterFile::put(const Clip& motion, const Rig& rig, const std::string& place,
                                 const RetargetOptions& options) const {
   Result<Retargeted> done = retarget(motion, rig, clip_, rig_, options);
-  if (!done) return Error{place + " onto " + path_ + ": " + done.error().message};
+  if (!done) return located(place + " onto " + path_, done.error());
   return std::move(done->clip);
 }
 

@@ -76,7 +76,8 @@ int run(const Program& program, int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app->exit(error);  // --help and --version.
     const CLI::App& command = last_command(*app);
-    return fail({usage_message(error, command) + "; see " + full_name(command) + " --help"}, kBadUsage);
+    return fail({usage_message(error, command) + "; see " + full_name(command) + " --help"},
+                kBadUsage);
   }
   return exit_code;
 }

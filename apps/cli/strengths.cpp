@@ -120,7 +120,7 @@ Result<StrengthColumns> read_columns(const CsvTable& table, const std::string& w
       return Error{where + "column " + panache::quoted(names[c]) + " is there twice"};
     }
     Result<int> style = c == out.seconds ? Result<int>(-1) : model.find_style_in_any_case(names[c]);
-    if (!style) return Error{where + style.error().message};
+    if (!style) return Error{where + style.error().message, style.error().kind};
     out.styles.push_back(*style);
   }
   return out;
@@ -140,7 +140,8 @@ Error missing_style(const std::vector<std::string>& files, const Model& model) {
   }
   std::vector<std::string> names;
   for (const StyleInfo& style : model.styles()) names.push_back(style.name);
-  if (names.empty()) return Error{"a style is missing; the model has no styles yet"};
+  if (names.empty())
+    return Error{"a style is missing; the model has no styles yet", ErrorKind::no_styles};
   constexpr size_t kListed = 12;
   const size_t listed = std::min(names.size(), kListed);
   std::string list = names[0];

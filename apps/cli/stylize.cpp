@@ -112,7 +112,7 @@ Result<RestyledClip> restyle_clip(const MotionFile& motion, int which, const std
   const std::vector<StrengthTrack> tracks = tracks_for(
       wanted.wishes, rig->first_frame() * clip.frame_time, (clip.frames - 1) * clip.frame_time);
   Result<Restyled> restyled = restyle(clip, *rig, wanted.model, tracks, wanted.how, progress);
-  if (!restyled) return Error{place + ": " + restyled.error().message};
+  if (!restyled) return located(place, restyled.error());
   RestyledClip out{which, result_name(title_of(name, file.input), wanted), *std::move(rig),
                    *std::move(restyled)};
   // A calibration pose in front is no motion, and is not restyled.
@@ -208,8 +208,7 @@ Result<void> stylize_file(FileJob& file, const Wanted& wanted, const StylizeOpti
       continue;
     }
     // All motions of a file have the same joints: what is no person in one of them is none.
-    if (picked->size() > 1 &&
-        clip.error().message.find(": no humanoid found: ") != std::string::npos) {
+    if (picked->size() > 1 && clip.error().kind == ErrorKind::not_humanoid) {
       return Error{clip.error().message + "; so its other motions are not restyled either"};
     }
     failures.push_back(clip.error());

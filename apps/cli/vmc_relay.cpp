@@ -86,7 +86,7 @@ void VmcRelay::apply_command(const VmcMessage& message) {
   const Result<int> style = model_->find_style(message.name);
   const double strength = message.strength;
   if (!style) {
-    note_ = with_hint("/panache/style: " + style.error().message);
+    note_ = with_hint(located("/panache/style", style.error()));
   } else if (!(strength >= double{kLowestStrength} && strength <= double{kHighestStrength})) {
     note_ = "/panache/style " + message.name + ": expected a strength from -4 to 4, found " +
             brief(strength);

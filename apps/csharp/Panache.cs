@@ -24,7 +24,18 @@ namespace Panache {
 
 /// What the library says of bad input, in one sentence.
 public sealed class PanacheException : Exception {
-  public PanacheException(string message) : base(message) {}
+  /// What kind of mistake it is, for programs that help with it.
+  public ErrorKind Kind { get; }
+  public PanacheException(string message, ErrorKind kind = ErrorKind.Other) : base(message) {
+    Kind = kind;
+  }
+}
+
+/// In the order of panache_error_kind.
+public enum ErrorKind {
+  Other, FileExists, RateNeeded, NotHumanoid, UnknownStyle, NoStyles, StyleExists, IsModel,
+  IsStyleFile, StyleOfAnother, NotSafetensors, ModelCannotLearn, OtherSkeletons, LoopOpen,
+  LoopStrengths, BadStyleName
 }
 
 /// A trained model: its styles and networks. Never changes; may be used by any number of threads.
@@ -357,7 +368,9 @@ internal static class Native {
   }
 
   internal static void Check(int status) {
-    if (status != 0) throw new PanacheException(Text(panache_last_error()));
+    if (status != 0) {
+      throw new PanacheException(Text(panache_last_error()), (ErrorKind)panache_last_error_kind());
+    }
   }
   internal static uint SizeOf<T>() => (uint)Marshal.SizeOf(typeof(T));
   internal static byte[] Utf8(string text) => Encoding.UTF8.GetBytes(text + "\0");
@@ -413,6 +426,7 @@ internal static class Native {
 
   [DllImport(Library)] internal static extern int panache_version();
   [DllImport(Library)] internal static extern IntPtr panache_last_error();
+  [DllImport(Library)] internal static extern int panache_last_error_kind();
   [DllImport(Library)]
   internal static extern int panache_model_create(byte[] bytes, UIntPtr size, out IntPtr model);
   [DllImport(Library)] internal static extern void panache_model_destroy(IntPtr model);

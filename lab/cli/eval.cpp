@@ -131,7 +131,7 @@ Result<EvaluateOptions> read_options(const Options& options) {
         {std::filesystem::path(path).stem().string(), *model, status ? 0 : bytes});
   }
   Result<std::vector<SystemEntry>> published = find_published(options.systems);
-  if (!published) return Error{"--system: " + published.error().message};
+  if (!published) return located("--system", published.error());
   evaluation.train_recipes = options.systems.empty() && options.recorded.empty();
   evaluation.systems.insert(evaluation.systems.end(), published->begin(), published->end());
   evaluation.recorded = options.recorded;
@@ -143,7 +143,7 @@ Result<EvaluateOptions> read_options(const Options& options) {
   }
   for (const std::string& name : options.splits) {
     Result<UnseenSplit> split = read_split(name);
-    if (!split) return Error{"--unseen-split: " + split.error().message};
+    if (!split) return located("--unseen-split", split.error());
     evaluation.unseen.push_back(*split);
   }
   for (const std::string& path : options.ood) {

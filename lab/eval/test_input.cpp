@@ -17,7 +17,7 @@ Result<TestInput> load_input(const ManifestRow& row) {
   if (!file) return file.error();
   const Clip& clip = (*file)->clip(first_body_motion(**file));
   Result<Rig> rig = Rig::create(clip);
-  if (!rig) return Error{row.path + ": " + rig.error().message};
+  if (!rig) return located(row.path, rig.error());
   Take take = make_take(clip, *rig, PoseLayout::positions);
   take.row = row;
   return TestInput{clip, *std::move(rig), std::move(take)};

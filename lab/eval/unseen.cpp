@@ -127,7 +127,7 @@ Result<void> evaluate_unseen(const UnseenSplit& split, const EvaluateOptions& op
     const Recipe* recipe = &models[s].model->recipe();
     if (!evaluated.contains(recipe)) {
       Result<NamedModel> model = train_system(*recipe, models[s].name, training_data, learnt);
-      if (!model) return Error{"unseen " + split.name + ": " + model.error().message};
+      if (!model) return located("unseen " + split.name, model.error());
       Result<ContentsEvaluation> evaluation =
           evaluate_contents(ModelSystem(model->name, model->model), test_set, split.contents);
       if (!evaluation) return evaluation.error();
@@ -138,7 +138,7 @@ Result<void> evaluate_unseen(const UnseenSplit& split, const EvaluateOptions& op
   for (size_t s = 0; s < options.systems.size(); ++s) {
     if (options.systems[s].make == make_mean_posture) continue;
     Result<std::unique_ptr<System>> system = options.systems[s].make(options.systems[s].name, data);
-    if (!system) return Error{"unseen " + split.name + ": " + system.error().message};
+    if (!system) return located("unseen " + split.name, system.error());
     Result<ContentsEvaluation> evaluation = evaluate_contents(**system, test_set, split.contents);
     if (!evaluation) return evaluation.error();
     add(reports[models.size() + s], *evaluation);

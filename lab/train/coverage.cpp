@@ -113,7 +113,7 @@ Result<void> check_styles(const std::vector<ManifestRow>& rows,
   return Error{"nothing can be learnt of " + count(missing, "style") + ": " + list +
                "; expected a neutral take of one of these contents, to train on, in the manifest "
                "of the style; add one, or leave the " +
-               (missing == 1 ? "style" : "styles") + " out"};
+               (missing == 1 ? "style" : "styles") + " out (--styles lists those to learn)"};
 }
 
 std::vector<StyleCoverage> cover_styles(const std::vector<Take>& takes, const SampleSet& set,
@@ -171,7 +171,8 @@ Result<void> check_samples(const std::vector<StyleCoverage>& styles) {
   }
   if (list.empty()) return {};
   return Error{"no samples of the style " + list +
-               "; expected longer takes, styled and neutral; add some, or leave the style out"};
+               "; expected longer takes, styled and neutral; add some, or leave the style out "
+               "(--styles lists those to learn)"};
 }
 
 }  // namespace panache

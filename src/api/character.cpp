@@ -19,7 +19,7 @@ panache_status panache_character_create(const panache_model* model,
   return guarded([&] {
     const auto given = read_struct<panache_character_options>(options, PANACHE_CHARACTER_OPTIONS,
                                                               "panache_character_options");
-    if (!given) return fail(PANACHE_BAD_ARGUMENT, given.error().message);
+    if (!given) return fail(PANACHE_BAD_ARGUMENT, given.error());
     LiveOptions how;
     how.stylizer.ease_seconds = given->ease_seconds;
     how.stylizer.smoothing_seconds = given->smoothing_seconds;
@@ -30,7 +30,7 @@ panache_status panache_character_create(const panache_model* model,
     how.max_lead = given->max_lead;
     how.skip_cycles = given->skip_cycles != 0;
     Result<LiveStylizer> live = LiveStylizer::create(model->model, skeleton->rig, how);
-    if (!live) return fail(PANACHE_BAD_ARGUMENT, live.error().message);
+    if (!live) return fail(PANACHE_BAD_ARGUMENT, live.error());
     *out =
         new panache_character{*std::move(live), std::vector<float>(model->model->styles().size())};
     return PANACHE_OK;
@@ -49,7 +49,7 @@ panache_status panache_character_set_shape(panache_character* character,
                                            const panache_shape* shape) {
   return guarded([&] {
     const Result<Shape> read = read_shape(shape);
-    if (!read) return fail(PANACHE_BAD_ARGUMENT, read.error().message);
+    if (!read) return fail(PANACHE_BAD_ARGUMENT, read.error());
     character->live.stylizer().set_shape(*read);
     return PANACHE_OK;
   });
@@ -98,7 +98,7 @@ panache_status panache_character_get_report(const panache_character* character,
     now.rate = stylizer.rate();
     now.ahead = character->live.ahead();
     auto written = write_struct(now, report, "panache_report");
-    return written ? PANACHE_OK : fail(PANACHE_BAD_ARGUMENT, written.error().message);
+    return written ? PANACHE_OK : fail(PANACHE_BAD_ARGUMENT, written.error());
   });
 }
 
@@ -115,9 +115,10 @@ panache_status panache_character_restore(panache_character* character, const voi
                                          size_t size) {
   if (character->live.restore({static_cast<const std::byte*>(bytes), size})) return PANACHE_OK;
   return guarded([&] {
-    return fail(PANACHE_BAD_STATE, "expected the " + std::to_string(character->live.state_size()) +
-                                       " bytes of a state saved by a character of the same model, "
-                                       "skeleton and options; found " +
-                                       std::to_string(size) + " bytes that are none");
+    return fail(PANACHE_BAD_STATE,
+                {"expected the " + std::to_string(character->live.state_size()) +
+                 " bytes of a state saved by a character of the same model, skeleton and options; "
+                 "found " +
+                 std::to_string(size) + " bytes that are none"});
   });
 }

@@ -41,7 +41,7 @@ Result<std::vector<StrengthTrack>> read_tracks(const panache_strength_track* fro
   }
   for (int32_t t = 0; t < count; ++t) {
     Result<StrengthTrack> track = read_track(from[t], styles);
-    if (!track) return Error{"track " + std::to_string(t) + ": " + track.error().message};
+    if (!track) return located("track " + std::to_string(t), track.error());
     out.push_back(*std::move(track));
   }
   return out;
@@ -84,14 +84,14 @@ panache_status panache_stylize_clip(const panache_model* model, const panache_cl
   start(out);
   return guarded([&] {
     const auto how = read_options(options);
-    if (!how) return fail(PANACHE_BAD_ARGUMENT, how.error().message);
+    if (!how) return fail(PANACHE_BAD_ARGUMENT, how.error());
     const auto strengths = read_tracks(tracks, track_count, panache_model_style_count(model));
-    if (!strengths) return fail(PANACHE_BAD_ARGUMENT, strengths.error().message);
+    if (!strengths) return fail(PANACHE_BAD_ARGUMENT, strengths.error());
     const Result<Clip> input = read_clip(*clip, Rotations::as_given, "clip");
-    if (!input) return fail(PANACHE_BAD_CLIP, input.error().message);
-    if (input->frames == 0) return fail(PANACHE_BAD_CLIP, "clip: has no frames");
+    if (!input) return fail(PANACHE_BAD_CLIP, input.error());
+    if (input->frames == 0) return fail(PANACHE_BAD_CLIP, {"clip: has no frames"});
     Result<Restyled> styled = restyle(*input, clip->skeleton->rig, model->model, *strengths, *how);
-    if (!styled) return fail(PANACHE_BAD_ARGUMENT, styled.error().message);
+    if (!styled) return fail(PANACHE_BAD_ARGUMENT, styled.error());
     std::vector<uint8_t> contacts;
     for (const FootContacts& feet : styled->contacts) {
       contacts.insert(contacts.end(), feet.begin(), feet.end());

@@ -9,20 +9,27 @@ namespace {
 // one that needs no memory.
 thread_local std::string made_error;
 thread_local const char* last_error = "";
+thread_local panache_error_kind last_kind = PANACHE_ERROR_OTHER;
 
 }  // namespace
 
-panache_status fail(panache_status status, const std::string& message) {
-  made_error = to_utf8(message);  // Names and paths may be bytes of any kind.
+panache_status fail(panache_status status, const Error& error) {
+  made_error = to_utf8(error.message);  // Names and paths may be bytes of any kind.
   last_error = made_error.c_str();
+  last_kind = static_cast<panache_error_kind>(error.kind);
   return status;
 }
 
 panache_status fail_without_memory() noexcept {
   last_error = "out of memory";
+  last_kind = PANACHE_ERROR_OTHER;
   return PANACHE_NO_MEMORY;
 }
 
 }  // namespace panache::api
 
 const char* panache_last_error(void) { return panache::api::last_error; }
+
+panache_error_kind panache_last_error_kind(void) { return panache::api::last_kind; }
+
+static_assert(static_cast<int>(panache::ErrorKind::bad_style_name) == PANACHE_ERROR_BAD_STYLE_NAME);

@@ -1,14 +1,13 @@
 #pragma once
 // How functions of the C interface fail: a status, and a message that is kept per thread.
 
-#include <string>
-
+#include "base/result.h"
 #include "panache/panache.h"
 
 namespace panache::api {
 
-// Keeps the message for panache_last_error(), and gives back `status`.
-panache_status fail(panache_status status, const std::string& message);
+// Keeps the error for panache_last_error(), and gives back `status`.
+panache_status fail(panache_status status, const Error& error);
 // PANACHE_NO_MEMORY, with its message. Needs no memory.
 panache_status fail_without_memory() noexcept;
 

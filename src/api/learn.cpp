@@ -30,26 +30,26 @@ panache_status panache_learn(const void* model_bytes, size_t model_size, const p
   start(out);
   return guarded([&] {
     const Result<ModelFile> model = ModelFile::parse(model_bytes, model_size);
-    if (!model) return fail(PANACHE_BAD_MODEL, model.error().message);
+    if (!model) return fail(PANACHE_BAD_MODEL, model.error());
     if (!model->model->can_learn()) {
-      return fail(PANACHE_BAD_MODEL, cannot_learn(kModelName).message);
+      return fail(PANACHE_BAD_MODEL, cannot_learn(kModelName));
     }
     if (auto free = model->check_free(name, replace != 0); !free) {
-      return fail(PANACHE_BAD_ARGUMENT, free.error().message);
+      return fail(PANACHE_BAD_ARGUMENT, free.error());
     }
     if (auto good = check_style_name(name); !good) {
-      return fail(PANACHE_BAD_ARGUMENT, good.error().message);
+      return fail(PANACHE_BAD_ARGUMENT, good.error());
     }
     std::vector<LearnPair> learnt_from;
     for (int32_t p = 0; p < pair_count; ++p) {
       Result<LearnPair> pair = read_pair(pairs[p], p + 1);
-      if (!pair) return fail(PANACHE_BAD_CLIP, pair.error().message);
+      if (!pair) return fail(PANACHE_BAD_CLIP, pair.error());
       learnt_from.push_back(*std::move(pair));
     }
     Result<LearntStyle> style = learn_style(model->file, kModelName, learnt_from, name, "");
-    if (!style) return fail(PANACHE_BAD_CLIP, style.error().message);
+    if (!style) return fail(PANACHE_BAD_CLIP, style.error());
     Result<TensorFile> merged = add_style(model->file, kModelName, style->file, name, true);
-    if (!merged) return fail(PANACHE_BAD_MODEL, merged.error().message);
+    if (!merged) return fail(PANACHE_BAD_MODEL, merged.error());
     std::string warnings;
     for (const std::string& warning : style->warnings) warnings += to_utf8(warning) + "\n";
     for (const PairReport& pair : style->pairs) {
@@ -80,6 +80,6 @@ panache_status panache_learnt_get_report(const panache_learnt* learnt,
     found.mean_posture_cm = style.mean_posture_cm;
     found.untouched_cm = style.untouched_cm;
     auto written = write_struct(found, report, "panache_learnt_report");
-    return written ? PANACHE_OK : fail(PANACHE_BAD_ARGUMENT, written.error().message);
+    return written ? PANACHE_OK : fail(PANACHE_BAD_ARGUMENT, written.error());
   });
 }

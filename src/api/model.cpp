@@ -8,7 +8,7 @@ panache_status panache_model_create(const void* bytes, size_t size, panache_mode
   start(out);
   return guarded([&] {
     auto model = Model::parse({static_cast<const char*>(bytes), size}, "model");
-    if (!model) return fail(PANACHE_BAD_MODEL, model.error().message);
+    if (!model) return fail(PANACHE_BAD_MODEL, model.error());
     *out = new panache_model{*std::move(model)};
     return PANACHE_OK;
   });

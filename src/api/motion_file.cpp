@@ -106,7 +106,7 @@ panache_status create(const void* bytes, size_t size, const char* name, const Re
   start(out);
   return guarded([&] {
     auto file = parse_motion({static_cast<const char*>(bytes), size}, name, options);
-    if (!file) return fail(PANACHE_BAD_FILE, file.error().message);
+    if (!file) return fail(PANACHE_BAD_FILE, file.error());
     auto names = (*file)->clip_names();
     std::vector<char> moves(names.size());
     for (const int clip : find_body_motions(**file).clips) moves[static_cast<size_t>(clip)] = 1;
@@ -131,7 +131,7 @@ panache_status panache_motion_file_create_at_rate(const void* bytes, size_t size
                                                   panache_motion_file** out) {
   if (auto good = check_fps(frames_per_second); !good) {
     start(out);
-    return fail(PANACHE_BAD_ARGUMENT, good.error().message);
+    return fail(PANACHE_BAD_ARGUMENT, good.error());
   }
   return create(bytes, size, name, {frames_per_second}, out);
 }
@@ -178,7 +178,7 @@ panache_status panache_motion_file_get_clip(const panache_motion_file* file, int
                                             panache_clip* out) {
   return guarded([&] {
     const Clip* found = find_clip(*file, clip);
-    if (!found) return fail(PANACHE_BAD_ARGUMENT, no_clip(*file, clip).message);
+    if (!found) return fail(PANACHE_BAD_ARGUMENT, no_clip(*file, clip));
     *out = {nullptr, found->frames, found->frame_time, &found->rotations.data()->x,
             &found->translations.data()->x};
     return PANACHE_OK;
@@ -192,15 +192,15 @@ panache_status panache_motion_file_create_skeleton(const panache_motion_file* fi
   return guarded([&] {
     const auto given = read_struct<panache_skeleton_options>(options, PANACHE_SKELETON_OPTIONS,
                                                              "panache_skeleton_options");
-    if (!given) return fail(PANACHE_BAD_ARGUMENT, given.error().message);
+    if (!given) return fail(PANACHE_BAD_ARGUMENT, given.error());
     const Clip* found = find_clip(*file, clip);
-    if (!found) return fail(PANACHE_BAD_ARGUMENT, no_clip(*file, clip).message);
+    if (!found) return fail(PANACHE_BAD_ARGUMENT, no_clip(*file, clip));
     const auto how = read_rig_options(*given, panache_motion_file_joint_count(file));
-    if (!how) return fail(PANACHE_BAD_ARGUMENT, how.error().message);
+    if (!how) return fail(PANACHE_BAD_ARGUMENT, how.error());
     auto body = clip == -1
                     ? find_body(file->rest, find_clip(*file, first_body_motion(*file->file)), *how)
                     : with_rig(*found, *how);
-    if (!body) return fail(PANACHE_BAD_SKELETON, file->path + ": " + body.error().message);
+    if (!body) return fail(PANACHE_BAD_SKELETON, located(file->path, body.error()));
     Skeleton joints = body->first.skeleton;
     *out = new panache_skeleton{std::move(body->second), std::move(joints), std::move(body->first)};
     return PANACHE_OK;
@@ -214,10 +214,10 @@ panache_status panache_motion_file_write(const panache_motion_file* file,
   return guarded([&] {
     if (mode < PANACHE_REPLACE || mode > PANACHE_ADD_FIRST) {
       return fail(PANACHE_BAD_ARGUMENT,
-                  "there is no edit mode " + std::to_string(mode) + "; expected 0 to 2");
+                  {"there is no edit mode " + std::to_string(mode) + "; expected 0 to 2"});
     }
     const auto read = read_edits(*file, edits, edit_count);
-    if (!read) return fail(PANACHE_BAD_ARGUMENT, read.error().message);
+    if (!read) return fail(PANACHE_BAD_ARGUMENT, read.error());
     std::vector<ClipEdit> list;
     for (const Edit& edit : *read) {
       list.push_back({edit.clip, &edit.frames, edit.source_frames, edit.name});

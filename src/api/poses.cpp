@@ -60,7 +60,7 @@ Result<Clip> read_clip(const panache_clip& from, const Skeleton& joints, Rotatio
   }
   Clip clip{joints, from.frame_seconds, 0, {}, {}};
   auto read = read_frames(from.rotations, from.translations, from.frame_count, kept, clip);
-  if (!read) return Error{name + ": " + read.error().message};
+  if (!read) return located(name, read.error());
   return clip;
 }
 

@@ -17,14 +17,14 @@ panache_status panache_retarget_clip(const panache_clip* clip, const panache_ske
   return guarded([&] {
     const auto given = read_struct<panache_retarget_options>(options, PANACHE_RETARGET_OPTIONS,
                                                              "panache_retarget_options");
-    if (!given) return fail(PANACHE_BAD_ARGUMENT, given.error().message);
+    if (!given) return fail(PANACHE_BAD_ARGUMENT, given.error());
     const Result<Clip> motion = read_clip(*clip, Rotations::unit, "clip");
-    if (!motion) return fail(PANACHE_BAD_CLIP, motion.error().message);
-    if (motion->frames == 0) return fail(PANACHE_BAD_CLIP, "clip: has no frames");
+    if (!motion) return fail(PANACHE_BAD_CLIP, motion.error());
+    if (motion->frames == 0) return fail(PANACHE_BAD_CLIP, {"clip: has no frames"});
     const Rig& rig = clip->skeleton->rig;
     Result<Retargeted> done = retarget(*motion, rig, onto->body, onto->rig,
                                        {given->hold_feet != 0, given->meet_hands != 0});
-    if (!done) return fail(PANACHE_BAD_SKELETON, done.error().message);
+    if (!done) return fail(PANACHE_BAD_SKELETON, done.error());
     auto result = std::make_unique<panache_styled_clip>();
     const int first = motion->frames - done->clip.frames;
     for (int f = 0; f < done->clip.frames; ++f) {

@@ -78,7 +78,7 @@ panache_status panache_samples_create(const panache_pair* pairs, int32_t pair_co
     auto samples = std::make_unique<panache_samples>();
     for (int32_t p = 0; p < pair_count; ++p) {
       auto added = add(pairs[p], "pair " + std::to_string(p + 1), *samples);
-      if (!added) return fail(PANACHE_BAD_CLIP, added.error().message);
+      if (!added) return fail(PANACHE_BAD_CLIP, added.error());
     }
     *out = samples.release();
     return PANACHE_OK;

@@ -108,15 +108,15 @@ panache_status panache_skeleton_create(const panache_joint* joints, int32_t join
   return guarded([&] {
     const auto given = read_struct<panache_skeleton_options>(options, PANACHE_SKELETON_OPTIONS,
                                                              "panache_skeleton_options");
-    if (!given) return fail(PANACHE_BAD_ARGUMENT, given.error().message);
+    if (!given) return fail(PANACHE_BAD_ARGUMENT, given.error());
     Result<Skeleton> skeleton = read_skeleton(joints, joint_count);
-    if (!skeleton) return fail(PANACHE_BAD_SKELETON, skeleton.error().message);
+    if (!skeleton) return fail(PANACHE_BAD_SKELETON, skeleton.error());
     Result<Clip> clip = read_poses(*std::move(skeleton), *given);
-    if (!clip) return fail(PANACHE_BAD_ARGUMENT, clip.error().message);
+    if (!clip) return fail(PANACHE_BAD_ARGUMENT, clip.error());
     const Result<RigOptions> how = read_rig_options(*given, joint_count);
-    if (!how) return fail(PANACHE_BAD_ARGUMENT, how.error().message);
+    if (!how) return fail(PANACHE_BAD_ARGUMENT, how.error());
     Result<Rig> rig = Rig::create(*clip, *how);
-    if (!rig) return fail(PANACHE_BAD_SKELETON, rig.error().message);
+    if (!rig) return fail(PANACHE_BAD_SKELETON, rig.error());
     Clip body = rest_clip(clip->skeleton);
     *out = new panache_skeleton{*std::move(rig), std::move(clip->skeleton), std::move(body)};
     return PANACHE_OK;

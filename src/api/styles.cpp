@@ -21,18 +21,18 @@ panache_status panache_styles_add(const void* model_bytes, size_t model_size,
   start(out);
   return guarded([&] {
     const Result<ModelFile> model = ModelFile::parse(model_bytes, model_size);
-    if (!model) return fail(PANACHE_BAD_MODEL, model.error().message);
+    if (!model) return fail(PANACHE_BAD_MODEL, model.error());
     const std::string_view bytes(static_cast<const char*>(style_bytes), style_size);
     const Result<TensorFile> style = parse_safetensors(bytes, "the style");
-    if (!style) return fail(PANACHE_BAD_STYLE, style.error().message);
+    if (!style) return fail(PANACHE_BAD_STYLE, style.error());
     const Result<StyleInfo> info = read_style_info(*style, "the style");
-    if (!info) return fail(PANACHE_BAD_STYLE, info.error().message);
+    if (!info) return fail(PANACHE_BAD_STYLE, info.error());
     if (auto free = model->check_free(info->name, replace != 0); !free) {
-      return fail(PANACHE_BAD_ARGUMENT, free.error().message);
+      return fail(PANACHE_BAD_ARGUMENT, free.error());
     }
     const Result<TensorFile> merged =
         add_style(model->file, kModelName, *style, "the style", replace != 0);
-    if (!merged) return fail(PANACHE_BAD_STYLE, merged.error().message);
+    if (!merged) return fail(PANACHE_BAD_STYLE, merged.error());
     return give(*merged, out);
   });
 }
@@ -42,9 +42,9 @@ panache_status panache_styles_remove(const void* model_bytes, size_t model_size,
   start(out);
   return guarded([&] {
     const Result<ModelFile> model = ModelFile::parse(model_bytes, model_size);
-    if (!model) return fail(PANACHE_BAD_MODEL, model.error().message);
+    if (!model) return fail(PANACHE_BAD_MODEL, model.error());
     const Result<TensorFile> rest = remove_style(model->file, name, kModelName);
-    if (!rest) return fail(PANACHE_BAD_ARGUMENT, rest.error().message);
+    if (!rest) return fail(PANACHE_BAD_ARGUMENT, rest.error());
     return give(*rest, out);
   });
 }
@@ -54,9 +54,9 @@ panache_status panache_styles_extract(const void* model_bytes, size_t model_size
   start(out);
   return guarded([&] {
     const Result<ModelFile> model = ModelFile::parse(model_bytes, model_size);
-    if (!model) return fail(PANACHE_BAD_MODEL, model.error().message);
+    if (!model) return fail(PANACHE_BAD_MODEL, model.error());
     const Result<TensorFile> style = extract_style(model->file, name, kModelName);
-    if (!style) return fail(PANACHE_BAD_ARGUMENT, style.error().message);
+    if (!style) return fail(PANACHE_BAD_ARGUMENT, style.error());
     return give(*style, out);
   });
 }

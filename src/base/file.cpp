@@ -75,7 +75,7 @@ Result<void> write_file(const std::string& path, std::string_view bytes, bool fo
     return Error{path +
                  ": is a device, pipe or socket, which is not replaced; expected a file name"};
   }
-  const Error taken{path + ": exists already"};
+  const Error taken{path + ": exists already", ErrorKind::file_exists};
   if (!force && fs::exists(there)) return taken;
   const fs::path parent = fs::path(path).parent_path();
   if (!parent.empty()) fs::create_directories(parent, status);

@@ -238,6 +238,7 @@ class BvhReader {
   }
   static Error without_rate(Error error) {
     error.message += std::string("; ") + kGiveRate;
+    error.kind = ErrorKind::rate_needed;
     return error;
   }
 

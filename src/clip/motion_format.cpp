@@ -79,7 +79,8 @@ Result<const MotionFormat*> format_of(const std::string& path,
       (extension == ".fbx"
            ? "; 'panache convert IN.fbx -o OUT.glb' makes a GLB of it, and 'panache "
              "view IN.fbx' shows it"
-           : "")};
+       : extension == ".safetensors" ? ", which models and styles have"
+                                     : "")};
 }
 
 }  // namespace

@@ -179,14 +179,15 @@ class SmplFile final : public MotionFile {
                                     [&](const char* array) { return find(array); });
     const std::string array = known == std::end(kRateNames) ? kRateNames[0] : *known;
     Result<Table> rate = table(array, name);
-    if (!rate) return Error{rate.error().message + "; " + kGiveRate};
+    if (!rate) return Error{rate.error().message + "; " + kGiveRate, ErrorKind::rate_needed};
     if (rate->numbers.size() != 1 ||
         !(rate->numbers[0] >= kMinRate && rate->numbers[0] <= kMaxRate)) {
-      return Error{name + ": " + array +
-                   ": expected a number of frames per second above 0, found " +
-                   (rate->numbers.size() == 1 ? std::to_string(rate->numbers[0])
-                                              : std::to_string(rate->numbers.size()) + " numbers") +
-                   "; " + kGiveRate};
+      return Error{
+          name + ": " + array + ": expected a number of frames per second above 0, found " +
+              (rate->numbers.size() == 1 ? std::to_string(rate->numbers[0])
+                                         : std::to_string(rate->numbers.size()) + " numbers") +
+              "; " + kGiveRate,
+          ErrorKind::rate_needed};
     }
     clip_.frame_time = 1 / rate->numbers[0];
     return {};

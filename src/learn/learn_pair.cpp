@@ -71,8 +71,9 @@ Result<std::vector<size_t>> match_joints(const LearnClip& neutral, const LearnCl
       "); a pair needs joints of the same names and parents: leave the neutral clip out and name "
       "the action, or retarget the styled clip onto the neutral one";
   if (a.size() != b.size()) {
-    return Error{where + std::to_string(a.size()) + " and " + std::to_string(b.size()) + " joints" +
-                 cure};
+    return Error{
+        where + std::to_string(a.size()) + " and " + std::to_string(b.size()) + " joints" + cure,
+        ErrorKind::other_skeletons};
   }
   const std::vector<std::string> paths = joint_paths(a, neutral.rig);
   const auto before = places_of(paths), after = places_of(joint_paths(b, styled.rig));
@@ -90,7 +91,7 @@ Result<std::vector<size_t>> match_joints(const LearnClip& neutral, const LearnCl
               ? "'" + a[j].name + "' is below " + parent(a, j) + " and " + parent(b, j)
               : "joint " + std::to_string(j + 1) + " is '" + a[j].name + "' and '" + b[j].name +
                     "'";
-      return Error{where + difference + cure};
+      return Error{where + difference + cure, ErrorKind::other_skeletons};
     }
     const auto nth = std::find(same.begin(), same.end(), j) - same.begin();
     matches[j] = found->second[static_cast<size_t>(nth)];
@@ -129,13 +130,13 @@ bool rest_alike(const LearnClip& neutral, const LearnClip& styled,
 // The take of the styled motion on the neutral skeleton.
 Result<Take> take_onto(const LearnClip& styled, const LearnClip& neutral) {
   Result<Retargeted> done = retarget(styled.clip, styled.rig, neutral.clip, neutral.rig);
-  if (!done) return Error{styled.name + " onto " + neutral.name + ": " + done.error().message};
+  if (!done) return located(styled.name + " onto " + neutral.name, done.error());
   RigOptions as_neutral;
   as_neutral.metres_per_unit = neutral.rig.scale();
   as_neutral.up_axis = neutral.rig.up_axis();
   for (int j = 0; j < kHumanJoints; ++j) as_neutral.joint_places[j] = neutral.rig.joints()[j];
   Result<Rig> rig = Rig::create(done->clip, as_neutral);
-  if (!rig) return Error{styled.name + " onto " + neutral.name + ": " + rig.error().message};
+  if (!rig) return located(styled.name + " onto " + neutral.name, rig.error());
   return take_of({done->clip, *rig, styled.name});
 }
 

@@ -213,7 +213,8 @@ const char* LearntStyle::verdict() const {
 
 Error cannot_learn(const std::string& name) {
   return {name + ": has no trunk that styles can be learnt on; expected a model of recipe " +
-          learning_recipe_names() + " with 'learn.mean' and 'learn.scale'"};
+              learning_recipe_names() + " with 'learn.mean' and 'learn.scale'",
+          ErrorKind::model_cannot_learn};
 }
 
 Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,

@@ -154,7 +154,8 @@ Result<void> apply_style_names(std::vector<StyleName>& names, std::vector<Manife
     for (const ManifestRow& row : rows) {
       if (row.neutral || !seen.insert(row.style).second) continue;
       if (auto good = check_style_name(row.style); !good) {
-        return Error{where(row) + good.error().message + "; give it another name"};
+        return Error{where(row) + good.error().message + "; give it another name",
+                     ErrorKind::bad_style_name};
       }
     }
     for (const std::string& style : seen) names.push_back({style, {style}, ""});

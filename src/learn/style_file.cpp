@@ -199,7 +199,7 @@ bool is_style_file(const TensorFile& file) { return metadata_of(file, "format") 
 
 Result<StyleInfo> read_style_info(const TensorFile& file, const std::string& name) {
   if (metadata_of(file, "format") == "panache") {
-    return Error{name + ": is a model; expected a style file"};
+    return Error{name + ": is a model; expected a style file", ErrorKind::is_model};
   }
   if (!is_style_file(file)) {
     return Error{name + ": is a safetensors file, but not a style; expected metadata 'format' to " +
@@ -212,7 +212,7 @@ Result<StyleInfo> read_style_info(const TensorFile& file, const std::string& nam
   StyleInfo info{metadata_of(file, "style"), metadata_of(file, "description"),
                  metadata_of(file, "origin"), file.tensors.contains("head.weight"),
                  metadata_of(file, "group")};
-  if (auto fit = check_style_name(info.name); !fit) return Error{name + ": " + fit.error().message};
+  if (auto fit = check_style_name(info.name); !fit) return located(name, fit.error());
   for (const char* key : {"description", "origin", "group", "trunk", "data", "licence"}) {
     if (is_one_line(metadata_of(file, key))) continue;
     return Error{name + ": metadata '" + key + "' is no line of UTF-8 text"};
@@ -270,9 +270,10 @@ Result<TensorFile> add_style(const TensorFile& model, const std::string& name,
   if (trunk != made_for) {
     return Error{
         style_name + ": is a style of another model (its trunk is " + quoted(made_for) +
-        ", that of " + name + " is " + quoted(trunk) +
-        "); use it with the model that it was made with or the int8 version of that model, "
-        "or learn it again with this one"};
+            ", that of " + name + " is " + quoted(trunk) +
+            "); use it with the model that it was made with or the int8 version of that model, "
+            "or learn it again with this one",
+        ErrorKind::style_of_another};
   }
   Parts parts = take_apart(model, **parsed);
   std::vector<Style>& styles = parts.styles;
@@ -282,7 +283,8 @@ Result<TensorFile> add_style(const TensorFile& model, const std::string& name,
   });
   if (taken != styles.end() && !replace) {
     return Error{name + ": has a style '" + info->name +
-                 "' already; replace it or give one of the two another name"};
+                     "' already; replace it or give one of the two another name",
+                 ErrorKind::style_exists};
   }
   if (taken != styles.end() && taken->info.learnt == info->learnt) {
     *taken = std::move(added);

@@ -63,7 +63,7 @@ Result<Take> load_take(const ManifestRow& row, PoseLayout layout) {
   if (!file) return file.error();
   const Clip& clip = (*file)->clip(first_body_motion(**file));
   Result<Rig> rig = Rig::create(clip);
-  if (!rig) return Error{row.path + ": " + rig.error().message};
+  if (!rig) return located(row.path, rig.error());
   Take take = make_take(clip, *rig, layout);
   take.row = row;
   return take;

@@ -302,7 +302,8 @@ Result<TensorFile> parse_safetensors(std::string_view bytes, const std::string& 
   const std::string_view rest = bytes.substr(kLengthBytes);
   if (length > kMaxHeaderBytes) {
     return Error{name + ": does not start with the length of a header (at most " +
-                 std::to_string(kMaxHeaderBytes) + " bytes); expected a safetensors file"};
+                     std::to_string(kMaxHeaderBytes) + " bytes); expected a safetensors file",
+                 ErrorKind::not_safetensors};
   }
   if (length > rest.size()) {
     return Error{name + ": ends inside its header of " + std::to_string(length) +
@@ -310,7 +311,8 @@ Result<TensorFile> parse_safetensors(std::string_view bytes, const std::string& 
   }
   const std::string_view header = rest.substr(0, length), data = rest.substr(length);
   if (!header.starts_with('{')) {
-    return Error{name + ": has no JSON header; expected a safetensors file"};
+    return Error{name + ": has no JSON header; expected a safetensors file",
+                 ErrorKind::not_safetensors};
   }
   HeaderReader reader;
   if (!nlohmann::json::sax_parse(header.begin(), header.end(), &reader)) {

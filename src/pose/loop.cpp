@@ -78,10 +78,11 @@ Result<void> check_closable(const LoopSeam& seam, double frame_time) {
   }
   if (!(seam.gap <= kMaxGap)) {
     return Error{"the motion is not a loop: its last pose is " +
-                 with_decimals(100 * static_cast<double>(seam.gap), 1) +
-                 " cm from its first in the mean of the joints; expected at most " +
-                 with_decimals(100 * static_cast<double>(kMaxGap), 0) +
-                 " cm, as where a clip is cut after a whole cycle"};
+                     with_decimals(100 * static_cast<double>(seam.gap), 1) +
+                     " cm from its first in the mean of the joints; expected at most " +
+                     with_decimals(100 * static_cast<double>(kMaxGap), 0) +
+                     " cm, as where a clip is cut after a whole cycle",
+                 ErrorKind::loop_open};
   }
   return {};
 }

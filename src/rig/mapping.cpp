@@ -53,15 +53,18 @@ Error rejection(const std::vector<Joint>& joints, const std::vector<HumanJoint>&
   // Hips, and of each limb the joints down to the foot or forearm.
   constexpr size_t kFewest = 11;
   text += " (" + std::to_string(joints.size()) + (joints.size() == 1 ? " joint)" : " joints)");
-  if (!advice.empty()) return {text + advice};
-  if (joints.size() < kFewest) {
-    return {text +
-            "; expected a person's joints: hips, two legs down to the feet and two arms down to "
-            "the forearms"};
+  if (!advice.empty()) {
+    text += advice;
+  } else if (joints.size() < kFewest) {
+    text +=
+        "; expected a person's joints: hips, two legs down to the feet and two arms down to the "
+        "forearms";
+  } else {
+    text +=
+        "; expected names such as LeftHand or hand_L, the shape of a person, or a map that says "
+        "which joint is which";
   }
-  return {text +
-          "; expected names such as LeftHand or hand_L, the shape of a person, or a map "
-          "that says which joint is which"};
+  return {text, ErrorKind::not_humanoid};
 }
 
 class Mapper {

@@ -60,7 +60,8 @@ Result<KnownJoints> find_joints(const Skeleton& skeleton, const RigOptions& opti
 }  // namespace
 
 Result<Rig> Rig::create(const Clip& clip, const RigOptions& options) {
-  if (clip.joints() == 0) return Error{"no humanoid found: the skeleton has no joints"};
+  if (clip.joints() == 0)
+    return Error{"no humanoid found: the skeleton has no joints", ErrorKind::not_humanoid};
   if (clip.frames < 1) return Error{"expected at least one frame of motion, found none"};
   Result<KnownJoints> known = find_joints(clip.skeleton, options);
   if (!known) return known.error();

@@ -86,7 +86,7 @@ std::shared_ptr<const Model> Model::of_constants(std::vector<ConstantStyle> styl
 Result<void> Model::read_metadata(const TensorFile& file, const std::string& name) {
   const auto format = file.metadata.find("format");
   if (format != file.metadata.end() && format->second == "panache-style") {
-    return Error{name + ": is a style file, not a model"};
+    return Error{name + ": is a style file, not a model", ErrorKind::is_style_file};
   }
   if (format == file.metadata.end() || format->second != "panache") {
     return Error{name +
@@ -155,12 +155,13 @@ Result<int> Model::find_style(std::string_view style) const {
     names.push_back(styles_[i].name);
   }
   if (names.empty()) {
-    return Error{"unknown style '" + std::string(style) + "'; the model has no styles yet"};
+    return Error{"unknown style '" + std::string(style) + "'; the model has no styles yet",
+                 ErrorKind::no_styles};
   }
   const std::vector<std::string> nearest = nearest_names(style, names);
-  return Error{
-      "unknown style '" + std::string(style) + "'; " +
-      (nearest.empty() ? "expected " + one_of(names) : "the nearest " + is_or_are(nearest))};
+  const std::string unknown = "unknown style '" + std::string(style) + "'; ";
+  if (nearest.empty()) return Error{unknown + "expected " + one_of(names)};
+  return Error{unknown + "the nearest " + is_or_are(nearest), ErrorKind::unknown_style};
 }
 
 Result<int> Model::find_style_in_any_case(std::string_view style) const {

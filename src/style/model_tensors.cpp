@@ -99,7 +99,8 @@ Result<Model::Learnt> Model::read_learnt(const TensorFile& file, const std::stri
                                          const std::string& name) const {
   if (!can_learn()) {
     return Error{name + ": has tensors '" + prefix +
-                 "*' of a learnt style, but no 'learn.mean' and 'learn.scale'"};
+                     "*' of a learnt style, but no 'learn.mean' and 'learn.scale'",
+                 ErrorKind::model_cannot_learn};
   }
   const int activations = static_cast<int>(activation_count());
   Learnt learnt;

@@ -47,7 +47,8 @@ Result<void> check_strengths(const LoopSeam& seam, double frame_time, const Mode
   for (size_t s = 0; s < begin.size(); ++s) {
     if (std::abs(begin[s] - end[s]) <= kSame) continue;
     return Error{"the motion cannot be a loop: style '" + model.styles()[s].name +
-                 "' has another strength at its last frame than at its first"};
+                     "' has another strength at its last frame than at its first",
+                 ErrorKind::loop_strengths};
   }
   return {};
 }

@@ -287,7 +287,7 @@ TEST_F(StylesVerb, a_taken_name_is_replaced_by_force_only) {
 TEST_F(StylesVerb, explains_what_is_no_style_and_what_is_no_model) {
   expect_rejected({"mine.safetensors", "--add", "model.safetensors"}, 1,
                   "model.safetensors: is a model; expected a style file, as panache styles "
-                  "model.safetensors --extract NAME -o FILE makes one");
+                  "MODEL --extract NAME -o FILE makes one");
   expect_rejected({"mine.safetensors", "--extract", "old", "-o", "old.bin"}, 2,
                   "old.bin: expected a name that ends in .safetensors");
   ASSERT_EQ(run({"styles", "mine.safetensors", "--extract", "old", "-o", "old.safetensors"}).exit,

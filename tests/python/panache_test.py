@@ -426,3 +426,9 @@ def test_the_code_of_the_page_runs(walk_file, run, tmp_path, monkeypatch):
             if '  # -> ' in line:
                 code, expected = line.split('  # -> ')
                 assert repr(eval(code, names)) == expected.strip(), line
+
+
+def test_an_error_has_a_kind():
+    with pytest.raises(panache.PanacheError) as raised:
+        panache.Model(__file__)
+    assert raised.value.kind == 'not_safetensors'

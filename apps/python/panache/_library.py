@@ -14,7 +14,19 @@ VERSION = (0, 2)  # Of the header that the structs below are those of.
 
 
 class PanacheError(Exception):
-    """What the library says of bad input, in one sentence."""
+    """What the library says of bad input, in one sentence. `kind` tells what kind of mistake it is,
+    for programs that help with it: one of ERROR_KINDS."""
+
+    def __init__(self, message: str, kind: str = 'other'):
+        super().__init__(message)
+        self.kind = kind
+
+
+# In the order of panache_error_kind.
+ERROR_KINDS = (
+    'other', 'file_exists', 'rate_needed', 'not_humanoid', 'unknown_style', 'no_styles',
+    'style_exists', 'is_model', 'is_style_file', 'style_of_another', 'not_safetensors',
+    'model_cannot_learn', 'other_skeletons', 'loop_open', 'loop_strengths', 'bad_style_name')
 
 
 class Joint(Structure):
@@ -100,6 +112,7 @@ _OUT = POINTER(c_void_p)
 _FUNCTIONS = {
     'version': (c_int32, []),
     'last_error': (c_char_p, []),
+    'last_error_kind': (c_int32, []),
     'bytes_data': (c_void_p, [_H]),
     'bytes_size': (c_size_t, [_H]),
     'bytes_destroy': (None, [_H]),
@@ -220,7 +233,7 @@ def whole(value, what: str) -> int:
 def check(status: int) -> None:
     """Raises what the library says of a failure."""
     if status != 0:
-        raise PanacheError(lib.last_error().decode())
+        raise PanacheError(lib.last_error().decode(), ERROR_KINDS[lib.last_error_kind()])
 
 
 class Handle:

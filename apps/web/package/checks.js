@@ -2,7 +2,26 @@
 // what was found.
 
 /** Bad input; the message is one sentence. */
-export class PanacheError extends Error {}
+export class PanacheError extends Error {
+  /** What kind of mistake it is, for programs that help with it. */
+  kind;
+  constructor(message, kind = 'other') {
+    super(message);
+    this.kind = kind;
+  }
+}
+// In the order of panache_error_kind.
+const kinds = [
+  'other', 'fileExists', 'rateNeeded', 'notHumanoid', 'unknownStyle', 'noStyles', 'styleExists',
+  'isModel', 'isStyleFile', 'styleOfAnother', 'notSafetensors', 'modelCannotLearn',
+  'otherSkeletons', 'loopOpen', 'loopStrengths', 'badStyleName',
+];
+/** What the library says of its last failure. */
+export function lastError(wasm) {
+  const bytes = new Uint8Array(wasm.memory.buffer, wasm.panache_last_error());
+  const text = new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)));
+  return new PanacheError(text, kinds[wasm.panache_last_error_kind()]);
+}
 
 function describe(value) {
   if (value === undefined || value === null) return 'nothing';

@@ -7,7 +7,15 @@
 export const humanJoints: readonly string[];
 
 /** Bad input; the message says where, what was expected and what was found. */
-export class PanacheError extends Error {}
+/** What kind of mistake an error is, for programs that help with it; most are 'other'. */
+export type ErrorKind =
+  'other' | 'fileExists' | 'rateNeeded' | 'notHumanoid' | 'unknownStyle' | 'noStyles' | 'styleExists' |
+  'isModel' | 'isStyleFile' | 'styleOfAnother' | 'notSafetensors' | 'modelCannotLearn' |
+  'otherSkeletons' | 'loopOpen' | 'loopStrengths' | 'badStyleName';
+export class PanacheError extends Error {
+  readonly kind: ErrorKind;
+  constructor(message: string, kind?: ErrorKind);
+}
 
 export interface Style {
   /** "old" */

@@ -3,7 +3,7 @@
 
 import { Character, Skeleton, stylizeClip, writeShape } from './character.js';
 import {
-  PanacheError, checkBytes, checkFinite, checkKeys, inUse, timingNumber,
+  PanacheError, checkBytes, checkFinite, checkKeys, inUse, lastError, timingNumber,
 } from './checks.js';
 import { Arena } from './memory.js';
 
@@ -175,7 +175,7 @@ export class Panache {
   }
   _checked(handle) {
     if (handle) return handle;
-    throw new PanacheError(this._text(this.#wasm.panache_last_error()));
+    throw lastError(this.#wasm);
   }
   _arena(use) { return Arena.use(this.#wasm, use); }
   _text(at) {

@@ -1,7 +1,7 @@
 // The memory of the WebAssembly module: what a call needs there, and structs of panache.h as the
 // module lays them out.
 
-import { PanacheError } from './checks.js';
+import { lastError, PanacheError } from './checks.js';
 
 const kSizes = { i32: 4, f32: 4, f64: 8 };
 
@@ -93,7 +93,6 @@ export class Arena {
   }
   check(status) {
     if (status === 0) return;
-    const bytes = new Uint8Array(this.#wasm.memory.buffer, this.#wasm.panache_last_error());
-    throw new PanacheError(new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0))));
+    throw lastError(this.#wasm);
   }
 }

@@ -37,7 +37,7 @@ export async function openFile(panache: Panache, file: File, fps = rates.get(fil
     return open(fps);
   } catch (error) {
     // The library says so where a file has no rate, or one that cannot be.
-    if (!(error instanceof PanacheError) || !error.message.endsWith('give its rate')) throw error;
+    if (!(error instanceof PanacheError) || error.kind !== 'rateNeeded') throw error;
     const given = Number(window.prompt(`${error.message}\n\nFrames a second of ${file.name}:`));
     if (!(given > 0)) throw error;
     return open(given);

@@ -82,8 +82,8 @@ Result<Learnt> learn(std::string_view model, const Motion& neutral, const Motion
                      const std::string& style) {
   const Clip &before = neutral.file.clip(neutral.which), &after = styled.file.clip(styled.which);
   const Result<Rig> before_rig = Rig::create(before), after_rig = Rig::create(after);
-  if (!before_rig) return Error{neutral.name + ": " + before_rig.error().message};
-  if (!after_rig) return Error{styled.name + ": " + after_rig.error().message};
+  if (!before_rig) return located(neutral.name, before_rig.error());
+  if (!after_rig) return located(styled.name, after_rig.error());
   return learn_pair(
       model, make_learn_pair({before, *before_rig, neutral.name}, {after, *after_rig, styled.name}),
       style);
@@ -93,7 +93,7 @@ Result<Learnt> learn(std::string_view model, std::shared_ptr<const WalkerModel> 
                      const std::string& action, const Motion& styled, const std::string& style) {
   const Clip& after = styled.file.clip(styled.which);
   const Result<Rig> rig = Rig::create(after);
-  if (!rig) return Error{styled.name + ": " + rig.error().message};
+  if (!rig) return located(styled.name, rig.error());
   return learn_pair(model, make_learn_pair({after, *rig, styled.name}, action, std::move(walker)),
                     style);
 }

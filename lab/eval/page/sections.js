@@ -3,7 +3,8 @@ function evaluated() {
   const withFloor = (value, floor) => `${fixed(value, 3)} (usual: at least ${fixed(floor, 3)})`;
   const joined = (names) => names.join(', ') || DASH;
   const facts = [
-    ['Trained on', joined(report.trained_on)], ['Tested on', joined(report.tested_on)],
+    ['Evaluated on', joined(report.tested_on)], ['Trained on', joined(report.trained_on)],
+    ['Real takes', `${count(report.real.takes)} held out, ${count(report.real.windows)} windows`],
     ['Styles', joined(report.styles)], ['Contents', joined(report.contents)],
     ['Style classifier on real takes', withFloor(report.real.style_accuracy, report.style_floor)],
     ['Content classifier on real takes', withFloor(report.real.content_accuracy, report.content_floor)],

@@ -68,7 +68,7 @@ Result<RunResult> ModelSystem::run(const TestInput& input, const StyleRequest& r
   RestyleOptions options;
   options.timing = request.timing;
   Result<Restyled> restyled = restyle(input.clip, input.rig, model_, tracks, options);
-  if (!restyled) return Error{input.take.row.path + ": " + restyled.error().message};
+  if (!restyled) return located(input.take.row.path, restyled.error());
 
   RunResult run_result =
       styled_result(input, request.style, restyled->clip, restyled->source_frames);

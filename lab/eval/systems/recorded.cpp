@@ -91,13 +91,13 @@ Result<void> Recorded::read_manifest(const std::string& folder, const RecordedSc
     const std::string where = path + ":" + std::to_string(cells.line);
     const std::string& style = cells.values[1];
     Result<std::string> input = find_input(cells.values[0], scope.inputs);
-    if (!input) return Error{where + ": " + input.error().message};
+    if (!input) return located(where, input.error());
     if (std::find(scope.styles.begin(), scope.styles.end(), style) == scope.styles.end()) {
       return Error{where + ": style '" + style + "' is shown by no test take; expected " +
                    one_of(scope.styles)};
     }
     Result<float> strength = read_strength(cells.values[2]);
-    if (!strength) return Error{where + ": " + strength.error().message};
+    if (!strength) return located(where, strength.error());
     const auto [line, is_new] = lines_.try_emplace({*input, style, *strength});
     if (!is_new) return Error{where + ": asks for the same as " + line->second.where};
     line->second.where = where;

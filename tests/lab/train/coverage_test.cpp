@@ -66,10 +66,11 @@ TEST(Coverage, all_styles_that_cannot_be_learnt_are_named_at_once) {
                                          row("neutral", "run", 1)};
   const Result<void> good = check_styles(rows, styles);
   ASSERT_FALSE(good.ok());
-  EXPECT_EQ(good.error().message,
-            "nothing can be learnt of 3 styles: 'sad' (crawl, run), 'shy' (walk), 'tired' (no take "
-            "to train on); expected a neutral take of one of these contents, to train on, in the "
-            "manifest of the style; add one, or leave the styles out");
+  EXPECT_EQ(
+      good.error().message,
+      "nothing can be learnt of 3 styles: 'sad' (crawl, run), 'shy' (walk), 'tired' (no take "
+      "to train on); expected a neutral take of one of these contents, to train on, in the "
+      "manifest of the style; add one, or leave the styles out (--styles lists those to learn)");
   EXPECT_TRUE(check_styles(rows, {styles[0]}).ok());
 }
 
@@ -121,7 +122,7 @@ TEST(Coverage, training_rejects_a_style_without_samples) {
   ASSERT_FALSE(trained.ok());
   EXPECT_EQ(trained.error().message,
             "no samples of the style 'brief'; expected longer takes, styled and neutral; add some, "
-            "or leave the style out");
+            "or leave the style out (--styles lists those to learn)");
   EXPECT_EQ(notes.size(), 1u);
 }
 

@@ -186,13 +186,15 @@ TEST_F(TrainerTest, what_cannot_be_learnt_from_is_said) {
   EXPECT_EQ(
       train(rows, styles_, options(test::kPanache, 1)).error().message,
       "nothing can be learnt of 1 style: 'old' (walk); expected a neutral take of one of these "
-      "contents, to train on, in the manifest of the style; add one, or leave the style out");
+      "contents, to train on, in the manifest of the style; add one, or leave the style out "
+      "(--styles lists those to learn)");
   rows = rows_;
   rows[1].content = "run";
   EXPECT_EQ(
       train(rows, styles_, options(test::kPanache, 1)).error().message,
       "nothing can be learnt of 1 style: 'old' (run); expected a neutral take of one of these "
-      "contents, to train on, in the manifest of the style; add one, or leave the style out");
+      "contents, to train on, in the manifest of the style; add one, or leave the style out "
+      "(--styles lists those to learn)");
   rows = rows_;
   rows[1].path = folder_ + "none.bvh";
   EXPECT_EQ(train(rows, styles_, options(test::kPanache, 1)).error().message,

@@ -90,6 +90,15 @@ test('numbers stand in their own row and column', async () => {
   assert.deepEqual(clips.map(([name]) => name), ['neutral', 'old', 'proud', 'all styles']);
 });
 
+test('it says what was evaluated, on what, and how long that took', async () => {
+  const { page } = await open('full');
+  const facts = await page.locator('.facts > *').allInnerTexts();
+  assert.deepEqual(facts, ['Evaluated on', 'two.csv', 'Trained on', 'one.csv', 'Real takes',
+    '97 held out, 485 windows', 'Styles', 'old, proud', 'Contents', 'walk, run', 'Style classifier on real takes',
+    '0.971 (usual: at least 0.950)', 'Content classifier on real takes', '0.972 (usual: at least 0.900)', 'Time taken',
+    '7 min 7 s']);
+});
+
 test('the best system is marked with more than colour', async () => {
   const { page } = await open('full');
   const style = (await rows(page, 'overall')).map((row) => row[3]);
