@@ -112,7 +112,7 @@ std::string summary(const std::vector<FileJob>& files, const std::string& done, 
          in;
 }
 
-// Does the work on one file, and keeps what is told of it in the end.
+// Does the work on one file, and keeps its report for the end.
 void run_file(FileJob& file, const BatchFlags& flags, const FileWork& work,
               const std::function<void(double)>& show) {
   std::error_code status;
@@ -197,13 +197,12 @@ void add_batch_options(CLI::App& verb, BatchFlags& flags) {
       ->type_name("I/N");
   CLI::Option* force = verb.add_flag("--force", flags.force, "Overwrite files");
   verb.add_flag("--skip-existing", flags.skip_existing,
-                "Leave out what has an output already, as to go on\nwith a batch")
+                "Skip inputs whose output exists (resume a batch)")
       ->excludes(force);
   verb.add_flag("--dry-run", flags.dry_run, "Only show what would be written; reads no motion");
   verb.add_option("--jobs", flags.jobs, "Files processed in parallel; default: one per core")
       ->type_name("N");
-  CLI::Option* quiet =
-      verb.add_flag("--quiet", flags.quiet, "Print nothing but errors, and show no progress");
+  CLI::Option* quiet = verb.add_flag("--quiet", flags.quiet, "Print only errors, without progress");
   verb.add_flag("--json", flags.json, "Print the result for each file as JSON")->excludes(quiet);
   CLI::Option* report = verb.add_option("--report", flags.report,
                                         "Write a line of JSON for each file that is done;\n"
@@ -262,7 +261,7 @@ int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::st
   const double spent = std::chrono::duration<double>(Clock::now() - begin).count();
 
   bool all_good = true, stopped = false;
-  // Where the motion goes to stdout, what is told of it does not.
+  // If the motion goes to stdout, the report does not.
   const auto tell = [&](const std::string& text) {
     if (!files.empty() && files[0].to_stdout) {
       std::fputs(text.c_str(), stderr);

@@ -41,7 +41,7 @@ std::string list_writable_names();
 // Whether a motion can be written with this extension.
 bool has_writer(const std::string& extension);
 
-// Rejects an output whose extension is none that its input can be written with.
+// Rejects an output with an extension that its input cannot be written with.
 Result<void> check_format(const std::string& input, const std::string& output);
 
 // Rejects several motions where the output's format holds a single one.

@@ -16,7 +16,7 @@ struct GateReport {
 // gates: [frames], at least one.
 GateReport report_gate(std::span<const float> gates);
 std::string describe(const GateReport& gate);
-// What a user should know where most of a clip was eased.
+// A warning if most of a clip was eased.
 std::string describe_eased(const GateReport& gate);
 Json to_json(const GateReport& gate);
 

@@ -202,7 +202,7 @@ Result<Info> model_info(const std::string& path) {
   return info;
 }
 
-// Several files are told of one after another, in JSON as a list.
+// Several files are described one after another, in JSON as a list.
 int show(const InfoVerb& verb) {
   if (auto flags = check_rig_flags(verb.rig); !flags) return fail(flags.error(), kBadUsage);
   if (auto read = check_read_options(verb.read); !read) return fail(read.error(), kBadUsage);

@@ -11,7 +11,7 @@ namespace panache::cli {
 
 inline constexpr int kDone = 0;
 inline constexpr int kBadInput = 1;   // A file is not what it should be, or cannot be written.
-inline constexpr int kBadUsage = 2;   // The command line asks for something that there is not.
+inline constexpr int kBadUsage = 2;   // Invalid command line.
 inline constexpr int kStopped = 130;  // By Ctrl-C, as shells count it.
 
 // The name that messages begin with, "panache" at first. It is kept, not copied.
@@ -31,8 +31,8 @@ int fail(const Error& error, int exit_code);
 void print(const std::string& text);
 using Json = nlohmann::ordered_json;
 void print(const Json& json);
-// JSON as it is printed: indented, with a line end. Bytes that are no UTF-8, as file names may
-// hold, are replaced.
+// JSON as it is printed: indented, with a line end. Bytes that are not UTF-8, as in file names, are
+// replaced.
 std::string dump(const Json& json);
 
 // `value` with `decimals` digits after the point.

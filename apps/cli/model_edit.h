@@ -11,7 +11,7 @@ namespace panache::cli {
 // The tensors of a model or style file.
 Result<TensorFile> read_tensors(const std::string& path);
 
-// Rejects a file that nobody may write to: renaming over it would need no right to.
+// Rejects a read-only file: renaming over it would need no permission.
 Result<void> check_writable(const std::string& path);
 
 // Puts a changed model into the place of the old one, whole or not at all; a link stays one. The

@@ -25,9 +25,10 @@ void add_place_options(CLI::App& verb, PlaceFlags& flags, const std::string& who
   CLI::Option* replace = verb.add_flag(
       "--replace", flags.replace,
       "Replace " + whose + " instead of adding\nnew ones (a BVH file holds only one)");
-  CLI::Option* first = verb.add_flag("--first", flags.first,
-                                     "Put new animations before those of the file, where\nviewers "
-                                     "look; the default but with --onto, which\nleaves those out");
+  CLI::Option* first =
+      verb.add_flag("--first", flags.first,
+                    "Put new animations before those of the file (viewers\nplay "
+                    "the first); the default, except with --onto,\nwhich drops those");
   verb.add_flag("--last", flags.last, "Put new animations after those of the file")
       ->excludes(replace)
       ->excludes(first);
@@ -50,7 +51,7 @@ void name_new_motions(FileJob& file, const std::vector<std::string>& has, const 
   for (std::string& name : names) name = unique_name(name, taken);
   std::string text = "new: " + list(names);
   if (!has.empty() && mode == EditMode::replace) {
-    text += "; the character's own (" + list(has) + ") are left out, --first keeps them";
+    text += "; the character's own (" + list(has) + ") are dropped; --first keeps them";
   } else if (!has.empty() && mode == EditMode::add_first) {
     text += ", before " + list(has) + "; --last puts it after, --replace in its place";
   } else if (!has.empty()) {

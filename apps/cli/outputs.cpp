@@ -49,8 +49,8 @@ Result<std::vector<FilePair>> name_outputs(const FoundFiles& inputs, const std::
     const std::string path = (fs::path(output) / with_extension(input.name, extension)).string();
     const auto [other, is_new] = input_of.emplace(path, input.path);
     if (!is_new) {
-      return Error{path + ": is where the results of both '" + other->second + "' and '" +
-                   input.path + "' would go; expected inputs of different names"};
+      return Error{"'" + other->second + "' and '" + input.path + "' would both be written to " +
+                   path + "; expected inputs with different names"};
     }
     files.push_back({input.path, path});
   }

@@ -37,7 +37,7 @@ Result<std::string> default_output(const FoundFiles& found, const OutputNaming& 
 // A job whose input or output, or both, are standard streams.
 Result<FileJob> plan_stream(const BatchFlags& flags, const OutputNaming& naming) {
   if (flags.inputs.size() != 1) {
-    return Error{"- stands for one file, and comes without others; found " +
+    return Error{"- (standard input) cannot be combined with other inputs; found " +
                  plural(flags.inputs.size(), "input")};
   }
   FileJob file;

@@ -37,13 +37,13 @@ void add_retarget(CLI::App& app, int& exit_code) {
   add_place_options(*verb, options->flags.place, "the character's animations");
   add_in_place_option(*verb, options->flags.in_place);
   add_figure_options(*verb, options->flags.figure);
-  verb->add_flag("--no-feet", options->no_feet, "Leave feet and floor to the angles alone");
-  verb->add_flag("--no-hands", options->no_hands, "Leave hands that meet to the angles alone");
+  verb->add_flag("--no-feet", options->no_feet, "Do not correct feet and floor contact");
+  verb->add_flag("--no-hands", options->no_hands, "Do not correct hands that touch");
   add_rig_options(*verb, options->flags.rig);
   add_read_options(*verb, options->flags.read);
   verb->footer(
       "The output is the character's file with the motions in it (FBX becomes GLB); as\n"
-      ".bvh, or .glb from a BVH, its joints alone. docs/retargeting.md says how it is done.\n\n"
+      ".bvh, or .glb from a BVH, its joints alone. docs/retargeting.md explains how.\n\n"
       "Examples:\n"
       "  panache retarget walk.bvh --onto hero.glb -o hero-walk.glb\n"
       "  panache retarget takes/ --onto avatar.vrm -o on-avatar/\n"

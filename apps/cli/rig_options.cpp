@@ -76,9 +76,9 @@ std::string place_in(const std::string& text, size_t byte) {
 }  // namespace
 
 void add_in_place_option(CLI::App& verb, bool& flag) {
-  verb.add_flag("--in-place", flag,
-                "Take the horizontal path off the hips and what is above\nthem, as for games that "
-                "move the character");
+  verb.add_flag(
+      "--in-place", flag,
+      "Remove the horizontal path from hips and root, for\ngames that move the character");
 }
 
 void add_rig_options(CLI::App& verb, RigFlags& flags) {

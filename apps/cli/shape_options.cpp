@@ -32,17 +32,17 @@ void add_shape_options(CLI::App& verb, ShapeFlags& flags) {
         ->type_name("AMOUNT");
   };
   add("--posture", flags.shape.posture,
-      "How much of the lasting part of the style: 0 to 2;\ndefault: 1");
+      "Amount of the slow part of the style: 0 to 2;\ndefault: 1");
   add("--dynamics", flags.shape.dynamics,
-      "How much of its movement and root motion: 0 to 2;\ndefault: 1");
-  verb.add_option(
-          "--timing", flags.timing,
-          "Where it has its tempo: where the feet step (steps,\nthe default), everywhere "
-          "(all) or nowhere (off: frame\nby frame); or how much of it where they step: 0 to 2")
+      "Amount of its movement and root motion: 0 to 2;\ndefault: 1");
+  verb.add_option("--timing", flags.timing,
+                  "Where the style's tempo is applied: where the feet step\n(steps, the default), "
+                  "everywhere (all) or nowhere (off:\nframe by frame); or its amount where they "
+                  "step: 0 to 2")
       ->type_name("TIMING");
   verb.add_option(
           "--region", flags.regions,
-          "REGION=AMOUNT: how much of the style legs, torso,\nleft_arm or right_arm get, 0 to 2. "
+          "REGION=AMOUNT: amount of the style on legs, torso,\nleft_arm or right_arm, 0 to 2. "
           "One --region per\nregion")
       ->allow_extra_args(false)
       ->type_name("REGION");

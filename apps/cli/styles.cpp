@@ -33,7 +33,7 @@ std::string list(const std::vector<std::string>& names) {
 
 int show(const std::string& path, bool json) {
   const Result<TensorFile> file = read_tensors(path);
-  // What a file is that cannot be read, is told as of models everywhere.
+  // An unreadable file is reported as models are everywhere.
   if (file && is_style_file(*file)) return report(load_style(path), json);
   return report(load_model(path), json);
 }

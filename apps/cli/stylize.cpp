@@ -207,7 +207,7 @@ Result<void> stylize_file(FileJob& file, const Wanted& wanted, const StylizeOpti
       clips.push_back(*std::move(clip));
       continue;
     }
-    // All motions of a file have the same joints: what is no person in one of them is none.
+    // All motions of a file have the same joints: if one is not a person, none is.
     if (picked->size() > 1 && clip.error().kind == ErrorKind::not_humanoid) {
       return Error{clip.error().message + "; so its other motions are not restyled either"};
     }
@@ -353,9 +353,8 @@ void add_stylize(CLI::App& app, int& exit_code) {
   add_figure_options(*verb, options->figure);
   add_shape_options(*verb, options->shape);
   verb->add_option("--loop", options->loop,
-                   "Whether the last pose of the result is its first, travel\n"
-                   "aside: where the motion is a loop (auto, the default),\n"
-                   "always (on) or never (off)")
+                   "Make the result loop: if the motion does (auto, the\n"
+                   "default), always (on) or never (off)")
       ->type_name("LOOP");
   verb->add_flag("--no-timing", options->no_timing, "The same as --timing off");
   verb->add_flag("--no-feet", options->no_feet, "Do not hold planted feet in place");

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kRoom = 1 << 22;  // Bytes; three senders of 90 Hz fill a quarter of it in a second.
 
-Error no_socket() { return Error{std::string("there is no socket: ") + std::strerror(errno)}; }
+Error no_socket() { return Error{std::string("cannot create a socket: ") + std::strerror(errno)}; }
 
 Result<uint16_t> parse_port(const std::string& text, const std::string& option) {
   uint16_t port = 0;

@@ -316,7 +316,7 @@ public sealed class Learnt {
   }
 }
 
-/// An object of the library's, given back when nobody needs it any more.
+/// An object of the library, destroyed when it is no longer used.
 internal sealed class Handle : SafeHandle {
   private readonly Action<IntPtr> destroy;
   public Handle(IntPtr pointer, Action<IntPtr> destroy) : base(IntPtr.Zero, true) {

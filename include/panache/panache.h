@@ -1,35 +1,34 @@
-/* Panache: gives the motion of a character a style, live. The whole interface of the library.
+/* Panache restyles the motion of a character in real time. This header is the whole interface.
  *
  *     panache_model *model = NULL;           (shared by all characters)
  *     panache_skeleton *skeleton = NULL;     (shared by all characters with the same rig)
- *     panache_character *character = NULL;   (one for each)
+ *     panache_character *character = NULL;   (one each)
  *     panache_model_create(bytes, size, &model);
  *     panache_skeleton_create(joints, joint_count, NULL, &skeleton);
  *     panache_character_create(model, skeleton, NULL, &character);
  *     panache_character_set_strength(character, panache_model_find_style(model, "old"), 1.0f);
  *     each frame: panache_character_step(character, in, 1.0 / 60, out);
  *
- * Conventions. Rotations are unit quaternions x, y, z, w and translations three numbers, both of a
- * joint relative to its parent, in the units and axes of the skeleton itself (any; they are found,
- * or told). Joints stand in the order in which the skeleton was given, parents before children.
- * Seconds are double. Strings are UTF-8 and end with a zero.
+ * Conventions. A pose has a rotation (unit quaternion x, y, z, w) and a translation (three numbers)
+ * for each joint, relative to its parent, in the units and axes of the skeleton. Units and up axis
+ * are inferred or given. Joints are in the order of the skeleton, parents before children. Times
+ * are in seconds, as double. Strings are UTF-8 and end with a zero.
  *
- * Errors. Functions that can fail return a panache_status; panache_last_error() then says what
- * was wrong. Whatever they were to create is NULL then. Functions that cannot fail
- * return what they are asked for, or nothing. Arguments are not checked for NULL unless it says so.
+ * Errors. Functions that can fail return a panache_status and set panache_last_error(); on failure
+ * the output pointer is set to NULL. All other functions cannot fail. Arguments must not be NULL
+ * unless stated.
  *
- * Memory. What a _create function gives is the caller's, to be given back to the _destroy function
- * of its kind, in any order: characters keep the model and skeleton that they need. The library
- * keeps no pointer that it was given. Stepping allocates nothing, locks nothing, and cannot fail.
+ * Memory. The caller owns what a _create function returns and passes it to the matching _destroy
+ * function, in any order: characters keep their model and skeleton alive. The library keeps no
+ * pointer that is passed to it. Stepping does not allocate, lock or fail.
  *
- * Versions. Options, shapes and reports begin with struct_size, their size in the header that the
- * program was compiled with: start them with the macro of their name. Fields are only ever added at
- * their ends, so programs keep running with newer libraries (docs/abi.md). A struct_size that is 0,
- * or fields that the library does not know and that are not 0, are a PANACHE_BAD_ARGUMENT. All
- * other structs never change.
+ * Versions. Options, shapes and reports begin with struct_size: initialise them with the macro of
+ * the same name. New fields are only added at the end, so programs keep running with newer
+ * libraries (docs/c.md). A struct_size of 0, or unknown fields that are not 0, cause
+ * PANACHE_BAD_ARGUMENT. All other structs never change.
  *
- * Threads. Models and skeletons may be used by any number of threads at once, a character by one at
- * a time. Equal inputs give the same bits on every instruction set.
+ * Threads. Any number of threads may use a model or skeleton at once; a character belongs to one
+ * thread at a time. Equal inputs give the same bits on every instruction set.
  */
 #ifndef PANACHE_PANACHE_H_
 #define PANACHE_PANACHE_H_
@@ -57,8 +56,8 @@ extern "C" {
 
 /* ---- Versions and errors -------------------------------------------------------------------- */
 
-/* The version of this header. Programs run with any library of the same major version (of the same
- * minor version while the major one is 0) that is no older. */
+/* The version of this header. Programs run with this or any newer library of the same major version
+ * (of the same minor version while the major version is 0). */
 #define PANACHE_VERSION_MAJOR 0
 #define PANACHE_VERSION_MINOR 2
 #define PANACHE_VERSION_PATCH 0
@@ -68,17 +67,17 @@ PANACHE_API int32_t panache_version(void);
 
 typedef enum panache_status {
   PANACHE_OK = 0,
-  PANACHE_BAD_MODEL = 1,    /* The bytes are no model that this library can use. */
-  PANACHE_BAD_SKELETON = 2, /* The joints are no skeleton, or no humanoid. */
+  PANACHE_BAD_MODEL = 1,    /* The bytes are not a model that this library supports. */
+  PANACHE_BAD_SKELETON = 2, /* The joints are not a skeleton, or not a humanoid. */
   PANACHE_BAD_ARGUMENT = 3, /* An option is out of its range. */
-  PANACHE_BAD_STATE = 4,    /* The bytes are no state of such a character. */
+  PANACHE_BAD_STATE = 4,    /* The bytes are not a saved state of such a character. */
   PANACHE_NO_MEMORY = 5,
-  PANACHE_BAD_CLIP = 6,  /* A clip has bad numbers, or pairs are none to learn a style from. */
-  PANACHE_BAD_STYLE = 7, /* The bytes are no style file, or none that goes with the model. */
-  PANACHE_BAD_FILE = 8   /* The bytes are no motion file that this library reads. */
+  PANACHE_BAD_CLIP = 6,  /* A clip has invalid numbers, or pairs are unsuitable. */
+  PANACHE_BAD_STYLE = 7, /* The bytes are not a style file for this model. */
+  PANACHE_BAD_FILE = 8   /* The bytes are not a motion file that this library reads. */
 } panache_status;
 
-/* What was wrong when a function of this thread last failed, in one line; "" if none has. Valid
+/* The message of the last failure in this thread, in one line; "" if no function has failed. Valid
  * until the next failure in the same thread. */
 PANACHE_API const char* panache_last_error(void);
 
@@ -107,112 +106,112 @@ PANACHE_API panache_error_kind panache_last_error_kind(void);
 
 /* ---- Bytes ---------------------------------------------------------------------------------- */
 
-/* The content of a file that the library made. */
+/* The content of a file, made by the library. */
 typedef struct panache_bytes panache_bytes;
 
 /* Valid as long as `bytes`. */
 PANACHE_API const void* panache_bytes_data(const panache_bytes* bytes);
 PANACHE_API size_t panache_bytes_size(const panache_bytes* bytes);
-/* Does nothing with NULL. */
+/* NULL is allowed. */
 PANACHE_API void panache_bytes_destroy(panache_bytes* bytes);
 
 /* ---- Models --------------------------------------------------------------------------------- */
 
-/* A trained model: its styles and networks. Never changes. */
+/* A trained model: styles and networks. Immutable. */
 typedef struct panache_model panache_model;
 
-/* Reads a model from the bytes of its file (.safetensors), which may go afterwards. */
+/* Reads a model from the bytes of its file (.safetensors); they may be freed when this returns. */
 PANACHE_API panache_status panache_model_create(const void* bytes, size_t size,
                                                 panache_model** out);
-/* Does nothing with NULL. */
+/* NULL is allowed. */
 PANACHE_API void panache_model_destroy(panache_model* model);
 
-/* Number of styles; they are told apart by their places, from 0. */
+/* Number of styles. A style is identified by its index, from 0. */
 PANACHE_API int32_t panache_model_style_count(const panache_model* model);
-/* The name of a style ("old"), valid as long as the model; NULL where none is at that place. */
+/* The name of a style ("old"), valid as long as the model; NULL if the index is out of range. */
 PANACHE_API const char* panache_model_style_name(const panache_model* model, int32_t style);
-/* What a style is listed under ("moods"), valid as long as the model; "" for learnt styles and where
- * the model names no groups, NULL where no style is at that place. */
+/* The group that a style is listed under ("moods"), valid as long as the model; "" if it has no
+ * group (learnt styles), NULL if the index is out of range. */
 PANACHE_API const char* panache_model_style_group(const panache_model* model, int32_t style);
-/* The place of the style of that name, or -1. The case of A to Z counts only where two styles have
- * the same letters. */
+/* The index of the style with this name, or -1. Case (of A to Z) matters only if two names differ
+ * in nothing else. */
 PANACHE_API int32_t panache_model_find_style(const panache_model* model, const char* name);
 
 /* ---- Skeletons ------------------------------------------------------------------------------ */
 
-/* A rig, and which of its joints are a humanoid's. Never changes. */
+/* A rig, with the mapping of its joints to a humanoid. Immutable. */
 typedef struct panache_skeleton panache_skeleton;
 
-/* One joint as the caller has it. */
+/* One joint of the caller's skeleton. */
 typedef struct panache_joint {
   const char* name;     /* "LeftHand", "mixamorig:LeftHand", "hand_l", ...; may be "". */
-  int32_t parent;       /* Place of the parent, smaller than the joint's own; -1 for a root. */
+  int32_t parent;       /* Index of the parent, below the joint's own; -1 for a root. */
   float rotation[4];    /* At rest, relative to the parent. */
-  float translation[3]; /* Likewise. */
+  float translation[3]; /* At rest, relative to the parent. */
 } panache_joint;
 
-/* Which joint of a skeleton is a joint of the humanoid. */
+/* Maps one joint of the humanoid to a joint of the skeleton. */
 typedef struct panache_human_joint {
   const char* vrm_name; /* "leftHand", "hips", ...: the names of VRM 1.0. */
-  int32_t joint;        /* Its place in the skeleton; -1: the rig has none. */
+  int32_t joint;        /* Its index in the skeleton; -1: the rig lacks this joint. */
 } panache_human_joint;
 
-/* What may be told about a rig instead of having it found. Start with PANACHE_SKELETON_OPTIONS. */
+/* Overrides for the automatic detection of a rig. Initialise with PANACHE_SKELETON_OPTIONS. */
 typedef struct panache_skeleton_options {
   uint32_t struct_size;
-  float metres_per_unit; /* 0: judged by the length of the legs. */
-  const char* up_axis;   /* "+Y", "-Z", ...; NULL: found. */
-  /* A few poses of the rig's ordinary motion; they tell the axes, the floor and the sides of joints
-   * without names better than the rest pose alone, which stands in where there are none. */
+  float metres_per_unit; /* 0: inferred from the length of the legs. */
+  const char* up_axis;   /* "+Y", "-Z", ...; NULL: inferred. */
+  /* A few poses of ordinary motion. They determine the axes, the floor, and left and right of
+   * nameless joints better than the rest pose, which is used without them. */
   const float* rotations;    /* [pose_count][joint_count][4] */
   const float* translations; /* [pose_count][joint_count][3] */
   int32_t pose_count;
-  /* The joint map, where names and shape are not enough: what is listed is taken as it is, all
-   * other joints are found. */
+  /* The joint map, if names and shape are not enough. Joints that are not listed are found
+   * automatically. */
   int32_t human_joint_count;
   const panache_human_joint* human_joints; /* [human_joint_count] */
 } panache_skeleton_options;
 #define PANACHE_SKELETON_OPTIONS \
   { sizeof(panache_skeleton_options), 0, NULL, NULL, NULL, 0, 0, NULL }
 
-/* Finds the humanoid among the joints, by their names and their shape. `options` may be NULL. */
+/* Finds the humanoid among the joints, by names and shape. `options` may be NULL. */
 PANACHE_API panache_status panache_skeleton_create(const panache_joint* joints, int32_t joint_count,
                                                    const panache_skeleton_options* options,
                                                    panache_skeleton** out);
-/* Does nothing with NULL. */
+/* NULL is allowed. */
 PANACHE_API void panache_skeleton_destroy(panache_skeleton* skeleton);
 
 PANACHE_API int32_t panache_skeleton_joint_count(const panache_skeleton* skeleton);
-/* The place of the joint that a VRM humanoid joint was found to be ("leftHand", "hips", ...), or -1
- * where the rig has none or there is no such name. */
+/* The index of the joint that is mapped to a VRM humanoid joint ("leftHand", "hips", ...), or -1 if
+ * the rig lacks this joint or the name is unknown. */
 PANACHE_API int32_t panache_skeleton_find(const panache_skeleton* skeleton, const char* vrm_name);
 
 /* ---- Characters ----------------------------------------------------------------------------- */
 
-/* One character in motion: its memory of the last quarter of a second. */
+/* The state of one character, with the last quarter of a second of its motion. */
 typedef struct panache_character panache_character;
 
-/* How a character is styled. Start with PANACHE_CHARACTER_OPTIONS. */
+/* How a character is styled. Initialise with PANACHE_CHARACTER_OPTIONS. */
 typedef struct panache_character_options {
   uint32_t struct_size;
-  float ease_seconds; /* A change of strength takes about this long; 0 to 10. */
-  /* Time constant of the filter on what a style adds; 0 to 10. Calm motion that is unlike what was
-   * captured is filtered up to eleven times as long. */
+  float ease_seconds; /* Duration of a change of strength; 0 to 10. */
+  /* Time constant of the filter on the style's change; 0 to 10. On calm, unfamiliar motion the
+   * filter is up to eleven times as long. */
   float smoothing_seconds;
-  int32_t hold_feet;  /* 1: planted feet are held; they creep slowly to a style's stance. */
-  int32_t style_root; /* 1: root motion is styled too. */
+  int32_t hold_feet;  /* 1: hold planted feet; they creep slowly to the style's stance. */
+  int32_t style_root; /* 1: style the root motion too. */
   /* 1: skip or repeat whole cycles of a walk (or other repetitive motion) to stay within the
-   * limits, so that the style's tempo lasts. Needs a max_lag longer than a cycle, say 1.5 seconds.
-   * The character is then at another place than its input. */
+   * limits, so that the style's tempo lasts. Needs a max_lag longer than a cycle, such as 1.5
+   * seconds. The character's position then differs from its input's. */
   int32_t skip_cycles;
-  /* A style's own tempo needs time: the maximum lag behind the input (0 to 4 seconds) and the
-   * maximum lead (0 to 0.25; missing input is predicted, if the model can). With both at 0 no
-   * latency is added, and the tempo stays the input's. */
+  /* Limits for a style's own tempo: the maximum lag behind the input (0 to 4 seconds) and the
+   * maximum lead (0 to 0.25; missing input is predicted if the model has a predictor). With both at
+   * 0 the tempo is the input's, without added latency. */
   double max_lag, max_lead;
-  /* Hips that move faster over the ground than this, in m/s, have jumped: the past is forgotten,
-   * and the style starts afresh. A body on a vehicle or a moving platform, in world space, needs a
-   * higher limit, or it is styled anew at each frame. 0 or INFINITY: no distance is a jump, and
-   * panache_character_reset() tells of one. A sprinter reaches 12 m/s. */
+  /* Hips faster than this over the ground, in m/s, count as a jump: the motion so far is forgotten
+   * and the style starts again. Set a higher limit for bodies on vehicles or moving platforms in
+   * world space. 0 or INFINITY: no limit; call panache_character_reset() after jumps. A sprinter
+   * reaches 12 m/s. */
   double max_speed;
 } panache_character_options;
 #define PANACHE_CHARACTER_OPTIONS \
@@ -223,36 +222,37 @@ PANACHE_API panache_status panache_character_create(const panache_model* model,
                                                     const panache_skeleton* skeleton,
                                                     const panache_character_options* options,
                                                     panache_character** out);
-/* Does nothing with NULL. */
+/* NULL is allowed. */
 PANACHE_API void panache_character_destroy(panache_character* character);
 
-/* Sets how strongly a style acts from now on: 0 not at all, 1 as captured, more exaggerates; held
- * within -4 to 4, and eased over a few frames. Styles add up. A place without a style and numbers
- * that are not finite are ignored. */
+/* Sets the strength of a style: 0 off, 1 as captured, above 1 exaggerated; clamped to -4 to 4, and
+ * eased in over ease_seconds. Styles add up. An index out of range and strengths that are not
+ * finite are ignored. */
 PANACHE_API void panache_character_set_strength(panache_character* character, int32_t style,
                                                 float strength);
 
-/* How much is given of what the styles do, and where. 1 is the style as the model has it; each is
- * held within 0 to 2, and numbers that are not finite count as 1. Start with PANACHE_SHAPE. */
+/* How strongly each part of the styles is applied, and to which part of the body. 1 is the style of
+ * the model; values are clamped to 0 to 2, and values that are not finite count as 1. Initialise
+ * with PANACHE_SHAPE. */
 typedef struct panache_shape {
   uint32_t struct_size;
-  float strength; /* Of all styles together. */
-  float posture;  /* Of the lasting part of the change: its mean over the last second or so. */
-  float dynamics; /* Of what the change is beyond that, and of the root motion. */
-  float timing;   /* Of the change of tempo. */
-  /* Parts of the body, each relative to what it is attached to. Legs include hips, height and root
-   * motion; the torso includes the head. */
+  float strength; /* Multiplies all styles. */
+  float posture;  /* The slow part of the change: its mean over about a second. */
+  float dynamics; /* The rest of the change, and the root motion. */
+  float timing;   /* The change of tempo. */
+  /* Body regions, each relative to its parent. Legs include hips, height and root motion; the torso
+   * includes the head. */
   float legs, torso, left_arm, right_arm;
   float foot_lock; /* How firmly planted feet are held, 0 to 1. */
 } panache_shape;
 #define PANACHE_SHAPE \
   { sizeof(panache_shape), 1, 1, 1, 1, 1, 1, 1, 1, 1 }
 
-/* Sets the shape from now on; eased as strengths are. NULL: all of it at 1. */
+/* Sets the shape; eased in as strengths are. NULL: 1 everywhere. */
 PANACHE_API panache_status panache_character_set_shape(panache_character* character,
                                                        const panache_shape* shape);
 
-/* An instant of a rig, to be read and to be written. */
+/* A pose of a rig, to read and to write. */
 typedef struct panache_input_pose {
   const float* rotations;    /* [joint_count][4] */
   const float* translations; /* [joint_count][3] */
@@ -262,42 +262,42 @@ typedef struct panache_output_pose {
   float* translations; /* [joint_count][3] */
 } panache_output_pose;
 
-/* Styles the next pose of a character; `seconds` have gone by since the last. Both poses may be the
- * same arrays. With all strengths at 0, `out` is `in` bit for bit (models of recipe panache).
- * Poses that are not finite are replaced by the last good one, and `seconds` below 0 or NaN count
- * as 0. After half a second without a step (infinite `seconds` included) or a jump (max_speed),
- * the past is forgotten. */
+/* Styles the next pose of a character, `seconds` after the last one. Both poses may share arrays.
+ * With all strengths at 0, `out` equals `in`, bit for bit (models of recipe panache). Values that
+ * are not finite are replaced by the last valid pose; negative `seconds` and NaN count as 0. After
+ * half a second without a step (infinite `seconds` included) or a jump (max_speed), the motion so
+ * far is forgotten. */
 PANACHE_API void panache_character_step(panache_character* character, panache_input_pose in,
                                         double seconds, panache_output_pose out);
-/* Does the same for many characters at once: in[i] becomes out[i], bit for bit as alone, in less
- * time where characters of one model stand side by side. A character that comes twice is stepped
- * twice. No out[i] may be part of another character's pose. Works in about 180 KB of the stack. */
+/* Styles the next poses of many characters: in[i] becomes out[i], with the same bits as alone.
+ * Faster if characters of one model are adjacent. A character that is listed twice is stepped
+ * twice. No out[i] may overlap another character's pose. Uses at most 200 KB of the stack. */
 PANACHE_API void panache_step_many(panache_character* const* characters, int32_t count,
                                    const panache_input_pose* in, double seconds,
                                    const panache_output_pose* out);
-/* Forgets the motion so far; strengths stay. */
+/* Forgets the motion so far; keeps the strengths. */
 PANACHE_API void panache_character_reset(panache_character* character);
 
-/* What went on at the last step. Start with PANACHE_REPORT. */
+/* Facts about the last step. Initialise with PANACHE_REPORT. */
 typedef struct panache_report {
   uint32_t struct_size;
-  float gate;        /* 1: motion like what the model knows; 0: unlike, the style's mean is used. */
+  float gate;        /* 1: familiar motion; 0: unfamiliar, only the style's mean is applied. */
   float contacts[2]; /* Probability that the left and the right foot are planted. */
-  double rate;       /* Seconds of input that the style would take per second: 0.5 to 2. */
-  double ahead;      /* Seconds from the newest input to what is shown; below 0: it is late. */
+  double rate;       /* The style's tempo: input seconds per output second, 0.5 to 2. */
+  double ahead;      /* Lead of the output over the newest input, seconds; negative: lag. */
 } panache_report;
 #define PANACHE_REPORT \
   { sizeof(panache_report), 0, {0, 0}, 0, 0 }
 
-/* Fills the report as far as its struct_size goes. */
+/* Fills the first struct_size bytes of the report. */
 PANACHE_API panache_status panache_character_get_report(const panache_character* character,
                                                         panache_report* report);
 
-/* A character's memory, to return to a moment (rollback, rewind): bytes for memory, not for files.
- * save() writes panache_character_state_size() bytes. restore() takes them into any character of
- * the same model, skeleton and options, which then goes on bit for bit; strengths as they were set
- * are not part of it. Characters with the same history since their creation or reset save the same
- * bytes. On failure the character is as before. */
+/* The state of a character, for rollback and rewind; valid in memory only, not in files. save()
+ * writes panache_character_state_size() bytes. restore() reads them into any character with the
+ * same model, skeleton and options, which then continues bit for bit; the strengths that were set
+ * are not part of the state. Characters with the same history since creation or reset save the same
+ * bytes. On failure the character is unchanged. */
 PANACHE_API size_t panache_character_state_size(const panache_character* character);
 PANACHE_API void panache_character_save(const panache_character* character, void* out);
 PANACHE_API panache_status panache_character_restore(panache_character* character,
@@ -314,10 +314,10 @@ typedef struct panache_clip {
   const float* translations; /* [frame_count][joint_count][3] */
 } panache_clip;
 
-/* The strength of one style along a clip: straight lines between the keys, held before the first
- * and after the last. One key is a constant strength. */
+/* The strength of one style along a clip: linear between keys, constant before the first and after
+ * the last. */
 typedef struct panache_strength_key {
-  double seconds; /* Of the input; each key is later than the one before it. */
+  double seconds; /* Of the input; increasing. */
   float strength; /* As in panache_character_set_strength(). */
 } panache_strength_key;
 typedef struct panache_strength_track {
@@ -326,7 +326,7 @@ typedef struct panache_strength_track {
   const panache_strength_key* keys;
 } panache_strength_track;
 
-/* How a clip is styled. Start with PANACHE_STYLIZE_OPTIONS. */
+/* How a clip is styled. Initialise with PANACHE_STYLIZE_OPTIONS. */
 typedef struct panache_stylize_options {
   uint32_t struct_size;
   /* As in panache_character_options. */
@@ -334,237 +334,231 @@ typedef struct panache_stylize_options {
   float smoothing_seconds;
   int32_t hold_feet;
   int32_t style_root;
-  int32_t style_timing; /* 1: where the feet step the clip gets the tempo of the style, so that
-                         * talk and gestures keep their length; 2: everywhere; 0: frame by frame. */
-  const panache_shape* shape; /* NULL: all of it at 1. */
+  int32_t style_timing; /* The style's tempo. 0: off, frame by frame; 1: only where the feet step,
+                         * so talk and gestures keep their length; 2: everywhere. */
+  const panache_shape* shape; /* NULL: 1 everywhere. */
   double max_speed;           /* As in panache_character_options. */
-  int32_t loop; /* 1: a clip whose last pose is its first, travel aside, gets a result of which the
-                 * same is true; 2: any clip does, or the call fails where the two are too far
-                 * apart; 0: none does, as in programs of an older header. */
+  int32_t loop; /* 1: a clip that loops (its last pose equals its first, apart from travel) gives a
+                 * result that loops; 2: every clip does, or the call fails if the two poses differ
+                 * too much; 0: off, as for older headers. */
   int32_t reserved; /* 0. */
 } panache_stylize_options;
 #define PANACHE_STYLIZE_OPTIONS \
   { sizeof(panache_stylize_options), 0.15f, 0.04f, 1, 1, 1, NULL, 15, 1, 0 }
 
-/* A clip that was styled. */
+/* A styled clip. */
 typedef struct panache_styled_clip panache_styled_clip;
 
-/* Styles a whole clip, with the tempo of the style: the result may have more frames than the clip,
- * or fewer, at the same rate. Strengths of tracks of the same style add up. With all strengths at 0
- * the result is the clip bit for bit (models of recipe panache). `options` may be NULL. */
+/* Styles a whole clip. With the style's tempo the result may have more or fewer frames than the
+ * clip, at the same rate. Tracks of the same style add up. With all strengths at 0 the result
+ * equals the clip, bit for bit (models of recipe panache). `options` may be NULL. */
 PANACHE_API panache_status panache_stylize_clip(
     const panache_model* model, const panache_clip* clip, const panache_strength_track* tracks,
     int32_t track_count, const panache_stylize_options* options, panache_styled_clip** out);
-/* Does nothing with NULL. */
+/* NULL is allowed. */
 PANACHE_API void panache_styled_clip_destroy(panache_styled_clip* styled);
 
 PANACHE_API int32_t panache_styled_clip_frame_count(const panache_styled_clip* styled);
-/* What follows is valid as long as `styled`. */
+/* These arrays are valid as long as `styled`. */
 /* [frame_count][joint_count][4] */
 PANACHE_API const float* panache_styled_clip_rotations(const panache_styled_clip* styled);
 /* [frame_count][joint_count][3] */
 PANACHE_API const float* panache_styled_clip_translations(const panache_styled_clip* styled);
-/* The frame of the input that each frame shows, with fractions. [frame_count] */
+/* The (fractional) frame of the input that each frame shows. [frame_count] */
 PANACHE_API const double* panache_styled_clip_source_frames(const panache_styled_clip* styled);
-/* 1 where the left and the right foot are planted, else 0. [frame_count][2] */
+/* 1 if the left or the right foot is planted, else 0. [frame_count][2] */
 PANACHE_API const uint8_t* panache_styled_clip_contacts(const panache_styled_clip* styled);
 /* As panache_report.gate. [frame_count] */
 PANACHE_API const float* panache_styled_clip_gates(const panache_styled_clip* styled);
-/* 1 where the clip was styled as a loop, see panache_stylize_options.loop, else 0. */
+/* 1 if the result loops (panache_stylize_options.loop), else 0. */
 PANACHE_API int32_t panache_styled_clip_is_loop(const panache_styled_clip* styled);
 
-/* How a clip is put on another skeleton. Start with PANACHE_RETARGET_OPTIONS. */
+/* How a clip is retargeted. Initialise with PANACHE_RETARGET_OPTIONS. */
 typedef struct panache_retarget_options {
   uint32_t struct_size;
-  int32_t hold_feet;  /* 1: feet on the floor, and planted where the motion plants them. */
-  int32_t meet_hands; /* 1: hands that met meet again, as far as arms reach. */
+  int32_t hold_feet;  /* 1: feet stay above the floor, and planted feet stay planted. */
+  int32_t meet_hands; /* 1: hands that touch still touch, as far as the arms reach. */
 } panache_retarget_options;
 #define PANACHE_RETARGET_OPTIONS \
   { sizeof(panache_retarget_options), 1, 1 }
 
-/* Puts a clip on another skeleton, in its rest pose, proportions, units and axes: directions of
- * limbs, hips by the length of the legs; fingers and twist joints where both have them. A
- * calibration pose in front of the clip is left out. The floor is where the toes of `onto` are at
- * rest. The result is read as a styled clip is, with the joints of `onto`; its gates are 1.
- * `options` may be NULL. */
+/* Puts a clip on another skeleton with its own rest pose, proportions, units and axes. Limbs keep
+ * their directions, hips are scaled by the length of the legs; fingers and twist joints move if
+ * both skeletons have them. A leading calibration pose is dropped. The floor is at the toes of
+ * `onto` at rest. The result has the joints of `onto`, and gates of 1. `options` may be NULL. */
 PANACHE_API panache_status panache_retarget_clip(const panache_clip* clip,
                                                  const panache_skeleton* onto,
                                                  const panache_retarget_options* options,
                                                  panache_styled_clip** out);
 
-/* ---- Learning a style -------------------------------------------------------------------------
- */
+/* ---- Learning a style ----------------------------------------------------------------------- */
 
-/* One action, done neutrally and in the style, by skeletons whose joints have the same names and
- * parents; rest poses and bone lengths may differ. 2 to 3 seconds of a walk, or the whole of a
- * gesture, are enough. Clips of one frame each are two poses: their difference is the style. */
+/* One action, once neutral and once in the style. Joints have the same names and parents in both
+ * skeletons; rest poses and bone lengths may differ. 2 to 3 seconds of a walk, or a whole gesture,
+ * are enough. Clips of one frame each are two poses: their difference is the style. */
 typedef struct panache_pair {
   panache_clip neutral, styled;
 } panache_pair;
 
-/* A model that has learnt a style. */
+/* A model with a learnt style. */
 typedef struct panache_learnt panache_learnt;
 
-/* Learns the style `name` from pairs of clips, in about 0.3 s, on the features of the model
- * in these bytes. A style of this name is replaced where `replace` is 1, else it is an error. The
- * same input gives the same bytes. */
+/* Learns the style `name` from pairs of clips, in about 0.3 s, and adds it to the model in these
+ * bytes. An existing style of this name is replaced if `replace` is 1, otherwise it is an error.
+ * The same input gives the same bytes. */
 PANACHE_API panache_status panache_learn(const void* model_bytes, size_t model_size,
                                          const panache_pair* pairs, int32_t pair_count,
                                          const char* name, int32_t replace, panache_learnt** out);
-/* Does nothing with NULL. */
+/* NULL is allowed. */
 PANACHE_API void panache_learnt_destroy(panache_learnt* learnt);
 
-/* The bytes of the model with the style, valid as long as `learnt`: for panache_model_create() or a
- * file. All its other styles are as they were, bit for bit. */
+/* The bytes of the model with the style, for panache_model_create() or a file; valid as long as
+ * `learnt`. All other styles are unchanged, bit for bit. */
 PANACHE_API const void* panache_learnt_model(const panache_learnt* learnt, size_t* size);
 
-/* How well it went. Start with PANACHE_LEARNT_REPORT. */
+/* The quality of a learnt style. Initialise with PANACHE_LEARNT_REPORT. */
 typedef struct panache_learnt_report {
   uint32_t struct_size;
-  int32_t was_tested;   /* 0: the clips are too short to hold some back; the distances are 0. */
-  const char* warnings; /* One sentence a line, "" if there are none; valid as long as `learnt`. */
-  /* Mean distance of the joints on the last quarters of the styled clips, held back from a first
-   * try, in centimetres on a body of 1.6 metres: of the style, of its mean posture alone, and of
-   * the neutral motion as it is. */
+  int32_t was_tested;   /* 0: the clips are too short for a test; the distances are 0. */
+  const char* warnings; /* One per line, "" if there are none; valid as long as `learnt`. */
+  /* Mean joint error on the last quarter of each styled clip, which is held back for this test, in
+   * centimetres on a body of 1.6 metres: with the style, with its mean posture alone, and of the
+   * neutral motion. */
   double held_back_cm, mean_posture_cm, untouched_cm;
 } panache_learnt_report;
 #define PANACHE_LEARNT_REPORT \
   { sizeof(panache_learnt_report), 0, NULL, 0, 0, 0 }
 
-/* Fills the report as far as its struct_size goes. */
+/* Fills the first struct_size bytes of the report. */
 PANACHE_API panache_status panache_learnt_get_report(const panache_learnt* learnt,
                                                      panache_learnt_report* report);
 
-/* By these distances "good"; "fair" where the style removes little of the distance, or its mean
- * posture alone more; "poor" where it is no better than the neutral motion, which is also one of
- * the warnings; "" where it was not tested. */
+/* By these distances "good"; "fair" if the style removes little of the distance, or less than its
+ * mean posture alone; "poor" if it is no better than the neutral motion, which is also a warning;
+ * "" if it was not tested. */
 PANACHE_API const char* panache_learnt_verdict(const panache_learnt* learnt);
 
-/* ---- Styles as files --------------------------------------------------------------------------
- */
+/* ---- Styles as files ------------------------------------------------------------------------ */
 
-/* A style file holds one style, which can be added to every model with the same networks. Each of
- * these makes new bytes and leaves what it is given as it is; all other styles of the model stay as
- * they are, bit for bit. */
+/* A style file holds one style, which can be added to any model with the same networks. These
+ * functions return new bytes and do not change their inputs; all other styles of the model are
+ * unchanged, bit for bit. */
 
-/* The model with the style of a style file. A style of its name is replaced where `replace` is 1,
- * else it is an error. */
+/* Adds the style of a style file to a model. An existing style of its name is replaced if `replace`
+ * is 1, otherwise it is an error. */
 PANACHE_API panache_status panache_styles_add(const void* model_bytes, size_t model_size,
                                               const void* style_bytes, size_t style_size,
                                               int32_t replace, panache_bytes** out);
-/* The model without a style. Its last style stays. */
+/* Removes a style from a model. The last style cannot be removed. */
 PANACHE_API panache_status panache_styles_remove(const void* model_bytes, size_t model_size,
                                                  const char* name, panache_bytes** out);
-/* The style file of a style of the model. */
+/* Makes a style file from a style of the model. */
 PANACHE_API panache_status panache_styles_extract(const void* model_bytes, size_t model_size,
                                                   const char* name, panache_bytes** out);
 
 /* ---- Motion files ---------------------------------------------------------------------------- */
 
-/* BVH, GLB, glTF, VRM and VRMA files, as the program reads and writes them, and AMC files, which
- * are written as BVH. Not in the WebAssembly module. */
+/* Reads and writes BVH, GLB, glTF, VRM and VRMA files as the program does; AMC files are written as
+ * BVH. Not in the WebAssembly module. */
 
-/* A motion file as a whole: its joints, its motions, and all else that stays when it is written
- * again. Never changes. */
+/* A whole motion file: joints, motions, and everything else that is kept when it is written again.
+ * Immutable. */
 typedef struct panache_motion_file panache_motion_file;
 
-/* Reads a file from its bytes, which may go afterwards. The extension of `name` tells the format;
- * the name stands in front of messages, and a .gltf may have data, an .amc has its .asf, in files
- * beside it. */
+/* Reads a file from its bytes, which may be freed when this returns. The extension of `name`
+ * decides the format, and messages begin with it. Further files are read beside it: the data of a
+ * .gltf, the .asf of an .amc. */
 PANACHE_API panache_status panache_motion_file_create(const void* bytes, size_t size,
                                                       const char* name, panache_motion_file** out);
-/* The same for a file whose rate is wrong or missing: reads and writes it as if it had so many
- * frames a second (0.01 to 10000). In glTF the keys of all animations that move joints are moved.
- */
+/* The same for a file whose rate is wrong or missing: it is read and written at this rate (0.01 to
+ * 10000). In glTF the keys of all animations that move joints are rescaled. */
 PANACHE_API panache_status panache_motion_file_create_at_rate(const void* bytes, size_t size,
                                                               const char* name,
                                                               double frames_per_second,
                                                               panache_motion_file** out);
-/* Does nothing with NULL. */
+/* NULL is allowed. */
 PANACHE_API void panache_motion_file_destroy(panache_motion_file* file);
 
 PANACHE_API int32_t panache_motion_file_joint_count(const panache_motion_file* file);
-/* The joint at this place, 0 to joint_count - 1; its name is valid as long as the file. */
+/* The joint at this index, 0 to joint_count - 1; its name is valid as long as the file. */
 PANACHE_API void panache_motion_file_get_joint(const panache_motion_file* file, int32_t joint,
                                                panache_joint* out);
-/* Number of motions; 0 where the file has a skeleton alone. */
+/* Number of motions; 0 if the file has only a skeleton. */
 PANACHE_API int32_t panache_motion_file_clip_count(const panache_motion_file* file);
-/* The name of a motion, "" where it has none, valid as long as the file; NULL where there is no
- * motion at that place. */
+/* The name of a motion, "" if it is nameless, valid as long as the file; NULL if the index is out
+ * of range. */
 PANACHE_API const char* panache_motion_file_clip_name(const panache_motion_file* file,
                                                       int32_t clip);
-/* 1 where a motion moves a joint of the humanoid; 0 where it moves others alone, such as a prop, or
- * none, as animations of morph weights do: restyling it would make a motion of nothing. */
+/* 1 if a motion moves a joint of the humanoid; 0 if it only moves other joints, such as a prop, or
+ * morph weights, and so has nothing to restyle. */
 PANACHE_API int32_t panache_motion_file_clip_moves(const panache_motion_file* file, int32_t clip);
-/* What is odd about the file although it was read, one sentence a line: a BVH file whose count of
- * frames is wrong or whose last row is cut, keys before 0 s, motions that move no joint of the
- * humanoid, steps far too fast or slow for the legs. Empty where there is nothing. */
+/* Warnings about the file, one per line, or empty: a wrong frame count or cut last row in a BVH
+ * file, keys before 0 s, motions that do not move the humanoid, steps far too fast or slow for the
+ * legs. */
 PANACHE_API panache_status panache_motion_file_get_notes(const panache_motion_file* file,
                                                          panache_bytes** out);
-/* A motion, or one frame at rest where `clip` is -1. Its arrays are valid as long as the file; its
- * skeleton is NULL, for the caller to set. */
+/* A motion, or one frame of the rest pose if `clip` is -1. Its arrays are valid as long as the
+ * file; its skeleton is NULL and must be set by the caller. */
 PANACHE_API panache_status panache_motion_file_get_clip(const panache_motion_file* file,
                                                         int32_t clip, panache_clip* out);
-/* The skeleton of a motion: the very one that the program finds, from all that the file says of its
- * joints. Where `clip` is -1, that of the character, to put motion on with panache_retarget_clip():
- * of the rest pose, where that stands on the floor, else of the first motion. Poses among the
- * options are not read: they are the file's. `options` may be NULL. */
+/* The skeleton of a motion, as the program finds it from the whole file. If `clip` is -1, that of
+ * the character, as a target of panache_retarget_clip(): from the rest pose if it stands on the
+ * floor, otherwise from the first motion. Poses in the options are ignored: the file's are used.
+ * `options` may be NULL. */
 PANACHE_API panache_status panache_motion_file_create_skeleton(
     const panache_motion_file* file, int32_t clip, const panache_skeleton_options* options,
     panache_skeleton** out);
 
 /* New frames for a motion of a file, or a new motion. */
 typedef struct panache_clip_edit {
-  int32_t clip;        /* The motion whose frames these are; -1: a new one. */
-  const char* name;    /* Of what results, where the format has names; may be NULL. */
-  panache_clip frames; /* Of the file's joints, at least one; the skeleton is not read. Those of a
-                          motion of the file have its frame_seconds. */
-  /* The frame of the motion that each comes from, with fractions; NULL: frame by frame, as many as
-   * the motion has. Not read of a new one. [frame_count] */
+  int32_t clip;        /* The motion to replace the frames of; -1: a new motion. */
+  const char* name;    /* Of the result, if the format has names; may be NULL. */
+  panache_clip frames; /* At least one, with the file's joints; the skeleton is ignored. Frames of
+                          an existing motion have its frame_seconds. */
+  /* The (fractional) frame of the motion that each frame shows; NULL: frame by frame, as many as
+   * the motion has. Ignored for a new motion. [frame_count] */
   const double* source_frames;
 } panache_clip_edit;
 
-/* What becomes of the file's own motions. A BVH or VRMA file holds one, which is always
+/* What happens to the file's own motions. A BVH or VRMA file holds one motion, which is always
  * replaced. */
 typedef enum panache_edit_mode {
   PANACHE_REPLACE = 0,  /* The new frames replace the motion; a new motion replaces all. */
-  PANACHE_ADD_LAST = 1, /* They are added after the file's own, */
+  PANACHE_ADD_LAST = 1, /* New frames are added after the file's own motions, */
   PANACHE_ADD_FIRST = 2 /* or before. */
 } panache_edit_mode;
 
-/* The bytes of the file with the edits in it. What they leave as it was keeps the very numbers of
- * the file. */
+/* The bytes of the file with these edits. Everything else keeps the file's exact numbers. */
 PANACHE_API panache_status panache_motion_file_write(const panache_motion_file* file,
                                                      const panache_clip_edit* edits,
                                                      int32_t edit_count, panache_edit_mode mode,
                                                      panache_bytes** out);
 
-/* ---- Training samples --------------------------------------------------------------------------
- */
+/* ---- Training samples ----------------------------------------------------------------------- */
 
-/* What the networks of recipe panache are trained on, for training of your own. */
+/* Training data for the networks of recipe panache, for training of your own. */
 typedef struct panache_samples panache_samples;
 
 #define PANACHE_WINDOW_SIZE 396 /* 6 poses, newest first, of 66 features: docs/conventions.md. */
 #define PANACHE_CHANGE_SIZE 67  /* 21 rotation vectors, height, velocities: as there. */
 
-/* The samples of pairs of clips: a window of the neutral clip for each instant of the styled one,
- * at 30 a second, laid together as panache_learn() does it. A pair whose styled clip has no frames
- * gives a window of each instant of the neutral clip, and changes of 0. */
+/* The samples of pairs of clips: for each instant of the styled clip, at 30 a second, a window of
+ * the neutral clip, aligned as in panache_learn(). A pair whose styled clip has no frames gives a
+ * window for each instant of the neutral clip, and changes of 0. */
 PANACHE_API panache_status panache_samples_create(const panache_pair* pairs, int32_t pair_count,
                                                   panache_samples** out);
-/* Does nothing with NULL. */
+/* NULL is allowed. */
 PANACHE_API void panache_samples_destroy(panache_samples* samples);
 
 PANACHE_API int32_t panache_samples_count(const panache_samples* samples);
-/* What follows is valid as long as `samples`. */
+/* These arrays are valid as long as `samples`. */
 /* In metres, metres and radians per second, body frame. [count][PANACHE_WINDOW_SIZE] */
 PANACHE_API const float* panache_samples_windows(const panache_samples* samples);
-/* What the style does there. [count][PANACHE_CHANGE_SIZE] */
+/* The style's change. [count][PANACHE_CHANGE_SIZE] */
 PANACHE_API const float* panache_samples_changes(const panache_samples* samples);
 /* Logarithm of neutral seconds per styled second. [count] */
 PANACHE_API const float* panache_samples_log_rates(const panache_samples* samples);
-/* 1 where the left and the right foot of the styled clip are planted, else 0. [count][2] */
+/* 1 if the left or the right foot of the styled clip is planted, else 0. [count][2] */
 PANACHE_API const float* panache_samples_contacts(const panache_samples* samples);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
 #pragma once
-// What was measured, for machines and for people.
+// The measured times, as JSON and as text.
 
 #include <string>
 #include <vector>

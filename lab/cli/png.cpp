@@ -45,7 +45,7 @@ cairo_status_t append(void* out, const unsigned char* bytes, unsigned int size) 
 }
 
 constexpr const char* kFailure =
-    "the picture could not be drawn; a name that ends in .svg writes it undrawn";
+    "the picture could not be drawn; use a name that ends in .svg to write the SVG instead";
 
 bool is_room_for_fonts() {
   std::array<int, kFontFiles> files;

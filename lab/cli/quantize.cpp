@@ -20,7 +20,7 @@ struct QuantizeVerb {
   bool force = false;
 };
 
-// Whatever is wrong with a model or a style file is told as everywhere.
+// Faults of a model or a style file are reported as everywhere.
 Result<void> check(const TensorFile& file, const std::string& path, const std::string& bytes) {
   if (is_style_file(file)) {
     if (auto info = read_style_info(file, path); !info) return info.error();

@@ -258,7 +258,7 @@ Result<NamedModel> train_system(const Recipe& recipe, const std::string& name,
 
 Result<Report> evaluate(const EvaluateOptions& options) {
   const Stopwatch watch;
-  // First, as it takes no time to tell what is wrong with them.
+  // First, because checking them is fast.
   Result<Systems> recorded = read_recorded(options);
   if (!recorded) return recorded.error();
   if (Result<void> shown = check_unseen(options); !shown) return shown.error();

@@ -71,7 +71,7 @@ void panache_step_many(panache_character* const* characters, int32_t count,
     size_t taken = 0;
     for (; taken < members.size() && done < count; ++taken, ++done) {
       panache_character& character = *characters[done];
-      // Who has a time of his own goes alone.
+      // Characters with their own play head are stepped one by one.
       if (!character.live.is_pass_through()) break;
       Stylizer& stylizer = character.live.stylizer();
       const size_t joints = stylizer.rig().joint_count();
@@ -119,6 +119,6 @@ panache_status panache_character_restore(panache_character* character, const voi
                 {"expected the " + std::to_string(character->live.state_size()) +
                  " bytes of a state saved by a character of the same model, skeleton and options; "
                  "found " +
-                 std::to_string(size) + " bytes that are none"});
+                 std::to_string(size) + " bytes that are not a saved state"});
   });
 }

@@ -21,7 +21,7 @@ panache_status guarded(Work&& work) noexcept {
   }
 }
 
-// What a function creates is NULL until it succeeds.
+// Output pointers are NULL until the function succeeds.
 template <class T>
 void start(T** out) {
   *out = nullptr;

@@ -1,5 +1,5 @@
 #pragma once
-// What the handles of panache.h are.
+// The objects behind the handles of panache.h.
 
 #include <memory>
 #include <string>
@@ -22,7 +22,7 @@ struct panache_model {
 struct panache_skeleton {
   panache::Rig rig;
   panache::Skeleton joints;
-  panache::Clip body;  // What retarget() puts motion on.
+  panache::Clip body;  // The target of retarget().
 };
 struct panache_character {
   panache::LiveStylizer live;

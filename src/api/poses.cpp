@@ -34,7 +34,7 @@ Result<void> read_frames(const float* rotations, const float* translations, int3
     };
     Quat unit = given;
     if (!make_unit(unit)) {
-      return Error{place() + "its rotation is no unit quaternion (x, y, z, w)"};
+      return Error{place() + "its rotation is not a unit quaternion (x, y, z, w)"};
     }
     if (!is_finite(v)) return Error{place() + "its translation is not finite"};
     clip.rotations.push_back(kept == Rotations::unit ? unit : given);

@@ -1,5 +1,5 @@
 #pragma once
-// What a program tells about a rig.
+// A program's overrides for a rig.
 
 #include "base/result.h"
 #include "panache/panache.h"

@@ -31,7 +31,7 @@ inline Result<void> check_struct(const void* given, size_t known, const std::str
   return {};
 }
 
-// What was given, and `defaults` for the fields that it has not got; `given` may be null.
+// The given fields, and `defaults` for missing ones; `given` may be null.
 template <class T>
 Result<T> read_struct(const T* given, const T& defaults, const std::string& name) {
   T out = defaults;

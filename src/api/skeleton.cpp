@@ -30,7 +30,7 @@ Result<Skeleton> read_skeleton(const panache_joint* joints, int32_t count) {
                    "; expected a joint before it, or -1"};
     }
     if (!make_unit(joint.rest)) {
-      return Error{place + "its rest rotation is no unit quaternion (x, y, z, w)"};
+      return Error{place + "its rest rotation is not a unit quaternion (x, y, z, w)"};
     }
     if (!is_finite(joint.offset)) return Error{place + "its rest translation is not finite"};
     out.joints.push_back(std::move(joint));

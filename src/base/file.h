@@ -9,7 +9,7 @@
 
 namespace panache {
 
-// No file is larger, in bytes: what goes on for ever would else take all memory.
+// The largest file, in bytes: an endless one would take all memory.
 inline constexpr uint64_t kMaxFileBytes = uint64_t{1} << 31;
 
 // The bytes of the file at `path`. The message names the path and the cause ("walk.bvh: cannot be

@@ -1,5 +1,5 @@
 #pragma once
-// What may go wrong with a user's input, and how it is said.
+// Errors of a user's input, and their messages.
 
 #include <cassert>
 #include <optional>
@@ -43,7 +43,7 @@ inline Error located(const std::string& where, Error error) {
   return error;
 }
 
-// A T, or the message that says why there is none. Reading the wrong one is a programming error.
+// A T, or an error. Reading the wrong one is a programming error.
 template <class T>
 class [[nodiscard]] Result {
  public:

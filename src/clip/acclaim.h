@@ -15,7 +15,7 @@
 
 namespace panache {
 
-// What an .amc does not say: its rate. Most of CMU's are 120 frames a second.
+// The rate, which an .amc does not state. Most of CMU's are 120 frames a second.
 inline constexpr double kAmcFrameRate = 120;
 
 // The skeleton of an .asf at rest, its joints named as its bones, with an end at each bone that has

@@ -22,7 +22,7 @@
 
 namespace panache {
 
-// What a file may not exceed, so that no file can exhaust the machine or its stack.
+// Limits of a file, so that it cannot exhaust the machine or its stack.
 inline constexpr int kBvhMaxJoints = 10'000;
 inline constexpr int kBvhMaxDepth = 1'000;
 inline constexpr double kBvhMinFrameTime = 1e-6;  // Seconds.

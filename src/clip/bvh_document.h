@@ -1,5 +1,5 @@
 #pragma once
-// What is kept of a BVH file: its text, and where in it everything stands. Private to the folder.
+// A BVH file in memory: its text, and the position of everything in it. Private to the folder.
 
 #include <array>
 #include <span>

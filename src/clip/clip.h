@@ -1,6 +1,6 @@
 #pragma once
 // A skeleton and its motion, as a file gave them: in the file's own units and axes.
-// What is up, how long a metre is and which joint is a left forearm is the rig's to find out.
+// The rig infers the up axis, the unit and the meaning of joints.
 
 #include <span>
 #include <string>
@@ -19,7 +19,7 @@ struct Joint {
   bool can_rotate = false;     // The file animates its rotation.
   bool can_translate = false;  // The file animates its translation.
   std::vector<Vec3> ends;      // End Sites: points fixed to the joint, file units.
-  std::string role;            // What the file itself says the joint is ("leftHand"), or empty.
+  std::string role;            // The joint's role by the file itself ("leftHand"), or empty.
   int skin = -1;          // Which of the file's skins has vertices that follow it; -1 for none.
   float skin_weight = 0;  // Vertices of that skin that follow it, by weight.
   // The file's animation leaves it at rest from beginning to end, as one of morph weights or props

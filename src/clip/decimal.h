@@ -11,7 +11,7 @@ namespace panache {
 inline constexpr double kLargestNumber = 1e9;
 
 // Appends `value` with exactly `decimals` (0 to 9) digits after the point, never with an exponent
-// nor as a negative zero. What is beyond kLargestNumber is written as that, what is no number as 0.
+// nor as a negative zero. Numbers are clamped to kLargestNumber, NaN is written as 0.
 void append_fixed(std::string& out, double value, int decimals);
 
 // The same as a text of its own.

@@ -225,7 +225,8 @@ class AccessorReader {
                   " sparse elements, as many as there are elements, found " +
                   std::to_string(count));
     }
-    if (!indices || !values) return fail("expected indices and values in sparse, found a part");
+    if (!indices || !values)
+      return fail("expected indices and values in sparse, one of the two is missing");
     if (!checker_.count(*indices, member_path(path, "indices"), "componentType", index_type)) {
       return false;
     }
@@ -269,7 +270,7 @@ class AccessorReader {
   bool check_numbers(const GltfValues& values) {
     for (size_t i = 0; i < values.numbers.size(); ++i) {
       if (!(std::abs(static_cast<double>(values.numbers[i])) <= kLargestNumber)) {
-        return fail("expected finite numbers within a thousand million, found another in element " +
+        return fail("expected numbers between -1e9 and 1e9, found another in element " +
                     std::to_string(i / values.components));
       }
     }

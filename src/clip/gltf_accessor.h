@@ -16,7 +16,7 @@ struct GltfValues {
 
 // Reads accessor `which` of a file, which exists; `path` is where it is asked for, and a failure's
 // place. Whole numbers come as the fractions that they stand for where the accessor is normalised.
-// What is read takes no more memory than a few times the bytes of the file.
+// Reading takes at most a few times the memory of the file.
 bool read_gltf_accessor(const GltfContainer& container, int which, const std::string& path,
                         GltfChecker& checker, GltfValues& out);
 

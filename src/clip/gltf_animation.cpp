@@ -83,7 +83,7 @@ class ChannelReader {
       return false;
     }
     if (channel.sampler < 0 || !target) {
-      return checker_.fail(path, "expected a sampler and a target, found a part");
+      return checker_.fail(path, "expected a sampler and a target, one of the two is missing");
     }
     const std::string target_path = member_path(path, "target");
     std::string moved;
@@ -217,7 +217,7 @@ class ClipReader {
 
   bool fail_far(size_t which, size_t channel) {
     return checker_.fail(item_path(member_path(animation_path(which), "channels"), channel),
-                         "expected places within a thousand million, found one beyond");
+                         "expected positions between -1e9 and 1e9, found one outside");
   }
 
   // -1 of a node that carries an expression or a gaze.
@@ -280,7 +280,7 @@ bool read_gltf_track(const GltfDocument& document, size_t which, const GltfChann
     return false;
   }
   if (input < 0 || output < 0) {
-    return checker.fail(path, "expected an input and an output, found a part");
+    return checker.fail(path, "expected an input and an output, one of the two is missing");
   }
   using enum GltfTrack::Interpolation;
   if (interpolation == "STEP") {

@@ -1,5 +1,5 @@
 #pragma once
-// What is kept of a glTF file: its JSON and data, untouched, and what they mean for motion. Private
+// A glTF file in memory: its JSON and data, unchanged, and their meaning for motion. Private
 // to the folder.
 
 #include <algorithm>
@@ -22,7 +22,7 @@ struct GltfNode {
   Vec3 translation;         // As in the file.
   Quat rotation;            // As in the file, perhaps not unit.
   Vec3d scale = {1, 1, 1};  // As in the file; of a matrix in `own` alone.
-  NodeScale own;            // What that does to the joint and to those below it.
+  NodeScale own;            // Its effect on the joint and those below it.
   bool matrix = false;      // Placed by a matrix, so that nothing may animate it.
   bool skinned = false;     // A joint of a skin.
   bool carrier = false;     // Its transform is the weight of an expression or a gaze: no joint.
@@ -38,7 +38,7 @@ struct GltfNode {
 // has it as a joint, so that programs know where the last joint of a limb points.
 inline constexpr const char* kEndSite = "panacheEndSite";
 
-// What a channel of an animation moves.
+// The property that a channel of an animation moves.
 enum class GltfPath { rotation, translation, scale, weights, other };
 
 struct GltfChannel {
@@ -69,7 +69,7 @@ struct GltfDocument {
   std::vector<std::string> notes;  // As MotionFile::notes().
 };
 
-// What a file may not exceed, so that no small file makes a large motion or takes long to read.
+// Limits of a file, so that no small file makes a large motion or takes long to read.
 inline constexpr size_t kGltfMaxNodes = 10'000;
 inline constexpr int kGltfMaxDepth = 1'000;
 inline constexpr size_t kGltfMaxNameBytes = 1'000;

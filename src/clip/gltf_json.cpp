@@ -165,7 +165,7 @@ bool GltfChecker::numbers(const GltfJson& object, const std::string& path, const
     const double number = item.is_number() ? item.get<double>() : 2 * kLargestNumber;
     if (!(std::abs(number) <= kLargestNumber)) {
       return fail(item_path(member_path(path, key), i),
-                  "expected a number within a thousand million, found " + shown(item));
+                  "expected a number between -1e9 and 1e9, found " + shown(item));
     }
     out[i] = number;
   }

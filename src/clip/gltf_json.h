@@ -17,7 +17,7 @@ namespace panache {
 // Members keep their order, so that a file comes back as its author wrote it.
 using GltfJson = nlohmann::ordered_json;
 
-// What a file's JSON may not exceed, so that no file can exhaust the stack or the patience of those
+// Limits of a file's JSON, so that no file can exhaust the stack or the patience of those
 // who write it back: writing recurses, and finding a member takes as long as there are members.
 inline constexpr int kGltfMaxJsonDepth = 200;
 inline constexpr int kGltfMaxJsonMembers = 1'000;  // Of one object.

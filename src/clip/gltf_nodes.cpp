@@ -332,8 +332,8 @@ class SkeletonBuilder {
     if (!(*most <= kLargestNumber) || !(*least >= 1 / kLargestNumber) ||
         !(reach <= kLargestNumber)) {
       return checker_.fail(item_path("nodes", which),
-                           "expected a place and a scale within a thousand million, found the "
-                           "nodes above to scale it beyond that");
+                           "expected a position and a scale between -1e9 and 1e9, found them "
+                           "larger by the scales of the nodes above");
     }
     document_.skeleton.joints.push_back(std::move(joint));
     document_.above.push_back(above);

@@ -9,7 +9,7 @@
 namespace panache {
 
 bool is_data_uri(std::string_view uri);
-// The bytes of a data URI; a message without a name where it is none.
+// The bytes of a data URI; a message without a name if it is invalid.
 Result<std::string> decode_data_uri(std::string_view uri);
 // "data:TYPE;base64,...".
 std::string make_data_uri(std::string_view type, std::string_view bytes);

@@ -21,7 +21,7 @@ struct MeshoptView {
 // that cannot be done.
 using MeshoptDecoder = bool (*)(const MeshoptView& view, std::string_view packed, char* out);
 
-// What files are decoded with from here on; null, as from the start, where packed motion is to be
+// The decoder of packed motion from here on; null, as at the start, where packed motion is to be
 // rejected. Called before any thread reads.
 void set_meshopt_decoder(MeshoptDecoder decoder);
 

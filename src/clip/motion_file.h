@@ -12,7 +12,7 @@
 
 namespace panache {
 
-// In ClipEdit::clip: a motion that is none of the file's own.
+// In ClipEdit::clip: a new motion.
 inline constexpr int kNewClip = -1;
 
 // New frames for one clip of a file, or a new clip.
@@ -27,7 +27,7 @@ struct ClipEdit {
   std::string name;
 };
 
-// What a user says of a file in place of what the file says.
+// A user's overrides for what a file states.
 struct ReadOptions {
   // Frames a second, for a file whose rate is wrong or missing. The file is as if it had that rate:
   // what encode() gives has it, too. The keys of glTF have times in place of a rate; there the

@@ -35,7 +35,7 @@ struct MotionFormat {
   std::string (*write)(const Clip& clip, const std::string& name, const Placement& placement,
                        const SkinnedBody* body) = nullptr;
   bool has_meshes = false;
-  bool in_metres = false;  // What `write` makes is in metres with +Y up, and so needs a placement.
+  bool in_metres = false;  // `write` makes metres with +Y up, so it needs a placement.
 
   // Of what MotionFile::encode gives.
   std::string_view encoded_as;
@@ -58,7 +58,7 @@ std::span<const MotionFormat> known_motion_formats();
 // The extension of a file's name in lower case, with its point: ".bvh"; empty where it has none.
 std::string extension_of(const std::string& path);
 
-// The format with this extension, nothing where there is none.
+// The format with this extension, or nothing.
 const MotionFormat* find_format(std::span<const MotionFormat> formats, std::string_view extension);
 
 // ".bvh, .glb, ...", for messages and help.

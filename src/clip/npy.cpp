@@ -213,7 +213,7 @@ Result<std::vector<double>> npy_numbers(const NpyArray& array, const std::string
   for (size_t i = 0; i < count; ++i) {
     in_file[i] = number_at(&array.elements[i * size], kind, size, array.type[0] == '>');
     if (std::abs(in_file[i]) <= kLargestNumber) continue;
-    return Error{name + ": expected numbers within a thousand million, found one beyond or none"};
+    return Error{name + ": expected numbers between -1e9 and 1e9, found one outside or NaN"};
   }
   if (!array.by_columns || array.shape.size() != 2) return in_file;
   std::vector<double> out(count);

@@ -1,5 +1,5 @@
 #pragma once
-// What the scales of nodes do to the places of joints, in a skeleton whose joints only turn and
+// The effect of node scales on joint positions, in a skeleton whose joints only rotate and
 // move. Private to the folder.
 //
 // The world transform of a node has the linear part L = W B: W is the product of the rotations of
@@ -32,7 +32,7 @@ class Stretch {
   bool is_even() const { return even_; }
   // Lengths of the columns.
   std::array<double, 3> lengths() const;
-  // Whether a place can be told from where it is stretched to.
+  // Whether the stretch can be inverted.
   bool can_undo() const;
 
   Vec3 apply(Vec3 place) const;

@@ -1,5 +1,5 @@
 #pragma once
-// What other bodies, captures and files do to a window: drawn at random in training.
+// Disturbances of a window by other bodies, captures and files: drawn at random in training.
 
 #include <array>
 #include <span>
@@ -18,7 +18,7 @@ struct Disturbed {
   float scale = 1, floor = 0, cos = 1, sin = 0, tempo = 1;
   std::vector<float> posture;  // Added to the joint positions. [63] metres
   // Of another person: how each joint is turned, body frame, and how wide everything moves about
-  // `centre` ([66], or empty where nobody else is meant).
+  // `centre` ([66], or empty for the same person).
   std::array<Quat, kHumanJoints> turns{};
   float amplitude = 1;
   std::vector<float> centre;
@@ -27,8 +27,8 @@ struct Disturbed {
 // `units`: of each pose number in layout positions.
 Disturbed draw_disturbance(const Disturbance& how, const InputUnits& units, Random& random);
 
-// Disturbs poses in place, any number of them in layout positions. The tempo is for whoever cuts
-// the window.
+// Disturbs any number of poses in layout positions, in place. The tempo is for callers that cut the
+// window.
 void disturb(const Disturbed& draw, const Disturbance& how, Random& random, std::span<float> poses);
 
 }  // namespace panache

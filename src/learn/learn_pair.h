@@ -37,7 +37,7 @@ Result<void> check_action(const std::string& action);
 // are rejected, and so are clips that are too short to learn from.
 Result<LearnPair> make_learn_pair(const LearnClip& neutral, const LearnClip& styled);
 // With a neutral of our own making in place of a recorded one: the walker's, see check_action().
-// What tells the walker's body and gait from the performer's becomes part of the style,
+// The difference between the walker's body and gait and the performer's becomes part of the style,
 // and the turn of a limb about its own axis is not learnt.
 Result<LearnPair> make_learn_pair(const LearnClip& styled, const std::string& action,
                                   std::shared_ptr<const WalkerModel> walker);

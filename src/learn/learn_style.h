@@ -24,7 +24,7 @@ struct PairReport {
   double seconds = 0;  // Of the styled clip.
   double tempo = 1;    // Neutral seconds per styled second, the mean.
   double match = 0;  // Mean squared distance of what was laid together, in deviations: 0 is equal.
-  // What about it may spoil the style, and the cure. Sentences.
+  // Warnings, with their cure. Sentences.
   std::vector<std::string> warnings;
   std::vector<MatchedInstant> instants;  // Of each styled frame that was laid somewhere, in order.
 };

@@ -27,7 +27,7 @@ struct StyleName {
   std::vector<std::string> from;  // Names in manifests, {"old"} or several; "PERSON/old" is the
                                   // style of this performer, and is not among "old" then.
   std::string description;
-  std::string group = {};  // What it is listed under, "moods"; "" where the table names none.
+  std::string group = {};  // Its heading in lists, "moods"; "" without one.
 };
 
 // Reads a CSV with the columns path, style, content, take, neutral, split and, where it has it,
@@ -50,7 +50,7 @@ std::vector<std::string> list_missing_files(const std::vector<ManifestRow>& rows
 std::vector<std::string> list_unnamed_styles(const std::vector<StyleName>& names,
                                              const std::vector<ManifestRow>& rows);
 
-// What `names` call the style of a row; null where they do not list it.
+// The name in `names` of a row's style; null if they do not list it.
 const StyleName* find_style_name(const std::vector<StyleName>& names, const ManifestRow& row);
 
 // Renames the styles of `rows`; rows of styles that `names` does not list are dropped.

@@ -28,7 +28,7 @@ constexpr float kPenalty[4] = {1.15f, 1.0f, 1.1f, 1.3f};
 // It may wait this many frames in a row: a styled action may dwell where the neutral one does not.
 constexpr int kMaxWaits = 2;
 constexpr int kSmoothFrames = 7;
-// What moves less than this tells nothing: 5 cm, 0.15 m/s.
+// Smaller movements are ignored: 5 cm, 0.15 m/s.
 constexpr float kStillWay = 0.05f, kStillSpeed = 0.15f;
 constexpr float kFar = 1e30f;
 // Short windows always fit a little better. Of takes that are in step they cost no less than 0.75

@@ -11,8 +11,8 @@ struct PoseError {
   double cm = 0;       // Mean over joints of the distance on the canonical body, body frame.
 };
 
-// What is left between the neutral take at frame `at`, with `change` on it, and frame `frame` of
-// the styled take. Both takes are of one character; root motion is not compared.
+// The remaining distance between the neutral take at frame `at`, with `change` on it, and frame
+// `frame` of the styled take. Both takes are of one character; root motion is not compared.
 PoseError pose_error(const Take& styled, int frame, const Take& neutral, float at,
                      const StyleDelta& change);
 

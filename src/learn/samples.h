@@ -1,5 +1,5 @@
 #pragma once
-// What a network is shown: windows of neutral motion, and what the style makes of them.
+// Training data: windows of neutral motion, and the style's change of each.
 
 #include <algorithm>
 #include <array>
@@ -54,7 +54,7 @@ class SampleSet {
   int outputs() const { return recipe_.outputs; }
   const std::vector<Sample>& samples() const { return samples_; }
   Sample& sample(size_t i) { return samples_[i]; }
-  // What the pose network should answer for sample i, in the model's units. [outputs]
+  // The target of the pose network for sample i, in the model's units. [outputs]
   std::span<const float> target(size_t i) const {
     return {&targets_[i * outputs()], static_cast<size_t>(outputs())};
   }

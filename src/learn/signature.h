@@ -1,5 +1,5 @@
 #pragma once
-// What a style looks like in words: how posture, speed and tempo of its real takes differ from
+// A style described by traits: how posture, speed and tempo of its real takes differ from
 // neutral takes of the same action. It tells what is missing where a classifier only tells that it
 // is.
 
@@ -14,11 +14,11 @@
 
 namespace panache {
 
-// What is measured of a take, in order.
+// The traits of a take, in order.
 struct Trait {
   const char* key;    // In report.json.
   const char* label;  // For people, with the unit.
-  double least;       // A smaller difference is none.
+  double least;       // Smaller differences are ignored.
 };
 inline constexpr std::array kTraits = std::to_array<Trait>({
     {"lean", "lean forward, degrees", 3},
@@ -51,7 +51,7 @@ struct Signature {
   std::array<bool, kTraits.size()> certain{};  // Most actions agree in the sign, and it is enough.
 };
 
-// What is made of the traits of outputs that a signature is certain of.
+// The comparison of the outputs' traits with a signature.
 struct SignatureMatch {
   size_t traits = 0;  // That were compared,
   size_t sign = 0;    // changed to the right side,

@@ -175,7 +175,7 @@ Result<void> check_style_name(const std::string& name) {
     return Error{where + "has " + std::to_string(name.size()) + " bytes; expected at most " +
                  std::to_string(kMaxNameBytes)};
   }
-  if (!is_one_line(name)) return Error{where + "is no line of UTF-8 text"};
+  if (!is_one_line(name)) return Error{where + "is not one line of UTF-8 text"};
   for (const char c : {'=', ','}) {
     if (name.find(c) == std::string::npos) continue;
     return Error{where + "holds a '" + c + "', which separates names from strengths"};
@@ -183,7 +183,7 @@ Result<void> check_style_name(const std::string& name) {
   if (name.starts_with(' ') || name.ends_with(' ')) {
     return Error{where + "begins or ends with a space"};
   }
-  if (name.starts_with('-')) return Error{where + "begins like an option"};
+  if (name.starts_with('-')) return Error{where + "must not start with '-'"};
   std::string lower = name;
   for (char& c : lower) c = lower_case(c);
   if (lower == "neutral") {
@@ -215,7 +215,7 @@ Result<StyleInfo> read_style_info(const TensorFile& file, const std::string& nam
   if (auto fit = check_style_name(info.name); !fit) return located(name, fit.error());
   for (const char* key : {"description", "origin", "group", "trunk", "data", "licence"}) {
     if (is_one_line(metadata_of(file, key))) continue;
-    return Error{name + ": metadata '" + key + "' is no line of UTF-8 text"};
+    return Error{name + ": metadata '" + key + "' is not one line of UTF-8 text"};
   }
   size_t known = 0;
   for_each_tensor(info.learnt, [&](const char* key) { known += file.tensors.contains(key); });

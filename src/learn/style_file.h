@@ -10,7 +10,7 @@
 
 namespace panache {
 
-// What the styles of a model rest on, as 16 hexadecimal digits: a hash of its normalisation and of
+// The identity of a model's trunk, as 16 hexadecimal digits: a hash of its normalisation and of
 // the pose trunk's biases, which a model shares with its int8 twin. A style goes with every
 // model of its own model's fingerprint.
 std::string trunk_fingerprint(const TensorFile& model);
@@ -26,7 +26,7 @@ bool is_one_line(const std::string& text);
 
 // Whether the file says that it is a style, and not a model.
 bool is_style_file(const TensorFile& file);
-// What a style file says of its style. Files are rejected that extract_style() does not write:
+// The metadata of a style file. Files are rejected that extract_style() does not write:
 // other versions, texts that are no single line, tensors that no style has, numbers that are not
 // finite. What shapes the tensors must have, only a model can tell, see add_style(). `name` stands
 // in front of the message of a failure.

@@ -5,7 +5,7 @@
 //   exp(x) - 1 = 2^n exp(r) - 1 = 2^n (exp(r) - 1) + (2^n - 1),
 // which keeps small x exact, because there n = 0 and exp(r) - 1 comes straight from its series
 //   r + r^2 (1/2! + r/3! + ... + r^5/7!).
-// What the series leaves out is below r^8/8! < 6e-9, a tenth of float's unit at 1.
+// The truncation error of the series is below r^8/8! < 6e-9, a tenth of float's unit at 1.
 
 #include <cstdint>
 

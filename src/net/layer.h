@@ -14,7 +14,7 @@ struct DenseLayer {
   int inputs = 0, outputs = 0;
   std::vector<float> weights;  // [inputs][outputs]
   std::vector<float> bias;     // [outputs]
-  // Where the file has the weights as int8: these, and what one of them is worth
+  // If the file has int8 weights: these, and their scale
   // in each column. `weights` are then their products. Otherwise empty.
   std::vector<int8_t> int8_weights = {};  // [inputs][outputs], at most 127 in size.
   std::vector<float> scale = {};          // [outputs]

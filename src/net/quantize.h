@@ -6,7 +6,7 @@
 namespace panache {
 
 // The file with the weights of its dense layers (every matrix `X.weight` that has a bias `X.bias`)
-// rounded to int8; `X.scale` holds what one of them is worth in each column.
+// rounded to int8; `X.scale` holds the scale of each column.
 // Layers of fewer than kPadding outputs, which weigh nothing, and those of more inputs than
 // kMaxInt8Inputs stay as they are, as does everything else. Any trunk of the result is read and
 // evaluated as before: Trunk and TrunkTrio see what its layers are made of. Weights are finite.

@@ -1,5 +1,5 @@
 #pragma once
-// Which foot is planted, told from motion.
+// Detects planted feet in motion.
 
 #include <array>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-// What the networks see of one instant, and the window of instants that they see at once.
+// The networks' input: the features of one instant, and the window of instants.
 
 #include <array>
 #include <span>

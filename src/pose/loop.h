@@ -8,7 +8,7 @@
 
 namespace panache {
 
-// What lies between the last pose of a clip and the first one of its motion.
+// The difference between the last pose of a clip and the first one of its motion.
 struct LoopSeam {
   int first = 0, last = 0;  // Frames: the cycle is between them.
   RootPose begin, end;      // Where the body stands and looks there.

@@ -1,5 +1,5 @@
 #pragma once
-// What a careful user would want to know of a motion file.
+// Notes about a motion file, for the user.
 
 #include <string>
 #include <vector>

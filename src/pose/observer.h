@@ -1,6 +1,6 @@
 #pragma once
 // One character's input as it comes: poses made sound, brought to the canonical body, seen in the
-// body frame, and cuts told from motion.
+// body frame, and detects cuts.
 
 #include <span>
 #include <vector>
@@ -35,8 +35,8 @@ class Observer {
   // Forgets the motion so far.
   void reset() noexcept { started_ = false; }
 
-  // Takes in the pose `seconds` after the last. What is no rotation or place in it is replaced by
-  // the last that was one. Returns whether it continues the motion; false at the first pose, too.
+  // Takes in the pose `seconds` after the last. Invalid rotations and translations are replaced by
+  // the last valid ones. Returns whether it continues the motion; false at the first pose, too.
   bool observe(ConstPose in, double seconds) noexcept;
 
   // The pose as taken in: every number of it is finite.

@@ -9,7 +9,7 @@
 
 namespace panache {
 
-// What is wrong with the rate of a clip of `rig`'s skeleton, as a message without the file's name:
+// The fault of the rate of a clip of `rig`'s skeleton, as a message without the file's name:
 // its steps are far too fast or far too slow for the length of its legs. Nothing where they are
 // not, or where it takes too few steps to tell.
 std::optional<std::string> doubtful_rate(const Clip& clip, const Rig& rig);

@@ -1,5 +1,5 @@
 #pragma once
-// What a style changes of one instant, by name; and the same as a row of numbers, as networks
+// A style's change of one instant, by name; and the same as a row of numbers, as networks
 // answer with it and model files are scaled by it.
 
 #include <array>

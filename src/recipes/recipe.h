@@ -42,7 +42,7 @@ struct Recipe {
   // The reverse of write_target(): the change that an answer is. Allocates nothing.
   StyleDelta (*to_change)(std::span<const float> answer, const HumanPositions& body,
                           std::span<const float, kRootFeatures> root) noexcept;
-  // What one of each of the answer's numbers is worth to the networks. [outputs] Where it is null,
+  // Scale of each network output. [outputs] Where it is null,
   // targets are brought to mean 0 and deviation 1, and models keep that mean besides.
   std::vector<float> (*output_scale)() = nullptr;
 

@@ -13,7 +13,7 @@ namespace panache {
 std::span<const Recipe* const> recipes() noexcept;
 // The recipe of this name, or null.
 const Recipe* find_recipe(std::string_view name) noexcept;
-// The first of the table: what is trained where nobody names another.
+// The first of the table: the default of training.
 const Recipe& default_recipe() noexcept;
 
 // "panache or smith2019", for messages: all recipes, or those on whose models styles are learnt.

@@ -23,7 +23,7 @@ struct Disturbance {
   float amplitude = 0;
 };
 
-// What other people, captures and files do to a window.
+// Disturbances of a window by other people, captures and files.
 inline constexpr Disturbance kUsualDisturbance = {.scale = 0.08f,
                                                   .floor = 0.015f,
                                                   .heading = 0.12f,
@@ -71,7 +71,7 @@ struct GuidanceSettings {
   int guides = 4;            // Networks of the guide,
   int guide_steps = 2500;    // and steps of training each.
   float weight = 1.4f;       // Of the sum of the following, beside the loss of the pairs.
-  float style = 0.22f;       // Of not being recognised by them as the style asked for,
+  float style = 0.22f;       // Weight of the guides' cross entropy for the requested style,
   float statistics = 0.15f;  // and of not being so by a discriminant of statistics.
   float velocity = 0.7f;     // Of hands and feet that move otherwise or less than the input's.
   float smoothness = 1.2f;   // Of the change from one instant to the next.

@@ -1,5 +1,5 @@
 #pragma once
-// What of a file tells most of the character in it.
+// The part of a file that describes its character best.
 
 #include <utility>
 

@@ -15,7 +15,7 @@ struct ReferencePose {
   // with arms along x, legs straight down and feet flat and pointing ahead. A missing joint carries
   // its parent's.
   std::array<Quat, kHumanJoints> rotations;
-  // The rest pose was one to start from: a body that stands. Else the motion told.
+  // The rest pose stands, so it is the start; otherwise the motion decides.
   bool from_rest = false;
   float leg = 0, arm = 0;  // Both parts of one, mean of both sides, metres of the rig.
   // Height of the toe joints on the floor, metres of the rig: at rest, where the body stands near

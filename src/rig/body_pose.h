@@ -29,7 +29,7 @@ struct RotatedBodyPose : BodyPose {
   std::array<Quat, kHumanJoints> rotations;
 };
 
-// What a style does to one instant.
+// A style's change of one instant.
 struct BodyChange {
   // World rotations in the heading frame of the input (origin facing +z), applied on top of each
   // joint's world rotation; the identity leaves the joint alone.

@@ -1,6 +1,7 @@
 #pragma once
-// What a clip tells about a rig that its skeleton does not: which way is up, how long a metre is,
-// where the floor is, where the toes point and from which frame on the motion can be used.
+// Properties of a rig that follow from a clip, not from its skeleton: which way is up, how long a
+// metre is, where the floor is, where the toes point and from which frame on the motion can be
+// used.
 
 #include <array>
 #include <optional>
@@ -38,7 +39,7 @@ struct Calibration {
   std::vector<std::string> notes;
 };
 
-// Fails where what is given is no unit or axis.
+// Fails if the given unit or axis is invalid.
 Result<void> check_units(std::optional<float> metres_per_unit,
                          const std::optional<std::string>& up_axis);
 

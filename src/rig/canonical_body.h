@@ -9,7 +9,7 @@
 
 namespace panache {
 
-// What a skeleton has of a humanoid; constant over its motion. Always there: the hips, upper and
+// The humanoid joints of a skeleton; constant over its motion. Always present: the hips, upper and
 // lower parts of all four limbs, and the feet. Positions of hands and toes are there in any case.
 struct BodyShape {
   std::array<bool, kHumanJoints> has{};

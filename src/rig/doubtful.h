@@ -15,13 +15,13 @@ namespace panache {
 // among the joints that deform, which the controls move in the program that made the file and not
 // in the file itself; its hips do not move all of the skin that the arms are part of, or move no
 // skin where another skeleton of the file does; or its arms hang beside the spine instead of on it.
-// Nothing where all is well. What is `known` of the hips is believed.
+// Nothing where all is well. `known` hips override this check.
 std::optional<Error> find_doubt(const Skeleton& skeleton, const Mapping& mapping,
                                 const KnownJoints& known);
 
 // Why a mapping is an animal's: its arms and legs stand side by side under a level trunk in the
 // first of `poses`, which is the skeleton at rest, and in nearly all others, which are of its
-// motion. A person who crawls stands upright at rest. What is `known` of the hips is believed.
+// motion. A person who crawls stands upright at rest. `known` hips override this check.
 std::optional<Error> find_animal(const Skeleton& skeleton, std::span<const JointPositions> poses,
                                  const Mapping& mapping, const KnownJoints& known);
 

@@ -1,6 +1,6 @@
 #pragma once
-// What a joint's name says, whoever wrote it: "mixamorig:LeftHand", "Bip01 L Hand", "hand.L",
-// "lHand".
+// What a joint's name says, in the naming of any tool: "mixamorig:LeftHand", "Bip01 L Hand",
+// "hand.L", "lHand".
 
 #include <string>
 #include <string_view>

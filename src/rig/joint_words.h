@@ -1,5 +1,5 @@
 #pragma once
-// What the words of a joint's name say it is. Private to the folder.
+// The meaning of the words of a joint's name. Private to the folder.
 
 #include "rig/joint_name.h"
 

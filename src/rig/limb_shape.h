@@ -12,7 +12,7 @@ namespace panache {
 
 enum class LimbKind { arm, leg };
 
-// The three joints of a limb; -1 where there is none.
+// The three joints of a limb; -1 for missing ones.
 struct Limb {
   int upper = -1, lower = -1;
   int end = -1;  // Hand or foot; -1 also where only an End Site of `lower` marks it.
@@ -21,7 +21,7 @@ struct Limb {
 // The four limbs, [left, right].
 struct Limbs {
   std::array<Limb, 2> arms, legs;
-  std::string side_reason;    // How left and right were told apart, for people.
+  std::string side_reason;    // How left and right were distinguished, for people.
   float confidence = 0;       // In what is which limb, 0 to 1.
   float side_confidence = 0;  // In left and right.
 };

@@ -1,5 +1,5 @@
 #pragma once
-// What a figure needs to be drawn as a rig is posed: a place and a full orientation per human
+// The data to draw a posed rig as a figure: a place and a full orientation per human
 // joint, twist included, whatever the local axes of the rig are.
 
 #include <array>

@@ -19,7 +19,7 @@ struct Mapping {
   std::array<int, kHumanJoints> joint_of;         // Skeleton joint, or -1. No two are the same.
   std::array<std::string, kHumanJoints> reasons;  // How it was found, for people.
   std::array<float, kHumanJoints> confidence{};   // 0 (a guess, or missing) to 1 (certain).
-  std::vector<std::string> notes;                 // What a careful user would want to know.
+  std::vector<std::string> notes;                 // Oddities, for the user.
 };
 
 // Skeleton joints that are known beforehand for human joints; -1 where the skeleton has none.

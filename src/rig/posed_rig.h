@@ -44,7 +44,7 @@ class PosedRig {
   }
 
  private:
-  // What write() puts on each human joint, file axes.
+  // The rotations that write() applies to the human joints, file axes.
   using Deltas = std::array<Quat, kHumanJoints>;
 
   // The delta that a joint of the skeleton has or inherits; -1 stands for the world.

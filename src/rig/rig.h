@@ -26,7 +26,7 @@ struct JointMatch {
   float confidence;         // 0 (a guess) to 1 (certain); 0 where the joint is missing.
 };
 
-// What a user says of a rig instead of having it found.
+// A user's overrides for the detection of a rig.
 struct RigOptions {
   std::optional<float> metres_per_unit;
   std::optional<std::string> up_axis;  // "+Y", "-Z", ...
@@ -38,14 +38,14 @@ struct RigOptions {
   KnownJoints joint_places;
 };
 
-// What was found out about a skeleton. Never changes; copies share it. A PosedRig brings poses from
+// The result of analysing a skeleton. Immutable; copies share it. A PosedRig brings poses from
 // the skeleton to the canonical body and back.
 class Rig {
  public:
   // Finds the humanoid in the skeleton of `clip`, and units, up axis, floor, first usable frame and
   // toes from its poses. The message of a failure says which joints were not found and names those
-  // that were seen. A clip needs at least one frame. What `options` say is believed; a joint that
-  // they name and the skeleton has not, or more than once, is rejected, as is an axis that is none.
+  // that were seen. A clip needs at least one frame. `options` override the detection;
+  // missing or ambiguous joints and invalid axes are rejected.
   static Result<Rig> create(const Clip& clip, const RigOptions& options = {});
 
   // skeleton joint of each human joint, -1 where the skeleton has none.

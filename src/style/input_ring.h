@@ -38,7 +38,7 @@ class InputRing {
   }
 
  private:
-  // What the rig made of a pose. Times stand apart, as beside them it would have padding.
+  // A pose as the rig read it. Times are stored apart to avoid padding.
   struct Body {
     HumanPositions positions{};
     RootPose root;

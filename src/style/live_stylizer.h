@@ -21,7 +21,7 @@ struct LiveOptions {
   double max_lag = 0, max_lead = 0;
   // Where the head is late by a whole cycle of a gait (or of anything that repeats), it leaves out
   // that cycle; where it can go no further ahead, it plays the last one again. So a style can be
-  // slower or faster than its input for ever. Needs a max_lag longer than a cycle.
+  // slower or faster than its input indefinitely. Needs a max_lag longer than a cycle.
   bool skip_cycles = false;
   static constexpr double kMaxLag = 4;
 };
@@ -59,7 +59,7 @@ class LiveStylizer {
   bool restore(std::span<const std::byte> in) noexcept;
 
  private:
-  // What is needed to be anywhere else than now.
+  // The state for playback at other times than now.
   struct Playback {
     Playback(const Rig& rig, std::shared_ptr<const Model> model, const LiveOptions& options);
 
@@ -67,14 +67,14 @@ class LiveStylizer {
     InputRing ring;
     FlightWatch flights;  // Of the newest poses, which the play head may still be behind.
     std::optional<PosePredictor> predictor;
-    // What the play head's body is ahead of the newest, smoothed.
+    // The smoothed lead of the play head's body over the newest.
     PredictedPose ahead;
-    // What is shown, and what was shown before a skip.
+    // The body that is shown, and the one before a skip.
     std::vector<Quat> shown_rotations, old_rotations;        // [joints]
     std::vector<Vec3> shown_translations, old_translations;  // [joints]
     double time = 0;                                         // Input seconds since the start,
     double searched = 0;  // and when a cycle was last looked for.
-    // What a cycle that was left out adds to the input's own place; the turn fades.
+    // The root offset of skipped cycles; its turn fades.
     RootOffset offset, old_offset;
     double old_ahead = 0;  // Of the head as it was before the last skip,
     double blended = 1;    // and how much of the way from it is done, 0 to 1.

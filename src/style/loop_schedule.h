@@ -5,7 +5,7 @@
 
 namespace panache {
 
-// What was asked of a play head at one frame of its round.
+// The requests to a play head at one frame of its round.
 struct PaceSample {
   double phase = 0;  // Frames of the input since the round began, with fractions.
   double rate = 1;   // Input frames per output frame.

@@ -21,17 +21,17 @@ namespace panache {
 
 class PredictorNetwork;
 
-// What the head of a learnt style answers: the change, the logarithm of the rate, and what to add
+// The outputs of a learnt style's head: the change, the logarithm of the rate, and what to add
 // to the contact network's answer (before it becomes a probability) for the left and the right
 // foot.
 inline constexpr int kLearntOutputs = StyleDelta::kSize + 1 + 2;
 
 struct StyleInfo {
   std::string name;         // "old"
-  std::string description;  // What it looks like, for people.
-  std::string origin;       // What a learnt style was learnt from; empty for others.
+  std::string description;  // Its looks, for people.
+  std::string origin;       // The source of a learnt style; empty for others.
   bool learnt = false;      // By learn_style(), from activations that other styles trained.
-  std::string group = {};   // What it is listed under, "moods"; "" for learnt ones and where the
+  std::string group = {};   // Its heading in lists, "moods"; "" for learnt ones and where the
                             // model names no groups.
 };
 
@@ -62,7 +62,7 @@ class Model {
   // The same, in any case of the letters A to Z where that tells one style from all others.
   Result<int> find_style_in_any_case(std::string_view style) const;
   size_t parameter_count() const { return parameter_count_; }
-  // What predicts input that has not arrived; null in models without one.
+  // The predictor of missing input; null in models without one.
   const PredictorNetwork* predictor() const { return predictor_.get(); }
 
   // Whether styles can be learnt: the model knows how its activations vary.
@@ -72,7 +72,7 @@ class Model {
   // Their mean and deviation over motion of all kinds. [activation_count()], or empty.
   std::span<const float> activation_mean() const { return activation_mean_; }
   std::span<const float> activation_scale() const { return activation_scale_; }
-  // What each of the pose network's numbers is worth: its answers are multiplied by this.
+  // Scale of each output of the pose network.
   std::span<const float> output_scale() const { return output_scale_; }
 
  private:
@@ -112,8 +112,8 @@ class Model {
     PackedLayer head;         // [activations][kLearntOutputs]
     std::vector<float> mean;  // Of the activations it was learnt from. [activations]
     PackedLayer gate;         // [activations][directions]: how far along the main directions,
-    std::vector<float> gate_weights;  // and what a square along them is worth beyond `rest`.
-    float gate_residual = 0;  // What a square of a standardised difference from the mean is worth.
+    std::vector<float> gate_weights;  // and the weight of each squared coordinate beyond `rest`.
+    float gate_residual = 0;          // Weight of a squared standardised difference from the mean.
   };
   size_t built_in() const { return styles_.size() - learnt_.size(); }
   Result<void> read_metadata(const TensorFile& file, const std::string& name);
@@ -163,7 +163,7 @@ class StyleNetworks {
   void forward(std::span<const float> window, float gate_share = 1) noexcept;
   // The same for several characters of one model at once, which reads its weights once for several
   // of them: bit for bit what forward() gives each. No character may come twice. Allocates nothing;
-  // works in about 170 KB of the stack.
+  // works in about 200 KB of the stack.
   struct Pass {
     StyleNetworks* networks;
     std::span<const float> window;
@@ -174,8 +174,8 @@ class StyleNetworks {
   // most motion like what they were trained or learnt on, towards 0 on motion unlike it. Learnt
   // styles have a gate each; this is the mean over the styles in force, by their strengths.
   float gate() const noexcept;
-  // What styles are learnt on: the activations of all hidden layers of the pose trunk for a window.
-  // out.size() = Model::activation_count().
+  // The features that styles are learnt on: the activations of all hidden layers of the pose trunk
+  // for a window. out.size() = Model::activation_count().
   void activations(std::span<const float> window, std::span<float> out) const noexcept;
   // The pose network's numbers, in the model's own units undone. What change they are,
   // Recipe::to_change() tells. [Recipe::outputs]

@@ -1,5 +1,5 @@
 #pragma once
-// What the sources of StyleNetworks share. Private to them.
+// Shared by the sources of StyleNetworks. Private to them.
 
 #include <cmath>
 #include <span>
@@ -27,7 +27,7 @@ class StyleNetworks::ScratchArena {
   Rows<float> rows(size_t count, size_t numbers) {
     return {take(count * padded(numbers)).data(), count, padded(numbers)};
   }
-  // What is there by now, to be handed out again by a copy.
+  // The memory allocated so far, to be handed out again by a copy.
   std::span<float> remaining() const { return remaining_; }
 
  private:

@@ -18,7 +18,7 @@ std::array<Quat, kHumanJoints> joint_rotations(const StyleDelta& change) noexcep
 // The canonical body (body frame, metres) with the change's rotations and hips height on it.
 HumanPositions change_body(const HumanPositions& body, const StyleDelta& change) noexcept;
 
-// What turns the body `before` into the body `after`, both canonical.
+// The change from the body `before` to the body `after`, both canonical.
 BodyChange change_between(const PredictedPose& before, const PredictedPose& after) noexcept;
 
 }  // namespace panache

@@ -11,10 +11,10 @@ namespace {
 // Until predictions were checked the network is trusted most. Metres.
 constexpr std::array<float, 4> kFirstErrors = {0.02f, 0.04f, 0.06f, 0.06f};
 // The share of a new error in the mean: four checks a second, so half is forgotten in a second.
-constexpr float kNews = 0.16f;
-// Time constant at which a new share of the say is taken up, so that nothing jumps.
-constexpr float kShareSeconds = 0.2f;
-// A check that comes later than this is none: frames were dropped.
+constexpr float kErrorGain = 0.16f;
+// Time constant at which weights change, so that nothing jumps.
+constexpr float kWeightSeconds = 0.2f;
+// Later checks do not count: frames were dropped.
 constexpr double kLatest = 0.05;  // Seconds.
 
 }  // namespace
@@ -35,7 +35,7 @@ void PosePredictor::reset() noexcept {
 
 void PosePredictor::push(double time, const HumanPositions& body, const RootPose& root) noexcept {
   history_.push(time, body, root);
-  const float gain = 1 - exponential(static_cast<float>(time_ - time) / kShareSeconds);
+  const float gain = 1 - exponential(static_cast<float>(time_ - time) / kWeightSeconds);
   for (size_t c = 0; c < kChecks.size(); ++c) {
     const PerExpert wanted = weights_of(errors_[c]);
     for (size_t g = 0; g < kExperts; ++g) weights_[c][g] += gain * (wanted[g] - weights_[c][g]);
@@ -59,7 +59,7 @@ void PosePredictor::check(size_t at, const HumanPositions& body, const RootPose&
     float sum = 0;
     for (size_t j = 0; j < truth.size(); ++j) sum += length(predicted[j] - truth[j]);
     const float error = sum / static_cast<float>(truth.size());
-    if (std::isfinite(error)) errors_[at][g] += kNews * (error - errors_[at][g]);
+    if (std::isfinite(error)) errors_[at][g] += kErrorGain * (error - errors_[at][g]);
   }
 }
 
@@ -83,7 +83,7 @@ PosePredictor::Predictions PosePredictor::ask_experts(double seconds) const noex
           newest_};
 }
 
-// By the fourth power: who is twice as far off has a sixteenth of the say.
+// By the fourth power: twice the error, one sixteenth of the weight.
 PosePredictor::PerExpert PosePredictor::weights_of(const PerExpert& errors) noexcept {
   constexpr float kNothing = 1e-5f;  // Metres.
   const float least = *std::min_element(errors.begin(), errors.end()) + kNothing;

@@ -1,5 +1,5 @@
 #pragma once
-// Where one character goes next, by whoever was right about it lately.
+// Predicts one character's next pose: a mixture of predictors weighted by recent error.
 
 #include <array>
 #include <memory>

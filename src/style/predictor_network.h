@@ -32,7 +32,7 @@ class PredictorNetwork {
   static bool is_in(const TensorFile& file);
   static Result<PredictorNetwork> read(const TensorFile& file, const std::string& name);
 
-  // What a change of each number weighs against that of a position.
+  // The weight of each number's change relative to a position's.
   static constexpr float unit(size_t number) {
     constexpr size_t kRoot = root_offset(PoseLayout::positions);
     return number < kRoot ? 1.0f : number < kRoot + kTurnRate ? 0.05f : 0.025f;

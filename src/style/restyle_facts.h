@@ -1,5 +1,5 @@
 #pragma once
-// What was done to a clip, in a few numbers.
+// Facts about a restyled clip.
 
 #include "style/restyle.h"
 

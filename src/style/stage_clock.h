@@ -5,7 +5,7 @@
 
 namespace panache {
 
-// What a step consists of, in this order. Each is a type of its own, in style/stages or where it is
+// The parts of a step, in this order. Each is a type of its own, in style/stages or where it is
 // named here.
 enum class Stage {
   observe,    // Observer

@@ -8,7 +8,7 @@
 
 namespace panache {
 
-// What a style changes of a foot that stands; zero leaves it as it is.
+// A style's change of a standing foot; zero keeps it.
 struct Stance {
   float heel = 0;                   // How far the heel is lifted about the toes, radians.
   std::array<float, kFeet> turn{};  // About +y, radians.

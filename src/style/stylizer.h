@@ -45,7 +45,7 @@ class Stylizer {
   // Forgets the motion so far: the next step starts afresh, at full strength.
   void reset() noexcept;
 
-  // What is given of the styles from the next step on; eased. reset() leaves it alone.
+  // The amounts of the styles from the next step on; eased in. reset() keeps them.
   void set_shape(const Shape& shape) noexcept { shape_ = shape; }
 
   // Styles one pose of the character. `strengths`: one per style of the model; numbers that are not
@@ -59,7 +59,7 @@ class Stylizer {
   void step(ConstPose in, std::span<const float> strengths, double seconds, Pose out) noexcept {
     step(in, strengths, seconds, seconds, out);
   }
-  // The same, and `clock` is told of each stage.
+  // The same; `clock` is notified of each stage.
   void step(ConstPose in, std::span<const float> strengths, double seconds, Pose out,
             StageClock& clock) noexcept;
 
@@ -92,9 +92,9 @@ class Stylizer {
   float gate() const noexcept { return networks_.gate(); }
   // Probability that each foot is planted, at the last step.
   std::span<const float, kFeet> contacts() const noexcept { return stages_.contacts(); }
-  // What was done to the input at the last step.
+  // The change of the input at the last step.
   const BodyChange& change() const noexcept { return stages_.change(); }
-  // What the stages did at the last step.
+  // The facts of the stages at the last step.
   StageFacts stage_facts() const noexcept { return stages_.facts(); }
   const Rig& rig() const noexcept { return observer_.rig(); }
   const Model& model() const noexcept { return networks_.model(); }

@@ -11,7 +11,7 @@ inline constexpr float kMaxWalkerSpeed = 4.5f;  // m/s
 // would need more than a third of gravity to the side.
 float max_walker_turn(float speed) noexcept;
 
-// What the feet have to know about a moment of the steps.
+// The state of the steps at one moment, for the feet.
 struct Steps {
   // Of each foot: how firmly it stands (0 to 1), how far through its swing it is (0 to 1; 0 while
   // it stands), and how far through its stance (likewise).

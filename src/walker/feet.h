@@ -34,12 +34,12 @@ class Feet {
     bool known = false;  // `toe` and `yaw` are of the last tick.
     Vec3 toe;            // World, as the gait had it.
     float yaw = 0;       // Likewise.
-    Vec3 offset;         // What stands between that and where the foot is; level.
+    Vec3 offset;         // The horizontal offset from that to the foot.
     float twist = 0;     // Likewise of the yaw.
     float swing = 0;     // As in Steps, at the last tick.
     float lift = 0;      // How much higher this swing goes than the gait, metres.
   };
-  // What the steps are for one foot.
+  // The steps of one foot.
   struct Stepping {
     Vec3 middle;                                          // Of the path, on the ground.
     float lead = 0;                                       // As in tick().

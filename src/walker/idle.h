@@ -1,5 +1,5 @@
 #pragma once
-// What a person does who does nothing.
+// The idle motion of a standing person.
 
 #include "walker/gait.h"
 

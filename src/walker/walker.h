@@ -49,7 +49,7 @@ class Walker {
   Instant before_, now_;  // At the last two ticks: the pose shown lies between them.
 };
 
-// What walk_clip does: a constant speed and turn, from the middle of a stride or, with `start`,
+// Parameters of walk_clip: a constant speed and turn, from the middle of a stride or, with `start`,
 // from standing; with `stop`, back to standing.
 struct WalkClipOptions {
   double seconds = 8;

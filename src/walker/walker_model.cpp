@@ -118,7 +118,7 @@ WalkerModel::WalkerModel(Gait walk, Gait run, const Channels& stand,
 }
 
 WalkerModel::Strides WalkerModel::find_strides(const Gait& gait) {
-  // A gait is believed so far beyond the speeds that it was learnt at, and no further.
+  // A gait is extrapolated this far beyond the speeds that it was learnt at.
   const float low = gait.slowest * 0.9f, high = gait.fastest * 1.4f;
   Strides strides;
   for (int i = 0; i < kStrides; ++i) {

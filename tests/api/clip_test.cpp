@@ -215,7 +215,7 @@ TEST_F(ClipApi, what_is_wrong_with_tracks_and_clips_is_said) {
             "clip: pose 2, joint 5: its translation is not finite");
   bad.rotations[4 * (STICK_JOINTS + 7) + 3] = 2;
   EXPECT_EQ(rejection(PANACHE_BAD_CLIP, bad.clip, {{0, 1}}, 0),
-            "clip: pose 1, joint 7: its rotation is no unit quaternion (x, y, z, w)");
+            "clip: pose 1, joint 7: its rotation is not a unit quaternion (x, y, z, w)");
   bad.clip.translations = nullptr;
   EXPECT_EQ(rejection(PANACHE_BAD_CLIP, bad.clip, {{0, 1}}, 0),
             "clip: poses need both rotations and translations");

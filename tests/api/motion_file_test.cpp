@@ -261,7 +261,7 @@ TEST_F(MotionFileApi, what_is_wrong_with_an_edit_is_said) {
   edit = good;
   edit.frames.rotations = rotations.data();
   EXPECT_EQ(rejection({edit}),
-            "edit 0: frames: pose 1, joint 0: its rotation is no unit quaternion (x, y, z, w)");
+            "edit 0: frames: pose 1, joint 0: its rotation is not a unit quaternion (x, y, z, w)");
 }
 
 }  // namespace

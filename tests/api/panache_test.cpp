@@ -190,7 +190,7 @@ TEST_F(Api, what_is_wrong_is_said_in_a_message_and_nothing_is_created) {
             "joint 3 'Neck': parent is -2; expected a joint before it, or -1");
   joints[3].rotation[3] = 0;
   EXPECT_EQ(rejection(PANACHE_BAD_SKELETON),
-            "joint 3 'Neck': its rest rotation is no unit quaternion (x, y, z, w)");
+            "joint 3 'Neck': its rest rotation is not a unit quaternion (x, y, z, w)");
   joints[3].translation[1] = NAN;
   EXPECT_EQ(rejection(PANACHE_BAD_SKELETON), "joint 3 'Neck': its rest translation is not finite");
   joints.resize(5);

@@ -182,8 +182,8 @@ TEST_F(Convert, a_folder_needs_a_format) {
   write("takes/a.glb", to_glb(small_gltf()));
   expect_rejected(
       {"takes", "-o", "more", "--to", "bvh"}, 2,
-      "more/a.bvh: is where the results of both 'takes/a.bvh' and 'takes/a.glb' would go; "
-      "expected inputs of different names");
+      "'takes/a.bvh' and 'takes/a.glb' would both be written to more/a.bvh; expected inputs "
+      "with different names");
 }
 
 TEST_F(Convert, tells_machines_what_it_did) {

@@ -246,8 +246,8 @@ TEST_F(Rejection, the_input_as_output_without_force) {
 TEST_F(Rejection, one_output_for_several_inputs) {
   write_walk("more/walk.bvh");
   expect_rejected({"stylize", "walk.bvh", "more/walk.bvh", "--style", "old=1", "-o", "out"}, 2,
-                  "out/walk.bvh: is where the results of both 'walk.bvh' and 'more/walk.bvh' would "
-                  "go; expected inputs of different names");
+                  "'walk.bvh' and 'more/walk.bvh' would both be written to out/walk.bvh; expected "
+                  "inputs with different names");
   expect_rejected({"stylize", "walk.bvh", "more/walk.bvh", "--style", "old=1", "-o", "out.bvh"}, 2,
                   "out.bvh: expected a folder for the results of 2 files; call it 'out.bvh/' if it "
                   "is to be one");

@@ -32,7 +32,7 @@ TEST_F(RetargetVerb, a_motion_takes_the_place_of_the_characters_with_its_own_rat
   write("slow.bvh", format_bvh(walking_clip(30, 24)));
   const Ran ran = run({"retarget", "slow.bvh", "--onto", "hero.glb", "-o", "out.glb"});
   ASSERT_EQ(ran.exit, 0) << ran.err;
-  EXPECT_NE(ran.out.find("\n  new: 'slow'; the character's own ('Walk', 'Wave') are left out, "
+  EXPECT_NE(ran.out.find("\n  new: 'slow'; the character's own ('Walk', 'Wave') are dropped; "
                          "--first keeps them\n"),
             std::string::npos)
       << ran.out;

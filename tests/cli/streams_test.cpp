@@ -98,7 +98,7 @@ TEST_F(Streams, what_cannot_be_is_rejected) {
                   "stdin: expected a BVH, glTF, GLB, VRM, VRMA or NPZ file, found something else");
   expect_rejected("some.fbx", {}, "stdin: holds an FBX file, which is read by name only");
   expect_rejected("walk.bvh", {"walk.bvh"},
-                  "- stands for one file, and comes without others; found 2 inputs");
+                  "- (standard input) cannot be combined with other inputs; found 2 inputs");
   expect_rejected("walk.bvh", {"--json"},
                   "--json: stdout takes the motion; --report FILE writes the same");
   write("bad.bvh", "HIERARCHY\n");

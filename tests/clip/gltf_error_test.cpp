@@ -92,7 +92,7 @@ TEST(GltfError, a_tree_that_is_none) {
             }),
             "walk.glb: nodes[1].translation: expected 3 numbers, found a list of 2");
   EXPECT_EQ(spoilt_json([](Json& j) { j["nodes"][1]["translation"][1] = 2e9; }),
-            "walk.glb: nodes[1].translation[1]: expected a number within a thousand million, found "
+            "walk.glb: nodes[1].translation[1]: expected a number between -1e9 and 1e9, found "
             "2000000000.0");
   EXPECT_EQ(spoilt_json([](Json& j) {
               j.erase("skins");
@@ -114,8 +114,8 @@ TEST(GltfError, a_tree_that_is_none) {
               j["nodes"][0]["scale"] = {1e8, 1e8, 1e8};
               j["nodes"][1]["scale"] = {1e8, 1e8, 1e8};
             }),
-            "walk.glb: nodes[2]: expected a place and a scale within a thousand million, found the "
-            "nodes above to scale it beyond that");
+            "walk.glb: nodes[2]: expected a position and a scale between -1e9 and 1e9, found them "
+            "larger by the scales of the nodes above");
 }
 
 TEST(GltfError, animations_that_point_nowhere) {
@@ -129,7 +129,8 @@ TEST(GltfError, animations_that_point_nowhere) {
             "walk.glb: animations[0].channels[1].target.node: expected a whole number below 4, "
             "found 9");
   EXPECT_EQ(with([](Json& a) { a["channels"][1].erase("sampler"); }),
-            "walk.glb: animations[0].channels[1]: expected a sampler and a target, found a part");
+            "walk.glb: animations[0].channels[1]: expected a sampler and a target, one of the two "
+            "is missing");
   EXPECT_EQ(with([](Json& a) { a["channels"][1]["target"]["path"] = "rotation"; }),
             "walk.glb: animations[0].channels[1]: expected a target of its own, found that of a "
             "channel before it");
@@ -254,9 +255,9 @@ TEST(GltfError, sparse_accessors_that_are_no_whole) {
   };
   EXPECT_EQ(with([](Json&) {}), "(accepted)");
   EXPECT_EQ(with([](Json& s) { s.erase("values"); }),
-            output + "expected indices and values in sparse, found a part");
+            output + "expected indices and values in sparse, one of the two is missing");
   EXPECT_EQ(with([](Json& s) { s.erase("indices"); }),
-            output + "expected indices and values in sparse, found a part");
+            output + "expected indices and values in sparse, one of the two is missing");
   EXPECT_EQ(with([](Json& s) { s["indices"]["componentType"] = 5126; }),
             output + "expected sparse indices of type 5121, 5123 or 5125, found 5126");
   EXPECT_EQ(with([](Json& s) { s["values"].erase("bufferView"); }),
@@ -273,8 +274,8 @@ TEST(GltfError, numbers_that_are_no_motion) {
             "walk.glb: animations[0].samplers[0].input: expected times that increase, found time 2 "
             "not after the one before it");
   EXPECT_EQ(spoilt([](GltfParts& p) { p.bin.replace(16 + 16 + 4, 4, "\xff\xff\xff\xff"); }),
-            "walk.glb: animations[0].samplers[0].output (accessors[1]): expected finite numbers "
-            "within a thousand million, found another in element 1");
+            "walk.glb: animations[0].samplers[0].output (accessors[1]): expected numbers "
+            "between -1e9 and 1e9, found another in element 1");
   EXPECT_EQ(spoilt([](GltfParts& p) { p.bin.replace(12, 4, std::string("\0\0\x80\x4d", 4)); }),
             "walk.glb: animations[0]: expected at most 500000 frames, and frames times joints in "
             "all animations at most 3000000, found more");
@@ -286,8 +287,8 @@ TEST(GltfError, places_that_a_scale_takes_too_far) {
               const std::vector<float> places = {0, 1, 0, 0, 1e4f, 0, 0, 1, 0, 0, 1, 0};
               p.json["animations"][0]["samplers"][1]["output"] = p.add(places, "VEC3", 3);
             }),
-            "walk.glb: animations[0].channels[1]: expected places within a thousand million, found "
-            "one beyond");
+            "walk.glb: animations[0].channels[1]: expected positions between -1e9 and 1e9, found "
+            "one outside");
 }
 
 TEST(GltfError, a_name_beyond_the_limit) {

@@ -325,7 +325,7 @@ TEST(Smpl, what_is_wrong_is_said) {
       "a.npz: mocap_framerate: expected a number of frames per second above 0, found 0.000000; "
       "give its rate");
   EXPECT_EQ(smpl_rejection(with(1, member("trans", {NAN, 1, 2}, {1, 3}))),
-            "a.npz: trans: expected numbers within a thousand million, found one beyond or none");
+            "a.npz: trans: expected numbers between -1e9 and 1e9, found one outside or NaN");
   EXPECT_EQ(smpl_rejection(with(1, {"trans.npy", "text"})),
             "a.npz: trans: expected an array as numpy.save writes it, found 'text'");
   NpzMember text = {"trans.npy", format_npy({"<U1", false, {1}, "abcd"})};

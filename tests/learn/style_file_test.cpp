@@ -240,7 +240,7 @@ TEST(StyleFile, a_group_of_several_lines_is_rejected) {
   TensorFile style = extract(mixed_model(), "proud");
   style.metadata["group"] = "moods\nages";
   EXPECT_EQ(rejection(mixed_model(), style),
-            "s.safetensors: metadata 'group' is no line of UTF-8 text");
+            "s.safetensors: metadata 'group' is not one line of UTF-8 text");
 }
 
 // A clip may be called anything, and no one should have to rename it before its style can be kept.
@@ -372,12 +372,13 @@ TEST(StyleName, holds_what_a_command_line_and_a_table_can_say) {
             "style name 'a,b': holds a ',', which separates names from strengths");
   for (const std::string torn :
        {"a\nb", "a\rb", "a\tb", "a\x1b[2J", "a\x7f", "\xff", "\xed\xa0\x80"}) {
-    EXPECT_TRUE(rejection(torn).ends_with(": is no line of UTF-8 text")) << rejection(torn);
+    EXPECT_TRUE(rejection(torn).ends_with(": is not one line of UTF-8 text")) << rejection(torn);
   }
-  EXPECT_EQ(rejection(std::string("a\0b", 3)), "style name 'a\\x00b': is no line of UTF-8 text");
+  EXPECT_EQ(rejection(std::string("a\0b", 3)),
+            "style name 'a\\x00b': is not one line of UTF-8 text");
   EXPECT_EQ(rejection("old "), "style name 'old ': begins or ends with a space");
   EXPECT_EQ(rejection(" old"), "style name ' old': begins or ends with a space");
-  EXPECT_EQ(rejection("-old"), "style name '-old': begins like an option");
+  EXPECT_EQ(rejection("-old"), "style name '-old': must not start with '-'");
   EXPECT_EQ(rejection("seconds"),
             "style name 'seconds': is the name of the time column in tables of strengths");
 }
@@ -400,9 +401,9 @@ TEST(StyleFile, from_a_stranger_is_rejected_where_anything_is_wrong_with_it) {
   EXPECT_EQ(given([](TensorFile& s) { s.metadata["style"] = "a=b"; }),
             "s.safetensors: style name 'a=b': holds a '=', which separates names from strengths");
   EXPECT_EQ(given([](TensorFile& s) { s.metadata["description"] = "one\ntwo"; }),
-            "s.safetensors: metadata 'description' is no line of UTF-8 text");
+            "s.safetensors: metadata 'description' is not one line of UTF-8 text");
   EXPECT_EQ(given([](TensorFile& s) { s.metadata["origin"] = "\x1b[2J"; }),
-            "s.safetensors: metadata 'origin' is no line of UTF-8 text");
+            "s.safetensors: metadata 'origin' is not one line of UTF-8 text");
   EXPECT_EQ(
       given([](TensorFile& s) { s.tensors["pose.trunk.0.bias"] = test::constant_tensor(16, 0); }),
       "s.safetensors: has 8 tensors, of which 7 are those of a style; expected no others");

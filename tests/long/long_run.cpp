@@ -71,7 +71,7 @@ void require_sound(const stick_pose& pose, int64_t frame) {
   for (int j = 0; j < STICK_JOINTS; ++j) {
     float length = 0;
     for (const float n : pose.rotations[j]) length += n * n;
-    require(std::abs(length - 1) < 1e-3f, "a rotation is no unit quaternion", frame);
+    require(std::abs(length - 1) < 1e-3f, "a rotation is not a unit quaternion", frame);
     for (const float n : pose.translations[j]) require(std::isfinite(n), "not finite", frame);
   }
 }

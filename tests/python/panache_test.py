@@ -301,7 +301,7 @@ def test_errors_are_the_librarys_sentences(model, walk, walk_file, shipped, tmp_
     bad[3, 1] = np.nan
     assert rejection(panache.stylize, model, panache.Clip(
         walk.skeleton, bad, walk.translations, 1 / 60), {'old': 1}) == \
-        'clip: pose 3, joint 1: its rotation is no unit quaternion (x, y, z, w)'
+        'clip: pose 3, joint 1: its rotation is not a unit quaternion (x, y, z, w)'
     assert rejection(panache.Clip, walk.skeleton, bad[:, :5], walk.translations, 1 / 60).startswith(
         'rotations: expected an array of shape (any, ')
     assert rejection(panache.stylize_file, walk_file, tmp_path / 'o.glb', {'old': 1}).startswith(

@@ -89,7 +89,7 @@ class Plan:
                     driven.add(bone.name)
                     self._add_target(armature, constraint, bone.name, targets)
                 elif constraint.type not in ('LIMIT_ROTATION', 'LIMIT_LOCATION', 'LIMIT_SCALE'):
-                    self.notes.append('%s has a constraint %s, which is left alone' % (
+                    self.notes.append('%s has a constraint %s, which is ignored' % (
                         bone.name, constraint.type.replace('_', ' ').lower()))
         carried = set(targets) | set(poles)
         self.direct = [b.name for b in bones if b.name not in driven and b.name not in carried]

@@ -259,7 +259,7 @@ def learn(model, pairs, name, replace):
     lines = _text(report.warnings or b'').splitlines()
     if report.was_tested:
         verdict = _text(library().panache_learnt_verdict(out))
-        lines.insert(0, 'learnt %s (%s): %.1f cm off on what was held back, %.1f without it' % (
+        lines.insert(0, 'learnt %s (%s): %.1f cm off on the held-back part, %.1f without it' % (
             name, verdict, report.held_back_cm, report.untouched_cm))
     library().panache_learnt_destroy(out)
     return content, lines

@@ -64,7 +64,7 @@ class PANACHE_PT_rig(_Panel, bpy.types.Panel):
         layout, found = self.layout, context.object.panache
         layout.operator('panache.look', icon='VIEWZOOM')
         if found.known:
-            layout.label(text='This motion is known to ' + found.known)
+            layout.label(text='Familiarity: ' + found.known)
         for note in found.notes.splitlines():
             layout.label(text=note, icon='INFO')
         column = layout.column(align=True)

@@ -14,13 +14,13 @@ SHIPPED = os.path.join(os.path.dirname(__file__), 'models', 'panache-int8.safete
 MANY_STYLES = 20
 # name: (label, what it says, default)
 SHAPE = {
-    'posture': ('Posture', 'Of the lasting part of the style', 1.0),
-    'dynamics': ('Movement', 'Of what moves with the motion', 1.0),
+    'posture': ('Posture', 'Amount of the slow part of the style', 1.0),
+    'dynamics': ('Movement', 'Amount of the fast part of the style', 1.0),
     'timing': ('Tempo', "Of the style's own tempo; 0 keeps the frames", 1.0),
-    'torso': ('Torso', 'Of what the style does to torso and head', 1.0),
-    'legs': ('Legs', 'Of what the style does to legs and root motion', 1.0),
-    'left_arm': ('Left Arm', 'Of what the style does to the left arm', 1.0),
-    'right_arm': ('Right Arm', 'Of what the style does to the right arm', 1.0),
+    'torso': ('Torso', 'Amount of the style on torso and head', 1.0),
+    'legs': ('Legs', 'Amount of the style on legs and root motion', 1.0),
+    'left_arm': ('Left Arm', 'Amount of the style on the left arm', 1.0),
+    'right_arm': ('Right Arm', 'Amount of the style on the right arm', 1.0),
 }
 _model = None
 _problem = ''  # Why the model of the preferences is not in use.
@@ -136,7 +136,7 @@ def _make_style_class():
     """A slider per style of the model."""
     sliders = {property_of(name): FloatProperty(
         name=name.replace('-', ' ').title(), default=0, min=-4, max=4, soft_min=0, soft_max=2,
-        step=5, update=_changed, description='0 is the motion as it is, 1 the style as captured')
+        step=5, update=_changed, description='0 is the input, 1 the style as captured')
         for name in model().styles}
     return type('PanacheStyles', (bpy.types.PropertyGroup,), {'__annotations__': sliders})
 
@@ -167,7 +167,7 @@ def _make_settings_class(styles, groups):
     fields.update(
         timing_where=EnumProperty(
             name='Tempo', default='steps', update=_changed,
-            description='Where the motion gets the tempo of the style',
+            description='Where the style\'s tempo is applied',
             items=[('steps', 'Steps', 'Where the feet step; talk and gestures keep their length'),
                    ('all', 'All', 'Everywhere'), ('off', 'Off', 'Every frame stays in its place')]),
         styles=PointerProperty(type=styles), groups=PointerProperty(type=groups),

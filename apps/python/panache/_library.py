@@ -237,7 +237,7 @@ def check(status: int) -> None:
 
 
 class Handle:
-    """An object of the library's, given back when nobody needs it any more."""
+    """An object of the library, destroyed when it is no longer used."""
 
     def __init__(self, kind: str, create, *arguments):
         self._destroy = getattr(lib, kind + '_destroy')

@@ -25,14 +25,14 @@ export function buildHelp(): HTMLDialogElement {
   }
   const close = element('button', { type: 'button' }, 'Close');
   const dialog = element('dialog', { id: 'help', 'aria-labelledby': 'help-title' },
-    element('h2', { id: 'help-title' }, 'What can be done here'),
+    element('h2', { id: 'help-title' }, 'Help'),
     element('p', {}, 'Move a slider: the same motion in another style, computed in this browser. ' +
-      'Drag the view to look around, scroll to come nearer. Drop a motion or a character ' +
-      '(BVH, GLB, glTF, VRM, VRMA) on the view and style it; a motion and a character together ' +
-      'are put together, and a character alone walks. Save the result as BVH, GLB or VRMA, or all opened files as one zip, ' +
+      'Drag the view to look around, scroll to zoom. Drop a motion or a character ' +
+      '(BVH, GLB, glTF, VRM, VRMA) on the view and style it; a motion dropped with a character ' +
+      'is retargeted to it, and a character alone walks. Save the result as BVH, GLB or VRMA, or all opened files as one zip, ' +
       'the view as a picture (PNG), a film (WebM) or a loop (GIF). ' +
       'Nothing is uploaded.'),
-    element('p', {}, 'Learn a style: give a clip of an action as it is and one of the same action ' +
+    element('p', {}, 'Learn a style: give a neutral clip of an action and one of the same action ' +
       'in the style, from files or recorded from the view; a slider for it appears. Save it as a ' +
       'style file (.safetensors), and drop that, or a model, on the view to open it again. ' +
       'Keyframes, beside the time line of a clip, change the strength of a style over time.'),

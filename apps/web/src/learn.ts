@@ -151,7 +151,7 @@ export class Learn {
       new Slot(role, host, (action) => void this.#attempt(action), () => this.#showButton());
     this.#slots = { neutral: slot('neutral'), styled: slot('styled') };
     this.section = element('section', { id: 'learn', hidden: true, 'aria-label': 'Learn a style' },
-      element('p', { class: 'hint' }, 'Two clips with the same joints: an action as it is, and the same ' +
+      element('p', { class: 'hint' }, 'Two clips with the same joints: a neutral action, and the same ' +
         'action in the style. 2 to 3 seconds each are enough.'),
       this.#slots.neutral.element, this.#slots.styled.element,
       element('div', { class: 'name' }, this.#name, this.#go), this.#error, this.#report);
@@ -217,7 +217,7 @@ export class Learn {
     const { match, verdict, tempo, heldBackCm, meanPostureCm, untouchedCm } = report;
     const cm = (value: number | null) => (value ?? 0).toFixed(1);
     const canvas = element('canvas', { role: 'img', 'aria-label':
-      `Poses of ${report.styled} above, the poses of ${report.neutral} that they go with below` });
+      `Poses of ${report.styled} at the top, the matching poses of ${report.neutral} at the bottom` });
     canvas.style.height = `${kMatchPlotHeight}px`;
     const save = element('button', { type: 'button', id: 'learn-save' }, 'Save style file');
     save.addEventListener('click', () => this.host.onSave(name));
@@ -225,13 +225,12 @@ export class Learn {
       element('p', {}, element('b', {}, name), ` learnt in ${seconds.toFixed(1)} s: match ` +
         `${match.toFixed(2)}, tempo ${(1 / tempo).toFixed(2)}×`),
       canvas,
-      element('p', { class: 'hint' }, 'Above the styled clip, below the moments of the neutral one ' +
-        'that it goes with.'),
+      element('p', { class: 'hint' }, 'Top: the styled clip. Bottom: the matching frames of the neutral clip.'),
       ...report.warnings.map((text) => element('p', { class: 'warning' }, text)),
       element('p', { class: 'hint' }, heldBackCm === null
-        ? 'Too short to keep a part for checking, so the error is unknown.'
-        : `${capitalized(verdict ?? '')}: joints ${cm(heldBackCm)} cm off on the last quarter, ` +
-          'which was kept for checking (its mean posture alone ' +
+        ? 'Too short to validate; error unknown.'
+        : `${capitalized(verdict ?? '')}: joints ${cm(heldBackCm)} cm off on the held-back last ` +
+          'quarter (its mean posture alone ' +
           `${cm(meanPostureCm)}, no style ${cm(untouchedCm)}).`),
       save);
     this.#report.hidden = false;

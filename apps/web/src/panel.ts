@@ -21,15 +21,15 @@ const kRegionTitles: Record<Region, string> = {
   legs: 'Legs', torso: 'Torso', leftArm: 'Left arm', rightArm: 'Right arm',
 };
 const kRegionHints: Record<Region, string> = {
-  legs: 'Style the legs and the way they go, or not',
-  torso: 'Style the torso and the head, or not',
-  leftArm: 'Style the left arm, or not',
-  rightArm: 'Style the right arm, or not',
+  legs: 'Apply the style to legs and root motion',
+  torso: 'Apply the style to torso and head',
+  leftArm: 'Apply the style to the left arm',
+  rightArm: 'Apply the style to the right arm',
 };
 const kTempoTitles: Record<Timing, [string, string]> = {
-  steps: ['Steps', 'The tempo of the style where the feet step; talk and gestures keep their length'],
+  steps: ['Steps', 'The style\'s tempo only where the feet step; talk and gestures keep their length'],
   all: ['All', 'The tempo of the style everywhere'],
-  off: ['Off', 'The time of the input, frame by frame'],
+  off: ['Off', 'The input\'s tempo, frame by frame'],
 };
 const kViewTitles: Record<View, string> = {
   styled: 'Styled', side: 'Side by side', over: 'Overlaid',
@@ -79,7 +79,7 @@ function search(rows: StyleRows) {
   const none = element('p', { class: 'hint', role: 'status' });
   const filter = () => {
     const found = rows.filter(field.value.toLowerCase().split(/\s+/));
-    none.textContent = found ? '' : 'No style is described like that.';
+    none.textContent = found ? '' : 'No matching style';
   };
   field.addEventListener('input', filter);
   return { field, none, filter };
@@ -101,7 +101,7 @@ export function buildPanel(store: Store, styles: readonly Style[], events: Style
     (s) => s[key], store, (s) => ({ [key]: !s[key] })));
   const tempos = kTempos.map((tempo) => toggle(...kTempoTitles[tempo], (s) => s.tempo === tempo,
     store, () => ({ tempo })));
-  const feet = toggle('Feet lock', 'Planted feet stay in place', (s) => s.feet, store,
+  const feet = toggle('Foot lock', 'Planted feet stay in place', (s) => s.feet, store,
     (s) => ({ feet: !s.feet }));
   const trail = toggle('Foot trails', 'Paths of the toes', (s) => s.trail, store,
     (s) => ({ trail: !s.trail }));
@@ -119,13 +119,13 @@ export function buildPanel(store: Store, styles: readonly Style[], events: Style
     element('div', { class: 'chips', id: 'history', role: 'group', 'aria-label': 'Changes' },
       act('undo', 'Undo', 'Undo (Ctrl Z)', () => store.undo(), () => store.canUndo),
       act('redo', 'Redo', 'Redo (Ctrl Shift Z)', () => store.redo(), () => store.canRedo),
-      act('reset-all', 'Reset all', 'Everything as it was, without a style',
+      act('reset-all', 'Reset all', 'Reset all settings',
         () => store.set({ ...kDefaults, styles: {}, keys: {} }), () => true)),
     element('h2', {}, 'Presets'), chips.group,
     element('div', { class: 'heading' },
       element('h2', { id: 'styles', tabindex: -1 }, 'Styles'), learn.button),
     learn.section,
-    element('p', { class: 'hint' }, '0 is neutral, 1 as captured; beyond that it is exaggerated.'),
+    element('p', { class: 'hint' }, '0 is neutral, 1 as captured, above 1 exaggerated.'),
     found.field, found.none, rows.element,
     element('h2', {}, 'Blend of four'), pad.element,
     element('h2', {}, 'Amount'), ...amountSliders(store),

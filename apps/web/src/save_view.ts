@@ -34,7 +34,7 @@ function filmSaver({ stage, nameOf }: ViewSaving) {
   const record = button('Video (WebM)', () => {
     film.start(nameOf('.webm'));
     record.disabled = !(stop.hidden = false);
-  }, { id: 'save-webm', title: 'Record a video of the view, until Stop recording is pressed' });
+  }, { id: 'save-webm', title: 'Record a video of the view until Stop recording is pressed' });
   record.hidden = !Film.possible;
   return { record, stop };
 }

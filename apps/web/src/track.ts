@@ -41,7 +41,7 @@ export class Track {
     this.#zero.style.top = `${this.#down(0)}%`;
     this.#field.append(picture, this.#zero, this.#head);
     const add = button('Add keyframe', () => this.add(),
-      { id: 'add-key', title: 'A keyframe here, with the strength that the style has (K)' });
+      { id: 'add-key', title: 'Add a keyframe with the current strength (K)' });
     const clear = button('Clear', () => this.#set([]),
       { id: 'clear-keys', title: 'Remove all keyframes of this style' });
     find('#keys').append(this.#styles, this.#field, add, clear);

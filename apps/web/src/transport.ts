@@ -71,9 +71,9 @@ export class TransportBar {
       element('output', { 'aria-live': 'off' }, this.#time, this.#frameNow));
     row('clip-row',
       button('Loop start', () => this.setIn(), { id: 'in',
-        title: 'Begin here (I); again at the same place: at the beginning' }),
+        title: 'Start of the loop (I); press again to reset' }),
       button('Loop end', () => this.setOut(), { id: 'out',
-        title: 'End here (O); again at the same place: at the end' }),
+        title: 'End of the loop (O); press again to reset' }),
       this.#clips, this.#loop, speed,
       element('label', { class: 'word rate', for: 'fps' }, 'fps'), this.#rate);
     this.#play.addEventListener('click', () => this.setPlaying(!this.state.playing));

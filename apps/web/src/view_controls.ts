@@ -27,7 +27,7 @@ export function buildViewControls(on: ViewActions) {
   const whole = button('Full screen', () => {
     if (document.fullscreenElement) void document.exitFullscreen();
     else void find('.stage').requestFullscreen();
-  }, { id: 'fullscreen', ...hinted('The view alone, on the whole screen') });
+  }, { id: 'fullscreen', ...hinted('Full-screen view') });
   whole.hidden = !document.fullscreenEnabled;
   const more = find('#more');
   more.addEventListener('click', () => {
@@ -46,7 +46,7 @@ export function buildViewControls(on: ViewActions) {
     button('Fit', () => {
       menu.value = 'face';
       on.onLook('face');
-    }, { id: 'fit', ...hinted('Face the character and fit it in (F)') }),
+    }, { id: 'fit', ...hinted('Face the character and fit it in the view (F)') }),
     compare, whole,
     button('?', () => on.onHelp(), { id: 'show-help', ...hinted('Help: keys and more') }));
 }

@@ -22,7 +22,7 @@ namespace panache::web {
 using WalkerHandle = std::shared_ptr<const WalkerModel>;
 using FileHandle = std::shared_ptr<const MotionFile>;
 
-// Who fails has no other status to tell than null.
+// Failure is reported as null.
 inline std::nullptr_t fail(const Error& error) {
   api::fail(PANACHE_BAD_ARGUMENT, error.message);
   return nullptr;

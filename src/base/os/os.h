@@ -1,5 +1,5 @@
 #pragma once
-// What only the operating system knows. os_posix.cpp and os_windows.cpp each have all of it.
+// Functions of the operating system. os_posix.cpp and os_windows.cpp each have all of it.
 
 #include <string>
 
@@ -8,7 +8,7 @@ namespace panache {
 // Whether messages on stderr are read by a person at a terminal.
 bool is_terminal_stderr();
 
-// Whether this process may write to the file at `path`; false where there is none.
+// Whether this process may write to the file at `path`; false for a missing file.
 bool is_writable(const std::string& path);
 
 // Whether a file name fits a pattern of a shell: "*" and "?", and "[a-z]" where the system has it.
@@ -17,10 +17,10 @@ bool fits_pattern(const std::string& name, const std::string& pattern);
 // Calls `handler` at the first Ctrl-C, or other wish that this process end; the second one ends it.
 void on_stop_signal(void (*handler)(int));
 
-// What tells this process from all others of the machine.
+// A number that no other process of the machine has.
 unsigned process_number();
 
-// The path of the running program, without symbolic links; empty where it cannot be told.
+// The path of the running program, without symbolic links; empty if unknown.
 std::string program_path();
 
 }  // namespace panache

@@ -1,5 +1,5 @@
 #pragma once
-// The stages of a step that carry out a change, whoever asks for it: from the filter to the feet.
+// The stages of a step that carry out a change of any source: from the filter to the feet.
 
 #include <algorithm>
 #include <array>
@@ -28,7 +28,7 @@
 
 namespace panache {
 
-// What is asked for at one step.
+// The requested change at one step.
 struct AskedChange {
   StyleDelta delta;
   float log_rate = 0;                   // Logarithm of input seconds per output second.

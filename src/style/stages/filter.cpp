@@ -15,10 +15,10 @@ constexpr float kFreeShare = 0.2f, kStillSpeed = 0.1f, kSlowest = 11;
 constexpr float kSpeedSeconds = 0.1f;  // Over which speeds are averaged.
 // So it is where the gate closes by this much or more, in the mean over this time. Where it is
 // open, what a style does was captured or trained, and nothing is held back.
-constexpr float kStrange = 0.005f, kGateSeconds = 3;
+constexpr float kUnfamiliarGate = 0.005f, kGateSeconds = 3;
 // What turning a joint moves: about half a limb away, at once but for the usual filter.
 constexpr float kLever = 0.4f, kUsualSeconds = 0.04f;
-constexpr float kFastest = 100;  // m/s: what is no number is this.
+constexpr float kFastest = 100;  // m/s; also substituted for NaN.
 constexpr float kNear = 1e-7f, kNearRate = 1e-6f;
 
 float finite(float number) { return std::isfinite(number) ? number : 0.0f; }
@@ -42,17 +42,17 @@ std::array<float, kRegions> OutputFilter::gains(const StyleDelta& delta, float g
   // The first step goes all the way, and nothing has moved yet.
   const auto seconds = static_cast<float>(time.input);
   if (time.first || !(seconds > 0)) return gain;
-  const float strange = std::clamp((1 - gate_) / kStrange, 0.0f, 1.0f);
+  const float unfamiliar = std::clamp((1 - gate_) / kUnfamiliarGate, 0.0f, 1.0f);
   const float follow = time.gain(kSpeedSeconds);
   for (size_t r = 0; r < kRegions; ++r) {
     const float own = speed[r] / (joints[r] * seconds);
     const float added = change[r] * kLever / (joints[r] * kUsualSeconds);
     speed_[r] += follow * (std::min(kFastest, own) - speed_[r]);
     added_speed_[r] += follow * (std::min(kFastest, added) - added_speed_[r]);
-    if (strange == 0) continue;
+    if (unfamiliar == 0) continue;
     const float free = kFreeShare * (speed_[r] + kStillSpeed);
     const float slowness = std::clamp(added_speed_[r] / free, 1.0f, kSlowest);
-    gain[r] = time.gain(smoothing_seconds_ * (1 + strange * (slowness - 1)));
+    gain[r] = time.gain(smoothing_seconds_ * (1 + unfamiliar * (slowness - 1)));
   }
   return gain;
 }

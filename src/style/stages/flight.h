@@ -22,7 +22,7 @@ class FlightWatch {
   void push(double time, const HumanPositions& world) noexcept;
   // How much of a flight the moment `time` is part of, 0 (the style has its tempo) to 1 (the input
   // has). It eases in before a flight, as far as poses pushed show it coming, and out after the
-  // landing. Whoever plays at the newest pose learns of a flight some 0.15 s after take-off.
+  // landing. Without lag a flight is detected about 0.15 s after take-off.
   float amount(double time) const noexcept;
 
   // Calls visit(member) for everything that tells one character from another.
@@ -40,7 +40,7 @@ class FlightWatch {
   };
   struct Flight {
     double start = 0, end = 0;  // Seconds; none where they are equal.
-    double expected = 0;  // How long it lasts, as told by how fast the body rose at the start.
+    double expected = 0;        // Its duration, predicted from the rise at the start.
   };
   // How the body's centre moves up, m/s and m/s^2.
   struct Ballistics {

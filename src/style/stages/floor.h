@@ -9,8 +9,8 @@ namespace panache {
 // A style trained on one body may put another's feet through the floor, and the knees of a body
 // that kneels: lifts the body by as much as its lowest toe is deeper than both the floor and the
 // input's own lowest toe, or a knee or the hips deeper than they lie on the floor and than the
-// input's. It comes and goes slowly, or the whole body would start at every step; what is left of
-// the depth of toes is up to the legs.
+// input's. It comes and goes slowly, so that the body does not jerk at each step; the leg IK
+// removes the remaining toe penetration.
 class FloorClearance {
  public:
   void reset() noexcept { lift_ = 0; }

@@ -33,7 +33,7 @@ class HandContacts {
   }
 
  private:
-  // What a wrist can be near, besides the other wrist.
+  // The parts that a wrist can touch, besides the other wrist.
   enum Part { head, hips, left_thigh, right_thigh };
   static constexpr int kParts = 4;
   using Holds = std::array<std::array<float, kParts>, 2>;  // [sides][parts]

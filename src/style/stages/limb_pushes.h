@@ -1,5 +1,5 @@
 #pragma once
-// What pushes a limb out of the body: for the stages that keep limbs outside of it.
+// Pushes that move a limb out of the body, for the stages that keep limbs outside of it.
 
 #include <algorithm>
 #include <array>

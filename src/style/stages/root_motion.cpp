@@ -25,7 +25,7 @@ void RootMotion::step(const StyleDelta& delta, float gate, const Observer& obser
                       const InputWindow& window, const StepTime& time) noexcept {
   if (time.first) return;
   const float dt = static_cast<float>(time.input);
-  // On unknown motion a style has no say in the root motion: its mean is that of its walks.
+  // On unfamiliar motion a style does not change the root motion: its mean is that of its walks.
   const float moving = gate * std::min(1.0f, window.ground_speed() / kStandingSpeed);
   // Steps that lead nowhere give a style no say in the heading, and keep their length: stretched
   // ahead and not back, they would carry the body away.

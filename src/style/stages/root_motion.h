@@ -12,7 +12,7 @@ namespace panache {
 // and to the heading fades with this time constant.
 inline constexpr float kCourseSeconds = 1.5f;
 
-// What a style has added to the root motion since the start.
+// The root motion that a style has added since the start.
 struct RootOffset {
   Vec3 translation;  // World, metres, y = 0.
   float turn = 0;    // About +y, radians.

@@ -28,7 +28,8 @@ void weigh_regions(const Shape& shape, std::array<Quat, kHumanJoints>& rotations
 
 }  // namespace
 
-// The root motion is a sum over time: what is held back now stays held back, so that nobody jumps.
+// The root motion is a sum over time: what is held back now stays held back, so that the character
+// does not jump.
 RootOffset Shaping::hold_back(const Shape& shape, const RootOffset& root,
                               const StepTime& time) noexcept {
   const float held = 1 - std::min(1.0f, shape.dynamics * legs_of(shape));
@@ -40,7 +41,7 @@ RootOffset Shaping::hold_back(const Shape& shape, const RootOffset& root,
   return {root.translation - held_.translation, root.turn - held_.turn};
 }
 
-// The mean is kept up at all times, so that a change of mind finds it.
+// The mean is always updated, so that it is ready when the shape changes.
 StyleDelta Shaping::weigh_in_time(const Shape& shape, const StyleDelta& delta,
                                   const StepTime& time) noexcept {
   const float gain = time.gain(kPostureSeconds);

@@ -33,7 +33,7 @@ class Shaping {
   std::array<Vec3, kHumanJoints> mean_rotations_{};  // As in StyleDelta.
   float mean_height_ = 0;                            // Metres.
   RootOffset last_;                                  // As asked for at the last step.
-  RootOffset held_;                                  // What was not given of it.
+  RootOffset held_;                                  // The part of it that was held back.
 };
 
 }  // namespace panache

@@ -1,5 +1,5 @@
 #pragma once
-// What the stages did to one instant, for those who want to tell of it.
+// What the stages changed at one instant, for reports.
 
 namespace panache {
 

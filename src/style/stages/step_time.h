@@ -1,5 +1,5 @@
 #pragma once
-// What every stage of a step knows of time.
+// The times of a step, for every stage.
 
 #include <algorithm>
 

@@ -94,7 +94,7 @@ test('all of it can be done with the keyboard, and one sees where one is', async
     }
   }
   for (const name of ['Styled', 'Walk', 'open', 'save', 'save-bvh', 'copy-link', 'style-old', 'pad', 'amount-timing',
-    'Legs', 'Feet lock']) {
+    'Legs', 'Foot lock']) {
     assert.ok(seen.has(name), name);
   }
   assert.equal(await tab.locator('#style-old').inputValue(), '2');

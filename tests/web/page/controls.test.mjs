@@ -78,7 +78,7 @@ test('the tempo of the style is taken where the feet step, everywhere or nowhere
 
 test('a part of the body is switched off and on', async () => {
   for (const [name, key] of [['Legs', 'legs'], ['Torso', 'torso'], ['Left arm', 'leftArm'],
-    ['Right arm', 'rightArm'], ['Feet lock', 'footLock']]) {
+    ['Right arm', 'rightArm'], ['Foot lock', 'footLock']]) {
     await button(name).click();
     assert.equal((await told(tab)).shape[key], 0);
     assert.equal(await button(name).getAttribute('aria-pressed'), 'false');
@@ -324,7 +324,7 @@ test('styles are found by their words', async () => {
   assert.deepEqual((await shown())[0], 'Aching');
   await tab.locator('#search').fill('xyzzy');
   assert.deepEqual(await shown(), []);
-  assert.ok(await tab.getByText('No style is described like that.').isVisible());
+  assert.ok(await tab.getByText('No matching style').isVisible());
   await tab.locator('#search').fill('');
   assert.deepEqual(await shown(), all);
 });
