@@ -230,11 +230,11 @@ void add_eval(CLI::App& app, int& exit_code) {
       ->allow_extra_args(false);
   verb->add_option("--recorded", options->recorded,
                    "A folder of motion that another program made of test takes, with a "
-                   "manifest.csv (input,style,strength,output): judged like a model; may be given "
+                   "manifest.csv (input,style,strength,output): evaluated like a model; may be given "
                    "several times")
       ->allow_extra_args(false);
   verb->add_option("--requests", options->requests,
-                   "Judge nothing; write the manifest of all that --recorded can be judged by at "
+                   "Evaluate nothing; write the manifest of inputs for --recorded, at "
                    "strength 1, for the other program to go through");
   verb->add_option("--report", options->report, "A folder for report.json and the page index.html");
   verb->add_option("--steps", options->steps, "Train this many steps instead of the recipes' own")

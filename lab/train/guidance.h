@@ -1,7 +1,7 @@
 #pragma once
 // Training on motion that has no styled counterpart. A classifier that learnt the styles tells
 // whether what the pose network makes of it looks like the style; other losses keep it the motion
-// that it was: docs/method.md, "Styles on actions that nobody captured", says why each is there.
+// that it was: docs/method.md, "Generalising to other actions", says why each is there.
 
 #include <vector>
 
