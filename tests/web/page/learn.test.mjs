@@ -72,7 +72,7 @@ test('two clips that are dropped become a style with a slider, as panache learn 
   assert.ok(text.includes(`match ${pair.match.toFixed(2)}, ` +
     `tempo ${(1 / pair.tempo).toFixed(2)}×`), text);
   assert.ok(text.includes(`Good: joints ${said.held_back_cm.toFixed(1)} cm off on the ` +
-    'last quarter, which was kept for checking (its mean posture alone ' +
+    'held-back last quarter (its mean posture alone ' +
     `${said.mean_posture_cm.toFixed(1)}, no style ${said.untouched_cm.toFixed(1)})`), text);
   // A figure at each end, links between them: ink in all three parts of the plot.
   const ink = await tab.evaluate(() => {
