@@ -181,12 +181,11 @@ try {
   await tab.waitForFunction(() => window.ready, null, { timeout: 120000 });
   const { count, ...facts } = await tab.evaluate(() => window.ready);
   console.error(`moving-picture: ${JSON.stringify(facts)}`);
-  const last = process.env.FRAMES ? Math.min(count, +process.env.FRAMES) : count;
-  for (let frame = 0; frame < last; ++frame) {
+  for (let frame = 0; frame < count; ++frame) {
     await tab.evaluate((number) => window.show(number), frame);
     await tab.screenshot({ path: join(folder, `${String(frame).padStart(3, '0')}.png`) });
   }
-  console.log(last);
+  console.log(count);
 } finally {
   await browser.close();
   server.close();
