@@ -228,10 +228,11 @@ void add_eval(CLI::App& app, int& exit_code) {
                    "A motion file, a folder of them or a manifest (of which contents without "
                    "a style are used): out-of-distribution motion to try every style on")
       ->allow_extra_args(false);
-  verb->add_option("--recorded", options->recorded,
-                   "A folder of motion that another program made of test takes, with a "
-                   "manifest.csv (input,style,strength,output): evaluated like a model; may be given "
-                   "several times")
+  verb->add_option(
+          "--recorded", options->recorded,
+          "A folder of motion that another program made of test takes, with a "
+          "manifest.csv (input,style,strength,output): evaluated like a model; may be given "
+          "several times")
       ->allow_extra_args(false);
   verb->add_option("--requests", options->requests,
                    "Evaluate nothing; write the manifest of inputs for --recorded, at "
