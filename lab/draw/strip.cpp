@@ -11,7 +11,7 @@ namespace {
 
 // Pixels.
 constexpr double kMargin = 20, kRowGap = 22, kTitleHeight = 30, kTimeHeight = 24;
-constexpr double kLabelSize = 15, kTimeSize = 11;
+constexpr double kRowLabelSize = 15, kTimeSize = 11;
 constexpr double kLabelWidth = 190, kLabelLine = 19;  // The widest line of a label; line to line.
 // Metres: how thick the parts of a figure are.
 constexpr double kArm = 0.062, kLeg = 0.085, kTorso = 0.15, kNeck = 0.07, kHalo = 0.022;
@@ -88,7 +88,7 @@ std::vector<std::string> label_lines(const std::string& label) {
   std::vector<std::string> lines;
   std::string line, word;
   const auto put = [&] {
-    if (!line.empty() && text_width(line + word, kLabelSize) > kLabelWidth) {
+    if (!line.empty() && text_width(line + word, kRowLabelSize) > kLabelWidth) {
       lines.push_back(line);
       line.clear();
     }
@@ -98,7 +98,7 @@ std::vector<std::string> label_lines(const std::string& label) {
   for (const char c : label) {
     // Bytes of one letter stay together.
     const bool inside = (static_cast<unsigned char>(c) & 0xc0) == 0x80;
-    if (!inside && text_width(word + c, kLabelSize) > kLabelWidth) put();
+    if (!inside && text_width(word + c, kRowLabelSize) > kLabelWidth) put();
     word += c;
     if (c == ' ' || c == '-' || c == '_' || c == '/') put();
   }
@@ -294,7 +294,7 @@ std::string draw_strip(const std::vector<StripRow>& rows, const StripOptions& op
   double label_width = 0;
   for (const auto& lines : labels) {
     for (const std::string& line : lines) {
-      label_width = std::max(label_width, text_width(line, kLabelSize) + 16);
+      label_width = std::max(label_width, text_width(line, kRowLabelSize) + 16);
     }
   }
   const double title = options.title.empty() ? 0 : kTitleHeight;
@@ -316,7 +316,7 @@ std::string draw_strip(const std::vector<StripRow>& rows, const StripOptions& op
     const double above = kLabelLine * static_cast<double>(labels[r].size() - 1) / 2;
     for (size_t i = 0; i < labels[r].size(); ++i) {
       svg.text({kMargin, middle - above + kLabelLine * static_cast<double>(i)}, labels[r][i],
-               {kLabelSize, tinted(colour, -0.15), {}, true});
+               {kRowLabelSize, tinted(colour, -0.15), {}, true});
     }
     for (const Figure& figure : layout.rows[r]) {
       draw_figure(svg, figure, colour, origin, scale);

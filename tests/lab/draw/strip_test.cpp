@@ -67,7 +67,7 @@ StripRow made_up_row(const std::string& label, float swing, float stoop, float h
 }
 
 // Where PANACHE_DRAWINGS names a folder, the drawings are left there to be looked at.
-void keep(const std::string& svg, const std::string& name) {
+void keep_strip(const std::string& svg, const std::string& name) {
   const char* folder = std::getenv("PANACHE_DRAWINGS");
   if (folder) std::ofstream(std::string(folder) + "/" + name) << svg;
 }
@@ -78,7 +78,7 @@ TEST(Strip, has_a_head_for_every_frame_and_is_well_formed) {
   const std::string svg = draw_strip(
       {made_up_row("neutral", 1, 0), made_up_row("old", 0.6f, 1), made_up_row("T-pose", 0, 0)},
       options);
-  keep(svg, "strip.svg");
+  keep_strip(svg, "strip.svg");
   EXPECT_EQ(xml_problem(svg), "");
   // A head and its rim.
   EXPECT_EQ(occurrences(svg, "<circle"), 2u * 3 * 9);
@@ -147,7 +147,7 @@ TEST(Strip, travelling_figures_stand_where_they_are) {
   options.pixels_per_metre = 100;
   const std::string svg =
       draw_strip({made_up_row("walk", 1, 0), made_up_row("slow walk", 0.5f, 0)}, options);
-  keep(svg, "travel.svg");
+  keep_strip(svg, "travel.svg");
   EXPECT_EQ(xml_problem(svg), "");
   const std::vector<double> x = head_numbers(svg, "cx");
   ASSERT_EQ(x.size(), 18u);
@@ -231,7 +231,7 @@ TEST(Strip, each_row_is_seen_along_its_own_way) {
 TEST(Strip, a_long_name_takes_lines_and_no_width) {
   const std::string name = "dataset-1_walk_normal_001 on a character with a very long name";
   const std::string svg = draw_strip({made_up_row(name, 1, 0)}, {});
-  keep(svg, "long.svg");
+  keep_strip(svg, "long.svg");
   EXPECT_EQ(xml_problem(svg), "");
   const auto width = [](const std::string& drawing) {
     return std::stod(drawing.substr(drawing.find("width=\"") + 7));
