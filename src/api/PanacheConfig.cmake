@@ -1,6 +1,15 @@
-include(${CMAKE_CURRENT_LIST_DIR}/PanacheTargets.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/PanacheTargets.cmake OPTIONAL RESULT_VARIABLE Panache_shared)
 # The static library leaves its kernels' dispatch to Highway.
-find_package(hwy QUIET)
+if(Panache_shared)
+  find_package(hwy QUIET)
+else()
+  include(CMakeFindDependencyMacro)
+  find_dependency(hwy)
+endif()
 if(hwy_FOUND)
-  include(${CMAKE_CURRENT_LIST_DIR}/PanacheStaticTargets.cmake)
+  include(${CMAKE_CURRENT_LIST_DIR}/PanacheStaticTargets.cmake OPTIONAL)
+endif()
+# Where only the static library is installed, it has both names.
+if(NOT TARGET Panache::panache)
+  add_library(Panache::panache ALIAS Panache::panache_static)
 endif()

@@ -38,6 +38,8 @@ named = {
         [program, '--version'], capture_output=True, text=True, check=True).stdout),
     'the manual page': found(r'^\.TH .*"panache ([0-9.]+)"', read(manual)),
     'apps/web/package/package.json': json.loads(read('apps/web/package/package.json'))['version'],
+    'packaging/vcpkg/panache/vcpkg.json': json.loads(
+        read('packaging/vcpkg/panache/vcpkg.json'))['version'],
     'the name of the wheel': found(r'panache-([0-9.]+)-', os.path.basename(wheel)),
     'the metadata of the wheel': found(r'^Version: (.*)$', metadata),
     'the add-on': found(tuple_of_three, zipfile.ZipFile(addon).read('panache/__init__.py').decode()),

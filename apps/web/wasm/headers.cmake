@@ -9,7 +9,10 @@ foreach(name hwy fast_float nlohmann)
 endforeach()
 include_directories(SYSTEM ${headers})
 add_compile_options(-include ${CMAKE_CURRENT_LIST_DIR}/missing_std.h)
-# What find_package(nlohmann_json) finds instead of the system's, which names /usr/include.
-file(WRITE ${CMAKE_FIND_PACKAGE_REDIRECTS_DIR}/nlohmann_json-config.cmake
-  "if(NOT TARGET nlohmann_json::nlohmann_json)\n"
-  "  add_library(nlohmann_json::nlohmann_json INTERFACE IMPORTED GLOBAL)\nendif()\n")
+# What find_package finds instead of the system's, which names /usr/include.
+foreach(target FastFloat::fast_float nlohmann_json::nlohmann_json)
+  string(REGEX REPLACE ":.*" "" package ${target})
+  string(TOLOWER ${package} package)
+  file(WRITE ${CMAKE_FIND_PACKAGE_REDIRECTS_DIR}/${package}-config.cmake
+    "if(NOT TARGET ${target})\n  add_library(${target} INTERFACE IMPORTED GLOBAL)\nendif()\n")
+endforeach()

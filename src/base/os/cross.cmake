@@ -11,7 +11,7 @@ foreach(name hwy fast_float nlohmann CLI)
 endforeach()
 include_directories(SYSTEM ${headers})
 # What find_package finds instead of the system's own.
-foreach(target hwy::hwy nlohmann_json::nlohmann_json CLI11::CLI11)
+foreach(target FastFloat::fast_float hwy::hwy nlohmann_json::nlohmann_json CLI11::CLI11)
   string(REGEX REPLACE ":.*" "" package ${target})
   string(TOLOWER ${package} package)
   file(WRITE ${CMAKE_FIND_PACKAGE_REDIRECTS_DIR}/${package}-config.cmake
