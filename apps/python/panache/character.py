@@ -1,13 +1,15 @@
 """Characters, live: one step a frame."""
 
 import ctypes
+import os
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Sequence, Tuple
 
 import numpy as np
 
 from . import _library as c
-from ._library import Handle, check, fixed, floats, lib, number, sized
+from ._library import Handle, PanacheError, check, fixed, floats, lib, number, sized
 from .clips import Skeleton
 from .model import Model
 
@@ -154,19 +156,58 @@ class Character:
 
 class Crowd:
     """Many characters that are stepped together, which takes less time where they share a model:
-    each bit for bit as alone. None may come twice."""
+    each bit for bit as alone. None may come twice.
 
-    def __init__(self, characters: Sequence[Character]):
+    threads: how many threads step them, 1 to 256; 0: as many as this process may use cores.
+    """
+
+    def __init__(self, characters: Sequence[Character], *, threads: int = 1):
         self._characters = tuple(characters)  # Whose arrays the step reads and writes.
-        count = len(self._characters)
-        self._handles = (ctypes.c_void_p * count)(*[one._pointer.value for one in self._characters])
-        self._in = (c.Pose * count)(*[one._in for one in self._characters])
-        self._out = (c.Pose * count)(*[one._out for one in self._characters])
+        threads = c.whole(threads, 'threads')
+        if not 0 <= threads <= 256:
+            raise PanacheError(f'threads: expected 0 to 256, found {threads}')
+        threads = min(threads or _cores(), max(len(self._characters), 1))
+        bounds = [len(self._characters) * i // threads for i in range(threads + 1)]
+        self._parts = [_part(self._characters[begin:end]) for begin, end in zip(bounds, bounds[1:])]
+        self._pool, self._pool_of = None, 0
 
     @property
     def characters(self) -> Tuple[Character, ...]:
         return self._characters
 
+    @property
+    def threads(self) -> int:
+        return len(self._parts)
+
     def step(self, seconds: float) -> None:
         """`Character.step()` of all."""
-        lib.step_many(self._handles, len(self._handles), self._in, seconds, self._out)
+        seconds = number(seconds, 'seconds')
+        if len(self._parts) == 1:
+            return _step_part(self._parts[0], seconds)
+        if self._pool_of != os.getpid():  # A fork has none of its parent's threads.
+            self._pool = ThreadPoolExecutor(len(self._parts) - 1)
+            self._pool_of = os.getpid()
+        others = [self._pool.submit(_step_part, part, seconds) for part in self._parts[1:]]
+        _step_part(self._parts[0], seconds)
+        for other in others:
+            other.result()
+
+
+def _cores() -> int:
+    """Those that this process may use."""
+    if hasattr(os, 'sched_getaffinity'):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def _part(characters):
+    """The arguments of panache_step_many() but for the seconds."""
+    count = len(characters)
+    return ((ctypes.c_void_p * count)(*[one._pointer.value for one in characters]), count,
+            (c.Pose * count)(*[one._in for one in characters]),
+            (c.Pose * count)(*[one._out for one in characters]))
+
+
+def _step_part(part, seconds: float) -> None:
+    handles, count, poses_in, poses_out = part
+    lib.step_many(handles, count, poses_in, seconds, poses_out)

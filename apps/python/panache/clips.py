@@ -45,6 +45,10 @@ class Skeleton:
                                f'{len(parents)}')
         rotations = floats(rotations, (count, 4), 'rotations')
         translations = floats(translations, (count, 3), 'translations')
+        told = {'metres_per_unit': metres_per_unit, 'up_axis': up_axis,
+                'human_joints': dict(mapping(human_joints or {}, 'human_joints'))}
+        made_of = [list(names), [int(parent) for parent in parents], rotations.copy(),
+                   translations.copy()]
         array = (c.Joint * max(count, 1))()
         for j, name in enumerate(names):
             array[j].name, array[j].parent = utf8(name, 'joint'), int(parents[j])
@@ -57,13 +61,20 @@ class Skeleton:
             kept += [turns, moves]
             options.rotations, options.translations = turns.ctypes.data, moves.ctypes.data
             options.pose_count = len(turns)
-        self._adopt(Handle('skeleton', lib.skeleton_create, array, count, options), names, parents)
+            told['poses'] = (turns.copy(), moves.copy())
+        self._adopt(Handle('skeleton', lib.skeleton_create, array, count, options), names, parents,
+                    (_skeleton_again, (made_of, told)))
 
-    def _adopt(self, handle: Handle, names, parents) -> 'Skeleton':
+    def _adopt(self, handle: Handle, names, parents, again) -> 'Skeleton':
+        """`again`: a function and its arguments that make this skeleton in another process."""
         self._handle = handle
         self.joint_names = list(names)
         self.parents = [int(parent) for parent in parents]
+        self._again = again
         return self
+
+    def __reduce__(self):
+        return self._again
 
     def __len__(self) -> int:
         return len(self.joint_names)
@@ -79,6 +90,10 @@ class Skeleton:
         """The name of each human joint's joint, None where the rig has none."""
         places = {human: self.find(human) for human in HUMAN_JOINTS}
         return {human: self.joint_names[j] if j >= 0 else None for human, j in places.items()}
+
+
+def _skeleton_again(made_of, told) -> Skeleton:
+    return Skeleton(*made_of, **told)
 
 
 def _options(metres_per_unit=0.0, up_axis=None, human_joints=None):

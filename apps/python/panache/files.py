@@ -34,14 +34,16 @@ class MotionFile:
     """
 
     def __init__(self, path: Path, fps: Optional[float] = None):
-        self.path = os.fsdecode(path)
-        content = read_bytes(path)
+        self._open(os.fsdecode(path), read_bytes(path), fps)
+
+    def _open(self, path: str, content: bytes, fps: Optional[float]) -> 'MotionFile':
+        self.path, self._content, self._fps = path, content, fps
+        name = os.fsencode(path)
         if fps is None:
-            self._handle = Handle('motion_file', lib.motion_file_create, content, len(content),
-                                  os.fsencode(path))
+            self._handle = Handle('motion_file', lib.motion_file_create, content, len(content), name)
         else:
             self._handle = Handle('motion_file', lib.motion_file_create_at_rate, content,
-                                  len(content), os.fsencode(path), number(fps, 'fps'))
+                                  len(content), name, number(fps, 'fps'))
         at, joint = self._handle.pointer, c.Joint()
         self.joint_names: List[str] = []
         self.parents: List[int] = []
@@ -54,6 +56,10 @@ class MotionFile:
             for i in range(lib.motion_file_clip_count(at))]
         self.moves: List[bool] = [lib.motion_file_clip_moves(at, i) != 0
                                   for i in range(len(self.clip_names))]
+        return self
+
+    def __reduce__(self):  # The file as it was read; another process may find another one there.
+        return _file_again, (self.path, self._content, self._fps)
 
     @property
     def notes(self) -> List[str]:
@@ -86,7 +92,11 @@ class MotionFile:
         options, kept = _options(metres_per_unit, up_axis, human_joints)
         handle = Handle('skeleton', lib.motion_file_create_skeleton, self._handle.pointer,
                         c.whole(clip, 'clip'), options)
-        return Skeleton.__new__(Skeleton)._adopt(handle, self.joint_names, self.parents)
+        told = {'metres_per_unit': metres_per_unit, 'up_axis': up_axis,
+                'human_joints': dict(human_joints or {})}
+        return Skeleton.__new__(Skeleton)._adopt(
+            handle, self.joint_names, self.parents,
+            (_skeleton_of_file_again, (self.path, self._content, self._fps, clip, told)))
 
     def clip(self, which: Union[int, str] = 0, skeleton: Optional[Skeleton] = None) -> Clip:
         """A motion, by its place or name. Its arrays are read-only views of the file as read."""
@@ -165,6 +175,14 @@ class MotionFile:
             raise PanacheError(f'{path}: expected a name that ends in {extension}, as that of '
                                f'{self.path}; panache convert writes other formats')
         check_free(path, force)
+
+
+def _file_again(path, content, fps) -> MotionFile:
+    return MotionFile.__new__(MotionFile)._open(path, content, fps)
+
+
+def _skeleton_of_file_again(path, content, fps, clip, told) -> Skeleton:
+    return _file_again(path, content, fps).skeleton(clip, **told)
 
 
 @dataclass

@@ -53,6 +53,9 @@ class Model:
         """What each of the styles is listed under, 'moods'; '' for learnt ones, and in models
         without groups."""
 
+    def __reduce__(self):
+        return Model, (self.content,)
+
     def __repr__(self) -> str:
         return f'<panache.Model of {len(self.styles)} styles>'
 
