@@ -1,25 +1,23 @@
-// node main.mjs PACKAGE STYLE: styles a three.js figure for three seconds, PACKAGE being build/npm.
+// node main.mjs STYLE: styles a figure that an AnimationMixer moves, for three seconds.
 import { readFile } from 'node:fs/promises';
-import { resolve } from 'node:path';
-import { pathToFileURL } from 'node:url';
-import { Vector3 } from 'three';
+import { createRequire } from 'node:module';
+import { Panache } from 'panache';
+import { StyledMixer } from 'panache/three';
+import { AnimationMixer, Vector3 } from 'three';
 
-import { createFigure, humanBones, walk } from './stick_figure.mjs';
-import { StyledBones } from './styled_bones.mjs';
+import { createFigure, createWalk, humanBones } from './stick_figure.mjs';
 
-const [folder, style = 'old'] = process.argv.slice(2);
-if (!folder) {
-  console.error('usage: node main.mjs PACKAGE [STYLE]');
-  process.exit(2);
-}
-const { Panache } = await import(pathToFileURL(resolve(folder, 'index.js')).href);
+const style = process.argv[2] ?? 'old';
+const { resolve } = createRequire(import.meta.url);
 const panache = await Panache.create({
-  wasm: await readFile(resolve(folder, 'panache.wasm')),
-  model: await readFile(resolve(folder, 'panache-int8.safetensors')),
+  wasm: await readFile(resolve('panache/panache.wasm')),
+  model: await readFile(resolve('panache/panache-int8.safetensors')),
 });
 const figure = createFigure();
-const styled = new StyledBones(panache, figure, humanBones);
-styled.character.setStrength(style, 1);
+const mixer = new AnimationMixer(figure);
+mixer.clipAction(createWalk(3)).play();
+const styled = new StyledMixer(panache, mixer, { humanBones });
+styled.setStrength(style, 1);
 
 // How far the head is ahead of the hips, cm.
 function stoop() {
@@ -29,13 +27,13 @@ function stoop() {
 }
 
 console.log(`seconds  head ahead of the hips, cm: as it walks  as '${style}'`);
-for (let frame = 0; frame <= 180; ++frame) {
-  walk(figure, frame / 60);
-  const before = stoop();
-  styled.step(1 / 60);
-  if (frame % 30 !== 0) continue;
-  console.log(`${(frame / 60).toFixed(1).padStart(7)}  ${before.toFixed(1).padStart(41)}  ` +
-    stoop().toFixed(1).padStart(8));
+for (let frame = 0; frame < 180; ++frame) {
+  styled.update(1 / 60);
+  if (frame % 30 !== 29) continue;
+  const after = stoop();
+  styled.restore();
+  console.log(`${((frame + 1) / 60).toFixed(1).padStart(7)}  ${stoop().toFixed(1).padStart(41)}  ` +
+    after.toFixed(1).padStart(8));
 }
 styled.free();
 panache.free();

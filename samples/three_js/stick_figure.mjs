@@ -1,5 +1,5 @@
 // The samples' walking figure (../common/stick_figure.h) as three.js bones with names of their own.
-import { Bone } from 'three';
+import { AnimationClip, Bone, QuaternionKeyframeTrack, VectorKeyframeTrack } from 'three';
 
 // Name, parent, translation; metres, Y up, facing +z, arms hanging.
 const kBones = [
@@ -48,28 +48,25 @@ export function createFigure() {
   return bones[0];
 }
 
-// Angles of what swings, x y z w about x.
-function bend(bone, angle) {
-  bone.quaternion.set(Math.sin(angle / 2), 0, 0, Math.cos(angle / 2));
-}
-
-// Poses the figure as it walks, `seconds` after it began.
-export function walk(root, seconds) {
-  const turn = 6.283185307179586 * seconds * 0.9;
-  const bone = (name) => root.getObjectByName(name);
-  // All bones, as an animation mixer would: a style turns those too that the walk leaves at rest.
-  for (const [name, , translation] of kBones) {
-    bone(name).quaternion.identity();
-    bone(name).position.set(...translation);
-  }
-  root.position.set(0, Math.fround(Math.fround(0.95) + Math.fround(0.02 * Math.cos(2 * turn))),
-    Math.fround(1.2 * seconds));
-  bend(bone('Wing_L'), 0.4 * Math.sin(turn));
-  bend(bone('Wing_R'), -0.4 * Math.sin(turn));
-  bend(bone('Wing_L_1'), -0.3);
-  bend(bone('Wing_R_1'), -0.3);
-  bend(bone('Stilt_L'), -0.45 * Math.sin(turn));
-  bend(bone('Stilt_R'), 0.45 * Math.sin(turn));
-  bend(bone('Stilt_L_1'), 0.35 + 0.35 * Math.cos(turn));
-  bend(bone('Stilt_R_1'), 0.35 - 0.35 * Math.cos(turn));
+// The figure's walk as an animation of so many seconds.
+export function createWalk(seconds) {
+  const times = Array.from({ length: 60 * seconds + 1 }, (_, frame) => frame / 60);
+  // What swings about x, by an angle at each instant.
+  const swing = (name, angle) => new QuaternionKeyframeTrack(`${name}.quaternion`, times,
+    times.flatMap((t) => {
+      const half = angle(6.283185307179586 * t * 0.9) / 2;
+      return [Math.sin(half), 0, 0, Math.cos(half)];
+    }));
+  return new AnimationClip('walk', -1, [
+    new VectorKeyframeTrack('Pelvis_M.position', times, times.flatMap(
+      (t) => [0, 0.95 + 0.02 * Math.cos(2 * 6.283185307179586 * t * 0.9), 1.2 * t])),
+    swing('Wing_L', (turn) => 0.4 * Math.sin(turn)),
+    swing('Wing_R', (turn) => -0.4 * Math.sin(turn)),
+    swing('Wing_L_1', () => -0.3),
+    swing('Wing_R_1', () => -0.3),
+    swing('Stilt_L', (turn) => -0.45 * Math.sin(turn)),
+    swing('Stilt_R', (turn) => 0.45 * Math.sin(turn)),
+    swing('Stilt_L_1', (turn) => 0.35 + 0.35 * Math.cos(turn)),
+    swing('Stilt_R_1', (turn) => 0.35 - 0.35 * Math.cos(turn)),
+  ]);
 }

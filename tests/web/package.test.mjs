@@ -1,6 +1,7 @@
 // The npm package under Node: what the module exports, and poses of the caller's own.
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
+import { existsSync } from 'node:fs';
 import { cp, mkdir, mkdtemp, readFile, rm, symlink, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { basename, join } from 'node:path';
@@ -11,7 +12,8 @@ const root = fileURLToPath(new URL('../../', import.meta.url));
 const read = (path) => readFile(join(root, path));
 const kJoints = 19, kFrames = 180;
 
-let folder, panache, createWithWalker, wasm, PanacheError, createFigure, humanBones, StyledBones;
+let folder, panache, createWithWalker, wasm, PanacheError, createFigure, createWalk,
+  humanBones, StyledBones, StyledMixer, three;
 before(async () => {
   // The package and the sample as a user has them.
   folder = await mkdtemp(join(tmpdir(), 'panache-'));
@@ -21,13 +23,18 @@ before(async () => {
     await cp(join(root, path), join(folder, 'package', basename(path)));
   }
   await mkdir(join(folder, 'three_js'));
-  for (const name of ['main.mjs', 'package.json', 'stick_figure.mjs', 'styled_bones.mjs']) {
+  for (const name of ['main.mjs', 'package.json', 'stick_figure.mjs']) {
     await cp(join(root, 'samples/three_js', name), join(folder, 'three_js', name));
   }
-  await symlink(join(root, 'apps/web/node_modules'), join(folder, 'three_js/node_modules'));
+  await mkdir(join(folder, 'three_js/node_modules'));
+  await symlink(join(root, 'apps/web/node_modules/three'),
+    join(folder, 'three_js/node_modules/three'));
+  await symlink(join(folder, 'package'), join(folder, 'three_js/node_modules/panache'));
   const load = (path) => import(pathToFileURL(join(folder, path)).href);
-  ({ createFigure, humanBones } = await load('three_js/stick_figure.mjs'));
-  ({ StyledBones } = await load('three_js/styled_bones.mjs'));
+  ({ createFigure, createWalk, humanBones } = await load('three_js/stick_figure.mjs'));
+  ({ StyledBones, StyledMixer } = await load('package/three.js'));
+  three = await import(pathToFileURL(
+    join(root, 'apps/web/node_modules/three/build/three.module.js')).href);
   const module = await load('package/index.js');
   PanacheError = module.PanacheError;
   wasm = await WebAssembly.compile(await readFile(join(folder, 'package/panache.wasm')));
@@ -70,6 +77,12 @@ test('the package is whole: licence, example and types', async () => {
     execFileSync(process.execPath, [example, 'walk.bvh', 'old=1'], { cwd: project }).toString());
   assert.match(styled[0], /^MOTION$/m);
   assert.equal(styled[1], styled[0]);
+  // And as README.md prints one.
+  const [, printed] = (await read('apps/web/package/README.md')).toString()
+    .match(/```js\n(\/\/ restyle\.mjs\n.*?)```/s);
+  await writeFile(join(project, 'restyle.mjs'), printed);
+  execFileSync(process.execPath, ['restyle.mjs'], { cwd: project });
+  assert.equal((await readFile(join(project, 'old.bvh'))).toString(), styled[0]);
   walk.free();
   made.free();
 
@@ -86,14 +99,47 @@ test('the package is whole: licence, example and types', async () => {
       character.setStrength(1, 1);
       return panache.openFile(bytes, 'walk.bvh').joints[0].name + new PanacheError('').message;
     }`);
+  await symlink(join(root, 'apps/web/node_modules/three'), join(project, 'node_modules/three'));
+  await mkdir(join(project, 'node_modules/@types'));
+  for (const name of ['three', 'webxr', 'stats.js']) {
+    await symlink(join(root, 'apps/web/node_modules/@types', name),
+      join(project, 'node_modules/@types', name));
+  }
+  await writeFile(join(project, 'use_three.mts'), `
+    import { Panache } from 'panache';
+    import { StyledBones, StyledMixer } from 'panache/three';
+    import { AnimationMixer, Object3D } from 'three';
+    export function use(panache: Panache, root: Object3D): number {
+      const styled = new StyledMixer(panache, new AnimationMixer(root), { humanBones: { leftHand: null } });
+      styled.setStrength('old', 1);
+      styled.update(1 / 60);
+      // @ts-expect-error A mixer is no tree of bones.
+      new StyledBones(panache, new AnimationMixer(root));
+      return styled.character.report().gate;
+    }`);
   const tsc = join(root, 'apps/web/node_modules/typescript/bin/tsc');
   for (const [module, resolution] of [['node16', 'node16'], ['esnext', 'bundler']]) {
     const ran = spawnSync(process.execPath, [tsc, '--noEmit', '--strict', '--target', 'es2022',
-      '--module', module, '--moduleResolution', resolution, 'use.mts'],
+      '--module', module, '--moduleResolution', resolution, '--skipLibCheck', 'use.mts', 'use_three.mts'],
     { cwd: project });
     assert.equal(ran.stdout.toString(), '', resolution);
     assert.equal(ran.status, 0, resolution);
   }
+});
+
+// What a package of npm has to be, as other people's programs check it.
+const checkers = join(root, 'tests/web/node_modules');
+const without = !existsSync(join(checkers, 'publint')) && 'tests/web has no packages; npm ci fetches them';
+test('publint and attw find no faults', { skip: without }, async () => {
+  const { project, installed } = await install();
+  const { publint } = await import('publint');
+  const { messages } = await publint({ pkgDir: installed, strict: true });
+  assert.deepEqual(messages, []);
+  // Modules only; the other entries are no modules.
+  const ran = spawnSync(process.execPath, [join(checkers, '@arethetypeswrong/cli/dist/index.js'),
+    join(project, `panache-${version}.tgz`), '--profile', 'esm-only', '--entrypoints', '.', './three',
+    '--no-color', '--no-emoji']);
+  assert.equal(ran.status, 0, ran.stdout + ran.stderr);
 });
 
 test('the module exports panache.h without files and samples, the page\'s own functions, and nothing else of ours', async () => {
@@ -145,7 +191,7 @@ test('a three.js skeleton, C and the library give the same bits', async () => {
   assert.equal(poses.length, kFrames * 7 * kJoints);
 
   const figure = createFigure();
-  const styled = new StyledBones(panache, figure, humanBones);
+  const styled = new StyledBones(panache, figure, { humanBones });
   styled.character.setShape({ posture: 0.75, leftArm: 0.5 });
   styled.character.setStrength('old', 0.5);
   styled.character.setStrength('proud', 0.75);
@@ -169,10 +215,147 @@ test('a three.js skeleton, C and the library give the same bits', async () => {
 
 test('the three.js sample runs, and an old figure stoops', () => {
   const lines = execFileSync(process.execPath,
-    ['main.mjs', join(folder, 'package'), 'old'], { cwd: join(folder, 'three_js') })
+    ['main.mjs', 'old'], { cwd: join(folder, 'three_js') })
     .toString().trim().split('\n');
   const [, before, after] = lines.at(-1).trim().split(/\s+/).map(Number);
   assert.ok(after > before + 3, lines.at(-1));
+});
+
+// Everything that three.js objects can be put into: position, rotation, scale of all bones.
+function poseOf(root) {
+  const out = [];
+  root.traverse(({ position, quaternion }) => out.push(...position, ...quaternion));
+  return out;
+}
+function play(root, seconds = 3) {
+  const mixer = new three.AnimationMixer(root);
+  mixer.clipAction(createWalk(seconds)).play();
+  return mixer;
+}
+
+test('an AnimationMixer is styled as its poses are by hand', () => {
+  const [figure, byHand] = [createFigure(), createFigure()];
+  const styled = new StyledMixer(panache, play(figure), { humanBones });
+  const mixer = play(byHand);
+  const bones = [];
+  byHand.traverse((bone) => bones.push(bone));
+  const { joints, made } = skeleton();
+  const character = panache.createCharacter(made);
+  styled.setStrength('old', 1);
+  character.setStrength('old', 1);
+  const pose = { rotations: new Float32Array(4 * kJoints), translations: new Float32Array(3 * kJoints) };
+  for (let f = 0; f < 100; ++f) {
+    styled.update(1 / 60);
+    mixer.update(1 / 60);
+    bones.forEach((bone, i) => {
+      bone.quaternion.toArray(pose.rotations, 4 * i);
+      bone.position.toArray(pose.translations, 3 * i);
+    });
+    character.step(pose, pose, 1 / 60);
+    const expected = bones.flatMap((_, i) => [...pose.translations.subarray(3 * i, 3 * i + 3),
+      ...pose.rotations.subarray(4 * i, 4 * i + 4)]);
+    assert.deepEqual(poseOf(figure).map(Math.fround), expected, `frame ${f}`);
+  }
+  assert.equal(joints.length, kJoints);
+  // The mixer's own pose comes back, and so it does in the end.
+  styled.restore();
+  assert.deepEqual(poseOf(figure), poseOf(byHand));
+  styled.update(1 / 60);
+  mixer.update(1 / 60);
+  styled.free();
+  assert.deepEqual(poseOf(figure), poseOf(byHand));
+});
+
+test('a paused mixer, which writes nothing, does not pile the style up', () => {
+  const figure = createFigure();
+  const mixer = play(figure);
+  const styled = new StyledMixer(panache, mixer, { humanBones, styleRoot: false });
+  styled.setStrength('old', 1);
+  for (let f = 0; f < 60; ++f) styled.update(1 / 60);
+  mixer.timeScale = 0;
+  for (let f = 0; f < 120; ++f) styled.update(1 / 60);
+  const before = poseOf(figure);
+  for (let f = 0; f < 60; ++f) styled.update(1 / 60);
+  const moved = Math.max(...poseOf(figure).map((x, i) => Math.abs(x - before[i])));
+  assert.ok(moved < 0.01, `${moved}`);
+  styled.free();
+});
+
+test('without a style three.js keeps its numbers to the last digit', () => {
+  const [figure, plain] = [createFigure(), createFigure()];
+  figure.position.x = plain.position.x = 1 / 3;
+  const holder = new three.Group();
+  holder.add(figure);
+  const mixer = play(plain), styled = new StyledMixer(panache, play(figure), { humanBones });
+  for (let f = 0; f < 30; ++f) {
+    styled.update(1 / 60);
+    mixer.update(1 / 60);
+    assert.deepEqual(poseOf(figure), poseOf(plain));
+  }
+  styled.free();
+});
+
+test('a scaled and turned scene gets the same style in its own units', () => {
+  const plain = createFigure(), small = createFigure();
+  // As exporters do it: centimetres and Z up below an object that undoes both; a mesh beside it.
+  const scene = new three.Group(), armature = new three.Object3D();
+  armature.scale.setScalar(0.01);
+  armature.quaternion.setFromAxisAngle(new three.Vector3(1, 0, 0), -Math.PI / 2);
+  scene.add(armature, new three.Mesh());
+  armature.add(small);
+  const toZUp = armature.quaternion.clone().invert();
+  const clip = createWalk(3);
+  small.traverse((bone) => bone.position.multiplyScalar(100));
+  small.position.applyQuaternion(toZUp);
+  small.quaternion.premultiply(toZUp);
+  const [track] = clip.tracks;
+  for (let i = 0; i < track.values.length; i += 3) {
+    new three.Vector3().fromArray(track.values, i).multiplyScalar(100).applyQuaternion(toZUp)
+      .toArray(track.values, i);
+  }
+  const mixer = new three.AnimationMixer(scene);
+  mixer.clipAction(clip).play();
+  const a = new StyledMixer(panache, play(plain), { humanBones });
+  const b = new StyledMixer(panache, mixer, { humanBones });
+  a.setStrength('proud', 1);
+  b.setStrength('proud', 1);
+  const place = (root) => ['Skull', 'Wing_L_2', 'Stilt_R_3'].flatMap((name) => {
+    root.updateMatrixWorld(true);
+    return [...root.getObjectByName(name).getWorldPosition(new three.Vector3())];
+  });
+  let largest = 0, changed = 0;
+  for (let f = 0; f < 120; ++f) {
+    a.update(1 / 60);
+    b.update(1 / 60);
+    const [p, q] = [place(plain), place(scene)];
+    p.forEach((x, i) => { largest = Math.max(largest, Math.abs(x - q[i])); });
+    b.restore();
+    place(scene).forEach((x, i) => { changed = Math.max(changed, Math.abs(x - q[i])); });
+  }
+  assert.ok(largest < 0.002, `${largest} m apart`);  // Rounding of 32 bits, through networks.
+  assert.ok(changed > 0.03, `${changed} m changed`);
+  assert.deepEqual([armature.scale.x, armature.position.length()], [0.01, 0]);
+  a.free();
+  b.free();
+});
+
+test('what three.js objects cannot be styled is said in a sentence', () => {
+  refusal(() => new StyledBones(panache, new three.Group()), /^root: expected an object with bones/);
+  refusal(() => new StyledBones(panache, null), /^root: expected an Object3D, found nothing/);
+  refusal(() => new StyledMixer(panache, createFigure()), /^mixer: expected an AnimationMixer/);
+  refusal(() => new StyledBones(panache, createFigure(), { humanBones: { hips: 'Pelvis' } }),
+    /^humanBones.hips: there is no bone 'Pelvis'/);
+  refusal(() => new StyledBones(panache, createFigure(), { humanBones, maxlag: 1 }),
+    /there is no option 'maxlag'/);
+  const flat = createFigure();
+  flat.children[0].scale.set(1, 2, 1);
+  refusal(() => new StyledBones(panache, flat, { humanBones }), /^'Back_A': expected a scale .* 1, 2, 1$/);
+  const bone = new three.Bone();
+  assert.throws(() => new StyledBones(panache, bone), PanacheError);
+  const styled = new StyledMixer(panache, play(createFigure()), { humanBones });
+  refusal(() => styled.update(NaN), /^seconds: expected a finite number/);
+  styled.free();
+  refusal(() => styled.update(1 / 60), /freed/);
 });
 
 function refusal(action, message) {
