@@ -43,6 +43,8 @@ named = {
     'the name of the wheel': found(r'panache-([0-9.]+)-', os.path.basename(wheel)),
     'the metadata of the wheel': found(r'^Version: (.*)$', metadata),
     'the add-on': found(tuple_of_three, zipfile.ZipFile(addon).read('panache/__init__.py').decode()),
+    'apps/blender/blender_manifest.toml': found(
+        r'^version = "([0-9.]+)"$', read('apps/blender/blender_manifest.toml')),
     'CITATION.cff': found(r'^version: (.*)$', citation),
     'CHANGELOG.md': found(r'^## \[([0-9.]+)\]', changelog),
 }

@@ -59,8 +59,11 @@ def draw_problem(layout):
 
 def learnt_path():
     """Where learnt styles are kept."""
-    return os.path.join(bpy.utils.user_resource('CONFIG', path='panache', create=True),
-                        'styles.safetensors')
+    if __package__.startswith('bl_ext.'):  # Extensions have a folder of their own.
+        folder = bpy.utils.extension_path_user(__package__, create=True)
+    else:
+        folder = bpy.utils.user_resource('CONFIG', path='panache', create=True)
+    return os.path.join(folder, 'styles.safetensors')
 
 
 def learnt_style(name):
