@@ -1,17 +1,17 @@
-// Panache for C++17 and newer: the objects of panache.h with destructors, and exceptions for failures.
+// Panache for C++17 and newer: the objects of panache.h with destructors, and exceptions.
 //
-//     panache::Model model(bytes, size);                         // shared by all characters
-//     panache::Skeleton skeleton(joints, joint_count);           // shared by all with the same rig
-//     panache::Character character(model, skeleton);             // one for each
+//     panache::Model model(bytes, size);              // shared by all characters
+//     panache::Skeleton skeleton(joints, count);      // shared by all with the same rig
+//     panache::Character character(model, skeleton);  // one for each
 //     character.set_strength(model.find_style("old"), 1);
 //     each frame: character.step({in_rotations, in_translations}, 1.0 / 60,
 //                                {out_rotations, out_translations});
 //
-// Shapes, units and lifetimes are those of the functions of panache.h with the same names. Arguments
-// are pointers and counts or structs of panache.h. Objects can be moved and not copied, and get()
-// gives the handle for what this header leaves out. A moved-from object may only be destroyed or
-// assigned to. Functions that can fail throw panache::Error; step() and step_many() cannot fail.
-// Everything is inline: no C++ crosses the border of the library, so compilers may differ.
+// Shapes, units, ranges and lifetimes are those of the functions of panache.h with the same names.
+// Arguments are pointers and counts, or structs of panache.h. Objects can be moved but not copied;
+// a moved-from object may only be destroyed or assigned to. get() gives the handle, for what this
+// header leaves out. Functions that can fail throw panache::Error; step() and step_many() cannot.
+// All of this is inline: no C++ crosses the border of the library, so compilers may differ.
 #ifndef PANACHE_PANACHE_HPP_
 #define PANACHE_PANACHE_HPP_
 
@@ -78,7 +78,9 @@ class Model : public Object<panache_model, panache_model_destroy> {
   Model(const void* bytes, size_t size) : Object(panache_model_create, bytes, size) {}
   int style_count() const noexcept { return panache_model_style_count(get()); }
   // NULL where no style is at that place.
-  const char* style_name(int style) const noexcept { return panache_model_style_name(get(), style); }
+  const char* style_name(int style) const noexcept {
+    return panache_model_style_name(get(), style);
+  }
   const char* style_group(int style) const noexcept {
     return panache_model_style_group(get(), style);
   }

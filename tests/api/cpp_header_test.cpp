@@ -109,9 +109,7 @@ TEST_F(CppHeader, a_learnt_style_is_in_the_model) {
   EXPECT_STREQ(with_it.style_group(with_it.find_style("bent")), "");
   EXPECT_EQ(learnt.report().was_tested, 1);
   EXPECT_STRNE(learnt.verdict(), "");
-  EXPECT_EQ(error_of([&] {
-              panache::Learnt(model_with_it, size, &pair, 1, "bent");
-            }).first,
+  EXPECT_EQ(error_of([&] { panache::Learnt(model_with_it, size, &pair, 1, "bent"); }).first,
             PANACHE_BAD_ARGUMENT);
   EXPECT_NO_THROW(panache::Learnt(model_with_it, size, &pair, 1, "bent", true));
 }
