@@ -25,7 +25,7 @@ def sample():
 
 def test_the_sample_learns_from_workers(walk_file):
     out = subprocess.run([sys.executable, SAMPLE, walk_file], check=True, capture_output=True,
-                         text=True, timeout=300).stdout
+                         text=True, timeout=900).stdout
     nothing, network = map(float, re.findall(r'are ([0-9.]+) cm', out))
     assert network < nothing / 3, out
 
