@@ -24,7 +24,7 @@ using FileHandle = std::shared_ptr<const MotionFile>;
 
 // Failure is reported as null.
 inline std::nullptr_t fail(const Error& error) {
-  api::fail(PANACHE_BAD_ARGUMENT, error.message);
+  api::fail(PANACHE_BAD_ARGUMENT, error);
   return nullptr;
 }
 
