@@ -126,12 +126,12 @@ PANACHE_EXPORT void panache_page_player_set_track(Player* player, int32_t style,
 PANACHE_EXPORT panache_status panache_page_player_use_model(Player* player,
                                                             const panache_model* model) {
   const Result<void> used = player->use_model(model->model);
-  return used ? PANACHE_OK : api::fail(PANACHE_BAD_SKELETON, used.error().message);
+  return used ? PANACHE_OK : api::fail(PANACHE_BAD_SKELETON, used.error());
 }
 PANACHE_EXPORT panache_status panache_page_player_set_shape(Player* player,
                                                             const panache_shape* shape) {
   const Result<Shape> read = api::read_shape(shape);
-  if (!read) return api::fail(PANACHE_BAD_ARGUMENT, read.error().message);
+  if (!read) return api::fail(PANACHE_BAD_ARGUMENT, read.error());
   player->shape() = *read;
   return PANACHE_OK;
 }
