@@ -1,6 +1,8 @@
 // Completions for shells. Each completes commands and their options; what is neither is a file.
 
+#include "formats.h"
 #include "option_table.h"
+#include "style/shape.h"
 
 namespace panache::cli {
 namespace {
@@ -61,10 +63,53 @@ std::string zsh_text(const std::string& text) {
   return out;
 }
 
-// The specifications of an option, one for each name. A value is completed as a file: the shell
-// cannot know the styles of a model.
+// What lists the styles of the default model, one on each line.
+const std::string kListStyles = std::string("panache ") + kPrintReference + " styles 2>/dev/null";
+
+// The words that a value of this kind can be, parted by spaces; empty for a file or anything else.
+std::string choices_of(const std::string& value) {
+  if (value == "AXIS") return "x y z -x -y -z";
+  if (value == "LOOP") return "auto on off";
+  if (value == "TIMING") return "steps all off";
+  std::string out;
+  const auto add = [&](const std::string& word) { out += (out.empty() ? "" : " ") + word; };
+  if (value == "REGION") {
+    for (const char* region : kRegionNames) add(region + std::string("="));
+  }
+  if (value == "FORMAT") {
+    for (const MotionFormat& format : formats()) {
+      if (format.write) add(std::string(format.extension).substr(1));
+    }
+  }
+  return out;
+}
+
+// The lines of bash in a verb's case that name the choices of its options.
+std::string bash_choices(const VerbEntry& verb) {
+  std::string out;
+  for (const OptionEntry& option : verb.options) {
+    const std::string choices = choices_of(option.value);
+    if (option.is_positional() || (choices.empty() && option.value != "STYLE")) continue;
+    std::string names;
+    for (const std::string& name : option.names) names += (names.empty() ? "" : " | ") + name;
+    out += "        " + names + ") " +
+           (choices.empty() ? "list='" + kListStyles + "'" : "choices='" + choices + "'") +
+           " ;;\n";
+  }
+  return out.empty() ? "" : "      case $before in\n" + out + "      esac\n";
+}
+
+// What zsh completes a value of this kind with.
+std::string zsh_action(const std::string& value) {
+  if (value == "STYLE") return "_panache_styles";
+  const std::string choices = choices_of(value);
+  return choices.empty() ? "_files" : "(" + choices + ")";
+}
+
+// The specifications of an option, one for each name.
 void add_zsh_option(std::string& out, const OptionEntry& option) {
-  const std::string value = option.value.empty() ? "" : ":" + zsh_text(option.value) + ":_files";
+  const std::string value =
+      option.value.empty() ? "" : ":" + zsh_text(option.value) + ":" + zsh_action(option.value);
   const std::string begin = " \\\n        ";
   if (option.is_positional()) {
     const std::string count = option.repeated ? "*" : option.required ? "" : ":";
@@ -84,6 +129,7 @@ std::string bash_completion(const std::vector<VerbEntry>& verbs) {
       "# bash completion for panache. Generated from the options of the program.\n"
       "_panache() {\n"
       "  local current=${COMP_WORDS[COMP_CWORD]} verb=${COMP_WORDS[1]} options values verbs\n"
+      "  local before=${COMP_WORDS[COMP_CWORD - 1]} choices list\n"
       "  COMPREPLY=()\n"
       "  if ((COMP_CWORD == 1)); then\n"
       "    COMPREPLY=($(compgen -W '" +
@@ -105,13 +151,21 @@ std::string bash_completion(const std::vector<VerbEntry>& verbs) {
     out += "    " + label_of(verb) + ")\n      options='" + options_of(verb, false) +
            "'\n      values='" + options_of(verb, true) + "'\n";
     if (!words.empty()) out += "      ((COMP_CWORD > 2)) || verbs='" + words + "'\n";
-    out += "      ;;\n";
+    out += bash_choices(verb) + "      ;;\n";
   }
   // Without a reply, "-o default" completes the name of a file.
   return out +
          "    *) return ;;\n"
          "  esac\n"
-         "  [[ \" $values \" != *\" ${COMP_WORDS[COMP_CWORD - 1]} \"* ]] || return\n"
+         "  if [[ $choices ]]; then\n"
+         "    COMPREPLY=($(compgen -W \"$choices\" -- \"$current\"))\n"
+         "  elif [[ $list ]]; then\n"
+         "    local IFS=$'\\n'\n"
+         "    COMPREPLY=($(compgen -S = -W \"$(eval \"$list\")\" -- \"$current\"))\n"
+         "    COMPREPLY=(\"${COMPREPLY[@]// /\\\\ }\")\n"
+         "    compopt -o nospace 2>/dev/null\n"
+         "  fi\n"
+         "  [[ \" $values \" != *\" $before \"* ]] || return\n"
          "  [[ $current != -* ]] || verbs=$options\n"
          "  COMPREPLY=($(compgen -W \"$verbs\" -- \"$current\"))\n"
          "}\n"
@@ -136,6 +190,12 @@ std::string zsh_completion(const std::vector<VerbEntry>& verbs) {
   for (const OptionEntry& option : verbs.front().options) add_zsh_option(own, option);
   return "#compdef panache\n"
          "# zsh completion for panache. Generated from the options of the program.\n"
+         "_panache_styles() {\n"
+         "  local -a names=(\"${(@f)$(" +
+         kListStyles +
+         ")}\")\n"
+         "  compadd -S = -a names\n"
+         "}\n"
          "_panache() {\n"
          "  local -a commands=(\n" +
          commands +
@@ -196,7 +256,10 @@ std::string fish_completion(const std::vector<VerbEntry>& verbs) {
         const bool is_long = name.starts_with("--");
         out += (is_long ? " -l " : " -s ") + name.substr(is_long ? 2 : 1);
       }
-      out += (option.value.empty() ? "" : " -r") + (" -d " + quoted(option.description)) + "\n";
+      const std::string choices =
+          option.value == "STYLE" ? "(" + kListStyles + ")" : choices_of(option.value);
+      out += option.value.empty() ? "" : choices.empty() ? " -r" : " -x -a " + quoted(choices);
+      out += " -d " + quoted(option.description) + "\n";
     }
   }
   return out;

@@ -1,6 +1,8 @@
 #include "option_table.h"
 
 #include "messages.h"
+#include "model_path.h"
+#include "style/model.h"
 
 namespace panache::cli {
 namespace {
@@ -63,6 +65,20 @@ std::vector<VerbEntry> option_table(const CLI::App& app) {
   return verbs;
 }
 
+namespace {
+
+// For the completions, which ask again and again.
+int print_style_names() {
+  const Result<std::string> path = find_model("");
+  if (!path) return fail(path.error(), kBadInput);
+  const Result<std::shared_ptr<const Model>> model = Model::load(*path);
+  if (!model) return fail(model.error(), kBadInput);
+  for (const StyleInfo& style : (*model)->styles()) print(style.name + "\n");
+  return kDone;
+}
+
+}  // namespace
+
 int print_reference(const CLI::App& app, const std::string& what, const std::string& version) {
   const std::vector<VerbEntry> verbs = option_table(app);
   if (what == "man") {
@@ -73,8 +89,11 @@ int print_reference(const CLI::App& app, const std::string& what, const std::str
     print(zsh_completion(verbs));
   } else if (what == "fish") {
     print(fish_completion(verbs));
+  } else if (what == "styles") {
+    return print_style_names();
   } else {
-    return fail({"no reference for '" + what + "'; expected man, bash, zsh or fish"}, kBadUsage);
+    return fail({"no reference for '" + what + "'; expected man, bash, zsh, fish or styles"},
+                kBadUsage);
   }
   return kDone;
 }

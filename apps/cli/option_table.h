@@ -45,7 +45,8 @@ std::string bash_completion(const std::vector<VerbEntry>& verbs);
 std::string zsh_completion(const std::vector<VerbEntry>& verbs);
 std::string fish_completion(const std::vector<VerbEntry>& verbs);
 
-// Prints the text that `what` names: man, bash, zsh or fish. Returns the exit code.
+// Prints the text that `what` names: man, bash, zsh or fish; or, with "styles", the names of the
+// default model's styles, one on each line. Returns the exit code.
 int print_reference(const CLI::App& app, const std::string& what, const std::string& version);
 
 }  // namespace panache::cli

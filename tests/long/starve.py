@@ -40,20 +40,16 @@ kVerbs = [
     ['learn', 'walk.bvh', 'slow.bvh', '--name', 'slow', '--into', 'out.safetensors'],
     ['learn', 'walk.bvh', 'slow.bvh', '--name', 'slower', '--into', 'mine.safetensors', '--force'],
     ['styles', 'mine.safetensors', '--extract', 'slow', '-o', 'out.safetensors'],
-    ['quantize', 'mine.safetensors', '-o', 'out.safetensors'],
-    ['strip', 'walk.bvh', 'slow.bvh', '-o', 'out.svg'],
     ['walker', '--speed', '1.5', '-o', 'out.bvh'],
 ]
-kPngVerb = ['strip', 'walk.bvh', 'slow.bvh', '-o', 'out.png']
-
 
 kFbxVerbs = [
     ['info', 'walk.fbx'],
     ['convert', 'walk.fbx', '-o', 'out.glb'],
     ['stylize', 'walk.fbx', '--style', 'old=1', '-o', 'out.glb'],
 ]
-# FBX is read and PNG drawn by a process of its own, and so not at all where none can be started.
-kNeedsProcess = ('.fbx', '.png')
+# FBX is read by a process of its own, and so not at all where none can be started.
+kNeedsProcess = '.fbx'
 
 
 class Failure(Exception):
@@ -351,11 +347,6 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         program = Program(path, model, folder, fbx)
         verbs = kVerbs + (kFbxVerbs if fbx else [])
-        drawn = program.start(kPngVerb, program.work)
-        if drawn.returncode == 0:
-            verbs.append(kPngVerb)
-        elif b'cannot draw PNG' not in drawn.stderr:
-            raise Failure(f'{kPngVerb}: {drawn.stderr.decode()}')
         memory = files = room = 0
         for verb in verbs:
             wanted, printed = program.reference(verb)

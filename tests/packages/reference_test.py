@@ -36,11 +36,15 @@ def options_in_help(verb):
     return [name for line in lines for name in line.split(',') if name.startswith('-')]
 
 
+PATH = os.path.dirname(program) + os.pathsep + os.environ['PATH']
+
+
 def complete_in_bash(*words):
     """What bash offers for a command line of these words."""
     script = ('source "$0"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _panache\n'
               'printf "%s\\n" "${COMPREPLY[@]}"')
-    return output('bash', '--norc', '-c', script, bash, *words).split()
+    return output('bash', '--norc', '-c', script, bash, *words,
+                  env={**os.environ, 'PATH': PATH}).splitlines()
 
 
 # Every command and option.
@@ -93,8 +97,13 @@ expect(complete_in_bash('panache', 'help', 'styli') == ['stylize'], 'bash comple
 expect(complete_in_bash('panache', 'live', 'send', 'se') == [], 'bash: live send has no commands')
 expect(complete_in_bash('panache', 'stylize', '--no-t') == ['--no-timing'], 'bash: no option')
 expect(complete_in_bash('panache', 'stylize', '-o', '--no-t') == [], 'bash: an option as a value')
+expect(complete_in_bash('panache', 'stylize', '--region', 'le') == ['legs=', 'left_arm='],
+       'bash completes no region')
+expect(complete_in_bash('panache', 'stylize', '--style', 'str') == [r'strong\ man=', 'strutting='],
+       'bash completes no style')
+expect(complete_in_bash('panache', 'live', 'send', '--to', '') == [''], 'bash: an address as a format')
 with tempfile.TemporaryDirectory() as home:
-    clean = {'HOME': home, 'PATH': os.environ['PATH'], 'TERM': 'dumb', 'LC_ALL': 'C.UTF-8'}
+    clean = {'HOME': home, 'PATH': PATH, 'TERM': 'dumb', 'LC_ALL': 'C.UTF-8'}
     if shutil.which('fish'):
         line = f'source {folder}/panache.fish; complete -C "panache stylize --no-t"'
         offered = output('fish', '--no-config', '-c', line, env=clean)
@@ -104,13 +113,20 @@ with tempfile.TemporaryDirectory() as home:
             line = f'source {folder}/panache.fish; complete -C "panache {words}"'
             offered = output('fish', '--no-config', '-c', line, env=clean)
             expect(wanted in offered and other not in offered, f'{words}: fish offers {offered!r}')
+        for words, wanted in (('stylize --loop ', ['auto', 'off', 'on']),
+                              ('stylize --style str', ['strong man', 'strutting'])):
+            line = f'source {folder}/panache.fish; complete -C "panache {words}"'
+            offered = output('fish', '--no-config', '-c', line, env=clean).splitlines()
+            expect(sorted(word.split('\t')[0] for word in offered) == wanted,
+                   f'{words}: fish offers {offered}')
     else:
         print('not run: there is no fish')
     if shutil.which('zsh'):
         script = os.path.join(os.path.dirname(__file__), 'complete.zsh')
         offered = output('zsh', '-f', script, f'{folder}/_panache', 'panache stylize --no-t', env=clean)
         expect('--no-timing' in offered, f'zsh offers {offered!r}')
-        for words, wanted in (('live se', 'send'), ('live send --lo', '--loop')):
+        for words, wanted in (('live se', 'send'), ('live send --lo', '--loop'),
+                              ('stylize --up -', '-x'), ('stylize --style strut', 'strutting')):
             offered = output('zsh', '-f', script, f'{folder}/_panache', f'panache {words}', env=clean)
             expect(wanted in offered, f'{words}: zsh offers {offered!r}')
     else:
