@@ -29,12 +29,16 @@ inline namespace over_c {
 // A failure: what() is the sentence of panache_last_error().
 class Error : public std::runtime_error {
  public:
-  explicit Error(panache_status status, const std::string& message = panache_last_error())
-      : std::runtime_error(message), status_(status) {}
+  explicit Error(panache_status status)
+      : Error(status, panache_last_error(), panache_last_error_kind()) {}
+  Error(panache_status status, const std::string& message, panache_error_kind kind)
+      : std::runtime_error(message), status_(status), kind_(kind) {}
   panache_status status() const noexcept { return status_; }
+  panache_error_kind kind() const noexcept { return kind_; }
 
  private:
   panache_status status_;
+  panache_error_kind kind_;
 };
 
 // Throws where a function of panache.h failed.
@@ -90,7 +94,8 @@ class Model : public Object<panache_model, panache_model_destroy> {
     if (place >= 0) return place;
     std::string names;
     for (int i = 0; i < style_count(); ++i) names += (i ? ", " : "") + std::string(style_name(i));
-    throw Error(PANACHE_BAD_ARGUMENT, "there is no style '" + name + "'; the model has " + names);
+    throw Error(PANACHE_BAD_ARGUMENT, "there is no style '" + name + "'; the model has " + names,
+                PANACHE_ERROR_UNKNOWN_STYLE);
   }
 };
 

@@ -44,7 +44,7 @@ def complete_in_bash(*words):
     script = ('source "$0"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _panache\n'
               'printf "%s\\n" "${COMPREPLY[@]}"')
     return output('bash', '--norc', '-c', script, bash, *words,
-                  env={**os.environ, 'PATH': PATH}).splitlines()
+                  env={**os.environ, 'PATH': PATH}).strip('\n').splitlines()
 
 
 # Every command and option.
@@ -101,7 +101,7 @@ expect(complete_in_bash('panache', 'stylize', '--region', 'le') == ['legs=', 'le
        'bash completes no region')
 expect(complete_in_bash('panache', 'stylize', '--style', 'str') == [r'strong\ man=', 'strutting='],
        'bash completes no style')
-expect(complete_in_bash('panache', 'live', 'send', '--to', '') == [''], 'bash: an address as a format')
+expect(complete_in_bash('panache', 'live', 'send', '--to', '') == [], 'bash: an address as a format')
 with tempfile.TemporaryDirectory() as home:
     clean = {'HOME': home, 'PATH': PATH, 'TERM': 'dumb', 'LC_ALL': 'C.UTF-8'}
     if shutil.which('fish'):
