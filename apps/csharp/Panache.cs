@@ -86,8 +86,11 @@ public sealed class Skeleton : IDisposable {
   internal readonly Handle Handle;
   public int JointCount { get; }
 
-  /// upAxis: "+Y", "-Z", ..., and metresPerUnit; null and 0: found.
-  public Skeleton(IReadOnlyList<Joint> joints, string upAxis = null, float metresPerUnit = 0) {
+  /// upAxis: "+Y", "-Z", ..., and metresPerUnit; null and 0: found. humanJoints: the place of each
+  /// joint of the humanoid ("leftHand", VRM's names), -1 where the rig has none; what it does not
+  /// list is found.
+  public Skeleton(IReadOnlyList<Joint> joints, string upAxis = null, float metresPerUnit = 0,
+                  IReadOnlyDictionary<string, int> humanJoints = null) {
     using (var kept = new Kept()) {
       var native = new Native.Joint[joints.Count];
       for (int j = 0; j < native.Length; ++j) {
@@ -101,6 +104,13 @@ public sealed class Skeleton : IDisposable {
         structSize = Native.SizeOf<Native.SkeletonOptions>(), metresPerUnit = metresPerUnit,
         upAxis = upAxis == null ? IntPtr.Zero : kept.Text(upAxis)
       };
+      if (humanJoints != null) {
+        var map = new List<Native.HumanJoint>();
+        foreach (KeyValuePair<string, int> entry in humanJoints)
+          map.Add(new Native.HumanJoint { name = kept.Text(entry.Key), joint = entry.Value });
+        options.humanJointCount = map.Count;
+        options.humanJoints = kept.Array(map.ToArray());
+      }
       Native.Check(Native.panache_skeleton_create(native, native.Length, ref options,
                                                   out IntPtr skeleton));
       Handle = new Handle(skeleton, Native.panache_skeleton_destroy);
@@ -388,6 +398,11 @@ internal static class Native {
     public IntPtr name;
     public int parent;
     public float x, y, z, w, tx, ty, tz;
+  }
+  [StructLayout(LayoutKind.Sequential)]
+  internal struct HumanJoint {
+    public IntPtr name;
+    public int joint;
   }
   [StructLayout(LayoutKind.Sequential)]
   internal struct SkeletonOptions {

@@ -110,6 +110,18 @@ static class Test {
         Expect(character.Translations.SequenceEqual(places), "unchanged without style");
       }
     }
+    foreach (var joint in joints) joint.Name = "";  // By the map alone.
+    var map = new Dictionary<string, int> { { "leftHand", -1 } };
+    for (int j = 0; j < names.Length; ++j)
+      map[char.ToLower(names[j][0]) + names[j].Substring(1)] = j;
+    map["neck"] = -1;
+    using (var skeleton = new Skeleton(joints, "+Y", 1, map)) {
+      Expect(map.All(entry => skeleton.Find(entry.Key) == entry.Value), "the joints as given");
+    }
+    map["leftHand"] = 19;
+    ExpectRejection("human joint 0 'leftHand': joint is 19; expected -1 to 18",
+                    () => new Skeleton(joints, "+Y", 1, map));
+    for (int j = 0; j < names.Length; ++j) joints[j].Name = names[j];
     joints[3].Parent = 9;
     ExpectRejection("joint 3 'Neck': parent is 9; expected a joint before it, or -1",
                     () => new Skeleton(joints));

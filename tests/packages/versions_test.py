@@ -40,6 +40,7 @@ named = {
     'apps/web/package/package.json': json.loads(read('apps/web/package/package.json'))['version'],
     'packaging/vcpkg/panache/vcpkg.json': json.loads(
         read('packaging/vcpkg/panache/vcpkg.json'))['version'],
+    'apps/unity/package.json': json.loads(read('apps/unity/package.json'))['version'],
     'the name of the wheel': found(r'panache-([0-9.]+)-', os.path.basename(wheel)),
     'the metadata of the wheel': found(r'^Version: (.*)$', metadata),
     'the add-on': found(tuple_of_three, zipfile.ZipFile(addon).read('panache/__init__.py').decode()),

@@ -1,0 +1,168 @@
+using System;
+using System.Collections.Generic;
+using UnityEngine;
+
+namespace Panache.Unity {
+
+/// How much of one style.
+[Serializable]
+public sealed class StyleStrength {
+  [Tooltip("A style of the model, such as old.")]
+  public string style = "";
+  [Range(-1, 2), Tooltip("0 not at all, 1 as captured, more exaggerates, less than 0 does the opposite.")]
+  public float strength;
+}
+
+/// How much is given of what the styles do, and where; 1 is the style as the model has it.
+[Serializable]
+public sealed class StyleShape {
+  [Range(0, 2), Tooltip("Of the lasting part of the change.")] public float posture = 1;
+  [Range(0, 2), Tooltip("Of the change's movement.")] public float dynamics = 1;
+  [Range(0, 2)] public float legs = 1;
+  [Range(0, 2)] public float torso = 1;
+  [Range(0, 2)] public float leftArm = 1;
+  [Range(0, 2)] public float rightArm = 1;
+  [Range(0, 1), Tooltip("How firmly planted feet are held.")] public float footLock = 1;
+
+  /// Copies the amounts; whether any of them was another.
+  internal bool CopyTo(Shape shape) {
+    if (shape.Posture == posture && shape.Dynamics == dynamics && shape.Legs == legs &&
+        shape.Torso == torso && shape.LeftArm == leftArm && shape.RightArm == rightArm &&
+        shape.FootLock == footLock)
+      return false;
+    shape.Posture = posture;
+    shape.Dynamics = dynamics;
+    shape.Legs = legs;
+    shape.Torso = torso;
+    shape.LeftArm = leftArm;
+    shape.RightArm = rightArm;
+    shape.FootLock = footLock;
+    return true;
+  }
+}
+
+/// Styles the pose of a humanoid Animator in each frame, after the animation and before the
+/// LateUpdate of other scripts. The pose in which the character awakes is its rest pose: it stands,
+/// with its feet on the floor, at the height of its GameObject.
+[AddComponentMenu("Animation/Panache Character")]
+[RequireComponent(typeof(Animator))]
+[DisallowMultipleComponent]
+[DefaultExecutionOrder(-100)]
+public sealed class PanacheCharacter : MonoBehaviour {
+  [Tooltip("A model file (.safetensors) whose name ends in .bytes, such as Models/panache-int8.")]
+  public TextAsset model;
+  [Tooltip("The styles, which add up.")]
+  public List<StyleStrength> styles = new List<StyleStrength>();
+  public StyleShape shape = new StyleShape();
+  [Tooltip("Planted feet stay where they are. Read when the component is enabled.")]
+  public bool holdFeet = true;
+  [Tooltip("The body moves at the style's own pace and so leaves its GameObject. " +
+           "Read when the component is enabled.")]
+  public bool styleRoot;
+
+  // Models are shared by all characters that name the same file.
+  private static readonly Dictionary<TextAsset, Model> Models = new Dictionary<TextAsset, Model>();
+
+  private HumanoidJoints joints;
+  private Character character;
+  private Model read;
+  private float[] wanted, set;  // Strength of each style of the model.
+  private readonly Dictionary<string, int> places =
+      new Dictionary<string, int>(StringComparer.OrdinalIgnoreCase);
+  private readonly HashSet<string> unknown = new HashSet<string>();
+  private Shape shaped;
+
+  /// Sets the strength of a style, and adds it to the list where it is not there.
+  public void SetStrength(string style, float strength) {
+    foreach (StyleStrength entry in styles) {
+      if (!string.Equals(entry.style, style, StringComparison.OrdinalIgnoreCase)) continue;
+      entry.strength = strength;
+      return;
+    }
+    styles.Add(new StyleStrength { style = style, strength = strength });
+  }
+
+  /// Forgets the motion so far, as after a teleport. Hips that move faster than 15 m/s do so by
+  /// themselves.
+  public void ResetMotion() { character?.Reset(); }
+
+  /// Adds the model's styles that are not in the list, with a strength of 0.
+  [ContextMenu("List the model's styles")]
+  public void ListStyles() {
+    if (model == null) return;
+    foreach (string style in Read(model).Styles)
+      if (!styles.Exists(entry => string.Equals(entry.style, style,
+                                                StringComparison.OrdinalIgnoreCase)))
+        styles.Add(new StyleStrength { style = style });
+  }
+
+  private static Model Read(TextAsset file) {
+    if (!Models.TryGetValue(file, out Model found)) Models[file] = found = new Model(file.bytes);
+    return found;
+  }
+
+  private void Awake() {
+    Try(() => joints = new HumanoidJoints(GetComponent<Animator>()));
+  }
+  private void OnEnable() {
+    if (joints == null) return;
+    Try(() => {
+      if (model == null) throw new PanacheException("'" + name + "': expected a model, found none");
+      read = Read(model);
+      character = new Character(read, joints.Skeleton, new CharacterOptions {
+        HoldFeet = holdFeet ? 1 : 0, StyleRoot = styleRoot ? 1 : 0
+      });
+      shaped = new Shape();
+      wanted = new float[read.Styles.Count];
+      set = new float[read.Styles.Count];
+      places.Clear();
+      for (int i = 0; i < read.Styles.Count; ++i) places[read.Styles[i]] = i;
+      unknown.Clear();
+    });
+  }
+  private void OnDisable() {
+    character?.Dispose();
+    character = null;
+  }
+  private void OnDestroy() { joints?.Skeleton.Dispose(); }
+
+  private void LateUpdate() {
+    if (character == null) return;
+    SetStyles();
+    joints.Load(character);
+    character.Step(Time.deltaTime);
+    joints.Store(character);
+  }
+
+  private void SetStyles() {
+    if (shape.CopyTo(shaped)) character.SetShape(shaped);
+    Array.Clear(wanted, 0, wanted.Length);
+    foreach (StyleStrength entry in styles) {
+      if (places.TryGetValue(entry.style, out int place)) {
+        wanted[place] += entry.strength;
+      } else if (entry.style != "" && unknown.Add(entry.style)) {
+        TellUnknown(entry.style);
+      }
+    }
+    for (int i = 0; i < wanted.Length; ++i) {
+      if (wanted[i] == set[i]) continue;
+      set[i] = wanted[i];
+      character.SetStrength(read.Styles[i], set[i]);
+    }
+  }
+
+  private void TellUnknown(string style) { Try(() => read.FindStyle(style), false); }
+
+  // What fails is told in the console; without a skeleton, model or library the component ends.
+  private void Try(Action action, bool needed = true) {
+    try {
+      action();
+    } catch (Exception error) when (error is PanacheException || error is DllNotFoundException ||
+                                    error is TypeInitializationException) {
+      Debug.LogError("Panache: " + (error.InnerException ?? error).Message, this);
+      if (needed) enabled = false;
+    }
+  }
+}
+
+}  // namespace Panache.Unity
