@@ -1,0 +1,218 @@
+#include "character.h"
+
+namespace panache::godot {
+namespace {
+
+// Made when the class is registered: the engine wants them back before it ends.
+struct Shared {
+  Names names;
+  Name class_name{"PanacheCharacter"}, parent_name{"SkeletonModifier3D"}, no_name{""};
+  std::map<std::string, std::weak_ptr<panache_model>> models;  // By their paths.
+};
+std::unique_ptr<Shared> shared;
+
+constexpr std::string_view kStyles = "styles/";
+
+// The style that a property is the strength of; empty for others.
+std::string style_of(const std::string& property) {
+  return property.starts_with(kStyles) ? property.substr(kStyles.size()) : "";
+}
+
+}  // namespace
+
+// ---- Properties ---------------------------------------------------------------------------------
+
+bool Character::set(const std::string& property, const ValueData* value) {
+  if (const std::string style = style_of(property); !style.empty()) {
+    strengths_[style] = to_real(value);
+    if (character_) apply(style);
+  } else if (property == "model_path") {
+    model_path_ = to_utf8(value);
+    read_model();
+  } else if (property == "hold_feet") {
+    hold_feet_ = to_flag(value);
+  } else if (property == "style_root") {
+    style_root_ = to_flag(value);
+  } else {
+    return false;
+  }
+  if (style_of(property).empty()) of_ = nullptr;  // What is made of these is made anew.
+  return true;
+}
+
+std::optional<Value> Character::get(const std::string& property) const {
+  if (const std::string style = style_of(property); !style.empty()) {
+    const auto found = strengths_.find(style);
+    return Value(found == strengths_.end() ? 0.0 : found->second);
+  }
+  if (property == "model_path") return Value(model_path_.c_str());
+  if (property == "hold_feet") return Value(hold_feet_);
+  if (property == "style_root") return Value(style_root_);
+  return std::nullopt;
+}
+
+std::optional<Value> Character::initial(const std::string& property) const {
+  return Character(nullptr).get(property);
+}
+
+const std::vector<Property>& Character::properties() {
+  texts_.clear();
+  properties_.clear();
+  const auto add = [&](const std::string& name, const char* hint) {
+    texts_.push_back({Name(name.c_str()), Text(hint)});
+  };
+  add("model_path", "*.safetensors");
+  add("hold_feet", "");
+  add("style_root", "");
+  for (int32_t i = 0; model_ && i < panache_model_style_count(model_.get()); ++i) {
+    add(std::string(kStyles) + panache_model_style_name(model_.get(), i), "-1,2,0.01");
+  }
+  for (size_t i = 0; i < texts_.size(); ++i) {
+    const Type type = i == 0 ? Type::text : i < 3 ? Type::flag : Type::real;
+    const uint32_t hint = i == 0 ? kHintFile : i < 3 ? kHintNone : kHintRange;
+    properties_.push_back({type, texts_[i].name.get(), shared->no_name.get(), hint,
+                           texts_[i].hint.get(), kStoredAndEdited});
+  }
+  return properties_;
+}
+
+void Character::read_model() {
+  model_.reset();
+  character_.reset();
+  if (!model_path_.empty()) {
+    std::weak_ptr<panache_model>& known = shared->models[model_path_];
+    model_ = known.lock();
+    if (!model_) {
+      const std::vector<uint8_t> bytes = read_file(model_path_);
+      panache_model* made = nullptr;
+      if (bytes.empty()) {
+        tell(model_path_ + ": there is no such file, or it is empty");
+      } else if (panache_model_create(bytes.data(), bytes.size(), &made) != PANACHE_OK) {
+        tell(model_path_ + ": " + panache_last_error());
+      } else {
+        known = model_ = {made, panache_model_destroy};
+      }
+    }
+  }
+  Value(self_).call(shared->names.notify_property_list_changed);
+}
+
+// ---- Frames -------------------------------------------------------------------------------------
+
+void Character::make_character(const Value& skeleton) {
+  character_.reset();
+  pose_ = std::make_unique<SkeletonPose>(shared->names, skeleton);
+  if (!pose_->skeleton()) return tell(pose_->error());
+  panache_character_options options = PANACHE_CHARACTER_OPTIONS;
+  options.hold_feet = hold_feet_;
+  options.style_root = style_root_;
+  panache_character* made = nullptr;
+  if (panache_character_create(model_.get(), pose_->skeleton(), &options, &made) != PANACHE_OK) {
+    return tell(panache_last_error());
+  }
+  character_.reset(made);
+  for (const auto& [style, strength] : strengths_) apply(style);
+}
+
+void Character::apply(const std::string& style) const {
+  const int32_t place = panache_model_find_style(model_.get(), style.c_str());
+  if (place < 0) tell("the model has no style '" + style + "'");
+  panache_character_set_strength(character_.get(), place, static_cast<float>(strengths_.at(style)));
+}
+
+void Character::process() {
+  const Names& names = shared->names;
+  const Value self(self_);
+  const Value skeleton = self.call(names.get_skeleton);
+  const Object node = to_object(skeleton.get());
+  if (!node || !model_) return;
+  const int64_t version = to_integer(skeleton.call(names.get_version).get());
+  if (node != of_ || version != version_) {
+    of_ = node;
+    version_ = version;
+    make_character(skeleton);
+  }
+  if (!character_) return;
+  // The skeleton says when its modifiers run: 0 with physics, else with what is drawn.
+  const bool physics =
+      to_integer(skeleton.call(names.get_modifier_callback_mode_process).get()) == 0;
+  const Value seconds =
+      self.call(physics ? names.get_physics_process_delta_time : names.get_process_delta_time);
+  panache_character_step(character_.get(), pose_->read(names, skeleton), to_real(seconds.get()),
+                         pose_->out());
+  pose_->write(names, skeleton);
+}
+
+void Character::reset_motion() {
+  if (character_) panache_character_reset(character_.get());
+}
+
+// ---- Registration -------------------------------------------------------------------------------
+
+namespace {
+
+Character& at(void* instance) { return *static_cast<Character*>(instance); }
+
+Flag give(std::optional<Value> value, ValueData* out) {
+  if (value) *out = value->release();
+  return value.has_value();
+}
+
+Object create(void*) {
+  const Object object = engine.construct_object(shared->parent_name.get());
+  engine.set_instance(object, shared->class_name.get(), new Character(object));
+  return object;
+}
+
+Virtual find_virtual(void*, const NameData* name) {
+  if (to_utf8(name) != "_process_modification") return nullptr;
+  return [](void* instance, const void* const*, void*) { at(instance).process(); };
+}
+
+}  // namespace
+
+void Character::register_class() {
+  shared = std::make_unique<Shared>();
+  ClassInfo info{};
+  info.is_exposed = 1;
+  info.set = [](void* instance, const NameData* name, const ValueData* value) -> Flag {
+    return at(instance).set(to_utf8(name), value);
+  };
+  info.get = [](void* instance, const NameData* name, ValueData* out) {
+    return give(at(instance).get(to_utf8(name)), out);
+  };
+  info.list_properties = [](void* instance, uint32_t* count) {
+    const std::vector<Property>& list = at(instance).properties();
+    *count = static_cast<uint32_t>(list.size());
+    return list.data();
+  };
+  info.free_properties = [](void*, const Property*, uint32_t) {};  // The node keeps them.
+  info.can_revert = [](void* instance, const NameData* name) -> Flag {
+    return at(instance).initial(to_utf8(name)).has_value();
+  };
+  info.get_revert = [](void* instance, const NameData* name, ValueData* out) {
+    return give(at(instance).initial(to_utf8(name)), out);
+  };
+  info.create = create;
+  info.free = [](void*, void* instance) { delete &at(instance); };
+  info.get_virtual = find_virtual;
+  engine.register_class(engine.library, shared->class_name.get(), shared->parent_name.get(), &info);
+
+  Name name("reset_motion");
+  MethodInfo method{};
+  method.name = name.get();
+  method.call = [](void*, void* instance, const ValueData* const*, int64_t, ValueData*,
+                   CallError*) { at(instance).reset_motion(); };
+  method.call_plain = [](void*, void* instance, const void* const*, void*) {
+    at(instance).reset_motion();
+  };
+  method.flags = kNormalMethod;
+  engine.register_method(engine.library, shared->class_name.get(), &method);
+}
+
+void Character::unregister_class() {
+  engine.unregister_class(engine.library, shared->class_name.get());
+  shared.reset();
+}
+
+}  // namespace panache::godot

@@ -1,0 +1,114 @@
+#pragma once
+// The engine's functions, and its values with C++ lifetimes.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interface.h"
+
+namespace panache::godot {
+
+// The functions that the engine handed out. Filled by load() once, before anything else here.
+struct Engine {
+  void* library;
+  MakeText make_name, make_text;
+  ReadText read_text;
+  GetMakeValue get_make_value;
+  GetReadValue get_read_value;
+  GetType get_type;
+  GetConstruct get_construct;
+  GetDestroy get_destroy;
+  DestroyValue destroy_value;
+  CallValue call_value;
+  ByteAt byte_at;
+  GetMethod get_method;
+  CallMethod call_method;
+  ConstructObject construct_object;
+  SetInstance set_instance;
+  PrintError print_error;
+  RegisterClass register_class;
+  UnregisterClass unregister_class;
+  RegisterMethod register_method;
+
+  // Whether the engine has all of them.
+  bool load(GetFunction get_function, void* its_library);
+};
+extern Engine engine;
+
+// A StringName.
+class Name {
+ public:
+  explicit Name(const char* utf8);
+  Name(Name&& other) noexcept;
+  Name& operator=(Name&&) = delete;
+  ~Name();
+  const NameData* get() const { return &data_; }
+  NameData* get() { return &data_; }
+
+ private:
+  NameData data_;
+};
+std::string to_utf8(const NameData* name);
+
+// A String.
+class Text {
+ public:
+  explicit Text(const char* utf8);
+  Text(Text&& other) noexcept;
+  Text& operator=(Text&&) = delete;
+  ~Text();
+  TextData* get() { return &data_; }
+
+ private:
+  TextData data_;
+};
+
+// A Variant.
+class Value {
+ public:
+  Value();
+  explicit Value(bool flag);
+  explicit Value(int64_t integer);
+  explicit Value(double real);
+  explicit Value(const char* text);
+  explicit Value(Vector vector);
+  explicit Value(Rotation rotation);
+  explicit Value(Object object);
+  Value(Value&& other) noexcept;
+  Value& operator=(Value&&) = delete;
+  ~Value();
+
+  // Calls a method of what this is. A call that the engine rejects gives nothing.
+  template <class... Arguments>
+  Value call(const Name& method, const Arguments&... arguments) const {
+    const ValueData* list[] = {arguments.get()..., nullptr};
+    return call_with(method, list, sizeof...(arguments));
+  }
+  // Leaves the value to the engine.
+  ValueData release();
+  const ValueData* get() const { return &data_; }
+
+ private:
+  Value(Type type, void* plain);
+  Value call_with(const Name& method, const ValueData* const* arguments, int64_t count) const;
+  ValueData data_;
+};
+
+// What a value is, or 0 where it is of another type.
+bool to_flag(const ValueData* value);
+int64_t to_integer(const ValueData* value);
+double to_real(const ValueData* value);  // Of integers too.
+std::string to_utf8(const ValueData* value);
+Vector to_vector(const ValueData* value);
+Rotation to_rotation(const ValueData* value);
+Transform to_transform(const ValueData* value);
+Object to_object(const ValueData* value);
+
+// The bytes of a file, res:// or other; empty where there is none.
+std::vector<uint8_t> read_file(const std::string& path);
+
+// An error in the console and the editor.
+void tell(const std::string& message);
+
+}  // namespace panache::godot
