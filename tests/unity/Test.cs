@@ -248,6 +248,8 @@ static class Test {
     for (int f = 60; f < 239; ++f) actor.Play(f);
     Expect(Same(actor, Raw(238), "spine"), "none any more");
     actor.Component.SetStrength("odl", 1);
+    actor.Component.styles.Add(new StyleStrength());
+    actor.Component.styles.Add(new StyleStrength { style = null });
     actor.Play(0);
     actor.Play(1);
     Expect(Debug.Errors.Count == 1 && Debug.Errors[0].StartsWith("Panache: unknown style 'odl'") &&

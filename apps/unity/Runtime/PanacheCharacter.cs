@@ -138,9 +138,10 @@ public sealed class PanacheCharacter : MonoBehaviour {
     if (shape.CopyTo(shaped)) character.SetShape(shaped);
     Array.Clear(wanted, 0, wanted.Length);
     foreach (StyleStrength entry in styles) {
+      if (string.IsNullOrEmpty(entry.style)) continue;
       if (places.TryGetValue(entry.style, out int place)) {
         wanted[place] += entry.strength;
-      } else if (entry.style != "" && unknown.Add(entry.style)) {
+      } else if (unknown.Add(entry.style)) {
         TellUnknown(entry.style);
       }
     }
