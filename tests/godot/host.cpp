@@ -320,6 +320,11 @@ void Host::process(void* node) {
   Named name("_process_modification");
   type.get_virtual(type.user, &name.data)(static_cast<Node*>(node)->instance, nullptr, nullptr);
 }
+void Host::process(void* node, double with_delta) {
+  Named name("_process_modification_with_delta");
+  const void* arguments[] = {&with_delta};
+  type.get_virtual(type.user, &name.data)(static_cast<Node*>(node)->instance, arguments, nullptr);
+}
 bool Host::set(void* node, const std::string& property, const std::string& value) {
   return set_property(node, property, of_text(value));
 }

@@ -42,6 +42,7 @@ struct Host {
   void* make_node();
   void free_node(void* node);
   void process(void* node);
+  void process(void* node, double with_delta);  // As Godot 4.5 and newer do.
   bool set(void* node, const std::string& property, const std::string& value);
   bool set(void* node, const std::string& property, double value);
   bool set(void* node, const std::string& property, bool value);

@@ -120,10 +120,20 @@ void Character::apply(const std::string& style) const {
   panache_character_set_strength(character_.get(), place, static_cast<float>(strengths_.at(style)));
 }
 
-void Character::process() {
+// The skeleton says when its modifiers run: 0 with physics, else with what is drawn.
+double Character::seconds_of(const Value& skeleton) const {
   const Names& names = shared->names;
-  const Value self(self_);
-  const Value skeleton = self.call(names.get_skeleton);
+  const bool physics =
+      to_integer(skeleton.call(names.get_modifier_callback_mode_process).get()) == 0;
+  return to_real(
+      Value(self_)
+          .call(physics ? names.get_physics_process_delta_time : names.get_process_delta_time)
+          .get());
+}
+
+void Character::process(std::optional<double> seconds) {
+  const Names& names = shared->names;
+  const Value skeleton = Value(self_).call(names.get_skeleton);
   const Object node = to_object(skeleton.get());
   if (!node || !model_) return;
   const int64_t version = to_integer(skeleton.call(names.get_version).get());
@@ -133,13 +143,8 @@ void Character::process() {
     make_character(skeleton);
   }
   if (!character_) return;
-  // The skeleton says when its modifiers run: 0 with physics, else with what is drawn.
-  const bool physics =
-      to_integer(skeleton.call(names.get_modifier_callback_mode_process).get()) == 0;
-  const Value seconds =
-      self.call(physics ? names.get_physics_process_delta_time : names.get_process_delta_time);
-  panache_character_step(character_.get(), pose_->read(names, skeleton), to_real(seconds.get()),
-                         pose_->out());
+  panache_character_step(character_.get(), pose_->read(names, skeleton),
+                         seconds ? *seconds : seconds_of(skeleton), pose_->out());
   pose_->write(names, skeleton);
 }
 
@@ -164,9 +169,16 @@ Object create(void*) {
   return object;
 }
 
+// Godot 4.5 and newer tell the time; 4.3 and 4.4 have only the other of the two.
 Virtual find_virtual(void*, const NameData* name) {
-  if (to_utf8(name) != "_process_modification") return nullptr;
-  return [](void* instance, const void* const*, void*) { at(instance).process(); };
+  const std::string method = to_utf8(name);
+  if (method == "_process_modification_with_delta") {
+    return [](void* instance, const void* const* arguments, void*) {
+      at(instance).process(*static_cast<const double*>(arguments[0]));
+    };
+  }
+  if (method != "_process_modification") return nullptr;
+  return [](void* instance, const void* const*, void*) { at(instance).process(std::nullopt); };
 }
 
 }  // namespace

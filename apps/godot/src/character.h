@@ -29,8 +29,8 @@ class Character {
   std::optional<Value> initial(const std::string& property) const;
   const std::vector<Property>& properties();
 
-  // One frame.
-  void process();
+  // One frame, so many seconds after the last; without them, those of the skeleton's clock.
+  void process(std::optional<double> seconds);
   // Forgets the motion so far, as after a teleport.
   void reset_motion();
 
@@ -47,6 +47,7 @@ class Character {
   void read_model();
   void make_character(const Value& skeleton);
   void apply(const std::string& style) const;
+  double seconds_of(const Value& skeleton) const;
 
   Object self_;
   std::string model_path_;
