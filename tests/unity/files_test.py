@@ -40,7 +40,7 @@ with open(os.path.join(package, 'Runtime', 'Panache.asmdef'), encoding='utf-8') 
     json.load(file)
 
 plugins = os.path.join(package, 'Runtime', 'Plugins', 'x86_64')
-usual = re.compile(r'(libc|libm|libstdc\+\+|libgcc_s|ld-linux-x86-64|libpanache_hwy)\.so(\.\d+)?')
+usual = re.compile(r'(libc|libm|libpthread|libstdc\+\+|libgcc_s|ld-linux-x86-64|libpanache_hwy)\.so(\.\d+)?')
 for name in os.listdir(plugins):
     if not name.endswith('.so'):
         continue
