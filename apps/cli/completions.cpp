@@ -93,8 +93,7 @@ std::string bash_choices(const VerbEntry& verb) {
     std::string names;
     for (const std::string& name : option.names) names += (names.empty() ? "" : " | ") + name;
     out += "        " + names + ") " +
-           (choices.empty() ? "list='" + kListStyles + "'" : "choices='" + choices + "'") +
-           " ;;\n";
+           (choices.empty() ? "list='" + kListStyles + "'" : "choices='" + choices + "'") + " ;;\n";
   }
   return out.empty() ? "" : "      case $before in\n" + out + "      esac\n";
 }
