@@ -1,8 +1,10 @@
 #include "style/stages/hand_contacts.h"
 
-#include <gtest/gtest.h>
-
+#include <algorithm>
+#include <cmath>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "posed_body.h"
 
@@ -92,6 +94,26 @@ TEST(HandContacts, a_hand_at_the_head_stays_at_the_place_of_the_head) {
   EXPECT_LT(length(now - rotate(wanted.rotations[index(head)], place)), 1e-3f);
   EXPECT_EQ(out.change.rotations[index(right_upper_arm)], wanted.rotations[index(right_upper_arm)]);
   EXPECT_EQ(out.change.rotations[index(chest)], wanted.rotations[index(chest)]);
+}
+
+TEST(HandContacts, an_arm_that_is_folded_does_not_throw_its_elbow_about) {
+  // A guard: the wrist at the shoulder and near the head, which the style leans over it and back.
+  const BodyPose body = posed_body({{left_upper_arm, axis_angle(kZ, -0.6f)},
+                                    {left_lower_arm, axis_angle(kZ, 2.72f)},
+                                    {right_upper_arm, axis_angle(kZ, 1.4f)}});
+  ASSERT_LT(apart(body.joints, left_hand, left_upper_arm), 0.15f);
+  HandContacts hands;
+  Vec3 last;
+  float fastest = 0;
+  for (int f = 0; f < 240; ++f) {
+    const float lean = 1.1f * std::sin(static_cast<float>(f) * 0.05f);
+    const BodyChange wanted = turned({{neck, axis_angle(kZ, -lean) * axis_angle(kX, 0.3f)},
+                                      {left_upper_arm, rotation_y(0.5f * lean)}});
+    const Vec3 elbow = step(hands, body, wanted, f == 0).joints[index(left_lower_arm)];
+    if (f > 0) fastest = std::max(fastest, length(elbow - last));
+    last = elbow;
+  }
+  EXPECT_LT(fastest, 0.06f);  // Metres in a frame.
 }
 
 TEST(HandContacts, a_hand_that_rests_on_a_thigh_goes_with_it) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/elementary.h"
 #include "base/smooth_step.h"
 
 namespace panache {
@@ -35,8 +36,12 @@ constexpr float kWristTurn = 0.6f;
 // Cosines of how far an arm turns from which on its elbow no longer follows the style, or fully
 // does.
 constexpr float kFarTurn = 0, kNearTurn = 0.85f;
-constexpr float kElbowSeconds = 0.1f;  // Time constant of the elbow's side.
-constexpr float kNothing = 1e-5f;      // Metres: no correction.
+constexpr float kElbowSeconds = 0.1f;  // Time constant of the elbow's side,
+constexpr float kElbowRate = 5;        // and how fast it turns about its arm at most, rad/s.
+// A contact folds no arm further than the style does, or to this share of the input's, where that
+// is below this share of its length: an elbow has no side of a wrist that is at the shoulder.
+constexpr float kKeptFold = 0.9f, kFolded = 0.4f;
+constexpr float kNothing = 1e-5f;  // Metres: no correction.
 
 // 1 at `near` and nearer, 0 from `far` on.
 float nearness(float value, float near, float far) {
@@ -62,11 +67,18 @@ float arm_length(const HumanPositions& joints, int side) {
          length(joints[index(kHands[side])] - elbow);
 }
 
+// `way` from a shoulder to a wrist, no shorter than `least`: where it is, it goes on along `out`,
+// unit.
+Vec3 unfolded(Vec3 way, Vec3 out, float least) {
+  const float lacks = least * least - dot(way, way), along = dot(way, out);
+  return lacks > 0 ? way + out * (std::sqrt(along * along + lacks) - along) : way;
+}
+
 // Brings a wrist to `target`, with the elbow on the style's side; or on that of `elbow`, where the
 // input has it, the more, the further the arm turns: what is left of a side after that is chance.
-// `last`: to which side the elbow went, unit, or 0 for none; it goes the share `gain` of the way.
-void reach(int side, Vec3 target, Vec3 elbow, float gain, Vec3& last, HumanPositions& joints,
-           BodyChange& change) {
+// `last` starts on the style's side, goes along with the arm, and turns about it towards that side.
+void reach(int side, Vec3 target, Vec3 elbow, const StepTime& time, ArmSide& last,
+           HumanPositions& joints, BodyChange& change) {
   const LimbJoints arm = arm_joints(side);
   const Vec3 root = joints[arm.root], end = joints[arm.end];
   const Vec3 from = normalized(end - root), to = normalized(target - root);
@@ -75,9 +87,14 @@ void reach(int side, Vec3 target, Vec3 elbow, float gain, Vec3& last, HumanPosit
   const Vec3 style = rotate(swing, normalized(bend_of(root, joints[arm.middle], end, arm.hint)));
   const Vec3 input = normalized(bend_of(root, elbow, target, arm.hint));
   const Vec3 wanted = normalized(lerp(input, style, own), input);
-  last = last == Vec3{} ? wanted : normalized(lerp(last, wanted, gain), wanted);
-  const Vec3 across = last - to * dot(last, to);
-  turn_limb(arm, target, rotate(conjugate(swing), across), joints, change);
+  if (last.side == Vec3{}) last = {style, to};
+  const Vec3 carried = rotate(rotation_between(last.way, to), last.side);
+  const Vec3 now = normalized(carried - to * dot(carried, to), style);
+  const float turn = arc_tangent(dot(cross(now, wanted), to), dot(now, wanted));
+  const float most = kElbowRate * time.output;
+  last = {rotate(axis_angle(to, std::clamp(turn * time.gain(kElbowSeconds), -most, most)), now),
+          to};
+  turn_limb(arm, target, rotate(conjugate(swing), last.side), joints, change);
 }
 
 void ease(float& hold, float wanted, float take, float give) {
@@ -222,8 +239,13 @@ void HandContacts::step(const BodyPose& body, std::array<float, 2> amounts, cons
       elbows_[side] = {};
       continue;
     }
-    reach(side, wrist.now + shift, carried(chest, before(kLowerArms[side])),
-          time.gain(kElbowSeconds), elbows_[side], joints, change);
+    const Vec3 root = joints[index(kUpperArms[side])];
+    const Vec3 input = carried(chest, wrist.input) - carried(chest, before(kUpperArms[side]));
+    const float least = std::min(
+        {kKeptFold * length(input), kFolded * arm_length(joints, side), length(wrist.now - root)});
+    const Vec3 way = wrist.now + shift - root;
+    reach(side, root + unfolded(way, normalized(input), least),
+          carried(chest, before(kLowerArms[side])), time, elbows_[side], joints, change);
     const int hand = index(kHands[side]);
     const Quat forearm = turned(kLowerArms[side]);
     const Quat wanted = nlerp(turned(kHands[side]), wrist.turn, amount);

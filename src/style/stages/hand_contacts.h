@@ -9,6 +9,12 @@
 
 namespace panache {
 
+// To which side of its arm an elbow went, and the way from shoulder to wrist, heading frame, units;
+// 0 without a contact.
+struct ArmSide {
+  Vec3 side, way;
+};
+
 // Where a wrist is near the other wrist, the head, the hips or a thigh in the input, the arm
 // reaches so that it is as far from there with the change as in the input. A contact eases in and
 // out with the distance in the input and over time. Hands on hips and thighs must also rest there,
@@ -46,8 +52,7 @@ class HandContacts {
   // step, and how fast that changes, m/s.
   std::array<std::array<Vec3, 3>, 2> places_{};
   std::array<std::array<float, 3>, 2> speeds_{};
-  // To which side of its arm each elbow went, heading frame, unit; 0 without a contact.
-  std::array<Vec3, 2> elbows_{};
+  std::array<ArmSide, 2> elbows_{};
 };
 
 }  // namespace panache

@@ -74,12 +74,25 @@ class EasedMove {
   LimbMove move_;
 };
 
+// `move`, softly held within `most` metres.
+inline Vec3 bounded_move(Vec3 move, float most) noexcept {
+  const float far = length(move), half = most / 2, over = far - half;
+  if (!(over > 0)) return move;
+  return move * ((half + half * over / (over + half)) / far);
+}
+
+// How far a limb may be moved: its middle and its end, metres, and its end by a share of the
+// distance from the root, as a folded limb would swing far.
+struct MostMove {
+  float middle = 1, end = 1, swing = 10;
+};
+
 // Moves both limbs from where they are in `joints` towards where they are in `moved`, by `amounts`
 // of the way, eased; or back, where `moved` is null. Returns whether any of them moves.
 inline bool move_eased(const std::array<LimbJoints, 2>& limbs, const HumanPositions* moved,
                        std::array<float, 2> amounts, const StepTime& time,
-                       std::array<EasedMove, 2>& moves, HumanPositions& joints,
-                       BodyChange& change) noexcept {
+                       std::array<EasedMove, 2>& moves, HumanPositions& joints, BodyChange& change,
+                       const MostMove& most = {}) noexcept {
   constexpr float kEaseSeconds = 0.05f;
   if (!moved && moves[0].rests() && moves[1].rests()) return false;
   const float gain = time.gain(kEaseSeconds);
@@ -88,8 +101,10 @@ inline bool move_eased(const std::array<LimbJoints, 2>& limbs, const HumanPositi
     const auto [root, middle, end, hint] = limbs[side];
     LimbMove wanted;
     if (moved) {
-      wanted = {((*moved)[middle] - joints[middle]) * amounts[side],
-                ((*moved)[end] - joints[end]) * amounts[side]};
+      wanted = {bounded_move((*moved)[middle] - joints[middle], most.middle) * amounts[side],
+                bounded_move((*moved)[end] - joints[end],
+                             std::min(most.end, most.swing * length(joints[end] - joints[root]))) *
+                    amounts[side]};
     }
     moves[side].step(wanted, gain);
     if (moves[side].rests()) continue;
