@@ -162,7 +162,11 @@ int live(const Options& options) {
     Result<std::unique_ptr<PageServer>> page = PageServer::create();
     if (!page) return fail(page.error(), kBadInput);
     server = *std::move(page);
-    view.serve_on(*server);
+    // For as many poses as each reader is fast enough for.
+    server->serve("/live/body.bvh", [&view] { return view.body(); });
+    server->serve_events("/live/poses", [&view] {
+      return [&view, known = uint64_t{0}]() mutable { return view.next(known); };
+    });
     print("http://" + server->address() + "/?live\n");
     print_message("open this address in a browser to see what goes out");
     std::fflush(stdout);

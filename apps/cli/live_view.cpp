@@ -59,14 +59,9 @@ std::string LiveView::next(uint64_t& known) {
   return out + "]";
 }
 
-void LiveView::serve_on(PageServer& server) {
-  server.serve("/live/body.bvh", [this] {
-    const std::scoped_lock lock(mutex_);
-    return body_;
-  });
-  server.serve_events("/live/poses", [this] {
-    return [this, known = uint64_t{0}]() mutable { return next(known); };
-  });
+std::string LiveView::body() {
+  const std::scoped_lock lock(mutex_);
+  return body_;
 }
 
 }  // namespace panache::cli

@@ -10,7 +10,6 @@
 #include <string>
 
 #include "clip/clip.h"
-#include "page_server.h"
 #include "rig/mannequin.h"
 
 namespace panache::cli {
@@ -24,15 +23,14 @@ class LiveView {
   bool started() const { return in_.has_value(); }
   void show(ConstPose in, ConstPose styled);
 
-  // Adds the view to a server: "/live/body.bvh", a clip of one frame, and "/live/poses", an event
-  // for each pose that a reader is fast enough for: Mannequin::read() of the input, then of the
-  // output, numbers in JSON.
-  void serve_on(PageServer& server);
+  // The bytes of a BVH file of one frame; empty until start().
+  std::string body();
+  // The newest pose as JSON, the numbers of Mannequin::read() of the input and then of the output,
+  // once its number is not `known`, which then is its number; empty after a while.
+  std::string next(uint64_t& known);
 
  private:
   using Parts = std::array<float, kMannequinNumbers>;
-  // The newest pose once its number is not `known`, which then is its number; empty after a while.
-  std::string next(uint64_t& known);
 
   std::optional<Mannequin> in_, styled_;
   std::mutex mutex_;
