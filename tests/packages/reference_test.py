@@ -99,7 +99,7 @@ expect(complete_in_bash('panache', 'stylize', '--no-t') == ['--no-timing'], 'bas
 expect(complete_in_bash('panache', 'stylize', '-o', '--no-t') == [], 'bash: an option as a value')
 expect(complete_in_bash('panache', 'stylize', '--region', 'le') == ['legs=', 'left_arm='],
        'bash completes no region')
-expect(complete_in_bash('panache', 'stylize', '--style', 'str') == [r'strong\ man=', 'strutting='],
+expect(complete_in_bash('panache', 'stylize', '--style', 'str') == ['strutting=', r'strong\ man='],
        'bash completes no style')
 expect(complete_in_bash('panache', 'live', 'send', '--to', '') == [], 'bash: an address as a format')
 with tempfile.TemporaryDirectory() as home:
