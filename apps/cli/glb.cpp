@@ -1,6 +1,5 @@
 #include "glb.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -336,34 +335,6 @@ Result<std::string> gltf_to_glb(const std::string& gltf, const std::string& path
   }
   json["buffers"] = {{{"byteLength", bin.size()}}};
   return format_glb_file(json, bin);
-}
-
-std::string with_provenance(std::string bytes, const std::string& extension,
-                            const std::vector<std::string>& names, const Json& provenance) {
-  const bool is_text = extension == ".gltf";
-  if (!is_text && extension != ".glb" && extension != ".vrm" && extension != ".vrma") return bytes;
-  const size_t begin = is_text ? 0 : kHeader + kChunkHeader;
-  const size_t size = is_text ? bytes.size() : number_at(bytes, kHeader);
-  GltfJson json = GltfJson::parse(bytes.substr(begin, size));
-  for (GltfJson& animation : list_of(json, "animations")) {
-    const std::string name = animation.value("name", "");
-    if (std::find(names.begin(), names.end(), name) == names.end()) continue;
-    animation["extras"]["panache"] = GltfJson::parse(provenance.dump());
-  }
-  if (is_text) {
-    // Indented as it was.
-    const size_t line = bytes.find('\n'), first = bytes.find_first_not_of(" \t", line + 1);
-    const bool one_line = line == std::string::npos || first == std::string::npos;
-    return json.dump(one_line ? -1 : static_cast<int>(first - line - 1),
-                     one_line ? ' ' : bytes[line + 1]);
-  }
-  std::string chunks;
-  append_chunk(chunks, "JSON", json.dump(), ' ');
-  chunks += bytes.substr(begin + size);  // As they are.
-  std::string out = "glTF";
-  append_number(out, 2);
-  append_number(out, kHeader + chunks.size());
-  return out += chunks;
 }
 
 }  // namespace panache::cli

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "base/result.h"
-#include "messages.h"
 
 namespace panache::cli {
 
@@ -27,10 +26,5 @@ std::string with_pictures(std::string glb, const std::string& path, const Pictur
 // The GLB of a .gltf that stands alone: what it holds in data URIs goes into the binary chunk.
 // Rejected, with `path` in front, is a buffer that only an extension can provide.
 Result<std::string> gltf_to_glb(const std::string& gltf, const std::string& path);
-
-// A file of the glTF family (by its extension) in which the animations with these names tell in
-// their "extras" how they were made: {"panache": provenance}. Any other file comes back as it is.
-std::string with_provenance(std::string bytes, const std::string& extension,
-                            const std::vector<std::string>& names, const Json& provenance);
 
 }  // namespace panache::cli

@@ -10,11 +10,9 @@
 #include <vector>
 
 #include "batch.h"
-#include "batch_settings.h"
 #include "clip/text_cursor.h"
 #include "formats.h"
 #include "gate_report.h"
-#include "glb.h"
 #include "input.h"
 #include "messages.h"
 #include "model_path.h"
@@ -59,7 +57,6 @@ struct Wanted {
   RestyleOptions how;
   bool in_place = false;
   std::optional<CharacterFile> onto;
-  Json provenance;
 };
 
 // A motion of a file, and what became of it.
@@ -224,11 +221,7 @@ Result<void> stylize_file(FileJob& file, const Wanted& wanted, const StylizeOpti
   Result<std::string> bytes = wanted.onto ? encode_onto(*wanted.onto, clips, file, options)
                                           : encode(**motion, clips, file, options, wanted.rig);
   if (!bytes) return bytes.error();
-  std::vector<std::string> results;
-  for (const RestyledClip& clip : clips) results.push_back(clip.name);
-  const std::string made =
-      with_provenance(*std::move(bytes), extension_of(file.output), results, wanted.provenance);
-  return write_output(file, made, options.batch.force);
+  return write_output(file, *bytes, options.batch.force);
 }
 
 // What the user wants of which style, from both sources. A failure sets `exit_code`.
@@ -320,13 +313,8 @@ int stylize(const StylizeOptions& options) {
   Result<RigOptions> rig = read_rig_options(options.rig);
   if (!rig) return fail(rig.error(), kBadInput);
 
-  Wanted wanted{*std::move(model),
-                *std::move(wishes),
-                *std::move(rig),
-                how,
-                options.in_place,
-                std::move(onto),
-                batch_settings(*options.batch.verb, *path)};
+  Wanted wanted{*std::move(model), *std::move(wishes), *std::move(rig), how,
+                options.in_place,  std::move(onto)};
   wanted.how.stylizer.foot_lock = !options.no_feet;
   wanted.how.timing = !options.no_timing;
   return run_batch(*std::move(files), options.batch, *path, "restyling", "restyled",

@@ -1,7 +1,5 @@
 // panache stylize on files that hold more than one motion, and from one format to another.
 
-#include <cstring>
-
 #include <nlohmann/json.hpp>
 
 #include "cli/program.h"
@@ -40,27 +38,6 @@ TEST_F(StylizeGltf, new_motions_stand_beside_the_old) {
   const auto file = styled({"hero.glb", "--style", "old=1", "-o", "out.glb"});
   ASSERT_TRUE(file);
   EXPECT_EQ(file->clip_names(), (Names{"Walk (old 1)", "Wave (old 1)", "Walk", "Wave"}));
-}
-
-TEST_F(StylizeGltf, a_new_motion_tells_how_it_was_made) {
-  const auto animations = [&](const std::string& name) {
-    const std::string glb = read(name);
-    uint32_t size;
-    std::memcpy(&size, glb.data() + 12, sizeof size);
-    return nlohmann::json::parse(glb.substr(20, size))["animations"];
-  };
-  ASSERT_TRUE(styled({"hero.glb", "--style", "old=1", "-o", "out.glb"}));
-  const nlohmann::json all = animations("out.glb");
-  ASSERT_EQ(all.size(), 4u);
-  for (int i : {0, 1}) {
-    const nlohmann::json made = all[i]["extras"]["panache"];
-    EXPECT_EQ(made["options"], (nlohmann::json{{"--style", {"old=1"}}}));
-    EXPECT_EQ(made["model"]["file"], "model.safetensors");
-    const nlohmann::json old = all[i + 2].value("extras", nlohmann::json());
-    EXPECT_FALSE(old.is_object() && old.contains("panache"));
-  }
-  ASSERT_TRUE(styled({"walk.bvh", "--style", "old=1", "-o", "walk.glb"}));
-  EXPECT_EQ(animations("walk.glb")[0]["extras"]["panache"]["verb"], "stylize");
 }
 
 TEST_F(StylizeGltf, a_name_tells_styles_and_strengths) {
