@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What differs between two settings, of the second: "--style old=1 instead of --style proud=1".
+// The first difference of two settings: "version 0.1.0 instead of 0.2.0".
 std::string difference(const Json& now, const Json& then) {
   const auto text = [](const Json& value) {
     return value.is_string() ? value.get<std::string>() : value.dump();

@@ -13,9 +13,10 @@
 namespace panache::cli {
 namespace {
 
-constexpr std::array<std::string_view, 14> kOfTheBatch = {
-    "IN",     "--output", "--files-from", "--below",  "--shard",   "--force",   "--skip-existing",
-    "--jobs", "--quiet",  "--json",       "--report", "--mapping", "--dry-run", "--help"};
+constexpr std::array<std::string_view, 15> kOfTheBatch = {
+    "IN",       "--output",        "--files-from", "--below", "--shard",
+    "--force",  "--skip-existing", "--jobs",       "--quiet", "--json",
+    "--report", "--mapping",       "--dry-run",    "--help",  "--verbose"};
 
 std::string name_of(const CLI::Option& option) {
   const std::vector<std::string>& names = option.get_lnames();

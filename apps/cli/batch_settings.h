@@ -10,8 +10,8 @@
 namespace panache::cli {
 
 // {"version", "verb", "model": {"file", "sha256"} or null, "options": {"--style": ["old=1"], ...},
-// "files": {"--map": sha256, ...}}: the options given to `verb`, but for those that say which files
-// are worked on and how the work is told of. `model`: its file, or empty.
+// "files": {"--map": sha256, ...}}: the options given to `verb`, without those that choose files
+// and messages. `model`: its file, or empty.
 Json batch_settings(const CLI::App& verb, const std::string& model);
 
 // Sixteen hexadecimal digits: the same for the same settings.

@@ -63,7 +63,7 @@ std::string zsh_text(const std::string& text) {
   return out;
 }
 
-// What lists the styles of the default model, one on each line.
+// The command that lists the styles of the default model, one on each line.
 const std::string kListStyles = std::string("panache ") + kPrintReference + " styles 2>/dev/null";
 
 // The words that a value of this kind can be, parted by spaces; empty for a file or anything else.
@@ -98,7 +98,7 @@ std::string bash_choices(const VerbEntry& verb) {
   return out.empty() ? "" : "      case $before in\n" + out + "      esac\n";
 }
 
-// What zsh completes a value of this kind with.
+// The action of zsh that completes a value of this kind.
 std::string zsh_action(const std::string& value) {
   if (value == "STYLE") return "_panache_styles";
   const std::string choices = choices_of(value);

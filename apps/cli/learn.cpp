@@ -1,6 +1,5 @@
 // panache learn: a new style from a few seconds of motion.
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -44,10 +43,7 @@ Clip pose_of(const Clip& clip, const Rig& rig) {
   pose.skeleton = clip.skeleton;
   pose.frame_time = clip.frame_time;
   pose.resize(1);
-  const ConstPose first = clip.pose(rig.first_frame());
-  std::copy(first.rotations.begin(), first.rotations.end(), pose.pose(0).rotations.begin());
-  std::copy(first.translations.begin(), first.translations.end(),
-            pose.pose(0).translations.begin());
+  sample(clip, rig.first_frame(), pose.pose(0));
   return pose;
 }
 

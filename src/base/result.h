@@ -37,7 +37,7 @@ struct Error {
   ErrorKind kind = ErrorKind::other;
 };
 
-// An error of what is at `where`: "WHERE: MESSAGE", of the same kind.
+// The error with its place in front: "WHERE: MESSAGE", of the same kind.
 inline Error located(const std::string& where, Error error) {
   error.message.insert(0, where + ": ");
   return error;

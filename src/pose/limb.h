@@ -22,6 +22,13 @@ inline Vec3 from_line(Vec3 point, Vec3 a, Vec3 b) noexcept {
   return point - (a + along * t);
 }
 
+// `v`, of which the length beyond `free` is compressed so that it stays below `most`.
+inline Vec3 softly_bounded(Vec3 v, float free, float most) noexcept {
+  const float far = length(v), over = far - free, room = most - free;
+  if (!(over > 0)) return v;
+  return v * ((free + over * room / (over + room)) / far);
+}
+
 // Whether the rig has a head: a missing one carries the position of what it would hang on.
 inline bool has_head(const HumanPositions& joints) noexcept {
   constexpr float kShortest = 0.01f;  // Metres.

@@ -1,6 +1,6 @@
 #pragma once
-// One character's input as it comes: poses made sound, brought to the canonical body, seen in the
-// body frame, and detects cuts.
+// One character's input as it comes: poses are made sound, brought to the canonical body and seen
+// in the body frame, and cuts are detected.
 
 #include <span>
 #include <vector>

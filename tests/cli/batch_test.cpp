@@ -292,6 +292,10 @@ TEST_F(Batch, outputs_of_other_settings_are_not_taken_for_done) {
   std::filesystem::remove(path("out/a.bvh"));
   const Ran rest = stylize({"takes", "-o", "out", "--report", "r.jsonl", "--skip-existing"});
   EXPECT_TRUE(rest.out.starts_with("restyled 1 of 4 files, 3 skipped, in ")) << rest.out;
+  // What is printed is no setting.
+  EXPECT_EQ(
+      stylize({"takes", "-o", "out", "--report", "r.jsonl", "--skip-existing", "--verbose"}).exit,
+      0);
   const std::vector<std::string> others = {
       "takes", "-o", "out", "--report", "r.jsonl", "--skip-existing", "--style", "proud=1"};
   const std::string expected =

@@ -105,7 +105,7 @@ Rotation to_rotation(const ValueData* value);
 Transform to_transform(const ValueData* value);
 Object to_object(const ValueData* value);
 
-// The bytes of a file, res:// or other; empty where there is none.
+// The bytes of a file, res:// or other; empty if it cannot be read.
 std::vector<uint8_t> read_file(const std::string& path);
 
 // An error in the console and the editor.

@@ -1,11 +1,11 @@
 // `panache live --view`: what its relay receives and sends, drawn while it happens.
 
-import type { Panache } from '../package/index.js';
+import { humanJoints, type Panache } from '../package/index.js';
 import { find } from './dom';
 import { Stage, type Seen } from './stage';
 
 const kAskEvery = 500;  // Milliseconds, until a sender is understood.
-const kNumbers = 147;   // Of a body, see Player.parts().
+const kNumbers = 7 * humanJoints.length;  // Of a body, see Player.parts().
 const kEnded = 'panache live has ended';
 const kStale = 1000;    // Milliseconds without a pose until the page says so.
 

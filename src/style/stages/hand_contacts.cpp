@@ -48,13 +48,6 @@ float nearness(float value, float near, float far) {
   return smooth_step((far - value) / (far - near));
 }
 
-// `far` beyond `free` ends at `most` at the latest.
-Vec3 softly_bounded(Vec3 v, float free, float most) {
-  const float far = length(v), over = far - free, room = most - free;
-  if (!(over > 0)) return v;
-  return v * ((free + over * room / (over + room)) / far);
-}
-
 // How much an arm hangs down along the torso, 0 to 1. `up`: along the torso, unit.
 float hangs(const HumanPositions& joints, int side, Vec3 up) {
   const Vec3 way = normalized(joints[index(kHands[side])] - joints[index(kUpperArms[side])]);
@@ -67,8 +60,8 @@ float arm_length(const HumanPositions& joints, int side) {
          length(joints[index(kHands[side])] - elbow);
 }
 
-// `way` from a shoulder to a wrist, no shorter than `least`: where it is, it goes on along `out`,
-// unit.
+// `way` from a shoulder to a wrist; if it is shorter than `least`, lengthened to that along the
+// unit vector `out`.
 Vec3 unfolded(Vec3 way, Vec3 out, float least) {
   const float lacks = least * least - dot(way, way), along = dot(way, out);
   return lacks > 0 ? way + out * (std::sqrt(along * along + lacks) - along) : way;

@@ -9,8 +9,8 @@
 
 namespace panache {
 
-// To which side of its arm an elbow went, and the way from shoulder to wrist, heading frame, units;
-// 0 without a contact.
+// The side of its arm to which an elbow went, and the direction from shoulder to wrist: unit
+// vectors, heading frame; 0 without a contact.
 struct ArmSide {
   Vec3 side, way;
 };

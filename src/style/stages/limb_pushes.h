@@ -74,15 +74,8 @@ class EasedMove {
   LimbMove move_;
 };
 
-// `move`, softly held within `most` metres.
-inline Vec3 bounded_move(Vec3 move, float most) noexcept {
-  const float far = length(move), half = most / 2, over = far - half;
-  if (!(over > 0)) return move;
-  return move * ((half + half * over / (over + half)) / far);
-}
-
-// How far a limb may be moved: its middle and its end, metres, and its end by a share of the
-// distance from the root, as a folded limb would swing far.
+// The largest moves of a limb's middle and end, metres; and that of the end as a share of its
+// distance from the root, because a folded limb would swing far.
 struct MostMove {
   float middle = 1, end = 1, swing = 10;
 };
@@ -101,10 +94,11 @@ inline bool move_eased(const std::array<LimbJoints, 2>& limbs, const HumanPositi
     const auto [root, middle, end, hint] = limbs[side];
     LimbMove wanted;
     if (moved) {
-      wanted = {bounded_move((*moved)[middle] - joints[middle], most.middle) * amounts[side],
-                bounded_move((*moved)[end] - joints[end],
-                             std::min(most.end, most.swing * length(joints[end] - joints[root]))) *
-                    amounts[side]};
+      const float far = std::min(most.end, most.swing * length(joints[end] - joints[root]));
+      const auto way = [&](int joint, float bound) {
+        return softly_bounded((*moved)[joint] - joints[joint], bound / 2, bound) * amounts[side];
+      };
+      wanted = {way(middle, most.middle), way(end, far)};
     }
     moves[side].step(wanted, gain);
     if (moves[side].rests()) continue;
