@@ -16,9 +16,6 @@ constexpr float kStays = 0.5f;
 constexpr int kPasses = 3;
 constexpr float kSmall = 0.03f;
 
-// More would be seen as a jump.
-constexpr MostMove kMost = {.middle = 0.14f, .end = 0.12f, .swing = 0.4f};
-
 // Along a forearm, from the elbow; beyond 1 is the hand. Up to kElbow it has to be on its own side
 // of the torso; hands go anywhere around it.
 constexpr std::array<float, 5> kArmPoints = {0, 0.33f, 0.67f, 1, 1.3f};
@@ -177,7 +174,7 @@ void ArmsClear::step(const BodyPose& body, std::array<float, 2> amounts, const H
     if (largest < kSmall) break;
   }
   move_eased({arm_joints(0), arm_joints(1)}, pushed ? &moved : nullptr, amounts, time, moves_,
-             joints, change, kMost);
+             joints, change);
 }
 
 }  // namespace panache

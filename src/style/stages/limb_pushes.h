@@ -59,48 +59,53 @@ inline void raise_push(Vec3& push, Vec3 way, float length) noexcept {
 // The move of a limb as it comes and goes.
 class EasedMove {
  public:
-  // Goes the share `gain` of the way to `wanted`.
-  void step(const LimbMove& wanted, float gain) noexcept {
+  void step(const LimbMove& wanted, const StepTime& time) noexcept {
     constexpr float kNothing = 1e-4f;  // Metres.
-    move_.middle = lerp(move_.middle, wanted.middle, gain);
-    move_.end = lerp(move_.end, wanted.end, gain);
+    follow(move_.middle, speed_.middle, wanted.middle, time);
+    follow(move_.end, speed_.end, wanted.end, time);
     const float far = length(move_.middle) + length(move_.end);
-    if (wanted == LimbMove{} && far < kNothing) move_ = {};
+    if (wanted == LimbMove{} && far < kNothing) *this = {};
   }
   const LimbMove& now() const noexcept { return move_; }
   bool rests() const noexcept { return move_ == LimbMove{}; }
 
  private:
-  LimbMove move_;
-};
+  // Goes towards `wanted` with a time constant, no faster than it can stop there, and without a
+  // sudden change of speed.
+  static void follow(Vec3& at, Vec3& speed, Vec3 wanted, const StepTime& time) noexcept {
+    constexpr float kEaseSeconds = 0.05f, kMostAcceleration = 20;  // m/s2.
+    const Vec3 way = wanted - at;
+    if (time.first || !(time.output > 0)) {
+      if (time.first) at = wanted, speed = {};
+      return;
+    }
+    const float far = length(way);
+    const float fastest = std::min(far * time.gain(kEaseSeconds) / time.output,
+                                   std::sqrt(2 * kMostAcceleration * far));
+    const Vec3 change = normalized(way) * fastest - speed;
+    const float most = kMostAcceleration * time.output, by = length(change);
+    speed += by > most ? change * (most / by) : change;
+    at += speed * time.output;
+  }
 
-// The largest moves of a limb's middle and end, metres; and that of the end as a share of its
-// distance from the root, because a folded limb would swing far.
-struct MostMove {
-  float middle = 1, end = 1, swing = 10;
+  LimbMove move_, speed_;  // Metres, m/s.
 };
 
 // Moves both limbs from where they are in `joints` towards where they are in `moved`, by `amounts`
 // of the way, eased; or back, where `moved` is null. Returns whether any of them moves.
 inline bool move_eased(const std::array<LimbJoints, 2>& limbs, const HumanPositions* moved,
                        std::array<float, 2> amounts, const StepTime& time,
-                       std::array<EasedMove, 2>& moves, HumanPositions& joints, BodyChange& change,
-                       const MostMove& most = {}) noexcept {
-  constexpr float kEaseSeconds = 0.05f;
+                       std::array<EasedMove, 2>& moves, HumanPositions& joints,
+                       BodyChange& change) noexcept {
   if (!moved && moves[0].rests() && moves[1].rests()) return false;
-  const float gain = time.gain(kEaseSeconds);
   bool any = false;
   for (size_t side = 0; side < 2; ++side) {
-    const auto [root, middle, end, hint] = limbs[side];
     LimbMove wanted;
     if (moved) {
-      const float far = std::min(most.end, most.swing * length(joints[end] - joints[root]));
-      const auto way = [&](int joint, float bound) {
-        return softly_bounded((*moved)[joint] - joints[joint], bound / 2, bound) * amounts[side];
-      };
-      wanted = {way(middle, most.middle), way(end, far)};
+      const auto way = [&](int joint) { return ((*moved)[joint] - joints[joint]) * amounts[side]; };
+      wanted = {way(limbs[side].middle), way(limbs[side].end)};
     }
-    moves[side].step(wanted, gain);
+    moves[side].step(wanted, time);
     if (moves[side].rests()) continue;
     move_limb(limbs[side], moves[side].now(), joints, change);
     any = true;
