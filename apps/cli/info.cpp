@@ -16,6 +16,7 @@
 #include "rig/body_motions.h"
 #include "rig_options.h"
 #include "rig_report.h"
+#include "terminal_figures.h"
 #include "verbs.h"
 
 namespace panache::cli {
@@ -127,6 +128,7 @@ struct InfoVerb {
   ReadOptions read;
   RigFlags rig;
   bool tree = false;
+  bool figures = false;
   bool json = false;
 };
 
@@ -177,6 +179,7 @@ Result<Info> motion_info(const std::string& path, const InfoVerb& verb, const Ri
                {"error", info.good ? Json() : Json(info.good.error().message)}};
   info.text = describe(path, **file, body, loops, *shown);
   if (rig) info.text += describe_mapping(*rig, options);
+  if (verb.figures && rig) info.text += "\n" + draw_figures(clip, *rig);
   if (verb.tree) info.text += "\nSkeleton:\n" + draw_tree(clip.skeleton);
   return info;
 }
@@ -247,6 +250,7 @@ void add_info(CLI::App& app, int& exit_code) {
   add_rig_options(*verb, options->rig);
   add_read_options(*verb, options->read);
   verb->add_flag("--tree", options->tree, "Also draw the skeleton");
+  verb->add_flag("--figures", options->figures, "Also draw the motion as stick figures");
   verb->add_flag("--json", options->json, "Print JSON");
   verb->footer(
       "Examples:\n"

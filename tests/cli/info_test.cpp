@@ -1,5 +1,10 @@
 // panache info of motion files: the rig as it was understood, and what the user says of it.
 
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <vector>
+
 #include <nlohmann/json.hpp>
 
 #include "cli/program.h"
@@ -51,6 +56,27 @@ TEST_F(Info, shows_how_the_rig_was_mapped) {
   EXPECT_TRUE(contains(ran.out, "  leftHand       leftHand           100%  by its name\n"))
       << ran.out;
   EXPECT_TRUE(contains(ran.out, "\n  hips (moves)\n    spine\n      chest\n")) << ran.out;
+}
+
+TEST_F(Info, draws_the_motion_as_figures) {
+  run({"walker", "--seconds", "2.5", "-o", "long.bvh"});
+  const std::string plain = run({"info", "long.bvh"}).out;
+  const Ran ran = run({"info", "long.bvh", "--figures"});
+  ASSERT_TRUE(ran.out.starts_with(plain)) << ran.out;
+  std::istringstream drawn(ran.out.substr(plain.size()));
+  std::vector<std::string> rows;
+  for (std::string row; std::getline(drawn, row);) rows.push_back(row);
+  // An empty line, nine rows of a body of 1.7 m, the times.
+  ASSERT_EQ(rows.size(), 11u) << ran.out;
+  EXPECT_EQ(rows.front(), "");
+  EXPECT_EQ(rows.back(), "   0.0 s       0.5 s       1.0 s       1.5 s       2.0 s       2.5 s");
+  // Characters that are drawn: six skulls of two to four, and below them, six pairs of feet.
+  const auto filled = [](const std::string& row) {
+    return std::count(row.begin(), row.end(), '\xe2');
+  };
+  EXPECT_GE(filled(rows[1]), 12) << ran.out;
+  EXPECT_LE(filled(rows[1]), 24) << ran.out;
+  EXPECT_GE(filled(rows[9]), 12) << ran.out;
 }
 
 TEST_F(Info, tells_machines_the_same) {
