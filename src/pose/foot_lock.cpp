@@ -78,28 +78,35 @@ Vec3 crept(Vec3 way, float seconds) {
 
 Vec3 knee_way(Vec3 ankle, Vec3 toe) noexcept { return normalized(toe - ankle) + Vec3{0, 0, 0.5f}; }
 
-TwoBoneTurn two_bone_ik(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 bend) noexcept {
+TwoBonePlaces two_bone_places(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 out) noexcept {
   const float upper = length(middle - root), lower = length(end - middle);
-  const Vec3 old_way = end - root, way = target - root;
-  const float old_reach = length(old_way);
-  if (upper < 1e-5f || lower < 1e-5f || length(way) < 1e-5f) return {};
-  const float longest = std::max(old_reach, kMaxReach * (upper + lower));
+  const Vec3 way = target - root;
+  const float far = length(way);
+  if (upper < 1e-5f || lower < 1e-5f || far < 1e-5f) return {middle, end};
+  const float longest = std::max(length(end - root), kMaxReach * (upper + lower));
   const float shortest = std::abs(upper - lower) * 1.001f + 1e-4f;
-  const float reach = std::clamp(length(way), std::min(shortest, longest), longest);
+  const float reach = std::clamp(far, std::min(shortest, longest), longest);
   const Vec3 axis = normalized(way);
-  // The knee stays in its half-plane: the bend direction turns along with the leg.
-  const Quat swing = rotation_between(normalized(old_way, axis), axis);
-  const Vec3 out = normalized(rotate(swing, bend));
-
-  // Law of cosines: where along the way the knee is, and how far off it.
+  // Law of cosines: where along the way the middle is, and how far off it.
   const float along = (upper * upper - lower * lower + reach * reach) / (2 * reach);
   const float off = std::sqrt(std::max(0.0f, upper * upper - along * along));
-  const Vec3 knee = root + axis * along + out * off;
-  const Vec3 foot = root + axis * reach;
+  return {root + axis * along + out * off, root + axis * reach};
+}
+
+TwoBoneTurn two_bone_turn(Vec3 root, Vec3 middle, Vec3 end, const TwoBonePlaces& to) noexcept {
+  if (to.middle == middle && to.end == end) return {};
   TwoBoneTurn turn;
-  turn.upper = rotation_between(normalized(middle - root), normalized(knee - root));
-  turn.lower = rotation_between(normalized(end - middle), normalized(foot - knee));
+  turn.upper = rotation_between(normalized(middle - root), normalized(to.middle - root));
+  turn.lower = rotation_between(normalized(end - middle), normalized(to.end - to.middle));
   return turn;
+}
+
+TwoBoneTurn two_bone_ik(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 bend) noexcept {
+  // The middle stays in its half-plane: the bend turns along with the chain.
+  const Vec3 axis = normalized(target - root);
+  const Quat swing = rotation_between(normalized(end - root, axis), axis);
+  const Vec3 out = normalized(rotate(swing, bend));
+  return two_bone_turn(root, middle, end, two_bone_places(root, middle, end, target, out));
 }
 
 Vec3 bend_of(Vec3 root, Vec3 middle, Vec3 end, Vec3 hint, float firm) noexcept {

@@ -20,6 +20,13 @@ struct TwoBoneTurn {
 // space. A target beyond reach is approached as far as the chain's length allows. `bend`: to which
 // side of the line from root to end the middle goes, of any length; it turns along with that line.
 TwoBoneTurn two_bone_ik(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 bend) noexcept;
+// Where such a chain has its middle and end then. `out`: to which side of the line from root to
+// target the middle goes, unit, at a right angle to that line. A chain without length stays.
+struct TwoBonePlaces {
+  Vec3 middle, end;
+};
+TwoBonePlaces two_bone_places(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 out) noexcept;
+TwoBoneTurn two_bone_turn(Vec3 root, Vec3 middle, Vec3 end, const TwoBonePlaces& to) noexcept;
 // The side that the middle is on, or that of `hint` where the chain is straight. `firm`: a middle
 // that is nearer than twice this to the line from root to end (metres) goes the more towards the
 // hint, the nearer it is; two thirds of it on the wrong side do not make the chain bend that way.

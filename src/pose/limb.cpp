@@ -2,15 +2,33 @@
 
 namespace panache {
 
-void turn_limb(const LimbJoints& limb, Vec3 target, Vec3 bend, HumanPositions& joints,
-               BodyChange& change) noexcept {
+namespace {
+
+// Joints and change of a limb that turns like this.
+void apply(const LimbJoints& limb, const TwoBoneTurn& turn, HumanPositions& joints,
+           BodyChange& change) {
   Vec3 &middle = joints[limb.middle], &end = joints[limb.end];
   const Vec3 root = joints[limb.root], lower = end - middle;
-  const TwoBoneTurn turn = two_bone_ik(root, middle, end, target, bend);
   middle = root + rotate(turn.upper, middle - root);
   end = middle + rotate(turn.lower, lower);
   change.rotations[limb.root] = normalized(turn.upper * change.rotations[limb.root]);
   change.rotations[limb.middle] = normalized(turn.lower * change.rotations[limb.middle]);
+}
+
+}  // namespace
+
+void turn_limb(const LimbJoints& limb, Vec3 target, Vec3 bend, HumanPositions& joints,
+               BodyChange& change) noexcept {
+  const TwoBoneTurn turn =
+      two_bone_ik(joints[limb.root], joints[limb.middle], joints[limb.end], target, bend);
+  apply(limb, turn, joints, change);
+}
+
+void aim_limb(const LimbJoints& limb, Vec3 target, Vec3 out, HumanPositions& joints,
+              BodyChange& change) noexcept {
+  const Vec3 root = joints[limb.root], middle = joints[limb.middle], end = joints[limb.end];
+  const TwoBonePlaces to = two_bone_places(root, middle, end, target, out);
+  apply(limb, two_bone_turn(root, middle, end, to), joints, change);
 }
 
 void reach_with_limb(const LimbJoints& limb, Vec3 target, HumanPositions& joints,
@@ -19,13 +37,22 @@ void reach_with_limb(const LimbJoints& limb, Vec3 target, HumanPositions& joints
   turn_limb(limb, target, bend, joints, change);
 }
 
+void move_joints(const LimbJoints& limb, const LimbMove& move, HumanPositions& joints) noexcept {
+  Vec3 &middle = joints[limb.middle], &end = joints[limb.end];
+  const Vec3 root = joints[limb.root], target = end + move.end;
+  const Vec3 out = normalized(bend_of(root, middle + move.middle, target, limb.hint));
+  const TwoBonePlaces to = two_bone_places(root, middle, end, target, out);
+  middle = to.middle, end = to.end;
+}
+
 void move_limb(const LimbJoints& limb, const LimbMove& move, HumanPositions& joints,
                BodyChange& change) noexcept {
-  const Vec3 root = joints[limb.root], end = joints[limb.end], target = end + move.end;
-  const Vec3 bend = bend_of(root, joints[limb.middle] + move.middle, target, limb.hint);
-  // As it is seen from where the end still is.
-  const Quat swing = rotation_between(normalized(end - root), normalized(target - root));
-  turn_limb(limb, target, rotate(conjugate(swing), bend), joints, change);
+  const Vec3 root = joints[limb.root], middle = joints[limb.middle], end = joints[limb.end];
+  move_joints(limb, move, joints);
+  const TwoBoneTurn turn =
+      two_bone_turn(root, middle, end, {joints[limb.middle], joints[limb.end]});
+  change.rotations[limb.root] = normalized(turn.upper * change.rotations[limb.root]);
+  change.rotations[limb.middle] = normalized(turn.lower * change.rotations[limb.middle]);
 }
 
 }  // namespace panache

@@ -58,11 +58,17 @@ struct LimbMove {
 // middle and end, but not what hangs on them.
 void turn_limb(const LimbJoints& limb, Vec3 target, Vec3 bend, HumanPositions& joints,
                BodyChange& change) noexcept;
+// The same; the middle goes to the side `out`, unit, at a right angle to the line from the root to
+// `target`.
+void aim_limb(const LimbJoints& limb, Vec3 target, Vec3 out, HumanPositions& joints,
+              BodyChange& change) noexcept;
 // The same; the middle stays on its side of the limb.
 void reach_with_limb(const LimbJoints& limb, Vec3 target, HumanPositions& joints,
                      BodyChange& change) noexcept;
 // The same; the middle moves as nearly as it can as `move` says.
 void move_limb(const LimbJoints& limb, const LimbMove& move, HumanPositions& joints,
                BodyChange& change) noexcept;
+// Of that only the joints.
+void move_joints(const LimbJoints& limb, const LimbMove& move, HumanPositions& joints) noexcept;
 
 }  // namespace panache

@@ -150,7 +150,6 @@ void ArmsClear::step(const BodyPose& body, std::array<float, 2> amounts, const H
   const TrunkCapsules trunk = trunk_of(joints);
   const Pusher pusher(body, change, trunk, holds.together);
   HumanPositions moved = joints;
-  BodyChange scratch;
   bool pushed = false;
   for (int pass = 0; pass < kPasses; ++pass) {
     std::array<ArmPush, 2> pushes = {pusher.push_of(moved, 0), pusher.push_of(moved, 1)};
@@ -169,7 +168,7 @@ void ArmsClear::step(const BodyPose& body, std::array<float, 2> amounts, const H
       const float far = length(push.middle);
       if (far > 0) push.end += push.middle * (far / (far + bent) * (1 - holds.together));
       if (push == LimbMove{}) continue;
-      move_limb(arm, push, moved, scratch);
+      move_joints(arm, push, moved);
     }
     if (largest < kSmall) break;
   }

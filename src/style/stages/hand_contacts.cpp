@@ -87,7 +87,7 @@ void reach(int side, Vec3 target, Vec3 elbow, const StepTime& time, ArmSide& las
   const float most = kElbowRate * time.output;
   last = {rotate(axis_angle(to, std::clamp(turn * time.gain(kElbowSeconds), -most, most)), now),
           to};
-  turn_limb(arm, target, rotate(conjugate(swing), last.side), joints, change);
+  aim_limb(arm, target, last.side, joints, change);
 }
 
 void ease(float& hold, float wanted, float take, float give) {

@@ -117,7 +117,6 @@ void LegsApart::step(const BodyPose& body, float amount, std::array<float, 2> pl
   if (!(amount > 0)) return reset();
   if (moves_[0].rests() && moves_[1].rests() && are_apart(joints)) return;
   HumanPositions moved = joints;
-  BodyChange scratch;
   bool pushed = false;
   for (int pass = 0; pass < kPasses; ++pass) {
     const Pushes pushes = pushes_of(body, moved);
@@ -127,8 +126,7 @@ void LegsApart::step(const BodyPose& body, float amount, std::array<float, 2> pl
     for (int side = 0; side < 2; ++side) {
       const LimbJoints leg = leg_joints(side);
       const Pushes half = {pushes.knee / 2, pushes.ankle / 2};
-      move_limb(leg, move_of(moved, leg, half, side == 0 ? left : -left, planted[side]), moved,
-                scratch);
+      move_joints(leg, move_of(moved, leg, half, side == 0 ? left : -left, planted[side]), moved);
     }
   }
   if (move_eased({leg_joints(0), leg_joints(1)}, pushed ? &moved : nullptr, {amount, amount}, time,
