@@ -171,7 +171,7 @@ int run(const Options& options) {
     return kDone;
   }
   print("trained " + options.output + " (" + std::to_string(bytes.size()) + " bytes, " +
-        plural(data->styles.size(), "style") + ") on " + std::to_string(trained->samples) +
+        plural(trained->styles.size(), "style") + ") on " + std::to_string(trained->samples) +
         " samples: reading " + fixed(trained->read_seconds, 1) + " s, pairing " +
         fixed(trained->pair_seconds, 1) + " s, training " + fixed(trained->train_seconds, 1) +
         " s\nlosses: " + options.output + ".losses.csv and .losses.svg; the export differs from " +

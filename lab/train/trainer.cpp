@@ -277,6 +277,11 @@ Result<Trained> train(const std::vector<ManifestRow>& rows, const std::vector<St
     for (const std::string& line : list_unpaired(rows)) options.note(line);
   }
   if (options.remover_of) {
+    for (const StyleName& style : styles) {
+      if (style.name != kAnyStyle) continue;
+      return Error{std::string("a style is called '") + kAnyStyle +
+                   "'; in a remover this name stands for unknown styles, so rename it"};
+    }
     Result<TrainingData> data = prepare_training(rows, PoseLayout::positions);
     if (!data) return data.error();
     Result<void> added = prepare_removal(*options.remover_of, unlabelled, options.seed, *data);
@@ -381,7 +386,7 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
   if (recipe.learns_styles) {
     fit_gate(
         clean_features(set, choice, count, settings.batch, units, guide, networks[0], options.seed),
-        trained.model);
+        trained.model, removes ? kTrustedByRemovers : kTrusted);
     if (auto added = add_activation_statistics(data.takes, trained.model); !added) {
       return added.error();
     }
