@@ -24,8 +24,8 @@ struct TrainOptions {
 
   const Recipe* recipe;
   TrainingSettings settings;  // The recipe's own, or changed.
-  // Null, or a model whose remover is trained: pairs are reversed, and unlabelled motion is restyled
-  // by this model and learnt from as well. See removal.h.
+  // Null, or a model whose remover is trained: pairs are reversed, and unlabelled motion is
+  // restyled by this model and learnt from as well. See removal.h.
   std::shared_ptr<const Model> remover_of;
   uint64_t seed = 1;
   std::string data, licence;  // What the data is and its terms, for the model's metadata.

@@ -151,7 +151,7 @@ class Model {
   std::array<Heads, kNetworks> heads_;
   Gate gate_;
   std::vector<float> activation_mean_, activation_scale_,
-      activation_factor_;                 // The last is 1 / scale.
+      activation_factor_;  // The last is 1 / scale.
   std::optional<Recognition> recognition_;
   std::vector<Learnt> learnt_;            // Of the last styles.
   std::vector<Stance> stances_;           // [styles], or empty where they are not known.

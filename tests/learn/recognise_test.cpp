@@ -50,8 +50,8 @@ TEST_F(RecogniseTest, a_style_that_is_put_on_is_told_and_one_that_is_taken_off_i
   const Rig rig = *Rig::create(clip);
   for (const char* style : {"old", "zombie", "mummy"}) {
     const auto on = restyle(clip, rig, model_, {{*model_->find_style(style), {{0, 1}}}});
-    const auto off = restyle_without(on->clip, rig, {remover_, *find_removal(*remover_, style)},
-                                     model_, {});
+    const auto off =
+        restyle_without(on->clip, rig, {remover_, *find_removal(*remover_, style)}, model_, {});
     const float before = share(*recognise_styles(remover_, clip, rig), *remover_, style);
     const float with = share(*recognise_styles(remover_, on->clip, rig), *remover_, style);
     const float without = share(*recognise_styles(remover_, off->clip, rig), *remover_, style);
