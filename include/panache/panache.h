@@ -85,22 +85,22 @@ PANACHE_API const char* panache_last_error(void);
  * versions, the kind does not. */
 typedef enum panache_error_kind {
   PANACHE_ERROR_OTHER = 0,
-  PANACHE_ERROR_FILE_EXISTS = 1,  /* A file would be overwritten. */
-  PANACHE_ERROR_RATE_NEEDED = 2,  /* A file has no frame rate, or one that cannot be. */
+  PANACHE_ERROR_FILE_EXISTS = 1, /* A file would be overwritten. */
+  PANACHE_ERROR_RATE_NEEDED = 2, /* A file has no frame rate, or one that cannot be. */
   PANACHE_ERROR_NOT_HUMANOID = 3, /* A skeleton in which no person was found. */
   /* A model has many styles, but not this one; the message names the nearest. */
   PANACHE_ERROR_UNKNOWN_STYLE = 4,
-  PANACHE_ERROR_NO_STYLES = 5,           /* A model has no styles yet. */
-  PANACHE_ERROR_STYLE_EXISTS = 6,        /* A model has a style of that name. */
-  PANACHE_ERROR_IS_MODEL = 7,            /* A model in the place of a style file. */
-  PANACHE_ERROR_IS_STYLE_FILE = 8,       /* A style file in the place of a model. */
-  PANACHE_ERROR_STYLE_OF_ANOTHER = 9,    /* A style file that was made with another model. */
-  PANACHE_ERROR_NOT_SAFETENSORS = 10,    /* Neither a model nor a style file. */
+  PANACHE_ERROR_NO_STYLES = 5, /* A model has no styles yet. */
+  PANACHE_ERROR_STYLE_EXISTS = 6, /* A model has a style of that name. */
+  PANACHE_ERROR_IS_MODEL = 7, /* A model in the place of a style file. */
+  PANACHE_ERROR_IS_STYLE_FILE = 8, /* A style file in the place of a model. */
+  PANACHE_ERROR_STYLE_OF_ANOTHER = 9, /* A style file that was made with another model. */
+  PANACHE_ERROR_NOT_SAFETENSORS = 10, /* Neither a model nor a style file. */
   PANACHE_ERROR_MODEL_CANNOT_LEARN = 11, /* A model without the statistics that learning needs. */
-  PANACHE_ERROR_OTHER_SKELETONS = 12,    /* A pair of clips whose skeletons differ. */
-  PANACHE_ERROR_LOOP_OPEN = 13,          /* A clip whose last pose is not its first. */
-  PANACHE_ERROR_LOOP_STRENGTHS = 14,     /* Strengths that differ at the ends of a loop. */
-  PANACHE_ERROR_BAD_STYLE_NAME = 15      /* A style name of a manifest that people cannot type. */
+  PANACHE_ERROR_OTHER_SKELETONS = 12, /* A pair of clips whose skeletons differ. */
+  PANACHE_ERROR_LOOP_OPEN = 13, /* A clip whose last pose is not its first. */
+  PANACHE_ERROR_LOOP_STRENGTHS = 14, /* Strengths that differ at the ends of a loop. */
+  PANACHE_ERROR_BAD_STYLE_NAME = 15 /* A style name of a manifest that people cannot type. */
 } panache_error_kind;
 PANACHE_API panache_error_kind panache_last_error_kind(void);
 
