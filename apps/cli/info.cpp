@@ -8,9 +8,11 @@
 
 #include "find_inputs.h"
 #include "input.h"
+#include "learn/recognise.h"
 #include "learn/style_file.h"
 #include "messages.h"
 #include "model_edit.h"
+#include "model_path.h"
 #include "model_report.h"
 #include "pose/loop.h"
 #include "rig/body_motions.h"
@@ -129,6 +131,7 @@ struct InfoVerb {
   RigFlags rig;
   bool tree = false;
   bool figures = false;
+  bool styles = false;
   bool json = false;
 };
 
@@ -157,7 +160,25 @@ Result<size_t> pick_shown(const MotionFile& file, const BodyMotions& body, const
   return size_t{0};
 }
 
-Result<Info> motion_info(const std::string& path, const InfoVerb& verb, const RigOptions& options) {
+// The styles that a motion shows: those of a hundredth at the least.
+Result<std::vector<std::pair<std::string, float>>> styles_of(
+    const Clip& clip, const Rig& rig, const std::shared_ptr<const Model>& remover) {
+  constexpr float kLeast = 0.01f;
+  Result<std::vector<StyleShare>> shares = recognise_styles(remover, clip, rig);
+  if (!shares) return shares.error();
+  std::vector<std::pair<std::string, float>> named;
+  for (const StyleShare& share : *shares) {
+    if (share.share < kLeast) continue;
+    const bool neutral = share.style < 0;
+    named.emplace_back(
+        neutral ? "neutral" : remover->styles()[static_cast<size_t>(share.style)].name,
+        share.share);
+  }
+  return named;
+}
+
+Result<Info> motion_info(const std::string& path, const InfoVerb& verb, const RigOptions& options,
+                         const std::shared_ptr<const Model>& remover) {
   Result<std::unique_ptr<MotionFile>> file = open_motion(path, verb.read);
   if (!file) return file.error();
   Info info;
@@ -178,6 +199,19 @@ Result<Info> motion_info(const std::string& path, const InfoVerb& verb, const Ri
                {"notes", info.notes},
                {"error", info.good ? Json() : Json(info.good.error().message)}};
   info.text = describe(path, **file, body, loops, *shown);
+  if (remover && rig) {
+    const auto styles = styles_of(clip, *rig, remover);
+    if (!styles) return styles.error();
+    Json list = Json::array();
+    std::string text;
+    for (const auto& [name, share] : *styles) {
+      list.push_back({{"name", name}, {"share", rounded(static_cast<double>(share))}});
+      text += (text.empty() ? "" : ", ") + name + " " + fixed(100 * static_cast<double>(share), 0) +
+              " %";
+    }
+    info.json["styles"] = list;
+    info.text += "  styles  " + text + "\n";
+  }
   if (rig) info.text += describe_mapping(*rig, options);
   if (verb.figures && rig) info.text += "\n" + draw_figures(clip, *rig);
   if (verb.tree) info.text += "\nSkeleton:\n" + draw_tree(clip.skeleton);
@@ -211,6 +245,14 @@ int show(const InfoVerb& verb) {
   if (auto read = check_read_options(verb.read); !read) return fail(read.error(), kBadUsage);
   const Result<RigOptions> options = read_rig_options(verb.rig);
   if (!options) return fail(options.error(), kBadInput);
+  std::shared_ptr<const Model> remover;
+  if (verb.styles) {
+    Result<std::string> path = find_shipped(kRemoverModel);
+    if (!path) return fail(path.error(), kBadInput);
+    Result<std::shared_ptr<const Model>> model = Model::load(*path);
+    if (!model) return fail(model.error(), kBadInput);
+    remover = *std::move(model);
+  }
   const Result<FoundFiles> found = find_inputs(verb.files, "");
   if (!found) return fail(found.error(), kBadInput);
   const bool many = found->is_batch || found->files.size() > 1;
@@ -220,7 +262,7 @@ int show(const InfoVerb& verb) {
   for (const FoundFile& file : found->files) {
     const Result<Info> info = file.path.ends_with(".safetensors")
                                   ? model_info(file.path)
-                                  : motion_info(file.path, verb, *options);
+                                  : motion_info(file.path, verb, *options, remover);
     if (info && !verb.json) print(std::exchange(between, "\n") + info->text);
     if (info && verb.json && !many) print(info->json);
     if (info) print_notes(info->notes);
@@ -249,6 +291,7 @@ void add_info(CLI::App& app, int& exit_code) {
       ->type_name("NAME");
   add_rig_options(*verb, options->rig);
   add_read_options(*verb, options->read);
+  verb->add_flag("--styles", options->styles, "Also tell which styles a motion shows");
   verb->add_flag("--tree", options->tree, "Also draw the skeleton");
   verb->add_flag("--figures", options->figures, "Also draw the motion as stick figures");
   verb->add_flag("--json", options->json, "Print JSON");
@@ -257,6 +300,7 @@ void add_info(CLI::App& app, int& exit_code) {
       "  panache info walk.bvh\n"
       "  panache info hero.glb --json > hero.json   (edit it, then: --map hero.json)\n"
       "  panache info takes/ --json\n"
+      "  panache info walk.bvh --styles\n"
       "  panache info models/panache.safetensors");
   verb->callback([options, &exit_code] { exit_code = show(*options); });
 }

@@ -17,6 +17,7 @@
 #include "model_path.h"
 #include "outputs.h"
 #include "page_server.h"
+#include "removal_options.h"
 #include "send.h"
 #include "shape_options.h"
 #include "stop_signal.h"
@@ -34,6 +35,7 @@ struct Options {
   std::string model, record;
   panache::LiveOptions time;
   ShapeFlags shape;
+  RemovalFlags removal;
   bool view = false, quiet = false, force = false;
 };
 
@@ -150,6 +152,10 @@ int live(const Options& options) {
   if (!model) return fail(model.error(), kBadInput);
   Result<std::vector<float>> strengths = read_styles(options.styles, **model);
   if (!strengths) return fail(strengths.error(), kBadUsage);
+  int exit_code = kDone;
+  const Result<std::optional<Removal>> removal = read_removal(options.removal, exit_code);
+  if (!removal) return fail(removal.error(), exit_code);
+  if (*removal) how.remover = (*removal)->remover;
   if (auto good = LiveStylizer::check(**model, options.time); !good) {
     return fail({*path + ": " + good.error().message}, kBadUsage);
   }
@@ -176,7 +182,8 @@ int live(const Options& options) {
   const Serving serving(server.get());
   VmcRecording recording;
   VmcRelay relay(*std::move(socket), *out, *std::move(model), how, *std::move(strengths),
-                 options.record.empty() ? nullptr : &recording, server ? &view : nullptr);
+                 options.record.empty() ? nullptr : &recording, server ? &view : nullptr,
+                 *removal ? (*removal)->style : -1);
   if (!options.quiet) {
     print_message("relaying from " + listened_at(*in) + " to " + to_string(*out) +
                   " until Ctrl-C ends it");
@@ -218,6 +225,7 @@ void add_live(CLI::App& app, int& exit_code) {
                    "above 1 exaggerates (-4 to 4). One --style per style")
       ->allow_extra_args(false)
       ->type_name("STYLE");
+  add_removal_options(*verb, options->removal);
   add_shape_options(*verb, options->shape);
   verb->add_option("--model", options->model,
                    "Model; default: $PANACHE_MODEL, else the one shipped")

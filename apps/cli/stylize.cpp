@@ -18,6 +18,7 @@
 #include "model_path.h"
 #include "new_motions.h"
 #include "onto.h"
+#include "removal_options.h"
 #include "restyle_report.h"
 #include "rig/in_place.h"
 #include "rig_options.h"
@@ -38,6 +39,7 @@ struct StylizeOptions {
   std::vector<std::string> styles;
   std::string strengths;  // A CSV, or empty.
   std::string model;
+  RemovalFlags removal;
   std::string clip;  // The motion to restyle, or empty for all.
   OntoFlags onto;
   PlaceFlags place;
@@ -52,6 +54,7 @@ struct StylizeOptions {
 // What all files have in common.
 struct Wanted {
   std::shared_ptr<const Model> model;
+  std::optional<Removal> removal;
   std::vector<StrengthWish> wishes;
   RigOptions rig;
   RestyleOptions how;
@@ -80,9 +83,10 @@ Json to_json(const std::vector<StrengthTrack>& tracks, const Model& model) {
   return styles;
 }
 
-// "walk (old 1)".
+// "walk (old 1)", "walk (old off, proud 1)".
 std::string result_name(const std::string& title, const Wanted& wanted) {
   std::string styles;
+  if (wanted.removal) styles = describe(*wanted.removal);
   for (const StrengthWish& wish : wanted.wishes) {
     const std::string& style = wanted.model->styles()[static_cast<size_t>(wish.track.style)].name;
     styles += (styles.empty() ? "" : ", ") + style + " " + describe(wish);
@@ -111,7 +115,10 @@ Result<RestyledClip> restyle_clip(const MotionFile& motion, int which, const std
   const Clip& clip = wanted.onto ? put : motion.clip(which);
   const std::vector<StrengthTrack> tracks = tracks_for(
       wanted.wishes, rig->first_frame() * clip.frame_time, (clip.frames - 1) * clip.frame_time);
-  Result<Restyled> restyled = restyle(clip, *rig, wanted.model, tracks, wanted.how, progress);
+  Result<Restyled> restyled =
+      wanted.removal
+          ? restyle_without(clip, *rig, *wanted.removal, wanted.model, tracks, wanted.how, progress)
+          : restyle(clip, *rig, wanted.model, tracks, wanted.how, progress);
   if (!restyled) return located(place, restyled.error());
   RestyledClip out{which, result_name(title_of(name, file.input), wanted), *std::move(rig),
                    *std::move(restyled)};
@@ -124,6 +131,7 @@ Result<RestyledClip> restyle_clip(const MotionFile& motion, int which, const std
                         {"frames_in", motion.clip(which).frames},
                         {"frames_out", out.result.clip.frames},
                         {"seconds", out.result.clip.duration()},
+                        {"removed", removed_json(wanted.removal)},
                         {"styles", to_json(tracks, *wanted.model)},
                         {"gate", to_json(gate)},
                         {"facts", facts_json(facts)}});
@@ -228,7 +236,7 @@ Result<void> stylize_file(FileJob& file, const Wanted& wanted, const StylizeOpti
 Result<std::vector<StrengthWish>> collect_wishes(const StylizeOptions& options, const Model& model,
                                                  int& exit_code) {
   exit_code = kBadUsage;
-  if (options.styles.empty() && options.strengths.empty()) {
+  if (options.styles.empty() && options.strengths.empty() && !options.removal.given()) {
     return missing_style(options.batch.inputs, model);
   }
   Result<std::vector<StrengthWish>> wishes = parse_styles(options.styles, model);
@@ -263,6 +271,7 @@ Result<void> check_formats(const std::vector<FileJob>& files,
 std::string name_styles(const StylizeOptions& options) {
   std::vector<std::string> parts;
   parts.reserve(options.styles.size() + 1);
+  if (options.styles.empty() && options.strengths.empty()) parts.emplace_back("neutral");
   for (const std::string& style : options.styles) parts.push_back(style.substr(0, style.find('=')));
   if (!options.strengths.empty()) {
     parts.push_back(std::filesystem::path(options.strengths).stem().string());
@@ -298,6 +307,8 @@ int stylize(const StylizeOptions& options) {
   int exit_code = kDone;
   Result<std::vector<StrengthWish>> wishes = collect_wishes(options, **model, exit_code);
   if (!wishes) return fail(wishes.error(), exit_code);
+  Result<std::optional<Removal>> removal = read_removal(options.removal, exit_code);
+  if (!removal) return fail(removal.error(), exit_code);
   std::optional<CharacterFile> onto;
   if (!options.onto.file.empty()) {
     Result<CharacterFile> character = CharacterFile::open(options.onto);
@@ -313,7 +324,7 @@ int stylize(const StylizeOptions& options) {
   Result<RigOptions> rig = read_rig_options(options.rig);
   if (!rig) return fail(rig.error(), kBadInput);
 
-  Wanted wanted{*std::move(model), *std::move(wishes), *std::move(rig), how,
+  Wanted wanted{*std::move(model), *std::move(removal), *std::move(wishes), *std::move(rig), how,
                 options.in_place,  std::move(onto)};
   wanted.how.stylizer.foot_lock = !options.no_feet;
   wanted.how.timing = !options.no_timing;
@@ -344,6 +355,7 @@ void add_stylize(CLI::App& app, int& exit_code) {
   verb->add_option("--model", options->model,
                    "Model; default: $PANACHE_MODEL, else the one shipped")
       ->type_name("FILE");
+  add_removal_options(*verb, options->removal);
   verb->add_option("--clip", options->clip,
                    "Motion to restyle, if a file has several;\ndefault: all of them")
       ->type_name("NAME");
@@ -368,6 +380,7 @@ void add_stylize(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  panache stylize walk.bvh --style old=1 -o old.bvh\n"
       "  panache stylize walk.bvh --style old=1           (into walk-old.bvh)\n"
+      "  panache stylize drunk.bvh --remove drunk --style proud=1 -o proud.bvh\n"
       "  panache stylize takes/ --style proud=0.7 --style angry=0..1 -o restyled/\n"
       "  panache stylize hero.glb --clip walk --style moping=1 -o moping-hero.glb");
   verb->callback([options, &exit_code] { exit_code = stylize(*options); });

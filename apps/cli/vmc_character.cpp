@@ -34,8 +34,12 @@ bool same_bits(Quat a, Quat b) { return same_bits(a.xyz(), b.xyz()) && same_bits
 }  // namespace
 
 VmcCharacter::VmcCharacter(std::shared_ptr<const Model> model, const LiveOptions& options,
-                           VmcRecording* recording, LiveView* view)
-    : model_(std::move(model)), options_(options), recording_(recording), view_(view) {}
+                           VmcRecording* recording, LiveView* view, int removed)
+    : model_(std::move(model)),
+      options_(options),
+      recording_(recording),
+      view_(view),
+      removed_(removed) {}
 
 void VmcCharacter::reset() noexcept {
   if (stylizer_) stylizer_->reset();
@@ -123,6 +127,7 @@ Result<void> VmcCharacter::stand() {
   Result<LiveStylizer> stylizer = LiveStylizer::create(model_, *std::move(rig), options_);
   if (!stylizer) return stylizer.error();
   stylizer_.emplace(*std::move(stylizer));
+  stylizer_->set_removed(removed_);
 
   bones_ = std::move(order);
   whole_ = now_.known;

@@ -25,9 +25,9 @@ namespace panache::cli {
 class VmcCharacter {
  public:
   // The first character that is understood fills `recording` and is shown by `view`. Either may be
-  // null, and both must outlive it.
+  // null, and both must outlive it. `removed`: see LiveStylizer::set_removed().
   VmcCharacter(std::shared_ptr<const Model> model, const LiveOptions& options,
-               VmcRecording* recording, LiveView* view);
+               VmcRecording* recording, LiveView* view, int removed = -1);
 
   // Takes the sender's next datagram with its messages. strengths: one per style of the model.
   void take(Datagram datagram, std::span<const VmcMessage> messages,
@@ -72,6 +72,7 @@ class VmcCharacter {
   LiveOptions options_;
   VmcRecording* recording_;
   LiveView* view_;
+  int removed_;
   bool records_ = false, shown_ = false;  // Fills the recording, is in view.
 
   Bones now_;

@@ -24,14 +24,15 @@ bool is_command(const VmcMessage& message) {
 
 VmcRelay::VmcRelay(UdpSocket socket, const sockaddr_in& to, std::shared_ptr<const Model> model,
                    const LiveOptions& options, std::vector<float> strengths,
-                   VmcRecording* recording, LiveView* view)
+                   VmcRecording* recording, LiveView* view, int removed)
     : socket_(std::move(socket)),
       to_(to),
       model_(std::move(model)),
       options_(options),
       strengths_(std::move(strengths)),
       recording_(recording),
-      view_(view) {
+      view_(view),
+      removed_(removed) {
   senders_.reserve(kMaxSenders);
 }
 
@@ -109,7 +110,7 @@ VmcRelay::Sender* VmcRelay::sender_of(const Datagram& datagram, bool meet) {
     senders_.erase(silent);
   }
   senders_.push_back({datagram.sender, datagram.received, true,
-                      VmcCharacter(model_, options_, recording_, view_)});
+                      VmcCharacter(model_, options_, recording_, view_, removed_)});
   ++met_;
   return &senders_.back();
 }

@@ -26,10 +26,10 @@ struct VmcCounts {
 class VmcRelay {
  public:
   // `recording` and `view` may be null, and must outlive the relay. strengths: one per style of the
-  // model.
+  // model; removed: see LiveStylizer::set_removed().
   VmcRelay(UdpSocket socket, const sockaddr_in& to, std::shared_ptr<const Model> model,
            const LiveOptions& options, std::vector<float> strengths, VmcRecording* recording,
-           LiveView* view);
+           LiveView* view, int removed = -1);
 
   // Waits for datagrams a little while and sends on what is ready.
   void run_once();
@@ -69,6 +69,7 @@ class VmcRelay {
   std::vector<float> strengths_;  // [styles]
   VmcRecording* recording_;
   LiveView* view_;
+  int removed_;
   std::vector<Sender> senders_;
   size_t met_ = 0;
   uint32_t lost_before_ = 0;

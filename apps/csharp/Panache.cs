@@ -150,6 +150,10 @@ public sealed class CharacterOptions {
   // m/s; faster hips have jumped, and the style starts afresh. Bodies on vehicles need more; 0 or
   // infinity: nothing is a jump.
   public double MaxSpeed = 15;
+  internal IntPtr remover;  // Set by UseRemover().
+  /// A model that takes styles off, for Character.SetRemoved(); it must live until the character is
+  /// made.
+  public void UseRemover(Model model) => remover = model.Handle.DangerousGetHandle();
 }
 
 /// What went on at the last step.
@@ -201,6 +205,9 @@ public sealed class Character : IDisposable {
   /// 0 not at all, 1 as captured, more exaggerates; -4 to 4, eased over a few frames.
   public void SetStrength(string style, float strength) =>
       Native.panache_character_set_strength(handle, model.FindStyle(style), strength);
+  /// Takes a style of CharacterOptions.Remover off the input: its number there; -1: none.
+  public void SetRemoved(int style) =>
+      Native.panache_character_set_removed(handle, style);
   public void SetShape(Shape shape) =>
       Native.Check(Native.panache_character_set_shape(handle, shape));
   /// Forgets the motion so far; strengths stay.
@@ -465,6 +472,8 @@ internal static class Native {
                                                       CharacterOptions options,
                                                       out IntPtr character);
   [DllImport(Library)] internal static extern void panache_character_destroy(IntPtr character);
+  [DllImport(Library)]
+  internal static extern void panache_character_set_removed(Handle character, int style);
   [DllImport(Library)]
   internal static extern void panache_character_set_strength(Handle character, int style,
                                                              float strength);

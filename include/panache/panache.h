@@ -213,9 +213,11 @@ typedef struct panache_character_options {
    * world space. 0 or INFINITY: no limit; call panache_character_reset() after jumps. A sprinter
    * reaches 12 m/s. */
   double max_speed;
+  /* A model that takes styles off, for panache_character_set_removed(); NULL: none. */
+  const panache_model* remover;
 } panache_character_options;
 #define PANACHE_CHARACTER_OPTIONS \
-  { sizeof(panache_character_options), 0.15f, 0.04f, 1, 1, 0, 0, 0, 15 }
+  { sizeof(panache_character_options), 0.15f, 0.04f, 1, 1, 0, 0, 0, 15, NULL }
 
 /* `options` may be NULL. */
 PANACHE_API panache_status panache_character_create(const panache_model* model,
@@ -230,6 +232,11 @@ PANACHE_API void panache_character_destroy(panache_character* character);
  * finite are ignored. */
 PANACHE_API void panache_character_set_strength(panache_character* character, int32_t style,
                                                 float strength);
+
+/* Takes a style of the remover off the input, at the input's tempo, before the styles are put on:
+ * its style "any" suits motion in an unknown style. -1: none, as at first. Eased in over
+ * ease_seconds. Ignored without a remover, and for an index out of range. */
+PANACHE_API void panache_character_set_removed(panache_character* character, int32_t style);
 
 /* How strongly each part of the styles is applied, and to which part of the body. 1 is the style of
  * the model; values are clamped to 0 to 2, and values that are not finite count as 1. Initialise
@@ -341,10 +348,12 @@ typedef struct panache_stylize_options {
   int32_t loop; /* 1: a clip that loops (its last pose equals its first, apart from travel) gives a
                  * result that loops; 2: every clip does, or the call fails if the two poses differ
                  * too much; 0: off, as for older headers. */
-  int32_t reserved; /* 0. */
+  int32_t removed; /* The style of the remover to take off first; 0 without one. */
+  /* A model that takes styles off, also the tempo; NULL: none. */
+  const panache_model* remover;
 } panache_stylize_options;
 #define PANACHE_STYLIZE_OPTIONS \
-  { sizeof(panache_stylize_options), 0.15f, 0.04f, 1, 1, 1, NULL, 15, 1, 0 }
+  { sizeof(panache_stylize_options), 0.15f, 0.04f, 1, 1, 1, NULL, 15, 1, 0, NULL }
 
 /* A styled clip. */
 typedef struct panache_styled_clip panache_styled_clip;
@@ -372,6 +381,12 @@ PANACHE_API const uint8_t* panache_styled_clip_contacts(const panache_styled_cli
 PANACHE_API const float* panache_styled_clip_gates(const panache_styled_clip* styled);
 /* 1 if the result loops (panache_stylize_options.loop), else 0. */
 PANACHE_API int32_t panache_styled_clip_is_loop(const panache_styled_clip* styled);
+
+/* Which styles of a remover a clip shows: shares[i] for style i, and the last one for neutral;
+ * together 1. `count` is panache_model_style_count(remover) + 1. */
+PANACHE_API panache_status panache_recognise_styles(const panache_model* remover,
+                                                    const panache_clip* clip, float* shares,
+                                                    int32_t count);
 
 /* How a clip is retargeted. Initialise with PANACHE_RETARGET_OPTIONS. */
 typedef struct panache_retarget_options {

@@ -120,6 +120,8 @@ class Character : public Object<panache_character, panache_character_destroy> {
   void set_strength(int style, float strength) noexcept {
     panache_character_set_strength(get(), style, strength);
   }
+  // A style of the options' remover, taken off the input; -1: none.
+  void set_removed(int style) noexcept { panache_character_set_removed(get(), style); }
   void set_shape(const panache_shape& shape) { check(panache_character_set_shape(get(), &shape)); }
   void step(panache_input_pose in, double seconds, panache_output_pose out) noexcept {
     panache_character_step(get(), in, seconds, out);
@@ -169,6 +171,14 @@ inline StyledClip stylize(const Model& model, const panache_clip& clip,
                           const panache_strength_track* tracks, int track_count,
                           const panache_stylize_options* options = nullptr) {
   return StyledClip(panache_stylize_clip, model.get(), &clip, tracks, track_count, options);
+}
+
+// How much of a clip shows each style of a remover and, last, neutral; together 1.
+inline std::vector<float> recognise_styles(const Model& remover, const panache_clip& clip) {
+  std::vector<float> shares(static_cast<size_t>(panache_model_style_count(remover.get())) + 1);
+  check(panache_recognise_styles(remover.get(), &clip, shares.data(),
+                                 static_cast<int32_t>(shares.size())));
+  return shares;
 }
 
 // Puts a clip on another skeleton. `options` may be null.

@@ -29,6 +29,7 @@ struct Options {
   std::vector<std::string> ood;
   std::vector<std::string> systems;
   std::vector<std::string> recorded;
+  std::string remover;
   std::string requests;
   std::string report;
   int64_t steps = 0;
@@ -130,6 +131,11 @@ Result<EvaluateOptions> read_options(const Options& options) {
     evaluation.models.push_back(
         {std::filesystem::path(path).stem().string(), *model, status ? 0 : bytes});
   }
+  if (!options.remover.empty()) {
+    Result<std::shared_ptr<const Model>> remover = Model::load(options.remover);
+    if (!remover) return remover.error();
+    evaluation.remover = *std::move(remover);
+  }
   Result<std::vector<SystemEntry>> published = find_published(options.systems);
   if (!published) return located("--system", published.error());
   evaluation.train_recipes = options.systems.empty() && options.recorded.empty();
@@ -212,6 +218,9 @@ void add_eval(CLI::App& app, int& exit_code) {
                    "A model to evaluate; may be given several times; without any, and without "
                    "--system and --recorded, all recipes are trained first")
       ->allow_extra_args(false);
+  verb->add_option("--remover", options->remover,
+                   "A remover to evaluate alone: on styled test takes, and on out-of-distribution "
+                   "motion that the --model restyled");
   verb->add_option("--system", options->systems,
                    "A system of another paper to build from the same takes and evaluate beside the "
                    "models: xia2015, yumer2016, holden2017 or all; may be given several times")

@@ -12,6 +12,7 @@
 #include "manifests.h"
 #include "messages.h"
 #include "stop_signal.h"
+#include "style/model.h"
 #include "train/checkpoint.h"
 #include "train/trainer.h"
 #include "usage_error.h"
@@ -22,7 +23,7 @@ namespace {
 
 struct Options {
   ManifestOptions data;
-  std::string output, recipe = default_recipe().name, data_name, licence;
+  std::string output, recipe = default_recipe().name, data_name, licence, remover_of;
   int64_t steps = 0;
   uint64_t seed = 1;
   bool force = false, json = false;
@@ -130,6 +131,13 @@ int run(const Options& options) {
     settings.steps = options.steps;
     settings.predictor_steps = std::min(settings.predictor_steps, options.steps);
   }
+  if (!options.remover_of.empty()) {
+    Result<std::shared_ptr<const Model>> model = Model::load(options.remover_of);
+    if (!model) return fail(model.error(), kBadInput);
+    train_options.remover_of = *std::move(model);
+    // Nothing is predicted before its style is off.
+    train_options.settings.predictor_steps = 0;
+  }
   train_options.seed = options.seed;
   train_options.data = options.data_name;
   train_options.licence = options.licence;
@@ -163,7 +171,7 @@ int run(const Options& options) {
     return kDone;
   }
   print("trained " + options.output + " (" + std::to_string(bytes.size()) + " bytes, " +
-        plural(data->styles.size(), "style") + ") on " + std::to_string(trained->samples) +
+        plural(trained->styles.size(), "style") + ") on " + std::to_string(trained->samples) +
         " samples: reading " + fixed(trained->read_seconds, 1) + " s, pairing " +
         fixed(trained->pair_seconds, 1) + " s, training " + fixed(trained->train_seconds, 1) +
         " s\nlosses: " + options.output + ".losses.csv and .losses.svg; the export differs from " +
@@ -191,6 +199,8 @@ void add_train(CLI::App& app, int& exit_code) {
   verb->add_option("--data", options->data_name, "What the data is, kept in the model's metadata");
   verb->add_option("--licence", options->licence,
                    "Licence of the data, kept in the model's metadata");
+  verb->add_option("--remover-of", options->remover_of,
+                   "Train the remover of this model: it takes the styles off again");
   verb->add_option("--steps", options->steps, "Steps of training instead of the recipe's own")
       ->check(in_range(1, 1000000000));
   verb->add_option("--seed", options->seed, "Seed of all random numbers")->capture_default_str();

@@ -264,6 +264,19 @@ Result<Report> evaluate(const EvaluateOptions& options) {
   if (Result<void> shown = check_unseen(options); !shown) return shown.error();
   Result<TestSet> test_set = prepare(options);
   if (!test_set) return test_set.error();
+  if (options.remover) {
+    Report report;
+    report.styles = test_set->styles;
+    report.contents = test_set->evaluator.contents().classes();
+    judge_references(*test_set, report);
+    Result<RemovalReport> removal =
+        measure_removal(options.remover, options.models.empty() ? nullptr : options.models[0].model,
+                        *test_set, options.ood);
+    if (!removal) return removal.error();
+    report.removal = *removal;
+    report.seconds = watch.seconds();
+    return report;
+  }
   Result<std::vector<NamedModel>> models = find_models(options, *test_set);
   if (!models) return models.error();
   Result<Systems> comparisons = make_comparisons(options, *test_set);

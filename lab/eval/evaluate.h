@@ -38,6 +38,8 @@ struct EvaluateOptions {
   std::vector<ManifestRow> test;        // Real held-out takes, neutral and styled.
   std::vector<StyleName> styles;        // Of `training`.
   std::vector<NamedModel> models;
+  // Evaluated alone where it is given; the first model restyles what it takes the style off again.
+  std::shared_ptr<const Model> remover;
   bool train_recipes = true;  // All of them, where there are no models.
   // What the models are compared with.
   std::vector<SystemEntry> systems = comparison_systems();

@@ -13,6 +13,7 @@
 #include "eval/metrics.h"
 #include "eval/ood.h"
 #include "eval/prediction.h"
+#include "eval/removal.h"
 #include "eval/report_ood.h"
 #include "pose/contacts.h"
 #include "draw/strip.h"
@@ -108,6 +109,7 @@ struct Report {
   StyleSummary ood_real, ood_real_unseen, ood_input;
   std::vector<SignatureReport> signatures;
   std::vector<SystemReport> systems;
+  std::optional<RemovalReport> removal;
   std::vector<StripReport> strips;
   std::vector<ContactReport> contacts;
   double seconds = 0;  // What the evaluation took.

@@ -345,6 +345,32 @@ Json system_json(const SystemReport& system, const Report& report) {
   return out;
 }
 
+Json removal_json(const RemovalReport& report) {
+  const auto removed = [](const RemovalSummary& of) {
+    return Json{{"clips", of.clips},
+                {"neutral", number(of.neutral)},
+                {"before", number(of.before)},
+                {"content", number(of.content)},
+                {"cm", number(of.cm)},
+                {"cm_ratio", number(of.cm_ratio)},
+                {"jerk_ratio", number(of.jerk)},
+                {"jumps", number(of.jumps)}};
+  };
+  const auto recognised = [](const RecognitionSummary& of) {
+    return Json{{"clips", of.clips},
+                {"neutral_clips", of.neutral_clips},
+                {"first", number(of.first)},
+                {"third", number(of.third)},
+                {"neutral", number(of.neutral)}};
+  };
+  return {{"named", removed(report.named)},
+          {"any", removed(report.any)},
+          {"restyled", removed(report.restyled)},
+          {"original", removed(report.original)},
+          {"recognition", recognised(report.recognition)},
+          {"others", recognised(report.others)}};
+}
+
 }  // namespace
 
 std::string report_json(const Report& report) {
@@ -390,6 +416,7 @@ std::string report_json(const Report& report) {
     assert(!out["systems"].contains(system.name));
     out["systems"][system.name] = system_json(system, report);
   }
+  if (report.removal) out["removal"] = removal_json(*report.removal);
   out["contacts"] = contacts_json(report.contacts);
   // Names come from files; bytes that are not UTF-8 are no reason to lose a report.
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -240,9 +240,38 @@ std::string prediction(const SystemReport& system) {
   return table.str();
 }
 
+std::string removal_text(const RemovalReport& report) {
+  TextTable removal("removed");
+  removal.add_columns("", {"clips", "neutral before", "neutral", "content kept", "cm",
+                           "cm, relative", "jerk", "jumps"});
+  const auto add = [&](const std::string& name, const RemovalSummary& of) {
+    if (of.clips == 0) return;
+    removal.add_row(
+        name, {std::to_string(of.clips), number_text(of.before, 2), number_text(of.neutral, 2),
+               number_text(of.content, 2), number_text(of.cm, 1), number_text(of.cm_ratio, 2),
+               number_text(of.jerk, 2), number_text(of.jumps, 0)});
+  };
+  add("test takes, by name", report.named);
+  add("test takes, any style", report.any);
+  add("restyled others", report.restyled);
+  add("others as they are", report.original);
+  TextTable recognition("recognised");
+  recognition.add_columns("", {"clips", "first", "in three", "neutral clips", "told neutral"});
+  const auto tell = [&](const std::string& name, const RecognitionSummary& of) {
+    if (of.clips + of.neutral_clips == 0) return;
+    recognition.add_row(
+        name, {std::to_string(of.clips), number_text(of.first, 2), number_text(of.third, 2),
+               std::to_string(of.neutral_clips), number_text(of.neutral, 2)});
+  };
+  tell("test takes", report.recognition);
+  tell("others", report.others);
+  return titled("Styles taken off", removal.str()) + titled("Styles recognised", recognition.str());
+}
+
 }  // namespace
 
 std::string report_text(const Report& report) {
+  if (report.removal) return removal_text(*report.removal);
   std::string text =
       titled("Overall: held-out takes, means over styles and contents", overall(report));
   for (const std::string& note : ceiling_notes(report)) text += wrapped(note) + "\n\n";

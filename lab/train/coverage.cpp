@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "train/removal.h"
+
 namespace panache {
 namespace {
 
@@ -127,9 +129,10 @@ std::vector<StyleCoverage> cover_styles(const std::vector<Take>& takes, const Sa
     if (sample.style < 0) continue;
     StyleCoverage& style = covered[sample.style];
     ++style.samples;
-    if (!seen.insert(sample.styled).second) continue;
+    const int take = take_with_style(takes, sample);
+    if (!seen.insert(take).second) continue;
     ++style.takes;
-    style.seconds += takes[sample.styled].frames() / kTakeRate;
+    style.seconds += takes[take].frames() / kTakeRate;
   }
   return covered;
 }
@@ -148,7 +151,7 @@ std::vector<std::string> list_too_short(const std::vector<Take>& takes, const Sa
   }
   for (const Sample& sample : set.samples()) {
     if (sample.styled < 0) continue;
-    const ManifestRow& row = takes[sample.styled].row;
+    const ManifestRow& row = takes[take_with_style(takes, sample)].row;
     longest.erase({row.set, row.content, row.style});
   }
   std::vector<std::string> lines;

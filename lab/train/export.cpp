@@ -72,6 +72,7 @@ TensorFile export_model(const SampleSet& set, const OutputUnits& units,
   TensorFile file = model_header(set.recipe(), styles, options, {set.mean(), set.scale()},
                                  options.settings.batch.input_clip);
   file.metadata["steps"] = std::to_string(options.settings.steps);
+  if (options.remover_of) file.metadata[kDirection] = kRemove;
   file.metadata["samples"] = std::to_string(set.samples().size());
   if (!set.recipe().output_scale) {
     file.tensors["output.mean"] = vector_tensor(units.mean);

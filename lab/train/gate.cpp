@@ -7,9 +7,8 @@ namespace {
 
 // Directions in which the activations hardly vary are not trusted to tell what is unknown.
 constexpr double kRidge = 0.02;  // Of the mean variance.
-// Windows are trusted up to this share of the distance that 99 % of the training windows keep: the
-// rest of them are transitions and odd moments, and out-of-distribution motion begins among those.
-constexpr double kQuantile = 0.99, kTrusted = 0.61;
+// The rest are transitions and odd moments, and out-of-distribution motion begins among those.
+constexpr double kQuantile = 0.99;
 
 Tensor plain_tensor(const torch::Tensor& values, bool half) {
   const torch::Tensor flat = values.to(torch::kFloat32).contiguous();
@@ -22,7 +21,7 @@ Tensor plain_tensor(const torch::Tensor& values, bool half) {
 
 }  // namespace
 
-void fit_gate(const torch::Tensor& rows, TensorFile& file) {
+void fit_gate(const torch::Tensor& rows, TensorFile& file, double trusted) {
   torch::NoGradGuard no_gradients;
   const torch::Tensor activations = rows.to(torch::kFloat64);
   const torch::Tensor mean = activations.mean(0);
@@ -34,7 +33,7 @@ void fit_gate(const torch::Tensor& rows, TensorFile& file) {
   const torch::Tensor ridge = values.clamp_min(0) + (values.mean() * kRidge).clamp_min(1e-6);
   const torch::Tensor whitening = vectors / ridge.sqrt().unsqueeze(0);
   const torch::Tensor distance = torch::mm(centred, whitening).square().sum(1).sqrt();
-  const double limit = std::max(1.0, kTrusted * distance.quantile(kQuantile).item<double>());
+  const double limit = std::max(1.0, trusted * distance.quantile(kQuantile).item<double>());
 
   file.tensors["gate.mean"] = plain_tensor(mean, false);
   file.tensors["gate.whitening.weight"] = plain_tensor(whitening, true);

@@ -9,7 +9,11 @@ namespace panache {
 
 // Adds gate.mean, gate.whitening and gate.limit to a model: mean and covariance of the pose trunk's
 // activations over training windows, and the distance beyond which windows are trusted less and
-// less. activations[rows][hidden].
-void fit_gate(const torch::Tensor& activations, TensorFile& file);
+// less: `trusted` times the one that 99 % of the training windows keep. activations[rows][hidden].
+inline constexpr double kTrusted = 0.61;
+// Styled motion is less alike than neutral motion: with kTrusted, a remover leaves a part of the
+// style in takes that it could make neutral.
+inline constexpr double kTrustedByRemovers = 1.83;
+void fit_gate(const torch::Tensor& activations, TensorFile& file, double trusted = kTrusted);
 
 }  // namespace panache

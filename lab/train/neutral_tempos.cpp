@@ -5,6 +5,8 @@
 #include <string>
 #include <tuple>
 
+#include "train/removal.h"
+
 namespace panache {
 namespace {
 
@@ -50,8 +52,12 @@ class NeutralTempos {
       if (!faster_.contains(wanted)) faster_[wanted] = tempos_of(takes, group_of(wanted));
     }
   }
+  // 0 for takes that are in no pairing.
   float faster(int styled, int neutral) const {
-    return faster_.at(key(styled, neutral)).at(neutral);
+    const auto group = faster_.find(key(styled, neutral));
+    if (group == faster_.end()) return 0;
+    const auto tempo = group->second.find(neutral);
+    return tempo == group->second.end() ? 0 : tempo->second;
   }
 
  private:
@@ -85,7 +91,11 @@ void level_neutral_tempos(const std::vector<Take>& takes, std::vector<Pairing>& 
   const NeutralTempos tempos(takes, pairings);
   for (size_t i = 0; i < set.samples().size(); ++i) {
     Sample& sample = set.sample(i);
-    if (sample.styled >= 0) sample.log_rate += tempos.faster(sample.styled, sample.take);
+    if (sample.styled < 0) continue;
+    // A remover goes from the styled take to the neutral one.
+    const bool removes = take_with_style(takes, sample) == sample.take;
+    sample.log_rate += removes ? -tempos.faster(sample.take, sample.styled)
+                               : tempos.faster(sample.styled, sample.take);
   }
   for (Pairing& pairing : pairings) {
     const float factor = std::exp(tempos.faster(pairing.styled, pairing.neutral));

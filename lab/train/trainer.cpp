@@ -21,6 +21,8 @@
 #include "train/neutral_tempos.h"
 #include "train/performers.h"
 #include "train/position_loss.h"
+#include "train/recogniser.h"
+#include "train/removal.h"
 #include "train/train_predictor.h"
 
 namespace panache {
@@ -274,6 +276,20 @@ Result<Trained> train(const std::vector<ManifestRow>& rows, const std::vector<St
   if (options.note) {
     for (const std::string& line : list_unpaired(rows)) options.note(line);
   }
+  if (options.remover_of) {
+    for (const StyleName& style : styles) {
+      if (style.name != kAnyStyle) continue;
+      return Error{std::string("a style is called '") + kAnyStyle +
+                   "'; in a remover this name stands for unknown styles, so rename it"};
+    }
+    Result<TrainingData> data = prepare_training(rows, PoseLayout::positions);
+    if (!data) return data.error();
+    Result<void> added = prepare_removal(*options.remover_of, unlabelled, options.seed, *data);
+    if (!added) return added.error();
+    std::vector<StyleName> removed = styles;
+    removed.push_back({kAnyStyle, {}, "whatever style it is"});
+    return train(*std::move(data), removed, options);
+  }
   Result<TrainingData> data = prepare_training(rows, PoseLayout::positions, unlabelled);
   if (!data) return data.error();
   return train(*std::move(data), styles, options);
@@ -290,16 +306,20 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
   names.reserve(styles.size());
   for (const StyleName& style : styles) names.push_back(style.name);
   const int count = static_cast<int>(names.size());
-  SampleSet set(data.takes, data.pairings, names, recipe, settings.neutral_samples);
+  const bool removes = !data.removal.empty();
+  SampleSet set(data.takes, removes ? data.removal : data.pairings, names, recipe,
+                settings.neutral_samples);
   if (recipe.learns_styles) {
     level_neutral_tempos(data.takes, data.pairings, set);
-    take_off_performers(data.takes, set);
+    // What is left of a style is the neutral motion of anyone.
+    if (!removes) take_off_performers(data.takes, set);
   }
   const std::vector<bool> validates = validation_takes(data.takes);
   std::vector<int> choice, held;
   for (size_t i = 0; i < set.samples().size(); ++i) {
-    const int styled = set.samples()[i].styled;
-    (styled >= 0 && validates[styled] ? held : choice).push_back(static_cast<int>(i));
+    const Sample& sample = set.samples()[i];
+    const bool validation = sample.styled >= 0 && validates[take_with_style(data.takes, sample)];
+    (validation ? held : choice).push_back(static_cast<int>(i));
   }
 
   Trained trained;
@@ -366,10 +386,14 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
   if (recipe.learns_styles) {
     fit_gate(
         clean_features(set, choice, count, settings.batch, units, guide, networks[0], options.seed),
-        trained.model);
+        trained.model, removes ? kTrustedByRemovers : kTrusted);
     if (auto added = add_activation_statistics(data.takes, trained.model); !added) {
       return added.error();
     }
+  }
+  if (removes) {
+    Result<void> added = add_recognition(data.takes, options.seed, trained.model);
+    if (!added) return added.error();
   }
   if (settings.predictor_steps > 0) {
     Progress progress("training the input predictor");

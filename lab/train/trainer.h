@@ -12,6 +12,7 @@
 #include "learn/samples.h"
 #include "net/safetensors.h"
 #include "recipes/recipes.h"
+#include "style/model.h"
 #include "train/coverage.h"
 #include "train/training_data.h"
 
@@ -23,6 +24,9 @@ struct TrainOptions {
 
   const Recipe* recipe;
   TrainingSettings settings;  // The recipe's own, or changed.
+  // Null, or a model whose remover is trained: pairs are reversed, and unlabelled motion is
+  // restyled by this model and learnt from as well. See removal.h.
+  std::shared_ptr<const Model> remover_of;
   uint64_t seed = 1;
   std::string data, licence;  // What the data is and its terms, for the model's metadata.
   std::string checkpoint;     // File to resume from and to save to now and then; empty: none.
@@ -54,7 +58,7 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
                       const TrainOptions& options);
 
 // Trains on the training split of `rows`, whose styles are already renamed to those of `styles`,
-// and of `unlabelled`, whose styles do not matter.
+// and of `unlabelled`, whose styles do not matter. A remover has one more style, kAnyStyle.
 Result<Trained> train(const std::vector<ManifestRow>& rows, const std::vector<StyleName>& styles,
                       const TrainOptions& options, const std::vector<ManifestRow>& unlabelled = {});
 

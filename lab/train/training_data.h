@@ -16,6 +16,7 @@ struct TrainingData {
   std::vector<Take> takes;
   std::vector<Pairing> pairings;
   std::vector<Take> unlabelled;  // Motion without styles: for recipes that guidance trains.
+  std::vector<Pairing> removal;  // Of a remover, in place of `pairings`: see prepare_removal().
   double read_seconds = 0, pair_seconds = 0;
 };
 Result<TrainingData> prepare_training(const std::vector<ManifestRow>& rows, PoseLayout layout,

@@ -29,6 +29,7 @@ panache_status panache_character_create(const panache_model* model,
     how.max_lag = given->max_lag;
     how.max_lead = given->max_lead;
     how.skip_cycles = given->skip_cycles != 0;
+    if (given->remover) how.remover = given->remover->model;
     Result<LiveStylizer> live = LiveStylizer::create(model->model, skeleton->rig, how);
     if (!live) return fail(PANACHE_BAD_ARGUMENT, live.error());
     *out =
@@ -43,6 +44,10 @@ void panache_character_set_strength(panache_character* character, int32_t style,
   const auto place = static_cast<size_t>(style);
   if (style < 0 || place >= character->strengths.size() || !std::isfinite(strength)) return;
   character->strengths[place] = strength;
+}
+
+void panache_character_set_removed(panache_character* character, int32_t style) {
+  character->live.set_removed(style);
 }
 
 panache_status panache_character_set_shape(panache_character* character,

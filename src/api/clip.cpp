@@ -1,11 +1,15 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "api/errors.h"
 #include "api/objects.h"
 #include "api/poses.h"
 #include "api/shape.h"
 #include "api/sized_struct.h"
+#include "learn/recognise.h"
+#include "style/removal.h"
 
 using namespace panache;
 using namespace panache::api;
@@ -65,17 +69,53 @@ Result<RestyleOptions> read_options(const panache_stylize_options* options) {
   out.timing = given->style_timing != 0;
   out.stylizer.tempo_everywhere = given->style_timing == 2;
   out.stylizer.shape = *shape;
-  if (given->loop < 0 || given->loop > 2 || given->reserved != 0) {
+  if (given->loop < 0 || given->loop > 2) {
     return Error{"panache_stylize_options: loop is " + std::to_string(given->loop) +
-                 " and reserved is " + std::to_string(given->reserved) +
-                 "; expected 0, 1 or 2, and 0"};
+                 "; expected 0, 1 or 2"};
   }
   constexpr std::array kModes = {LoopMode::off, LoopMode::detect, LoopMode::force};
   out.loop = kModes[static_cast<size_t>(given->loop)];
   return out;
 }
 
+Result<std::optional<Removal>> read_removal(const panache_stylize_options* options) {
+  const auto given = read_struct<panache_stylize_options>(options, PANACHE_STYLIZE_OPTIONS,
+                                                          "panache_stylize_options");
+  if (!given) return given.error();
+  const int32_t styles = given->remover ? panache_model_style_count(given->remover) : 1;
+  if (given->removed < 0 || given->removed >= styles) {
+    return Error{"panache_stylize_options: removed is " + std::to_string(given->removed) +
+                 (given->remover ? "; the remover has " + std::to_string(styles) + " styles"
+                                 : "; expected 0 without a remover")};
+  }
+  if (!given->remover) return std::optional<Removal>();
+  if (auto any = find_removal(*given->remover->model, ""); !any) return any.error();
+  return std::optional(Removal{given->remover->model, given->removed});
+}
+
 }  // namespace
+
+panache_status panache_recognise_styles(const panache_model* remover, const panache_clip* clip,
+                                        float* shares, int32_t count) {
+  return guarded([&] {
+    const int32_t expected = panache_model_style_count(remover) + 1;
+    if (count != expected) {
+      return fail(PANACHE_BAD_ARGUMENT,
+                  {std::to_string(count) + " shares; expected " + std::to_string(expected) +
+                   ", one for each style and one for neutral"});
+    }
+    const Result<Clip> input = read_clip(*clip, Rotations::as_given, "clip");
+    if (!input) return fail(PANACHE_BAD_CLIP, input.error());
+    if (input->frames == 0) return fail(PANACHE_BAD_CLIP, {"clip: has no frames"});
+    const auto found = recognise_styles(remover->model, *input, clip->skeleton->rig);
+    if (!found) return fail(PANACHE_BAD_MODEL, found.error());
+    std::fill_n(shares, count, 0.0f);
+    for (const StyleShare& share : *found) {
+      shares[share.style < 0 ? count - 1 : share.style] = share.share;
+    }
+    return PANACHE_OK;
+  });
+}
 
 panache_status panache_stylize_clip(const panache_model* model, const panache_clip* clip,
                                     const panache_strength_track* tracks, int32_t track_count,
@@ -90,7 +130,12 @@ panache_status panache_stylize_clip(const panache_model* model, const panache_cl
     const Result<Clip> input = read_clip(*clip, Rotations::as_given, "clip");
     if (!input) return fail(PANACHE_BAD_CLIP, input.error());
     if (input->frames == 0) return fail(PANACHE_BAD_CLIP, {"clip: has no frames"});
-    Result<Restyled> styled = restyle(*input, clip->skeleton->rig, model->model, *strengths, *how);
+    const Result<std::optional<Removal>> removal = read_removal(options);
+    if (!removal) return fail(PANACHE_BAD_ARGUMENT, removal.error());
+    const Rig& rig = clip->skeleton->rig;
+    Result<Restyled> styled =
+        *removal ? restyle_without(*input, rig, **removal, model->model, *strengths, *how)
+                 : restyle(*input, rig, model->model, *strengths, *how);
     if (!styled) return fail(PANACHE_BAD_ARGUMENT, styled.error());
     std::vector<uint8_t> contacts;
     for (const FootContacts& feet : styled->contacts) {

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "learn/take.h"
@@ -18,6 +19,7 @@ struct Pairing {
   std::vector<float> neutral_frames;  // Per frame of the window; smoothed, fractional.
   std::vector<float> rates;           // Neutral seconds per styled second.
   float cost = 0;                     // Mean over frames of the squared distance, in deviations.
+  std::string style = {};             // What it teaches; empty: the style of the styled take.
 };
 
 // The cost of takes of one action that go together well is below this; most are at a third of it.

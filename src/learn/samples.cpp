@@ -115,7 +115,9 @@ SampleSet::SampleSet(const std::vector<Take>& takes, const std::vector<Pairing>&
                      bool with_neutral)
     : takes_(takes), recipe_(recipe) {
   for (const Pairing& pairing : pairings) {
-    const auto style = std::find(styles.begin(), styles.end(), takes[pairing.styled].row.style);
+    const std::string& name =
+        pairing.style.empty() ? takes[pairing.styled].row.style : pairing.style;
+    const auto style = std::find(styles.begin(), styles.end(), name);
     if (style == styles.end()) continue;
     add_pairing(pairing, static_cast<int>(style - styles.begin()));
   }

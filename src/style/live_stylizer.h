@@ -23,6 +23,8 @@ struct LiveOptions {
   // that cycle; where it can go no further ahead, it plays the last one again. So a style can be
   // slower or faster than its input indefinitely. Needs a max_lag longer than a cycle.
   bool skip_cycles = false;
+  // A model that takes styles off (removal.h); null: none. See set_removed().
+  std::shared_ptr<const Model> remover = nullptr;
   static constexpr double kMaxLag = 4;
 };
 
@@ -44,12 +46,17 @@ class LiveStylizer {
   // See Stylizer::step(); `seconds` passed since the last step. Allocates nothing, never fails.
   void step(ConstPose in, std::span<const float> strengths, double seconds, Pose out) noexcept;
 
+  // The style of the remover that is taken off the input before all else, at the input's tempo; -1:
+  // none, as at first. Eased as strengths are. Other numbers are ignored.
+  void set_removed(int style) noexcept;
+
   // Where the shown input is: seconds after the newest pose, below zero if late, at the last step.
   double ahead() const noexcept { return head_.ahead(); }
   // Cycles left out (above zero) and played again (below) since the start, in sum.
   int skipped_cycles() const noexcept { return skipped_; }
-  // Whether time is the input's own, so that a step is that of the stylizer alone.
-  bool is_pass_through() const noexcept { return !playback_; }
+  // Whether time is the input's own and nothing is taken off, so that a step is that of the
+  // stylizer alone.
+  bool is_pass_through() const noexcept { return !playback_ && !removing_; }
 
   // See Stylizer.
   Stylizer& stylizer() noexcept { return stylizer_; }
@@ -80,6 +87,17 @@ class LiveStylizer {
     double blended = 1;    // and how much of the way from it is done, 0 to 1.
   };
 
+  // The first of two passes.
+  struct Removing {
+    Removing(Stylizer remover);
+    ConstPose step(ConstPose in, double seconds) noexcept;
+
+    Stylizer stylizer;
+    std::vector<float> strengths;    // [styles of the remover]
+    std::vector<Quat> rotations;     // The neutral pose. [joints]
+    std::vector<Vec3> translations;  // Likewise.
+  };
+
   LiveStylizer(Stylizer stylizer, std::shared_ptr<const Model> model, const LiveOptions& options);
 
   void forget() noexcept;  // Of the motion so far, all but the observer's part.
@@ -87,6 +105,7 @@ class LiveStylizer {
   void skip_cycle(double rate) noexcept;
   void look_ahead(double seconds) noexcept;
   RootPose root_at(double ahead) const noexcept;
+  size_t remover_state_size() const noexcept;
   void pose_at(double ahead, const RootOffset& offset, Pose out) noexcept;
   void blend_from_old(double seconds, double played, Pose shown) noexcept;
   template <class Self, class Visit>
@@ -97,6 +116,7 @@ class LiveStylizer {
   PlayHead head_;
   int skipped_ = 0;
   std::unique_ptr<Playback> playback_;  // Null where time is the input's own.
+  std::optional<Removing> removing_;    // With a remover.
 };
 
 }  // namespace panache

@@ -72,6 +72,18 @@ class Model {
   // Their mean and deviation over motion of all kinds. [activation_count()], or empty.
   std::span<const float> activation_mean() const { return activation_mean_; }
   std::span<const float> activation_scale() const { return activation_scale_; }
+  // Tells styles from the statistics of a window of motion (learn/recognise.h): their mean and one
+  // over their deviation, and a layer with an output for each style and, last, neutral.
+  struct Recognition {
+    std::vector<float> mean, factor;  // [statistics]
+    PackedLayer layer;                // [statistics][styles + 1]
+  };
+  // Null where the model recognises none.
+  const Recognition* recognition() const { return recognition_ ? &*recognition_ : nullptr; }
+  // How many statistics there are: see learn/recognise.h.
+  size_t recognition_count() const {
+    return 2 * (activation_count() + static_cast<size_t>(pose_feature_count(layout())));
+  }
   // Scale of each output of the pose network.
   std::span<const float> output_scale() const { return output_scale_; }
 
@@ -121,6 +133,7 @@ class Model {
   Result<void> read_gate(const TensorFile& file, const std::string& name);
   Result<void> read_networks(const TensorFile& file, const std::string& name);
   Result<void> read_activations(const TensorFile& file, const std::string& name);
+  Result<void> read_recognition(const TensorFile& file, const std::string& name);
   Result<Learnt> read_learnt(const TensorFile& file, const std::string& prefix,
                              const std::string& name) const;
   void measure_stances();
@@ -138,7 +151,8 @@ class Model {
   std::array<Heads, kNetworks> heads_;
   Gate gate_;
   std::vector<float> activation_mean_, activation_scale_,
-      activation_factor_;                 // The last is 1 / scale.
+      activation_factor_;  // The last is 1 / scale.
+  std::optional<Recognition> recognition_;
   std::vector<Learnt> learnt_;            // Of the last styles.
   std::vector<Stance> stances_;           // [styles], or empty where they are not known.
   std::vector<ConstantStyle> constants_;  // In place of networks.

@@ -95,6 +95,21 @@ Result<void> Model::read_activations(const TensorFile& file, const std::string& 
   return {};
 }
 
+Result<void> Model::read_recognition(const TensorFile& file, const std::string& name) {
+  if (!file.tensors.contains("recognition.mean")) return {};
+  const int statistics = static_cast<int>(recognition_count());
+  Recognition recognition;
+  Result<std::vector<float>> mean = read_vector(file, "recognition.mean", statistics, name);
+  if (!mean) return mean.error();
+  Result<std::vector<float>> factor = read_vector(file, "recognition.factor", statistics, name);
+  if (!factor) return factor.error();
+  Result<DenseLayer> layer =
+      read_layer(file, "recognition", statistics, static_cast<int>(styles_.size()) + 1, name);
+  if (!layer) return layer.error();
+  recognition_ = {*std::move(mean), *std::move(factor), PackedLayer(*layer)};
+  return {};
+}
+
 Result<Model::Learnt> Model::read_learnt(const TensorFile& file, const std::string& prefix,
                                          const std::string& name) const {
   if (!can_learn()) {
@@ -181,6 +196,7 @@ Result<void> Model::read_numbers(const TensorFile& file, const std::string& name
     if (!predictor) return predictor.error();
     predictor_ = std::make_shared<const PredictorNetwork>(*std::move(predictor));
   }
+  if (auto read = read_recognition(file, name); !read) return read.error();
   if (auto read = read_gate(file, name); !read) return read.error();
   measure_stances();
   return measure_scratch(name);

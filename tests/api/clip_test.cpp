@@ -45,6 +45,55 @@ TEST_F(ClipApi, a_clip_without_a_style_stays_bit_for_bit) {
   panache_styled_clip_destroy(styled);
 }
 
+// The shipped remover; null where it cannot be read.
+panache_model* read_remover() {
+  const std::string bytes = panache::test::file_bytes("remover-int8.safetensors");
+  panache_model* remover = nullptr;
+  EXPECT_EQ(panache_model_create(bytes.data(), bytes.size(), &remover), PANACHE_OK)
+      << panache_last_error();
+  return remover;
+}
+
+TEST_F(ClipApi, a_style_is_taken_off_by_a_remover_and_by_no_other_model) {
+  const Walk walk(skeleton_, 90, false);
+  panache_model* remover = read_remover();
+  panache_stylize_options options = PANACHE_STYLIZE_OPTIONS;
+  options.remover = remover;
+  options.removed = panache_model_find_style(remover, "any");
+  panache_styled_clip* styled = stylize(walk, {{0, 0}}, &options);
+  EXPECT_FALSE(same_pose(styled, 60, walk, 60));
+  panache_styled_clip_destroy(styled);
+  options.removed = panache_model_style_count(remover);
+  EXPECT_EQ(panache_stylize_clip(model_, &walk.clip, nullptr, 0, &options, &styled),
+            PANACHE_BAD_ARGUMENT);
+  options.remover = nullptr;
+  EXPECT_EQ(panache_stylize_clip(model_, &walk.clip, nullptr, 0, &options, &styled),
+            PANACHE_BAD_ARGUMENT);
+  options.remover = model_;
+  options.removed = 0;
+  EXPECT_EQ(panache_stylize_clip(model_, &walk.clip, nullptr, 0, &options, &styled),
+            PANACHE_BAD_ARGUMENT);
+  panache_model_destroy(remover);
+}
+
+TEST_F(ClipApi, the_styles_of_a_clip_are_recognised) {
+  const Walk walk(skeleton_, 90, false);
+  panache_model* remover = read_remover();
+  const int32_t count = panache_model_style_count(remover) + 1;
+  std::vector<float> shares(static_cast<size_t>(count));
+  EXPECT_EQ(panache_recognise_styles(remover, &walk.clip, shares.data(), count), PANACHE_OK)
+      << panache_last_error();
+  float sum = 0;
+  for (const float share : shares) sum += share;
+  EXPECT_NEAR(sum, 1, 0.01);
+  EXPECT_EQ(panache_recognise_styles(remover, &walk.clip, shares.data(), count - 1),
+            PANACHE_BAD_ARGUMENT);
+  EXPECT_EQ(panache_recognise_styles(model_, &walk.clip, shares.data(),
+                                     panache_model_style_count(model_) + 1),
+            PANACHE_BAD_MODEL);
+  panache_model_destroy(remover);
+}
+
 TEST_F(ClipApi, a_clip_gets_the_tempo_of_its_style_unless_timing_is_off) {
   const Walk walk(skeleton_, 240, false);
   panache_styled_clip* styled = stylize(walk, {{0, 1}});

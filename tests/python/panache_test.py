@@ -41,7 +41,7 @@ def test_structs_are_those_of_the_header():
 
 
 def test_shipped_models_load_and_their_tensors_are_arrays():
-    assert {'panache', 'panache-int8', 'smith2019'} <= set(panache.shipped_models())
+    assert {'panache', 'panache-int8', 'remover-int8', 'smith2019'} <= set(panache.shipped_models())
     for name in panache.shipped_models():
         model = panache.Model(name)
         tensors = model.tensors()
@@ -49,11 +49,37 @@ def test_shipped_models_load_and_their_tensors_are_arrays():
         assert tensors['input.mean'].dtype == np.float32
         assert len(tensors['input.mean']) == (130 if name == 'smith2019' else 66)
         weight = tensors['pose.trunk.0.weight']
-        assert weight.dtype == (np.int8 if name == 'panache-int8' else np.float32)
+        assert weight.dtype == (np.int8 if name.endswith('-int8') else np.float32)
         assert weight.shape[0] >= 396
         with pytest.raises(ValueError):
             weight[0, 0] = 1
     assert 'old' in panache.Model('panache').styles
+
+
+def test_a_style_is_told_and_taken_off(model, walk):
+    old = panache.stylize(model, walk, {'old': 1})
+    told = old.styles()
+    assert 'neutral' in told and 'any' not in told
+    assert sum(told.values()) == pytest.approx(1, abs=0.01)
+    assert told['old'] > walk.styles()['old']
+    removed = panache.stylize(model, old, {}, remove='old')
+    assert removed.styles()['old'] < told['old']
+    with pytest.raises(panache.PanacheError, match='unknown style'):
+        panache.stylize(model, old, {}, remove='odl')
+    with pytest.raises(panache.PanacheError, match='expected remove'):
+        panache.stylize(model, old, {}, remover=panache.Model('remover-int8'))
+
+
+def test_a_character_takes_a_style_off(model, walk):
+    character = panache.Character(model, walk.skeleton, remover=panache.Model('remover-int8'))
+    character.stylize(walk.rotations[0], walk.translations[0], 1 / 30)
+    character.set_removed('old')
+    for rotations, translations in zip(walk.rotations[1:30], walk.translations[1:]):
+        out, _ = character.stylize(rotations, translations, 1 / 30)
+    assert not np.array_equal(out, walk.rotations[29])
+    character.set_removed(None)
+    with pytest.raises(panache.PanacheError, match='remover'):
+        panache.Character(model, walk.skeleton).set_removed('old')
 
 
 def test_a_clip_is_read_without_copies_and_strength_0_is_it(model, walk):

@@ -37,6 +37,7 @@ int main() {
   FIELD(character_options, max_lag);
   FIELD(character_options, max_lead);
   FIELD(character_options, max_speed);
+  FIELD(character_options, remover);
   STRUCT(shape);
   FIELD(shape, struct_size);
   FIELD(shape, strength);
@@ -83,7 +84,8 @@ int main() {
   FIELD(stylize_options, shape);
   FIELD(stylize_options, max_speed);
   FIELD(stylize_options, loop);
-  FIELD(stylize_options, reserved);
+  FIELD(stylize_options, removed);
+  FIELD(stylize_options, remover);
   STRUCT(retarget_options);
   FIELD(retarget_options, struct_size);
   FIELD(retarget_options, hold_feet);

@@ -48,7 +48,7 @@ class CharacterOptions(Structure):
     _fields_ = [('struct_size', c_uint32), ('ease_seconds', c_float),
                 ('smoothing_seconds', c_float), ('hold_feet', c_int32), ('style_root', c_int32),
                 ('skip_cycles', c_int32), ('max_lag', c_double), ('max_lead', c_double),
-                ('max_speed', c_double)]
+                ('max_speed', c_double), ('remover', c_void_p)]
 
 
 class Shape(Structure):
@@ -84,7 +84,7 @@ class StylizeOptions(Structure):
     _fields_ = [('struct_size', c_uint32), ('ease_seconds', c_float),
                 ('smoothing_seconds', c_float), ('hold_feet', c_int32), ('style_root', c_int32),
                 ('style_timing', c_int32), ('shape', POINTER(Shape)), ('max_speed', c_double),
-                ('loop', c_int32), ('reserved', c_int32)]
+                ('loop', c_int32), ('removed', c_int32), ('remover', c_void_p)]
 
 
 class RetargetOptions(Structure):
@@ -137,6 +137,8 @@ _FUNCTIONS = {
     'character_state_size': (c_size_t, [_H]),
     'character_save': (None, [_H, c_void_p]),
     'character_restore': (c_int32, [_H, c_char_p, c_size_t]),
+    'character_set_removed': (None, [_H, c_int32]),
+    'recognise_styles': (c_int32, [_H, POINTER(Clip), POINTER(c_float), c_int32]),
     'stylize_clip': (c_int32, [_H, POINTER(Clip), POINTER(Track), c_int32,
                                POINTER(StylizeOptions), _OUT]),
     'styled_clip_destroy': (None, [_H]),

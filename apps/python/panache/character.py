@@ -4,7 +4,7 @@ import ctypes
 import os
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import Sequence, Tuple
+from typing import Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -57,12 +57,14 @@ class Character:
     def __init__(self, model: Model, skeleton: Skeleton, *, ease_seconds: float = 0.15,
                  smoothing_seconds: float = 0.04, hold_feet: bool = True, style_root: bool = True,
                  skip_cycles: bool = False, max_lag: float = 0, max_lead: float = 0,
-                 max_speed: float = 15):
-        self.model, self.skeleton = model, skeleton
+                 max_speed: float = 15, remover: Optional[Model] = None):
+        self.model, self.skeleton, self.remover = model, skeleton, remover
         options = sized(c.CharacterOptions, ease_seconds=ease_seconds,
                         smoothing_seconds=smoothing_seconds, hold_feet=hold_feet,
                         style_root=style_root, skip_cycles=skip_cycles, max_lag=max_lag,
                         max_lead=max_lead, max_speed=max_speed)
+        if remover is not None:
+            options.remover = remover._handle.pointer
         self._handle = Handle('character', lib.character_create, model._handle.pointer,
                               skeleton._handle.pointer, options)
         self._pointer = self._handle.pointer
@@ -127,6 +129,13 @@ class Character:
         """How strongly a style acts from now on: 0 not at all, 1 as captured; -4 to 4, eased."""
         lib.character_set_strength(self._pointer, self.model.find_style(style),
                                    number(strength, style))
+
+    def set_removed(self, style: Optional[str]) -> None:
+        """The style of the remover that is taken off the input from now on; None: none."""
+        if self.remover is None:
+            raise PanacheError('set_removed: expected a character that was given a remover')
+        place = -1 if style is None else self.remover.find_style(style)
+        lib.character_set_removed(self._pointer, place)
 
     def set_shape(self, **amounts: float) -> None:
         """How much is given of what the styles do, 0 to 2 each; what is not named is 1:

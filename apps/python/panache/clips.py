@@ -7,7 +7,7 @@ from typing import Dict, Mapping, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from . import _library as c
-from ._library import Handle, PanacheError, floats, lib, mapping, number, sized, utf8
+from ._library import Handle, PanacheError, check, floats, lib, mapping, number, sized, utf8
 from .model import Model
 
 HUMAN_JOINTS = ('hips', 'spine', 'chest', 'neck', 'head') + tuple(
@@ -15,6 +15,7 @@ HUMAN_JOINTS = ('hips', 'spine', 'chest', 'neck', 'head') + tuple(
     for joint in ('Shoulder', 'UpperArm', 'LowerArm', 'Hand', 'UpperLeg', 'LowerLeg', 'Foot',
                   'Toes'))
 Strength = Union[float, Sequence[Tuple[float, float]]]
+_REMOVER, _ANY = 'remover-int8', 'any'  # The shipped remover, and its style for unknown ones.
 _LOOPS = ('off', 'auto', 'on')
 _TIMINGS = ('off', 'steps', 'all')  # As panache_stylize_options.style_timing counts them.
 
@@ -137,6 +138,15 @@ class Clip:
     def seconds(self) -> float:
         return len(self) * self.frame_seconds
 
+    def styles(self, remover: Optional[Model] = None) -> Dict[str, float]:
+        """Which styles the clip shows: {name: share}, 'neutral' among them, the largest first;
+        together 1. `remover`: the model that tells them; None: the shipped one."""
+        remover = remover or Model(_REMOVER)
+        shares = (ctypes.c_float * (len(remover.styles) + 1))()
+        check(lib.recognise_styles(remover._handle.pointer, self._struct(), shares, len(shares)))
+        named = zip([*remover.styles, 'neutral'], shares)
+        return dict(sorted((pair for pair in named if pair[0] != _ANY), key=lambda pair: -pair[1]))
+
     def _struct(self) -> c.Clip:
         """Points into the arrays, whose shape may have been changed in place."""
         Clip.__post_init__(self)
@@ -182,7 +192,8 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *,
             timing: Union[bool, str] = 'steps', hold_feet: bool = True, style_root: bool = True,
             ease_seconds: float = 0.15, smoothing_seconds: float = 0.04,
             shape: Optional[Mapping[str, float]] = None, max_speed: float = 15,
-            loop: str = 'auto') -> StyledClip:
+            loop: str = 'auto', remove: Optional[str] = None,
+            remover: Optional[Model] = None) -> StyledClip:
     """A clip in a style, or a mix of styles.
 
     styles: {name: strength}; 0 is neutral, 1 the style as captured, -4 to 4. A list of
@@ -194,6 +205,8 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *,
     max_speed: m/s; faster hips have jumped, see Character.
     loop:   whether the last pose of the result is its first, travel aside: 'auto', where that is so
             in the clip; 'on', an error where the two are too far apart; 'off'.
+    remove: the style that the clip shows, which is taken off first; 'any' for one without a name.
+    remover: the model that takes it off; None: the shipped one.
 
     With all strengths at 0 the result is the clip bit for bit (models of recipe panache).
     """
@@ -215,6 +228,12 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *,
                     style_root=style_root, style_timing=c.flag(timing, 'timing'),
                     shape=ctypes.pointer(c.shape_of(shape or {})), max_speed=max_speed,
                     loop=_LOOPS.index(loop))
+    if remove is not None:
+        remover = remover or Model(_REMOVER)
+        options.removed = remover.find_style(remove)
+        options.remover = remover._handle.pointer
+    elif remover is not None:
+        raise PanacheError('remover: expected remove too, the style to take off')
     handle = Handle('styled_clip', lib.stylize_clip, model._handle.pointer, clip._struct(), tracks,
                     len(styles), options)
     return _styled(handle, clip.skeleton, clip.frame_seconds)

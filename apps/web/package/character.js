@@ -13,10 +13,11 @@ const kSkeletonOptions = struct(['size', 'i32'], ['metresPerUnit', 'f32'], ['upA
   ['humanJoints', 'i32']);
 const kCharacterOptions = struct(['size', 'i32'], ['easeSeconds', 'f32'],
   ['smoothingSeconds', 'f32'], ['holdFeet', 'i32'], ['styleRoot', 'i32'], ['skipCycles', 'i32'],
-  ['maxLag', 'f64'], ['maxLead', 'f64'], ['maxSpeed', 'f64']);
+  ['maxLag', 'f64'], ['maxLead', 'f64'], ['maxSpeed', 'f64'], ['remover', 'i32']);
 const kStylizeOptions = struct(['size', 'i32'], ['easeSeconds', 'f32'],
   ['smoothingSeconds', 'f32'], ['holdFeet', 'i32'], ['styleRoot', 'i32'], ['styleTiming', 'i32'],
-  ['shape', 'i32'], ['maxSpeed', 'f64'], ['loop', 'i32'], ['reserved', 'i32']);
+  ['shape', 'i32'], ['maxSpeed', 'f64'], ['loop', 'i32'], ['removed', 'i32'],
+  ['remover', 'i32']);
 const kLoops = ['off', 'auto', 'on'];
 const kShape = struct(['size', 'i32'], ['strength', 'f32'], ['posture', 'f32'],
   ['dynamics', 'f32'], ['timing', 'f32'], ['legs', 'f32'], ['torso', 'f32'], ['leftArm', 'f32'],
@@ -194,7 +195,7 @@ export function stylizeClip(panache, skeleton, clip, strengths, options) {
       ([name, strength]) => writeTrack(arena, panache, name, strength));
     const how = arena.write(kStylizeOptions, {
       size: kStylizeOptions.size, ...told, styleTiming: timingNumber(styleTiming, 'styleTiming'),
-      shape: writeShape(arena, shape), loop: kLoops.indexOf(loop), reserved: 0,
+      shape: writeShape(arena, shape), loop: kLoops.indexOf(loop), removed: 0, remover: 0,
     });
     const list = arena.array(kTrack, tracks);
     return arena.create((out) => wasm.panache_stylize_clip(

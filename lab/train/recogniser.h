@@ -1,0 +1,17 @@
+#pragma once
+// What a remover recognises styles with: a linear layer on statistics of its trunk.
+
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "learn/take.h"
+#include "net/safetensors.h"
+
+namespace panache {
+
+// Adds the tensors of Model::Recognition to a model file. The classes are the styles of the model
+// and neutral, as the rows of the takes name them. Fails where the file is no model.
+Result<void> add_recognition(const std::vector<Take>& takes, uint64_t seed, TensorFile& file);
+
+}  // namespace panache

@@ -1,0 +1,139 @@
+#include "style/removal.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "make_clip.h"
+#include "make_model.h"
+#include "style/live_stylizer.h"
+#include "style/names.h"
+
+namespace panache {
+namespace {
+
+std::shared_ptr<const Model> made(TensorFile file) {
+  Result<std::shared_ptr<const Model>> model = Model::parse(format_safetensors(file), "test model");
+  EXPECT_TRUE(model.ok()) << (model ? "" : model.error().message);
+  return *model;
+}
+
+// Takes "old" off, whatever that is, and plays at this rate.
+std::shared_ptr<const Model> remover(double rate = 1) {
+  TensorFile file = test::make_model({"old", kAnyStyle}, 5);
+  file.metadata[kDirection] = kRemove;
+  test::set_rate(file, rate);
+  return made(std::move(file));
+}
+
+class RemovalTest : public testing::Test {
+ protected:
+  static Restyled must(Result<Restyled> result) {
+    EXPECT_TRUE(result.ok()) << (result ? "" : result.error().message);
+    return *std::move(result);
+  }
+  const Clip clip_ = test::walking_clip(120);
+  const Rig rig_ = *Rig::create(clip_);
+  const std::shared_ptr<const Model> model_ = made(test::make_model({"old", "proud"}, 3));
+};
+
+TEST_F(RemovalTest, a_model_that_puts_styles_on_removes_none) {
+  EXPECT_FALSE(is_remover(*model_));
+  const Result<int> found = find_removal(*model_, "old");
+  ASSERT_FALSE(found.ok());
+  EXPECT_EQ(found.error().message, "the model puts styles on; expected one that takes them off");
+  EXPECT_EQ(*find_removal(*remover(), "old"), 0);
+  EXPECT_EQ(*find_removal(*remover(), ""), 1);
+  EXPECT_FALSE(find_removal(*remover(), "oldd").ok());
+}
+
+TEST_F(RemovalTest, without_a_style_the_result_is_that_of_the_remover_alone) {
+  const auto off = remover();
+  const Restyled once = must(restyle(clip_, rig_, off, {{0, {{0, 1}}}}));
+  const Restyled removed = must(restyle_without(clip_, rig_, {off, 0}, model_, {{1, {{0, 0}}}}));
+  EXPECT_EQ(removed.clip.rotations, once.clip.rotations);
+  EXPECT_EQ(removed.source_frames, once.source_frames);
+}
+
+TEST_F(RemovalTest, a_style_is_put_on_what_is_left) {
+  const auto off = remover();
+  const Restyled once = must(restyle(clip_, rig_, off, {{0, {{0, 1}}}}));
+  const Restyled twice = must(restyle(once.clip, rig_, model_, {{1, {{0, 1}}}}));
+  const Restyled both = must(restyle_without(clip_, rig_, {off, 0}, model_, {{1, {{0, 1}}}}));
+  EXPECT_EQ(both.clip.rotations, twice.clip.rotations);
+  EXPECT_EQ(both.clip.translations, twice.clip.translations);
+}
+
+TEST_F(RemovalTest, the_tempo_is_undone_and_source_frames_are_those_of_the_clip) {
+  RestyleOptions options;
+  options.stylizer.tempo_everywhere = true;
+  options.loop = LoopMode::off;
+  const auto off = remover(0.5);
+  const Restyled once = must(restyle(clip_, rig_, off, {{0, {{0, 1}}}}, options));
+  const Restyled both =
+      must(restyle_without(clip_, rig_, {off, 0}, model_, {{1, {{0, 1}}}}, options));
+  EXPECT_GT(once.clip.frames, clip_.frames * 3 / 2);
+  for (const double source : both.source_frames) {
+    EXPECT_GE(source, 0);
+    EXPECT_LE(source, clip_.frames - 1 + 1e-6);
+  }
+  EXPECT_TRUE(std::is_sorted(both.source_frames.begin(), both.source_frames.end()));
+}
+
+TEST_F(RemovalTest, a_strength_keeps_its_place_in_the_clip) {
+  RestyleOptions options;
+  options.stylizer.tempo_everywhere = true;
+  options.loop = LoopMode::off;
+  const double end = (clip_.frames - 1) * clip_.frame_time;
+  const auto off = remover(0.5);
+  const Restyled once = must(restyle(clip_, rig_, off, {{0, {{0, 1}}}}, options));
+  // The style begins in the last quarter of the clip: nothing changes before.
+  const Restyled both = must(restyle_without(clip_, rig_, {off, 0}, model_,
+                                             {{1, {{0.75 * end, 0}, {0.8 * end, 1}}}}, options));
+  const int quiet = once.clip.frames / 2;
+  for (int f = 0; f < quiet; ++f) {
+    for (size_t j = 0; j < clip_.joints(); ++j) {
+      ASSERT_EQ(both.clip.pose(f).rotations[j], once.clip.pose(f).rotations[j]) << f;
+    }
+  }
+}
+
+TEST_F(RemovalTest, live_what_is_removed_can_be_switched_and_is_part_of_the_state) {
+  LiveOptions options;
+  options.remover = remover();
+  Result<LiveStylizer> live = LiveStylizer::create(model_, rig_, options);
+  ASSERT_TRUE(live.ok()) << live.error().message;
+  EXPECT_FALSE(live->is_pass_through());
+  Clip out = clip_;
+  const std::vector<float> none(2);
+  const auto step = [&](LiveStylizer& one, int f) {
+    one.step(clip_.pose(f), none, clip_.frame_time, out.pose(f));
+  };
+  for (int f = 0; f < 10; ++f) step(*live, f);
+  EXPECT_EQ(out.rotations, clip_.rotations);  // Nothing is removed yet.
+  live->set_removed(0);
+  live->set_removed(7);  // Ignored.
+  for (int f = 10; f < 30; ++f) step(*live, f);
+  EXPECT_NE(out.rotations, clip_.rotations);
+
+  std::vector<std::byte> state(live->state_size());
+  live->save(state);
+  Result<LiveStylizer> other = LiveStylizer::create(model_, rig_, options);
+  other->set_removed(0);
+  ASSERT_TRUE(other->restore(state));
+  step(*live, 30);
+  const Clip first = out;
+  step(*other, 30);
+  EXPECT_EQ(out.rotations, first.rotations);
+  state.back() ^= std::byte{1};
+  EXPECT_FALSE(other->restore(state));
+}
+
+TEST_F(RemovalTest, live_a_remover_is_no_other_model) {
+  LiveOptions options;
+  options.remover = model_;
+  EXPECT_FALSE(LiveStylizer::create(model_, rig_, options).ok());
+}
+
+}  // namespace
+}  // namespace panache
