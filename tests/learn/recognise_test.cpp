@@ -10,7 +10,7 @@
 namespace panache {
 namespace {
 
-std::shared_ptr<const Model> shipped(const std::string& name) {
+std::shared_ptr<const Model> shipped_model(const std::string& name) {
   const auto model = Model::load(PANACHE_SOURCE_DIR "/models/" + name);
   EXPECT_TRUE(model.ok()) << (model ? "" : model.error().message);
   return *model;
@@ -27,8 +27,8 @@ class RecogniseTest : public testing::Test {
     }
     return -1;
   }
-  const std::shared_ptr<const Model> remover_ = shipped("remover-int8.safetensors");
-  const std::shared_ptr<const Model> model_ = shipped("panache-int8.safetensors");
+  const std::shared_ptr<const Model> remover_ = shipped_model("remover-int8.safetensors");
+  const std::shared_ptr<const Model> model_ = shipped_model("panache-int8.safetensors");
 };
 
 TEST_F(RecogniseTest, shares_are_in_order_and_one_together) {
