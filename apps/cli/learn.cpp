@@ -124,6 +124,13 @@ Json to_json(const LearntStyle& learnt, const LearnVerb& verb, size_t bytes, dou
                      {"match", pair.match},
                      {"warnings", pair.warnings}});
   }
+  Json gestures = Json::array();
+  for (const LearntGesture& found : learnt.gestures) {
+    gestures.push_back({{"name", found.name},
+                        {"styled", found.take},
+                        {"start", found.start},
+                        {"seconds", found.seconds}});
+  }
   const auto measured = [&](double cm) { return learnt.judged ? Json(cm) : Json(); };
   return {{"style", verb.name},
           {"model", verb.model},
@@ -134,6 +141,7 @@ Json to_json(const LearntStyle& learnt, const LearnVerb& verb, size_t bytes, dou
           {"untouched_cm", measured(learnt.untouched_cm)},
           {"verdict", learnt.judged ? Json(learnt.verdict()) : Json()},
           {"warnings", learnt.warnings},
+          {"gestures", gestures},
           {"pairs", pairs}};
 }
 
@@ -149,6 +157,10 @@ std::string describe(const LearntStyle& learnt, const LearnVerb& verb, size_t by
   for (const PairReport& pair : learnt.pairs) {
     text += "  " + pair.neutral_name + " -> " + pair.styled_name + ": " + fixed(pair.seconds, 1) +
             " s, match " + fixed(pair.match, 2) + ", tempo " + fixed(1 / pair.tempo, 2) + " x\n";
+  }
+  for (const LearntGesture& found : learnt.gestures) {
+    text +=
+        "  gesture in " + found.take + " at " + fixed(found.start, 1) + " s: " + found.name + "\n";
   }
   if (!learnt.judged) {
     return text + "  too short to hold a quarter back, so the error is unknown\n";

@@ -26,6 +26,7 @@ Json to_json(const LoadedModel& loaded);
 struct LoadedStyle {
   std::string path;
   StyleInfo info;
+  std::vector<std::string> gestures;  // Their names.
   TensorFile file;
   uint64_t bytes = 0;  // Of the file.
 };

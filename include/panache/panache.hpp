@@ -88,6 +88,11 @@ class Model : public Object<panache_model, panache_model_destroy> {
   const char* style_group(int style) const noexcept {
     return panache_model_style_group(get(), style);
   }
+  int gesture_count(int style) const noexcept { return panache_model_gesture_count(get(), style); }
+  // NULL where the style has no such gesture.
+  const char* gesture_name(int style, int gesture) const noexcept {
+    return panache_model_gesture_name(get(), style, gesture);
+  }
   // The place of a style. Throws PANACHE_BAD_ARGUMENT where the model has none of that name.
   int find_style(const std::string& name) const {
     const int place = panache_model_find_style(get(), name.c_str());
@@ -119,6 +124,10 @@ class Character : public Object<panache_character, panache_character_destroy> {
       : Object(panache_character_create, model.get(), skeleton.get(), options) {}
   void set_strength(int style, float strength) noexcept {
     panache_character_set_strength(get(), style, strength);
+  }
+  // False where the model has no such gesture.
+  bool trigger(int style, int gesture) noexcept {
+    return panache_character_trigger(get(), style, gesture) != 0;
   }
   void set_shape(const panache_shape& shape) { check(panache_character_set_shape(get(), &shape)); }
   void step(panache_input_pose in, double seconds, panache_output_pose out) noexcept {

@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "clip/decimal.h"
 #include "learn/cycle.h"
+#include "learn/find_gestures.h"
 #include "learn/fit_style.h"
 #include "learn/pairing.h"
 #include "learn/pose_error.h"
@@ -290,6 +291,12 @@ Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
           with_decimals(learnt.untouched_cm, 2) +
           "); record 2 to 3 s of one action, neutrally and in the style");
     }
+  }
+  for (const FoundGesture& found : find_gestures(takes, pairings)) {
+    fits[0].tensors[gesture_key(learnt.gestures.size())] = found.gesture.tensor();
+    learnt.gestures.push_back({found.gesture.name(),
+                               learnt.pairs[static_cast<size_t>(found.take) / 2].styled_name,
+                               found.start, static_cast<double>(found.gesture.seconds())});
   }
   learnt.file = make_style_file(file, info, std::move(fits[0].tensors));
   return learnt;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -61,6 +62,7 @@ void for_each_tensor(bool learnt, Visit&& visit) {
   } else {
     for (const char* key : kBuiltInTensors) visit(key);
   }
+  for (size_t k = 0; k < kMaxGestures; ++k) visit(gesture_key(k));
 }
 
 // `parsed` is the same model.
@@ -144,6 +146,8 @@ auto end_of_kind(std::vector<Style>& styles, bool learnt) {
 
 }  // namespace
 
+std::string gesture_key(size_t gesture) { return "gesture." + std::to_string(gesture); }
+
 std::string trunk_fingerprint(const TensorFile& model) {
   std::vector<float> values;
   const auto add = [&](const std::string& key) {
@@ -218,7 +222,8 @@ Result<StyleInfo> read_style_info(const TensorFile& file, const std::string& nam
     return Error{name + ": metadata '" + key + "' is not one line of UTF-8 text"};
   }
   size_t known = 0;
-  for_each_tensor(info.learnt, [&](const char* key) { known += file.tensors.contains(key); });
+  for_each_tensor(info.learnt,
+                  [&](const std::string& key) { known += file.tensors.contains(key); });
   if (known == 0 || known != file.tensors.size()) {
     return Error{name + ": has " + std::to_string(file.tensors.size()) + " tensors, of which " +
                  std::to_string(known) + " are those of a style; expected no others"};
@@ -296,6 +301,21 @@ Result<TensorFile> add_style(const TensorFile& model, const std::string& name,
   // Nobody knows better than the model what it can hold and evaluate.
   if (auto read = Model::create(merged, name + " with " + style_name); !read) return read.error();
   return merged;
+}
+
+Result<TensorFile> set_gestures(const TensorFile& model, const std::string& style,
+                                std::span<const Gesture> gestures, const std::string& name) {
+  assert(gestures.size() <= kMaxGestures);
+  Result<std::shared_ptr<const Model>> parsed = Model::create(model, name);
+  if (!parsed) return parsed.error();
+  if (auto heads = check_has_heads(**parsed, name); !heads) return heads.error();
+  Result<int> index = (*parsed)->find_style(style);
+  if (!index) return index.error();
+  Parts parts = take_apart(model, **parsed);
+  Tensors& tensors = parts.styles[static_cast<size_t>(*index)].tensors;
+  for (size_t k = 0; k < kMaxGestures; ++k) tensors.erase(gesture_key(k));
+  for (size_t k = 0; k < gestures.size(); ++k) tensors[gesture_key(k)] = gestures[k].tensor();
+  return put_together(std::move(parts));
 }
 
 Result<TensorFile> remove_style(const TensorFile& model, const std::string& style,

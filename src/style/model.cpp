@@ -27,6 +27,9 @@ std::vector<std::string> split_lines(std::string_view text) {
   return lines;
 }
 
+// Whether a tensor is a style's gesture, see Model::read_gestures().
+bool is_gesture(std::string_view key) { return key.find("gesture.") != key.npos; }
+
 // Looks up a metadata entry that every model has.
 Result<std::string> require(const TensorFile& file, const std::string& key,
                             const std::string& name) {
@@ -60,7 +63,7 @@ Result<std::shared_ptr<const Model>> Model::create(const TensorFile& file,
     // What a byte is worth is no parameter, but a part of how one is written.
     const bool unit = key.ends_with(kScale) &&
                       file.tensors.contains(key.substr(0, key.size() - kScale.size()) + ".weight");
-    if (!unit) model->parameter_count_ += tensor.values.size();
+    if (!unit && !is_gesture(key)) model->parameter_count_ += tensor.values.size();
   }
   return std::shared_ptr<const Model>(std::move(model));
 }
@@ -72,6 +75,7 @@ std::shared_ptr<const Model> Model::of_constants(std::vector<ConstantStyle> styl
     model->styles_.push_back(style.info);
     model->stances_.push_back(stance_of(style.change));
   }
+  model->gestures_.resize(styles.size());
   const size_t inputs = size_t(kWindowPoses) * pose_feature_count(model->layout());
   model->input_mean_.resize(inputs);
   model->input_factor_.resize(inputs);

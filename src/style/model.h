@@ -15,6 +15,7 @@
 #include "net/mlp.h"
 #include "pose/features.h"
 #include "recipes/recipe.h"
+#include "style/gesture.h"
 #include "style/stance.h"
 
 namespace panache {
@@ -61,6 +62,11 @@ class Model {
   Result<int> find_style(std::string_view style) const;
   // The same, in any case of the letters A to Z where that tells one style from all others.
   Result<int> find_style_in_any_case(std::string_view style) const;
+  // The gestures of a style, at most kMaxGestures; few styles have any.
+  std::span<const Gesture> gestures(int style) const {
+    return gestures_[static_cast<size_t>(style)];
+  }
+  // Of the networks; gestures are no parameters.
   size_t parameter_count() const { return parameter_count_; }
   // The predictor of missing input; null in models without one.
   const PredictorNetwork* predictor() const { return predictor_.get(); }
@@ -123,6 +129,7 @@ class Model {
   Result<void> read_activations(const TensorFile& file, const std::string& name);
   Result<Learnt> read_learnt(const TensorFile& file, const std::string& prefix,
                              const std::string& name) const;
+  Result<void> read_gestures(const TensorFile& file, const std::string& name);
   void measure_stances();
   Result<void> measure_scratch(const std::string& name);
 
@@ -138,10 +145,11 @@ class Model {
   std::array<Heads, kNetworks> heads_;
   Gate gate_;
   std::vector<float> activation_mean_, activation_scale_,
-      activation_factor_;                 // The last is 1 / scale.
-  std::vector<Learnt> learnt_;            // Of the last styles.
-  std::vector<Stance> stances_;           // [styles], or empty where they are not known.
-  std::vector<ConstantStyle> constants_;  // In place of networks.
+      activation_factor_;                       // The last is 1 / scale.
+  std::vector<Learnt> learnt_;                  // Of the last styles.
+  std::vector<Stance> stances_;                 // [styles], or empty where they are not known.
+  std::vector<std::vector<Gesture>> gestures_;  // [styles]
+  std::vector<ConstantStyle> constants_;        // In place of networks.
   std::shared_ptr<const PredictorNetwork> predictor_;
   size_t parameter_count_ = 0;
   size_t scratch_size_ =

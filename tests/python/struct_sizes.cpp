@@ -37,6 +37,8 @@ int main() {
   FIELD(character_options, max_lag);
   FIELD(character_options, max_lead);
   FIELD(character_options, max_speed);
+  FIELD(character_options, gesture_rate);
+  FIELD(character_options, gesture_seed);
   STRUCT(shape);
   FIELD(shape, struct_size);
   FIELD(shape, strength);
@@ -84,6 +86,8 @@ int main() {
   FIELD(stylize_options, max_speed);
   FIELD(stylize_options, loop);
   FIELD(stylize_options, reserved);
+  FIELD(stylize_options, gesture_rate);
+  FIELD(stylize_options, gesture_seed);
   STRUCT(retarget_options);
   FIELD(retarget_options, struct_size);
   FIELD(retarget_options, hold_feet);

@@ -58,7 +58,8 @@ class _StylizeOptions(Structure):
     _fields_ = [('struct_size', c_uint32), ('ease_seconds', c_float),
                 ('smoothing_seconds', c_float), ('hold_feet', c_int32), ('style_root', c_int32),
                 ('style_timing', c_int32), ('shape', POINTER(_Shape)), ('max_speed', c_double),
-                ('loop', c_int32), ('reserved', c_int32)]
+                ('loop', c_int32), ('reserved', c_int32), ('gesture_rate', c_float),
+                ('gesture_seed', c_uint32)]
 
 
 class _Pair(Structure):

@@ -182,7 +182,7 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *,
             timing: Union[bool, str] = 'steps', hold_feet: bool = True, style_root: bool = True,
             ease_seconds: float = 0.15, smoothing_seconds: float = 0.04,
             shape: Optional[Mapping[str, float]] = None, max_speed: float = 15,
-            loop: str = 'auto') -> StyledClip:
+            loop: str = 'auto', gesture_rate: float = 0, gesture_seed: int = 0) -> StyledClip:
     """A clip in a style, or a mix of styles.
 
     styles: {name: strength}; 0 is neutral, 1 the style as captured, -4 to 4. A list of
@@ -194,6 +194,7 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *,
     max_speed: m/s; faster hips have jumped, see Character.
     loop:   whether the last pose of the result is its first, travel aside: 'auto', where that is so
             in the clip; 'on', an error where the two are too far apart; 'off'.
+    gesture_rate, gesture_seed: see Character. A clip with gestures at random is no loop.
 
     With all strengths at 0 the result is the clip bit for bit (models of recipe panache).
     """
@@ -214,7 +215,8 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *,
                     smoothing_seconds=smoothing_seconds, hold_feet=hold_feet,
                     style_root=style_root, style_timing=c.flag(timing, 'timing'),
                     shape=ctypes.pointer(c.shape_of(shape or {})), max_speed=max_speed,
-                    loop=_LOOPS.index(loop))
+                    loop=_LOOPS.index(loop), gesture_rate=gesture_rate,
+                    gesture_seed=gesture_seed)
     handle = Handle('styled_clip', lib.stylize_clip, model._handle.pointer, clip._struct(), tracks,
                     len(styles), options)
     return _styled(handle, clip.skeleton, clip.frame_seconds)
