@@ -22,7 +22,7 @@ namespace {
 
 struct LearnVerb {
   std::vector<std::string> clips;
-  std::string name, model, description, action;
+  std::string name, model, description, source, licence, action;
   ReadOptions read;
   RigFlags rig;
   bool pose = false, force = false, json = false;
@@ -225,6 +225,7 @@ int learn(const LearnVerb& verb) {
   Result<LearntStyle> learnt = learn_style(*model, *base, *pairs, verb.name, verb.description);
   if (!learnt) return fail(learnt.error(), kBadInput);
   const double seconds = watch.seconds();
+  set_source(verb.source, verb.licence, learnt->file);
   Result<TensorFile> merged = add_style(*model, *base, learnt->file, verb.name, verb.force);
   if (!merged) return fail(merged.error(), kBadInput);
   auto written = is_new ? write_file(verb.model, format_safetensors(*merged), false)
@@ -263,6 +264,11 @@ void add_learn(CLI::App& app, int& exit_code) {
       ->required()
       ->type_name("MODEL");
   verb->add_option("--description", options->description, "Description, shown by panache styles")
+      ->type_name("TEXT");
+  verb->add_option("--source", options->source,
+                   "Where the motion comes from, for those who get\nthe style")
+      ->type_name("TEXT");
+  verb->add_option("--licence", options->licence, "Licence of the style, likewise")
       ->type_name("TEXT");
   CLI::Option* action =
       verb->add_option("--action", options->action,

@@ -18,11 +18,12 @@ std::string entry(const Model& model, const std::string& key) {
   return entry(model.metadata(), key);
 }
 
+std::string stated(const std::string& text) { return text.empty() ? "not stated" : text; }
+
 // What the file was made of, and under which terms.
 std::string describe_data(const std::map<std::string, std::string>& metadata) {
   const std::string data = entry(metadata, "data"), licence = entry(metadata, "licence");
-  return "  trained on   " + (data.empty() ? "not stated" : data) + "\n" + "  data licence " +
-         (licence.empty() ? "not stated" : licence) + "\n";
+  return "  trained on   " + stated(data) + "\n" + "  data licence " + stated(licence) + "\n";
 }
 
 // "gestures: head nods, 1.2 s; dip, 0.8 s"; empty without any.
@@ -170,7 +171,9 @@ Json to_json(const LoadedModel& loaded) {
                       {"description", style.description},
                       {"group", style.group},
                       {"learnt", style.learnt},
-                      {"origin", style.origin}});
+                      {"origin", style.origin},
+                      {"source", style.source},
+                      {"licence", style.licence}});
   }
   return {{"model", loaded.path},
           {"recipe", entry(model, "recipe")},
@@ -181,11 +184,26 @@ Json to_json(const LoadedModel& loaded) {
           {"styles", styles}};
 }
 
+std::string source_of(const LoadedStyle& loaded) {
+  const StyleInfo& info = loaded.info;
+  if (!info.source.empty()) return info.source;
+  if (info.learnt && !info.origin.empty()) return info.origin;
+  return stated(entry(loaded.file.metadata, "data"));
+}
+
+std::string licence_of(const LoadedStyle& loaded) {
+  if (!loaded.info.licence.empty()) return loaded.info.licence;
+  // What is learnt from somebody's own motion is theirs; the model's data are not its own.
+  return stated(loaded.info.learnt ? "" : entry(loaded.file.metadata, "licence"));
+}
+
 std::string describe(const LoadedStyle& loaded) {
   std::string text = loaded.path + "\n";
   text += "  size         " + fixed(static_cast<double>(loaded.bytes) / 1000, 0) + " KB\n";
   text += "  trunk        " + entry(loaded.file.metadata, "trunk") + "\n";
   if (!loaded.info.group.empty()) text += "  group        " + loaded.info.group + "\n";
+  if (!loaded.info.source.empty()) text += "  source       " + loaded.info.source + "\n";
+  if (!loaded.info.licence.empty()) text += "  licence      " + loaded.info.licence + "\n";
   text += describe_data(loaded.file.metadata);
   return text + "\n1 style:\n" +
          describe(loaded.info, loaded.gestures, loaded.info.name.size() + 2);
@@ -199,6 +217,9 @@ Json to_json(const LoadedStyle& loaded) {
           {"gestures", loaded.gestures},
           {"learnt", loaded.info.learnt},
           {"origin", loaded.info.origin},
+          {"source", loaded.info.source},
+          {"style_licence", loaded.info.licence},
+          {"thumbnail", loaded.info.thumbnail},
           {"trunk", entry(loaded.file.metadata, "trunk")},
           {"data", entry(loaded.file.metadata, "data")},
           {"licence", entry(loaded.file.metadata, "licence")},

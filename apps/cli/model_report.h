@@ -32,6 +32,11 @@ struct LoadedStyle {
 };
 Result<LoadedStyle> load_style(const std::string& path);
 
+// Where its motion comes from, and under which licence it is: its own, else what it was trained on
+// and that data's licence; "not stated" without either.
+std::string source_of(const LoadedStyle& loaded);
+std::string licence_of(const LoadedStyle& loaded);
+
 std::string describe(const LoadedStyle& loaded);
 Json to_json(const LoadedStyle& loaded);
 

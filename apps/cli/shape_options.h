@@ -22,8 +22,8 @@ struct ShapeFlags {
 // Gives `verb` the five options; `flags` must outlive it.
 void add_shape_options(CLI::App& verb, ShapeFlags& flags);
 
-// Writes the shape, where the style has its tempo and the rate of gestures to `how`. Fails with a message where a
-// region is unknown, out of range or given twice, or the timing is unknown.
+// Writes the shape, where the style has its tempo and the rate of gestures to `how`. Fails with a
+// message where a region is unknown, out of range or given twice, or the timing is unknown.
 Result<void> read_shape(const ShapeFlags& flags, StylizerOptions& how);
 
 }  // namespace panache::cli

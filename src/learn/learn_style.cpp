@@ -13,6 +13,7 @@
 #include "learn/pairing.h"
 #include "learn/pose_error.h"
 #include "learn/style_file.h"
+#include "learn/thumbnail.h"
 #include "recipes/recipes.h"
 
 namespace panache {
@@ -192,7 +193,8 @@ Result<LearntStyle> learn_pose(const TensorFile& file, const Model& model,
   }
   StyleDelta change = change_between(pair.styled, 0, pair.neutral, 0, 1);
   change.velocity_left = change.velocity_forward = change.turn_rate = 0;
-  const StyleInfo info{style, description, "a pose: " + file_name(pair.styled_name), true};
+  StyleInfo info{style, description, "a pose: " + file_name(pair.styled_name), true};
+  info.thumbnail = thumbnail_of(pair.styled);
   LearntStyle learnt;
   learnt.file = make_style_file(file, info, fit_posture(model, change).tensors);
   PairReport report;
@@ -265,6 +267,7 @@ Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
     (late ? held_back : first).push_back(i);
   }
   StyleInfo info{style, description, "", true};
+  info.thumbnail = thumbnail_of(pairs[0].styled);
   info.origin = std::to_string(pairs.size()) + (pairs.size() == 1 ? " pair, " : " pairs, ") +
                 with_decimals(seconds, 2) + " s:";
   for (const PairReport& pair : learnt.pairs) {

@@ -38,6 +38,10 @@ Result<StyleInfo> read_style_info(const TensorFile& file, const std::string& nam
 TensorFile make_style_file(const TensorFile& model, const StyleInfo& info,
                            std::map<std::string, Tensor> tensors);
 
+// States where the motion of a style file comes from and under which licence the style is, where
+// they are given.
+void set_source(const std::string& source, const std::string& licence, TensorFile& style);
+
 // What a gesture is called among the tensors of a style file, the first with 0.
 std::string gesture_key(size_t gesture);
 

@@ -125,7 +125,6 @@ Result<void> Model::read_metadata(const TensorFile& file, const std::string& nam
   Result<std::string> descriptions = require(file, "style_descriptions", name);
   if (!descriptions) return descriptions.error();
   const auto origins = file.metadata.find("style_origins");
-  const auto groups = file.metadata.find("style_groups");
   const std::vector<std::string> texts = split_lines(*descriptions);
   const std::vector<std::string> sources =
       origins == file.metadata.end() ? std::vector<std::string>() : split_lines(origins->second);
@@ -134,13 +133,22 @@ Result<void> Model::read_metadata(const TensorFile& file, const std::string& nam
     styles_.push_back(
         {style, i < texts.size() ? texts[i] : "", i < sources.size() ? sources[i] : "", false});
   }
-  if (groups != file.metadata.end()) {
-    const std::vector<std::string> lines = split_lines(groups->second);
+  const struct {
+    const char* key;
+    std::string StyleInfo::*entry;
+  } lists[] = {{"style_groups", &StyleInfo::group},
+               {"style_sources", &StyleInfo::source},
+               {"style_licences", &StyleInfo::licence},
+               {"style_thumbnails", &StyleInfo::thumbnail}};
+  for (const auto& [key, entry] : lists) {
+    const auto found = file.metadata.find(key);
+    if (found == file.metadata.end()) continue;
+    const std::vector<std::string> lines = split_lines(found->second);
     if (lines.size() != styles_.size()) {
-      return Error{name + ": metadata 'style_groups' has " + std::to_string(lines.size()) +
+      return Error{name + ": metadata '" + key + "' has " + std::to_string(lines.size()) +
                    " lines; expected " + std::to_string(styles_.size()) + ", one per style"};
     }
-    for (size_t i = 0; i < lines.size(); ++i) styles_[i].group = lines[i];
+    for (size_t i = 0; i < lines.size(); ++i) styles_[i].*entry = lines[i];
   }
   // Styles may be learnt on it.
   if (styles_.empty() && !recipe_->learns_styles) return Error{name + ": has no styles"};

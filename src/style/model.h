@@ -34,6 +34,9 @@ struct StyleInfo {
   bool learnt = false;      // By learn_style(), from activations that other styles trained.
   std::string group = {};   // Its heading in lists, "moods"; "" for learnt ones and where the
                             // model names no groups.
+  std::string source = {};     // Where its motion comes from,
+  std::string licence = {};    // and under which licence it is, for those who get it; may be empty.
+  std::string thumbnail = {};  // A picture as SVG in one line; may be empty.
 };
 
 class Model {
