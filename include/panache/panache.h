@@ -243,8 +243,9 @@ PANACHE_API void panache_character_set_strength(panache_character* character, in
                                                 float strength);
 
 /* Plays a gesture of a style on top of it, as strongly as the style acts: when no other plays and a
- * foot is on the floor, within 3 seconds or not at all. It never starts in the air. A later call
- * replaces a gesture that waits. Returns 1, or 0 if the model has no such gesture. */
+ * foot is on the floor (and the body does not sit or run, if the gesture moves the hips), within 3
+ * seconds or not at all. It never starts in the air. A later call replaces a gesture that waits.
+ * Returns 1, or 0 if the model has no such gesture. */
 PANACHE_API int32_t panache_character_trigger(panache_character* character, int32_t style,
                                               int32_t gesture);
 

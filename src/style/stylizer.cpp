@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "base/smooth_step.h"
 #include "style/state_bytes.h"
 
 namespace panache {
@@ -86,9 +87,11 @@ bool Stylizer::trigger(int style, int gesture) noexcept {
 }
 
 GesturePlayer::Ground Stylizer::ground() const noexcept {
-  constexpr float kHeld = 0.5f;
-  return {is_a_foot_down(observer_.now().world.positions) || stages_.seated() > kHeld,
-          std::ranges::max(stages_.contacts()) > kHeld || stages_.seated() > kHeld, flight_};
+  constexpr float kHeld = 0.5f, kWalks = 2, kRuns = 3;  // The latter in m/s.
+  const bool seated = stages_.seated() > kHeld;
+  const bool planted = std::ranges::max(stages_.contacts()) > kHeld;
+  return {seated || is_a_foot_down(observer_.now().world.positions), planted && !seated, flight_,
+          smooth_step((window_.ground_speed() - kWalks) / (kRuns - kWalks))};
 }
 
 void Stylizer::set_next(ConstPose next, double seconds) noexcept {

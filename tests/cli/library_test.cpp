@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/program.h"
-#include "learn/thumbnail.h"
 #include "make_learnt.h"
+#include "rig/rig.h"
 
 namespace panache::test {
 namespace {
@@ -141,16 +141,6 @@ TEST_F(StyleLibraryTest, learning_tells_of_gestures_and_keeps_source_and_licence
   EXPECT_EQ(styles.back()["gestures"].size(), 1u);
   EXPECT_EQ(styles.back()["source"], "my own");
   EXPECT_EQ(styles.back()["licence"], "CC BY 4.0");
-}
-
-TEST(Thumbnail, is_small_one_line_and_as_wide_as_its_figures) {
-  HumanPositions body{};
-  for (size_t j = 0; j < kHumanJoints; ++j) body[j] = {0.01f * static_cast<float>(j), 1, 0.5f};
-  const std::vector<HumanPositions> six(6, body);
-  const std::string svg = draw_thumbnail(six);
-  EXPECT_EQ(svg.find('\n'), std::string::npos);
-  EXPECT_NE(svg.find("viewBox=\"0 0 540 190\""), std::string::npos) << svg;
-  EXPECT_LT(svg.size(), 6'000u);
 }
 
 }  // namespace

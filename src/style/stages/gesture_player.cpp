@@ -31,8 +31,9 @@ void GesturePlayer::step(const Model& model, std::span<const float> strengths, f
   if (style_ < 0 && next_style_ >= 0) start(model, strengths, ground, seconds);
   pose_ = {};
   if (style_ < 0) return;
+  const Gesture& gesture = model.gestures(style_)[gesture_];
   const float share = share_of(strengths[style_]) * (1 - ground.flight);
-  pose_ = scaled(share, model.gestures(style_)[gesture_].at(time_));
+  pose_ = scaled(gesture.moves_hips() ? share * (1 - ground.run) : share, gesture.at(time_));
 }
 
 // Each gesture of each style in force is as likely as the others.
@@ -62,7 +63,9 @@ void GesturePlayer::start(const Model& model, std::span<const float> strengths,
     return;
   }
   const bool needs_feet = model.gestures(next_style_)[next_gesture_].moves_hips();
-  if (ground.flight > 0 || !ground.holds_body || (needs_feet && !ground.holds_feet)) return;
+  if (ground.flight > 0 || !ground.holds_body ||
+      (needs_feet && !(ground.holds_feet && ground.run == 0)))
+    return;
   style_ = next_style_;
   gesture_ = next_gesture_;
   time_ = 0;

@@ -27,8 +27,9 @@ class GesturePlayer {
   // What the moment allows.
   struct Ground {
     bool holds_body = true;  // A foot is down, or something else holds the body.
-    bool holds_feet = true;  // A foot is planted.
+    bool holds_feet = true;  // A foot is planted, and the body does not sit.
     float flight = 0;        // See FlightWatch::amount().
+    float run = 0;  // 0 of a walk to 1 of a run, in which dips of the hips fling the knees.
   };
   // `strengths`: [styles], those in force; `rate`: gestures per second, 0 for none at random.
   void step(const Model& model, std::span<const float> strengths, float rate, const Ground& ground,
