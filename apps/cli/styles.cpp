@@ -111,28 +111,25 @@ int change(const StylesVerb& verb) {
   return kDone;
 }
 
-// A style that has no picture of its own gets one of a generated walk in it.
-Result<void> add_thumbnail(const TensorFile& model, const std::string& path,
-                           const std::string& style, TensorFile& file) {
-  if (file.metadata.contains("thumbnail")) return {};
-  Result<std::shared_ptr<const Model>> read = Model::create(model, path);
-  if (!read) return read.error();
-  Result<std::string> walker = find_shipped(kWalkerModel);
-  if (!walker) return walker.error();
-  Result<std::shared_ptr<const WalkerModel>> gait = WalkerModel::load(*walker);
-  if (!gait) return gait.error();
+// A style that has no picture of its own gets one of a generated walk in it, where the walker's
+// model is at hand.
+void add_thumbnail(const TensorFile& file, const std::string& path, const std::string& style,
+                   TensorFile& out) {
+  const Result<std::shared_ptr<const Model>> model = Model::create(file, path);
+  const Result<std::string> found = find_shipped(kWalkerModel);
+  if (out.metadata.contains("thumbnail") || !model || !found) return;
+  const Result<std::shared_ptr<const WalkerModel>> walker = WalkerModel::load(*found);
+  if (!walker) return;
   WalkClipOptions how;
   how.seconds = 3;
-  const Clip walk = walk_clip(*gait, how);
-  const Result<Rig> rig = Rig::create(walk);
-  if (!rig) return rig.error();
-  const StrengthTrack track{*(*read)->find_style(style), {{0, 1}}};
+  const Clip walk = walk_clip(*walker, how);
+  const Rig rig = *Rig::create(walk);
   RestyleOptions options;
   options.loop = LoopMode::off;
-  const Result<Restyled> styled = restyle(walk, *rig, *read, {track}, options);
-  if (!styled) return styled.error();
-  file.metadata["thumbnail"] = thumbnail_of(make_take(styled->clip, *rig, PoseLayout::positions));
-  return {};
+  const StrengthTrack track{*(*model)->find_style(style), {{0, 1}}};
+  const Result<Restyled> styled = restyle(walk, rig, *model, {track}, options);
+  if (!styled) return;
+  out.metadata["thumbnail"] = thumbnail_of(make_take(styled->clip, rig, PoseLayout::positions));
 }
 
 int extract(const std::string& path, const StylesVerb& verb) {
@@ -143,9 +140,7 @@ int extract(const std::string& path, const StylesVerb& verb) {
   if (!model) return fail(model.error(), kBadInput);
   Result<TensorFile> style = extract_style(*model, verb.extract, path);
   if (!style) return fail(style.error(), kBadInput);
-  if (auto drawn = add_thumbnail(*model, path, verb.extract, *style); !drawn) {
-    return fail(drawn.error(), kBadInput);
-  }
+  add_thumbnail(*model, path, verb.extract, *style);
   const std::string bytes = format_safetensors(*style);
   if (auto written = write_file(verb.output, bytes, verb.force); !written) {
     return fail(written.error(), kBadInput);

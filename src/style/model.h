@@ -28,12 +28,12 @@ class PredictorNetwork;
 inline constexpr int kLearntOutputs = StyleDelta::kSize + 1 + 2;
 
 struct StyleInfo {
-  std::string name;         // "old"
-  std::string description;  // Its looks, for people.
-  std::string origin;       // The source of a learnt style; empty for others.
-  bool learnt = false;      // By learn_style(), from activations that other styles trained.
-  std::string group = {};   // Its heading in lists, "moods"; "" for learnt ones and where the
-                            // model names no groups.
+  std::string name;            // "old"
+  std::string description;     // Its looks, for people.
+  std::string origin;          // The source of a learnt style; empty for others.
+  bool learnt = false;         // By learn_style(), from activations that other styles trained.
+  std::string group = {};      // Its heading in lists, "moods"; "" for learnt ones and where the
+                               // model names no groups.
   std::string source = {};     // Where its motion comes from,
   std::string licence = {};    // and under which licence it is, for those who get it; may be empty.
   std::string thumbnail = {};  // A picture as SVG in one line; may be empty.
