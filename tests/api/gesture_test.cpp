@@ -30,7 +30,7 @@ TEST_F(Gestures, a_trigger_plays_one_and_says_where_there_is_none) {
   EXPECT_EQ(panache_character_trigger(plain, scared(), 99), 0);
   EXPECT_EQ(panache_character_trigger(plain, -1, 0), 0);
   EXPECT_EQ(panache_character_trigger(plain, panache_model_find_style(model_, "robot"), 0), 0);
-  EXPECT_FALSE(panache::test::same(walk(triggered, 60), walk(plain, 60)));
+  EXPECT_FALSE(same(walk(triggered, 60), walk(plain, 60)));
 }
 
 TEST_F(Gestures, at_random_they_are_an_option_that_an_older_program_does_not_set) {
@@ -45,12 +45,12 @@ TEST_F(Gestures, at_random_they_are_an_option_that_an_older_program_does_not_set
   const auto plain = walk_with(options);
   options.gesture_rate = 1;
   const auto some = walk_with(options);
-  EXPECT_FALSE(panache::test::same(some, plain));
-  EXPECT_TRUE(panache::test::same(some, walk_with(options)));
+  EXPECT_FALSE(same(some, plain));
+  EXPECT_TRUE(same(some, walk_with(options)));
   options.gesture_seed = 7;
-  EXPECT_FALSE(panache::test::same(some, walk_with(options)));
+  EXPECT_FALSE(same(some, walk_with(options)));
   options.struct_size = offsetof(panache_character_options, gesture_rate);
-  EXPECT_TRUE(panache::test::same(plain, walk_with(options)));
+  EXPECT_TRUE(same(plain, walk_with(options)));
   options.struct_size = sizeof options;
   options.gesture_rate = -1;
   panache_character* none = nullptr;

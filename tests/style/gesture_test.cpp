@@ -282,6 +282,52 @@ TEST_F(GestureTest, no_joint_jumps) {
   EXPECT_GT(most_plainly, kMost / 3600 / 2) << "the bound says something about this walk";
 }
 
+// All that come with Panache, on a generated walk at full strength.
+TEST_F(GestureTest, those_of_the_shipped_model_jump_nowhere) {
+  model_ = *Model::load(PANACHE_SOURCE_DIR "/models/panache-int8.safetensors");
+  Walker walk(*WalkerModel::load(std::string(PANACHE_SOURCE_DIR "/models/walker.safetensors")));
+  clip_.skeleton = canonical_skeleton();
+  for (int f = 0; f < clip_.frames; ++f) walk.step(1.3f, 0, clip_.frame_time, clip_.pose(f));
+  const auto accelerations = [&](int style, int gesture) {
+    Stylizer one = character();
+    std::vector<float> strengths(model_->styles().size());
+    strengths[static_cast<size_t>(style)] = 1;
+    std::vector<HumanPositions> body;
+    Clip out = clip_;
+    for (int f = 0; f < clip_.frames; ++f) {
+      if (f == 40 && gesture >= 0) one.trigger(style, gesture);
+      one.step(clip_.pose(f), strengths, clip_.frame_time, out.pose(f));
+      body.push_back(world(out, f));
+    }
+    std::vector<HumanPositions> found(body.size());
+    for (size_t f = 2; f < body.size(); ++f) {
+      for (size_t j = 0; j < kHumanJoints; ++j) {
+        found[f][j] = (body[f][j] - body[f - 1][j] * 2 + body[f - 2][j]) * 3600;
+      }
+    }
+    return found;
+  };
+  int count = 0;
+  for (int style = 0; style < static_cast<int>(model_->styles().size()); ++style) {
+    const int gestures = static_cast<int>(model_->gestures(style).size());
+    if (gestures == 0) continue;
+    const auto plain = accelerations(style, -1);
+    for (int k = 0; k < gestures; ++k, ++count) {
+      const auto with = accelerations(style, k);
+      float most = 0;
+      for (size_t f = 0; f < with.size(); ++f) {
+        for (size_t j = 0; j < kHumanJoints; ++j)
+          most = std::max(most, length(with[f][j] - plain[f][j]));
+      }
+      // m/s^2; the styled walks themselves reach 80 to 100. A joint that is 20 cm elsewhere in the
+      // next frame has 720.
+      EXPECT_LT(most, 150) << model_->styles()[static_cast<size_t>(style)].name << " " << k;
+      EXPECT_GT(most, 0);
+    }
+  }
+  EXPECT_GE(count, 20);
+}
+
 // A jump, with a trigger a moment after its take-off.
 TEST_F(GestureTest, in_the_air_a_trigger_waits_for_the_floor) {
   const test::Jump jump(0.4, 1);
