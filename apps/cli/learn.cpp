@@ -22,7 +22,7 @@ namespace {
 
 struct LearnVerb {
   std::vector<std::string> clips;
-  std::string name, model, description, action;
+  std::string name, model, description, source, licence, action;
   ReadOptions read;
   RigFlags rig;
   bool pose = false, force = false, json = false;
@@ -124,6 +124,13 @@ Json to_json(const LearntStyle& learnt, const LearnVerb& verb, size_t bytes, dou
                      {"match", pair.match},
                      {"warnings", pair.warnings}});
   }
+  Json gestures = Json::array();
+  for (const LearntGesture& found : learnt.gestures) {
+    gestures.push_back({{"name", found.name},
+                        {"styled", found.take},
+                        {"start", found.start},
+                        {"seconds", found.seconds}});
+  }
   const auto measured = [&](double cm) { return learnt.judged ? Json(cm) : Json(); };
   return {{"style", verb.name},
           {"model", verb.model},
@@ -134,6 +141,7 @@ Json to_json(const LearntStyle& learnt, const LearnVerb& verb, size_t bytes, dou
           {"untouched_cm", measured(learnt.untouched_cm)},
           {"verdict", learnt.judged ? Json(learnt.verdict()) : Json()},
           {"warnings", learnt.warnings},
+          {"gestures", gestures},
           {"pairs", pairs}};
 }
 
@@ -149,6 +157,10 @@ std::string describe(const LearntStyle& learnt, const LearnVerb& verb, size_t by
   for (const PairReport& pair : learnt.pairs) {
     text += "  " + pair.neutral_name + " -> " + pair.styled_name + ": " + fixed(pair.seconds, 1) +
             " s, match " + fixed(pair.match, 2) + ", tempo " + fixed(1 / pair.tempo, 2) + " x\n";
+  }
+  for (const LearntGesture& found : learnt.gestures) {
+    text +=
+        "  gesture in " + found.take + " at " + fixed(found.start, 1) + " s: " + found.name + "\n";
   }
   if (!learnt.judged) {
     return text + "  too short to hold a quarter back, so the error is unknown\n";
@@ -213,6 +225,7 @@ int learn(const LearnVerb& verb) {
   Result<LearntStyle> learnt = learn_style(*model, *base, *pairs, verb.name, verb.description);
   if (!learnt) return fail(learnt.error(), kBadInput);
   const double seconds = watch.seconds();
+  set_source(verb.source, verb.licence, learnt->file);
   Result<TensorFile> merged = add_style(*model, *base, learnt->file, verb.name, verb.force);
   if (!merged) return fail(merged.error(), kBadInput);
   auto written = is_new ? write_file(verb.model, format_safetensors(*merged), false)
@@ -251,6 +264,11 @@ void add_learn(CLI::App& app, int& exit_code) {
       ->required()
       ->type_name("MODEL");
   verb->add_option("--description", options->description, "Description, shown by panache styles")
+      ->type_name("TEXT");
+  verb->add_option("--source", options->source,
+                   "Where the motion comes from, for those who get\nthe style")
+      ->type_name("TEXT");
+  verb->add_option("--licence", options->licence, "Licence of the style, likewise")
       ->type_name("TEXT");
   CLI::Option* action =
       verb->add_option("--action", options->action,

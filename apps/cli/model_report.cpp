@@ -1,6 +1,7 @@
 #include "model_report.h"
 
 #include <algorithm>
+#include <span>
 
 #include "base/file.h"
 #include "learn/style_file.h"
@@ -17,26 +18,42 @@ std::string entry(const Model& model, const std::string& key) {
   return entry(model.metadata(), key);
 }
 
+std::string stated(const std::string& text) { return text.empty() ? "not stated" : text; }
+
 // What the file was made of, and under which terms.
 std::string describe_data(const std::map<std::string, std::string>& metadata) {
   const std::string data = entry(metadata, "data"), licence = entry(metadata, "licence");
-  return "  trained on   " + (data.empty() ? "not stated" : data) + "\n" + "  data licence " +
-         (licence.empty() ? "not stated" : licence) + "\n";
+  return "  trained on   " + stated(data) + "\n" + "  data licence " + stated(licence) + "\n";
+}
+
+// "gestures: head nods, 1.2 s; dip, 0.8 s"; empty without any.
+std::string list_gestures(std::span<const std::string> gestures) {
+  std::string text;
+  for (const std::string& name : gestures) text += (text.empty() ? "gestures: " : "; ") + name;
+  return text;
 }
 
 // A line for the style, its description `width` letters from its name's start; below that what it
-// was learnt from.
-std::string describe(const StyleInfo& style, size_t width) {
+// was learnt from, and its gestures.
+std::string describe(const StyleInfo& style, std::span<const std::string> gestures, size_t width) {
   const std::string from = style.origin.empty() ? "" : " from " + style.origin;
   const std::string origin = style.learnt ? "learnt" + from : "";
   std::string text;
   std::string name = style.name;
-  for (const std::string& given : {style.description, origin}) {
+  for (const std::string& given : {style.description, origin, list_gestures(gestures)}) {
     if (given.empty()) continue;
     text += "  " + padded(name, width) + given + "\n";
     name.clear();
   }
   return text.empty() ? "  " + name + "\n" : text;
+}
+
+std::vector<std::string> gestures_of(const Model& model, ptrdiff_t style) {
+  std::vector<std::string> names;
+  for (const Gesture& gesture : model.gestures(static_cast<int>(style))) {
+    names.push_back(gesture.name());
+  }
+  return names;
 }
 
 struct Group {
@@ -109,7 +126,13 @@ Result<LoadedStyle> load_style(const std::string& path) {
   if (!file) return file.error();
   Result<StyleInfo> info = read_style_info(*file, path);
   if (!info) return info.error();
-  return LoadedStyle{path, *std::move(info), *std::move(file), bytes->size()};
+  std::vector<std::string> gestures;
+  for (size_t k = 0; file->tensors.contains(gesture_key(k)); ++k) {
+    Result<Gesture> gesture = Gesture::read(file->tensors[gesture_key(k)], gesture_key(k), path);
+    if (!gesture) return gesture.error();
+    gestures.push_back(gesture->name());
+  }
+  return LoadedStyle{path, *std::move(info), std::move(gestures), *std::move(file), bytes->size()};
 }
 
 std::string describe(const LoadedModel& loaded) {
@@ -119,7 +142,9 @@ std::string describe(const LoadedModel& loaded) {
   for (const StyleInfo& style : styles) width = std::max(width, style.name.size());
   for (const Group& group : group_styles(styles)) {
     if (!group.title.empty()) text += "\n" + group.title + ":\n";
-    for (const StyleInfo* style : group.styles) text += describe(*style, width + 2);
+    for (const StyleInfo* style : group.styles) {
+      text += describe(*style, gestures_of(*loaded.model, style - styles.data()), width + 2);
+    }
   }
   return text;
 }
@@ -142,10 +167,13 @@ Json to_json(const LoadedModel& loaded) {
   Json styles = Json::array();
   for (const StyleInfo& style : model.styles()) {
     styles.push_back({{"name", style.name},
+                      {"gestures", gestures_of(model, &style - model.styles().data())},
                       {"description", style.description},
                       {"group", style.group},
                       {"learnt", style.learnt},
-                      {"origin", style.origin}});
+                      {"origin", style.origin},
+                      {"source", style.source},
+                      {"licence", style.licence}});
   }
   return {{"model", loaded.path},
           {"recipe", entry(model, "recipe")},
@@ -156,13 +184,29 @@ Json to_json(const LoadedModel& loaded) {
           {"styles", styles}};
 }
 
+std::string source_of(const LoadedStyle& loaded) {
+  const StyleInfo& info = loaded.info;
+  if (!info.source.empty()) return info.source;
+  if (info.learnt && !info.origin.empty()) return info.origin;
+  return stated(entry(loaded.file.metadata, "data"));
+}
+
+std::string licence_of(const LoadedStyle& loaded) {
+  if (!loaded.info.licence.empty()) return loaded.info.licence;
+  // What is learnt from somebody's own motion is theirs; the model's data are not its own.
+  return stated(loaded.info.learnt ? "" : entry(loaded.file.metadata, "licence"));
+}
+
 std::string describe(const LoadedStyle& loaded) {
   std::string text = loaded.path + "\n";
   text += "  size         " + fixed(static_cast<double>(loaded.bytes) / 1000, 0) + " KB\n";
   text += "  trunk        " + entry(loaded.file.metadata, "trunk") + "\n";
   if (!loaded.info.group.empty()) text += "  group        " + loaded.info.group + "\n";
+  if (!loaded.info.source.empty()) text += "  source       " + loaded.info.source + "\n";
+  if (!loaded.info.licence.empty()) text += "  licence      " + loaded.info.licence + "\n";
   text += describe_data(loaded.file.metadata);
-  return text + "\n1 style:\n" + describe(loaded.info, loaded.info.name.size() + 2);
+  return text + "\n1 style:\n" +
+         describe(loaded.info, loaded.gestures, loaded.info.name.size() + 2);
 }
 
 Json to_json(const LoadedStyle& loaded) {
@@ -170,8 +214,12 @@ Json to_json(const LoadedStyle& loaded) {
           {"name", loaded.info.name},
           {"description", loaded.info.description},
           {"group", loaded.info.group},
+          {"gestures", loaded.gestures},
           {"learnt", loaded.info.learnt},
           {"origin", loaded.info.origin},
+          {"source", loaded.info.source},
+          {"style_licence", loaded.info.licence},
+          {"thumbnail", loaded.info.thumbnail},
           {"trunk", entry(loaded.file.metadata, "trunk")},
           {"data", entry(loaded.file.metadata, "data")},
           {"licence", entry(loaded.file.metadata, "licence")},

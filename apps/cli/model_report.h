@@ -26,10 +26,16 @@ Json to_json(const LoadedModel& loaded);
 struct LoadedStyle {
   std::string path;
   StyleInfo info;
+  std::vector<std::string> gestures;  // Their names.
   TensorFile file;
   uint64_t bytes = 0;  // Of the file.
 };
 Result<LoadedStyle> load_style(const std::string& path);
+
+// Where its motion comes from, and under which licence it is: its own, else what it was trained on
+// and that data's licence; "not stated" without either.
+std::string source_of(const LoadedStyle& loaded);
+std::string licence_of(const LoadedStyle& loaded);
 
 std::string describe(const LoadedStyle& loaded);
 Json to_json(const LoadedStyle& loaded);

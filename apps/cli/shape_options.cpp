@@ -46,6 +46,12 @@ void add_shape_options(CLI::App& verb, ShapeFlags& flags) {
           "One --region per\nregion")
       ->allow_extra_args(false)
       ->type_name("REGION");
+  verb.add_option(
+          "--gestures", flags.gestures,
+          "Gestures of the styles, thrown in at random: so many per\nsecond, 0 to 10, such as "
+          "0.2; default: 0. panache styles\nlists them")
+      ->check(in_range(0, static_cast<double>(GesturePlayer::kMaxRate)))
+      ->type_name("RATE");
 }
 
 Result<void> read_shape(const ShapeFlags& flags, StylizerOptions& how) {
@@ -80,6 +86,7 @@ Result<void> read_shape(const ShapeFlags& flags, StylizerOptions& how) {
     shape.regions[*region] = *value;
   }
   how.shape = shape;
+  how.gesture_rate = flags.gestures;
   return {};
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// How much the user wants of what a style does: --posture, --dynamics, --timing and --region.
+// How much the user wants of what a style does: --posture, --dynamics, --timing, --region
+// and --gestures.
 
 #include <string>
 #include <vector>
@@ -15,13 +16,14 @@ struct ShapeFlags {
   Shape shape;                       // All but regions and timing.
   std::string timing = "steps";      // As typed.
   std::vector<std::string> regions;  // As typed: "legs=0.5".
+  float gestures = 0;                // Per second, at random.
 };
 
-// Gives `verb` the four options; `flags` must outlive it.
+// Gives `verb` the five options; `flags` must outlive it.
 void add_shape_options(CLI::App& verb, ShapeFlags& flags);
 
-// Writes the shape, and where the style has its tempo, to `how`. Fails with a message where a
-// region is unknown, out of range or given twice, or the timing is unknown.
+// Writes the shape, where the style has its tempo and the rate of gestures to `how`. Fails with a
+// message where a region is unknown, out of range or given twice, or the timing is unknown.
 Result<void> read_shape(const ShapeFlags& flags, StylizerOptions& how);
 
 }  // namespace panache::cli

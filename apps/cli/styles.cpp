@@ -2,17 +2,22 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "base/file.h"
 #include "learn/style_file.h"
+#include "learn/thumbnail.h"
 #include "messages.h"
 #include "model_edit.h"
 #include "model_path.h"
 #include "model_report.h"
+#include "style/restyle.h"
+#include "style_library.h"
 #include "verbs.h"
+#include "walker/walker.h"
 
 namespace panache::cli {
 namespace {
@@ -31,7 +36,21 @@ std::string list(const std::vector<std::string>& names) {
   return text;
 }
 
+int show_library(const std::string& folder, bool json) {
+  const Result<StyleLibrary> library = read_library(folder);
+  if (!library) return fail(library.error(), kBadInput);
+  if (json) {
+    print(to_json(*library));
+  } else {
+    print(describe(*library));
+  }
+  for (const Error& broken : library->broken) print_message(broken.message);
+  return library->broken.empty() ? kDone : kBadInput;
+}
+
 int show(const std::string& path, bool json) {
+  std::error_code status;
+  if (std::filesystem::is_directory(path, status)) return show_library(path, json);
   const Result<TensorFile> file = read_tensors(path);
   // An unreadable file is reported as models are everywhere.
   if (file && is_style_file(*file)) return report(load_style(path), json);
@@ -92,6 +111,27 @@ int change(const StylesVerb& verb) {
   return kDone;
 }
 
+// A style that has no picture of its own gets one of a generated walk in it, where the walker's
+// model is at hand.
+void add_thumbnail(const TensorFile& file, const std::string& path, const std::string& style,
+                   TensorFile& out) {
+  const Result<std::shared_ptr<const Model>> model = Model::create(file, path);
+  const Result<std::string> found = find_shipped(kWalkerModel);
+  if (out.metadata.contains("thumbnail") || !model || !found) return;
+  const Result<std::shared_ptr<const WalkerModel>> walker = WalkerModel::load(*found);
+  if (!walker) return;
+  WalkClipOptions how;
+  how.seconds = 3;
+  const Clip walk = walk_clip(*walker, how);
+  const Rig rig = *Rig::create(walk);
+  RestyleOptions options;
+  options.loop = LoopMode::off;
+  const StrengthTrack track{*(*model)->find_style(style), {{0, 1}}};
+  const Result<Restyled> styled = restyle(walk, rig, *model, {track}, options);
+  if (!styled) return;
+  out.metadata["thumbnail"] = thumbnail_of(make_take(styled->clip, rig, PoseLayout::positions));
+}
+
 int extract(const std::string& path, const StylesVerb& verb) {
   if (!verb.output.ends_with(".safetensors")) {
     return fail({verb.output + ": expected a name that ends in .safetensors"}, kBadUsage);
@@ -100,6 +140,7 @@ int extract(const std::string& path, const StylesVerb& verb) {
   if (!model) return fail(model.error(), kBadInput);
   Result<TensorFile> style = extract_style(*model, verb.extract, path);
   if (!style) return fail(style.error(), kBadInput);
+  add_thumbnail(*model, path, verb.extract, *style);
   const std::string bytes = format_safetensors(*style);
   if (auto written = write_file(verb.output, bytes, verb.force); !written) {
     return fail(written.error(), kBadInput);
@@ -152,8 +193,8 @@ void add_styles(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("styles", "List or change the styles of a model");
   auto options = std::make_shared<StylesVerb>();
   verb->add_option("MODEL", options->model,
-                   "Model, or the file of a single style; default:\n"
-                   "$PANACHE_MODEL, else the one shipped")
+                   "Model, or the file of a single style, or a folder of\n"
+                   "such files; default: $PANACHE_MODEL, else the one shipped")
       ->type_name("");
   verb->add_option("--extract", options->extract, "Copy a style to a file (-o)")->type_name("NAME");
   verb->add_option("--add", options->add, "Add the styles of such files to MODEL")
@@ -169,6 +210,7 @@ void add_styles(CLI::App& app, int& exit_code) {
       "it comes from, and with its int8 version.\n\n"
       "Examples:\n"
       "  panache styles\n"
+      "  panache styles library/\n"
       "  panache styles mine.safetensors --extract limping -o limping.safetensors\n"
       "  panache styles other.safetensors --add limping.safetensors\n"
       "  panache styles mine.safetensors --rename limping=hurt");

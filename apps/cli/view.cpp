@@ -10,8 +10,10 @@
 #include "formats.h"
 #include "input.h"
 #include "messages.h"
+#include "model_path.h"
 #include "page_server.h"
 #include "style/model.h"
+#include "style_library.h"
 #include "verbs.h"
 
 namespace panache::cli {
@@ -47,6 +49,17 @@ Result<Served> read_model(const std::string& path) {
   return Served{fs::path(path).filename().string(), *std::move(bytes)};
 }
 
+// Puts the styles of a folder into a model.
+Result<void> add_library(const std::string& folder, Served& model) {
+  const Result<StyleLibrary> library = read_library(folder);
+  if (!library) return library.error();
+  for (const Error& broken : library->broken) print_message("warning: " + broken.message);
+  Result<TensorFile> file = parse_safetensors(model.bytes, model.name);
+  if (!file) return file.error();
+  model.bytes = format_safetensors(with_library(*std::move(file), model.name, *library));
+  return {};
+}
+
 // In the path of an address.
 std::string percent_encoded(const std::string& text) {
   std::string out;
@@ -64,7 +77,7 @@ std::string percent_encoded(const std::string& text) {
 }
 
 struct ViewVerb {
-  std::string file, model;
+  std::string file, model, library;
 };
 
 int view(const ViewVerb& verb) {
@@ -82,8 +95,16 @@ int view(const ViewVerb& verb) {
   if (auto read = add(verb.file, "open", read_served, motion); !read) {
     return fail(read.error(), kBadInput);
   }
-  if (auto read = add(verb.model, "model", read_model, model); !read) {
+  const bool has_library = !verb.library.empty();
+  const Result<std::string> path = has_library ? find_model(verb.model) : verb.model;
+  if (!path) return fail(path.error(), kBadInput);
+  if (auto read = add(*path, "model", read_model, model); !read) {
     return fail(read.error(), kBadInput);
+  }
+  if (has_library) {
+    if (auto added = add_library(verb.library, model); !added) {
+      return fail(added.error(), kBadInput);
+    }
   }
   Result<std::unique_ptr<PageServer>> server = PageServer::create();
   if (!server) return fail(server.error(), kBadInput);
@@ -107,6 +128,9 @@ void add_view(CLI::App& app, int& exit_code) {
       ->type_name("FILE");
   verb->add_option("--model", options->model, "Model to style with; default: the page's own")
       ->type_name("MODEL");
+  verb->add_option("--library", options->library,
+                   "Folder of style files whose styles are shown, too")
+      ->type_name("FOLDER");
   verb->footer("Example:\n  panache view walk.bvh --model mine.safetensors");
   verb->callback([options, &exit_code] { exit_code = view(*options); });
 }

@@ -47,6 +47,16 @@ public sealed class Model : IDisposable {
   public IReadOnlyList<string> Styles { get; }
   /// What each of them is listed under, "moods"; "" for learnt ones, and in models without groups.
   public IReadOnlyList<string> Groups { get; }
+  /// The gestures of a style, "head turns left, 1.2 s", for Character.Trigger(); most styles have
+  /// none.
+  public IReadOnlyList<string> Gestures(string style) {
+    int place = FindStyle(style);
+    var names = new List<string>();
+    for (int k = 0; k < Native.panache_model_gesture_count(Handle, place); ++k) {
+      names.Add(Native.Text(Native.panache_model_gesture_name(Handle, place, k)));
+    }
+    return names;
+  }
 
   public Model(byte[] file) {
     File = file;
@@ -154,6 +164,8 @@ public sealed class CharacterOptions {
   /// A model that takes styles off, for Character.SetRemoved(); it must live until the character is
   /// made.
   public void UseRemover(Model model) => remover = model.Handle.DangerousGetHandle();
+  public float GestureRate = 0;  // Gestures of the active styles at random, per second, 0 to 10;
+  public uint GestureSeed = 0;   // characters with different seeds make them at different times.
 }
 
 /// What went on at the last step.
@@ -208,6 +220,13 @@ public sealed class Character : IDisposable {
   /// Takes a style of CharacterOptions.Remover off the input: its number there; -1: none.
   public void SetRemoved(int style) =>
       Native.panache_character_set_removed(handle, style);
+  /// Plays one of Model.Gestures(style) on top of the style, as strongly as that acts: when no other
+  /// plays and a foot is on the floor, within 3 seconds or not at all.
+  public void Trigger(string style, int gesture = 0) {
+    if (Native.panache_character_trigger(handle, model.FindStyle(style), gesture) != 0) return;
+    throw new PanacheException("style '" + style + "' has no gesture " + gesture + "; it has " +
+                               model.Gestures(style).Count);
+  }
   public void SetShape(Shape shape) =>
       Native.Check(Native.panache_character_set_shape(handle, shape));
   /// Forgets the motion so far; strengths stay.
@@ -458,6 +477,10 @@ internal static class Native {
   [DllImport(Library)]
   internal static extern IntPtr panache_model_style_group(Handle model, int style);
   [DllImport(Library)]
+  internal static extern int panache_model_gesture_count(Handle model, int style);
+  [DllImport(Library)]
+  internal static extern IntPtr panache_model_gesture_name(Handle model, int style, int gesture);
+  [DllImport(Library)]
   internal static extern int panache_model_find_style(Handle model, byte[] name);
   [DllImport(Library)]
   internal static extern int panache_skeleton_create([In] Joint[] joints, int count,
@@ -477,6 +500,8 @@ internal static class Native {
   [DllImport(Library)]
   internal static extern void panache_character_set_strength(Handle character, int style,
                                                              float strength);
+  [DllImport(Library)]
+  internal static extern int panache_character_trigger(Handle character, int style, int gesture);
   [DllImport(Library)]
   internal static extern int panache_character_set_shape(Handle character, Shape shape);
   [DllImport(Library)]

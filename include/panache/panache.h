@@ -133,6 +133,13 @@ PANACHE_API const char* panache_model_style_name(const panache_model* model, int
 /* The group that a style is listed under ("moods"), valid as long as the model; "" if it has no
  * group (learnt styles), NULL if the index is out of range. */
 PANACHE_API const char* panache_model_style_group(const panache_model* model, int32_t style);
+/* Number of gestures of a style, short movements that it is known by ("head turns left, 1.2 s");
+ * most styles have none. 0 if the index is out of range. */
+PANACHE_API int32_t panache_model_gesture_count(const panache_model* model, int32_t style);
+/* What moves most in a gesture and how long, valid as long as the model; NULL if an index is out of
+ * range. */
+PANACHE_API const char* panache_model_gesture_name(const panache_model* model, int32_t style,
+                                                   int32_t gesture);
 /* The index of the style with this name, or -1. Case (of A to Z) matters only if two names differ
  * in nothing else. */
 PANACHE_API int32_t panache_model_find_style(const panache_model* model, const char* name);
@@ -215,9 +222,13 @@ typedef struct panache_character_options {
   double max_speed;
   /* A model that takes styles off, for panache_character_set_removed(); NULL: none. */
   const panache_model* remover;
+  /* Gestures of the active styles at random, per second: 0 to 10. Characters with different seeds
+   * play them at different times. */
+  float gesture_rate;
+  uint32_t gesture_seed;
 } panache_character_options;
 #define PANACHE_CHARACTER_OPTIONS \
-  { sizeof(panache_character_options), 0.15f, 0.04f, 1, 1, 0, 0, 0, 15, NULL }
+  { sizeof(panache_character_options), 0.15f, 0.04f, 1, 1, 0, 0, 0, 15, NULL, 0, 0 }
 
 /* `options` may be NULL. */
 PANACHE_API panache_status panache_character_create(const panache_model* model,
@@ -237,6 +248,13 @@ PANACHE_API void panache_character_set_strength(panache_character* character, in
  * its style "any" suits motion in an unknown style. -1: none, as at first. Eased in over
  * ease_seconds. Ignored without a remover, and for an index out of range. */
 PANACHE_API void panache_character_set_removed(panache_character* character, int32_t style);
+
+/* Plays a gesture of a style on top of it, as strongly as the style acts: when no other plays and a
+ * foot is on the floor (and the body does not sit or run, if the gesture moves the hips), within 3
+ * seconds or not at all. It never starts in the air. A later call replaces a gesture that waits.
+ * Returns 1, or 0 if the model has no such gesture. */
+PANACHE_API int32_t panache_character_trigger(panache_character* character, int32_t style,
+                                              int32_t gesture);
 
 /* How strongly each part of the styles is applied, and to which part of the body. 1 is the style of
  * the model; values are clamped to 0 to 2, and values that are not finite count as 1. Initialise
@@ -351,9 +369,12 @@ typedef struct panache_stylize_options {
   int32_t removed; /* The style of the remover to take off first; 0 without one. */
   /* A model that takes styles off, also the tempo; NULL: none. */
   const panache_model* remover;
+  /* As in panache_character_options. A clip with gestures at random is no loop. */
+  float gesture_rate;
+  uint32_t gesture_seed;
 } panache_stylize_options;
 #define PANACHE_STYLIZE_OPTIONS \
-  { sizeof(panache_stylize_options), 0.15f, 0.04f, 1, 1, 1, NULL, 15, 1, 0, NULL }
+  { sizeof(panache_stylize_options), 0.15f, 0.04f, 1, 1, 1, NULL, 15, 1, 0, NULL, 0, 0 }
 
 /* A styled clip. */
 typedef struct panache_styled_clip panache_styled_clip;

@@ -88,6 +88,11 @@ class Model : public Object<panache_model, panache_model_destroy> {
   const char* style_group(int style) const noexcept {
     return panache_model_style_group(get(), style);
   }
+  int gesture_count(int style) const noexcept { return panache_model_gesture_count(get(), style); }
+  // NULL where the style has no such gesture.
+  const char* gesture_name(int style, int gesture) const noexcept {
+    return panache_model_gesture_name(get(), style, gesture);
+  }
   // The place of a style. Throws PANACHE_BAD_ARGUMENT where the model has none of that name.
   int find_style(const std::string& name) const {
     const int place = panache_model_find_style(get(), name.c_str());
@@ -122,6 +127,10 @@ class Character : public Object<panache_character, panache_character_destroy> {
   }
   // A style of the options' remover, taken off the input; -1: none.
   void set_removed(int style) noexcept { panache_character_set_removed(get(), style); }
+  // False where the model has no such gesture.
+  bool trigger(int style, int gesture) noexcept {
+    return panache_character_trigger(get(), style, gesture) != 0;
+  }
   void set_shape(const panache_shape& shape) { check(panache_character_set_shape(get(), &shape)); }
   void step(panache_input_pose in, double seconds, panache_output_pose out) noexcept {
     panache_character_step(get(), in, seconds, out);

@@ -10,6 +10,7 @@
   verb(eval) \
   verb(bench) \
   verb(strip) \
+  verb(gestures) \
   verb(quantize) \
   verb(export) \
   verb(fit_walker)

@@ -26,6 +26,8 @@ panache_status panache_character_create(const panache_model* model,
     how.stylizer.foot_lock = given->hold_feet != 0;
     how.stylizer.root = given->style_root != 0;
     how.stylizer.max_speed = read_max_speed(given->max_speed);
+    how.stylizer.gesture_rate = given->gesture_rate;
+    how.stylizer.gesture_seed = given->gesture_seed;
     how.max_lag = given->max_lag;
     how.max_lead = given->max_lead;
     how.skip_cycles = given->skip_cycles != 0;
@@ -48,6 +50,10 @@ void panache_character_set_strength(panache_character* character, int32_t style,
 
 void panache_character_set_removed(panache_character* character, int32_t style) {
   character->live.set_removed(style);
+}
+
+int32_t panache_character_trigger(panache_character* character, int32_t style, int32_t gesture) {
+  return character->live.stylizer().trigger(style, gesture) ? 1 : 0;
 }
 
 panache_status panache_character_set_shape(panache_character* character,

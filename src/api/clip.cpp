@@ -66,6 +66,8 @@ Result<RestyleOptions> read_options(const panache_stylize_options* options) {
   out.stylizer.foot_lock = given->hold_feet != 0;
   out.stylizer.root = given->style_root != 0;
   out.stylizer.max_speed = read_max_speed(given->max_speed);
+  out.stylizer.gesture_rate = given->gesture_rate;
+  out.stylizer.gesture_seed = given->gesture_seed;
   out.timing = given->style_timing != 0;
   out.stylizer.tempo_everywhere = given->style_timing == 2;
   out.stylizer.shape = *shape;

@@ -30,6 +30,16 @@ const char* panache_model_style_group(const panache_model* model, int32_t style)
   return model->model->styles()[static_cast<size_t>(style)].group.c_str();
 }
 
+int32_t panache_model_gesture_count(const panache_model* model, int32_t style) {
+  if (style < 0 || style >= panache_model_style_count(model)) return 0;
+  return static_cast<int32_t>(model->model->gestures(style).size());
+}
+
+const char* panache_model_gesture_name(const panache_model* model, int32_t style, int32_t gesture) {
+  if (gesture < 0 || gesture >= panache_model_gesture_count(model, style)) return nullptr;
+  return model->model->gestures(style)[static_cast<size_t>(gesture)].name().c_str();
+}
+
 int32_t panache_model_find_style(const panache_model* model, const char* name) {
   try {
     const Result<int> found = model->model->find_style_in_any_case(name);

@@ -8,10 +8,12 @@
 #include "base/parallel.h"
 #include "clip/decimal.h"
 #include "learn/cycle.h"
+#include "learn/find_gestures.h"
 #include "learn/fit_style.h"
 #include "learn/pairing.h"
 #include "learn/pose_error.h"
 #include "learn/style_file.h"
+#include "learn/thumbnail.h"
 #include "recipes/recipes.h"
 
 namespace panache {
@@ -191,7 +193,8 @@ Result<LearntStyle> learn_pose(const TensorFile& file, const Model& model,
   }
   StyleDelta change = change_between(pair.styled, 0, pair.neutral, 0, 1);
   change.velocity_left = change.velocity_forward = change.turn_rate = 0;
-  const StyleInfo info{style, description, "a pose: " + file_name(pair.styled_name), true};
+  StyleInfo info{style, description, "a pose: " + file_name(pair.styled_name), true};
+  info.thumbnail = thumbnail_of(pair.styled);
   LearntStyle learnt;
   learnt.file = make_style_file(file, info, fit_posture(model, change).tensors);
   PairReport report;
@@ -264,6 +267,7 @@ Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
     (late ? held_back : first).push_back(i);
   }
   StyleInfo info{style, description, "", true};
+  info.thumbnail = thumbnail_of(pairs[0].styled);
   info.origin = std::to_string(pairs.size()) + (pairs.size() == 1 ? " pair, " : " pairs, ") +
                 with_decimals(seconds, 2) + " s:";
   for (const PairReport& pair : learnt.pairs) {
@@ -290,6 +294,12 @@ Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
           with_decimals(learnt.untouched_cm, 2) +
           "); record 2 to 3 s of one action, neutrally and in the style");
     }
+  }
+  for (const FoundGesture& found : find_gestures(takes, pairings)) {
+    fits[0].tensors[gesture_key(learnt.gestures.size())] = found.gesture.tensor();
+    learnt.gestures.push_back({found.gesture.name(),
+                               learnt.pairs[static_cast<size_t>(found.take) / 2].styled_name,
+                               found.start, static_cast<double>(found.gesture.seconds())});
   }
   learnt.file = make_style_file(file, info, std::move(fits[0].tensors));
   return learnt;

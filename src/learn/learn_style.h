@@ -29,9 +29,17 @@ struct PairReport {
   std::vector<MatchedInstant> instants;  // Of each styled frame that was laid somewhere, in order.
 };
 
+// A gesture that is kept with a style, and where it was found.
+struct LearntGesture {
+  std::string name;               // See Gesture::name().
+  std::string take;               // The name of the styled clip.
+  double start = 0, seconds = 0;  // In the clip, after its first frame, and for how long.
+};
+
 struct LearntStyle {
   TensorFile file;  // A style file, see style_file.h.
   std::vector<PairReport> pairs;
+  std::vector<LearntGesture> gestures;  // The strongest first, see find_gestures().
   // Mean distance of the joints (cm on the canonical body) over the last quarters of the styled
   // clips when the style was learnt without them: of the style, of its mean posture alone, and of
   // the neutral motion as it is. 0 where the clips are too short for it: `judged` tells.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -61,6 +62,7 @@ void for_each_tensor(bool learnt, Visit&& visit) {
   } else {
     for (const char* key : kBuiltInTensors) visit(key);
   }
+  for (size_t k = 0; k < kMaxGestures; ++k) visit(gesture_key(k));
 }
 
 // `parsed` is the same model.
@@ -81,22 +83,24 @@ Parts take_apart(const TensorFile& model, const Model& parsed) {
 
 // The lists of styles that a model carries as text.
 void write_lists(const std::vector<Style>& styles, std::map<std::string, std::string>& metadata) {
-  std::string names, descriptions, origins, groups;
-  bool has_origin = false, has_group = false;
-  for (const Style& style : styles) {
-    names += style.info.name + "\n";
-    descriptions += style.info.description + "\n";
-    origins += style.info.origin + "\n";
-    groups += style.info.group + "\n";
-    has_origin = has_origin || !style.info.origin.empty();
-    has_group = has_group || !style.info.group.empty();
-  }
-  metadata["styles"] = names;
-  metadata["style_descriptions"] = descriptions;
-  metadata.erase("style_origins");
-  if (has_origin) metadata["style_origins"] = origins;
-  metadata.erase("style_groups");
-  if (has_group) metadata["style_groups"] = groups;
+  // Lists without an entry are left out, but for the first two.
+  const auto write = [&](const char* key, std::string StyleInfo::*entry, bool always = false) {
+    std::string lines;
+    bool any = always;
+    for (const Style& style : styles) {
+      lines += style.info.*entry + "\n";
+      any = any || !(style.info.*entry).empty();
+    }
+    metadata.erase(key);
+    if (any) metadata[key] = lines;
+  };
+  write("styles", &StyleInfo::name, true);
+  write("style_descriptions", &StyleInfo::description, true);
+  write("style_origins", &StyleInfo::origin);
+  write("style_groups", &StyleInfo::group);
+  write("style_sources", &StyleInfo::source);
+  write("style_licences", &StyleInfo::licence);
+  write("style_thumbnails", &StyleInfo::thumbnail);
 }
 
 TensorFile put_together(Parts parts) {
@@ -143,6 +147,8 @@ auto end_of_kind(std::vector<Style>& styles, bool learnt) {
 }
 
 }  // namespace
+
+std::string gesture_key(size_t gesture) { return "gesture." + std::to_string(gesture); }
 
 std::string trunk_fingerprint(const TensorFile& model) {
   std::vector<float> values;
@@ -209,16 +215,19 @@ Result<StyleInfo> read_style_info(const TensorFile& file, const std::string& nam
     return Error{name + ": is a style file of format version " + quoted(version) +
                  "; this program reads version " + kStyleVersion};
   }
-  StyleInfo info{metadata_of(file, "style"), metadata_of(file, "description"),
-                 metadata_of(file, "origin"), file.tensors.contains("head.weight"),
-                 metadata_of(file, "group")};
+  StyleInfo info{metadata_of(file, "style"),         metadata_of(file, "description"),
+                 metadata_of(file, "origin"),        file.tensors.contains("head.weight"),
+                 metadata_of(file, "group"),         metadata_of(file, "source"),
+                 metadata_of(file, "style_licence"), metadata_of(file, "thumbnail")};
   if (auto fit = check_style_name(info.name); !fit) return located(name, fit.error());
-  for (const char* key : {"description", "origin", "group", "trunk", "data", "licence"}) {
+  for (const char* key : {"description", "origin", "group", "source", "style_licence", "thumbnail",
+                          "trunk", "data", "licence"}) {
     if (is_one_line(metadata_of(file, key))) continue;
     return Error{name + ": metadata '" + key + "' is not one line of UTF-8 text"};
   }
   size_t known = 0;
-  for_each_tensor(info.learnt, [&](const char* key) { known += file.tensors.contains(key); });
+  for_each_tensor(info.learnt,
+                  [&](const std::string& key) { known += file.tensors.contains(key); });
   if (known == 0 || known != file.tensors.size()) {
     return Error{name + ": has " + std::to_string(file.tensors.size()) + " tensors, of which " +
                  std::to_string(known) + " are those of a style; expected no others"};
@@ -240,12 +249,23 @@ TensorFile make_style_file(const TensorFile& model, const StyleInfo& info,
                    {"description", in_one_line(info.description)},
                    {"origin", in_one_line(info.origin)},
                    {"trunk", trunk_fingerprint(model)}};
-  if (!info.group.empty()) file.metadata["group"] = in_one_line(info.group);
+  const std::pair<const char*, const std::string&> more[] = {{"group", info.group},
+                                                             {"source", info.source},
+                                                             {"style_licence", info.licence},
+                                                             {"thumbnail", info.thumbnail}};
+  for (const auto& [key, text] : more) {
+    if (!text.empty()) file.metadata[key] = in_one_line(text);
+  }
   for (const char* key : {"data", "licence"}) {
     if (model.metadata.contains(key)) file.metadata[key] = model.metadata.at(key);
   }
   file.tensors = std::move(tensors);
   return file;
+}
+
+void set_source(const std::string& source, const std::string& licence, TensorFile& style) {
+  if (!source.empty()) style.metadata["source"] = in_one_line(source);
+  if (!licence.empty()) style.metadata["style_licence"] = in_one_line(licence);
 }
 
 Result<TensorFile> extract_style(const TensorFile& model, const std::string& style,
@@ -296,6 +316,21 @@ Result<TensorFile> add_style(const TensorFile& model, const std::string& name,
   // Nobody knows better than the model what it can hold and evaluate.
   if (auto read = Model::create(merged, name + " with " + style_name); !read) return read.error();
   return merged;
+}
+
+Result<TensorFile> set_gestures(const TensorFile& model, const std::string& style,
+                                std::span<const Gesture> gestures, const std::string& name) {
+  assert(gestures.size() <= kMaxGestures);
+  Result<std::shared_ptr<const Model>> parsed = Model::create(model, name);
+  if (!parsed) return parsed.error();
+  if (auto heads = check_has_heads(**parsed, name); !heads) return heads.error();
+  Result<int> index = (*parsed)->find_style(style);
+  if (!index) return index.error();
+  Parts parts = take_apart(model, **parsed);
+  Tensors& tensors = parts.styles[static_cast<size_t>(*index)].tensors;
+  for (size_t k = 0; k < kMaxGestures; ++k) tensors.erase(gesture_key(k));
+  for (size_t k = 0; k < gestures.size(); ++k) tensors[gesture_key(k)] = gestures[k].tensor();
+  return put_together(std::move(parts));
 }
 
 Result<TensorFile> remove_style(const TensorFile& model, const std::string& style,

@@ -2,6 +2,7 @@
 // Styles as files of their own: taken out of a model, put into another, renamed, removed.
 
 #include <map>
+#include <span>
 #include <string>
 
 #include "base/result.h"
@@ -37,6 +38,13 @@ Result<StyleInfo> read_style_info(const TensorFile& file, const std::string& nam
 TensorFile make_style_file(const TensorFile& model, const StyleInfo& info,
                            std::map<std::string, Tensor> tensors);
 
+// States where the motion of a style file comes from and under which licence the style is, where
+// they are given.
+void set_source(const std::string& source, const std::string& licence, TensorFile& style);
+
+// What a gesture is called among the tensors of a style file, the first with 0.
+std::string gesture_key(size_t gesture);
+
 // Each of these hands back a new file and leaves what it is given alone. Model files are rejected
 // where Model::create() rejects them, `name` stands in front of messages, and all styles but the
 // one in question stay bit for bit what they are.
@@ -49,6 +57,9 @@ Result<TensorFile> extract_style(const TensorFile& model, const std::string& sty
 // end. The style's shapes and numbers are judged by Model::create().
 Result<TensorFile> add_style(const TensorFile& model, const std::string& name,
                              const TensorFile& style, const std::string& style_name, bool replace);
+// The model whose style called `style` has these gestures, at most kMaxGestures, and no others.
+Result<TensorFile> set_gestures(const TensorFile& model, const std::string& style,
+                                std::span<const Gesture> gestures, const std::string& name);
 // The model without a style. It keeps at least one.
 Result<TensorFile> remove_style(const TensorFile& model, const std::string& style,
                                 const std::string& name);

@@ -103,11 +103,12 @@ LiveStylizer::LiveStylizer(Stylizer stylizer, std::shared_ptr<const Model> model
 void LiveStylizer::reset() noexcept {
   forget();
   if (removing_) removing_->stylizer.reset();
+  stylizer_.reset();
   if (playback_) playback_->input.reset();
 }
 
 void LiveStylizer::forget() noexcept {
-  stylizer_.reset();
+  stylizer_.forget_motion();
   head_.reset();
   skipped_ = 0;
   if (!playback_) return;

@@ -27,6 +27,9 @@ std::vector<std::string> split_lines(std::string_view text) {
   return lines;
 }
 
+// Whether a tensor is a style's gesture, see Model::read_gestures().
+bool is_gesture(std::string_view key) { return key.find("gesture.") != key.npos; }
+
 // Looks up a metadata entry that every model has.
 Result<std::string> require(const TensorFile& file, const std::string& key,
                             const std::string& name) {
@@ -60,7 +63,7 @@ Result<std::shared_ptr<const Model>> Model::create(const TensorFile& file,
     // What a byte is worth is no parameter, but a part of how one is written.
     const bool unit = key.ends_with(kScale) &&
                       file.tensors.contains(key.substr(0, key.size() - kScale.size()) + ".weight");
-    if (!unit) model->parameter_count_ += tensor.values.size();
+    if (!unit && !is_gesture(key)) model->parameter_count_ += tensor.values.size();
   }
   return std::shared_ptr<const Model>(std::move(model));
 }
@@ -72,6 +75,7 @@ std::shared_ptr<const Model> Model::of_constants(std::vector<ConstantStyle> styl
     model->styles_.push_back(style.info);
     model->stances_.push_back(stance_of(style.change));
   }
+  model->gestures_.resize(styles.size());
   const size_t inputs = size_t(kWindowPoses) * pose_feature_count(model->layout());
   model->input_mean_.resize(inputs);
   model->input_factor_.resize(inputs);
@@ -121,7 +125,6 @@ Result<void> Model::read_metadata(const TensorFile& file, const std::string& nam
   Result<std::string> descriptions = require(file, "style_descriptions", name);
   if (!descriptions) return descriptions.error();
   const auto origins = file.metadata.find("style_origins");
-  const auto groups = file.metadata.find("style_groups");
   const std::vector<std::string> texts = split_lines(*descriptions);
   const std::vector<std::string> sources =
       origins == file.metadata.end() ? std::vector<std::string>() : split_lines(origins->second);
@@ -130,13 +133,22 @@ Result<void> Model::read_metadata(const TensorFile& file, const std::string& nam
     styles_.push_back(
         {style, i < texts.size() ? texts[i] : "", i < sources.size() ? sources[i] : "", false});
   }
-  if (groups != file.metadata.end()) {
-    const std::vector<std::string> lines = split_lines(groups->second);
+  const struct {
+    const char* key;
+    std::string StyleInfo::*entry;
+  } lists[] = {{"style_groups", &StyleInfo::group},
+               {"style_sources", &StyleInfo::source},
+               {"style_licences", &StyleInfo::licence},
+               {"style_thumbnails", &StyleInfo::thumbnail}};
+  for (const auto& [key, entry] : lists) {
+    const auto found = file.metadata.find(key);
+    if (found == file.metadata.end()) continue;
+    const std::vector<std::string> lines = split_lines(found->second);
     if (lines.size() != styles_.size()) {
-      return Error{name + ": metadata 'style_groups' has " + std::to_string(lines.size()) +
+      return Error{name + ": metadata '" + key + "' has " + std::to_string(lines.size()) +
                    " lines; expected " + std::to_string(styles_.size()) + ", one per style"};
     }
-    for (size_t i = 0; i < lines.size(); ++i) styles_[i].group = lines[i];
+    for (size_t i = 0; i < lines.size(); ++i) styles_[i].*entry = lines[i];
   }
   // Styles may be learnt on it.
   if (styles_.empty() && !recipe_->learns_styles) return Error{name + ": has no styles"};

@@ -15,6 +15,7 @@
 #include "net/mlp.h"
 #include "pose/features.h"
 #include "recipes/recipe.h"
+#include "style/gesture.h"
 #include "style/stance.h"
 
 namespace panache {
@@ -27,12 +28,15 @@ class PredictorNetwork;
 inline constexpr int kLearntOutputs = StyleDelta::kSize + 1 + 2;
 
 struct StyleInfo {
-  std::string name;         // "old"
-  std::string description;  // Its looks, for people.
-  std::string origin;       // The source of a learnt style; empty for others.
-  bool learnt = false;      // By learn_style(), from activations that other styles trained.
-  std::string group = {};   // Its heading in lists, "moods"; "" for learnt ones and where the
-                            // model names no groups.
+  std::string name;            // "old"
+  std::string description;     // Its looks, for people.
+  std::string origin;          // The source of a learnt style; empty for others.
+  bool learnt = false;         // By learn_style(), from activations that other styles trained.
+  std::string group = {};      // Its heading in lists, "moods"; "" for learnt ones and where the
+                               // model names no groups.
+  std::string source = {};     // Where its motion comes from,
+  std::string licence = {};    // and under which licence it is, for those who get it; may be empty.
+  std::string thumbnail = {};  // A picture as SVG in one line; may be empty.
 };
 
 class Model {
@@ -61,6 +65,11 @@ class Model {
   Result<int> find_style(std::string_view style) const;
   // The same, in any case of the letters A to Z where that tells one style from all others.
   Result<int> find_style_in_any_case(std::string_view style) const;
+  // The gestures of a style, at most kMaxGestures; few styles have any.
+  std::span<const Gesture> gestures(int style) const {
+    return gestures_[static_cast<size_t>(style)];
+  }
+  // Of the networks; gestures are no parameters.
   size_t parameter_count() const { return parameter_count_; }
   // The predictor of missing input; null in models without one.
   const PredictorNetwork* predictor() const { return predictor_.get(); }
@@ -136,6 +145,7 @@ class Model {
   Result<void> read_recognition(const TensorFile& file, const std::string& name);
   Result<Learnt> read_learnt(const TensorFile& file, const std::string& prefix,
                              const std::string& name) const;
+  Result<void> read_gestures(const TensorFile& file, const std::string& name);
   void measure_stances();
   Result<void> measure_scratch(const std::string& name);
 
@@ -153,9 +163,10 @@ class Model {
   std::vector<float> activation_mean_, activation_scale_,
       activation_factor_;  // The last is 1 / scale.
   std::optional<Recognition> recognition_;
-  std::vector<Learnt> learnt_;            // Of the last styles.
-  std::vector<Stance> stances_;           // [styles], or empty where they are not known.
-  std::vector<ConstantStyle> constants_;  // In place of networks.
+  std::vector<Learnt> learnt_;                  // Of the last styles.
+  std::vector<Stance> stances_;                 // [styles], or empty where they are not known.
+  std::vector<std::vector<Gesture>> gestures_;  // [styles]
+  std::vector<ConstantStyle> constants_;        // In place of networks.
   std::shared_ptr<const PredictorNetwork> predictor_;
   size_t parameter_count_ = 0;
   size_t scratch_size_ =

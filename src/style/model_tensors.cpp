@@ -12,6 +12,10 @@ namespace {
 
 // What the tensors of a learnt style begin with.
 std::string learnt_prefix(size_t learnt) { return "learnt." + std::to_string(learnt) + "."; }
+// What the gestures of a style begin with. `index`: among the styles of its kind.
+std::string gesture_prefix(bool learnt, size_t index) {
+  return learnt ? learnt_prefix(index) + "gesture." : "gesture." + std::to_string(index) + ".";
+}
 
 }  // namespace
 
@@ -143,6 +147,23 @@ Result<Model::Learnt> Model::read_learnt(const TensorFile& file, const std::stri
   return learnt;
 }
 
+Result<void> Model::read_gestures(const TensorFile& file, const std::string& name) {
+  gestures_.resize(styles_.size());
+  for (size_t style = 0; style < styles_.size(); ++style) {
+    const bool learnt = style >= built_in();
+    const std::string prefix = gesture_prefix(learnt, learnt ? style - built_in() : style);
+    for (int k = 0; k < kMaxGestures; ++k) {
+      const std::string key = prefix + std::to_string(k);
+      const auto found = file.tensors.find(key);
+      if (found == file.tensors.end()) break;
+      Result<Gesture> gesture = Gesture::read(found->second, key, name);
+      if (!gesture) return gesture.error();
+      gestures_[style].push_back(*std::move(gesture));
+    }
+  }
+  return {};
+}
+
 Result<void> Model::measure_scratch(const std::string& name) {
   size_t answers = padded(kLearntOutputs);
   for (const Heads& heads : heads_) {
@@ -198,6 +219,7 @@ Result<void> Model::read_numbers(const TensorFile& file, const std::string& name
   }
   if (auto read = read_recognition(file, name); !read) return read.error();
   if (auto read = read_gate(file, name); !read) return read.error();
+  if (auto read = read_gestures(file, name); !read) return read.error();
   measure_stances();
   return measure_scratch(name);
 }

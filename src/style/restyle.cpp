@@ -75,7 +75,13 @@ Result<Restyled> restyle(const Clip& clip, const Rig& rig,
                          const std::vector<StrengthTrack>& tracks, const RestyleOptions& options,
                          const std::function<void(double)>& progress) {
   LoopSeam seam;
-  bool loop = options.loop != LoopMode::off;
+  const bool gestures = options.stylizer.gesture_rate > 0;
+  if (gestures && options.loop == LoopMode::force) {
+    return Error{
+        "the motion cannot be a loop with gestures at random, which no round repeats; "
+        "leave out one of the two"};
+  }
+  bool loop = options.loop != LoopMode::off && !gestures;
   if (loop) {
     seam = measure_seam(clip, rig);
     const Result<void> even = check_strengths(seam, clip.frame_time, *model, tracks);

@@ -28,8 +28,10 @@ struct StrengthTrack {
 // Whether a clip is restyled as a loop, so that its last pose is its first, travel aside.
 enum class LoopMode {
   off,
-  detect,  // Where it is one, see is_loop(), and no strength differs between its ends.
-  force,   // Or restyle() fails and says why that cannot be.
+  // Where it is one, see is_loop(), no strength differs between its ends, and there are no gestures
+  // at random.
+  detect,
+  force,  // Or restyle() fails and says why that cannot be.
 };
 
 struct RestyleOptions {

@@ -2,13 +2,26 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
+#include "base/smooth_step.h"
 #include "style/state_bytes.h"
 
 namespace panache {
 namespace {
 
 constexpr float kGateSeconds = 0.15f;  // Time constant of the gate.
+// A toe or ankle this much above where it stands is off the floor; metres.
+constexpr float kOffFloor = 0.05f, kAnkleHeight = 0.07f;
+
+// Whether a foot of the input is on the floor.
+bool is_a_foot_down(const HumanPositions& world) {
+  for (size_t f = 0; f < kFeet; ++f) {
+    const float toe = world[index(kToes[f])].y, ankle = world[index(kAnkles[f])].y;
+    if (std::min(toe, ankle - kAnkleHeight) < kOffFloor) return true;
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -24,6 +37,10 @@ Result<Stylizer> Stylizer::create(std::shared_ptr<const Model> model, Rig rig,
     return Error{"max_speed of " + std::to_string(options.max_speed) +
                  " m/s; expected more than 0"};
   }
+  if (!(options.gesture_rate >= 0 && options.gesture_rate <= GesturePlayer::kMaxRate)) {
+    return Error{"gesture rate of " + std::to_string(options.gesture_rate) +
+                 " per second; expected 0 to 10"};
+  }
   return Stylizer(std::move(model), std::move(rig), options);
 }
 
@@ -34,9 +51,15 @@ Stylizer::Stylizer(std::shared_ptr<const Model> model, Rig rig, const StylizerOp
       strengths_(model->styles().size(), options.ease_seconds),
       window_(model->layout()),
       networks_(std::move(model)),
-      stages_(options.smoothing_seconds) {}
+      stages_(options.smoothing_seconds),
+      gestures_(options.gesture_seed) {}
 
 void Stylizer::reset() noexcept {
+  forget_motion();
+  gestures_.reset(options_.gesture_seed);
+}
+
+void Stylizer::forget_motion() noexcept {
   observer_.reset();
   forget();
 }
@@ -51,8 +74,24 @@ void Stylizer::forget() noexcept {
   started_ = false;
   window_.reset();
   stages_.reset();
+  gestures_.stop();
   flights_.reset();
   flight_ = 0;
+}
+
+bool Stylizer::trigger(int style, int gesture) noexcept {
+  if (style < 0 || static_cast<size_t>(style) >= model().styles().size()) return false;
+  if (gesture < 0 || static_cast<size_t>(gesture) >= model().gestures(style).size()) return false;
+  gestures_.trigger(style, gesture);
+  return true;
+}
+
+GesturePlayer::Ground Stylizer::ground() const noexcept {
+  constexpr float kHeld = 0.5f, kWalks = 2, kRuns = 3;  // The latter in m/s.
+  const bool seated = stages_.seated() > kHeld;
+  const bool planted = std::ranges::max(stages_.contacts()) > kHeld;
+  return {seated || is_a_foot_down(observer_.now().world.positions), planted && !seated, flight_,
+          smooth_step((window_.ground_speed() - kWalks) / (kRuns - kWalks))};
 }
 
 void Stylizer::set_next(ConstPose next, double seconds) noexcept {
@@ -111,6 +150,8 @@ void Stylizer::give_out(const StepTime& time, Pose out, StageClock* clock) noexc
   std::ranges::copy(networks_.contact(), asked.contacts.begin());
   asked.gate = networks_.gate();
   asked.stance = networks_.stance();
+  gestures_.step(model(), strengths_.now(), options_.gesture_rate, ground(), time);
+  asked.gesture = gestures_.now();
   stages_.step(asked,
                {strengths_.shape(), strengths_.amount(), flight_, options_.root, options_.foot_lock,
                 options_.tempo_everywhere},
@@ -132,6 +173,7 @@ void Stylizer::visit_state(Self& self, Visit&& visit) {
   InputWindow::visit_state(self.window_, visit);
   StyleNetworks::visit_state(self.networks_, visit);
   ChangeStages::visit_state(self.stages_, visit);
+  GesturePlayer::visit_state(self.gestures_, visit);
 }
 
 size_t Stylizer::state_size() const noexcept {

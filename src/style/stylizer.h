@@ -13,6 +13,7 @@
 #include "style/stage_clock.h"
 #include "style/stages/change_stages.h"
 #include "style/stages/flight.h"
+#include "style/stages/gesture_player.h"
 #include "style/stages/strengths.h"
 #include "style/stages/window.h"
 
@@ -33,6 +34,10 @@ struct StylizerOptions {
   // Hips that are faster over the ground, m/s, have jumped, and the past is forgotten. Bodies on
   // vehicles need more; infinity: nothing is a jump.
   float max_speed = Observer::kMaxGroundSpeed;
+  // Gestures of the styles in force, thrown in at random: so many per second, 0 to
+  // GesturePlayer::kMaxRate. Characters with different seeds play them at different times.
+  float gesture_rate = 0;
+  uint32_t gesture_seed = 0;
 };
 
 // One character's memory. create() allocates everything and may fail; step() does neither.
@@ -44,9 +49,15 @@ class Stylizer {
 
   // Forgets the motion so far: the next step starts afresh, at full strength.
   void reset() noexcept;
+  // The same, as after a jump: a gesture that waits still waits.
+  void forget_motion() noexcept;
 
   // The amounts of the styles from the next step on; eased in. reset() keeps them.
   void set_shape(const Shape& shape) noexcept { shape_ = shape; }
+
+  // Plays a gesture of a style on top of the style, by its strength: as soon as none plays and a
+  // foot is down, see GesturePlayer::trigger(). Returns false where the model has no such gesture.
+  bool trigger(int style, int gesture) noexcept;
 
   // Styles one pose of the character. `strengths`: one per style of the model; numbers that are not
   // finite count as 0, all are held within -4 to 4. `input_seconds`: how much of the input's own
@@ -94,6 +105,8 @@ class Stylizer {
   std::span<const float, kFeet> contacts() const noexcept { return stages_.contacts(); }
   // The change of the input at the last step.
   const BodyChange& change() const noexcept { return stages_.change(); }
+  // What a gesture adds at the last step; null for nothing.
+  const GesturePose* gesture() const noexcept { return gestures_.now(); }
   // The facts of the stages at the last step.
   StageFacts stage_facts() const noexcept { return stages_.facts(); }
   const Rig& rig() const noexcept { return observer_.rig(); }
@@ -121,6 +134,7 @@ class Stylizer {
   void add_memory(Prefetch& prefetch) const noexcept;
   void forget() noexcept;  // Of the motion so far, all but the observer's part.
   void give_out(const StepTime& time, Pose out, StageClock* clock) noexcept;
+  GesturePlayer::Ground ground() const noexcept;
 
   StylizerOptions options_;
   Shape shape_;  // As asked for.
@@ -132,6 +146,7 @@ class Stylizer {
   InputWindow window_;
   StyleNetworks networks_;
   ChangeStages stages_;
+  GesturePlayer gestures_;
   FlightWatch flights_;
   float flight_ = 0;        // Of FlightWatch::amount(), at the last step.
   NextPose next_;           // By set_next(), for the first step; no time for none.

@@ -403,6 +403,29 @@ def test_styles_have_the_groups_of_the_model(model):
     assert panache.Model(content).groups == groups
 
 
+def test_gestures_are_listed_triggered_and_thrown_in(model, walk):
+    assert len(model.gestures['scared']) > 0 and model.gestures['robot'] == []
+    assert set(model.gestures) == set(model.styles)
+
+    def steps(ask=None, **options):
+        character = panache.Character(model, walk.skeleton, **options)
+        character.set_strength('scared', 1)
+        if ask is not None:
+            character.trigger('scared', ask)
+        return [character.stylize(rotations, translations, walk.frame_seconds)[0].tobytes()
+                for rotations, translations in zip(walk.rotations, walk.translations)]
+
+    assert steps() == steps() != steps(ask=1)
+    assert steps(gesture_rate=1) == steps(gesture_rate=1) != steps(gesture_rate=1, gesture_seed=5)
+    with pytest.raises(panache.PanacheError, match="style 'robot' has no gesture 0; it has 0"):
+        panache.Character(model, walk.skeleton).trigger('robot')
+    with pytest.raises(panache.PanacheError, match='gesture rate of'):
+        panache.Character(model, walk.skeleton, gesture_rate=-1)
+    plain = panache.stylize(model, walk, {'scared': 1}, loop='off')
+    some = panache.stylize(model, walk, {'scared': 1}, loop='off', gesture_rate=1)
+    assert plain.rotations.tobytes() != some.rotations.tobytes()
+
+
 def test_styles_are_found_in_any_case(model, walk):
     assert model.find_style('OLD') == model.find_style('old') == model.find_style('Old')
     assert panache.stylize(model, walk, {'Old': 1}).rotations.tobytes() == \

@@ -38,6 +38,8 @@ int main() {
   FIELD(character_options, max_lead);
   FIELD(character_options, max_speed);
   FIELD(character_options, remover);
+  FIELD(character_options, gesture_rate);
+  FIELD(character_options, gesture_seed);
   STRUCT(shape);
   FIELD(shape, struct_size);
   FIELD(shape, strength);
@@ -86,6 +88,8 @@ int main() {
   FIELD(stylize_options, loop);
   FIELD(stylize_options, removed);
   FIELD(stylize_options, remover);
+  FIELD(stylize_options, gesture_rate);
+  FIELD(stylize_options, gesture_seed);
   STRUCT(retarget_options);
   FIELD(retarget_options, struct_size);
   FIELD(retarget_options, hold_feet);

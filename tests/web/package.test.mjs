@@ -439,6 +439,38 @@ test('a character tells what went on, and what is wrong is said in a sentence', 
   made.free();
 });
 
+test('gestures are listed, triggered and thrown in at random', () => {
+  const gesturesOf = (style) => panache.styles.find(({ name }) => name === style).gestures;
+  assert.ok(gesturesOf('scared').length > 0 && gesturesOf('scared').every((name) => / s$/.test(name)));
+  assert.deepEqual(gesturesOf('robot'), []);
+  const { joints, made } = skeleton();
+  const stand = (options, gesture) => {
+    const character = panache.createCharacter(made, options);
+    character.setStrength('scared', 1);
+    if (gesture !== undefined) character.trigger('scared', gesture);
+    const shown = [];
+    for (let f = 0; f < 120; ++f) {
+      const pose = {
+        rotations: Float32Array.from(joints.flatMap(({ rotation }) => rotation)),
+        translations: Float32Array.from(joints.flatMap(({ translation }) => translation)),
+      };
+      character.step(pose, pose, 1 / 60);
+      shown.push(...pose.rotations);
+    }
+    character.free();
+    return shown.join();
+  };
+  assert.equal(stand(), stand());
+  assert.notEqual(stand(), stand({}, 1));
+  assert.equal(stand({ gestureRate: 1 }), stand({ gestureRate: 1 }));
+  assert.notEqual(stand(), stand({ gestureRate: 1 }));
+  const character = panache.createCharacter(made);
+  refusal(() => character.trigger('robot'), /^style 'robot' has no gesture 0; it has 0$/);
+  refusal(() => panache.createCharacter(made, { gestureRate: -1 }), /^gesture rate of -1/);
+  character.free();
+  made.free();
+});
+
 test('what is no skeleton, strength, key or file is rejected with what was found', async () => {
   const { joints, made } = skeleton();
   const without = (key, i = 3, value = undefined) =>

@@ -58,7 +58,8 @@ class _StylizeOptions(Structure):
     _fields_ = [('struct_size', c_uint32), ('ease_seconds', c_float),
                 ('smoothing_seconds', c_float), ('hold_feet', c_int32), ('style_root', c_int32),
                 ('style_timing', c_int32), ('shape', POINTER(_Shape)), ('max_speed', c_double),
-                ('loop', c_int32), ('removed', c_int32), ('remover', c_void_p)]
+                ('loop', c_int32), ('removed', c_int32), ('remover', c_void_p),
+                ('gesture_rate', c_float), ('gesture_seed', c_uint32)]
 
 
 class _Pair(Structure):
@@ -107,6 +108,11 @@ def _open():
                                              POINTER(_StylizeOptions), POINTER(c_void_p)]
     library.panache_learn.argtypes = [c_char_p, c_size_t, POINTER(_Pair), c_int32, c_char_p,
                                       c_int32, POINTER(c_void_p)]
+    library.panache_styles_add.argtypes = [c_char_p, c_size_t, c_char_p, c_size_t, c_int32,
+                                           POINTER(c_void_p)]
+    library.panache_bytes_data.argtypes = library.panache_bytes_size.argtypes = [c_void_p]
+    library.panache_bytes_destroy.argtypes = [c_void_p]
+    library.panache_bytes_data.restype, library.panache_bytes_size.restype = c_void_p, c_size_t
     return library
 
 
@@ -149,16 +155,36 @@ def _floats(numbers):
     return (c_float * len(numbers))(*numbers)
 
 
+def _with_style(content, path):
+    """The bytes of a model with the style of a style file too."""
+    with open(path, 'rb') as file:
+        style = file.read()
+    out = c_void_p()
+    _check(library().panache_styles_add(content, len(content), style, len(style), 1, byref(out)))
+    merged = ctypes.string_at(library().panache_bytes_data(out), library().panache_bytes_size(out))
+    library().panache_bytes_destroy(out)
+    return merged
+
+
 class Model(_Handle):
     kind = 'model'
 
-    def __init__(self, path):
+    def __init__(self, path, folder=''):
+        """`folder` holds style files: their styles are there, too, but not in `content`."""
         self.handle = None
         self.path = path
         with open(path, 'rb') as file:
             self.content = file.read()
+        self.problems = []  # Of style files that are not in use.
+        merged = self.content
+        files = glob.glob(os.path.join(glob.escape(folder), '*.safetensors')) if folder else []
+        for name in sorted(files):
+            try:
+                merged = _with_style(merged, name)
+            except (PanacheError, OSError) as error:
+                self.problems.append('%s: %s' % (name, error))
         out = c_void_p()
-        _check(library().panache_model_create(self.content, len(self.content), byref(out)))
+        _check(library().panache_model_create(merged, len(merged), byref(out)))
         super().__init__(out)
         count = library().panache_model_style_count(out)
         self.styles = [_text(library().panache_model_style_name(out, i)) for i in range(count)]

@@ -40,15 +40,18 @@ def _load_model():
     addon = bpy.context.preferences.addons.get(__package__)
     preferences = addon.preferences if addon else None
     path = bpy.path.abspath(preferences.model if preferences else _path)
+    folder = bpy.path.abspath(preferences.library) if preferences else ''
     _problem = ''
     if path:
         try:
-            _model = library.Model(path)
+            _model = library.Model(path, folder)
+            _problem = '; '.join(_model.problems)
             return
         except (library.PanacheError, OSError) as error:
             _problem = '%s: %s; the shipped model is in use' % (
                 path, error.strerror if isinstance(error, OSError) else error)
-    _model = library.Model(SHIPPED)
+    _model = library.Model(SHIPPED, folder)
+    _problem = _problem or '; '.join(_model.problems)
 
 
 def draw_problem(layout):
@@ -130,8 +133,12 @@ class PanachePreferences(bpy.types.AddonPreferences):
     model: StringProperty(name='Model', subtype='FILE_PATH', update=_model_changed,
                           description='Empty: the model that comes with the add-on')
 
+    library: StringProperty(name='Library', subtype='DIR_PATH', update=_model_changed,
+                            description='A folder of style files, whose styles are shown, too')
+
     def draw(self, _):
         self.layout.prop(self, 'model')
+        self.layout.prop(self, 'library')
         draw_problem(self.layout)
 
 

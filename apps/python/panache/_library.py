@@ -48,7 +48,8 @@ class CharacterOptions(Structure):
     _fields_ = [('struct_size', c_uint32), ('ease_seconds', c_float),
                 ('smoothing_seconds', c_float), ('hold_feet', c_int32), ('style_root', c_int32),
                 ('skip_cycles', c_int32), ('max_lag', c_double), ('max_lead', c_double),
-                ('max_speed', c_double), ('remover', c_void_p)]
+                ('max_speed', c_double), ('remover', c_void_p), ('gesture_rate', c_float),
+                ('gesture_seed', c_uint32)]
 
 
 class Shape(Structure):
@@ -84,7 +85,8 @@ class StylizeOptions(Structure):
     _fields_ = [('struct_size', c_uint32), ('ease_seconds', c_float),
                 ('smoothing_seconds', c_float), ('hold_feet', c_int32), ('style_root', c_int32),
                 ('style_timing', c_int32), ('shape', POINTER(Shape)), ('max_speed', c_double),
-                ('loop', c_int32), ('removed', c_int32), ('remover', c_void_p)]
+                ('loop', c_int32), ('removed', c_int32), ('remover', c_void_p),
+                ('gesture_rate', c_float), ('gesture_seed', c_uint32)]
 
 
 class RetargetOptions(Structure):
@@ -121,6 +123,8 @@ _FUNCTIONS = {
     'model_style_count': (c_int32, [_H]),
     'model_style_name': (c_char_p, [_H, c_int32]),
     'model_style_group': (c_char_p, [_H, c_int32]),
+    'model_gesture_count': (c_int32, [_H, c_int32]),
+    'model_gesture_name': (c_char_p, [_H, c_int32, c_int32]),
     'model_find_style': (c_int32, [_H, c_char_p]),
     'skeleton_create': (c_int32, [POINTER(Joint), c_int32, POINTER(SkeletonOptions), _OUT]),
     'skeleton_destroy': (None, [_H]),
@@ -129,6 +133,7 @@ _FUNCTIONS = {
     'character_create': (c_int32, [_H, _H, POINTER(CharacterOptions), _OUT]),
     'character_destroy': (None, [_H]),
     'character_set_strength': (None, [_H, c_int32, c_float]),
+    'character_trigger': (c_int32, [_H, c_int32, c_int32]),
     'character_set_shape': (c_int32, [_H, POINTER(Shape)]),
     'character_step': (None, [_H, Pose, c_double, Pose]),
     'step_many': (None, [POINTER(c_void_p), c_int32, POINTER(Pose), c_double, POINTER(Pose)]),

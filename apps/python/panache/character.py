@@ -51,18 +51,22 @@ class Character:
                        it (to 0.25); with both at 0 the tempo stays the input's.
     max_speed:         m/s; faster hips have jumped, and the style starts afresh. Bodies on vehicles
                        need more; 0 or infinity: nothing is a jump.
+    gesture_rate:      gestures of the active styles at random, per second; 0 to 10.
+    gesture_seed:      characters with different ones make them at different times.
     skip_cycles:       whole cycles are skipped or repeated to stay within these limits.
     """
 
     def __init__(self, model: Model, skeleton: Skeleton, *, ease_seconds: float = 0.15,
                  smoothing_seconds: float = 0.04, hold_feet: bool = True, style_root: bool = True,
                  skip_cycles: bool = False, max_lag: float = 0, max_lead: float = 0,
-                 max_speed: float = 15, remover: Optional[Model] = None):
+                 max_speed: float = 15, remover: Optional[Model] = None, gesture_rate: float = 0,
+                 gesture_seed: int = 0):
         self.model, self.skeleton, self.remover = model, skeleton, remover
         options = sized(c.CharacterOptions, ease_seconds=ease_seconds,
                         smoothing_seconds=smoothing_seconds, hold_feet=hold_feet,
                         style_root=style_root, skip_cycles=skip_cycles, max_lag=max_lag,
-                        max_lead=max_lead, max_speed=max_speed)
+                        max_lead=max_lead, max_speed=max_speed, gesture_rate=gesture_rate,
+                        gesture_seed=gesture_seed)
         if remover is not None:
             options.remover = remover._handle.pointer
         self._handle = Handle('character', lib.character_create, model._handle.pointer,
@@ -136,6 +140,14 @@ class Character:
             raise PanacheError('set_removed: expected a character that was given a remover')
         place = -1 if style is None else self.remover.find_style(style)
         lib.character_set_removed(self._pointer, place)
+
+    def trigger(self, style: str, gesture: int = 0) -> None:
+        """Plays one of `model.gestures[style]` on top of the style, as strongly as that acts: when no
+        other plays and a foot is on the floor, within 3 s or not at all."""
+        place = self.model.find_style(style)
+        if not lib.character_trigger(self._pointer, place, c.whole(gesture, 'gesture')):
+            raise PanacheError(f'style {style!r} has no gesture {gesture}; it has '
+                               f'{len(self.model.gestures[self.model.styles[place]])}')
 
     def set_shape(self, **amounts: float) -> None:
         """How much is given of what the styles do, 0 to 2 each; what is not named is 1:

@@ -193,7 +193,8 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *,
             ease_seconds: float = 0.15, smoothing_seconds: float = 0.04,
             shape: Optional[Mapping[str, float]] = None, max_speed: float = 15,
             loop: str = 'auto', remove: Optional[str] = None,
-            remover: Optional[Model] = None) -> StyledClip:
+            remover: Optional[Model] = None, gesture_rate: float = 0,
+            gesture_seed: int = 0) -> StyledClip:
     """A clip in a style, or a mix of styles.
 
     styles: {name: strength}; 0 is neutral, 1 the style as captured, -4 to 4. A list of
@@ -207,6 +208,7 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *,
             in the clip; 'on', an error where the two are too far apart; 'off'.
     remove: the style that the clip shows, which is taken off first; 'any' for one without a name.
     remover: the model that takes it off; None: the shipped one.
+    gesture_rate, gesture_seed: see Character. A clip with gestures at random is no loop.
 
     With all strengths at 0 the result is the clip bit for bit (models of recipe panache).
     """
@@ -227,7 +229,8 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *,
                     smoothing_seconds=smoothing_seconds, hold_feet=hold_feet,
                     style_root=style_root, style_timing=c.flag(timing, 'timing'),
                     shape=ctypes.pointer(c.shape_of(shape or {})), max_speed=max_speed,
-                    loop=_LOOPS.index(loop))
+                    loop=_LOOPS.index(loop), gesture_rate=gesture_rate,
+                    gesture_seed=gesture_seed)
     if remove is not None:
         remover = remover or Model(_REMOVER)
         options.removed = remover.find_style(remove)

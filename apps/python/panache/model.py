@@ -52,6 +52,12 @@ class Model:
             lib.model_style_group(self._handle.pointer, i).decode() for i in range(count)]
         """What each of the styles is listed under, 'moods'; '' for learnt ones, and in models
         without groups."""
+        self.gestures: Dict[str, List[str]] = {
+            style: [lib.model_gesture_name(self._handle.pointer, i, k).decode()
+                    for k in range(lib.model_gesture_count(self._handle.pointer, i))]
+            for i, style in enumerate(self.styles)}
+        """The gestures of each style, 'head turns left, 1.2 s', for `Character.trigger()`; most
+        styles have none."""
 
     def __reduce__(self):
         return Model, (self.content,)

@@ -1,7 +1,7 @@
 // Styling poses of the caller's own: panache.h for JavaScript. See index.d.ts.
 import {
-  PanacheError, checkClip, checkFinite, checkInteger, checkJoints, checkKeys, checkPose, inUse,
-  timingNumber, unexpected,
+  PanacheError, checkClip, checkFinite, checkInteger, checkJoints, checkKeys, checkPose,
+  checkTriggered, inUse, timingNumber, unexpected,
 } from './checks.js';
 import { struct } from './memory.js';
 
@@ -13,11 +13,12 @@ const kSkeletonOptions = struct(['size', 'i32'], ['metresPerUnit', 'f32'], ['upA
   ['humanJoints', 'i32']);
 const kCharacterOptions = struct(['size', 'i32'], ['easeSeconds', 'f32'],
   ['smoothingSeconds', 'f32'], ['holdFeet', 'i32'], ['styleRoot', 'i32'], ['skipCycles', 'i32'],
-  ['maxLag', 'f64'], ['maxLead', 'f64'], ['maxSpeed', 'f64'], ['remover', 'i32']);
+  ['maxLag', 'f64'], ['maxLead', 'f64'], ['maxSpeed', 'f64'], ['remover', 'i32'],
+  ['gestureRate', 'f32'], ['gestureSeed', 'i32']);
 const kStylizeOptions = struct(['size', 'i32'], ['easeSeconds', 'f32'],
   ['smoothingSeconds', 'f32'], ['holdFeet', 'i32'], ['styleRoot', 'i32'], ['styleTiming', 'i32'],
   ['shape', 'i32'], ['maxSpeed', 'f64'], ['loop', 'i32'], ['removed', 'i32'],
-  ['remover', 'i32']);
+  ['remover', 'i32'], ['gestureRate', 'f32'], ['gestureSeed', 'i32']);
 const kLoops = ['off', 'auto', 'on'];
 const kShape = struct(['size', 'i32'], ['strength', 'f32'], ['posture', 'f32'],
   ['dynamics', 'f32'], ['timing', 'f32'], ['legs', 'f32'], ['torso', 'f32'], ['leftArm', 'f32'],
@@ -35,7 +36,7 @@ const kNeutralShape = {
   footLock: 1,
 };
 const kStylizing = { easeSeconds: 0.15, smoothingSeconds: 0.04, holdFeet: true, styleRoot: true,
-  maxSpeed: 15 };
+  maxSpeed: 15, gestureRate: 0, gestureSeed: 0 };
 
 // A caller's options over the defaults, of which there is one for each that is known.
 function optionsOf(defaults, given) {
@@ -129,6 +130,12 @@ export class Character {
     const index = this.#panache._styleIndex(style, this.#styles);
     this.#wasm.panache_character_set_strength(
       character, index, checkFinite(strength, `strength of '${style}'`));
+  }
+  trigger(style, gesture = 0) {
+    const character = this.#handle();
+    const index = this.#panache._styleIndex(style, this.#styles);
+    checkTriggered(this.#wasm.panache_character_trigger(
+      character, index, checkInteger(gesture, 'gesture')), this.#styles[index], gesture);
   }
   setShape(shape) {
     this.#panache._arena((arena) => arena.check(this.#wasm.panache_character_set_shape(

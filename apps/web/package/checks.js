@@ -51,6 +51,12 @@ export function checkInteger(value, what) {
   if (Number.isInteger(value)) return value;
   throw unexpected(what, 'a whole number', value);
 }
+// What a trigger gave: whether the style has such a gesture.
+export function checkTriggered(found, { name, gestures }, gesture) {
+  if (found) return;
+  throw new PanacheError(
+    `style '${name}' has no gesture ${gesture}; it has ${gestures.length}`);
+}
 // As style_timing in panache.h.
 export function timingNumber(timing, what) {
   const number = new Map([['off', 0], ['steps', 1], ['all', 2], [false, 0], [true, 1]]).get(timing);

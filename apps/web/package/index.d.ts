@@ -26,6 +26,8 @@ export interface Style {
   group: string;
   /** From a pair of clips, see learnStyle(). */
   learnt: boolean;
+  /** What its gestures do and how long, "head turns left, 1.2 s"; most styles have none. */
+  gestures: string[];
 }
 
 /** A motion of a file. */
@@ -126,6 +128,10 @@ interface StylizingOptions {
   /** Hips that are faster, in m/s, have jumped, and the style starts afresh; 15. A body on a vehicle
    * needs more; 0 or Infinity: nothing is a jump. */
   maxSpeed?: number;
+  /** Gestures of the active styles at random, per second, 0 to 10; 0. */
+  gestureRate?: number;
+  /** Characters with different whole numbers make them at different times; 0. */
+  gestureSeed?: number;
 }
 export interface CharacterOptions extends StylizingOptions {
   /** How far the character may be shown behind its input, and ahead of it, seconds; 0. */
@@ -188,6 +194,10 @@ export class Character {
   /** 0 is neutral, 1 the style as captured, more exaggerates it (-4 to 4). Eased in. Throws where
    * the model has no such style, or the strength is not finite. */
   setStrength(style: string, strength: number): void;
+  /** Plays a gesture of a style (its place in `gestures`, 0) on top of it, as strongly as the style
+   * acts: when no other plays and a foot is on the floor, within 3 s or not at all. Throws where the
+   * style has none there. */
+  trigger(style: string, gesture?: number): void;
   /** What is left out is 1. Eased in. */
   setShape(shape: Partial<Shape>): void;
   /** Styles the next pose; `seconds` have gone by since the last. Both may be the same arrays. */
@@ -301,6 +311,8 @@ declare class Player {
   setStrength(style: string, strength: number): void;
   /** What is left out is 1. Eased in. */
   setShape(shape: Partial<Shape>): void;
+  /** See Character.trigger(). */
+  trigger(style: string, gesture?: number): void;
   /** 'steps' at first; the motion goes on. */
   setTiming(timing: Timing): void;
   /** Goes on by so many seconds, at most a tenth at once. */

@@ -3,7 +3,8 @@
 
 import { Character, Skeleton, stylizeClip, writeShape } from './character.js';
 import {
-  PanacheError, checkBytes, checkFinite, checkKeys, inUse, lastError, timingNumber,
+  PanacheError, checkBytes, checkFinite, checkInteger, checkKeys, checkTriggered, inUse, lastError,
+  timingNumber,
 } from './checks.js';
 import { Arena } from './memory.js';
 
@@ -77,6 +78,8 @@ export class Panache {
       description: this._text(wasm.panache_page_style_description(model, style)),
       group: this._text(wasm.panache_model_style_group(model, style)),
       learnt: wasm.panache_page_style_learnt(model, style) !== 0,
+      gestures: Array.from({ length: wasm.panache_model_gesture_count(model, style) }, (__, k) =>
+        this._text(wasm.panache_model_gesture_name(model, style, k))),
     }));
     for (const player of this.#players) player._useModel();
     wasm.panache_model_destroy(old);
@@ -264,6 +267,11 @@ class Player {
   setShape(shape) {
     this.#panache._arena((arena) => arena.check(
       this._wasm.panache_page_player_set_shape(this._player, writeShape(arena, shape))));
+  }
+  trigger(style, gesture = 0) {
+    const index = this.#panache._styleIndex(style);
+    checkTriggered(this._wasm.panache_page_player_trigger(
+      this._player, index, checkInteger(gesture, 'gesture')), this.#panache.styles[index], gesture);
   }
   setTiming(timing) {
     this._wasm.panache_page_player_set_timing(this._player, timingNumber(timing, 'timing'));

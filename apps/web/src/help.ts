@@ -12,6 +12,7 @@ const kKeys: [string, string][] = [
   ['I and O', 'loop start, loop end: play from here, to here'],
   ['K', 'a keyframe: the strength of a style at this moment of a clip'],
   ['Arrows, Delete (on a keyframe)', 'move it, with Shift by ten frames; remove it'],
+  ['G', 'a gesture of the active styles'],
   ['N', 'poses of the last second'],
   ['0', 'no style'],
   ['Ctrl Z, Ctrl Shift Z', 'undo, redo'],

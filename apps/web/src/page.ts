@@ -24,7 +24,7 @@ import {
 } from './source';
 import { Stage } from './stage';
 import { Steering, type Pace } from './steering';
-import { applySettings, keyedNow } from './styling';
+import { applySettings, keyedNow, triggerAny } from './styling';
 import { buildFileControls, buildWalkerControls, listFiles, showPace } from './toolbar';
 import { Track } from './track';
 import { TransportBar } from './transport';
@@ -95,10 +95,10 @@ export class Page {
     find('.clip-row').append(this.#track.toggle);
     this.#panel = buildPanel(this.#store, panache.styles, {
       onStrength: (name, value) => this.#setStrength(name, value),
-      onReset: (name) => {
-        const { [name]: _style, ...styles } = this.#store.settings.styles;
-        const { [name]: _keys, ...keys } = this.#store.settings.keys;
-        this.#store.set({ styles, keys });
+      onReset: (name) => this.#store.dropStyle(name),
+      onGesture: (name, gesture) => {  // A style that is off is put on for it.
+        if (this.#strengthOf(name) === 0) this.#setStrength(name, 1);
+        this.#source.player.trigger(name, gesture);
       },
       onSave: (name) => this.#exporter.saveStyle(name),
       onRemove: (name) => void attempt(() => {
@@ -250,6 +250,7 @@ export class Page {
         if (isClip()) this.#transport.setPlaying(!this.#transport.state.playing);
         else this.#setPace(this.#steering.pace === 'idle' ? 'walk' : 'idle');
       },
+      onGesture: () => triggerAny(this.#panache, this.#source, this.#store.settings),
       onNeutral: () => this.#store.set({ styles: {}, keys: {} }),
       onKeyframe: () => isClip() && this.#track.add(),
       onPastPoses: () => this.#store.set({ onion: !this.#store.settings.onion }),

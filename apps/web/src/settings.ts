@@ -167,6 +167,12 @@ export class Store {
     if (list.length === 0) delete keys[name];
     this.set({ keys });
   }
+  /** Back to neutral. */
+  dropStyle(name: string) {
+    const { [name]: _style, ...styles } = this.settings.styles;
+    const { [name]: _keys, ...keys } = this.settings.keys;
+    this.set({ styles, keys });
+  }
   /** Forgets all other styles, which are no longer there: now and in what can be undone. */
   keepStyles(names: readonly string[]) {
     const kept = <T>(all: Record<string, T>) =>

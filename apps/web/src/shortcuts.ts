@@ -11,6 +11,7 @@ export interface ShortcutActions {
   onLook(angle: Angle): void;
   onSpace(): void;
   onNeutral(): void;
+  onGesture(): void;
   onKeyframe(): void;
   onPastPoses(): void;
   onLoopStart(): void;
@@ -28,6 +29,7 @@ export function listenToKeys(on: ShortcutActions) {
     Digit4: () => on.onLook('orbit'),
     KeyF: () => on.onLook('face'),
     KeyX: () => on.onCompare(true),
+    KeyG: () => on.onGesture(),
     KeyK: () => on.onKeyframe(),
     KeyN: () => on.onPastPoses(),
     KeyI: () => on.onLoopStart(),

@@ -13,6 +13,8 @@ export interface StyleEvents {
   onStrength(name: string, value: number): void;
   /** Back to neutral. */
   onReset(name: string): void;
+  /** One of its gestures was asked for. */
+  onGesture(name: string, gesture: number): void;
   /** Of a style that was learnt. */
   onSave(name: string): void;
   onRemove(name: string): void;
@@ -86,7 +88,8 @@ export class StyleRows {
       for (const style of own) {
         const before = known.get(style.name);
         const same = before && before.style.description === style.description &&
-          before.style.learnt === style.learnt && changed !== style.name;
+          before.style.learnt === style.learnt &&
+          before.style.gestures.join() === style.gestures.join() && changed !== style.name;
         const slider = same ? before.slider : this.#make(style);
         list.append(slider.row);
         this.#rows.push({ style, slider, list });
@@ -129,7 +132,7 @@ export class StyleRows {
     return box;
   }
 
-  #make({ name, description, learnt }: Style) {
+  #make({ name, description, learnt, gestures }: Style) {
     const slider = new Slider({
       id: `style-${encodeURIComponent(name)}`, title: capitalized(name),
       hint: description || undefined, least: kLeast, most: kMost, rest: 0,
@@ -144,6 +147,11 @@ export class StyleRows {
         button('Remove', () => this.events.onRemove(name), hinted(`Remove ${name}`)));
     }
     slider.row.append(words);
+    if (gestures.length > 0) {
+      slider.row.append(element('p', { class: 'gestures' }, ...gestures.map((gesture, i) =>
+        button(capitalized(gesture), () => this.events.onGesture(name, i),
+          hinted(`Play this gesture of ${name} (G plays one of the active styles)`)))));
+    }
     return slider;
   }
 

@@ -17,6 +17,14 @@ export function applySettings(panache: Panache, player: Walk | Playback, setting
   player.setTiming(settings.tempo);
 }
 
+/** Plays a gesture of the styles that change a source, if they have any. */
+export function triggerAny(panache: Panache, source: Source, settings: Settings) {
+  const active = activeStyles(source, settings);
+  const all = panache.styles.filter(({ name }) => active.includes(name))
+    .flatMap(({ name, gestures }) => gestures.map((_, i): [string, number] => [name, i]));
+  if (all.length > 0) source.player.trigger(...all[Math.floor(Math.random() * all.length)]);
+}
+
 /** The strengths that keyframes give at the play head. */
 export function keyedNow(source: Source, { keys }: Settings): Record<string, number> {
   if (source.kind !== 'clip') return {};

@@ -139,6 +139,9 @@ PANACHE_EXPORT panache_status panache_page_player_set_shape(Player* player,
 PANACHE_EXPORT void panache_page_player_set_timing(Player* player, int32_t timing) {
   player->set_timing(static_cast<Timing>(timing));
 }
+PANACHE_EXPORT int32_t panache_page_player_trigger(Player* player, int32_t style, int32_t gesture) {
+  return player->trigger(style, gesture) ? 1 : 0;
+}
 PANACHE_EXPORT void panache_page_player_step(Player* player, double seconds) {
   player->step(seconds);
 }

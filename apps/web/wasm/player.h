@@ -46,6 +46,9 @@ class Player {
   // Goes on with another model: strengths are 0, without tracks. Fails where the rig does not suit.
   Result<void> use_model(std::shared_ptr<const Model> model);
 
+  // See Stylizer::trigger().
+  bool trigger(int style, int gesture) { return stylizer_.trigger(style, gesture); }
+
   // Goes on by `seconds` (at most a tenth is taken at once) of the viewer's time.
   void step(double seconds);
   // Steps a copy of the stylizer `count` times with the pose in force, to see how long that takes.

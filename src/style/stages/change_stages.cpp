@@ -41,6 +41,11 @@ void ChangeStages::step(const AskedChange& asked, const ChangeControl& control,
   for (float& region : shape.regions) region *= share;
   shape.regions[static_cast<size_t>(Region::legs)] *= 1 - seat_.amount();
   shaping_.step(shape, filter_.delta(), root_.offset(), time, change_);
+  float lifted = 0;
+  if (asked.gesture) {
+    add_gesture(*asked.gesture, shape, now.world, change_);
+    lifted = share_lifted(*asked.gesture, shape);
+  }
   tell(clock, Stage::shape);
   anatomy_.step(now.world, observer.rig(), time, change_);
   tell(clock, Stage::anatomy);
@@ -59,12 +64,12 @@ void ChangeStages::step(const AskedChange& asked, const ChangeControl& control,
     const float height = now.world.positions[index(kToes[f])].y;
     contacts_[f] = planted_near_floor(asked.contacts[f], height);
     // Nor is a foot held that turns its thigh further than a hip can.
-    contacts_[f] *= 1 - anatomy_.thigh_share(f);
+    contacts_[f] *= (1 - anatomy_.thigh_share(f)) * (1 - lifted);
   }
   const float amount = control.amount * control.shape.foot_lock;
   if (control.foot_lock) {
-    stance_.step(now.world, joints, asked.stance, amount * (1 - control.flight), steps_.amount(),
-                 time, change_);
+    stance_.step(now.world, joints, asked.stance, amount * (1 - control.flight) * (1 - lifted),
+                 steps_.amount(), time, change_);
     // A foot that rests is planted, whatever the network makes of it.
     for (size_t f = 0; f < kFeet; ++f) contacts_[f] = std::max(contacts_[f], stance_.held()[f]);
   }

@@ -10,6 +10,7 @@
 #include "pose/style_delta.h"
 #include "style/shape.h"
 #include "style/stage_clock.h"
+#include "style/stages/add_gesture.h"
 #include "style/stages/anatomy.h"
 #include "style/stages/arms_clear.h"
 #include "style/stages/fall.h"
@@ -31,10 +32,11 @@ namespace panache {
 // The requested change at one step.
 struct AskedChange {
   StyleDelta delta;
-  float log_rate = 0;                   // Logarithm of input seconds per output second.
-  std::array<float, kFeet> contacts{};  // Probability that each foot is planted.
-  float gate = 1;                       // How well the motion is known, 0 to 1.
-  Stance stance = {};                   // Of a foot that stands.
+  float log_rate = 0;                    // Logarithm of input seconds per output second.
+  std::array<float, kFeet> contacts{};   // Probability that each foot is planted.
+  float gate = 1;                        // How well the motion is known, 0 to 1.
+  Stance stance = {};                    // Of a foot that stands.
+  const GesturePose* gesture = nullptr;  // On top of it; null for none.
 };
 
 // How it is carried out.
@@ -56,6 +58,8 @@ class ChangeStages {
   void step(const AskedChange& asked, const ChangeControl& control, const Observer& observer,
             const InputWindow& window, const StepTime& time, StageClock* clock) noexcept;
 
+  // How much something besides its feet holds the body, at the last step; see SeatWatch.
+  float seated() const noexcept { return seat_.amount(); }
   // At the last step: what is to be done to the input, the probability that each foot is planted,
   // and input seconds per output second, `timing` of the change's own
   // tempo; 1 in a flight, and where the feet stand.

@@ -1,0 +1,27 @@
+#pragma once
+// Finds the gestures of a style in takes that are paired with neutral ones.
+
+#include <span>
+#include <vector>
+
+#include "learn/pairing.h"
+#include "learn/take.h"
+#include "style/gesture.h"
+
+namespace panache {
+
+struct FoundGesture {
+  Gesture gesture;
+  int take = 0;        // The styled take that holds it,
+  double start = 0;    // and when, seconds after its first frame.
+  float strength = 0;  // How far it leaves the usual range: 1 only just.
+};
+
+// Moments of 0.5 to 2.5 s at which the change from neutral to styled leaves the range that is
+// usual for its style, without those at which the body turns, starts or stops. `pairings`: those of
+// one style. The strongest first, at most kFoundGestures, none within another.
+inline constexpr int kFoundGestures = 4;
+std::vector<FoundGesture> find_gestures(const std::vector<Take>& takes,
+                                        std::span<const Pairing> pairings);
+
+}  // namespace panache

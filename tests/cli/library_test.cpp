@@ -1,0 +1,147 @@
+// Gestures and styles that are shared: learnt with a source and a licence, taken out, listed.
+
+#include <cmath>
+#include <filesystem>
+
+#include <nlohmann/printed.hpp>
+
+#include "cli/program.h"
+#include "make_learnt.h"
+#include "rig/rig.h"
+
+namespace panache::test {
+namespace {
+
+using enum HumanJoint;
+
+// A glance to the left, as a tensor.
+Tensor glance() {
+  std::vector<GesturePose> points(15);
+  for (size_t k = 0; k < points.size(); ++k) {
+    points[k].turns[index(head)].y = 0.8f * std::sin(3.14159f * static_cast<float>(k + 1) / 16);
+  }
+  return Gesture(points).tensor();
+}
+
+class StyleLibraryTest : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    TensorFile model = *parse_safetensors(read("model.safetensors"), "model");
+    add_learnt(model, 0, "limping", "limp.bvh");
+    model.tensors["learnt.0.gesture.0"] = glance();
+    model.tensors["gesture.1.0"] = glance();  // Of 'old'.
+    model.metadata["style_sources"] = "\n\n\n\nmy own capture\n";
+    model.metadata["style_licences"] = "\n\n\n\nCC0\n";
+    write("mine.safetensors", format_safetensors(model));
+  }
+};
+
+TEST_F(StyleLibraryTest, styles_are_listed_with_their_gestures) {
+  const std::string text = run({"styles", "mine.safetensors"}).out;
+  EXPECT_NE(text.find("  old      looks old\n           gestures: head turns left, 1.2 s\n"),
+            std::string::npos)
+      << text;
+  const auto printed = nlohmann::json::parse(run({"styles", "mine.safetensors", "--json"}).out);
+  EXPECT_EQ(printed["styles"][1]["gestures"], nlohmann::json({"head turns left, 1.2 s"}));
+  EXPECT_TRUE(printed["styles"][0]["gestures"].empty());
+  EXPECT_EQ(printed["styles"][4]["source"], "my own capture");
+  EXPECT_EQ(printed["styles"][4]["licence"], "CC0");
+}
+
+TEST_F(StyleLibraryTest, a_folder_of_style_files_is_a_library) {
+  std::filesystem::create_directory(path("library"));
+  for (const char* name : {"limping", "old"}) {
+    const Ran ran = run({"styles", "mine.safetensors", "--extract", name, "-o",
+                         "library/" + std::string(name) + ".safetensors"});
+    ASSERT_EQ(ran.exit, 0) << ran.err;
+  }
+  write("library/model.safetensors", read("mine.safetensors"));  // No style.
+  write("library/notes.txt", "no style");
+  const Ran listed = run({"styles", "library"});
+  EXPECT_EQ(listed.exit, 0) << listed.err;
+  EXPECT_EQ(listed.out,
+            "library\n2 styles:\n"
+            "  limping  looks limping\n"
+            "           source: my own capture; licence: CC0; limping.safetensors\n"
+            "  old      looks old\n"
+            "           source: not stated; licence: CC0; old.safetensors\n");
+  const auto printed = nlohmann::json::parse(run({"styles", "library", "--json"}).out);
+  ASSERT_EQ(printed["styles"].size(), 2u);
+  for (const auto& style : printed["styles"]) {
+    const std::string picture = style["thumbnail"];
+    EXPECT_TRUE(picture.starts_with("<svg ") && picture.ends_with("</svg>")) << picture;
+    EXPECT_LE(picture.size(), 12'000u);
+    EXPECT_EQ(style["gestures"], nlohmann::json({"head turns left, 1.2 s"}));
+  }
+  EXPECT_EQ(printed["styles"][0]["style_licence"], "CC0");
+  // What is not readable is told, and the others are listed.
+  write("library/broken.safetensors", "broken");
+  const Ran broken = run({"styles", "library"});
+  EXPECT_EQ(broken.exit, 1);
+  EXPECT_EQ(broken.out, listed.out);
+  EXPECT_NE(broken.err.find("library/broken.safetensors: "), std::string::npos) << broken.err;
+  EXPECT_EQ(run({"styles", "nowhere/"}).exit, 1);
+}
+
+TEST_F(StyleLibraryTest, a_style_keeps_all_that_is_said_of_it_on_its_way) {
+  const auto extract = [&](const std::string& from, const std::string& to) {
+    EXPECT_EQ(run({"styles", from, "--extract", "limping", "-o", to}).exit, 0);
+    return *parse_safetensors(read(to), to);
+  };
+  const TensorFile once = extract("mine.safetensors", "once.safetensors");
+  EXPECT_EQ(once.metadata.at("source"), "my own capture");
+  EXPECT_EQ(once.metadata.at("style_licence"), "CC0");
+  write("other.safetensors", read("mine.safetensors"));
+  ASSERT_EQ(run({"styles", "other.safetensors", "--remove", "limping"}).exit, 0);
+  ASSERT_EQ(run({"styles", "other.safetensors", "--add", "once.safetensors"}).exit, 0);
+  const TensorFile twice = extract("other.safetensors", "twice.safetensors");
+  EXPECT_EQ(twice.metadata, once.metadata);
+  EXPECT_TRUE(twice.tensors.contains("gesture.0"));
+}
+
+TEST_F(StyleLibraryTest, gestures_are_thrown_in_at_the_rate_asked_for) {
+  const auto stylize = [&](const std::string& out, std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"stylize", "walk.bvh", "--model", "mine.safetensors",
+                                          "--style", "old=1",    "--loop",  "off",
+                                          "-o",      out};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ran ran = run(arguments);
+    EXPECT_EQ(ran.exit, 0) << ran.err;
+    return read(out);
+  };
+  const std::string plain = stylize("plain.bvh", {});
+  EXPECT_EQ(stylize("none.bvh", {"--gestures", "0"}), plain);
+  const std::string some = stylize("some.bvh", {"--gestures", "2"});
+  EXPECT_NE(some, plain);
+  EXPECT_EQ(stylize("again.bvh", {"--gestures", "2"}), some);
+  for (const char* rate : {"-1", "11", "often"}) {
+    EXPECT_EQ(run({"stylize", "walk.bvh", "--style", "old=1", "--gestures", rate}).exit, 2);
+  }
+}
+
+TEST_F(StyleLibraryTest, learning_tells_of_gestures_and_keeps_source_and_licence) {
+  ASSERT_EQ(run({"walker", "-o", "neutral.bvh", "--seconds", "8", "--fps", "30"}).exit, 0);
+  Clip clip = (*parse_bvh(read("neutral.bvh"), "neutral.bvh"))->clip();
+  const Rig rig = *Rig::create(clip);
+  for (int f = 90; f <= 135; ++f) {
+    const float turn = 0.9f * std::sin(3.14159f * static_cast<float>(f - 90) / 45);
+    Quat& rotation = clip.pose(f).rotations[static_cast<size_t>(rig.joints()[index(head)])];
+    rotation = rotation * rotation_y(-turn);
+  }
+  write("nosy.bvh", format_bvh(clip));
+  const Ran ran = run({"learn", "neutral.bvh", "nosy.bvh", "--name", "nosy", "--into",
+                       "new.safetensors", "--source", "my\nown", "--licence", "CC BY 4.0"},
+                      "");
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_NE(ran.out.find("  gesture in nosy.bvh at "), std::string::npos) << ran.out;
+  EXPECT_NE(ran.out.find(" s: head turns right, "), std::string::npos) << ran.out;
+  const auto styles =
+      nlohmann::json::parse(run({"styles", "new.safetensors", "--json"}).out)["styles"];
+  EXPECT_EQ(styles.back()["gestures"].size(), 1u);
+  EXPECT_EQ(styles.back()["source"], "my own");
+  EXPECT_EQ(styles.back()["licence"], "CC BY 4.0");
+}
+
+}  // namespace
+}  // namespace panache::test

@@ -1,0 +1,450 @@
+#include "style/gesture.h"
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "allocations.h"
+#include "make_clip.h"
+#include "make_jump.h"
+#include "make_model.h"
+#include "rig/canonical_skeleton.h"
+#include "rig/posed_rig.h"
+#include "style/restyle.h"
+#include "walker/walker.h"
+
+namespace panache {
+namespace {
+
+using enum HumanJoint;
+
+// Control points of `seconds` that come and go like a bell.
+std::vector<GesturePose> bell(double seconds, const GesturePose& peak) {
+  std::vector<GesturePose> points;
+  const int count = static_cast<int>(seconds * double(Gesture::kRate)) - 3;
+  for (int k = 0; k < count; ++k) {
+    const float share =
+        std::sin(3.14159265f * static_cast<float>(k + 1) / static_cast<float>(count + 1));
+    points.push_back(scaled(share * share, peak));
+  }
+  return points;
+}
+GesturePose turned(HumanJoint joint, Vec3 turn) {
+  GesturePose pose;
+  pose.turns[index(joint)] = turn;
+  return pose;
+}
+GesturePose dip(float height, float lift = 0) {
+  GesturePose pose;
+  pose.height = height;
+  pose.lift = lift;
+  return pose;
+}
+constexpr float kGlance = 0.8f;  // Radians to the left.
+
+// A style of no change with a glance and a dip, and one without gestures.
+TensorFile model_with_gestures() {
+  TensorFile file = test::make_model({"nosy", "plain"}, 3);
+  for (const char* head : {"pose.head.0", "pose.head.1"}) {
+    for (const char* part : {".weight", ".bias"}) {
+      for (float& number : file.tensors[std::string(head) + part].values) number = 0;
+    }
+  }
+  file.tensors["gesture.0.0"] = Gesture(bell(1.2, turned(head, {0, kGlance, 0}))).tensor();
+  file.tensors["gesture.0.1"] = Gesture(bell(1, dip(-0.15f))).tensor();
+  file.tensors["gesture.0.2"] = Gesture(bell(0.7, dip(0.15f, 0.15f))).tensor();
+  return file;
+}
+
+class GestureTest : public testing::Test {
+ protected:
+  GestureTest()
+      : clip_(test::walking_clip(240, 60)),
+        model_(*Model::create(model_with_gestures(), "model")) {}
+
+  Stylizer character(const StylizerOptions& options = {}) const {
+    return *Stylizer::create(model_, *Rig::create(clip_), options);
+  }
+  // All frames of `clip`; `before` is called before each step.
+  Clip run(Stylizer& character, const std::function<void(int)>& before = {},
+           float strength = 1) const {
+    Clip out = clip_;
+    for (int f = 0; f < clip_.frames; ++f) {
+      if (before) before(f);
+      character.step(clip_.pose(f), std::array{strength, 0.0f}, clip_.frame_time, out.pose(f));
+    }
+    return out;
+  }
+  HumanPositions world(const Clip& clip, int frame) const {
+    PosedRig reader(*Rig::create(clip_));
+    BodyPose body;
+    reader.read(clip.pose(frame), body);
+    return body.positions;
+  }
+  // How far `joint` is turned in `clip` beyond the input, radians.
+  float turn_of(const Clip& clip, int frame, HumanJoint joint) const {
+    const Quat now = clip.pose(frame).rotations[index(joint)];
+    return length(log_rotation(conjugate(clip_.pose(frame).rotations[index(joint)]) * now));
+  }
+
+  Clip clip_;
+  std::shared_ptr<const Model> model_;
+};
+
+bool same_bits(const Clip& a, const Clip& b) {
+  return std::memcmp(a.rotations.data(), b.rotations.data(), a.rotations.size() * sizeof(Quat)) ==
+             0 &&
+         a.translations == b.translations;
+}
+
+TEST(Gesture, begins_and_ends_without_a_jerk) {
+  const Gesture gesture(bell(1.2, turned(head, {0, 1, 0})));
+  EXPECT_NEAR(gesture.seconds(), 1.2f, 1e-5f);
+  const auto yaw = [&](float time) { return gesture.at(time).turns[index(head)].y; };
+  EXPECT_EQ(yaw(0), 0);
+  EXPECT_EQ(yaw(gesture.seconds()), 0);
+  EXPECT_EQ(yaw(-1), 0);
+  EXPECT_EQ(yaw(std::nanf("")), 0);
+  EXPECT_NEAR(yaw(0.6f), 1, 0.1f);
+  // The second difference goes on from 0 and never jumps: a curve of third degree.
+  constexpr float h = 1e-2f;
+  float last = 0;
+  for (float t = 0; t < gesture.seconds() + 0.1f; t += h) {
+    const float acceleration = (yaw(t + h) - 2 * yaw(t) + yaw(t - h)) / (h * h);
+    EXPECT_LT(std::abs(acceleration - last), 4) << t;
+    last = acceleration;
+  }
+}
+
+TEST(Gesture, is_the_same_from_its_file) {
+  const Gesture gesture(bell(1, turned(left_upper_arm, {0.3f, -1.25f, 2})));
+  const Tensor tensor = gesture.tensor();
+  const Gesture read = *Gesture::read(tensor, "gesture.0", "file");
+  EXPECT_EQ(read.tensor().values, tensor.values);
+  EXPECT_EQ(read.name(), gesture.name());
+  EXPECT_FALSE(read.moves_hips());
+  EXPECT_TRUE(Gesture(bell(1, dip(-0.1f))).moves_hips());
+}
+
+TEST(Gesture, of_a_broken_file_is_rejected) {
+  const Tensor good = Gesture(bell(1, dip(0.1f))).tensor();
+  const auto message = [&](auto&& change) {
+    Tensor tensor = good;
+    change(tensor);
+    const Result<Gesture> read = Gesture::read(tensor, "gesture.3.0", "m.safetensors");
+    return read.ok() ? "" : read.error().message;
+  };
+  const std::string shape =
+      "m.safetensors: tensor 'gesture.3.0' is no gesture; expected 4 to 60 rows of 41 numbers";
+  EXPECT_EQ(message([](Tensor& t) { t.shape = {3, 41}; }), shape);
+  EXPECT_EQ(message([](Tensor& t) { t.shape = {61, 41}; }), shape);
+  EXPECT_EQ(message([](Tensor& t) { t.shape = {41}; }), shape);
+  EXPECT_EQ(message([](Tensor& t) { t.shape = {12, 40}; }), shape);
+  for (const float number : {11.0f, -11.0f, std::nanf(""), INFINITY}) {
+    EXPECT_EQ(message([&](Tensor& t) { t.values[7] = number; }),
+              "m.safetensors: tensor 'gesture.3.0' holds a number beyond 10 radians or metres");
+  }
+  TensorFile file = model_with_gestures();
+  file.tensors["gesture.1.0"] = {{2, 2}, {0, 0, 0, 0}, false};
+  EXPECT_FALSE(Model::create(file, "model").ok());
+}
+
+TEST(Gesture, says_what_moves_most) {
+  const auto name = [](const GesturePose& peak) { return Gesture(bell(1.2, peak)).name(); };
+  EXPECT_EQ(name(turned(head, {0, 0.8f, 0})), "head turns left, 1.2 s");
+  EXPECT_EQ(name(turned(neck, {0, -0.8f, 0})), "head turns right, 1.2 s");
+  EXPECT_EQ(name(turned(head, {0.8f, 0, 0})), "head nods, 1.2 s");
+  EXPECT_EQ(name(turned(head, {-0.8f, 0, 0})), "head looks up, 1.2 s");
+  EXPECT_EQ(name(turned(spine, {0.8f, 0, 0})), "body bends forward, 1.2 s");
+  EXPECT_EQ(name(turned(hips, {0, 0, 0.8f})), "body leans right, 1.2 s");
+  EXPECT_EQ(name(turned(right_upper_arm, {0, 0, 2})), "right arm, 1.2 s");
+  EXPECT_EQ(name(dip(-0.2f)), "dip, 1.2 s");
+  EXPECT_EQ(name(dip(0.2f, 0.2f)), "hop, 1.2 s");
+}
+
+TEST_F(GestureTest, without_being_asked_for_none_is_played) {
+  TensorFile bare = model_with_gestures();
+  std::erase_if(bare.tensors, [](const auto& t) { return t.first.starts_with("gesture."); });
+  const auto without = *Model::create(bare, "model");
+  Stylizer one = character(), other = *Stylizer::create(without, *Rig::create(clip_), {});
+  EXPECT_TRUE(same_bits(run(one), run(other)));
+  EXPECT_EQ(model_->parameter_count(), without->parameter_count());
+}
+
+TEST_F(GestureTest, a_trigger_turns_the_head_and_back) {
+  Stylizer plain = character(), nosy = character();
+  const Clip before = run(plain);
+  const Clip after = run(nosy, [&](int f) {
+    if (f == 60) nosy.trigger(0, 0);
+  });
+  for (int f = 0; f < 61; ++f) EXPECT_EQ(turn_of(after, f, head), turn_of(before, f, head)) << f;
+  EXPECT_NEAR(turn_of(after, 96, head), kGlance, 0.15f);
+  for (int f = 150; f < 240; ++f) EXPECT_LT(turn_of(after, f, head), 0.01f) << f;
+  // Nothing else moves.
+  for (int f = 0; f < 240; ++f) EXPECT_LT(turn_of(after, f, left_upper_arm), 0.02f) << f;
+}
+
+TEST_F(GestureTest, its_amount_is_the_styles_strength) {
+  const auto turn_at = [&](float strength) {
+    Stylizer one = character();
+    return turn_of(run(
+                       one,
+                       [&](int f) {
+                         if (f == 60) one.trigger(0, 0);
+                       },
+                       strength),
+                   96, head);
+  };
+  EXPECT_NEAR(turn_at(0.5f), turn_at(1) / 2, 0.03f);
+  EXPECT_EQ(turn_at(0), 0);
+  EXPECT_EQ(turn_at(-1), 0);
+}
+
+TEST_F(GestureTest, at_strength_zero_a_trigger_keeps_the_bits) {
+  Stylizer one = character();
+  EXPECT_TRUE(same_bits(run(
+                            one, [&](int) { one.trigger(0, 1); }, 0),
+                        clip_));
+}
+
+TEST_F(GestureTest, there_is_none_beyond_those_of_the_model) {
+  Stylizer one = character();
+  EXPECT_FALSE(one.trigger(0, 3));
+  EXPECT_FALSE(one.trigger(0, -1));
+  EXPECT_FALSE(one.trigger(1, 0));
+  EXPECT_FALSE(one.trigger(2, 0));
+  EXPECT_FALSE(one.trigger(-1, 0));
+}
+
+TEST_F(GestureTest, a_dip_bends_the_knees_and_keeps_the_feet) {
+  Stylizer plain = character(), low = character();
+  const Clip before = run(plain);
+  const Clip after = run(low, [&](int f) {
+    if (f == 60) low.trigger(0, 1);
+  });
+  float deepest = 0;
+  for (int f = 60; f < 130; ++f) {
+    const HumanPositions a = world(before, f), b = world(after, f);
+    deepest = std::max(deepest, a[0].y - b[0].y);
+    for (const HumanJoint ankle : {left_foot, right_foot}) {
+      EXPECT_LT(length(a[index(ankle)] - b[index(ankle)]), 0.03f) << f;
+    }
+  }
+  EXPECT_GT(deepest, 0.1f);
+}
+
+TEST_F(GestureTest, a_hop_lifts_both_feet) {
+  Stylizer plain = character(), up = character();
+  const Clip before = run(plain);
+  const Clip after = run(up, [&](int f) {
+    if (f == 60) up.trigger(0, 2);
+  });
+  float lifted = 0, risen = 0;
+  for (int f = 60; f < 130; ++f) {
+    const HumanPositions a = world(before, f), b = world(after, f);
+    risen = std::max(risen, b[0].y - a[0].y);
+    lifted = std::max(lifted, std::min(b[index(left_foot)].y - a[index(left_foot)].y,
+                                       b[index(right_foot)].y - a[index(right_foot)].y));
+  }
+  EXPECT_GT(lifted, 0.08f);
+  EXPECT_NEAR(risen, 0.15f, 0.03f);
+}
+
+TEST_F(GestureTest, no_joint_jumps) {
+  Walker walk(*WalkerModel::load(std::string(PANACHE_SOURCE_DIR "/models/walker.safetensors")));
+  clip_.skeleton = canonical_skeleton();
+  for (int f = 0; f < clip_.frames; ++f) walk.step(1.3f, 0.2f, clip_.frame_time, clip_.pose(f));
+  Stylizer plain = character(), one = character();
+  const Clip before = run(plain);
+  const Clip after = run(one, [&](int f) {
+    if (f % 20 == 0) one.trigger(0, (f / 20) % 3);
+  });
+  // m/s^2, at 60 frames a second. A foot that is set down stops with as much in the walk itself; a
+  // knee that straightens after a dip adds 44, and a gesture that goes in steps of its points 123.
+  constexpr float kMost = 55;
+  float most_plainly = 0;
+  std::vector<HumanPositions> plainly, moved;
+  for (int f = 0; f < clip_.frames; ++f) {
+    plainly.push_back(world(before, f));
+    moved.push_back(world(after, f));
+  }
+  for (size_t f = 2; f < moved.size(); ++f) {
+    for (size_t j = 0; j < kHumanJoints; ++j) {
+      const auto jerk = [&](const std::vector<HumanPositions>& body) {
+        return body[f][j] - body[f - 1][j] * 2 + body[f - 2][j];
+      };
+      most_plainly = std::max(most_plainly, length(jerk(plainly)));
+      EXPECT_LT(length(jerk(moved) - jerk(plainly)), kMost / 3600) << f << " " << j;
+    }
+  }
+  EXPECT_GT(most_plainly, kMost / 3600 / 2) << "the bound says something about this walk";
+}
+
+// All that come with Panache, on a generated walk at full strength.
+TEST_F(GestureTest, those_of_the_shipped_model_jump_nowhere) {
+  model_ = *Model::load(PANACHE_SOURCE_DIR "/models/panache-int8.safetensors");
+  Walker walk(*WalkerModel::load(std::string(PANACHE_SOURCE_DIR "/models/walker.safetensors")));
+  clip_.skeleton = canonical_skeleton();
+  for (int f = 0; f < clip_.frames; ++f) walk.step(1.3f, 0, clip_.frame_time, clip_.pose(f));
+  const auto accelerations = [&](int style, int gesture) {
+    Stylizer one = character();
+    std::vector<float> strengths(model_->styles().size());
+    strengths[static_cast<size_t>(style)] = 1;
+    std::vector<HumanPositions> body;
+    Clip out = clip_;
+    for (int f = 0; f < clip_.frames; ++f) {
+      if (f == 40 && gesture >= 0) one.trigger(style, gesture);
+      one.step(clip_.pose(f), strengths, clip_.frame_time, out.pose(f));
+      body.push_back(world(out, f));
+    }
+    std::vector<HumanPositions> found(body.size());
+    for (size_t f = 2; f < body.size(); ++f) {
+      for (size_t j = 0; j < kHumanJoints; ++j) {
+        found[f][j] = (body[f][j] - body[f - 1][j] * 2 + body[f - 2][j]) * 3600;
+      }
+    }
+    return found;
+  };
+  int count = 0;
+  for (int style = 0; style < static_cast<int>(model_->styles().size()); ++style) {
+    const int gestures = static_cast<int>(model_->gestures(style).size());
+    if (gestures == 0) continue;
+    const auto plain = accelerations(style, -1);
+    for (int k = 0; k < gestures; ++k, ++count) {
+      const auto with = accelerations(style, k);
+      float most = 0;
+      for (size_t f = 0; f < with.size(); ++f) {
+        for (size_t j = 0; j < kHumanJoints; ++j)
+          most = std::max(most, length(with[f][j] - plain[f][j]));
+      }
+      // m/s^2; the styled walks themselves reach 80 to 100. A joint that is 20 cm elsewhere in the
+      // next frame has 720.
+      EXPECT_LT(most, 150) << model_->styles()[static_cast<size_t>(style)].name << " " << k;
+      EXPECT_GT(most, 0);
+    }
+  }
+  EXPECT_GE(count, 20);
+}
+
+// A jump, with a trigger a moment after its take-off.
+TEST_F(GestureTest, in_the_air_a_trigger_waits_for_the_floor) {
+  const test::Jump jump(0.4, 1);
+  clip_ = jump.clip(60);
+  for (const int gesture : {0, 1}) {
+    Stylizer one = character();
+    const int asked = static_cast<int>((jump.take_off() + 0.06) * 60);
+    int first = -1;
+    Clip out = clip_;
+    for (int f = 0; f < clip_.frames; ++f) {
+      if (f == asked) one.trigger(0, gesture);
+      one.step(clip_.pose(f), std::array{1.0f, 0.0f}, clip_.frame_time, out.pose(f));
+      if (first < 0 && one.gesture()) first = f;
+    }
+    EXPECT_GE(first, static_cast<int>(jump.landing() * 60)) << gesture;
+    EXPECT_LT(first, static_cast<int>((jump.landing() + 0.6) * 60)) << gesture;
+  }
+}
+
+TEST_F(GestureTest, on_the_way_into_a_jump_it_ends) {
+  const test::Jump jump(0.4, 1);
+  clip_ = jump.clip(60);
+  Stylizer one = character();
+  const Clip out = run(one, [&](int f) {
+    if (f == static_cast<int>((jump.take_off() - 0.3) * 60)) one.trigger(0, 0);
+  });
+  // The flight is detected within 0.15 s of its beginning, and eases in.
+  for (double t = jump.take_off() + 0.3; t < jump.landing(); t += 0.02) {
+    EXPECT_LT(turn_of(out, static_cast<int>(t * 60), head), 0.1f) << t;
+  }
+}
+
+TEST_F(GestureTest, at_random_they_come_at_their_rate_and_the_same_each_time) {
+  StylizerOptions options;
+  options.gesture_rate = 0.4f;
+  const auto starts = [&](Stylizer& one) {
+    std::vector<int> found;
+    bool played = false;
+    Clip out = clip_;
+    for (int f = 0; f < 200 * 60; ++f) {
+      one.step(clip_.pose(f % 200), std::array{1.0f, 0.0f}, clip_.frame_time, out.pose(0));
+      if (one.gesture() && !played) found.push_back(f);
+      played = one.gesture();
+    }
+    return found;
+  };
+  // The clip starts again and again on the spot; its jumps back are no jumps for this character.
+  options.max_speed = std::numeric_limits<float>::infinity();
+  Stylizer one = character(options), same = character(options);
+  const std::vector<int> first = starts(one);
+  EXPECT_NEAR(static_cast<double>(first.size()), 80, 12);
+  EXPECT_EQ(first, starts(same));
+  one.reset();
+  EXPECT_EQ(first, starts(one)) << "a reset character starts anew";
+  options.gesture_seed = 1;
+  Stylizer other = character(options);
+  EXPECT_NE(first, starts(other));
+}
+
+TEST_F(GestureTest, saved_within_one_it_goes_on_bit_for_bit) {
+  StylizerOptions options;
+  options.gesture_rate = 1;
+  Stylizer one = character(options), other = character(options);
+  std::vector<std::byte> state;
+  const Clip whole = run(one, [&](int f) {
+    if (f == 0) one.trigger(0, 1);
+    if (f == 30) {
+      ASSERT_TRUE(one.gesture());
+      state.resize(one.state_size());
+      one.save(state);
+    }
+  });
+  ASSERT_TRUE(other.restore(state));
+  Clip out = clip_;
+  for (int f = 30; f < clip_.frames; ++f) {
+    other.step(clip_.pose(f), std::array{1.0f, 0.0f}, clip_.frame_time, out.pose(f));
+    for (size_t j = 0; j < clip_.joints(); ++j) {
+      ASSERT_EQ(out.pose(f).rotations[j], whole.pose(f).rotations[j]) << f;
+    }
+  }
+}
+
+TEST_F(GestureTest, a_step_allocates_nothing) {
+  StylizerOptions options;
+  options.gesture_rate = 1;
+  Stylizer one = character(options);
+  Clip out = clip_;
+  const auto before = test::allocations.load();
+  for (int f = 0; f < clip_.frames; ++f) {
+    if (f % 50 == 0) one.trigger(0, f / 50 % 3);
+    one.step(clip_.pose(f), std::array{1.0f, 0.0f}, clip_.frame_time, out.pose(f));
+  }
+  EXPECT_EQ(test::allocations.load(), before);
+}
+
+TEST_F(GestureTest, rates_out_of_range_are_rejected) {
+  for (const float rate : {-0.1f, 10.5f, std::nanf("")}) {
+    StylizerOptions options;
+    options.gesture_rate = rate;
+    const auto made = Stylizer::create(model_, *Rig::create(clip_), options);
+    ASSERT_FALSE(made.ok());
+    EXPECT_EQ(made.error().message,
+              "gesture rate of " + std::to_string(rate) + " per second; expected 0 to 10");
+  }
+}
+
+TEST_F(GestureTest, a_clip_with_gestures_is_no_loop) {
+  RestyleOptions options;
+  options.stylizer.gesture_rate = 0.5f;
+  options.loop = LoopMode::force;
+  const StrengthTrack track{0, {{0, 1}}};
+  const auto forced = restyle(clip_, *Rig::create(clip_), model_, {track}, options);
+  ASSERT_FALSE(forced.ok());
+  EXPECT_NE(forced.error().message.find("cannot be a loop with gestures"), std::string::npos);
+  options.loop = LoopMode::detect;
+  EXPECT_FALSE(restyle(clip_, *Rig::create(clip_), model_, {track}, options)->loop.closed);
+}
+
+}  // namespace
+}  // namespace panache
