@@ -3,7 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include <nlohmann/printed.hpp>
+#include <nlohmann/json.hpp>
 
 #include "cli/program.h"
 #include "make_learnt.h"
