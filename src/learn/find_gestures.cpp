@@ -109,7 +109,8 @@ void add_moments(const Take& take, int number, const std::vector<float>& scores,
 
 // The strongest that do not overlap.
 std::vector<Moment> strongest(std::vector<Moment> moments) {
-  std::ranges::stable_sort(moments, std::ranges::greater(), &Moment::strength);
+  std::stable_sort(moments.begin(), moments.end(),
+                   [](const Moment& a, const Moment& b) { return a.strength > b.strength; });
   std::vector<Moment> kept;
   for (const Moment& moment : moments) {
     const bool overlaps = std::ranges::any_of(kept, [&](const Moment& other) {

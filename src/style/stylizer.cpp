@@ -89,7 +89,8 @@ bool Stylizer::trigger(int style, int gesture) noexcept {
 GesturePlayer::Ground Stylizer::ground() const noexcept {
   constexpr float kHeld = 0.5f, kWalks = 2, kRuns = 3;  // The latter in m/s.
   const bool seated = stages_.seated() > kHeld;
-  const bool planted = std::ranges::max(stages_.contacts()) > kHeld;
+  const auto contacts = stages_.contacts();
+  const bool planted = std::max(contacts[0], contacts[1]) > kHeld;
   return {seated || is_a_foot_down(observer_.now().world.positions), planted && !seated, flight_,
           smooth_step((window_.ground_speed() - kWalks) / (kRuns - kWalks))};
 }
