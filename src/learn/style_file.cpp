@@ -298,6 +298,8 @@ Result<TensorFile> add_style(const TensorFile& model, const std::string& name,
   Parts parts = take_apart(model, **parsed);
   std::vector<Style>& styles = parts.styles;
   Style added{*info, style.tensors};
+  // The picture of a trained style is drawn when it is taken out: put back, the model is the same.
+  if (!info->learnt) added.info.thumbnail.clear();
   const auto taken = std::find_if(styles.begin(), styles.end(), [&](const Style& other) {
     return other.info.name == info->name;
   });

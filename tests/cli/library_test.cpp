@@ -101,6 +101,7 @@ TEST_F(StyleLibraryTest, a_style_keeps_all_that_is_said_of_it_on_its_way) {
 }
 
 TEST_F(StyleLibraryTest, gestures_are_thrown_in_at_the_rate_asked_for) {
+  write_walk("walk.bvh", 240);
   const auto stylize = [&](const std::string& out, std::vector<std::string> more) {
     std::vector<std::string> arguments = {"stylize", "walk.bvh", "--model", "mine.safetensors",
                                           "--style", "old=1",    "--loop",  "off",
