@@ -217,7 +217,7 @@ public sealed class Character : IDisposable {
   /// 0 not at all, 1 as captured, more exaggerates; -4 to 4, eased over a few frames.
   public void SetStrength(string style, float strength) =>
       Native.panache_character_set_strength(handle, model.FindStyle(style), strength);
-  /// Takes a style of CharacterOptions.Remover off the input: its number there; -1: none.
+  /// Takes a style off the input: its index in the model of CharacterOptions.UseRemover(); -1: none.
   public void SetRemoved(int style) =>
       Native.panache_character_set_removed(handle, style);
   /// Plays one of Model.Gestures(style) on top of the style, as strongly as that acts: when no other

@@ -19,7 +19,6 @@ constexpr int kSteps = 4000, kBatch = 512;
 constexpr float kRate = 0.004f, kDecay = 0.3f, kNoise = 0.3f;
 constexpr float kNeutralShare = 0.35f;    // Of a batch.
 constexpr float kLeastDeviation = 0.02f;  // Of a statistic.
-constexpr double kFarthest = 4;           // As in learn/recognise.cpp.
 
 Tensor to_tensor(const torch::Tensor& values) {
   const torch::Tensor flat = values.detach().to(torch::kFloat32).contiguous();
@@ -92,7 +91,7 @@ Result<void> add_recognition(const std::vector<Take>& takes, uint64_t seed, Tens
   const torch::Tensor raw = torch::cat(used);
   const torch::Tensor mean = raw.mean(0);
   const torch::Tensor factor = 1 / (raw.std(0, false) + kLeastDeviation);
-  const torch::Tensor all = ((raw - mean) * factor).clamp(-kFarthest, kFarthest);
+  const torch::Tensor all = ((raw - mean) * factor).clamp(-kFarthestStatistic, kFarthestStatistic);
 
   torch::Tensor weight = torch::zeros({count, static_cast<int64_t>(cells.size())});
   torch::Tensor bias = torch::zeros({static_cast<int64_t>(cells.size())});

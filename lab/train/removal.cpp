@@ -6,6 +6,7 @@
 #include <mutex>
 #include <numeric>
 
+#include "base/between.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "base/random.h"
@@ -27,13 +28,6 @@ Clip part_of(const Clip& clip, int first, int frames) {
   part.frame_time = clip.frame_time;
   for (int f = first; f < first + frames; ++f) part.append(clip.pose(f));
   return part;
-}
-
-// A number between the entries of a list.
-double between(const std::vector<double>& list, double at) {
-  const size_t a = std::min(static_cast<size_t>(std::max(at, 0.0)), list.size() - 1);
-  const size_t b = std::min(a + 1, list.size() - 1);
-  return list[a] + (at - static_cast<double>(a)) * (list[b] - list[a]);
 }
 
 // A part of a clip, what the model made of it, and where each frame of that comes from.

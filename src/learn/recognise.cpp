@@ -12,8 +12,7 @@
 namespace panache {
 namespace {
 
-constexpr int kStride = 3;      // Of so many frames of a window one is looked at.
-constexpr float kFarthest = 4;  // Deviations that a statistic counts at the most.
+constexpr int kStride = 3;  // Of so many frames of a window one is looked at.
 
 }  // namespace
 
@@ -69,7 +68,7 @@ Result<std::vector<StyleShare>> recognise_styles(const std::shared_ptr<const Mod
     write_statistics(networks, take, first, false, numbers);
     for (size_t n = 0; n < numbers.size(); ++n) {
       numbers[n] = std::clamp((numbers[n] - recognition->mean[n]) * recognition->factor[n],
-                              -kFarthest, kFarthest);
+                              -kFarthestStatistic, kFarthestStatistic);
     }
     recognition->layer.forward({statistics.data(), 1, 0}, {scores.data(), 1, 0});
     const float top = *std::max_element(scores.begin(), scores.begin() + classes);

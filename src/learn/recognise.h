@@ -15,6 +15,9 @@ namespace panache {
 inline constexpr int kRecognisedFrames = 60;  // Of a window, at kTakeRate; or a shorter take's all,
 inline constexpr int kRecognisedHop = 15;     // and from one to the next.
 
+// Deviations from its mean that a statistic counts at the most.
+inline constexpr float kFarthestStatistic = 4;
+
 // The first frames of the windows of a take of so many frames; at least one.
 std::vector<int> recognised_windows(int frames);
 

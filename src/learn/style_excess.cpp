@@ -10,8 +10,8 @@ namespace {
 
 using enum HumanJoint;
 
-constexpr double kSmooth = 0.08;                          // Deviation of the filter; seconds.
-constexpr float kAnkleHeight = 0.07f, kOffFloor = 0.03f;  // Metres.
+constexpr double kSmooth = 0.08;    // Deviation of the filter; seconds.
+constexpr float kOffFloor = 0.03f;  // Metres.
 
 // What a styled take changes, frame by frame.
 struct Change {
@@ -20,11 +20,7 @@ struct Change {
 };
 
 float lift_of(const HumanPositions& body) {
-  float lowest = 1;
-  for (size_t f = 0; f < kFeet; ++f) {
-    lowest = std::min({lowest, body[index(kToes[f])].y, body[index(kAnkles[f])].y - kAnkleHeight});
-  }
-  return std::max(0.0f, lowest - kOffFloor);
+  return std::clamp(lowest_foot(body), kOffFloor, 1.0f) - kOffFloor;
 }
 
 // Windows overlap; those whose middle is nearer count more.

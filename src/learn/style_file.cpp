@@ -146,6 +146,20 @@ auto end_of_kind(std::vector<Style>& styles, bool learnt) {
                       [](const Style& style) { return style.info.learnt; });
 }
 
+// A model taken apart, and the index of the style in question.
+struct Opened {
+  Parts parts;
+  size_t style;
+};
+Result<Opened> open_at(const TensorFile& model, const std::string& style, const std::string& name) {
+  Result<std::shared_ptr<const Model>> parsed = Model::create(model, name);
+  if (!parsed) return parsed.error();
+  if (auto heads = check_has_heads(**parsed, name); !heads) return heads.error();
+  Result<int> index = (*parsed)->find_style(style);
+  if (!index) return index.error();
+  return Opened{take_apart(model, **parsed), static_cast<size_t>(*index)};
+}
+
 }  // namespace
 
 std::string gesture_key(size_t gesture) { return "gesture." + std::to_string(gesture); }
@@ -270,12 +284,9 @@ void set_source(const std::string& source, const std::string& licence, TensorFil
 
 Result<TensorFile> extract_style(const TensorFile& model, const std::string& style,
                                  const std::string& name) {
-  Result<std::shared_ptr<const Model>> parsed = Model::create(model, name);
-  if (!parsed) return parsed.error();
-  if (auto heads = check_has_heads(**parsed, name); !heads) return heads.error();
-  Result<int> index = (*parsed)->find_style(style);
-  if (!index) return index.error();
-  Style found = std::move(take_apart(model, **parsed).styles[static_cast<size_t>(*index)]);
+  Result<Opened> opened = open_at(model, style, name);
+  if (!opened) return opened.error();
+  Style& found = opened->parts.styles[opened->style];
   return make_style_file(model, found.info, std::move(found.tensors));
 }
 
@@ -323,30 +334,23 @@ Result<TensorFile> add_style(const TensorFile& model, const std::string& name,
 Result<TensorFile> set_gestures(const TensorFile& model, const std::string& style,
                                 std::span<const Gesture> gestures, const std::string& name) {
   assert(gestures.size() <= kMaxGestures);
-  Result<std::shared_ptr<const Model>> parsed = Model::create(model, name);
-  if (!parsed) return parsed.error();
-  if (auto heads = check_has_heads(**parsed, name); !heads) return heads.error();
-  Result<int> index = (*parsed)->find_style(style);
-  if (!index) return index.error();
-  Parts parts = take_apart(model, **parsed);
-  Tensors& tensors = parts.styles[static_cast<size_t>(*index)].tensors;
+  Result<Opened> opened = open_at(model, style, name);
+  if (!opened) return opened.error();
+  Tensors& tensors = opened->parts.styles[opened->style].tensors;
   for (size_t k = 0; k < kMaxGestures; ++k) tensors.erase(gesture_key(k));
   for (size_t k = 0; k < gestures.size(); ++k) tensors[gesture_key(k)] = gestures[k].tensor();
-  return put_together(std::move(parts));
+  return put_together(std::move(opened->parts));
 }
 
 Result<TensorFile> remove_style(const TensorFile& model, const std::string& style,
                                 const std::string& name) {
-  Result<std::shared_ptr<const Model>> parsed = Model::create(model, name);
-  if (!parsed) return parsed.error();
-  if (auto heads = check_has_heads(**parsed, name); !heads) return heads.error();
-  Result<int> index = (*parsed)->find_style(style);
-  if (!index) return index.error();
-  Parts parts = take_apart(model, **parsed);
+  Result<Opened> opened = open_at(model, style, name);
+  if (!opened) return opened.error();
+  Parts& parts = opened->parts;
   if (parts.styles.size() == 1) {
     return Error{name + ": has no style but '" + style + "'; a model keeps at least one"};
   }
-  parts.styles.erase(parts.styles.begin() + *index);
+  parts.styles.erase(parts.styles.begin() + static_cast<ptrdiff_t>(opened->style));
   return put_together(std::move(parts));
 }
 

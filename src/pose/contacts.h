@@ -1,6 +1,7 @@
 #pragma once
 // Detects planted feet in motion.
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -17,6 +18,17 @@ inline constexpr std::array<HumanJoint, kFeet> kAnkles = {HumanJoint::left_foot,
                                                           HumanJoint::right_foot};
 inline constexpr std::array<HumanJoint, kFeet> kToes = {HumanJoint::left_toes,
                                                         HumanJoint::right_toes};
+
+inline constexpr float kAnkleHeight = 0.07f;  // Of a standing foot, at least; metres.
+
+// How high the lowest foot is above where it stands: its toe, or its ankle above kAnkleHeight.
+// Metres above the floor of `body`.
+inline float lowest_foot(const HumanPositions& body) noexcept {
+  const auto height = [&](int f) {
+    return std::min(body[index(kToes[f])].y, body[index(kAnkles[f])].y - kAnkleHeight);
+  };
+  return std::min(height(0), height(1));
+}
 
 using FootContacts = std::array<bool, kFeet>;
 

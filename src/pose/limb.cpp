@@ -1,8 +1,12 @@
 #include "pose/limb.h"
 
 namespace panache {
-
 namespace {
+
+void add_turn(const LimbJoints& limb, const TwoBoneTurn& turn, BodyChange& change) {
+  change.rotations[limb.root] = normalized(turn.upper * change.rotations[limb.root]);
+  change.rotations[limb.middle] = normalized(turn.lower * change.rotations[limb.middle]);
+}
 
 // Joints and change of a limb that turns like this.
 void apply(const LimbJoints& limb, const TwoBoneTurn& turn, HumanPositions& joints,
@@ -11,8 +15,7 @@ void apply(const LimbJoints& limb, const TwoBoneTurn& turn, HumanPositions& join
   const Vec3 root = joints[limb.root], lower = end - middle;
   middle = root + rotate(turn.upper, middle - root);
   end = middle + rotate(turn.lower, lower);
-  change.rotations[limb.root] = normalized(turn.upper * change.rotations[limb.root]);
-  change.rotations[limb.middle] = normalized(turn.lower * change.rotations[limb.middle]);
+  add_turn(limb, turn, change);
 }
 
 }  // namespace
@@ -49,10 +52,8 @@ void move_limb(const LimbJoints& limb, const LimbMove& move, HumanPositions& joi
                BodyChange& change) noexcept {
   const Vec3 root = joints[limb.root], middle = joints[limb.middle], end = joints[limb.end];
   move_joints(limb, move, joints);
-  const TwoBoneTurn turn =
-      two_bone_turn(root, middle, end, {joints[limb.middle], joints[limb.end]});
-  change.rotations[limb.root] = normalized(turn.upper * change.rotations[limb.root]);
-  change.rotations[limb.middle] = normalized(turn.lower * change.rotations[limb.middle]);
+  const TwoBonePlaces to = {joints[limb.middle], joints[limb.end]};
+  add_turn(limb, two_bone_turn(root, middle, end, to), change);
 }
 
 }  // namespace panache

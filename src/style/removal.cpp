@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/between.h"
 #include "style/names.h"
 
 namespace panache {
@@ -15,12 +16,6 @@ double place_in(const std::vector<double>& list, double value) {
   if (later == list.end()) return static_cast<double>(list.size() - 1);
   const double before = *(later - 1);
   return static_cast<double>(later - list.begin() - 1) + (value - before) / (*later - before);
-}
-
-double between(const std::vector<double>& list, double at) {
-  const size_t a = std::min(static_cast<size_t>(std::max(at, 0.0)), list.size() - 1);
-  const size_t b = std::min(a + 1, list.size() - 1);
-  return std::lerp(list[a], list[b], at - static_cast<double>(a));
 }
 
 bool asks_for_a_style(const std::vector<StrengthTrack>& tracks) {

@@ -14,7 +14,7 @@ namespace panache {
 bool is_remover(const Model& model);
 
 // The index in the remover of the style to take off; "" is kAnyStyle, for motion in a style that it
-// does not know. Fails where `remover` is none, or with the nearest names.
+// does not know. Fails if `remover` puts styles on; an unknown name is answered with the nearest.
 Result<int> find_removal(const Model& remover, std::string_view style);
 
 // What to take off.

@@ -5,23 +5,13 @@
 #include <cmath>
 
 #include "base/smooth_step.h"
+#include "pose/contacts.h"
 #include "style/state_bytes.h"
 
 namespace panache {
 namespace {
 
 constexpr float kGateSeconds = 0.15f;  // Time constant of the gate.
-// A toe or ankle this much above where it stands is off the floor; metres.
-constexpr float kOffFloor = 0.05f, kAnkleHeight = 0.07f;
-
-// Whether a foot of the input is on the floor.
-bool is_a_foot_down(const HumanPositions& world) {
-  for (size_t f = 0; f < kFeet; ++f) {
-    const float toe = world[index(kToes[f])].y, ankle = world[index(kAnkles[f])].y;
-    if (std::min(toe, ankle - kAnkleHeight) < kOffFloor) return true;
-  }
-  return false;
-}
 
 }  // namespace
 
@@ -87,12 +77,13 @@ bool Stylizer::trigger(int style, int gesture) noexcept {
 }
 
 GesturePlayer::Ground Stylizer::ground() const noexcept {
-  constexpr float kHeld = 0.5f, kWalks = 2, kRuns = 3;  // The latter in m/s.
+  constexpr float kHeld = 0.5f, kOnFloor = 0.05f;  // Metres.
+  constexpr float kWalks = 2, kRuns = 3;           // m/s.
   const bool seated = stages_.seated() > kHeld;
   const auto contacts = stages_.contacts();
   const bool planted = std::max(contacts[0], contacts[1]) > kHeld;
-  return {seated || is_a_foot_down(observer_.now().world.positions), planted && !seated, flight_,
-          smooth_step((window_.ground_speed() - kWalks) / (kRuns - kWalks))};
+  return {seated || lowest_foot(observer_.now().world.positions) < kOnFloor, planted && !seated,
+          flight_, smooth_step((window_.ground_speed() - kWalks) / (kRuns - kWalks))};
 }
 
 void Stylizer::set_next(ConstPose next, double seconds) noexcept {
@@ -151,7 +142,9 @@ void Stylizer::give_out(const StepTime& time, Pose out, StageClock* clock) noexc
   std::ranges::copy(networks_.contact(), asked.contacts.begin());
   asked.gate = networks_.gate();
   asked.stance = networks_.stance();
-  gestures_.step(model(), strengths_.now(), options_.gesture_rate, ground(), time);
+  if (options_.gesture_rate > 0 || !gestures_.rests()) {
+    gestures_.step(model(), strengths_.now(), options_.gesture_rate, ground(), time);
+  }
   asked.gesture = gestures_.now();
   stages_.step(asked,
                {strengths_.shape(), strengths_.amount(), flight_, options_.root, options_.foot_lock,

@@ -138,8 +138,8 @@ class Character:
         """The style of the remover that is taken off the input from now on; None: none."""
         if self.remover is None:
             raise PanacheError('set_removed: expected a character that was given a remover')
-        place = -1 if style is None else self.remover.find_style(style)
-        lib.character_set_removed(self._pointer, place)
+        removed = self.remover.find_style(style) if style is not None else -1
+        lib.character_set_removed(self._pointer, removed)
 
     def trigger(self, style: str, gesture: int = 0) -> None:
         """Plays one of `model.gestures[style]` on top of the style, as strongly as that acts: when no

@@ -1,8 +1,6 @@
 #include "eval/systems/styled_clip.h"
 
-#include <algorithm>
-#include <cmath>
-
+#include "base/between.h"
 #include "eval/motion_metrics.h"
 
 namespace panache {
@@ -14,11 +12,7 @@ std::vector<float> take_sources(const TestInput& input, const std::vector<double
   std::vector<float> sources;
   for (int f = 0; f < frames; ++f) {
     const double at = input.rig.first_frame() + f / (kTakeRate * input.clip.frame_time);
-    const size_t a = std::min(static_cast<size_t>(at), source_frames.size() - 1);
-    const size_t b = std::min(a + 1, source_frames.size() - 1);
-    const double source =
-        std::lerp(source_frames[a], source_frames[b], at - static_cast<double>(a));
-    sources.push_back(static_cast<float>(input.take_frame(source)));
+    sources.push_back(static_cast<float>(input.take_frame(between(source_frames, at))));
   }
   return sources;
 }

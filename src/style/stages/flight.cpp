@@ -22,8 +22,6 @@ constexpr double kTooShort = 0.12, kWhole = 0.18;  // Seconds.
 constexpr double kBefore = 0.06, kAfter = 0.14;
 constexpr double kEaseIn = 0.25, kEaseOut = 0.2;
 
-constexpr float kAnkleHeight = 0.07f;  // Of a standing foot, at least; metres.
-
 // Shares of the body's mass, by the joints that it is near (Winter, Biomechanics and Motor Control
 // of Human Movement: trunk .50, head .08, arm .05, leg .16).
 constexpr std::array<float, kHumanJoints> kMass = {.15f, .15f,  .20f,  0,
@@ -43,12 +41,8 @@ void FlightWatch::push(double time, const HumanPositions& world) noexcept {
     judged_ = std::max(0, judged_ - 1);
   }
   Sample& now = samples_[count_++];
-  now = {time, 0, world[index(kToes[0])].y};
+  now = {time, 0, lowest_foot(world)};
   for (size_t j = 0; j < kHumanJoints; ++j) now.height += kMass[j] * world[j].y;
-  for (size_t f = 0; f < kFeet; ++f) {
-    now.feet =
-        std::min({now.feet, world[index(kToes[f])].y, world[index(kAnkles[f])].y - kAnkleHeight});
-  }
   // Those that have as much after them as before.
   while (judged_ + 1 < count_ && samples_[judged_].time + kHalfFit <= time) judge(judged_++);
 }

@@ -35,6 +35,9 @@ class GesturePlayer {
   void step(const Model& model, std::span<const float> strengths, float rate, const Ground& ground,
             const StepTime& time) noexcept;
 
+  // Whether none plays and none waits.
+  bool rests() const noexcept { return style_ < 0 && next_style_ < 0; }
+
   // What it adds at the last step, by the strength of its style; null for nothing.
   const GesturePose* now() const noexcept { return style_ >= 0 ? &pose_ : nullptr; }
 

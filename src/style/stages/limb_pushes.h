@@ -74,11 +74,12 @@ class EasedMove {
   // sudden change of speed.
   static void follow(Vec3& at, Vec3& speed, Vec3 wanted, const StepTime& time) noexcept {
     constexpr float kEaseSeconds = 0.05f, kMostAcceleration = 20;  // m/s2.
-    const Vec3 way = wanted - at;
-    if (time.first || !(time.output > 0)) {
-      if (time.first) at = wanted, speed = {};
+    if (time.first) {
+      at = wanted, speed = {};
       return;
     }
+    if (!(time.output > 0)) return;
+    const Vec3 way = wanted - at;
     const float far = length(way);
     const float fastest = std::min(far * time.gain(kEaseSeconds) / time.output,
                                    std::sqrt(2 * kMostAcceleration * far));
