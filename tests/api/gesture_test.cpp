@@ -31,6 +31,8 @@ TEST_F(Gestures, a_trigger_plays_one_and_says_where_there_is_none) {
   EXPECT_EQ(panache_character_trigger(plain, -1, 0), 0);
   EXPECT_EQ(panache_character_trigger(plain, panache_model_find_style(model_, "robot"), 0), 0);
   EXPECT_FALSE(same(walk(triggered, 60), walk(plain, 60)));
+  panache_character_destroy(triggered);
+  panache_character_destroy(plain);
 }
 
 TEST_F(Gestures, at_random_they_are_an_option_that_an_older_program_does_not_set) {
@@ -39,7 +41,9 @@ TEST_F(Gestures, at_random_they_are_an_option_that_an_older_program_does_not_set
     EXPECT_EQ(panache_character_create(model_, skeleton_, &options, &out), PANACHE_OK)
         << panache_last_error();
     panache_character_set_strength(out, scared(), 1);
-    return walk(out, 240);
+    const auto walked = walk(out, 240);
+    panache_character_destroy(out);
+    return walked;
   };
   panache_character_options options = PANACHE_CHARACTER_OPTIONS;
   const auto plain = walk_with(options);
