@@ -8,7 +8,9 @@
 #include <functional>
 #include <string_view>
 
+#include "model_path.h"
 #include "sha256.h"
+#include "style/names.h"
 
 namespace panache::cli {
 namespace {
@@ -38,6 +40,15 @@ Json batch_settings(const CLI::App& verb, const std::string& model) {
     std::error_code status;
     if (given.size() == 1 && std::filesystem::is_regular_file(given[0], status)) {
       files[name] = sha256_of_file(given[0]);
+    }
+  }
+  const auto given = [&](const char* name) {
+    const CLI::Option* option = verb.get_option_no_throw(name);
+    return option && option->count() > 0;
+  };
+  if ((given("--remove") || given("--neutral")) && !given("--remover")) {
+    if (const Result<std::string> shipped = find_shipped(kRemoverModel)) {
+      files["--remover"] = sha256_of_file(*shipped);
     }
   }
   Json of_model;

@@ -1,8 +1,10 @@
 #include "program.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <string>
@@ -82,6 +84,16 @@ int run(const Program& program, int argc, char** argv) {
   return exit_code;
 }
 
+// Freed when memory runs out for the first time: nlohmann's JSON allocates while it is destroyed,
+// which would end the program where an exception is on its way.
+std::atomic<void*> reserve{nullptr};
+constexpr size_t kReserve = 1 << 16;
+
+[[noreturn]] void out_of_memory() {
+  std::free(reserve.exchange(nullptr));
+  throw std::bad_alloc();
+}
+
 // The exit code once it is known whether all that was printed arrived. A reader that has left, as
 // head does, has what it wanted.
 int check_printed(int exit_code) {
@@ -107,6 +119,8 @@ std::unique_ptr<CLI::App> make_app(const Program& program, int& exit_code) {
 
 int run_program(const Program& program, int argc, char** argv) {
   set_program_name(program.name);
+  reserve = std::malloc(kReserve);
+  std::set_new_handler(out_of_memory);
   try {
     return check_printed(run(program, argc, argv));
   } catch (const std::bad_alloc&) {

@@ -85,6 +85,24 @@ TEST_F(RemovalOptions, a_batch_with_another_removal_is_not_taken_for_done) {
   EXPECT_NE(other.err.find("--remove"), std::string::npos) << other.err;
 }
 
+TEST_F(RemovalOptions, a_batch_with_another_shipped_remover_is_not_taken_for_done) {
+  std::filesystem::create_directory(path("models"));
+  std::filesystem::copy(PANACHE_PROGRAM, path("panache"));
+  const auto batch = [&](uint32_t seed) {
+    TensorFile remover = make_model({"old", kAnyStyle}, seed);
+    remover.metadata[kDirection] = kRemove;
+    write("models/remover-int8.safetensors", format_safetensors(remover));
+    return run({"stylize", "walk.bvh", "--neutral", "-o", "out/", "--skip-existing", "--report",
+                "report.jsonl"},
+               "model.safetensors", path("panache"));
+  };
+  ASSERT_EQ(batch(7).exit, 0);
+  EXPECT_EQ(batch(7).exit, 0);
+  const Ran other = batch(8);
+  EXPECT_NE(other.exit, 0);
+  EXPECT_NE(other.err.find("--remover"), std::string::npos) << other.err;
+}
+
 TEST_F(RemovalOptions, info_tells_the_styles_of_a_motion) {
   const Ran ran = run({"info", "walk.bvh", "--styles", "--json"});
   ASSERT_EQ(ran.exit, 0) << ran.err;
