@@ -9,7 +9,7 @@
 namespace panache {
 
 // `count` rows; row r starts at first + r * stride. Kernels take them by reference: copies
-// are read in larger pieces than they were written in, which a processor waits for (docs/speed.md).
+// are read in larger pieces than they were written in, which a processor waits for.
 template <class T>
 struct Rows {
   T* first = nullptr;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <vector>
 
+#include "pose/changed_joints.h"
 #include "pose/limb.h"
+#include "pose/two_bone.h"
 #include "rig/posed_rig.h"
 
 namespace panache {

@@ -5,6 +5,9 @@
 
 #include "base/elementary.h"
 #include "base/one_pole.h"
+#include "pose/changed_joints.h"
+#include "pose/limb.h"
+#include "pose/two_bone.h"
 
 namespace panache {
 namespace {
@@ -27,10 +30,7 @@ constexpr float kRestSeconds = 0.03f;
 constexpr float kFadeRate = 20;  // 1/s
 constexpr float kMaxGlide = 1;   // m/s; a faster foot is not about to stand.
 
-// Straightening the last degrees of a knee takes no distance but much angle: a leg is never asked
-// for more than this share of its length unless the style itself stretches it further.
-constexpr float kMaxReach = 0.995f;
-// So a leg follows only a share of what would make it longer or shorter, as its knee would fly back
+// A leg follows only a share of what would make it longer or shorter, as its knee would fly back
 // and forth where it is nearly straight: the sine of the angle between its reach and its length. A
 // toe that is kDeep below the floor is drawn up by more: by all of it from this sine on.
 constexpr float kBent = 0.6f, kDeep = 0.03f;  // Metres.
@@ -54,9 +54,6 @@ Vec3 easy_target(Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 target, float depth) {
   return hip + way * ((before + follow * (wanted - before)) / wanted);
 }
 
-// The part of `v` at right angles to `axis`, which has length 1.
-Vec3 across(Vec3 v, Vec3 axis) { return v - axis * dot(v, axis); }
-
 // How far a planted foot is held back towards its anchor, which is `pull` away from it.
 Vec3 held(Vec3 pull) {
   constexpr float kGives = kMaxOffset - kHeld;
@@ -75,75 +72,6 @@ Vec3 crept(Vec3 way, float seconds) {
 }
 
 }  // namespace
-
-Vec3 knee_way(Vec3 ankle, Vec3 toe) noexcept { return normalized(toe - ankle) + Vec3{0, 0, 0.5f}; }
-
-TwoBonePlaces two_bone_places(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 out) noexcept {
-  const float upper = length(middle - root), lower = length(end - middle);
-  const Vec3 way = target - root;
-  const float far = length(way);
-  if (upper < 1e-5f || lower < 1e-5f || far < 1e-5f) return {middle, end};
-  const float longest = std::max(length(end - root), kMaxReach * (upper + lower));
-  const float shortest = std::abs(upper - lower) * 1.001f + 1e-4f;
-  const float reach = std::clamp(far, std::min(shortest, longest), longest);
-  const Vec3 axis = normalized(way);
-  // Law of cosines: where along the way the middle is, and how far off it.
-  const float along = (upper * upper - lower * lower + reach * reach) / (2 * reach);
-  const float off = std::sqrt(std::max(0.0f, upper * upper - along * along));
-  return {root + axis * along + out * off, root + axis * reach};
-}
-
-TwoBoneTurn two_bone_turn(Vec3 root, Vec3 middle, Vec3 end, const TwoBonePlaces& to) noexcept {
-  if (to.middle == middle && to.end == end) return {};
-  TwoBoneTurn turn;
-  turn.upper = rotation_between(normalized(middle - root), normalized(to.middle - root));
-  turn.lower = rotation_between(normalized(end - middle), normalized(to.end - to.middle));
-  return turn;
-}
-
-TwoBoneTurn two_bone_ik(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 bend) noexcept {
-  // The middle stays in its half-plane: the bend turns along with the chain.
-  const Vec3 axis = normalized(target - root);
-  const Quat swing = rotation_between(normalized(end - root, axis), axis);
-  const Vec3 out = normalized(rotate(swing, bend));
-  return two_bone_turn(root, middle, end, two_bone_places(root, middle, end, target, out));
-}
-
-Vec3 bend_of(Vec3 root, Vec3 middle, Vec3 end, Vec3 hint, float firm) noexcept {
-  const Vec3 axis = normalized(end - root);
-  Vec3 bend = across(middle - root, axis);
-  if (firm > 0) bend += normalized(across(hint, axis)) * std::max(0.0f, firm - length(bend) / 2);
-  return length(bend) < 1e-3f * length(middle - root) ? across(hint, axis) : bend;
-}
-
-Vec3 mid_hip(const BodyPose& body) noexcept {
-  return (body.joints[index(HumanJoint::left_upper_leg)] +
-          body.joints[index(HumanJoint::right_upper_leg)]) *
-         0.5f;
-}
-
-void changed_joints(const BodyPose& body, const BodyChange& change, HumanPositions& out) noexcept {
-  const Quat to_heading = rotation_y(-body.facing);
-  // The hips turn about the middle of the hip joints, as in Rig::write.
-  out[0] = rotate(change.rotations[0], rotate(to_heading, body.joints[0] - mid_hip(body)));
-  for (int j = 1; j < kHumanJoints; ++j) {
-    const int parent = kHumanParent[j];
-    const Vec3 way = rotate(to_heading, body.joints[j] - body.joints[parent]);
-    out[j] = out[parent] + rotate(change.rotations[parent], way);
-  }
-}
-
-float toe_floor(const BodyPose& body) noexcept {
-  float floor = 0;
-  for (const HumanJoint toe : kToes) floor = std::min(floor, body.joints[index(toe)].y);
-  return floor;
-}
-
-float floor_depth(const BodyPose& body, const HumanPositions& joints,
-                  const BodyChange& change) noexcept {
-  const float lowest = std::min(joints[index(kToes[0])].y, joints[index(kToes[1])].y);
-  return std::max(0.0f, toe_floor(body) - (mid_hip(body).y + change.translation.y + lowest));
-}
 
 void FootLock::follow(Foot& foot, Vec3 input, Vec3 toe, float contact, Seconds time) noexcept {
   const float seconds = time.output;

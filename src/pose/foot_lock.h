@@ -5,49 +5,11 @@
 #include <array>
 #include <span>
 
-#include "base/quat.h"
+#include "base/vec.h"
 #include "pose/contacts.h"
-#include "rig/humanoid.h"
-#include "rig/rig.h"
+#include "rig/body_pose.h"
 
 namespace panache {
-
-// Turns a two-bone chain so that its end reaches for `target`.
-struct TwoBoneTurn {
-  Quat upper, lower;  // To be applied on top of the upper and the lower joint's world rotation.
-};
-// `root`, `middle`, `end`: where hip, knee and ankle (or shoulder, elbow, wrist) are; any one
-// space. A target beyond reach is approached as far as the chain's length allows. `bend`: to which
-// side of the line from root to end the middle goes, of any length; it turns along with that line.
-TwoBoneTurn two_bone_ik(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 bend) noexcept;
-// Where such a chain has its middle and end then. `out`: to which side of the line from root to
-// target the middle goes, unit, at a right angle to that line. A chain without length stays.
-struct TwoBonePlaces {
-  Vec3 middle, end;
-};
-TwoBonePlaces two_bone_places(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 out) noexcept;
-TwoBoneTurn two_bone_turn(Vec3 root, Vec3 middle, Vec3 end, const TwoBonePlaces& to) noexcept;
-// The side that the middle is on, or that of `hint` where the chain is straight. `firm`: a middle
-// that is nearer than twice this to the line from root to end (metres) goes the more towards the
-// hint, the nearer it is; two thirds of it on the wrong side do not make the chain bend that way.
-Vec3 bend_of(Vec3 root, Vec3 middle, Vec3 end, Vec3 hint, float firm = 0) noexcept;
-
-// Where a knee points: where the foot does, and ahead where that points down. Heading frame.
-Vec3 knee_way(Vec3 ankle, Vec3 toe) noexcept;
-
-// Positions of the user's joints with the rotations of `change` on them, in the heading frame of
-// the input: origin midway between the hip joints, axes turned so that the body faces +z. Turn and
-// translation are left out.
-Vec3 mid_hip(const BodyPose& body) noexcept;  // World.
-void changed_joints(const BodyPose& body, const BodyChange& change, HumanPositions& out) noexcept;
-
-// The height below which a style should put no toe: the floor, or the input's own lowest toe where
-// that is lower. World, metres.
-float toe_floor(const BodyPose& body) noexcept;
-// How much deeper than that the lowest toe is with `change`; 0 above it. `joints`:
-// changed_joints().
-float floor_depth(const BodyPose& body, const HumanPositions& joints,
-                  const BodyChange& change) noexcept;
 
 class FootLock {
  public:

@@ -1,4 +1,5 @@
 #include "pose/limb.h"
+#include "pose/two_bone.h"
 
 namespace panache {
 namespace {
@@ -19,6 +20,8 @@ void apply(const LimbJoints& limb, const TwoBoneTurn& turn, HumanPositions& join
 }
 
 }  // namespace
+
+Vec3 knee_way(Vec3 ankle, Vec3 toe) noexcept { return normalized(toe - ankle) + Vec3{0, 0, 0.5f}; }
 
 void turn_limb(const LimbJoints& limb, Vec3 target, Vec3 bend, HumanPositions& joints,
                BodyChange& change) noexcept {

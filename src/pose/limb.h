@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <array>
 
-#include "pose/foot_lock.h"
+#include "pose/contacts.h"
+#include "rig/body_pose.h"
 
 namespace panache {
 
@@ -46,6 +47,9 @@ inline LimbJoints arm_joints(int side) noexcept {
 inline LimbJoints leg_joints(int side) noexcept {
   return {index(kUpperLegs[side]), index(kLowerLegs[side]), index(kAnkles[side]), {0, 0, 1}};
 }
+
+// Where a knee points: where the foot does, and ahead where that points down. Heading frame.
+Vec3 knee_way(Vec3 ankle, Vec3 toe) noexcept;
 
 // Where elbow or knee, and wrist or ankle are moved; metres, in the space of changed_joints().
 struct LimbMove {

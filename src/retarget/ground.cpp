@@ -6,7 +6,8 @@
 
 #include "base/smooth_step.h"
 #include "base/elementary.h"
-#include "pose/foot_lock.h"
+#include "pose/changed_joints.h"
+#include "pose/two_bone.h"
 
 namespace panache {
 namespace {

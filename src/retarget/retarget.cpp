@@ -7,7 +7,7 @@
 
 #include "clip/fk.h"
 #include "pose/contacts.h"
-#include "pose/foot_lock.h"
+#include "pose/changed_joints.h"
 #include "pose/hand_contacts.h"
 #include "retarget/further_joints.h"
 #include "retarget/ground.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "pose/close_loop.h"
-#include "pose/foot_lock.h"
+#include "pose/changed_joints.h"
 #include "pose/loop.h"
 #include "pose/pose_distance.h"
 #include "style/clip_stepper.h"

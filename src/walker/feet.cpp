@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "base/smooth_step.h"
-#include "pose/foot_lock.h"
+#include "pose/two_bone.h"
 
 namespace panache {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "make_clip.h"
 #include "pose/close_loop.h"
-#include "pose/foot_lock.h"
+#include "rig/body_pose.h"
 #include "pose/observer.h"
 
 namespace panache {

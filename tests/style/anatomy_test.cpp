@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "make_clip.h"
-#include "pose/foot_lock.h"
+#include "pose/changed_joints.h"
 #include "rig/posed_rig.h"
 #include "style/stages/balance.h"
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "posed_body.h"
+#include "pose/changed_joints.h"
 
 namespace panache {
 namespace {

@@ -6,6 +6,8 @@
 
 #include "posed_body.h"
 #include "style/stages/arms_clear.h"
+#include "pose/limb.h"
+#include "pose/changed_joints.h"
 #include "style/stages/legs_apart.h"
 
 namespace panache {

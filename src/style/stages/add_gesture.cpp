@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "base/smooth_step.h"
+#include "pose/changed_joints.h"
 #include "pose/limb.h"
+#include "pose/two_bone.h"
 
 namespace panache {
 namespace {

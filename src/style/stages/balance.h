@@ -1,7 +1,7 @@
 #pragma once
 // Eighth stage: a style does not lean until the body would fall.
 
-#include "pose/foot_lock.h"
+#include "rig/body_pose.h"
 
 namespace panache {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "style/rate.h"
+#include "pose/changed_joints.h"
 #include "style/stages/balance.h"
 #include "style/stages/fold.h"
 

@@ -1,5 +1,7 @@
 #include "style/stages/floor.h"
 
+#include "pose/changed_joints.h"
+
 #include <algorithm>
 
 namespace panache {

@@ -1,7 +1,7 @@
 #pragma once
 // Ninth stage: no toe, knee or seat below the floor.
 
-#include "pose/foot_lock.h"
+#include "rig/body_pose.h"
 #include "style/stages/step_time.h"
 
 namespace panache {

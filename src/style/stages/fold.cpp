@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/smooth_step.h"
+#include "pose/changed_joints.h"
 #include "style/stages/balance.h"
 
 namespace panache {

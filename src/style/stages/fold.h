@@ -1,7 +1,7 @@
 #pragma once
 // A style does not fold a body that bends down already, nor press it into the floor.
 
-#include "pose/foot_lock.h"
+#include "rig/body_pose.h"
 
 namespace panache {
 

@@ -5,7 +5,9 @@
 
 #include "base/one_pole.h"
 #include "base/smooth_step.h"
+#include "pose/changed_joints.h"
 #include "pose/limb.h"
+#include "pose/two_bone.h"
 
 namespace panache {
 namespace {

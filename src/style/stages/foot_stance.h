@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "pose/foot_lock.h"
+#include "rig/body_pose.h"
 #include "style/stages/step_time.h"
 #include "style/stance.h"
 

@@ -4,6 +4,9 @@
 #include <cmath>
 
 #include "base/elementary.h"
+#include "pose/limb.h"
+#include "pose/changed_joints.h"
+#include "pose/two_bone.h"
 #include "base/smooth_step.h"
 
 namespace panache {

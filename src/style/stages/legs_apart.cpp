@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "base/smooth_step.h"
+#include "pose/limb.h"
+#include "pose/changed_joints.h"
 
 namespace panache {
 namespace {

@@ -8,6 +8,7 @@
 #include "base/one_pole.h"
 #include "base/smooth_step.h"
 #include "pose/limb.h"
+#include "pose/two_bone.h"
 #include "style/stages/step_time.h"
 
 namespace panache {

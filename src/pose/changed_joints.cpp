@@ -1,0 +1,36 @@
+#include "pose/changed_joints.h"
+
+#include <algorithm>
+
+namespace panache {
+
+Vec3 mid_hip(const BodyPose& body) noexcept {
+  return (body.joints[index(HumanJoint::left_upper_leg)] +
+          body.joints[index(HumanJoint::right_upper_leg)]) *
+         0.5f;
+}
+
+void changed_joints(const BodyPose& body, const BodyChange& change, HumanPositions& out) noexcept {
+  const Quat to_heading = rotation_y(-body.facing);
+  // The hips turn about the middle of the hip joints, as in Rig::write.
+  out[0] = rotate(change.rotations[0], rotate(to_heading, body.joints[0] - mid_hip(body)));
+  for (int j = 1; j < kHumanJoints; ++j) {
+    const int parent = kHumanParent[j];
+    const Vec3 way = rotate(to_heading, body.joints[j] - body.joints[parent]);
+    out[j] = out[parent] + rotate(change.rotations[parent], way);
+  }
+}
+
+float toe_floor(const BodyPose& body) noexcept {
+  float floor = 0;
+  for (const HumanJoint toe : kToes) floor = std::min(floor, body.joints[index(toe)].y);
+  return floor;
+}
+
+float floor_depth(const BodyPose& body, const HumanPositions& joints,
+                  const BodyChange& change) noexcept {
+  const float lowest = std::min(joints[index(kToes[0])].y, joints[index(kToes[1])].y);
+  return std::max(0.0f, toe_floor(body) - (mid_hip(body).y + change.translation.y + lowest));
+}
+
+}  // namespace panache

@@ -1,0 +1,52 @@
+#include "pose/two_bone.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace panache {
+namespace {
+
+// Straightening the last degrees of a knee takes no distance but much angle: a leg is never asked
+// for more than this share of its length unless the style itself stretches it further.
+constexpr float kMaxReach = 0.995f;
+}  // namespace
+
+TwoBonePlaces two_bone_places(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 out) noexcept {
+  const float upper = length(middle - root), lower = length(end - middle);
+  const Vec3 way = target - root;
+  const float far = length(way);
+  if (upper < 1e-5f || lower < 1e-5f || far < 1e-5f) return {middle, end};
+  const float longest = std::max(length(end - root), kMaxReach * (upper + lower));
+  const float shortest = std::abs(upper - lower) * 1.001f + 1e-4f;
+  const float reach = std::clamp(far, std::min(shortest, longest), longest);
+  const Vec3 axis = normalized(way);
+  // Law of cosines: where along the way the middle is, and how far off it.
+  const float along = (upper * upper - lower * lower + reach * reach) / (2 * reach);
+  const float off = std::sqrt(std::max(0.0f, upper * upper - along * along));
+  return {root + axis * along + out * off, root + axis * reach};
+}
+
+TwoBoneTurn two_bone_turn(Vec3 root, Vec3 middle, Vec3 end, const TwoBonePlaces& to) noexcept {
+  if (to.middle == middle && to.end == end) return {};
+  TwoBoneTurn turn;
+  turn.upper = rotation_between(normalized(middle - root), normalized(to.middle - root));
+  turn.lower = rotation_between(normalized(end - middle), normalized(to.end - to.middle));
+  return turn;
+}
+
+TwoBoneTurn two_bone_ik(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec3 bend) noexcept {
+  // The middle stays in its half-plane: the bend turns along with the chain.
+  const Vec3 axis = normalized(target - root);
+  const Quat swing = rotation_between(normalized(end - root, axis), axis);
+  const Vec3 out = normalized(rotate(swing, bend));
+  return two_bone_turn(root, middle, end, two_bone_places(root, middle, end, target, out));
+}
+
+Vec3 bend_of(Vec3 root, Vec3 middle, Vec3 end, Vec3 hint, float firm) noexcept {
+  const Vec3 axis = normalized(end - root);
+  Vec3 bend = across(middle - root, axis);
+  if (firm > 0) bend += normalized(across(hint, axis)) * std::max(0.0f, firm - length(bend) / 2);
+  return length(bend) < 1e-3f * length(middle - root) ? across(hint, axis) : bend;
+}
+
+}  // namespace panache
