@@ -130,6 +130,10 @@ sys.modules['bpy'] = bpy
 package = types.ModuleType('panache')
 package.__path__ = [ADDON]
 sys.modules['panache'] = package
+core = types.ModuleType('panache.core')
+core.Clip = core.Model = core.Skeleton = core.learn = core.stylize = None
+core.PanacheError = type('PanacheError', (Exception,), {})
+sys.modules['panache.core'] = core
 from panache import actions, library  # noqa: E402
 
 

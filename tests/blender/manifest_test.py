@@ -75,12 +75,12 @@ def check_files(archive, top):
     expect(all(name.startswith(top) for name in names), f'{archive.filename}: files outside of {top}')
     sources = os.listdir(os.path.join(root, 'apps/blender/panache'))
     needed = [name for name in sources if name.endswith('.py')] + [
-        'lib/libpanache.so', 'models/panache-int8.safetensors', 'models/README.md', 'LICENSE', 'README.md']
+        'core/__init__.py', 'core/lib/libpanache.so', 'models/panache-int8.safetensors', 'models/README.md', 'LICENSE', 'README.md']
     for name in needed:
         expect(top + name in names, f'{archive.filename}: no {top}{name}')
     expect(not any(re.search(r'__pycache__|\.pyc$|/\.', name) for name in names),
            f'{archive.filename}: files of a cache or hidden ones')
-    expect(len(archive.read(f'{top}lib/libpanache.so')) > 500_000, 'the library is too small')
+    expect(len(archive.read(f'{top}core/lib/libpanache.so')) > 500_000, 'the library is too small')
     return {name.removeprefix(top) for name in names if not name.endswith('/')}
 
 
@@ -92,7 +92,8 @@ with zipfile.ZipFile(addon_zip) as addon, zipfile.ZipFile(extension_zip) as exte
     check_manifest(manifest)
     # What the code does is what the permissions say.
     text = b''.join(extension.read(name) for name in of_extension if name.endswith('.py')).decode()
-    uses = {'files': r'\bopen\(', 'network': r'\b(urllib|requests|socket|http\.client)\b',
+    text = re.sub(r'""".*?"""', '', text, flags=re.DOTALL)  # Code alone.
+    uses = {'files': r'\bopen\(', 'network': r'\bimport (urllib|requests|socket|http)\b|\bfrom (urllib|http)\b',
             'clipboard': r'\.clipboard\b'}
     for permission, pattern in uses.items():
         expect((re.search(pattern, text) is not None) == (permission in manifest['permissions']),

@@ -39,7 +39,7 @@ from panache import sampling, settings  # noqa: E402
 sampled = sampling.Sampled(bpy.context, rig, walk)
 styled = sampled.stylize(settings.model(), {'old': 1.0}, settings.shape(rig), 'steps')
 worst = {'feet': (0, ''), 'rest': (0, '')}
-for i in range(styled.frame_count):
+for i in range(len(styled)):
     places = sampled.world_pose(styled, i)
     heads = checks.heads(rig, sampled.first + i)
     for joint, (_, place) in zip(sampled.joints, places):

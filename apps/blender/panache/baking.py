@@ -24,14 +24,14 @@ def bake(context, armature, sampled, styled, action, name):
     plan = controls.Plan(armature, sampled.joints)
     values = {}
     if not sampled.is_same(styled):
-        frames = [sampled.first + i for i in range(styled.frame_count)]
+        frames = [sampled.first + i for i in range(len(styled))]
         values, unkeyed = yield from _solve(context, armature, sampled, styled, action, plan)
     new = action.copy()
     new.name = name
     new.use_fake_user = True
     if values:
         new[sampling.UNKEYED] = json.dumps(unkeyed)
-        sources = [sampled.first + f for f in styled.source_frames]
+        sources = [sampled.first + f for f in styled.source_frames.tolist()]
         keeps_time = sources == frames
         if not keeps_time:
             _retime(armature, new, sources, frames)
@@ -69,8 +69,8 @@ def _solve(context, armature, sampled, styled, action, plan):
     with sampling.shown_alone(context, armature, action):
         solver = controls.Solver(context, armature, plan, action)
         try:
-            for i, source in enumerate(styled.source_frames):
-                yield i / styled.frame_count
+            for i, source in enumerate(styled.source_frames.tolist()):
+                yield i / len(styled)
                 solver.restore()
                 sampling.set_frame(context.scene, sampled.first + source)
                 for name, target in targets.items():

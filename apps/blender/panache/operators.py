@@ -124,8 +124,8 @@ class PANACHE_OT_bake(_OnArmature, bpy.types.Operator):
         new = yield from _part(_SAMPLING, 1, baking.bake(
             context, armature, sampled, styled, action,
             '%s (%s)' % (action.name, styles or 'no style')))
-        if context.scene.frame_end < sampled.first + styled.frame_count - 1:
-            context.scene.frame_end = sampled.first + styled.frame_count - 1
+        if context.scene.frame_end < sampled.first + len(styled) - 1:
+            context.scene.frame_end = sampled.first + len(styled) - 1
         context.scene.frame_set(context.scene.frame_current)
         self.report({'INFO'}, "baked '%s'; '%s' is a muted NLA track" % (new.name, action.name))
 
@@ -158,12 +158,11 @@ class PANACHE_OT_learn(_OnArmature, bpy.types.Operator):
             armature.animation_data_create()
         clips = []
         for action in (found.neutral, found.styled):
-            sampled = sampling.Sampled(context, armature, action)
-            clips.append((sampled, sampled.skeleton.clip(sampled.motion, sampled.frame_seconds)))
+            clips.append(sampling.Sampled(context, armature, action).clip)
         name = found.style_name.strip()
         known = settings.learnt_style(name)
-        content, lines = library.learn(settings.model(), [(clips[0][1], clips[1][1])],
-                                       known or name, replace=known is not None)
+        content, lines = library.learn(settings.model(), *clips, known or name,
+                                       replace=known is not None)
         settings.keep_learnt(content)
         if known:
             lines.insert(0, "'%s' was learnt before and is replaced" % known)

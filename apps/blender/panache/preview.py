@@ -45,7 +45,7 @@ class _State:
     def show(self, context):
         """The armature is in the unstyled pose of the current frame."""
         frame = min(max(context.scene.frame_current - self.sampled.first, 0),
-                    self.styled.frame_count - 1)
+                    len(self.styled) - 1)
         self.solver.put(self.sampled.world_pose(self.styled, frame))
 
 
@@ -54,7 +54,7 @@ def note(armature, sampled, styled, plan):
     names = sampled.skeleton.mapping()
     found = armature.panache
     found.mapping = '\n'.join('%s\t%s' % (human, name or '-') for human, name in names.items())
-    gate = sum(styled.gates) / len(styled.gates)
+    gate = styled.gates.mean()
     found.known = '%.0f %%' % (100 * gate)
     found.notes = '\n'.join(plan.notes)
 

@@ -3,6 +3,7 @@ count."""
 
 import json
 
+import numpy as np
 from mathutils import Quaternion, Vector
 
 from . import actions, library
@@ -83,14 +84,12 @@ def _local(matrices, joints):
 
 
 def rest_joints(armature, joints):
-    """As library.Skeleton takes them."""
+    """Their rotations and translations at rest, as library.Skeleton takes them."""
     world = armature.matrix_world
     bones = armature.data.bones
     matrices = [world if joint.bone is None else world @ bones[joint.bone].matrix_local
                 for joint in joints]
-    rotations, translations = _local(matrices, joints)
-    return [(joint.name, joint.parent, rotation, translation)
-            for joint, rotation, translation in zip(joints, rotations, translations)]
+    return _local(matrices, joints)
 
 
 def set_frame(scene, frame):
@@ -123,41 +122,36 @@ class Sampled:
         scene = context.scene
         self.joints = joints_of(armature)
         self.first, count = frame_span(armature, action)
-        self.frame_seconds = scene.render.fps_base / scene.render.fps
+        frame_seconds = scene.render.fps_base / scene.render.fps
         rotations, translations = [], []
         with shown_alone(context, armature, action):
             for frame in range(self.first, self.first + count):
                 yield (frame - self.first) / count
                 set_frame(scene, frame)
                 turns, places = _local(world_matrices(context, armature, self.joints), self.joints)
-                for numbers in turns:
-                    rotations.extend(numbers)
-                for numbers in places:
-                    translations.extend(numbers)
+                rotations.append(turns)
+                translations.append(places)
             set_frame(scene, self.first)
             rest = rest_joints(armature, self.joints)
-        self.motion = library.Motion(count, rotations, translations)
-        self.skeleton = library.Skeleton(rest, self.motion)
+        self.skeleton = library.Skeleton(
+            [joint.name for joint in self.joints], [joint.parent for joint in self.joints], *rest,
+            poses=(rotations, translations))
+        self.clip = library.Clip(self.skeleton, rotations, translations, frame_seconds)
 
     def stylize(self, model, strengths, shape, timing):
-        return library.stylize(model, self.skeleton, self.motion, self.frame_seconds, strengths,
-                               shape, timing)
+        return library.stylize(model.all, self.clip, strengths, shape=shape, timing=timing)
 
     def is_same(self, styled):
         """Whether a style has left the motion as it was, bit for bit."""
-        return (styled.frame_count == self.motion.frame_count and
-                list(styled.rotations) == list(self.motion.rotations) and
-                list(styled.translations) == list(self.motion.translations))
+        return (np.array_equal(styled.rotations, self.clip.rotations) and
+                np.array_equal(styled.translations, self.clip.translations))
 
     def world_pose(self, styled, frame):
         """The joints of a styled frame: (rotation, place) each, world, metres."""
-        count = len(self.joints)
         out = []
-        for j, joint in enumerate(self.joints):
-            at = frame * count + j
-            x, y, z, w = styled.rotations[4 * at:4 * at + 4]
-            turn = Quaternion((w, x, y, z))
-            place = Vector(styled.translations[3 * at:3 * at + 3])
+        for joint, (x, y, z, w), place in zip(self.joints, styled.rotations[frame].tolist(),
+                                              styled.translations[frame].tolist()):
+            turn, place = Quaternion((w, x, y, z)), Vector(place)
             if joint.parent >= 0:
                 above_turn, above = out[joint.parent]
                 turn, place = above_turn @ turn, above + above_turn @ place
