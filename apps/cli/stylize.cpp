@@ -327,7 +327,8 @@ int stylize(const StylizeOptions& options) {
   Wanted wanted{*std::move(model), *std::move(removal), *std::move(wishes), *std::move(rig), how,
                 options.in_place,  std::move(onto)};
   wanted.how.stylizer.foot_lock = !options.no_feet;
-  wanted.how.timing = !options.no_timing;
+  // Without an amount the tempo of a style that is taken off stays, too.
+  wanted.how.timing = !options.no_timing && how.stylizer.shape.timing != 0;
   return run_batch(*std::move(files), options.batch, *path, "restyling", "restyled",
                    [&](FileJob& file, const std::function<void(double)>& progress) {
                      auto done = stylize_file(file, wanted, options, progress);

@@ -8,21 +8,38 @@ const files = {
   wasm: process.env.PANACHE_WASM ?? `${root}build/wasm/panache.wasm`,
   model: `${root}models/panache-int8.safetensors`,
   walker: `${root}models/walker.safetensors`,
+  remover: `${root}models/remover-int8.safetensors`,
 };
 
-// import { wasm, model, walker } from 'virtual:panache-files': what the page would have to fetch,
-// packed, as base64, inside of the script. A page opened from a disk may fetch nothing.
+// import wasm from 'virtual:panache-file/wasm': what the page would have to fetch, packed, as
+// base64, inside of the script. A page opened from a disk may fetch nothing.
 function embedFiles(): Plugin {
-  const name = 'virtual:panache-files';
+  const prefix = 'virtual:panache-file/';
   return {
     name: 'panache-files',
+    resolveId: (id) => (id.startsWith(prefix) ? `\0${id}` : null),
+    load(id) {
+      if (!id.startsWith(`\0${prefix}`)) return null;
+      const path = files[id.slice(prefix.length + 1) as keyof typeof files];
+      return `export default '${gzipSync(readFileSync(path), { level: 9 }).toString('base64')}';`;
+    },
+  };
+}
+
+// import removable from 'virtual:panache-removable': the styles of the remover, which comes late.
+function listRemovable(): Plugin {
+  const name = 'virtual:panache-removable';
+  return {
+    name: 'panache-removable',
     resolveId: (id) => (id === name ? `\0${name}` : null),
     load(id) {
       if (id !== `\0${name}`) return null;
-      return Object.entries(files)
-        .map(([key, path]) => [key, gzipSync(readFileSync(path), { level: 9 }).toString('base64')])
-        .map(([key, text]) => `export const ${key} = '${text}';`)
-        .join('\n');
+      const bytes = readFileSync(files.remover);
+      const header = JSON.parse(bytes.toString('utf8', 8, 8 + Number(bytes.readBigUInt64LE())));
+      const [names, groups] = ['styles', 'style_groups'].map(
+        (key) => String(header.__metadata__[key]).split('\n'));
+      return `export default ${JSON.stringify(
+        names.filter(Boolean).map((style, i) => ({ name: style, group: groups[i] })))};`;
     },
   };
 }
@@ -43,9 +60,10 @@ function lateScripts(): Plugin {
     name: 'panache-late-scripts',
     apply: 'build',
     async generateBundle() {
-      for (const name of ['gif', 'zip']) {
+      for (const name of ['gif', 'remover', 'zip']) {
         const input = fileURLToPath(new URL(`src/late/${name}.ts`, import.meta.url));
-        const [made] = [await build({ configFile: false, logLevel: 'warn', build: {
+        const [made] = [await build({ configFile: false, logLevel: 'warn',
+          plugins: [embedFiles()], build: {
           write: false, target: 'es2022', modulePreload: false,
           rollupOptions: { input, output: { format: 'iife' } },
         } })].flat();
@@ -71,7 +89,7 @@ function licences(): Plugin {
 
 export default defineConfig({
   base: './',
-  plugins: [embedFiles(), lateScripts(), licences(), plainScript()],
+  plugins: [embedFiles(), listRemovable(), lateScripts(), licences(), plainScript()],
   build: {
     outDir: `${root}build/web`,
     emptyOutDir: true,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "base/elementary.h"
 #include "learn/samples.h"
 #include "net/aligned_vector.h"
 #include "pose/mirror.h"
@@ -73,7 +74,7 @@ Result<std::vector<StyleShare>> recognise_styles(const std::shared_ptr<const Mod
     recognition->layer.forward({statistics.data(), 1, 0}, {scores.data(), 1, 0});
     const float top = *std::max_element(scores.begin(), scores.begin() + classes);
     float sum = 0;
-    for (size_t c = 0; c < classes; ++c) sum += scores[c] = std::exp(scores[c] - top);
+    for (size_t c = 0; c < classes; ++c) sum += scores[c] = exponential(scores[c] - top);
     for (size_t c = 0; c < classes; ++c) {
       shares[c] += scores[c] / sum / static_cast<float>(windows.size());
     }

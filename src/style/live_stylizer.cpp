@@ -7,7 +7,6 @@
 #include "base/one_pole.h"
 #include "style/cycle_search.h"
 #include "style/pose_change.h"
-#include "style/removal.h"
 #include "style/state_bytes.h"
 
 namespace panache {
@@ -64,32 +63,12 @@ Result<LiveStylizer> LiveStylizer::create(std::shared_ptr<const Model> model, Ri
   if (!stylizer) return stylizer.error();
   LiveStylizer live(*std::move(stylizer), std::move(model), options);
   if (options.remover) {
-    if (Result<int> any = find_removal(*options.remover, ""); !any) return any.error();
-    StylizerOptions plain = options.stylizer;
-    plain.shape = {};
-    Result<Stylizer> remover =
-        Stylizer::create(options.remover, live.stylizer_.rig(), std::move(plain));
-    if (!remover) return remover.error();
-    live.removing_.emplace(*std::move(remover));
+    Result<RemovalPass> removal =
+        RemovalPass::create(options.remover, live.stylizer_.rig(), options.stylizer);
+    if (!removal) return removal.error();
+    live.removal_.emplace(*std::move(removal));
   }
   return live;
-}
-
-LiveStylizer::Removing::Removing(Stylizer remover)
-    : stylizer(std::move(remover)),
-      strengths(stylizer.model().styles().size()),
-      rotations(stylizer.rig().joint_count()),
-      translations(stylizer.rig().joint_count()) {}
-
-ConstPose LiveStylizer::Removing::step(ConstPose in, double seconds) noexcept {
-  stylizer.step(in, strengths, seconds, {rotations, translations});
-  return {rotations, translations};
-}
-
-void LiveStylizer::set_removed(int style) noexcept {
-  if (!removing_ || style < -1 || style >= static_cast<int>(removing_->strengths.size())) return;
-  std::fill(removing_->strengths.begin(), removing_->strengths.end(), 0.0f);
-  if (style >= 0) removing_->strengths[static_cast<size_t>(style)] = 1;
 }
 
 LiveStylizer::LiveStylizer(Stylizer stylizer, std::shared_ptr<const Model> model,
@@ -102,7 +81,7 @@ LiveStylizer::LiveStylizer(Stylizer stylizer, std::shared_ptr<const Model> model
 
 void LiveStylizer::reset() noexcept {
   forget();
-  if (removing_) removing_->stylizer.reset();
+  if (removal_) removal_->reset();
   stylizer_.reset();
   if (playback_) playback_->input.reset();
 }
@@ -212,7 +191,7 @@ void LiveStylizer::blend_from_old(double seconds, double played, Pose shown) noe
 
 void LiveStylizer::step(ConstPose in, std::span<const float> strengths, double seconds,
                         Pose out) noexcept {
-  if (removing_) in = removing_->step(in, seconds);
+  if (removal_) in = removal_->step(in, seconds, seconds);
   if (!playback_) return stylizer_.step(in, strengths, seconds, out);
   Playback& p = *playback_;
   seconds = bounded_seconds(seconds);
@@ -244,33 +223,29 @@ void LiveStylizer::visit_state(Self& self, Visit&& visit) {
   visit(p.old_ahead), visit(p.blended);
 }
 
-size_t LiveStylizer::remover_state_size() const noexcept {
-  return removing_ ? removing_->stylizer.state_size() : 0;
-}
-
 size_t LiveStylizer::state_size() const noexcept {
   const size_t own =
       playback_ ? state_bytes([this](auto&& visit) { visit_state(*this, visit); }) : size_t{0};
-  return stylizer_.state_size() + remover_state_size() + own;
+  return stylizer_.state_size() + removal_state_size() + own;
 }
 
 void LiveStylizer::save(std::span<std::byte> out) const noexcept {
   assert(out.size() == state_size());
-  const size_t size = stylizer_.state_size(), first = remover_state_size();
+  const size_t size = stylizer_.state_size(), first = removal_state_size();
   stylizer_.save(out.first(size));
-  if (removing_) removing_->stylizer.save(out.subspan(size, first));
+  if (removal_) removal_->save(out.subspan(size, first));
   if (!playback_) return;
   write_state(out.subspan(size + first), [this](auto&& visit) { visit_state(*this, visit); });
 }
 
 bool LiveStylizer::restore(std::span<const std::byte> in) noexcept {
   if (in.size() != state_size()) return false;
-  const size_t size = stylizer_.state_size(), first = remover_state_size();
-  const auto remover = in.subspan(size, first), own = in.subspan(size + first);
+  const size_t size = stylizer_.state_size(), first = removal_state_size();
+  const auto removal = in.subspan(size, first), own = in.subspan(size + first);
   if (playback_ && !is_whole_state(own)) return false;
-  if (removing_ && !is_whole_state(remover)) return false;
+  if (removal_ && !is_whole_state(removal)) return false;
   if (!stylizer_.restore(in.first(size))) return false;
-  if (removing_) removing_->stylizer.restore(remover);
+  if (removal_) removal_->restore(removal);
   if (playback_) read_state(own, [this](auto&& visit) { visit_state(*this, visit); });
   return true;
 }

@@ -9,6 +9,7 @@
 #include "style/input_ring.h"
 #include "style/play_head.h"
 #include "style/pose_predictor.h"
+#include "style/removal_pass.h"
 #include "style/stylizer.h"
 
 namespace panache {
@@ -48,7 +49,9 @@ class LiveStylizer {
 
   // The style of the remover that is taken off the input before all else, at the input's tempo; -1:
   // none, as at first. Eased as strengths are. Other numbers are ignored.
-  void set_removed(int style) noexcept;
+  void set_removed(int style) noexcept {
+    if (removal_) removal_->set_removed(style);
+  }
 
   // Where the shown input is: seconds after the newest pose, below zero if late, at the last step.
   double ahead() const noexcept { return head_.ahead(); }
@@ -56,7 +59,7 @@ class LiveStylizer {
   int skipped_cycles() const noexcept { return skipped_; }
   // Whether time is the input's own and nothing is taken off, so that a step is that of the
   // stylizer alone.
-  bool is_pass_through() const noexcept { return !playback_ && !removing_; }
+  bool is_pass_through() const noexcept { return !playback_ && !removal_; }
 
   // See Stylizer.
   Stylizer& stylizer() noexcept { return stylizer_; }
@@ -87,17 +90,6 @@ class LiveStylizer {
     double blended = 1;    // and how much of the way from it is done, 0 to 1.
   };
 
-  // The first of two passes.
-  struct Removing {
-    Removing(Stylizer remover);
-    ConstPose step(ConstPose in, double seconds) noexcept;
-
-    Stylizer stylizer;
-    std::vector<float> strengths;    // [styles of the remover]
-    std::vector<Quat> rotations;     // The neutral pose. [joints]
-    std::vector<Vec3> translations;  // Likewise.
-  };
-
   LiveStylizer(Stylizer stylizer, std::shared_ptr<const Model> model, const LiveOptions& options);
 
   void forget() noexcept;  // Of the motion so far, all but the observer's part.
@@ -105,7 +97,7 @@ class LiveStylizer {
   void skip_cycle(double rate) noexcept;
   void look_ahead(double seconds) noexcept;
   RootPose root_at(double ahead) const noexcept;
-  size_t remover_state_size() const noexcept;
+  size_t removal_state_size() const noexcept { return removal_ ? removal_->state_size() : 0; }
   void pose_at(double ahead, const RootOffset& offset, Pose out) noexcept;
   void blend_from_old(double seconds, double played, Pose shown) noexcept;
   template <class Self, class Visit>
@@ -116,7 +108,7 @@ class LiveStylizer {
   PlayHead head_;
   int skipped_ = 0;
   std::unique_ptr<Playback> playback_;  // Null where time is the input's own.
-  std::optional<Removing> removing_;    // With a remover.
+  std::optional<RemovalPass> removal_;  // With a remover.
 };
 
 }  // namespace panache

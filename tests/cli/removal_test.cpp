@@ -48,6 +48,19 @@ TEST_F(RemovalOptions, a_style_is_taken_off_before_another_is_put_on) {
             read("twice.bvh").substr(0, read("twice.bvh").find("Frame Time")));
 }
 
+TEST_F(RemovalOptions, with_timing_off_the_tempo_of_what_is_taken_off_stays) {
+  TensorFile remover = make_model({"old", kAnyStyle}, 7);
+  remover.metadata[kDirection] = kRemove;
+  set_rate(remover, 0.5);
+  write("remover.safetensors", format_safetensors(remover));
+  const auto frames = [&](const std::string& timing) {
+    const std::string bvh = made({"--remove", "old", "--timing", timing});
+    return std::stoi(bvh.substr(bvh.find("Frames:") + 7));
+  };
+  EXPECT_EQ(frames("off"), 90);
+  EXPECT_GT(frames("all"), 120);
+}
+
 TEST_F(RemovalOptions, without_a_style_no_name_is_missing_and_the_result_is_called_neutral) {
   const Ran ran = run({"stylize", "walk.bvh", "--neutral", "--remover", "remover.safetensors"});
   EXPECT_EQ(ran.exit, 0) << ran.err;

@@ -19,7 +19,7 @@ before(async () => {
   folder = await mkdtemp(join(tmpdir(), 'panache-'));
   await cp(join(root, 'apps/web/package'), join(folder, 'package'), { recursive: true });
   for (const path of ['LICENSE', 'build/wasm/panache.wasm', 'models/panache-int8.safetensors',
-    'models/walker.safetensors']) {
+    'models/remover-int8.safetensors', 'models/walker.safetensors']) {
     await cp(join(root, path), join(folder, 'package', basename(path)));
   }
   await mkdir(join(folder, 'three_js'));
@@ -92,7 +92,9 @@ test('the package is whole: licence, example and types', async () => {
       const panache = await Panache.create({ wasm: bytes, model: bytes });
       const shape: Partial<Shape> = { legs: 0 };
       const skeleton = panache.createSkeleton([]);
-      const character = panache.createCharacter(skeleton, { maxLag: 1 });
+      const remover = panache.createRemover(bytes);
+      const character = panache.createCharacter(skeleton, { maxLag: 1, remover });
+      character.setRemoved(remover.recognise(skeleton, { ...pose, frameSeconds: 1 })[0].name);
       character.setShape(shape);
       character.step(pose, pose, 1 / 60);
       // @ts-expect-error A name of a style is a string.
@@ -181,15 +183,19 @@ test('styles have the groups of the model', async () => {
   panache.setModel(own);
 });
 
-test('a three.js skeleton, C and the library give the same bits', async () => {
+// The poses of a walking figure, and the hashes of what C and the library make of them.
+async function sameBits() {
   const file = join(folder, 'poses');
-  const model = join(root, 'models/panache-int8.safetensors');
-  const [byC, byLibrary] =
-    execFileSync(process.env.PANACHE_SAME_BITS, [model, file]).toString().trim().split(' ');
-  const bytes = await readFile(file);
-  const poses = new Float32Array(new Uint8Array(bytes).buffer);
+  const hashes = execFileSync(process.env.PANACHE_SAME_BITS,
+    [...['panache-int8', 'remover-int8'].map((name) => join(root, `models/${name}.safetensors`)), file])
+    .toString().trim().split('\n');
+  const poses = new Float32Array(new Uint8Array(await readFile(file)).buffer);
   assert.equal(poses.length, kFrames * 7 * kJoints);
+  return { poses, hashes };
+}
 
+test('a three.js skeleton, C and the library give the same bits', async () => {
+  const { poses, hashes: [byC, byLibrary] } = await sameBits();
   const figure = createFigure();
   const styled = new StyledBones(panache, figure, { humanBones });
   styled.character.setShape({ posture: 0.75, leftArm: 0.5 });
@@ -211,6 +217,137 @@ test('a three.js skeleton, C and the library give the same bits', async () => {
   assert.equal(hash.toString(), byC);
   assert.equal(byLibrary, byC);
   styled.free();
+});
+
+test('styles are taken off and told with the bits of C', async () => {
+  const { poses, hashes: [, , ofPoses, ofClip, ofShares] } = await sameBits();
+  const { made } = skeleton();
+  const remover = panache.createRemover(await read('models/remover-int8.safetensors'));
+  const character = panache.createCharacter(made, { remover });
+  character.setRemoved('old');
+  character.setStrength('proud', 0.75);
+  const whole = { rotations: new Float32Array(4 * kJoints * kFrames),
+    translations: new Float32Array(3 * kJoints * kFrames), frameSeconds: 1 / 60 };
+  const hashOf = (one) => {
+    const hash = new Hash();
+    for (let f = 0; f < one.rotations.length / (4 * kJoints); ++f) {
+      hash.add(one.rotations.subarray(4 * kJoints * f, 4 * kJoints * (f + 1)));
+      hash.add(one.translations.subarray(3 * kJoints * f, 3 * kJoints * (f + 1)));
+    }
+    return hash.toString();
+  };
+  const stepped = { rotations: whole.rotations.slice(), translations: whole.translations.slice() };
+  for (let f = 0; f < kFrames; ++f) {
+    const at = 7 * kJoints * f;
+    whole.rotations.set(poses.subarray(at, at + 4 * kJoints), 4 * kJoints * f);
+    whole.translations.set(poses.subarray(at + 4 * kJoints, at + 7 * kJoints), 3 * kJoints * f);
+    const poseOf = (clip) => ({
+      rotations: clip.rotations.subarray(4 * kJoints * f, 4 * kJoints * (f + 1)),
+      translations: clip.translations.subarray(3 * kJoints * f, 3 * kJoints * (f + 1)) });
+    character.step(poseOf(whole), poseOf(stepped), 1 / 60);
+  }
+  assert.equal(hashOf(stepped), ofPoses);
+  assert.equal(hashOf(panache.stylizeClip(made, whole, { proud: 0.75 }, { remover, remove: 'Old' })),
+    ofClip);
+
+  const told = remover.recognise(made, whole);
+  assert.ok(told.every(({ share }, i) => i === 0 || share <= told[i - 1].share));
+  const hash = new Hash();
+  hash.add(Float32Array.from([...remover.styles, { name: 'neutral' }],
+    ({ name }) => told.find((one) => one.name === name)?.share ?? 0));
+  assert.equal(hash.toString(), ofShares);
+
+  // What goes on without a remover, after it, is the input.
+  character.setRemoved(null);
+  character.setStrength('proud', 0);
+  const pose = { rotations: whole.rotations.slice(0, 4 * kJoints),
+    translations: whole.translations.slice(0, 3 * kJoints) };
+  const out = { rotations: pose.rotations.slice(), translations: pose.translations.slice() };
+  for (let f = 0; f < 120; ++f) character.step(pose, out, 1 / 60);
+  assert.deepEqual(out, pose);
+  for (const thing of [character, remover, made]) thing.free();
+});
+
+test('a player takes off what its file shows, and says what is wrong in a sentence', async () => {
+  const bytes = await read('models/remover-int8.safetensors');
+  const remover = panache.createRemover(bytes);
+  assert.equal(remover.styles.at(-1).name, 'any');
+  assert.equal(remover.styles.find(({ name }) => name === 'zombie').group, 'creatures');
+  const owner = await createWithWalker(await read('models/walker.safetensors'));
+  const walk = owner.createWalker();
+  walk.steer(1.3, 0);
+  walk.setStrength('old', 1);
+  for (let f = 0; f < 60 * 8; ++f) walk.step(1 / 60);
+  const [file, neutral] = ['styled', 'input'].map((which) => panache.openFile(
+    walk.exportAs('.bvh', { which, seconds: 4 }), `${which}.bvh`));
+  const share = (one, style) =>
+    remover.recogniseFile(one).find(({ name }) => name === style).share;
+  assert.equal(remover.recogniseFile(file)[0].name, 'old');
+  assert.ok(share(neutral, 'old') < 0.2, `${share(neutral, 'old')}`);
+  const player = file.createPlayer();
+  refusal(() => player.setRemoved('old'),
+    /^setRemoved: expected a player that was given a remover$/);
+  const plain = player.exportAs('.bvh');
+  player.useRemover(remover);
+  assert.deepEqual(player.exportAs('.bvh'), plain);
+  player.setRemoved('old');
+  const off = panache.openFile(player.exportAs('.bvh'), 'off.bvh');
+  assert.ok(share(off, 'old') < share(file, 'old') - 0.5, `${share(off, 'old')}`);
+  // What is seen while it plays is what is saved, here without the tempo.
+  player.setTiming('off');
+  const still = panache.openFile(player.exportAs('.bvh'), 'still.bvh').createPlayer();
+  player.seek(0);
+  let farthest = 0, changed = 0;
+  for (let f = 0; f < 120; ++f) {
+    player.step(f && 1 / 60);
+    still.step(f && 1 / 60);
+    const [seen, saved, input] = [player.parts('styled').slice(), still.parts('styled').slice(),
+      player.parts('input').slice()];
+    for (let k = 0; k < seen.length; k += 7) {
+      const far = (a, b) => Math.hypot(...[0, 1, 2].map((i) => a[k + i] - b[k + i]));
+      if (f > 30) farthest = Math.max(farthest, far(seen, saved));
+      changed = Math.max(changed, far(seen, input));
+    }
+  }
+  assert.ok(changed > 0.05 && farthest < changed / 4, `${changed} m changed, ${farthest} m apart`);
+  // With the tempo it plays as long as what is saved, to a step and what the end of a clip changes.
+  player.setTiming('all');
+  player.loop = false;
+  player.seek(0);
+  const [{ seconds, frames }] = file.clips, [saved] =
+    panache.openFile(player.exportAs('.bvh'), 'tempo.bvh').clips;
+  let steps = 0;
+  for (player.step(0); player.seconds < seconds - 1e-6 && steps < 2 * frames; ++steps) player.step(1 / 60);
+  assert.ok(Math.abs(saved.frames - frames) > 0.1 * frames, `${frames} to ${saved.frames} frames`);
+  assert.ok(Math.abs(steps - saved.frames) < 0.05 * frames, `${steps} steps, ${saved.frames} frames`);
+  player.setRemoved(null);
+  assert.deepEqual(player.exportAs('.bvh'), plain);
+
+  const { made } = skeleton();
+  const character = panache.createCharacter(made);
+  const clip = { rotations: new Float32Array(4 * kJoints).fill(0.5),
+    translations: new Float32Array(3 * kJoints), frameSeconds: 1 / 60 };
+  refusal(() => panache.createRemover(panache.modelBytes),
+    /^the remover: the model puts styles on; expected one that takes them off$/);
+  refusal(() => panache.createRemover('old'),
+    /^the remover: expected an ArrayBuffer or a Uint8Array, found 'old'$/);
+  refusal(() => panache.createRemover(bytes.subarray(0, 1000)), /^the remover: /);
+  refusal(() => player.setRemoved('nobody'), /^there is no style 'nobody'; the model has angry, /);
+  refusal(() => player.useRemover(panache),
+    /^remover: expected a Remover, found an object of the class Panache$/);
+  refusal(() => character.setRemoved('old'),
+    /^setRemoved: expected a character that was given a remover$/);
+  refusal(() => panache.stylizeClip(made, clip, {}, { remove: 'old' }),
+    /^remove: expected remover too, the model that takes the style off$/);
+  refusal(() => panache.stylizeClip(made, clip, {}, { remover }),
+    /^remover: expected remove too, the style to take off$/);
+  refusal(() => owner.createWalker().useRemover(remover), /^this remover is of another Panache; /);
+  const empty = { ...clip, rotations: new Float32Array(), translations: new Float32Array() };
+  refusal(() => remover.recognise(made, empty), /^clip: has no frames$/);
+  for (const thing of [remover, remover]) thing.free();
+  refusal(() => remover.recogniseFile(file), /^this remover was freed and cannot be used any more/);
+  player.step(1 / 60);  // Keeps what it needs.
+  for (const thing of [player, character, made, off, file, neutral, walk, owner]) thing.free();
 });
 
 test('the three.js sample runs, and an old figure stoops', () => {

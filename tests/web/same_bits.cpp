@@ -1,6 +1,8 @@
-// same_bits MODEL POSES: writes the poses of a walking figure, styles them through the C interface
-// and through the library as `panache stylize` does, and prints the hash of both. For the three.js
-// sample, which styles the same poses, to compare its own with.
+// same_bits MODEL REMOVER POSES: writes the poses of a walking figure, styles them through the C
+// interface and through the library as `panache stylize` does, and prints the hash of both. For the
+// three.js sample, which styles the same poses, to compare its own with. Then the hashes of the
+// poses, and of the whole clip, with one style taken off and another put on, and of the styles that
+// the clip shows, for the npm package.
 
 #include <cinttypes>
 #include <cstdio>
@@ -64,6 +66,64 @@ uint64_t by_c_interface(const char* path, const std::vector<stick_pose>& poses) 
   return hash.value();
 }
 
+struct Removed {
+  uint64_t poses = 0, clip = 0, shares = 0;
+};
+
+Removed remove_by_c_interface(const char* path, const char* remover_path,
+                              const std::vector<stick_pose>& poses) {
+  panache_model *model = stick_load_model(path), *remover = stick_load_model(remover_path);
+  panache_skeleton* skeleton = nullptr;
+  panache_character* character = nullptr;
+  panache_character_options live = PANACHE_CHARACTER_OPTIONS;
+  live.remover = remover;
+  if (panache_skeleton_create(stick_figure, STICK_JOINTS, nullptr, &skeleton) ||
+      panache_character_create(model, skeleton, &live, &character)) {
+    return {};
+  }
+  const int32_t old = panache_model_find_style(remover, "old");
+  const int32_t proud = panache_model_find_style(model, "proud");
+  panache_character_set_removed(character, old);
+  panache_character_set_strength(character, proud, 0.75f);
+  std::vector<float> rotations, translations;
+  Hash stepped;
+  for (const stick_pose& in : poses) {
+    stick_pose out;
+    panache_character_step(character, stick_input(&in), kFrameSeconds, stick_output(&out));
+    stepped.add(out.rotations[0], 4 * STICK_JOINTS);
+    stepped.add(out.translations[0], 3 * STICK_JOINTS);
+    rotations.insert(rotations.end(), in.rotations[0], in.rotations[STICK_JOINTS]);
+    translations.insert(translations.end(), in.translations[0], in.translations[STICK_JOINTS]);
+  }
+  const panache_clip clip = {skeleton, kFrames, kFrameSeconds, rotations.data(),
+                             translations.data()};
+  const panache_strength_key key = {0, 0.75f};
+  const panache_strength_track track = {proud, 1, &key};
+  panache_stylize_options whole = PANACHE_STYLIZE_OPTIONS;
+  whole.remover = remover;
+  whole.removed = old;
+  panache_styled_clip* styled = nullptr;
+  std::vector<float> shares(static_cast<size_t>(panache_model_style_count(remover)) + 1);
+  const auto count = static_cast<int32_t>(shares.size());
+  if (panache_stylize_clip(model, &clip, &track, 1, &whole, &styled) ||
+      panache_recognise_styles(remover, &clip, shares.data(), count)) {
+    return {};
+  }
+  Hash told;
+  told.add(shares.data(), shares.size());
+  const Removed hashes = {
+      stepped.value(),
+      hash_of(panache_styled_clip_rotations(styled), panache_styled_clip_translations(styled),
+              panache_styled_clip_frame_count(styled)),
+      told.value()};
+  panache_styled_clip_destroy(styled);
+  panache_character_destroy(character);
+  panache_skeleton_destroy(skeleton);
+  panache_model_destroy(remover);
+  panache_model_destroy(model);
+  return hashes;
+}
+
 // As the program does, tempo apart; its own output passes through the decimals of a file.
 uint64_t by_library(const char* path, const std::vector<stick_pose>& poses) {
   using namespace panache;
@@ -109,14 +169,17 @@ uint64_t by_library(const char* path, const std::vector<stick_pose>& poses) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) return std::fputs("usage: same_bits MODEL POSES\n", stderr), 2;
+  if (argc != 4) return std::fputs("usage: same_bits MODEL REMOVER POSES\n", stderr), 2;
   std::vector<stick_pose> poses(kFrames);
   for (int f = 0; f < kFrames; ++f) stick_walk(f * kFrameSeconds, 0, &poses[f]);
-  FILE* file = std::fopen(argv[2], "wb");
+  FILE* file = std::fopen(argv[3], "wb");
   if (!file || std::fwrite(poses.data(), sizeof poses[0], poses.size(), file) != poses.size() ||
       std::fclose(file)) {
-    return std::fprintf(stderr, "%s: cannot be written\n", argv[2]), 1;
+    return std::fprintf(stderr, "%s: cannot be written\n", argv[3]), 1;
   }
-  std::printf("%016" PRIx64 " %016" PRIx64 "\n", by_c_interface(argv[1], poses),
-              by_library(argv[1], poses));
+  const Removed removed = remove_by_c_interface(argv[1], argv[2], poses);
+  for (const uint64_t hash : {by_c_interface(argv[1], poses), by_library(argv[1], poses),
+                              removed.poses, removed.clip, removed.shares}) {
+    std::printf("%016" PRIx64 "\n", hash);
+  }
 }

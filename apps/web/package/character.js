@@ -1,9 +1,11 @@
 // Styling poses of the caller's own: panache.h for JavaScript. See index.d.ts.
 import {
-  PanacheError, checkClip, checkFinite, checkInteger, checkJoints, checkKeys, checkPose,
+  PanacheError, checkFinite, checkInteger, checkJoints, checkKeys, checkPose,
   checkTriggered, inUse, timingNumber, unexpected,
 } from './checks.js';
+import { writeClip } from './clip.js';
 import { struct } from './memory.js';
+import { removedIndex, removerHandle } from './remover.js';
 
 const kJoint = struct(['name', 'i32'], ['parent', 'i32'], ['rotation', 'f32', 4],
   ['translation', 'f32', 3]);
@@ -26,8 +28,6 @@ const kShape = struct(['size', 'i32'], ['strength', 'f32'], ['posture', 'f32'],
 const kReport = struct(['size', 'i32'], ['gate', 'f32'], ['contacts', 'f32', 2], ['rate', 'f64'],
   ['ahead', 'f64']);
 const kPose = struct(['rotations', 'i32'], ['translations', 'i32']);
-const kClip = struct(['skeleton', 'i32'], ['frameCount', 'i32'], ['frameSeconds', 'f64'],
-  ['rotations', 'i32'], ['translations', 'i32']);
 const kKey = struct(['seconds', 'f64'], ['strength', 'f32']);
 const kTrack = struct(['style', 'i32'], ['keyCount', 'i32'], ['keys', 'i32']);
 
@@ -101,16 +101,19 @@ export class Skeleton {
 }
 
 export class Character {
-  #wasm; #panache; #joints; #styles; #character; #block; #pose;
+  #wasm; #panache; #joints; #styles; #remover; #character; #block; #pose;
 
   constructor(panache, skeleton, options) {
-    const told = optionsOf({ ...kStylizing, skipCycles: false, maxLag: 0, maxLead: 0 }, options);
+    const { remover, ...told } = optionsOf(
+      { ...kStylizing, skipCycles: false, maxLag: 0, maxLead: 0, remover: null }, options);
     this.#panache = panache;
     this.#wasm = panache._wasm;
     this.#joints = skeleton.jointCount;
     this.#styles = panache.styles;  // A character stays with the model that it was made with.
+    this.#remover = remover;
     this.#character = panache._arena((arena) => {
-      const at = arena.write(kCharacterOptions, { size: kCharacterOptions.size, ...told });
+      const at = arena.write(kCharacterOptions, { size: kCharacterOptions.size, ...told,
+        remover: remover ? removerHandle(panache, remover) : 0 });
       return arena.create((out) => this.#wasm.panache_character_create(
         panache._model(), skeleton._handleFor(panache), at, out));
     });
@@ -136,6 +139,10 @@ export class Character {
     const index = this.#panache._styleIndex(style, this.#styles);
     checkTriggered(this.#wasm.panache_character_trigger(
       character, index, checkInteger(gesture, 'gesture')), this.#styles[index], gesture);
+  }
+  setRemoved(style) {
+    this.#wasm.panache_character_set_removed(
+      this.#handle(), removedIndex(this.#remover, style, 'character'));
   }
   setShape(shape) {
     this.#panache._arena((arena) => arena.check(this.#wasm.panache_character_set_shape(
@@ -186,23 +193,30 @@ function writeTrack(arena, panache, name, strength) {
   };
 }
 
+// What stylizeClip() takes off first.
+function removalOf(panache, remover, remove) {
+  if (!remover && remove === null) return {};
+  if (!remover) {
+    throw new PanacheError('remove: expected remover too, the model that takes the style off');
+  }
+  if (remove === null) throw new PanacheError('remover: expected remove too, the style to take off');
+  return { remover: removerHandle(panache, remover), removed: remover._styleIndex(remove) };
+}
+
 export function stylizeClip(panache, skeleton, clip, strengths, options) {
   const wasm = panache._wasm;
-  const { shape, styleTiming, loop, ...told } = optionsOf(
-    { ...kStylizing, styleTiming: 'steps', shape: {}, loop: 'auto' }, options);
+  const { shape, styleTiming, loop, remover, remove, ...told } = optionsOf({ ...kStylizing,
+    styleTiming: 'steps', shape: {}, loop: 'auto', remover: null, remove: null }, options);
   if (!kLoops.includes(loop)) throw unexpected('loop', "'auto', 'on' or 'off'", loop);
   const joints = skeleton.jointCount;
-  const frameCount = checkClip(clip, joints);
   const styled = panache._arena((arena) => {
-    const from = arena.write(kClip, {
-      skeleton: skeleton._handleFor(panache), frameCount, frameSeconds: clip.frameSeconds,
-      rotations: arena.copy(clip.rotations), translations: arena.copy(clip.translations),
-    });
+    const from = writeClip(arena, panache, skeleton, clip);
     const tracks = Object.entries(strengths).map(
       ([name, strength]) => writeTrack(arena, panache, name, strength));
     const how = arena.write(kStylizeOptions, {
       size: kStylizeOptions.size, ...told, styleTiming: timingNumber(styleTiming, 'styleTiming'),
-      shape: writeShape(arena, shape), loop: kLoops.indexOf(loop), removed: 0, remover: 0,
+      shape: writeShape(arena, shape), loop: kLoops.indexOf(loop),
+      ...removalOf(panache, remover, remove),
     });
     const list = arena.array(kTrack, tracks);
     return arena.create((out) => wasm.panache_stylize_clip(

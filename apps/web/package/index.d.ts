@@ -139,6 +139,8 @@ export interface CharacterOptions extends StylizingOptions {
   maxLead?: number;
   /** Leave out or repeat whole cycles to stay within them; false. */
   skipCycles?: boolean;
+  /** For setRemoved(); none. */
+  remover?: Remover | null;
 }
 /** Where a motion gets the tempo of its styles: where the feet step, so that talk and gestures keep
  * their length; everywhere; or nowhere, frame by frame. */
@@ -150,6 +152,10 @@ export interface StylizeOptions extends StylizingOptions {
   /** Whether the last pose of the result is its first, travel aside: where that is so in the clip
    * ('auto'), always, or an error where the two are too far apart ('on'), or never. */
   loop?: 'auto' | 'on' | 'off';
+  /** The style that the clip shows, which is taken off first, also its tempo; 'any' for one without
+   * a name. Needs a remover. */
+  remove?: string | null;
+  remover?: Remover | null;
 }
 
 /** What went on at the last step. */
@@ -178,6 +184,27 @@ export interface StyledClip extends Clip {
   isLoop: boolean;
 }
 
+/** How much of a motion shows a style. */
+export interface StyleShare {
+  /** Of the remover's style, or 'neutral'. */
+  name: string;
+  /** 0 to 1. */
+  share: number;
+}
+
+/** A model that takes styles off, and tells which ones a motion shows. */
+export class Remover {
+  private constructor();
+  /** What it takes off; its style 'any' suits motion in a style that it does not know. */
+  readonly styles: readonly Style[];
+  /** The styles that a clip shows, and neutral, the largest share first; together 1. */
+  recognise(skeleton: Skeleton, clip: Clip): StyleShare[];
+  /** The same of a clip of a file. */
+  recogniseFile(file: MotionFile, clip?: number): StyleShare[];
+  /** Characters and players keep what they need of it. */
+  free(): void;
+}
+
 /** A rig of yours, shared by all its characters. */
 export class Skeleton {
   private constructor();
@@ -198,6 +225,9 @@ export class Character {
    * acts: when no other plays and a foot is on the floor, within 3 s or not at all. Throws where the
    * style has none there. */
   trigger(style: string, gesture?: number): void;
+  /** Takes a style of the remover off the input, at the input's tempo, before styles are put on;
+   * null: none, as at first. Eased in. Throws where the character was given no remover. */
+  setRemoved(style: string | null): void;
   /** What is left out is 1. Eased in. */
   setShape(shape: Partial<Shape>): void;
   /** Styles the next pose; `seconds` have gone by since the last. Both may be the same arrays. */
@@ -248,6 +278,8 @@ export class Panache {
   /** Finds the humanoid among the joints of a skeleton of yours, or throws. */
   createSkeleton(joints: readonly Joint[], options?: SkeletonOptions): Skeleton;
   createCharacter(skeleton: Skeleton, options?: CharacterOptions): Character;
+  /** Of the bytes of remover-int8.safetensors. Throws where the model puts styles on. */
+  createRemover(bytes: ArrayBuffer | Uint8Array): Remover;
   /** Styles a whole clip, with the tempo of the style. Strengths by style: a number, or keys
    * [seconds, strength] with straight lines between them. */
   stylizeClip(skeleton: Skeleton, clip: Clip,
@@ -313,6 +345,11 @@ declare class Player {
   setShape(shape: Partial<Shape>): void;
   /** See Character.trigger(). */
   trigger(style: string, gesture?: number): void;
+  /** A model for setRemoved(); the motion goes on. */
+  useRemover(remover: Remover): void;
+  /** Takes a style of the remover off the input, also its tempo, before styles are put on; null:
+   * none, as at first. Eased in. Throws before useRemover(). */
+  setRemoved(style: string | null): void;
   /** 'steps' at first; the motion goes on. */
   setTiming(timing: Timing): void;
   /** Goes on by so many seconds, at most a tenth at once. */

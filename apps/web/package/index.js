@@ -7,6 +7,7 @@ import {
   timingNumber,
 } from './checks.js';
 import { Arena } from './memory.js';
+import { Remover, removedIndex, removerHandle } from './remover.js';
 
 const kHumanJoints = 21;
 const kPartNumbers = 7;
@@ -19,7 +20,7 @@ export const humanJoints = [
   'rightUpperLeg', 'rightLowerLeg', 'rightFoot', 'rightToes',
 ];
 
-export { Character, PanacheError, Skeleton };
+export { Character, PanacheError, Remover, Skeleton };
 
 // The module asks for a file system, which it never gets to use: whatever is not given fails.
 function importsOf(module, given) {
@@ -73,14 +74,7 @@ export class Panache {
     const old = this.#model;
     this.#model = model;
     this.#bytes = bytes;
-    this.styles = Array.from({ length: wasm.panache_model_style_count(model) }, (_, style) => ({
-      name: this._text(wasm.panache_model_style_name(model, style)),
-      description: this._text(wasm.panache_page_style_description(model, style)),
-      group: this._text(wasm.panache_model_style_group(model, style)),
-      learnt: wasm.panache_page_style_learnt(model, style) !== 0,
-      gestures: Array.from({ length: wasm.panache_model_gesture_count(model, style) }, (__, k) =>
-        this._text(wasm.panache_model_gesture_name(model, style, k))),
-    }));
+    this.styles = this._stylesOf(model);
     for (const player of this.#players) player._useModel();
     wasm.panache_model_destroy(old);
   }
@@ -123,6 +117,7 @@ export class Panache {
 
   createSkeleton(joints, options = {}) { return new Skeleton(this, joints, options); }
   createCharacter(skeleton, options = {}) { return new Character(this, skeleton, options); }
+  createRemover(bytes) { return new Remover(this, bytes); }
   stylizeClip(skeleton, clip, strengths, options = {}) {
     return stylizeClip(this, skeleton, clip, strengths, options);
   }
@@ -164,6 +159,17 @@ export class Panache {
   get _wasm() { return this.#wasm; }
   _model() { return inUse(this.#model, 'Panache'); }
   _players() { return this.#players; }
+  _stylesOf(model) {
+    const wasm = this.#wasm;
+    return Array.from({ length: wasm.panache_model_style_count(model) }, (_, style) => ({
+      name: this._text(wasm.panache_model_style_name(model, style)),
+      description: this._text(wasm.panache_page_style_description(model, style)),
+      group: this._text(wasm.panache_model_style_group(model, style)),
+      learnt: wasm.panache_page_style_learnt(model, style) !== 0,
+      gestures: Array.from({ length: wasm.panache_model_gesture_count(model, style) }, (__, k) =>
+        this._text(wasm.panache_model_gesture_name(model, style, k))),
+    }));
+  }
   _styleIndex(name, styles = this.styles) {
     let index = styles.findIndex((style) => style.name === name);
     if (index < 0) {  // As the program: without case where that is needed.
@@ -242,7 +248,7 @@ export class MotionFile {
 }
 
 class Player {
-  #panache; #player; #extension;
+  #panache; #player; #extension; #remover = null;
 
   constructor(panache, wasm, player, extension) {
     this.#panache = panache;
@@ -272,6 +278,15 @@ class Player {
     const index = this.#panache._styleIndex(style);
     checkTriggered(this._wasm.panache_page_player_trigger(
       this._player, index, checkInteger(gesture, 'gesture')), this.#panache.styles[index], gesture);
+  }
+  useRemover(remover) {
+    this.#panache._arena((arena) => arena.check(this._wasm.panache_page_player_use_remover(
+      this._player, removerHandle(this.#panache, remover))));
+    this.#remover = remover;
+  }
+  setRemoved(style) {
+    this._wasm.panache_page_player_set_removed(
+      this._player, removedIndex(this.#remover, style, 'player'));
   }
   setTiming(timing) {
     this._wasm.panache_page_player_set_timing(this._player, timingNumber(timing, 'timing'));

@@ -1,6 +1,6 @@
 // What is taken away: the motion that is seen, in files of all kinds.
 
-import { PanacheError, type Panache } from '../package/index.js';
+import { PanacheError, type Panache, type Playback, type Remover, type Walk } from '../package/index.js';
 import { late } from './late';
 import type { LoopMotion } from './loop';
 import { clipLoop, walkLoop } from './loop_motion';
@@ -15,6 +15,8 @@ import { activeStyles, applySettings } from './styling';
 export interface Seen {
   source: Source;
   settings: Settings;
+  /** Once it is there. */
+  remover: Remover | null;
   pace: Pace;
   /** Those that are listed. */
   files: File[];
@@ -46,13 +48,13 @@ export class Exporter {
 
   /** Everything that is listed, styled as is set now, in all formats. */
   async saveAll() {
-    const { source, settings, pace, files } = this.seen();
+    const { source, pace, files } = this.seen();
     const out: Exports = {};
     const nameOf = (title: string) => this.nameOf('', title);
     if (source.kind === 'walk') addMotion(out, source.player, nameOf(pace));
     const listed = source.kind === 'clip' ? files : [];
     const failed = await addFiles(out, this.panache, listed,
-      (player) => applySettings(this.panache, player, settings), nameOf);
+      (player) => this.#prepare(player), nameOf);
     if (Object.keys(out).length) {
       const all = listed.length > 1 ? `${listed.length} motions` : titleOf(Object.keys(out)[0]);
       saveBytes((await late('zip')).zipFiles(out) as BlobPart, `${all}.zip`, 'application/zip');
@@ -73,12 +75,14 @@ export class Exporter {
   /** What is seen now, as a motion that can be gone through again, beside what is seen. */
   loopMotion(): LoopMotion {
     const { source, settings, pace, bytes, range, isPart } = this.seen();
-    if (source.kind === 'walk') {
-      return walkLoop(this.panache, pace,
-        (player) => applySettings(this.panache, player, settings));
-    }
+    const prepare = (player: Walk | Playback) => this.#prepare(player);
+    if (source.kind === 'walk') return walkLoop(this.panache, pace, prepare);
     const keyed = Object.keys(settings.keys).length > 0;
-    return clipLoop(source, bytes, range,
-      (player) => applySettings(this.panache, player, settings), !isPart && !keyed);
+    return clipLoop(source, bytes, range, prepare, !isPart && !keyed);
+  }
+
+  #prepare(player: Walk | Playback) {
+    const { settings, remover } = this.seen();
+    applySettings(this.panache, player, settings, remover);
   }
 }

@@ -1,8 +1,12 @@
-declare module 'virtual:panache-files' {
+declare module 'virtual:panache-file/*' {
   /** Gzip in base64. */
-  export const wasm: string;
-  export const model: string;
-  export const walker: string;
+  const packed: string;
+  export default packed;
+}
+
+declare module 'virtual:panache-removable' {
+  const styles: readonly { name: string; group: string }[];
+  export default styles;
 }
 
 declare module 'gifenc' {

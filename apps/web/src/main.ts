@@ -1,6 +1,8 @@
 // Loads what the page consists of, and starts it.
 
-import * as files from 'virtual:panache-files';
+import model from 'virtual:panache-file/model';
+import walker from 'virtual:panache-file/walker';
+import wasm from 'virtual:panache-file/wasm';
 
 import { Panache } from '../package/index.js';
 import { find } from './dom';
@@ -11,14 +13,14 @@ import { unpack } from './unpack';
 
 /** The model that `panache view --model` serves beside the page, else the page's own. */
 async function findModel(): Promise<ArrayBuffer> {
-  return await (await served('model'))?.arrayBuffer() ?? unpack(files.model);
+  return await (await served('model'))?.arrayBuffer() ?? unpack(model);
 }
 
 async function start() {
   try {
-    const [wasm, model, walker] = await Promise.all(
-      [unpack(files.wasm), findModel(), unpack(files.walker)]);
-    const panache = await Panache.create({ wasm, model, walker });
+    const files = await Promise.all([unpack(wasm), findModel(), unpack(walker)]);
+    const panache = await Panache.create(
+      { wasm: files[0], model: files[1], walker: files[2] });
     const live = new URLSearchParams(location.search).has('live');
     Object.assign(window, { page: live ? new LiveView(panache) : new Page(panache) });
   } catch (error) {

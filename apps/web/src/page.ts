@@ -14,6 +14,7 @@ import { Learn } from './learn';
 import { buildPanel, captionOf, type Panel } from './panel';
 import { Plots } from './plots';
 import { Readout } from './readout';
+import { kRemovable, Removal } from './removal';
 import { served } from './served';
 import {
   fromAddress, rememberInAddress, Store, toAddress, type Settings,
@@ -42,6 +43,7 @@ export class Page {
   #transport: TransportBar;
   #figures: Figures;
   #panel: Panel;
+  #removal: Removal;
   #learn: Learn;
   #track: Track;
   #help = buildHelp();
@@ -56,12 +58,12 @@ export class Page {
 
   constructor(panache: Panache) {
     this.#panache = panache;
-    const names = panache.styles.map((style) => style.name);
-    this.#store = new Store(fromAddress(location.hash, names));
-    this.#plots = new Plots(find('#plots'), names);
+    this.#store = new Store(this.#readAddress());
+    this.#removal = new Removal(panache, this.#store);
+    this.#plots = new Plots(find('#plots'), panache.styles.map(({ name }) => name));
     this.#readout = new Readout(this.#plots);
     this.#exporter = new Exporter(panache, () => ({
-      source: this.#source, settings: this.#store.settings, pace: this.#steering.pace,
+      source: this.#source, settings: this.#store.settings, remover: this.#removal.remover, pace: this.#steering.pace,
       files: this.#files, bytes: this.#bytes,
       range: this.#transport.range, isPart: this.#transport.isPart,
     }));
@@ -105,7 +107,7 @@ export class Page {
         panache.removeStyle(name);
         this.#stylesChanged();
       }),
-    }, this.#learn);
+    }, this.#removal.element, this.#learn);
     this.#figures = new Figures(panache, this.#panel.rows);
     buildViewControls({
       onLook: (angle) => this.#look(angle),
@@ -131,7 +133,7 @@ export class Page {
     });
     this.#use(this.#source);
     this.#store.listen((settings) => this.#apply(settings));
-    rememberInAddress(this.#store, () => this.#panache.styles.map(({ name }) => name));
+    rememberInAddress(this.#store, () => this.#readAddress());
     matchMedia('(prefers-color-scheme: dark)')
       .addEventListener('change', () => {
         forgetColours();
@@ -194,8 +196,18 @@ export class Page {
 
   // ---- Settings ----
 
+  #readAddress(): Settings {
+    return fromAddress(location.hash, this.#panache.styles.map(({ name }) => name), kRemovable);
+  }
   #apply(settings: Settings) {
-    applySettings(this.#panache, this.#source.player, settings);
+    const { remover } = this.#removal;
+    applySettings(this.#panache, this.#source.player, settings, remover);
+    if (settings.removed && !remover) {
+      void attempt(async () => {
+        await this.#removal.load();
+        this.#apply(this.#store.settings);
+      });
+    }
     find('#caption').textContent = captionOf(settings, this.#source.kind === 'clip');
     this.#stage.view = settings.view;
     this.#stage.trail = settings.trail;
@@ -292,6 +304,7 @@ export class Page {
     }
     if (source.kind === 'walk') this.#track.open(false);
     this.#apply(this.#store.settings);
+    void attempt(() => this.#removal.look(source, () => this.#source === source));
     source.player.step(0);
     this.#stage.show(source);
     this.#plots.clear();

@@ -5,6 +5,7 @@ import { button, element, find } from './dom';
 import { capitalized } from './groups';
 import { buildPad } from './pad';
 import { kCorners, kPresets } from './presets';
+import { kAnyStyle } from './removal';
 import {
   kAmounts, kDefaults, kRegions, kTempos, type Region, type Settings, type Store, type View,
 } from './settings';
@@ -94,9 +95,10 @@ export interface Panel {
   showNow(strengths: Record<string, number>): void;
 }
 
-/** Puts the panel together. `learn` is what opens under the heading of the styles. */
+/** Puts the panel together. `removal` is what is set for the input, `learn` what opens under the
+ * heading of the styles. */
 export function buildPanel(store: Store, styles: readonly Style[], events: StyleEvents,
-    learn: { button: HTMLElement; section: HTMLElement }): Panel {
+    removal: HTMLElement, learn: { button: HTMLElement; section: HTMLElement }): Panel {
   const regions = kRegions.map((key) => toggle(kRegionTitles[key], kRegionHints[key],
     (s) => s[key], store, (s) => ({ [key]: !s[key] })));
   const tempos = kTempos.map((tempo) => toggle(...kTempoTitles[tempo], (s) => s.tempo === tempo,
@@ -121,6 +123,7 @@ export function buildPanel(store: Store, styles: readonly Style[], events: Style
       act('redo', 'Redo', 'Redo (Ctrl Shift Z)', () => store.redo(), () => store.canRedo),
       act('reset-all', 'Reset all', 'Reset all settings',
         () => store.set({ ...kDefaults, styles: {}, keys: {} }), () => true)),
+    element('h2', {}, 'Input'), removal,
     element('h2', {}, 'Presets'), chips.group,
     element('div', { class: 'heading' },
       element('h2', { id: 'styles', tabindex: -1 }, 'Styles'), learn.button),
@@ -153,11 +156,12 @@ export function buildPanel(store: Store, styles: readonly Style[], events: Style
   return { rows: rows.rows, setStyles, showNow: (strengths) => rows.showNow(strengths) };
 }
 
-/** "old 1.00 + proud over time"; only clips have keys. */
-export function captionOf({ styles, keys }: Settings, isClip: boolean): string {
+/** "drunk off + old 1.00 + proud over time"; only clips have keys. */
+export function captionOf({ styles, keys, removed }: Settings, isClip: boolean): string {
   const keyed = isClip ? Object.keys(keys) : [];
   const parts = Object.entries(styles).filter(([name]) => !keyed.includes(name))
     .map(([name, value]) => `${name} ${value.toFixed(2)}`);
+  if (removed) parts.unshift(removed === kAnyStyle ? 'style off' : `${removed} off`);
   parts.push(...keyed.map((name) => `${name} over time`));
   return parts.length ? parts.join(' + ') : 'neutral: move a slider';
 }

@@ -19,6 +19,8 @@ export interface Settings {
   styles: Record<string, number>;
   /** Of a clip, instead: strengths over time. */
   keys: Record<string, readonly Key[]>;
+  /** The style that is taken off the input: one of the remover's, or empty. */
+  removed: string;
   strength: number;
   posture: number;
   dynamics: number;
@@ -39,6 +41,7 @@ export interface Settings {
 export const kDefaults: Readonly<Settings> = {
   styles: {},
   keys: {},
+  removed: '',
   strength: 1, posture: 1, dynamics: 1, timing: 1, tempo: 'steps',
   legs: true, torso: true, leftArm: true, rightArm: true, feet: true,
   view: 'side',
@@ -69,6 +72,7 @@ export function toAddress(settings: Settings): string {
     if (value !== 0) out.set(kStyle + name, String(value));
   }
   for (const [name, keys] of Object.entries(settings.keys)) out.set(kKeys + name, toText(keys));
+  if (settings.removed) out.set('removed', settings.removed);
   for (const key of kAmounts) if (settings[key] !== 1) out.set(key, String(settings[key]));
   for (const key of kSwitches) {
     if (settings[key] !== kDefaults[key]) out.set(key, settings[key] ? 'on' : 'off');
@@ -80,9 +84,10 @@ export function toAddress(settings: Settings): string {
 
 const same = (a: object, b: object): boolean => JSON.stringify(a) === JSON.stringify(b);
 
-/** The settings of an address; what it says that is unknown or wrong counts as not said. Addresses
+/** The settings of an address, for a model and a remover with these styles; what it says that is unknown or wrong counts as not said. Addresses
  * of before, "old=0.5" and "old.keys=...", are read where the name is no setting's. */
-export function fromAddress(text: string, styles: readonly string[]): Settings {
+export function fromAddress(text: string, styles: readonly string[],
+    removable: readonly string[]): Settings {
   const given = new URLSearchParams(text.replace(/^#/, ''));
   if (given.size === 0) return { ...kOpening, styles: { ...kOpening.styles } };
   const settings: Settings = { ...kDefaults, styles: {}, keys: {} };
@@ -110,7 +115,9 @@ export function fromAddress(text: string, styles: readonly string[]): Settings {
       settings.view = value as View;
     } else if (key === 'tempo' && kTempos.includes(value as Timing)) {
       settings.tempo = value as Timing;
-    } else if (key !== 'view' && key !== 'tempo' && styles.includes(key)) {
+    } else if (key === 'removed' && removable.includes(value)) {
+      settings.removed = value;
+    } else if (!['view', 'tempo', 'removed'].includes(key) && styles.includes(key)) {
       setStyle(key);
     } else if (key.endsWith('.keys') && styles.includes(key.slice(0, -5))) {
       setKeys(key.slice(0, -5));
@@ -202,7 +209,7 @@ export class Store {
 }
 
 /** Keeps the address of the page and the settings alike, whichever changes. */
-export function rememberInAddress(store: Store, styles: () => string[]) {
+export function rememberInAddress(store: Store, read: () => Settings) {
   let timer = 0;
   store.listen((settings) => {
     clearTimeout(timer);
@@ -212,5 +219,5 @@ export function rememberInAddress(store: Store, styles: () => string[]) {
       history.replaceState(null, '', text ? `#${text}` : location.pathname + location.search);
     }, 200);
   });
-  addEventListener('hashchange', () => store.set(fromAddress(location.hash, styles())));
+  addEventListener('hashchange', () => store.set(read()));
 }

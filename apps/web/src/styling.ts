@@ -1,12 +1,18 @@
 // What the settings mean for what is seen.
 
-import { Playback, type Panache, type Walk } from '../package/index.js';
+import { Playback, type Panache, type Remover, type Walk } from '../package/index.js';
 import { strengthAt, type Key } from './keys';
 import { shapeOf, type Settings } from './settings';
 import type { Source } from './source';
 
-/** Gives a player strengths, keyframes, shape and timing. */
-export function applySettings(panache: Panache, player: Walk | Playback, settings: Settings) {
+/** Gives a player strengths, keyframes, shape and timing, and what is taken off its input as soon as
+ * the remover is there. */
+export function applySettings(panache: Panache, player: Walk | Playback, settings: Settings,
+    remover: Remover | null) {
+  if (remover) {
+    player.useRemover(remover);
+    player.setRemoved(settings.removed || null);
+  }
   for (const { name } of panache.styles) {
     player.setStrength(name, (settings.styles[name] ?? 0) * settings.strength);
     if (!(player instanceof Playback)) continue;

@@ -25,9 +25,9 @@ test('keys come back from the address, and nonsense does not', () => {
   expect(fromText('1_0*x_1*2*3_*_4*4_0.5')).toEqual([[1, 0], [4, 0.5]]);
   const address = toAddress({ ...kDefaults, keys: { old: kKeys } });
   expect(address).toBe('keys.old=1_0*2_1*4_0.5');
-  expect(fromAddress('old.keys=1_0*2_1*4_0.5', ['old']).keys).toEqual({ old: kKeys });
-  expect(fromAddress(address, ['old']).keys).toEqual({ old: kKeys });
-  expect(fromAddress(address, ['proud']).keys).toEqual({});
+  expect(fromAddress('old.keys=1_0*2_1*4_0.5', ['old'], []).keys).toEqual({ old: kKeys });
+  expect(fromAddress(address, ['old'], []).keys).toEqual({ old: kKeys });
+  expect(fromAddress(address, ['proud'], []).keys).toEqual({});
 });
 
 test('styles that are gone are gone from what can be undone too', () => {

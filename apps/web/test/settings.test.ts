@@ -1,8 +1,11 @@
 import { afterEach, describe, expect, it, vi } from 'vitest';
 
-import { bounded, fromAddress, kDefaults, kOpening, shapeOf, Store, toAddress } from '../src/settings';
+import {
+  bounded, fromAddress as read, kDefaults, kOpening, shapeOf, Store, toAddress,
+} from '../src/settings';
 
 const kStyles = ['old', 'proud'];
+const fromAddress = (text: string, styles: readonly string[]) => read(text, styles, ['any', 'drunk']);
 
 describe('the address', () => {
   it('says nothing of what is as it always is', () => {
@@ -14,20 +17,20 @@ describe('the address', () => {
   it('brings back whatever was set', () => {
     const set = {
       ...kDefaults, styles: { old: 1.25, proud: -0.5 }, strength: 0.5, posture: 0, timing: 2,
-      tempo: 'all' as const,
+      tempo: 'all' as const, removed: 'drunk',
       legs: false, feet: false, trail: false, view: 'over' as const,
     };
     expect(fromAddress(`#${toAddress(set)}`, kStyles)).toEqual(set);
   });
   it('is believed as far as it makes sense', () => {
-    const settings = fromAddress('#old=9&proud=x&angry=1&posture=&legs=maybe&tempo=fast&view=up',
+    const settings = fromAddress('#old=9&proud=x&angry=1&posture=&legs=maybe&tempo=fast&view=up&removed=old',
       kStyles);
     expect(settings).toEqual({ ...kDefaults, styles: { old: 2 } });
   });
 });
 
 describe('a style that is called as a setting is', () => {
-  const names = ['view', 'tempo', 'legs', 'strength', 'posture', 'trail', 'neutral', 'old', 'old.keys',
+  const names = ['view', 'tempo', 'removed', 'legs', 'strength', 'posture', 'trail', 'neutral', 'old', 'old.keys',
     'style.old', 'keys.old', 'a=b&c#%', '__proto_'];
   it('has a link of its own, and leaves the setting alone', () => {
     for (const name of names) {
@@ -42,8 +45,8 @@ describe('a style that is called as a setting is', () => {
     }
   });
   it('is not what an older link means', () => {
-    const read = fromAddress('#old=1&view=over&legs=off&strength=0.5', names);
-    expect(read).toEqual(
+    const link = fromAddress('#old=1&view=over&legs=off&strength=0.5', names);
+    expect(link).toEqual(
       { ...kDefaults, styles: { old: 1 }, view: 'over', legs: false, strength: 0.5 });
     expect(fromAddress('#proud=0.5', ['proud'])).toEqual({ ...kDefaults, styles: { proud: 0.5 } });
   });

@@ -14,6 +14,7 @@
 #include "clip/motion_format.h"
 #include "exports.h"
 #include "golden.h"
+#include "learn/recognise.h"
 #include "player.h"
 #include "pose/motion_notes.h"
 #include "retarget/find_body.h"
@@ -90,6 +91,23 @@ PANACHE_EXPORT panache_bytes* panache_page_file_describe(FileHandle* file, const
   return new panache_bytes{all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
 }
 
+// See panache_recognise_styles().
+PANACHE_EXPORT panache_status panache_page_file_recognise(FileHandle* file, int32_t which,
+                                                          const panache_model* remover,
+                                                          float* shares) {
+  const Clip& clip = (*file)->clip(which);
+  const Result<Rig> rig = Rig::create(clip);
+  if (!rig) return api::fail(PANACHE_BAD_SKELETON, rig.error());
+  const auto found = recognise_styles(remover->model, clip, *rig);
+  if (!found) return api::fail(PANACHE_BAD_MODEL, found.error());
+  const size_t styles = remover->model->styles().size();
+  std::fill_n(shares, styles + 1, 0.0f);
+  for (const auto& [style, share] : *found) {
+    shares[style < 0 ? styles : static_cast<size_t>(style)] = share;
+  }
+  return PANACHE_OK;
+}
+
 namespace {
 
 Player* make_player(const panache_model* model, std::unique_ptr<Source> source) {
@@ -127,6 +145,14 @@ PANACHE_EXPORT panache_status panache_page_player_use_model(Player* player,
                                                             const panache_model* model) {
   const Result<void> used = player->use_model(model->model);
   return used ? PANACHE_OK : api::fail(PANACHE_BAD_SKELETON, used.error());
+}
+PANACHE_EXPORT panache_status panache_page_player_use_remover(Player* player,
+                                                              const panache_model* remover) {
+  const Result<void> used = player->use_remover(remover->model);
+  return used ? PANACHE_OK : api::fail(PANACHE_BAD_SKELETON, used.error());
+}
+PANACHE_EXPORT void panache_page_player_set_removed(Player* player, int32_t style) {
+  player->set_removed(style);
 }
 PANACHE_EXPORT panache_status panache_page_player_set_shape(Player* player,
                                                             const panache_shape* shape) {
@@ -169,7 +195,7 @@ PANACHE_EXPORT int32_t panache_page_player_first_frame(Player* player) {
 }
 
 PANACHE_EXPORT double panache_page_player_rate(Player* player) { return player->rate(); }
-PANACHE_EXPORT float panache_page_player_gate(Player* player) { return player->stylizer().gate(); }
+PANACHE_EXPORT float panache_page_player_gate(Player* player) { return player->gate(); }
 PANACHE_EXPORT float panache_page_player_contact(Player* player, int32_t foot) {
   return player->stylizer().contacts()[static_cast<size_t>(foot)];
 }

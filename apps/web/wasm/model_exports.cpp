@@ -4,6 +4,7 @@
 #include "exports.h"
 #include "learn/style_file.h"
 #include "learning.h"
+#include "style/removal.h"
 
 using namespace panache;
 using namespace panache::web;
@@ -13,6 +14,14 @@ PANACHE_EXPORT panache_model* panache_page_model_create(const char* data, uint32
   auto model = Model::parse(bytes_at(data, size), name);
   if (model) return new panache_model{*std::move(model)};
   return fail(model.error());
+}
+// A model that takes styles off.
+PANACHE_EXPORT panache_model* panache_page_remover_create(const char* data, uint32_t size) {
+  const std::string name = "the remover";
+  auto model = Model::parse(bytes_at(data, size), name);
+  if (!model) return fail(model.error());
+  if (const auto any = find_removal(**model, ""); !any) return fail(located(name, any.error()));
+  return new panache_model{*std::move(model)};
 }
 PANACHE_EXPORT const char* panache_page_style_description(const panache_model* model,
                                                           int32_t style) {

@@ -6,6 +6,7 @@
 #include "format_clip.h"
 #include "rig/rig_body.h"
 #include "rig/up_axis.h"
+#include "style/removal.h"
 #include "style/restyle.h"
 
 namespace panache::web {
@@ -23,6 +24,15 @@ void put_numbers(ConstPose pose, std::vector<float>& out) {
     const float numbers[kJointNumbers] = {q.x, q.y, q.z, q.w, t.x, t.y, t.z};
     std::copy_n(numbers, kJointNumbers, out.begin() + static_cast<ptrdiff_t>(kJointNumbers * j));
   }
+}
+
+// Puts another stylizer or pass of the same model and rig in the place of one, with its memory.
+template <class Pass>
+void replace(Pass& one, Pass other) {
+  std::vector<std::byte> state(one.state_size());
+  one.save(state);
+  one = std::move(other);
+  one.restore(state);
 }
 
 }  // namespace
@@ -64,29 +74,47 @@ void Player::set_track(int style, std::vector<StrengthTrack::Point> points) {
   tracks_[static_cast<size_t>(style)] = {style, std::move(points)};
 }
 
-Result<Stylizer> Player::make_stylizer(std::shared_ptr<const Model> model) const {
+StylizerOptions Player::options() const {
   StylizerOptions options;
   options.tempo_everywhere = timing_ == Timing::all;
-  return Stylizer::create(std::move(model), source_->rig(), options);
+  return options;
 }
 
 void Player::set_timing(Timing timing) {
   if (timing == timing_) return;
   timing_ = timing;
-  std::vector<std::byte> state(stylizer_.state_size());
-  stylizer_.save(state);
-  // The same model and rig as before, which suit each other.
-  stylizer_ = *make_stylizer(model_);
-  stylizer_.restore(state);
-  twin_ = stylizer_;
+  // The same models and rig as before, which suit each other.
+  replace(stylizer_, *Stylizer::create(model_, source_->rig(), options()));
+  if (!removal_) return;
+  replace(*removal_, *RemovalPass::create(remover_, source_->rig(), options()));
+  removal_->set_removed(removed_);
+}
+
+Result<void> Player::use_remover(std::shared_ptr<const Model> remover) {
+  if (remover == remover_) return {};
+  Result<RemovalPass> removal = RemovalPass::create(remover, source_->rig(), options());
+  if (!removal) return removal.error();
+  remover_ = std::move(remover);
+  removal_ = *std::move(removal);
+  removed_ = -1;
+  return {};
+}
+
+void Player::set_removed(int style) {
+  if (!removal_ || style >= static_cast<int>(remover_->styles().size())) return;
+  removed_ = std::max(style, -1);
+  removal_->set_removed(removed_);
+}
+
+float Player::gate() const {
+  return removed_ < 0 ? stylizer_.gate() : std::min(stylizer_.gate(), removal_->stylizer().gate());
 }
 
 Result<void> Player::use_model(std::shared_ptr<const Model> model) {
-  Result<Stylizer> stylizer = make_stylizer(model);
+  Result<Stylizer> stylizer = Stylizer::create(model, source_->rig(), options());
   if (!stylizer) return stylizer.error();
   model_ = std::move(model);
   stylizer_ = *std::move(stylizer);
-  twin_ = stylizer_;
   strengths_.assign(model_->styles().size(), 0);
   strengths_now_ = strengths_;
   tracks_.assign(strengths_.size(), {});
@@ -121,13 +149,23 @@ void Player::read_strengths() {
 
 void Player::step(double seconds) {
   seconds = std::clamp(seconds, 0.0, kLongestStep);
-  const double input_seconds = seconds * rate_;
-  if (source_->advance(input_seconds, {in_rotations_, in_translations_})) stylizer_.reset();
+  const double neutral_seconds = seconds * rate_, input_seconds = neutral_seconds * removal_rate_;
+  if (source_->advance(input_seconds, {in_rotations_, in_translations_})) {
+    stylizer_.reset();
+    if (removal_) removal_->reset();
+  }
+  ConstPose in = input();
+  if (removal_) in = removal_->step(in, input_seconds, neutral_seconds);
   const Pose out = {out_rotations_, out_translations_};
   stylizer_.set_shape(shape_);
   read_strengths();
-  stylizer_.step(input(), strengths_now_, input_seconds, seconds, out);
-  rate_ = timing_ == Timing::off ? 1 : stylizer_.rate();
+  stylizer_.step(in, strengths_now_, neutral_seconds, seconds, out);
+  if (timing_ == Timing::off) {
+    rate_ = removal_rate_ = 1;
+  } else {
+    rate_ = stylizer_.rate();
+    removal_rate_ = removal_ ? removal_->stylizer().rate() : 1;
+  }
   put_numbers(input(), in_numbers_);
   put_numbers(out, out_numbers_);
   in_mannequin_.read(input(), in_parts_);
@@ -138,9 +176,13 @@ void Player::step(double seconds) {
 }
 
 void Player::measure(int count) {
+  constexpr double kSeconds = 1.0 / 60;
   twin_ = stylizer_;
+  removal_twin_ = removal_;
   for (int i = 0; i < count; ++i) {
-    twin_.step(input(), strengths_now_, 1.0 / 60, {twin_rotations_, twin_translations_});
+    ConstPose in = input();
+    if (removal_twin_) in = removal_twin_->step(in, kSeconds, kSeconds);
+    twin_.step(in, strengths_now_, kSeconds, {twin_rotations_, twin_translations_});
   }
 }
 
@@ -159,20 +201,24 @@ Result<std::string> Player::export_as(const std::string& extension,
                                       const std::string& file_extension, bool styled,
                                       double seconds) const {
   const auto* from_file = dynamic_cast<const ClipSource*>(source_.get());
-  const auto written = [&](const Clip& clip) {
-    return format_clip(clip, source_->rig(), source_->reference(), extension);
+  const auto written = [&](const Clip& motion) {
+    return format_clip(motion, source_->rig(), source_->reference(), extension);
   };
   if (!from_file) {
     const Recording& recording = styled ? recording_ : input_recording_;
     return written(recording.clip(kRecordedFps, std::min(seconds, kRecordedSeconds)));
   }
-  RestyleOptions options;
-  if (styled) options.stylizer.shape = shape_;
-  options.timing = timing_ != Timing::off;
-  options.stylizer.tempo_everywhere = timing_ == Timing::all;
+  RestyleOptions how;
+  how.stylizer = options();
+  if (styled) how.stylizer.shape = shape_;
+  how.timing = timing_ != Timing::off;
+  const Clip& clip = source_->clip();
+  const Rig& rig = source_->rig();
+  const auto tracks = styled ? file_tracks() : std::vector<StrengthTrack>();
   Result<Restyled> restyled =
-      restyle(source_->clip(), source_->rig(), model_,
-              styled ? file_tracks() : std::vector<StrengthTrack>(), options);
+      styled && removed_ >= 0
+          ? restyle_without(clip, rig, {remover_, removed_}, model_, tracks, how)
+          : restyle(clip, rig, model_, tracks, how);
   if (!restyled) return restyled.error();
   if (extension != file_extension) return written(restyled->clip);
   const ClipEdit edit = {from_file->which(), &restyled->clip, restyled->source_frames, "styled"};

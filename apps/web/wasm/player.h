@@ -11,6 +11,7 @@
 #include "rig/body_mesh.h"
 #include "rig/mannequin.h"
 #include "source.h"
+#include "style/removal_pass.h"
 #include "style/restyle.h"
 
 namespace panache::web {
@@ -41,7 +42,17 @@ class Player {
   Source& source() { return *source_; }
   const Stylizer& stylizer() const { return stylizer_; }
   // Input seconds per output second.
-  double rate() const { return rate_; }
+  double rate() const { return rate_ * removal_rate_; }
+  // See StyleNetworks::gate(): the smaller one of what takes a style off and of what puts styles
+  // on.
+  float gate() const;
+
+  // A model that takes styles off; the motion goes on. Fails where it puts styles on, and where the
+  // rig does not suit.
+  Result<void> use_remover(std::shared_ptr<const Model> remover);
+  // Its style that is taken off the input before others are put on; -1: none, as at first. Eased.
+  // Ignored without a remover, and for an index out of range.
+  void set_removed(int style);
 
   // Goes on with another model: strengths are 0, without tracks. Fails where the rig does not suit.
   Result<void> use_model(std::shared_ptr<const Model> model);
@@ -73,8 +84,8 @@ class Player {
 
  private:
   Player(std::shared_ptr<const Model> model, Stylizer stylizer, std::unique_ptr<Source> source);
-  // A stylizer of the model and timing in force, which has seen nothing yet.
-  Result<Stylizer> make_stylizer(std::shared_ptr<const Model> model) const;
+  // Of the timing in force.
+  StylizerOptions options() const;
   ConstPose input() const { return {in_rotations_, in_translations_}; }
   // The strengths at this instant, in strengths_now_.
   void read_strengths();
@@ -84,6 +95,9 @@ class Player {
   std::shared_ptr<const Model> model_;
   std::unique_ptr<Source> source_;
   Stylizer stylizer_, twin_;
+  std::shared_ptr<const Model> remover_;
+  std::optional<RemovalPass> removal_, removal_twin_;  // With a remover.
+  int removed_ = -1;
   Mannequin in_mannequin_, out_mannequin_;
   std::optional<BodyMesh> body_, coarse_body_;
   Recording input_recording_, recording_;
@@ -91,7 +105,7 @@ class Player {
   std::vector<StrengthTrack> tracks_;             // [styles], most without points.
   Shape shape_;
   Timing timing_ = Timing::steps;
-  double rate_ = 1;
+  double rate_ = 1, removal_rate_ = 1;                                        // Of both passes.
   std::vector<Quat> in_rotations_, out_rotations_, twin_rotations_;           // [joints]
   std::vector<Vec3> in_translations_, out_translations_, twin_translations_;  // [joints]
   std::vector<float> in_numbers_, out_numbers_;

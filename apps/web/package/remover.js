@@ -1,0 +1,66 @@
+// A model that takes styles off, and tells which styles a motion shows. See index.d.ts.
+import { PanacheError, checkBytes, inUse, unexpected } from './checks.js';
+import { writeClip } from './clip.js';
+
+const kAnyStyle = 'any', kNeutral = 'neutral';
+
+export class Remover {
+  #panache; #wasm; #remover;
+
+  constructor(panache, bytes) {
+    checkBytes(bytes, 'the remover');
+    this.#panache = panache;
+    this.#wasm = panache._wasm;
+    this.#remover = panache._arena((arena) => panache._checked(
+      this.#wasm.panache_page_remover_create(arena.copy(bytes), bytes.byteLength)));
+    this.styles = panache._stylesOf(this.#remover);
+  }
+
+  recognise(skeleton, clip) {
+    return this.#recognise((arena, remover, shares, count) =>
+      this.#wasm.panache_recognise_styles(
+        remover, writeClip(arena, this.#panache, skeleton, clip), shares, count));
+  }
+  recogniseFile(file, clip = 0) {
+    return this.#recognise((_, remover, shares) => this.#wasm.panache_page_file_recognise(
+      file._handleFor(this.#panache), clip, remover, shares));
+  }
+  // `tell` writes a share for each style, and one for neutral.
+  #recognise(tell) {
+    const names = [...this.styles.map(({ name }) => name), kNeutral];
+    return this.#panache._arena((arena) => {
+      const at = arena.zeros(4 * names.length);
+      arena.check(tell(arena, this._handleFor(this.#panache), at, names.length));
+      const shares = new Float32Array(this.#wasm.memory.buffer, at, names.length);
+      return names.map((name, i) => ({ name, share: shares[i] }))
+        .filter(({ name }) => name !== kAnyStyle)
+        .sort((a, b) => b.share - a.share);
+    });
+  }
+
+  // Handles are addresses in the memory of their own module.
+  _handleFor(panache) {
+    if (panache !== this.#panache) {
+      throw new PanacheError('this remover is of another Panache; create one with createRemover()');
+    }
+    return inUse(this.#remover, 'remover');
+  }
+  _styleIndex(style) { return this.#panache._styleIndex(style, this.styles); }
+
+  free() {
+    this.#wasm.panache_model_destroy(this.#remover);
+    this.#remover = 0;
+  }
+}
+
+// The handle of a remover.
+export function removerHandle(panache, remover) {
+  if (!(remover instanceof Remover)) throw unexpected('remover', 'a Remover', remover);
+  return remover._handleFor(panache);
+}
+
+// As the module counts what is taken off `what`, which was given this remover; null: nothing.
+export function removedIndex(remover, style, what) {
+  if (!remover) throw new PanacheError(`setRemoved: expected a ${what} that was given a remover`);
+  return style === null ? -1 : remover._styleIndex(style);
+}
