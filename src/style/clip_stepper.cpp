@@ -34,8 +34,7 @@ void ClipStepper::step(double frame, double advance, double seconds) {
   const Pose pose = {rotations_, translations_};
   sample(clip_, frame, pose);
   flight_ = lookout_.flight(frame);
-  stylizer_.set_flight(flight_);
-  stylizer_.step(pose, strengths_, advance * clip_.frame_time, clip_.frame_time, pose);
+  stylizer_.step(pose, strengths_, {advance * clip_.frame_time, clip_.frame_time, flight_}, pose);
 }
 
 FootContacts ClipStepper::contacts() const {

@@ -57,7 +57,7 @@ void step_crowd(std::span<const CrowdMember> members, double seconds) noexcept {
       // By its turn the next one's past has come from a far cache.
       if (i + 1 < members.size()) members[i + 1].character->window_.fetch_poses(seconds);
       const auto [time, pass] =
-          character->take_in(in, strengths, seconds, seconds, windows[i], &fetches[i]);
+          character->take_in(in, strengths, {seconds, seconds}, windows[i], &fetches[i]);
       times[i] = time;
       passes[i] = pass;
     }

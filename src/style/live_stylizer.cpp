@@ -206,8 +206,8 @@ void LiveStylizer::step(ConstPose in, std::span<const float> strengths, double s
   const Pose shown{p.shown_rotations, p.shown_translations};
   pose_at(head_.ahead(), p.offset, shown);
   blend_from_old(seconds, played, shown);
-  stylizer_.set_flight(p.flights.amount(p.time + head_.ahead()));
-  stylizer_.step(shown, strengths, played, seconds, out);
+  stylizer_.step(shown, strengths, {played, seconds, p.flights.amount(p.time + head_.ahead())},
+                 out);
 }
 
 template <class Self, class Visit>

@@ -28,7 +28,7 @@ void RemovalPass::set_removed(int style) noexcept {
 }
 
 ConstPose RemovalPass::step(ConstPose in, double input_seconds, double output_seconds) noexcept {
-  stylizer_.step(in, strengths_, input_seconds, output_seconds, {rotations_, translations_});
+  stylizer_.step(in, strengths_, {input_seconds, output_seconds}, {rotations_, translations_});
   return {rotations_, translations_};
 }
 

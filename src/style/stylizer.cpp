@@ -93,30 +93,30 @@ void Stylizer::set_next(ConstPose next, double seconds) noexcept {
   observer_.reset();
 }
 
-void Stylizer::step(ConstPose in, std::span<const float> strengths, double input_seconds,
-                    double output_seconds, Pose out) noexcept {
-  step(in, strengths, input_seconds, output_seconds, out, nullptr);
+void Stylizer::step(ConstPose in, std::span<const float> strengths, const StepMoment& moment,
+                    Pose out) noexcept {
+  step(in, strengths, moment, out, nullptr);
 }
 
 void Stylizer::step(ConstPose in, std::span<const float> strengths, double seconds, Pose out,
                     StageClock& clock) noexcept {
-  step(in, strengths, seconds, seconds, out, &clock);
+  step(in, strengths, {seconds, seconds}, out, &clock);
 }
 
-void Stylizer::step(ConstPose in, std::span<const float> strengths, double input_seconds,
-                    double output_seconds, Pose out, StageClock* clock) noexcept {
+void Stylizer::step(ConstPose in, std::span<const float> strengths, const StepMoment& moment,
+                    Pose out, StageClock* clock) noexcept {
   std::array<float, InputWindow::kMaxNumbers> room;
-  const auto [time, pass] = take_in(in, strengths, input_seconds, output_seconds, room, clock);
+  const auto [time, pass] = take_in(in, strengths, moment, room, clock);
   networks_.forward(pass.window, pass.gate_share);
   tell(clock, Stage::networks);
   give_out(time, out, clock);
 }
 
 Stylizer::TakenIn Stylizer::take_in(ConstPose in, std::span<const float> strengths,
-                                    double input_seconds, double output_seconds,
-                                    std::span<float> room, StageClock* clock) noexcept {
-  input_seconds = bounded_seconds(input_seconds);
-  output_seconds = bounded_seconds(output_seconds);
+                                    const StepMoment& moment, std::span<float> room,
+                                    StageClock* clock) noexcept {
+  const double input_seconds = bounded_seconds(moment.input_seconds);
+  const double output_seconds = bounded_seconds(moment.output_seconds);
   if (output_seconds > Observer::kMaxGap) observer_.reset();
   if (!observer_.observe(in, input_seconds)) forget();
   tell(clock, Stage::observe);
@@ -128,8 +128,7 @@ Stylizer::TakenIn Stylizer::take_in(ConstPose in, std::span<const float> strengt
   tell(clock, Stage::strengths);
   const std::span<const float> window = window_.step(observer_.now(), time, room);
   flights_.push(window_.time(), observer_.now().world.positions);
-  flight_ = seen_flight_ >= 0 ? seen_flight_ : flights_.amount(window_.time());
-  seen_flight_ = -1;
+  flight_ = moment.flight ? *moment.flight : flights_.amount(window_.time());
   tell(clock, Stage::window);
   return {time, {&networks_, window, time.gain(kGateSeconds)}};
 }
@@ -160,7 +159,7 @@ double Stylizer::rate() const noexcept { return stages_.rate(strengths_.shape().
 
 template <class Self, class Visit>
 void Stylizer::visit_state(Self& self, Visit&& visit) {
-  visit(self.started_), visit(self.flight_), visit(self.seen_flight_);
+  visit(self.started_), visit(self.flight_);
   FlightWatch::visit_state(self.flights_, visit);
   Observer::visit_state(self.observer_, visit);
   EasedStrengths::visit_state(self.strengths_, visit);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "base/prefetch.h"
@@ -40,6 +41,15 @@ struct StylizerOptions {
   uint32_t gesture_seed = 0;
 };
 
+// When a pose is: how much of the input's own time passed since the last step, and how much of the
+// viewer's. They are the same unless a play head runs through the input at another rate.
+struct StepMoment {
+  double input_seconds, output_seconds;
+  // How much of a flight the pose is part of, see FlightWatch::amount(), where a play head has seen
+  // poses to come. Otherwise the poses so far tell.
+  std::optional<float> flight = {};
+};
+
 // One character's memory. create() allocates everything and may fail; step() does neither.
 class Stylizer {
  public:
@@ -60,23 +70,17 @@ class Stylizer {
   bool trigger(int style, int gesture) noexcept;
 
   // Styles one pose of the character. `strengths`: one per style of the model; numbers that are not
-  // finite count as 0, all are held within -4 to 4. `input_seconds`: how much of the input's own
-  // time passed since the last step; `output_seconds`: how much of the viewer's. They are the same
-  // unless a play head runs through the input at another rate. Poses that are not finite are
-  // replaced by the last good one. `in` and `out` may be the same arrays.
-  void step(ConstPose in, std::span<const float> strengths, double input_seconds,
-            double output_seconds, Pose out) noexcept;
+  // finite count as 0, all are held within -4 to 4. Poses that are not finite are replaced by the
+  // last good one. `in` and `out` may be the same arrays.
+  void step(ConstPose in, std::span<const float> strengths, const StepMoment& moment,
+            Pose out) noexcept;
   // Live: input and output share the clock.
   void step(ConstPose in, std::span<const float> strengths, double seconds, Pose out) noexcept {
-    step(in, strengths, seconds, seconds, out);
+    step(in, strengths, {seconds, seconds}, out);
   }
   // The same; `clock` is notified of each stage.
   void step(ConstPose in, std::span<const float> strengths, double seconds, Pose out,
             StageClock& clock) noexcept;
-
-  // How much of a flight the next step's pose is part of, see FlightWatch::amount(): for a play
-  // head that has seen poses to come. Otherwise a step learns of flights from the poses so far.
-  void set_flight(float amount) noexcept { seen_flight_ = amount; }
 
   // Before the first step of a motion whose second pose is known: the first step then knows whether
   // the body moves. Later steps do not need it.
@@ -126,10 +130,10 @@ class Stylizer {
     StyleNetworks::Pass pass;
   };
   // `room`: where the window is written, InputWindow::kMaxNumbers.
-  TakenIn take_in(ConstPose in, std::span<const float> strengths, double input_seconds,
-                  double output_seconds, std::span<float> room, StageClock* clock) noexcept;
-  void step(ConstPose in, std::span<const float> strengths, double input_seconds,
-            double output_seconds, Pose out, StageClock* clock) noexcept;
+  TakenIn take_in(ConstPose in, std::span<const float> strengths, const StepMoment& moment,
+                  std::span<float> room, StageClock* clock) noexcept;
+  void step(ConstPose in, std::span<const float> strengths, const StepMoment& moment, Pose out,
+            StageClock* clock) noexcept;
   // Names what a step reads and writes, but for the poses of the window.
   void add_memory(Prefetch& prefetch) const noexcept;
   void forget() noexcept;  // Of the motion so far, all but the observer's part.
@@ -148,9 +152,8 @@ class Stylizer {
   ChangeStages stages_;
   GesturePlayer gestures_;
   FlightWatch flights_;
-  float flight_ = 0;        // Of FlightWatch::amount(), at the last step.
-  NextPose next_;           // By set_next(), for the first step; no time for none.
-  float seen_flight_ = -1;  // By set_flight(), for the next step; below 0 for none.
+  float flight_ = 0;  // Of FlightWatch::amount(), at the last step.
+  NextPose next_;     // By set_next(), for the first step; no time for none.
 };
 
 }  // namespace panache

@@ -183,8 +183,8 @@ TEST(Flight, on_the_way_into_a_flight_the_tempo_is_between_the_two) {
     Stylizer stylizer = *Stylizer::create(model, *Rig::create(clip));
     Clip out = clip;
     for (int f = 0; f < clip.frames; ++f) {
-      stylizer.set_flight(flight);
-      stylizer.step(clip.pose(f), std::vector<float>{1}, clip.frame_time, out.pose(f));
+      stylizer.step(clip.pose(f), std::vector<float>{1}, {clip.frame_time, clip.frame_time, flight},
+                    out.pose(f));
     }
     return stylizer.rate();
   };

@@ -216,7 +216,7 @@ TEST_F(StylizerTest, the_gate_takes_its_time_but_not_at_the_start) {
     Clip out = clip_;
     float first = 0, most = 0;
     for (int f = 0; f < clip_.frames; ++f) {
-      character.step(clip_.pose(f), std::vector<float>{1, 0}, 1 / 30.0, seconds, out.pose(f));
+      character.step(clip_.pose(f), std::vector<float>{1, 0}, {1 / 30.0, seconds}, out.pose(f));
       if (f == 0) first = character.gate();
       most = std::max(most, std::abs(character.gate() - first));
     }
