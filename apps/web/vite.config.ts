@@ -27,6 +27,17 @@ function embedFiles(): Plugin {
   };
 }
 
+// import packed from 'virtual:panache-file/neutral': one file that comes late.
+function lateFiles(): Plugin {
+  const name = 'virtual:panache-file/neutral';
+  return {
+    name: 'panache-late-files',
+    resolveId: (id) => (id === name ? `\0${name}` : null),
+    load: (id) => (id === `\0${name}` ? `export default '${gzipSync(
+      readFileSync(`${root}models/neutral.safetensors`), { level: 9 }).toString('base64')}';` : null),
+  };
+}
+
 // Modules are fetched as from a server, which a page opened from a disk has not: one plain script.
 function plainScript(): Plugin {
   return {
@@ -43,9 +54,9 @@ function lateScripts(): Plugin {
     name: 'panache-late-scripts',
     apply: 'build',
     async generateBundle() {
-      for (const name of ['gif', 'zip']) {
+      for (const name of ['gif', 'neutral', 'zip']) {
         const input = fileURLToPath(new URL(`src/late/${name}.ts`, import.meta.url));
-        const [made] = [await build({ configFile: false, logLevel: 'warn', build: {
+        const [made] = [await build({ configFile: false, logLevel: 'warn', plugins: [lateFiles()], build: {
           write: false, target: 'es2022', modulePreload: false,
           rollupOptions: { input, output: { format: 'iife' } },
         } })].flat();

@@ -8,6 +8,7 @@
 #include "lab_verbs.h"
 #include "manifests.h"
 #include "messages.h"
+#include "model_edit.h"
 
 namespace panache::cli {
 namespace {
@@ -29,17 +30,19 @@ int measure(const Options& options) {
   const Result<std::map<std::string, LearningErrors>> found =
       measure_learning(*model, **bank, *takes);
   if (!found) return fail(found.error(), kBadInput);
-  print("cm off: no style, mean posture of the pair, learnt from the pair, from the clip alone\n");
+  std::string text =
+      "cm off: no style, mean posture of the pair, learnt from the pair, from the clip alone\n";
   for (const auto& [action, errors] : *found) {
     std::string line = action + " (" + plural(static_cast<size_t>(errors.styles), "style") + ")";
     line.resize(std::max<size_t>(line.size() + 1, 28), ' ');
     for (const double cm : {errors.none, errors.posture, errors.pair, errors.alone}) {
       line += "  " + fixed(cm, 2);
     }
-    print(line + "  (" + fixed(errors.seconds, 2) + " s, " + fixed(errors.people, 0) +
-          " people, certainty " + fixed(errors.certainty, 2) + ", known " +
-          fixed(100 * errors.known, 0) + " %)\n");
+    text += line + "  (" + fixed(errors.seconds, 2) + " s, " + fixed(errors.people, 0) +
+            " people, certainty " + fixed(errors.certainty, 2) + ", known " +
+            fixed(100 * errors.known, 0) + " %)\n";
   }
+  print(text);
   return kDone;
 }
 

@@ -17,12 +17,12 @@
 namespace panache {
 namespace {
 
-constexpr int64_t kMoments = 35000;    // Looked at, and as many mirrored.
-constexpr int64_t kPrototypes = 2500;  // Tried; some have too few people.
+constexpr int64_t kMoments = 60000;    // Looked at, and as many mirrored.
+constexpr int64_t kPrototypes = 3000;  // Tried; some have too few people.
 constexpr int64_t kAround = 400;       // Moments around a prototype that its people are found in.
 constexpr int kPhaseFrames = 8;        // That a person's moment is moved by to fit better.
 constexpr double kGaitWeight = 4;
-constexpr double kKnown = 0.95;  // Quantile of the distances of neutral motion.
+constexpr double kKnown = 0.75;  // Quantile of the distances of neutral motion.
 constexpr int kMinFrames = 30;
 constexpr float kWidest = 127;
 

@@ -7,6 +7,7 @@ import { element } from './dom';
 interface Late {
   zip: { zipFiles(files: Record<string, Uint8Array>): Uint8Array };
   gif: typeof import('gifenc');
+  neutral: { packed: string };
 }
 
 function load(path: string): Promise<void> {
