@@ -88,14 +88,22 @@ TEST(NeutralBank, a_style_is_learnt_from_a_walk_alone) {
 }
 
 TEST(NeutralBank, motion_that_nobody_does_is_told) {
-  // A walker who stands on his head.
+  // A walker who flies up and down as he turns about himself.
   Clip walk = test::bent_walk();
   for (int f = 0; f < walk.frames; ++f) {
-    Quat& hips = walk.pose(f).rotations[0];
-    hips = axis_angle(Vec3{0, 0, 1}, 3.1f) * hips;
+    const auto t = static_cast<float>(f) / 30;
+    const Pose pose = walk.pose(f);
+    pose.rotations[0] = axis_angle(Vec3{0, 1, 0}, 9 * t) * pose.rotations[0];
+    pose.translations[0].y += 0.5f * (1 - std::cos(9 * t));
   }
   const LearnPair pair = alone(walk);
   EXPECT_FALSE(pair.twin->is_known);
+  const LearntStyle learnt =
+      learn_style(test::shipped_model(), "model.safetensors", {&pair, 1}, "flying", "").value();
+  ASSERT_FALSE(learnt.pairs[0].warnings.empty());
+  EXPECT_EQ(learnt.pairs[0].warnings[0],
+            "bent.bvh: is unlike the neutral motion that is known, so that what differs from it is "
+            "not style alone; give a neutral clip of the action");
 }
 
 TEST(NeutralBank, a_damaged_file_is_rejected_with_its_tensor) {
