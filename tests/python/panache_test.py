@@ -254,7 +254,7 @@ def test_a_strength_follows_its_keys(model, walk):
 
 
 def test_a_style_is_learnt_from_one_clip(model, walk):
-    styled = panache.stylize(model, walk, {'old': 1}).clip
+    styled = panache.stylize(model, walk, {'old': 1})
     alone = panache.learn(model, styled, 'mine')
     assert alone.model.styles == model.styles + ['mine']
     assert alone.people >= 5 and 0 < alone.certainty < 1
