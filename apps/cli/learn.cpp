@@ -22,7 +22,7 @@ namespace {
 
 struct LearnVerb {
   std::vector<std::string> clips;
-  std::string name, model, description, source, licence, action;
+  std::string name, model, description, source, licence;
   ReadOptions read;
   RigFlags rig;
   bool pose = false, force = false, json = false;
@@ -73,10 +73,17 @@ Result<OpenClip> open(const std::string& path, const ReadOptions& read, const Ri
   return out;
 }
 
-Result<std::shared_ptr<const WalkerModel>> load_walker() {
-  Result<std::string> path = find_shipped(kWalkerModel);
+Result<std::shared_ptr<const NeutralBank>> load_bank() {
+  Result<std::string> path = find_shipped(kNeutralBank);
   if (!path) return path.error();
-  return WalkerModel::load(*path);
+  return NeutralBank::load(*path);
+}
+
+Result<LearnPair> make_alone(const LearnClip& styled, bool pose) {
+  if (pose) return make_pose_pair(styled);
+  Result<std::shared_ptr<const NeutralBank>> bank = load_bank();
+  if (!bank) return bank.error();
+  return make_learn_pair(styled, **bank);
 }
 
 Result<std::vector<LearnPair>> open_pairs(const LearnVerb& verb) {
@@ -89,27 +96,16 @@ Result<std::vector<LearnPair>> open_pairs(const LearnVerb& verb) {
     clips.push_back(*std::move(clip));
   }
   std::vector<LearnPair> pairs;
-  const auto add = [&](Result<LearnPair> pair) -> Result<void> {
+  if (clips.size() == 1) {
+    Result<LearnPair> pair = make_alone(clips[0].to_learn(), verb.pose);
     if (!pair) return pair.error();
     pairs.push_back(*std::move(pair));
-    return {};
-  };
-  if (verb.pose && clips.size() == 1) {
-    if (auto good = add(make_pose_pair(clips[0].to_learn())); !good) return good.error();
     return pairs;
   }
-  if (verb.action.empty()) {
-    for (size_t i = 0; i < clips.size(); i += 2) {
-      auto good = add(make_learn_pair(clips[i].to_learn(), clips[i + 1].to_learn()));
-      if (!good) return good.error();
-    }
-    return pairs;
-  }
-  Result<std::shared_ptr<const WalkerModel>> walker = load_walker();
-  if (!walker) return walker.error();
-  for (const OpenClip& clip : clips) {
-    auto good = add(make_learn_pair(clip.to_learn(), verb.action, *walker));
-    if (!good) return good.error();
+  for (size_t i = 0; i < clips.size(); i += 2) {
+    Result<LearnPair> pair = make_learn_pair(clips[i].to_learn(), clips[i + 1].to_learn());
+    if (!pair) return pair.error();
+    pairs.push_back(*std::move(pair));
   }
   return pairs;
 }
@@ -122,6 +118,9 @@ Json to_json(const LearntStyle& learnt, const LearnVerb& verb, size_t bytes, dou
                      {"seconds", pair.seconds},
                      {"tempo", pair.tempo},
                      {"match", pair.match},
+                     {"people", pair.twin ? Json(pair.twin->people) : Json()},
+                     {"certainty", pair.twin ? Json(pair.twin->certainty) : Json()},
+                     {"known", pair.twin ? Json(pair.twin->is_known) : Json()},
                      {"warnings", pair.warnings}});
   }
   Json gestures = Json::array();
@@ -157,6 +156,10 @@ std::string describe(const LearntStyle& learnt, const LearnVerb& verb, size_t by
   for (const PairReport& pair : learnt.pairs) {
     text += "  " + pair.neutral_name + " -> " + pair.styled_name + ": " + fixed(pair.seconds, 1) +
             " s, match " + fixed(pair.match, 2) + ", tempo " + fixed(1 / pair.tempo, 2) + " x\n";
+    if (!pair.twin) continue;
+    text += "  without a neutral clip: " + std::to_string(pair.twin->people) +
+            " other people move alike; " + fixed(100 * pair.twin->certainty, 0) +
+            " % of the difference in posture is style, the rest is what people differ by\n";
   }
   for (const LearntGesture& found : learnt.gestures) {
     text +=
@@ -176,22 +179,15 @@ Result<void> check_usage(const LearnVerb& verb) {
     return Error{"--pose: expected POSE or NEUTRAL POSE, found " +
                  plural(verb.clips.size(), "clip")};
   }
-  if (!verb.pose && verb.action.empty() && verb.clips.size() % 2 != 0) {
-    return Error{(verb.clips.size() == 1 ? "there is " : "there are ") +
-                 plural(verb.clips.size(), "clip") +
-                 "; expected NEUTRAL STYLED, or several such pairs; for styled clips alone name "
-                 "their action, as in --action walk"};
+  if (verb.clips.size() > 1 && verb.clips.size() % 2 != 0) {
+    return Error{"there are " + plural(verb.clips.size(), "clip") +
+                 "; expected STYLED, or NEUTRAL STYLED, or several such pairs"};
   }
   if (!verb.model.ends_with(".safetensors")) {
     return Error{"--into " + verb.model + ": expected a name that ends in .safetensors"};
   }
   if (auto name = check_style_name(verb.name); !name) {
     return located("--name", name.error());
-  }
-  if (!verb.action.empty()) {
-    if (auto known = check_action(verb.action); !known) {
-      return located("--action", known.error());
-    }
   }
   if (auto read = check_read_options(verb.read); !read) return read;
   return check_rig_flags(verb.rig);
@@ -252,7 +248,8 @@ void add_learn(CLI::App& app, int& exit_code) {
   verb->add_option("CLIPS", options->clips,
                    "Motion files (" + motion_extensions() +
                        "):\na neutral clip, then the same action in the style, 2 to\n"
-                       "3 s each; more such pairs may follow")
+                       "3 s each; more such pairs may follow. Or one clip in the\n"
+                       "style: how other people do it takes the neutral one's place")
       ->required()
       ->type_name("");
   verb->add_option("--name", options->name, "Name of the style, as in stylize --style NAME=1")
@@ -270,16 +267,10 @@ void add_learn(CLI::App& app, int& exit_code) {
       ->type_name("TEXT");
   verb->add_option("--licence", options->licence, "Licence of the style, likewise")
       ->type_name("TEXT");
-  CLI::Option* action =
-      verb->add_option("--action", options->action,
-                       "All CLIPS are styled clips of this action, walk or run; a\n"
-                       "built-in neutral clip is paired with them")
-          ->type_name("ACTION");
   verb->add_flag("--pose", options->pose,
                  "CLIPS are a neutral pose and a posed one, or only the\n"
                  "latter: of a motion its first frame. The style changes\n"
-                 "all motion by their difference")
-      ->excludes(action);
+                 "all motion by their difference");
   add_rig_options(*verb, options->rig);
   add_read_options(*verb, options->read);
   verb->add_flag("--force", options->force, "Replace a style of the same name");
@@ -289,7 +280,7 @@ void add_learn(CLI::App& app, int& exit_code) {
       "same foot or hand; their rest poses and bone lengths may differ.\n\n"
       "Examples:\n"
       "  panache learn walk.bvh dizzy.bvh --name dizzy --into mine.safetensors\n"
-      "  panache learn dizzy.bvh --action walk --name dizzy --into mine.safetensors\n"
+      "  panache learn dizzy.bvh --name dizzy --into mine.safetensors\n"
       "  panache stylize run.bvh --model mine.safetensors --style dizzy=1 -o out.bvh");
   verb->callback([options, &exit_code] { exit_code = learn(*options); });
 }

@@ -10,6 +10,7 @@ namespace panache::cli {
 inline constexpr const char* kDefaultModel = "panache-int8.safetensors";
 inline constexpr const char* kFloatModel = "panache.safetensors";  // The default as floats.
 inline constexpr const char* kRemoverModel = "remover-int8.safetensors";
+inline constexpr const char* kNeutralBank = "neutral.safetensors";
 inline constexpr const char* kWalkerModel = "walker.safetensors";
 
 // The path of the shipped model called `file_name`: in share/panache/models beside an installed

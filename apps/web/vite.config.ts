@@ -9,6 +9,7 @@ const files = {
   model: `${root}models/panache-int8.safetensors`,
   walker: `${root}models/walker.safetensors`,
   remover: `${root}models/remover-int8.safetensors`,
+  neutral: `${root}models/neutral.safetensors`,
 };
 
 // import wasm from 'virtual:panache-file/wasm': what the page would have to fetch, packed, as
@@ -60,7 +61,7 @@ function lateScripts(): Plugin {
     name: 'panache-late-scripts',
     apply: 'build',
     async generateBundle() {
-      for (const name of ['gif', 'remover', 'zip']) {
+      for (const name of ['gif', 'neutral', 'remover', 'zip']) {
         const input = fileURLToPath(new URL(`src/late/${name}.ts`, import.meta.url));
         const [made] = [await build({ configFile: false, logLevel: 'warn',
           plugins: [embedFiles()], build: {

@@ -445,6 +445,13 @@ typedef struct panache_learnt panache_learnt;
 PANACHE_API panache_status panache_learn(const void* model_bytes, size_t model_size,
                                          const panache_pair* pairs, int32_t pair_count,
                                          const char* name, int32_t replace, panache_learnt** out);
+/* As panache_learn(), from a clip in the style alone, of any action: how other people move takes
+ * the place of the neutral clip. The bank is models/neutral.safetensors. The turn of a limb about
+ * its own axis is not learnt. */
+PANACHE_API panache_status panache_learn_alone(const void* model_bytes, size_t model_size,
+                                               const void* bank_bytes, size_t bank_size,
+                                               const panache_clip* styled, const char* name,
+                                               int32_t replace, panache_learnt** out);
 /* NULL is allowed. */
 PANACHE_API void panache_learnt_destroy(panache_learnt* learnt);
 
@@ -461,9 +468,14 @@ typedef struct panache_learnt_report {
    * centimetres on a body of 1.6 metres: with the style, with its mean posture alone, and of the
    * neutral motion. */
   double held_back_cm, mean_posture_cm, untouched_cm;
+  /* Of panache_learn_alone(), otherwise 0: the people whose mean takes the neutral clip's place,
+   * whether their motion is like the clip's (if not, that is also a warning), and the share of the
+   * difference in posture that is style and not what people differ by. */
+  int32_t people, is_known;
+  double certainty;
 } panache_learnt_report;
 #define PANACHE_LEARNT_REPORT \
-  { sizeof(panache_learnt_report), 0, NULL, 0, 0, 0 }
+  { sizeof(panache_learnt_report), 0, NULL, 0, 0, 0, 0, 0, 0 }
 
 /* Fills the first struct_size bytes of the report. */
 PANACHE_API panache_status panache_learnt_get_report(const panache_learnt* learnt,

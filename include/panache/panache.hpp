@@ -231,6 +231,11 @@ class Learnt : public Object<panache_learnt, panache_learnt_destroy> {
          const std::string& name, bool replace = false)
       : Object(panache_learn, model_bytes, model_size, pairs, pair_count, name.c_str(),
                static_cast<int32_t>(replace)) {}
+  // From a clip in the style alone.
+  Learnt(const void* model_bytes, size_t model_size, const void* bank_bytes, size_t bank_size,
+         const panache_clip& styled, const std::string& name, bool replace = false)
+      : Object(panache_learn_alone, model_bytes, model_size, bank_bytes, bank_size, &styled,
+               name.c_str(), static_cast<int32_t>(replace)) {}
   // Valid as long as this object; `size` is set.
   const void* model(size_t& size) const noexcept { return panache_learnt_model(get(), &size); }
   const char* verdict() const noexcept { return panache_learnt_verdict(get()); }

@@ -13,7 +13,9 @@
   verb(gestures) \
   verb(quantize) \
   verb(export) \
-  verb(fit_walker)
+  verb(fit_walker) \
+  verb(neutral_bank) \
+  verb(learning)
 // clang-format on
 
 namespace panache::cli {

@@ -11,6 +11,8 @@ using namespace panache::api;
 
 namespace {
 
+constexpr const char* kStyledClip = "the styled clip";
+
 Result<LearnPair> read_pair(const panache_pair& pair, int32_t number) {
   const std::string name = "pair " + std::to_string(number);
   const std::string neutral_name = name + ", neutral", styled_name = name + ", styled";
@@ -22,11 +24,10 @@ Result<LearnPair> read_pair(const panache_pair& pair, int32_t number) {
                          {*styled, pair.styled.skeleton->rig, styled_name});
 }
 
-}  // namespace
-
-panache_status panache_learn(const void* model_bytes, size_t model_size, const panache_pair* pairs,
-                             int32_t pair_count, const char* name, int32_t replace,
-                             panache_learnt** out) {
+// Learns the style from what read_pairs() gives, a Result of a std::vector<LearnPair>.
+template <class ReadPairs>
+panache_status learn_from(const void* model_bytes, size_t model_size, const char* name,
+                          int32_t replace, panache_learnt** out, ReadPairs read_pairs) {
   start(out);
   return guarded([&] {
     const Result<ModelFile> model = ModelFile::parse(model_bytes, model_size);
@@ -40,13 +41,9 @@ panache_status panache_learn(const void* model_bytes, size_t model_size, const p
     if (auto good = check_style_name(name); !good) {
       return fail(PANACHE_BAD_ARGUMENT, good.error());
     }
-    std::vector<LearnPair> learnt_from;
-    for (int32_t p = 0; p < pair_count; ++p) {
-      Result<LearnPair> pair = read_pair(pairs[p], p + 1);
-      if (!pair) return fail(PANACHE_BAD_CLIP, pair.error());
-      learnt_from.push_back(*std::move(pair));
-    }
-    Result<LearntStyle> style = learn_style(model->file, kModelName, learnt_from, name, "");
+    const Result<std::vector<LearnPair>> pairs = read_pairs();
+    if (!pairs) return fail(PANACHE_BAD_CLIP, pairs.error());
+    Result<LearntStyle> style = learn_style(model->file, kModelName, *pairs, name, "");
     if (!style) return fail(PANACHE_BAD_CLIP, style.error());
     Result<TensorFile> merged = add_style(model->file, kModelName, style->file, name, true);
     if (!merged) return fail(PANACHE_BAD_MODEL, merged.error());
@@ -58,6 +55,41 @@ panache_status panache_learn(const void* model_bytes, size_t model_size, const p
     *out = new panache_learnt{format_safetensors(*merged), *std::move(style), std::move(warnings)};
     return PANACHE_OK;
   });
+}
+
+}  // namespace
+
+panache_status panache_learn(const void* model_bytes, size_t model_size, const panache_pair* pairs,
+                             int32_t pair_count, const char* name, int32_t replace,
+                             panache_learnt** out) {
+  return learn_from(model_bytes, model_size, name, replace, out,
+                    [&]() -> Result<std::vector<LearnPair>> {
+                      std::vector<LearnPair> read;
+                      for (int32_t p = 0; p < pair_count; ++p) {
+                        Result<LearnPair> pair = read_pair(pairs[p], p + 1);
+                        if (!pair) return pair.error();
+                        read.push_back(*std::move(pair));
+                      }
+                      return read;
+                    });
+}
+
+panache_status panache_learn_alone(const void* model_bytes, size_t model_size,
+                                   const void* bank_bytes, size_t bank_size,
+                                   const panache_clip* styled, const char* name, int32_t replace,
+                                   panache_learnt** out) {
+  return learn_from(
+      model_bytes, model_size, name, replace, out, [&]() -> Result<std::vector<LearnPair>> {
+        const auto bank = NeutralBank::parse({static_cast<const char*>(bank_bytes), bank_size},
+                                             "the bank of neutral motion");
+        if (!bank) return bank.error();
+        const Result<Clip> clip = read_clip(*styled, Rotations::unit, kStyledClip);
+        if (!clip) return clip.error();
+        Result<LearnPair> pair =
+            make_learn_pair({*clip, styled->skeleton->rig, kStyledClip}, **bank);
+        if (!pair) return pair.error();
+        return std::vector<LearnPair>{*std::move(pair)};
+      });
 }
 
 void panache_learnt_destroy(panache_learnt* learnt) { delete learnt; }
@@ -79,6 +111,11 @@ panache_status panache_learnt_get_report(const panache_learnt* learnt,
     found.held_back_cm = style.held_back_cm;
     found.mean_posture_cm = style.mean_posture_cm;
     found.untouched_cm = style.untouched_cm;
+    if (!style.pairs.empty() && style.pairs[0].twin) {
+      found.people = style.pairs[0].twin->people;
+      found.is_known = style.pairs[0].twin->is_known ? 1 : 0;
+      found.certainty = style.pairs[0].twin->certainty;
+    }
     auto written = write_struct(found, report, "panache_learnt_report");
     return written ? PANACHE_OK : fail(PANACHE_BAD_ARGUMENT, written.error());
   });

@@ -11,9 +11,6 @@ namespace panache {
 namespace {
 
 constexpr int kCopies = 8;  // Disturbed ones of each window, beside the window itself.
-// What a weight's square costs, in variances of a standardised feature. Less fits an action's own
-// pair better and other takes of it worse; 1 is smoother too.
-constexpr double kPenalty = 1;
 // What a foot that is planted, or is not, asks of the contact network: a probability of 0.88. The
 // network's own is held within the same bounds.
 constexpr float kSure = 2;
@@ -149,18 +146,18 @@ void put_layer(const std::string& key, const Model& model, const std::vector<dou
 // The gate: leverage of a window, z^T (S + penalty)^-1 z with S the covariance of what was learnt
 // from, in units of where trust ends.
 void put_gate(const Model& model, Table& table, const std::vector<double>& covariance,
-              const std::vector<double>& mean, TensorFile& file) {
+              const std::vector<double>& mean, double penalty, TensorFile& file) {
   const size_t size = table.activations, count = std::min(kDirections, size);
   Directions main = main_directions(covariance, size, count);
   double left = 0;  // Variance beside the main directions.
   for (size_t f = 0; f < size; ++f) left += covariance[f * size + f];
   for (const double variance : main.variances) left -= variance;
   const double others = size > count ? std::max(0.0, left) / static_cast<double>(size - count) : 0;
-  const double rest = 1 / (others + kPenalty);
+  const double rest = 1 / (others + penalty);
   std::vector<double> gate_weights;
   gate_weights.reserve(main.variances.size());
   for (const double variance : main.variances)
-    gate_weights.push_back(1 / (variance + kPenalty) - rest);
+    gate_weights.push_back(1 / (variance + penalty) - rest);
 
   std::vector<double> leverages;
   for (size_t r = 0; r < table.rows; ++r) {
@@ -190,7 +187,7 @@ void put_gate(const Model& model, Table& table, const std::vector<double>& covar
 }  // namespace
 
 TensorFile fit_style(const std::shared_ptr<const Model>& model, const SampleSet& set,
-                     std::span<const size_t> samples) {
+                     std::span<const size_t> samples, double penalty) {
   assert(model->can_learn() && !samples.empty());
   Table table = make_table(model, set, samples);
   const std::vector<double> middle = centre(table.seen, table.activations);
@@ -198,7 +195,7 @@ TensorFile fit_style(const std::shared_ptr<const Model>& model, const SampleSet&
   Ridge ridge(static_cast<int>(table.activations), kLearntOutputs);
   ridge.add(table.seen, table.answers, 1 / static_cast<double>(table.rows));
   // The mean posture costs nothing: rows and answers are centred.
-  const std::vector<double> weights = ridge.solve(std::vector<double>(table.activations, kPenalty));
+  const std::vector<double> weights = ridge.solve(std::vector<double>(table.activations, penalty));
   std::vector<double> mean;
   for (size_t f = 0; f < table.activations; ++f) {
     const double scale = static_cast<double>(model->activation_scale()[f]);
@@ -208,7 +205,7 @@ TensorFile fit_style(const std::shared_ptr<const Model>& model, const SampleSet&
   TensorFile file;
   put_layer("head", *model, weights, mean, answer, file);
   file.tensors["mean"] = tensor({static_cast<int64_t>(mean.size())}, mean);
-  put_gate(*model, table, ridge.gram(), mean, file);
+  put_gate(*model, table, ridge.gram(), mean, penalty, file);
   return file;
 }
 

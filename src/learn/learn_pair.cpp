@@ -12,7 +12,6 @@
 #include "learn/cycle.h"
 #include "retarget/retarget.h"
 #include "rig/canonical_skeleton.h"
-#include "walker/walker.h"
 
 namespace panache {
 namespace {
@@ -20,9 +19,7 @@ namespace {
 // Less teaches nothing: the ends of a warped window are left out.
 constexpr int kMinFrames = 15;
 // Rests that are further apart than this are two rest poses.
-constexpr double kSameRest = 5;                       // Degrees.
-constexpr float kWalkSpeed = 1.4f, kRunSpeed = 3.0f;  // m/s.
-constexpr double kWalkSeconds = 8;
+constexpr double kSameRest = 5;  // Degrees.
 
 Result<Take> take_of(const LearnClip& from) {
   if (from.clip.frames == 1) return make_take(from.clip, from.rig, PoseLayout::positions);
@@ -68,8 +65,8 @@ Result<std::vector<size_t>> match_joints(const LearnClip& neutral, const LearnCl
   const std::vector<Joint>& b = styled.clip.skeleton.joints;
   const std::string where = neutral.name + " and " + styled.name + ": have different skeletons (";
   const std::string cure =
-      "); a pair needs joints of the same names and parents: leave the neutral clip out and name "
-      "the action, or retarget the styled clip onto the neutral one";
+      "); a pair needs joints of the same names and parents: leave the neutral clip "
+      "out, or retarget the styled clip onto it";
   if (a.size() != b.size()) {
     return Error{
         where + std::to_string(a.size()) + " and " + std::to_string(b.size()) + " joints" + cure,
@@ -165,12 +162,6 @@ void forget_twist(Take& take) {
 
 }  // namespace
 
-Result<void> check_action(const std::string& action) {
-  if (action == "walk" || action == "run") return {};
-  return Error{"there is no built-in neutral '" + action +
-               "'; expected walk or run, or a neutral clip of the same skeleton"};
-}
-
 Result<LearnPair> make_learn_pair(const LearnClip& neutral, const LearnClip& styled) {
   const Result<std::vector<size_t>> matches = match_joints(neutral, styled);
   if (!matches) return matches.error();
@@ -206,21 +197,13 @@ Result<LearnPair> make_pose_pair(const LearnClip& styled) {
   return pair;
 }
 
-Result<LearnPair> make_learn_pair(const LearnClip& styled, const std::string& action,
-                                  std::shared_ptr<const WalkerModel> walker) {
-  if (auto known = check_action(action); !known) return known.error();
+Result<LearnPair> make_learn_pair(const LearnClip& styled, const NeutralBank& bank) {
+  if (styled.clip.frames == 1) return make_pose_pair(styled);
   Result<Take> after = take_of(styled);
   if (!after) return after.error();
-  WalkClipOptions options;
-  options.seconds = kWalkSeconds;
-  options.fps = kTakeRate;
-  options.speed = action == "walk" ? kWalkSpeed : kRunSpeed;
-  const Clip clip = walk_clip(std::move(walker), options);
-  Result<Rig> rig = Rig::create(clip);
-  if (!rig) return rig.error();
-  LearnPair pair{"the walker's " + action, styled.name,
-                 make_take(clip, *rig, PoseLayout::positions), *std::move(after)};
-  forget_twist(pair.neutral);
+  NeutralTwin twin = bank.twin(*after);
+  LearnPair pair{"neutral people", styled.name, std::move(twin.take), *std::move(after)};
+  pair.twin = twin.facts;
   forget_twist(pair.styled);
   return pair;
 }

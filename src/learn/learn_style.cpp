@@ -34,6 +34,9 @@ constexpr double kInStep = 0.85;
 constexpr double kSameMotion = 0.001;
 constexpr double kMirrored = 0.6, kNearlyEqual = 0.1;
 constexpr double kSlowest = 0.5, kFastest = 2;  // Tempo.
+// See fit_style(). Of a pair less fits an action's own clips better and other takes of it worse; 1
+// is smoother too. What a twin does from frame to frame is less sure than its posture.
+constexpr double kPairPenalty = 1, kTwinPenalty = 100;
 constexpr double kHeldBack = 0.75;  // The share of a styled clip from which on it is held back.
 // What is left of the distance to the styled motion, of what it is without a style. Of pairs whose
 // clips show another action 0.84 to 1.03 is left, of pairs of one action 0.3 to 0.86.
@@ -93,6 +96,7 @@ Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& p
                     1,
                     0,
                     {},
+                    pair.twin,
                     matched_instants(pairings, repeats ? pair.neutral_cycle : 0)};
   if (!pairings.empty()) report.match = mean_cost(pairings);
   if (pairings.empty() || report.match > kNoMatch) {
@@ -108,6 +112,11 @@ Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& p
     report.warnings.push_back(both +
                               ": are the same motion, so that the style changes nothing; give a "
                               "clip in the style as the second one");
+  }
+  if (pair.twin && !pair.twin->is_known) {
+    report.warnings.push_back(pair.styled_name +
+                              ": is unlike the neutral motion that is known, so that what differs "
+                              "from it is not style alone; give a neutral clip of the action");
   }
   std::vector<Take> exchanged = {takes[neutral], takes[styled]};
   for (HumanPositions& body : exchanged[1].body) body = mirrored(body);
@@ -140,7 +149,7 @@ Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& p
   for (const bool is_neutral : {true, false}) {
     const double seconds = (is_neutral ? pair.neutral : pair.styled).frames() / kTakeRate;
     // A clip of as long has up to two frames less, by where its frames lie.
-    if (seconds > kShort - 1.5 / kTakeRate) continue;
+    if (seconds > kShort - 1.5 / kTakeRate || (is_neutral && pair.twin)) continue;
     report.warnings.push_back((is_neutral ? pair.neutral_name : pair.styled_name) + ": has only " +
                               with_decimals(seconds, 2) +
                               " s; 2 to 3 s of a walk, or the whole of an action, teach more");
@@ -276,9 +285,12 @@ Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
   info.origin.pop_back();
   // Once without what is held back, to be judged, and once with everything.
   learnt.judged = !first.empty() && !held_back.empty();
+  const bool has_twin =
+      std::any_of(pairs.begin(), pairs.end(), [](const LearnPair& pair) { return !!pair.twin; });
+  const double penalty = has_twin ? kTwinPenalty : kPairPenalty;
   std::vector<TensorFile> fits(learnt.judged ? 2 : 1);
   parallel_for(static_cast<int>(fits.size()),
-               [&](int i) { fits[i] = fit_style(*model, set, i == 0 ? all : first); });
+               [&](int i) { fits[i] = fit_style(*model, set, i == 0 ? all : first, penalty); });
   if (learnt.judged) {
     const TensorFile trial = make_style_file(file, info, std::move(fits[1].tensors));
     Result<TensorFile> with_it = add_style(file, name, trial, "the style", true);

@@ -2,6 +2,7 @@
 // A new style from a few seconds of motion: from clips to a style file.
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,6 +27,7 @@ struct PairReport {
   double match = 0;  // Mean squared distance of what was laid together, in deviations: 0 is equal.
   // Warnings, with their cure. Sentences.
   std::vector<std::string> warnings;
+  std::optional<TwinFacts> twin = {};    // Where it was learnt without a neutral clip.
   std::vector<MatchedInstant> instants;  // Of each styled frame that was laid somewhere, in order.
 };
 

@@ -370,6 +370,28 @@ TEST_F(Api, learns_a_style_from_a_pair_of_clips) {
   panache_learnt_destroy(learnt);
 }
 
+TEST_F(Api, learns_a_style_from_one_clip) {
+  const std::string bytes = model_bytes(), bank = panache::test::file_bytes("neutral.safetensors");
+  const Walk bent(skeleton_, 180, true);
+  const auto learn = [&](const std::string& from, panache_learnt** learnt) {
+    return panache_learn_alone(bytes.data(), bytes.size(), from.data(), from.size(), &bent.clip,
+                               "bent", 0, learnt);
+  };
+  panache_learnt* learnt = nullptr;
+  ASSERT_EQ(learn(bank, &learnt), PANACHE_OK) << panache_last_error();
+  panache_learnt_report report = PANACHE_LEARNT_REPORT;
+  ASSERT_EQ(panache_learnt_get_report(learnt, &report), PANACHE_OK);
+  EXPECT_GE(report.people, 5);
+  EXPECT_GT(report.certainty, 0);
+  EXPECT_LT(report.certainty, 1);
+  panache_learnt_destroy(learnt);
+  EXPECT_EQ(learn(bytes, &learnt), PANACHE_BAD_CLIP);
+  EXPECT_STREQ(panache_last_error(),
+               "the bank of neutral motion: is no bank of neutral motion; expected metadata "
+               "'format' to be 'panache-neutral'");
+  EXPECT_EQ(learnt, nullptr);
+}
+
 TEST_F(Api, says_why_it_cannot_learn) {
   const std::string bytes = model_bytes();
   const Walk neutral(skeleton_, 180, false), brief(skeleton_, 12, true);

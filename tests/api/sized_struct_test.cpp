@@ -23,7 +23,7 @@ ENDS_WITH(panache_shape, foot_lock);
 ENDS_WITH(panache_report, ahead);
 ENDS_WITH(panache_stylize_options, gesture_seed);
 ENDS_WITH(panache_retarget_options, meet_hands);
-ENDS_WITH(panache_learnt_report, untouched_cm);
+ENDS_WITH(panache_learnt_report, certainty);
 
 TEST_F(SizedStructs, of_an_older_program_are_shorter_and_the_rest_is_as_by_default) {
   panache_character* shaped = character("old");

@@ -190,25 +190,6 @@ TEST(LearnStyle, several_pairs_of_several_skeletons_make_one_style) {
   EXPECT_EQ(info.description, "bent forward");
 }
 
-TEST(LearnStyle, a_styled_walk_alone_is_learnt_beside_the_walkers_own) {
-  const Clip bent = test::bent_walk();
-  const auto rig = Rig::create(bent);
-  Result<LearnPair> pair =
-      make_learn_pair({bent, *rig, "bent.bvh"}, "walk", test::shipped_walker());
-  ASSERT_TRUE(pair.ok()) << pair.error().message;
-  const LearntStyle learnt = learn({*pair});
-  EXPECT_EQ(learnt.pairs[0].neutral_name, "the walker's walk");
-  const Clip walk = test::neutral_walk(4, 1.2f);
-  const Restyled styled = in_style(parse(with_it(learnt)), "bent", walk);
-  EXPECT_NEAR(lean(styled.clip, 60) - lean(walk, 60), 0.5, 0.15);
-
-  pair = make_learn_pair({bent, *rig, "bent.bvh"}, "juggle", test::shipped_walker());
-  ASSERT_FALSE(pair.ok());
-  EXPECT_EQ(pair.error().message,
-            "there is no built-in neutral 'juggle'; expected walk or run, or a neutral clip of the "
-            "same skeleton");
-}
-
 TEST(LearnStyle, half_a_model_learns_too) {
   const TensorFile half = test::shipped_model("panache-int8.safetensors");
   const std::vector<LearnPair> pairs = {test::make_pair(test::neutral_walk(), test::bent_walk())};

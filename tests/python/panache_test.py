@@ -253,6 +253,16 @@ def test_a_strength_follows_its_keys(model, walk):
     assert angles(styled.rotations, walk.rotations).max(1)[-30:].min() > 0.1
 
 
+def test_a_style_is_learnt_from_one_clip(model, walk):
+    styled = panache.stylize(model, walk, {'old': 1})
+    alone = panache.learn(model, styled, 'mine')
+    assert alone.model.styles == model.styles + ['mine']
+    assert alone.people >= 5 and 0 < alone.certainty < 1
+    pair = panache.learn(model, [(walk, walk)], 'mine')
+    assert pair.people is None and pair.certainty is None
+    assert 'neutral' not in panache.shipped_models()
+
+
 def test_a_style_is_learnt_from_clips_and_from_files(model, walk, walk_file, shipped, run,
                                                      tmp_path):
     styled = panache.stylize(model, walk, {'old': 1})

@@ -19,7 +19,7 @@ before(async () => {
   folder = await mkdtemp(join(tmpdir(), 'panache-'));
   await cp(join(root, 'apps/web/package'), join(folder, 'package'), { recursive: true });
   for (const path of ['LICENSE', 'build/wasm/panache.wasm', 'models/panache-int8.safetensors',
-    'models/remover-int8.safetensors', 'models/walker.safetensors']) {
+    'models/neutral.safetensors', 'models/remover-int8.safetensors', 'models/walker.safetensors']) {
     await cp(join(root, path), join(folder, 'package', basename(path)));
   }
   await mkdir(join(folder, 'three_js'));
@@ -697,7 +697,7 @@ test('what was freed throws, and so does what another Panache has made', async (
       () => player.setTrack('old', [[0, 1]]), () => player.seek(0), () => player.body,
       () => walk.steer(1, 0), () => walk.step(0.1)],
     file: [() => file.createPlayer(), () => file.putOn(file),
-      () => other.learnStyle('mine', { file }, 'walk')],
+      () => other.learnStyle('mine', { file }, { file })],
   };
   for (const action of freed.file) refusal(action, /^this file was freed and cannot be used/);
   delete freed.file;

@@ -100,7 +100,8 @@ class Pair(Structure):
 class LearntReport(Structure):
     _fields_ = [('struct_size', c_uint32), ('was_tested', c_int32), ('warnings', c_char_p),
                 ('held_back_cm', c_double), ('mean_posture_cm', c_double),
-                ('untouched_cm', c_double)]
+                ('untouched_cm', c_double), ('people', c_int32), ('is_known', c_int32),
+                ('certainty', c_double)]
 
 
 class ClipEdit(Structure):
@@ -156,6 +157,8 @@ _FUNCTIONS = {
     'styled_clip_is_loop': (c_int32, [_H]),
     'retarget_clip': (c_int32, [POINTER(Clip), _H, POINTER(RetargetOptions), _OUT]),
     'learn': (c_int32, [c_char_p, c_size_t, POINTER(Pair), c_int32, c_char_p, c_int32, _OUT]),
+    'learn_alone': (c_int32, [c_char_p, c_size_t, c_char_p, c_size_t, POINTER(Clip), c_char_p,
+                              c_int32, _OUT]),
     'learnt_destroy': (None, [_H]),
     'learnt_model': (c_void_p, [_H, POINTER(c_size_t)]),
     'learnt_verdict': (c_char_p, [_H]),

@@ -12,7 +12,7 @@ from . import _library as c
 from ._library import Handle, PanacheError, check, lib, sized, utf8
 from .clips import Clip
 from .files import Path, read
-from .model import Model
+from .model import NEUTRAL_BANK, Model
 
 ClipOrPath = Union[Clip, Path]
 
@@ -28,6 +28,10 @@ class Learnt:
     verdict:  by these distances: 'good'; 'fair' where the style removes little of the distance, or
               its mean posture alone more; 'poor' where it is no better than the neutral motion; None
               as they are.
+    people:   of a style that was learnt from one clip alone: how many people's mean takes the
+              neutral clip's place; None of pairs.
+    certainty: likewise the share of the difference in posture that is style, 0 to 1; the rest is
+              what people differ by.
     """
     model: Model
     warnings: List[str]
@@ -35,6 +39,8 @@ class Learnt:
     mean_posture_cm: Optional[float]
     untouched_cm: Optional[float]
     verdict: Optional[str]
+    people: Optional[int] = None
+    certainty: Optional[float] = None
 
 
 @dataclass
@@ -65,20 +71,26 @@ def _clip(source: ClipOrPath) -> Clip:
     return read(source)
 
 
-def learn(model: Model, pairs: Sequence[Tuple[ClipOrPath, ClipOrPath]], name: str,
-          replace: bool = False) -> Learnt:
+def learn(model: Model, pairs: Union[Sequence[Tuple[ClipOrPath, ClipOrPath]], ClipOrPath],
+          name: str, replace: bool = False) -> Learnt:
     """Learns the style `name` from pairs of one action, (neutral, styled): 2 to 3
     seconds of a walk, or the whole of a gesture, by skeletons whose joints have the same names and
-    parents. Clips, or paths of files. The model stays as
-    it is; a style of this name is replaced only with `replace`."""
-    pairs = list(pairs) if isinstance(pairs, Iterable) else [pairs]
-    for pair in pairs:
-        if not isinstance(pair, (tuple, list)) or len(pair) != 2:
-            raise PanacheError('pairs: expected (neutral, styled) each, of clips or paths')
-    clips = [(_clip(neutral), _clip(styled)) for neutral, styled in pairs]
-    array = (c.Pair * max(len(clips), 1))(*[(a._struct(), b._struct()) for a, b in clips])
-    handle = Handle('learnt', lib.learn, model.content, len(model.content), array, len(clips),
-                    utf8(name, 'name'), bool(replace))
+    parents. Clips, or paths of files. Instead of pairs, one clip in the style is
+    enough: how other people move takes the place of its neutral one. The model stays as it is; a
+    style of this name is replaced only with `replace`."""
+    if isinstance(pairs, (Clip, str, os.PathLike)):
+        alone, bank = _clip(pairs), NEUTRAL_BANK.read_bytes()
+        handle = Handle('learnt', lib.learn_alone, model.content, len(model.content), bank,
+                        len(bank), alone._struct(), utf8(name, 'name'), bool(replace))
+    else:
+        pairs = list(pairs) if isinstance(pairs, Iterable) else [pairs]
+        for pair in pairs:
+            if not isinstance(pair, (tuple, list)) or len(pair) != 2:
+                raise PanacheError('pairs: expected (neutral, styled) each, of clips or paths')
+        clips = [(_clip(neutral), _clip(styled)) for neutral, styled in pairs]
+        array = (c.Pair * max(len(clips), 1))(*[(a._struct(), b._struct()) for a, b in clips])
+        handle = Handle('learnt', lib.learn, model.content, len(model.content), array, len(clips),
+                        utf8(name, 'name'), bool(replace))
     size = c_size_t()
     data = lib.learnt_model(handle.pointer, size)
     report = sized(c.LearntReport)
@@ -87,7 +99,8 @@ def learn(model: Model, pairs: Sequence[Tuple[ClipOrPath, ClipOrPath]], name: st
     return Learnt(Model(ctypes.string_at(data, size.value)),
                   (report.warnings or b'').decode().splitlines(),
                   *(distances if report.was_tested else [None] * 3),
-                  lib.learnt_verdict(handle.pointer).decode() or None)
+                  lib.learnt_verdict(handle.pointer).decode() or None,
+                  *([report.people, report.certainty] if report.people else [None] * 2))
 
 
 def training_samples(*sources: Union[ClipOrPath, Tuple[ClipOrPath, ClipOrPath]]) -> Samples:

@@ -11,13 +11,14 @@ from ._files import write
 from ._library import HERE, Handle, PanacheError, lib, take_bytes, utf8
 
 _MODELS = HERE / 'models'
+NEUTRAL_BANK = _MODELS / 'neutral.safetensors'  # For learn(), of one clip.
 _DEFAULT = 'panache-int8'  # As the program's.
 _TYPES = {'F32': np.float32, 'F16': np.float16, 'I8': np.int8}
 
 
 def shipped_models() -> List[str]:
     """The names of the models that come with the package, for `Model(name)`."""
-    return sorted(path.stem for path in _MODELS.glob('*.safetensors'))
+    return sorted(path.stem for path in _MODELS.glob('*.safetensors') if path != NEUTRAL_BANK)
 
 
 class Model:

@@ -58,6 +58,10 @@ export interface LearnReport {
   untouchedCm: number | null;
   /** By these distances; 'poor' is no better than the neutral motion. null as they are. */
   verdict: 'good' | 'fair' | 'poor' | null;
+  /** Without a neutral motion: how many people's mean takes its place, and the share of the
+   * difference in posture that is style, and not what people differ by; otherwise null. */
+  people: number | null;
+  certainty: number | null;
   plot: {
     /** Of both, from the first frame to the last. */
     styledSeconds: number;
@@ -252,9 +256,9 @@ export class Panache {
   setModel(bytes: ArrayBuffer | Uint8Array, name?: string): void;
   readonly modelBytes: ArrayBuffer | Uint8Array;
   /** Learns a style for the present model, which stays as it is: the bytes of a style file, for
-   * addStyle(). `neutral` is a motion of the same skeleton, or 'walk' or 'run' for the walker's
-   * own. Takes some tenths of a second. */
-  learnStyle(name: string, styled: Motion, neutral: Motion | 'walk' | 'run'):
+   * addStyle(). `neutral` is a motion of the same skeleton, or, where there is none, the bytes of
+   * neutral.safetensors: how other people move. Takes some tenths of a second. */
+  learnStyle(name: string, styled: Motion, neutral: Motion | ArrayBuffer | Uint8Array):
     { bytes: Uint8Array; report: LearnReport };
   /** Whether bytes say that they are a style file, and not a model. */
   isStyle(bytes: ArrayBuffer | Uint8Array): boolean;

@@ -100,15 +100,14 @@ export class Panache {
   }
 
   learnStyle(style, styled, neutral) {
-    const action = typeof neutral === 'string' ? neutral : '';
-    if (action && !this.#walker) throw new PanacheError('no walker was given to Panache.create');
+    const bank = ArrayBuffer.isView(neutral) || neutral instanceof ArrayBuffer ? neutral : null;
     return this._arena((arena) => {
       const out = arena.zeros(4);
-      const [before, after] = [action ? null : neutral, styled];
+      const [before, after] = [bank ? null : neutral, styled];
       const bytes = this._take(this._checked(this.#wasm.panache_page_learn(
         arena.copy(this.#bytes), this.#bytes.byteLength,
         before?.file._handleFor(this) ?? 0, before?.clip ?? 0, arena.text(before?.file.name ?? ''),
-        this.#walker, arena.text(action), after.file._handleFor(this), after.clip ?? 0,
+        bank ? arena.copy(bank) : 0, bank?.byteLength ?? 0, after.file._handleFor(this), after.clip ?? 0,
         arena.text(after.file.name), arena.text(style), out)));
       const [report] = new Uint32Array(this.#wasm.memory.buffer, out, 1);
       return { bytes, report: JSON.parse(new TextDecoder().decode(this._take(report))) };

@@ -9,6 +9,7 @@ interface Late {
   zip: { zipFiles(files: Record<string, Uint8Array>): Uint8Array };
   gif: typeof import('gifenc');
   remover: { packed: string };
+  neutral: { packed: string };
 }
 
 function load(path: string): Promise<void> {

@@ -4,13 +4,13 @@ import type { LearnReport, MotionFile, Panache } from '../package/index.js';
 import { PanacheError } from '../package/index.js';
 import { element } from './dom';
 import { capitalized } from './groups';
+import { late } from './late';
 import { drawMatch, kMatchPlotHeight } from './match_plot';
 import { firstMotion, openFile } from './source';
+import { unpack } from './unpack';
 
 type Role = 'neutral' | 'styled';
 const kTitles = { neutral: 'Neutral', styled: 'In the style' };
-const kActions = { walk: 'The walker\'s walk', run: 'The walker\'s run' };
-type Action = keyof typeof kActions;
 
 /** What the page does for this. */
 export interface LearnHost {
@@ -28,7 +28,6 @@ export interface LearnHost {
 class Slot {
   readonly element: HTMLElement;
   file: MotionFile | null = null;
-  action: Action | null = null;
   #what = element('p', { class: 'what', role: 'status' }, 'Drop a clip here, or');
   #clips = element('select', { 'aria-label': 'Motion of the file', hidden: true });
   #input = element('input', { type: 'file', accept: '.bvh,.glb,.gltf,.vrm,.vrma', hidden: true });
@@ -49,7 +48,6 @@ class Slot {
     });
     this.#record.addEventListener('click', () => attempt(() => this.#press()));
     const buttons = element('div', { class: 'chips' }, choose, this.#record);
-    if (role === 'neutral') buttons.append(this.#actions());
     this.element = element('div', { class: 'slot', role: 'group', 'aria-label': kTitles[role],
       'data-slot': role }, element('b', {}, kTitles[role]), this.#what, this.#clips, buttons,
     this.#input);
@@ -60,7 +58,7 @@ class Slot {
     return Number(this.#clips.value || 0);
   }
   get filled() {
-    return this.file !== null || this.action !== null;
+    return this.file !== null;
   }
 
   /** The button says what it does with what is seen. */
@@ -80,29 +78,11 @@ class Slot {
     const first = firstMotion(opened);
     this.file?.free();
     this.file = opened;
-    this.action = null;
     const { clips } = opened;
     this.#clips.replaceChildren(...clips.flatMap(({ name, moves }, i) =>
       (moves ? [element('option', { value: i }, name || `motion ${i + 1}`)] : [])));
     this.#clips.hidden = this.#clips.childElementCount < 2;
     this.#say(`${opened.name}, ${(clips[first]?.seconds ?? 0).toFixed(1)} s`);
-  }
-
-  #actions() {
-    const menu = element('select', { 'aria-label': 'The walker\'s own motion as neutral clip' },
-      element('option', { value: '' }, 'No clip: …'),
-      ...(Object.keys(kActions) as Action[]).map((action) =>
-        element('option', { value: action }, kActions[action])));
-    menu.addEventListener('change', () => {
-      if (!menu.value) return;
-      this.file?.free();
-      this.file = null;
-      this.#clips.hidden = true;
-      this.action = menu.value as Action;
-      menu.value = '';
-      this.#say(kActions[this.action]);
-    });
-    return menu;
   }
 
   async #press() {
@@ -151,8 +131,8 @@ export class Learn {
       new Slot(role, host, (action) => void this.#attempt(action), () => this.#showButton());
     this.#slots = { neutral: slot('neutral'), styled: slot('styled') };
     this.section = element('section', { id: 'learn', hidden: true, 'aria-label': 'Learn a style' },
-      element('p', { class: 'hint' }, 'Two clips with the same joints: a neutral action, and the same ' +
-        'action in the style. 2 to 3 seconds each are enough.'),
+      element('p', { class: 'hint' }, 'A clip in the style, 2 to 3 seconds of any action. Better: the ' +
+        'same action in neutral too, with the same joints.'),
       this.#slots.neutral.element, this.#slots.styled.element,
       element('div', { class: 'name' }, this.#name, this.#go), this.#error, this.#report);
     this.button.addEventListener('click', () => this.show(this.section.hidden));
@@ -181,7 +161,7 @@ export class Learn {
     const { neutral, styled } = this.#slots;
     const slots = files.length > 1 ? [neutral, styled]
       : [place ? this.#slots[place.dataset.slot as Role]
-        : neutral.filled && !styled.filled ? styled : neutral];
+        : styled.filled && !neutral.filled ? neutral : styled];
     void this.#attempt(async () => {
       for (const [i, slot] of slots.entries()) await slot.open(files[i]);
     });
@@ -191,9 +171,9 @@ export class Learn {
     return this.host.panache.styles.some((style) => style.name === name && style.learnt);
   }
   #showButton() {
-    const { neutral, styled } = this.#slots;
+    const { styled } = this.#slots;
     const name = this.#name.value.trim();
-    this.#go.disabled = !neutral.filled || !styled.filled || name === '';
+    this.#go.disabled = !styled.filled || name === '';
     this.#go.textContent = this.#isOwn(name) ? 'Replace' : 'Learn';
   }
 
@@ -201,11 +181,12 @@ export class Learn {
     const { neutral, styled } = this.#slots;
     const { panache } = this.host;
     const name = this.#name.value.trim();
-    if (!styled.file || !neutral.filled) return;
+    if (!styled.file) return;
     this.#report.hidden = true;
     const begin = performance.now();
     const { bytes, report } = panache.learnStyle(name, { file: styled.file, clip: styled.clip },
-      neutral.file ? { file: neutral.file, clip: neutral.clip } : neutral.action!);
+      neutral.file ? { file: neutral.file, clip: neutral.clip }
+        : await unpack((await late('neutral')).packed));
     panache.addStyle(bytes, { replace: this.#isOwn(name) });
     const seconds = (performance.now() - begin) / 1000;
     this.host.onLearnt(name);
@@ -214,7 +195,7 @@ export class Learn {
   }
 
   #showReport(name: string, report: LearnReport, seconds: number) {
-    const { match, verdict, tempo, heldBackCm, meanPostureCm, untouchedCm } = report;
+    const { match, verdict, tempo, heldBackCm, meanPostureCm, untouchedCm, people, certainty } = report;
     const cm = (value: number | null) => (value ?? 0).toFixed(1);
     const canvas = element('canvas', { role: 'img', 'aria-label':
       `Poses of ${report.styled} at the top, the matching poses of ${report.neutral} at the bottom` });
@@ -224,6 +205,9 @@ export class Learn {
     this.#report.replaceChildren(
       element('p', {}, element('b', {}, name), ` learnt in ${seconds.toFixed(1)} s: match ` +
         `${match.toFixed(2)}, tempo ${(1 / tempo).toFixed(2)}×`),
+      ...(people === null ? [] : [element('p', { class: 'hint' }, `Without a neutral clip: ${people} ` +
+        `other people move alike; ${Math.round(100 * (certainty ?? 0))} % of the difference in ` +
+        'posture is style, the rest is what people differ by.')]),
       canvas,
       element('p', { class: 'hint' }, 'Top: the styled clip. Bottom: the matching frames of the neutral clip.'),
       ...report.warnings.map((text) => element('p', { class: 'warning' }, text)),

@@ -70,6 +70,8 @@ Result<Learnt> learn_pair(std::string_view model, const Result<LearnPair>& pair,
                     {"heldBackCm", measured(learnt->held_back_cm)},
                     {"meanPostureCm", measured(learnt->mean_posture_cm)},
                     {"untouchedCm", measured(learnt->untouched_cm)},
+                    {"people", report.twin ? Json(report.twin->people) : Json()},
+                    {"certainty", report.twin ? Json(report.twin->certainty) : Json()},
                     {"plot", match_plot(*pair, report.instants)}};
   // Names are the files', and may be no UTF-8.
   return Learnt{format_safetensors(learnt->file),
@@ -89,13 +91,14 @@ Result<Learnt> learn(std::string_view model, const Motion& neutral, const Motion
       style);
 }
 
-Result<Learnt> learn(std::string_view model, std::shared_ptr<const WalkerModel> walker,
-                     const std::string& action, const Motion& styled, const std::string& style) {
+Result<Learnt> learn_alone(std::string_view model, std::string_view bank, const Motion& styled,
+                           const std::string& style) {
+  const auto people = NeutralBank::parse(bank, "the bank of neutral motion");
+  if (!people) return people.error();
   const Clip& after = styled.file.clip(styled.which);
   const Result<Rig> rig = Rig::create(after);
   if (!rig) return located(styled.name, rig.error());
-  return learn_pair(model, make_learn_pair({after, *rig, styled.name}, action, std::move(walker)),
-                    style);
+  return learn_pair(model, make_learn_pair({after, *rig, styled.name}, **people), style);
 }
 
 }  // namespace panache::web

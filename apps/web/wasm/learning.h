@@ -1,14 +1,12 @@
 #pragma once
 // A style learnt in the page, and what the page shows of it.
 
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "base/result.h"
 #include "clip/motion_file.h"
-#include "walker/walker_model.h"
 
 namespace panache::web {
 
@@ -27,8 +25,8 @@ struct Learnt {
 // Learns the style called `style` on the bytes of a model from a neutral motion and a styled one.
 Result<Learnt> learn(std::string_view model, const Motion& neutral, const Motion& styled,
                      const std::string& style);
-// With the walker's own `action` in place of a neutral motion.
-Result<Learnt> learn(std::string_view model, std::shared_ptr<const WalkerModel> walker,
-                     const std::string& action, const Motion& styled, const std::string& style);
+// Without a neutral motion: with the bytes of a bank of it, see NeutralBank.
+Result<Learnt> learn_alone(std::string_view model, std::string_view bank, const Motion& styled,
+                           const std::string& style);
 
 }  // namespace panache::web

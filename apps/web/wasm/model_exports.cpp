@@ -50,19 +50,19 @@ PANACHE_EXPORT panache_bytes* panache_page_style_add(const char* model, uint32_t
   return new panache_bytes{format_safetensors(*merged)};
 }
 
-// The bytes of a style file; those of the report come into *report. Without a neutral file the
-// walker's own `action` stands in for it.
+// The bytes of a style file; those of the report come into *report. Without a neutral file the bank
+// of neutral motion in `bank` stands in for it.
 PANACHE_EXPORT panache_bytes* panache_page_learn(const char* model, uint32_t model_size,
                                                  FileHandle* neutral, int32_t neutral_clip,
-                                                 const char* neutral_name, WalkerHandle* walker,
-                                                 const char* action, FileHandle* styled,
+                                                 const char* neutral_name, const char* bank,
+                                                 uint32_t bank_size, FileHandle* styled,
                                                  int32_t styled_clip, const char* styled_name,
                                                  const char* style, panache_bytes** report) {
   const std::string_view bytes = bytes_at(model, model_size);
   const Motion after = {**styled, styled_clip, styled_name};
   Result<Learnt> learnt = neutral
                               ? learn(bytes, {**neutral, neutral_clip, neutral_name}, after, style)
-                              : learn(bytes, *walker, action, after, style);
+                              : learn_alone(bytes, bytes_at(bank, bank_size), after, style);
   if (!learnt) return fail(learnt.error());
   *report = new panache_bytes{std::move(learnt->report)};
   return new panache_bytes{std::move(learnt->style)};

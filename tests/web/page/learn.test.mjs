@@ -161,10 +161,16 @@ test('a style is learnt from what is seen: recorded walk and sliders', async () 
   assert.ok(far > 3, `${far}`);
   assert.equal((await told(tab)).strengths.mix, 1);
   assert.equal((await told(tab)).strengths.proud, 0);
-  // Without a neutral clip the walker's own walk stands in.
-  await tab.getByLabel('The walker\'s own motion as neutral clip').selectOption('walk');
+});
+
+test('one clip that is dropped becomes a style with a slider', async (t) => {
+  await tab.reload();
+  await drop(tab, '#learn', [file('lumbering.bvh')]);
+  await tab.waitForFunction(() => /lumbering/.test(
+    document.querySelector('[data-slot=styled] .what').textContent));
   await learn('alone');
   assert.ok((await styles()).includes('alone'), await report());
+  assert.match(await report(), /Without a neutral clip: \d+ other people move alike/);
 });
 
 test('a model opens by drop, and panache view --model shows the page with it', async (t) => {

@@ -1,0 +1,68 @@
+// panache-lab learning: how well styles are learnt from one clip, with a neutral clip and without.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "eval/learning.h"
+#include "lab_verbs.h"
+#include "manifests.h"
+#include "messages.h"
+#include "model_edit.h"
+
+namespace panache::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> manifests;
+  std::string model, bank;
+};
+
+int measure(const Options& options) {
+  Result<Manifests> data = read_manifests({options.manifests, "", {}});
+  if (!data) return fail(data.error(), kBadInput);
+  const Result<TensorFile> model = read_tensors(options.model);
+  if (!model) return fail(model.error(), kBadInput);
+  const Result<std::shared_ptr<const NeutralBank>> bank = NeutralBank::load(options.bank);
+  if (!bank) return fail(bank.error(), kBadInput);
+  const Result<std::vector<Take>> takes = load_takes(data->rows, PoseLayout::positions);
+  if (!takes) return fail(takes.error(), kBadInput);
+  const Result<std::map<std::string, LearningErrors>> found =
+      measure_learning(*model, **bank, *takes);
+  if (!found) return fail(found.error(), kBadInput);
+  std::string text =
+      "cm off: no style, mean posture of the pair, learnt from the pair, from the clip alone\n";
+  for (const auto& [action, errors] : *found) {
+    std::string line = action + " (" + plural(static_cast<size_t>(errors.styles), "style") + ")";
+    line.resize(std::max<size_t>(line.size() + 1, 28), ' ');
+    for (const double cm : {errors.none, errors.posture, errors.pair, errors.alone}) {
+      line += "  " + fixed(cm, 2);
+    }
+    text += line + "  (" + fixed(errors.seconds, 2) + " s, " + fixed(errors.people, 0) +
+            " people, certainty " + fixed(errors.certainty, 2) + ", known " +
+            fixed(100 * errors.known, 0) + " %)\n";
+  }
+  print(text);
+  return kDone;
+}
+
+}  // namespace
+
+void add_learning(CLI::App& app, int& exit_code) {
+  CLI::App* verb = app.add_subcommand(
+      "learning", "Measure learning from one clip of a style, with a neutral clip and without");
+  auto options = std::make_shared<Options>();
+  verb->add_option("MANIFEST", options->manifests,
+                   "Manifests with styled and neutral takes; takes marked test judge")
+      ->required();
+  verb->add_option("--model", options->model, "Model to learn on")->required()->type_name("FILE");
+  verb->add_option("--bank", options->bank, "Bank of neutral motion")
+      ->required()
+      ->type_name("FILE");
+  verb->footer(
+      "Example:\n"
+      "  panache-lab learning takes.csv --model model.safetensors --bank neutral.safetensors");
+  verb->callback([options, &exit_code] { exit_code = measure(*options); });
+}
+
+}  // namespace panache::cli

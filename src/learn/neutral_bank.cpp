@@ -1,0 +1,347 @@
+#include "learn/neutral_bank.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <set>
+
+#include "base/file.h"
+#include "base/parallel.h"
+#include "learn/samples.h"
+#include "rig/canonical_body.h"
+#include "rig/canonical_skeleton.h"
+
+namespace panache {
+namespace {
+
+using enum HumanJoint;
+
+constexpr const char* kFormat = "panache-neutral";
+constexpr int kRootBegin = root_offset(PoseLayout::positions);
+constexpr int kNearest = 6;
+constexpr float kNearestFloor = 0.5f;  // Squared distance below which all prototypes count alike.
+constexpr int kSmoothed = 7;           // Frames.
+// Tempos that a style may have, and by how much nearer another than 1 has to bring the prototypes.
+constexpr float kTempos[] = {1, 0.84f, 1.19f, 0.71f, 1.41f};
+constexpr float kNearer = 0.93f;
+constexpr int kTempoStride = 5;  // Of so many frames one is looked at.
+// How much of the deviation between people in one moment is that of their mean postures.
+constexpr float kPostureShare = 0.3f;
+// What the coarse posture and the rig weigh.
+constexpr float kCoarse = 0.5f, kRigWeight = 1.5f;
+
+// When a moment is looked at, in frames; and those of it that its steps are seen in.
+constexpr std::array kTimes = {-15, -12, -9, -6, -4, -3, -2, -1, 0, 1, 2, 3, 4, 6, 9, 12, 15};
+constexpr size_t kFirst = 3, kCount = 11;
+// Evenly spread over the three seconds.
+constexpr std::array<size_t, 11> kSpread = {0, 1, 2, 3, 5, 8, 11, 13, 14, 15, 16};
+constexpr float kTimeUnit = 3;
+
+struct Seen {
+  HumanJoint joint;
+  float weight;  // A style changes the steps least.
+};
+constexpr std::array<Seen, 12> kSeen = {{{chest, 0.5f},
+                                         {head, 0.5f},
+                                         {left_lower_arm, 0.35f},
+                                         {left_hand, 0.35f},
+                                         {right_lower_arm, 0.35f},
+                                         {right_hand, 0.35f},
+                                         {left_lower_leg, 1},
+                                         {left_foot, 1},
+                                         {left_toes, 1},
+                                         {right_lower_leg, 1},
+                                         {right_foot, 1},
+                                         {right_toes, 1}}};
+constexpr std::array kAmplitudes = {left_lower_leg,  left_foot,      right_lower_leg,
+                                    right_foot,      left_lower_arm, left_hand,
+                                    right_lower_arm, right_hand,     head};
+
+float bounded(float value, float most) { return std::clamp(value, -most, most); }
+
+// The canonical body nearest to `joints`, whose limbs may have other lengths.
+HumanPositions whole_body(const HumanPositions& joints) {
+  BodyShape shape;
+  shape.has.fill(true);
+  std::array<Vec3, 2> toes;
+  for (int side = 0; side < kFeet; ++side) {
+    toes[side] = normalized(joints[index(kToes[side])] - joints[index(kAnkles[side])], {0, 0, 1});
+  }
+  return canonical_positions(joints, shape, toes);
+}
+
+// Moving average over the frames of rows[frames][numbers].
+std::vector<float> smoothed(const std::vector<float>& rows, int frames, int numbers) {
+  std::vector<float> out(rows.size());
+  for (int f = 0; f < frames; ++f) {
+    for (int k = -kSmoothed / 2; k <= kSmoothed / 2; ++k) {
+      const float* from = &rows[static_cast<size_t>(std::clamp(f + k, 0, frames - 1)) * numbers];
+      float* to = &out[static_cast<size_t>(f) * numbers];
+      for (int n = 0; n < numbers; ++n) to[n] += from[n] / kSmoothed;
+    }
+  }
+  return out;
+}
+
+// The mean position of each joint.
+HumanPositions mean_body(const std::vector<HumanPositions>& bodies) {
+  HumanPositions mean{};
+  for (const HumanPositions& body : bodies) {
+    for (int j = 0; j < kHumanJoints; ++j) {
+      mean[j] = mean[j] + body[j] / static_cast<float>(bodies.size());
+    }
+  }
+  return mean;
+}
+
+Result<std::vector<float>> read_values(const TensorFile& file, const std::string& key,
+                                       int64_t columns, const std::string& name) {
+  const auto found = file.tensors.find(key);
+  if (found == file.tensors.end()) return Error{name + ": tensor '" + key + "' is missing"};
+  const Tensor& tensor = found->second;
+  if (tensor.shape.size() != 2 || tensor.shape[1] != columns || tensor.shape[0] < 1) {
+    return Error{name + ": tensor '" + key + "' has another shape; expected rows of " +
+                 std::to_string(columns) + " numbers"};
+  }
+  for (const float value : tensor.values) {
+    if (!(std::abs(value) < 1e4f)) {
+      return Error{name + ": tensor '" + key + "' holds a number that is not finite or too large"};
+    }
+  }
+  return tensor.values;
+}
+
+}  // namespace
+
+void write_moment(const Take& take, float frame, float tempo, std::span<float> out) {
+  std::array<HumanPositions, kTimes.size()> bodies;
+  std::array<std::array<float, kRootFeatures>, kTimes.size()> roots;
+  std::array<FootContacts, kTimes.size()> contacts;
+  const auto last = static_cast<float>(take.frames() - 1);
+  for (size_t t = 0; t < kTimes.size(); ++t) {
+    const float at =
+        std::clamp(frame + kTimeUnit * static_cast<float>(kTimes[t]) / tempo, 0.0f, last);
+    bodies[t] = body_at(take, at);
+    roots[t] = root_at(take, at);
+    for (float& number : roots[t]) number = bounded(number / tempo, 3);
+    contacts[t] = take.contacts[static_cast<size_t>(std::lround(at))];
+  }
+  HumanPositions mean{};
+  std::array<float, kHumanJoints> amplitude{};
+  std::array<float, kRootFeatures> root{};
+  std::array<float, kFeet> planted{}, ankle{9, 9}, toe{9, 9};
+  constexpr float kShare = 1 / static_cast<float>(kSpread.size());
+  for (const size_t t : kSpread) {
+    for (int j = 0; j < kHumanJoints; ++j) mean[j] = mean[j] + bodies[t][j] * kShare;
+    for (int k = 0; k < kRootFeatures; ++k) root[k] += roots[t][k] * kShare;
+    for (int f = 0; f < kFeet; ++f) planted[f] += contacts[t][f] ? kShare : 0;
+  }
+  for (const HumanPositions& body : bodies) {
+    for (int f = 0; f < kFeet; ++f) {
+      ankle[f] = std::min(ankle[f], body[index(kAnkles[f])].y);
+      toe[f] = std::min(toe[f], body[index(kToes[f])].y);
+    }
+  }
+  for (int j = 0; j < kHumanJoints; ++j) {
+    for (const size_t t : kSpread) {
+      const Vec3 way = bodies[t][j] - mean[j];
+      amplitude[j] += dot(way, way) * kShare;
+    }
+    amplitude[j] = std::sqrt(amplitude[j]) + 0.05f;
+  }
+
+  float* number = out.data();
+  const auto put = [&](float value) { *number++ = value; };
+  const float each = 1 / std::sqrt(static_cast<float>(kCount));
+  for (size_t t = kFirst; t < kFirst + kCount; ++t) {
+    for (const auto& [joint, weight] : kSeen) {
+      const int j = index(joint);
+      const Vec3 way = (bodies[t][j] - mean[j]) * (weight * each / amplitude[j]);
+      put(way.x), put(way.y), put(way.z);
+    }
+    put(bounded((bodies[t][0].y - mean[0].y) / 0.05f, 3) * each);
+    constexpr std::array<float, kRootFeatures> kWeights = {0.5f, 0.35f, 0.35f};
+    for (int k = 0; k < kRootFeatures; ++k) put(roots[t][k] * kWeights[k] * each);
+    for (int f = 0; f < kFeet; ++f) put(contacts[t][f] ? 0.5f * each : 0);
+  }
+  constexpr std::array<float, kRootFeatures> kMeanWeights = {1.4f, 1.05f, 1.05f};
+  for (int k = 0; k < kRootFeatures; ++k) put(root[k] * kMeanWeights[k]);
+  for (int f = 0; f < kFeet; ++f) put(4 * planted[f]);
+  for (const HumanJoint joint : kAmplitudes) put(0.6f * std::log(amplitude[index(joint)]));
+  // What tells sitting, lying and fighting from standing, whatever the style.
+  const auto coarse = [&](float way, float unit) { put(kCoarse * bounded(way / unit, 4)); };
+  const auto at = [&](HumanJoint joint) { return mean[index(joint)]; };
+  coarse(at(hips).y, 0.15f);
+  coarse(at(neck).x, 0.2f), coarse(at(neck).y - at(hips).y, 0.2f), coarse(at(neck).z, 0.3f);
+  coarse(at(left_foot).x - at(right_foot).x, 0.15f);
+  coarse(at(left_foot).z - at(right_foot).z, 0.15f);
+  for (const HumanJoint hand : {left_hand, right_hand}) {
+    coarse(at(hand).y - at(hips).y, 0.3f), coarse(at(hand).z, 0.3f);
+  }
+  // Where a planted foot is: rigs differ in it, and with it in the whole leg.
+  put(bounded(((ankle[0] + ankle[1]) / 2 - 0.07f) / 0.02f, 3) * kRigWeight);
+  put(bounded(((toe[0] + toe[1]) / 2 - 0.03f) / 0.02f, 3) * kRigWeight);
+  assert(number == out.data() + out.size());
+}
+
+Result<std::shared_ptr<const NeutralBank>> NeutralBank::load(const std::string& path) {
+  Result<std::string> bytes = read_file(path);
+  if (!bytes) return bytes.error();
+  return parse(*bytes, path);
+}
+
+Result<std::shared_ptr<const NeutralBank>> NeutralBank::parse(std::string_view bytes,
+                                                              const std::string& name) {
+  const Result<TensorFile> file = parse_safetensors(bytes, name);
+  if (!file) return file.error();
+  const auto format = file->metadata.find("format");
+  if (format == file->metadata.end() || format->second != kFormat) {
+    return Error{name + ": is no bank of neutral motion; expected metadata 'format' to be '" +
+                 kFormat + "'"};
+  }
+  auto bank = std::make_shared<NeutralBank>();
+  std::vector<float> scale, offset, known, people;
+  struct Part {
+    const char* key;
+    int columns;
+    std::vector<float>& values;
+  };
+  for (const auto& [key, columns, values] :
+       {Part{"mean", kMomentFeatures, bank->mean_},
+        Part{"directions", kDirections, bank->directions_}, Part{"rows", kRow, bank->rows_},
+        Part{"rows.scale", kRow, scale}, Part{"rows.offset", kRow, offset},
+        Part{"people", kPeople, people}, Part{"known", 1, known}}) {
+    Result<std::vector<float>> read = read_values(*file, key, columns, name);
+    if (!read) return read.error();
+    values = *std::move(read);
+  }
+  const size_t count = people.size() / kPeople;
+  if (bank->directions_.size() != size_t(kMomentFeatures) * kDirections ||
+      bank->rows_.size() != count * kRow || count < kNearest) {
+    return Error{name + ": its tensors do not belong together; get the file again"};
+  }
+  for (size_t i = 0; i < bank->rows_.size(); ++i) {
+    bank->rows_[i] = offset[i % kRow] + scale[i % kRow] * bank->rows_[i];
+  }
+  bank->people_.assign(people.begin(), people.end());
+  bank->known_ = known[0];
+  return std::shared_ptr<const NeutralBank>(std::move(bank));
+}
+
+void NeutralBank::project(std::span<const float> moment, std::span<float> out) const {
+  std::fill(out.begin(), out.end(), 0.0f);
+  for (size_t i = 0; i < moment.size(); ++i) {
+    const float value = moment[i] - mean_[i];
+    for (int d = 0; d < kDirections; ++d) out[d] += value * directions_[i * kDirections + d];
+  }
+}
+
+void NeutralBank::find(const Take& take, float frame, float tempo, std::span<Near> out) const {
+  std::array<float, kMomentFeatures> moment;
+  std::array<float, kDirections> place;
+  write_moment(take, frame, tempo, moment);
+  project(moment, place);
+  std::fill(out.begin(), out.end(), Near{1e30f, 0});
+  for (size_t p = 0; p < prototypes(); ++p) {
+    const float* other = row(static_cast<int>(p));
+    float distance = 0;
+    for (int d = 0; d < kDirections; ++d) {
+      distance += (place[d] - other[d]) * (place[d] - other[d]);
+    }
+    if (distance >= out.back().distance) continue;
+    size_t at = out.size() - 1;
+    for (; at > 0 && distance < out[at - 1].distance; --at) out[at] = out[at - 1];
+    out[at] = {distance, static_cast<int>(p)};
+  }
+}
+
+NeutralTwin NeutralBank::twin(const Take& styled) const {
+  NeutralTwin out;
+  // The tempo that most people would do it at.
+  double best = 0;
+  for (const float tempo : kTempos) {
+    double sum = 0, count = 0;
+    for (int f = 0; f < styled.frames(); f += kTempoStride, ++count) {
+      std::array<Near, 1> near;
+      find(styled, static_cast<float>(f), tempo, near);
+      sum += static_cast<double>(std::sqrt(near[0].distance));
+    }
+    const double mean = sum / count;
+    if (tempo == 1) {
+      best = mean * kNearer;
+      out.facts.is_known = mean < known_;
+    } else if (mean < best) {
+      best = mean;
+      out.tempo = static_cast<double>(tempo);
+    }
+  }
+  const auto tempo = static_cast<float>(out.tempo);
+  const int frames = 1 + static_cast<int>(static_cast<float>(styled.frames() - 1) * tempo);
+  constexpr int kNumbers = kPoseNumbers + kHumanJoints;  // A pose, and deviations squared.
+  std::vector<float> rows(static_cast<size_t>(frames) * kNumbers);
+  std::vector<std::array<Near, kNearest>> nearest(static_cast<size_t>(frames));
+  parallel_for(frames, [&](int f) {
+    find(styled, static_cast<float>(f) / tempo, tempo, nearest[f]);
+    float all = 0;
+    for (const Near& near : nearest[f]) all += 1 / (near.distance + kNearestFloor);
+    float* numbers = &rows[static_cast<size_t>(f) * kNumbers];
+    for (const Near& near : nearest[f]) {
+      const float share = 1 / (near.distance + kNearestFloor) / all;
+      const float* pose = row(near.prototype) + kDirections;
+      for (int n = 0; n < kNumbers; ++n) {
+        numbers[n] += share * (n < kPoseNumbers ? pose[n] : pose[n] * pose[n]);
+      }
+    }
+  });
+  std::set<int> people;
+  for (const auto& found : nearest) {
+    for (const Near& near : found) {
+      const int* of = &people_[static_cast<size_t>(near.prototype) * kPeople];
+      std::copy_if(of, of + kPeople, std::inserter(people, people.end()),
+                   [](int person) { return person >= 0; });
+    }
+  }
+  out.facts.people = static_cast<int>(people.size());
+  rows = smoothed(rows, frames, kNumbers);
+  HumanPositions variance{};  // Of each joint, in x.
+  for (int f = 0; f < frames; ++f) {
+    const float* numbers = &rows[static_cast<size_t>(f) * kNumbers];
+    out.take.body.push_back(read_positions({numbers, kPoseNumbers}));
+    for (int j = 0; j < kHumanJoints; ++j) {
+      variance[j].x += numbers[kPoseNumbers + j] / static_cast<float>(frames);
+    }
+  }
+  // A performer differs from the mean of people: of the difference in posture as much stays with
+  // the twin as people differ by (Wiener 1949).
+  const HumanPositions was = mean_body(out.take.body), is = mean_body(styled.body);
+  double style = 0, all = 0;
+  for (int j = 0; j < kHumanJoints; ++j) {
+    const Vec3 apart = is[j] - was[j];
+    const float square = dot(apart, apart), between = kPostureShare * variance[j].x;
+    const float kept = between / std::max(square, std::max(between, 1e-9f));
+    for (HumanPositions& body : out.take.body) body[j] = body[j] + apart * kept;
+    style += static_cast<double>((1 - kept) * square);
+    all += static_cast<double>(square);
+  }
+  out.facts.certainty = all > 0 ? style / all : 0;
+  RootPose root;
+  std::vector<HumanPositions> world;
+  for (int f = 0; f < frames; ++f) {
+    HumanPositions& body = out.take.body[f];
+    body = whole_body(body);
+    canonical_frames(body, 0, out.take.rotations.emplace_back());
+    const float* numbers = &rows[static_cast<size_t>(f) * kNumbers + kRootBegin];
+    if (f > 0) {
+      root = move_root(root, std::span<const float, kRootFeatures>(numbers, kRootFeatures),
+                       1 / kTakeRate);
+    }
+    out.take.root.push_back(root);
+    world.push_back(to_world(body, root));
+  }
+  out.take.contacts = detect_contacts(world, kTakeRate);
+  write_numbers(PoseLayout::positions, out.take);
+  return out;
+}
+
+}  // namespace panache

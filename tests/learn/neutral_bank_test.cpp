@@ -1,0 +1,138 @@
+#include "learn/neutral_bank.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "make_walks.h"
+
+namespace panache {
+namespace {
+
+const std::string kShipped = PANACHE_SOURCE_DIR "/models/neutral.safetensors";
+
+std::shared_ptr<const NeutralBank> shipped_bank() { return NeutralBank::load(kShipped).value(); }
+
+Take take_of(const Clip& clip) {
+  return make_take(clip, *Rig::create(clip), PoseLayout::positions);
+}
+
+LearnPair alone(const Clip& styled) {
+  return make_learn_pair({styled, *Rig::create(styled), "bent.bvh"}, *shipped_bank()).value();
+}
+
+// Of the neck before the hips, metres; mean over the take.
+double lean(const Take& take) {
+  double sum = 0;
+  for (const HumanPositions& body : take.body) {
+    sum += static_cast<double>(body[index(HumanJoint::neck)].z) / take.frames();
+  }
+  return sum;
+}
+
+// Means over a walk's frames of the product of two takes' strides, left foot ahead of right.
+double in_step(const Take& a, const Take& b) {
+  const auto ahead = [](const HumanPositions& body) {
+    return static_cast<double>(body[index(HumanJoint::left_foot)].z -
+                               body[index(HumanJoint::right_foot)].z);
+  };
+  double both = 0, own = 0, other = 0;
+  for (int f = 15; f < std::min(a.frames(), b.frames()) - 15; ++f) {
+    both += ahead(a.body[f]) * ahead(b.body[f]);
+    own += ahead(a.body[f]) * ahead(a.body[f]);
+    other += ahead(b.body[f]) * ahead(b.body[f]);
+  }
+  return both / std::sqrt(own * other);
+}
+
+TEST(NeutralBank, the_twin_of_a_bent_walk_is_an_upright_walk_in_step) {
+  const Take bent = take_of(test::bent_walk()), upright = take_of(test::neutral_walk());
+  const NeutralTwin twin = shipped_bank()->twin(bent);
+  EXPECT_TRUE(twin.facts.is_known);
+  EXPECT_GE(twin.facts.people, NeutralBank::kMinPeople);
+  EXPECT_EQ(twin.tempo, 1);
+  ASSERT_EQ(twin.take.frames(), bent.frames());
+  // More than half of the bend is told apart from how people differ.
+  EXPECT_LT(lean(twin.take) - lean(upright), 0.5 * (lean(bent) - lean(upright)));
+  EXPECT_GT(twin.facts.certainty, 0.5);
+  EXPECT_GT(in_step(twin.take, bent), 0.9);
+}
+
+TEST(NeutralBank, the_twin_has_the_bones_of_the_canonical_body) {
+  const Take bent = take_of(test::bent_walk());
+  const NeutralTwin twin = shipped_bank()->twin(bent);
+  for (const int joint : {7, 8, 11, 12, 14, 15, 18, 19}) {
+    const auto bone = [&](const HumanPositions& body) {
+      return length(body[joint] - body[kHumanParent[joint]]);
+    };
+    // Rounding of positions of about a metre.
+    EXPECT_NEAR(bone(twin.take.body[40]), bone(bent.body[40]), 1e-5f) << joint;
+  }
+}
+
+TEST(NeutralBank, the_same_clip_gives_the_same_twin) {
+  const Take bent = take_of(test::bent_walk());
+  EXPECT_EQ(shipped_bank()->twin(bent).take.pose_features,
+            shipped_bank()->twin(bent).take.pose_features);
+}
+
+TEST(NeutralBank, a_style_is_learnt_from_a_walk_alone) {
+  const std::vector<LearnPair> pairs = {alone(test::bent_walk())};
+  const LearntStyle learnt =
+      learn_style(test::shipped_model(), "model.safetensors", pairs, "bent", "").value();
+  ASSERT_TRUE(learnt.pairs[0].twin);
+  EXPECT_GE(learnt.pairs[0].twin->people, NeutralBank::kMinPeople);
+  EXPECT_EQ(learnt.pairs[0].neutral_name, "neutral people");
+  EXPECT_TRUE(learnt.pairs[0].warnings.empty()) << learnt.pairs[0].warnings[0];
+  EXPECT_LT(format_safetensors(learnt.file).size(), 90000u);
+}
+
+TEST(NeutralBank, motion_that_nobody_does_is_told) {
+  // A walker who flies up and down as he turns about himself.
+  Clip walk = test::bent_walk();
+  for (int f = 0; f < walk.frames; ++f) {
+    const auto t = static_cast<float>(f) / 30;
+    const Pose pose = walk.pose(f);
+    pose.rotations[0] = axis_angle(Vec3{0, 1, 0}, 9 * t) * pose.rotations[0];
+    pose.translations[0].y += 0.5f * (1 - std::cos(9 * t));
+  }
+  const LearnPair pair = alone(walk);
+  EXPECT_FALSE(pair.twin->is_known);
+  const LearntStyle learnt =
+      learn_style(test::shipped_model(), "model.safetensors", {&pair, 1}, "flying", "").value();
+  ASSERT_FALSE(learnt.pairs[0].warnings.empty());
+  EXPECT_EQ(learnt.pairs[0].warnings[0],
+            "bent.bvh: is unlike the neutral motion that is known, so that what differs from it is "
+            "not style alone; give a neutral clip of the action");
+}
+
+TEST(NeutralBank, a_damaged_file_is_rejected_with_its_tensor) {
+  const std::string bytes = read_file(kShipped).value();
+  const auto failure = [](const TensorFile& file) {
+    const auto bank = NeutralBank::parse(format_safetensors(file), "bank");
+    return bank ? std::string() : bank.error().message;
+  };
+  const TensorFile good = parse_safetensors(bytes, "bank").value();
+  EXPECT_EQ(failure(good), "");
+  TensorFile file = good;
+  file.metadata["format"] = "panache";
+  EXPECT_EQ(failure(file),
+            "bank: is no bank of neutral motion; expected metadata 'format' to be "
+            "'panache-neutral'");
+  file = good;
+  file.tensors.erase("people");
+  EXPECT_EQ(failure(file), "bank: tensor 'people' is missing");
+  file = good;
+  file.tensors["mean"].shape = {488, 1};
+  EXPECT_EQ(failure(file), "bank: tensor 'mean' has another shape; expected rows of 488 numbers");
+  file = good;
+  file.tensors["known"].values[0] = std::nanf("");
+  EXPECT_EQ(failure(file), "bank: tensor 'known' holds a number that is not finite or too large");
+  file = good;
+  file.tensors["people"].shape[0] -= 1;
+  file.tensors["people"].values.resize(file.tensors["people"].values.size() - 8);
+  EXPECT_EQ(failure(file), "bank: its tensors do not belong together; get the file again");
+}
+
+}  // namespace
+}  // namespace panache
