@@ -9,12 +9,6 @@ declare module 'virtual:panache-removable' {
   export default styles;
 }
 
-declare module 'virtual:panache-file/neutral' {
-  /** Gzip in base64. */
-  const packed: string;
-  export default packed;
-}
-
 declare module 'gifenc' {
   type Colour = [red: number, green: number, blue: number];
   /** At most so many colours for these pixels, RGBA. */
