@@ -81,7 +81,7 @@ def serves(arguments, folder):
     line = process.stdout.readline() if ready else ''
     process.terminate()
     process.communicate(timeout=60)
-    return line if re.search(r'http://|relaying|listen', line) is None else None
+    return line if re.search(r'open this address|relaying', line) is None else None
 
 
 def check(page, line, folder):

@@ -104,6 +104,9 @@ int main() {
   FIELD(learnt_report, held_back_cm);
   FIELD(learnt_report, mean_posture_cm);
   FIELD(learnt_report, untouched_cm);
+  FIELD(learnt_report, people);
+  FIELD(learnt_report, is_known);
+  FIELD(learnt_report, certainty);
   STRUCT(clip_edit);
   FIELD(clip_edit, clip);
   FIELD(clip_edit, name);
