@@ -163,8 +163,12 @@ test('a style is learnt from what is seen: recorded walk and sliders', async () 
   assert.equal((await told(tab)).strengths.proud, 0);
 });
 
-test('one clip that is dropped becomes a style with a slider', async (t) => {
-  await tab.reload();
+test('one clip that is dropped becomes a style with a slider', async () => {
+  await tab.close();
+  tab = await site.open();
+  await unfold(tab);
+  await listen(tab);
+  await button('Learn a style …').click();
   await drop(tab, '#learn', [file('lumbering.bvh')]);
   await tab.waitForFunction(() => /lumbering/.test(
     document.querySelector('[data-slot=styled] .what').textContent));
