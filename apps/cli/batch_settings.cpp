@@ -10,7 +10,6 @@
 
 #include "model_path.h"
 #include "sha256.h"
-#include "style/names.h"
 
 namespace panache::cli {
 namespace {

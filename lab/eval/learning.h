@@ -25,8 +25,8 @@ struct LearningErrors {
 };
 
 // By action, of the styled training takes that have a neutral one of their performer. Judged on the
-// performer's test takes of style and action; where there are none ("run, same take"), on the
-// training takes. `takes`: in layout positions.
+// performer's test takes of style and action. An action without test takes is judged on its
+// training takes, as "run, same take". `takes`: in layout positions.
 Result<std::map<std::string, LearningErrors>> measure_learning(const TensorFile& model,
                                                                const NeutralBank& bank,
                                                                const std::vector<Take>& takes);

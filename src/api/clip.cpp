@@ -111,10 +111,7 @@ panache_status panache_recognise_styles(const panache_model* remover, const pana
     if (input->frames == 0) return fail(PANACHE_BAD_CLIP, {"clip: has no frames"});
     const auto found = recognise_styles(remover->model, *input, clip->skeleton->rig);
     if (!found) return fail(PANACHE_BAD_MODEL, found.error());
-    std::fill_n(shares, count, 0.0f);
-    for (const StyleShare& share : *found) {
-      shares[share.style < 0 ? count - 1 : share.style] = share.share;
-    }
+    write_shares(*found, {shares, static_cast<size_t>(count)});
     return PANACHE_OK;
   });
 }

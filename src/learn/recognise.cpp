@@ -95,4 +95,11 @@ Result<std::vector<StyleShare>> recognise_styles(const std::shared_ptr<const Mod
   return recognise_styles(remover, make_take(clip, rig, remover->layout()));
 }
 
+void write_shares(std::span<const StyleShare> shares, std::span<float> out) noexcept {
+  std::fill(out.begin(), out.end(), 0.0f);
+  for (const auto& [style, share] : shares) {
+    out[style < 0 ? out.size() - 1 : static_cast<size_t>(style)] = share;
+  }
+}
+
 }  // namespace panache

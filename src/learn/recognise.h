@@ -39,4 +39,8 @@ Result<std::vector<StyleShare>> recognise_styles(const std::shared_ptr<const Mod
 Result<std::vector<StyleShare>> recognise_styles(const std::shared_ptr<const Model>& remover,
                                                  const Take& take);
 
+// Writes the shares in the order of the remover's styles, then that of neutral; 0 where there is
+// none. out.size() = styles + 1
+void write_shares(std::span<const StyleShare> shares, std::span<float> out) noexcept;
+
 }  // namespace panache

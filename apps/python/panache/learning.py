@@ -75,9 +75,9 @@ def learn(model: Model, pairs: Union[Sequence[Tuple[ClipOrPath, ClipOrPath]], Cl
           name: str, replace: bool = False) -> Learnt:
     """Learns the style `name` from pairs of one action, (neutral, styled): 2 to 3
     seconds of a walk, or the whole of a gesture, by skeletons whose joints have the same names and
-    parents. Clips, or paths of files. Instead of pairs, one clip in the style is
-    enough: how other people move takes the place of its neutral one. The model stays as it is; a
-    style of this name is replaced only with `replace`."""
+    parents. Clips, or paths of files. One clip in the style, instead of pairs, is compared with the
+    mean motion of other people. The model stays as it is; a style of this name is replaced only
+    with `replace`."""
     if isinstance(pairs, (Clip, str, os.PathLike)):
         alone, bank = _clip(pairs), NEUTRAL_BANK.read_bytes()
         handle = Handle('learnt', lib.learn_alone, model.content, len(model.content), bank,

@@ -256,8 +256,8 @@ export class Panache {
   setModel(bytes: ArrayBuffer | Uint8Array, name?: string): void;
   readonly modelBytes: ArrayBuffer | Uint8Array;
   /** Learns a style for the present model, which stays as it is: the bytes of a style file, for
-   * addStyle(). `neutral` is a motion of the same skeleton, or, where there is none, the bytes of
-   * neutral.safetensors: how other people move. Takes some tenths of a second. */
+   * addStyle(). `neutral` is a motion of the same skeleton; without one, pass the bytes of
+   * neutral.safetensors, the mean motion of other people. Takes some tenths of a second. */
   learnStyle(name: string, styled: Motion, neutral: Motion | ArrayBuffer | Uint8Array):
     { bytes: Uint8Array; report: LearnReport };
   /** Whether bytes say that they are a style file, and not a model. */

@@ -63,7 +63,8 @@ export class Page {
     this.#plots = new Plots(find('#plots'), panache.styles.map(({ name }) => name));
     this.#readout = new Readout(this.#plots);
     this.#exporter = new Exporter(panache, () => ({
-      source: this.#source, settings: this.#store.settings, remover: this.#removal.remover, pace: this.#steering.pace,
+      source: this.#source, settings: this.#store.settings,
+      remover: this.#removal.remover, pace: this.#steering.pace,
       files: this.#files, bytes: this.#bytes,
       range: this.#transport.range, isPart: this.#transport.isPart,
     }));

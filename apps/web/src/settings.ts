@@ -84,8 +84,8 @@ export function toAddress(settings: Settings): string {
 
 const same = (a: object, b: object): boolean => JSON.stringify(a) === JSON.stringify(b);
 
-/** The settings of an address, for a model and a remover with these styles; what it says that is unknown or wrong counts as not said. Addresses
- * of before, "old=0.5" and "old.keys=...", are read where the name is no setting's. */
+/** The settings of an address, for a model and a remover with these styles. Unknown or wrong parts
+ * are ignored. "old=0.5" and "old.keys=..." are read as well, unless a setting has that name. */
 export function fromAddress(text: string, styles: readonly string[],
     removable: readonly string[]): Settings {
   const given = new URLSearchParams(text.replace(/^#/, ''));

@@ -100,11 +100,7 @@ PANACHE_EXPORT panache_status panache_page_file_recognise(FileHandle* file, int3
   if (!rig) return api::fail(PANACHE_BAD_SKELETON, rig.error());
   const auto found = recognise_styles(remover->model, clip, *rig);
   if (!found) return api::fail(PANACHE_BAD_MODEL, found.error());
-  const size_t styles = remover->model->styles().size();
-  std::fill_n(shares, styles + 1, 0.0f);
-  for (const auto& [style, share] : *found) {
-    shares[style < 0 ? styles : static_cast<size_t>(style)] = share;
-  }
+  write_shares(*found, {shares, remover->model->styles().size() + 1});
   return PANACHE_OK;
 }
 
