@@ -180,6 +180,7 @@ OodRow compare_ood(const Take& input, const Take& output) {
   row.input_skating_ratio = skating_ratio(input);
   row.turned_deg = mean_turn_deg(input, output);
   row.drift_m = length(output.root.back().position - input.root.back().position);
+  row.shot = measure_shot(input, output);
   return row;
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/result.h"
 #include "eval/metrics.h"
+#include "eval/shot.h"
 #include "learn/signature.h"
 #include "eval/system.h"
 #include "learn/take.h"
@@ -55,7 +56,8 @@ struct OodRow {
   double turned_deg = 0;  // Mean angle between where the two bodies face.
   double drift_m = 0;     // How far the hips end from where the input's do, along the ground.
   double gate = 1;        // Mean of the stylizer's gate.
-  OodVerdict verdict;     // Of the same clip and style with the style's own tempo.
+  ShotValues shot;
+  OodVerdict verdict;  // Of the same clip and style with the style's own tempo.
 };
 
 // What became of `input` in `output`, frame by frame; both have the same frames and numbers in

@@ -229,6 +229,18 @@ Json ood_by_clip_json(const std::vector<OodRow>& rows) {
   return out;
 }
 
+Json shots_json(const std::vector<OodRow>& rows) {
+  Json out;
+  const ShotSummaries shots = summarize_shots(rows);
+  for (size_t i = 0; i < shots.size(); ++i) {
+    out[kShotKeys[i]] = {{"frames", shots[i].frames},
+                         {"median", number(shots[i].median)},
+                         {"p90", number(shots[i].p90)},
+                         {"over_2", number(shots[i].over_2)}};
+  }
+  return out;
+}
+
 Json ood_json(const std::vector<OodRow>& rows) {
   Json list = Json::array();
   for (const OodRow& row : rows) {
@@ -250,6 +262,7 @@ Json ood_json(const std::vector<OodRow>& rows) {
   }
   Json out;
   out["summary"] = ood_summary_json(summarize_ood(rows));
+  out["shot"] = shots_json(rows);
   out["signatures"] = signatures_json(rows);
   out["by_clip"] = ood_by_clip_json(rows);
   out["rows"] = std::move(list);

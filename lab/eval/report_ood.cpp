@@ -73,6 +73,21 @@ StyleSummary summarize_styles(const std::vector<OodRow>& rows) {
   return out;
 }
 
+ShotSummaries summarize_shots(const std::vector<OodRow>& rows) {
+  ShotSummaries out;
+  for (size_t i = 0; i < out.size(); ++i) {
+    std::vector<double> values;
+    for (const OodRow& row : rows) {
+      values.insert(values.end(), row.shot[i].begin(), row.shot[i].end());
+    }
+    if (values.empty()) continue;
+    const auto over = std::count_if(values.begin(), values.end(), [](double v) { return v > 2; });
+    out[i] = {values.size(), quantile(values, 0.5), quantile(values, 0.9),
+              static_cast<double>(over) / static_cast<double>(values.size())};
+  }
+  return out;
+}
+
 std::map<std::string, SignatureMatch> signatures_by_style(const std::vector<OodRow>& rows) {
   std::map<std::string, SignatureMatch> styles;
   for (const OodRow& row : rows) {

@@ -1,6 +1,7 @@
 #pragma once
 // Many clips in many styles in a few numbers.
 
+#include <array>
 #include <cstddef>
 #include <map>
 #include <string>
@@ -24,6 +25,15 @@ struct StyleSummary {
   double signature_sign = kNotMeasured, signature_amount = kNotMeasured;
 };
 StyleSummary summarize_styles(const std::vector<OodRow>& rows);
+
+// Of a measure of shots, over the frames of all rows where it applies.
+struct ShotSummary {
+  size_t frames = 0;
+  double median = kNotMeasured, p90 = kNotMeasured;
+  double over_2 = kNotMeasured;  // Share of the values above 2.
+};
+using ShotSummaries = std::array<ShotSummary, kShotKeys.size()>;
+ShotSummaries summarize_shots(const std::vector<OodRow>& rows);
 
 // Over the rows of one system; NaN where there are none. See OodRow for units.
 struct OodSummary {

@@ -175,6 +175,25 @@ std::string ood(const Report& report) {
   return table.str();
 }
 
+std::string shots(const Report& report) {
+  TextTable table("");
+  for (const char* key : kShotKeys) {
+    std::string name = key;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    table.add_columns(name, {"median", "90%", ">2"});
+  }
+  for (const SystemReport& system : report.systems) {
+    if (system.ood.empty()) continue;
+    std::vector<std::string> cells;
+    for (const ShotSummary& of : summarize_shots(system.ood)) {
+      cells.insert(cells.end(),
+                   {number_text(of.median, 1), number_text(of.p90, 1), number_text(of.over_2, 3)});
+    }
+    table.add_row(system.name, std::move(cells));
+  }
+  return table.str();
+}
+
 std::string ood_styles(const Report& report) {
   TextTable table("");
   table.add_columns("style recognised", {"networks", "LDA"});
@@ -307,6 +326,7 @@ std::string report_text(const Report& report) {
   }
   text += titled("Out-of-distribution motion: every clip in every style", ood(report));
   text += titled("The same: how much of the style there is", ood_styles(report));
+  text += titled("The same: feet, seats and hands in cm (turn in degrees)", shots(report));
   text += titled("Disturbed windows: pose error in cm", disturbances(report));
   for (const SystemReport& system : report.systems) {
     text +=

@@ -184,7 +184,12 @@ function foreign() {
     { label: 'signature', columns: ['right sign', 'right amount'] }], [
     { name: 'real takes', cells: shares(real) }, { name: 'real takes of unseen actions', cells: shares(realUnseen) },
     ...rows(({ summary: of }) => shares(of)), { name: 'input', cells: shares(input), apart: true }]);
-  return [summary, styles, ...with_.map(signatures), ...with_.flatMap(worst),
+  const shots = with_.map(([name, { foreign: { shot } }]) => table('', [
+    { label: 'cm; turn in degrees', columns: ['frames', 'median', '90%', 'above 2'] }],
+  Object.entries(shot).map(([key, of]) => ({ name: key.replaceAll('_', ' '), cells: [
+    cell(count(of.frames)), number(of.median, 1), number(of.p90, 1), share(of.over_2, 3)] })),
+  `Feet, seats and hands against the input, ${name}`));
+  return [summary, styles, ...shots, ...with_.map(signatures), ...with_.flatMap(worst),
     details('Clip by clip, means over the styles', clipByClip(with_))];
 }
 // What a style changes: in real takes, and in a system's outputs. A bar of full length is the

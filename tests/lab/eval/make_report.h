@@ -66,6 +66,7 @@ inline SystemReport made_up_system(const std::string& name, double seed) {
     row.turned_deg = i;
     row.drift_m = 0.3 * i;
     row.gate = 0.1 * i;
+    row.shot[static_cast<size_t>(ShotMeasure::seat_hips)] = {static_cast<float>(i)};
     system.ood.push_back(row);
   }
   system.clips = {{"ann", "ann", "old", "walk", "old", 6.25, 1.5, 0.5},

@@ -195,6 +195,12 @@ TEST(ReportJson, out_of_distribution_rows_are_kept_and_summed_up) {
   EXPECT_DOUBLE_EQ(summary["turned_deg"]["mean"], 5);
   EXPECT_DOUBLE_EQ(summary["drift_m"]["max"], 3.0);
   EXPECT_DOUBLE_EQ(summary["gate"]["mean"], 0.5);
+  const Json& shot = ood["shot"]["seat_hips"];  // 0, 1 ... 10.
+  EXPECT_EQ(shot["frames"], 11);
+  EXPECT_DOUBLE_EQ(shot["median"], 5);
+  EXPECT_DOUBLE_EQ(shot["p90"], 9);
+  EXPECT_NEAR(shot["over_2"], 8 / 11.0, 1e-4);
+  EXPECT_EQ(ood["shot"]["hands"]["median"], nullptr);
 }
 
 OodRow judged(const std::string& clip, int style, std::vector<double> scores) {
