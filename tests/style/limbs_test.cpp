@@ -29,9 +29,9 @@ Pushed wanted_of(const BodyPose& body, const BodyChange& change) {
   return out;
 }
 Pushed legs(const BodyPose& body, const BodyChange& wanted, std::array<float, 2> planted = {},
-            float amount = 1) {
+            float amount = 1, float stepping = 1) {
   Pushed out = wanted_of(body, wanted);
-  LegsApart().step(body, amount, planted, kFirst, out.joints, out.change);
+  LegsApart().step(body, amount, stepping, planted, kFirst, out.joints, out.change);
   return wanted_of(body, out.change);
 }
 Pushed arms(const BodyPose& body, const BodyChange& wanted, const HandHolds& holds = {},
@@ -63,6 +63,16 @@ TEST(LegsApart, legs_that_a_style_puts_through_each_other_stay_beside_each_other
     EXPECT_GT((out.at(left_lower_leg) - out.at(right_lower_leg)).x, 0.1f) << in;
     EXPECT_GT((out.at(left_foot) - out.at(right_foot)).x, 0.06f) << in;
   }
+}
+
+TEST(LegsApart, legs_that_stand_do_not_cross_in_front_of_each_other) {
+  // The right leg goes ahead, and both in: steps may.
+  BodyChange wanted = closed(0.15f);
+  wanted.rotations[index(right_upper_leg)] = axis_angle(kZ, 0.15f) * axis_angle(kX, -0.5f);
+  const auto apart = [](const Pushed& out) { return (out.at(left_foot) - out.at(right_foot)).x; };
+  ASSERT_LT(apart(wanted_of(standing(), wanted)), 0);
+  EXPECT_LT(apart(legs(standing(), wanted)), 0);
+  EXPECT_GT(apart(legs(standing(), wanted, {}, 1, 0)), 0.06f);
 }
 
 TEST(LegsApart, bent_knees_swivel_and_planted_feet_stay) {
@@ -101,7 +111,7 @@ TEST(LegsApart, a_push_comes_and_goes_without_a_jump) {
     const float in = 0.15f - 0.15f * cosine(0.0524f * static_cast<float>(f));
     const Pushed wanted = wanted_of(body, closed(in));
     Pushed out = wanted;
-    stage.step(body, 1, {}, f == 0 ? kFirst : kPushTime, out.joints, out.change);
+    stage.step(body, 1, 1, {}, f == 0 ? kFirst : kPushTime, out.joints, out.change);
     if (f > 0) {
       const float asked = length(wanted.at(left_foot) - last_wanted);
       EXPECT_LT(length(out.at(left_foot) - last), 2 * asked + 0.004f) << f;

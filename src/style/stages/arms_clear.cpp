@@ -6,15 +6,15 @@ namespace {
 using enum HumanJoint;
 
 // Radii of the canonical body, metres.
-constexpr float kTorsoRadius = 0.115f, kSkull = 0.092f, kForearm = 0.036f;
+constexpr float kTorsoRadius = 0.122f, kSkull = 0.092f, kForearm = 0.036f;
 // The torso goes from between the hip joints so far towards the middle of the shoulders; the skull
 // so far beyond the head's joint, metres.
 constexpr float kTorsoEnd = 0.85f, kSkullLength = 0.09f;
 // The share of a push that a wrist does not give way by where it is held.
 constexpr float kStays = 0.5f;
 // A push may lead into another, unless it is small, metres.
-constexpr int kPasses = 3;
-constexpr float kSmall = 0.03f;
+constexpr int kPasses = 8;
+constexpr float kSmall = 0.005f;
 
 // Along a forearm, from the elbow; beyond 1 is the hand. Up to kElbow it has to be on its own side
 // of the torso; hands go anywhere around it.

@@ -55,9 +55,10 @@ void ChangeStages::step(const AskedChange& asked, const ChangeControl& control,
   limit_fold(now.world, joints, change_);
   keep_balance(now.world, joints, change_);
   tell(clock, Stage::balance);
-  legs_.step(now.world, control.amount, {}, time, joints, change_);
+  legs_.step(now.world, control.amount, steps_.amount(), {}, time, joints, change_);
   tell(clock, Stage::legs);
-  floor_.step(now.world, joints, control.amount, time, change_);
+  const float carried = share * (1 - seat_.amount()) * (1 - control.flight) * (1 - lifted);
+  floor_.step(now.world, joints, control.amount, carried, time, change_);
   tell(clock, Stage::floor);
   fall_.step(control.flight, time, change_);
   tell(clock, Stage::fall);
@@ -81,7 +82,7 @@ void ChangeStages::step(const AskedChange& asked, const ChangeControl& control,
     anatomy_.watch_thighs(now.world, observer.rig(), time, change_);
   }
   changed_joints(now.world, change_, joints);
-  held_legs_.step(now.world, control.amount, contacts_, time, joints, change_);
+  held_legs_.step(now.world, control.amount, steps_.amount(), contacts_, time, joints, change_);
   tell(clock, Stage::feet);
   // An arm that keeps none of the style keeps its input, too.
   const auto arm = [&](Region region) {

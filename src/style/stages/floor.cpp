@@ -1,13 +1,17 @@
 #include "style/stages/floor.h"
 
-#include "pose/changed_joints.h"
-
 #include <algorithm>
+
+#include "base/one_pole.h"
+#include "pose/changed_joints.h"
+#include "pose/contacts.h"
 
 namespace panache {
 namespace {
 
 constexpr float kLiftSeconds = 0.1f;  // Time constant.
+// A body sinks slowly, so that a hop stays one, and stops sinking at once. Time constants.
+constexpr float kSinkSeconds = 0.6f, kStopSeconds = 0.05f, kSmoothSeconds = 0.1f;
 
 // What a body rests on that does not stand, and how high the middle of these joints then is at
 // least, metres.
@@ -30,14 +34,25 @@ float resting_depth(const BodyPose& body, const HumanPositions& joints, const Bo
   return depth;
 }
 
+// How much higher the lowest foot is with `change` than in the input.
+float height_of_feet(const BodyPose& body, const HumanPositions& joints, const BodyChange& change) {
+  const float origin = mid_hip(body).y + change.translation.y;
+  return origin + lowest_foot(joints) - lowest_foot(body.joints);
+}
+
 }  // namespace
 
 void FloorClearance::step(const BodyPose& body, const HumanPositions& joints, float amount,
-                          const StepTime& time, BodyChange& change) noexcept {
+                          float carried, const StepTime& time, BodyChange& change) noexcept {
   const float depth =
       std::max(floor_depth(body, joints, change), resting_depth(body, joints, change));
   lift_ += time.gain(kLiftSeconds) * (depth - lift_);
   change.translation.y += amount * lift_;
+  const float height = carried * std::max(0.0f, height_of_feet(body, joints, change));
+  const float seconds = height > sink_wanted_ ? kSinkSeconds : kStopSeconds;
+  approach(sink_wanted_, height, time.gain(seconds), 1e-5f);
+  approach(sink_, sink_wanted_, time.gain(kSmoothSeconds), 1e-5f);
+  change.translation.y -= amount * sink_;
 }
 
 }  // namespace panache

@@ -64,11 +64,18 @@ bool are_apart(const HumanPositions& joints) {
   return true;
 }
 
+// Legs that stand do not pass each other, as steps do: of the way from one to the other only what
+// is along the unit vector `out` counts.
+Vec3 passing(Vec3 way, Vec3 out, float stepping) {
+  const Vec3 across = out * dot(way, out);
+  return across + (way - across) * stepping;
+}
+
 // The furthest pushes of knee and ankle that the points of both legs ask for, metres.
 struct Pushes {
   float knee = 0, ankle = 0;
 };
-Pushes pushes_of(const BodyPose& body, const HumanPositions& joints) {
+Pushes pushes_of(const BodyPose& body, const HumanPositions& joints, float stepping) {
   std::array<float, kLegPoints.size()> pushes{};
   const Vec3 left = across_hips(joints);
   for (int side = 0; side < 2; ++side) {
@@ -79,10 +86,13 @@ Pushes pushes_of(const BodyPose& body, const HumanPositions& joints) {
       const Vec3 point = point_of(joints, leg, place);
       for (int part = 0; part < 2; ++part) {
         const float reach = radius + (part == 0 ? kThigh : kShin);
-        const Vec3 way = from_part(joints, other, part, point);
+        const Vec3 way = passing(from_part(joints, other, part, point), out, stepping);
         if (!(push_across(way, out, reach) > pushes[p])) continue;
-        const Vec3 was = from_part(body.joints, other, part, point_of(body.joints, leg, place));
-        const float own = dot(was, across_hips(body.joints)) * (side == 0 ? 1.0f : -1.0f);
+        const Vec3 own_side = across_hips(body.joints) * (side == 0 ? 1.0f : -1.0f);
+        const Vec3 was =
+            passing(from_part(body.joints, other, part, point_of(body.joints, leg, place)),
+                    own_side, stepping);
+        const float own = dot(was, own_side);
         const float kept =
             (std::min(reach, length(was)) - kFreeDepth) * smooth_step(own / kOwnSide);
         if (kept > 0) pushes[p] = std::max(pushes[p], push_across(way, out, kept));
@@ -114,14 +124,15 @@ LimbMove move_of(const HumanPositions& joints, const LimbJoints& leg, Pushes pus
 
 }  // namespace
 
-void LegsApart::step(const BodyPose& body, float amount, std::array<float, 2> planted,
-                     const StepTime& time, HumanPositions& joints, BodyChange& change) noexcept {
+void LegsApart::step(const BodyPose& body, float amount, float stepping,
+                     std::array<float, 2> planted, const StepTime& time, HumanPositions& joints,
+                     BodyChange& change) noexcept {
   if (!(amount > 0)) return reset();
   if (moves_[0].rests() && moves_[1].rests() && are_apart(joints)) return;
   HumanPositions moved = joints;
   bool pushed = false;
   for (int pass = 0; pass < kPasses; ++pass) {
-    const Pushes pushes = pushes_of(body, moved);
+    const Pushes pushes = pushes_of(body, moved, stepping);
     if (!(pushes.knee > 0 || pushes.ankle > 0)) break;
     pushed = true;
     const Vec3 left = across_hips(moved);
