@@ -13,7 +13,7 @@ import pytest
 
 import panache
 from conftest import angles
-from panache import _library
+from panache._interface import structs
 
 
 def test_the_package_comes_from_the_wheel():
@@ -26,18 +26,14 @@ def test_structs_are_those_of_the_header():
     seen = 0
     lines = subprocess.run([os.environ['PANACHE_STRUCT_SIZES']], check=True, capture_output=True,
                            text=True).stdout.split('\n')
-    names = {'input_pose': 'Pose', 'output_pose': 'Pose', 'strength_key': 'Key',
-             'strength_track': 'Track'}
     for line in filter(None, lines):
         name, size, *places = line.split()
-        struct = getattr(_library, names.get(name, name.title().replace('_', '')))
+        struct = getattr(structs, name.title().replace('_', ''))
         assert ctypes.sizeof(struct) == int(size), name
         assert [text for field, _ in struct._fields_
                 for text in (field, str(getattr(struct, field).offset))] == places, name
         seen += 1
-    own = [value for value in vars(_library).values()
-           if isinstance(value, type) and issubclass(value, ctypes.Structure)]
-    assert seen == len(set(own) - {ctypes.Structure}) + 1  # Two of the header are one here.
+    assert seen == len(vars(structs))
 
 
 def test_shipped_models_load_and_their_tensors_are_arrays():

@@ -4,13 +4,13 @@ import ctypes
 import operator
 import pathlib
 from collections.abc import Mapping
-from ctypes import (POINTER, Structure, byref, c_char_p, c_double, c_float, c_int32, c_size_t,
-                    c_uint32, c_void_p, sizeof)
+from ctypes import byref, c_double, c_float, c_int32, c_void_p, sizeof
 
 import numpy as np
 
+from ._interface import ERROR_KINDS, VERSION, declare, structs
+
 HERE = pathlib.Path(__file__).parent
-VERSION = (0, 2)  # Of the header that the structs below are those of.
 
 
 class PanacheError(Exception):
@@ -22,172 +22,6 @@ class PanacheError(Exception):
         self.kind = kind
 
 
-# In the order of panache_error_kind.
-ERROR_KINDS = (
-    'other', 'file_exists', 'rate_needed', 'not_humanoid', 'unknown_style', 'no_styles',
-    'style_exists', 'is_model', 'is_style_file', 'style_of_another', 'not_safetensors',
-    'model_cannot_learn', 'other_skeletons', 'loop_open', 'loop_strengths', 'bad_style_name')
-
-
-class Joint(Structure):
-    _fields_ = [('name', c_char_p), ('parent', c_int32), ('rotation', c_float * 4),
-                ('translation', c_float * 3)]
-
-
-class HumanJoint(Structure):
-    _fields_ = [('vrm_name', c_char_p), ('joint', c_int32)]
-
-
-class SkeletonOptions(Structure):
-    _fields_ = [('struct_size', c_uint32), ('metres_per_unit', c_float), ('up_axis', c_char_p),
-                ('rotations', c_void_p), ('translations', c_void_p), ('pose_count', c_int32),
-                ('human_joint_count', c_int32), ('human_joints', POINTER(HumanJoint))]
-
-
-class CharacterOptions(Structure):
-    _fields_ = [('struct_size', c_uint32), ('ease_seconds', c_float),
-                ('smoothing_seconds', c_float), ('hold_feet', c_int32), ('style_root', c_int32),
-                ('skip_cycles', c_int32), ('max_lag', c_double), ('max_lead', c_double),
-                ('max_speed', c_double), ('remover', c_void_p), ('gesture_rate', c_float),
-                ('gesture_seed', c_uint32)]
-
-
-class Shape(Structure):
-    _fields_ = [('struct_size', c_uint32), ('strength', c_float), ('posture', c_float),
-                ('dynamics', c_float), ('timing', c_float), ('legs', c_float), ('torso', c_float),
-                ('left_arm', c_float), ('right_arm', c_float), ('foot_lock', c_float)]
-
-
-class Pose(Structure):
-    """panache_input_pose and panache_output_pose."""
-    _fields_ = [('rotations', c_void_p), ('translations', c_void_p)]
-
-
-class Report(Structure):
-    _fields_ = [('struct_size', c_uint32), ('gate', c_float), ('contacts', c_float * 2),
-                ('rate', c_double), ('ahead', c_double)]
-
-
-class Clip(Structure):
-    _fields_ = [('skeleton', c_void_p), ('frame_count', c_int32), ('frame_seconds', c_double),
-                ('rotations', c_void_p), ('translations', c_void_p)]
-
-
-class Key(Structure):
-    _fields_ = [('seconds', c_double), ('strength', c_float)]
-
-
-class Track(Structure):
-    _fields_ = [('style', c_int32), ('key_count', c_int32), ('keys', POINTER(Key))]
-
-
-class StylizeOptions(Structure):
-    _fields_ = [('struct_size', c_uint32), ('ease_seconds', c_float),
-                ('smoothing_seconds', c_float), ('hold_feet', c_int32), ('style_root', c_int32),
-                ('style_timing', c_int32), ('shape', POINTER(Shape)), ('max_speed', c_double),
-                ('loop', c_int32), ('removed', c_int32), ('remover', c_void_p),
-                ('gesture_rate', c_float), ('gesture_seed', c_uint32)]
-
-
-class RetargetOptions(Structure):
-    _fields_ = [('struct_size', c_uint32), ('hold_feet', c_int32), ('meet_hands', c_int32)]
-
-
-class Pair(Structure):
-    _fields_ = [('neutral', Clip), ('styled', Clip)]
-
-
-class LearntReport(Structure):
-    _fields_ = [('struct_size', c_uint32), ('was_tested', c_int32), ('warnings', c_char_p),
-                ('held_back_cm', c_double), ('mean_posture_cm', c_double),
-                ('untouched_cm', c_double), ('people', c_int32), ('is_known', c_int32),
-                ('certainty', c_double)]
-
-
-class ClipEdit(Structure):
-    _fields_ = [('clip', c_int32), ('name', c_char_p), ('frames', Clip),
-                ('source_frames', c_void_p)]
-
-
-_H = c_void_p  # A handle.
-_OUT = POINTER(c_void_p)
-# Results and arguments of all functions. Those that give an int32 and take an _OUT can fail.
-_FUNCTIONS = {
-    'version': (c_int32, []),
-    'last_error': (c_char_p, []),
-    'last_error_kind': (c_int32, []),
-    'bytes_data': (c_void_p, [_H]),
-    'bytes_size': (c_size_t, [_H]),
-    'bytes_destroy': (None, [_H]),
-    'model_create': (c_int32, [c_char_p, c_size_t, _OUT]),
-    'model_destroy': (None, [_H]),
-    'model_style_count': (c_int32, [_H]),
-    'model_style_name': (c_char_p, [_H, c_int32]),
-    'model_style_group': (c_char_p, [_H, c_int32]),
-    'model_gesture_count': (c_int32, [_H, c_int32]),
-    'model_gesture_name': (c_char_p, [_H, c_int32, c_int32]),
-    'model_find_style': (c_int32, [_H, c_char_p]),
-    'skeleton_create': (c_int32, [POINTER(Joint), c_int32, POINTER(SkeletonOptions), _OUT]),
-    'skeleton_destroy': (None, [_H]),
-    'skeleton_joint_count': (c_int32, [_H]),
-    'skeleton_find': (c_int32, [_H, c_char_p]),
-    'character_create': (c_int32, [_H, _H, POINTER(CharacterOptions), _OUT]),
-    'character_destroy': (None, [_H]),
-    'character_set_strength': (None, [_H, c_int32, c_float]),
-    'character_trigger': (c_int32, [_H, c_int32, c_int32]),
-    'character_set_shape': (c_int32, [_H, POINTER(Shape)]),
-    'character_step': (None, [_H, Pose, c_double, Pose]),
-    'step_many': (None, [POINTER(c_void_p), c_int32, POINTER(Pose), c_double, POINTER(Pose)]),
-    'character_reset': (None, [_H]),
-    'character_get_report': (c_int32, [_H, POINTER(Report)]),
-    'character_state_size': (c_size_t, [_H]),
-    'character_save': (None, [_H, c_void_p]),
-    'character_restore': (c_int32, [_H, c_char_p, c_size_t]),
-    'character_set_removed': (None, [_H, c_int32]),
-    'recognise_styles': (c_int32, [_H, POINTER(Clip), POINTER(c_float), c_int32]),
-    'stylize_clip': (c_int32, [_H, POINTER(Clip), POINTER(Track), c_int32,
-                               POINTER(StylizeOptions), _OUT]),
-    'styled_clip_destroy': (None, [_H]),
-    'styled_clip_frame_count': (c_int32, [_H]),
-    'styled_clip_rotations': (c_void_p, [_H]),
-    'styled_clip_translations': (c_void_p, [_H]),
-    'styled_clip_source_frames': (c_void_p, [_H]),
-    'styled_clip_contacts': (c_void_p, [_H]),
-    'styled_clip_gates': (c_void_p, [_H]),
-    'styled_clip_is_loop': (c_int32, [_H]),
-    'retarget_clip': (c_int32, [POINTER(Clip), _H, POINTER(RetargetOptions), _OUT]),
-    'learn': (c_int32, [c_char_p, c_size_t, POINTER(Pair), c_int32, c_char_p, c_int32, _OUT]),
-    'learn_alone': (c_int32, [c_char_p, c_size_t, c_char_p, c_size_t, POINTER(Clip), c_char_p,
-                              c_int32, _OUT]),
-    'learnt_destroy': (None, [_H]),
-    'learnt_model': (c_void_p, [_H, POINTER(c_size_t)]),
-    'learnt_verdict': (c_char_p, [_H]),
-    'learnt_get_report': (c_int32, [_H, POINTER(LearntReport)]),
-    'styles_add': (c_int32, [c_char_p, c_size_t, c_char_p, c_size_t, c_int32, _OUT]),
-    'styles_remove': (c_int32, [c_char_p, c_size_t, c_char_p, _OUT]),
-    'styles_extract': (c_int32, [c_char_p, c_size_t, c_char_p, _OUT]),
-    'motion_file_create': (c_int32, [c_char_p, c_size_t, c_char_p, _OUT]),
-    'motion_file_create_at_rate': (c_int32, [c_char_p, c_size_t, c_char_p, c_double, _OUT]),
-    'motion_file_destroy': (None, [_H]),
-    'motion_file_joint_count': (c_int32, [_H]),
-    'motion_file_get_joint': (None, [_H, c_int32, POINTER(Joint)]),
-    'motion_file_clip_count': (c_int32, [_H]),
-    'motion_file_clip_name': (c_char_p, [_H, c_int32]),
-    'motion_file_clip_moves': (c_int32, [_H, c_int32]),
-    'motion_file_get_notes': (c_int32, [_H, _OUT]),
-    'motion_file_get_clip': (c_int32, [_H, c_int32, POINTER(Clip)]),
-    'motion_file_create_skeleton': (c_int32, [_H, c_int32, POINTER(SkeletonOptions), _OUT]),
-    'motion_file_write': (c_int32, [_H, POINTER(ClipEdit), c_int32, c_int32, _OUT]),
-    'samples_create': (c_int32, [POINTER(Pair), c_int32, _OUT]),
-    'samples_destroy': (None, [_H]),
-    'samples_count': (c_int32, [_H]),
-    'samples_windows': (c_void_p, [_H]),
-    'samples_changes': (c_void_p, [_H]),
-    'samples_log_rates': (c_void_p, [_H]),
-    'samples_contacts': (c_void_p, [_H]),
-}
-
-
 def _open():
     folder = HERE / 'lib'
     own = folder / 'libpanache.so'
@@ -197,14 +31,11 @@ def _open():
         if other != own:  # What it needs is found where it has been opened already.
             ctypes.CDLL(str(other), mode=ctypes.RTLD_GLOBAL)
     library = ctypes.CDLL(str(own))
-    for name, (result, arguments) in _FUNCTIONS.items():
-        function = getattr(library, 'panache_' + name)
-        function.restype, function.argtypes = result, arguments
-        setattr(library, name, function)
-    found = library.version()
+    found = library.panache_version()
     if (found // 10000, found // 100 % 100) != VERSION:
         raise PanacheError(f'{own}: is version {found // 10000}.{found // 100 % 100}; expected '
                            f'{VERSION[0]}.{VERSION[1]}; install the wheel again')
+    declare(library)
     return library
 
 
@@ -321,13 +152,13 @@ def sized(struct, **fields):
     return struct(struct_size=sizeof(struct), **fields)
 
 
-SHAPE = tuple(name for name, _ in Shape._fields_[1:])
+SHAPE = tuple(name for name, _ in structs.Shape._fields_[1:])
 
 
-def shape_of(amounts) -> Shape:
+def shape_of(amounts) -> structs.Shape:
     """A panache_shape: 1 where `amounts` names nothing else."""
     for name in mapping(amounts, 'shape'):
         if name not in SHAPE:
             raise PanacheError(f'there is no amount {name!r} of a shape; expected one of '
                                f'{", ".join(SHAPE)}')
-    return sized(Shape, **{name: number(amounts.get(name, 1.0), name) for name in SHAPE})
+    return sized(structs.Shape, **{name: number(amounts.get(name, 1.0), name) for name in SHAPE})

@@ -62,7 +62,7 @@ class Character:
                  max_speed: float = 15, remover: Optional[Model] = None, gesture_rate: float = 0,
                  gesture_seed: int = 0):
         self.model, self.skeleton, self.remover = model, skeleton, remover
-        options = sized(c.CharacterOptions, ease_seconds=ease_seconds,
+        options = sized(c.structs.CharacterOptions, ease_seconds=ease_seconds,
                         smoothing_seconds=smoothing_seconds, hold_feet=hold_feet,
                         style_root=style_root, skip_cycles=skip_cycles, max_lag=max_lag,
                         max_lead=max_lead, max_speed=max_speed, gesture_rate=gesture_rate,
@@ -79,8 +79,8 @@ class Character:
         self._rotations, self._translations = fixed((joints, 4)), fixed((joints, 3))
         self._rotations[:, 3] = 1
         # Made once: what a step costs beyond the library's own time is one call.
-        self._in = c.Pose(self._input_rotations.ctypes.data, self._input_translations.ctypes.data)
-        self._out = c.Pose(self._rotations.ctypes.data, self._translations.ctypes.data)
+        self._in = c.structs.InputPose(self._input_rotations.ctypes.data, self._input_translations.ctypes.data)
+        self._out = c.structs.OutputPose(self._rotations.ctypes.data, self._translations.ctypes.data)
         self._step = lib.character_step
 
     @property
@@ -159,7 +159,7 @@ class Character:
         lib.character_reset(self._pointer)
 
     def report(self) -> Report:
-        report = sized(c.Report)
+        report = sized(c.structs.Report)
         check(lib.character_get_report(self._pointer, report))
         return Report(report.gate, tuple(report.contacts), report.rate, report.ahead)
 
@@ -225,8 +225,8 @@ def _part(characters):
     """The arguments of panache_step_many() but for the seconds."""
     count = len(characters)
     return ((ctypes.c_void_p * count)(*[one._pointer.value for one in characters]), count,
-            (c.Pose * count)(*[one._in for one in characters]),
-            (c.Pose * count)(*[one._out for one in characters]))
+            (c.structs.InputPose * count)(*[one._in for one in characters]),
+            (c.structs.OutputPose * count)(*[one._out for one in characters]))
 
 
 def _step_part(part, seconds: float) -> None:

@@ -50,7 +50,7 @@ class Skeleton:
                 'human_joints': dict(mapping(human_joints or {}, 'human_joints'))}
         made_of = [list(names), [int(parent) for parent in parents], rotations.copy(),
                    translations.copy()]
-        array = (c.Joint * max(count, 1))()
+        array = (c.structs.Joint * max(count, 1))()
         for j, name in enumerate(names):
             array[j].name, array[j].parent = utf8(name, 'joint'), int(parents[j])
             array[j].rotation[:] = rotations[j].tolist()
@@ -99,10 +99,10 @@ def _skeleton_again(made_of, told) -> Skeleton:
 
 def _options(metres_per_unit=0.0, up_axis=None, human_joints=None):
     """The struct, and what it points to."""
-    human = [c.HumanJoint(utf8(name, 'human joint'), c.whole(joint, name))
+    human = [c.structs.HumanJoint(utf8(name, 'human joint'), c.whole(joint, name))
              for name, joint in mapping(human_joints or {}, 'human_joints').items()]
-    array = (c.HumanJoint * max(len(human), 1))(*human)
-    options = sized(c.SkeletonOptions, metres_per_unit=metres_per_unit,
+    array = (c.structs.HumanJoint * max(len(human), 1))(*human)
+    options = sized(c.structs.SkeletonOptions, metres_per_unit=metres_per_unit,
                     up_axis=utf8(up_axis, 'up_axis') if up_axis else None, human_joint_count=len(human),
                     human_joints=array)
     return options, [array]
@@ -147,10 +147,10 @@ class Clip:
         named = zip([*remover.styles, 'neutral'], shares)
         return dict(sorted((pair for pair in named if pair[0] != _ANY), key=lambda pair: -pair[1]))
 
-    def _struct(self) -> c.Clip:
+    def _struct(self) -> c.structs.Clip:
         """Points into the arrays, whose shape may have been changed in place."""
         Clip.__post_init__(self)
-        return c.Clip(self.skeleton._handle.pointer, len(self), self.frame_seconds,
+        return c.structs.Clip(self.skeleton._handle.pointer, len(self), self.frame_seconds,
                       self.rotations.ctypes.data, self.translations.ctypes.data)
 
 
@@ -220,12 +220,12 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *,
             raise PanacheError(
                 f"timing: expected 'steps', 'all' or 'off', found {timing[:40]!r}")
         timing = _TIMINGS.index(timing)
-    tracks = (c.Track * max(len(styles), 1))()
+    tracks = (c.structs.StrengthTrack * max(len(styles), 1))()
     for track, (name, strength) in zip(tracks, styles.items()):
         keys = _keys(name, strength)
         track.style, track.key_count = model.find_style(name), len(keys)
-        track.keys = (c.Key * max(len(keys), 1))(*keys)
-    options = sized(c.StylizeOptions, ease_seconds=ease_seconds,
+        track.keys = (c.structs.StrengthKey * max(len(keys), 1))(*keys)
+    options = sized(c.structs.StylizeOptions, ease_seconds=ease_seconds,
                     smoothing_seconds=smoothing_seconds, hold_feet=hold_feet,
                     style_root=style_root, style_timing=c.flag(timing, 'timing'),
                     shape=ctypes.pointer(c.shape_of(shape or {})), max_speed=max_speed,
@@ -249,7 +249,7 @@ def retarget(clip: Clip, onto: Skeleton, *, hold_feet: bool = True,
     hold_feet:  feet are put on the floor, and planted where the motion plants them.
     meet_hands: hands that met meet again, as far as arms reach.
     """
-    options = sized(c.RetargetOptions, hold_feet=hold_feet, meet_hands=meet_hands)
+    options = sized(c.structs.RetargetOptions, hold_feet=hold_feet, meet_hands=meet_hands)
     handle = Handle('styled_clip', lib.retarget_clip, clip._struct(), onto._handle.pointer,
                     options)
     return _styled(handle, onto, clip.frame_seconds)

@@ -44,7 +44,7 @@ class MotionFile:
         else:
             self._handle = Handle('motion_file', lib.motion_file_create_at_rate, content,
                                   len(content), name, number(fps, 'fps'))
-        at, joint = self._handle.pointer, c.Joint()
+        at, joint = self._handle.pointer, c.structs.Joint()
         self.joint_names: List[str] = []
         self.parents: List[int] = []
         for j in range(lib.motion_file_joint_count(at)):
@@ -101,7 +101,7 @@ class MotionFile:
     def clip(self, which: Union[int, str] = 0, skeleton: Optional[Skeleton] = None) -> Clip:
         """A motion, by its place or name. Its arrays are read-only views of the file as read."""
         which = self._place(which)
-        found = c.Clip()
+        found = c.structs.Clip()
         check(lib.motion_file_get_clip(self._handle.pointer, which, found))
         shape = (found.frame_count, len(self.joint_names))
         return Clip(skeleton or self.skeleton(which),
@@ -139,7 +139,7 @@ class MotionFile:
         """
         if mode not in _MODES:
             raise PanacheError(f'there is no mode {mode!r}; expected one of {", ".join(_MODES)}')
-        array = (c.ClipEdit * max(len(edits), 1))()
+        array = (c.structs.ClipEdit * max(len(edits), 1))()
         kept = []
         for slot, edit in zip(array, edits):
             slot.clip, slot.name = edit.which, utf8(edit.name, 'name')
@@ -267,7 +267,7 @@ def info(path: Path, fps: Optional[float] = None) -> Dict[str, Any]:
     file = MotionFile(path, fps)
     clips = []
     for i, name in enumerate(file.clip_names):
-        clip = c.Clip()
+        clip = c.structs.Clip()
         check(lib.motion_file_get_clip(file._handle.pointer, i, clip))
         clips.append({'name': name, 'frames': clip.frame_count,
                       'seconds': clip.frame_count * clip.frame_seconds,

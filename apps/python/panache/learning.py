@@ -2,13 +2,14 @@
 
 import ctypes
 import os
-from ctypes import c_size_t
+from ctypes import byref, c_size_t
 from dataclasses import dataclass
 from typing import Iterable, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _library as c
+from ._interface import CHANGE_SIZE, WINDOW_SIZE
 from ._library import Handle, PanacheError, check, lib, sized, utf8
 from .clips import Clip
 from .files import Path, read
@@ -88,12 +89,12 @@ def learn(model: Model, pairs: Union[Sequence[Tuple[ClipOrPath, ClipOrPath]], Cl
             if not isinstance(pair, (tuple, list)) or len(pair) != 2:
                 raise PanacheError('pairs: expected (neutral, styled) each, of clips or paths')
         clips = [(_clip(neutral), _clip(styled)) for neutral, styled in pairs]
-        array = (c.Pair * max(len(clips), 1))(*[(a._struct(), b._struct()) for a, b in clips])
+        array = (c.structs.Pair * max(len(clips), 1))(*[(a._struct(), b._struct()) for a, b in clips])
         handle = Handle('learnt', lib.learn, model.content, len(model.content), array, len(clips),
                         utf8(name, 'name'), bool(replace))
     size = c_size_t()
-    data = lib.learnt_model(handle.pointer, size)
-    report = sized(c.LearntReport)
+    data = lib.learnt_model(handle.pointer, byref(size))
+    report = sized(c.structs.LearntReport)
     check(lib.learnt_get_report(handle.pointer, report))
     distances = [report.held_back_cm, report.mean_posture_cm, report.untouched_cm]
     return Learnt(Model(ctypes.string_at(data, size.value)),
@@ -109,11 +110,11 @@ def training_samples(*sources: Union[ClipOrPath, Tuple[ClipOrPath, ClipOrPath]])
     style does there; a clip alone gives its windows, and changes of 0."""
     pairs = [source if isinstance(source, tuple) else (source, None) for source in sources]
     clips = [(_clip(a), None if b is None else _clip(b)) for a, b in pairs]
-    array = (c.Pair * max(len(clips), 1))(
-        *[(a._struct(), c.Clip() if b is None else b._struct()) for a, b in clips])
+    array = (c.structs.Pair * max(len(clips), 1))(
+        *[(a._struct(), c.structs.Clip() if b is None else b._struct()) for a, b in clips])
     handle = Handle('samples', lib.samples_create, array, len(clips))
     at, count = handle.pointer, lib.samples_count(handle.pointer)
-    return Samples(handle.view(lib.samples_windows(at), (count, 396)),
-                   handle.view(lib.samples_changes(at), (count, 67)),
+    return Samples(handle.view(lib.samples_windows(at), (count, WINDOW_SIZE)),
+                   handle.view(lib.samples_changes(at), (count, CHANGE_SIZE)),
                    handle.view(lib.samples_log_rates(at), (count,)),
                    handle.view(lib.samples_contacts(at), (count, 2)))
