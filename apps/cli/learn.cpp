@@ -159,7 +159,7 @@ std::string describe(const LearntStyle& learnt, const LearnVerb& verb, size_t by
     if (!pair.twin) continue;
     text += "  without a neutral clip: " + std::to_string(pair.twin->people) +
             " other people move alike; " + fixed(100 * pair.twin->certainty, 0) +
-            " % of the difference in posture is style, the rest is what people differ by\n";
+            " % of the difference in posture counts as style\n";
   }
   for (const LearntGesture& found : learnt.gestures) {
     text +=

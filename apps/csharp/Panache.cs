@@ -322,6 +322,11 @@ public sealed class Learnt {
   /// motion; "" where it was not tested.
   public string Verdict { get; private set; }
 
+  /// Of LearnAlone(), otherwise 0: the people whose mean takes the neutral clip's place, and the
+  /// share of the difference in posture that counts as style, not as what people differ by.
+  public int People { get; private set; }
+  public double Certainty { get; private set; }
+
   /// Learns the style `name` from one action, done neutrally and in the style, by one skeleton: 2 to
   /// 3 seconds of a walk, or the whole of a gesture. A style of this name is replaced only where
   /// `replace`. The model stays as it is.
@@ -334,20 +339,39 @@ public sealed class Learnt {
                                         Native.Utf8(name), replace ? 1 : 0, out IntPtr created));
       GC.KeepAlive(neutral);
       GC.KeepAlive(styled);
-      using (var learnt = new Handle(created, Native.panache_learnt_destroy)) {
-        var report = new Native.LearntReport { structSize = Native.SizeOf<Native.LearntReport>() };
-        Native.Check(Native.panache_learnt_get_report(learnt, ref report));
-        IntPtr data = Native.panache_learnt_model(learnt, out UIntPtr size);
-        var file = new byte[(int)size];
-        Marshal.Copy(data, file, 0, file.Length);
-        return new Learnt {
-          ModelFile = file,
-          Warnings = Native.Text(report.warnings).Split(new[] { '\n' },
-                                                        StringSplitOptions.RemoveEmptyEntries),
-          WasTested = report.wasTested != 0, HeldBackCm = report.heldBackCm,
-          UntouchedCm = report.untouchedCm, Verdict = Native.Text(Native.panache_learnt_verdict(learnt))
-        };
-      }
+      return Take(created);
+    }
+  }
+
+  /// As Learn(), from a clip in the style alone: how other people move takes the place of the
+  /// neutral clip. `bank` is the content of models/neutral.safetensors.
+  public static Learnt LearnAlone(Model model, byte[] bank, string name, Clip styled,
+                                  bool replace = false) {
+    using (var kept = new Kept()) {
+      Native.Clip clip = styled.ToNative(kept);
+      Native.Check(Native.panache_learn_alone(
+          model.File, (UIntPtr)model.File.Length, bank, (UIntPtr)bank.Length, ref clip,
+          Native.Utf8(name), replace ? 1 : 0, out IntPtr created));
+      GC.KeepAlive(styled);
+      return Take(created);
+    }
+  }
+
+  private static Learnt Take(IntPtr created) {
+    using (var learnt = new Handle(created, Native.panache_learnt_destroy)) {
+      var report = new Native.LearntReport { structSize = Native.SizeOf<Native.LearntReport>() };
+      Native.Check(Native.panache_learnt_get_report(learnt, ref report));
+      IntPtr data = Native.panache_learnt_model(learnt, out UIntPtr size);
+      var file = new byte[(int)size];
+      Marshal.Copy(data, file, 0, file.Length);
+      return new Learnt {
+        ModelFile = file,
+        Warnings = Native.Text(report.warnings).Split(new[] { '\n' },
+                                                      StringSplitOptions.RemoveEmptyEntries),
+        WasTested = report.wasTested != 0, HeldBackCm = report.heldBackCm,
+        UntouchedCm = report.untouchedCm, Verdict = Native.Text(Native.panache_learnt_verdict(learnt)),
+        People = report.people, Certainty = report.certainty
+      };
     }
   }
 }
@@ -463,6 +487,8 @@ internal static class Native {
     public int wasTested;
     public IntPtr warnings;
     public double heldBackCm, meanPostureCm, untouchedCm;
+    public int people, isKnown;
+    public double certainty;
   }
 
   [DllImport(Library)] internal static extern int panache_version();
@@ -537,6 +563,10 @@ internal static class Native {
   [DllImport(Library)]
   internal static extern int panache_learn(byte[] model, UIntPtr size, [In] Pair[] pairs, int count,
                                            byte[] name, int replace, out IntPtr learnt);
+  [DllImport(Library)]
+  internal static extern int panache_learn_alone(byte[] model, UIntPtr modelSize, byte[] bank,
+                                                 UIntPtr bankSize, ref Clip styled, byte[] name,
+                                                 int replace, out IntPtr learnt);
   [DllImport(Library)] internal static extern void panache_learnt_destroy(IntPtr learnt);
   [DllImport(Library)]
   internal static extern IntPtr panache_learnt_model(Handle learnt, out UIntPtr size);

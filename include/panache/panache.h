@@ -470,7 +470,7 @@ typedef struct panache_learnt_report {
   double held_back_cm, mean_posture_cm, untouched_cm;
   /* Of panache_learn_alone(), otherwise 0: the people whose mean takes the neutral clip's place,
    * whether their motion is like the clip's (if not, that is also a warning), and the share of the
-   * difference in posture that is style and not what people differ by. */
+   * difference in posture that counts as style; the rest is what people differ by, or unknown. */
   int32_t people, is_known;
   double certainty;
 } panache_learnt_report;

@@ -187,9 +187,10 @@ void put_gate(const Model& model, Table& table, const std::vector<double>& covar
 }  // namespace
 
 TensorFile fit_style(const std::shared_ptr<const Model>& model, const SampleSet& set,
-                     std::span<const size_t> samples, double penalty) {
+                     std::span<const size_t> samples, double penalty, double strength) {
   assert(model->can_learn() && !samples.empty());
   Table table = make_table(model, set, samples);
+  for (double& answer : table.answers) answer *= strength;
   const std::vector<double> middle = centre(table.seen, table.activations);
   const std::vector<double> answer = centre(table.answers, kLearntOutputs);
   Ridge ridge(static_cast<int>(table.activations), kLearntOutputs);

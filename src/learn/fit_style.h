@@ -14,9 +14,10 @@ namespace panache {
 // The tensors of a learnt style, as a style file has them: `head.*`, `mean` and `gate.*`, see
 // Model. Fitted to these of the set's samples (of the model's recipe), each seen as it is and in
 // eight disturbed copies, which are the same at every call. `model` can learn. At least one sample.
-// `penalty`: what a weight's square costs, in variances of a standardised feature.
+// `penalty`: what a weight's square costs, in variances of a standardised feature. `strength`: how
+// much of what the samples change is learnt.
 TensorFile fit_style(const std::shared_ptr<const Model>& model, const SampleSet& set,
-                     std::span<const size_t> samples, double penalty);
+                     std::span<const size_t> samples, double penalty, double strength = 1);
 
 // The same of a style that is one change of posture, whatever the motion is; it changes neither
 // tempo nor contacts.

@@ -114,9 +114,14 @@ Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& p
                               "clip in the style as the second one");
   }
   if (pair.twin && !pair.twin->is_known) {
+    const double trust = pair.twin->trust;
     report.warnings.push_back(pair.styled_name +
-                              ": is unlike the neutral motion that is known, so that what differs "
-                              "from it is not style alone; give a neutral clip of the action");
+                              ": is unlike the neutral motion that is known, so that " +
+                              (trust < 1 ? "only " + with_decimals(100 * trust, 0) +
+                                               " % of what differs from it counts "
+                                               "as style"
+                                         : "what differs from it is not style alone") +
+                              "; give a neutral clip of the action");
   }
   std::vector<Take> exchanged = {takes[neutral], takes[styled]};
   for (HumanPositions& body : exchanged[1].body) body = mirrored(body);
@@ -285,12 +290,14 @@ Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
   info.origin.pop_back();
   // Once without what is held back, to be judged, and once with everything.
   learnt.judged = !first.empty() && !held_back.empty();
-  const bool has_twin =
-      std::any_of(pairs.begin(), pairs.end(), [](const LearnPair& pair) { return !!pair.twin; });
-  const double penalty = has_twin ? kTwinPenalty : kPairPenalty;
+  double penalty = kPairPenalty, trust = 1;
+  for (const LearnPair& pair : pairs) {
+    if (pair.twin) penalty = kTwinPenalty, trust = std::min(trust, pair.twin->trust);
+  }
   std::vector<TensorFile> fits(learnt.judged ? 2 : 1);
-  parallel_for(static_cast<int>(fits.size()),
-               [&](int i) { fits[i] = fit_style(*model, set, i == 0 ? all : first, penalty); });
+  parallel_for(static_cast<int>(fits.size()), [&](int i) {
+    fits[i] = fit_style(*model, set, i == 0 ? all : first, penalty, trust);
+  });
   if (learnt.judged) {
     const TensorFile trial = make_style_file(file, info, std::move(fits[1].tensors));
     Result<TensorFile> with_it = add_style(file, name, trial, "the style", true);
@@ -307,7 +314,10 @@ Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
           "); record 2 to 3 s of one action, neutrally and in the style");
     }
   }
-  for (const FoundGesture& found : find_gestures(takes, pairings)) {
+  // Beside a twin that does something else, the action itself would be the gesture.
+  std::vector<FoundGesture> gestures;
+  if (trust == 1) gestures = find_gestures(takes, pairings);
+  for (const FoundGesture& found : gestures) {
     fits[0].tensors[gesture_key(learnt.gestures.size())] = found.gesture.tensor();
     learnt.gestures.push_back({found.gesture.name(),
                                learnt.pairs[static_cast<size_t>(found.take) / 2].styled_name,

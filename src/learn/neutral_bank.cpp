@@ -28,6 +28,11 @@ constexpr float kNearer = 0.93f;
 constexpr int kTempoStride = 5;  // Of so many frames one is looked at.
 // How much of the deviation between people in one moment is that of their mean postures.
 constexpr float kPostureShare = 0.3f;
+// How far the nearest prototypes are, in units of what is known, for each share of a clip's motion
+// that they have: up to the first all of the difference is style, from the second on nothing. Found
+// on 206 clips of 80 styles: punches and kicks have 4.4 to 27, jumps 3.4 to 7.4, walks, runs, bows
+// and waves 0.3 to 4.0.
+constexpr double kFar = 3.75, kTooFar = 4.5;
 // What the coarse posture and the rig weigh.
 constexpr float kCoarse = 0.5f, kRigWeight = 1.5f;
 
@@ -93,6 +98,17 @@ HumanPositions mean_body(const std::vector<HumanPositions>& bodies) {
     }
   }
   return mean;
+}
+
+// How far the joints are from their mean, the root of the mean square, metres.
+double motion_about(const HumanPositions& mean, const std::vector<HumanPositions>& bodies) {
+  double sum = 0;
+  for (const HumanPositions& body : bodies) {
+    for (int j = 0; j < kHumanJoints; ++j) {
+      sum += static_cast<double>(dot(body[j] - mean[j], body[j] - mean[j]));
+    }
+  }
+  return std::sqrt(sum / (kHumanJoints * static_cast<double>(bodies.size())));
 }
 
 Result<std::vector<float>> read_values(const TensorFile& file, const std::string& key,
@@ -259,7 +275,7 @@ void NeutralBank::find(const Take& take, float frame, float tempo, std::span<Nea
 NeutralTwin NeutralBank::twin(const Take& styled) const {
   NeutralTwin out;
   // The tempo that most people would do it at.
-  double best = 0;
+  double best = 0, unlike = 0;
   for (const float tempo : kTempos) {
     double sum = 0, count = 0;
     for (int f = 0; f < styled.frames(); f += kTempoStride, ++count) {
@@ -270,7 +286,7 @@ NeutralTwin NeutralBank::twin(const Take& styled) const {
     const double mean = sum / count;
     if (tempo == 1) {
       best = mean * kNearer;
-      out.facts.is_known = mean < known_;
+      unlike = mean / static_cast<double>(known_);
     } else if (mean < best) {
       best = mean;
       out.tempo = static_cast<double>(tempo);
@@ -315,6 +331,11 @@ NeutralTwin NeutralBank::twin(const Take& styled) const {
   // A performer differs from the mean of people: of the difference in posture as much stays with
   // the twin as people differ by (Wiener 1949).
   const HumanPositions was = mean_body(out.take.body), is = mean_body(styled.body);
+  constexpr double kStill = 1e-3;  // A millimetre.
+  const double far =
+      unlike * motion_about(is, styled.body) / std::max(motion_about(was, out.take.body), kStill);
+  out.facts.trust = std::clamp((kTooFar - far) / (kTooFar - kFar), 0.0, 1.0);
+  out.facts.is_known = unlike < 1 && out.facts.trust == 1;
   double style = 0, all = 0;
   for (int j = 0; j < kHumanJoints; ++j) {
     const Vec3 apart = is[j] - was[j];
@@ -324,7 +345,7 @@ NeutralTwin NeutralBank::twin(const Take& styled) const {
     style += static_cast<double>((1 - kept) * square);
     all += static_cast<double>(square);
   }
-  out.facts.certainty = all > 0 ? style / all : 0;
+  out.facts.certainty = all > 0 ? out.facts.trust * style / all : 0;
   RootPose root;
   std::vector<HumanPositions> world;
   for (int f = 0; f < frames; ++f) {

@@ -24,9 +24,13 @@ void write_moment(const Take& take, float frame, float tempo, std::span<float> o
 // What is known of a neutral motion that was found for a styled one.
 struct TwinFacts {
   int people = 0;  // How many it is the mean of.
-  // The share of the difference in posture that is style; the rest is what people differ by.
+  // The share of the difference in posture that counts as style; the rest is what people differ by,
+  // or unknown.
   double certainty = 0;
   bool is_known = true;  // People do something like it in the bank.
+  // How much of the difference counts as style: less than 1 where the nearest that people do is far
+  // and moves much less, as people who stand do beside a punch.
+  double trust = 1;
 };
 
 // A neutral motion in the place of a styled one.

@@ -69,6 +69,9 @@ assert not settings._problem
 assert bpy.ops.panache.bake() == {'FINISHED'}
 armature.animation_data.action = walk
 
+# A style is learnt from an action in it.
+assert 'expected an action in the style' in error_of(bpy.ops.panache.learn)
+
 # A learnt style does not replace a shipped one, in any case of letters.
 armature.panache.neutral = armature.panache.styled = walk
 for name in ('old', 'OLD'):

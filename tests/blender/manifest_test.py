@@ -75,7 +75,8 @@ def check_files(archive, top):
     expect(all(name.startswith(top) for name in names), f'{archive.filename}: files outside of {top}')
     sources = os.listdir(os.path.join(root, 'apps/blender/panache'))
     needed = [name for name in sources if name.endswith('.py')] + [
-        'core/__init__.py', 'core/lib/libpanache.so', 'models/panache-int8.safetensors', 'models/README.md', 'LICENSE', 'README.md']
+        'core/__init__.py', 'core/lib/libpanache.so', 'core/models/panache-int8.safetensors',
+        'core/models/neutral.safetensors', 'core/models/README.md', 'LICENSE', 'README.md']
     for name in needed:
         expect(top + name in names, f'{archive.filename}: no {top}{name}')
     expect(not any(re.search(r'__pycache__|\.pyc$|/\.', name) for name in names),

@@ -82,4 +82,14 @@ assert settings.sliders_shown(armature.panache, groups[''], False) == ['limp']
 assert bpy.ops.panache.bake() == {'FINISHED'}
 assert armature.animation_data.action.name == 'walk (limp 1)'
 assert checks.channels(armature.animation_data.action) != before
+
+# And one from the styled action alone.
+armature.panache.neutral = None
+armature.panache.style_name = 'alone'
+assert bpy.ops.panache.learn() == {'FINISHED'}
+armature.panache.styles.limp, armature.panache.styles.alone = 0, 1
+armature.animation_data.action = walk
+assert bpy.ops.panache.bake() == {'FINISHED'}
+assert armature.animation_data.action.name == 'walk (alone 1)'
+assert checks.channels(armature.animation_data.action) != before
 print('ok')

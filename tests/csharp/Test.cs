@@ -151,6 +151,19 @@ static class Test {
     ExpectRejection("clip: has ", () => Learnt.Learn(model, "brief", brief, styled));
   }
 
+  static void AStyleIsLearntFromOneClip(Model model, byte[] bank, Clip neutral, Clip styled) {
+    Learnt learnt = Learnt.LearnAlone(model, bank, "mine", styled);
+    Expect(learnt.People >= 5 && learnt.Certainty > 0 && learnt.Certainty < 1, "how sure it is");
+    Expect(Learnt.Learn(model, "mine", neutral, styled).People == 0, "nobody beside a pair");
+    using (var mine = new Model(learnt.ModelFile)) {
+      Expect(mine.Styles.SequenceEqual(model.Styles.Concat(new[] { "mine" })), "one style more");
+      ExpectRejection("the model", () => Learnt.LearnAlone(mine, bank, "mine", styled));
+      Expect(Learnt.LearnAlone(mine, bank, "mine", styled, true).People == learnt.People, "replaced");
+    }
+    ExpectRejection("the bank of neutral motion: ",
+                    () => Learnt.LearnAlone(model, new byte[] { 1, 2, 3 }, "mine", styled));
+  }
+
   static void ErrorsAreTheLibrarysSentences(Model model, string walk) {
     Expect(model.Styles.Contains("old"), "a style");
     ExpectRejection("model: has 3 bytes; expected a safetensors file", () => new Model(new byte[] { 1, 2, 3 }));
@@ -184,6 +197,7 @@ static class Test {
     ACharacterIsSavedShapedAndReports(model, walk);
     ASkeletonIsFoundAmongJoints(model);
     AStyleIsLearnt(model, walk, styled);
+    AStyleIsLearntFromOneClip(model, File.ReadAllBytes(arguments[6]), walk, styled);
     ErrorsAreTheLibrarysSentences(model, arguments[1]);
     FilesAreReadAtAGivenRateAndForTheirBody(arguments[1], arguments[4], arguments[5]);
     for (int i = 0; i < 200; ++i) new Character(model, walk.Skeleton);  // Given back by themselves.

@@ -1,5 +1,6 @@
 #include "learn/neutral_bank.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -96,14 +97,79 @@ TEST(NeutralBank, motion_that_nobody_does_is_told) {
     pose.rotations[0] = axis_angle(Vec3{0, 1, 0}, 9 * t) * pose.rotations[0];
     pose.translations[0].y += 0.5f * (1 - std::cos(9 * t));
   }
-  const LearnPair pair = alone(walk);
+  LearnPair pair = alone(walk);
   EXPECT_FALSE(pair.twin->is_known);
+  pair.twin->trust = 1;  // Were what people do as lively as he.
   const LearntStyle learnt =
       learn_style(test::shipped_model(), "model.safetensors", {&pair, 1}, "flying", "").value();
   ASSERT_FALSE(learnt.pairs[0].warnings.empty());
   EXPECT_EQ(learnt.pairs[0].warnings[0],
             "bent.bvh: is unlike the neutral motion that is known, so that what differs from it is "
             "not style alone; give a neutral clip of the action");
+}
+
+// Crouches in a guard and punches: once with the right, or with both fists in turn, twice a second.
+Clip punch(bool once) {
+  using enum HumanJoint;
+  Clip clip = test::neutral_walk(3);
+  const Pose first = clip.pose(30);
+  for (int f = 0; f < clip.frames; ++f) {
+    const Pose pose = clip.pose(f);
+    if (f != 30) std::ranges::copy(first.rotations, pose.rotations.begin());
+    pose.translations[0] = first.translations[0];
+    const auto turn = [&](HumanJoint joint, Vec3 axis, float angle) {
+      pose.rotations[index(joint)] = axis_angle(axis, angle);
+    };
+    const float t = static_cast<float>(f) / 30, away = (t - 1.5f) / 0.25f;
+    const float right = once ? std::exp(-away * away) : (1 + std::sin(12.6f * t)) / 2;
+    const float left = once ? 0 : 1 - right;
+    turn(spine, {1, 0, 0}, 0.4f);
+    turn(left_upper_leg, {1, 0, 0}, -0.7f), turn(right_upper_leg, {1, 0, 0}, -0.5f);
+    turn(left_lower_leg, {1, 0, 0}, 0.9f), turn(right_lower_leg, {1, 0, 0}, 0.9f);
+    turn(left_upper_arm, {0, 1, 0}, -1.3f), turn(right_upper_arm, {0, 1, 0}, 1.3f);
+    turn(left_lower_arm, {0, 1, 0}, -2.4f * (1 - left));
+    turn(right_lower_arm, {0, 1, 0}, 2.4f * (1 - right));
+  }
+  return clip;
+}
+
+TEST(NeutralBank, beside_people_who_stand_punches_are_no_style) {
+  const LearnPair pair = alone(punch(false));
+  EXPECT_EQ(pair.twin->trust, 0);
+  EXPECT_EQ(pair.twin->certainty, 0);
+  const LearntStyle learnt =
+      learn_style(test::shipped_model(), "model.safetensors", {&pair, 1}, "punch", "").value();
+  ASSERT_FALSE(learnt.pairs[0].warnings.empty());
+  EXPECT_EQ(
+      learnt.pairs[0].warnings[0],
+      "bent.bvh: is unlike the neutral motion that is known, so that only 0 % of what differs "
+      "from it counts as style; give a neutral clip of the action");
+  // The change is none, to the rounding of 16 bits.
+  EXPECT_NEAR(learnt.held_back_cm, learnt.untouched_cm, 0.05);
+  EXPECT_STREQ(learnt.verdict(), "poor");
+}
+
+LearntStyle learn_trusting(LearnPair pair, double trust) {
+  pair.twin->trust = trust;
+  return learn_style(test::shipped_model(), "model.safetensors", {&pair, 1}, "s", "").value();
+}
+
+TEST(NeutralBank, as_much_is_learnt_as_is_trusted) {
+  const LearnPair pair = alone(test::bent_walk());
+  EXPECT_EQ(pair.twin->trust, 1);
+  const auto gain = [&](double trust) {
+    const LearntStyle learnt = learn_trusting(pair, trust);
+    return learnt.untouched_cm - learnt.held_back_cm;
+  };
+  const double whole = gain(1);
+  EXPECT_GT(whole, 1);
+  EXPECT_NEAR(gain(0.5), whole / 2, 0.15 * whole);  // Joints move along arcs.
+}
+
+TEST(NeutralBank, what_an_action_does_that_is_not_trusted_is_no_gesture) {
+  const LearnPair pair = alone(punch(true));
+  EXPECT_FALSE(learn_trusting(pair, 1).gestures.empty());
+  EXPECT_TRUE(learn_trusting(pair, 0.9).gestures.empty());
 }
 
 TEST(NeutralBank, a_damaged_file_is_rejected_with_its_tensor) {

@@ -35,10 +35,14 @@ class Model:
 
 
 def learn(model, neutral, styled, name, replace):
-    """Clips of one rig. A style of that name is replaced if `replace`, else it is an error. Returns
-    the bytes of the model with the style and what is to say about it."""
-    learnt = core_learn(model.own, [(neutral, styled)], name, replace)
+    """Clips of one rig; without a neutral one (None) the mean of other people takes its place. A
+    style of that name is replaced if `replace`, else it is an error. Returns the bytes of the model
+    with the style and what is to say about it."""
+    learnt = core_learn(model.own, [(neutral, styled)] if neutral else styled, name, replace)
     lines = list(learnt.warnings)
+    if learnt.people:
+        lines.insert(0, 'without a neutral action: %d other people move alike; %.0f %% of the '
+                     'difference in posture counts as style' % (learnt.people, 100 * learnt.certainty))
     if learnt.verdict:
         lines.insert(0, 'learnt %s (%s): %.1f cm off on the held-back part, %.1f without it' % (
             name, learnt.verdict, learnt.held_back_cm, learnt.untouched_cm))

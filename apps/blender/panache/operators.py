@@ -145,20 +145,19 @@ class PANACHE_OT_look(_OnArmature, bpy.types.Operator):
 
 
 class PANACHE_OT_learn(_OnArmature, bpy.types.Operator):
-    """Learn a style from two actions of this armature, one neutral and one in the style"""
+    """Learn a style from an action of this armature, best beside a neutral one"""
     bl_idname = 'panache.learn'
     bl_label = 'Learn'
     bl_options = {'REGISTER'}  # A style is in the model's file, where undo does not reach.
 
     def run(self, context, armature):
         found = armature.panache
-        if not found.neutral or not found.styled:
-            raise library.PanacheError('expected two actions, neutral and styled')
+        if not found.styled:
+            raise library.PanacheError('expected an action in the style')
         if not armature.animation_data:
             armature.animation_data_create()
-        clips = []
-        for action in (found.neutral, found.styled):
-            clips.append(sampling.Sampled(context, armature, action).clip)
+        clips = [action and sampling.Sampled(context, armature, action).clip
+                 for action in (found.neutral, found.styled)]
         name = found.style_name.strip()
         known = settings.learnt_style(name)
         content, lines = library.learn(settings.model(), *clips, known or name,

@@ -10,7 +10,7 @@ from bpy.props import (BoolProperty, EnumProperty, FloatProperty, PointerPropert
 
 from . import library, preview
 
-SHIPPED = os.path.join(os.path.dirname(__file__), 'models', 'panache-int8.safetensors')
+SHIPPED = os.path.join(os.path.dirname(__file__), 'core', 'models', 'panache-int8.safetensors')
 MANY_STYLES = 20
 # name: (label, what it says, default)
 SHAPE = {
@@ -183,7 +183,9 @@ def _make_settings_class(styles, groups):
         styles=PointerProperty(type=styles), groups=PointerProperty(type=groups),
         preview=BoolProperty(name='Live Preview', update=preview.toggled,
                              description='Show the style at the current frame while sliders move'),
-        neutral=PointerProperty(name='Neutral', type=bpy.types.Action),
+        neutral=PointerProperty(name='Neutral', type=bpy.types.Action,
+                                description='The same neutrally, by the same performer; without it '
+                                            'the style is learnt against the mean of other people'),
         styled=PointerProperty(name='Styled', type=bpy.types.Action),
         style_name=StringProperty(name='Name', default='mine'),
         known=StringProperty(), mapping=StringProperty(), notes=StringProperty())

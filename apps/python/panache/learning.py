@@ -31,8 +31,8 @@ class Learnt:
               as they are.
     people:   of a style that was learnt from one clip alone: how many people's mean takes the
               neutral clip's place; None of pairs.
-    certainty: likewise the share of the difference in posture that is style, 0 to 1; the rest is
-              what people differ by.
+    certainty: likewise the share of the difference in posture that counts as style, 0 to 1; the rest
+              is what people differ by, or unknown.
     """
     model: Model
     warnings: List[str]

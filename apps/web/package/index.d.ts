@@ -26,6 +26,8 @@ export interface Style {
   group: string;
   /** From a pair of clips, see learnStyle(). */
   learnt: boolean;
+  /** A row of figures from the styled clip, SVG; "" for styles that were not learnt. */
+  thumbnail: string;
   /** What its gestures do and how long, "head turns left, 1.2 s"; most styles have none. */
   gestures: string[];
 }
@@ -59,7 +61,7 @@ export interface LearnReport {
   /** By these distances; 'poor' is no better than the neutral motion. null as they are. */
   verdict: 'good' | 'fair' | 'poor' | null;
   /** Without a neutral motion: how many people's mean takes its place, and the share of the
-   * difference in posture that is style, and not what people differ by; otherwise null. */
+   * difference in posture that counts as style, not as what people differ by; otherwise null. */
   people: number | null;
   certainty: number | null;
   plot: {

@@ -165,6 +165,7 @@ export class Panache {
       description: this._text(wasm.panache_page_style_description(model, style)),
       group: this._text(wasm.panache_model_style_group(model, style)),
       learnt: wasm.panache_page_style_learnt(model, style) !== 0,
+      thumbnail: this._text(wasm.panache_page_style_thumbnail(model, style)),
       gestures: Array.from({ length: wasm.panache_model_gesture_count(model, style) }, (__, k) =>
         this._text(wasm.panache_model_gesture_name(model, style, k))),
     }));

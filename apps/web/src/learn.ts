@@ -207,7 +207,7 @@ export class Learn {
         `${match.toFixed(2)}, tempo ${(1 / tempo).toFixed(2)}×`),
       ...(people === null ? [] : [element('p', { class: 'hint' }, `Without a neutral clip: ${people} ` +
         `other people move alike; ${Math.round(100 * (certainty ?? 0))} % of the difference in ` +
-        'posture is style, the rest is what people differ by.')]),
+        'posture counts as style.')]),
       canvas,
       element('p', { class: 'hint' }, 'Top: the styled clip. Bottom: the matching frames of the neutral clip.'),
       ...report.warnings.map((text) => element('p', { class: 'warning' }, text)),

@@ -89,6 +89,7 @@ export class StyleRows {
         const before = known.get(style.name);
         const same = before && before.style.description === style.description &&
           before.style.learnt === style.learnt &&
+          before.style.thumbnail === style.thumbnail &&
           before.style.gestures.join() === style.gestures.join() && changed !== style.name;
         const slider = same ? before.slider : this.#make(style);
         list.append(slider.row);
@@ -132,7 +133,7 @@ export class StyleRows {
     return box;
   }
 
-  #make({ name, description, learnt, gestures }: Style) {
+  #make({ name, description, learnt, thumbnail, gestures }: Style) {
     const slider = new Slider({
       id: `style-${encodeURIComponent(name)}`, title: capitalized(name),
       hint: description || undefined, least: kLeast, most: kMost, rest: 0,
@@ -147,6 +148,11 @@ export class StyleRows {
         button('Remove', () => this.events.onRemove(name), hinted(`Remove ${name}`)));
     }
     slider.row.append(words);
+    if (thumbnail) {
+      slider.row.append(element('img', { class: 'thumbnail',
+        alt: `Figures from the clip that ${name} was learnt from`,
+        src: `data:image/svg+xml,${encodeURIComponent(thumbnail)}` }));
+    }
     if (gestures.length > 0) {
       slider.row.append(element('p', { class: 'gestures' }, ...gestures.map((gesture, i) =>
         button(capitalized(gesture), () => this.events.onGesture(name, i),

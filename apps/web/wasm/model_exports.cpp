@@ -27,6 +27,10 @@ PANACHE_EXPORT const char* panache_page_style_description(const panache_model* m
                                                           int32_t style) {
   return model->model->styles()[static_cast<size_t>(style)].description.c_str();
 }
+// SVG; empty of most styles.
+PANACHE_EXPORT const char* panache_page_style_thumbnail(const panache_model* model, int32_t style) {
+  return model->model->styles()[static_cast<size_t>(style)].thumbnail.c_str();
+}
 PANACHE_EXPORT int32_t panache_page_style_learnt(const panache_model* model, int32_t style) {
   return model->model->styles()[static_cast<size_t>(style)].learnt;
 }

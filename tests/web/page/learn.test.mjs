@@ -104,6 +104,16 @@ test('the style is saved as a file that the program takes, and opens again by dr
   assert.doesNotMatch(await tab.locator('#caption').textContent(), /lumbering/);
   await drop(tab, '#view', [file('lumbering.safetensors')]);
   await tab.locator('#style-lumbering').waitFor();
+  // Six figures from the clip.
+  const picture = tab.locator('.slider:has(#style-lumbering) img.thumbnail');
+  await picture.scrollIntoViewIfNeeded();
+  const size = await picture.evaluate(async (image) => {
+    await image.decode();
+    return [image.naturalWidth / image.naturalHeight, image.clientWidth / image.clientHeight];
+  });
+  for (const ratio of size) assert.ok(Math.abs(ratio - 540 / 190) < 0.05, `${size}`);
+  assert.equal(await tab.locator('.slider:has(#style-old) img.thumbnail').count(), 0);
+  await tab.screenshot({ path: join(pictures, 'thumbnail.png') });
   assert.equal((await told(tab)).strengths.lumbering, 1);
   const again = await download(tab, () => button('Save lumbering as a style file').click());
   assert.deepEqual(again.bytes, bytes);

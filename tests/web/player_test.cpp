@@ -1,0 +1,45 @@
+#include "player.h"
+
+#include <gtest/gtest.h>
+
+#include "clip/bvh.h"
+#include "clip/motion_format.h"
+#include "make_clip.h"
+#include "make_model.h"
+#include "style/names.h"
+
+namespace panache::web {
+namespace {
+
+// Knows motion whose features are within `limit` of their mean.
+std::shared_ptr<const Model> model_of(float limit, bool removes) {
+  TensorFile file = test::make_model({"old", kAnyStyle}, 3);
+  if (removes) file.metadata[kDirection] = kRemove;
+  test::add_gate(file, limit);
+  return Model::parse(format_safetensors(file), "test model").value();
+}
+
+// The gate of a walk after a second; `removed`: of the remover, -1 is none.
+float gate(float limit, float limit_of_remover, int removed) {
+  std::shared_ptr<const MotionFile> file =
+      parse_motion(format_bvh(test::walking_clip(90)), "walk.bvh").value();
+  auto player =
+      Player::create(model_of(limit, false), ClipSource::create(std::move(file), 0).value())
+          .value();
+  EXPECT_TRUE(player->use_remover(model_of(limit_of_remover, true)).ok());
+  player->set_removed(removed);
+  player->strengths()[0] = 1;
+  for (int f = 0; f < 30; ++f) player->step(1.0 / 30);
+  return player->gate();
+}
+
+TEST(PlayerTest, a_motion_is_as_familiar_as_to_the_less_familiar_of_two_passes) {
+  constexpr float kWide = 1e6f, kNarrow = 1e-3f;
+  EXPECT_EQ(gate(kWide, kWide, 0), 1);
+  EXPECT_LT(gate(kNarrow, kWide, 0), 0.5f);
+  EXPECT_LT(gate(kWide, kNarrow, 0), 0.5f);
+  EXPECT_EQ(gate(kWide, kNarrow, -1), 1);  // Nothing is removed.
+}
+
+}  // namespace
+}  // namespace panache::web
