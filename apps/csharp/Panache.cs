@@ -117,7 +117,7 @@ public sealed class Skeleton : IDisposable {
       if (humanJoints != null) {
         var map = new List<Native.HumanJoint>();
         foreach (KeyValuePair<string, int> entry in humanJoints)
-          map.Add(new Native.HumanJoint { name = kept.Text(entry.Key), joint = entry.Value });
+          map.Add(new Native.HumanJoint { vrmName = kept.Text(entry.Key), joint = entry.Value });
         options.humanJointCount = map.Count;
         options.humanJoints = kept.Array(map.ToArray());
       }
@@ -451,7 +451,7 @@ internal static class Native {
   }
   [StructLayout(LayoutKind.Sequential)]
   internal struct HumanJoint {
-    public IntPtr name;
+    public IntPtr vrmName;
     public int joint;
   }
   [StructLayout(LayoutKind.Sequential)]

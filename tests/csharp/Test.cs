@@ -1,4 +1,4 @@
-// Test.exe MODEL NEUTRAL.bvh STYLED.bvh POSES LIT LAMP: C# against the C interface. POSES is what
+// Test.exe MODEL NEUTRAL.bvh STYLED.bvh POSES LIT LAMP BANK STRUCTS: C# against the C interface. POSES is what
 // c_step wrote of NEUTRAL.bvh; LIT and LAMP are what lamp.py wrote.
 
 using System;
@@ -6,6 +6,8 @@ using System.Collections.Generic;
 using System.Diagnostics;
 using System.IO;
 using System.Linq;
+using System.Reflection;
+using System.Runtime.InteropServices;
 using System.Text.RegularExpressions;
 using Panache;
 
@@ -46,6 +48,34 @@ static class Test {
     }
     return bytes.ToArray();
   }
+
+  // Of struct_sizes: name and size, then name and place of each field.
+  static void StructsAreThoseOfTheHeader(string[] lines) {
+    int seen = 0;
+    foreach (string line in lines.Where(line => line != "")) {
+      string[] words = line.Split(' ');
+      string name = Camel(words[0]).Replace("InputPose", "Pose").Replace("OutputPose", "Pose");
+      Type type = typeof(Model).Assembly.GetTypes().FirstOrDefault(
+          one => one.Name == name && one.IsLayoutSequential);
+      if (type == null) continue;  // C# has no use for it.
+      ++seen;
+      Expect(Marshal.SizeOf(type) == int.Parse(words[1]), "the size of " + name);
+      for (int i = 2; i < words.Length; i += 2) {
+        string field = char.ToLower(Camel(words[i])[0]) + Camel(words[i]).Substring(1);
+        // Arrays are single numbers here.
+        if (field == "rotation" || field == "translation" || field == "contacts") continue;
+        FieldInfo found = type.GetFields(BindingFlags.Instance | BindingFlags.Public |
+                                         BindingFlags.NonPublic).FirstOrDefault(
+            one => one.Name.ToLower() == field.ToLower());
+        Expect(found != null, name + " has a field " + field);
+        Expect((int)Marshal.OffsetOf(type, found.Name) == int.Parse(words[i + 1]),
+               "the place of " + name + "." + field);
+      }
+    }
+    Expect(seen >= 10, "structs of the header, found " + seen);
+  }
+  static string Camel(string name) =>
+      string.Concat(name.Split('_').Select(word => char.ToUpper(word[0]) + word.Substring(1)));
 
   static void StepsHaveTheBitsOfC(Model model, Clip walk, byte[] expected) {
     using (var character = new Character(model, walk.Skeleton)) {
@@ -193,6 +223,7 @@ static class Test {
   static int Main(string[] arguments) {
     var model = Model.Load(arguments[0]);
     Clip walk = Clip.Load(arguments[1]), styled = Clip.Load(arguments[2]);
+    StructsAreThoseOfTheHeader(File.ReadAllLines(arguments[7]));
     StepsHaveTheBitsOfC(model, walk, File.ReadAllBytes(arguments[3]));
     ACharacterIsSavedShapedAndReports(model, walk);
     ASkeletonIsFoundAmongJoints(model);
