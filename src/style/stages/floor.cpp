@@ -34,10 +34,12 @@ float resting_depth(const BodyPose& body, const HumanPositions& joints, const Bo
   return depth;
 }
 
-// How much higher the lowest foot is with `change` than in the input.
-float height_of_feet(const BodyPose& body, const HumanPositions& joints, const BodyChange& change) {
-  const float origin = mid_hip(body).y + change.translation.y;
-  return origin + lowest_foot(joints) - lowest_foot(body.joints);
+// How much higher the lowest toe is with `change` than in the input.
+float height_of_toes(const BodyPose& body, const HumanPositions& joints, const BodyChange& change) {
+  const auto lowest = [](const HumanPositions& of) {
+    return std::min(of[index(kToes[0])].y, of[index(kToes[1])].y);
+  };
+  return mid_hip(body).y + change.translation.y + lowest(joints) - lowest(body.joints);
 }
 
 }  // namespace
@@ -48,7 +50,7 @@ void FloorClearance::step(const BodyPose& body, const HumanPositions& joints, fl
       std::max(floor_depth(body, joints, change), resting_depth(body, joints, change));
   lift_ += time.gain(kLiftSeconds) * (depth - lift_);
   change.translation.y += amount * lift_;
-  const float height = carried * std::max(0.0f, height_of_feet(body, joints, change));
+  const float height = carried * std::max(0.0f, height_of_toes(body, joints, change));
   const float seconds = height > sink_wanted_ ? kSinkSeconds : kStopSeconds;
   approach(sink_wanted_, height, time.gain(seconds), 1e-5f);
   approach(sink_, sink_wanted_, time.gain(kSmoothSeconds), 1e-5f);

@@ -11,7 +11,7 @@ namespace panache {
 // input's own lowest toe, or a knee or the hips deeper than they lie on the floor and than the
 // input's. It comes and goes slowly, so that the body does not jerk at each step; the leg IK
 // removes the remaining toe penetration. Legs that a style bends more than those of its own takes
-// would hover: lowers the body by as much as its lowest foot is higher than the input's.
+// would hover: lowers the body by as much as its lowest toe is higher than the input's.
 class FloorClearance {
  public:
   void reset() noexcept { lift_ = sink_wanted_ = sink_ = 0; }
