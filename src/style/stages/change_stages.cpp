@@ -80,7 +80,7 @@ void ChangeStages::step(const AskedChange& asked, const StageOptions& options, f
   if (options.foot_lock) {
     foot_lock_.step(now.world, joints, contacts_, stance_.held(), amount,
                     {static_cast<float>(time.input), time.output}, change_);
-    anatomy_.watch_thighs(now.world, observer.rig(), time, change_);
+    anatomy_.watch_thighs(now.world, time, change_);
   }
   changed_joints(now.world, change_, joints);
   held_legs_.step(now.world, asked.amount, contacts_, time, joints, change_);
