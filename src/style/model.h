@@ -135,8 +135,10 @@ class Model {
   Result<void> read_networks(const TensorFile& file, const std::string& name);
   Result<void> read_activations(const TensorFile& file, const std::string& name);
   Result<void> read_recognition(const TensorFile& file, const std::string& name);
-  Result<Learnt> read_learnt(const TensorFile& file, const std::string& prefix,
-                             const std::string& name) const;
+  static size_t count_learnt(const TensorFile& file);
+  Result<void> read_learnt(const TensorFile& file, size_t count, const std::string& name);
+  Result<Learnt> read_one_learnt(const TensorFile& file, const std::string& prefix,
+                                 const std::string& name) const;
   Result<void> read_gestures(const TensorFile& file, const std::string& name);
   void measure_stances();
   Result<void> measure_scratch(const std::string& name);
