@@ -5,6 +5,7 @@
 
 #include "clip/motion_file.h"
 #include "style/crowd.h"
+#include "style/networks.h"
 
 #include "../tests/make_clip.h"
 

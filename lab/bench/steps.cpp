@@ -48,7 +48,7 @@ class Character {
     return now_ns() - begin;
   }
   void step(StageClock& clock) noexcept {
-    stylizer_.step(in(), strengths_, walk_.frame_time, out(), clock);
+    stylizer_.step(in(), strengths_, walk_.frame_time, out(), &clock);
   }
 
  private:

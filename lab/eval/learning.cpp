@@ -9,6 +9,7 @@
 #include "learn/samples.h"
 #include "learn/style_file.h"
 #include "rig/canonical_skeleton.h"
+#include "style/networks.h"
 
 namespace panache {
 namespace {

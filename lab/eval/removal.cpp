@@ -56,7 +56,7 @@ Result<Take> remove_from(const TestInput& input, const std::shared_ptr<const Mod
   Result<Restyled> out =
       restyle_without(input.clip, input.rig, {remover, *found}, remover, {}, options);
   if (!out) return located(input.take.row.path, out.error());
-  return styled_result(input, "neutral", out->clip, out->source_frames).output.take;
+  return styled_result(input, "neutral", *out).output.take;
 }
 
 Result<RemovalSummary> remove_own(const std::shared_ptr<const Model>& remover, bool named,
@@ -119,7 +119,7 @@ Result<void> remove_from_restyled(const std::shared_ptr<const Model>& remover,
     Result<Restyled> made = restyle(input.clip, input.rig, model, {{style, {{0, 1}}}}, options);
     if (!made) return void(failures[i] = made.error());
     TestInput styled{made->clip, input.rig, input.take};
-    styled.take = styled_result(input, "neutral", made->clip, made->source_frames).output.take;
+    styled.take = styled_result(input, "neutral", *made).output.take;
     Result<Take> output = remove_from(styled, remover, model->styles()[style].name, false);
     if (!output) return void(failures[i] = output.error());
     const OodRow row = compare_ood(styled.take, *output);

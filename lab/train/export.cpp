@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "style/model.h"
+#include "style/networks.h"
 #include "style/names.h"
 
 namespace panache {

@@ -10,7 +10,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "learn/recognise.h"
-#include "style/model.h"
+#include "style/networks.h"
 
 namespace panache {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "learn/disturbance.h"
 #include "learn/ridge.h"
+#include "style/networks.h"
 
 namespace panache {
 namespace {

@@ -8,7 +8,7 @@
 #include "clip/clip.h"
 #include "learn/take.h"
 #include "rig/rig.h"
-#include "style/model.h"
+#include "style/networks.h"
 
 namespace panache {
 

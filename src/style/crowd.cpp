@@ -48,22 +48,22 @@ void step_crowd(std::span<const CrowdMember> members, double seconds) noexcept {
   while (!members.empty()) {
     const size_t count = count_together(members);
     std::array<std::array<float, InputWindow::kMaxNumbers>, kRowsAtOnce> windows;
-    std::array<StepTime, kRowsAtOnce> times;
+    std::array<Seen, kRowsAtOnce> seen;
     std::array<StyleNetworks::Pass, kRowsAtOnce> passes;
     std::array<FetchLater, kRowsAtOnce> fetches;
     for (size_t i = 0; i < count; ++i) {
       const auto& [character, in, strengths, out] = members[i];
       if (count + i < members.size()) fetches[i].begin(members[count + i], add_memory);
       // By its turn the next one's past has come from a far cache.
-      if (i + 1 < members.size()) members[i + 1].character->window_.fetch_poses(seconds);
-      const auto [time, pass] =
-          character->take_in(in, strengths, {seconds, seconds}, windows[i], &fetches[i]);
-      times[i] = time;
-      passes[i] = pass;
+      if (i + 1 < members.size()) members[i + 1].character->stepper_.fetch_poses(seconds);
+      seen[i] = character->stepper_.take_in(in, {seconds, seconds}, windows[i], &fetches[i]);
+      character->source_.set_strengths(strengths);
+      passes[i] = character->source_.begin(seen[i]);
     }
     StyleNetworks::forward_all(std::span(passes).first(count));
     for (size_t i = 0; i < count; ++i) {
-      members[i].character->give_out(times[i], members[i].out, &fetches[i]);
+      Stylizer& character = *members[i].character;
+      character.stepper_.give_out(character.source_.finish(seen[i]), seen[i], members[i].out);
     }
     members = members.subspan(count);
   }

@@ -68,25 +68,6 @@ Result<std::shared_ptr<const Model>> Model::create(const TensorFile& file,
   return std::shared_ptr<const Model>(std::move(model));
 }
 
-std::shared_ptr<const Model> Model::of_constants(std::vector<ConstantStyle> styles) {
-  auto model = std::make_shared<Model>();
-  model->recipe_ = &default_recipe();
-  for (const ConstantStyle& style : styles) {
-    model->styles_.push_back(style.info);
-    model->stances_.push_back(stance_of(style.change));
-  }
-  model->gestures_.resize(styles.size());
-  const size_t inputs = size_t(kWindowPoses) * pose_feature_count(model->layout());
-  model->input_mean_.resize(inputs);
-  model->input_factor_.resize(inputs);
-  model->output_scale_.assign(StyleDelta::kSize, 1);
-  model->output_mean_.resize(StyleDelta::kSize);
-  model->parameter_count_ = styles.size() * (StyleDelta::kSize + 1);
-  model->scratch_size_ = 1;
-  model->constants_ = std::move(styles);
-  return model;
-}
-
 Result<void> Model::read_metadata(const TensorFile& file, const std::string& name) {
   const auto format = file.metadata.find("format");
   if (format != file.metadata.end() && format->second == "panache-style") {

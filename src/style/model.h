@@ -10,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "base/prefetch.h"
 #include "base/result.h"
 #include "net/mlp.h"
 #include "pose/features.h"
@@ -49,13 +48,6 @@ class Model {
   // file.
   static Result<std::shared_ptr<const Model>> create(const TensorFile& file,
                                                      const std::string& name);
-  // A model without networks: what each style answers, whatever the motion. It plants no foot.
-  struct ConstantStyle {
-    StyleInfo info;
-    StyleDelta change;
-    float log_rate;  // Logarithm of input seconds per output second.
-  };
-  static std::shared_ptr<const Model> of_constants(std::vector<ConstantStyle> styles);
 
   const Recipe& recipe() const { return *recipe_; }
   PoseLayout layout() const { return recipe_->layout; }
@@ -143,8 +135,10 @@ class Model {
   Result<void> read_networks(const TensorFile& file, const std::string& name);
   Result<void> read_activations(const TensorFile& file, const std::string& name);
   Result<void> read_recognition(const TensorFile& file, const std::string& name);
-  Result<Learnt> read_learnt(const TensorFile& file, const std::string& prefix,
-                             const std::string& name) const;
+  static size_t count_learnt(const TensorFile& file);
+  Result<void> read_learnt(const TensorFile& file, size_t count, const std::string& name);
+  Result<Learnt> read_one_learnt(const TensorFile& file, const std::string& prefix,
+                                 const std::string& name) const;
   Result<void> read_gestures(const TensorFile& file, const std::string& name);
   void measure_stances();
   Result<void> measure_scratch(const std::string& name);
@@ -166,90 +160,10 @@ class Model {
   std::vector<Learnt> learnt_;                  // Of the last styles.
   std::vector<Stance> stances_;                 // [styles], or empty where they are not known.
   std::vector<std::vector<Gesture>> gestures_;  // [styles]
-  std::vector<ConstantStyle> constants_;        // In place of networks.
   std::shared_ptr<const PredictorNetwork> predictor_;
   size_t parameter_count_ = 0;
   size_t scratch_size_ =
       0;  // Numbers that a forward pass of one character works in, see kMaxScratch.
-};
-
-// The evaluation of a model for one character. It holds little more than its results: what it works
-// in is on the stack, so that a thousand characters share the caches with the one model.
-class StyleNetworks {
- public:
-  explicit StyleNetworks(std::shared_ptr<const Model> model);
-
-  // Strengths in force from now on, one per style of the model; above 1 a strength counts less. A
-  // forward pass goes through the heads of the styles that are not 0, and through no other.
-  void set_strengths(std::span<const float> strengths) noexcept;
-
-  // Evaluates a window as PoseHistory::window() gives it. The results stay until the next call.
-  // The gate goes this share of the way from where it was to where the window wants it.
-  void forward(std::span<const float> window, float gate_share = 1) noexcept;
-  // The same for several characters of one model at once, which reads its weights once for several
-  // of them: bit for bit what forward() gives each. No character may come twice. Allocates nothing;
-  // works in about 200 KB of the stack.
-  struct Pass {
-    StyleNetworks* networks;
-    std::span<const float> window;
-    float gate_share = 1;
-  };
-  static void forward_all(std::span<const Pass> passes) noexcept;
-  // How much of the styles' answer to this very motion is given, beside their mean answer: 1 on
-  // most motion like what they were trained or learnt on, towards 0 on motion unlike it. Learnt
-  // styles have a gate each; this is the mean over the styles in force, by their strengths.
-  float gate() const noexcept;
-  // The features that styles are learnt on: the activations of all hidden layers of the pose trunk
-  // for a window. out.size() = Model::activation_count().
-  void activations(std::span<const float> window, std::span<float> out) const noexcept;
-  // The pose network's numbers, in the model's own units undone. What change they are,
-  // Recipe::to_change() tells. [Recipe::outputs]
-  std::span<const float> pose() const { return pose_out_; }
-  // Of the styles in force together, by their strengths.
-  Stance stance() const noexcept;
-  float log_rate() const { return timing_out_[0]; }  // log of input seconds per output second.
-  std::span<const float> contact() const { return contact_out_; }  // Probability per foot [2].
-
-  const Model& model() const { return *model_; }
-  // Names strengths and results.
-  void add_memory(Prefetch& prefetch) const noexcept;
-
-  // Calls visit(member) for everything that tells one character from another of this model.
-  template <class Self, class Visit>
-  static void visit_state(Self& self, Visit&& visit) {
-    visit(self.strengths_), visit(self.pose_out_), visit(self.timing_out_);
-    visit(self.contact_out_), visit(self.gate_), visit(self.learnt_gates_);
-  }
-
- private:
-  class ScratchArena;
-  static void evaluate(std::span<const Pass> passes, std::span<float> numbers) noexcept;
-  // Of a model without networks.
-  void answer_constants() noexcept;
-  // Writes a window, and what else the networks take in.
-  void write_input(std::span<const float> window, std::span<float> input) const noexcept;
-  // Draws the pose trunk's activations towards their mean as far as the gates are closed.
-  static Rows<const float> shrink(std::span<const Pass> passes, Rows<const float> hidden,
-                                  ScratchArena& arena) noexcept;
-  // The sum of a network's heads in force, each times its strength, into out(character).
-  template <class Out>
-  static void add_heads(std::span<const Pass> passes, int network, Rows<const float> hidden,
-                        ScratchArena& arena, Out out) noexcept;
-  // Adds what the learnt styles in force answer to what the trunks have left in `scratch`.
-  static void add_learnt(std::span<const Pass> passes, std::span<const float> scratch,
-                         ScratchArena& arena);
-  // How far a window is from those that a style was learnt from: 1 where trust in it ends. Leaves
-  // the standardised difference of the activations from their mean in `apart`.
-  float leverage(const Model::Learnt& learnt, std::span<const float> activations,
-                 std::span<float> apart, ScratchArena& arena) const noexcept;
-
-  std::shared_ptr<const Model> model_;
-  std::vector<float> strengths_;
-  std::vector<float> pose_out_;
-  std::array<float, 1> timing_out_{};
-  std::array<float, 2> contact_out_{};
-  float gate_ = 1;                   // Of the built-in styles.
-  std::vector<float> learnt_gates_;  // As it was when the style was last in force. [learnt styles]
 };
 
 }  // namespace panache

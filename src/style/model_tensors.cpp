@@ -8,21 +8,9 @@
 #include "style/predictor_network.h"
 
 namespace panache {
-namespace {
-
-// What the tensors of a learnt style begin with.
-std::string learnt_prefix(size_t learnt) { return "learnt." + std::to_string(learnt) + "."; }
-// What the gestures of a style begin with. `index`: among the styles of its kind.
-std::string gesture_prefix(bool learnt, size_t index) {
-  return learnt ? learnt_prefix(index) + "gesture." : "gesture." + std::to_string(index) + ".";
-}
-
-}  // namespace
-
 Result<void> Model::read_networks(const TensorFile& file, const std::string& name) {
   const bool per_style = recipe_->style_heads;
-  size_t learnt = 0;  // The last styles.
-  while (file.tensors.contains(learnt_prefix(learnt) + "head.weight")) ++learnt;
+  const size_t learnt = count_learnt(file);
   if (learnt > (recipe_->learns_styles ? styles_.size() : 0)) {
     return Error{name + ": has " + std::to_string(learnt) + " learnt styles and lists " +
                  std::to_string(styles_.size()) + " in all; expected a model written by panache"};
@@ -72,31 +60,7 @@ Result<void> Model::read_networks(const TensorFile& file, const std::string& nam
   }
   trunks_ = TrunkTrio(std::move(trunks));
   if (auto read = read_activations(file, name); !read) return read.error();
-  for (size_t k = 0; k < learnt; ++k) {
-    Result<Learnt> style = read_learnt(file, learnt_prefix(k), name);
-    if (!style) return style.error();
-    learnt_.push_back(*std::move(style));
-    styles_[static_cast<size_t>(styles) + k].learnt = true;
-  }
-  return {};
-}
-
-Result<void> Model::read_activations(const TensorFile& file, const std::string& name) {
-  if (!file.tensors.contains("learn.mean") && !file.tensors.contains("learn.scale")) return {};
-  const int activations = static_cast<int>(activation_count());
-  Result<std::vector<float>> mean = read_vector(file, "learn.mean", activations, name);
-  if (!mean) return mean.error();
-  Result<std::vector<float>> scale = read_vector(file, "learn.scale", activations, name);
-  if (!scale) return scale.error();
-  for (const float s : *scale) {
-    if (!(s > 0) || std::isinf(1 / s)) {
-      return Error{name + ": tensor 'learn.scale' must be above zero throughout"};
-    }
-    activation_factor_.push_back(1 / s);
-  }
-  activation_mean_ = *std::move(mean);
-  activation_scale_ = *std::move(scale);
-  return {};
+  return read_learnt(file, learnt, name);
 }
 
 Result<void> Model::read_recognition(const TensorFile& file, const std::string& name) {
@@ -111,56 +75,6 @@ Result<void> Model::read_recognition(const TensorFile& file, const std::string& 
       read_layer(file, "recognition", statistics, static_cast<int>(styles_.size()) + 1, name);
   if (!layer) return layer.error();
   recognition_ = {*std::move(mean), *std::move(factor), PackedLayer(*layer)};
-  return {};
-}
-
-Result<Model::Learnt> Model::read_learnt(const TensorFile& file, const std::string& prefix,
-                                         const std::string& name) const {
-  if (!can_learn()) {
-    return Error{name + ": has tensors '" + prefix +
-                     "*' of a learnt style, but no 'learn.mean' and 'learn.scale'",
-                 ErrorKind::model_cannot_learn};
-  }
-  const int activations = static_cast<int>(activation_count());
-  Learnt learnt;
-  Result<DenseLayer> head = read_layer(file, prefix + "head", activations, kLearntOutputs, name);
-  if (!head) return head.error();
-  learnt.head = PackedLayer(*head);
-  Result<std::vector<float>> mean = read_vector(file, prefix + "mean", activations, name);
-  if (!mean) return mean.error();
-  learnt.mean = *std::move(mean);
-  Result<DenseLayer> gate = read_layer(file, prefix + "gate", activations, -1, name);
-  if (!gate) return gate.error();
-  if (gate->outputs > activations) {
-    return Error{name + ": tensor '" + prefix + "gate.weight' has " +
-                 std::to_string(gate->outputs) + " directions; expected at most " +
-                 std::to_string(activations)};
-  }
-  learnt.gate = PackedLayer(*gate);
-  Result<std::vector<float>> gate_weights =
-      read_vector(file, prefix + "gate.worth", gate->outputs, name);
-  if (!gate_weights) return gate_weights.error();
-  learnt.gate_weights = *std::move(gate_weights);
-  Result<std::vector<float>> rest = read_vector(file, prefix + "gate.rest", 1, name);
-  if (!rest) return rest.error();
-  learnt.gate_residual = rest->front();
-  return learnt;
-}
-
-Result<void> Model::read_gestures(const TensorFile& file, const std::string& name) {
-  gestures_.resize(styles_.size());
-  for (size_t style = 0; style < styles_.size(); ++style) {
-    const bool learnt = style >= built_in();
-    const std::string prefix = gesture_prefix(learnt, learnt ? style - built_in() : style);
-    for (int k = 0; k < kMaxGestures; ++k) {
-      const std::string key = prefix + std::to_string(k);
-      const auto found = file.tensors.find(key);
-      if (found == file.tensors.end()) break;
-      Result<Gesture> gesture = Gesture::read(found->second, key, name);
-      if (!gesture) return gesture.error();
-      gestures_[style].push_back(*std::move(gesture));
-    }
-  }
   return {};
 }
 

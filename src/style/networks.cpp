@@ -127,25 +127,8 @@ void StyleNetworks::write_input(std::span<const float> window,
   m.recipe().write_style_inputs(strengths_, input.subspan(window.size()));
 }
 
-void StyleNetworks::answer_constants() noexcept {
-  std::ranges::fill(pose_out_, 0.0f);
-  timing_out_ = {};
-  contact_out_ = {};
-  for (size_t s = 0; s < strengths_.size(); ++s) {
-    const Model::ConstantStyle& style = model_->constants_[s];
-    std::array<float, StyleDelta::kSize> change;
-    pack(style.change, change);
-    add_scaled(posture_strength(strengths_[s]), change, pose_out_);
-    timing_out_[0] += movement_strength(strengths_[s]) * style.log_rate;
-  }
-}
-
 void StyleNetworks::evaluate(std::span<const Pass> passes, std::span<float> numbers) noexcept {
   const Model& m = *passes.front().networks->model_;
-  if (!m.constants_.empty()) {
-    for (const Pass& pass : passes) pass.networks->answer_constants();
-    return;
-  }
   ScratchArena arena(numbers);
   const size_t inputs = static_cast<size_t>(m.trunks_.inputs());
   const Rows<float> input = arena.rows(passes.size(), inputs);

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "net/dense.h"
-#include "style/model.h"
+#include "style/networks.h"
 
 namespace panache {
 

@@ -4,36 +4,32 @@
 #include <cmath>
 
 #include "pose/loop.h"
-#include "style/clip_stepper.h"
-#include "style/restyle_loop.h"
+#include "style/network_source.h"
+#include "style/play_clip.h"
 
 namespace panache {
 namespace {
 
-Result<Restyled> restyle_open(const Clip& clip, const Rig& rig,
-                              const std::shared_ptr<const Model>& model,
-                              const std::vector<StrengthTrack>& tracks,
-                              const RestyleOptions& options,
-                              const std::function<void(double)>& progress) {
-  Result<ClipStepper> stepper = ClipStepper::create(clip, rig, model, tracks, options.stylizer);
-  if (!stepper) return stepper.error();
-  Restyled result;
-  result.clip.skeleton = clip.skeleton;
-  result.clip.frame_time = clip.frame_time;
-  const int first = std::min(rig.first_frame(), clip.frames - 1);
-  append_calibration(clip, first, result);
-  double frame = first, advance = 0;
-  // The head may stop between the last two frames; the end of the input is never overrun.
-  while (frame <= clip.frames - 1 + 1e-6) {
-    stepper->step(frame, advance, frame * clip.frame_time);
-    stepper->append_to(result, frame);
-    const double rate = stepper->stylizer().rate();
-    advance = options.timing ? clip_advance(frame, rate, stepper->flight()) : 1.0;
-    frame += advance;
-    if (progress && result.clip.frames % 64 == 0) progress(frame / clip.frames);
+// A model's styles as a clip has them.
+class TrackedStyles final : public ChangeSource {
+ public:
+  TrackedStyles(const std::shared_ptr<const Model>& model, const std::vector<StrengthTrack>& tracks,
+                const StylizerOptions& options)
+      : tracks_(tracks), strengths_(model->styles().size()), networks_(model, options) {}
+
+  PoseLayout layout() const override { return networks_.layout(); }
+  AskedChange ask(const Seen& seen) noexcept override {
+    std::ranges::fill(strengths_, 0.0f);
+    for (const StrengthTrack& track : tracks_) strengths_[track.style] += track.at(seen.time.clip);
+    networks_.set_strengths(strengths_);
+    return networks_.ask(seen);
   }
-  return result;
-}
+
+ private:
+  const std::vector<StrengthTrack>& tracks_;
+  std::vector<float> strengths_;  // [styles]
+  NetworkSource networks_;
+};
 
 // Fails where a style is not as strong at the end of the loop as at its beginning.
 Result<void> check_strengths(const LoopSeam& seam, double frame_time, const Model& model,
@@ -65,6 +61,23 @@ float StrengthTrack::at(double seconds) const {
   return a.strength + static_cast<float>(t) * (later->strength - a.strength);
 }
 
+Restyled Restyled::begin(const Clip& clip, int first) {
+  Restyled result;
+  result.clip.skeleton = clip.skeleton;
+  result.clip.frame_time = clip.frame_time;
+  for (int f = 0; f < first; ++f) result.append(clip.pose(f), f, {}, 1, {});
+  return result;
+}
+
+void Restyled::append(ConstPose pose, double source_frame, FootContacts planted, float gate,
+                      StageFacts facts) {
+  clip.append(pose);
+  source_frames.push_back(source_frame);
+  contacts.push_back(planted);
+  gates.push_back(gate);
+  stages.push_back(facts);
+}
+
 bool is_unchanged(const Clip& clip, const Restyled& result) {
   return result.clip.frames == clip.frames && result.clip.rotations == clip.rotations &&
          result.clip.translations == clip.translations;
@@ -74,7 +87,7 @@ Result<Restyled> restyle(const Clip& clip, const Rig& rig,
                          const std::shared_ptr<const Model>& model,
                          const std::vector<StrengthTrack>& tracks, const RestyleOptions& options,
                          const std::function<void(double)>& progress) {
-  LoopSeam seam;
+  if (Result<void> good = check(options.stylizer); !good) return good.error();
   const bool gestures = options.stylizer.gesture_rate > 0;
   if (gestures && options.loop == LoopMode::force) {
     return Error{
@@ -83,7 +96,7 @@ Result<Restyled> restyle(const Clip& clip, const Rig& rig,
   }
   bool loop = options.loop != LoopMode::off && !gestures;
   if (loop) {
-    seam = measure_seam(clip, rig);
+    const LoopSeam seam = measure_seam(clip, rig);
     const Result<void> even = check_strengths(seam, clip.frame_time, *model, tracks);
     if (options.loop == LoopMode::force) {
       if (auto closable = check_closable(seam, clip.frame_time); !closable) return closable.error();
@@ -92,16 +105,10 @@ Result<Restyled> restyle(const Clip& clip, const Rig& rig,
       loop = even.ok() && is_loop(seam, clip.frame_time);
     }
   }
-  if (!loop) return restyle_open(clip, rig, model, tracks, options, progress);
-  const auto half = [&](double begin) {
-    return [&progress, begin](double done) {
-      if (progress) progress(begin + done / 2);
-    };
+  const auto make_source = [&] {
+    return std::make_unique<TrackedStyles>(model, tracks, options.stylizer);
   };
-  Result<Restyled> open = restyle_open(clip, rig, model, tracks, options, half(0));
-  // A motion that is left as it is keeps its bits.
-  if (!open || is_unchanged(clip, *open)) return open;
-  return restyle_loop(clip, rig, model, tracks, options, half(0.5));
+  return play_clip(clip, rig, make_source, loop, options, progress);
 }
 
 }  // namespace panache

@@ -56,6 +56,11 @@ struct Restyled {
   std::vector<float> gates;            // Per frame of it, see Stylizer::gate().
   std::vector<StageFacts> stages;      // Per frame of it.
   LoopFacts loop;
+
+  // Of the frames of `clip` before `first` as they are: a calibration pose is no motion.
+  static Restyled begin(const Clip& clip, int first);
+  void append(ConstPose pose, double source_frame, FootContacts planted, float gate,
+              StageFacts facts);
 };
 
 // Whether `result` is the clip, bit for bit.

@@ -36,4 +36,7 @@ struct Shape {
   friend bool operator==(const Shape&, const Shape&) = default;
 };
 
+// Every style as it was captured.
+inline constexpr Shape kPlainShape;
+
 }  // namespace panache

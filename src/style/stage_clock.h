@@ -9,8 +9,8 @@ namespace panache {
 // named here.
 enum class Stage {
   observe,    // Observer
-  strengths,  // EasedStrengths
   window,     // InputWindow
+  strengths,  // EasedStrengths
   networks,   // StyleNetworks
   filter,     // OutputFilter
   root,       // RootMotion
@@ -27,8 +27,8 @@ enum class Stage {
   write,      // PosedRig
 };
 inline constexpr std::array<const char*, 17> kStageNames = {"observe the pose",
-                                                            "ease strengths and shape",
                                                             "history and window",
+                                                            "ease strengths and shape",
                                                             "networks, heads and gate",
                                                             "filter",
                                                             "root motion",

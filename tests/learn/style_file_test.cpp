@@ -11,6 +11,7 @@
 #include "base/file.h"
 #include "make_learnt.h"
 #include "net/quantize.h"
+#include "style/networks.h"
 
 namespace panache {
 namespace {

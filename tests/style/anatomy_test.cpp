@@ -141,7 +141,7 @@ TEST_F(AnatomyTest, a_thigh_that_is_pulled_across_the_other_is_noticed) {
   const auto share = [&](float degrees, size_t side, bool right = false) {
     const Quat inward = axis_angle(Vec3{0, 0, 1}, (right ? degrees : -degrees) * kDegree);
     Anatomy anatomy;
-    anatomy.watch_thighs(body_, rig_.rig(), {},
+    anatomy.watch_thighs(body_, {},
                          right ? turned(right_upper_leg, right_toes, inward)
                                : turned(left_upper_leg, left_toes, inward));
     return anatomy.thigh_share(side);

@@ -254,7 +254,7 @@ TEST(Flight, a_jump_goes_on_bit_for_bit_where_it_was_saved) {
   options.stylizer = kTempoEverywhere.stylizer;
   options.max_lag = 1;
   LiveStylizer live = *LiveStylizer::create(shipped(), *Rig::create(clip), options);
-  std::vector<float> strengths(live.stylizer().strengths().size());
+  std::vector<float> strengths(live.stylizer().model().styles().size());
   strengths[static_cast<size_t>(*shipped()->find_style("old"))] = 1;
   std::vector<std::byte> state(live.state_size());
   Clip once = clip, again = clip;

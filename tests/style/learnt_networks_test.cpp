@@ -8,6 +8,7 @@
 
 #include "make_learnt.h"
 #include "net/quantize.h"
+#include "style/networks.h"
 
 namespace panache {
 namespace {

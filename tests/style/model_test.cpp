@@ -6,6 +6,7 @@
 
 #include "make_model.h"
 #include "net/quantize.h"
+#include "style/networks.h"
 
 namespace panache {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "make_model.h"
 #include "net/quantize.h"
+#include "style/networks.h"
 
 namespace panache {
 namespace {
@@ -104,24 +105,6 @@ TEST(Networks, each_style_has_its_own_tempo_and_contacts) {
 }
 
 // Forward passes of several characters at once give each what it gets alone, its gate included.
-TEST(Networks, a_model_of_constants_answers_with_them_whatever_the_motion) {
-  Model::ConstantStyle stoops, hurries;
-  stoops.info.name = "stoops";
-  stoops.change.hips_height = -0.1f;
-  hurries.info.name = "hurries";
-  hurries.log_rate = 0.2f;
-  StyleNetworks networks(Model::of_constants({stoops, hurries}));
-  std::array<float, StyleDelta::kSize> stooped;
-  pack(stoops.change, stooped);
-  for (const float size : {0.0f, 1.0f, 100.0f}) {
-    const std::vector<float> got = answer(networks, window_of(size), {0.5f, 0.25f});
-    ASSERT_EQ(got.size(), stooped.size());
-    for (size_t i = 0; i < got.size(); ++i) EXPECT_EQ(got[i], 0.5f * stooped[i]) << i;
-    EXPECT_EQ(networks.log_rate(), 0.25f * 0.2f);
-    EXPECT_EQ(networks.gate(), 1);
-  }
-}
-
 TEST(PassesTogether, have_the_bits_of_passes_alone) {
   for (const bool int8 : {false, true}) {
     TensorFile file = test::make_model({"old", "proud", "sad"});

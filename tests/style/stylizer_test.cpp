@@ -115,7 +115,7 @@ TEST_F(StylizerTest, a_clock_is_told_of_each_stage_once_a_step_and_in_order) {
     Clip out = clip_;
     for (int f = 0; f < 3; ++f) {
       clock.stages.clear();
-      character.step(clip_.pose(f), std::array{1.0f, 0.0f}, clip_.frame_time, out.pose(f), clock);
+      character.step(clip_.pose(f), std::array{1.0f, 0.0f}, clip_.frame_time, out.pose(f), &clock);
       ASSERT_EQ(clock.stages.size(), kStageNames.size());
       for (size_t s = 0; s < kStageNames.size(); ++s) {
         EXPECT_EQ(kStageNames[static_cast<size_t>(clock.stages[s])], kStageNames[s]);

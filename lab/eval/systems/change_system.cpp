@@ -6,19 +6,34 @@
 #include <ctime>
 #include <map>
 
-#include "eval/systems/change_stepper.h"
 #include "eval/systems/styled_clip.h"
 #include "learn/samples.h"
+#include "pose/loop.h"
+#include "style/play_clip.h"
 
 namespace panache {
 namespace {
 
-// As EasedStrengths::amount() has it.
-float amount_of(const ChangeSystem::Strengths& strengths) {
-  float total = 0;
-  for (const auto& [style, strength] : strengths) total += std::abs(strength);
-  return std::min(1.0f, 4 * total);
-}
+// The answers of a source to strengths, with the amount that EasedStrengths::amount() has of them.
+class WithAmount final : public ChangeSource {
+ public:
+  WithAmount(std::unique_ptr<ChangeSource> source, const ChangeSystem::Strengths& strengths)
+      : source_(std::move(source)) {
+    float total = 0;
+    for (const auto& [style, strength] : strengths) total += std::abs(strength);
+    amount_ = std::min(1.0f, 4 * total);
+  }
+
+  AskedChange ask(const Seen& seen) override {
+    AskedChange asked = source_->ask(seen);
+    asked.amount = amount_;
+    return asked;
+  }
+
+ private:
+  std::unique_ptr<ChangeSource> source_;
+  float amount_;
+};
 
 // Instants further apart than this, in frames, are not one motion.
 constexpr float kMaxGap = 4;
@@ -29,20 +44,25 @@ class SourceInstants : public InstantAnswers {
       : system_(system), styles_(system.styles()), strength_(static_cast<float>(strength)) {}
 
   std::optional<StyleDelta> change(const std::string& style, const Take& seen, float seen_at,
-                                   const Take&, float) override {
+                                   const Take& neutral, float at) override {
     const auto found = std::find(styles_.begin(), styles_.end(), style);
     if (found == styles_.end()) return std::nullopt;
     const int index = static_cast<int>(found - styles_.begin());
     std::unique_ptr<ChangeSource>& source = sources_[{index, &seen}];
-    if (!source) source = system_.make_source(seen, {{index, strength_}});
+    if (!source) source = system_.make_source(seen, 0, {{index, strength_}});
     const float gap = seen_at - last_at_;
     const bool goes_on = source.get() == last_ && gap >= 0 && gap <= kMaxGap;
-    if (!goes_on) source->reset();
     last_ = source.get();
     last_at_ = seen_at;
     take_window(seen, seen_at, kNumbers, window_);
+    const HumanPositions body = body_at(neutral, at);
     // An output frame follows each other one: that is how the judge goes through them.
-    return source->answer(window_, seen_at, 1 / static_cast<float>(kTakeRate)).delta;
+    constexpr double kStep = 1 / kTakeRate;
+    return source
+        ->ask({window_,
+               &body,
+               {kStep, static_cast<float>(kStep), !goes_on, nullptr, seen_at * kStep}})
+        .delta;
   }
 
  private:
@@ -69,11 +89,21 @@ ChangeSystem::Strengths ChangeSystem::strengths_of(const StyleRequest& request) 
   return strengths;
 }
 
+Restyled ChangeSystem::play(const TestInput& input, const Strengths& strengths, bool loop,
+                            bool timing) const {
+  const double begin = input.rig.first_frame() * input.clip.frame_time;
+  const auto make = [&] {
+    return std::make_unique<WithAmount>(make_source(input.take, begin, strengths), strengths);
+  };
+  RestyleOptions options;
+  options.timing = timing;
+  return play_clip(input.clip, input.rig, make, loop, options);
+}
+
 Result<RunResult> ChangeSystem::run(const TestInput& input, const StyleRequest& request) const {
-  const Strengths strengths = strengths_of(request);
-  const std::unique_ptr<ChangeSource> source = make_source(input.take, strengths);
-  const ChangedClip changed = change_clip(input, *source, amount_of(strengths), request.timing);
-  return styled_result(input, request.style, changed.clip, changed.source_frames);
+  const bool loop = is_loop(measure_seam(input.clip, input.rig), input.clip.frame_time);
+  return styled_result(input, request.style,
+                       play(input, strengths_of(request), loop, request.timing));
 }
 
 std::unique_ptr<InstantAnswers> ChangeSystem::instants(double strength) const {
@@ -85,8 +115,7 @@ double ChangeSystem::step_us(const TestInput& input) const {
   const std::clock_t begin = std::clock();
   int frames = 0;
   while (frames < kMinFrames) {
-    const std::unique_ptr<ChangeSource> source = make_source(input.take, {{0, 1.0f}});
-    frames += change_clip(input, *source, 1, false).clip.frames;
+    frames += play(input, {{0, 1.0f}}, false, false).clip.frames;
   }
   return 1e6 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC / frames;
 }

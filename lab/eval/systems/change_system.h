@@ -1,6 +1,6 @@
 #pragma once
-// A system that answers instants with changes: how its answers become motion, and how long they
-// take, is the same for all of them.
+// A system that answers instants with changes, which our stages carry out: root motion, filter,
+// anatomy, balance, floor, flights and feet are the same for all systems.
 
 #include <memory>
 #include <string>
@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "eval/system.h"
-#include "eval/systems/change_source.h"
+#include "style/change_source.h"
+#include "style/restyle.h"
 
 namespace panache {
 
@@ -25,8 +26,8 @@ class ChangeSystem : public System {
   // Index and strength of each style in force.
   using Strengths = std::vector<std::pair<int, float>>;
   // Answers for one character that moves as `take` (numbers in layout positions, which outlives
-  // it). Systems that work online look at nothing of it.
-  virtual std::unique_ptr<ChangeSource> make_source(const Take& take,
+  // it), whose first frame is `begin` seconds of a clip. Systems that work online look at neither.
+  virtual std::unique_ptr<ChangeSource> make_source(const Take& take, double begin,
                                                     const Strengths& strengths) const = 0;
 
  protected:
@@ -35,6 +36,7 @@ class ChangeSystem : public System {
 
  private:
   Strengths strengths_of(const StyleRequest& request) const;
+  Restyled play(const TestInput& input, const Strengths& strengths, bool loop, bool timing) const;
 
   std::vector<std::string> styles_;
 };

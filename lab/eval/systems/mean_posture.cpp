@@ -2,52 +2,83 @@
 
 #include <algorithm>
 
-#include "eval/systems/model_system.h"
 #include "learn/samples.h"
 #include "recipes/recipes.h"
+#include "style/stages/strengths.h"
 
 namespace panache {
 namespace {
 
-// What every pair of a style has in the mean.
-struct MeanChange {
-  std::array<double, StyleDelta::kSize> change{};
-  double log_rate = 0, count = 0;
+class Constant final : public ChangeSource {
+ public:
+  explicit Constant(const AskedChange& asked) : asked_(asked) {}
+  AskedChange ask(const Seen&) override { return asked_; }
+
+ private:
+  AskedChange asked_;
 };
+
+std::vector<std::string> names_of(const std::vector<StyleName>& styles) {
+  std::vector<std::string> names;
+  for (const StyleName& style : styles) names.push_back(style.name);
+  return names;
+}
 
 }  // namespace
 
-std::vector<Model::ConstantStyle> mean_changes(const SystemData& data) {
-  std::vector<std::string> names;
-  names.reserve(data.styles.size());
-  for (const StyleName& style : data.styles) names.push_back(style.name);
-  const SampleSet set(data.takes, data.pairings, names, default_recipe(), false);
-  std::vector<MeanChange> sums(names.size());
+MeanPosture::MeanPosture(std::string name, const SystemData& data)
+    : ChangeSystem(std::move(name), names_of(data.styles)), means_(data.styles.size()) {
+  const SampleSet set(data.takes, data.pairings, styles(), default_recipe(), false);
+  struct Sum {
+    std::array<double, StyleDelta::kSize> change{};
+    double log_rate = 0, count = 0;
+  };
+  std::vector<Sum> sums(means_.size());
   for (size_t i = 0; i < set.samples().size(); ++i) {
-    MeanChange& sum = sums[set.samples()[i].style];
+    Sum& sum = sums[set.samples()[i].style];
     const std::span<const float> target = set.target(i);
     for (int n = 0; n < StyleDelta::kSize; ++n) sum.change[n] += target[n];
     sum.log_rate += set.samples()[i].log_rate;
     ++sum.count;
   }
-  std::vector<Model::ConstantStyle> styles;
   for (size_t s = 0; s < sums.size(); ++s) {
     const double count = std::max(1.0, sums[s].count);
-    Model::ConstantStyle& style = styles.emplace_back(
-        StyleInfo{names[s], data.styles[s].description, "", false, data.styles[s].group});
     std::array<float, StyleDelta::kSize> change;
     for (int n = 0; n < StyleDelta::kSize; ++n) {
       change[n] = static_cast<float>(sums[s].change[n] / count);
     }
-    style.change = unpack(change);
-    style.log_rate = static_cast<float>(sums[s].log_rate / count);
+    means_[s] = {unpack(change), static_cast<float>(sums[s].log_rate / count)};
   }
-  return styles;
+}
+
+SystemFacts MeanPosture::facts() const {
+  SystemFacts facts;
+  facts.parameters = means_.size() * (StyleDelta::kSize + 1);
+  return facts;
+}
+
+// As strengths act on a model's styles.
+std::unique_ptr<ChangeSource> MeanPosture::make_source(const Take&, double,
+                                                       const Strengths& strengths) const {
+  AskedChange asked;
+  std::array<float, StyleDelta::kSize> sum{};
+  for (const auto& [style, strength] : strengths) {
+    const Mean& mean = means_[style];
+    const float posture = posture_strength(strength);
+    std::array<float, StyleDelta::kSize> change;
+    pack(mean.change, change);
+    for (size_t n = 0; n < sum.size(); ++n) sum[n] += posture * change[n];
+    asked.log_rate += movement_strength(strength) * mean.log_rate;
+    const Stance stance = stance_of(mean.change);
+    asked.stance.heel += posture * stance.heel;
+    for (size_t f = 0; f < kFeet; ++f) asked.stance.turn[f] += posture * stance.turn[f];
+  }
+  asked.delta = unpack(sum);
+  return std::make_unique<Constant>(asked);
 }
 
 Result<std::unique_ptr<System>> make_mean_posture(const std::string& name, const SystemData& data) {
-  return std::unique_ptr<System>(
-      std::make_unique<ModelSystem>(name, Model::of_constants(mean_changes(data))));
+  return std::unique_ptr<System>(std::make_unique<MeanPosture>(name, data));
 }
 
 }  // namespace panache

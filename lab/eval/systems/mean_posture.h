@@ -2,14 +2,27 @@
 // The simplest system that is one: each style's mean change over its training pairs, whatever the
 // motion. Mean posture, mean tempo, no foot ever planted.
 
+#include "eval/systems/change_system.h"
 #include "eval/systems/table.h"
 
 namespace panache {
 
-// Its answer to each style, from the pairs of `data`.
-std::vector<Model::ConstantStyle> mean_changes(const SystemData& data);
+class MeanPosture final : public ChangeSystem {
+ public:
+  MeanPosture(std::string name, const SystemData& data);
 
-// Moves whole clips as a model of ours does.
+  SystemFacts facts() const override;
+  std::unique_ptr<ChangeSource> make_source(const Take& take, double begin,
+                                            const Strengths& strengths) const override;
+
+ private:
+  struct Mean {
+    StyleDelta change;
+    float log_rate = 0;  // Logarithm of input seconds per output second.
+  };
+  std::vector<Mean> means_;  // [styles]
+};
+
 Result<std::unique_ptr<System>> make_mean_posture(const std::string& name, const SystemData& data);
 
 }  // namespace panache

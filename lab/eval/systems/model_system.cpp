@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <ctime>
-#include <numeric>
 
 #include "eval/systems/styled_clip.h"
 #include "learn/samples.h"
+#include "style/networks.h"
 #include "style/restyle.h"
 
 namespace panache {
@@ -69,12 +69,7 @@ Result<RunResult> ModelSystem::run(const TestInput& input, const StyleRequest& r
   options.timing = request.timing;
   Result<Restyled> restyled = restyle(input.clip, input.rig, model_, tracks, options);
   if (!restyled) return located(input.take.row.path, restyled.error());
-
-  RunResult run_result =
-      styled_result(input, request.style, restyled->clip, restyled->source_frames);
-  run_result.gate = std::accumulate(restyled->gates.begin(), restyled->gates.end(), 0.0) /
-                    static_cast<double>(restyled->gates.size());
-  return run_result;
+  return styled_result(input, request.style, *restyled);
 }
 
 std::unique_ptr<InstantAnswers> ModelSystem::instants(double strength) const {

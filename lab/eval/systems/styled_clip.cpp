@@ -1,5 +1,7 @@
 #include "eval/systems/styled_clip.h"
 
+#include <numeric>
+
 #include "base/between.h"
 #include "eval/motion_metrics.h"
 
@@ -19,18 +21,19 @@ std::vector<float> take_sources(const TestInput& input, const std::vector<double
 
 }  // namespace
 
-RunResult styled_result(const TestInput& input, const std::string& style, const Clip& output,
-                        const std::vector<double>& source_frames) {
+RunResult styled_result(const TestInput& input, const std::string& style, const Restyled& output) {
   RunResult run_result;
   run_result.bone_length_error =
-      bone_length_error(output, input.clip, source_frames, input.rig.joints()[0]) *
+      bone_length_error(output.clip, input.clip, output.source_frames, input.rig.joints()[0]) *
       input.rig.scale();
+  run_result.gate = std::accumulate(output.gates.begin(), output.gates.end(), 0.0) /
+                    static_cast<double>(output.gates.size());
   StyledTake& styled = run_result.output;
-  styled.take = make_take(output, input.rig, PoseLayout::positions);
+  styled.take = make_take(output.clip, input.rig, PoseLayout::positions);
   styled.take.row = input.take.row;
   styled.take.row.style = style;
   styled.take.row.neutral = false;
-  styled.source_frames = take_sources(input, source_frames, styled.take.frames());
+  styled.source_frames = take_sources(input, output.source_frames, styled.take.frames());
   return run_result;
 }
 

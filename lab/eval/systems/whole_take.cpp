@@ -7,8 +7,8 @@
 
 namespace panache {
 
-WholeTakeSource::WholeTakeSource(const Take& take, std::vector<StyleDelta> changes)
-    : changes_(changes.size()) {
+WholeTakeSource::WholeTakeSource(const Take& take, double begin, std::vector<StyleDelta> changes)
+    : begin_(begin), changes_(changes.size()) {
   std::vector<HumanPositions> world;
   for (size_t f = 0; f < changes.size(); ++f) {
     pack(changes[f], changes_[f]);
@@ -17,11 +17,12 @@ WholeTakeSource::WholeTakeSource(const Take& take, std::vector<StyleDelta> chang
   contacts_ = detect_contacts(world, kTakeRate);
 }
 
-AskedChange WholeTakeSource::answer(std::span<const float>, float frame, float) {
+AskedChange WholeTakeSource::ask(const Seen& seen) {
   AskedChange out;
   if (changes_.empty()) return out;
   const float last = static_cast<float>(changes_.size() - 1);
-  const float at = std::clamp(frame, 0.0f, last);
+  const float at =
+      std::clamp(static_cast<float>((seen.time.clip - begin_) * kTakeRate), 0.0f, last);
   const size_t a = static_cast<size_t>(at), b = std::min(a + 1, changes_.size() - 1);
   const float t = at - static_cast<float>(a);
   std::array<float, StyleDelta::kSize> change;

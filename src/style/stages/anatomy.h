@@ -17,26 +17,27 @@ namespace panache {
 // that would be another motion. Where a change leaves a joint as it is, this does, too, to the bit.
 class Anatomy {
  public:
-  void reset() noexcept { shares_ = {}, thigh_shares_ = {}; }
+  void reset() noexcept { *this = {}; }
   void step(const BodyPose& body, const Rig& rig, const StepTime& time,
             BodyChange& change) noexcept;
   // What it would take back at each hip joint: a foot that is held may turn a thigh further than
   // the style did.
-  void watch_thighs(const BodyPose& body, const Rig& rig, const StepTime& time,
-                    const BodyChange& change) noexcept;
+  void watch_thighs(const BodyPose& body, const StepTime& time, const BodyChange& change) noexcept;
   // 0 to 1, eased, as last watched; left, right.
-  float thigh_share(size_t side) const noexcept { return thigh_shares_[side]; }
+  float thigh_share(size_t side) const noexcept { return thighs_[side]; }
 
   // Calls visit(member) for everything that tells one character from another.
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
-    visit(self.shares_), visit(self.thigh_shares_);
+    visit(self.torso_), visit(self.neck_), visit(self.shoulders_), visit(self.elbows_);
+    visit(self.wrists_), visit(self.hips_), visit(self.knees_), visit(self.thighs_);
   }
 
  private:
-  // Of torso, neck, then shoulder, elbow, wrist and hip, knee of either side: 0 to 1.
-  std::array<float, 12> shares_{};
-  std::array<float, 2> thigh_shares_{};  // Of left and right in watch_thighs().
+  // What is taken back at each joint, 0 to 1; of left and right.
+  float torso_ = 0, neck_ = 0;
+  std::array<float, 2> shoulders_{}, elbows_{}, wrists_{}, hips_{}, knees_{};
+  std::array<float, 2> thighs_{};  // By watch_thighs().
 };
 
 }  // namespace panache

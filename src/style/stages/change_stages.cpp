@@ -10,6 +10,7 @@
 namespace panache {
 
 void ChangeStages::reset() noexcept {
+  log_rate_ = 0;
   steps_.reset();
   seat_.reset();
   filter_.reset();
@@ -26,18 +27,19 @@ void ChangeStages::reset() noexcept {
   arms_.reset();
 }
 
-void ChangeStages::step(const AskedChange& asked, const ChangeControl& control,
+void ChangeStages::step(const AskedChange& asked, const StageOptions& options, float flight,
                         const Observer& observer, const InputWindow& window, const StepTime& time,
                         StageClock* clock) noexcept {
   const Observation& now = observer.now();
   steps_.step(now.world.positions, time);
   seat_.step(now.world.positions, time);
-  tempo_share_ = control.tempo_everywhere ? 1 : steps_.amount();
   filter_.step(asked.delta, asked.log_rate, asked.gate, now.body_frame, time);
+  const float tempo = options.tempo_everywhere ? 1 : steps_.amount();
+  log_rate_ = bounded_log_rate(asked.shape->timing * tempo * filter_.log_rate()) * (1 - flight);
   tell(clock, Stage::filter);
-  if (control.root) root_.step(filter_.delta(), asked.gate, observer, window, time);
+  if (options.root) root_.step(filter_.delta(), asked.gate, observer, window, time);
   tell(clock, Stage::root);
-  Shape shape = control.shape;
+  Shape shape = *asked.shape;
   const float share = share_above_floor(now.world.positions);
   for (float& region : shape.regions) region *= share;
   shape.regions[static_cast<size_t>(Region::legs)] *= 1 - seat_.amount();
@@ -55,12 +57,12 @@ void ChangeStages::step(const AskedChange& asked, const ChangeControl& control,
   limit_fold(now.world, joints, change_);
   keep_balance(now.world, joints, change_);
   tell(clock, Stage::balance);
-  legs_.step(now.world, control.amount, steps_.amount(), {}, time, joints, change_);
+  legs_.step(now.world, asked.amount, steps_.amount(), {}, time, joints, change_);
   tell(clock, Stage::legs);
-  const float carried = share * (1 - seat_.amount()) * (1 - control.flight) * (1 - lifted);
-  floor_.step(now.world, joints, control.amount, carried, time, change_);
+  const float carried = share * (1 - seat_.amount()) * (1 - flight) * (1 - lifted);
+  floor_.step(now.world, joints, asked.amount, carried, time, change_);
   tell(clock, Stage::floor);
-  fall_.step(control.flight, time, change_);
+  fall_.step(flight, time, change_);
   tell(clock, Stage::fall);
   for (size_t f = 0; f < kFeet; ++f) {
     const float height = now.world.positions[index(kToes[f])].y;
@@ -68,36 +70,31 @@ void ChangeStages::step(const AskedChange& asked, const ChangeControl& control,
     // Nor is a foot held that turns its thigh further than a hip can.
     contacts_[f] *= (1 - anatomy_.thigh_share(f)) * (1 - lifted);
   }
-  const float amount = control.amount * control.shape.foot_lock;
-  if (control.foot_lock) {
-    stance_.step(now.world, joints, asked.stance, amount * (1 - control.flight) * (1 - lifted),
+  const float amount = asked.amount * asked.shape->foot_lock;
+  if (options.foot_lock) {
+    stance_.step(now.world, joints, asked.stance, amount * (1 - flight) * (1 - lifted),
                  steps_.amount(), time, change_);
     // A foot that rests is planted, whatever the network makes of it.
     for (size_t f = 0; f < kFeet; ++f) contacts_[f] = std::max(contacts_[f], stance_.held()[f]);
   }
   tell(clock, Stage::stance);
-  if (control.foot_lock) {
+  if (options.foot_lock) {
     foot_lock_.step(now.world, joints, contacts_, stance_.held(), amount,
                     {static_cast<float>(time.input), time.output}, change_);
-    anatomy_.watch_thighs(now.world, observer.rig(), time, change_);
+    anatomy_.watch_thighs(now.world, time, change_);
   }
   changed_joints(now.world, change_, joints);
-  held_legs_.step(now.world, control.amount, steps_.amount(), contacts_, time, joints, change_);
+  held_legs_.step(now.world, asked.amount, steps_.amount(), contacts_, time, joints, change_);
   tell(clock, Stage::feet);
   // An arm that keeps none of the style keeps its input, too.
   const auto arm = [&](Region region) {
-    return control.amount * std::min(1.0f, control.shape.regions[static_cast<size_t>(region)]);
+    return asked.amount * std::min(1.0f, asked.shape->regions[static_cast<size_t>(region)]);
   };
   const std::array<float, 2> arms = {arm(Region::left_arm), arm(Region::right_arm)};
   hands_.step(now.world, arms, time, joints, change_);
   tell(clock, Stage::hands);
   arms_.step(now.world, arms, hands_.holds(), time, joints, change_);
   tell(clock, Stage::arms);
-}
-
-double ChangeStages::rate(float timing, float flight) const noexcept {
-  const float log_rate = bounded_log_rate(timing * tempo_share_ * filter_.log_rate());
-  return static_cast<double>(exponential(log_rate * (1 - flight)));
 }
 
 }  // namespace panache

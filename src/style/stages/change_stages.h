@@ -5,6 +5,7 @@
 #include <array>
 #include <span>
 
+#include "base/elementary.h"
 #include "pose/foot_lock.h"
 #include "pose/observer.h"
 #include "pose/style_delta.h"
@@ -37,13 +38,12 @@ struct AskedChange {
   float gate = 1;                        // How well the motion is known, 0 to 1.
   Stance stance = {};                    // Of a foot that stands.
   const GesturePose* gesture = nullptr;  // On top of it; null for none.
+  const Shape* shape = &kPlainShape;     // How it is given.
+  float amount = 1;  // How much of any style is in force, see EasedStrengths::amount().
 };
 
-// How it is carried out.
-struct ChangeControl {
-  const Shape& shape;
-  float amount = 1;  // How much of any style is in force, see EasedStrengths::amount().
-  float flight = 0;  // See FlightWatch::amount().
+// How changes are carried out; as StylizerOptions has it.
+struct StageOptions {
   bool root = true, foot_lock = true;
   bool tempo_everywhere = false;  // Otherwise only where the feet step.
 };
@@ -54,18 +54,18 @@ class ChangeStages {
 
   // Forgets the motion so far.
   void reset() noexcept;
-  // `clock` may be null.
-  void step(const AskedChange& asked, const ChangeControl& control, const Observer& observer,
-            const InputWindow& window, const StepTime& time, StageClock* clock) noexcept;
+  // `flight`: see FlightWatch::amount(); `clock` may be null.
+  void step(const AskedChange& asked, const StageOptions& options, float flight,
+            const Observer& observer, const InputWindow& window, const StepTime& time,
+            StageClock* clock) noexcept;
 
   // How much something besides its feet holds the body, at the last step; see SeatWatch.
   float seated() const noexcept { return seat_.amount(); }
   // At the last step: what is to be done to the input, the probability that each foot is planted,
-  // and input seconds per output second, `timing` of the change's own
-  // tempo; 1 in a flight, and where the feet stand.
+  // and input seconds per output second; 1 in a flight, and where the feet stand.
   const BodyChange& change() const noexcept { return change_; }
   std::span<const float, kFeet> contacts() const noexcept { return contacts_; }
-  double rate(float timing, float flight) const noexcept;
+  double rate() const noexcept { return static_cast<double>(exponential(log_rate_)); }
   StageFacts facts() const noexcept {
     const HandHolds holds = hands_.holds();
     return {seat_.amount(), std::max({holds.together, holds.by_body[0], holds.by_body[1]})};
@@ -75,7 +75,7 @@ class ChangeStages {
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
     visit(self.contacts_), visit(self.change_);
-    visit(self.tempo_share_);
+    visit(self.log_rate_);
     StepWatch::visit_state(self.steps_, visit);
     SeatWatch::visit_state(self.seat_, visit);
     OutputFilter::visit_state(self.filter_, visit);
@@ -95,7 +95,7 @@ class ChangeStages {
  private:
   StepWatch steps_;
   SeatWatch seat_;
-  float tempo_share_ = 1;  // Of the change's own tempo, at the last step.
+  float log_rate_ = 0;  // See rate(), at the last step.
   OutputFilter filter_;
   RootMotion root_;
   Shaping shaping_;

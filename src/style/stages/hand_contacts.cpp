@@ -6,7 +6,6 @@
 #include "base/elementary.h"
 #include "pose/limb.h"
 #include "pose/changed_joints.h"
-#include "pose/two_bone.h"
 #include "base/smooth_step.h"
 
 namespace panache {
@@ -36,11 +35,6 @@ constexpr float kTakeSeconds = 0.08f, kHandRestSeconds = 0.15f, kGiveSeconds = 0
 constexpr float kStray = 0.06f, kMaxStray = 0.12f;
 // A wrist is turned by up to this against its forearm to keep to what the hand touches, radians.
 constexpr float kWristTurn = 0.6f;
-// Cosines of how far an arm turns from which on its elbow no longer follows the style, or fully
-// does.
-constexpr float kFarTurn = 0, kNearTurn = 0.85f;
-constexpr float kElbowSeconds = 0.1f;  // Time constant of the elbow's side,
-constexpr float kElbowRate = 5;        // and how fast it turns about its arm at most, rad/s.
 // A contact folds no arm further than the style does, or to this share of the input's, where that
 // is below this share of its length: an elbow has no side of a wrist that is at the shoulder.
 constexpr float kKeptFold = 0.9f, kFolded = 0.4f;
@@ -68,29 +62,6 @@ float arm_length(const HumanPositions& joints, int side) {
 Vec3 unfolded(Vec3 way, Vec3 out, float least) {
   const float lacks = least * least - dot(way, way), along = dot(way, out);
   return lacks > 0 ? way + out * (std::sqrt(along * along + lacks) - along) : way;
-}
-
-// Brings a wrist to `target`, with the elbow on the style's side; or on that of `elbow`, where the
-// input has it, the more, the further the arm turns: what is left of a side after that is chance.
-// `last` starts on the style's side, goes along with the arm, and turns about it towards that side.
-void reach(int side, Vec3 target, Vec3 elbow, const StepTime& time, ArmSide& last,
-           HumanPositions& joints, BodyChange& change) {
-  const LimbJoints arm = arm_joints(side);
-  const Vec3 root = joints[arm.root], end = joints[arm.end];
-  const Vec3 from = normalized(end - root), to = normalized(target - root);
-  const Quat swing = rotation_between(from, to);
-  const float own = smooth_step((dot(from, to) - kFarTurn) / (kNearTurn - kFarTurn));
-  const Vec3 style = rotate(swing, normalized(bend_of(root, joints[arm.middle], end, arm.hint)));
-  const Vec3 input = normalized(bend_of(root, elbow, target, arm.hint));
-  const Vec3 wanted = normalized(lerp(input, style, own), input);
-  if (last.side == Vec3{}) last = {style, to};
-  const Vec3 carried = rotate(rotation_between(last.way, to), last.side);
-  const Vec3 now = normalized(carried - to * dot(carried, to), style);
-  const float turn = arc_tangent(dot(cross(now, wanted), to), dot(now, wanted));
-  const float most = kElbowRate * time.output;
-  last = {rotate(axis_angle(to, std::clamp(turn * time.gain(kElbowSeconds), -most, most)), now),
-          to};
-  aim_limb(arm, target, last.side, joints, change);
 }
 
 void ease(float& hold, float wanted, float take, float give) {

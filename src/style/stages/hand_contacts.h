@@ -5,15 +5,10 @@
 #include <cstdint>
 
 #include "pose/hand_contacts.h"
+#include "style/stages/reach.h"
 #include "style/stages/step_time.h"
 
 namespace panache {
-
-// The side of its arm to which an elbow went, and the direction from shoulder to wrist: unit
-// vectors, heading frame; 0 without a contact.
-struct ArmSide {
-  Vec3 side, way;
-};
 
 // Where a wrist is near the other wrist, the head, the hips or a thigh in the input, the arm
 // reaches so that it is as far from there with the change as in the input. A contact eases in and

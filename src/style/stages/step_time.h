@@ -27,6 +27,7 @@ struct StepTime {
   float output = 0;                // and of the viewer.
   bool first = true;               // No step before this one counts.
   const NextPose* next = nullptr;  // After a first step, where it is known.
+  double clip = 0;                 // Where a clip that is played is, seconds since its first frame.
 
   // The gain of a filter with this time constant; the first step goes all the way.
   float gain(float time_constant) const noexcept {

@@ -1,5 +1,5 @@
 #pragma once
-// First stage of a step: strengths and shape as they are in force, eased.
+// Second stage: strengths and shape as they are in force, eased.
 
 #include <span>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-// Second stage: the window that the networks see.
+// First stage of a step: the window that the networks see.
 
 #include <array>
 #include <span>

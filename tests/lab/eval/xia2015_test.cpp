@@ -107,16 +107,17 @@ TEST_F(Xia, half_of_a_style_is_half_its_change_and_none_is_none) {
 }
 
 TEST_F(Xia, two_styles_at_once_are_mixed_in_their_parameters) {
-  const auto mixed = system_->make_source(pairs_.takes[0], {{0, 0.25f}, {1, 0.75f}});
-  const auto old = system_->make_source(pairs_.takes[0], {{0, 1.0f}});
-  const auto wild = system_->make_source(pairs_.takes[0], {{1, 1.0f}});
+  const auto mixed = system_->make_source(pairs_.takes[0], 0, {{0, 0.25f}, {1, 0.75f}});
+  const auto old = system_->make_source(pairs_.takes[0], 0, {{0, 1.0f}});
+  const auto wild = system_->make_source(pairs_.takes[0], 0, {{1, 1.0f}});
   std::vector<float> window(size_t(kWindowPoses) * pose_feature_count(PoseLayout::positions));
   for (float at = 10; at < 40; ++at) {
     take_window(pairs_.takes[0], at, pose_feature_count(PoseLayout::positions), window);
     std::array<float, StyleDelta::kSize> both, a, b;
-    pack(mixed->answer(window, at, 1 / 30.0f).delta, both);
-    pack(old->answer(window, at, 1 / 30.0f).delta, a);
-    pack(wild->answer(window, at, 1 / 30.0f).delta, b);
+    const Seen seen = {window, nullptr, {1 / 30.0, 1 / 30.0f, at == 10}};
+    pack(mixed->ask(seen).delta, both);
+    pack(old->ask(seen).delta, a);
+    pack(wild->ask(seen).delta, b);
     for (int n = 0; n < StyleDelta::kSize; ++n) {
       ASSERT_NEAR(both[n], 0.25f * a[n] + 0.75f * b[n], 1e-5) << n;
     }
@@ -124,9 +125,10 @@ TEST_F(Xia, two_styles_at_once_are_mixed_in_their_parameters) {
 }
 
 TEST_F(Xia, it_looks_at_no_frame_to_come) {
-  const TestInput whole = test::swinging_input(90, 0.3f);
-  // On the rig of the whole: a rig is calibrated on all frames of its clip.
-  const Clip first_frames = test::swinging_clip(60, 0.3f);
+  const TestInput whole = test::swinging_input(95, 0.3f);
+  // On the rig of the whole: a rig is calibrated on all frames of its clip. Neither is a loop, of
+  // which all frames are looked at.
+  const Clip first_frames = test::swinging_clip(50, 0.3f);
   const TestInput cut = {first_frames, whole.rig,
                          make_take(first_frames, whole.rig, PoseLayout::positions)};
   const StyleRequest request{"old", {{"old", 1.0f}}, false};
@@ -163,12 +165,13 @@ TEST_F(Xia, the_tempo_is_that_of_the_neighbours) {
   write_numbers(PoseLayout::positions, pairs.takes[1]);
   pairs.pairings = pair_takes(pairs.takes, {1, 2}, {0});
   const auto system = *Xia2015::create("xia2015", pairs.data());
-  const auto source = system->make_source(pairs.takes[0], {{0, 1.0f}});
+  const auto source = system->make_source(pairs.takes[0], 0, {{0, 1.0f}});
   std::vector<float> window(size_t(kWindowPoses) * pose_feature_count(PoseLayout::positions));
   double sum = 0;
   for (float at = 30; at < 120; ++at) {
     take_window(pairs.takes[0], at, pose_feature_count(PoseLayout::positions), window);
-    sum += std::exp(source->answer(window, at, 1 / 30.0f).log_rate) / 90;
+    const Seen seen = {window, nullptr, {1 / 30.0, 1 / 30.0f, at == 30}};
+    sum += std::exp(source->ask(seen).log_rate) / 90;
   }
   EXPECT_NEAR(sum, 1.5, 0.05);  // The path advances by one frame or by two.
 }

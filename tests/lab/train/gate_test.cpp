@@ -7,6 +7,7 @@
 
 #include "base/random.h"
 #include "make_model.h"
+#include "style/networks.h"
 
 namespace panache {
 namespace {

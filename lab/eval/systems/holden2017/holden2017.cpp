@@ -112,9 +112,10 @@ SystemFacts Holden2017::facts() const {
   return facts;
 }
 
-std::unique_ptr<ChangeSource> Holden2017::make_source(const Take& take,
+std::unique_ptr<ChangeSource> Holden2017::make_source(const Take& take, double begin,
                                                       const Strengths& strengths) const {
-  if (strengths.empty()) return std::make_unique<WholeTakeSource>(take, std::vector<StyleDelta>());
+  if (strengths.empty())
+    return std::make_unique<WholeTakeSource>(take, begin, std::vector<StyleDelta>());
   const torch::NoGradGuard no_gradients;
   const torch::Tensor rows = units_.normalise(motion_rows(take)).unsqueeze(0);
   std::vector<std::array<float, StyleDelta::kSize>> sums(take.frames());
@@ -130,7 +131,7 @@ std::unique_ptr<ChangeSource> Holden2017::make_source(const Take& take,
   std::vector<StyleDelta> changes;
   changes.reserve(sums.size());
   for (const auto& sum : sums) changes.push_back(unpack(sum));
-  return std::make_unique<WholeTakeSource>(take, std::move(changes));
+  return std::make_unique<WholeTakeSource>(take, begin, std::move(changes));
 }
 
 Result<std::unique_ptr<System>> make_holden2017(const std::string& name, const SystemData& data) {

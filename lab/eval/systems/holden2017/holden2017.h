@@ -22,7 +22,7 @@ class Holden2017 : public ChangeSystem {
                                                     const HoldenSettings& settings = {});
 
   SystemFacts facts() const override;
-  std::unique_ptr<ChangeSource> make_source(const Take& take,
+  std::unique_ptr<ChangeSource> make_source(const Take& take, double begin,
                                             const Strengths& strengths) const override;
 
  private:

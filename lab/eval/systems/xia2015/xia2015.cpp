@@ -60,24 +60,21 @@ class LocalSource : public ChangeSource {
   LocalSource(const WindowKey& key, std::vector<Style> styles, const LocalSettings& settings)
       : key_(key), styles_(std::move(styles)), settings_(settings) {}
 
-  void reset() override {
-    for (Style& style : styles_) style.recent.clear();
-  }
-
-  AskedChange answer(std::span<const float> window, float, float seconds) override {
+  AskedChange ask(const Seen& seen) override {
     static const std::vector<float> units = default_recipe().output_scale();
     AskedChange out;
     std::array<float, kOutputs> change{};
     std::array<float, kKeySize> key;
-    if (!styles_.empty()) key_.project(window, key);
+    if (!styles_.empty()) key_.project(seen.window, key);
     float total = 0;
     for (Style& style : styles_) {
+      if (seen.time.first) style.recent.clear();
       const size_t most = std::max<size_t>(1, style.database->examples().size() / 5);
       style.database->find(key, std::min(settings_.neighbours, most), neighbours_);
-      const std::optional<Output> recent = style.recent.before_next(seconds);
+      const std::optional<Output> recent = style.recent.before_next(seen.time.output);
       const LocalAnswer local =
           answer_locally(*style.database, neighbours_, key, recent ? &*recent : nullptr, settings_);
-      style.recent.push(local.output, seconds);
+      style.recent.push(local.output, seen.time.output);
       for (size_t n = 0; n < change.size(); ++n) {
         change[n] += style.strength * local.output[n] * units[n];
       }
@@ -138,7 +135,8 @@ SystemFacts Xia2015::facts() const {
   return facts;
 }
 
-std::unique_ptr<ChangeSource> Xia2015::make_source(const Take&, const Strengths& strengths) const {
+std::unique_ptr<ChangeSource> Xia2015::make_source(const Take&, double,
+                                                   const Strengths& strengths) const {
   std::vector<LocalSource::Style> styles;
   for (const auto& [style, strength] : strengths) {
     if (strength != 0) styles.push_back({&databases_[style], strength, {}});

@@ -15,7 +15,7 @@ class Xia2015 : public ChangeSystem {
                                                  const xia2015::LocalSettings& settings = {});
 
   SystemFacts facts() const override;  // Bytes: of the examples of all styles.
-  std::unique_ptr<ChangeSource> make_source(const Take& take,
+  std::unique_ptr<ChangeSource> make_source(const Take& take, double begin,
                                             const Strengths& strengths) const override;
 
  private:

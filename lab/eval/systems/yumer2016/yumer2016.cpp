@@ -65,9 +65,10 @@ SystemFacts Yumer2016::facts() const {
   return facts;
 }
 
-std::unique_ptr<ChangeSource> Yumer2016::make_source(const Take& take,
+std::unique_ptr<ChangeSource> Yumer2016::make_source(const Take& take, double begin,
                                                      const Strengths& strengths) const {
-  if (strengths.empty()) return std::make_unique<WholeTakeSource>(take, std::vector<StyleDelta>());
+  if (strengths.empty())
+    return std::make_unique<WholeTakeSource>(take, begin, std::vector<StyleDelta>());
   const std::vector<Signals> motion = joint_signals(take);
   const int frames = take.frames();
   std::vector<Spectrum> windows(window_count(frames));
@@ -88,7 +89,7 @@ std::unique_ptr<ChangeSource> Yumer2016::make_source(const Take& take,
   std::vector<StyleDelta> changes;
   changes.reserve(static_cast<size_t>(frames));
   for (int f = 0; f < frames; ++f) changes.push_back(change_of(motion[f], styled[f]));
-  return std::make_unique<WholeTakeSource>(take, std::move(changes));
+  return std::make_unique<WholeTakeSource>(take, begin, std::move(changes));
 }
 
 Result<std::unique_ptr<System>> make_yumer2016(const std::string& name, const SystemData& data) {

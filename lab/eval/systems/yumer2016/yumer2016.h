@@ -15,7 +15,7 @@ class Yumer2016 : public ChangeSystem {
   static Result<std::unique_ptr<Yumer2016>> create(const std::string& name, const SystemData& data);
 
   SystemFacts facts() const override;  // Bytes: of the references.
-  std::unique_ptr<ChangeSource> make_source(const Take& take,
+  std::unique_ptr<ChangeSource> make_source(const Take& take, double begin,
                                             const Strengths& strengths) const override;
 
  private:

@@ -1,4 +1,4 @@
-#include "style/restyle_loop.h"
+#include "style/play_loop.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,14 +55,14 @@ std::vector<FootContacts> input_contacts(const Clip& clip, const Rig& rig, int f
 // Plays the rounds of a repeated loop.
 class LoopPlayer {
  public:
-  LoopPlayer(const Clip& looped, const Rig& rig, int first, int length, bool timing,
-             ClipStepper stepper)
+  LoopPlayer(const Clip& looped, const Rig& rig, int first, int length, ChangeSource& source,
+             const RestyleOptions& options)
       : looped_(looped),
         reader_(rig),
         first_(first),
         length_(length),
-        timing_(timing),
-        stepper_(std::move(stepper)) {}
+        timing_(options.timing),
+        stepper_(looped, rig, source, options.stylizer) {}
 
   // The first round, at the tempo that the styles ask for.
   void play_free() {
@@ -102,12 +102,11 @@ class LoopPlayer {
     stepper_.step(frame, started_ ? frame - frame_ : 0, (first_ + phase) * looped_.frame_time);
     started_ = true;
     frame_ = frame;
-    const Stylizer& stylizer = stepper_.stylizer();
-    LoopStep out{{phase, timing_ ? stylizer.rate() : 1.0, stepper_.flight()},
-                 stylizer.change(),
+    LoopStep out{{phase, timing_ ? stepper_.rate() : 1.0, stepper_.flight()},
+                 stepper_.change(),
                  stepper_.contacts(),
-                 stylizer.gate(),
-                 stylizer.stage_facts(),
+                 stepper_.gate(),
+                 stepper_.stage_facts(),
                  {}};
     // The body as it came out, seen from its own root.
     BodyPose body;
@@ -153,21 +152,14 @@ void append_round(const Clip& closed, const Rig& rig, int first, const LoopPlaye
     BodyChange change = round[i].change;
     change.translation = rotate(back, change.translation) - Vec3{start.x, 0, start.z};
     writer.write(pose, body, change, pose);
-    result.clip.append(pose);
-    result.source_frames.push_back(frame);
-    result.contacts.push_back(round[i].contacts);
-    result.gates.push_back(round[i].gate);
-    result.stages.push_back(round[i].stages);
+    result.append(pose, frame, round[i].contacts, round[i].gate, round[i].stages);
   }
 }
 
 }  // namespace
 
-Result<Restyled> restyle_loop(const Clip& clip, const Rig& rig,
-                              const std::shared_ptr<const Model>& model,
-                              const std::vector<StrengthTrack>& tracks,
-                              const RestyleOptions& options,
-                              const std::function<void(double)>& progress) {
+Restyled play_loop(const Clip& clip, const Rig& rig, ChangeSource& source,
+                   const RestyleOptions& options, const std::function<void(double)>& progress) {
   const int first = std::min(rig.first_frame(), clip.frames - 1);
   Clip closed = clip;
   close_loop(rig, first, input_contacts(clip, rig, first), closed);
@@ -176,10 +168,7 @@ Result<Restyled> restyle_loop(const Clip& clip, const Rig& rig,
   const double seconds = seam.frames() * clip.frame_time;
   const int rounds = kFewestRounds + static_cast<int>(std::ceil(kSettleSeconds / seconds));
   const Clip looped = repeat_loop(closed, rig, first, travel, rounds + 1);
-  Result<ClipStepper> stepper = ClipStepper::create(looped, rig, model, tracks, options.stylizer);
-  if (!stepper) return stepper.error();
-
-  LoopPlayer player(looped, rig, first, seam.frames(), options.timing, *std::move(stepper));
+  LoopPlayer player(looped, rig, first, seam.frames(), source, options);
   player.play_free();
   int number = 0;
   do {
@@ -187,10 +176,7 @@ Result<Restyled> restyle_loop(const Clip& clip, const Rig& rig,
     if (progress) progress(static_cast<double>(number) / rounds);
   } while (number + 1 < rounds && !player.has_settled());
 
-  Restyled result;
-  result.clip.skeleton = clip.skeleton;
-  result.clip.frame_time = clip.frame_time;
-  append_calibration(clip, first, result);
+  Restyled result = Restyled::begin(clip, first);
   append_round(closed, rig, first, player, player.closed_round(number),
                rotation_y(-travel.turned(number)), result);
   result.loop = {true, number + 1, player.has_settled(), measure_seam(clip, rig).gap,

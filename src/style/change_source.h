@@ -1,0 +1,39 @@
+#pragma once
+// What asks for the change of a body, instant by instant: a model's networks (NetworkSource), or a
+// system that they are compared with. A Stepper carries out the change.
+
+#include <span>
+
+#include "pose/features.h"
+#include "pose/history.h"
+#include "style/stages/change_stages.h"
+#include "style/stages/gesture_player.h"
+
+namespace panache {
+
+// One instant of the input, good for one call.
+struct Seen {
+  // As PoseHistory::window() gives it, in the source's layout.
+  std::span<const float> window;
+  const HumanPositions* body = nullptr;  // Canonical joints in the body frame, metres.
+  StepTime time;                         // `first`: this does not continue the motion before it.
+  GesturePlayer::Ground ground = {};
+  StageClock* clock = nullptr;  // May be null.
+
+  // The root features of the window's newest pose.
+  std::span<const float, kRootFeatures> root() const noexcept {
+    return window.first(window.size() / kWindowPoses).last<kRootFeatures>();
+  }
+};
+
+// Of one character; it may keep what it has asked for.
+class ChangeSource {
+ public:
+  virtual ~ChangeSource() = default;
+  // Of the windows that it looks at.
+  virtual PoseLayout layout() const { return PoseLayout::positions; }
+  // The change at the next instant. What it points to stays until the next call.
+  virtual AskedChange ask(const Seen& seen) = 0;
+};
+
+}  // namespace panache

@@ -1,0 +1,57 @@
+#pragma once
+// A model as a source of change: its networks by the strengths of its styles, and its gestures.
+
+#include "style/change_source.h"
+#include "style/networks.h"
+#include "style/stages/strengths.h"
+#include "style/stylizer_options.h"
+
+namespace panache {
+
+// The constructor allocates; nothing else does, and nothing fails.
+class NetworkSource final : public ChangeSource {
+ public:
+  NetworkSource(std::shared_ptr<const Model> model, const StylizerOptions& options);
+
+  // See Stylizer. The strengths are read at the next instant, [styles].
+  void set_strengths(std::span<const float> strengths) noexcept { wanted_ = strengths; }
+  void set_shape(const Shape& shape) noexcept { shape_ = shape; }
+  bool trigger(int style, int gesture) noexcept;
+  void reset_gestures() noexcept { gestures_.reset(options_.gesture_seed); }
+
+  PoseLayout layout() const override { return model().layout(); }
+  AskedChange ask(const Seen& seen) noexcept override;
+  // The two parts of ask(), so that a crowd's networks can be evaluated together between them.
+  StyleNetworks::Pass begin(const Seen& seen) noexcept;
+  AskedChange finish(const Seen& seen) noexcept;
+
+  // At the last instant; see Stylizer.
+  float amount() const noexcept { return strengths_.amount(); }
+  float gate() const noexcept { return networks_.gate(); }
+  const GesturePose* gesture() const noexcept { return gestures_.now(); }
+  const Model& model() const noexcept { return networks_.model(); }
+
+  // Names what is read and written outside this object.
+  void add_memory(Prefetch& prefetch) const noexcept { networks_.add_memory(prefetch); }
+
+  // Calls visit(member) for everything that tells one character from another.
+  template <class Self, class Visit>
+  static void visit_state(Self& self, Visit&& visit) {
+    EasedStrengths::visit_state(self.strengths_, visit);
+    StyleNetworks::visit_state(self.networks_, visit);
+    GesturePlayer::visit_state(self.gestures_, visit);
+  }
+
+ private:
+  struct {
+    float gesture_rate;
+    uint32_t gesture_seed;
+  } options_;
+  std::span<const float> wanted_;
+  Shape shape_;  // As asked for.
+  EasedStrengths strengths_;
+  StyleNetworks networks_;
+  GesturePlayer gestures_;
+};
+
+}  // namespace panache
