@@ -15,6 +15,8 @@ struct StylizerOptions {
   // Time constant of the filter on the change, never on the input; see OutputFilter.
   float smoothing_seconds = 0.04f;
   bool foot_lock = true;
+  // Hands keep what they touch. Not where a style is taken off: it may be what puts them there.
+  bool hold_hands = true;
   bool root = true;  // Style the root motion, not only the pose.
   // The style's tempo also where the feet stand; otherwise such motion keeps its input's time.
   bool tempo_everywhere = false;

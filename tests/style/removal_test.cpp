@@ -47,10 +47,23 @@ TEST_F(RemovalTest, a_model_that_puts_styles_on_removes_none) {
   EXPECT_FALSE(find_removal(*remover(), "oldd").ok());
 }
 
-TEST_F(RemovalTest, without_a_style_the_result_is_that_of_the_remover_alone) {
+// As it is taken off: the style may be what puts hands where they are.
+RestyleOptions loose_hands() {
+  RestyleOptions options;
+  options.stylizer.hold_hands = false;
+  return options;
+}
+
+TEST_F(RemovalTest, without_a_style_the_result_is_that_of_the_remover_alone_with_loose_hands) {
   const auto off = remover();
-  const Restyled once = must(restyle(clip_, rig_, off, {{0, {{0, 1}}}}));
-  const Restyled removed = must(restyle_without(clip_, rig_, {off, 0}, model_, {{1, {{0, 0}}}}));
+  Clip phoning = clip_;  // The left hand at the head.
+  for (int f = 0; f < phoning.frames; ++f) {
+    phoning.pose(f).rotations[index(HumanJoint::left_lower_arm)] = axis_angle({0, 1, 0}, -2.6f);
+  }
+  const Restyled once = must(restyle(phoning, rig_, off, {{0, {{0, 1}}}}, loose_hands()));
+  EXPECT_NE(must(restyle(phoning, rig_, off, {{0, {{0, 1}}}})).clip.rotations,
+            once.clip.rotations);
+  const Restyled removed = must(restyle_without(phoning, rig_, {off, 0}, model_, {{1, {{0, 0}}}}));
   EXPECT_EQ(removed.clip.rotations, once.clip.rotations);
   EXPECT_EQ(removed.source_frames, once.source_frames);
 }

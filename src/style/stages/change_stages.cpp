@@ -91,7 +91,7 @@ void ChangeStages::step(const AskedChange& asked, const StageOptions& options, f
     return asked.amount * std::min(1.0f, asked.shape->regions[static_cast<size_t>(region)]);
   };
   const std::array<float, 2> arms = {arm(Region::left_arm), arm(Region::right_arm)};
-  hands_.step(now.world, arms, time, joints, change_);
+  if (options.hold_hands) hands_.step(now.world, arms, time, joints, change_);
   tell(clock, Stage::hands);
   arms_.step(now.world, arms, hands_.holds(), time, joints, change_);
   tell(clock, Stage::arms);

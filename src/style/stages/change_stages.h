@@ -44,7 +44,7 @@ struct AskedChange {
 
 // How changes are carried out; as StylizerOptions has it.
 struct StageOptions {
-  bool root = true, foot_lock = true;
+  bool root = true, foot_lock = true, hold_hands = true;
   bool tempo_everywhere = false;  // Otherwise only where the feet step.
 };
 
