@@ -1,6 +1,7 @@
 #include "eval/systems/mean_posture.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "learn/samples.h"
 #include "recipes/recipes.h"
@@ -11,11 +12,14 @@ namespace {
 
 class Constant final : public ChangeSource {
  public:
-  explicit Constant(const AskedChange& asked) : asked_(asked) {}
+  Constant(const AskedChange& asked, const Shape& shape) : asked_(asked), shape_(shape) {
+    asked_.shape = &shape_;
+  }
   AskedChange ask(const Seen&) override { return asked_; }
 
  private:
   AskedChange asked_;
+  Shape shape_;
 };
 
 std::vector<std::string> names_of(const std::vector<StyleName>& styles) {
@@ -61,6 +65,7 @@ SystemFacts MeanPosture::facts() const {
 std::unique_ptr<ChangeSource> MeanPosture::make_source(const Take&, double,
                                                        const Strengths& strengths) const {
   AskedChange asked;
+  float all_posture = 0, all_movement = 0;
   std::array<float, StyleDelta::kSize> sum{};
   for (const auto& [style, strength] : strengths) {
     const Mean& mean = means_[style];
@@ -69,12 +74,16 @@ std::unique_ptr<ChangeSource> MeanPosture::make_source(const Take&, double,
     pack(mean.change, change);
     for (size_t n = 0; n < sum.size(); ++n) sum[n] += posture * change[n];
     asked.log_rate += movement_strength(strength) * mean.log_rate;
+    all_posture += std::abs(posture);
+    all_movement += std::abs(movement_strength(strength));
     const Stance stance = stance_of(mean.change);
     asked.stance.heel += posture * stance.heel;
     for (size_t f = 0; f < kFeet; ++f) asked.stance.turn[f] += posture * stance.turn[f];
   }
   asked.delta = unpack(sum);
-  return std::make_unique<Constant>(asked);
+  Shape shape;  // As EasedStrengths::shape().
+  if (all_movement < all_posture) shape.dynamics = all_movement / all_posture;
+  return std::make_unique<Constant>(asked, shape);
 }
 
 Result<std::unique_ptr<System>> make_mean_posture(const std::string& name, const SystemData& data) {
