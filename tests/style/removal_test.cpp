@@ -61,8 +61,7 @@ TEST_F(RemovalTest, without_a_style_the_result_is_that_of_the_remover_alone_with
     phoning.pose(f).rotations[index(HumanJoint::left_lower_arm)] = axis_angle({0, 1, 0}, -2.6f);
   }
   const Restyled once = must(restyle(phoning, rig_, off, {{0, {{0, 1}}}}, loose_hands()));
-  EXPECT_NE(must(restyle(phoning, rig_, off, {{0, {{0, 1}}}})).clip.rotations,
-            once.clip.rotations);
+  EXPECT_NE(must(restyle(phoning, rig_, off, {{0, {{0, 1}}}})).clip.rotations, once.clip.rotations);
   const Restyled removed = must(restyle_without(phoning, rig_, {off, 0}, model_, {{1, {{0, 0}}}}));
   EXPECT_EQ(removed.clip.rotations, once.clip.rotations);
   EXPECT_EQ(removed.source_frames, once.source_frames);
