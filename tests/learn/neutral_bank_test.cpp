@@ -144,7 +144,7 @@ TEST(NeutralBank, beside_people_who_stand_punches_are_no_style) {
       learnt.pairs[0].warnings[0],
       "bent.bvh: is unlike the neutral motion that is known, so that only 0 % of what differs "
       "from it counts as style; give a neutral clip of the action");
-  // The change is none, to the rounding of 16 bits.
+  // Nothing changes, up to the rounding of 16 bits.
   EXPECT_NEAR(learnt.held_back_cm, learnt.untouched_cm, 0.05);
   EXPECT_STREQ(learnt.verdict(), "poor");
 }

@@ -19,7 +19,7 @@ std::shared_ptr<const Model> model_of(float limit, bool removes) {
   return Model::parse(format_safetensors(file), "test model").value();
 }
 
-// The gate of a walk after a second; `removed`: of the remover, -1 is none.
+// The gate after a second of a walk. `removed`: the style of the remover to take off, or -1.
 float gate(float limit, float limit_of_remover, int removed) {
   std::shared_ptr<const MotionFile> file =
       parse_motion(format_bvh(test::walking_clip(90)), "walk.bvh").value();
