@@ -3,6 +3,17 @@
 #include <algorithm>
 
 namespace panache {
+namespace {
+
+void put_joints(int first, const HeadingBody& body, const BodyChange& change,
+                HumanPositions& out) noexcept {
+  for (int j = first; j < kHumanJoints; ++j) {
+    const int parent = kHumanParent[j];
+    out[j] = out[parent] + rotate(change.rotations[parent], body.ways[j]);
+  }
+}
+
+}  // namespace
 
 Vec3 mid_hip(const BodyPose& body) noexcept {
   return (body.joints[index(HumanJoint::left_upper_leg)] +
@@ -10,15 +21,23 @@ Vec3 mid_hip(const BodyPose& body) noexcept {
          0.5f;
 }
 
-void changed_joints(const BodyPose& body, const BodyChange& change, HumanPositions& out) noexcept {
-  const Quat to_heading = rotation_y(-body.facing);
-  // The hips turn about the middle of the hip joints, as in Rig::write.
-  out[0] = rotate(change.rotations[0], rotate(to_heading, body.joints[0] - mid_hip(body)));
+HeadingBody::HeadingBody(const BodyPose& body) noexcept
+    : BodyPose(body), to_heading(rotation_y(-body.facing)) {
+  ways[0] = rotate(to_heading, joints[0] - mid_hip(body));
   for (int j = 1; j < kHumanJoints; ++j) {
-    const int parent = kHumanParent[j];
-    const Vec3 way = rotate(to_heading, body.joints[j] - body.joints[parent]);
-    out[j] = out[parent] + rotate(change.rotations[parent], way);
+    ways[j] = rotate(to_heading, joints[j] - joints[kHumanParent[j]]);
   }
+}
+
+void changed_joints(const HeadingBody& body, const BodyChange& change,
+                    HumanPositions& out) noexcept {
+  // The hips turn about the middle of the hip joints, as in Rig::write.
+  out[0] = rotate(change.rotations[0], body.ways[0]);
+  put_joints(1, body, change, out);
+}
+
+void changed_legs(const HeadingBody& body, const BodyChange& change, HumanPositions& out) noexcept {
+  put_joints(index(HumanJoint::left_upper_leg), body, change, out);
 }
 
 float toe_floor(const BodyPose& body) noexcept {

@@ -6,11 +6,22 @@
 
 namespace panache {
 
-// Positions of the user's joints with the rotations of `change` on them, in the heading frame of
-// the input: origin midway between the hip joints, axes turned so that the body faces +z. Turn and
-// translation are left out.
 Vec3 mid_hip(const BodyPose& body) noexcept;  // World.
-void changed_joints(const BodyPose& body, const BodyChange& change, HumanPositions& out) noexcept;
+
+// A body and how its joints lie in its heading frame: origin midway between the hip joints, axes
+// turned so that the body faces +z.
+struct HeadingBody : BodyPose {
+  HeadingBody(const BodyPose& body) noexcept;  // Implicit, because it is the same body.
+  Quat to_heading;                             // From the world's axes.
+  HumanPositions ways;  // From the parents of `joints` to them, and from the origin to the hips.
+};
+
+// Positions of the user's joints with the rotations of `change` on them, in the heading frame of
+// the input. Turn and translation are left out.
+void changed_joints(const HeadingBody& body, const BodyChange& change,
+                    HumanPositions& out) noexcept;
+// The same of the legs alone, after rotations of leg joints; what is above them stays in `out`.
+void changed_legs(const HeadingBody& body, const BodyChange& change, HumanPositions& out) noexcept;
 
 // The height below which a style should put no toe: the floor, or the input's own lowest toe where
 // that is lower. World, metres.

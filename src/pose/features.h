@@ -11,7 +11,6 @@ namespace panache {
 inline constexpr int kWindowPoses = 6;          // The current pose and the five before it,
 inline constexpr double kWindowSpacing = 0.05;  // this many seconds apart.
 inline constexpr int kRootFeatures = 3;         // See RootNumber.
-inline constexpr int kMaxPoseFeatures = 130;    // Of the larger layout, root features included.
 
 // The root features in their order: velocity over the ground, m/s, and turn rate, rad/s.
 enum RootNumber { kVelocityLeft, kVelocityForward, kTurnRate };

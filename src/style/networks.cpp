@@ -23,15 +23,29 @@ void StyleNetworks::add_memory(Prefetch& prefetch) const noexcept {
   prefetch.add(std::span(pose_out_));
 }
 
+StyleNetworks::Styles StyleNetworks::styles_in_force(std::span<const Pass> passes) noexcept {
+  Styles styles{passes.front().networks->strengths_.size(), 0};
+  for (const Pass& pass : passes) {
+    const std::vector<float>& strengths = pass.networks->strengths_;
+    size_t begin = 0, end = strengths.size();
+    while (begin < end && strengths[begin] == 0) ++begin;
+    while (begin < end && strengths[end - 1] == 0) --end;
+    styles = {std::min(styles.begin, begin), std::max(styles.end, end)};
+  }
+  return styles;
+}
+
 template <class Out>
-void StyleNetworks::add_heads(std::span<const Pass> passes, int network, Rows<const float> hidden,
-                              ScratchArena& arena, Out out) noexcept {
+void StyleNetworks::add_heads(std::span<const Pass> passes, Styles in_force, int network,
+                              Rows<const float> hidden, ScratchArena& arena, Out out) noexcept {
   const Model& m = *passes.front().networks->model_;
   const Model::Heads& heads = m.heads_[network];
   for (const Pass& pass : passes) std::ranges::fill(out(*pass.networks), 0.0f);
   if (heads.layers.empty()) return;
   // Heads that are active whatever the styles: the only one, or that of no style.
   const size_t always = heads.count > m.built_in() || !m.recipe().style_heads;
+  const size_t first = always > 0 ? 0 : in_force.begin;
+  const size_t last = std::min(heads.count, always + in_force.end);
   const auto strength = [&](size_t p, size_t h) {
     if (h < always) return 1.0f;
     const float asked = passes[p].networks->strengths_[h - always];
@@ -42,7 +56,7 @@ void StyleNetworks::add_heads(std::span<const Pass> passes, int network, Rows<co
   if (heads.joined()) {
     heads.layers.front().forward(hidden, answers);
     for (size_t p = 0; p < passes.size(); ++p) {
-      for (size_t h = 0; h < heads.count; ++h) {
+      for (size_t h = first; h < last; ++h) {
         const float* from = answers.row(p) + h * heads.outputs;
         if (strength(p, h) == 0) continue;
         add_scaled(strength(p, h), {from, heads.outputs}, out(*passes[p].networks));
@@ -53,7 +67,7 @@ void StyleNetworks::add_heads(std::span<const Pass> passes, int network, Rows<co
   const size_t inputs = heads.layers.front().inputs();
   const Rows<float> gathered = room.rows(passes.size(), inputs);
   std::array<size_t, kRowsAtOnce> who;
-  for (size_t h = 0; h < heads.count; ++h) {
+  for (size_t h = first; h < last; ++h) {
     // The characters of this style share the reading of its weights.
     size_t count = 0;
     for (size_t p = 0; p < passes.size(); ++p) {
@@ -139,11 +153,12 @@ void StyleNetworks::evaluate(std::span<const Pass> passes, std::span<float> numb
   const auto hidden = m.trunks_.forward(Rows<const float>(input), scratch);
   const Rows<const float> activations = shrink(passes, hidden[Model::kPose], arena);
   using Self = StyleNetworks;
-  add_heads(passes, Model::kPose, activations, arena,
+  const Styles in_force = styles_in_force(passes);
+  add_heads(passes, in_force, Model::kPose, activations, arena,
             [](Self& self) { return std::span(self.pose_out_); });
-  add_heads(passes, Model::kTiming, hidden[Model::kTiming], arena,
+  add_heads(passes, in_force, Model::kTiming, hidden[Model::kTiming], arena,
             [](Self& self) { return std::span(self.timing_out_); });
-  add_heads(passes, Model::kContact, hidden[Model::kContact], arena,
+  add_heads(passes, in_force, Model::kContact, hidden[Model::kContact], arena,
             [](Self& self) { return std::span(self.contact_out_); });
   add_learnt(passes, scratch, arena);
   for (const Pass& pass : passes) {

@@ -67,10 +67,15 @@ class StyleNetworks {
   // Draws the pose trunk's activations towards their mean as far as the gates are closed.
   static Rows<const float> shrink(std::span<const Pass> passes, Rows<const float> hidden,
                                   ScratchArena& arena) noexcept;
+  // All styles with a strength that is not 0 are among these.
+  struct Styles {
+    size_t begin, end;
+  };
+  static Styles styles_in_force(std::span<const Pass> passes) noexcept;
   // The sum of a network's heads in force, each times its strength, into out(character).
   template <class Out>
-  static void add_heads(std::span<const Pass> passes, int network, Rows<const float> hidden,
-                        ScratchArena& arena, Out out) noexcept;
+  static void add_heads(std::span<const Pass> passes, Styles in_force, int network,
+                        Rows<const float> hidden, ScratchArena& arena, Out out) noexcept;
   // Adds what the learnt styles in force answer to what the trunks have left in `scratch`.
   static void add_learnt(std::span<const Pass> passes, std::span<const float> scratch,
                          ScratchArena& arena);

@@ -35,7 +35,7 @@ float drop_for_legs(const HumanPositions& before, const HumanPositions& joints, 
 
 }  // namespace
 
-void add_gesture(const GesturePose& gesture, const Shape& shape, const BodyPose& body,
+void add_gesture(const GesturePose& gesture, const Shape& shape, const HeadingBody& body,
                  BodyChange& change) noexcept {
   HumanPositions before, joints;
   changed_joints(body, change, before);

@@ -1,7 +1,7 @@
 #pragma once
 // Between shape and anatomy: a gesture on top of the style.
 
-#include "rig/body_pose.h"
+#include "pose/changed_joints.h"
 #include "style/gesture.h"
 #include "style/shape.h"
 
@@ -9,7 +9,7 @@ namespace panache {
 
 // Turns the upper body of `change` as `gesture` says, as much as `shape` gives each region, and
 // moves the hips. Legs keep ankles and feet where they were, or lift them in a hop.
-void add_gesture(const GesturePose& gesture, const Shape& shape, const BodyPose& body,
+void add_gesture(const GesturePose& gesture, const Shape& shape, const HeadingBody& body,
                  BodyChange& change) noexcept;
 
 // How much a gesture has the feet off the floor, 0 to 1.

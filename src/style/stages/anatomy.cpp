@@ -40,20 +40,24 @@ float share_back(float out, float in) {
 }
 
 void bound_turns(std::array<Quat, kHumanJoints>& rotations) {
+  const auto is_far = [&](int j) {
+    const Region region = region_of(j);
+    // The scalar part of what it turns beyond the joint that it hangs on is this product.
+    return (region == Region::legs || region == Region::torso) &&
+           !(std::abs(dot(rotations[kHumanParent[j]], rotations[j])) > kCosHalfTurned);
+  };
+  int first = index(spine);
+  while (first < kHumanJoints && !is_far(first)) ++first;
+  if (first == kHumanJoints) return;
   std::array<Quat, kHumanJoints> own;  // Beyond the joint that each hangs on.
-  bool bounded = false;
   for (int j = index(spine); j < kHumanJoints; ++j) {
     own[j] = conjugate(rotations[kHumanParent[j]]) * rotations[j];
-    const Region region = region_of(j);
-    if (region != Region::legs && region != Region::torso) continue;
-    if (std::abs(own[j].w) > kCosHalfTurned) continue;
+    if (!is_far(j)) continue;
     const Vec3 turn = log_rotation(own[j]);
     const float far = length(turn), over = far - kTurned;
     if (!(over > 0)) continue;
     own[j] = exp_rotation(turn * ((kTurned + kTurnedSoftly * over / (over + kTurnedSoftly)) / far));
-    bounded = true;
   }
-  if (!bounded) return;
   for (int j = index(spine); j < kHumanJoints; ++j) {
     rotations[j] = normalized(rotations[kHumanParent[j]] * own[j]);
   }
@@ -74,12 +78,11 @@ struct Base {
 // Takes back what a change does beyond the limits.
 class Limits {
  public:
-  Limits(const BodyPose& body, const StepTime& time, BodyChange& change)
+  Limits(const HeadingBody& body, const StepTime& time, BodyChange& change)
       : body_(body),
         take_(time.gain(kTakeSeconds)),
         give_(time.gain(kGiveSeconds)),
-        change_(change),
-        to_heading_(rotation_y(-body.facing)) {}
+        change_(change) {}
 
   Base hips_base() const {
     return {hips, frame_of(in_heading(at(left_upper_leg) - at(right_upper_leg)),
@@ -90,7 +93,7 @@ class Limits {
     return {chest, frame_of(in_heading(at(left_upper_arm) - at(right_upper_arm)),
                             in_heading(shoulders - at(chest)))};
   }
-  Vec3 in_heading(Vec3 world) const { return rotate(to_heading_, world); }
+  Vec3 in_heading(Vec3 world) const { return rotate(body_.to_heading, world); }
   // The direction from one joint to another in the input, heading frame.
   Vec3 way(HumanJoint from, HumanJoint to) const {
     return normalized(in_heading(at(to) - at(from)));
@@ -179,17 +182,16 @@ class Limits {
     change_.rotations[index(hand)] = normalized(of(lower) * exp_rotation(own * (1 - share)));
   }
 
-  const BodyPose& body_;
+  const HeadingBody& body_;
   float take_, give_;  // Gains of the shares.
   BodyChange& change_;
-  Quat to_heading_;
 };
 
 constexpr std::array<float, 2> kOutward = {1, -1};  // Along x, of left and right.
 
 }  // namespace
 
-void Anatomy::step(const BodyPose& body, const Rig& rig, const StepTime& time,
+void Anatomy::step(const HeadingBody& body, const Rig& rig, const StepTime& time,
                    BodyChange& change) noexcept {
   bound_turns(change.rotations);
   Limits limits(body, time, change);
@@ -215,7 +217,7 @@ void Anatomy::step(const BodyPose& body, const Rig& rig, const StepTime& time,
   }
 }
 
-void Anatomy::watch_thighs(const BodyPose& body, const StepTime& time,
+void Anatomy::watch_thighs(const HeadingBody& body, const StepTime& time,
                            const BodyChange& change) noexcept {
   BodyChange same = change;
   const Limits limits(body, time, same);

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "rig/body_pose.h"
+#include "pose/changed_joints.h"
 #include "rig/rig.h"
 #include "style/stages/step_time.h"
 
@@ -18,11 +18,12 @@ namespace panache {
 class Anatomy {
  public:
   void reset() noexcept { *this = {}; }
-  void step(const BodyPose& body, const Rig& rig, const StepTime& time,
+  void step(const HeadingBody& body, const Rig& rig, const StepTime& time,
             BodyChange& change) noexcept;
   // What it would take back at each hip joint: a foot that is held may turn a thigh further than
   // the style did.
-  void watch_thighs(const BodyPose& body, const StepTime& time, const BodyChange& change) noexcept;
+  void watch_thighs(const HeadingBody& body, const StepTime& time,
+                    const BodyChange& change) noexcept;
   // 0 to 1, eased, as last watched; left, right.
   float thigh_share(size_t side) const noexcept { return thighs_[side]; }
 

@@ -54,13 +54,13 @@ struct ArmPush {
 class Pusher {
  public:
   // `together`: how much the hands hold each other.
-  Pusher(const BodyPose& body, const BodyChange& change, const TrunkCapsules& trunk, float together)
+  Pusher(const HeadingBody& body, const BodyChange& change, const TrunkCapsules& trunk,
+         float together)
       : body_(body),
         change_(change),
         trunk_(trunk),
         input_trunk_(trunk_of(body.joints)),
-        input_across_(across_shoulders(body.joints)),
-        to_heading_(rotation_y(-body.facing)) {
+        input_across_(across_shoulders(body.joints)) {
     if (together > 0) way_of_both_ = find_way_of_both();
   }
 
@@ -75,14 +75,15 @@ class Pusher {
     const float half = length(middle - joints[arm.middle]);
     const Vec3 out = across_shoulders(joints) * (side == 0 ? 1.0f : -1.0f);
     for (size_t c = 0; c < trunk_.size(); ++c) {
-      const float away = length(from_line(middle, trunk_[c].from, trunk_[c].to));
-      // An elbow may have gone through, and be beyond.
-      if (c > 0 && away > half + trunk_[c].radius + kForearm) continue;
+      const float reach = trunk_[c].radius + kForearm;
+      const bool far = length(from_line(middle, trunk_[c].from, trunk_[c].to)) > half + reach;
       for (const float place : kArmPoints) {
+        // An elbow may have gone through, and be beyond.
+        const bool elbow = c == 0 && place < kElbow;
+        if (far && !elbow) continue;
         const Vec3 point = lerp(joints[arm.middle], joints[arm.end], place);
         const Vec3 way = from_line(point, trunk_[c].from, trunk_[c].to);
-        const float reach = trunk_[c].radius + kForearm;
-        if (c == 0 && place < kElbow) {
+        if (elbow) {
           push_elbow(out, side, place, way, reach, push.move.middle);
           continue;
         }
@@ -130,21 +131,20 @@ class Pusher {
   // What a way from a capsule in the input, world, is with the change.
   Vec3 carried(size_t capsule, Vec3 way) const {
     const Quat turn = change_.rotations[index(capsule == 0 ? chest : head)];
-    return rotate(turn, rotate(to_heading_, way));
+    return rotate(turn, rotate(body_.to_heading, way));
   }
 
-  const BodyPose& body_;
+  const HeadingBody& body_;
   const BodyChange& change_;
   const TrunkCapsules& trunk_;
   TrunkCapsules input_trunk_;  // World.
   Vec3 input_across_;          // World.
-  Quat to_heading_;
-  Vec3 way_of_both_;  // Heading frame.
+  Vec3 way_of_both_;           // Heading frame.
 };
 
 }  // namespace
 
-void ArmsClear::step(const BodyPose& body, std::array<float, 2> amounts, const HandHolds& holds,
+void ArmsClear::step(const HeadingBody& body, std::array<float, 2> amounts, const HandHolds& holds,
                      const StepTime& time, HumanPositions& joints, BodyChange& change) noexcept {
   if (!(std::max(amounts[0], amounts[1]) > 0)) return reset();
   const TrunkCapsules trunk = trunk_of(joints);

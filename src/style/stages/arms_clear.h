@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "pose/changed_joints.h"
 #include "pose/hand_contacts.h"
 #include "style/stages/limb_pushes.h"
 
@@ -17,7 +18,7 @@ class ArmsClear {
   // A wrist that is held stays, and its elbow gives way; hands that hold each other move together.
   // `amounts`: how much of a style is in force, 0 to 1, for the left and the right arm; `joints`:
   // changed_joints() of `body` and `change`, of which it keeps up the arms.
-  void step(const BodyPose& body, std::array<float, 2> amounts, const HandHolds& holds,
+  void step(const HeadingBody& body, std::array<float, 2> amounts, const HandHolds& holds,
             const StepTime& time, HumanPositions& joints, BodyChange& change) noexcept;
 
   // Calls visit(member) for everything that tells one character from another.

@@ -32,9 +32,8 @@ Vec3 centre_over_feet(const HumanPositions& joints) noexcept {
   return sum / kJoints - feet / (2.0f * kFeet);
 }
 
-void keep_balance(const BodyPose& body, HumanPositions& joints, BodyChange& change) noexcept {
-  const Quat to_heading = rotation_y(-body.facing);
-  Vec3 moved = centre_over_feet(joints) - rotate(to_heading, centre_over_feet(body.joints));
+void keep_balance(const HeadingBody& body, HumanPositions& joints, BodyChange& change) noexcept {
+  Vec3 moved = centre_over_feet(joints) - rotate(body.to_heading, centre_over_feet(body.joints));
   moved.y = 0;
   const float far = length(moved), over = far - kFree;
   if (!(over > 0)) return;
@@ -46,7 +45,7 @@ void keep_balance(const BodyPose& body, HumanPositions& joints, BodyChange& chan
   for (int j = index(hips); j <= index(right_hand); ++j) upper += joints[j] / kJoints;
   const float height = std::max(upper.y, 0.0f);
   const float wanted = back * height / (height * height + kLever * kLever);
-  const float leans = dot(torso_way(joints) - rotate(to_heading, torso_way(body.joints)), way);
+  const float leans = dot(torso_way(joints) - rotate(body.to_heading, torso_way(body.joints)), way);
   const float angle = std::min(wanted, leans);
   if (!(angle > 0)) return;
   const Quat turn = axis_angle(Vec3{-way.z, 0, way.x}, angle);

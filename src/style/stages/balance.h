@@ -1,7 +1,7 @@
 #pragma once
 // Eighth stage: a style does not lean until the body would fall.
 
-#include "rig/body_pose.h"
+#include "pose/changed_joints.h"
 
 namespace panache {
 
@@ -15,6 +15,6 @@ Vec3 torso_way(const HumanPositions& joints) noexcept;
 // the input has it, the upper body turns back about the hips, by no more than the style leans it
 // that way: from 8 cm on softly, so that some 12 cm are left of 20. `joints`: changed_joints(),
 // which it keeps up. Up to 8 cm nothing happens, to the bit.
-void keep_balance(const BodyPose& body, HumanPositions& joints, BodyChange& change) noexcept;
+void keep_balance(const HeadingBody& body, HumanPositions& joints, BodyChange& change) noexcept;
 
 }  // namespace panache

@@ -31,6 +31,7 @@ void ChangeStages::step(const AskedChange& asked, const StageOptions& options, f
                         const Observer& observer, const InputWindow& window, const StepTime& time,
                         StageClock* clock) noexcept {
   const Observation& now = observer.now();
+  const HeadingBody body = now.world;
   steps_.step(now.world.positions, time);
   seat_.step(now.world.positions, time);
   filter_.step(asked.delta, asked.log_rate, asked.gate, now.body_frame, time);
@@ -46,18 +47,18 @@ void ChangeStages::step(const AskedChange& asked, const StageOptions& options, f
   shaping_.step(shape, filter_.delta(), root_.offset(), time, change_);
   float lifted = 0;
   if (asked.gesture) {
-    add_gesture(*asked.gesture, shape, now.world, change_);
+    add_gesture(*asked.gesture, shape, body, change_);
     lifted = share_lifted(*asked.gesture, shape);
   }
   tell(clock, Stage::shape);
-  anatomy_.step(now.world, observer.rig(), time, change_);
+  anatomy_.step(body, observer.rig(), time, change_);
   tell(clock, Stage::anatomy);
   HumanPositions joints;
-  changed_joints(now.world, change_, joints);
-  limit_fold(now.world, joints, change_);
-  keep_balance(now.world, joints, change_);
+  changed_joints(body, change_, joints);
+  limit_fold(body, joints, change_);
+  keep_balance(body, joints, change_);
   tell(clock, Stage::balance);
-  legs_.step(now.world, asked.amount, steps_.amount(), {}, time, joints, change_);
+  legs_.step(body, asked.amount, steps_.amount(), {}, time, joints, change_);
   tell(clock, Stage::legs);
   const float carried = share * (1 - seat_.amount()) * (1 - flight) * (1 - lifted);
   floor_.step(now.world, joints, asked.amount, carried, time, change_);
@@ -72,8 +73,8 @@ void ChangeStages::step(const AskedChange& asked, const StageOptions& options, f
   }
   const float amount = asked.amount * asked.shape->foot_lock;
   if (options.foot_lock) {
-    stance_.step(now.world, joints, asked.stance, amount * (1 - flight) * (1 - lifted),
-                 steps_.amount(), time, change_);
+    stance_.step(body, joints, asked.stance, amount * (1 - flight) * (1 - lifted), steps_.amount(),
+                 time, change_);
     // A foot that rests is planted, whatever the network makes of it.
     for (size_t f = 0; f < kFeet; ++f) contacts_[f] = std::max(contacts_[f], stance_.held()[f]);
   }
@@ -81,19 +82,19 @@ void ChangeStages::step(const AskedChange& asked, const StageOptions& options, f
   if (options.foot_lock) {
     foot_lock_.step(now.world, joints, contacts_, stance_.held(), amount,
                     {static_cast<float>(time.input), time.output}, change_);
-    anatomy_.watch_thighs(now.world, time, change_);
+    anatomy_.watch_thighs(body, time, change_);
   }
-  changed_joints(now.world, change_, joints);
-  held_legs_.step(now.world, asked.amount, steps_.amount(), contacts_, time, joints, change_);
+  changed_legs(body, change_, joints);
+  held_legs_.step(body, asked.amount, steps_.amount(), contacts_, time, joints, change_);
   tell(clock, Stage::feet);
   // An arm that keeps none of the style keeps its input, too.
   const auto arm = [&](Region region) {
     return asked.amount * std::min(1.0f, asked.shape->regions[static_cast<size_t>(region)]);
   };
   const std::array<float, 2> arms = {arm(Region::left_arm), arm(Region::right_arm)};
-  if (options.hold_hands) hands_.step(now.world, arms, time, joints, change_);
+  if (options.hold_hands) hands_.step(body, arms, time, joints, change_);
   tell(clock, Stage::hands);
-  arms_.step(now.world, arms, hands_.holds(), time, joints, change_);
+  arms_.step(body, arms, hands_.holds(), time, joints, change_);
   tell(clock, Stage::arms);
 }
 

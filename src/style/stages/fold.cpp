@@ -27,7 +27,7 @@ float share_above_floor(const HumanPositions& world) noexcept {
   return smooth_step((world[index(head)].y - kLowHead) / (kHighHead - kLowHead));
 }
 
-void limit_fold(const BodyPose& body, HumanPositions& joints, BodyChange& change) noexcept {
+void limit_fold(const HeadingBody& body, HumanPositions& joints, BodyChange& change) noexcept {
   const float own = lean(torso_way(body.joints));
   if (own <= kUprightLean) return;
   const Vec3 now = torso_way(joints);

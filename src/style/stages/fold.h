@@ -1,7 +1,7 @@
 #pragma once
 // A style does not fold a body that bends down already, nor press it into the floor.
 
-#include "rig/body_pose.h"
+#include "pose/changed_joints.h"
 
 namespace panache {
 
@@ -13,6 +13,6 @@ float share_above_floor(const HumanPositions& world) noexcept;
 // head between the knees or through the floor. The upper body turns back by a share of what the
 // torso leans more than in the input: by none of it where that is upright, by all where it bends
 // down. `joints`: those of changed_joints(), kept up to date.
-void limit_fold(const BodyPose& body, HumanPositions& joints, BodyChange& change) noexcept;
+void limit_fold(const HeadingBody& body, HumanPositions& joints, BodyChange& change) noexcept;
 
 }  // namespace panache

@@ -53,7 +53,7 @@ void FootStance::watch(const BodyPose& body, int f, const StepTime& time, Foot& 
   foot.seen = 1;
 }
 
-void FootStance::step(const BodyPose& body, HumanPositions& joints, const Stance& stance,
+void FootStance::step(const HeadingBody& body, HumanPositions& joints, const Stance& stance,
                       float amount, float stepping, const StepTime& time,
                       BodyChange& change) noexcept {
   const float standing = amount * (1 - stepping);
@@ -67,14 +67,13 @@ void FootStance::step(const BodyPose& body, HumanPositions& joints, const Stance
     return;
   }
 
-  const Quat to_heading = rotation_y(-body.facing);
   for (int f = 0; f < kFeet; ++f) {
     const int ankle = index(kAnkles[f]), toe = index(kToes[f]);
     Quat& foot = change.rotations[ankle];
     const float least = std::min(0.0f, stance.turn[f]), most = std::max(0.0f, stance.turn[f]);
     const float yaw = angle_about({0, 1, 0}, foot);
     const Quat turn = rotation_y(std::clamp(yaw, least - kFreeTurn, most + kFreeTurn));
-    Vec3 ahead = rotate(to_heading, body.joints[toe] - body.joints[ankle]);
+    Vec3 ahead = body.ways[toe];
     ahead.y = 0;
     const Vec3 side = cross({0, 1, 0}, normalized(ahead, {0, 0, 1}));
     const float lift = angle_about(side, rotation_y(-yaw) * foot);
@@ -83,7 +82,7 @@ void FootStance::step(const BodyPose& body, HumanPositions& joints, const Stance
     Quat& toes = change.rotations[toe];
     toes = nlerp(toes, turn, held_[f]);
   }
-  changed_joints(body, change, joints);
+  changed_legs(body, change, joints);
 
   // How much higher each ankle goes, so that its toe is where the input's is; and how much lower
   // the hips must be for that.
@@ -113,7 +112,7 @@ void FootStance::step(const BodyPose& body, HumanPositions& joints, const Stance
     turn_limb(leg, ankle + Vec3{0, up, 0},
               bend_of(joints[leg.root], joints[leg.middle], ankle, ahead, kFirm), joints, change);
   }
-  changed_joints(body, change, joints);
+  changed_legs(body, change, joints);
 }
 
 }  // namespace panache

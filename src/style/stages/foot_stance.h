@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "rig/body_pose.h"
+#include "pose/changed_joints.h"
 #include "style/stages/step_time.h"
 #include "style/stance.h"
 
@@ -19,7 +19,7 @@ class FootStance {
   void reset() noexcept { *this = {}; }
   // `joints`: those of changed_joints(), kept up to date. `amount`: how much of a style is in
   // force, 0 to 1. `stepping`: StepWatch::amount().
-  void step(const BodyPose& body, HumanPositions& joints, const Stance& stance, float amount,
+  void step(const HeadingBody& body, HumanPositions& joints, const Stance& stance, float amount,
             float stepping, const StepTime& time, BodyChange& change) noexcept;
   // How much each foot was held at its height at the last step, 0 to 1.
   std::span<const float, kFeet> held() const noexcept { return held_; }

@@ -128,7 +128,7 @@ HandHolds HandContacts::holds() const noexcept {
   return holds;
 }
 
-void HandContacts::step(const BodyPose& body, std::array<float, 2> amounts, const StepTime& time,
+void HandContacts::step(const HeadingBody& body, std::array<float, 2> amounts, const StepTime& time,
                         HumanPositions& joints, BodyChange& change) noexcept {
   watch(body, time);
   const HandHolds holds = this->holds();
@@ -138,10 +138,9 @@ void HandContacts::step(const BodyPose& body, std::array<float, 2> amounts, cons
     return;
   }
 
-  const Quat to_heading = rotation_y(-body.facing);
   const Vec3 origin = mid_hip(body);
   const auto before = [&](HumanJoint joint) {
-    return rotate(to_heading, body.joints[index(joint)] - origin);
+    return rotate(body.to_heading, body.joints[index(joint)] - origin);
   };
   const auto turned = [&](HumanJoint joint) { return change.rotations[index(joint)]; };
   // Where the wrist is if `joint` carries it as in the input.

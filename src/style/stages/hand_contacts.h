@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "pose/changed_joints.h"
 #include "pose/hand_contacts.h"
 #include "style/stages/reach.h"
 #include "style/stages/step_time.h"
@@ -20,7 +21,7 @@ class HandContacts {
   void reset() noexcept { *this = {}; }
   // `joints`: changed_joints() of `body` and `change`, of which it keeps up the arms; `amounts`:
   // how much of a style is in force, 0 to 1, for the left and the right arm.
-  void step(const BodyPose& body, std::array<float, 2> amounts, const StepTime& time,
+  void step(const HeadingBody& body, std::array<float, 2> amounts, const StepTime& time,
             HumanPositions& joints, BodyChange& change) noexcept;
 
   // How much each hand keeps a contact at the last step.

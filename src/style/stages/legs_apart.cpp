@@ -1,10 +1,11 @@
 #include "style/stages/legs_apart.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/smooth_step.h"
 #include "pose/limb.h"
-#include "pose/changed_joints.h"
+#include "rig/canonical_body.h"
 
 namespace panache {
 namespace {
@@ -19,49 +20,27 @@ constexpr int kPasses = 4;
 // A leg of the input that is this far on its own side counts as being there, metres.
 constexpr float kOwnSide = 0.02f;
 
-// A point of a leg: 0 to 1 from hip to knee, 1 to 2 from there to the ankle.
-struct LegPoint {
-  float place, radius;
-};
-constexpr std::array<LegPoint, 6> kLegPoints = {
-    {{0.5f, kThigh}, {0.75f, kThigh}, {1, kThigh}, {1.35f, kShin}, {1.7f, kShin}, {2, kShin}}};
+// Where on thigh and shin the other leg may push, from their upper to their lower joint.
+constexpr std::array<std::array<float, 3>, 2> kPoints = {
+    {{0.5f, 0.75f, 1}, {1.35f - 1, 1.7f - 1, 1}}};
 
-Vec3 point_of(const HumanPositions& joints, const LimbJoints& leg, float place) {
-  return place <= 1 ? lerp(joints[leg.root], joints[leg.middle], place)
-                    : lerp(joints[leg.middle], joints[leg.end], place - 1);
-}
-// From a part of a leg (0 thigh, 1 shin) to a point.
-Vec3 from_part(const HumanPositions& joints, const LimbJoints& leg, int part, Vec3 point) {
-  const Vec3 knee = joints[leg.middle];
-  return part == 0 ? from_line(point, lerp(joints[leg.root], knee, kCrotch), knee)
-                   : from_line(point, knee, joints[leg.end]);
+// Thigh or shin.
+struct Part {
+  Vec3 from, to;
+  float radius;
+  Vec3 at(float place) const { return lerp(from, to, place); }
+  // The same as far as the other leg may meet it.
+  Part below_crotch() const { return radius == kThigh ? Part{at(kCrotch), to, radius} : *this; }
+};
+Part part_of(const HumanPositions& joints, int side, size_t part) {
+  const LimbJoints leg = leg_joints(side);
+  return part == 0 ? Part{joints[leg.root], joints[leg.middle], kThigh}
+                   : Part{joints[leg.middle], joints[leg.end], kShin};
 }
 
 // From the right to the left hip joint, unit.
 Vec3 across_hips(const HumanPositions& joints) {
   return normalized(joints[index(left_upper_leg)] - joints[index(right_upper_leg)], {1, 0, 0});
-}
-
-// Whether no part of a leg comes as near to the other, across the hips, as both are thick.
-bool are_apart(const HumanPositions& joints) {
-  const Vec3 left = across_hips(joints);
-  // Thigh and shin, each leg's innermost place towards the other.
-  std::array<std::array<float, 2>, 2> inner;
-  for (int side = 0; side < 2; ++side) {
-    const LimbJoints leg = leg_joints(side);
-    const float own = side == 0 ? 1.0f : -1.0f;
-    const float hip = own * dot(joints[leg.root], left);
-    const float knee = own * dot(joints[leg.middle], left);
-    inner[side] = {std::min(hip + kCrotch * (knee - hip), knee),
-                   std::min(knee, own * dot(joints[leg.end], left))};
-  }
-  constexpr std::array<float, 2> kThick = {kThigh, kShin};
-  for (size_t a = 0; a < 2; ++a) {
-    for (size_t b = 0; b < 2; ++b) {
-      if (inner[0][a] + inner[1][b] < kThick[a] + kThick[b]) return false;
-    }
-  }
-  return true;
 }
 
 // Legs that stand do not pass each other, as steps do: of the way from one to the other only what
@@ -71,43 +50,70 @@ Vec3 passing(Vec3 way, Vec3 out, float stepping) {
   return across + (way - across) * stepping;
 }
 
+// Whether parts of the left and the right leg come within reach of each other, as passing() sees
+// it. `frame`: its x goes from right to left across the hips.
+bool may_meet(const Part& left, const Part& right, const Frame& frame, float stepping) {
+  // How much further along an axis all of one part is than the other.
+  const auto beyond = [](const Part& one, const Part& other, Vec3 axis) {
+    return std::min(dot(one.from, axis), dot(one.to, axis)) -
+           std::max(dot(other.from, axis), dot(other.to, axis));
+  };
+  const auto apart = [&](Vec3 axis) {
+    return stepping * std::max(beyond(left, right, axis), beyond(right, left, axis));
+  };
+  const float reach = left.radius + right.radius;
+  return !(beyond(left, right, frame.x) > reach || apart(frame.y) > reach ||
+           apart(frame.z) > reach);
+}
+
+// How far each point is pushed, metres.
+using PartPushes = std::array<std::array<float, 3>, 2>;
+
+// Those of the leg of `side` by a part of the other leg. `out`: towards the leg's own side, unit.
+void raise_pushes(const HeadingBody& body, const HumanPositions& joints, int side, size_t own,
+                  size_t other, Vec3 out, float stepping, PartPushes& pushes) {
+  const Part part = part_of(joints, side, own);
+  const Part there = part_of(joints, 1 - side, other).below_crotch();
+  const float reach = part.radius + there.radius;
+  for (size_t p = 0; p < kPoints[own].size(); ++p) {
+    const float place = kPoints[own][p];
+    const Vec3 point = part.at(place);
+    const Vec3 way = passing(from_line(point, there.from, there.to), out, stepping);
+    float& push = pushes[own][p];
+    if (!(push_across(way, out, reach) > push)) continue;
+    const Part before = part_of(body.joints, 1 - side, other).below_crotch();
+    const Vec3 own_side = across_hips(body.joints) * (side == 0 ? 1.0f : -1.0f);
+    const Vec3 was =
+        passing(from_line(part_of(body.joints, side, own).at(place), before.from, before.to),
+                own_side, stepping);
+    const float kept =
+        (std::min(reach, length(was)) - kFreeDepth) * smooth_step(dot(was, own_side) / kOwnSide);
+    if (kept > 0) push = std::max(push, push_across(way, out, kept));
+  }
+}
+
 // The furthest pushes of knee and ankle that the points of both legs ask for, metres.
 struct Pushes {
   float knee = 0, ankle = 0;
 };
-Pushes pushes_of(const BodyPose& body, const HumanPositions& joints, float stepping) {
-  std::array<float, kLegPoints.size()> pushes{};
+Pushes pushes_of(const HeadingBody& body, const HumanPositions& joints, float stepping) {
   const Vec3 left = across_hips(joints);
-  for (int side = 0; side < 2; ++side) {
-    const LimbJoints leg = leg_joints(side), other = leg_joints(1 - side);
-    const Vec3 out = side == 0 ? left : -left;
-    for (size_t p = 0; p < kLegPoints.size(); ++p) {
-      const auto [place, radius] = kLegPoints[p];
-      const Vec3 point = point_of(joints, leg, place);
-      for (int part = 0; part < 2; ++part) {
-        const float reach = radius + (part == 0 ? kThigh : kShin);
-        const Vec3 way = passing(from_part(joints, other, part, point), out, stepping);
-        if (!(push_across(way, out, reach) > pushes[p])) continue;
-        const Vec3 own_side = across_hips(body.joints) * (side == 0 ? 1.0f : -1.0f);
-        const Vec3 was =
-            passing(from_part(body.joints, other, part, point_of(body.joints, leg, place)),
-                    own_side, stepping);
-        const float own = dot(was, own_side);
-        const float kept =
-            (std::min(reach, length(was)) - kFreeDepth) * smooth_step(own / kOwnSide);
-        if (kept > 0) pushes[p] = std::max(pushes[p], push_across(way, out, kept));
-      }
+  const Frame frame = frame_of(left, {0, 1, 0});
+  PartPushes pushes{};
+  for (size_t l = 0; l < 2; ++l) {
+    for (size_t r = 0; r < 2; ++r) {
+      if (!may_meet(part_of(joints, 0, l), part_of(joints, 1, r), frame, stepping)) continue;
+      raise_pushes(body, joints, 0, l, r, left, stepping, pushes);
+      raise_pushes(body, joints, 1, r, l, -left, stepping, pushes);
     }
   }
   Pushes most;
-  for (size_t p = 0; p < kLegPoints.size(); ++p) {
-    const float place = kLegPoints[p].place;
-    if (place <= 1) most.knee = std::max(most.knee, pushes[p] / place);
+  for (size_t p = 0; p < kPoints[0].size(); ++p) {
+    most.knee = std::max(most.knee, pushes[0][p] / kPoints[0][p]);
   }
-  for (size_t p = 0; p < kLegPoints.size(); ++p) {
-    const float down = kLegPoints[p].place - 1;
-    if (down <= 0) continue;
-    most.ankle = std::max(most.ankle, (pushes[p] - most.knee * (1 - down)) / down);
+  for (size_t p = 0; p < kPoints[1].size(); ++p) {
+    const float down = kPoints[1][p];
+    most.ankle = std::max(most.ankle, (pushes[1][p] - most.knee * (1 - down)) / down);
   }
   return most;
 }
@@ -124,11 +130,10 @@ LimbMove move_of(const HumanPositions& joints, const LimbJoints& leg, Pushes pus
 
 }  // namespace
 
-void LegsApart::step(const BodyPose& body, float amount, float stepping,
+void LegsApart::step(const HeadingBody& body, float amount, float stepping,
                      std::array<float, 2> planted, const StepTime& time, HumanPositions& joints,
                      BodyChange& change) noexcept {
   if (!(amount > 0)) return reset();
-  if (moves_[0].rests() && moves_[1].rests() && are_apart(joints)) return;
   HumanPositions moved = joints;
   bool pushed = false;
   for (int pass = 0; pass < kPasses; ++pass) {
@@ -144,7 +149,7 @@ void LegsApart::step(const BodyPose& body, float amount, float stepping,
   }
   if (move_eased({leg_joints(0), leg_joints(1)}, pushed ? &moved : nullptr, {amount, amount}, time,
                  moves_, joints, change)) {
-    changed_joints(body, change, joints);
+    changed_legs(body, change, joints);
   }
 }
 

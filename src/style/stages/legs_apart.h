@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "pose/changed_joints.h"
 #include "style/stages/limb_pushes.h"
 
 namespace panache {
@@ -17,7 +18,7 @@ class LegsApart {
   // `amount`: how much of a style is in force, `stepping`: how much the feet step, 0 to 1;
   // `planted`: how much each foot is held where it is, 0 to 1; `joints`: changed_joints() of `body`
   // and `change`, which it keeps up.
-  void step(const BodyPose& body, float amount, float stepping, std::array<float, 2> planted,
+  void step(const HeadingBody& body, float amount, float stepping, std::array<float, 2> planted,
             const StepTime& time, HumanPositions& joints, BodyChange& change) noexcept;
 
   // Calls visit(member) for everything that tells one character from another.
