@@ -28,6 +28,12 @@ class FlightLookout {
   FlightLookout(const Clip& clip, const Rig& rig)
       : clip_(clip), reader_(rig), next_(rig.first_frame()) {}
 
+  // Goes on from another frame, which may be an earlier one.
+  void restart(double frame) {
+    const double first = frame - kFlightAhead / clip_.frame_time;
+    next_ = static_cast<int>(std::max<double>(reader_.rig().first_frame(), first));
+    flights_.reset();
+  }
   // See FlightWatch::amount(); `frame` never goes back.
   float flight(double frame) {
     const double until = frame + kFlightAhead / clip_.frame_time;

@@ -1,10 +1,13 @@
 #include "player.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "clip/bvh.h"
 #include "clip/motion_format.h"
 #include "make_clip.h"
+#include "make_jump.h"
 #include "make_model.h"
 #include "style/names.h"
 
@@ -39,6 +42,31 @@ TEST(PlayerTest, a_motion_is_as_familiar_as_to_the_less_familiar_of_two_passes) 
   EXPECT_LT(gate(kNarrow, kWide, 0), 0.5f);
   EXPECT_LT(gate(kWide, kNarrow, 0), 0.5f);
   EXPECT_EQ(gate(kWide, kNarrow, -1), 1);  // Nothing is removed.
+}
+
+// There are more jumps than are remembered.
+TEST(PlayerTest, jumps_of_a_clip_are_seen_before_they_begin_in_each_round) {
+  const test::Jump jump;
+  const Clip one = jump.clip(60);
+  const double seconds = one.frames / 60.0;
+  Clip many = one;
+  for (int k = 1; k < 15; ++k) {
+    for (int f = 0; f < one.frames; ++f) many.append(one.pose(f));
+  }
+  std::shared_ptr<const MotionFile> file = parse_motion(format_bvh(many), "jumps.bvh").value();
+  const auto source = ClipSource::create(std::move(file), 0).value();
+  std::vector<Quat> rotations(many.joints());
+  std::vector<Vec3> translations(rotations.size());
+  for (int rounds = 0; rounds < 3;) {
+    if (source->advance(1.0 / 60, {rotations, translations})) ++rounds;
+    const double at = std::fmod(source->seconds(), seconds);
+    if (at > jump.take_off() && at < jump.landing()) {
+      EXPECT_GT(*source->flight(), 0.99f) << rounds << ", " << source->seconds();
+    }
+    if (at > jump.landing() + 0.5) {
+      EXPECT_EQ(*source->flight(), 0) << rounds << ", " << source->seconds();
+    }
+  }
 }
 
 }  // namespace

@@ -159,7 +159,7 @@ void Player::step(double seconds) {
   const Pose out = {out_rotations_, out_translations_};
   stylizer_.set_shape(shape_);
   read_strengths();
-  stylizer_.step(in, strengths_now_, {neutral_seconds, seconds}, out);
+  stylizer_.step(in, strengths_now_, {neutral_seconds, seconds, source_->flight()}, out);
   if (timing_ == Timing::off) {
     rate_ = removal_rate_ = 1;
   } else {

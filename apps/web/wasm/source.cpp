@@ -51,7 +51,10 @@ Result<std::unique_ptr<ClipSource>> ClipSource::create(std::shared_ptr<const Mot
 }
 
 ClipSource::ClipSource(std::shared_ptr<const MotionFile> file, int which, Rig rig)
-    : file_(std::move(file)), which_(which), rig_(std::move(rig)) {
+    : file_(std::move(file)),
+      which_(which),
+      rig_(std::move(rig)),
+      lookout_(file_->clip(which_), rig_) {
   first_ = std::min(rig_.first_frame(), clip().frames - 1);
   last_ = clip().frames - 1 - first_;
 }
@@ -69,7 +72,10 @@ bool ClipSource::advance(double seconds, Pose out) {
     cut = loop_;
     head_ = loop_ && duration() > 0 ? std::fmod(head_, duration()) : duration();
   }
-  sample(clip(), first_ + head_ / clip().frame_time, out);
+  const double frame = first_ + head_ / clip().frame_time;
+  sample(clip(), frame, out);
+  if (cut) lookout_.restart(frame);
+  flight_ = lookout_.flight(frame);
   return cut;
 }
 

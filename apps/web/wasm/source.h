@@ -2,11 +2,13 @@
 // Where the neutral motion comes from: the walker, steered, or a clip with a play head.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/result.h"
 #include "clip/motion_file.h"
 #include "rig/rig.h"
+#include "style/flight_lookout.h"
 #include "walker/walker.h"
 
 namespace panache::web {
@@ -17,6 +19,9 @@ class Source {
   // Goes on by `seconds` of the input's own time. Returns true where the motion was cut: what comes
   // has nothing to do with what was.
   virtual bool advance(double seconds, Pose out) = 0;
+  // How much of a flight that pose is part of, see FlightWatch::amount(), where what comes is
+  // known.
+  virtual std::optional<float> flight() const { return {}; }
   virtual const Clip& clip() const = 0;  // Its skeleton, and for a file its motion.
   virtual const Rig& rig() const = 0;
   // A pose in which nothing is twisted.
@@ -63,6 +68,7 @@ class ClipSource final : public Source {
   int which() const { return which_; }
 
   bool advance(double seconds, Pose out) override;
+  std::optional<float> flight() const override { return flight_; }
   const Clip& clip() const override { return file_->clip(which_); }
   const Rig& rig() const override { return rig_; }
   ConstPose reference() const override { return clip().pose(first_); }
@@ -77,6 +83,8 @@ class ClipSource final : public Source {
   double last_;      // Frames from first to last.
   double head_ = 0;  // Seconds after the first frame.
   bool loop_ = true, cut_ = true;
+  FlightLookout lookout_;
+  float flight_ = 0;
 };
 
 }  // namespace panache::web
