@@ -5,7 +5,6 @@
 
 #include "base/smooth_step.h"
 #include "pose/limb.h"
-#include "rig/canonical_body.h"
 
 namespace panache {
 namespace {
@@ -51,29 +50,34 @@ Vec3 passing(Vec3 way, Vec3 out, float stepping) {
 }
 
 // Whether parts of the left and the right leg come within reach of each other, as passing() sees
-// it. `frame`: its x goes from right to left across the hips.
-bool may_meet(const Part& left, const Part& right, const Frame& frame, float stepping) {
+// it. `left`: the way across the hips, unit.
+bool may_meet(const Part& one, const Part& other, Vec3 left, float stepping) {
   // How much further along an axis all of one part is than the other.
-  const auto beyond = [](const Part& one, const Part& other, Vec3 axis) {
-    return std::min(dot(one.from, axis), dot(one.to, axis)) -
-           std::max(dot(other.from, axis), dot(other.to, axis));
+  const auto beyond = [](const Part& a, const Part& b, Vec3 axis) {
+    return std::min(dot(a.from, axis), dot(a.to, axis)) -
+           std::max(dot(b.from, axis), dot(b.to, axis));
   };
-  const auto apart = [&](Vec3 axis) {
-    return stepping * std::max(beyond(left, right, axis), beyond(right, left, axis));
-  };
-  const float reach = left.radius + right.radius;
-  return !(beyond(left, right, frame.x) > reach || apart(frame.y) > reach ||
-           apart(frame.z) > reach);
+  const float reach = one.radius + other.radius;
+  if (beyond(one, other, left) > reach) return false;
+  // At right angles to it; no longer than 1, so that no distance is overstated.
+  const Vec3 ahead = {-left.z, 0, left.x};
+  for (const Vec3 axis : {ahead, cross(ahead, left)}) {
+    const float apart = std::max(beyond(one, other, axis), beyond(other, one, axis));
+    if (stepping * apart > reach) return false;
+  }
+  return true;
 }
 
 // How far each point is pushed, metres.
 using PartPushes = std::array<std::array<float, 3>, 2>;
 
-// Those of the leg of `side` by a part of the other leg. `out`: towards the leg's own side, unit.
+// Those of the leg of `side` by a part of the other leg. `out` and `own_side`: towards the leg's
+// own side with the change and in the input, unit.
 void raise_pushes(const HeadingBody& body, const HumanPositions& joints, int side, size_t own,
-                  size_t other, Vec3 out, float stepping, PartPushes& pushes) {
-  const Part part = part_of(joints, side, own);
+                  size_t other, Vec3 out, Vec3 own_side, float stepping, PartPushes& pushes) {
+  const Part part = part_of(joints, side, own), input = part_of(body.joints, side, own);
   const Part there = part_of(joints, 1 - side, other).below_crotch();
+  const Part before = part_of(body.joints, 1 - side, other).below_crotch();
   const float reach = part.radius + there.radius;
   for (size_t p = 0; p < kPoints[own].size(); ++p) {
     const float place = kPoints[own][p];
@@ -81,11 +85,8 @@ void raise_pushes(const HeadingBody& body, const HumanPositions& joints, int sid
     const Vec3 way = passing(from_line(point, there.from, there.to), out, stepping);
     float& push = pushes[own][p];
     if (!(push_across(way, out, reach) > push)) continue;
-    const Part before = part_of(body.joints, 1 - side, other).below_crotch();
-    const Vec3 own_side = across_hips(body.joints) * (side == 0 ? 1.0f : -1.0f);
     const Vec3 was =
-        passing(from_line(part_of(body.joints, side, own).at(place), before.from, before.to),
-                own_side, stepping);
+        passing(from_line(input.at(place), before.from, before.to), own_side, stepping);
     const float kept =
         (std::min(reach, length(was)) - kFreeDepth) * smooth_step(dot(was, own_side) / kOwnSide);
     if (kept > 0) push = std::max(push, push_across(way, out, kept));
@@ -97,14 +98,16 @@ struct Pushes {
   float knee = 0, ankle = 0;
 };
 Pushes pushes_of(const HeadingBody& body, const HumanPositions& joints, float stepping) {
-  const Vec3 left = across_hips(joints);
-  const Frame frame = frame_of(left, {0, 1, 0});
+  const Vec3 left = across_hips(joints), left_before = across_hips(body.joints);
   PartPushes pushes{};
   for (size_t l = 0; l < 2; ++l) {
     for (size_t r = 0; r < 2; ++r) {
-      if (!may_meet(part_of(joints, 0, l), part_of(joints, 1, r), frame, stepping)) continue;
-      raise_pushes(body, joints, 0, l, r, left, stepping, pushes);
-      raise_pushes(body, joints, 1, r, l, -left, stepping, pushes);
+      if (!may_meet(part_of(joints, 0, l).below_crotch(), part_of(joints, 1, r).below_crotch(),
+                    left, stepping)) {
+        continue;
+      }
+      raise_pushes(body, joints, 0, l, r, left, left_before, stepping, pushes);
+      raise_pushes(body, joints, 1, r, l, -left, -left_before, stepping, pushes);
     }
   }
   Pushes most;
