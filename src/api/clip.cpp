@@ -76,7 +76,7 @@ Result<RestyleOptions> read_options(const panache_stylize_options* options) {
                  "; expected 0, 1 or 2"};
   }
   constexpr std::array kModes = {LoopMode::off, LoopMode::detect, LoopMode::force};
-  out.loop = kModes[static_cast<size_t>(given->loop)];
+  out.loop = kModes[given->loop];
   return out;
 }
 

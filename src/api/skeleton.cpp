@@ -131,5 +131,5 @@ int32_t panache_skeleton_joint_count(const panache_skeleton* skeleton) {
 
 int32_t panache_skeleton_find(const panache_skeleton* skeleton, const char* vrm_name) {
   const std::optional<int> joint = find_human_joint(vrm_name);
-  return joint ? skeleton->rig.joints()[static_cast<size_t>(*joint)] : -1;
+  return joint ? skeleton->rig.joints()[*joint] : -1;
 }

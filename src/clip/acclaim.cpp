@@ -331,8 +331,8 @@ Skeleton skeleton_of(const Acclaim& file) {
     joint.name = bone.name;
     joint.parent = bone.parent;
     if (bone.parent >= 0) {
-      joint.offset = file.bones[static_cast<size_t>(bone.parent)].tip.as<float>();
-      has_child[static_cast<size_t>(bone.parent)] = true;
+      joint.offset = file.bones[bone.parent].tip.as<float>();
+      has_child[bone.parent] = true;
     } else {
       joint.offset = file.root_place.as<float>();
     }

@@ -148,7 +148,7 @@ class BvhFormatter {
 void add_end_sites(Skeleton& skeleton) {
   std::vector<bool> has_child(skeleton.joints.size());
   for (const Joint& joint : skeleton.joints) {
-    if (joint.parent >= 0) has_child[static_cast<size_t>(joint.parent)] = true;
+    if (joint.parent >= 0) has_child[joint.parent] = true;
   }
   for (size_t j = 0; j < skeleton.joints.size(); ++j) {
     std::vector<Vec3>& ends = skeleton.joints[j].ends;

@@ -77,11 +77,11 @@ class BvhReader {
       } else if (cursor_.take("}")) {
         open.pop_back();
       } else if (cursor_.is_at("End")) {
-        if (auto done = read_end_site(joints()[static_cast<size_t>(open.back())]); !done) {
+        if (auto done = read_end_site(joints()[open.back()]); !done) {
           return done;
         }
       } else {
-        const Joint& joint = joints()[static_cast<size_t>(open.back())];
+        const Joint& joint = joints()[open.back()];
         return cursor_.error("'JOINT', 'End Site' or '}' in joint " + quoted(joint.name));
       }
     }
@@ -181,10 +181,9 @@ class BvhReader {
           "Xposition, Yposition, Zposition, Xrotation, Yrotation or Zrotation as " + which);
     }
     const auto axis_end = channels.order.axis.begin() + channels.order.count;
-    const bool again =
-        channel->rotates
-            ? std::find(channels.order.axis.begin(), axis_end, channel->axis) != axis_end
-            : channels.position[static_cast<size_t>(channel->axis)] >= 0;
+    const bool again = channel->rotates ? std::find(channels.order.axis.begin(), axis_end,
+                                                    channel->axis) != axis_end
+                                        : channels.position[channel->axis] >= 0;
     if (again) return cursor_.error("a channel that the joint does not have yet as " + which);
     cursor_.take(channel->name);
     if (channel->rotates) {
@@ -192,7 +191,7 @@ class BvhReader {
       channels.order.axis[place] = channel->axis;
       channels.rotation[place] = document_.numbers;
     } else {
-      channels.position[static_cast<size_t>(channel->axis)] = document_.numbers;
+      channels.position[channel->axis] = document_.numbers;
     }
     ++document_.numbers;
     return {};
@@ -364,7 +363,7 @@ class BvhReader {
   void set_pose(const std::vector<double>& numbers, Pose pose) const {
     for (size_t j = 0; j < joints().size(); ++j) {
       const BvhChannels& channels = document_.channels[j];
-      const auto number = [&](int place) { return numbers[static_cast<size_t>(place)]; };
+      const auto number = [&](int place) { return numbers[place]; };
       Vec3& t = pose.translations[j];
       t = joints()[j].offset;
       if (channels.position[0] >= 0) t.x = static_cast<float>(number(channels.position[0]));

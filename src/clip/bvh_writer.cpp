@@ -34,7 +34,7 @@ class BvhEncoder {
     append_head(out, changed.frames);
     bool same = changed.frames == clip.frames;
     for (int i = 0; i < changed.frames; ++i) {
-      const int nearest = nearest_frame(source_frames[static_cast<size_t>(i)]);
+      const int nearest = nearest_frame(source_frames[i]);
       split_line(nearest);
       choose_numbers(changed.pose(i), clip.pose(nearest), i == 0);
       same =
@@ -68,7 +68,7 @@ class BvhEncoder {
 
   // The words and numbers of a frame of the file, and where its line ends.
   void split_line(int frame) {
-    const size_t begin = document_.lines[static_cast<size_t>(frame)];
+    const size_t begin = document_.lines[frame];
     TextCursor cursor(std::string_view(document_.text).substr(begin), "");
     for (size_t i = 0; i < numbers(); ++i) {
       cursor.skip_spaces();
@@ -135,7 +135,7 @@ class BvhEncoder {
   }
 
   void append_line(std::string& out, int nearest) const {
-    size_t at = document_.lines[static_cast<size_t>(nearest)];
+    size_t at = document_.lines[nearest];
     const char* const text = document_.text.data();
     for (size_t i = 0; i < numbers(); ++i) {
       if (!changed_[i]) continue;  // Goes with the piece that ends at the next changed number.

@@ -30,7 +30,7 @@ class GltfFile final : public MotionFile {
   const Clip& clip(int which) const override {
     assert(which >= 0);
     if (document_.animations.empty()) return document_.rest;
-    return document_.animations[static_cast<size_t>(which)].clip;
+    return document_.animations[which].clip;
   }
   Clip rest() const override {
     Clip out = document_.rest;

@@ -81,7 +81,7 @@ class AccessorReader {
 
   bool read(int which, GltfValues& out) {
     path_ = item_path("accessors", static_cast<size_t>(which));
-    const GltfJson& accessor = container_.json["accessors"][static_cast<size_t>(which)];
+    const GltfJson& accessor = container_.json["accessors"][which];
     if (!read_layout(accessor, out)) return false;
     const GltfJson *views = nullptr, *sparse = nullptr;
     int view = -1;
@@ -145,7 +145,7 @@ class AccessorReader {
   bool find_elements(const GltfJson& object, const std::string& path, int view, size_t count,
                      size_t size, const char*& first, size_t& stride) {
     const std::string view_path = item_path("bufferViews", static_cast<size_t>(view));
-    const GltfJson& json = container_.json["bufferViews"][static_cast<size_t>(view)];
+    const GltfJson& json = container_.json["bufferViews"][view];
     if (!checker_.is_object(json, view_path)) return false;
     if (!check_compression(json, view_path)) return false;
     int buffer = -1;
@@ -158,10 +158,10 @@ class AccessorReader {
       return false;
     }
     const std::string buffer_path = "buffers[" + std::to_string(buffer) + "]";
-    if (buffer < 0 || !container_.buffers[static_cast<size_t>(buffer)]) {
+    if (buffer < 0 || !container_.buffers[buffer]) {
       return checker_.fail(view_path, "expected a buffer with data, found none");
     }
-    const std::string& bytes = *container_.buffers[static_cast<size_t>(buffer)];
+    const std::string& bytes = *container_.buffers[buffer];
     if (view_at > bytes.size() || view_size > bytes.size() - view_at) {
       return checker_.fail(view_path, "expected a part of the " + std::to_string(bytes.size()) +
                                           " bytes of " + buffer_path + ", found " +

@@ -92,7 +92,7 @@ class ChannelReader {
       return false;
     }
     if (channel.node < 0) return true;
-    GltfNode& node = document_.nodes[static_cast<size_t>(channel.node)];
+    GltfNode& node = document_.nodes[channel.node];
     channel.path = path_named(moved);
     // glTF has no animation of a node that a matrix places.
     if (node.matrix && channel.path != GltfPath::weights) channel.path = GltfPath::other;
@@ -221,15 +221,13 @@ class ClipReader {
   }
 
   // -1 of a node that carries an expression or a gaze.
-  int joint_of(const GltfChannel& channel) const {
-    return document_.nodes[static_cast<size_t>(channel.node)].joint;
-  }
+  int joint_of(const GltfChannel& channel) const { return document_.nodes[channel.node].joint; }
 
   void fill_rotations(GltfAnimation& animation, const GltfChannel& channel,
                       const GltfTrack& track) const {
     Clip& clip = animation.clip;
     const auto joint = static_cast<size_t>(joint_of(channel));
-    const Quat turn = document_.nodes[static_cast<size_t>(channel.node)].own.turn;
+    const Quat turn = document_.nodes[channel.node].own.turn;
     for (int f = 0; f < clip.frames; ++f) {
       const double seconds = animation.start + f * clip.frame_time;
       float v[4];
@@ -268,8 +266,7 @@ bool read_gltf_track(const GltfDocument& document, size_t which, const GltfChann
   const GltfJson& json = document.container.json;
   const std::string path = item_path(member_path(animation_path(which), "samplers"),
                                      static_cast<size_t>(channel.sampler));
-  const GltfJson& sampler =
-      json["animations"][which]["samplers"][static_cast<size_t>(channel.sampler)];
+  const GltfJson& sampler = json["animations"][which]["samplers"][channel.sampler];
   const GltfJson* accessors = nullptr;
   int input = -1, output = -1;
   std::string interpolation = "LINEAR";

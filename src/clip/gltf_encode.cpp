@@ -28,7 +28,7 @@ class AnimationWriter {
         // What has no animation of the file behind it is a change of the rest pose.
         animation_(edit.clip == kNewClip || document.animations.empty()
                        ? nullptr
-                       : &document.animations[static_cast<size_t>(edit.clip)]),
+                       : &document.animations[edit.clip]),
         clip_(animation_ ? animation_->clip : document.rest),
         frame_time_(edit.clip == kNewClip ? changed_.frame_time : clip_.frame_time) {
     if (edit.clip == kNewClip) {
@@ -40,7 +40,7 @@ class AnimationWriter {
     if (animation_) start_ = animation_->start;
     keeps_time_ = changed_.frames == clip_.frames;
     for (int i = 0; i < changed_.frames; ++i) {
-      keeps_time_ = keeps_time_ && source_frames_[static_cast<size_t>(i)] == i;
+      keeps_time_ = keeps_time_ && source_frames_[i] == i;
     }
     if (!keeps_time_) sample_source();
     find_places();
@@ -72,7 +72,7 @@ class AnimationWriter {
     sampled_.skeleton = clip_.skeleton;
     sampled_.resize(changed_.frames);
     for (int i = 0; i < changed_.frames; ++i) {
-      sample(clip_, source_frames_[static_cast<size_t>(i)], sampled_.pose(i));
+      sample(clip_, source_frames_[i], sampled_.pose(i));
     }
   }
 
@@ -124,7 +124,7 @@ class AnimationWriter {
   }
   // In the file, of the frame that the new one came from.
   double source_seconds(int frame) const {
-    const double source = source_frames_[static_cast<size_t>(frame)], last = clip_.frames - 1;
+    const double source = source_frames_[frame], last = clip_.frames - 1;
     return seconds(source > 0 ? std::min(source, last) : 0.0);
   }
 
@@ -132,8 +132,7 @@ class AnimationWriter {
   Quat rotation_in_file(int frame, size_t joint) const {
     if (in_file_.frames > 0) return in_file_.pose(frame).rotations[joint];
     const int node = document_.joint_nodes[joint];
-    return file_rotation(changed_.pose(frame).rotations[joint],
-                         document_.nodes[static_cast<size_t>(node)].own.turn);
+    return file_rotation(changed_.pose(frame).rotations[joint], document_.nodes[node].own.turn);
   }
   Vec3 translation_in_file(int frame, size_t joint) const {
     if (in_file_.frames > 0) return in_file_.pose(frame).translations[joint];
@@ -172,11 +171,11 @@ class AnimationWriter {
 
   void write_channel(const GltfJson& animation, size_t which, const GltfChannel& channel) {
     GltfJson json = animation["channels"][which];
-    const GltfJson& sampler = animation["samplers"][static_cast<size_t>(channel.sampler)];
+    const GltfJson& sampler = animation["samplers"][channel.sampler];
     if (channel.path == GltfPath::other) return keep(std::move(json), channel, sampler);
     // A node whose mesh has weights need not be a joint, and one that carries an expression is
     // none.
-    const int joint = document_.nodes[static_cast<size_t>(channel.node)].joint;
+    const int joint = document_.nodes[channel.node].joint;
     const bool same = is_same(joint, channel.path);
     if (same && keeps_time_) return keep(std::move(json), channel, sampler);
 
@@ -191,7 +190,7 @@ class AnimationWriter {
 
   // The channel with the file's own sampler, which other channels may share.
   void keep(GltfJson channel, const GltfChannel& read, const GltfJson& sampler) {
-    int& kept = kept_samplers_[static_cast<size_t>(read.sampler)];
+    int& kept = kept_samplers_[read.sampler];
     if (kept < 0) {
       kept = static_cast<int>(samplers_.size());
       samplers_.push_back(sampler);
@@ -201,7 +200,7 @@ class AnimationWriter {
   }
 
   void add_channel(int node, int joint, GltfPath path) {
-    const GltfNode& placed = document_.nodes[static_cast<size_t>(node)];
+    const GltfNode& placed = document_.nodes[node];
     if (placed.matrix || is_same(joint, path)) return;
     const size_t sampler =
         add_sampler(GltfJson::object(), rest_gltf_track(placed, path), joint, path, false);
@@ -297,7 +296,7 @@ size_t GltfDataWriter::add(std::span<const float> numbers, std::string_view type
     const uint32_t bits = std::bit_cast<uint32_t>(number);
     for (size_t i = 0; i < 4; ++i) bytes_ += static_cast<char>(bits >> (8 * i) & 0xff);
   }
-  json_["bufferViews"][static_cast<size_t>(view_)]["byteLength"] = bytes_.size() - first_;
+  json_["bufferViews"][view_]["byteLength"] = bytes_.size() - first_;
   GltfJson accessor = {{"bufferView", view_},
                        {"byteOffset", begin - first_},
                        {"componentType", kFloat},
@@ -331,7 +330,7 @@ std::string encode_gltf(const GltfDocument& document, std::span<const ClipEdit> 
     GltfJson animation = AnimationWriter(document, edit, data).write();
     if (animation["channels"].empty()) continue;  // glTF has no animation that moves nothing.
     if (mode == EditMode::replace && edit.clip != kNewClip && !document.animations.empty()) {
-      json["animations"][static_cast<size_t>(edit.clip)] = std::move(animation);
+      json["animations"][edit.clip] = std::move(animation);
       continue;
     }
     const size_t number = document.animations.size() + new_animations.size() + 1;

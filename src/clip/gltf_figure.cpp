@@ -88,8 +88,7 @@ void GltfFigure::add_body(const SkinnedBody& body) {
       continue;
     }
     const int parent = joints_[j].parent;
-    binds[j] =
-        parent < 0 ? joints_[j].world : binds[static_cast<size_t>(parent)] * joints_[j].local;
+    binds[j] = parent < 0 ? joints_[j].world : binds[parent] * joints_[j].local;
     inverse_binds[j] = inverse(binds[j]);
     order.push_back(j);
   }

@@ -105,7 +105,7 @@ class GlbFormatter {
     const Affine above = affine(turn_, {}, {scale_, scale_, scale_});
     std::vector<FigureJoint> out;
     const auto add = [&](int parent, int clip_joint, const Affine& local) {
-      const Affine world = (parent < 0 ? above : out[static_cast<size_t>(parent)].world) * local;
+      const Affine world = (parent < 0 ? above : out[parent].world) * local;
       out.push_back({.node = out.size() + 1,
                      .parent = parent,
                      .clip_joint = clip_joint,

@@ -68,7 +68,7 @@ class NodeReader {
       const std::string child_path = item_path(member_path(path, "children"), i);
       int child = -1;
       if (!checker_.index_value((*list)[i], child_path, nodes_.size(), child)) return false;
-      GltfNode& node = nodes_[static_cast<size_t>(child)];
+      GltfNode& node = nodes_[child];
       if (node.parent >= 0) {
         return checker_.fail(child_path, "expected a node without another parent, found node " +
                                              std::to_string(child) + ", a child of node " +
@@ -123,9 +123,9 @@ class NodeReader {
         const std::string joint_path = item_path(member_path(path, "joints"), i);
         int node = -1;
         if (!checker_.index_value((*joints)[i], joint_path, nodes_.size(), node)) return false;
-        if (nodes_[static_cast<size_t>(node)].end) continue;
-        nodes_[static_cast<size_t>(node)].skinned = true;
-        nodes_[static_cast<size_t>(node)].moves = true;
+        if (nodes_[node].end) continue;
+        nodes_[node].skinned = true;
+        nodes_[node].moves = true;
       }
     }
     return true;
@@ -153,8 +153,8 @@ class NodeReader {
     }
     int node = -1;
     if (!checker_.index(bone, path, "node", nodes_.size(), node)) return false;
-    nodes_[static_cast<size_t>(node)].role = role.substr(0, kGltfMaxNameBytes);
-    nodes_[static_cast<size_t>(node)].moves = true;
+    nodes_[node].role = role.substr(0, kGltfMaxNameBytes);
+    nodes_[node].moves = true;
     return true;
   }
 
@@ -206,8 +206,8 @@ class NodeReader {
     const std::string carrier_path = member_path(path, std::string(key).substr(0, 40));
     if (!checker_.index(*carrier, carrier_path, "node", nodes_.size(), node)) return false;
     // What is a joint as well stays one.
-    if (node >= 0 && !nodes_[static_cast<size_t>(node)].moves) {
-      nodes_[static_cast<size_t>(node)].carrier = true;
+    if (node >= 0 && !nodes_[node].moves) {
+      nodes_[node].carrier = true;
     }
     return true;
   }
@@ -258,9 +258,9 @@ class SkeletonBuilder {
   // Stops where it has been: also in a circle of nodes, which order() finds.
   void mark_above(const GltfNode& node) {
     if (!node.moves) return;
-    for (int up = node.parent; up >= 0 && !nodes_[static_cast<size_t>(up)].moves;) {
-      nodes_[static_cast<size_t>(up)].moves = true;
-      up = nodes_[static_cast<size_t>(up)].parent;
+    for (int up = node.parent; up >= 0 && !nodes_[up].moves;) {
+      nodes_[up].moves = true;
+      up = nodes_[up].parent;
     }
   }
 
@@ -280,7 +280,7 @@ class SkeletonBuilder {
       const Visit visit = waiting.back();
       waiting.pop_back();
       ++visited;
-      GltfNode& node = nodes_[static_cast<size_t>(visit.node)];
+      GltfNode& node = nodes_[visit.node];
       if (visit.depth > kGltfMaxDepth) {
         return checker_.fail("nodes", "expected at most " + std::to_string(kGltfMaxDepth) +
                                           " one below the other, found more");
@@ -309,7 +309,7 @@ class SkeletonBuilder {
     bool below_skin = false;
     if (node.parent >= 0) {
       // The parent of what moves is a joint too, and an earlier one.
-      const GltfNode& parent = nodes_[static_cast<size_t>(node.parent)];
+      const GltfNode& parent = nodes_[node.parent];
       const size_t p = static_cast<size_t>(parent.joint);
       joint.parent = parent.joint;
       if (!parent.own.stretch.can_undo()) return reject_flat(static_cast<size_t>(node.parent));
@@ -322,7 +322,7 @@ class SkeletonBuilder {
     joint.offset = above.apply(node.translation);
     const Stretch below = above.below(joint.rest, node.own.stretch);
     for (const int child : node.children) {
-      const GltfNode& end = nodes_[static_cast<size_t>(child)];
+      const GltfNode& end = nodes_[child];
       if (end.end && !end.moves) joint.ends.push_back(below.apply(end.translation));
     }
     const double reach = static_cast<double>(

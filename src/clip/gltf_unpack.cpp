@@ -31,7 +31,7 @@ const GltfJson* item(const GltfJson& json, const char* of, const GltfJson* objec
   const GltfJson *list = member(&json, of), *place = member(object, key);
   if (!list || !list->is_array() || !place || !place->is_number_unsigned()) return nullptr;
   const auto index = place->get<uint64_t>();
-  return index < list->size() ? &(*list)[static_cast<size_t>(index)] : nullptr;
+  return index < list->size() ? &(*list)[index] : nullptr;
 }
 
 // The extension that packs a view, or null.
@@ -113,10 +113,10 @@ class Unpacker {
         !checker_.count(from, path, "byteLength", size)) {
       return false;
     }
-    if (buffer < 0 || !in_.buffers[static_cast<size_t>(buffer)]) {
+    if (buffer < 0 || !in_.buffers[buffer]) {
       return checker_.fail(path, "expected a buffer with data, found none");
     }
-    const std::string& bytes = *in_.buffers[static_cast<size_t>(buffer)];
+    const std::string& bytes = *in_.buffers[buffer];
     if (at > bytes.size() || size > bytes.size() - at) {
       return checker_.fail(path, "expected a part of the " + std::to_string(bytes.size()) +
                                      " bytes of buffers[" + std::to_string(buffer) + "], found " +

@@ -21,9 +21,8 @@ class WeightReader {
     for (const GltfJson& node : list(json_, "nodes")) {
       const int skin = index(node, "skin", "skins"), mesh = index(node, "mesh", "meshes");
       if (skin < 0 || mesh < 0) continue;
-      const GltfJson& joints = list(list(json_, "skins")[static_cast<size_t>(skin)], "joints");
-      const GltfJson& primitives =
-          list(list(json_, "meshes")[static_cast<size_t>(mesh)], "primitives");
+      const GltfJson& joints = list(list(json_, "skins")[skin], "joints");
+      const GltfJson& primitives = list(list(json_, "meshes")[mesh], "primitives");
       for (const GltfJson& primitive : primitives) {
         if (left_ == 0) return;
         for (int set = 0; set < kMaxSets && add_set(primitive, set, skin, joints); ++set) {

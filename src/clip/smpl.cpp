@@ -210,7 +210,7 @@ class SmplFile final : public MotionFile {
   // Where the frames of an edit come from; -1 from nowhere in the file or from between two frames.
   int source(const ClipEdit& edit, int frame) const {
     if (edit.clip == kNewClip) return -1;
-    const double at = edit.source_frames[static_cast<size_t>(frame)];
+    const double at = edit.source_frames[frame];
     const bool whole = at >= 0 && at < clip_.frames && at == std::floor(at);
     return whole ? static_cast<int>(at) : -1;
   }

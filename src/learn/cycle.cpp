@@ -38,7 +38,7 @@ Take continued(Take take, int cycle) {
   cycle = std::min(cycle, take.frames());
   const RootPose begin = take.root.front();
   RootPose end = take.root.back();
-  if (cycle < take.frames()) end = take.root[static_cast<size_t>(cycle)];
+  if (cycle < take.frames()) end = take.root[cycle];
   if (cycle == take.frames()) end = interpolate(take.root[static_cast<size_t>(cycle) - 2], end, 2);
   const auto one = static_cast<size_t>(cycle), count = 2 * one + kAddedFrames;
   repeat(take.body, one, count);

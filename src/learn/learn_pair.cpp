@@ -38,15 +38,14 @@ Result<Take> take_of(const LearnClip& from) {
 // are often called like the file or the scene, and not like a part of the body.
 std::vector<std::string> joint_paths(const std::vector<Joint>& joints, const Rig& rig) {
   std::vector<bool> above(joints.size());
-  for (int joint = rig.joints()[index(HumanJoint::hips)];
-       (joint = joints[static_cast<size_t>(joint)].parent) >= 0;) {
-    above[static_cast<size_t>(joint)] = true;
+  for (int joint = rig.joints()[index(HumanJoint::hips)]; (joint = joints[joint].parent) >= 0;) {
+    above[joint] = true;
   }
   std::vector<std::string> paths;
   paths.reserve(joints.size());
   for (size_t j = 0; j < joints.size(); ++j) {
     const int parent = joints[j].parent;
-    const std::string before = parent < 0 ? "" : paths[static_cast<size_t>(parent)];
+    const std::string before = parent < 0 ? "" : paths[parent];
     paths.push_back(before + (above[j] ? "\n" : "\n" + joints[j].name));
   }
   return paths;
@@ -81,7 +80,7 @@ Result<std::vector<size_t>> match_joints(const LearnClip& neutral, const LearnCl
     if (found == after.end() || found->second.size() != same.size()) {
       const auto parent = [](const std::vector<Joint>& joints, size_t joint) {
         const int above = joints[joint].parent;
-        return above < 0 ? "nothing" : "'" + joints[static_cast<size_t>(above)].name + "'";
+        return above < 0 ? "nothing" : "'" + joints[above].name + "'";
       };
       const std::string difference =
           a[j].name == b[j].name
@@ -91,7 +90,7 @@ Result<std::vector<size_t>> match_joints(const LearnClip& neutral, const LearnCl
       return Error{where + difference + cure, ErrorKind::other_skeletons};
     }
     const auto nth = std::find(same.begin(), same.end(), j) - same.begin();
-    matches[j] = found->second[static_cast<size_t>(nth)];
+    matches[j] = found->second[nth];
   }
   return matches;
 }
@@ -102,7 +101,7 @@ std::vector<bool> joints_below_hips(const std::vector<Joint>& joints, const Rig&
   std::vector<bool> below(joints.size());
   const int hips = rig.joints()[index(HumanJoint::hips)];
   for (int joint : rig.joints()) {
-    for (; joint > hips; joint = joints[static_cast<size_t>(joint)].parent) below[joint] = true;
+    for (; joint > hips; joint = joints[joint].parent) below[joint] = true;
   }
   return below;
 }

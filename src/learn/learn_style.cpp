@@ -177,7 +177,7 @@ void measure(const std::shared_ptr<const Model>& model, const std::string& style
   }
   StyleNetworks networks(model);
   std::vector<float> strengths(model->styles().size()), window(set.inputs());
-  strengths[static_cast<size_t>(*model->find_style(style))] = 1;
+  strengths[*model->find_style(style)] = 1;
   networks.set_strengths(strengths);
   for (const size_t i : held_back) {
     const Sample& sample = set.samples()[i];

@@ -141,7 +141,7 @@ void write_moment(const Take& take, float frame, float tempo, std::span<float> o
     bodies[t] = body_at(take, at);
     roots[t] = root_at(take, at);
     for (float& number : roots[t]) number = bounded(number / tempo, 3);
-    contacts[t] = take.contacts[static_cast<size_t>(std::lround(at))];
+    contacts[t] = take.contacts[std::lround(at)];
   }
   HumanPositions mean{};
   std::array<float, kHumanJoints> amplitude{};

@@ -364,7 +364,7 @@ Result<TensorFile> rename_style(const TensorFile& model, const std::string& from
   if ((*parsed)->find_style(to)) return Error{name + ": has a style '" + to + "' already"};
   std::vector<Style> styles;
   for (const StyleInfo& info : (*parsed)->styles()) styles.push_back({info, {}});
-  styles[static_cast<size_t>(*index)].info.name = to;
+  styles[*index].info.name = to;
   TensorFile renamed = model;
   write_lists(styles, renamed.metadata);
   return renamed;

@@ -59,7 +59,7 @@ class Retargeter {
     if (options_.feet) hold_feet(body_, seconds, frames_);
     Clip out{character_.skeleton, motion_.frame_time, 0, {}, {}};
     out.resize(static_cast<int>(frames_.size()));
-    for (int f = 0; f < out.frames; ++f) write(frames_[static_cast<size_t>(f)].change, f, out);
+    for (int f = 0; f < out.frames; ++f) write(frames_[f].change, f, out);
     return {std::move(out), std::move(contacts)};
   }
 
@@ -169,8 +169,7 @@ class Retargeter {
       const int from_human = joint_of(from_.rig(), pair.human);
       const int onto_human = joint_of(onto_rig_, pair.human);
       const auto relative = [&](const std::vector<Quat>& world, int joint) {
-        return conjugate(world[static_cast<size_t>(from_human)]) *
-               world[static_cast<size_t>(joint)];
+        return conjugate(world[from_human]) * world[joint];
       };
       const Quat turned =
           relative(world_.rotations, pair.from) * conjugate(relative(from_rest_, pair.from));
@@ -179,8 +178,7 @@ class Retargeter {
       // The joint against its human joint, and what lies between them.
       Quat above, rest;
       chain(pair.onto, onto_human, pose, above, rest);
-      pose.rotations[static_cast<size_t>(pair.onto)] =
-          normalized(conjugate(above) * in_onto * rest);
+      pose.rotations[pair.onto] = normalized(conjugate(above) * in_onto * rest);
     }
   }
   static int joint_of(const Rig& rig, int human) { return rig.joints()[human]; }
@@ -188,11 +186,10 @@ class Retargeter {
   // above: from the human joint to the joint's parent in the pose; rest: to the joint, at rest.
   void chain(int joint, int human, const Pose& pose, Quat& above, Quat& rest) const {
     const auto& joints = character_.skeleton.joints;
-    rest = joints[static_cast<size_t>(joint)].rest;
-    for (int up = joints[static_cast<size_t>(joint)].parent; up != human && up >= 0;
-         up = joints[static_cast<size_t>(up)].parent) {
-      above = pose.rotations[static_cast<size_t>(up)] * above;
-      rest = joints[static_cast<size_t>(up)].rest * rest;
+    rest = joints[joint].rest;
+    for (int up = joints[joint].parent; up != human && up >= 0; up = joints[up].parent) {
+      above = pose.rotations[up] * above;
+      rest = joints[up].rest * rest;
     }
   }
 

@@ -15,8 +15,8 @@ bool moves(const Joint& joint) { return !joint.still; }
 
 bool moves_humanoid(const Skeleton& joints, const Rig& rig) {
   for (int joint : rig.joints()) {
-    for (; joint >= 0; joint = joints.joints[static_cast<size_t>(joint)].parent) {
-      if (moves(joints.joints[static_cast<size_t>(joint)])) return true;
+    for (; joint >= 0; joint = joints.joints[joint].parent) {
+      if (moves(joints.joints[joint])) return true;
     }
   }
   return false;
@@ -40,9 +40,7 @@ namespace {
 // Those of `out.clips` that are poses go to `out.poses`, unless nothing else is there.
 BodyMotions without_poses(const MotionFile& file, BodyMotions out) {
   const std::vector<std::string> names = file.clip_names();
-  const auto pose = [&](int i) {
-    return is_pose(names[static_cast<size_t>(i)], file.clip(i).frames);
-  };
+  const auto pose = [&](int i) { return is_pose(names[i], file.clip(i).frames); };
   if (std::all_of(out.clips.begin(), out.clips.end(), pose)) return out;
   std::copy_if(out.clips.begin(), out.clips.end(), std::back_inserter(out.poses), pose);
   std::erase_if(out.clips, pose);

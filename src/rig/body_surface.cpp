@@ -47,11 +47,10 @@ BindPose bind_pose(const HumanPositions& offsets) {
   BindPose out;
   for (int j = 0; j < kHumanJoints; ++j) {
     const int parent = kHumanParent[j];
-    const Quat above = parent < 0 ? Quat{} : out.rotations[static_cast<size_t>(parent)];
+    const Quat above = parent < 0 ? Quat{} : out.rotations[parent];
     const auto place = static_cast<size_t>(j);
     out.positions[place] =
-        parent < 0 ? offsets[place]
-                   : out.positions[static_cast<size_t>(parent)] + rotate(above, offsets[place]);
+        parent < 0 ? offsets[place] : out.positions[parent] + rotate(above, offsets[place]);
     Quat turn;
     const Vec3 ahead = {0, 0, 1};
     if (j == index(left_upper_arm)) turn = axis_angle(ahead, -kArmsDown);
@@ -100,9 +99,7 @@ void BodySurface::add(const Part& part) {
 // From mid-hip along the spine to the shoulders, as wide as the joints ask for. The tubes meet end
 // to end, so that no torso is too long for them.
 void BodySurface::add_torso() {
-  const auto place = [&](HumanJoint joint) {
-    return bind_.positions[static_cast<size_t>(index(joint))];
-  };
+  const auto place = [&](HumanJoint joint) { return bind_.positions[index(joint)]; };
   const Vec3 left_hip = place(left_upper_leg), right_hip = place(right_upper_leg);
   const Vec3 left_arm = place(left_upper_arm), right_arm = place(right_upper_arm);
   const Vec3 hip = (left_hip + right_hip) * 0.5f, top = (left_arm + right_arm) * 0.5f;
@@ -155,9 +152,7 @@ void BodySurface::add_torso() {
 
 // A neck, a skull and a face, on the joints that there are.
 void BodySurface::add_head() {
-  const auto place = [&](HumanJoint joint) {
-    return bind_.positions[static_cast<size_t>(index(joint))];
-  };
+  const auto place = [&](HumanJoint joint) { return bind_.positions[index(joint)]; };
   const Vec3 top = (place(left_upper_arm) + place(right_upper_arm)) * 0.5f;
   // What a rig without neck or head has in their place lies on the joint above.
   Vec3 base = place(neck), skull = place(head);
@@ -205,18 +200,18 @@ void BodySurface::add_arm(const HumanPositions& offsets, int side) {
   const HumanJoint shoulder = on_side(left_shoulder, side), upper = on_side(left_upper_arm, side);
   const HumanJoint lower = on_side(left_lower_arm, side), hand = on_side(left_hand, side);
   const int group = side == 0 ? kLeftArm : kRightArm;
-  const float long_upper = length(offsets[static_cast<size_t>(index(lower))]);
-  const float long_lower = length(offsets[static_cast<size_t>(index(hand))]);
+  const float long_upper = length(offsets[index(lower)]);
+  const float long_lower = length(offsets[index(hand)]);
   const float thick = std::clamp((long_upper + long_lower) / 0.47f, 0.75f, 1.15f);
   const float size = std::clamp(long_lower / 0.22f, 0.7f, 1.25f);
-  hand_size_[static_cast<size_t>(side)] = size;
+  hand_size_[side] = size;
   const auto along = [&](float x, float y, float z) { return Vec3{out * x, y, z}; };
   const auto times = [](Radii radii, float by) {
     for (float& radius : radii) radius *= by;
     return radii;
   };
 
-  const Vec3 reach = offsets[static_cast<size_t>(index(upper))];
+  const Vec3 reach = offsets[index(upper)];
   if (length(reach) > 1e-4f) {
     add({shoulder,
          kTorso,
@@ -256,10 +251,10 @@ void BodySurface::add_leg(const HumanPositions& offsets, int side) {
   const HumanJoint foot = on_side(left_foot, side), toes = on_side(left_toes, side);
   const int group = side == 0 ? kLeftLeg : kRightLeg;
   const float out = side == 0 ? 1.0f : -1.0f;
-  const float thigh = length(offsets[static_cast<size_t>(index(lower))]);
-  const float shin = length(offsets[static_cast<size_t>(index(foot))]);
-  const Vec3 left_hip = bind_.positions[static_cast<size_t>(index(left_upper_leg))];
-  const Vec3 right_hip = bind_.positions[static_cast<size_t>(index(right_upper_leg))];
+  const float thigh = length(offsets[index(lower)]);
+  const float shin = length(offsets[index(foot)]);
+  const Vec3 left_hip = bind_.positions[index(left_upper_leg)];
+  const Vec3 right_hip = bind_.positions[index(right_upper_leg)];
   // Thighs that are closer than they are thick would grow together.
   const float room = length(left_hip - right_hip) / 2;
   const float thick = std::clamp(room * 1.02f, 0.06f, 0.087f);
@@ -278,7 +273,7 @@ void BodySurface::add_leg(const HumanPositions& offsets, int side) {
        0.008f,
        {0, 0, -0.01f}});
 
-  Vec3 ball = offsets[static_cast<size_t>(index(toes))];
+  Vec3 ball = offsets[index(toes)];
   if (!(ball.z > 0.04f) || !(ball.y < -0.01f)) ball = {0, -0.068f, 0.1f};
   const float size = std::clamp(length(ball) / 0.12f, 0.75f, 1.3f);
   const float sole = ball.y;
@@ -322,7 +317,7 @@ float BodySurface::distance(Vec3 point) const {
   groups.fill(1e3f);
   for (const PlacedPart& placed : parts_) {
     if (placed.part.use == Use::weights) continue;
-    float& group = groups[static_cast<size_t>(placed.part.group)];
+    float& group = groups[placed.part.group];
     // Far from a part its ball is near enough.
     const float ball = length(point - placed.middle) - placed.reach;
     if (ball > 0.1f || ball > group + placed.part.soft) {
@@ -359,7 +354,7 @@ void BodySurface::joint_distances(Vec3 point, std::array<float, kHumanJoints>& o
   for (const PlacedPart& placed : parts_) {
     const float ball = length(point - placed.middle) - placed.reach;
     if (ball > 0.15f || placed.part.use == Use::shape) continue;
-    float& nearest = out[static_cast<size_t>(index(placed.part.joint))];
+    float& nearest = out[index(placed.part.joint)];
     nearest = std::min(nearest, part_distance(placed, point));
   }
 }
@@ -367,7 +362,7 @@ void BodySurface::joint_distances(Vec3 point, std::array<float, kHumanJoints>& o
 float BodySurface::accent(Vec3 point) const {
   float out = 0;
   for (int side = 0; side < 2; ++side) {
-    const float size = hand_size_[static_cast<size_t>(side)];
+    const float size = hand_size_[side];
     const Vec3 hand = to_joint(index(on_side(left_hand, side)), point);
     const float beyond = (side == 0 ? hand.x : -hand.x) - 0.008f * size;
     if (length(hand) < 0.22f * size) out = std::max(out, ramp(beyond, kAccentEdge));

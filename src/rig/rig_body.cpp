@@ -27,7 +27,7 @@ std::array<int, kHumanJoints> moving_joints(const Rig& rig) {
   for (int j = 0; j < kHumanJoints; ++j) {
     const auto place = static_cast<size_t>(j);
     const int parent = kHumanParent[place];
-    out[place] = parent < 0 || rig.joints()[place] >= 0 ? j : out[static_cast<size_t>(parent)];
+    out[place] = parent < 0 || rig.joints()[place] >= 0 ? j : out[parent];
   }
   return out;
 }

@@ -83,8 +83,8 @@ class SurfaceNet {
     std::array<float, 8> corner;
     int inside = 0;
     for (int c = 0; c < 8; ++c) {
-      corner[static_cast<size_t>(c)] = values_[at(x + (c & 1), y + (c >> 1 & 1), z + (c >> 2))];
-      inside += corner[static_cast<size_t>(c)] < 0;
+      corner[c] = values_[at(x + (c & 1), y + (c >> 1 & 1), z + (c >> 2))];
+      inside += corner[c] < 0;
     }
     if (inside == 0 || inside == 8) return;
     Vec3 sum;
@@ -92,8 +92,7 @@ class SurfaceNet {
     for (int a = 0; a < 8; ++a) {
       for (const int bit : {1, 2, 4}) {
         if (a & bit) continue;
-        const float from = corner[static_cast<size_t>(a)],
-                    to = corner[static_cast<size_t>(a | bit)];
+        const float from = corner[a], to = corner[a | bit];
         if ((from < 0) == (to < 0)) continue;
         const float t = from / (from - to);
         sum += Vec3{static_cast<float>(a & 1) + (bit == 1 ? t : 0),
