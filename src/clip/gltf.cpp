@@ -121,9 +121,8 @@ Result<std::unique_ptr<MotionFile>> parse_vrma(std::string bytes, const std::str
                                                const ReadOptions& options) {
   Result<GltfDocument> document = read_document(std::move(bytes), name, options);
   if (!document) return document.error();
-  const GltfJson& json = document->container.json;
   const GltfJson::json_pointer hips("/extensions/VRMC_vrm_animation/humanoid/humanBones/hips/node");
-  if (!json.contains(hips)) {
+  if (!document->container.json.contains(hips)) {
     return Error{name +
                  ": extensions.VRMC_vrm_animation: expected a humanoid with hips, found none; a "
                  "file without it is a .glb"};

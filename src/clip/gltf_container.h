@@ -22,6 +22,10 @@ struct GltfContainer {
   std::vector<std::pair<uint32_t, std::string>> other_chunks;  // Type and bytes, as they came.
   int indent = -1;  // Of JSON text; -1 for a single line.
   char indent_char = ' ';
+
+  // The bytes that a part of the JSON names by buffer, byteOffset and byteLength; none where it is
+  // wrong.
+  std::string_view bytes_of(const GltfPart& view) const;
 };
 
 // Reads a file's bytes. What it points to in other files is read as well (beside and below the

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/little_endian.h"
 #include "clip/gltf_scales.h"
 
 namespace panache {
@@ -293,8 +294,7 @@ size_t GltfDataWriter::add(std::span<const float> numbers, std::string_view type
         {{"buffer", place_.buffer}, {"byteOffset", place_.offset + begin}, {"byteLength", 0}});
   }
   for (const float number : numbers) {
-    const uint32_t bits = std::bit_cast<uint32_t>(number);
-    for (size_t i = 0; i < 4; ++i) bytes_ += static_cast<char>(bits >> (8 * i) & 0xff);
+    append_little_endian(std::bit_cast<uint32_t>(number), 4, bytes_);
   }
   json_["bufferViews"][view_]["byteLength"] = bytes_.size() - first_;
   GltfJson accessor = {{"bufferView", view_},

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <initializer_list>
 
+#include "base/little_endian.h"
+
 namespace panache {
 namespace {
 
@@ -53,7 +55,7 @@ void GltfFigure::add_sticks() {
     order.push_back(j);
     inverse_binds.push_back(inverse(joint.world));
     if (joint.parent >= 0 && !joint.wanders) {
-      add_stick(static_cast<size_t>(joint.parent), joint.world.place);
+      add_stick(joint.parent, joint.world.place);
     }
   }
   const size_t skin = add_skin(order, inverse_binds);
@@ -75,8 +77,8 @@ void GltfFigure::add_body(const SkinnedBody& body) {
     const auto found = std::find_if(joints_.begin(), joints_.end(), [&](const FigureJoint& joint) {
       return joint.clip_joint == static_cast<int>(bind.joint);
     });
-    const auto j = static_cast<size_t>(found - joints_.begin());
-    const auto s = static_cast<double>(bind.scale);
+    const size_t j = found - joints_.begin();
+    const double s = bind.scale;
     order.push_back(j);
     bound[j] = 1;
     inverse_binds[j] = inverse(found->stretch) *
@@ -151,7 +153,7 @@ size_t GltfFigure::add_bytes(std::span<const std::array<uint8_t, 4>> vertices, b
 
 size_t GltfFigure::add_triangles(std::span<const uint16_t> corners) {
   const size_t begin = bytes_.size();
-  for (const uint16_t corner : corners) append_short(corner);
+  for (const uint16_t corner : corners) append_little_endian(corner, 2, bytes_);
   const size_t accessor =
       add_accessor(begin, kUnsignedShort, corners.size(), "SCALAR", kTriangleData);
   bytes_.resize((bytes_.size() + 3) / 4 * 4, '\0');
@@ -195,15 +197,9 @@ size_t GltfFigure::add_vertex_data(const std::vector<float>& numbers, const char
 size_t GltfFigure::add_joint_numbers() {
   const size_t begin = bytes_.size();
   for (const size_t joint : joint_numbers_) {
-    append_short(joint);
-    bytes_.append(6, '\0');  // The three joints without weight.
+    append_little_endian(joint, 8, bytes_);  // And three joints without weight.
   }
   return add_accessor(begin, kUnsignedShort, joint_numbers_.size(), "VEC4", kVertexData);
-}
-
-void GltfFigure::append_short(size_t number) {
-  bytes_ += static_cast<char>(number & 0xff);
-  bytes_ += static_cast<char>(number >> 8 & 0xff);
 }
 
 // An accessor of all bytes from `begin` on, with a view of its own.

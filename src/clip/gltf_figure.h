@@ -53,7 +53,6 @@ class GltfFigure {
   size_t add_triangles(std::span<const uint16_t> corners);
   size_t add_vertex_data(const std::vector<float>& numbers, const char* type, size_t components);
   size_t add_joint_numbers();
-  void append_short(size_t number);
   size_t add_accessor(size_t begin, int component, size_t count, const char* type, int target);
 
   GltfPlace place_;

@@ -5,6 +5,9 @@
 
 namespace panache {
 
+// The extension that packs a view of data, or null.
+const char* gltf_packing(const GltfPart& view);
+
 // Whether some data of the file is packed, and can be decoded (meshopt.h).
 bool has_packed_data(const GltfContainer& container);
 // Whether keys of its animations are.

@@ -199,12 +199,11 @@ std::string with_whole_skin(const GltfDocument& document) {
   GltfJson json = document.container.json;
   std::string added;
   GltfJson& skin = json["skins"][0];
-  const auto accessor = skin.find("inverseBindMatrices");
   GltfChecker unheard("");
+  const GltfPart root(document.container.json, unheard);
+  const int accessor = root.item("skins", 0).index("inverseBindMatrices", root.size("accessors"));
   GltfValues matrices;
-  if (accessor == skin.end() || !accessor->is_number_unsigned() ||
-      accessor->get<size_t>() >= json["accessors"].size() ||
-      !read_gltf_matrices(document.container, accessor->get<int>(), "", unheard, matrices) ||
+  if (accessor < 0 || !read_gltf_matrices(document.container, accessor, "", unheard, matrices) ||
       matrices.count != skin["joints"].size()) {
     return write_gltf_container(document.container, std::move(json), added);
   }

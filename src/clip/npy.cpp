@@ -5,8 +5,8 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
+#include "base/little_endian.h"
 #include "clip/decimal.h"
 #include "clip/text_cursor.h"
 
@@ -16,12 +16,6 @@ namespace {
 constexpr std::string_view kMagic = "\x93NUMPY";
 constexpr size_t kMaxDimensions = 8;
 
-uint64_t little(std::string_view bytes) {
-  uint64_t value = 0;
-  for (size_t i = bytes.size(); i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[i]);
-  return value;
-}
-
 // Bytes of an element; 0 for what is none of ours.
 size_t size_of(std::string_view type) {
   if (type.size() < 3 || type.size() > 6) return 0;
@@ -30,7 +24,7 @@ size_t size_of(std::string_view type) {
   size_t size = 0;
   for (const char c : type.substr(2)) {
     if (c < '0' || c > '9') return 0;
-    size = 10 * size + static_cast<size_t>(c - '0');
+    size = 10 * size + (c - '0');
   }
   return type[1] == 'U' ? 4 * size : size;
 }
@@ -111,7 +105,7 @@ class HeaderReader {
     const size_t begin = at_;
     for (out = 0; at_ < text_.size() && text_[at_] >= '0' && text_[at_] <= '9'; ++at_) {
       if (out > (uint64_t{1} << 50)) return false;  // More than any file has.
-      out = 10 * out + static_cast<uint64_t>(text_[at_] - '0');
+      out = 10 * out + (text_[at_] - '0');
     }
     return at_ > begin;
   }
@@ -129,7 +123,7 @@ class HeaderReader {
 double number_at(const char* bytes, char kind, size_t size, bool swap) {
   std::string in(bytes, size);
   if (swap) std::reverse(in.begin(), in.end());
-  const uint64_t bits = little(in);
+  const uint64_t bits = little_endian(in);
   if (kind == 'f' && size == 8) return std::bit_cast<double>(bits);
   if (kind == 'f') return static_cast<double>(std::bit_cast<float>(static_cast<uint32_t>(bits)));
   if (kind != 'i' || size == 8) {
@@ -159,7 +153,7 @@ Result<NpyArray> parse_npy(std::string_view bytes, const std::string& name) {
                  std::to_string(version)};
   }
   const size_t field = version == 1 ? 2 : 4, begin = 8 + field;
-  const uint64_t length = little(bytes.substr(8, field));
+  const uint64_t length = little_endian(bytes.substr(8, field));
   if (length > bytes.size() - begin) {
     return Error{name + ": expected a header of " + std::to_string(length) + " bytes, found " +
                  std::to_string(bytes.size() - begin) + " to the end"};
@@ -193,8 +187,8 @@ std::string format_npy(const NpyArray& array) {
   header.append((unpadded + 63) / 64 * 64 - unpadded, ' ');
   header += '\n';
   std::string out(kMagic);
-  out += {'\1', '\0', static_cast<char>(header.size() & 0xff),
-          static_cast<char>(header.size() >> 8 & 0xff)};
+  out += {'\1', '\0'};
+  append_little_endian(header.size(), 2, out);
   return out + header + array.elements;
 }
 
@@ -230,10 +224,9 @@ NpyArray npy_array(std::span<const double> numbers, std::vector<size_t> shape,
   NpyArray out{single ? "<f4" : "<f8", false, std::move(shape), {}};
   assert(out.count() == numbers.size());
   for (const double number : numbers) {
-    const auto small = static_cast<float>(number);
-    const auto* bytes =
-        single ? reinterpret_cast<const char*>(&small) : reinterpret_cast<const char*>(&number);
-    out.elements.append(bytes, single ? 4 : 8);  // Panache runs where numbers are little-endian.
+    const uint64_t bits = single ? std::bit_cast<uint32_t>(static_cast<float>(number))
+                                 : std::bit_cast<uint64_t>(number);
+    append_little_endian(bits, single ? 4 : 8, out.elements);
   }
   return out;
 }

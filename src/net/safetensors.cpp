@@ -13,6 +13,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/little_endian.h"
+
 namespace panache {
 namespace {
 
@@ -193,16 +195,6 @@ class HeaderReader : public nlohmann::json_sax<nlohmann::json> {
   std::vector<uint64_t>* numbers_ = nullptr;  // The list being filled.
 };
 
-uint64_t read_little_endian(std::string_view bytes) {
-  uint64_t value = 0;
-  for (size_t i = bytes.size(); i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[i]);
-  return value;
-}
-
-void append_little_endian(uint64_t value, size_t bytes, std::string& out) {
-  for (size_t i = 0; i < bytes; ++i) out += static_cast<char>(value >> (8 * i) & 0xff);
-}
-
 // The tensor that `entry` describes, once type, shape and place in `data` agree.
 Result<Tensor> read_tensor(const Entry& entry, std::string_view data, const std::string& name) {
   const std::string where = name + ": tensor " + in_quotes(entry.name);
@@ -235,7 +227,7 @@ Result<Tensor> read_tensor(const Entry& entry, std::string_view data, const std:
   }
   tensor.values.resize(count);
   for (size_t i = 0; i < count; ++i) {
-    const uint64_t bits = read_little_endian(data.substr(begin + i * width, width));
+    const uint64_t bits = little_endian(data.substr(begin + i * width, width));
     tensor.values[i] = tensor.int8   ? static_cast<float>(static_cast<int8_t>(bits))
                        : tensor.half ? from_half(static_cast<uint16_t>(bits))
                                      : std::bit_cast<float>(static_cast<uint32_t>(bits));
@@ -298,7 +290,7 @@ Result<TensorFile> parse_safetensors(std::string_view bytes, const std::string& 
                  " bytes; expected a safetensors file, which starts with the 8-byte length of its "
                  "header"};
   }
-  const uint64_t length = read_little_endian(bytes.substr(0, kLengthBytes));
+  const uint64_t length = little_endian(bytes.substr(0, kLengthBytes));
   const std::string_view rest = bytes.substr(kLengthBytes);
   if (length > kMaxHeaderBytes) {
     return Error{name + ": does not start with the length of a header (at most " +
