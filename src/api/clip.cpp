@@ -5,9 +5,8 @@
 
 #include "api/errors.h"
 #include "api/objects.h"
+#include "api/options.h"
 #include "api/poses.h"
-#include "api/shape.h"
-#include "api/sized_struct.h"
 #include "learn/recognise.h"
 #include "style/removal.h"
 

@@ -2,9 +2,8 @@
 
 #include "api/errors.h"
 #include "api/objects.h"
+#include "api/options.h"
 #include "api/poses.h"
-#include "api/rig_options.h"
-#include "api/sized_struct.h"
 #include "base/utf8.h"
 #include "clip/motion_format.h"
 #include "pose/motion_notes.h"

@@ -1,8 +1,7 @@
 #include "api/errors.h"
 #include "api/objects.h"
+#include "api/options.h"
 #include "api/poses.h"
-#include "api/rig_options.h"
-#include "api/sized_struct.h"
 #include "rig/calibration.h"
 
 using namespace panache;
@@ -47,14 +46,7 @@ Result<Clip> read_poses(Skeleton skeleton, const panache_skeleton_options& optio
   }
   auto read = read_frames(options.rotations, options.translations, count, Rotations::unit, clip);
   if (!read) return read.error();
-  if (count == 0) {
-    for (const Joint& joint : clip.skeleton.joints) {
-      clip.rotations.push_back(joint.rest);
-      clip.translations.push_back(joint.offset);
-    }
-    clip.frames = 1;
-  }
-  return clip;
+  return count == 0 ? rest_clip(clip.skeleton) : clip;
 }
 
 Result<KnownJoints> read_map(const panache_skeleton_options& options, int32_t joint_count) {

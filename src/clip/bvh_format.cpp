@@ -109,11 +109,9 @@ class BvhFormatter {
   }
 
   void append_vector(Vec3 v) {
-    append_fixed(out_, static_cast<double>(v.x), kDecimals);
-    out_ += ' ';
-    append_fixed(out_, static_cast<double>(v.y), kDecimals);
-    out_ += ' ';
-    append_fixed(out_, static_cast<double>(v.z), kDecimals);
+    append_fixed(out_, v.x, kDecimals);
+    append_fixed(out_ += ' ', v.y, kDecimals);
+    append_fixed(out_ += ' ', v.z, kDecimals);
   }
 
   void append_frame(ConstPose pose) {

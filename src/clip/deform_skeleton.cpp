@@ -6,8 +6,6 @@
 #include <utility>
 
 #include "clip/deform_tree.h"
-#include "clip/placed.h"
-#include "clip/still_joints.h"
 
 namespace panache {
 namespace {

@@ -8,8 +8,6 @@
 #include <string>
 #include <utility>
 
-#include "clip/placed.h"
-
 namespace panache {
 namespace {
 

@@ -7,9 +7,6 @@
 #include "clip/gltf_document.h"
 #include "clip/gltf_encode.h"
 #include "clip/gltf_figure.h"
-#include "clip/gltf_retime.h"
-#include "clip/gltf_unpack.h"
-#include "clip/vrma_rest.h"
 
 namespace panache {
 namespace {

@@ -1,4 +1,4 @@
-#include "clip/gltf_accessor.h"
+#include "clip/gltf_container.h"
 
 #include <algorithm>
 #include <bit>
@@ -7,7 +7,6 @@
 
 #include "base/little_endian.h"
 #include "clip/decimal.h"
-#include "clip/gltf_unpack.h"
 
 namespace panache {
 namespace {

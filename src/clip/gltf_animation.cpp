@@ -4,10 +4,8 @@
 #include <utility>
 
 #include "clip/decimal.h"
-#include "clip/gltf_accessor.h"
 #include "clip/gltf_document.h"
 #include "clip/gltf_scales.h"
-#include "clip/still_joints.h"
 
 namespace panache {
 namespace {
@@ -167,62 +165,14 @@ class ClipReader {
 
   bool fill(size_t which) {
     GltfAnimation& animation = document_.animations[which];
-    Clip& clip = animation.clip;
     GltfScales scales(document_, animation, tracks_);
-    if (!scales.is_still()) {
-      const int far = fill_stretched_clip(document_, animation, tracks_, scales);
-      return far < 0 || fail_far(which, far);
-    }
-    for (int f = 0; f < clip.frames; ++f) {
-      std::ranges::copy(document_.rest.rotations, clip.pose(f).rotations.begin());
-      std::ranges::copy(document_.rest.translations, clip.pose(f).translations.begin());
-    }
-    for (size_t c = 0; c < tracks_.size(); ++c) {
-      const GltfChannel& channel = animation.channels[c];
-      if (channel.path == GltfPath::other || joint_of(channel) < 0) continue;
-      if (channel.path == GltfPath::rotation) fill_rotations(animation, channel, tracks_[c]);
-      if (channel.path != GltfPath::translation) continue;
-      if (!fill_translations(animation, channel, tracks_[c])) return fail_far(which, c);
-    }
-    return true;
-  }
-
-  bool fail_far(size_t which, size_t channel) {
-    return checker_.fail(item_path(animation_path(which) + ".channels", channel),
-                         "expected positions between -1e9 and 1e9, found one outside");
+    const int far = fill_clip(document_, animation, tracks_, scales);
+    return far < 0 || checker_.fail(item_path(animation_path(which) + ".channels", far),
+                                    "expected positions between -1e9 and 1e9, found one outside");
   }
 
   // -1 of a node that carries an expression or a gaze.
   int joint_of(const GltfChannel& channel) const { return document_.nodes[channel.node].joint; }
-
-  void fill_rotations(GltfAnimation& animation, const GltfChannel& channel,
-                      const GltfTrack& track) const {
-    Clip& clip = animation.clip;
-    const int joint = joint_of(channel);
-    const Quat turn = document_.nodes[channel.node].own.turn;
-    for (int f = 0; f < clip.frames; ++f) {
-      const double seconds = animation.start + f * clip.frame_time;
-      float v[4];
-      track.evaluate(seconds, key_tolerance(seconds, clip.frame_time), v);
-      clip.pose(f).rotations[joint] = clip_rotation({v[0], v[1], v[2], v[3]}, turn);
-    }
-  }
-
-  bool fill_translations(GltfAnimation& animation, const GltfChannel& channel,
-                         const GltfTrack& track) const {
-    Clip& clip = animation.clip;
-    const int joint = joint_of(channel);
-    clip.skeleton.joints[joint].can_translate = true;
-    for (int f = 0; f < clip.frames; ++f) {
-      const double seconds = animation.start + f * clip.frame_time;
-      float v[3];
-      track.evaluate(seconds, key_tolerance(seconds, clip.frame_time), v);
-      const Vec3 place = document_.above[joint].apply({v[0], v[1], v[2]});
-      if (!is_within_reach(place)) return false;
-      clip.pose(f).translations[joint] = place;
-    }
-    return true;
-  }
 
   GltfDocument& document_;
   GltfChecker& checker_;

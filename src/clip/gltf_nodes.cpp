@@ -237,8 +237,7 @@ class SkeletonBuilder {
                              "expected a scale that leaves each of its axes some length, as other "
                              "joints are below it, found one that is flat");
       }
-      above = document_.above[p].below(document_.skeleton.joints[p].rest, parent.own.stretch);
-      document_.bends = document_.bends || !document_.above[p].is_even();
+      above = above_[p].below(document_.skeleton.joints[p].rest, parent.own.stretch);
       below_skin = below_skin_[p] || parent.skinned;
     }
     joint.can_translate = !node.matrix && (joint.parent < 0 || (node.skinned && !below_skin));
@@ -258,7 +257,7 @@ class SkeletonBuilder {
                            "larger by the scales of the nodes above");
     }
     document_.skeleton.joints.push_back(std::move(joint));
-    document_.above.push_back(above);
+    above_.push_back(above);
     below_skin_.push_back(below_skin);
     return true;
   }
@@ -266,6 +265,7 @@ class SkeletonBuilder {
   GltfDocument& document_;
   std::vector<GltfNode>& nodes_;
   GltfChecker& checker_;
+  std::vector<Stretch> above_;    // [joints] what the nodes above do to its place, at rest.
   std::vector<char> below_skin_;  // [joints] 1 where a node above is in a skin.
 };
 

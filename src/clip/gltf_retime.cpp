@@ -1,12 +1,10 @@
-#include "clip/gltf_retime.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
 #include <vector>
 
-#include "clip/gltf_accessor.h"
+#include "clip/gltf_document.h"
 #include "clip/gltf_encode.h"
 
 namespace panache {

@@ -87,9 +87,8 @@ bool moves(const Clip& clip, size_t joint) {
 }  // namespace
 
 bool is_within_reach(Vec3 place) {
-  return std::ranges::all_of(std::array{place.x, place.y, place.z}, [](float x) {
-    return std::abs(static_cast<double>(x)) <= kLargestNumber;
-  });
+  return std::ranges::all_of(std::array{place.x, place.y, place.z},
+                             [](float x) { return std::abs(x) <= kLargestNumber; });
 }
 
 GltfScales::GltfScales(const GltfDocument& document, const GltfAnimation& animation,
@@ -102,7 +101,7 @@ GltfScales::GltfScales(const GltfDocument& document, const GltfAnimation& animat
     const bool carries = std::any_of(node.children.begin(), node.children.end(),
                                      [&](int child) { return document.nodes[child].joint >= 0; });
     if (node.joint < 0 || !carries || is_idle(tracks[c], node.scale)) continue;
-    tracks_.push_back({static_cast<size_t>(node.joint), &tracks[c]});
+    tracks_.push_back({node.joint, &tracks[c]});
   }
 }
 
@@ -128,8 +127,7 @@ void GltfScales::set_time(double seconds, double tolerance) {
 void GltfScales::place(size_t joint, std::span<const Quat> rotations) {
   const int parent = document_.skeleton.joints[joint].parent;
   if (parent < 0) return;
-  const auto p = static_cast<size_t>(parent);
-  above_[joint] = above_[p].below(rotations[p], own_[p].stretch);
+  above_[joint] = above_[parent].below(rotations[parent], own_[parent].stretch);
 }
 
 void GltfScales::set_file_pose(double seconds, double tolerance, std::span<Quat> rotations) {
@@ -145,8 +143,8 @@ void GltfScales::set_clip_pose(double seconds, double tolerance, std::span<const
   for (size_t j = 0; j < rotations.size(); ++j) place(j, rotations);
 }
 
-int fill_stretched_clip(const GltfDocument& document, GltfAnimation& animation,
-                        std::span<const GltfTrack> tracks, GltfScales& scales) {
+int fill_clip(const GltfDocument& document, GltfAnimation& animation,
+              std::span<const GltfTrack> tracks, GltfScales& scales) {
   const JointTracks joints(document, animation, tracks);
   Clip& clip = animation.clip;
   for (int f = 0; f < clip.frames; ++f) {

@@ -1,4 +1,4 @@
-#include "clip/gltf_unpack.h"
+#include "clip/gltf_container.h"
 
 #include <algorithm>
 #include <initializer_list>

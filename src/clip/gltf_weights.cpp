@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <string>
 
-#include "clip/gltf_accessor.h"
 #include "clip/gltf_document.h"
 
 namespace panache {

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <map>
 
-#include "clip/gltf_accessor.h"
 #include "clip/gltf_figure.h"
 
 namespace panache {
@@ -103,7 +102,7 @@ class SkeletonNodes {
       root_[n] = parent < 0 ? static_cast<int>(n) : root_[parent];
       if (parent >= 0 && below_[parent]) below_[n] = 1;
       for (const int child : document_.nodes[n].children) {
-        nodes_.push_back(static_cast<size_t>(child));
+        nodes_.push_back(child);
       }
     }
   }
@@ -128,7 +127,7 @@ class SkeletonNodes {
     }
     for (FigureJoint& joint : joints) {
       if (joint.clip_joint < 0) continue;
-      const auto j = static_cast<size_t>(joint.clip_joint);
+      const int j = joint.clip_joint;
       joint.stretch = affine(conjugate(normalized(turns[j])), {}) * joint.world;
       joint.stretch.place = {};
       for (const GltfAnimation& animation : document_.animations) {
@@ -143,10 +142,6 @@ class SkeletonNodes {
   std::vector<size_t> nodes_;           // All, parents before children.
   int of_body_ = -1;                    // A node that a body needs; -1 where there is no body.
 };
-
-}  // namespace
-
-namespace {
 
 // Adds missing lists, and a scene that shows all nodes if there is no scene.
 void make_room(const GltfDocument& document, GltfJson& json) {
@@ -186,12 +181,7 @@ std::string with_figure(const GltfDocument& document, const SkinnedBody* body) {
   const std::vector<FigureJoint> joints = SkeletonNodes(document, body).joints();
   make_room(document, json);
   const std::string& name = document.nodes[joints.front().node].name;
-  GltfFigure figure(gltf_added_at(document.container), json, added, joints, name);
-  if (body) {
-    figure.add_body(*body);
-  } else {
-    figure.add_sticks();
-  }
+  add_figure(gltf_added_at(document.container), json, added, joints, name, body);
   return write_gltf_container(document.container, std::move(json), added);
 }
 

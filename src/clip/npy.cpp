@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <system_error>
 
 #include "base/little_endian.h"
 #include "clip/decimal.h"
@@ -29,96 +31,35 @@ size_t size_of(std::string_view type) {
   return type[1] == 'U' ? 4 * size : size;
 }
 
-// The text of a header: "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }".
-class HeaderReader {
- public:
-  HeaderReader(std::string_view text, const std::string& name) : text_(text), name_(name) {}
-
-  Result<void> read(NpyArray& out) {
-    if (!take("{")) return fail("'{'");
-    while (!take("}")) {
-      if (auto done = read_entry(out); !done) return done;
-      if (!take(",") && !is_at("}")) return fail("',' or '}'");
-    }
-    if (out.type.empty() || !has_shape_) return fail("'descr' and 'shape'");
-    return {};
+// Reads "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }".
+Result<void> read_header(std::string_view text, const std::string& name, NpyArray& out) {
+  const auto value_of = [&](std::string_view key) {
+    const size_t at = text.find(key);
+    const size_t begin = at == text.npos ? at : text.find_first_not_of("'\": \n", at + key.size());
+    return begin == text.npos ? std::string_view() : text.substr(begin);
+  };
+  const std::string_view type = value_of("descr"), shape = value_of("shape");
+  out.type = type.substr(0, type.find_first_of("'\""));
+  out.by_columns = value_of("fortran_order").starts_with("True");
+  bool good = !type.empty() && shape.starts_with('(') && shape.find(')') != shape.npos;
+  std::string_view sizes = good ? shape.substr(1, shape.find(')') - 1) : "";
+  for (size_t at; good && (at = sizes.find_first_not_of(", ")) != sizes.npos;) {
+    constexpr uint64_t kLargest = uint64_t{1} << 50;  // More than any file has.
+    uint64_t size = 0;
+    const char* const end = sizes.data() + sizes.size();
+    const auto [after, failure] = std::from_chars(sizes.data() + at, end, size);
+    good = failure == std::errc() && size < kLargest && out.shape.size() < kMaxDimensions;
+    out.shape.push_back(size);
+    sizes.remove_prefix(after - sizes.data());
+    good = good && (sizes.empty() || sizes.front() == ',' || sizes.front() == ' ');
   }
-
- private:
-  Result<void> read_entry(NpyArray& out) {
-    std::string key;
-    if (!take_string(key) || !take(":")) return fail("a name and ':'");
-    if (key == "descr") {
-      if (!take_string(out.type)) return fail("a type");
-      if (size_of(out.type) == 0) {
-        return Error{name_ + ": expected an array of numbers or text, found the type " +
-                     quoted(out.type)};
-      }
-    } else if (key == "fortran_order") {
-      out.by_columns = take("True");
-      if (!out.by_columns && !take("False")) return fail("True or False");
-    } else if (key == "shape") {
-      return read_shape(out.shape);
-    } else {
-      return fail("descr, fortran_order or shape");
-    }
-    return {};
+  if (!good) {
+    return Error{name + ": expected descr, fortran_order and at most 8 sizes as shape in the " +
+                 "header of an array, found " + quoted(text)};
   }
-
-  Result<void> read_shape(std::vector<size_t>& shape) {
-    shape.clear();
-    has_shape_ = true;
-    if (!take("(")) return fail("'('");
-    while (!take(")")) {
-      uint64_t size = 0;
-      if (!take_number(size) || shape.size() == kMaxDimensions) {
-        return fail("at most 8 sizes of dimensions");
-      }
-      shape.push_back(size);
-      if (!take(",") && !is_at(")")) return fail("',' or ')'");
-    }
-    return {};
-  }
-
-  void skip_space() {
-    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\n')) ++at_;
-  }
-  bool is_at(std::string_view word) {
-    skip_space();
-    return text_.substr(at_).starts_with(word);
-  }
-  bool take(std::string_view word) {
-    if (!is_at(word)) return false;
-    at_ += word.size();
-    return true;
-  }
-  bool take_string(std::string& out) {
-    if (!is_at("'") && !is_at("\"")) return false;
-    const size_t end = text_.find(text_[at_], at_ + 1);
-    if (end == std::string_view::npos) return false;
-    out = text_.substr(at_ + 1, end - at_ - 1);
-    at_ = end + 1;
-    return true;
-  }
-  bool take_number(uint64_t& out) {
-    skip_space();
-    const size_t begin = at_;
-    for (out = 0; at_ < text_.size() && text_[at_] >= '0' && text_[at_] <= '9'; ++at_) {
-      if (out > (uint64_t{1} << 50)) return false;  // More than any file has.
-      out = 10 * out + (text_[at_] - '0');
-    }
-    return at_ > begin;
-  }
-  Error fail(const std::string& expected) const {
-    return Error{name_ + ": expected " + expected + " in the header of an array, found " +
-                 quoted(text_.substr(std::min(at_, text_.size())))};
-  }
-
-  std::string_view text_;
-  const std::string& name_;
-  size_t at_ = 0;
-  bool has_shape_ = false;
-};
+  if (size_of(out.type) > 0) return {};
+  return Error{name + ": expected an array of numbers or text, found the type " + quoted(out.type)};
+}
 
 double number_at(const char* bytes, char kind, size_t size, bool swap) {
   std::string in(bytes, size);
@@ -159,9 +100,7 @@ Result<NpyArray> parse_npy(std::string_view bytes, const std::string& name) {
                  std::to_string(bytes.size() - begin) + " to the end"};
   }
   NpyArray out;
-  if (auto done = HeaderReader(bytes.substr(begin, length), name).read(out); !done) {
-    return done.error();
-  }
+  if (auto done = read_header(bytes.substr(begin, length), name, out); !done) return done.error();
   out.elements = bytes.substr(begin + length);
   // Compared without a product that might overflow.
   size_t left = out.elements.size() / size_of(out.type);

@@ -116,7 +116,7 @@ bool rest_alike(const LearnClip& neutral, const LearnClip& styled,
     const Vec3 a = joints[j].offset, b = styled.clip.skeleton.joints[matches[j]].offset;
     const float lengths = length(a) * length(b);
     if (!in_body[j] || !(lengths > 0)) continue;
-    const double cosine = static_cast<double>(dot(a, b) / lengths);
+    const double cosine = dot(a, b) / lengths;
     const double limit = kSameRest * std::numbers::pi / 180;
     if (std::acos(std::clamp(cosine, -1.0, 1.0)) > limit) return false;
   }
@@ -139,14 +139,8 @@ Result<Take> take_onto(const LearnClip& styled, const LearnClip& neutral) {
 // The canonical body upright, with hanging arms.
 Clip standing_pose() {
   constexpr float kDown = 1.35f, kBent = 0.2f;  // Radians: upper arms, elbows.
-  Clip clip;
-  clip.skeleton = canonical_skeleton();
-  clip.resize(1);
+  Clip clip = rest_clip(canonical_skeleton());
   const Pose pose = clip.pose(0);
-  for (size_t j = 0; j < clip.joints(); ++j) {
-    pose.rotations[j] = {};
-    pose.translations[j] = clip.skeleton.joints[j].offset;
-  }
   pose.rotations[index(HumanJoint::left_upper_arm)] = axis_angle({0, 0, 1}, -kDown);
   pose.rotations[index(HumanJoint::right_upper_arm)] = axis_angle({0, 0, 1}, kDown);
   pose.rotations[index(HumanJoint::left_lower_arm)] = axis_angle({0, 1, 0}, -kBent);

@@ -55,7 +55,7 @@ std::string file_name(const std::string& path) {
 double mean_tempo(const std::vector<Pairing>& pairings) {
   double sum = 0, count = 0;
   for (const Pairing& pairing : pairings) {
-    for (const float rate : pairing.rates) sum += static_cast<double>(rate), ++count;
+    for (const float rate : pairing.rates) sum += rate, ++count;
   }
   return sum / count;
 }
@@ -72,17 +72,15 @@ std::vector<MatchedInstant> matched_instants(const std::vector<Pairing>& pairing
     const int count = static_cast<int>(pairing.neutral_frames.size());
     for (int i = 0; i < count; ++i) {
       const int frame = pairing.first + i;
-      double neutral = static_cast<double>(pairing.neutral_frames[i]);
+      double neutral = pairing.neutral_frames[i];
       if (cycle) neutral = std::fmod(std::max(neutral, 0.0), cycle);
-      const Placed placed = {
-          std::abs(i - (count - 1) / 2.0),
-          {frame / kTakeRate, neutral / kTakeRate, static_cast<double>(pairing.cost)}};
+      const Placed placed = {std::abs(i - (count - 1) / 2.0),
+                             {frame / kTakeRate, neutral / kTakeRate, pairing.cost}};
       const auto [at, is_new] = by_frame.try_emplace(frame, placed);
       if (!is_new && placed.from_middle < at->second.from_middle) at->second = placed;
     }
   }
   std::vector<MatchedInstant> instants;
-  instants.reserve(by_frame.size());
   for (const auto& [frame, placed] : by_frame) instants.push_back(placed.instant);
   return instants;
 }
@@ -187,9 +185,9 @@ void measure(const std::shared_ptr<const Model>& model, const std::string& style
     const StyleDelta answer = recipe.to_change(networks.pose(), body_at(neutral, sample.frame),
                                                root_at(neutral, sample.frame));
     const auto error = [&](const StyleDelta& change) {
-      return pose_error(takes[sample.styled], sample.styled_frame, neutral, sample.frame, change)
-                 .cm /
-             static_cast<double>(held_back.size());
+      const Take& styled = takes[sample.styled];
+      return pose_error(styled, sample.styled_frame, neutral, sample.frame, change).cm /
+             held_back.size();
     };
     out.held_back_cm += error(answer);
     out.mean_posture_cm += error(unpack(mean));
@@ -241,9 +239,7 @@ Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
   if (auto good = check_style_name(style); !good) return good.error();
   Result<std::shared_ptr<const Model>> model = Model::create(file, name);
   if (!model) return model.error();
-  if (!(*model)->can_learn()) {
-    return cannot_learn(name);
-  }
+  if (!(*model)->can_learn()) return cannot_learn(name);
   if (pairs.empty()) {
     return Error{"there is nothing to learn '" + style +
                  "' from; give a neutral and a styled clip"};
@@ -320,9 +316,8 @@ Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
   if (trust == 1) gestures = find_gestures(takes, pairings);
   for (const FoundGesture& found : gestures) {
     fits[0].tensors[gesture_key(learnt.gestures.size())] = found.gesture.tensor();
-    learnt.gestures.push_back({found.gesture.name(),
-                               learnt.pairs[static_cast<size_t>(found.take) / 2].styled_name,
-                               found.start, static_cast<double>(found.gesture.seconds())});
+    learnt.gestures.push_back({found.gesture.name(), learnt.pairs[found.take / 2].styled_name,
+                               found.start, found.gesture.seconds()});
   }
   learnt.file = make_style_file(file, info, std::move(fits[0].tensors));
   return learnt;

@@ -50,9 +50,13 @@ std::string in_quotes(std::string_view text) {
   return out += '\'';
 }
 
-std::string shape_text(const std::vector<uint64_t>& shape) {
+template <class Size>
+std::string shape_text(const std::vector<Size>& shape) {
   std::string text = "[";
-  for (const uint64_t size : shape) text += (text.size() > 1 ? ", " : "") + std::to_string(size);
+  for (const Size size : shape) {
+    text += (text.size() > 1 ? ", " : "") +
+            (std::is_signed_v<Size> && size == Size(-1) ? "any" : std::to_string(size));
+  }
   return text + "]";
 }
 
@@ -284,6 +288,29 @@ std::string json_text(const std::string& text) {
 
 }  // namespace
 
+Result<const Tensor*> find_tensor(const TensorFile& file, const std::string& key,
+                                  const std::vector<int64_t>& shape, const std::string& name,
+                                  float limit) {
+  const std::string where = name + ": tensor '" + key + "' ";
+  const auto found = file.tensors.find(key);
+  if (found == file.tensors.end()) return Error{where + "is missing"};
+  const Tensor& tensor = found->second;
+  const auto fits = [](int64_t size, int64_t expected) {
+    return expected < 0 ? size > 0 && size <= std::numeric_limits<int>::max() : size == expected;
+  };
+  if (!std::equal(tensor.shape.begin(), tensor.shape.end(), shape.begin(), shape.end(), fits)) {
+    return Error{where + "has shape " + shape_text(tensor.shape) + "; expected " +
+                 shape_text(shape)};
+  }
+  const auto bad = std::find_if_not(tensor.values.begin(), tensor.values.end(), [&](float v) {
+    return std::isfinite(v) && std::abs(v) < limit;
+  });
+  if (bad == tensor.values.end()) return &tensor;
+  return Error{where + "holds a number that is " +
+               (std::isfinite(*bad) ? "too large" : "not finite") + " (number " +
+               std::to_string(bad - tensor.values.begin()) + ")"};
+}
+
 Result<TensorFile> parse_safetensors(std::string_view bytes, const std::string& name) {
   if (bytes.size() < kLengthBytes) {
     return Error{name + ": has " + std::to_string(bytes.size()) +
@@ -350,8 +377,8 @@ std::string format_safetensors(const TensorFile& file) {
       append_values(tensor, data);
       std::string fields;
       member(fields, "dtype", json_text(type));
-      member(fields, "shape", shape_text({tensor.shape.begin(), tensor.shape.end()}));
-      member(fields, "data_offsets", shape_text({begin, data.size()}));
+      member(fields, "shape", shape_text(tensor.shape));
+      member(fields, "data_offsets", shape_text(std::vector{begin, data.size()}));
       member(header, key, fields + "}");
     }
   }

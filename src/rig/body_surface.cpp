@@ -16,6 +16,11 @@ constexpr int kGroups = 6;
 enum Group { kTorso, kHead, kLeftArm, kRightArm, kLeftLeg, kRightLeg };
 constexpr float kAccentEdge = 0.02f;  // Metres.
 
+// A part as thick from end to end.
+constexpr std::array<float, 5> even(float radius) {
+  return {radius, radius, radius, radius, radius};
+}
+
 constexpr HumanJoint on_side(HumanJoint left, int side) {
   return side == 0 ? left : static_cast<HumanJoint>(kHumanMirror[index(left)]);
 }
@@ -48,16 +53,14 @@ BindPose bind_pose(const HumanPositions& offsets) {
   for (int j = 0; j < kHumanJoints; ++j) {
     const int parent = kHumanParent[j];
     const Quat above = parent < 0 ? Quat{} : out.rotations[parent];
-    const auto place = static_cast<size_t>(j);
-    out.positions[place] =
-        parent < 0 ? offsets[place] : out.positions[parent] + rotate(above, offsets[place]);
+    out.positions[j] = parent < 0 ? offsets[j] : out.positions[parent] + rotate(above, offsets[j]);
     Quat turn;
     const Vec3 ahead = {0, 0, 1};
     if (j == index(left_upper_arm)) turn = axis_angle(ahead, -kArmsDown);
     if (j == index(right_upper_arm)) turn = axis_angle(ahead, kArmsDown);
     if (j == index(left_upper_leg)) turn = axis_angle(ahead, kLegsApart);
     if (j == index(right_upper_leg)) turn = axis_angle(ahead, -kLegsApart);
-    out.rotations[place] = above * turn;
+    out.rotations[j] = above * turn;
   }
   return out;
 }
@@ -80,7 +83,7 @@ BodySurface::BodySurface(const HumanPositions& offsets) : bind_(bind_pose(offset
 }
 
 void BodySurface::add(const Part& part) {
-  const auto j = static_cast<size_t>(index(part.joint));
+  const int j = index(part.joint);
   const Vec3 stretch = {1 / part.squeeze.x, 1 / part.squeeze.y, 1 / part.squeeze.z};
   PlacedPart out;
   out.part = part;
@@ -99,7 +102,6 @@ void BodySurface::add(const Part& part) {
 // From mid-hip along the spine to the shoulders, as wide as the joints ask for. The tubes meet end
 // to end, so that no torso is too long for them.
 void BodySurface::add_torso() {
-  const auto place = [&](HumanJoint joint) { return bind_.positions[index(joint)]; };
   const Vec3 left_hip = place(left_upper_leg), right_hip = place(right_upper_leg);
   const Vec3 left_arm = place(left_upper_arm), right_arm = place(right_upper_arm);
   const Vec3 hip = (left_hip + right_hip) * 0.5f, top = (left_arm + right_arm) * 0.5f;
@@ -119,11 +121,7 @@ void BodySurface::add_torso() {
   const Vec3 waist = lerp(low, high, 0.36f), ribs = lerp(low, high, 0.68f);
   const auto share = [&](HumanJoint joint, Vec3 from, Vec3 to) {
     const float radius = 0.7f * rib;
-    Part part{joint,
-              kTorso,
-              from - place(joint),
-              to - place(joint),
-              {radius, radius, radius, radius, radius}};
+    Part part{joint, kTorso, from - place(joint), to - place(joint), even(radius)};
     part.use = Use::weights;
     add(part);
   };
@@ -134,12 +132,7 @@ void BodySurface::add_torso() {
   const Vec3 across = (left_arm - right_arm) * 0.5f;
   const Vec3 yoke = top + Vec3{0, -0.02f, -0.008f};
   const auto lump = [&](HumanJoint joint, Vec3 from, Vec3 to, float radius, float soft) {
-    add({joint,
-         kTorso,
-         from - place(joint),
-         to - place(joint),
-         {radius, radius, radius, radius, radius},
-         soft});
+    add({joint, kTorso, from - place(joint), to - place(joint), even(radius), soft});
   };
   lump(chest, yoke - across * 0.66f, yoke + across * 0.66f, 0.062f, 0.06f);
   for (const float side : {-1.0f, 1.0f}) {
@@ -152,7 +145,6 @@ void BodySurface::add_torso() {
 
 // A neck, a skull and a face, on the joints that there are.
 void BodySurface::add_head() {
-  const auto place = [&](HumanJoint joint) { return bind_.positions[index(joint)]; };
   const Vec3 top = (place(left_upper_arm) + place(right_upper_arm)) * 0.5f;
   // What a rig without neck or head has in their place lies on the joint above.
   Vec3 base = place(neck), skull = place(head);
@@ -174,7 +166,7 @@ void BodySurface::add_head() {
        kHead,
        h + Vec3{0, 0.113f, -0.004f},
        h + Vec3{0, 0.113f, -0.004f},
-       {0.096f, 0.096f, 0.096f, 0.096f, 0.096f},
+       even(0.096f),
        0.035f,
        {},
        {0.84f, 1.02f, 1}});
@@ -213,12 +205,7 @@ void BodySurface::add_arm(const HumanPositions& offsets, int side) {
 
   const Vec3 reach = offsets[index(upper)];
   if (length(reach) > 1e-4f) {
-    add({shoulder,
-         kTorso,
-         reach * 0.3f,
-         reach * 0.8f,
-         {0.056f, 0.056f, 0.056f, 0.056f, 0.056f},
-         0.06f});
+    add({shoulder, kTorso, reach * 0.3f, reach * 0.8f, even(0.056f), 0.06f});
   }
   add({upper,
        group,
@@ -253,8 +240,7 @@ void BodySurface::add_leg(const HumanPositions& offsets, int side) {
   const float out = side == 0 ? 1.0f : -1.0f;
   const float thigh = length(offsets[index(lower)]);
   const float shin = length(offsets[index(foot)]);
-  const Vec3 left_hip = bind_.positions[index(left_upper_leg)];
-  const Vec3 right_hip = bind_.positions[index(right_upper_leg)];
+  const Vec3 left_hip = place(left_upper_leg), right_hip = place(right_upper_leg);
   // Thighs that are closer than they are thick would grow together.
   const float room = length(left_hip - right_hip) / 2;
   const float thick = std::clamp(room * 1.02f, 0.06f, 0.087f);
@@ -294,8 +280,7 @@ void BodySurface::add_leg(const HumanPositions& offsets, int side) {
 }
 
 Vec3 BodySurface::to_joint(int joint, Vec3 point) const {
-  const auto j = static_cast<size_t>(joint);
-  return rotate(conjugate(bind_.rotations[j]), point - bind_.positions[j]);
+  return rotate(conjugate(bind_.rotations[joint]), point - bind_.positions[joint]);
 }
 
 float BodySurface::part_distance(const PlacedPart& placed, Vec3 point) const {

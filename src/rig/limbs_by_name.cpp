@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "rig/joint_words.h"
-#include "rig/standard_names.h"
 
 namespace panache {
 namespace {

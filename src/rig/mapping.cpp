@@ -8,9 +8,7 @@
 #include "rig/limb_shape.h"
 #include "rig/limbs_by_name.h"
 #include "rig/limbs_by_shape.h"
-#include "rig/mapping_draft.h"
 #include "rig/name_preferences.h"
-#include "rig/standard_names.h"
 
 namespace panache {
 namespace {
