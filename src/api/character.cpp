@@ -125,10 +125,10 @@ panache_status panache_character_restore(panache_character* character, const voi
                                          size_t size) {
   if (character->live.restore({static_cast<const std::byte*>(bytes), size})) return PANACHE_OK;
   return guarded([&] {
-    return fail(PANACHE_BAD_STATE,
-                {"expected the " + std::to_string(character->live.state_size()) +
-                 " bytes of a state saved by a character of the same model, skeleton and options; "
-                 "found " +
-                 std::to_string(size) + " bytes that are not a saved state"});
+    return fail(
+        PANACHE_BAD_STATE,
+        {"expected the " + std::to_string(character->live.state_size()) +
+         " bytes of a state saved by a character of the same model, skeleton and options; found " +
+         std::to_string(size) + " bytes that are not a saved state"});
   });
 }

@@ -22,10 +22,10 @@ inline Result<Shape> read_shape(const panache_shape* given) {
   out.posture = read->posture;
   out.dynamics = read->dynamics;
   out.timing = read->timing;
-  out.regions[Region::legs] = read->legs;
-  out.regions[Region::torso] = read->torso;
-  out.regions[Region::left_arm] = read->left_arm;
-  out.regions[Region::right_arm] = read->right_arm;
+  out.regions[size_t(Region::legs)] = read->legs;
+  out.regions[size_t(Region::torso)] = read->torso;
+  out.regions[size_t(Region::left_arm)] = read->left_arm;
+  out.regions[size_t(Region::right_arm)] = read->right_arm;
   out.foot_lock = read->foot_lock;
   return out;
 }

@@ -149,7 +149,7 @@ class AccessorReader {
                   std::to_string(bytes.size()) + " bytes of " + view.path() +
                   ", found it too short");
     }
-    out = {bytes.data() + at, stride};  // Beyond the file only where there is one element.
+    out = {bytes.data() + at, static_cast<size_t>(stride)};
     return true;
   }
 

@@ -121,6 +121,7 @@ std::vector<std::pair<std::string, GltfPart>> GltfPart::members() const {
 std::vector<GltfPart> GltfPart::list(const std::string& key) const {
   std::vector<GltfPart> out;
   const size_t count = size(key);
+  out.reserve(count);
   for (size_t i = 0; i < count; ++i) out.push_back(item(key, i));
   return out;
 }

@@ -79,9 +79,8 @@ Result<const MotionFormat*> format_of(const std::string& path,
   return Error{
       path + ": expected a motion file (" + list_extensions(formats) + "), found " +
       (extension.empty() ? "no extension" : "the extension " + panache::quoted(extension)) +
-      (extension == ".fbx"
-           ? "; 'panache convert IN.fbx -o OUT.glb' makes a GLB of it, and 'panache "
-             "view IN.fbx' shows it"
+      (extension == ".fbx" ? "; 'panache convert IN.fbx -o OUT.glb' makes a GLB of it, and "
+                             "'panache view IN.fbx' shows it"
        : extension == ".safetensors" ? ", which models and styles have"
                                      : "")};
 }

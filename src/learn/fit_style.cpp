@@ -156,6 +156,7 @@ void put_gate(const Model& model, Table& table, const std::vector<double>& covar
   const double others = size > count ? std::max(0.0, left) / (size - count) : 0;
   const double rest = 1 / (others + penalty);
   std::vector<double> gate_weights;
+  gate_weights.reserve(main.variances.size());
   for (const double variance : main.variances)
     gate_weights.push_back(1 / (variance + penalty) - rest);
 

@@ -64,8 +64,8 @@ Result<std::vector<size_t>> match_joints(const LearnClip& neutral, const LearnCl
   const std::vector<Joint>& b = styled.clip.skeleton.joints;
   const std::string where = neutral.name + " and " + styled.name + ": have different skeletons (";
   const std::string cure =
-      "); a pair needs joints of the same names and parents: leave the neutral clip "
-      "out, or retarget the styled clip onto it";
+      "); a pair needs joints of the same names and parents: leave the neutral clip out, or "
+      "retarget the styled clip onto it";
   if (a.size() != b.size()) {
     return Error{
         where + std::to_string(a.size()) + " and " + std::to_string(b.size()) + " joints" + cure,

@@ -81,6 +81,7 @@ std::vector<MatchedInstant> matched_instants(const std::vector<Pairing>& pairing
     }
   }
   std::vector<MatchedInstant> instants;
+  instants.reserve(by_frame.size());
   for (const auto& [frame, placed] : by_frame) instants.push_back(placed.instant);
   return instants;
 }
@@ -89,14 +90,13 @@ Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& p
                             const std::vector<Take>& takes, int neutral, int styled) {
   const std::string both = pair.neutral_name + " and " + pair.styled_name;
   const bool repeats = takes[neutral].frames() > pair.neutral.frames();
-  PairReport report{pair.neutral_name,
-                    pair.styled_name,
-                    takes[styled].frames() / kTakeRate,
-                    1,
-                    0,
-                    {},
-                    pair.twin,
-                    matched_instants(pairings, repeats ? pair.neutral_cycle : 0)};
+  PairReport report;
+  report.neutral_name = pair.neutral_name;
+  report.styled_name = pair.styled_name;
+  report.seconds = takes[styled].frames() / kTakeRate;
+  report.twin = pair.twin;
+  report.instants = matched_instants(pairings, repeats ? pair.neutral_cycle : 0);
+  const auto warn = [&](const std::string& text) { report.warnings.push_back(text); };
   if (!pairings.empty()) report.match = mean_cost(pairings);
   if (pairings.empty() || report.match > kNoMatch) {
     return Error{both + ": no match was found between them" +
@@ -108,19 +108,17 @@ Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& p
   }
   report.tempo = mean_tempo(pairings);
   if (report.match < kSameMotion) {
-    report.warnings.push_back(both +
-                              ": are the same motion, so that the style changes nothing; give a "
-                              "clip in the style as the second one");
+    warn(both +
+         ": are the same motion, so that the style changes nothing; give a clip in the style as "
+         "the second one");
   }
   if (pair.twin && !pair.twin->is_known) {
     const double trust = pair.twin->trust;
-    report.warnings.push_back(pair.styled_name +
-                              ": is unlike the neutral motion that is known, so that " +
-                              (trust < 1 ? "only " + with_decimals(100 * trust, 0) +
-                                               " % of what differs from it counts "
-                                               "as style"
-                                         : "what differs from it is not style alone") +
-                              "; give a neutral clip of the action");
+    warn(pair.styled_name + ": is unlike the neutral motion that is known, so that " +
+         (trust < 1 ? "only " + with_decimals(100 * trust, 0) +
+                          " % of what differs from it counts as style"
+                    : "what differs from it is not style alone") +
+         "; give a neutral clip of the action");
   }
   std::vector<Take> exchanged = {takes[neutral], takes[styled]};
   for (HumanPositions& body : exchanged[1].body) body = mirrored(body);
@@ -128,35 +126,33 @@ Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& p
   const bool is_mirrored =
       !other.empty() && report.match > kNearlyEqual && mean_cost(other) < kMirrored * report.match;
   if (is_mirrored) {
-    report.warnings.push_back(both +
-                              ": match better with left and right exchanged; record the action "
-                              "with the same hand or foot first in both");
+    warn(both +
+         ": match better with left and right exchanged; record the action with the same hand or "
+         "foot first in both");
   } else if (report.match > kPoorMatch) {
-    report.warnings.push_back(both + ": match badly (distance " + with_decimals(report.match, 2) +
-                              ", good is below " + with_decimals(double(kGoodMatch), 2) +
-                              "); are they of the same action, from its beginning to its end?");
+    warn(both + ": match badly (distance " + with_decimals(report.match, 2) + ", good is below " +
+         with_decimals(double(kGoodMatch), 2) +
+         "); are they of the same action, from its beginning to its end?");
   }
   const std::optional<double> in_step = step_agreement(takes, pairings);
   if (!is_mirrored && in_step && *in_step < kInStep) {
-    report.warnings.push_back(both +
-                              ": are out of step, left feet were paired with right ones in part; "
-                              "give a neutral clip of four steps or more");
+    warn(both +
+         ": are out of step, left feet were paired with right ones in part; give a neutral clip of "
+         "four steps or more");
   }
   if (report.tempo < kSlowest || report.tempo > kFastest) {
-    report.warnings.push_back(both + ": the style takes " + with_decimals(1 / report.tempo, 2) +
-                              " times as long as the neutral motion, expected " +
-                              with_decimals(1 / kFastest, 2) + " to " +
-                              with_decimals(1 / kSlowest, 2) +
-                              "; beyond that the tempo is not followed; record a neutral take "
-                              "nearer to it");
+    warn(both + ": the style takes " + with_decimals(1 / report.tempo, 2) +
+         " times as long as the neutral motion, expected " + with_decimals(1 / kFastest, 2) +
+         " to " + with_decimals(1 / kSlowest, 2) +
+         "; beyond that the tempo is not followed; record a neutral take nearer to it");
   }
   for (const bool is_neutral : {true, false}) {
     const double seconds = (is_neutral ? pair.neutral : pair.styled).frames() / kTakeRate;
     // A clip of as long has up to two frames less, by where its frames lie.
     if (seconds > kShort - 1.5 / kTakeRate || (is_neutral && pair.twin)) continue;
-    report.warnings.push_back((is_neutral ? pair.neutral_name : pair.styled_name) + ": has only " +
-                              with_decimals(seconds, 2) +
-                              " s; 2 to 3 s of a walk, or the whole of an action, teach more");
+    warn((is_neutral ? pair.neutral_name : pair.styled_name) + ": has only " +
+         with_decimals(seconds, 2) +
+         " s; 2 to 3 s of a walk, or the whole of an action, teach more");
   }
   return report;
 }

@@ -297,12 +297,11 @@ Result<TensorFile> add_style(const TensorFile& model, const std::string& name,
   if (auto heads = check_has_heads(**parsed, name); !heads) return heads.error();
   const std::string trunk = trunk_fingerprint(model), made_for = metadata_of(style, "trunk");
   if (trunk != made_for) {
-    return Error{
-        style_name + ": is a style of another model (its trunk is " + quoted(made_for) +
-            ", that of " + name + " is " + quoted(trunk) +
-            "); use it with the model that it was made with or the int8 version of that model, "
-            "or learn it again with this one",
-        ErrorKind::style_of_another};
+    return Error{style_name + ": is a style of another model (its trunk is " + quoted(made_for) +
+                     ", that of " + name + " is " + quoted(trunk) +
+                     "); use it with the model that it was made with or the int8 version of that "
+                     "model, or learn it again with this one",
+                 ErrorKind::style_of_another};
   }
   Parts parts = take_apart(model, **parsed);
   std::vector<Style>& styles = parts.styles;

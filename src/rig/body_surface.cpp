@@ -132,7 +132,7 @@ void BodySurface::add_torso() {
   const Vec3 across = (left_arm - right_arm) * 0.5f;
   const Vec3 yoke = top + Vec3{0, -0.02f, -0.008f};
   const auto lump = [&](HumanJoint joint, Vec3 from, Vec3 to, float radius, float soft) {
-    add({joint, kTorso, from - place(joint), to - place(joint), even(radius), soft});
+    add(joint, kTorso, from - place(joint), to - place(joint), even(radius), soft);
   };
   lump(chest, yoke - across * 0.66f, yoke + across * 0.66f, 0.062f, 0.06f);
   for (const float side : {-1.0f, 1.0f}) {
@@ -151,39 +151,16 @@ void BodySurface::add_head() {
   if (!(skull.y > top.y + 0.02f)) skull = top + Vec3{0, 0.125f, 0.015f};
   if (!(base.y > top.y - 0.08f) || length(skull - base) < 0.02f) base = lerp(top, skull, 0.3f);
   const Vec3 n = place(neck), h = skull - place(head);
-  add({chest,
-       kHead,
-       base + Vec3{0, -0.07f, -0.014f} - place(chest),
-       base - place(chest),
-       {0.085f, 0.078f, 0.069f, 0.061f, 0.056f}});
-  add({neck,
-       kHead,
-       base - n,
-       skull + Vec3{0, 0.03f, 0.002f} - n,
-       {0.056f, 0.053f, 0.051f, 0.05f, 0.05f},
-       0.012f});
-  add({head,
-       kHead,
-       h + Vec3{0, 0.113f, -0.004f},
-       h + Vec3{0, 0.113f, -0.004f},
-       even(0.096f),
-       0.035f,
-       {},
-       {0.84f, 1.02f, 1}});
-  add({head,
-       kHead,
-       h + Vec3{0, 0.09f, 0.022f},
-       h + Vec3{0, 0.034f, 0.04f},
-       {0.079f, 0.078f, 0.073f, 0.065f, 0.053f},
-       0.04f,
-       {0, 0, 0.004f},
-       {0.93f, 1, 1}});
-  add({head,
-       kHead,
-       h + Vec3{0, 0.1f, 0.086f},
-       h + Vec3{0, 0.074f, 0.097f},
-       {0.008f, 0.009f, 0.01f, 0.011f, 0.0115f},
-       0.024f});
+  add(chest, kHead, base + Vec3{0, -0.07f, -0.014f} - place(chest), base - place(chest),
+      {0.085f, 0.078f, 0.069f, 0.061f, 0.056f});
+  add(neck, kHead, base - n, skull + Vec3{0, 0.03f, 0.002f} - n,
+      {0.056f, 0.053f, 0.051f, 0.05f, 0.05f}, 0.012f);
+  add(head, kHead, h + Vec3{0, 0.113f, -0.004f}, h + Vec3{0, 0.113f, -0.004f}, even(0.096f), 0.035f,
+      {}, {0.84f, 1.02f, 1});
+  add(head, kHead, h + Vec3{0, 0.09f, 0.022f}, h + Vec3{0, 0.034f, 0.04f},
+      {0.079f, 0.078f, 0.073f, 0.065f, 0.053f}, 0.04f, {0, 0, 0.004f}, {0.93f, 1, 1});
+  add(head, kHead, h + Vec3{0, 0.1f, 0.086f}, h + Vec3{0, 0.074f, 0.097f},
+      {0.008f, 0.009f, 0.01f, 0.011f, 0.0115f}, 0.024f);
 }
 
 // Along +x for the left, -x for the right; palms down, thumbs ahead.
@@ -205,17 +182,12 @@ void BodySurface::add_arm(const HumanPositions& offsets, int side) {
 
   const Vec3 reach = offsets[index(upper)];
   if (length(reach) > 1e-4f) {
-    add({shoulder, kTorso, reach * 0.3f, reach * 0.8f, even(0.056f), 0.06f});
+    add(shoulder, kTorso, reach * 0.3f, reach * 0.8f, even(0.056f), 0.06f);
   }
-  add({upper,
-       group,
-       along(0.002f, 0, 0),
-       along(long_upper, 0, 0),
-       times({0.057f, 0.051f, 0.0455f, 0.042f, 0.0375f}, thick),
-       0.004f,
-       {0, 0, 0.004f}});
-  add({lower, group, along(0, 0, 0), along(long_lower, 0, 0),
-       times({0.036f, 0.042f, 0.0385f, 0.0305f, 0.025f}, thick), 0.008f});
+  add(upper, group, along(0.002f, 0, 0), along(long_upper, 0, 0),
+      times({0.057f, 0.051f, 0.0455f, 0.042f, 0.0375f}, thick), 0.004f, {0, 0, 0.004f});
+  add(lower, group, along(0, 0, 0), along(long_lower, 0, 0),
+      times({0.036f, 0.042f, 0.0385f, 0.0305f, 0.025f}, thick), 0.008f);
 
   const auto finger = [&](Vec3 from, Vec3 to, const Radii& radii, float soft, Vec3 squeeze) {
     Part part{hand, group, from * size, to * size, times(radii, size), soft};
@@ -244,20 +216,11 @@ void BodySurface::add_leg(const HumanPositions& offsets, int side) {
   // Thighs that are closer than they are thick would grow together.
   const float room = length(left_hip - right_hip) / 2;
   const float thick = std::clamp(room * 1.02f, 0.06f, 0.087f);
-  add({upper,
-       group,
-       {out * 0.004f, 0, 0},
-       {0, -thigh, 0},
-       {thick, 0.95f * thick, 0.8f * thick, 0.5f * (0.8f * thick + 0.046f), 0.047f},
-       0.004f,
-       {0, 0, 0.008f}});
-  add({lower,
-       group,
-       {0, 0, 0},
-       {0, -shin, -0.004f},
-       {0.047f, 0.0515f, 0.0465f, 0.036f, 0.033f},
-       0.008f,
-       {0, 0, -0.01f}});
+  add(upper, group, {out * 0.004f, 0, 0}, {0, -thigh, 0},
+      {thick, 0.95f * thick, 0.8f * thick, 0.5f * (0.8f * thick + 0.046f), 0.047f}, 0.004f,
+      {0, 0, 0.008f});
+  add(lower, group, {0, 0, 0}, {0, -shin, -0.004f}, {0.047f, 0.0515f, 0.0465f, 0.036f, 0.033f},
+      0.008f, {0, 0, -0.01f});
 
   Vec3 ball = offsets[index(toes)];
   if (!(ball.z > 0.04f) || !(ball.y < -0.01f)) ball = {0, -0.068f, 0.1f};

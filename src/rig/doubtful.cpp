@@ -139,12 +139,12 @@ std::optional<Error> find_animal(const Skeleton& skeleton, std::span<const Joint
     mean.trunk_legs += share * stance.trunk_legs;
   }
   if (!is_on_four_legs(mean, kInMotion)) return std::nullopt;
-  return Error{
-      "no person: leftUpperArm would be " +
-      quoted_name(skeleton, mapping.joint_of[index(left_upper_arm)]) + " and leftUpperLeg " +
-      quoted_name(skeleton, mapping.joint_of[index(left_upper_leg)]) +
-      ", and both stand side by side under a level trunk, at rest and in the motion, as an "
-      "animal's legs do; expected a person's skeleton, or a map that names the hips"};
+  return Error{"no person: leftUpperArm would be " +
+               quoted_name(skeleton, mapping.joint_of[index(left_upper_arm)]) +
+               " and leftUpperLeg " +
+               quoted_name(skeleton, mapping.joint_of[index(left_upper_leg)]) +
+               ", and both stand side by side under a level trunk, at rest and in the motion, as "
+               "an animal's legs do; expected a person's skeleton, or a map that names the hips"};
 }
 
 std::optional<Error> find_doubt(const Skeleton& skeleton, const Mapping& mapping,

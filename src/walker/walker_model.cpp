@@ -56,15 +56,13 @@ Result<void> check_metadata(const TensorFile& file, const std::string& name) {
   const auto format = file.metadata.find("format");
   if (format == file.metadata.end() || format->second != kFormat) {
     return Error{name +
-                 ": is a safetensors file, but not a walker; expected metadata 'format' to "
-                 "be '" +
+                 ": is a safetensors file, but not a walker; expected metadata 'format' to be '" +
                  kFormat + "'"};
   }
   const auto version = file.metadata.find("format_version");
   if (version == file.metadata.end()) {
     return Error{name +
-                 ": metadata 'format_version' is missing; expected a walker written by "
-                 "panache"};
+                 ": metadata 'format_version' is missing; expected a walker written by panache"};
   }
   if (version->second != kFormatVersion) {
     return Error{name + ": is a walker of format version " + version->second +
