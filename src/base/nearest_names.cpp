@@ -62,7 +62,7 @@ std::vector<std::string> nearest_names(std::string_view wanted,
 }
 
 std::string is_or_are(const std::vector<std::string>& names) {
-  return (names.size() > 1 ? "are " : "is ") + one_of(names, "and");
+  return (names.size() > 1 ? "are " : "is ") + one_of(names, " and ");
 }
 
 }  // namespace panache
