@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "clip/fk.h"
+#include "clip/clip.h"
 #include "rig/canonical_skeleton.h"
 #include "rig/humanoid.h"
 

@@ -295,42 +295,32 @@ std::string with_pictures(std::string glb, const std::string& path, const Pictur
 Result<std::string> gltf_to_glb(const std::string& gltf, const std::string& path) {
   GltfChecker checker(path);
   GltfJson json;
-  const GltfJson *buffers = nullptr, *views = nullptr;
-  const bool good = checker.parse(gltf, json) && checker.list(json, "", "buffers", buffers) &&
-                    checker.list(json, "", "bufferViews", views);
-  if (!good) return checker.error();
-  if (buffers->empty()) return format_glb_file(json, "");
+  if (!checker.parse(gltf, json)) return checker.error();
+  const GltfPart root(json, checker);
+  const std::vector<GltfPart> buffers = root.list("buffers"), views = root.list("bufferViews");
+  if (!checker.ok()) return checker.error();
+  if (buffers.empty()) return format_glb_file(json, "");
   std::string bin;
   std::vector<size_t> begins;  // Of each buffer in `bin`.
-  for (const GltfJson& buffer : *buffers) {
-    const std::string where = item_path("buffers", begins.size());
-    std::string uri;
-    if (!checker.is_object(buffer, where) || !checker.text(buffer, where, "uri", uri)) {
-      return checker.error();
+  for (const GltfPart& buffer : buffers) {
+    const std::string uri = buffer.text("uri");
+    if (!buffer.member("uri")) {
+      buffer.fail("holds no data of its own; expected a file that needs no extension for it");
     }
-    if (!buffer.contains("uri")) {
-      return Error{path + ": " + where +
-                   ": holds no data of its own; expected a file that needs no extension for it"};
-    }
+    if (!checker.ok()) return checker.error();
     Result<std::string> bytes = decode_data_uri(uri);
     if (!bytes) return located(path, bytes.error());
     bin.resize((bin.size() + 3) / 4 * 4);
     begins.push_back(bin.size());
     bin += *bytes;
   }
-  for (size_t v = 0; v < views->size(); ++v) {
+  for (size_t v = 0; v < views.size(); ++v) {
+    const int buffer = views[v].index("buffer", begins.size());
+    const uint64_t offset = views[v].count("byteOffset");
+    if (buffer < 0) views[v].fail("expected a buffer, found none");
+    if (!checker.ok()) return checker.error();
     GltfJson& view = json["bufferViews"][v];
-    const std::string where = item_path("bufferViews", v);
-    int buffer = 0;
-    uint64_t offset = 0;
-    if (!checker.is_object(view, where) ||
-        !checker.index(view, where, "buffer", begins.size(), buffer) ||
-        !checker.count(view, where, "byteOffset", offset)) {
-      return checker.error();
-    }
-    if (buffer < 0) return Error{path + ": " + where + ": expected a buffer, found none"};
-    const size_t begin = begins[static_cast<size_t>(buffer)];
-    if (begin > 0) view["byteOffset"] = begin + offset;
+    if (begins[buffer] > 0) view["byteOffset"] = begins[buffer] + offset;
     view["buffer"] = 0;
   }
   json["buffers"] = {{{"byteLength", bin.size()}}};

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "clip/fk.h"
+#include "clip/clip.h"
 #include "eval/metrics.h"
 #include "learn/samples.h"
 

@@ -3,9 +3,8 @@
 
 #include "api/errors.h"
 #include "api/objects.h"
+#include "api/options.h"
 #include "api/poses.h"
-#include "api/shape.h"
-#include "api/sized_struct.h"
 #include "style/crowd.h"
 
 using namespace panache;
@@ -43,9 +42,9 @@ panache_status panache_character_create(const panache_model* model,
 void panache_character_destroy(panache_character* character) { delete character; }
 
 void panache_character_set_strength(panache_character* character, int32_t style, float strength) {
-  const auto place = static_cast<size_t>(style);
-  if (style < 0 || place >= character->strengths.size() || !std::isfinite(strength)) return;
-  character->strengths[place] = strength;
+  std::vector<float>& strengths = character->strengths;
+  if (style < 0 || size_t(style) >= strengths.size() || !std::isfinite(strength)) return;
+  strengths[style] = strength;
 }
 
 void panache_character_set_removed(panache_character* character, int32_t style) {
@@ -126,10 +125,10 @@ panache_status panache_character_restore(panache_character* character, const voi
                                          size_t size) {
   if (character->live.restore({static_cast<const std::byte*>(bytes), size})) return PANACHE_OK;
   return guarded([&] {
-    return fail(PANACHE_BAD_STATE,
-                {"expected the " + std::to_string(character->live.state_size()) +
-                 " bytes of a state saved by a character of the same model, skeleton and options; "
-                 "found " +
-                 std::to_string(size) + " bytes that are not a saved state"});
+    return fail(
+        PANACHE_BAD_STATE,
+        {"expected the " + std::to_string(character->live.state_size()) +
+         " bytes of a state saved by a character of the same model, skeleton and options; found " +
+         std::to_string(size) + " bytes that are not a saved state"});
   });
 }

@@ -5,9 +5,8 @@
 
 #include "api/errors.h"
 #include "api/objects.h"
+#include "api/options.h"
 #include "api/poses.h"
-#include "api/shape.h"
-#include "api/sized_struct.h"
 #include "learn/recognise.h"
 #include "style/removal.h"
 
@@ -76,7 +75,7 @@ Result<RestyleOptions> read_options(const panache_stylize_options* options) {
                  "; expected 0, 1 or 2"};
   }
   constexpr std::array kModes = {LoopMode::off, LoopMode::detect, LoopMode::force};
-  out.loop = kModes[static_cast<size_t>(given->loop)];
+  out.loop = kModes[given->loop];
   return out;
 }
 

@@ -22,12 +22,12 @@ int32_t panache_model_style_count(const panache_model* model) {
 
 const char* panache_model_style_name(const panache_model* model, int32_t style) {
   if (style < 0 || style >= panache_model_style_count(model)) return nullptr;
-  return model->model->styles()[static_cast<size_t>(style)].name.c_str();
+  return model->model->styles()[style].name.c_str();
 }
 
 const char* panache_model_style_group(const panache_model* model, int32_t style) {
   if (style < 0 || style >= panache_model_style_count(model)) return nullptr;
-  return model->model->styles()[static_cast<size_t>(style)].group.c_str();
+  return model->model->styles()[style].group.c_str();
 }
 
 int32_t panache_model_gesture_count(const panache_model* model, int32_t style) {
@@ -37,7 +37,7 @@ int32_t panache_model_gesture_count(const panache_model* model, int32_t style) {
 
 const char* panache_model_gesture_name(const panache_model* model, int32_t style, int32_t gesture) {
   if (gesture < 0 || gesture >= panache_model_gesture_count(model, style)) return nullptr;
-  return model->model->gestures(style)[static_cast<size_t>(gesture)].name().c_str();
+  return model->model->gestures(style)[gesture].name().c_str();
 }
 
 int32_t panache_model_find_style(const panache_model* model, const char* name) {

@@ -2,9 +2,8 @@
 
 #include "api/errors.h"
 #include "api/objects.h"
+#include "api/options.h"
 #include "api/poses.h"
-#include "api/rig_options.h"
-#include "api/sized_struct.h"
 #include "base/utf8.h"
 #include "clip/motion_format.h"
 #include "pose/motion_notes.h"
@@ -109,7 +108,7 @@ panache_status create(const void* bytes, size_t size, const char* name, const Re
     if (!file) return fail(PANACHE_BAD_FILE, file.error());
     auto names = (*file)->clip_names();
     std::vector<char> moves(names.size());
-    for (const int clip : find_body_motions(**file).clips) moves[static_cast<size_t>(clip)] = 1;
+    for (const int clip : find_body_motions(**file).clips) moves[clip] = 1;
     Clip rest = (*file)->rest();
     for (std::string& clip_name : names) clip_name = to_utf8(clip_name);
     for (Joint& joint : rest.skeleton.joints) joint.name = to_utf8(joint.name);
@@ -137,7 +136,7 @@ panache_status panache_motion_file_create_at_rate(const void* bytes, size_t size
 }
 
 int32_t panache_motion_file_clip_moves(const panache_motion_file* file, int32_t clip) {
-  return clip >= 0 && find_clip(*file, clip) ? file->moves[static_cast<size_t>(clip)] : 0;
+  return clip >= 0 && find_clip(*file, clip) ? file->moves[clip] : 0;
 }
 
 panache_status panache_motion_file_get_notes(const panache_motion_file* file, panache_bytes** out) {
@@ -159,7 +158,7 @@ int32_t panache_motion_file_joint_count(const panache_motion_file* file) {
 
 void panache_motion_file_get_joint(const panache_motion_file* file, int32_t joint,
                                    panache_joint* out) {
-  const Joint& from = file->rest.skeleton.joints[static_cast<size_t>(joint)];
+  const Joint& from = file->rest.skeleton.joints[joint];
   const Quat q = from.rest;
   const Vec3 v = from.offset;
   *out = {from.name.c_str(), from.parent, {q.x, q.y, q.z, q.w}, {v.x, v.y, v.z}};
@@ -170,8 +169,7 @@ int32_t panache_motion_file_clip_count(const panache_motion_file* file) {
 }
 
 const char* panache_motion_file_clip_name(const panache_motion_file* file, int32_t clip) {
-  return clip >= 0 && find_clip(*file, clip) ? file->names[static_cast<size_t>(clip)].c_str()
-                                             : nullptr;
+  return clip >= 0 && find_clip(*file, clip) ? file->names[clip].c_str() : nullptr;
 }
 
 panache_status panache_motion_file_get_clip(const panache_motion_file* file, int32_t clip,

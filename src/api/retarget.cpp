@@ -30,7 +30,7 @@ panache_status panache_retarget_clip(const panache_clip* clip, const panache_ske
     for (int f = 0; f < done->clip.frames; ++f) {
       result->restyled.source_frames.push_back(first + f);
       result->restyled.gates.push_back(1);
-      const FootContacts& feet = done->contacts[static_cast<size_t>(f)];
+      const FootContacts& feet = done->contacts[f];
       result->contacts.insert(result->contacts.end(), feet.begin(), feet.end());
     }
     result->restyled.clip = std::move(done->clip);

@@ -1,8 +1,7 @@
 #include "api/errors.h"
 #include "api/objects.h"
+#include "api/options.h"
 #include "api/poses.h"
-#include "api/rig_options.h"
-#include "api/sized_struct.h"
 #include "rig/calibration.h"
 
 using namespace panache;
@@ -47,14 +46,7 @@ Result<Clip> read_poses(Skeleton skeleton, const panache_skeleton_options& optio
   }
   auto read = read_frames(options.rotations, options.translations, count, Rotations::unit, clip);
   if (!read) return read.error();
-  if (count == 0) {
-    for (const Joint& joint : clip.skeleton.joints) {
-      clip.rotations.push_back(joint.rest);
-      clip.translations.push_back(joint.offset);
-    }
-    clip.frames = 1;
-  }
-  return clip;
+  return count == 0 ? rest_clip(clip.skeleton) : clip;
 }
 
 Result<KnownJoints> read_map(const panache_skeleton_options& options, int32_t joint_count) {
@@ -131,5 +123,5 @@ int32_t panache_skeleton_joint_count(const panache_skeleton* skeleton) {
 
 int32_t panache_skeleton_find(const panache_skeleton* skeleton, const char* vrm_name) {
   const std::optional<int> joint = find_human_joint(vrm_name);
-  return joint ? skeleton->rig.joints()[static_cast<size_t>(*joint)] : -1;
+  return joint ? skeleton->rig.joints()[*joint] : -1;
 }

@@ -50,8 +50,7 @@ Result<CsvTable> read_csv(const std::string& path, const std::vector<std::string
     const auto found = std::find(header.begin(), header.end(), column);
     if (found == header.end()) {
       return Error{path + ":1: column '" + column +
-                   "' is missing; the first line must name the "
-                   "columns"};
+                   "' is missing; the first line must name the columns"};
     }
     order.push_back(found - header.begin());
   }

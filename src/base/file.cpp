@@ -12,15 +12,29 @@
 namespace panache {
 namespace {
 
+namespace fs = std::filesystem;
+
 // Names of what this process has open already: its standard input, and what a shell puts at
 // <(command).
 bool is_open_already(const std::string& path) {
   return path == "/dev/stdin" || path.starts_with("/dev/fd/") || path.starts_with("/proc/self/fd/");
 }
 
-}  // namespace
+// Where the links of a path lead, also where there is no file yet: the system follows 40 of them.
+fs::path without_links(fs::path path, std::error_code& status) {
+  for (int i = 0; i < 40; ++i) {
+    if (!fs::is_symlink(fs::symlink_status(path, status))) {
+      status.clear();  // Of a file that is not there.
+      return path;
+    }
+    path = path.parent_path() / fs::read_symlink(path, status);
+    if (status) return path;
+  }
+  status = std::make_error_code(std::errc::too_many_symbolic_link_levels);
+  return path;
+}
 
-namespace fs = std::filesystem;
+}  // namespace
 
 Result<std::string> read_file(const std::string& path) {
   std::error_code status;
@@ -48,24 +62,6 @@ Result<std::string> read_file(const std::string& path) {
   if (std::ferror(file.get())) return Error{path + ": cannot be read: " + std::strerror(errno)};
   return bytes;
 }
-
-namespace {
-
-// Where the links of a path lead, also where there is no file yet: the system follows 40 of them.
-fs::path without_links(fs::path path, std::error_code& status) {
-  for (int i = 0; i < 40; ++i) {
-    if (!fs::is_symlink(fs::symlink_status(path, status))) {
-      status.clear();  // Of a file that is not there.
-      return path;
-    }
-    path = path.parent_path() / fs::read_symlink(path, status);
-    if (status) return path;
-  }
-  status = std::make_error_code(std::errc::too_many_symbolic_link_levels);
-  return path;
-}
-
-}  // namespace
 
 Result<void> write_file(const std::string& path, std::string_view bytes, bool force) {
   std::error_code status;

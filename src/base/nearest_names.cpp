@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/lower_case.h"
+#include "base/one_of.h"
 
 namespace panache {
 namespace {
@@ -14,9 +15,7 @@ namespace {
 constexpr size_t kCompared = 64;
 
 std::string folded(std::string_view name) {
-  std::string text(name.substr(0, kCompared));
-  for (char& c : text) c = lower_case(c);
-  return text;
+  return lower_case(std::string(name.substr(0, kCompared)));
 }
 
 // The fewest letters to add, drop, replace or exchange with their neighbours.
@@ -63,12 +62,7 @@ std::vector<std::string> nearest_names(std::string_view wanted,
 }
 
 std::string is_or_are(const std::vector<std::string>& names) {
-  std::string text = names.size() > 1 ? "are " : "is ";
-  for (size_t i = 0; i < names.size(); ++i) {
-    if (i > 0) text += i + 1 < names.size() ? ", " : " and ";
-    text += names[i];
-  }
-  return text;
+  return (names.size() > 1 ? "are " : "is ") + one_of(names, " and ");
 }
 
 }  // namespace panache

@@ -50,40 +50,38 @@ Quatd turn_about(int axis, double angle) {
 }
 
 // Reads the words of a text, without comments from '#' to the end of a line.
-class Words {
+class Words : public TextCursor {
  public:
-  Words(std::string_view text, const std::string& name) : cursor_(text, name) { next(); }
+  Words(std::string_view text, const std::string& name) : TextCursor(text, name) { next(); }
 
-  TextCursor& cursor() { return cursor_; }
-  bool at_end() const { return cursor_.at_end(); }
   // To the next word, on whatever line it is.
   void next() {
-    cursor_.skip_space();
-    while (!at_end() && cursor_.word().starts_with('#')) skip_line();
+    skip_space();
+    while (!at_end() && word().starts_with('#')) skip_line();
   }
-  bool take(std::string_view keyword) {
-    if (!cursor_.take(keyword)) return false;
+  // Passes a word, and what is before the next one.
+  bool pass(std::string_view keyword) {
+    if (!take(keyword)) return false;
     next();
     return true;
   }
   // Whether the line goes on; words of a line are read with these two.
   bool more_on_line() {
-    cursor_.skip_spaces();
-    return !cursor_.at_line_end();
+    skip_spaces();
+    return !at_line_end();
   }
   std::string take_on_line() {
-    const std::string word(cursor_.word());
-    cursor_.take(word);
-    return word;
+    std::string text(word());
+    take(text);
+    return text;
   }
   void skip_line() {
-    while (!cursor_.at_line_end()) take_on_line_or_space();
-    cursor_.skip_space();
+    while (more_on_line()) take_on_line();
+    skip_space();
   }
   Result<void> number(double& out, const std::string& of_what) {
-    cursor_.skip_spaces();
-    if (!cursor_.take_number(out)) return cursor_.number_error(of_what);
-    return {};
+    skip_spaces();
+    return take_number(out) ? Result<void>() : number_error(of_what);
   }
   Result<void> vector(Vec3d& out, const std::string& of_what) {
     for (double* x : {&out.x, &out.y, &out.z}) {
@@ -91,13 +89,6 @@ class Words {
     }
     return {};
   }
-
- private:
-  void take_on_line_or_space() {
-    if (more_on_line()) take_on_line();
-  }
-
-  TextCursor cursor_;
 };
 
 // "XYZ", as an order of axes.
@@ -126,12 +117,12 @@ class AsfReader {
 
  private:
   Result<void> read_section() {
-    if (words_.take(":units")) return read_units();
-    if (words_.take(":root")) return read_root();
-    if (words_.take(":bonedata")) return read_bones();
-    if (words_.take(":hierarchy")) return read_hierarchy();
-    if (!words_.cursor().word().starts_with(':')) {
-      return words_.cursor().error("a section such as ':root'");
+    if (words_.pass(":units")) return read_units();
+    if (words_.pass(":root")) return read_root();
+    if (words_.pass(":bonedata")) return read_bones();
+    if (words_.pass(":hierarchy")) return read_hierarchy();
+    if (!words_.word().starts_with(':')) {
+      return words_.error("a section such as ':root'");
     }
     skip_section();
     return {};
@@ -142,14 +133,14 @@ class AsfReader {
       words_.next();
     } while (!in_next_section());
   }
-  bool in_next_section() { return words_.at_end() || words_.cursor().word().starts_with(':'); }
+  bool in_next_section() { return words_.at_end() || words_.word().starts_with(':'); }
 
   Result<void> read_units() {
     while (!in_next_section()) {
-      if (words_.cursor().take("angle")) {
+      if (words_.take("angle")) {
         words_.more_on_line();
-        const bool radians = words_.cursor().is_at("rad");
-        if (!radians && !words_.cursor().is_at("deg")) return words_.cursor().error("deg or rad");
+        const bool radians = words_.is_at("rad");
+        if (!radians && !words_.is_at("deg")) return words_.error("deg or rad");
         file_.per_degree = radians ? 1 : kDegree;
       }
       words_.skip_line();
@@ -164,16 +155,16 @@ class AsfReader {
     Vec3d orientation;
     std::array<int, 3> order = {0, 1, 2};
     while (!in_next_section()) {
-      if (words_.cursor().take("order")) {
+      if (words_.take("order")) {
         if (auto done = read_channels(root_); !done) return done;
-      } else if (words_.cursor().take("axis")) {
+      } else if (words_.take("axis")) {
         if (auto done = read_axis_order(order); !done) return done;
-      } else if (words_.cursor().take("position")) {
+      } else if (words_.take("position")) {
         if (auto done = words_.vector(file_.root_place, "the position"); !done) return done;
-      } else if (words_.cursor().take("orientation")) {
+      } else if (words_.take("orientation")) {
         if (auto done = words_.vector(orientation, "the orientation"); !done) return done;
       } else {
-        return words_.cursor().error("order, axis, position or orientation");
+        return words_.error("order, axis, position or orientation");
       }
       words_.next();
     }
@@ -184,8 +175,8 @@ class AsfReader {
   // The word at the end of an "axis".
   Result<void> read_axis_order(std::array<int, 3>& order) {
     words_.more_on_line();
-    const std::string word(words_.cursor().word());
-    if (!read_order(word, order)) return words_.cursor().error("an order of axes such as XYZ");
+    const std::string word(words_.word());
+    if (!read_order(word, order)) return words_.error("an order of axes such as XYZ");
     words_.take_on_line();
     return {};
   }
@@ -199,11 +190,11 @@ class AsfReader {
 
   Result<void> read_channels(Bone& bone) {
     while (words_.more_on_line()) {
-      const std::string_view word = words_.cursor().word();
+      const std::string_view word = words_.word();
       const char kind = word.empty() ? ' ' : static_cast<char>(word[0] | 0x20);
       const char axis = word.size() == 2 ? static_cast<char>(word[1] | 0x20) : ' ';
       if ((kind != 't' && kind != 'r') || axis < 'x' || axis > 'z' || bone.channels.size() == 6) {
-        return words_.cursor().error("degrees of freedom: tx, ty, tz, rx, ry or rz");
+        return words_.error("degrees of freedom: tx, ty, tz, rx, ry or rz");
       }
       bone.channels.push_back({kind == 'r', axis - 'x'});
       words_.take_on_line();
@@ -212,19 +203,19 @@ class AsfReader {
   }
 
   Result<void> read_bones() {
-    while (words_.take("begin")) {
+    while (words_.pass("begin")) {
       if (bones_.size() == kMaxBones) {
-        return words_.cursor().error("at most " + std::to_string(kMaxBones) + " bones");
+        return words_.error("at most " + std::to_string(kMaxBones) + " bones");
       }
       Bone bone;
       if (auto done = read_bone(bone); !done) return done;
-      if (bone.name.empty()) return words_.cursor().error("a bone with a name before this");
+      if (bone.name.empty()) return words_.error("a bone with a name before this");
       const std::string name = bone.name;
       if (name == "root" || !bones_.emplace(name, std::move(bone)).second) {
-        return words_.cursor().error("another name than '" + name + "' for the bone before this");
+        return words_.error("another name than '" + name + "' for the bone before this");
       }
     }
-    if (!in_next_section()) return words_.cursor().error("'begin' or the next section");
+    if (!in_next_section()) return words_.error("'begin' or the next section");
     return {};
   }
 
@@ -232,23 +223,22 @@ class AsfReader {
     Vec3d direction, angles;
     double size = 0;
     std::array<int, 3> order = {0, 1, 2};
-    while (!words_.take("end")) {
-      TextCursor& cursor = words_.cursor();
+    while (!words_.pass("end")) {
       Result<void> done;
-      if (cursor.take("name")) {
+      if (words_.take("name")) {
         words_.more_on_line();
         bone.name = words_.take_on_line();
-      } else if (cursor.take("direction")) {
+      } else if (words_.take("direction")) {
         done = words_.vector(direction, "the direction of a bone");
-      } else if (cursor.take("length")) {
+      } else if (words_.take("length")) {
         done = words_.number(size, "the length of a bone");
-      } else if (cursor.take("axis")) {
+      } else if (words_.take("axis")) {
         done = words_.vector(angles, "the axis of a bone");
         if (done && words_.more_on_line()) done = read_axis_order(order);
-      } else if (cursor.take("dof")) {
+      } else if (words_.take("dof")) {
         done = read_channels(bone);
-      } else if (words_.at_end() || cursor.word().starts_with(':')) {
-        done = cursor.error("'end' of a bone");
+      } else if (words_.at_end() || words_.word().starts_with(':')) {
+        done = words_.error("'end' of a bone");
       } else {
         words_.skip_line();  // Of no meaning for the motion: id, limits, mass, ...
       }
@@ -256,33 +246,33 @@ class AsfReader {
       words_.next();
     }
     bone.tip = direction * size;
-    if (!(length(bone.tip) <= 1e9)) return words_.cursor().error("a shorter bone before this");
+    if (!(length(bone.tip) <= 1e9)) return words_.error("a shorter bone before this");
     bone.axes = turned(order, angles);
     return {};
   }
 
   Result<void> read_hierarchy() {
     has_hierarchy_ = true;
-    if (!words_.take("begin")) return words_.cursor().error("'begin'");
-    while (!words_.cursor().is_at("end")) {
-      if (words_.at_end()) return words_.cursor().error("'end' of the hierarchy");
-      const std::string parent(words_.cursor().word());
+    if (!words_.pass("begin")) return words_.error("'begin'");
+    while (!words_.is_at("end")) {
+      if (words_.at_end()) return words_.error("'end' of the hierarchy");
+      const std::string parent(words_.word());
       if (parent != "root" && !bones_.contains(parent)) {
-        return words_.cursor().error("'root' or the name of a bone");
+        return words_.error("'root' or the name of a bone");
       }
       words_.take_on_line();
       while (words_.more_on_line()) {
-        const auto child = bones_.find(std::string(words_.cursor().word()));
-        if (child == bones_.end()) return words_.cursor().error("the name of a bone");
+        const auto child = bones_.find(std::string(words_.word()));
+        if (child == bones_.end()) return words_.error("the name of a bone");
         if (!parents_.emplace(child->first, parent).second) {
-          return words_.cursor().error("a bone that has no parent yet");
+          return words_.error("a bone that has no parent yet");
         }
         children_[parent].push_back(child->first);
         words_.take_on_line();
       }
       words_.next();
     }
-    words_.take("end");
+    words_.pass("end");
     return {};
   }
 
@@ -331,8 +321,8 @@ Skeleton skeleton_of(const Acclaim& file) {
     joint.name = bone.name;
     joint.parent = bone.parent;
     if (bone.parent >= 0) {
-      joint.offset = file.bones[static_cast<size_t>(bone.parent)].tip.as<float>();
-      has_child[static_cast<size_t>(bone.parent)] = true;
+      joint.offset = file.bones[bone.parent].tip.as<float>();
+      has_child[bone.parent] = true;
     } else {
       joint.offset = file.root_place.as<float>();
     }
@@ -361,21 +351,20 @@ class AmcReader {
     clip_.skeleton = skeleton_of(file_);
     clip_.frame_time = 1 / kAmcFrameRate;
     const Clip rest = rest_clip(clip_.skeleton);
-    while (words_.cursor().word().starts_with(':')) {
-      if (words_.cursor().is_at(":RADIANS")) per_degree_ = 1;
-      if (words_.cursor().is_at(":DEGREES")) per_degree_ = kDegree;
+    while (words_.word().starts_with(':')) {
+      if (words_.is_at(":RADIANS")) per_degree_ = 1;
+      if (words_.is_at(":DEGREES")) per_degree_ = kDegree;
       words_.skip_line();
       words_.next();
     }
     while (!words_.at_end()) {
       if (auto done = begin_frame(rest); !done) return done.error();
       uint64_t unused = 0;
-      TextCursor ahead = words_.cursor();
-      while (!words_.at_end() && !(ahead = words_.cursor()).take_count(unused)) {
+      while (!words_.at_end() && !TextCursor(words_).take_count(unused)) {
         if (auto done = read_bone(); !done) return done.error();
       }
     }
-    if (clip_.frames == 0) return words_.cursor().error("a frame: its number, then its bones");
+    if (clip_.frames == 0) return words_.error("a frame: its number, then its bones");
     return std::move(clip_);
   }
 
@@ -383,29 +372,25 @@ class AmcReader {
   // Every frame begins as the one before it.
   Result<void> begin_frame(const Clip& rest) {
     uint64_t number = 0;
-    TextCursor& cursor = words_.cursor();
-    if (static_cast<size_t>(clip_.frames) >= max_poses_ / clip_.joints()) {
-      return cursor.error("at most " + std::to_string(max_poses_ / clip_.joints()) + " frames of " +
+    if (size_t(clip_.frames) >= max_poses_ / clip_.joints()) {
+      return words_.error("at most " + std::to_string(max_poses_ / clip_.joints()) + " frames of " +
                           std::to_string(clip_.joints()) + " joints in a file of this size");
     }
-    if (!cursor.take_count(number) || words_.more_on_line()) {
-      return cursor.error("the number of a frame on a line of its own");
+    if (!words_.take_count(number) || words_.more_on_line()) {
+      return words_.error("the number of a frame on a line of its own");
     }
     words_.next();
-    const ConstPose before = clip_.frames ? clip_.pose(clip_.frames - 1) : rest.pose(0);
-    const std::vector<Quat> rotations(before.rotations.begin(), before.rotations.end());
-    const std::vector<Vec3> places(before.translations.begin(), before.translations.end());
     clip_.resize(clip_.frames + 1);
     const Pose pose = clip_.pose(clip_.frames - 1);
-    std::copy(rotations.begin(), rotations.end(), pose.rotations.begin());
-    std::copy(places.begin(), places.end(), pose.translations.begin());
+    const ConstPose before = clip_.frames > 1 ? clip_.pose(clip_.frames - 2) : rest.pose(0);
+    std::ranges::copy(before.rotations, pose.rotations.begin());
+    std::ranges::copy(before.translations, pose.translations.begin());
     return {};
   }
 
   Result<void> read_bone() {
-    TextCursor& cursor = words_.cursor();
-    const auto place = places_.find(std::string(cursor.word()));
-    if (place == places_.end()) return cursor.error("the name of a bone of the .asf");
+    const auto place = places_.find(std::string(words_.word()));
+    if (place == places_.end()) return words_.error("the name of a bone of the .asf");
     words_.take_on_line();
     const Bone& bone = file_.bones[place->second];
     const Pose pose = clip_.pose(clip_.frames - 1);
@@ -423,7 +408,7 @@ class AmcReader {
       }
     }
     if (words_.more_on_line()) {
-      return cursor.error("the end of the line after " + std::to_string(bone.channels.size()) +
+      return words_.error("the end of the line after " + std::to_string(bone.channels.size()) +
                           " numbers of " + bone.name);
     }
     pose.rotations[place->second] = normalized(bone.axes * turn * conjugate(bone.axes)).as<float>();

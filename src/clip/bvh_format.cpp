@@ -109,11 +109,9 @@ class BvhFormatter {
   }
 
   void append_vector(Vec3 v) {
-    append_fixed(out_, static_cast<double>(v.x), kDecimals);
-    out_ += ' ';
-    append_fixed(out_, static_cast<double>(v.y), kDecimals);
-    out_ += ' ';
-    append_fixed(out_, static_cast<double>(v.z), kDecimals);
+    append_fixed(out_, v.x, kDecimals);
+    append_fixed(out_ += ' ', v.y, kDecimals);
+    append_fixed(out_ += ' ', v.z, kDecimals);
   }
 
   void append_frame(ConstPose pose) {
@@ -148,7 +146,7 @@ class BvhFormatter {
 void add_end_sites(Skeleton& skeleton) {
   std::vector<bool> has_child(skeleton.joints.size());
   for (const Joint& joint : skeleton.joints) {
-    if (joint.parent >= 0) has_child[static_cast<size_t>(joint.parent)] = true;
+    if (joint.parent >= 0) has_child[joint.parent] = true;
   }
   for (size_t j = 0; j < skeleton.joints.size(); ++j) {
     std::vector<Vec3>& ends = skeleton.joints[j].ends;

@@ -77,11 +77,11 @@ class BvhReader {
       } else if (cursor_.take("}")) {
         open.pop_back();
       } else if (cursor_.is_at("End")) {
-        if (auto done = read_end_site(joints()[static_cast<size_t>(open.back())]); !done) {
+        if (auto done = read_end_site(joints()[open.back()]); !done) {
           return done;
         }
       } else {
-        const Joint& joint = joints()[static_cast<size_t>(open.back())];
+        const Joint& joint = joints()[open.back()];
         return cursor_.error("'JOINT', 'End Site' or '}' in joint " + quoted(joint.name));
       }
     }
@@ -93,10 +93,10 @@ class BvhReader {
 
   // From ROOT or JOINT to the end of CHANNELS.
   Result<void> read_joint(std::vector<int>& open) {
-    if (joints().size() == static_cast<size_t>(kBvhMaxJoints)) {
+    if (joints().size() == size_t(kBvhMaxJoints)) {
       return cursor_.error("at most " + plural(kBvhMaxJoints, "joint"));
     }
-    if (open.size() == static_cast<size_t>(kBvhMaxDepth)) {
+    if (open.size() == size_t(kBvhMaxDepth)) {
       return cursor_.error("joints nested at most " + std::to_string(kBvhMaxDepth) + " deep");
     }
     const std::string keyword = cursor_.is_at("ROOT") ? "'ROOT'" : "'JOINT'";
@@ -181,18 +181,17 @@ class BvhReader {
           "Xposition, Yposition, Zposition, Xrotation, Yrotation or Zrotation as " + which);
     }
     const auto axis_end = channels.order.axis.begin() + channels.order.count;
-    const bool again =
-        channel->rotates
-            ? std::find(channels.order.axis.begin(), axis_end, channel->axis) != axis_end
-            : channels.position[static_cast<size_t>(channel->axis)] >= 0;
+    const bool again = channel->rotates ? std::find(channels.order.axis.begin(), axis_end,
+                                                    channel->axis) != axis_end
+                                        : channels.position[channel->axis] >= 0;
     if (again) return cursor_.error("a channel that the joint does not have yet as " + which);
     cursor_.take(channel->name);
     if (channel->rotates) {
-      const size_t place = static_cast<size_t>(channels.order.count++);
+      const int place = channels.order.count++;
       channels.order.axis[place] = channel->axis;
       channels.rotation[place] = document_.numbers;
     } else {
-      channels.position[static_cast<size_t>(channel->axis)] = document_.numbers;
+      channels.position[channel->axis] = document_.numbers;
     }
     ++document_.numbers;
     return {};
@@ -245,8 +244,7 @@ class BvhReader {
   // A joint without channels takes memory in every frame but no byte of the file, so the bytes
   // alone do not bound the poses. This does, far above what any honest file needs.
   uint64_t max_frames() const {
-    const uint64_t poses =
-        std::max<uint64_t>(1'000'000, uint64_t{4} * static_cast<uint64_t>(document_.text.size()));
+    const uint64_t poses = std::max<uint64_t>(1'000'000, 4 * document_.text.size());
     return std::min<uint64_t>(poses / joints().size(), std::numeric_limits<int>::max());
   }
   std::string at_most(uint64_t frames) const {
@@ -258,15 +256,14 @@ class BvhReader {
   // The rows that can follow, if there are as many as announced. A number takes a byte at least,
   // and a space or line end each but for the last.
   uint64_t likely_frames() const {
-    const uint64_t room =
-        (cursor_.remaining() + 1) / (2 * static_cast<uint64_t>(document_.numbers));
+    const uint64_t room = (cursor_.remaining() + 1) / (2 * document_.numbers);
     return std::min({announced_, room, max_frames()});
   }
 
   // The table to the end of the file, as in Blender: the announced count may be any.
   Result<void> read_frames() {
-    std::vector<double> numbers(static_cast<size_t>(document_.numbers));
-    document_.lines.reserve(static_cast<size_t>(likely_frames()));
+    std::vector<double> numbers(document_.numbers);
+    document_.lines.reserve(likely_frames());
     clip_.resize(static_cast<int>(likely_frames()));
     uint64_t frame = 0;
     for (;; ++frame) {
@@ -364,15 +361,14 @@ class BvhReader {
   void set_pose(const std::vector<double>& numbers, Pose pose) const {
     for (size_t j = 0; j < joints().size(); ++j) {
       const BvhChannels& channels = document_.channels[j];
-      const auto number = [&](int place) { return numbers[static_cast<size_t>(place)]; };
       Vec3& t = pose.translations[j];
       t = joints()[j].offset;
-      if (channels.position[0] >= 0) t.x = static_cast<float>(number(channels.position[0]));
-      if (channels.position[1] >= 0) t.y = static_cast<float>(number(channels.position[1]));
-      if (channels.position[2] >= 0) t.z = static_cast<float>(number(channels.position[2]));
+      if (channels.position[0] >= 0) t.x = static_cast<float>(numbers[channels.position[0]]);
+      if (channels.position[1] >= 0) t.y = static_cast<float>(numbers[channels.position[1]]);
+      if (channels.position[2] >= 0) t.z = static_cast<float>(numbers[channels.position[2]]);
       EulerAngles angles = {0, 0, 0};
-      for (size_t i = 0; i < static_cast<size_t>(channels.order.count); ++i) {
-        angles[i] = number(channels.rotation[i]);
+      for (int i = 0; i < channels.order.count; ++i) {
+        angles[i] = numbers[channels.rotation[i]];
       }
       pose.rotations[j] = euler_to_quat(channels.order, angles).as<float>();
     }

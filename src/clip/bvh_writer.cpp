@@ -28,13 +28,11 @@ class BvhEncoder {
     const std::string_view text = document_.text;
     const Clip& clip = document_.clip;
     std::string out;
-    out.reserve(text.size() / static_cast<size_t>(clip.frames) *
-                    (static_cast<size_t>(changed.frames) + 1) +
-                document_.lines[0]);
+    out.reserve(text.size() / clip.frames * (changed.frames + 1) + document_.lines[0]);
     append_head(out, changed.frames);
     bool same = changed.frames == clip.frames;
     for (int i = 0; i < changed.frames; ++i) {
-      const int nearest = nearest_frame(source_frames[static_cast<size_t>(i)]);
+      const int nearest = nearest_frame(source_frames[i]);
       split_line(nearest);
       choose_numbers(changed.pose(i), clip.pose(nearest), i == 0);
       same =
@@ -48,7 +46,7 @@ class BvhEncoder {
   }
 
  private:
-  size_t numbers() const { return static_cast<size_t>(document_.numbers); }
+  size_t numbers() const { return document_.numbers; }
 
   int nearest_frame(double source_frame) const {
     const double last = document_.clip.frames - 1;
@@ -68,7 +66,7 @@ class BvhEncoder {
 
   // The words and numbers of a frame of the file, and where its line ends.
   void split_line(int frame) {
-    const size_t begin = document_.lines[static_cast<size_t>(frame)];
+    const size_t begin = document_.lines[frame];
     TextCursor cursor(std::string_view(document_.text).substr(begin), "");
     for (size_t i = 0; i < numbers(); ++i) {
       cursor.skip_spaces();
@@ -103,21 +101,20 @@ class BvhEncoder {
     for (size_t j = 0; j < document_.channels.size(); ++j) {
       const BvhChannels& channels = document_.channels[j];
       const Vec3 t = pose.translations[j], s = source_pose.translations[j];
-      choose(channels.position[0], t.x == s.x, static_cast<double>(t.x));
-      choose(channels.position[1], t.y == s.y, static_cast<double>(t.y));
-      choose(channels.position[2], t.z == s.z, static_cast<double>(t.z));
+      choose(channels.position[0], t.x == s.x, t.x);
+      choose(channels.position[1], t.y == s.y, t.y);
+      choose(channels.position[2], t.z == s.z, t.z);
       const bool same = pose.rotations[j] == source_pose.rotations[j];
       const EulerAngles angles =
           same ? EulerAngles{} : near_angles(channels, pose.rotations[j].as<double>());
-      for (size_t i = 0; i < static_cast<size_t>(channels.order.count); ++i) {
+      for (int i = 0; i < channels.order.count; ++i) {
         choose(channels.rotation[i], same, angles[i]);
       }
     }
     previous_source_ = source_;
   }
-  void choose(int place, bool same, double value) {
-    if (place < 0) return;
-    const size_t i = static_cast<size_t>(place);
+  void choose(int i, bool same, double value) {
+    if (i < 0) return;
     changed_[i] = !same;
     written_[i] = same ? source_[i] : value;
   }
@@ -127,19 +124,19 @@ class BvhEncoder {
   // has one and nowhere else, even where the new rotation is half a turn from the old.
   EulerAngles near_angles(const BvhChannels& channels, Quatd rotation) const {
     EulerAngles near = {0, 0, 0};
-    for (size_t k = 0; k < static_cast<size_t>(channels.order.count); ++k) {
-      const size_t i = static_cast<size_t>(channels.rotation[k]);
+    for (int k = 0; k < channels.order.count; ++k) {
+      const int i = channels.rotation[k];
       near[k] = written_[i] + (source_[i] - previous_source_[i]);
     }
     return quat_to_euler(channels.order, rotation, near);
   }
 
   void append_line(std::string& out, int nearest) const {
-    size_t at = document_.lines[static_cast<size_t>(nearest)];
+    size_t at = document_.lines[nearest];
     const char* const text = document_.text.data();
     for (size_t i = 0; i < numbers(); ++i) {
       if (!changed_[i]) continue;  // Goes with the piece that ends at the next changed number.
-      const size_t word = static_cast<size_t>(words_[i].data() - text);
+      const size_t word = words_[i].data() - text;
       out.append(text + at, word - at);
       append_fixed(out, written_[i], decimals_);
       at = word + words_[i].size();
@@ -151,7 +148,7 @@ class BvhEncoder {
   void append_gap(std::string& out, int nearest) const {
     const std::string_view text = document_.text;
     if (nearest + 1 < document_.clip.frames) {
-      const size_t next = document_.lines[static_cast<size_t>(nearest) + 1];
+      const size_t next = document_.lines[nearest + 1];
       out += text.substr(line_end_, next - line_end_);
       return;
     }
@@ -177,7 +174,7 @@ class BvhEncoder {
 std::string encode_bvh(const BvhDocument& document, const Clip& changed,
                        std::span<const double> source_frames) {
   assert(changed.joints() == document.clip.joints());
-  assert(source_frames.size() == static_cast<size_t>(changed.frames));
+  assert(source_frames.size() == size_t(changed.frames));
   return BvhEncoder(document).encode(changed, source_frames);
 }
 

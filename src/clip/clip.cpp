@@ -42,6 +42,44 @@ Clip rest_clip(const Skeleton& skeleton) {
   return out;
 }
 
+void world_pose(const Skeleton& skeleton, ConstPose local, Pose world) noexcept {
+  const size_t joints = skeleton.joints.size();
+  assert(local.rotations.size() == joints && local.translations.size() == joints);
+  assert(world.rotations.size() == joints && world.translations.size() == joints);
+  for (size_t j = 0; j < joints; ++j) {
+    const int parent = skeleton.joints[j].parent;
+    if (parent < 0) {
+      world.rotations[j] = local.rotations[j];
+      world.translations[j] = local.translations[j];
+      continue;
+    }
+    // Parents come before children, so the parent's place in `world` is already the world's.
+    const size_t p = static_cast<size_t>(parent);
+    world.translations[j] =
+        world.translations[p] + rotate(world.rotations[p], local.translations[j]);
+    // Rounding shortens or lengthens a product a little; over a deep chain that would add up.
+    world.rotations[j] = normalized(world.rotations[p] * local.rotations[j]);
+  }
+}
+
+void mark_still_joints(Clip& clip) {
+  // Programs write the rest pose into every frame with floats that went through matrices. A tenth
+  // of a thousandth of a radian, or of the largest distance between two joints, is nothing to see.
+  constexpr float kRounding = 1e-4f;
+  float size = 0;
+  for (const Joint& joint : clip.skeleton.joints) size = std::max(size, length(joint.offset));
+  for (size_t j = 0; j < clip.joints(); ++j) {
+    Joint& joint = clip.skeleton.joints[j];
+    joint.still = true;
+    for (int f = 0; f < clip.frames && joint.still; ++f) {
+      const ConstPose pose = clip.pose(f);
+      const float turn = 2 * length((conjugate(joint.rest) * pose.rotations[j]).xyz());
+      const float way = length(pose.translations[j] - joint.offset);
+      joint.still = turn <= kRounding && way <= kRounding * size;
+    }
+  }
+}
+
 void sample(const Clip& clip, double frame, Pose out) {
   assert(clip.frames > 0);
   assert(out.rotations.size() == clip.joints() && out.translations.size() == clip.joints());

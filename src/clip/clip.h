@@ -64,6 +64,14 @@ struct Clip {
 // One frame of the skeleton at rest.
 Clip rest_clip(const Skeleton& skeleton);
 
+// Forward kinematics: world = the joints of `local` in the space of the roots' parent, file units.
+// Both have the skeleton's joints, and may be the same arrays. Allocates nothing.
+void world_pose(const Skeleton& skeleton, ConstPose local, Pose world) noexcept;
+
+// Sets `still` of each joint that rests in all frames of `clip` but for rounding. Its skeleton says
+// where joints rest.
+void mark_still_joints(Clip& clip);
+
 // The pose at `frame` (fractional, clamped to the clip): rotations along the shorter arc,
 // translations straight. Whole frames come back bit for bit, and so does a joint that is the same
 // in the frames on both sides. The clip has a frame at least; `out` has the clip's joints.

@@ -6,8 +6,6 @@
 #include <utility>
 
 #include "clip/deform_tree.h"
-#include "clip/placed.h"
-#include "clip/still_joints.h"
 
 namespace panache {
 namespace {
@@ -17,16 +15,16 @@ Clip on_tree(const Clip& clip, const DeformTree& tree) {
   Clip out;
   out.frame_time = clip.frame_time;
   const auto local = [&](const std::vector<Placed>& placed, size_t j) {
-    const Placed& own = placed[static_cast<size_t>(tree.joints[j])];
+    const Placed& own = placed[tree.joints[j]];
     if (tree.parents[j] < 0) return own;
-    const auto above = static_cast<size_t>(tree.joints[static_cast<size_t>(tree.parents[j])]);
+    const auto above = static_cast<size_t>(tree.joints[tree.parents[j]]);
     return Placed{normalized(conjugate(placed[above].rotation) * own.rotation),
                   seen_from(placed[above], own.position)};
   };
   const Clip rest = rest_clip(clip.skeleton);
   const std::vector<Placed> at_rest = place(clip.skeleton, rest.pose(0));
   for (size_t j = 0; j < tree.joints.size(); ++j) {
-    Joint joint = clip.skeleton.joints[static_cast<size_t>(tree.joints[j])];
+    Joint joint = clip.skeleton.joints[tree.joints[j]];
     joint.parent = tree.parents[j];
     joint.can_translate = joint.parent < 0 && joint.can_rotate;
     const Placed placed = local(at_rest, j);
@@ -60,7 +58,7 @@ class JoinedFile final : public MotionFile {
   }
 
   std::vector<std::string> clip_names() const override { return file_->clip_names(); }
-  const Clip& clip(int which) const override { return clips_[static_cast<size_t>(which)]; }
+  const Clip& clip(int which) const override { return clips_[which]; }
   Clip rest() const override { return rest_; }
   std::vector<std::string> notes() const override { return file_->notes(); }
   bool is_mended() const override { return file_->is_mended(); }
@@ -90,7 +88,7 @@ class JoinedFile final : public MotionFile {
     std::vector<Vec3> translations(joined.joints());
     const Pose joined_before{rotations, translations};
     for (int f = 0; f < out.frames; ++f) {
-      const double source = is_new ? 0 : edit.source_frames[static_cast<size_t>(f)];
+      const double source = is_new ? 0 : edit.source_frames[f];
       sample(before, source, out.pose(f));
       sample(joined, source, joined_before);
       write_frame(edit.changed->pose(f), joined_before, out.skeleton, out.pose(f));
@@ -108,9 +106,9 @@ class JoinedFile final : public MotionFile {
     bool any = false;
     for (size_t j = 0; j < count; ++j) {
       const int parent = tree_.parents[j];
-      wanted[j] = below(parent < 0 ? Placed{} : wanted[static_cast<size_t>(parent)],
-                        joined.rotations[j], joined.translations[j]);
-      place_in_tree[static_cast<size_t>(tree_.joints[j])] = static_cast<int>(j);
+      wanted[j] = below(parent < 0 ? Placed{} : wanted[parent], joined.rotations[j],
+                        joined.translations[j]);
+      place_in_tree[tree_.joints[j]] = static_cast<int>(j);
       any = any || !(joined.rotations[j] == joined_before.rotations[j]) ||
             !(joined.translations[j] == joined_before.translations[j]);
     }
@@ -118,9 +116,9 @@ class JoinedFile final : public MotionFile {
     std::vector<Placed> placed(skeleton.joints.size());
     for (size_t j = 0; j < placed.size(); ++j) {
       const int up = skeleton.joints[j].parent, in_tree = place_in_tree[j];
-      const Placed parent = up < 0 ? Placed{} : placed[static_cast<size_t>(up)];
+      const Placed parent = up < 0 ? Placed{} : placed[up];
       if (in_tree >= 0 && skeleton.joints[j].can_rotate) {
-        const Placed& want = wanted[static_cast<size_t>(in_tree)];
+        const Placed& want = wanted[in_tree];
         pose.rotations[j] = normalized(conjugate(parent.rotation) * want.rotation);
         pose.translations[j] = seen_from(parent, want.position);
       }

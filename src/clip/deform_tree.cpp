@@ -8,8 +8,6 @@
 #include <string>
 #include <utility>
 
-#include "clip/placed.h"
-
 namespace panache {
 namespace {
 
@@ -73,7 +71,7 @@ class TreeFinder {
     std::map<int, float> weights;  // By root.
     for (size_t j = 0; j < count(); ++j) {
       const int up = joints_[j].parent;
-      root[j] = up < 0 ? static_cast<int>(j) : root[static_cast<size_t>(up)];
+      root[j] = up < 0 ? static_cast<int>(j) : root[up];
       if (joints_[j].skin >= 0) weights[root[j]] += joints_[j].skin_weight;
     }
     const auto heaviest = std::max_element(weights.begin(), weights.end(),
@@ -94,11 +92,11 @@ class TreeFinder {
     std::vector<int> nearest(count(), -1);  // Itself where picked.
     for (size_t j = 0; j < count(); ++j) {
       const int up = joints_[j].parent;
-      const int above = up < 0 ? -1 : nearest[static_cast<size_t>(up)];
+      const int above = up < 0 ? -1 : nearest[up];
       nearest[j] = picked_[j] ? static_cast<int>(j) : above;
       if (!picked_[j]) continue;
       parent_[j] = above;
-      piece_[j] = above < 0 ? static_cast<int>(j) : piece_[static_cast<size_t>(above)];
+      piece_[j] = above < 0 ? static_cast<int>(j) : piece_[above];
     }
   }
 
@@ -199,8 +197,8 @@ class TreeFinder {
     const std::vector<Placed>& first = poses_.front();
     float off = length(first[root].position - first[above].position);
     for (const int child : children_[above]) {
-      off = std::min(off, to_segment(first[root].position, first[above].position,
-                                     first[static_cast<size_t>(child)].position));
+      off = std::min(
+          off, to_segment(first[root].position, first[above].position, first[child].position));
     }
     constexpr float kDistance = 0.25f, kSameSide = 0.7f, kUnlikely = 3;
     const char side = side_of(joints_[root].name), other = side_of(joints_[above].name);
@@ -219,7 +217,7 @@ class TreeFinder {
     for (size_t j = 0; j < count(); ++j) {
       if (!picked_[j]) continue;
       if (parent_[j] >= 0)
-        children_[static_cast<size_t>(parent_[j])].push_back(static_cast<int>(j));
+        children_[parent_[j]].push_back(static_cast<int>(j));
       else
         roots.push_back(j);
     }
@@ -284,7 +282,7 @@ class TreeFinder {
     while (tree.joints.size() < total) {
       for (size_t j = 0; j < count(); ++j) {
         if (!picked_[j] || place[j] >= 0) continue;
-        const int above = parent_[j] < 0 ? -1 : place[static_cast<size_t>(parent_[j])];
+        const int above = parent_[j] < 0 ? -1 : place[parent_[j]];
         if (parent_[j] >= 0 && above < 0) continue;
         place[j] = static_cast<int>(tree.joints.size());
         tree.joints.push_back(static_cast<int>(j));

@@ -95,9 +95,9 @@ EulerAngles one_angle(const EulerOrder& order, Quatd q, const EulerAngles& near)
 Quatd euler_to_quat(const EulerOrder& order, const EulerAngles& angles) {
   Quatd rotation;
   for (int i = 0; i < order.count; ++i) {
-    const double half = angles[static_cast<size_t>(i)] / kDegrees / 2;
+    const double half = angles[i] / kDegrees / 2;
     const double s = std::sin(half), c = std::cos(half);
-    const int axis = order.axis[static_cast<size_t>(i)];
+    const int axis = order.axis[i];
     rotation = rotation * Quatd{axis == 0 ? s : 0, axis == 1 ? s : 0, axis == 2 ? s : 0, c};
   }
   return rotation;

@@ -7,9 +7,6 @@
 #include "clip/gltf_document.h"
 #include "clip/gltf_encode.h"
 #include "clip/gltf_figure.h"
-#include "clip/gltf_retime.h"
-#include "clip/gltf_unpack.h"
-#include "clip/vrma_rest.h"
 
 namespace panache {
 namespace {
@@ -30,7 +27,7 @@ class GltfFile final : public MotionFile {
   const Clip& clip(int which) const override {
     assert(which >= 0);
     if (document_.animations.empty()) return document_.rest;
-    return document_.animations[static_cast<size_t>(which)].clip;
+    return document_.animations[which].clip;
   }
   Clip rest() const override {
     Clip out = document_.rest;
@@ -121,9 +118,8 @@ Result<std::unique_ptr<MotionFile>> parse_vrma(std::string bytes, const std::str
                                                const ReadOptions& options) {
   Result<GltfDocument> document = read_document(std::move(bytes), name, options);
   if (!document) return document.error();
-  const GltfJson& json = document->container.json;
   const GltfJson::json_pointer hips("/extensions/VRMC_vrm_animation/humanoid/humanBones/hips/node");
-  if (!json.contains(hips)) {
+  if (!document->container.json.contains(hips)) {
     return Error{name +
                  ": extensions.VRMC_vrm_animation: expected a humanoid with hips, found none; a "
                  "file without it is a .glb"};

@@ -2,25 +2,18 @@
 // The formats glTF 2.0, GLB, VRM and VRMA: a tree of nodes, animations of them, and a scene around
 // it.
 //
-// Conventions: metres and Y up are what glTF wants, but the numbers of a clip are those of the
-// file's nodes, so a scale or a turn of a node above the body is the parent joints' and counts as
-// in the file. Only scale is not a joint's to have. Every joint of a clip is where glTF's matrices
-// have it, at rest and in motion, for scales of any sign, even or not, animated or not, and it is
-// turned by what is left without them: the scales of the nodes above a joint go into its
-// translations on the way in, and out of them on the way out. A body that a scale of 0 takes away
-// for a while keeps the size that it has at rest; a resting scale of 0 along one or two axes above
-// other joints is rejected.
+// The numbers of a clip are those of the file's nodes: a scale or a turn of a node above the body
+// counts as in the file. Joints have no scale: the scales of the nodes above a joint, of any sign,
+// even or not, animated or not, go into its translations on the way in, and out of them on the way
+// out. A body that a scale of 0 takes away for a while keeps the size that it has at rest; a
+// resting scale of 0 along one or two axes above other joints is rejected.
 //
 // Joints are the nodes that are in a skin, animated or named by a VRM humanoid, and all above them.
-// Read are LINEAR, STEP and CUBICSPLINE keys of floats and of normalised whole numbers, sparse or
-// not, at the rate at which the keys of the densest channel lie. Keys at less than 20 a second get
+// Frames lie at the rate of the keys of the densest channel: keys at less than 20 a second get
 // frames between them, keys that lie on no rate are read at 24 to 120 frames a second.
 //
-// A VRM animation (.vrma, the extension VRMC_vrm_animation) is a GLB of which a humanoid names the
-// joints, and one animation. Its nodes at rest are the T-pose, facing +z, whatever they look like:
-// the clip has the rotations of the file and stands in a T-pose where these are the resting ones.
-// Nodes that carry the weights of expressions or the gaze are no joints; their keys follow the
-// frames.
+// The nodes of a VRM animation (.vrma) at rest are the T-pose, facing +z, whatever they look like.
+// Those that carry the weights of expressions or the gaze are no joints.
 //
 // Everything else in a file stays: the JSON is edited in place, and new data goes to its end.
 

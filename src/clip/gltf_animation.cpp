@@ -4,10 +4,8 @@
 #include <utility>
 
 #include "clip/decimal.h"
-#include "clip/gltf_accessor.h"
 #include "clip/gltf_document.h"
 #include "clip/gltf_scales.h"
-#include "clip/still_joints.h"
 
 namespace panache {
 namespace {
@@ -29,80 +27,57 @@ size_t components_of(GltfPath path) {
 
 class ChannelReader {
  public:
-  ChannelReader(GltfDocument& document, GltfChecker& checker)
-      : document_(document), checker_(checker) {}
+  explicit ChannelReader(GltfDocument& document) : document_(document) {}
 
-  bool read() {
-    const GltfJson* list = nullptr;
-    if (!checker_.list(document_.container.json, "", "animations", list)) return false;
-    if (list->size() > kGltfMaxAnimations) {
-      return checker_.fail("animations", "expected at most " + std::to_string(kGltfMaxAnimations) +
-                                             ", found " + std::to_string(list->size()));
+  bool read(const GltfPart& root) {
+    const std::vector<GltfPart> list = root.list("animations");
+    if (list.size() > kGltfMaxAnimations) {
+      return root.member("animations")
+          .fail("expected at most " + std::to_string(kGltfMaxAnimations) + ", found " +
+                std::to_string(list.size()));
     }
-    document_.animations.resize(list->size());
-    for (size_t a = 0; a < list->size(); ++a) {
-      if (!read_animation((*list)[a], a)) return false;
-    }
-    return true;
+    document_.animations.resize(list.size());
+    for (size_t a = 0; a < list.size(); ++a) read_animation(list[a], a);
+    return root.ok();
   }
 
  private:
-  bool read_animation(const GltfJson& json, size_t which) {
-    const std::string path = animation_path(which);
+  void read_animation(const GltfPart& part, size_t which) {
     GltfAnimation& animation = document_.animations[which];
-    std::string name;
-    const GltfJson *channels = nullptr, *samplers = nullptr;
-    if (!checker_.is_object(json, path) || !checker_.text(json, path, "name", name) ||
-        !checker_.list(json, path, "channels", channels) ||
-        !checker_.list(json, path, "samplers", samplers)) {
-      return false;
-    }
+    const std::string name = part.text("name");
     animation.name =
         unique_name(name.empty() ? "animation " + std::to_string(which + 1) : name, names_);
+    const size_t samplers = part.size("samplers");
     std::set<std::pair<int, GltfPath>> targets;
-    for (size_t c = 0; c < channels->size(); ++c) {
-      const std::string channel_path = item_path(member_path(path, "channels"), c);
-      GltfChannel channel;
-      if (!read_channel((*channels)[c], channel_path, samplers->size(), channel)) return false;
-      if (channel.path != GltfPath::other && !targets.insert({channel.node, channel.path}).second) {
-        return checker_.fail(channel_path,
-                             "expected a target of its own, found that of a channel "
-                             "before it");
+    for (const GltfPart& channel : part.list("channels")) {
+      const GltfChannel read = read_channel(channel, samplers);
+      if (read.path != GltfPath::other && !targets.insert({read.node, read.path}).second) {
+        channel.fail("expected a target of its own, found that of a channel before it");
       }
-      animation.channels.push_back(channel);
+      animation.channels.push_back(read);
     }
-    return true;
   }
 
-  bool read_channel(const GltfJson& json, const std::string& path, size_t samplers,
-                    GltfChannel& channel) {
-    const GltfJson* target = nullptr;
-    if (!checker_.is_object(json, path) ||
-        !checker_.index(json, path, "sampler", samplers, channel.sampler) ||
-        !checker_.object(json, path, "target", target)) {
-      return false;
-    }
+  GltfChannel read_channel(const GltfPart& part, size_t samplers) {
+    GltfChannel channel;
+    channel.sampler = part.index("sampler", samplers);
+    const GltfPart target = part.object("target");
     if (channel.sampler < 0 || !target) {
-      return checker_.fail(path, "expected a sampler and a target, one of the two is missing");
+      part.fail("expected a sampler and a target, one of the two is missing");
     }
-    const std::string target_path = member_path(path, "target");
-    std::string moved;
-    if (!checker_.index(*target, target_path, "node", document_.nodes.size(), channel.node) ||
-        !checker_.text(*target, target_path, "path", moved)) {
-      return false;
-    }
-    if (channel.node < 0) return true;
-    GltfNode& node = document_.nodes[static_cast<size_t>(channel.node)];
+    channel.node = target.index("node", document_.nodes.size());
+    const std::string moved = target.text("path");
+    if (channel.node < 0) return channel;
+    GltfNode& node = document_.nodes[channel.node];
     channel.path = path_named(moved);
     // glTF has no animation of a node that a matrix places.
     if (node.matrix && channel.path != GltfPath::weights) channel.path = GltfPath::other;
     const bool moves = channel.path != GltfPath::weights && channel.path != GltfPath::other;
     if (moves && !node.carrier) node.moves = true;
-    return true;
+    return channel;
   }
 
   GltfDocument& document_;
-  GltfChecker& checker_;
   TakenNames names_;
 };
 
@@ -162,25 +137,20 @@ class ClipReader {
 
   bool make_room(size_t which) {
     GltfAnimation& animation = document_.animations[which];
-    bool any = false;
-    double first = 0, last = 0;
+    double first = INFINITY, last = -INFINITY;
     for (const GltfTrack& track : tracks_) {
       if (track.times.empty()) continue;
-      const double begin = static_cast<double>(track.times.front());
-      const double end = static_cast<double>(track.times.back());
-      first = any ? std::min(first, begin) : begin;
-      last = any ? std::max(last, end) : end;
-      any = true;
+      first = std::min<double>(first, track.times.front());
+      last = std::max<double>(last, track.times.back());
     }
+    if (first > last) first = last = 0;
     const GltfTrack* deciding = deciding_track(animation);
     animation.has_rate = deciding && deciding->times.size() > 1;
     const FrameGrid grid = animation.has_rate && fps_ ? find_grid(deciding, first, last, 1 / *fps_)
                                                       : find_grid(deciding, first, last);
-    const double joints = static_cast<double>(document_.joint_nodes.size());
-    poses_ += grid.frames * joints;
+    poses_ += grid.frames * document_.joint_nodes.size();
     const size_t most = gltf_max_poses(document_.container.size);
-    if (!(grid.frames <= static_cast<double>(kGltfMaxFrames)) ||
-        !(poses_ <= static_cast<double>(most))) {
+    if (!(grid.frames <= kGltfMaxFrames) || !(poses_ <= most)) {
       return checker_.fail(animation_path(which),
                            "expected at most " + std::to_string(kGltfMaxFrames) +
                                " frames, and frames times joints in all animations at most " +
@@ -195,64 +165,15 @@ class ClipReader {
 
   bool fill(size_t which) {
     GltfAnimation& animation = document_.animations[which];
-    Clip& clip = animation.clip;
     GltfScales scales(document_, animation, tracks_);
-    if (!scales.is_still()) {
-      const int far = fill_stretched_clip(document_, animation, tracks_, scales);
-      return far < 0 || fail_far(which, static_cast<size_t>(far));
-    }
-    for (int f = 0; f < clip.frames; ++f) {
-      std::ranges::copy(document_.rest.rotations, clip.pose(f).rotations.begin());
-      std::ranges::copy(document_.rest.translations, clip.pose(f).translations.begin());
-    }
-    for (size_t c = 0; c < tracks_.size(); ++c) {
-      const GltfChannel& channel = animation.channels[c];
-      if (channel.path == GltfPath::other || joint_of(channel) < 0) continue;
-      if (channel.path == GltfPath::rotation) fill_rotations(animation, channel, tracks_[c]);
-      if (channel.path != GltfPath::translation) continue;
-      if (!fill_translations(animation, channel, tracks_[c])) return fail_far(which, c);
-    }
-    return true;
-  }
-
-  bool fail_far(size_t which, size_t channel) {
-    return checker_.fail(item_path(member_path(animation_path(which), "channels"), channel),
-                         "expected positions between -1e9 and 1e9, found one outside");
+    const int far = fill_clip(document_, animation, tracks_, scales);
+    return far < 0 || checker_.fail(item_path(animation_path(which) + ".channels", far),
+                                    "expected positions between -1e9 and 1e9, found one outside");
   }
 
   // -1 of a node that carries an expression or a gaze.
-  int joint_of(const GltfChannel& channel) const {
-    return document_.nodes[static_cast<size_t>(channel.node)].joint;
-  }
+  int joint_of(const GltfChannel& channel) const { return document_.nodes[channel.node].joint; }
 
-  void fill_rotations(GltfAnimation& animation, const GltfChannel& channel,
-                      const GltfTrack& track) const {
-    Clip& clip = animation.clip;
-    const auto joint = static_cast<size_t>(joint_of(channel));
-    const Quat turn = document_.nodes[static_cast<size_t>(channel.node)].own.turn;
-    for (int f = 0; f < clip.frames; ++f) {
-      const double seconds = animation.start + f * clip.frame_time;
-      float v[4];
-      track.evaluate(seconds, key_tolerance(seconds, clip.frame_time), v);
-      clip.pose(f).rotations[joint] = clip_rotation({v[0], v[1], v[2], v[3]}, turn);
-    }
-  }
-
-  bool fill_translations(GltfAnimation& animation, const GltfChannel& channel,
-                         const GltfTrack& track) const {
-    Clip& clip = animation.clip;
-    const auto joint = static_cast<size_t>(joint_of(channel));
-    clip.skeleton.joints[joint].can_translate = true;
-    for (int f = 0; f < clip.frames; ++f) {
-      const double seconds = animation.start + f * clip.frame_time;
-      float v[3];
-      track.evaluate(seconds, key_tolerance(seconds, clip.frame_time), v);
-      const Vec3 place = document_.above[joint].apply({v[0], v[1], v[2]});
-      if (!is_within_reach(place)) return false;
-      clip.pose(f).translations[joint] = place;
-    }
-    return true;
-  }
   GltfDocument& document_;
   GltfChecker& checker_;
   std::optional<double> fps_;
@@ -265,36 +186,27 @@ class ClipReader {
 
 bool read_gltf_track(const GltfDocument& document, size_t which, const GltfChannel& channel,
                      GltfChecker& checker, GltfTrack& out) {
-  const GltfJson& json = document.container.json;
-  const std::string path = item_path(member_path(animation_path(which), "samplers"),
-                                     static_cast<size_t>(channel.sampler));
-  const GltfJson& sampler =
-      json["animations"][which]["samplers"][static_cast<size_t>(channel.sampler)];
-  const GltfJson* accessors = nullptr;
-  int input = -1, output = -1;
-  std::string interpolation = "LINEAR";
-  if (!checker.list(json, "", "accessors", accessors) || !checker.is_object(sampler, path) ||
-      !checker.index(sampler, path, "input", accessors->size(), input) ||
-      !checker.index(sampler, path, "output", accessors->size(), output) ||
-      !checker.text(sampler, path, "interpolation", interpolation)) {
-    return false;
-  }
+  const GltfPart root(document.container.json, checker);
+  const GltfPart sampler = root.item("animations", which).item("samplers", channel.sampler);
+  const size_t accessors = root.size("accessors");
+  const int input = sampler.index("input", accessors), output = sampler.index("output", accessors);
+  const std::string interpolation = sampler.text("interpolation", "LINEAR");
   if (input < 0 || output < 0) {
-    return checker.fail(path, "expected an input and an output, one of the two is missing");
+    sampler.fail("expected an input and an output, one of the two is missing");
   }
+  if (!checker.ok()) return false;
   using enum GltfTrack::Interpolation;
   if (interpolation == "STEP") {
     out.interpolation = step;
   } else if (interpolation == "CUBICSPLINE") {
     out.interpolation = cubic;
   } else if (interpolation != "LINEAR") {
-    return checker.fail(
-        member_path(path, "interpolation"),
-        "expected LINEAR, STEP or CUBICSPLINE, found '" + interpolation.substr(0, 20) + "'");
+    return sampler.member("interpolation")
+        .fail("expected LINEAR, STEP or CUBICSPLINE, found '" + interpolation.substr(0, 20) + "'");
   }
   GltfValues times, values;
-  const std::string input_path = member_path(path, "input");
-  const std::string output_path = member_path(path, "output");
+  const std::string input_path = sampler.path() + ".input";
+  const std::string output_path = sampler.path() + ".output";
   if (!read_gltf_accessor(document.container, input, input_path, checker, times) ||
       !read_gltf_accessor(document.container, output, output_path, checker, values)) {
     return false;
@@ -341,7 +253,7 @@ GltfTrack rest_gltf_track(const GltfNode& node, GltfPath path) {
 }
 
 bool read_gltf_channels(GltfDocument& document, GltfChecker& checker) {
-  return ChannelReader(document, checker).read();
+  return ChannelReader(document).read(GltfPart(document.container.json, checker));
 }
 
 bool read_gltf_clips(GltfDocument& document, GltfChecker& checker, std::optional<double> fps) {

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <cassert>
-#include <limits>
 
 #include "base/file.h"
+#include "base/little_endian.h"
 #include "clip/gltf_uri.h"
 
 namespace panache {
@@ -21,21 +20,14 @@ static_assert(kMaxFileBytes == uint64_t{1} << 31);
 constexpr size_t kMaxFetchedBytes = size_t{1} << 30;
 
 uint32_t read_uint32(std::string_view bytes, size_t at) {
-  uint32_t value = 0;
-  for (size_t i = 4; i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
-  return value;
-}
-
-void append_uint32(std::string& out, size_t value) {
-  assert(value <= std::numeric_limits<uint32_t>::max());
-  for (size_t i = 0; i < 4; ++i) out += static_cast<char>(value >> (8 * i) & 0xff);
+  return static_cast<uint32_t>(little_endian(bytes.substr(at, 4)));
 }
 
 size_t padded(size_t size) { return (size + 3) / 4 * 4; }
 
 void append_chunk(std::string& out, uint32_t type, std::string_view bytes, char padding) {
-  append_uint32(out, padded(bytes.size()));
-  append_uint32(out, type);
+  append_little_endian(padded(bytes.size()), 4, out);
+  append_little_endian(type, 4, out);
   out += bytes;
   out.append(padded(bytes.size()) - bytes.size(), padding);
 }
@@ -43,7 +35,7 @@ void append_chunk(std::string& out, uint32_t type, std::string_view bytes, char 
 class ContainerReader {
  public:
   ContainerReader(const std::string& name, GltfChecker& checker, GltfContainer& out)
-      : name_(name), checker_(checker), out_(out) {}
+      : name_(name), checker_(checker), out_(out), root_(out.json, checker) {}
 
   bool read(std::string_view bytes) {
     if (bytes.size() > kMaxFileBytes) {
@@ -108,40 +100,36 @@ class ContainerReader {
   }
 
   bool check_version() {
-    const GltfJson* asset = nullptr;
-    std::string version, needed;
-    if (!checker_.object(out_.json, "", "asset", asset)) return false;
-    if (!asset) return checker_.fail("asset", "expected glTF's version in it, found nothing");
-    if (!checker_.text(*asset, "asset", "version", version)) return false;
-    if (!checker_.text(*asset, "asset", "minVersion", needed)) return false;
-    if (!version.starts_with("2.") || (!needed.empty() && needed != "2.0")) {
-      return checker_.fail("asset", "expected glTF version 2.0, found '" +
-                                        (needed.empty() ? version : needed).substr(0, 20) + "'");
-    }
-    return true;
+    const GltfPart asset = root_.object("asset");
+    if (!asset) return asset.fail("expected glTF's version in it, found nothing");
+    const std::string version = asset.text("version"), needed = asset.text("minVersion");
+    if (version.starts_with("2.") && (needed.empty() || needed == "2.0")) return checker_.ok();
+    return asset.fail("expected glTF version 2.0, found '" +
+                      (needed.empty() ? version : needed).substr(0, 20) + "'");
   }
 
-  // The bytes at `uri`, which stands at `path`; one in another file becomes a data URI of `type`,
-  // or of what the bytes look like.
-  bool fetch(GltfJson& object, const std::string& path, const std::string& type,
-             std::string& bytes) {
-    std::string& uri = object["uri"].get_ref<std::string&>();
+  // The bytes at the uri of `json`, which stands at `path`; one in another file becomes a data URI
+  // of `type`, or of what the bytes look like.
+  bool fetch(GltfJson& json, const std::string& path, const std::string& type, std::string& bytes) {
+    std::string& uri = json["uri"].get_ref<std::string&>();
+    const auto fail = [&](const std::string& message) {
+      return checker_.fail(path + ".uri", message);
+    };
     if (is_data_uri(uri)) {
       auto decoded = decode_data_uri(uri);
-      if (!decoded) return checker_.fail(member_path(path, "uri"), decoded.error().message);
-      bytes = std::move(*decoded);
+      if (!decoded) return fail(decoded.error().message);
+      bytes = *std::move(decoded);
       return true;
     }
     auto file = resolve_uri(uri, name_);
-    if (!file) return checker_.fail(member_path(path, "uri"), file.error().message);
+    if (!file) return fail(file.error().message);
     auto content = read_file(*file);
-    if (!content) return checker_.fail(member_path(path, "uri"), content.error().message);
-    bytes = std::move(*content);
+    if (!content) return fail(content.error().message);
+    bytes = *std::move(content);
     fetched_ += bytes.size();
     out_.size += bytes.size();
     if (fetched_ > kMaxFetchedBytes) {
-      return checker_.fail(member_path(path, "uri"),
-                           "expected at most 1 GB in other files in all, found more");
+      return fail("expected at most 1 GB in other files in all, found more");
     }
     uri = make_data_uri(type.empty() ? image_type(bytes) : type, bytes);
     return true;
@@ -156,37 +144,34 @@ class ContainerReader {
   }
 
   bool read_buffers() {
-    const GltfJson* list = nullptr;
-    if (!checker_.list(out_.json, "", "buffers", list)) return false;
-    if (list->empty()) out_.has_bin = false;
-    for (size_t i = 0; i < list->size(); ++i) {
-      if (!read_buffer(out_.json["buffers"][i], item_path("buffers", i), i == 0)) return false;
+    const std::vector<GltfPart> list = root_.list("buffers");
+    if (list.empty() || !list[0].text("uri").empty()) out_.has_bin = false;
+    for (size_t i = 0; i < list.size(); ++i) {
+      if (!read_buffer(list[i], out_.json["buffers"][i], i == 0)) return false;
     }
-    return true;
+    return checker_.ok();
   }
 
-  bool read_buffer(GltfJson& buffer, const std::string& path, bool first) {
-    uint64_t length = 0;
-    std::string uri;
-    if (!checker_.is_object(buffer, path)) return false;
-    if (!buffer.contains("byteLength"))
-      return checker_.fail(path, "expected a byteLength, found none");
-    if (!checker_.count(buffer, path, "byteLength", length)) return false;
-    if (!checker_.text(buffer, path, "uri", uri)) return false;
-    std::string bytes;
-    if (!uri.empty()) {
-      if (first) out_.has_bin = false;
-      if (!fetch(buffer, path, "application/octet-stream", bytes)) return false;
-    } else if (first && out_.has_bin) {
-      bytes = bin_;
-    } else {
-      if (first) out_.has_bin = false;
+  bool read_buffer(const GltfPart& buffer, GltfJson& json, bool first) {
+    const uint64_t length = buffer.count("byteLength");
+    if (checker_.ok() && !json.contains("byteLength")) {
+      return buffer.fail("expected a byteLength, found none");
+    }
+    const bool has_uri = !buffer.text("uri").empty();
+    if (!checker_.ok()) return false;
+    if (!has_uri && !(first && out_.has_bin)) {
       out_.buffers.emplace_back();
       return true;
     }
+    std::string bytes;
+    if (!has_uri) {
+      bytes = bin_;
+    } else if (!fetch(json, buffer.path(), "application/octet-stream", bytes)) {
+      return false;
+    }
     if (bytes.size() < length) {
-      return checker_.fail(path, "expected " + std::to_string(length) + " bytes, found " +
-                                     std::to_string(bytes.size()));
+      return buffer.fail("expected " + std::to_string(length) + " bytes, found " +
+                         std::to_string(bytes.size()));
     }
     bytes.resize(length);
     out_.buffers.emplace_back(std::move(bytes));
@@ -194,28 +179,25 @@ class ContainerReader {
   }
 
   bool embed_images() {
-    const GltfJson* list = nullptr;
-    if (!checker_.list(out_.json, "", "images", list)) return false;
-    for (size_t i = 0; i < list->size(); ++i) {
-      const std::string path = item_path("images", i);
-      GltfJson& image = out_.json["images"][i];
-      std::string uri, type, bytes;
-      if (!checker_.is_object(image, path)) return false;
-      if (!checker_.text(image, path, "uri", uri)) return false;
-      if (!checker_.text(image, path, "mimeType", type)) return false;
+    const std::vector<GltfPart> list = root_.list("images");
+    for (size_t i = 0; i < list.size(); ++i) {
+      const std::string uri = list[i].text("uri"), type = list[i].text("mimeType");
+      if (!checker_.ok()) return false;
       if (uri.empty() || is_data_uri(uri)) continue;  // A picture is not ours to look into.
       // Motion does not need it, so one that is nowhere, or elsewhere, stays an address.
       const auto file = resolve_uri(uri, name_);
       std::error_code unknown;
       if (!file || !std::filesystem::is_regular_file(*file, unknown)) continue;
-      if (!fetch(image, path, type, bytes)) return false;
+      std::string bytes;
+      if (!fetch(out_.json["images"][i], list[i].path(), type, bytes)) return false;
     }
-    return true;
+    return checker_.ok();
   }
 
   const std::string& name_;
   GltfChecker& checker_;
   GltfContainer& out_;
+  GltfPart root_;
   std::string_view bin_;
   size_t fetched_ = 0;  // Bytes of other files.
 };
@@ -226,6 +208,21 @@ class ContainerReader {
 bool read_gltf_container(std::string bytes, const std::string& name, GltfChecker& checker,
                          GltfContainer& out) {
   return ContainerReader(name, checker, out).read(bytes);
+}
+
+std::string_view GltfContainer::bytes_of(const GltfPart& view) const {
+  const int buffer = view.index("buffer", buffers.size());
+  const uint64_t at = view.count("byteOffset"), length = view.count("byteLength");
+  if (buffer < 0 || !buffers[buffer]) {
+    view.fail("expected a buffer with data, found none");
+    return {};
+  }
+  const std::string_view bytes = *buffers[buffer];
+  if (at <= bytes.size() && length <= bytes.size() - at) return bytes.substr(at, length);
+  view.fail("expected a part of the " + std::to_string(bytes.size()) + " bytes of buffers[" +
+            std::to_string(buffer) + "], found " + std::to_string(length) + " bytes from byte " +
+            std::to_string(at) + " on");
+  return {};
 }
 
 GltfPlace gltf_added_at(const GltfContainer& container) {
@@ -260,9 +257,9 @@ std::string write_gltf_container(const GltfContainer& container, GltfJson json,
   for (const auto& [type, bytes] : container.other_chunks) append_chunk(body, type, bytes, '\0');
   std::string out;
   out.reserve(kHeaderBytes + body.size());
-  append_uint32(out, kMagic);
-  append_uint32(out, 2);
-  append_uint32(out, kHeaderBytes + body.size());
+  append_little_endian(kMagic, 4, out);
+  append_little_endian(2, 4, out);
+  append_little_endian(kHeaderBytes + body.size(), 4, out);
   return out += body;
 }
 

@@ -22,6 +22,10 @@ struct GltfContainer {
   std::vector<std::pair<uint32_t, std::string>> other_chunks;  // Type and bytes, as they came.
   int indent = -1;  // Of JSON text; -1 for a single line.
   char indent_char = ' ';
+
+  // The bytes that a part of the JSON names by buffer, byteOffset and byteLength; none where it is
+  // wrong.
+  std::string_view bytes_of(const GltfPart& view) const;
 };
 
 // Reads a file's bytes. What it points to in other files is read as well (beside and below the
@@ -41,5 +45,35 @@ struct GltfPlace {
   size_t offset = 0;  // A multiple of 4.
 };
 GltfPlace gltf_added_at(const GltfContainer& container);
+
+// gltf_accessor.cpp: numbers in the binary data.
+struct GltfValues {
+  size_t count = 0;            // Elements.
+  size_t components = 0;       // Numbers in an element, 1 to 4; 16 of a matrix.
+  std::vector<float> numbers;  // [count][components], finite and within kLargestNumber.
+};
+
+// Reads accessor `which` of a file, which exists; `path` is where it is asked for, and a failure's
+// place. Whole numbers come as the fractions that they stand for where the accessor is normalised.
+// Reading takes at most a few times the memory of the file.
+bool read_gltf_accessor(const GltfContainer& container, int which, const std::string& path,
+                        GltfChecker& checker, GltfValues& out);
+
+// The same for matrices of floats (MAT4), columns one after the other; nothing else is accepted.
+bool read_gltf_matrices(const GltfContainer& container, int which, const std::string& path,
+                        GltfChecker& checker, GltfValues& out);
+
+// gltf_unpack.cpp: files without packed data.
+
+// The extension that packs a view of data, or null.
+const char* gltf_packing(const GltfPart& view);
+
+// Whether some data of the file is packed, and can be decoded (meshopt.h).
+bool has_packed_data(const GltfContainer& container);
+// Whether keys of its animations are.
+bool has_packed_motion(const GltfContainer& container);
+
+// The same file in one buffer, in which all data is plain. `checker` says what cannot be decoded.
+bool unpack_gltf(const GltfContainer& container, GltfChecker& checker, GltfContainer& out);
 
 }  // namespace panache

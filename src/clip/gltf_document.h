@@ -61,8 +61,6 @@ struct GltfDocument {
   GltfContainer container;
   std::vector<GltfNode> nodes;
   std::vector<int> joint_nodes;  // [joints]
-  std::vector<Stretch> above;    // [joints] what the nodes above do to its place, at rest.
-  bool bends = false;            // Whether that depends on the pose, for some joint.
   Skeleton skeleton;             // Of the rest pose.
   std::vector<GltfAnimation> animations;
   Clip rest;                       // One frame; the clip of a file without animations.
@@ -95,12 +93,36 @@ bool build_gltf_skeleton(GltfDocument& document, GltfChecker& checker);
 // lie so many a second.
 bool read_gltf_clips(GltfDocument& document, GltfChecker& checker, std::optional<double> fps);
 
+// gltf_retime.cpp: the file with other times: no sampler of an animation that begins before 0 does
+// so any more, all of them moved together; and where `fps` is given, the frames of each animation
+// whose keys say a rate (GltfAnimation::has_rate) lie so many a second. `bytes` stays empty where
+// all is as it should be. Old keys stay in the data, unused.
+struct RetimedGltf {
+  std::string bytes;
+  std::vector<std::string> notes;  // Which animations began before 0, as MotionFile::notes().
+};
+// Fails where the new keys were too many.
+bool retime_gltf(const GltfDocument& document, std::optional<double> fps, const std::string& name,
+                 GltfChecker& checker, RetimedGltf& out);
+
 // The keys of a channel of animation `which`. Fails only while the file is being read: what was
 // read once can be read again.
 bool read_gltf_track(const GltfDocument& document, size_t which, const GltfChannel& channel,
                      GltfChecker& checker, GltfTrack& out);
 // The same for a joint that no channel moves: where it rests.
 GltfTrack rest_gltf_track(const GltfNode& node, GltfPath path);
+
+// vrma_rest.cpp: the rest pose of a VRM animation. Players give an avatar what each joint of the
+// humanoid turns by against its rest pose in the file, whatever that pose is: to them it is the
+// T-pose, facing +z. `rest` is the file's own, one frame, with the roles of its joints. Returns the
+// offsets [joints] with which the same rest rotations stand in a T-pose: arms along x, legs down,
+// toes ahead; a torso that leans, curves or faces elsewhere by more than 30 degrees is upright and
+// faces +z.
+std::vector<Vec3> t_pose_offsets(const Clip& rest);
+
+// Gives `clip`, of the same joints, these offsets. Of the joints that have a role, or hang below
+// one, only the hips keep their translations: players ignore all others.
+void stand_in_t_pose(const std::vector<Vec3>& offsets, Clip& clip);
 
 // A rotation of the file as the clip has it: unit, with the half turn of the node's own scale.
 Quat clip_rotation(Quat in_file, Quat scale_turn);

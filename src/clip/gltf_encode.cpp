@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/little_endian.h"
 #include "clip/gltf_scales.h"
 
 namespace panache {
@@ -28,21 +29,18 @@ class AnimationWriter {
         // What has no animation of the file behind it is a change of the rest pose.
         animation_(edit.clip == kNewClip || document.animations.empty()
                        ? nullptr
-                       : &document.animations[static_cast<size_t>(edit.clip)]),
+                       : &document.animations[edit.clip]),
         clip_(animation_ ? animation_->clip : document.rest),
         frame_time_(edit.clip == kNewClip ? changed_.frame_time : clip_.frame_time) {
     if (edit.clip == kNewClip) {
-      at_rest_.assign(static_cast<size_t>(changed_.frames), 0.0);
+      at_rest_.assign(changed_.frames, 0.0);
       source_frames_ = at_rest_;
     }
     assert(changed_.joints() == clip_.joints() && changed_.frames > 0);
-    assert(source_frames_.size() == static_cast<size_t>(changed_.frames));
+    assert(source_frames_.size() == size_t(changed_.frames));
     if (animation_) start_ = animation_->start;
     keeps_time_ = changed_.frames == clip_.frames;
-    for (int i = 0; i < changed_.frames; ++i) {
-      keeps_time_ = keeps_time_ && source_frames_[static_cast<size_t>(i)] == i;
-    }
-    if (!keeps_time_) sample_source();
+    for (int i = 0; i < changed_.frames; ++i) keeps_time_ = keeps_time_ && source_frames_[i] == i;
     find_places();
   }
 
@@ -67,47 +65,38 @@ class AnimationWriter {
   }
 
  private:
-  // The file's poses at the times that the new frames came from.
-  void sample_source() {
-    sampled_.skeleton = clip_.skeleton;
-    sampled_.resize(changed_.frames);
-    for (int i = 0; i < changed_.frames; ++i) {
-      sample(clip_, source_frames_[static_cast<size_t>(i)], sampled_.pose(i));
-    }
-  }
-
-  // Where places depend on scales that change or on the pose: what every frame is in the file, and
-  // what of it the file does not have.
+  // The file's poses at the times that the new frames came from, what every frame is in the file,
+  // and what of it the file does not have.
   void find_places() {
-    std::vector<GltfTrack> tracks;
-    if (animation_) tracks = read_scale_tracks();
-    GltfScales scales =
-        animation_ ? GltfScales(document_, *animation_, tracks) : GltfScales(document_);
-    if (scales.is_still()) return;
-    in_file_.skeleton = clip_.skeleton;
+    source_.skeleton = in_file_.skeleton = clip_.skeleton;
+    source_.resize(changed_.frames);
     in_file_.resize(changed_.frames);
     moved_.resize(in_file_.translations.size());
+    const std::vector<GltfTrack> tracks = read_scale_tracks();
+    GltfScales scales =
+        animation_ ? GltfScales(document_, *animation_, tracks) : GltfScales(document_);
     std::vector<Stretch> above(clip_.joints());
     for (int i = 0; i < changed_.frames; ++i) {
+      sample(clip_, source_frames_[i], source_.pose(i));
       const double at = source_seconds(i), tolerance = key_tolerance(at, frame_time_);
-      const ConstPose then = source_pose(i), now = changed_.pose(i);
+      const Pose then = source_.pose(i), out = in_file_.pose(i);
+      const ConstPose now = changed_.pose(i);
       scales.set_clip_pose(at, tolerance, then.rotations);
       for (size_t j = 0; j < clip_.joints(); ++j) above[j] = scales.above(j);
       scales.set_clip_pose(at, tolerance, now.rotations);
       for (size_t j = 0; j < clip_.joints(); ++j) {
-        in_file_.pose(i).rotations[j] = file_rotation(now.rotations[j], scales.turn(j));
-        in_file_.pose(i).translations[j] = scales.above(j).undo(now.translations[j]);
-        moved_[static_cast<size_t>(i) * clip_.joints() + j] =
+        out.rotations[j] = file_rotation(now.rotations[j], scales.turn(j));
+        out.translations[j] = scales.above(j).undo(now.translations[j]);
+        moved_[i * clip_.joints() + j] =
             !(now.translations[j] == then.translations[j]) || !(scales.above(j) == above[j]);
       }
     }
   }
   std::vector<GltfTrack> read_scale_tracks() const {
-    std::vector<GltfTrack> tracks(animation_->channels.size());
+    std::vector<GltfTrack> tracks(animation_ ? animation_->channels.size() : 0);
     for (size_t c = 0; c < tracks.size(); ++c) {
-      if (animation_->channels[c].path == GltfPath::scale) {
-        tracks[c] = track_of(animation_->channels[c]);
-      }
+      const GltfChannel& channel = animation_->channels[c];
+      if (channel.path == GltfPath::scale) tracks[c] = track_of(channel);
     }
     return tracks;
   }
@@ -119,38 +108,19 @@ class AnimationWriter {
     return track;
   }
 
-  ConstPose source_pose(int frame) const {
-    return keeps_time_ ? clip_.pose(frame) : sampled_.pose(frame);
-  }
   // In the file, of the frame that the new one came from.
   double source_seconds(int frame) const {
-    const double source = source_frames_[static_cast<size_t>(frame)], last = clip_.frames - 1;
+    const double source = source_frames_[frame], last = clip_.frames - 1;
     return seconds(source > 0 ? std::min(source, last) : 0.0);
-  }
-
-  // A joint's rotation and translation as the file has them.
-  Quat rotation_in_file(int frame, size_t joint) const {
-    if (in_file_.frames > 0) return in_file_.pose(frame).rotations[joint];
-    const int node = document_.joint_nodes[joint];
-    return file_rotation(changed_.pose(frame).rotations[joint],
-                         document_.nodes[static_cast<size_t>(node)].own.turn);
-  }
-  Vec3 translation_in_file(int frame, size_t joint) const {
-    if (in_file_.frames > 0) return in_file_.pose(frame).translations[joint];
-    return document_.above[joint].undo(changed_.pose(frame).translations[joint]);
   }
 
   // Whether the joint of a channel is at `frame` what it was in the file; scale, weights and nodes
   // that are no joints (-1) are nobody's to change.
-  bool is_same(int frame, int which, GltfPath path) const {
-    if (which < 0) return true;
-    const auto joint = static_cast<size_t>(which);
-    const ConstPose now = changed_.pose(frame);
-    const ConstPose then = source_pose(frame);
-    if (path == GltfPath::rotation) return now.rotations[joint] == then.rotations[joint];
-    if (path != GltfPath::translation) return true;
-    if (!moved_.empty()) return !moved_[static_cast<size_t>(frame) * clip_.joints() + joint];
-    return now.translations[joint] == then.translations[joint];
+  bool is_same(int frame, int joint, GltfPath path) const {
+    if (joint < 0) return true;
+    if (path == GltfPath::translation) return !moved_[frame * clip_.joints() + joint];
+    return path != GltfPath::rotation ||
+           changed_.pose(frame).rotations[joint] == source_.pose(frame).rotations[joint];
   }
   bool is_same(int joint, GltfPath path) const {
     if (path != GltfPath::rotation && path != GltfPath::translation) return true;
@@ -161,7 +131,7 @@ class AnimationWriter {
   }
 
   double seconds(double frame) const { return start_ + frame * frame_time_; }
-  size_t place() const { return static_cast<size_t>(animation_ - document_.animations.data()); }
+  size_t place() const { return animation_ - document_.animations.data(); }
 
   bool has_channel(int node, GltfPath path) const {
     if (!animation_) return false;
@@ -172,18 +142,17 @@ class AnimationWriter {
 
   void write_channel(const GltfJson& animation, size_t which, const GltfChannel& channel) {
     GltfJson json = animation["channels"][which];
-    const GltfJson& sampler = animation["samplers"][static_cast<size_t>(channel.sampler)];
+    const GltfJson& sampler = animation["samplers"][channel.sampler];
     if (channel.path == GltfPath::other) return keep(std::move(json), channel, sampler);
     // A node whose mesh has weights need not be a joint, and one that carries an expression is
     // none.
-    const int joint = document_.nodes[static_cast<size_t>(channel.node)].joint;
+    const int joint = document_.nodes[channel.node].joint;
     const bool same = is_same(joint, channel.path);
     if (same && keeps_time_) return keep(std::move(json), channel, sampler);
 
     const GltfTrack track = track_of(channel);
     // A single key holds at all times, unless it is beyond the new end.
-    const bool holds = track.times.size() == 1 &&
-                       static_cast<double>(track.times[0]) <= seconds(changed_.frames - 1);
+    const bool holds = track.times.size() == 1 && track.times[0] <= seconds(changed_.frames - 1);
     if (same && holds) return keep(std::move(json), channel, sampler);
     json["sampler"] = add_sampler(sampler, track, joint, channel.path, same);
     channels_.push_back(std::move(json));
@@ -191,7 +160,7 @@ class AnimationWriter {
 
   // The channel with the file's own sampler, which other channels may share.
   void keep(GltfJson channel, const GltfChannel& read, const GltfJson& sampler) {
-    int& kept = kept_samplers_[static_cast<size_t>(read.sampler)];
+    int& kept = kept_samplers_[read.sampler];
     if (kept < 0) {
       kept = static_cast<int>(samplers_.size());
       samplers_.push_back(sampler);
@@ -201,7 +170,7 @@ class AnimationWriter {
   }
 
   void add_channel(int node, int joint, GltfPath path) {
-    const GltfNode& placed = document_.nodes[static_cast<size_t>(node)];
+    const GltfNode& placed = document_.nodes[node];
     if (placed.matrix || is_same(joint, path)) return;
     const size_t sampler =
         add_sampler(GltfJson::object(), rest_gltf_track(placed, path), joint, path, false);
@@ -226,20 +195,20 @@ class AnimationWriter {
   }
 
   // A value per frame: where nothing changed the file's own at that time, and so a key's own bits.
-  std::vector<float> new_numbers(const GltfTrack& track, int which, GltfPath path) const {
-    const auto joint = static_cast<size_t>(which);
+  std::vector<float> new_numbers(const GltfTrack& track, int joint, GltfPath path) const {
     const size_t n = track.components;
-    std::vector<float> numbers(static_cast<size_t>(changed_.frames) * n);
+    std::vector<float> numbers(changed_.frames * n);
     for (int i = 0; i < changed_.frames; ++i) {
-      const std::span<float> out = std::span(numbers).subspan(static_cast<size_t>(i) * n, n);
-      if (is_same(i, which, path)) {
+      const std::span<float> out = std::span(numbers).subspan(i * n, n);
+      const ConstPose in_file = in_file_.pose(i);
+      if (is_same(i, joint, path)) {
         const double at = source_seconds(i);
         track.evaluate(at, key_tolerance(at, frame_time_), out);
       } else if (path == GltfPath::translation) {
-        const Vec3 v = translation_in_file(i, joint);
+        const Vec3 v = in_file.translations[joint];
         out[0] = v.x, out[1] = v.y, out[2] = v.z;
       } else {
-        Quat q = rotation_in_file(i, joint);
+        Quat q = in_file.rotations[joint];
         // Of the two quaternions of a rotation the one on the side of the frame before.
         const float* p = out.data() - 4;
         if (i > 0 && dot(q, Quat{p[0], p[1], p[2], p[3]}) < 0) q = {-q.x, -q.y, -q.z, -q.w};
@@ -251,16 +220,10 @@ class AnimationWriter {
 
   // The times of the frames, which all new samplers share.
   size_t times_accessor() {
-    if (times_ >= 0) return static_cast<size_t>(times_);
-    std::vector<float> times;
-    for (int i = 0; i < changed_.frames; ++i) {
-      float time = static_cast<float>(seconds(i));
-      // Far from zero, floats are further apart than frames; times have to increase all the same.
-      if (i > 0) time = std::max(time, std::nextafter(times.back(), HUGE_VALF));
-      times.push_back(time);
+    if (times_ < 0) {
+      times_ = static_cast<int>(data_.add_times(start_, frame_time_, changed_.frames));
     }
-    times_ = static_cast<int>(data_.add(times, "SCALAR", 1, true));
-    return static_cast<size_t>(times_);
+    return times_;
   }
 
   const GltfDocument& document_;
@@ -273,8 +236,8 @@ class AnimationWriter {
   std::vector<double> at_rest_;  // [frames] of a new clip, 0.
   double start_ = 0;
   bool keeps_time_ = false;
-  Clip sampled_;                    // Empty where the time is kept.
-  Clip in_file_;                    // Empty, as is the next, where scales are still.
+  Clip source_;                     // What the file has at the times of the new frames.
+  Clip in_file_;                    // The new frames in the terms of the file.
   std::vector<char> moved_;         // [frames][joints] 1 where the file has another place.
   std::vector<int> kept_samplers_;  // [samplers of the file] where each went; -1 for nowhere yet.
   GltfJson channels_ = GltfJson::array();
@@ -294,10 +257,9 @@ size_t GltfDataWriter::add(std::span<const float> numbers, std::string_view type
         {{"buffer", place_.buffer}, {"byteOffset", place_.offset + begin}, {"byteLength", 0}});
   }
   for (const float number : numbers) {
-    const uint32_t bits = std::bit_cast<uint32_t>(number);
-    for (size_t i = 0; i < 4; ++i) bytes_ += static_cast<char>(bits >> (8 * i) & 0xff);
+    append_little_endian(std::bit_cast<uint32_t>(number), 4, bytes_);
   }
-  json_["bufferViews"][static_cast<size_t>(view_)]["byteLength"] = bytes_.size() - first_;
+  json_["bufferViews"][view_]["byteLength"] = bytes_.size() - first_;
   GltfJson accessor = {{"bufferView", view_},
                        {"byteOffset", begin - first_},
                        {"componentType", kFloat},
@@ -310,6 +272,17 @@ size_t GltfDataWriter::add(std::span<const float> numbers, std::string_view type
   }
   json_["accessors"].push_back(std::move(accessor));
   return json_["accessors"].size() - 1;
+}
+
+size_t GltfDataWriter::add_times(double start, double frame_time, int frames) {
+  std::vector<float> times;
+  for (int f = 0; f < frames; ++f) {
+    float time = static_cast<float>(start + f * frame_time);
+    // Far from zero, floats are further apart than frames; times have to increase all the same.
+    if (f > 0) time = std::max(time, std::nextafter(times.back(), HUGE_VALF));
+    times.push_back(time);
+  }
+  return add(times, "SCALAR", 1, true);
 }
 
 std::string encode_gltf(const GltfDocument& document, std::span<const ClipEdit> edits,
@@ -331,7 +304,7 @@ std::string encode_gltf(const GltfDocument& document, std::span<const ClipEdit> 
     GltfJson animation = AnimationWriter(document, edit, data).write();
     if (animation["channels"].empty()) continue;  // glTF has no animation that moves nothing.
     if (mode == EditMode::replace && edit.clip != kNewClip && !document.animations.empty()) {
-      json["animations"][static_cast<size_t>(edit.clip)] = std::move(animation);
+      json["animations"][edit.clip] = std::move(animation);
       continue;
     }
     const size_t number = document.animations.size() + new_animations.size() + 1;
@@ -344,7 +317,7 @@ std::string encode_gltf(const GltfDocument& document, std::span<const ClipEdit> 
     if (all.is_null()) all = GltfJson::array();
     size_t at = mode == EditMode::add_first ? 0 : all.size();
     for (GltfJson& animation : new_animations) {
-      all.insert(all.begin() + static_cast<std::ptrdiff_t>(at++), std::move(animation));
+      all.insert(all.begin() + at++, std::move(animation));
     }
   }
   return write_gltf_container(document.container, std::move(json), added);

@@ -26,6 +26,8 @@ class GltfDataWriter {
   // bounds where `bounds`.
   size_t add(std::span<const float> numbers, std::string_view type, size_t components,
              bool bounds = false);
+  // The accessor of the times of frames, seconds.
+  size_t add_times(double start, double frame_time, int frames);
 
  private:
   GltfPlace place_;

@@ -2,18 +2,51 @@
 // The skin and the mesh that show the joints of a glTF file. Private to the folder.
 
 #include <array>
-#include <cstdint>
-#include <initializer_list>
+#include <cmath>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "clip/affine.h"
+#include "base/quat.h"
+#include "base/vec.h"
 #include "clip/gltf_document.h"
 #include "clip/gltf_encode.h"
 #include "clip/skinned_body.h"
 
 namespace panache {
+
+// An affine map of space: what the matrix of a node or an inverse bind matrix does.
+struct Affine {
+  std::array<Vec3d, 3> columns = {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
+  Vec3d place = {};  // Where the origin goes.
+
+  Vec3d turn(Vec3d v) const { return columns[0] * v.x + columns[1] * v.y + columns[2] * v.z; }
+  Vec3d apply(Vec3d v) const { return turn(v) + place; }
+  friend Affine operator*(const Affine& a, const Affine& b) {  // b first.
+    return {{a.turn(b.columns[0]), a.turn(b.columns[1]), a.turn(b.columns[2])}, a.apply(b.place)};
+  }
+};
+
+// Turns and then moves.
+inline Affine affine(Quatd rotation, Vec3d place, Vec3d scale = {1, 1, 1}) {
+  return {{rotate(rotation, Vec3d{scale.x, 0, 0}), rotate(rotation, Vec3d{0, scale.y, 0}),
+           rotate(rotation, Vec3d{0, 0, scale.z})},
+          place};
+}
+
+// The identity where `m` has no inverse.
+inline Affine inverse(const Affine& m) {
+  const auto& [x, y, z] = m.columns;
+  const double determinant = dot(cross(x, y), z);
+  if (!(std::abs(determinant) > 1e-30)) return {};
+  const Vec3d rows[3] = {cross(y, z) / determinant, cross(z, x) / determinant,
+                         cross(x, y) / determinant};
+  Affine out;
+  out.columns = {Vec3d{rows[0].x, rows[1].x, rows[2].x}, Vec3d{rows[0].y, rows[1].y, rows[2].y},
+                 Vec3d{rows[0].z, rows[1].z, rows[2].z}};
+  out.place = -out.turn(m.place);
+  return out;
+}
 
 // A node that becomes a joint of the skin.
 struct FigureJoint {
@@ -27,43 +60,13 @@ struct FigureJoint {
 };
 
 // Adds a skin with all `joints`, a mesh on it, and a node in the scene that shows the mesh, to
-// `json`; their data goes to the end of `bytes`, which begin at `place` of the file.
-class GltfFigure {
- public:
-  // `name`: what the node is called, before the kind of figure. All outlive this object.
-  GltfFigure(GltfPlace place, GltfJson& json, std::string& bytes,
-             std::span<const FigureJoint> joints, const std::string& name)
-      : place_(place), json_(json), bytes_(bytes), joints_(joints), name_(name) {}
-
-  // `body`: with binds on joints of the list. The other joints keep their place on their parents.
-  void add_body(const SkinnedBody& body);
-  // An octahedron from every joint to each of its children, where they rest.
-  void add_sticks();
-
- private:
-  GltfDataWriter writer() { return {place_, json_, bytes_}; }
-  // A skin with `order` of the joints and their inverse bind matrices; its index.
-  size_t add_skin(std::span<const size_t> order, std::span<const Affine> inverse_binds);
-  void add_mesh(const std::string& what, std::initializer_list<double> colour, size_t skin,
-                GltfJson primitive);
-  void add_stick(size_t joint, Vec3d tip);
-  void add_triangle(size_t joint, Vec3d a, Vec3d b, Vec3d c);
-  size_t add_positions(const std::vector<float>& positions);
-  size_t add_bytes(std::span<const std::array<uint8_t, 4>> vertices, bool normalized);
-  size_t add_triangles(std::span<const uint16_t> corners);
-  size_t add_vertex_data(const std::vector<float>& numbers, const char* type, size_t components);
-  size_t add_joint_numbers();
-  void append_short(size_t number);
-  size_t add_accessor(size_t begin, int component, size_t count, const char* type, int target);
-
-  GltfPlace place_;
-  GltfJson& json_;
-  std::string& bytes_;
-  std::span<const FigureJoint> joints_;
-  const std::string& name_;
-  std::vector<float> positions_, normals_, weights_;  // [corners of triangles][3, 3, 4]
-  std::vector<size_t> joint_numbers_;                 // [corners of triangles]
-};
+// `json`; their data goes to the end of `bytes`, which begin at `place` of the file. The mesh is
+// `body`, with binds on joints of the list; the other joints keep their place on their parents. Or,
+// where that is null, an octahedron from every joint to each of its children, where they rest.
+// `name`: what the node is called, before the kind of figure.
+void add_figure(GltfPlace place, GltfJson& json, std::string& bytes,
+                std::span<const FigureJoint> joints, const std::string& name,
+                const SkinnedBody* body);
 
 // The 16 numbers of a matrix at the end of `numbers`, columns one after the other.
 void append_matrix(std::vector<float>& numbers, const Affine& matrix);

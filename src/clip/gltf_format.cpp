@@ -1,6 +1,4 @@
-#include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <vector>
 
 #include "clip/gltf.h"
@@ -21,13 +19,7 @@ class GlbFormatter {
 
   std::string format(const SkinnedBody* body) {
     begin();
-    const std::vector<FigureJoint> joints = figure_joints();
-    GltfFigure figure({0, 0}, json_, bytes_, joints, name_);
-    if (body) {
-      figure.add_body(*body);
-    } else {
-      figure.add_sticks();
-    }
+    add_figure({0, 0}, json_, bytes_, figure_joints(), name_, body);
     return end();
   }
 
@@ -94,18 +86,14 @@ class GlbFormatter {
     }
   }
 
-  size_t node_above(size_t joint) const {
-    return static_cast<size_t>(clip_.skeleton.joints[joint].parent + 1);
-  }
-
-  GltfDataWriter writer() { return GltfDataWriter({0, 0}, json_, bytes_); }
+  size_t node_above(size_t joint) const { return clip_.skeleton.joints[joint].parent + 1; }
 
   // The joints and the End Sites as the skin has them.
   std::vector<FigureJoint> figure_joints() const {
     const Affine above = affine(turn_, {}, {scale_, scale_, scale_});
     std::vector<FigureJoint> out;
     const auto add = [&](int parent, int clip_joint, const Affine& local) {
-      const Affine world = (parent < 0 ? above : out[static_cast<size_t>(parent)].world) * local;
+      const Affine world = (parent < 0 ? above : out[parent].world) * local;
       out.push_back({.node = out.size() + 1,
                      .parent = parent,
                      .clip_joint = clip_joint,
@@ -127,17 +115,12 @@ class GlbFormatter {
   }
 
   void add_animation() {
-    GltfDataWriter data = writer();
-    std::vector<float> times;
-    for (int f = 0; f < clip_.frames; ++f) {
-      const float time = static_cast<float>(f * clip_.frame_time);
-      times.push_back(f > 0 ? std::max(time, std::nextafter(times.back(), HUGE_VALF)) : time);
-    }
+    GltfDataWriter data({0, 0}, json_, bytes_);
     GltfJson channels = GltfJson::array(), samplers = GltfJson::array();
     size_t input = 0;
     const auto add = [&](size_t joint, const char* path, size_t components,
                          const std::vector<float>& numbers) {
-      if (samplers.empty()) input = data.add(times, "SCALAR", 1, true);
+      if (samplers.empty()) input = data.add_times(0, clip_.frame_time, clip_.frames);
       channels.push_back(
           {{"sampler", samplers.size()}, {"target", {{"node", joint + 1}, {"path", path}}}});
       samplers.push_back(

@@ -23,7 +23,7 @@ bool is_excessive(std::string_view text) {
     } else if (c == '"') {
       in_string = true;
     } else if (c == '{' || c == '[') {
-      if (members.size() == static_cast<size_t>(kGltfMaxJsonDepth)) return true;
+      if (members.size() == kGltfMaxJsonDepth) return true;
       members.push_back(0);
     } else if ((c == '}' || c == ']') && !members.empty()) {
       members.pop_back();
@@ -32,11 +32,6 @@ bool is_excessive(std::string_view text) {
     }
   }
   return false;
-}
-
-const GltfJson* find(const GltfJson& object, const char* key) {
-  const auto member = object.find(key);
-  return member == object.end() ? nullptr : &*member;
 }
 
 bool to_count(const GltfJson& value, uint64_t& out) {
@@ -70,7 +65,7 @@ std::string item_path(const std::string& path, size_t index) {
 }
 
 bool GltfChecker::fail(const std::string& path, const std::string& message) {
-  if (!failed()) message_ = name_ + ": " + (path.empty() ? "" : path + ": ") + message;
+  if (ok()) message_ = name_ + ": " + (path.empty() ? "" : path + ": ") + message;
   return false;
 }
 
@@ -87,89 +82,100 @@ bool GltfChecker::parse(std::string_view text, GltfJson& out) {
   return out.is_object() || fail("", "expected glTF, a JSON object, found " + shown(out));
 }
 
-bool GltfChecker::is_object(const GltfJson& value, const std::string& path) {
-  return value.is_object() || fail(path, "expected an object, found " + shown(value));
+GltfPart GltfPart::wrong(const std::string& expected) const {
+  fail("expected " + expected + ", found " + shown(*json_));
+  return {nullptr, *checker_, path_};
 }
 
-bool GltfChecker::list(const GltfJson& object, const std::string& path, const char* key,
-                       const GltfJson*& out) {
-  static const GltfJson none = GltfJson::array();
-  const GltfJson* value = find(object, key);
-  out = value ? value : &none;
-  return out->is_array() || fail(member_path(path, key), "expected a list, found " + shown(*out));
-}
-
-bool GltfChecker::object(const GltfJson& object, const std::string& path, const char* key,
-                         const GltfJson*& out) {
-  out = find(object, key);
-  return !out || is_object(*out, member_path(path, key));
-}
-
-bool GltfChecker::text(const GltfJson& object, const std::string& path, const char* key,
-                       std::string& out) {
-  const GltfJson* value = find(object, key);
-  if (!value) return true;
-  if (!value->is_string()) {
-    return fail(member_path(path, key), "expected a text, found " + shown(*value));
+GltfPart GltfPart::member(const std::string& key) const {
+  if (json_ && !json_->is_object()) return wrong("an object");
+  const GltfJson* found = nullptr;
+  if (json_) {
+    const auto at = json_->find(key);
+    if (at != json_->end()) found = &*at;
   }
-  out = value->get_ref<const std::string&>();
-  return true;
+  return {found, *checker_, member_path(path_, key)};
 }
 
-bool GltfChecker::flag(const GltfJson& object, const std::string& path, const char* key,
-                       bool& out) {
-  const GltfJson* value = find(object, key);
-  if (!value) return true;
-  if (!value->is_boolean()) {
-    return fail(member_path(path, key), "expected true or false, found " + shown(*value));
+GltfPart GltfPart::member(const std::string& key, bool (GltfJson::*is)() const noexcept,
+                          const std::string& kind) const {
+  const GltfPart value = member(key);
+  return value && !(value.json().*is)() ? value.wrong(kind) : value;
+}
+
+GltfPart GltfPart::object(const std::string& key) const {
+  return member(key, &GltfJson::is_object, "an object");
+}
+
+std::vector<std::pair<std::string, GltfPart>> GltfPart::members() const {
+  constexpr size_t kLongest = 40;
+  std::vector<std::pair<std::string, GltfPart>> out;
+  if (!json_) return out;
+  for (const auto& [key, value] : json_->items()) {
+    const std::string path = member_path(path_, key.substr(0, kLongest));
+    out.emplace_back(key, GltfPart(&value, *checker_, path));
   }
-  out = value->get<bool>();
-  return true;
+  return out;
 }
 
-bool GltfChecker::count(const GltfJson& object, const std::string& path, const char* key,
-                        uint64_t& out) {
-  const GltfJson* value = find(object, key);
-  if (!value || to_count(*value, out)) return true;
-  return fail(member_path(path, key), "expected a whole number, found " + shown(*value));
+std::vector<GltfPart> GltfPart::list(const std::string& key) const {
+  std::vector<GltfPart> out;
+  const size_t count = size(key);
+  out.reserve(count);
+  for (size_t i = 0; i < count; ++i) out.push_back(item(key, i));
+  return out;
 }
 
-bool GltfChecker::index_value(const GltfJson& value, const std::string& path, size_t size,
-                              int& out) {
+size_t GltfPart::size(const std::string& key) const {
+  const GltfPart value = member(key, &GltfJson::is_array, "a list");
+  return value ? value.json().size() : 0;
+}
+
+GltfPart GltfPart::item(const std::string& key, size_t index) const {
+  return {&(*json_)[key][index], *checker_, item_path(member_path(path_, key), index)};
+}
+
+std::string GltfPart::text(const std::string& key, const std::string& otherwise) const {
+  const GltfPart value = member(key, &GltfJson::is_string, "a text");
+  return value ? value.json().get<std::string>() : otherwise;
+}
+
+bool GltfPart::flag(const std::string& key) const {
+  const GltfPart value = member(key, &GltfJson::is_boolean, "true or false");
+  return value && value.json().get<bool>();
+}
+
+uint64_t GltfPart::count(const std::string& key, uint64_t otherwise) const {
+  const GltfPart value = member(key);
+  if (value && !to_count(value.json(), otherwise)) value.wrong("a whole number");
+  return otherwise;
+}
+
+int GltfPart::index(const std::string& key, size_t size) const {
+  const GltfPart value = member(key);
+  return value ? value.as_index(size) : -1;
+}
+
+int GltfPart::as_index(size_t size) const {
   uint64_t place = 0;
-  if (!to_count(value, place) || place >= size) {
-    return fail(
-        path, "expected a whole number below " + std::to_string(size) + ", found " + shown(value));
-  }
-  out = static_cast<int>(place);
-  return true;
+  if (to_count(*json_, place) && place < size) return static_cast<int>(place);
+  wrong("a whole number below " + std::to_string(size));
+  return -1;
 }
 
-bool GltfChecker::index(const GltfJson& object, const std::string& path, const char* key,
-                        size_t size, int& out) {
-  out = -1;
-  const GltfJson* value = find(object, key);
-  return !value || index_value(*value, member_path(path, key), size, out);
-}
-
-bool GltfChecker::numbers(const GltfJson& object, const std::string& path, const char* key,
-                          std::span<double> out) {
-  const GltfJson* value = find(object, key);
-  if (!value) return true;
-  if (!value->is_array() || value->size() != out.size()) {
-    return fail(member_path(path, key),
-                "expected " + std::to_string(out.size()) + " numbers, found " + shown(*value));
+void GltfPart::numbers(const std::string& key, std::span<double> out) const {
+  const size_t count = out.size();
+  const GltfPart value = member(key);
+  if (!value) return;
+  if (!value.json().is_array() || value.json().size() != count) {
+    value.wrong(std::to_string(count) + " numbers");
+    return;
   }
-  for (size_t i = 0; i < out.size(); ++i) {
-    const GltfJson& item = (*value)[i];
-    const double number = item.is_number() ? item.get<double>() : 2 * kLargestNumber;
-    if (!(std::abs(number) <= kLargestNumber)) {
-      return fail(item_path(member_path(path, key), i),
-                  "expected a number between -1e9 and 1e9, found " + shown(item));
-    }
-    out[i] = number;
+  for (size_t i = 0; i < count; ++i) {
+    const GltfPart number = item(key, i);
+    out[i] = number.json().is_number() ? number.json().get<double>() : 2 * kLargestNumber;
+    if (!(std::abs(out[i]) <= kLargestNumber)) number.wrong("a number between -1e9 and 1e9");
   }
-  return true;
 }
 
 }  // namespace panache

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -19,49 +20,71 @@ using GltfJson = nlohmann::ordered_json;
 
 // Limits of a file's JSON, so that no file can exhaust the stack or the patience of those
 // who write it back: writing recurses, and finding a member takes as long as there are members.
-inline constexpr int kGltfMaxJsonDepth = 200;
+inline constexpr size_t kGltfMaxJsonDepth = 200;
 inline constexpr int kGltfMaxJsonMembers = 1'000;  // Of one object.
 
-// Reads members and remembers the first thing that is wrong. Functions that check return whether
-// all is well; `path` is where in the JSON an object stands ("animations[1]"), and names are said
-// after it. What is absent leaves `out` alone.
+// Remembers the first thing that is wrong with a file.
 class GltfChecker {
  public:
-  // `name` stands in front of every message.
+  // `name` stands in front of the message.
   explicit GltfChecker(std::string name) : name_(std::move(name)) {}
 
-  // Keeps "NAME: PATH: SENTENCE" if it is the first failure; an empty path is left out.
+  // Keeps "NAME: PATH: SENTENCE" if it is the first failure; an empty path is left out. Returns
+  // false.
   bool fail(const std::string& path, const std::string& message);
-  bool failed() const { return !message_.empty(); }
+  bool ok() const { return message_.empty(); }
   Error error() const { return Error{message_}; }
 
   // The whole text, which `out` then holds; an object.
   bool parse(std::string_view text, GltfJson& out);
 
-  // The member `key` of `object` if it is there; it has to be a list. An empty one where it is
-  // absent.
-  bool list(const GltfJson& object, const std::string& path, const char* key, const GltfJson*& out);
-  // The same for an object; null where it is absent.
-  bool object(const GltfJson& object, const std::string& path, const char* key,
-              const GltfJson*& out);
-  bool text(const GltfJson& object, const std::string& path, const char* key, std::string& out);
-  bool flag(const GltfJson& object, const std::string& path, const char* key, bool& out);
-  // A whole number from 0 on.
-  bool count(const GltfJson& object, const std::string& path, const char* key, uint64_t& out);
-  // A place in a list of `size` things; -1 where it is absent.
-  bool index(const GltfJson& object, const std::string& path, const char* key, size_t size,
-             int& out);
-  // Exactly out.size() numbers within kLargestNumber.
-  bool numbers(const GltfJson& object, const std::string& path, const char* key,
-               std::span<double> out);
-  // Whether `value`, which stands at `path`, is a place in a list of `size` things.
-  bool index_value(const GltfJson& value, const std::string& path, size_t size, int& out);
-  // Whether `value` is a JSON object.
-  bool is_object(const GltfJson& value, const std::string& path);
-
  private:
   std::string name_;
   std::string message_;
+};
+
+// A value of the JSON and its path ("animations[1].channels[0]"), or the lack of one. A member that
+// is absent reads as nothing; so does one of the wrong kind, which the checker remembers.
+class GltfPart {
+ public:
+  // The whole of a file. Both outlive the part, and those that are made from it.
+  GltfPart(const GltfJson& json, GltfChecker& checker) : GltfPart(&json, checker, "") {}
+
+  explicit operator bool() const { return json_ != nullptr; }
+  const GltfJson& json() const { return *json_; }
+  const std::string& path() const { return path_; }
+  bool fail(const std::string& message) const { return checker_->fail(path_, message); }
+  bool ok() const { return checker_->ok(); }
+
+  // Of any kind.
+  GltfPart member(const std::string& key) const;
+  GltfPart object(const std::string& key) const;
+  // All members, and their names; paths have the beginning of a long name.
+  std::vector<std::pair<std::string, GltfPart>> members() const;
+  std::vector<GltfPart> list(const std::string& key) const;
+  size_t size(const std::string& key) const;                  // Of a list.
+  GltfPart item(const std::string& key, size_t index) const;  // Of a list that has it.
+  std::string text(const std::string& key, const std::string& otherwise = "") const;
+  bool flag(const std::string& key) const;
+  // A whole number from 0 on.
+  uint64_t count(const std::string& key, uint64_t otherwise = 0) const;
+  // The place in a list of `size` things that a member, or the value itself, is; -1 for none.
+  int index(const std::string& key, size_t size) const;
+  int as_index(size_t size) const;
+  // Exactly out.size() numbers within kLargestNumber; `out` stays where there is no such member.
+  void numbers(const std::string& key, std::span<double> out) const;
+
+ private:
+  GltfPart(const GltfJson* json, GltfChecker& checker, std::string path)
+      : json_(json), checker_(&checker), path_(std::move(path)) {}
+  GltfPart member(const std::string& key, bool (GltfJson::*is)() const noexcept,
+                  const std::string& kind) const;
+  // Remembers that something else was expected here; nothing.
+  GltfPart wrong(const std::string& expected) const;
+
+  const GltfJson* json_;
+  GltfChecker* checker_;
+  std::string path_;
 };
 
 // "PATH.KEY", or the key alone where the path is empty.

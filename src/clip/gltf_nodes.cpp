@@ -5,6 +5,7 @@
 
 #include "clip/decimal.h"
 #include "clip/gltf_document.h"
+#include "clip/gltf_scales.h"
 
 namespace panache {
 namespace {
@@ -26,80 +27,69 @@ std::string role_of_vrm0(const std::string& name) {
 class NodeReader {
  public:
   NodeReader(GltfDocument& document, GltfChecker& checker)
-      : json_(document.container.json), nodes_(document.nodes), checker_(checker) {}
+      : root_(document.container.json, checker), nodes_(document.nodes) {}
 
   bool read() {
-    const GltfJson* list = nullptr;
-    if (!checker_.list(json_, "", "nodes", list)) return false;
-    if (list->size() > kGltfMaxNodes) {
-      return checker_.fail("nodes", "expected at most " + std::to_string(kGltfMaxNodes) +
-                                        ", found " + std::to_string(list->size()));
+    const std::vector<GltfPart> list = root_.list("nodes");
+    if (list.size() > kGltfMaxNodes) {
+      return root_.member("nodes").fail("expected at most " + std::to_string(kGltfMaxNodes) +
+                                        ", found " + std::to_string(list.size()));
     }
-    nodes_.resize(list->size());
-    for (size_t i = 0; i < nodes_.size(); ++i) {
-      if (!read_node((*list)[i], i)) return false;
-    }
-    return read_skins() && read_vrm1("VRMC_vrm") && read_vrm1("VRMC_vrm_animation") &&
-           read_vrm0() && read_carriers();
+    nodes_.resize(list.size());
+    for (size_t i = 0; i < list.size(); ++i) read_node(list[i], i);
+    read_skins();
+    read_vrm1("VRMC_vrm");
+    read_vrm1("VRMC_vrm_animation");
+    read_vrm0();
+    read_carriers();
+    return root_.ok();
   }
 
  private:
-  bool read_node(const GltfJson& json, size_t which) {
-    const std::string path = item_path("nodes", which);
+  void read_node(const GltfPart& part, size_t which) {
     GltfNode& node = nodes_[which];
-    if (!checker_.is_object(json, path) || !checker_.text(json, path, "name", node.name)) {
-      return false;
-    }
+    node.name = part.text("name");
     if (node.name.size() > kGltfMaxNameBytes) {
-      return checker_.fail(path, "expected a name of at most " + std::to_string(kGltfMaxNameBytes) +
-                                     " bytes, found " + std::to_string(node.name.size()));
+      part.fail("expected a name of at most " + std::to_string(kGltfMaxNameBytes) +
+                " bytes, found " + std::to_string(node.name.size()));
     }
     if (node.name.empty()) node.name = "node " + std::to_string(which);
-    const auto extras = json.find("extras");
-    node.end = extras != json.end() && extras->is_object() && extras->contains(kEndSite) &&
-               !json.contains("children");
-    return read_children(json, path, which) && read_place(json, path, node);
+    const GltfPart extras = part.member("extras");
+    node.end = extras && extras.json().contains(kEndSite) && !part.member("children");
+    for (const GltfPart& child : part.list("children")) add_child(child, which);
+    read_place(part, node);
   }
 
-  bool read_children(const GltfJson& json, const std::string& path, size_t which) {
-    const GltfJson* list = nullptr;
-    if (!checker_.list(json, path, "children", list)) return false;
-    for (size_t i = 0; i < list->size(); ++i) {
-      const std::string child_path = item_path(member_path(path, "children"), i);
-      int child = -1;
-      if (!checker_.index_value((*list)[i], child_path, nodes_.size(), child)) return false;
-      GltfNode& node = nodes_[static_cast<size_t>(child)];
-      if (node.parent >= 0) {
-        return checker_.fail(child_path, "expected a node without another parent, found node " +
-                                             std::to_string(child) + ", a child of node " +
-                                             std::to_string(node.parent));
-      }
-      node.parent = static_cast<int>(which);
-      nodes_[which].children.push_back(child);
+  void add_child(const GltfPart& part, size_t parent) {
+    const int child = part.as_index(nodes_.size());
+    if (child < 0) return;
+    GltfNode& node = nodes_[child];
+    if (node.parent >= 0) {
+      part.fail("expected a node without another parent, found node " + std::to_string(child) +
+                ", a child of node " + std::to_string(node.parent));
+      return;
     }
-    return true;
+    node.parent = static_cast<int>(parent);
+    nodes_[parent].children.push_back(child);
   }
 
-  bool read_place(const GltfJson& json, const std::string& path, GltfNode& node) {
+  static void read_place(const GltfPart& part, GltfNode& node) {
     std::array<double, 3> translation = {0, 0, 0}, scale = {1, 1, 1};
     std::array<double, 4> rotation = {0, 0, 0, 1};
     std::array<double, 16> matrix = {};
-    node.matrix = json.contains("matrix");
+    node.matrix = bool(part.member("matrix"));
     if (node.matrix) {
-      if (!checker_.numbers(json, path, "matrix", matrix)) return false;
+      part.numbers("matrix", matrix);
       place_by_matrix(matrix, node);
-      return true;
+      return;
     }
-    if (!checker_.numbers(json, path, "translation", translation) ||
-        !checker_.numbers(json, path, "rotation", rotation) ||
-        !checker_.numbers(json, path, "scale", scale)) {
-      return false;
-    }
+    part.numbers("translation", translation);
+    part.numbers("rotation", rotation);
+    part.numbers("scale", scale);
     node.translation = vec_of(translation);
     node.rotation = quat_of(rotation);
     node.scale = {scale[0], scale[1], scale[2]};
     node.own = split_scale(node.scale);
-    return true;
   }
 
   // Columns one after the other.
@@ -111,129 +101,60 @@ class NodeReader {
     node.own.stretch = split.stretch;
   }
 
-  bool read_skins() {
-    const GltfJson* skins = nullptr;
-    if (!checker_.list(json_, "", "skins", skins)) return false;
-    for (size_t s = 0; s < skins->size(); ++s) {
-      const std::string path = item_path("skins", s);
-      const GltfJson* joints = nullptr;
-      if (!checker_.is_object((*skins)[s], path)) return false;
-      if (!checker_.list((*skins)[s], path, "joints", joints)) return false;
-      for (size_t i = 0; i < joints->size(); ++i) {
-        const std::string joint_path = item_path(member_path(path, "joints"), i);
-        int node = -1;
-        if (!checker_.index_value((*joints)[i], joint_path, nodes_.size(), node)) return false;
-        if (nodes_[static_cast<size_t>(node)].end) continue;
-        nodes_[static_cast<size_t>(node)].skinned = true;
-        nodes_[static_cast<size_t>(node)].moves = true;
+  void read_skins() {
+    for (const GltfPart& skin : root_.list("skins")) {
+      for (const GltfPart& joint : skin.list("joints")) {
+        const int node = joint.as_index(nodes_.size());
+        if (node >= 0 && !nodes_[node].end) nodes_[node].skinned = nodes_[node].moves = true;
       }
     }
-    return true;
   }
 
-  // The object in extensions.NAME.humanoid.humanBones, or null.
-  bool find_humanoid(const char* extension, std::string& path, const GltfJson*& humanoid) {
-    const GltfJson *extensions = nullptr, *vrm = nullptr;
-    humanoid = nullptr;
-    if (!checker_.object(json_, "", "extensions", extensions)) return false;
-    if (!extensions) return true;
-    if (!checker_.object(*extensions, "extensions", extension, vrm)) return false;
-    path = member_path("extensions", extension);
-    if (!vrm) return true;
-    if (!checker_.object(*vrm, path, "humanoid", humanoid)) return false;
-    path += ".humanoid";
-    return true;
-  }
+  GltfPart extension(const char* name) const { return root_.object("extensions").object(name); }
 
-  bool set_role(const GltfJson& bone, const std::string& path, const std::string& role) {
-    const auto member = bone.find("node");
+  void set_role(const GltfPart& bone, const std::string& role) {
+    const GltfPart member = bone.member("node");
     // VRM 0.x writes -1 for a joint that the body has not.
-    if (member == bone.end() || (member->is_number_integer() && member->get<int64_t>() == -1)) {
-      return true;
-    }
-    int node = -1;
-    if (!checker_.index(bone, path, "node", nodes_.size(), node)) return false;
-    nodes_[static_cast<size_t>(node)].role = role.substr(0, kGltfMaxNameBytes);
-    nodes_[static_cast<size_t>(node)].moves = true;
-    return true;
+    if (member && member.json() == -1) return;
+    const int node = bone.index("node", nodes_.size());
+    if (node < 0) return;
+    nodes_[node].role = role.substr(0, kGltfMaxNameBytes);
+    nodes_[node].moves = true;
   }
 
   // VRM 1.0, and the animations for it, which name their own nodes in the same way.
-  bool read_vrm1(const char* extension) {
-    std::string path;
-    const GltfJson *humanoid = nullptr, *bones = nullptr;
-    if (!find_humanoid(extension, path, humanoid)) return false;
-    if (!humanoid) return true;
-    if (!checker_.object(*humanoid, path, "humanBones", bones)) return false;
-    if (!bones) return true;
-    path += ".humanBones";
-    for (const auto& [role, bone] : bones->items()) {
-      const std::string bone_path = member_path(path, role.substr(0, 40));
-      if (!checker_.is_object(bone, bone_path) || !set_role(bone, bone_path, role)) return false;
+  void read_vrm1(const char* name) {
+    const GltfPart bones = extension(name).object("humanoid").object("humanBones");
+    for (const auto& [role, bone] : bones.members()) set_role(bone, role);
+  }
+
+  void read_vrm0() {
+    for (const GltfPart& bone : extension("VRM").object("humanoid").list("humanBones")) {
+      set_role(bone, role_of_vrm0(bone.text("bone")));
     }
-    return true;
   }
 
   // The nodes of a VRM animation whose places and rotations are weights of expressions and the
   // gaze: extensions.VRMC_vrm_animation.expressions.{preset,custom}.NAME.node and .lookAt.node.
-  bool read_carriers() {
-    std::string path = "extensions.VRMC_vrm_animation";
-    const GltfJson *extensions = nullptr, *animation = nullptr, *expressions = nullptr;
-    if (!checker_.object(json_, "", "extensions", extensions)) return false;
-    if (!extensions) return true;
-    if (!checker_.object(*extensions, "extensions", "VRMC_vrm_animation", animation)) return false;
-    if (!animation) return true;
-    if (!checker_.object(*animation, path, "expressions", expressions)) return false;
-    if (!read_carrier(*animation, path, "lookAt")) return false;
-    if (!expressions) return true;
-    path += ".expressions";
+  void read_carriers() {
+    const GltfPart animation = extension("VRMC_vrm_animation");
+    const GltfPart expressions = animation.object("expressions");
+    read_carrier(animation.object("lookAt"));
     for (const char* kind : {"preset", "custom"}) {
-      const GltfJson* list = nullptr;
-      if (!checker_.object(*expressions, path, kind, list)) return false;
-      if (!list) continue;
-      for (const auto& [name, expression] : list->items()) {
-        if (!read_carrier(*list, member_path(path, kind), name.c_str())) return false;
+      for (const auto& [name, expression] : expressions.object(kind).members()) {
+        read_carrier(expression);
       }
     }
-    return true;
   }
 
-  bool read_carrier(const GltfJson& object, const std::string& path, const char* key) {
-    const GltfJson* carrier = nullptr;
-    int node = -1;
-    if (!checker_.object(object, path, key, carrier)) return false;
-    if (!carrier) return true;
-    const std::string carrier_path = member_path(path, std::string(key).substr(0, 40));
-    if (!checker_.index(*carrier, carrier_path, "node", nodes_.size(), node)) return false;
+  void read_carrier(const GltfPart& carrier) {
+    const int node = carrier.index("node", nodes_.size());
     // What is a joint as well stays one.
-    if (node >= 0 && !nodes_[static_cast<size_t>(node)].moves) {
-      nodes_[static_cast<size_t>(node)].carrier = true;
-    }
-    return true;
+    if (node >= 0 && !nodes_[node].moves) nodes_[node].carrier = true;
   }
 
-  bool read_vrm0() {
-    std::string path;
-    const GltfJson *humanoid = nullptr, *bones = nullptr;
-    if (!find_humanoid("VRM", path, humanoid)) return false;
-    if (!humanoid) return true;
-    if (!checker_.list(*humanoid, path, "humanBones", bones)) return false;
-    path += ".humanBones";
-    for (size_t i = 0; i < bones->size(); ++i) {
-      const std::string bone_path = item_path(path, i);
-      std::string role;
-      if (!checker_.is_object((*bones)[i], bone_path) ||
-          !checker_.text((*bones)[i], bone_path, "bone", role) ||
-          !set_role((*bones)[i], bone_path, role_of_vrm0(role))) {
-        return false;
-      }
-    }
-    return true;
-  }
-
-  const GltfJson& json_;
+  GltfPart root_;
   std::vector<GltfNode>& nodes_;
-  GltfChecker& checker_;
 };
 
 class SkeletonBuilder {
@@ -248,9 +169,9 @@ class SkeletonBuilder {
       return checker_.fail("", "expected a skin or an animated node, found neither");
     }
     for (size_t j = 0; j < document_.joint_nodes.size(); ++j) {
-      if (!add_joint(static_cast<size_t>(document_.joint_nodes[j]))) return false;
+      if (!add_joint(document_.joint_nodes[j])) return false;
     }
-    build_rest();
+    document_.rest = rest_clip(document_.skeleton);
     return true;
   }
 
@@ -258,9 +179,9 @@ class SkeletonBuilder {
   // Stops where it has been: also in a circle of nodes, which order() finds.
   void mark_above(const GltfNode& node) {
     if (!node.moves) return;
-    for (int up = node.parent; up >= 0 && !nodes_[static_cast<size_t>(up)].moves;) {
-      nodes_[static_cast<size_t>(up)].moves = true;
-      up = nodes_[static_cast<size_t>(up)].parent;
+    for (int up = node.parent; up >= 0 && !nodes_[up].moves;) {
+      nodes_[up].moves = true;
+      up = nodes_[up].parent;
     }
   }
 
@@ -280,7 +201,7 @@ class SkeletonBuilder {
       const Visit visit = waiting.back();
       waiting.pop_back();
       ++visited;
-      GltfNode& node = nodes_[static_cast<size_t>(visit.node)];
+      GltfNode& node = nodes_[visit.node];
       if (visit.depth > kGltfMaxDepth) {
         return checker_.fail("nodes", "expected at most " + std::to_string(kGltfMaxDepth) +
                                           " one below the other, found more");
@@ -309,12 +230,14 @@ class SkeletonBuilder {
     bool below_skin = false;
     if (node.parent >= 0) {
       // The parent of what moves is a joint too, and an earlier one.
-      const GltfNode& parent = nodes_[static_cast<size_t>(node.parent)];
-      const size_t p = static_cast<size_t>(parent.joint);
-      joint.parent = parent.joint;
-      if (!parent.own.stretch.can_undo()) return reject_flat(static_cast<size_t>(node.parent));
-      above = document_.above[p].below(document_.skeleton.joints[p].rest, parent.own.stretch);
-      document_.bends = document_.bends || !document_.above[p].is_even();
+      const GltfNode& parent = nodes_[node.parent];
+      const int p = joint.parent = parent.joint;
+      if (!parent.own.stretch.can_undo()) {
+        return checker_.fail(item_path("nodes", node.parent),
+                             "expected a scale that leaves each of its axes some length, as other "
+                             "joints are below it, found one that is flat");
+      }
+      above = above_[p].below(document_.skeleton.joints[p].rest, parent.own.stretch);
       below_skin = below_skin_[p] || parent.skinned;
     }
     joint.can_translate = !node.matrix && (joint.parent < 0 || (node.skinned && !below_skin));
@@ -322,35 +245,27 @@ class SkeletonBuilder {
     joint.offset = above.apply(node.translation);
     const Stretch below = above.below(joint.rest, node.own.stretch);
     for (const int child : node.children) {
-      const GltfNode& end = nodes_[static_cast<size_t>(child)];
+      const GltfNode& end = nodes_[child];
       if (end.end && !end.moves) joint.ends.push_back(below.apply(end.translation));
     }
-    const double reach = static_cast<double>(
-        std::max({std::abs(joint.offset.x), std::abs(joint.offset.y), std::abs(joint.offset.z)}));
-    const auto lengths = above.lengths();
-    const auto [least, most] = std::minmax_element(lengths.begin(), lengths.end());
-    if (!(*most <= kLargestNumber) || !(*least >= 1 / kLargestNumber) ||
-        !(reach <= kLargestNumber)) {
+    const bool fits = std::ranges::all_of(above.lengths(), [](double length) {
+      return length <= kLargestNumber && length >= 1 / kLargestNumber;
+    });
+    if (!fits || !is_within_reach(joint.offset)) {
       return checker_.fail(item_path("nodes", which),
                            "expected a position and a scale between -1e9 and 1e9, found them "
                            "larger by the scales of the nodes above");
     }
     document_.skeleton.joints.push_back(std::move(joint));
-    document_.above.push_back(above);
+    above_.push_back(above);
     below_skin_.push_back(below_skin);
     return true;
   }
-  bool reject_flat(size_t which) {
-    return checker_.fail(item_path("nodes", which),
-                         "expected a scale that leaves each of its axes some length, as other "
-                         "joints are below it, found one that is flat");
-  }
-
-  void build_rest() { document_.rest = rest_clip(document_.skeleton); }
 
   GltfDocument& document_;
   std::vector<GltfNode>& nodes_;
   GltfChecker& checker_;
+  std::vector<Stretch> above_;    // [joints] what the nodes above do to its place, at rest.
   std::vector<char> below_skin_;  // [joints] 1 where a node above is in a skin.
 };
 

@@ -1,12 +1,10 @@
-#include "clip/gltf_retime.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
 #include <vector>
 
-#include "clip/gltf_accessor.h"
+#include "clip/gltf_document.h"
 #include "clip/gltf_encode.h"
 
 namespace panache {
@@ -28,7 +26,10 @@ std::string brief(double seconds) {
 class Retimer {
  public:
   Retimer(const GltfDocument& document, GltfChecker& checker)
-      : document_(document), checker_(checker), json_(document.container.json) {}
+      : document_(document),
+        checker_(checker),
+        root_(document.container.json, unheard_),
+        json_(document.container.json) {}
 
   bool retime(std::optional<double> fps, const std::string& name, RetimedGltf& out) {
     bool any = false;
@@ -54,61 +55,49 @@ class Retimer {
  private:
   // The accessor that a member of a sampler names; -1 where it is none that can be read. What no
   // channel of ours uses may be anything.
-  int accessor_of(const GltfJson& sampler, const char* member) const {
-    const auto found = sampler.find(member);
-    const auto accessors = document_.container.json.find("accessors");
-    if (found == sampler.end() || accessors == document_.container.json.end() ||
-        !found->is_number_unsigned() || found->get<uint64_t>() >= accessors->size()) {
-      return -1;
-    }
-    return found->get<int>();
+  int accessor_of(const GltfPart& sampler, const char* member) const {
+    return sampler.index(member, root_.size("accessors"));
   }
   bool read(int accessor, GltfValues& out) const {
     GltfChecker unread("");
-    return accessor >= 0 && read_gltf_accessor(document_.container, accessor, "", unread, out) &&
-           out.count > 0;
+    return accessor >= 0 && read_gltf_accessor(document_.container, accessor, "", unread, out);
   }
-  const GltfJson& samplers(size_t animation) const {
-    static const GltfJson kNone = GltfJson::array();
-    const GltfJson& json = document_.container.json["animations"][animation];
-    const auto found = json.find("samplers");
-    return found != json.end() && found->is_array() ? *found : kNone;
+  bool read_times(int accessor, GltfValues& out) const {
+    return read(accessor, out) && out.components == 1;
+  }
+  std::vector<GltfPart> samplers(size_t animation) const {
+    return root_.item("animations", animation).list("samplers");
   }
 
   // The first time of any sampler, seconds; 0 where there are none.
   double begin_of(size_t animation) {
     double begin = INFINITY;
-    for (const GltfJson& sampler : samplers(animation)) {
-      const int accessor = sampler.is_object() ? accessor_of(sampler, "input") : -1;
-      const auto known = begins_.find(accessor);
-      if (known == begins_.end()) {
-        GltfValues times;
-        const bool good = read(accessor, times) && times.components == 1;
-        begins_[accessor] = good ? static_cast<double>(times.numbers[0]) : INFINITY;
-      }
-      begin = std::min(begin, begins_[accessor]);
+    for (const GltfPart& sampler : samplers(animation)) {
+      const int accessor = accessor_of(sampler, "input");
+      const auto [known, is_new] = begins_.try_emplace(accessor, INFINITY);
+      GltfValues times;
+      if (is_new && read_times(accessor, times)) known->second = times.numbers[0];
+      begin = std::min(begin, known->second);
     }
     return std::isfinite(begin) ? begin : 0;
   }
 
   bool retime_animation(size_t animation, Retiming to) {
-    const size_t count = samplers(animation).size();
-    for (size_t s = 0; s < count; ++s) {
-      const GltfJson& sampler = samplers(animation)[s];
-      if (!sampler.is_object()) continue;
-      const int input = accessor_of(sampler, "input"), output = accessor_of(sampler, "output");
+    const std::vector<GltfPart> list = samplers(animation);
+    for (size_t s = 0; s < list.size(); ++s) {
+      const int input = accessor_of(list[s], "input"), output = accessor_of(list[s], "output");
       GltfValues times;
-      if (!read(input, times) || times.components != 1) continue;
+      if (!read_times(input, times)) continue;
       GltfJson& changed = json_["animations"][animation]["samplers"][s];
       changed["input"] = times_at(input, times, to);
-      if (to.scale != 1 && sampler.value("interpolation", GltfJson()) == "CUBICSPLINE") {
+      if (to.scale != 1 && list[s].text("interpolation") == "CUBICSPLINE") {
         const int tangents = tangents_at(output, times.count, to.scale);
         if (tangents >= 0) changed["output"] = tangents;
       }
-      if (added_.size() / 4 <= gltf_max_values(document_.container.size)) continue;
+      const size_t most = gltf_max_values(document_.container.size);
+      if (added_.size() / 4 <= most) continue;
       return checker_.fail(item_path("animations", animation),
-                           "expected at most " +
-                               std::to_string(gltf_max_values(document_.container.size)) +
+                           "expected at most " + std::to_string(most) +
                                " numbers in keys of another time, found more");
     }
     return true;
@@ -124,7 +113,7 @@ class Retimer {
     if (made >= 0) return made;
     std::vector<float> times;
     for (const float old_time : old.numbers) {
-      const double exact = static_cast<double>(old_time) * to.scale + to.shift;
+      const double exact = old_time * to.scale + to.shift;
       float time = static_cast<float>(std::max(0.0, exact));
       // Where floats are further apart than the keys, times have to increase all the same.
       if (!times.empty()) time = std::max(time, std::nextafter(times.back(), HUGE_VALF));
@@ -142,7 +131,7 @@ class Retimer {
     const size_t width = values.numbers.size() / (3 * keys);
     for (size_t i = 0; i < values.numbers.size(); ++i) {
       if (i / width % 3 == 1) continue;
-      values.numbers[i] = static_cast<float>(static_cast<double>(values.numbers[i]) / scale);
+      values.numbers[i] = static_cast<float>(values.numbers[i] / scale);
     }
     constexpr const char* kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
     return made = static_cast<int>(
@@ -151,6 +140,8 @@ class Retimer {
 
   const GltfDocument& document_;
   GltfChecker& checker_;
+  GltfChecker unheard_{""};
+  GltfPart root_;
   GltfJson json_;
   std::string added_;
   std::map<int, double> begins_;                          // By accessor.

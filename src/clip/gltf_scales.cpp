@@ -40,10 +40,9 @@ class JointTracks {
     for (size_t c = 0; c < tracks.size(); ++c) {
       const GltfChannel& channel = animation.channels[c];
       if (channel.path != GltfPath::rotation && channel.path != GltfPath::translation) continue;
-      const int joint = document.nodes[static_cast<size_t>(channel.node)].joint;
+      const int joint = document.nodes[channel.node].joint;
       if (joint < 0) continue;
-      (channel.path == GltfPath::rotation ? turning_ : moving_)[static_cast<size_t>(joint)] =
-          static_cast<int>(c);
+      (channel.path == GltfPath::rotation ? turning_ : moving_)[joint] = static_cast<int>(c);
     }
   }
 
@@ -64,10 +63,10 @@ class JointTracks {
 
  private:
   const GltfNode& node_of(size_t joint) const {
-    return document_.nodes[static_cast<size_t>(document_.joint_nodes[joint])];
+    return document_.nodes[document_.joint_nodes[joint]];
   }
   void evaluate(int channel, double seconds, double tolerance, std::span<float> out) const {
-    if (channel >= 0) tracks_[static_cast<size_t>(channel)].evaluate(seconds, tolerance, out);
+    if (channel >= 0) tracks_[channel].evaluate(seconds, tolerance, out);
   }
 
   const GltfDocument& document_;
@@ -88,9 +87,8 @@ bool moves(const Clip& clip, size_t joint) {
 }  // namespace
 
 bool is_within_reach(Vec3 place) {
-  return std::ranges::all_of(std::array{place.x, place.y, place.z}, [](float x) {
-    return std::abs(static_cast<double>(x)) <= kLargestNumber;
-  });
+  return std::ranges::all_of(std::array{place.x, place.y, place.z},
+                             [](float x) { return std::abs(x) <= kLargestNumber; });
 }
 
 GltfScales::GltfScales(const GltfDocument& document, const GltfAnimation& animation,
@@ -99,12 +97,11 @@ GltfScales::GltfScales(const GltfDocument& document, const GltfAnimation& animat
   for (size_t c = 0; c < tracks.size(); ++c) {
     const GltfChannel& channel = animation.channels[c];
     if (channel.path != GltfPath::scale) continue;
-    const GltfNode& node = document.nodes[static_cast<size_t>(channel.node)];
-    const bool carries = std::any_of(node.children.begin(), node.children.end(), [&](int child) {
-      return document.nodes[static_cast<size_t>(child)].joint >= 0;
-    });
+    const GltfNode& node = document.nodes[channel.node];
+    const bool carries = std::any_of(node.children.begin(), node.children.end(),
+                                     [&](int child) { return document.nodes[child].joint >= 0; });
     if (node.joint < 0 || !carries || is_idle(tracks[c], node.scale)) continue;
-    tracks_.push_back({static_cast<size_t>(node.joint), &tracks[c]});
+    tracks_.push_back({node.joint, &tracks[c]});
   }
 }
 
@@ -112,13 +109,12 @@ void GltfScales::set_time(double seconds, double tolerance) {
   const size_t joints = document_.joint_nodes.size();
   if (own_.empty()) {
     for (const int node : document_.joint_nodes) {
-      own_.push_back(document_.nodes[static_cast<size_t>(node)].own);
+      own_.push_back(document_.nodes[node].own);
     }
     above_.resize(joints);
   }
   for (const Moving& moving : tracks_) {
-    const GltfNode& node =
-        document_.nodes[static_cast<size_t>(document_.joint_nodes[moving.joint])];
+    const GltfNode& node = document_.nodes[document_.joint_nodes[moving.joint]];
     float v[3];
     moving.track->evaluate(seconds, tolerance, v);
     const NodeScale now = split_scale(vec_at(v));
@@ -131,8 +127,7 @@ void GltfScales::set_time(double seconds, double tolerance) {
 void GltfScales::place(size_t joint, std::span<const Quat> rotations) {
   const int parent = document_.skeleton.joints[joint].parent;
   if (parent < 0) return;
-  const auto p = static_cast<size_t>(parent);
-  above_[joint] = above_[p].below(rotations[p], own_[p].stretch);
+  above_[joint] = above_[parent].below(rotations[parent], own_[parent].stretch);
 }
 
 void GltfScales::set_file_pose(double seconds, double tolerance, std::span<Quat> rotations) {
@@ -148,8 +143,8 @@ void GltfScales::set_clip_pose(double seconds, double tolerance, std::span<const
   for (size_t j = 0; j < rotations.size(); ++j) place(j, rotations);
 }
 
-int fill_stretched_clip(const GltfDocument& document, GltfAnimation& animation,
-                        std::span<const GltfTrack> tracks, GltfScales& scales) {
+int fill_clip(const GltfDocument& document, GltfAnimation& animation,
+              std::span<const GltfTrack> tracks, GltfScales& scales) {
   const JointTracks joints(document, animation, tracks);
   Clip& clip = animation.clip;
   for (int f = 0; f < clip.frames; ++f) {

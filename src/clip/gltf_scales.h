@@ -17,10 +17,6 @@ class GltfScales {
   GltfScales(const GltfDocument& document, const GltfAnimation& animation,
              std::span<const GltfTrack> tracks);
 
-  // Whether what is above each joint does the same to places in every pose and at all times, as it
-  // does at rest.
-  bool is_still() const { return tracks_.empty() && !document_.bends; }
-
   // Sets the time, seconds in the file, and the pose: [joints] rotations in the file's terms, which
   // become the clip's; or the clip's, which stay.
   void set_file_pose(double seconds, double tolerance, std::span<Quat> rotations);
@@ -33,7 +29,7 @@ class GltfScales {
 
  private:
   struct Moving {
-    size_t joint;
+    int joint;
     const GltfTrack* track;
   };
 
@@ -46,11 +42,10 @@ class GltfScales {
   std::vector<Stretch> above_;  // [joints]
 };
 
-// Fills the frames of an animation whose scales are not still, all joints; what is moved by a scale
-// becomes a joint that translates. tracks: [channels]. Returns the channel that takes a joint too
-// far, or -1.
-int fill_stretched_clip(const GltfDocument& document, GltfAnimation& animation,
-                        std::span<const GltfTrack> tracks, GltfScales& scales);
+// Fills the frames of an animation, all joints; what is moved by a channel or by a scale becomes a
+// joint that translates. tracks: [channels]. Returns the channel that takes a joint too far, or -1.
+int fill_clip(const GltfDocument& document, GltfAnimation& animation,
+              std::span<const GltfTrack> tracks, GltfScales& scales);
 
 // Whether a place is one that a clip may have.
 bool is_within_reach(Vec3 place);

@@ -37,9 +37,8 @@ Quatd slerp(Quatd a, Quatd b, double t) {
 
 // Whether every key is a whole number of `step`s after the first.
 bool lies_on(const std::vector<float>& times, double step) {
-  const double first = static_cast<double>(times.front());
-  for (const float time : times) {
-    const double seconds = static_cast<double>(time);
+  const double first = times.front();
+  for (const double seconds : times) {
     const double steps = (seconds - first) / step;
     if (!(std::abs(steps - std::round(steps)) * step <= key_tolerance(seconds, step))) return false;
   }
@@ -49,17 +48,16 @@ bool lies_on(const std::vector<float>& times, double step) {
 double median_spacing(const std::vector<float>& times) {
   std::vector<double> spacings;
   for (size_t i = 1; i < times.size(); ++i) {
-    spacings.push_back(static_cast<double>(times[i]) - static_cast<double>(times[i - 1]));
+    spacings.push_back(double(times[i]) - times[i - 1]);
   }
-  const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
+  const auto middle = spacings.begin() + spacings.size() / 2;
   std::nth_element(spacings.begin(), middle, spacings.end());
   return *middle;
 }
 
 // Seconds between frames that carry all of these keys; 0 where there is no such rate.
 double key_step(const std::vector<float>& times) {
-  const double mean = (static_cast<double>(times.back()) - static_cast<double>(times.front())) /
-                      static_cast<double>(times.size() - 1);
+  const double mean = (double(times.back()) - times.front()) / (times.size() - 1);
   // A whole number of frames per second is what was meant if it fits: times are rounded. The mean
   // is the step of keys without gaps, the median that of keys with a few left out.
   for (const double step : {mean, median_spacing(times)}) {
@@ -93,14 +91,11 @@ std::span<const float> GltfTrack::key(size_t which) const {
 
 void GltfTrack::evaluate(double seconds, double tolerance, std::span<float> out) const {
   assert(!times.empty() && out.size() == components);
-  const auto later = std::upper_bound(times.begin(), times.end(), seconds,
-                                      [](double s, float t) { return s < static_cast<double>(t); });
-  const size_t after = static_cast<size_t>(later - times.begin());
+  const size_t after = std::upper_bound(times.begin(), times.end(), seconds) - times.begin();
   const auto copy = [&](size_t which) { std::ranges::copy(key(which), out.begin()); };
   if (after == 0) return copy(0);
   if (after == times.size()) return copy(after - 1);
-  const double begin = static_cast<double>(times[after - 1]);
-  const double end = static_cast<double>(times[after]);
+  const double begin = times[after - 1], end = times[after];
   if (end - seconds <= tolerance && end - seconds < seconds - begin) return copy(after);
   if (seconds - begin <= tolerance || interpolation == Interpolation::step) return copy(after - 1);
 
@@ -110,8 +105,7 @@ void GltfTrack::evaluate(double seconds, double tolerance, std::span<float> out)
     if (std::ranges::equal(a, b)) return copy(after - 1);
     if (rotates) return put(slerp(quat_at(a), quat_at(b), t), out);
     for (size_t k = 0; k < components; ++k) {
-      out[k] =
-          static_cast<float>(std::lerp(static_cast<double>(a[k]), static_cast<double>(b[k]), t));
+      out[k] = static_cast<float>(std::lerp(double(a[k]), double(b[k]), t));
     }
     return;
   }
@@ -122,10 +116,8 @@ void GltfTrack::evaluate(double seconds, double tolerance, std::span<float> out)
   const std::span<const float> arriving =
       std::span(numbers).subspan(after * 3 * components, components);
   for (size_t k = 0; k < components; ++k) {
-    out[k] = static_cast<float>((2 * t3 - 3 * t2 + 1) * static_cast<double>(a[k]) +
-                                d * (t3 - 2 * t2 + t) * static_cast<double>(leaving[k]) +
-                                (3 * t2 - 2 * t3) * static_cast<double>(b[k]) +
-                                d * (t3 - t2) * static_cast<double>(arriving[k]));
+    out[k] = static_cast<float>((2 * t3 - 3 * t2 + 1) * a[k] + d * (t3 - 2 * t2 + t) * leaving[k] +
+                                (3 * t2 - 2 * t3) * b[k] + d * (t3 - t2) * arriving[k]);
   }
   if (rotates) put(normalized(quat_at(out)), out);
 }

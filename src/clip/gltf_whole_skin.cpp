@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <map>
 
-#include "clip/gltf_accessor.h"
 #include "clip/gltf_figure.h"
 
 namespace panache {
@@ -42,7 +41,7 @@ class SkeletonNodes {
       for (const GltfChannel& channel : animation.channels) {
         const bool moves = channel.path == GltfPath::rotation ||
                            channel.path == GltfPath::translation || channel.path == GltfPath::scale;
-        if (channel.node >= 0 && moves) is_joint_[static_cast<size_t>(channel.node)] = 1;
+        if (channel.node >= 0 && moves) is_joint_[channel.node] = 1;
       }
     }
     for (size_t i = 0; i < document.nodes.size(); ++i) {
@@ -51,7 +50,7 @@ class SkeletonNodes {
     if (body) {
       for (const SkinnedBody::Bind& bind : body->binds) {
         of_body_ = document.joint_nodes[bind.joint];
-        is_joint_[static_cast<size_t>(of_body_)] = 1;
+        is_joint_[of_body_] = 1;
       }
     }
     list_parents_first();
@@ -70,13 +69,13 @@ class SkeletonNodes {
     for (const size_t n : nodes_) {
       const GltfNode& node = document_.nodes[n];
       const Affine local = local_matrix(document_, n);
-      world[n] = node.parent < 0 ? local : world[static_cast<size_t>(node.parent)] * local;
+      world[n] = node.parent < 0 ? local : world[node.parent] * local;
       if (!is_part(n) || root_[n] != tree) continue;
       place[n] = static_cast<int>(out.size());
       FigureJoint joint{.node = n, .clip_joint = node.joint, .local = local, .world = world[n]};
       for (int up = node.parent; up >= 0 && joint.parent < 0;) {
-        joint.parent = place[static_cast<size_t>(up)];
-        up = document_.nodes[static_cast<size_t>(up)].parent;
+        joint.parent = place[up];
+        up = document_.nodes[up].parent;
       }
       out.push_back(joint);
     }
@@ -100,17 +99,17 @@ class SkeletonNodes {
     for (size_t i = 0; i < nodes_.size(); ++i) {
       const size_t n = nodes_[i];
       const int parent = document_.nodes[n].parent;
-      root_[n] = parent < 0 ? static_cast<int>(n) : root_[static_cast<size_t>(parent)];
-      if (parent >= 0 && below_[static_cast<size_t>(parent)]) below_[n] = 1;
+      root_[n] = parent < 0 ? static_cast<int>(n) : root_[parent];
+      if (parent >= 0 && below_[parent]) below_[n] = 1;
       for (const int child : document_.nodes[n].children) {
-        nodes_.push_back(static_cast<size_t>(child));
+        nodes_.push_back(child);
       }
     }
   }
 
   // A skin is of one tree: the root of that with the body, or of that with most joints.
   int tree_of_skin() const {
-    if (of_body_ >= 0) return root_[static_cast<size_t>(of_body_)];
+    if (of_body_ >= 0) return root_[of_body_];
     std::map<int, size_t> sizes;
     for (const size_t n : nodes_) sizes[root_[n]] += is_part(n);
     return std::max_element(sizes.begin(), sizes.end(),
@@ -124,11 +123,11 @@ class SkeletonNodes {
     for (size_t j = 0; j < turns.size(); ++j) {
       const Joint& joint = skeleton.joints[j];
       const Quatd rest = joint.rest.as<double>();
-      turns[j] = joint.parent < 0 ? rest : turns[static_cast<size_t>(joint.parent)] * rest;
+      turns[j] = joint.parent < 0 ? rest : turns[joint.parent] * rest;
     }
     for (FigureJoint& joint : joints) {
       if (joint.clip_joint < 0) continue;
-      const auto j = static_cast<size_t>(joint.clip_joint);
+      const int j = joint.clip_joint;
       joint.stretch = affine(conjugate(normalized(turns[j])), {}) * joint.world;
       joint.stretch.place = {};
       for (const GltfAnimation& animation : document_.animations) {
@@ -143,10 +142,6 @@ class SkeletonNodes {
   std::vector<size_t> nodes_;           // All, parents before children.
   int of_body_ = -1;                    // A node that a body needs; -1 where there is no body.
 };
-
-}  // namespace
-
-namespace {
 
 // Adds missing lists, and a scene that shows all nodes if there is no scene.
 void make_room(const GltfDocument& document, GltfJson& json) {
@@ -186,12 +181,7 @@ std::string with_figure(const GltfDocument& document, const SkinnedBody* body) {
   const std::vector<FigureJoint> joints = SkeletonNodes(document, body).joints();
   make_room(document, json);
   const std::string& name = document.nodes[joints.front().node].name;
-  GltfFigure figure(gltf_added_at(document.container), json, added, joints, name);
-  if (body) {
-    figure.add_body(*body);
-  } else {
-    figure.add_sticks();
-  }
+  add_figure(gltf_added_at(document.container), json, added, joints, name, body);
   return write_gltf_container(document.container, std::move(json), added);
 }
 
@@ -199,12 +189,11 @@ std::string with_whole_skin(const GltfDocument& document) {
   GltfJson json = document.container.json;
   std::string added;
   GltfJson& skin = json["skins"][0];
-  const auto accessor = skin.find("inverseBindMatrices");
   GltfChecker unheard("");
+  const GltfPart root(document.container.json, unheard);
+  const int accessor = root.item("skins", 0).index("inverseBindMatrices", root.size("accessors"));
   GltfValues matrices;
-  if (accessor == skin.end() || !accessor->is_number_unsigned() ||
-      accessor->get<size_t>() >= json["accessors"].size() ||
-      !read_gltf_matrices(document.container, accessor->get<int>(), "", unheard, matrices) ||
+  if (accessor < 0 || !read_gltf_matrices(document.container, accessor, "", unheard, matrices) ||
       matrices.count != skin["joints"].size()) {
     return write_gltf_container(document.container, std::move(json), added);
   }
@@ -219,8 +208,7 @@ std::string with_whole_skin(const GltfDocument& document) {
       const auto numbers = std::span(matrices.numbers).subspan(16 * found->second, 16);
       binds[j] = inverse(matrix_at(numbers));
     } else {
-      binds[j] =
-          parent < 0 ? joints[j].world : binds[static_cast<size_t>(parent)] * joints[j].local;
+      binds[j] = parent < 0 ? joints[j].world : binds[parent] * joints[j].local;
     }
   }
   for (size_t j = 0; j < joints.size(); ++j) {

@@ -1,6 +1,7 @@
 #include "clip/motion_format.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <utility>
 
@@ -69,6 +70,8 @@ constexpr MotionFormat kFormats[] = {
      .one_motion = true},
 };
 
+std::span<const MotionFormat> known_formats = kFormats;
+
 Result<const MotionFormat*> format_of(const std::string& path,
                                       std::span<const MotionFormat> formats) {
   const std::string extension = extension_of(path);
@@ -76,9 +79,8 @@ Result<const MotionFormat*> format_of(const std::string& path,
   return Error{
       path + ": expected a motion file (" + list_extensions(formats) + "), found " +
       (extension.empty() ? "no extension" : "the extension " + panache::quoted(extension)) +
-      (extension == ".fbx"
-           ? "; 'panache convert IN.fbx -o OUT.glb' makes a GLB of it, and 'panache "
-             "view IN.fbx' shows it"
+      (extension == ".fbx" ? "; 'panache convert IN.fbx -o OUT.glb' makes a GLB of it, and "
+                             "'panache view IN.fbx' shows it"
        : extension == ".safetensors" ? ", which models and styles have"
                                      : "")};
 }
@@ -88,9 +90,7 @@ Result<const MotionFormat*> format_of(const std::string& path,
 std::span<const MotionFormat> motion_formats() noexcept { return kFormats; }
 
 std::string extension_of(const std::string& path) {
-  std::string text = std::filesystem::path(path).extension().string();
-  for (char& c : text) c = lower_case(c);
-  return text;
+  return lower_case(std::filesystem::path(path).extension().string());
 }
 
 const MotionFormat* find_format(std::span<const MotionFormat> formats, std::string_view extension) {
@@ -126,6 +126,21 @@ Result<std::unique_ptr<MotionFile>> parse_motion(std::string bytes, const std::s
   Result<const MotionFormat*> format = format_of(path, kFormats);
   if (!format) return format.error();
   return (*format)->parse(std::move(bytes), path, options);
+}
+
+void set_motion_formats(std::span<const MotionFormat> formats) { known_formats = formats; }
+std::span<const MotionFormat> known_motion_formats() { return known_formats; }
+
+Result<void> check_fps(double fps) {
+  if (fps >= kMinFps && fps <= kMaxFps) return {};
+  char found[32];
+  std::snprintf(found, sizeof found, "%g", fps);
+  return Error{std::string("expected a rate of 0.01 to 10000 frames a second, found ") + found};
+}
+
+Result<std::unique_ptr<MotionFile>> read_motion(const std::string& path,
+                                                const ReadOptions& options) {
+  return read_motion(path, known_formats, options);
 }
 
 }  // namespace panache

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
+#include <system_error>
 
+#include "base/little_endian.h"
 #include "clip/decimal.h"
 #include "clip/text_cursor.h"
 
@@ -16,12 +18,6 @@ namespace {
 constexpr std::string_view kMagic = "\x93NUMPY";
 constexpr size_t kMaxDimensions = 8;
 
-uint64_t little(std::string_view bytes) {
-  uint64_t value = 0;
-  for (size_t i = bytes.size(); i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[i]);
-  return value;
-}
-
 // Bytes of an element; 0 for what is none of ours.
 size_t size_of(std::string_view type) {
   if (type.size() < 3 || type.size() > 6) return 0;
@@ -30,106 +26,45 @@ size_t size_of(std::string_view type) {
   size_t size = 0;
   for (const char c : type.substr(2)) {
     if (c < '0' || c > '9') return 0;
-    size = 10 * size + static_cast<size_t>(c - '0');
+    size = 10 * size + (c - '0');
   }
   return type[1] == 'U' ? 4 * size : size;
 }
 
-// The text of a header: "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }".
-class HeaderReader {
- public:
-  HeaderReader(std::string_view text, const std::string& name) : text_(text), name_(name) {}
-
-  Result<void> read(NpyArray& out) {
-    if (!take("{")) return fail("'{'");
-    while (!take("}")) {
-      if (auto done = read_entry(out); !done) return done;
-      if (!take(",") && !is_at("}")) return fail("',' or '}'");
-    }
-    if (out.type.empty() || !has_shape_) return fail("'descr' and 'shape'");
-    return {};
+// Reads "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }".
+Result<void> read_header(std::string_view text, const std::string& name, NpyArray& out) {
+  const auto value_of = [&](std::string_view key) {
+    const size_t at = text.find(key);
+    const size_t begin = at == text.npos ? at : text.find_first_not_of("'\": \n", at + key.size());
+    return begin == text.npos ? std::string_view() : text.substr(begin);
+  };
+  const std::string_view type = value_of("descr"), shape = value_of("shape");
+  out.type = type.substr(0, type.find_first_of("'\""));
+  out.by_columns = value_of("fortran_order").starts_with("True");
+  bool good = !type.empty() && shape.starts_with('(') && shape.find(')') != shape.npos;
+  std::string_view sizes = good ? shape.substr(1, shape.find(')') - 1) : "";
+  for (size_t at; good && (at = sizes.find_first_not_of(", ")) != sizes.npos;) {
+    constexpr uint64_t kLargest = uint64_t{1} << 50;  // More than any file has.
+    uint64_t size = 0;
+    const char* const end = sizes.data() + sizes.size();
+    const auto [after, failure] = std::from_chars(sizes.data() + at, end, size);
+    good = failure == std::errc() && size < kLargest && out.shape.size() < kMaxDimensions;
+    out.shape.push_back(size);
+    sizes.remove_prefix(after - sizes.data());
+    good = good && (sizes.empty() || sizes.front() == ',' || sizes.front() == ' ');
   }
-
- private:
-  Result<void> read_entry(NpyArray& out) {
-    std::string key;
-    if (!take_string(key) || !take(":")) return fail("a name and ':'");
-    if (key == "descr") {
-      if (!take_string(out.type)) return fail("a type");
-      if (size_of(out.type) == 0) {
-        return Error{name_ + ": expected an array of numbers or text, found the type " +
-                     quoted(out.type)};
-      }
-    } else if (key == "fortran_order") {
-      out.by_columns = take("True");
-      if (!out.by_columns && !take("False")) return fail("True or False");
-    } else if (key == "shape") {
-      return read_shape(out.shape);
-    } else {
-      return fail("descr, fortran_order or shape");
-    }
-    return {};
+  if (!good) {
+    return Error{name + ": expected descr, fortran_order and at most 8 sizes as shape in the " +
+                 "header of an array, found " + quoted(text)};
   }
-
-  Result<void> read_shape(std::vector<size_t>& shape) {
-    shape.clear();
-    has_shape_ = true;
-    if (!take("(")) return fail("'('");
-    while (!take(")")) {
-      uint64_t size = 0;
-      if (!take_number(size) || shape.size() == kMaxDimensions) {
-        return fail("at most 8 sizes of dimensions");
-      }
-      shape.push_back(size);
-      if (!take(",") && !is_at(")")) return fail("',' or ')'");
-    }
-    return {};
-  }
-
-  void skip_space() {
-    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\n')) ++at_;
-  }
-  bool is_at(std::string_view word) {
-    skip_space();
-    return text_.substr(at_).starts_with(word);
-  }
-  bool take(std::string_view word) {
-    if (!is_at(word)) return false;
-    at_ += word.size();
-    return true;
-  }
-  bool take_string(std::string& out) {
-    if (!is_at("'") && !is_at("\"")) return false;
-    const size_t end = text_.find(text_[at_], at_ + 1);
-    if (end == std::string_view::npos) return false;
-    out = text_.substr(at_ + 1, end - at_ - 1);
-    at_ = end + 1;
-    return true;
-  }
-  bool take_number(uint64_t& out) {
-    skip_space();
-    const size_t begin = at_;
-    for (out = 0; at_ < text_.size() && text_[at_] >= '0' && text_[at_] <= '9'; ++at_) {
-      if (out > (uint64_t{1} << 50)) return false;  // More than any file has.
-      out = 10 * out + static_cast<uint64_t>(text_[at_] - '0');
-    }
-    return at_ > begin;
-  }
-  Error fail(const std::string& expected) const {
-    return Error{name_ + ": expected " + expected + " in the header of an array, found " +
-                 quoted(text_.substr(std::min(at_, text_.size())))};
-  }
-
-  std::string_view text_;
-  const std::string& name_;
-  size_t at_ = 0;
-  bool has_shape_ = false;
-};
+  if (size_of(out.type) > 0) return {};
+  return Error{name + ": expected an array of numbers or text, found the type " + quoted(out.type)};
+}
 
 double number_at(const char* bytes, char kind, size_t size, bool swap) {
   std::string in(bytes, size);
   if (swap) std::reverse(in.begin(), in.end());
-  const uint64_t bits = little(in);
+  const uint64_t bits = little_endian(in);
   if (kind == 'f' && size == 8) return std::bit_cast<double>(bits);
   if (kind == 'f') return static_cast<double>(std::bit_cast<float>(static_cast<uint32_t>(bits)));
   if (kind != 'i' || size == 8) {
@@ -159,15 +94,13 @@ Result<NpyArray> parse_npy(std::string_view bytes, const std::string& name) {
                  std::to_string(version)};
   }
   const size_t field = version == 1 ? 2 : 4, begin = 8 + field;
-  const uint64_t length = little(bytes.substr(8, field));
+  const uint64_t length = little_endian(bytes.substr(8, field));
   if (length > bytes.size() - begin) {
     return Error{name + ": expected a header of " + std::to_string(length) + " bytes, found " +
                  std::to_string(bytes.size() - begin) + " to the end"};
   }
   NpyArray out;
-  if (auto done = HeaderReader(bytes.substr(begin, length), name).read(out); !done) {
-    return done.error();
-  }
+  if (auto done = read_header(bytes.substr(begin, length), name, out); !done) return done.error();
   out.elements = bytes.substr(begin + length);
   // Compared without a product that might overflow.
   size_t left = out.elements.size() / size_of(out.type);
@@ -193,8 +126,8 @@ std::string format_npy(const NpyArray& array) {
   header.append((unpadded + 63) / 64 * 64 - unpadded, ' ');
   header += '\n';
   std::string out(kMagic);
-  out += {'\1', '\0', static_cast<char>(header.size() & 0xff),
-          static_cast<char>(header.size() >> 8 & 0xff)};
+  out += {'\1', '\0'};
+  append_little_endian(header.size(), 2, out);
   return out + header + array.elements;
 }
 
@@ -230,10 +163,9 @@ NpyArray npy_array(std::span<const double> numbers, std::vector<size_t> shape,
   NpyArray out{single ? "<f4" : "<f8", false, std::move(shape), {}};
   assert(out.count() == numbers.size());
   for (const double number : numbers) {
-    const auto small = static_cast<float>(number);
-    const auto* bytes =
-        single ? reinterpret_cast<const char*>(&small) : reinterpret_cast<const char*>(&number);
-    out.elements.append(bytes, single ? 4 : 8);  // Panache runs where numbers are little-endian.
+    const uint64_t bits = single ? std::bit_cast<uint32_t>(static_cast<float>(number))
+                                 : std::bit_cast<uint64_t>(number);
+    append_little_endian(bits, single ? 4 : 8, out.elements);
   }
   return out;
 }

@@ -20,7 +20,7 @@ Clip in_rest_axes(const Clip& clip) {
   std::vector<Quat> world(joints), parent(joints);  // W and W_p.
   for (size_t j = 0; j < joints; ++j) {
     Joint& joint = out.skeleton.joints[j];
-    if (joint.parent >= 0) parent[j] = world[static_cast<size_t>(joint.parent)];
+    if (joint.parent >= 0) parent[j] = world[joint.parent];
     world[j] = normalized(parent[j] * joint.rest);
     joint.rest = {};
     joint.offset = rotate(parent[j], joint.offset);

@@ -197,11 +197,11 @@ class SmplFile final : public MotionFile {
     const Pose pose = clip_.pose(frame);
     const size_t joints = clip_.joints();
     for (size_t j = 0; j < joints; ++j) {
-      const double* v = &poses_.numbers[(static_cast<size_t>(frame) * joints + j) * 3];
+      const double* v = &poses_.numbers[(frame * joints + j) * 3];
       pose.rotations[j] = normalized(exp_rotation(Vec3d{v[0], v[1], v[2]})).as<float>();
       pose.translations[j] = clip_.skeleton.joints[j].offset;
     }
-    const double* t = &trans_.numbers[static_cast<size_t>(frame) * 3];
+    const double* t = &trans_.numbers[size_t(frame) * 3];
     // A model turns about its pelvis and moves then.
     pose.translations[0] = (pelvis() + Vec3d{t[0], t[1], t[2]}).as<float>();
   }
@@ -210,7 +210,7 @@ class SmplFile final : public MotionFile {
   // Where the frames of an edit come from; -1 from nowhere in the file or from between two frames.
   int source(const ClipEdit& edit, int frame) const {
     if (edit.clip == kNewClip) return -1;
-    const double at = edit.source_frames[static_cast<size_t>(frame)];
+    const double at = edit.source_frames[frame];
     const bool whole = at >= 0 && at < clip_.frames && at == std::floor(at);
     return whole ? static_cast<int>(at) : -1;
   }
@@ -230,13 +230,12 @@ class SmplFile final : public MotionFile {
   Table new_poses(const ClipEdit& edit) const {
     const Clip& changed = *edit.changed;
     const size_t joints = clip_.joints();
-    Table out{poses_.type, {static_cast<size_t>(changed.frames), joints * 3}, {}};
+    Table out{poses_.type, {size_t(changed.frames), joints * 3}, {}};
     for (int f = 0; f < changed.frames; ++f) {
       const int from = source(edit, f);
       for (size_t j = 0; j < joints; ++j) {
         const Quat q = changed.pose(f).rotations[j];
-        const double* old =
-            from < 0 ? nullptr : &poses_.numbers[(static_cast<size_t>(from) * joints + j) * 3];
+        const double* old = from < 0 ? nullptr : &poses_.numbers[(from * joints + j) * 3];
         if (old && clip_.pose(from).rotations[j] == q) {
           out.numbers.insert(out.numbers.end(), old, old + 3);
         } else {
@@ -250,11 +249,11 @@ class SmplFile final : public MotionFile {
 
   Table new_trans(const ClipEdit& edit) const {
     const Clip& changed = *edit.changed;
-    Table out{trans_.type, {static_cast<size_t>(changed.frames), 3}, {}};
+    Table out{trans_.type, {size_t(changed.frames), 3}, {}};
     for (int f = 0; f < changed.frames; ++f) {
       const int from = source(edit, f);
       const Vec3 place = changed.pose(f).translations[0];
-      const double* old = from < 0 ? nullptr : &trans_.numbers[static_cast<size_t>(from) * 3];
+      const double* old = from < 0 ? nullptr : &trans_.numbers[size_t(from) * 3];
       if (old && clip_.pose(from).translations[0] == place) {
         out.numbers.insert(out.numbers.end(), old, old + 3);
       } else {
@@ -272,9 +271,8 @@ class SmplFile final : public MotionFile {
       const size_t width = (part.last - part.first) * 3, rows = poses.shape[0];
       Table out{poses.type, {rows, width}, {}};
       for (size_t r = 0; r < rows; ++r) {
-        const auto row = poses.numbers.begin() + static_cast<std::ptrdiff_t>(r * poses.shape[1]);
-        out.numbers.insert(out.numbers.end(), row + static_cast<std::ptrdiff_t>(part.first * 3),
-                           row + static_cast<std::ptrdiff_t>(part.last * 3));
+        const auto row = poses.numbers.begin() + r * poses.shape[1];
+        out.numbers.insert(out.numbers.end(), row + part.first * 3, row + part.last * 3);
       }
       return out;
     }
@@ -310,7 +308,7 @@ std::vector<NpzMember> format_smpl(const Clip& clip) {
   assert(clip.joints() == kSmplHJoints);
   const Quatd z_up = axis_angle(Vec3d{1, 0, 0}, std::acos(0.0));
   const Vec3d pelvis = clip.skeleton.joints[0].offset.as<double>();
-  const auto frames = static_cast<size_t>(clip.frames);
+  const size_t frames = clip.frames;
   std::vector<double> poses, trans;
   for (int f = 0; f < clip.frames; ++f) {
     const ConstPose pose = clip.pose(f);

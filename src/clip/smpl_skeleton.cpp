@@ -82,7 +82,7 @@ class Builder {
   void add(const Line& line, std::string_view side, float sign) {
     const int parent = line.parent.empty() ? -1 : find(on_side(line.parent, side));
     const Vec3 place = {sign * line.place.x, line.place.y, line.place.z};
-    const Vec3 above = parent < 0 ? Vec3{} : places_[static_cast<size_t>(parent)];
+    const Vec3 above = parent < 0 ? Vec3{} : places_[parent];
     add(on_side(line.name, side), on_side(line.role, side), parent, place - above);
   }
 
@@ -94,7 +94,7 @@ class Builder {
     joint.offset = offset;
     joint.can_rotate = true;
     joint.can_translate = parent < 0;
-    places_.push_back(parent < 0 ? offset : places_[static_cast<size_t>(parent)] + offset);
+    places_.push_back(parent < 0 ? offset : places_[parent] + offset);
     out_.joints.push_back(std::move(joint));
   }
 

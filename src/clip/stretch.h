@@ -29,7 +29,6 @@ class Stretch {
   // The matrix with these columns; even where it is the identity times a number to 1e-4.
   explicit Stretch(const std::array<Vec3d, 3>& columns);
 
-  bool is_even() const { return even_; }
   // Lengths of the columns.
   std::array<double, 3> lengths() const;
   // Whether the stretch can be inverted.
@@ -45,7 +44,6 @@ class Stretch {
   friend bool operator==(const Stretch&, const Stretch&) = default;
 
  private:
-  Vec3d column(size_t which) const { return columns_[which]; }
   Vec3d times(Vec3d v) const { return columns_[0] * v.x + columns_[1] * v.y + columns_[2] * v.z; }
   double determinant() const { return dot(cross(columns_[0], columns_[1]), columns_[2]); }
 

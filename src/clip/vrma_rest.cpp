@@ -1,10 +1,10 @@
-#include "clip/vrma_rest.h"
+#include "clip/gltf_document.h"
 
 #include <map>
 #include <optional>
 #include <string>
 
-#include "clip/fk.h"
+#include "clip/clip.h"
 
 namespace panache {
 namespace {

@@ -22,7 +22,7 @@ constexpr int kAddedFrames = 90;
 constexpr double kInPhase = 0.1, kBetter = 0.9;
 
 double mean_distance(const HumanPositions& a, const HumanPositions& b) {
-  return static_cast<double>(pose_distance(a, b).mean);
+  return pose_distance(a, b).mean;
 }
 
 template <class T>
@@ -38,9 +38,9 @@ Take continued(Take take, int cycle) {
   cycle = std::min(cycle, take.frames());
   const RootPose begin = take.root.front();
   RootPose end = take.root.back();
-  if (cycle < take.frames()) end = take.root[static_cast<size_t>(cycle)];
-  if (cycle == take.frames()) end = interpolate(take.root[static_cast<size_t>(cycle) - 2], end, 2);
-  const auto one = static_cast<size_t>(cycle), count = 2 * one + kAddedFrames;
+  if (cycle < take.frames()) end = take.root[cycle];
+  if (cycle == take.frames()) end = interpolate(take.root[cycle - 2], end, 2);
+  const size_t one = cycle, count = 2 * one + kAddedFrames;
   repeat(take.body, one, count);
   repeat(take.rotations, one, count);
   repeat(take.contacts, one, count);
@@ -59,8 +59,8 @@ Take continued(Take take, int cycle) {
 
 double mean_cost(const std::vector<Pairing>& pairings) {
   double sum = 0;
-  for (const Pairing& pairing : pairings) sum += static_cast<double>(pairing.cost);
-  return sum / static_cast<double>(pairings.size());
+  for (const Pairing& pairing : pairings) sum += pairing.cost;
+  return sum / pairings.size();
 }
 
 int cycle_frames(const Clip& clip, const Rig& rig) {

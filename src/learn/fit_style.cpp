@@ -71,7 +71,7 @@ Table make_table(const std::shared_ptr<const Model>& model, const SampleSet& set
 // Takes the mean of each column out of the rows, and returns it.
 std::vector<double> centre(std::vector<double>& rows, size_t columns) {
   std::vector<double> mean(columns);
-  const double count = static_cast<double>(rows.size()) / static_cast<double>(columns);
+  const double count = double(rows.size()) / columns;
   for (size_t i = 0; i < rows.size(); ++i) mean[i % columns] += rows[i] / count;
   for (size_t i = 0; i < rows.size(); ++i) rows[i] -= mean[i % columns];
   return mean;
@@ -135,7 +135,7 @@ void put_layer(const std::string& key, const Model& model, const std::vector<dou
   std::vector<double> rounded(weights.size());
   for (size_t i = 0; i < weights.size(); ++i) {
     const size_t f = i / outputs;
-    const double scale = static_cast<double>(model.activation_scale()[f]);
+    const double scale = model.activation_scale()[f];
     rounded[i] = from_half(to_half(static_cast<float>(weights[i] / scale)));
     answer[i % outputs] -= rounded[i] * mean[f];
   }
@@ -153,7 +153,7 @@ void put_gate(const Model& model, Table& table, const std::vector<double>& covar
   double left = 0;  // Variance beside the main directions.
   for (size_t f = 0; f < size; ++f) left += covariance[f * size + f];
   for (const double variance : main.variances) left -= variance;
-  const double others = size > count ? std::max(0.0, left) / static_cast<double>(size - count) : 0;
+  const double others = size > count ? std::max(0.0, left) / (size - count) : 0;
   const double rest = 1 / (others + penalty);
   std::vector<double> gate_weights;
   gate_weights.reserve(main.variances.size());
@@ -170,9 +170,8 @@ void put_gate(const Model& model, Table& table, const std::vector<double>& covar
     }
     leverages.push_back(leverage);
   }
-  const auto place = static_cast<size_t>(kTrusted * static_cast<double>(table.rows - 1));
-  std::nth_element(leverages.begin(), leverages.begin() + static_cast<ptrdiff_t>(place),
-                   leverages.end());
+  const auto place = static_cast<size_t>(kTrusted * (table.rows - 1));
+  std::nth_element(leverages.begin(), leverages.begin() + place, leverages.end());
   const double limit = std::max(leverages[place], 1e-6);  // A single pose has none.
   for (double& w : gate_weights) w /= limit;
 
@@ -195,12 +194,12 @@ TensorFile fit_style(const std::shared_ptr<const Model>& model, const SampleSet&
   const std::vector<double> middle = centre(table.seen, table.activations);
   const std::vector<double> answer = centre(table.answers, kLearntOutputs);
   Ridge ridge(static_cast<int>(table.activations), kLearntOutputs);
-  ridge.add(table.seen, table.answers, 1 / static_cast<double>(table.rows));
+  ridge.add(table.seen, table.answers, 1 / double(table.rows));
   // The mean posture costs nothing: rows and answers are centred.
   const std::vector<double> weights = ridge.solve(std::vector<double>(table.activations, penalty));
   std::vector<double> mean;
   for (size_t f = 0; f < table.activations; ++f) {
-    const double scale = static_cast<double>(model->activation_scale()[f]);
+    const double scale = model->activation_scale()[f];
     // As the file will hold it.
     mean.push_back(static_cast<float>(model->activation_mean()[f] + middle[f] * scale));
   }

@@ -38,15 +38,14 @@ Result<Take> take_of(const LearnClip& from) {
 // are often called like the file or the scene, and not like a part of the body.
 std::vector<std::string> joint_paths(const std::vector<Joint>& joints, const Rig& rig) {
   std::vector<bool> above(joints.size());
-  for (int joint = rig.joints()[index(HumanJoint::hips)];
-       (joint = joints[static_cast<size_t>(joint)].parent) >= 0;) {
-    above[static_cast<size_t>(joint)] = true;
+  for (int joint = rig.joints()[index(HumanJoint::hips)]; (joint = joints[joint].parent) >= 0;) {
+    above[joint] = true;
   }
   std::vector<std::string> paths;
   paths.reserve(joints.size());
   for (size_t j = 0; j < joints.size(); ++j) {
     const int parent = joints[j].parent;
-    const std::string before = parent < 0 ? "" : paths[static_cast<size_t>(parent)];
+    const std::string before = parent < 0 ? "" : paths[parent];
     paths.push_back(before + (above[j] ? "\n" : "\n" + joints[j].name));
   }
   return paths;
@@ -65,8 +64,8 @@ Result<std::vector<size_t>> match_joints(const LearnClip& neutral, const LearnCl
   const std::vector<Joint>& b = styled.clip.skeleton.joints;
   const std::string where = neutral.name + " and " + styled.name + ": have different skeletons (";
   const std::string cure =
-      "); a pair needs joints of the same names and parents: leave the neutral clip "
-      "out, or retarget the styled clip onto it";
+      "); a pair needs joints of the same names and parents: leave the neutral clip out, or "
+      "retarget the styled clip onto it";
   if (a.size() != b.size()) {
     return Error{
         where + std::to_string(a.size()) + " and " + std::to_string(b.size()) + " joints" + cure,
@@ -81,7 +80,7 @@ Result<std::vector<size_t>> match_joints(const LearnClip& neutral, const LearnCl
     if (found == after.end() || found->second.size() != same.size()) {
       const auto parent = [](const std::vector<Joint>& joints, size_t joint) {
         const int above = joints[joint].parent;
-        return above < 0 ? "nothing" : "'" + joints[static_cast<size_t>(above)].name + "'";
+        return above < 0 ? "nothing" : "'" + joints[above].name + "'";
       };
       const std::string difference =
           a[j].name == b[j].name
@@ -91,7 +90,7 @@ Result<std::vector<size_t>> match_joints(const LearnClip& neutral, const LearnCl
       return Error{where + difference + cure, ErrorKind::other_skeletons};
     }
     const auto nth = std::find(same.begin(), same.end(), j) - same.begin();
-    matches[j] = found->second[static_cast<size_t>(nth)];
+    matches[j] = found->second[nth];
   }
   return matches;
 }
@@ -102,7 +101,7 @@ std::vector<bool> joints_below_hips(const std::vector<Joint>& joints, const Rig&
   std::vector<bool> below(joints.size());
   const int hips = rig.joints()[index(HumanJoint::hips)];
   for (int joint : rig.joints()) {
-    for (; joint > hips; joint = joints[static_cast<size_t>(joint)].parent) below[joint] = true;
+    for (; joint > hips; joint = joints[joint].parent) below[joint] = true;
   }
   return below;
 }
@@ -117,7 +116,7 @@ bool rest_alike(const LearnClip& neutral, const LearnClip& styled,
     const Vec3 a = joints[j].offset, b = styled.clip.skeleton.joints[matches[j]].offset;
     const float lengths = length(a) * length(b);
     if (!in_body[j] || !(lengths > 0)) continue;
-    const double cosine = static_cast<double>(dot(a, b) / lengths);
+    const double cosine = dot(a, b) / lengths;
     const double limit = kSameRest * std::numbers::pi / 180;
     if (std::acos(std::clamp(cosine, -1.0, 1.0)) > limit) return false;
   }
@@ -140,14 +139,8 @@ Result<Take> take_onto(const LearnClip& styled, const LearnClip& neutral) {
 // The canonical body upright, with hanging arms.
 Clip standing_pose() {
   constexpr float kDown = 1.35f, kBent = 0.2f;  // Radians: upper arms, elbows.
-  Clip clip;
-  clip.skeleton = canonical_skeleton();
-  clip.resize(1);
+  Clip clip = rest_clip(canonical_skeleton());
   const Pose pose = clip.pose(0);
-  for (size_t j = 0; j < clip.joints(); ++j) {
-    pose.rotations[j] = {};
-    pose.translations[j] = clip.skeleton.joints[j].offset;
-  }
   pose.rotations[index(HumanJoint::left_upper_arm)] = axis_angle({0, 0, 1}, -kDown);
   pose.rotations[index(HumanJoint::right_upper_arm)] = axis_angle({0, 0, 1}, kDown);
   pose.rotations[index(HumanJoint::left_lower_arm)] = axis_angle({0, 1, 0}, -kBent);

@@ -55,7 +55,7 @@ std::string file_name(const std::string& path) {
 double mean_tempo(const std::vector<Pairing>& pairings) {
   double sum = 0, count = 0;
   for (const Pairing& pairing : pairings) {
-    for (const float rate : pairing.rates) sum += static_cast<double>(rate), ++count;
+    for (const float rate : pairing.rates) sum += rate, ++count;
   }
   return sum / count;
 }
@@ -72,11 +72,10 @@ std::vector<MatchedInstant> matched_instants(const std::vector<Pairing>& pairing
     const int count = static_cast<int>(pairing.neutral_frames.size());
     for (int i = 0; i < count; ++i) {
       const int frame = pairing.first + i;
-      double neutral = static_cast<double>(pairing.neutral_frames[i]);
+      double neutral = pairing.neutral_frames[i];
       if (cycle) neutral = std::fmod(std::max(neutral, 0.0), cycle);
-      const Placed placed = {
-          std::abs(i - (count - 1) / 2.0),
-          {frame / kTakeRate, neutral / kTakeRate, static_cast<double>(pairing.cost)}};
+      const Placed placed = {std::abs(i - (count - 1) / 2.0),
+                             {frame / kTakeRate, neutral / kTakeRate, pairing.cost}};
       const auto [at, is_new] = by_frame.try_emplace(frame, placed);
       if (!is_new && placed.from_middle < at->second.from_middle) at->second = placed;
     }
@@ -91,14 +90,13 @@ Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& p
                             const std::vector<Take>& takes, int neutral, int styled) {
   const std::string both = pair.neutral_name + " and " + pair.styled_name;
   const bool repeats = takes[neutral].frames() > pair.neutral.frames();
-  PairReport report{pair.neutral_name,
-                    pair.styled_name,
-                    takes[styled].frames() / kTakeRate,
-                    1,
-                    0,
-                    {},
-                    pair.twin,
-                    matched_instants(pairings, repeats ? pair.neutral_cycle : 0)};
+  PairReport report;
+  report.neutral_name = pair.neutral_name;
+  report.styled_name = pair.styled_name;
+  report.seconds = takes[styled].frames() / kTakeRate;
+  report.twin = pair.twin;
+  report.instants = matched_instants(pairings, repeats ? pair.neutral_cycle : 0);
+  const auto warn = [&](const std::string& text) { report.warnings.push_back(text); };
   if (!pairings.empty()) report.match = mean_cost(pairings);
   if (pairings.empty() || report.match > kNoMatch) {
     return Error{both + ": no match was found between them" +
@@ -110,19 +108,17 @@ Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& p
   }
   report.tempo = mean_tempo(pairings);
   if (report.match < kSameMotion) {
-    report.warnings.push_back(both +
-                              ": are the same motion, so that the style changes nothing; give a "
-                              "clip in the style as the second one");
+    warn(both +
+         ": are the same motion, so that the style changes nothing; give a clip in the style as "
+         "the second one");
   }
   if (pair.twin && !pair.twin->is_known) {
     const double trust = pair.twin->trust;
-    report.warnings.push_back(pair.styled_name +
-                              ": is unlike the neutral motion that is known, so that " +
-                              (trust < 1 ? "only " + with_decimals(100 * trust, 0) +
-                                               " % of what differs from it counts "
-                                               "as style"
-                                         : "what differs from it is not style alone") +
-                              "; give a neutral clip of the action");
+    warn(pair.styled_name + ": is unlike the neutral motion that is known, so that " +
+         (trust < 1 ? "only " + with_decimals(100 * trust, 0) +
+                          " % of what differs from it counts as style"
+                    : "what differs from it is not style alone") +
+         "; give a neutral clip of the action");
   }
   std::vector<Take> exchanged = {takes[neutral], takes[styled]};
   for (HumanPositions& body : exchanged[1].body) body = mirrored(body);
@@ -130,35 +126,33 @@ Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& p
   const bool is_mirrored =
       !other.empty() && report.match > kNearlyEqual && mean_cost(other) < kMirrored * report.match;
   if (is_mirrored) {
-    report.warnings.push_back(both +
-                              ": match better with left and right exchanged; record the action "
-                              "with the same hand or foot first in both");
+    warn(both +
+         ": match better with left and right exchanged; record the action with the same hand or "
+         "foot first in both");
   } else if (report.match > kPoorMatch) {
-    report.warnings.push_back(both + ": match badly (distance " + with_decimals(report.match, 2) +
-                              ", good is below " + with_decimals(double(kGoodMatch), 2) +
-                              "); are they of the same action, from its beginning to its end?");
+    warn(both + ": match badly (distance " + with_decimals(report.match, 2) + ", good is below " +
+         with_decimals(double(kGoodMatch), 2) +
+         "); are they of the same action, from its beginning to its end?");
   }
   const std::optional<double> in_step = step_agreement(takes, pairings);
   if (!is_mirrored && in_step && *in_step < kInStep) {
-    report.warnings.push_back(both +
-                              ": are out of step, left feet were paired with right ones in part; "
-                              "give a neutral clip of four steps or more");
+    warn(both +
+         ": are out of step, left feet were paired with right ones in part; give a neutral clip of "
+         "four steps or more");
   }
   if (report.tempo < kSlowest || report.tempo > kFastest) {
-    report.warnings.push_back(both + ": the style takes " + with_decimals(1 / report.tempo, 2) +
-                              " times as long as the neutral motion, expected " +
-                              with_decimals(1 / kFastest, 2) + " to " +
-                              with_decimals(1 / kSlowest, 2) +
-                              "; beyond that the tempo is not followed; record a neutral take "
-                              "nearer to it");
+    warn(both + ": the style takes " + with_decimals(1 / report.tempo, 2) +
+         " times as long as the neutral motion, expected " + with_decimals(1 / kFastest, 2) +
+         " to " + with_decimals(1 / kSlowest, 2) +
+         "; beyond that the tempo is not followed; record a neutral take nearer to it");
   }
   for (const bool is_neutral : {true, false}) {
     const double seconds = (is_neutral ? pair.neutral : pair.styled).frames() / kTakeRate;
     // A clip of as long has up to two frames less, by where its frames lie.
     if (seconds > kShort - 1.5 / kTakeRate || (is_neutral && pair.twin)) continue;
-    report.warnings.push_back((is_neutral ? pair.neutral_name : pair.styled_name) + ": has only " +
-                              with_decimals(seconds, 2) +
-                              " s; 2 to 3 s of a walk, or the whole of an action, teach more");
+    warn((is_neutral ? pair.neutral_name : pair.styled_name) + ": has only " +
+         with_decimals(seconds, 2) +
+         " s; 2 to 3 s of a walk, or the whole of an action, teach more");
   }
   return report;
 }
@@ -177,7 +171,7 @@ void measure(const std::shared_ptr<const Model>& model, const std::string& style
   }
   StyleNetworks networks(model);
   std::vector<float> strengths(model->styles().size()), window(set.inputs());
-  strengths[static_cast<size_t>(*model->find_style(style))] = 1;
+  strengths[*model->find_style(style)] = 1;
   networks.set_strengths(strengths);
   for (const size_t i : held_back) {
     const Sample& sample = set.samples()[i];
@@ -187,9 +181,9 @@ void measure(const std::shared_ptr<const Model>& model, const std::string& style
     const StyleDelta answer = recipe.to_change(networks.pose(), body_at(neutral, sample.frame),
                                                root_at(neutral, sample.frame));
     const auto error = [&](const StyleDelta& change) {
-      return pose_error(takes[sample.styled], sample.styled_frame, neutral, sample.frame, change)
-                 .cm /
-             static_cast<double>(held_back.size());
+      const Take& styled = takes[sample.styled];
+      return pose_error(styled, sample.styled_frame, neutral, sample.frame, change).cm /
+             held_back.size();
     };
     out.held_back_cm += error(answer);
     out.mean_posture_cm += error(unpack(mean));
@@ -241,9 +235,7 @@ Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
   if (auto good = check_style_name(style); !good) return good.error();
   Result<std::shared_ptr<const Model>> model = Model::create(file, name);
   if (!model) return model.error();
-  if (!(*model)->can_learn()) {
-    return cannot_learn(name);
-  }
+  if (!(*model)->can_learn()) return cannot_learn(name);
   if (pairs.empty()) {
     return Error{"there is nothing to learn '" + style +
                  "' from; give a neutral and a styled clip"};
@@ -320,9 +312,8 @@ Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
   if (trust == 1) gestures = find_gestures(takes, pairings);
   for (const FoundGesture& found : gestures) {
     fits[0].tensors[gesture_key(learnt.gestures.size())] = found.gesture.tensor();
-    learnt.gestures.push_back({found.gesture.name(),
-                               learnt.pairs[static_cast<size_t>(found.take) / 2].styled_name,
-                               found.start, static_cast<double>(found.gesture.seconds())});
+    learnt.gestures.push_back({found.gesture.name(), learnt.pairs[found.take / 2].styled_name,
+                               found.start, found.gesture.seconds()});
   }
   learnt.file = make_style_file(file, info, std::move(fits[0].tensors));
   return learnt;

@@ -18,6 +18,18 @@ std::string where(const ManifestRow& row) {
   return row.manifest.empty() ? "" : row.manifest + ":" + std::to_string(row.line) + ": ";
 }
 
+// The name in `names` of a row's style; null if they do not list it.
+const StyleName* find_style_name(const std::vector<StyleName>& names, const ManifestRow& row) {
+  const auto find = [&](const std::string& from) -> const StyleName* {
+    for (const StyleName& style : names) {
+      if (std::find(style.from.begin(), style.from.end(), from) != style.from.end()) return &style;
+    }
+    return nullptr;
+  };
+  const StyleName* own = row.person.empty() ? nullptr : find(row.person + "/" + row.style);
+  return own ? own : find(row.style);
+}
+
 }  // namespace
 
 Result<std::vector<ManifestRow>> read_manifest(const std::string& path, int set) {
@@ -121,17 +133,6 @@ std::vector<std::string> list_unnamed_styles(const std::vector<StyleName>& names
                     (takes == 1 ? " take)" : " takes)"));
   }
   return lines;
-}
-
-const StyleName* find_style_name(const std::vector<StyleName>& names, const ManifestRow& row) {
-  const auto find = [&](const std::string& from) -> const StyleName* {
-    for (const StyleName& style : names) {
-      if (std::find(style.from.begin(), style.from.end(), from) != style.from.end()) return &style;
-    }
-    return nullptr;
-  };
-  const StyleName* own = row.person.empty() ? nullptr : find(row.person + "/" + row.style);
-  return own ? own : find(row.style);
 }
 
 std::vector<ManifestRow> rename_styles(const std::vector<StyleName>& names,

@@ -50,9 +50,6 @@ std::vector<std::string> list_missing_files(const std::vector<ManifestRow>& rows
 std::vector<std::string> list_unnamed_styles(const std::vector<StyleName>& names,
                                              const std::vector<ManifestRow>& rows);
 
-// The name in `names` of a row's style; null if they do not list it.
-const StyleName* find_style_name(const std::vector<StyleName>& names, const ManifestRow& row);
-
 // Renames the styles of `rows`; rows of styles that `names` does not list are dropped.
 std::vector<ManifestRow> rename_styles(const std::vector<StyleName>& names,
                                        std::vector<ManifestRow> rows);

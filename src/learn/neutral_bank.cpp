@@ -81,8 +81,8 @@ std::vector<float> smoothed(const std::vector<float>& rows, int frames, int numb
   std::vector<float> out(rows.size());
   for (int f = 0; f < frames; ++f) {
     for (int k = -kSmoothed / 2; k <= kSmoothed / 2; ++k) {
-      const float* from = &rows[static_cast<size_t>(std::clamp(f + k, 0, frames - 1)) * numbers];
-      float* to = &out[static_cast<size_t>(f) * numbers];
+      const float* from = &rows[size_t(std::clamp(f + k, 0, frames - 1)) * numbers];
+      float* to = &out[size_t(f) * numbers];
       for (int n = 0; n < numbers; ++n) to[n] += from[n] / kSmoothed;
     }
   }
@@ -105,27 +105,10 @@ double motion_about(const HumanPositions& mean, const std::vector<HumanPositions
   double sum = 0;
   for (const HumanPositions& body : bodies) {
     for (int j = 0; j < kHumanJoints; ++j) {
-      sum += static_cast<double>(dot(body[j] - mean[j], body[j] - mean[j]));
+      sum += dot(body[j] - mean[j], body[j] - mean[j]);
     }
   }
-  return std::sqrt(sum / (kHumanJoints * static_cast<double>(bodies.size())));
-}
-
-Result<std::vector<float>> read_values(const TensorFile& file, const std::string& key,
-                                       int64_t columns, const std::string& name) {
-  const auto found = file.tensors.find(key);
-  if (found == file.tensors.end()) return Error{name + ": tensor '" + key + "' is missing"};
-  const Tensor& tensor = found->second;
-  if (tensor.shape.size() != 2 || tensor.shape[1] != columns || tensor.shape[0] < 1) {
-    return Error{name + ": tensor '" + key + "' has another shape; expected rows of " +
-                 std::to_string(columns) + " numbers"};
-  }
-  for (const float value : tensor.values) {
-    if (!(std::abs(value) < 1e4f)) {
-      return Error{name + ": tensor '" + key + "' holds a number that is not finite or too large"};
-    }
-  }
-  return tensor.values;
+  return std::sqrt(sum / (kHumanJoints * bodies.size()));
 }
 
 }  // namespace
@@ -141,7 +124,7 @@ void write_moment(const Take& take, float frame, float tempo, std::span<float> o
     bodies[t] = body_at(take, at);
     roots[t] = root_at(take, at);
     for (float& number : roots[t]) number = bounded(number / tempo, 3);
-    contacts[t] = take.contacts[static_cast<size_t>(std::lround(at))];
+    contacts[t] = take.contacts[std::lround(at)];
   }
   HumanPositions mean{};
   std::array<float, kHumanJoints> amplitude{};
@@ -228,9 +211,10 @@ Result<std::shared_ptr<const NeutralBank>> NeutralBank::parse(std::string_view b
         Part{"directions", kDirections, bank->directions_}, Part{"rows", kRow, bank->rows_},
         Part{"rows.scale", kRow, scale}, Part{"rows.offset", kRow, offset},
         Part{"people", kPeople, people}, Part{"known", 1, known}}) {
-    Result<std::vector<float>> read = read_values(*file, key, columns, name);
+    constexpr float kTooLarge = 1e4f;
+    const auto read = find_tensor(*file, key, {-1, columns}, name, kTooLarge);
     if (!read) return read.error();
-    values = *std::move(read);
+    values = (*read)->values;
   }
   const size_t count = people.size() / kPeople;
   if (bank->directions_.size() != size_t(kMomentFeatures) * kDirections ||
@@ -281,27 +265,27 @@ NeutralTwin NeutralBank::twin(const Take& styled) const {
     for (int f = 0; f < styled.frames(); f += kTempoStride, ++count) {
       std::array<Near, 1> near;
       find(styled, static_cast<float>(f), tempo, near);
-      sum += static_cast<double>(std::sqrt(near[0].distance));
+      sum += std::sqrt(near[0].distance);
     }
     const double mean = sum / count;
     if (tempo == 1) {
       best = mean * kNearer;
-      unlike = mean / static_cast<double>(known_);
+      unlike = mean / known_;
     } else if (mean < best) {
       best = mean;
-      out.tempo = static_cast<double>(tempo);
+      out.tempo = tempo;
     }
   }
   const auto tempo = static_cast<float>(out.tempo);
   const int frames = 1 + static_cast<int>(static_cast<float>(styled.frames() - 1) * tempo);
   constexpr int kNumbers = kPoseNumbers + kHumanJoints;  // A pose, and deviations squared.
-  std::vector<float> rows(static_cast<size_t>(frames) * kNumbers);
-  std::vector<std::array<Near, kNearest>> nearest(static_cast<size_t>(frames));
+  std::vector<float> rows(size_t(frames) * kNumbers);
+  std::vector<std::array<Near, kNearest>> nearest(frames);
   parallel_for(frames, [&](int f) {
     find(styled, static_cast<float>(f) / tempo, tempo, nearest[f]);
     float all = 0;
     for (const Near& near : nearest[f]) all += 1 / (near.distance + kNearestFloor);
-    float* numbers = &rows[static_cast<size_t>(f) * kNumbers];
+    float* numbers = &rows[size_t(f) * kNumbers];
     for (const Near& near : nearest[f]) {
       const float share = 1 / (near.distance + kNearestFloor) / all;
       const float* pose = row(near.prototype) + kDirections;
@@ -313,7 +297,7 @@ NeutralTwin NeutralBank::twin(const Take& styled) const {
   std::set<int> people;
   for (const auto& found : nearest) {
     for (const Near& near : found) {
-      const int* of = &people_[static_cast<size_t>(near.prototype) * kPeople];
+      const int* of = &people_[size_t(near.prototype) * kPeople];
       std::copy_if(of, of + kPeople, std::inserter(people, people.end()),
                    [](int person) { return person >= 0; });
     }
@@ -322,7 +306,7 @@ NeutralTwin NeutralBank::twin(const Take& styled) const {
   rows = smoothed(rows, frames, kNumbers);
   HumanPositions variance{};  // Of each joint, in x.
   for (int f = 0; f < frames; ++f) {
-    const float* numbers = &rows[static_cast<size_t>(f) * kNumbers];
+    const float* numbers = &rows[size_t(f) * kNumbers];
     out.take.body.push_back(read_positions({numbers, kPoseNumbers}));
     for (int j = 0; j < kHumanJoints; ++j) {
       variance[j].x += numbers[kPoseNumbers + j] / static_cast<float>(frames);
@@ -342,8 +326,8 @@ NeutralTwin NeutralBank::twin(const Take& styled) const {
     const float square = dot(apart, apart), between = kPostureShare * variance[j].x;
     const float kept = between / std::max(square, std::max(between, 1e-9f));
     for (HumanPositions& body : out.take.body) body[j] = body[j] + apart * kept;
-    style += static_cast<double>((1 - kept) * square);
-    all += static_cast<double>(square);
+    style += (1 - kept) * square;
+    all += square;
   }
   out.facts.certainty = all > 0 ? out.facts.trust * style / all : 0;
   RootPose root;
@@ -352,7 +336,7 @@ NeutralTwin NeutralBank::twin(const Take& styled) const {
     HumanPositions& body = out.take.body[f];
     body = whole_body(body);
     canonical_frames(body, 0, out.take.rotations.emplace_back());
-    const float* numbers = &rows[static_cast<size_t>(f) * kNumbers + kRootBegin];
+    const float* numbers = &rows[size_t(f) * kNumbers + kRootBegin];
     if (f > 0) {
       root = move_root(root, std::span<const float, kRootFeatures>(numbers, kRootFeatures),
                        1 / kTakeRate);

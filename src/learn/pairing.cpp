@@ -287,8 +287,7 @@ std::optional<double> step_agreement(const std::vector<Take>& takes,
   const auto ahead = [](const Take& take, float frame) {
     const HumanPositions& body =
         take.body[std::clamp(static_cast<int>(std::lround(frame)), 0, take.frames() - 1)];
-    return static_cast<double>(body[index(HumanJoint::left_foot)].z -
-                               body[index(HumanJoint::right_foot)].z);
+    return double(body[index(HumanJoint::left_foot)].z - body[index(HumanJoint::right_foot)].z);
   };
   double sum = 0, most = 0, neutral_way = 0, styled_way = 0, count = 0;
   for (const Pairing& pairing : pairings) {
@@ -360,7 +359,7 @@ std::vector<Pairing> pair_takes(const std::vector<Take>& takes, const std::vecto
     found[i] = pair_take(*job.styled, job.which, neutral_groups[job.reference],
                          tracks[job.reference], options);
     const int count = ++done;
-    if (progress) progress(static_cast<double>(count) / static_cast<double>(jobs.size()));
+    if (progress) progress(double(count) / jobs.size());
   });
   std::vector<Pairing> pairings;
   for (std::vector<Pairing>& some : found) {

@@ -29,17 +29,17 @@ void write_statistics(const StyleNetworks& networks, const Take& take, int first
   const PoseLayout layout = networks.model().layout();
   const int numbers = pose_feature_count(layout);
   const size_t activations = networks.model().activation_count();
-  const size_t count = activations + static_cast<size_t>(numbers);
+  const size_t count = activations + numbers;
   const std::span<float> mean = out.first(count), deviation = out.subspan(count, count);
   std::fill(out.begin(), out.end(), 0.0f);
-  std::vector<float> window(static_cast<size_t>(kWindowPoses * numbers)), now(count);
+  std::vector<float> window(kWindowPoses * numbers), now(count);
   const int last = std::min(first + kRecognisedFrames, take.frames());
   int instants = 0;
   for (int f = first; f < last; f += kStride, ++instants) {
     take_window(take, static_cast<float>(f), numbers, window);
     if (mirrored) mirror_poses(layout, window);
     networks.activations(window, std::span(now).first(activations));
-    std::copy_n(window.begin(), numbers, now.begin() + static_cast<std::ptrdiff_t>(activations));
+    std::copy_n(window.begin(), numbers, now.begin() + activations);
     for (size_t n = 0; n < count; ++n) {
       mean[n] += now[n];
       deviation[n] += now[n] * now[n];
@@ -98,7 +98,7 @@ Result<std::vector<StyleShare>> recognise_styles(const std::shared_ptr<const Mod
 void write_shares(std::span<const StyleShare> shares, std::span<float> out) noexcept {
   std::fill(out.begin(), out.end(), 0.0f);
   for (const auto& [style, share] : shares) {
-    out[style < 0 ? out.size() - 1 : static_cast<size_t>(style)] = share;
+    out[style < 0 ? int(out.size()) - 1 : style] = share;
   }
 }
 

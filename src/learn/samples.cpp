@@ -134,7 +134,7 @@ SampleSet::SampleSet(const std::vector<Take>& takes, const std::vector<Pairing>&
 
 void SampleSet::add_target(const Take& styled, int frame, const Take& neutral, float at,
                            float rate) {
-  targets_.resize(targets_.size() + static_cast<size_t>(outputs()));
+  targets_.resize(targets_.size() + outputs());
   recipe_.write_target(change_between(styled, frame, neutral, at, rate), body_at(neutral, at),
                        root_at(neutral, at), std::span(targets_).last(outputs()));
 }

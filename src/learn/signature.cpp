@@ -98,18 +98,16 @@ SignatureMatch& SignatureMatch::operator+=(const SignatureMatch& other) {
   return *this;
 }
 
-double SignatureMatch::sign_share() const {
-  return traits > 0 ? static_cast<double>(sign) / static_cast<double>(traits) : kNothing;
-}
+double SignatureMatch::sign_share() const { return traits > 0 ? double(sign) / traits : kNothing; }
 
 double SignatureMatch::amount_share() const {
-  return traits > 0 ? static_cast<double>(amount) / static_cast<double>(traits) : kNothing;
+  return traits > 0 ? double(amount) / traits : kNothing;
 }
 
 Traits SignatureMatch::mean_change() const {
   Traits mean;
   for (size_t t = 0; t < mean.size(); ++t) {
-    mean[t] = takes > 0 ? change[t] / static_cast<double>(takes) : kNothing;
+    mean[t] = takes > 0 ? change[t] / takes : kNothing;
   }
   return mean;
 }
@@ -165,15 +163,13 @@ Signature Signatures::agree(const std::vector<Traits>& actions) {
   for (size_t t = 0; t < kTraits.size(); ++t) {
     double sum = 0, squares = 0;
     for (const Traits& action : actions) sum += action[t];
-    const double mean = sum / static_cast<double>(actions.size());
+    const double mean = sum / actions.size();
     for (const Traits& action : actions) squares += (action[t] - mean) * (action[t] - mean);
-    signature.deviation[t] = std::sqrt(squares / static_cast<double>(actions.size()));
+    signature.deviation[t] = std::sqrt(squares / actions.size());
     const auto same = std::count_if(actions.begin(), actions.end(),
                                     [&](const Traits& action) { return action[t] * mean > 0; });
     signature.change[t] = mean;
-    signature.certain[t] =
-        std::abs(mean) >= kTraits[t].least &&
-        static_cast<double>(same) >= kAgree * static_cast<double>(actions.size());
+    signature.certain[t] = std::abs(mean) >= kTraits[t].least && same >= kAgree * actions.size();
   }
   return signature;
 }
@@ -189,7 +185,7 @@ SignatureMatch Signatures::real(const std::string& style) const {
   if (found == actions_.end() || found->second.size() < 3) return match;
   for (size_t left_out = 0; left_out < found->second.size(); ++left_out) {
     std::vector<Traits> others = found->second;
-    others.erase(others.begin() + static_cast<long>(left_out));
+    others.erase(others.begin() + left_out);
     match.add(agree(others), found->second[left_out]);
   }
   return match;

@@ -31,6 +31,19 @@ constexpr std::array kLearntTensors = {"head.weight", "head.bias",   "head.scale
                                        "mean",        "gate.weight", "gate.bias",
                                        "gate.scale",  "gate.worth",  "gate.rest"};
 
+// The texts of a style: in the metadata of its file, and as a line of a list in that of a model.
+struct StyleText {
+  const char *key, *list;
+  std::string StyleInfo::*entry;
+};
+constexpr StyleText kTexts[] = {{"style", "styles", &StyleInfo::name},
+                                {"description", "style_descriptions", &StyleInfo::description},
+                                {"origin", "style_origins", &StyleInfo::origin},
+                                {"group", "style_groups", &StyleInfo::group},
+                                {"source", "style_sources", &StyleInfo::source},
+                                {"style_licence", "style_licences", &StyleInfo::licence},
+                                {"thumbnail", "style_thumbnails", &StyleInfo::thumbnail}};
+
 using Tensors = std::map<std::string, Tensor>;
 
 // A style with its tensors, which are named as in a style file.
@@ -83,24 +96,17 @@ Parts take_apart(const TensorFile& model, const Model& parsed) {
 
 // The lists of styles that a model carries as text.
 void write_lists(const std::vector<Style>& styles, std::map<std::string, std::string>& metadata) {
-  // Lists without an entry are left out, but for the first two.
-  const auto write = [&](const char* key, std::string StyleInfo::*entry, bool always = false) {
+  for (const auto& [key, list, entry] : kTexts) {
     std::string lines;
-    bool any = always;
+    // Lists without an entry are left out, but for the first two.
+    bool any = entry == &StyleInfo::name || entry == &StyleInfo::description;
     for (const Style& style : styles) {
       lines += style.info.*entry + "\n";
       any = any || !(style.info.*entry).empty();
     }
-    metadata.erase(key);
-    if (any) metadata[key] = lines;
-  };
-  write("styles", &StyleInfo::name, true);
-  write("style_descriptions", &StyleInfo::description, true);
-  write("style_origins", &StyleInfo::origin);
-  write("style_groups", &StyleInfo::group);
-  write("style_sources", &StyleInfo::source);
-  write("style_licences", &StyleInfo::licence);
-  write("style_thumbnails", &StyleInfo::thumbnail);
+    metadata.erase(list);
+    if (any) metadata[list] = lines;
+  }
 }
 
 TensorFile put_together(Parts parts) {
@@ -157,7 +163,7 @@ Result<Opened> open_at(const TensorFile& model, const std::string& style, const 
   if (auto heads = check_has_heads(**parsed, name); !heads) return heads.error();
   Result<int> index = (*parsed)->find_style(style);
   if (!index) return index.error();
-  return Opened{take_apart(model, **parsed), static_cast<size_t>(*index)};
+  return Opened{take_apart(model, **parsed), size_t(*index)};
 }
 
 }  // namespace
@@ -204,9 +210,7 @@ Result<void> check_style_name(const std::string& name) {
     return Error{where + "begins or ends with a space"};
   }
   if (name.starts_with('-')) return Error{where + "must not start with '-'"};
-  std::string lower = name;
-  for (char& c : lower) c = lower_case(c);
-  if (lower == "neutral") {
+  if (lower_case(name) == "neutral") {
     return Error{where + "is the name of motion without a style"};
   }
   if (name == "seconds") {
@@ -229,10 +233,9 @@ Result<StyleInfo> read_style_info(const TensorFile& file, const std::string& nam
     return Error{name + ": is a style file of format version " + quoted(version) +
                  "; this program reads version " + kStyleVersion};
   }
-  StyleInfo info{metadata_of(file, "style"),         metadata_of(file, "description"),
-                 metadata_of(file, "origin"),        file.tensors.contains("head.weight"),
-                 metadata_of(file, "group"),         metadata_of(file, "source"),
-                 metadata_of(file, "style_licence"), metadata_of(file, "thumbnail")};
+  StyleInfo info;
+  info.learnt = file.tensors.contains("head.weight");
+  for (const auto& [key, list, entry] : kTexts) info.*entry = metadata_of(file, key);
   if (auto fit = check_style_name(info.name); !fit) return located(name, fit.error());
   for (const char* key : {"description", "origin", "group", "source", "style_licence", "thumbnail",
                           "trunk", "data", "licence"}) {
@@ -259,17 +262,12 @@ TensorFile make_style_file(const TensorFile& model, const StyleInfo& info,
   TensorFile file;
   file.metadata = {{"format", kStyleFormat},
                    {"format_version", kStyleVersion},
-                   {"style", info.name},
-                   {"description", in_one_line(info.description)},
-                   {"origin", in_one_line(info.origin)},
                    {"trunk", trunk_fingerprint(model)}};
-  const std::pair<const char*, const std::string&> more[] = {{"group", info.group},
-                                                             {"source", info.source},
-                                                             {"style_licence", info.licence},
-                                                             {"thumbnail", info.thumbnail}};
-  for (const auto& [key, text] : more) {
-    if (!text.empty()) file.metadata[key] = in_one_line(text);
+  for (const auto& [key, list, entry] : kTexts) {
+    const bool always = entry == &StyleInfo::description || entry == &StyleInfo::origin;
+    if (always || !(info.*entry).empty()) file.metadata[key] = in_one_line(info.*entry);
   }
+  file.metadata["style"] = info.name;
   for (const char* key : {"data", "licence"}) {
     if (model.metadata.contains(key)) file.metadata[key] = model.metadata.at(key);
   }
@@ -299,12 +297,11 @@ Result<TensorFile> add_style(const TensorFile& model, const std::string& name,
   if (auto heads = check_has_heads(**parsed, name); !heads) return heads.error();
   const std::string trunk = trunk_fingerprint(model), made_for = metadata_of(style, "trunk");
   if (trunk != made_for) {
-    return Error{
-        style_name + ": is a style of another model (its trunk is " + quoted(made_for) +
-            ", that of " + name + " is " + quoted(trunk) +
-            "); use it with the model that it was made with or the int8 version of that model, "
-            "or learn it again with this one",
-        ErrorKind::style_of_another};
+    return Error{style_name + ": is a style of another model (its trunk is " + quoted(made_for) +
+                     ", that of " + name + " is " + quoted(trunk) +
+                     "); use it with the model that it was made with or the int8 version of that "
+                     "model, or learn it again with this one",
+                 ErrorKind::style_of_another};
   }
   Parts parts = take_apart(model, **parsed);
   std::vector<Style>& styles = parts.styles;
@@ -350,7 +347,7 @@ Result<TensorFile> remove_style(const TensorFile& model, const std::string& styl
   if (parts.styles.size() == 1) {
     return Error{name + ": has no style but '" + style + "'; a model keeps at least one"};
   }
-  parts.styles.erase(parts.styles.begin() + static_cast<ptrdiff_t>(opened->style));
+  parts.styles.erase(parts.styles.begin() + opened->style);
   return put_together(std::move(parts));
 }
 
@@ -364,7 +361,7 @@ Result<TensorFile> rename_style(const TensorFile& model, const std::string& from
   if ((*parsed)->find_style(to)) return Error{name + ": has a style '" + to + "' already"};
   std::vector<Style> styles;
   for (const StyleInfo& info : (*parsed)->styles()) styles.push_back({info, {}});
-  styles[static_cast<size_t>(*index)].info.name = to;
+  styles[*index].info.name = to;
   TensorFile renamed = model;
   write_lists(styles, renamed.metadata);
   return renamed;

@@ -31,7 +31,7 @@ Place place(Vec3 joint, int figure) {
 std::string line(const HumanPositions& body, int figure, std::initializer_list<HumanJoint> joints) {
   std::string path;
   for (const HumanJoint joint : joints) {
-    const auto [x, y] = place(body[static_cast<size_t>(index(joint))], figure);
+    const auto [x, y] = place(body[index(joint)], figure);
     path += (path.empty() ? "M" : "L") + std::to_string(x) + " " + std::to_string(y);
   }
   return path;
@@ -42,7 +42,7 @@ std::string stroke(const std::string& path, const char* colour) {
 }
 
 std::string figure(const HumanPositions& body, int number) {
-  const auto [x, y] = place(body[static_cast<size_t>(index(head))], number);
+  const auto [x, y] = place(body[index(head)], number);
   return stroke(line(body, number, {left_shoulder, left_upper_arm, left_lower_arm, left_hand}) +
                     line(body, number, {left_upper_leg, left_lower_leg, left_foot, left_toes}),
                 kLight) +

@@ -2,68 +2,17 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "net/dense.h"
 #include "net/dense_int8.h"
 
 namespace panache {
-namespace {
-
-std::string quoted_shape(const std::vector<int64_t>& shape) {
-  std::string text = "[";
-  for (const int64_t size : shape) {
-    if (text.size() > 1) text += ", ";
-    text += size < 0 ? "any" : std::to_string(size);
-  }
-  return text + "]";
-}
-
-// The tensor called `key`, if its shape is `expected` (-1 for any size above zero) and its numbers
-// are finite.
-Result<const Tensor*> find_tensor(const TensorFile& file, const std::string& key,
-                                  const std::vector<int64_t>& expected, const std::string& name) {
-  const auto found = file.tensors.find(key);
-  if (found == file.tensors.end()) return Error{name + ": tensor '" + key + "' is missing"};
-  const Tensor& tensor = found->second;
-  bool fits = tensor.shape.size() == expected.size();
-  for (size_t i = 0; fits && i < expected.size(); ++i) {
-    const int64_t size = tensor.shape[i];
-    fits =
-        expected[i] < 0 ? size > 0 && size <= std::numeric_limits<int>::max() : size == expected[i];
-  }
-  if (!fits) {
-    return Error{name + ": tensor '" + key + "' has shape " + quoted_shape(tensor.shape) +
-                 "; expected " + quoted_shape(expected)};
-  }
-  const auto bad = std::find_if(tensor.values.begin(), tensor.values.end(),
-                                [](float v) { return !std::isfinite(v); });
-  if (bad != tensor.values.end()) {
-    return Error{name + ": tensor '" + key + "' holds a number that is not finite (number " +
-                 std::to_string(bad - tensor.values.begin()) + ")"};
-  }
-  return &tensor;
-}
-
-}  // namespace
-
 Result<std::vector<float>> read_vector(const TensorFile& file, const std::string& key, int size,
                                        const std::string& name) {
-  const auto found = file.tensors.find(key);
-  if (found == file.tensors.end()) return Error{name + ": tensor '" + key + "' is missing"};
-  const Tensor& tensor = found->second;
-  if (tensor.shape != std::vector<int64_t>{size}) {
-    return Error{name + ": tensor '" + key + "' has " + std::to_string(tensor.values.size()) +
-                 " numbers; expected shape [" + std::to_string(size) + "]"};
-  }
-  for (const float v : tensor.values) {
-    if (!std::isfinite(v)) {
-      return Error{name + ": tensor '" + key + "' holds a number that is not finite"};
-    }
-  }
-  return tensor.values;
+  const Result<const Tensor*> tensor = find_tensor(file, key, {size}, name);
+  if (!tensor) return tensor.error();
+  return (*tensor)->values;
 }
 
 Result<DenseLayer> read_layer(const TensorFile& file, const std::string& prefix, int inputs,

@@ -13,6 +13,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/little_endian.h"
+
 namespace panache {
 namespace {
 
@@ -48,9 +50,13 @@ std::string in_quotes(std::string_view text) {
   return out += '\'';
 }
 
-std::string shape_text(const std::vector<uint64_t>& shape) {
+template <class Size>
+std::string shape_text(const std::vector<Size>& shape) {
   std::string text = "[";
-  for (const uint64_t size : shape) text += (text.size() > 1 ? ", " : "") + std::to_string(size);
+  for (const Size size : shape) {
+    text += (text.size() > 1 ? ", " : "") +
+            (std::is_signed_v<Size> && size == Size(-1) ? "any" : std::to_string(size));
+  }
   return text + "]";
 }
 
@@ -193,16 +199,6 @@ class HeaderReader : public nlohmann::json_sax<nlohmann::json> {
   std::vector<uint64_t>* numbers_ = nullptr;  // The list being filled.
 };
 
-uint64_t read_little_endian(std::string_view bytes) {
-  uint64_t value = 0;
-  for (size_t i = bytes.size(); i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[i]);
-  return value;
-}
-
-void append_little_endian(uint64_t value, size_t bytes, std::string& out) {
-  for (size_t i = 0; i < bytes; ++i) out += static_cast<char>(value >> (8 * i) & 0xff);
-}
-
 // The tensor that `entry` describes, once type, shape and place in `data` agree.
 Result<Tensor> read_tensor(const Entry& entry, std::string_view data, const std::string& name) {
   const std::string where = name + ": tensor " + in_quotes(entry.name);
@@ -235,7 +231,7 @@ Result<Tensor> read_tensor(const Entry& entry, std::string_view data, const std:
   }
   tensor.values.resize(count);
   for (size_t i = 0; i < count; ++i) {
-    const uint64_t bits = read_little_endian(data.substr(begin + i * width, width));
+    const uint64_t bits = little_endian(data.substr(begin + i * width, width));
     tensor.values[i] = tensor.int8   ? static_cast<float>(static_cast<int8_t>(bits))
                        : tensor.half ? from_half(static_cast<uint16_t>(bits))
                                      : std::bit_cast<float>(static_cast<uint32_t>(bits));
@@ -292,13 +288,36 @@ std::string json_text(const std::string& text) {
 
 }  // namespace
 
+Result<const Tensor*> find_tensor(const TensorFile& file, const std::string& key,
+                                  const std::vector<int64_t>& shape, const std::string& name,
+                                  float limit) {
+  const std::string where = name + ": tensor '" + key + "' ";
+  const auto found = file.tensors.find(key);
+  if (found == file.tensors.end()) return Error{where + "is missing"};
+  const Tensor& tensor = found->second;
+  const auto fits = [](int64_t size, int64_t expected) {
+    return expected < 0 ? size > 0 && size <= std::numeric_limits<int>::max() : size == expected;
+  };
+  if (!std::equal(tensor.shape.begin(), tensor.shape.end(), shape.begin(), shape.end(), fits)) {
+    return Error{where + "has shape " + shape_text(tensor.shape) + "; expected " +
+                 shape_text(shape)};
+  }
+  const auto bad = std::find_if_not(tensor.values.begin(), tensor.values.end(), [&](float v) {
+    return std::isfinite(v) && std::abs(v) < limit;
+  });
+  if (bad == tensor.values.end()) return &tensor;
+  return Error{where + "holds a number that is " +
+               (std::isfinite(*bad) ? "too large" : "not finite") + " (number " +
+               std::to_string(bad - tensor.values.begin()) + ")"};
+}
+
 Result<TensorFile> parse_safetensors(std::string_view bytes, const std::string& name) {
   if (bytes.size() < kLengthBytes) {
     return Error{name + ": has " + std::to_string(bytes.size()) +
                  " bytes; expected a safetensors file, which starts with the 8-byte length of its "
                  "header"};
   }
-  const uint64_t length = read_little_endian(bytes.substr(0, kLengthBytes));
+  const uint64_t length = little_endian(bytes.substr(0, kLengthBytes));
   const std::string_view rest = bytes.substr(kLengthBytes);
   if (length > kMaxHeaderBytes) {
     return Error{name + ": does not start with the length of a header (at most " +
@@ -358,8 +377,8 @@ std::string format_safetensors(const TensorFile& file) {
       append_values(tensor, data);
       std::string fields;
       member(fields, "dtype", json_text(type));
-      member(fields, "shape", shape_text({tensor.shape.begin(), tensor.shape.end()}));
-      member(fields, "data_offsets", shape_text({begin, data.size()}));
+      member(fields, "shape", shape_text(tensor.shape));
+      member(fields, "data_offsets", shape_text(std::vector{begin, data.size()}));
       member(header, key, fields + "}");
     }
   }

@@ -2,6 +2,7 @@
 // The safetensors container: named arrays of numbers and a table of texts.
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -22,6 +23,12 @@ struct TensorFile {
   std::map<std::string, std::string> metadata;
   std::map<std::string, Tensor> tensors;
 };
+
+// The tensor called `key`, if its shape is this (-1 for any size above zero) and its numbers are
+// finite and smaller than `limit`. `name` stands in front of the message of a failure.
+Result<const Tensor*> find_tensor(const TensorFile& file, const std::string& key,
+                                  const std::vector<int64_t>& shape, const std::string& name,
+                                  float limit = std::numeric_limits<float>::infinity());
 
 // Reads a safetensors file (types F32, F16 and I8). Every count is bounded by the bytes that are
 // there; `name` stands in front of the message of a failure.

@@ -37,7 +37,7 @@ std::string finger_of(const JointName& name) {
     const bool from_0 = name.words[i] == "finger", from_1 = name.words[i] == "digit";
     if (!from_0 && !from_1) continue;
     const int number = name.words[i + 1].front() - '0' - (from_1 ? 1 : 0);
-    if (number >= 0 && number < 5) return std::string(kFingers[static_cast<size_t>(number)]);
+    if (number >= 0 && number < 5) return std::string(kFingers[number]);
   }
   return "";
 }
@@ -46,13 +46,13 @@ std::string finger_of(const JointName& name) {
 std::map<Row, std::vector<int>> find_rows(const Skeleton& skeleton, const Rig& rig) {
   std::vector<int> human(skeleton.joints.size(), -1);
   for (int j = 0; j < kHumanJoints; ++j) {
-    if (rig.joints()[j] >= 0) human[static_cast<size_t>(rig.joints()[j])] = j;
+    if (rig.joints()[j] >= 0) human[rig.joints()[j]] = j;
   }
   std::map<Row, std::vector<int>> rows;
   for (size_t i = 0; i < skeleton.joints.size(); ++i) {
     const Joint& joint = skeleton.joints[i];
     if (human[i] >= 0 || joint.parent < 0) continue;
-    human[i] = human[static_cast<size_t>(joint.parent)];
+    human[i] = human[joint.parent];
     if (human[i] < 0 || !joint.can_rotate) continue;
     const JointName name = parse_joint_name(joint.role.empty() ? joint.name : joint.role);
     const bool on_hand =

@@ -115,7 +115,7 @@ class Finder {
     for (const BodyPose& body : motion_) heights.push_back(toes_height(body.joints));
     const auto low = static_cast<long>(kFloorShare * static_cast<float>(heights.size() - 1));
     std::nth_element(heights.begin(), heights.begin() + low, heights.end());
-    out_.motion_toes = heights[static_cast<size_t>(low)];
+    out_.motion_toes = heights[low];
     const float plane = -rig_.floor();
     const float rest = toes_height(rest_.joints);
     const bool near_plane = std::abs(rest - plane) < kNearPlane * out_.leg;

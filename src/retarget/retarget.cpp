@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "clip/fk.h"
+#include "clip/clip.h"
 #include "pose/contacts.h"
 #include "pose/changed_joints.h"
 #include "pose/hand_contacts.h"
@@ -42,7 +42,8 @@ class Retargeter {
     // From here on the floor is where these toes are.
     for (Vec3& p : body_.joints) p.y -= toes_at_rest_;
     first_ = std::min(rig.first_frame(), motion.frames - 1);
-    measure_rest();
+    world_pose(motion_.skeleton, world_.pose(0), world_.pose(0));
+    from_rest_ = world_.rotations;
   }
 
   Retargeted run() {
@@ -59,17 +60,11 @@ class Retargeter {
     if (options_.feet) hold_feet(body_, seconds, frames_);
     Clip out{character_.skeleton, motion_.frame_time, 0, {}, {}};
     out.resize(static_cast<int>(frames_.size()));
-    for (int f = 0; f < out.frames; ++f) write(frames_[static_cast<size_t>(f)].change, f, out);
+    for (int f = 0; f < out.frames; ++f) write(frames_[f].change, f, out);
     return {std::move(out), std::move(contacts)};
   }
 
  private:
-  // The rotations that the rest poses have below each human joint, relative to it.
-  void measure_rest() {
-    world_pose(motion_.skeleton, world_.pose(0), world_.pose(0));
-    from_rest_ = world_.rotations;
-  }
-
   // How each joint of the motion is turned against the T-pose. Torsos bend elsewhere in other rigs:
   // theirs points where the joints are, and twists as the motion's own joints do.
   std::array<Quat, kHumanJoints> turns_of(const RotatedBodyPose& from) const {
@@ -166,11 +161,10 @@ class Retargeter {
   void turn_further_joints(int frame, const Pose& pose) {
     world_pose(motion_.skeleton, motion_.pose(first_ + frame), world_.pose(0));
     for (const JointPair& pair : further_) {
-      const int from_human = joint_of(from_.rig(), pair.human);
-      const int onto_human = joint_of(onto_rig_, pair.human);
+      const int from_human = from_.rig().joints()[pair.human];
+      const int onto_human = onto_rig_.joints()[pair.human];
       const auto relative = [&](const std::vector<Quat>& world, int joint) {
-        return conjugate(world[static_cast<size_t>(from_human)]) *
-               world[static_cast<size_t>(joint)];
+        return conjugate(world[from_human]) * world[joint];
       };
       const Quat turned =
           relative(world_.rotations, pair.from) * conjugate(relative(from_rest_, pair.from));
@@ -179,20 +173,17 @@ class Retargeter {
       // The joint against its human joint, and what lies between them.
       Quat above, rest;
       chain(pair.onto, onto_human, pose, above, rest);
-      pose.rotations[static_cast<size_t>(pair.onto)] =
-          normalized(conjugate(above) * in_onto * rest);
+      pose.rotations[pair.onto] = normalized(conjugate(above) * in_onto * rest);
     }
   }
-  static int joint_of(const Rig& rig, int human) { return rig.joints()[human]; }
 
   // above: from the human joint to the joint's parent in the pose; rest: to the joint, at rest.
   void chain(int joint, int human, const Pose& pose, Quat& above, Quat& rest) const {
     const auto& joints = character_.skeleton.joints;
-    rest = joints[static_cast<size_t>(joint)].rest;
-    for (int up = joints[static_cast<size_t>(joint)].parent; up != human && up >= 0;
-         up = joints[static_cast<size_t>(up)].parent) {
-      above = pose.rotations[static_cast<size_t>(up)] * above;
-      rest = joints[static_cast<size_t>(up)].rest * rest;
+    rest = joints[joint].rest;
+    for (int up = joints[joint].parent; up != human && up >= 0; up = joints[up].parent) {
+      above = pose.rotations[up] * above;
+      rest = joints[up].rest * rest;
     }
   }
 

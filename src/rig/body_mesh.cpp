@@ -27,7 +27,7 @@ Shares shares_at(const BodySurface& surface, Vec3 point,
   float sum = 0;
   for (size_t j = 0; j < kHumanJoints; ++j) {
     const float share = std::exp((nearest - distances[j]) / kSharpness);
-    out[static_cast<size_t>(movers[j])] += share;
+    out[movers[j]] += share;
     sum += share;
   }
   for (float& share : out) share /= sum;
@@ -57,8 +57,8 @@ void smooth(const TriangleMesh& mesh, int steps, std::vector<Shares>& shares) {
 // The largest shares as bytes that add up to 255.
 void add_weights(const Shares& shares, BodyMesh& out) {
   std::array<int, kHumanJoints> order;
-  for (int j = 0; j < kHumanJoints; ++j) order[static_cast<size_t>(j)] = j;
-  const auto share = [&](int j) { return shares[static_cast<size_t>(j)]; };
+  for (int j = 0; j < kHumanJoints; ++j) order[j] = j;
+  const auto share = [&](int j) { return shares[j]; };
   std::partial_sort(order.begin(), order.begin() + kSkinJoints, order.end(),
                     [&](int a, int b) { return share(a) > share(b); });
   float sum = 0;

@@ -11,38 +11,10 @@ namespace {
 
 bool moves(const Joint& joint) { return !joint.still; }
 
-}  // namespace
-
-bool moves_humanoid(const Skeleton& joints, const Rig& rig) {
-  for (int joint : rig.joints()) {
-    for (; joint >= 0; joint = joints.joints[static_cast<size_t>(joint)].parent) {
-      if (moves(joints.joints[static_cast<size_t>(joint)])) return true;
-    }
-  }
-  return false;
-}
-
-bool is_pose(const std::string& name, int frames) {
-  if (frames < 2) return true;
-  // "pose" after a kind of it, in one word or two, or nothing but "rest".
-  const std::vector<std::string> words = without_number(parse_joint_name(name).words);
-  for (size_t i = 0; i < words.size(); ++i) {
-    for (const char* kind : {"t", "rest", "bind", "reference"}) {
-      if (words[i] == std::string(kind) + "pose") return true;
-      if (words[i] == kind && i + 1 < words.size() && words[i + 1] == "pose") return true;
-    }
-  }
-  return words.size() == 1 && (words[0] == "rest" || words[0] == "apose");
-}
-
-namespace {
-
 // Those of `out.clips` that are poses go to `out.poses`, unless nothing else is there.
 BodyMotions without_poses(const MotionFile& file, BodyMotions out) {
   const std::vector<std::string> names = file.clip_names();
-  const auto pose = [&](int i) {
-    return is_pose(names[static_cast<size_t>(i)], file.clip(i).frames);
-  };
+  const auto pose = [&](int i) { return is_pose(names[i], file.clip(i).frames); };
   if (std::all_of(out.clips.begin(), out.clips.end(), pose)) return out;
   std::copy_if(out.clips.begin(), out.clips.end(), std::back_inserter(out.poses), pose);
   std::erase_if(out.clips, pose);
@@ -70,14 +42,6 @@ BodyMotions find_moving(const MotionFile& file, const RigOptions& options) {
   return out;
 }
 
-}  // namespace
-
-BodyMotions find_body_motions(const MotionFile& file, const RigOptions& options) {
-  return without_poses(file, find_moving(file, options));
-}
-
-namespace {
-
 // "'a', 'b' and 3 more".
 std::string list_few(const std::vector<std::string>& names) {
   constexpr size_t kNamed = 4;
@@ -91,6 +55,32 @@ std::string list_few(const std::vector<std::string>& names) {
 }
 
 }  // namespace
+
+bool moves_humanoid(const Skeleton& joints, const Rig& rig) {
+  for (int joint : rig.joints()) {
+    for (; joint >= 0; joint = joints.joints[joint].parent) {
+      if (moves(joints.joints[joint])) return true;
+    }
+  }
+  return false;
+}
+
+bool is_pose(const std::string& name, int frames) {
+  if (frames < 2) return true;
+  // "pose" after a kind of it, in one word or two, or nothing but "rest".
+  const std::vector<std::string> words = without_number(parse_joint_name(name).words);
+  for (size_t i = 0; i < words.size(); ++i) {
+    for (const char* kind : {"t", "rest", "bind", "reference"}) {
+      if (words[i] == std::string(kind) + "pose") return true;
+      if (words[i] == kind && i + 1 < words.size() && words[i + 1] == "pose") return true;
+    }
+  }
+  return words.size() == 1 && (words[0] == "rest" || words[0] == "apose");
+}
+
+BodyMotions find_body_motions(const MotionFile& file, const RigOptions& options) {
+  return without_poses(file, find_moving(file, options));
+}
 
 std::string describe_still(const std::vector<std::string>& names, bool humanoid) {
   return list_few(names) + (names.size() == 1 ? " moves" : " move") +

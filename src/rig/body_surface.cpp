@@ -16,6 +16,11 @@ constexpr int kGroups = 6;
 enum Group { kTorso, kHead, kLeftArm, kRightArm, kLeftLeg, kRightLeg };
 constexpr float kAccentEdge = 0.02f;  // Metres.
 
+// A part as thick from end to end.
+constexpr std::array<float, 5> even(float radius) {
+  return {radius, radius, radius, radius, radius};
+}
+
 constexpr HumanJoint on_side(HumanJoint left, int side) {
   return side == 0 ? left : static_cast<HumanJoint>(kHumanMirror[index(left)]);
 }
@@ -47,18 +52,15 @@ BindPose bind_pose(const HumanPositions& offsets) {
   BindPose out;
   for (int j = 0; j < kHumanJoints; ++j) {
     const int parent = kHumanParent[j];
-    const Quat above = parent < 0 ? Quat{} : out.rotations[static_cast<size_t>(parent)];
-    const auto place = static_cast<size_t>(j);
-    out.positions[place] =
-        parent < 0 ? offsets[place]
-                   : out.positions[static_cast<size_t>(parent)] + rotate(above, offsets[place]);
+    const Quat above = parent < 0 ? Quat{} : out.rotations[parent];
+    out.positions[j] = parent < 0 ? offsets[j] : out.positions[parent] + rotate(above, offsets[j]);
     Quat turn;
     const Vec3 ahead = {0, 0, 1};
     if (j == index(left_upper_arm)) turn = axis_angle(ahead, -kArmsDown);
     if (j == index(right_upper_arm)) turn = axis_angle(ahead, kArmsDown);
     if (j == index(left_upper_leg)) turn = axis_angle(ahead, kLegsApart);
     if (j == index(right_upper_leg)) turn = axis_angle(ahead, -kLegsApart);
-    out.rotations[place] = above * turn;
+    out.rotations[j] = above * turn;
   }
   return out;
 }
@@ -81,7 +83,7 @@ BodySurface::BodySurface(const HumanPositions& offsets) : bind_(bind_pose(offset
 }
 
 void BodySurface::add(const Part& part) {
-  const auto j = static_cast<size_t>(index(part.joint));
+  const int j = index(part.joint);
   const Vec3 stretch = {1 / part.squeeze.x, 1 / part.squeeze.y, 1 / part.squeeze.z};
   PlacedPart out;
   out.part = part;
@@ -100,9 +102,6 @@ void BodySurface::add(const Part& part) {
 // From mid-hip along the spine to the shoulders, as wide as the joints ask for. The tubes meet end
 // to end, so that no torso is too long for them.
 void BodySurface::add_torso() {
-  const auto place = [&](HumanJoint joint) {
-    return bind_.positions[static_cast<size_t>(index(joint))];
-  };
   const Vec3 left_hip = place(left_upper_leg), right_hip = place(right_upper_leg);
   const Vec3 left_arm = place(left_upper_arm), right_arm = place(right_upper_arm);
   const Vec3 hip = (left_hip + right_hip) * 0.5f, top = (left_arm + right_arm) * 0.5f;
@@ -122,11 +121,7 @@ void BodySurface::add_torso() {
   const Vec3 waist = lerp(low, high, 0.36f), ribs = lerp(low, high, 0.68f);
   const auto share = [&](HumanJoint joint, Vec3 from, Vec3 to) {
     const float radius = 0.7f * rib;
-    Part part{joint,
-              kTorso,
-              from - place(joint),
-              to - place(joint),
-              {radius, radius, radius, radius, radius}};
+    Part part{joint, kTorso, from - place(joint), to - place(joint), even(radius)};
     part.use = Use::weights;
     add(part);
   };
@@ -137,12 +132,7 @@ void BodySurface::add_torso() {
   const Vec3 across = (left_arm - right_arm) * 0.5f;
   const Vec3 yoke = top + Vec3{0, -0.02f, -0.008f};
   const auto lump = [&](HumanJoint joint, Vec3 from, Vec3 to, float radius, float soft) {
-    add({joint,
-         kTorso,
-         from - place(joint),
-         to - place(joint),
-         {radius, radius, radius, radius, radius},
-         soft});
+    add(joint, kTorso, from - place(joint), to - place(joint), even(radius), soft);
   };
   lump(chest, yoke - across * 0.66f, yoke + across * 0.66f, 0.062f, 0.06f);
   for (const float side : {-1.0f, 1.0f}) {
@@ -155,48 +145,22 @@ void BodySurface::add_torso() {
 
 // A neck, a skull and a face, on the joints that there are.
 void BodySurface::add_head() {
-  const auto place = [&](HumanJoint joint) {
-    return bind_.positions[static_cast<size_t>(index(joint))];
-  };
   const Vec3 top = (place(left_upper_arm) + place(right_upper_arm)) * 0.5f;
   // What a rig without neck or head has in their place lies on the joint above.
   Vec3 base = place(neck), skull = place(head);
   if (!(skull.y > top.y + 0.02f)) skull = top + Vec3{0, 0.125f, 0.015f};
   if (!(base.y > top.y - 0.08f) || length(skull - base) < 0.02f) base = lerp(top, skull, 0.3f);
   const Vec3 n = place(neck), h = skull - place(head);
-  add({chest,
-       kHead,
-       base + Vec3{0, -0.07f, -0.014f} - place(chest),
-       base - place(chest),
-       {0.085f, 0.078f, 0.069f, 0.061f, 0.056f}});
-  add({neck,
-       kHead,
-       base - n,
-       skull + Vec3{0, 0.03f, 0.002f} - n,
-       {0.056f, 0.053f, 0.051f, 0.05f, 0.05f},
-       0.012f});
-  add({head,
-       kHead,
-       h + Vec3{0, 0.113f, -0.004f},
-       h + Vec3{0, 0.113f, -0.004f},
-       {0.096f, 0.096f, 0.096f, 0.096f, 0.096f},
-       0.035f,
-       {},
-       {0.84f, 1.02f, 1}});
-  add({head,
-       kHead,
-       h + Vec3{0, 0.09f, 0.022f},
-       h + Vec3{0, 0.034f, 0.04f},
-       {0.079f, 0.078f, 0.073f, 0.065f, 0.053f},
-       0.04f,
-       {0, 0, 0.004f},
-       {0.93f, 1, 1}});
-  add({head,
-       kHead,
-       h + Vec3{0, 0.1f, 0.086f},
-       h + Vec3{0, 0.074f, 0.097f},
-       {0.008f, 0.009f, 0.01f, 0.011f, 0.0115f},
-       0.024f});
+  add(chest, kHead, base + Vec3{0, -0.07f, -0.014f} - place(chest), base - place(chest),
+      {0.085f, 0.078f, 0.069f, 0.061f, 0.056f});
+  add(neck, kHead, base - n, skull + Vec3{0, 0.03f, 0.002f} - n,
+      {0.056f, 0.053f, 0.051f, 0.05f, 0.05f}, 0.012f);
+  add(head, kHead, h + Vec3{0, 0.113f, -0.004f}, h + Vec3{0, 0.113f, -0.004f}, even(0.096f), 0.035f,
+      {}, {0.84f, 1.02f, 1});
+  add(head, kHead, h + Vec3{0, 0.09f, 0.022f}, h + Vec3{0, 0.034f, 0.04f},
+      {0.079f, 0.078f, 0.073f, 0.065f, 0.053f}, 0.04f, {0, 0, 0.004f}, {0.93f, 1, 1});
+  add(head, kHead, h + Vec3{0, 0.1f, 0.086f}, h + Vec3{0, 0.074f, 0.097f},
+      {0.008f, 0.009f, 0.01f, 0.011f, 0.0115f}, 0.024f);
 }
 
 // Along +x for the left, -x for the right; palms down, thumbs ahead.
@@ -205,35 +169,25 @@ void BodySurface::add_arm(const HumanPositions& offsets, int side) {
   const HumanJoint shoulder = on_side(left_shoulder, side), upper = on_side(left_upper_arm, side);
   const HumanJoint lower = on_side(left_lower_arm, side), hand = on_side(left_hand, side);
   const int group = side == 0 ? kLeftArm : kRightArm;
-  const float long_upper = length(offsets[static_cast<size_t>(index(lower))]);
-  const float long_lower = length(offsets[static_cast<size_t>(index(hand))]);
+  const float long_upper = length(offsets[index(lower)]);
+  const float long_lower = length(offsets[index(hand)]);
   const float thick = std::clamp((long_upper + long_lower) / 0.47f, 0.75f, 1.15f);
   const float size = std::clamp(long_lower / 0.22f, 0.7f, 1.25f);
-  hand_size_[static_cast<size_t>(side)] = size;
+  hand_size_[side] = size;
   const auto along = [&](float x, float y, float z) { return Vec3{out * x, y, z}; };
   const auto times = [](Radii radii, float by) {
     for (float& radius : radii) radius *= by;
     return radii;
   };
 
-  const Vec3 reach = offsets[static_cast<size_t>(index(upper))];
+  const Vec3 reach = offsets[index(upper)];
   if (length(reach) > 1e-4f) {
-    add({shoulder,
-         kTorso,
-         reach * 0.3f,
-         reach * 0.8f,
-         {0.056f, 0.056f, 0.056f, 0.056f, 0.056f},
-         0.06f});
+    add(shoulder, kTorso, reach * 0.3f, reach * 0.8f, even(0.056f), 0.06f);
   }
-  add({upper,
-       group,
-       along(0.002f, 0, 0),
-       along(long_upper, 0, 0),
-       times({0.057f, 0.051f, 0.0455f, 0.042f, 0.0375f}, thick),
-       0.004f,
-       {0, 0, 0.004f}});
-  add({lower, group, along(0, 0, 0), along(long_lower, 0, 0),
-       times({0.036f, 0.042f, 0.0385f, 0.0305f, 0.025f}, thick), 0.008f});
+  add(upper, group, along(0.002f, 0, 0), along(long_upper, 0, 0),
+      times({0.057f, 0.051f, 0.0455f, 0.042f, 0.0375f}, thick), 0.004f, {0, 0, 0.004f});
+  add(lower, group, along(0, 0, 0), along(long_lower, 0, 0),
+      times({0.036f, 0.042f, 0.0385f, 0.0305f, 0.025f}, thick), 0.008f);
 
   const auto finger = [&](Vec3 from, Vec3 to, const Radii& radii, float soft, Vec3 squeeze) {
     Part part{hand, group, from * size, to * size, times(radii, size), soft};
@@ -256,29 +210,19 @@ void BodySurface::add_leg(const HumanPositions& offsets, int side) {
   const HumanJoint foot = on_side(left_foot, side), toes = on_side(left_toes, side);
   const int group = side == 0 ? kLeftLeg : kRightLeg;
   const float out = side == 0 ? 1.0f : -1.0f;
-  const float thigh = length(offsets[static_cast<size_t>(index(lower))]);
-  const float shin = length(offsets[static_cast<size_t>(index(foot))]);
-  const Vec3 left_hip = bind_.positions[static_cast<size_t>(index(left_upper_leg))];
-  const Vec3 right_hip = bind_.positions[static_cast<size_t>(index(right_upper_leg))];
+  const float thigh = length(offsets[index(lower)]);
+  const float shin = length(offsets[index(foot)]);
+  const Vec3 left_hip = place(left_upper_leg), right_hip = place(right_upper_leg);
   // Thighs that are closer than they are thick would grow together.
   const float room = length(left_hip - right_hip) / 2;
   const float thick = std::clamp(room * 1.02f, 0.06f, 0.087f);
-  add({upper,
-       group,
-       {out * 0.004f, 0, 0},
-       {0, -thigh, 0},
-       {thick, 0.95f * thick, 0.8f * thick, 0.5f * (0.8f * thick + 0.046f), 0.047f},
-       0.004f,
-       {0, 0, 0.008f}});
-  add({lower,
-       group,
-       {0, 0, 0},
-       {0, -shin, -0.004f},
-       {0.047f, 0.0515f, 0.0465f, 0.036f, 0.033f},
-       0.008f,
-       {0, 0, -0.01f}});
+  add(upper, group, {out * 0.004f, 0, 0}, {0, -thigh, 0},
+      {thick, 0.95f * thick, 0.8f * thick, 0.5f * (0.8f * thick + 0.046f), 0.047f}, 0.004f,
+      {0, 0, 0.008f});
+  add(lower, group, {0, 0, 0}, {0, -shin, -0.004f}, {0.047f, 0.0515f, 0.0465f, 0.036f, 0.033f},
+      0.008f, {0, 0, -0.01f});
 
-  Vec3 ball = offsets[static_cast<size_t>(index(toes))];
+  Vec3 ball = offsets[index(toes)];
   if (!(ball.z > 0.04f) || !(ball.y < -0.01f)) ball = {0, -0.068f, 0.1f};
   const float size = std::clamp(length(ball) / 0.12f, 0.75f, 1.3f);
   const float sole = ball.y;
@@ -299,8 +243,7 @@ void BodySurface::add_leg(const HumanPositions& offsets, int side) {
 }
 
 Vec3 BodySurface::to_joint(int joint, Vec3 point) const {
-  const auto j = static_cast<size_t>(joint);
-  return rotate(conjugate(bind_.rotations[j]), point - bind_.positions[j]);
+  return rotate(conjugate(bind_.rotations[joint]), point - bind_.positions[joint]);
 }
 
 float BodySurface::part_distance(const PlacedPart& placed, Vec3 point) const {
@@ -322,7 +265,7 @@ float BodySurface::distance(Vec3 point) const {
   groups.fill(1e3f);
   for (const PlacedPart& placed : parts_) {
     if (placed.part.use == Use::weights) continue;
-    float& group = groups[static_cast<size_t>(placed.part.group)];
+    float& group = groups[placed.part.group];
     // Far from a part its ball is near enough.
     const float ball = length(point - placed.middle) - placed.reach;
     if (ball > 0.1f || ball > group + placed.part.soft) {
@@ -359,7 +302,7 @@ void BodySurface::joint_distances(Vec3 point, std::array<float, kHumanJoints>& o
   for (const PlacedPart& placed : parts_) {
     const float ball = length(point - placed.middle) - placed.reach;
     if (ball > 0.15f || placed.part.use == Use::shape) continue;
-    float& nearest = out[static_cast<size_t>(index(placed.part.joint))];
+    float& nearest = out[index(placed.part.joint)];
     nearest = std::min(nearest, part_distance(placed, point));
   }
 }
@@ -367,7 +310,7 @@ void BodySurface::joint_distances(Vec3 point, std::array<float, kHumanJoints>& o
 float BodySurface::accent(Vec3 point) const {
   float out = 0;
   for (int side = 0; side < 2; ++side) {
-    const float size = hand_size_[static_cast<size_t>(side)];
+    const float size = hand_size_[side];
     const Vec3 hand = to_joint(index(on_side(left_hand, side)), point);
     const float beyond = (side == 0 ? hand.x : -hand.x) - 0.008f * size;
     if (length(hand) < 0.22f * size) out = std::max(out, ramp(beyond, kAccentEdge));

@@ -68,11 +68,16 @@ class BodySurface {
   };
 
   void add(const Part& part);
+  void add(HumanJoint joint, int group, Vec3 from, Vec3 to, const Radii& radii, float soft = 0.004f,
+           Vec3 bow = {}, Vec3 squeeze = {1, 1, 1}) {
+    add(Part{joint, group, from, to, radii, soft, bow, squeeze});
+  }
   void add_torso();
   void add_head();
   void add_arm(const HumanPositions& offsets, int side);
   void add_leg(const HumanPositions& offsets, int side);
   float part_distance(const PlacedPart& placed, Vec3 point) const;
+  Vec3 place(HumanJoint joint) const { return bind_.positions[index(joint)]; }
   Vec3 to_joint(int joint, Vec3 point) const;
 
   BindPose bind_;

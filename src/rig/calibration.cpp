@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clip/fk.h"
+#include "clip/clip.h"
 #include "rig/first_frame.h"
 #include "rig/sampled_joints.h"
 #include "rig/up_axis.h"
@@ -46,14 +46,10 @@ class Calibrator {
       : clip_(clip),
         joint_of_(mapping.joint_of),
         out_(out),
-        frames_(clip, out.first_frame, clip.frames, step(clip), joint_of_) {
+        frames_(clip, out.first_frame, clip.frames, step(clip), joint_of_),
+        rest_(rest_clip(clip.skeleton)) {
     for (int j = 0; j < kHumanJoints; ++j) out_.shape.has[j] = joint_of_[j] >= 0;
-    for (const Joint& joint : clip.skeleton.joints) {
-      rest_rotations_.push_back(joint.rest);
-      rest_translations_.push_back(joint.offset);
-    }
-    const Pose rest = {rest_rotations_, rest_translations_};
-    world_pose(clip.skeleton, rest, rest);
+    world_pose(clip.skeleton, rest_.pose(0), rest_.pose(0));
   }
 
   Result<void> run() {
@@ -62,12 +58,9 @@ class Calibrator {
     if (out_.scale == 0) {
       if (const auto done = find_scale(); !done) return done;
     }
-    find_wrist(0);
-    find_wrist(1);
-    find_hand(0);
-    find_hand(1);
-    find_toes(0);
-    find_toes(1);
+    for (const int side : {0, 1}) find_wrist(side);
+    for (const int side : {0, 1}) find_hand(side);
+    for (const int side : {0, 1}) find_toes(side);
     find_torso();
     find_facing();
     find_floor();
@@ -99,17 +92,15 @@ class Calibrator {
       sum += ways.back().as<double>();
     }
     const auto at_rest = [&](HumanJoint joint) {
-      return rest_translations_[joint_of_[index(joint)]];
+      return rest_.translations[joint_of_[index(joint)]];
     };
     const Vec3 rest = at_rest(top) - (at_rest(left_foot) + at_rest(right_foot)) * 0.5f;
     const int k = main_axis(rest);
     const auto upright = std::count_if(ways.begin(), ways.end(), [&](Vec3 way) {
       return component(way, k) * std::copysign(1.0f, component(rest, k)) > kUpright * length(way);
     });
-    const Vec3 mean = (sum / static_cast<double>(ways.size())).as<float>();
-    const bool stands =
-        static_cast<double>(upright) >= kUprightShare * static_cast<double>(ways.size());
-    const Vec3 up = stands ? rest : mean;
+    const Vec3 mean = (sum / double(ways.size())).as<float>();
+    const Vec3 up = upright >= kUprightShare * ways.size() ? rest : mean;
     out_.up_axis = {component(up, main_axis(up)) < 0 ? '-' : '+', "XYZ"[main_axis(up)]};
     out_.y_up = *turn_up(out_.up_axis);
     if (out_.up_axis != "+Y") out_.notes.push_back("up is " + out_.up_axis);
@@ -119,7 +110,7 @@ class Calibrator {
     std::vector<float> legs;
     for (int f = 0; f < frames_.count(); ++f) legs.push_back(both_legs(f));
     float leg = legs.front();
-    const auto middle = legs.begin() + static_cast<std::ptrdiff_t>(legs.size() / 2);
+    const auto middle = legs.begin() + legs.size() / 2;
     std::nth_element(legs.begin(), middle, legs.end());
     // A body that grows at the beginning or shrinks at the end is as large as it is in between.
     constexpr float kStays = 0.01f;
@@ -161,21 +152,22 @@ class Calibrator {
   void find_hand(int side) {
     const int hand = joint_of_[index(side ? right_hand : left_hand)];
     if (hand < 0) return;
-    const Vec3 wrist = rest_translations_[hand];
+    const Vec3 wrist = rest_.translations[hand];
     Vec3 longest;
     const auto note = [&](Vec3 tip) {
       if (length(tip - wrist) > length(longest)) longest = tip - wrist;
     };
     std::vector<bool> below(clip_.joints());
-    for (size_t j = static_cast<size_t>(hand); j < clip_.joints(); ++j) {
+    below[hand] = true;
+    for (size_t j = hand; j < clip_.joints(); ++j) {
       const Joint& joint = clip_.skeleton.joints[j];
-      below[j] = j == static_cast<size_t>(hand) || (joint.parent >= 0 && below[joint.parent]);
+      below[j] = below[j] || (joint.parent >= 0 && below[joint.parent]);
       if (!below[j]) continue;
-      note(rest_translations_[j]);
-      for (Vec3 end : joint.ends) note(rest_translations_[j] + rotate(rest_rotations_[j], end));
+      note(rest_.translations[j]);
+      for (Vec3 end : joint.ends) note(rest_.translations[j] + rotate(rest_.rotations[j], end));
     }
     if (!(length(longest) * out_.scale > kShortestToe)) return;
-    out_.hands[side] = normalized(rotate(conjugate(rest_rotations_[hand]), longest));
+    out_.hands[side] = normalized(rotate(conjugate(rest_.rotations[hand]), longest));
   }
 
   // Fills the direction of one foot: its toe joint, its End Site, or where it must point in stance.
@@ -220,7 +212,7 @@ class Calibrator {
   bool says_direction(int side) const {
     double y = 0;
     for (int f : stance_) y += mapped(f).toes[side].y;
-    return y / static_cast<double>(stance_.size()) > kSteepestToe;
+    return y / stance_.size() > kSteepestToe;
   }
   // Standing, the foot points where the body faces, down by the canonical slope: in the mean of
   // the frames in which the foot is lowest, or more exactly in the rest pose, if the body stands in
@@ -243,15 +235,14 @@ class Calibrator {
     const std::optional<float> facing = standing_at_rest();
     if (!facing) return mean;
     const Vec3 at_rest =
-        local_in(rest_world(), joint_of_[index(foot)], rotate(rotation_y(*facing), sloping));
+        local_in(rest_.pose(0), joint_of_[index(foot)], rotate(rotation_y(*facing), sloping));
     return dot(at_rest, mean) > 0.5f ? at_rest : mean;
   }
 
-  ConstPose rest_world() const { return {rest_rotations_, rest_translations_}; }
   // Where the body faces in its rest pose, if it stands upright on straight legs in that.
   std::optional<float> standing_at_rest() const {
     constexpr float kStraight = 0.96f;  // Within 16 degrees.
-    const MappedJoints joints = mapped_joints(rest_world(), joint_of_, out_);
+    const MappedJoints joints = mapped_joints(rest_.pose(0), joint_of_, out_);
     const auto at = [&](HumanJoint joint) { return joints.positions[index(joint)]; };
     const auto is_upright = [&](Vec3 v) { return normalized(v).y > kStraight; };
     const Vec3 torso =
@@ -301,8 +292,7 @@ class Calibrator {
   Calibration& out_;
   SampledJoints frames_;
   std::vector<int> stance_;
-  std::vector<Quat> rest_rotations_;     // [joints of the skeleton], world.
-  std::vector<Vec3> rest_translations_;  // Likewise.
+  Clip rest_;  // The skeleton at rest, its joints in the world.
 };
 
 }  // namespace

@@ -20,25 +20,25 @@ constexpr const char* kCure =
 
 // Blender's name for joints that carry a mesh.
 bool deforms(const Skeleton& skeleton, int joint) {
-  const JointName name = parse_joint_name(skeleton.joints[static_cast<size_t>(joint)].name);
+  const JointName name = parse_joint_name(skeleton.joints[joint].name);
   return !name.words.empty() && name.words.front() == "def";
 }
 
 std::string quoted_name(const Skeleton& skeleton, int joint) {
-  return "'" + skeleton.joints[static_cast<size_t>(joint)].name + "'";
+  return "'" + skeleton.joints[joint].name + "'";
 }
 
 // From a joint up to before `end`.
 std::vector<int> path_up(const Skeleton& skeleton, int joint, int end) {
   std::vector<int> path;
-  for (int up = joint; up >= 0 && up != end; up = skeleton.joints[static_cast<size_t>(up)].parent) {
+  for (int up = joint; up >= 0 && up != end; up = skeleton.joints[up].parent) {
     path.push_back(up);
   }
   return path;
 }
 
 bool is_at_or_below(const Skeleton& skeleton, int above, int joint) {
-  while (joint > above) joint = skeleton.joints[static_cast<size_t>(joint)].parent;
+  while (joint > above) joint = skeleton.joints[joint].parent;
   return joint == above;
 }
 
@@ -59,7 +59,7 @@ std::optional<Error> find_tear(const Skeleton& skeleton, int hips_joint, int arm
     all += joints[j].skin_weight;
     if (is_at_or_below(skeleton, hips_joint, static_cast<int>(j))) continue;
     left += joints[j].skin_weight;
-    if (most < 0 || joints[j].skin_weight > joints[static_cast<size_t>(most)].skin_weight) {
+    if (most < 0 || joints[j].skin_weight > joints[most].skin_weight) {
       most = static_cast<int>(j);
     }
   }
@@ -94,9 +94,7 @@ struct Stance {
   float arms_legs = 0, trunk_arms = 0, trunk_legs = 0;
 };
 Stance stance_of(const JointPositions& at, const Mapping& mapping) {
-  const auto place = [&](HumanJoint human) {
-    return at[static_cast<size_t>(mapping.joint_of[index(human)])];
-  };
+  const auto place = [&](HumanJoint human) { return at[mapping.joint_of[index(human)]]; };
   const auto cosine = [](Vec3 a, Vec3 b) {
     const float product = length(a) * length(b);
     return product > 0 ? dot(a, b) / product : 0.0f;
@@ -141,12 +139,12 @@ std::optional<Error> find_animal(const Skeleton& skeleton, std::span<const Joint
     mean.trunk_legs += share * stance.trunk_legs;
   }
   if (!is_on_four_legs(mean, kInMotion)) return std::nullopt;
-  return Error{
-      "no person: leftUpperArm would be " +
-      quoted_name(skeleton, mapping.joint_of[index(left_upper_arm)]) + " and leftUpperLeg " +
-      quoted_name(skeleton, mapping.joint_of[index(left_upper_leg)]) +
-      ", and both stand side by side under a level trunk, at rest and in the motion, as an "
-      "animal's legs do; expected a person's skeleton, or a map that names the hips"};
+  return Error{"no person: leftUpperArm would be " +
+               quoted_name(skeleton, mapping.joint_of[index(left_upper_arm)]) +
+               " and leftUpperLeg " +
+               quoted_name(skeleton, mapping.joint_of[index(left_upper_leg)]) +
+               ", and both stand side by side under a level trunk, at rest and in the motion, as "
+               "an animal's legs do; expected a person's skeleton, or a map that names the hips"};
 }
 
 std::optional<Error> find_doubt(const Skeleton& skeleton, const Mapping& mapping,

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "rig/joint_words.h"
-#include "rig/standard_names.h"
 
 namespace panache {
 namespace {
@@ -106,7 +105,7 @@ bool is_front(const JointTree& tree, std::span<const JointName> names, const Lim
 int find_end(const JointTree& tree, std::span<const JointName> names, const LimbNames& limb,
              Side side) {
   const auto is = limb.kind == LimbKind::arm ? is_hand : is_foot;
-  const int plainest = find_named(tree, names, side, is, [](int) { return true; });
+  const int plainest = find_named(tree, names, side, is);
   if (plainest < 0) return -1;
   return find_own_named(tree, names, limb.end, side, is, [&](int j) {
     if (j == plainest || tree.is_above(j, plainest)) return true;
@@ -154,9 +153,8 @@ Limbs find_limbs_by_name(const JointTree& tree, std::span<const JointName> names
     const LimbNames& arm = kLimbNames[0][side];
     out.arms[side].end = find_end_of(arm, side);
     if (out.arms[side].end >= 0) continue;
-    out.arms[side].lower = find_known(arm.lower, [&] {
-      return find_named(tree, names, kSides[side], is_plain_forearm, [](int) { return true; });
-    });
+    out.arms[side].lower = find_known(
+        arm.lower, [&] { return find_named(tree, names, kSides[side], is_plain_forearm); });
     if (out.arms[side].lower < 0) missing.push_back(arm.end);
   }
   for (size_t side : {0, 1}) {
@@ -165,9 +163,7 @@ Limbs find_limbs_by_name(const JointTree& tree, std::span<const JointName> names
     if (out.legs[side].end < 0) missing.push_back(leg.end);
   }
   if (!missing.empty()) {
-    const auto anywhere = [](int) { return true; };
-    const bool has_head = find_named(tree, names, Side::none, is_head, anywhere) >= 0;
-    if (!has_head) missing.push_back(HumanJoint::head);
+    if (find_named(tree, names, Side::none, is_head) < 0) missing.push_back(HumanJoint::head);
     return out;
   }
   const LimbFinder finder(tree, names);

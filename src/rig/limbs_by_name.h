@@ -32,8 +32,9 @@ inline constexpr std::array<std::array<LimbNames, 2>, 2> kLimbNames = {
 // Of the joints of that side whose names `is` accepts, that are near nothing else and for which
 // `where` holds, the plainest: fewest words besides, then nearest to the root, then first. -1 where
 // there is none.
-int find_named(const JointTree& tree, std::span<const JointName> names, Side side,
-               bool (*is)(const JointName&), const std::function<bool(int)>& where);
+int find_named(
+    const JointTree& tree, std::span<const JointName> names, Side side,
+    bool (*is)(const JointName&), const std::function<bool(int)>& where = [](int) { return true; });
 
 // The same, but a joint that has the standards' own name for `joint` goes before plainer ones,
 // unless a mesh follows the plainest and not that one.

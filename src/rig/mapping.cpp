@@ -8,9 +8,7 @@
 #include "rig/limb_shape.h"
 #include "rig/limbs_by_name.h"
 #include "rig/limbs_by_shape.h"
-#include "rig/mapping_draft.h"
 #include "rig/name_preferences.h"
-#include "rig/standard_names.h"
 
 namespace panache {
 namespace {
@@ -27,10 +25,9 @@ std::string feet_advice(const std::vector<Joint>& joints, const Limbs& limbs,
     const int foot = limbs.legs[side].end;
     const auto lacks = std::find(missing.begin(), missing.end(), kLimbNames[1][side].lower);
     if (foot < 0 || lacks == missing.end()) continue;
-    const int above = joints[static_cast<size_t>(foot)].parent;
-    return "; the foot '" + joints[static_cast<size_t>(foot)].name + "' hangs on " +
-           (above < 0 ? std::string("nothing")
-                      : "'" + joints[static_cast<size_t>(above)].name + "'") +
+    const int above = joints[foot].parent;
+    return "; the foot '" + joints[foot].name + "' hangs on " +
+           (above < 0 ? std::string("nothing") : "'" + joints[above].name + "'") +
            ", not on a shin, as in rigs whose legs follow targets (IK); bake the motion onto a "
            "skeleton of hips, thighs, shins and feet that are one below the other, and export that";
   }

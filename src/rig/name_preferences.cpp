@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "rig/limbs_by_name.h"
-#include "rig/standard_names.h"
+#include "rig/joint_words.h"
 
 namespace panache {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clip/fk.h"
+#include "clip/clip.h"
 
 namespace panache {
 namespace {

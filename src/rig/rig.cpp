@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clip/fk.h"
+#include "clip/clip.h"
 #include "rig/doubtful.h"
 #include "rig/posed_rig.h"
 #include "rig/usual_unit.h"
@@ -16,19 +16,14 @@ using enum HumanJoint;
 // The rest pose and a few of the motion's, as far as they are finite.
 std::vector<JointPositions> some_poses(const Clip& clip) {
   constexpr int kMax = 15;
-  std::vector<Quat> rotations;
-  std::vector<Vec3> translations;
-  for (const Joint& joint : clip.skeleton.joints) {
-    rotations.push_back(joint.rest);
-    translations.push_back(joint.offset);
-  }
+  Clip world = rest_clip(clip.skeleton);
   std::vector<JointPositions> poses;
   const auto add = [&](ConstPose pose) {
-    world_pose(clip.skeleton, pose, {rotations, translations});
-    if (std::all_of(translations.begin(), translations.end(), [](Vec3 p) { return is_finite(p); }))
-      poses.push_back(translations);
+    world_pose(clip.skeleton, pose, world.pose(0));
+    const std::vector<Vec3>& places = world.translations;
+    if (std::ranges::all_of(places, [](Vec3 p) { return is_finite(p); })) poses.push_back(places);
   };
-  add({rotations, translations});
+  add(world.pose(0));
   const int count = std::min(kMax, clip.frames);
   for (int i = 0; i < count; ++i) add(clip.pose((2 * i + 1) * clip.frames / (2 * count)));
   return poses;
@@ -84,7 +79,7 @@ Result<Rig> Rig::create(const Clip& clip, const RigOptions& options) {
   shared->mapping = *std::move(mapping);
   shared->calibration = *std::move(calibration);
   shared->unit = shared->calibration.scale;
-  const auto usual = usual_unit(static_cast<double>(shared->unit));
+  const auto usual = usual_unit(shared->unit);
   if (usual && !options.metres_per_unit) shared->unit = static_cast<float>(usual->metres);
   shared->notes = shared->mapping.notes;
   shared->notes.insert(shared->notes.end(), shared->calibration.notes.begin(),

@@ -25,9 +25,8 @@ std::array<uint8_t, 4> colour_of(uint8_t accent) {
 std::array<int, kHumanJoints> moving_joints(const Rig& rig) {
   std::array<int, kHumanJoints> out;
   for (int j = 0; j < kHumanJoints; ++j) {
-    const auto place = static_cast<size_t>(j);
-    const int parent = kHumanParent[place];
-    out[place] = parent < 0 || rig.joints()[place] >= 0 ? j : out[static_cast<size_t>(parent)];
+    const int parent = kHumanParent[j];
+    out[j] = parent < 0 || rig.joints()[j] >= 0 ? j : out[parent];
   }
   return out;
 }

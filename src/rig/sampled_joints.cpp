@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "clip/fk.h"
+#include "clip/clip.h"
 
 namespace panache {
 

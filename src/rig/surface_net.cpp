@@ -21,7 +21,7 @@ class SurfaceNet {
          {std::pair<int*, float>{&nx_, size.x}, {&ny_, size.y}, {&nz_, size.z}}) {
       *count = static_cast<int>(std::ceil(length / kBlock)) * kBlock + 1;
     }
-    values_.resize(static_cast<size_t>(nx_) * static_cast<size_t>(ny_) * static_cast<size_t>(nz_));
+    values_.resize(size_t(nx_) * ny_ * nz_);
     vertex_of_.assign(values_.size(), kNone);
     sample();
   }
@@ -35,23 +35,17 @@ class SurfaceNet {
   }
 
  private:
-  size_t at(int x, int y, int z) const {
-    return (static_cast<size_t>(z) * static_cast<size_t>(ny_) + static_cast<size_t>(y)) *
-               static_cast<size_t>(nx_) +
-           static_cast<size_t>(x);
-  }
+  size_t at(int x, int y, int z) const { return (size_t(z) * ny_ + y) * nx_ + x; }
   Vec3 place(float x, float y, float z) const { return low_ + Vec3{x, y, z} * cell_; }
 
   // Where the middle of a block is further from the surface than its corners, one value will do.
   void sample() {
-    const float reach = 0.5f * static_cast<float>(kBlock) * 1.7320508f * cell_ * 1.3f;
+    constexpr float kHalf = 0.5f * kBlock;
+    const float reach = kHalf * 1.7320508f * cell_ * 1.3f;
     for (int z = 0; z < nz_; z += kBlock) {
       for (int y = 0; y < ny_; y += kBlock) {
         for (int x = 0; x < nx_; x += kBlock) {
-          const float half = 0.5f * static_cast<float>(kBlock);
-          const float middle =
-              distance_(place(static_cast<float>(x) + half, static_cast<float>(y) + half,
-                              static_cast<float>(z) + half));
+          const float middle = distance_(place(x + kHalf, y + kHalf, z + kHalf));
           fill(x, y, z, middle, std::abs(middle) > reach);
         }
       }
@@ -62,9 +56,7 @@ class SurfaceNet {
     for (int z = z0; z < std::min(z0 + kBlock, nz_); ++z) {
       for (int y = y0; y < std::min(y0 + kBlock, ny_); ++y) {
         for (int x = x0; x < std::min(x0 + kBlock, nx_); ++x) {
-          values_[at(x, y, z)] = far ? middle
-                                     : distance_(place(static_cast<float>(x), static_cast<float>(y),
-                                                       static_cast<float>(z)));
+          values_[at(x, y, z)] = far ? middle : distance_(place(x, y, z));
         }
       }
     }
@@ -83,8 +75,8 @@ class SurfaceNet {
     std::array<float, 8> corner;
     int inside = 0;
     for (int c = 0; c < 8; ++c) {
-      corner[static_cast<size_t>(c)] = values_[at(x + (c & 1), y + (c >> 1 & 1), z + (c >> 2))];
-      inside += corner[static_cast<size_t>(c)] < 0;
+      corner[c] = values_[at(x + (c & 1), y + (c >> 1 & 1), z + (c >> 2))];
+      inside += corner[c] < 0;
     }
     if (inside == 0 || inside == 8) return;
     Vec3 sum;
@@ -92,8 +84,7 @@ class SurfaceNet {
     for (int a = 0; a < 8; ++a) {
       for (const int bit : {1, 2, 4}) {
         if (a & bit) continue;
-        const float from = corner[static_cast<size_t>(a)],
-                    to = corner[static_cast<size_t>(a | bit)];
+        const float from = corner[a], to = corner[a | bit];
         if ((from < 0) == (to < 0)) continue;
         const float t = from / (from - to);
         sum += Vec3{static_cast<float>(a & 1) + (bit == 1 ? t : 0),
@@ -104,8 +95,7 @@ class SurfaceNet {
     }
     vertex_of_[at(x, y, z)] = static_cast<int>(out.vertices.size());
     const Vec3 mean = sum / static_cast<float>(cuts);
-    out.vertices.push_back(place(static_cast<float>(x) + mean.x, static_cast<float>(y) + mean.y,
-                                 static_cast<float>(z) + mean.z));
+    out.vertices.push_back(place(x + mean.x, y + mean.y, z + mean.z));
   }
 
   // A quad around every edge that the surface cuts.

@@ -81,7 +81,7 @@ void Drive::keep_stepping(const WalkerModel& model, bool wanted, bool feet_settl
     // Starts as the foot on the side of the turn, else the right one, lifts. Standing looks the
     // same at every phase.
     const float lifts = contact(model)[1] - 0.05f * kTurn;
-    phase_ = static_cast<double>(going_.turn + turn_change_ > 0 ? lifts : lifts + kTurn / 2);
+    phase_ = going_.turn + turn_change_ > 0 ? lifts : lifts + kTurn / 2;
     frequency_ = kSlowestCadence;
     stepping_ = true;
   } else if (stepping_ && !wanted && !moves && feet_settled) {
@@ -100,13 +100,12 @@ void Drive::keep_stepping(const WalkerModel& model, bool wanted, bool feet_settl
   const auto t = static_cast<float>(std::fmod(seconds_, 1e4));
   wanted_frequency *= 1 + 0.007f * std::sin(1.9f * t) + 0.006f * std::sin(0.83f * t + 1);
   frequency_ = approach(frequency_, wanted_frequency, dt, 0.1f);
-  phase_ =
-      std::fmod(phase_ + static_cast<double>(kTurn * frequency_ * dt), static_cast<double>(kTurn));
+  phase_ = std::fmod(phase_ + kTurn * frequency_ * dt, double(kTurn));
 }
 
 void Drive::tick(const WalkerModel& model, float wanted_speed, float wanted_turn, bool feet_settled,
                  float dt) noexcept {
-  seconds_ += static_cast<double>(dt);
+  seconds_ += dt;
   ease(wanted_speed, wanted_turn, dt);
   choose_gait(dt);
   keep_stepping(model, wanted_speed > 0.02f || std::abs(wanted_turn) > 0.03f, feet_settled, dt);
@@ -114,12 +113,12 @@ void Drive::tick(const WalkerModel& model, float wanted_speed, float wanted_turn
   const float rarer = cadence(model.walk(), going_.speed) / kSlowestCadence;
   amount_ = model.walk_stride(going_.speed).amount * std::min(1.0f, rarer);
 
-  const double half = heading_ + static_cast<double>(going_.turn * dt) / 2;
-  heading_ += static_cast<double>(going_.turn * dt);
+  const double half = heading_ + double(going_.turn * dt) / 2;
+  heading_ += going_.turn * dt;
   // The body faces where the path will turn to.
-  const double way = half - static_cast<double>(going_.turn * model.walk().gaze_lead * amount_);
-  x_ += std::sin(way) * static_cast<double>(going_.speed * dt);
-  z_ += std::cos(way) * static_cast<double>(going_.speed * dt);
+  const double way = half - going_.turn * model.walk().gaze_lead * amount_;
+  x_ += std::sin(way) * double(going_.speed * dt);
+  z_ += std::cos(way) * double(going_.speed * dt);
 }
 
 void Drive::channels(const WalkerModel& model, Channels& out) const noexcept {

@@ -21,7 +21,6 @@ struct Steps {
 
 class Drive {
  public:
-  void reset() noexcept { *this = Drive(); }
   // Goes on by `dt` seconds towards these; `feet_settled`: neither foot has to step before the body
   // can stand.
   void tick(const WalkerModel& model, float wanted_speed, float wanted_turn, bool feet_settled,

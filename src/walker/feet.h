@@ -19,7 +19,6 @@ using Legs = std::array<Leg, 2>;  // Left, right.
 
 class Feet {
  public:
-  void reset() noexcept { *this = Feet(); }
   // Moves the legs of this moment, as the gait has them, to where the feet stand. `lead`: how far
   // the body turns while a foot stands, radians, as far as the gait itself does not show it.
   void tick(const Drive& drive, const Steps& steps, float lead, float dt, Legs& legs) noexcept;

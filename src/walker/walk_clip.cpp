@@ -31,8 +31,7 @@ Clip walk_clip(std::shared_ptr<const WalkerModel> model, const WalkClipOptions& 
   }
   const RootPose begin = walker.root();
   const Quat back = rotation_y(-begin.facing);
-  const double stop_at =
-      options.seconds - kSecondsToStand - static_cast<double>(options.speed) / 2.5;
+  const double stop_at = options.seconds - kSecondsToStand - options.speed / 2.5;
   for (int f = 0; f < clip.frames; ++f) {
     const double seconds = f * clip.frame_time;
     const bool goes =

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 
 #include "base/gravity.h"
 #include "pose/contacts.h"
 #include "rig/canonical_skeleton.h"
-#include "walker/idle.h"
 
 namespace panache {
 namespace {
@@ -25,6 +25,39 @@ float bent_knee(float bend) {
   return (bend + std::sqrt(bend * bend + kSoft * kSoft)) / 2;
 }
 
+constexpr float kDegree = std::numbers::pi_v<float> / 180;
+
+// Channels of the driven joints that idle; each joint has x (nods), y (turns), z (tilts).
+constexpr int kHips = 3, kSpine = 6, kChest = 9, kNeck = 12, kLeftShoulder = 15,
+              kRightShoulder = 24;
+
+// Adds breath, a wandering gaze and, as far as the body stands (`standing`, 0 to 1), weight going
+// from foot to foot. A function of time alone.
+void add_idle(double seconds, float standing, Channels& channels) noexcept {
+  constexpr double turn = 2 * std::numbers::pi;
+  const auto wave = [&](double hertz, double phase) {
+    return static_cast<float>(std::sin(turn * std::fmod(hertz * seconds + phase, 1.0)));
+  };
+  // Fifteen breaths a minute lift ribs and shoulders; the head stays level.
+  const float breath = wave(0.25, 0);
+  channels[kChest] -= 0.7f * kDegree * breath;
+  channels[kNeck] += 0.6f * kDegree * breath;
+  channels[kLeftShoulder + 2] += 0.6f * kDegree * breath;
+  channels[kRightShoulder + 2] -= 0.6f * kDegree * breath;
+  // Frequencies without a common measure do not repeat within a clip.
+  channels[kNeck + 1] += kDegree * (1.6f * wave(0.071, 0.2) + 1.1f * wave(0.173, 0.6));
+  channels[kNeck] += kDegree * 0.8f * wave(0.113, 0.4);
+  channels[kChest + 1] += kDegree * 0.7f * wave(0.093, 0.1);
+
+  // Weight to one side: the hips follow it and tilt, the spine stays upright.
+  const float side = standing * (0.7f * wave(0.061, 0.05) + 0.3f * wave(0.147, 0.3));
+  channels[0] += 0.018f * side;
+  channels[1] -= 0.002f * side * side;
+  channels[2] += 0.004f * standing * wave(0.197, 0.7);
+  channels[kHips + 2] += 1.6f * kDegree * side;
+  channels[kSpine + 2] -= 1.8f * kDegree * side;
+}
+
 float finite_or_zero(float x) { return std::isfinite(x) ? x : 0.0f; }
 
 }  // namespace
@@ -36,8 +69,8 @@ Walker::Walker(std::shared_ptr<const WalkerModel> model) : model_(std::move(mode
 }
 
 void Walker::reset() noexcept {
-  drive_.reset();
-  feet_.reset();
+  drive_ = {};
+  feet_ = {};
   seconds_ = 0;
   ticks_ = 0;
   pose_body();
@@ -56,8 +89,8 @@ void Walker::step(float speed, float turn, double seconds, Pose out) noexcept {
   turn = finite_or_zero(turn);
   seconds_ += std::isfinite(seconds) ? std::clamp(seconds, 0.0, kLongestStep) : 0.0;
   // A hair's breadth less, for the rounding of sums of 1/60 and the like.
-  while (static_cast<double>(ticks_) * kTick < seconds_ - 1e-9) tick(speed, turn);
-  const double behind = static_cast<double>(ticks_) - seconds_ / kTick;
+  while (ticks_ * kTick < seconds_ - 1e-9) tick(speed, turn);
+  const double behind = ticks_ - seconds_ / kTick;
   const float t = static_cast<float>(std::clamp(1 - behind, 0.0, 1.0));
   for (int j = 0; j < kHumanJoints; ++j) {
     out.rotations[j] = nlerp(before_.rotations[j], now_.rotations[j], t);
@@ -78,7 +111,7 @@ void Walker::pose_body() noexcept {
   Channels channels;
   drive_.channels(*model_, channels);
   const float standing = 1 - drive_.stepping();
-  add_idle(static_cast<double>(ticks_) * kTick, standing * (1 - drive_.amount()), channels);
+  add_idle(ticks_ * kTick, standing * (1 - drive_.amount()), channels);
   // Small steps need the weight over the standing foot as much as large ones.
   const float shift = 0.025f * drive_.stepping() * (1 - drive_.amount());
   channels[0] += shift * std::cos(drive_.phase() - 1.66f);

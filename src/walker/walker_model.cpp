@@ -16,43 +16,14 @@ constexpr const char* kFormatVersion = "1";
 
 // The single numbers of a gait, in the order of the tensor that holds them.
 constexpr int kGaitNumbers = 10;
-std::vector<float> pack(const Gait& gait) {
-  return {gait.reference, gait.slowest,  gait.fastest,  gait.cadence,  gait.exponent,
-          gait.lands[0],  gait.lands[1], gait.lifts[0], gait.lifts[1], gait.gaze_lead};
-}
-void unpack(const std::vector<float>& numbers, Gait& gait) {
-  gait.reference = numbers[0];
-  gait.slowest = numbers[1];
-  gait.fastest = numbers[2];
-  gait.cadence = numbers[3];
-  gait.exponent = numbers[4];
-  gait.lands = {numbers[5], numbers[6]};
-  gait.lifts = {numbers[7], numbers[8]};
-  gait.gaze_lead = numbers[9];
+template <class SomeGait>
+auto numbers_of(SomeGait& gait) {
+  return std::array{&gait.reference, &gait.slowest,  &gait.fastest,  &gait.cadence,
+                    &gait.exponent,  &gait.lands[0], &gait.lands[1], &gait.lifts[0],
+                    &gait.lifts[1],  &gait.gaze_lead};
 }
 
-std::string describe(const std::vector<int64_t>& shape) {
-  std::string text = "[";
-  for (const int64_t size : shape) text += (text.size() > 1 ? ", " : "") + std::to_string(size);
-  return text + "]";
-}
-
-Result<std::vector<float>> read_tensor(const TensorFile& file, const std::string& key,
-                                       const std::vector<int64_t>& shape, const std::string& name) {
-  const auto found = file.tensors.find(key);
-  if (found == file.tensors.end()) return Error{name + ": tensor '" + key + "' is missing"};
-  const Tensor& tensor = found->second;
-  if (tensor.shape != shape) {
-    return Error{name + ": tensor '" + key + "' has shape " + describe(tensor.shape) +
-                 "; expected " + describe(shape)};
-  }
-  for (const float v : tensor.values) {
-    if (!(std::abs(v) < 1e3f)) {
-      return Error{name + ": tensor '" + key + "' holds a number that no gait has"};
-    }
-  }
-  return tensor.values;
-}
+constexpr float kTooLarge = 1e3f;  // No gait has such a number.
 
 // Whether the steps come out at sensible times: what every later division counts on.
 bool is_gait(const Gait& gait) {
@@ -67,14 +38,14 @@ bool is_gait(const Gait& gait) {
 }
 
 Result<Gait> read_gait(const TensorFile& file, const std::string& key, const std::string& name) {
-  Result<std::vector<float>> numbers = read_tensor(file, key + ".numbers", {kGaitNumbers}, name);
+  const auto numbers = find_tensor(file, key + ".numbers", {kGaitNumbers}, name, kTooLarge);
   if (!numbers) return numbers.error();
-  Result<std::vector<float>> coefficients =
-      read_tensor(file, key + ".coefficients", {kChannels, kWaves, kTerms}, name);
+  const auto coefficients =
+      find_tensor(file, key + ".coefficients", {kChannels, kWaves, kTerms}, name, kTooLarge);
   if (!coefficients) return coefficients.error();
   Gait gait;
-  unpack(*numbers, gait);
-  gait.coefficients = *std::move(coefficients);
+  for (int i = 0; i < kGaitNumbers; ++i) *numbers_of(gait)[i] = (*numbers)->values[i];
+  gait.coefficients = (*coefficients)->values;
   if (!is_gait(gait)) {
     return Error{name + ": tensor '" + key + ".numbers' holds numbers that no gait has"};
   }
@@ -85,15 +56,13 @@ Result<void> check_metadata(const TensorFile& file, const std::string& name) {
   const auto format = file.metadata.find("format");
   if (format == file.metadata.end() || format->second != kFormat) {
     return Error{name +
-                 ": is a safetensors file, but not a walker; expected metadata 'format' to "
-                 "be '" +
+                 ": is a safetensors file, but not a walker; expected metadata 'format' to be '" +
                  kFormat + "'"};
   }
   const auto version = file.metadata.find("format_version");
   if (version == file.metadata.end()) {
     return Error{name +
-                 ": metadata 'format_version' is missing; expected a walker written by "
-                 "panache"};
+                 ": metadata 'format_version' is missing; expected a walker written by panache"};
   }
   if (version->second != kFormatVersion) {
     return Error{name + ": is a walker of format version " + version->second +
@@ -158,10 +127,10 @@ Result<std::shared_ptr<const WalkerModel>> WalkerModel::parse(std::string_view b
   if (!walk) return walk.error();
   Result<Gait> run = read_gait(*file, "run", name);
   if (!run) return run.error();
-  Result<std::vector<float>> stand = read_tensor(*file, "stand", {kChannels}, name);
+  const auto stand = find_tensor(*file, "stand", {kChannels}, name, kTooLarge);
   if (!stand) return stand.error();
   Channels channels;
-  std::copy(stand->begin(), stand->end(), channels.begin());
+  std::ranges::copy((*stand)->values, channels.begin());
   return std::make_shared<const WalkerModel>(*std::move(walk), *std::move(run), channels,
                                              std::move(file->metadata));
 }
@@ -170,7 +139,8 @@ std::string WalkerModel::format() const {
   TensorFile file;
   file.metadata = metadata_;
   for (const auto& [key, gait] : {std::pair{"walk", &walk_}, std::pair{"run", &run_}}) {
-    file.tensors[std::string(key) + ".numbers"] = {{kGaitNumbers}, pack(*gait)};
+    Tensor& numbers = file.tensors[std::string(key) + ".numbers"] = {{kGaitNumbers}, {}};
+    for (const float* number : numbers_of(*gait)) numbers.values.push_back(*number);
     file.tensors[std::string(key) + ".coefficients"] = {{kChannels, kWaves, kTerms},
                                                         gait->coefficients};
   }

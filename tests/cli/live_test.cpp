@@ -16,7 +16,7 @@
 #include "base/random.h"
 #include "cli/program.h"
 #include "cli/vmc_peer.h"
-#include "clip/fk.h"
+#include "clip/clip.h"
 #include "clip/motion_file.h"
 
 namespace panache::test {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "clip/fk.h"
+#include "clip/clip.h"
 #include "clip/motion_file.h"
 
 namespace panache::test {

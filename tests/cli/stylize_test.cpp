@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "clip/fk.h"
+#include "clip/clip.h"
 #include "clip/motion_format.h"
 #include "cli/program.h"
 

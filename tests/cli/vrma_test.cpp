@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/program.h"
-#include "clip/fk.h"
+#include "clip/clip.h"
 #include "clip/gltf.h"
 #include "clip/make_character.h"
 #include "rig/posed_rig.h"

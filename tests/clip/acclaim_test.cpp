@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "clip/fk.h"
+#include "clip/clip.h"
 #include "clip/make_acclaim.h"
 #include "clip/motion_format.h"
 #include "fixtures.h"

@@ -1,7 +1,7 @@
 // No file can hurt us: whatever is done to a good file, the answer is a message or a clip that
 // keeps its promises.
 
-#include "clip/fk.h"
+#include "clip/clip.h"
 #include "count_allocations.h"
 #include "fixtures.h"
 

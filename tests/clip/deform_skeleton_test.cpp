@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "clip/fk.h"
+#include "clip/clip.h"
 #include "make_clip.h"
 #include "rig/humanoid.h"
 

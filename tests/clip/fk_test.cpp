@@ -1,4 +1,4 @@
-#include "clip/fk.h"
+#include "clip/clip.h"
 
 #include <numbers>
 #include <vector>

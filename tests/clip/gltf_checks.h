@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "clip/fk.h"
+#include "clip/clip.h"
 #include "clip/gltf.h"
 #include "fixtures.h"
 #include "make_character.h"

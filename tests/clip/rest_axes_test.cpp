@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "clip/fk.h"
+#include "clip/clip.h"
 
 namespace panache {
 namespace {

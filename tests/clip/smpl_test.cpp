@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "clip/fk.h"
+#include "clip/clip.h"
 #include "clip/npy.h"
 #include "clip/smpl_skeleton.h"
 #include "fixtures.h"

@@ -412,9 +412,9 @@ TEST(StyleFile, from_a_stranger_is_rejected_where_anything_is_wrong_with_it) {
             "s.safetensors: has 0 tensors, of which 0 are those of a style; expected no others");
   EXPECT_EQ(given([](TensorFile& s) { s.tensors["head.bias"].values[3] = NAN; }),
             "s.safetensors: tensor 'head.bias' holds a number that is not finite");
-  EXPECT_EQ(given([](TensorFile& s) { s.tensors["mean"] = test::constant_tensor(3, 0); }),
-            "m.safetensors with s.safetensors: tensor 'learnt.1.mean' has 3 numbers; expected "
-            "shape [32]");
+  EXPECT_EQ(
+      given([](TensorFile& s) { s.tensors["mean"] = test::constant_tensor(3, 0); }),
+      "m.safetensors with s.safetensors: tensor 'learnt.1.mean' has shape [3]; expected [32]");
   EXPECT_EQ(given([](TensorFile& s) { s.tensors.erase("gate.worth"); }),
             "m.safetensors with s.safetensors: tensor 'learnt.1.gate.worth' is missing");
 }

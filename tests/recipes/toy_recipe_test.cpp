@@ -40,7 +40,7 @@ TEST(ToyRecipe, a_model_of_it_that_does_not_fit_is_rejected) {
   TensorFile file = test::make_model({"bent"}, 1, toy());
   file.tensors["output.scale"] = test::constant_tensor(StyleDelta::kSize, 1);
   EXPECT_EQ(Model::create(file, "toy.safetensors").error().message,
-            "toy.safetensors: tensor 'output.scale' has 67 numbers; expected shape [4]");
+            "toy.safetensors: tensor 'output.scale' has shape [67]; expected [4]");
 }
 
 }  // namespace

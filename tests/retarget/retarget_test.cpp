@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "clip/fk.h"
+#include "clip/clip.h"
 #include "clip/motion_file.h"
 #include "retarget/find_body.h"
 #include "retarget/ground.h"

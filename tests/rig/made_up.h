@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "clip/clip.h"
-#include "clip/fk.h"
 #include "rig/canonical_skeleton.h"
 #include "rig/humanoid.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 // Any motion of the canonical body on the rig of a maker.
 
-#include "clip/fk.h"
+#include "clip/clip.h"
 #include "rig/makers.h"
 
 namespace panache::test {

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "clip/fk.h"
+#include "clip/clip.h"
 #include "clip/motion_file.h"
 #include "rig/rig_checks.h"
 

@@ -175,8 +175,7 @@ TEST(Model, wrong_or_missing_tensors_are_named) {
   EXPECT_EQ(rejection(file), "m.safetensors: tensor 'input.scale' must be above zero throughout");
   file = test::make_model({"old"});
   file.tensors["input.mean"].shape = {33, 2};
-  EXPECT_EQ(rejection(file),
-            "m.safetensors: tensor 'input.mean' has 66 numbers; expected shape [66]");
+  EXPECT_EQ(rejection(file), "m.safetensors: tensor 'input.mean' has shape [33, 2]; expected [66]");
   file = test::make_model({"old"});
   file.metadata["recipe"] = "magic";
   EXPECT_EQ(rejection(file), "m.safetensors: has recipe 'magic'; expected panache or smith2019");
@@ -196,11 +195,11 @@ TEST(Model, a_damaged_gate_is_rejected) {
   EXPECT_EQ(damaged([](auto& tensors) { tensors["gate.limit"].values = {0}; }),
             "m.safetensors: tensor 'gate.limit' must be above zero");
   EXPECT_EQ(damaged([](auto& tensors) { tensors["gate.limit"].values = {NAN}; }),
-            "m.safetensors: tensor 'gate.limit' holds a number that is not finite");
+            "m.safetensors: tensor 'gate.limit' holds a number that is not finite (number 0)");
   EXPECT_EQ(damaged([](auto& tensors) { tensors["gate.mean"].values[3] = INFINITY; }),
-            "m.safetensors: tensor 'gate.mean' holds a number that is not finite");
+            "m.safetensors: tensor 'gate.mean' holds a number that is not finite (number 3)");
   EXPECT_EQ(damaged([](auto& tensors) { tensors["gate.mean"] = test::constant_tensor(9, 0); }),
-            "m.safetensors: tensor 'gate.mean' has 9 numbers; expected shape [16]");
+            "m.safetensors: tensor 'gate.mean' has shape [9]; expected [16]");
   EXPECT_EQ(damaged([](auto& tensors) { tensors.erase("gate.limit"); }),
             "m.safetensors: tensor 'gate.limit' is missing");
   EXPECT_EQ(damaged([](auto& tensors) { tensors.erase("gate.whitening.weight"); }),

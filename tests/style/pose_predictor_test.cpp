@@ -125,7 +125,7 @@ TEST(PredictorNetwork, a_file_that_lacks_a_part_is_rejected_with_a_message) {
   };
   EXPECT_EQ(rejection("predict.mean", {}), "m.safetensors: tensor 'predict.mean' is missing");
   EXPECT_EQ(rejection("predict.linear", test::constant_tensor(5, 0)),
-            "m.safetensors: tensor 'predict.linear' has 5 numbers; expected shape [330]");
+            "m.safetensors: tensor 'predict.linear' has shape [5]; expected [330]");
   EXPECT_EQ(rejection("predict.scale", test::constant_tensor(66, 0)),
             "m.safetensors: tensor 'predict.scale' must be above zero throughout");
   EXPECT_EQ(rejection("predict.head.0.bias", test::constant_tensor(7, 0)),

@@ -66,7 +66,12 @@ TEST(WalkerModel, explains_wrong_tensors) {
   file = made_up_file();
   file.tensors["walk.coefficients"].values[5] = std::numeric_limits<float>::quiet_NaN();
   expect_rejected(file,
-                  "w.safetensors: tensor 'walk.coefficients' holds a number that no gait has");
+                  "w.safetensors: tensor 'walk.coefficients' holds a number that is not finite "
+                  "(number 5)");
+  file.tensors["walk.coefficients"].values[5] = 1e4f;
+  expect_rejected(file,
+                  "w.safetensors: tensor 'walk.coefficients' holds a number that is too large "
+                  "(number 5)");
 }
 
 TEST(WalkerModel, rejects_numbers_that_no_gait_has) {

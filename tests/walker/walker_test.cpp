@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "clip/fk.h"
+#include "clip/clip.h"
 #include "count_allocations.h"
 #include "pose/contacts.h"
 #include "rig/canonical_skeleton.h"

@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "api/shape.h"
+#include "api/options.h"
 #include "clip/motion_format.h"
 #include "exports.h"
 #include "golden.h"

@@ -1,0 +1,38 @@
+#pragma once
+// Options of the C interface as the library has them.
+
+#include <limits>
+
+#include "api/sized_struct.h"
+#include "panache/panache.h"
+#include "rig/rig.h"
+#include "style/shape.h"
+
+namespace panache::api {
+
+// Units, axes and human joints of the options, checked; not their poses.
+Result<RigOptions> read_rig_options(const panache_skeleton_options& options, int32_t joint_count);
+
+// Null: all of it at 1.
+inline Result<Shape> read_shape(const panache_shape* given) {
+  const auto read = read_struct<panache_shape>(given, PANACHE_SHAPE, "panache_shape");
+  if (!read) return read.error();
+  Shape out;
+  out.strength = read->strength;
+  out.posture = read->posture;
+  out.dynamics = read->dynamics;
+  out.timing = read->timing;
+  out.regions[size_t(Region::legs)] = read->legs;
+  out.regions[size_t(Region::torso)] = read->torso;
+  out.regions[size_t(Region::left_arm)] = read->left_arm;
+  out.regions[size_t(Region::right_arm)] = read->right_arm;
+  out.foot_lock = read->foot_lock;
+  return out;
+}
+
+// Metres per second, where 0 is no limit.
+inline float read_max_speed(double given) {
+  return given == 0 ? std::numeric_limits<float>::infinity() : static_cast<float>(given);
+}
+
+}  // namespace panache::api

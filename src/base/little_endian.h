@@ -1,0 +1,22 @@
+#pragma once
+// Whole numbers in binary files, their lowest byte first.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace panache {
+
+// The number that all of `bytes`, 8 at most, are.
+inline uint64_t little_endian(std::string_view bytes) {
+  uint64_t value = 0;
+  for (size_t i = bytes.size(); i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[i]);
+  return value;
+}
+
+// The lowest `size` bytes of `value`.
+inline void append_little_endian(uint64_t value, size_t size, std::string& out) {
+  for (size_t i = 0; i < size; ++i) out += static_cast<char>(value >> (8 * i) & 0xff);
+}
+
+}  // namespace panache
