@@ -12,6 +12,7 @@
 #include "eval/motion_metrics.h"
 #include "eval/ood.h"
 #include "eval/prediction.h"
+#include "eval/report_numbers.h"
 #include "eval/style_judges.h"
 #include "eval/systems/mean_posture.h"
 #include "eval/systems/model_system.h"

@@ -152,11 +152,5 @@ TEST(StyleContentTables, what_a_cell_did_not_measure_does_not_count_in_the_mean)
   EXPECT_TRUE(std::isnan(by_content(three_cells()).at("wave")["cadence_ratio"]));
 }
 
-TEST(StyleContentTables, some_contents_are_picked_out) {
-  const StyleContentTable some = of_contents(three_cells(), {"wave", "jump"});
-  ASSERT_EQ(some.size(), 1u);
-  EXPECT_EQ(some.begin()->first, (StyleContent{"old", "wave"}));
-}
-
 }  // namespace
 }  // namespace panache
