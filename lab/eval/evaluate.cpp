@@ -1,6 +1,5 @@
 #include "eval/evaluate.h"
 
-#include <algorithm>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -17,7 +16,6 @@
 #include "eval/systems/mean_posture.h"
 #include "eval/systems/model_system.h"
 #include "eval/systems/recorded.h"
-#include "net/safetensors.h"
 
 namespace panache {
 namespace {
