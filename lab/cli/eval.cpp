@@ -176,10 +176,13 @@ void add_eval(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   CLI::App* verb = app.add_subcommand("eval", "Evaluate models against real motion");
   add_manifest_options(*verb, options->data)->required();
-  verb->add_option("--test", options->tests,
-                   "A manifest of test takes, instead of the test takes of the manifests; "
-                   "may be given several times")
-      ->allow_extra_args(false);
+  const auto several = [&](const char* name, std::vector<std::string>& values,
+                           const std::string& description) {
+    verb->add_option(name, values, description + "; may be given several times")
+        ->allow_extra_args(false);
+  };
+  several("--test", options->tests,
+          "A manifest of test takes, instead of the test takes of the manifests");
   verb->add_option("--model", options->models,
                    "A model to evaluate; may be given several times; without any, and without "
                    "--system and --recorded, all recipes are trained first")
@@ -187,28 +190,20 @@ void add_eval(CLI::App& app, int& exit_code) {
   verb->add_option("--remover", options->remover,
                    "A remover to evaluate alone: on styled test takes, and on out-of-distribution "
                    "motion that the --model restyled");
-  verb->add_option("--system", options->systems,
-                   "A system of another paper to build from the same takes and evaluate beside the "
-                   "models: xia2015, yumer2016, holden2017 or all; may be given several times")
-      ->allow_extra_args(false);
-  verb->add_option("--unseen", options->unseen,
-                   "A content to leave out of training and then evaluate on; may be given "
-                   "several times")
-      ->allow_extra_args(false);
-  verb->add_option("--unseen-split", options->splits,
-                   "The same for several contents with commas between them, or for a split of "
-                   "docs/evaluation.md: A, B or C; may be given several times")
-      ->allow_extra_args(false);
+  several("--system", options->systems,
+          "A system of another paper to build from the same takes and evaluate beside the models: "
+          "xia2015, yumer2016, holden2017 or all");
+  several("--unseen", options->unseen, "A content to leave out of training and then evaluate on");
+  several("--unseen-split", options->splits,
+          "The same for several contents with commas between them, or for a split of "
+          "docs/evaluation.md: A, B or C");
   verb->add_option("--out-of-distribution", options->ood,
                    "A motion file, a folder of them or a manifest (of which contents without "
                    "a style are used): out-of-distribution motion to try every style on")
       ->allow_extra_args(false);
-  verb->add_option(
-          "--recorded", options->recorded,
-          "A folder of motion that another program made of test takes, with a "
-          "manifest.csv (input,style,strength,output): evaluated like a model; may be given "
-          "several times")
-      ->allow_extra_args(false);
+  several("--recorded", options->recorded,
+          "A folder of motion that another program made of test takes, with a manifest.csv "
+          "(input,style,strength,output): evaluated like a model");
   verb->add_option("--requests", options->requests,
                    "Evaluate nothing; write the manifest of inputs for --recorded, at "
                    "strength 1, for the other program to go through");
