@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "eval/report_numbers.h"
 #include "make_styled_takes.h"
 #include "train/matrix_products.h"
 
