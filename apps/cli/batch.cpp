@@ -174,40 +174,33 @@ void add_batch_options(CLI::App& verb, BatchFlags& flags) {
                       "- is stdin")
       ->type_name("");
   flags.verb = &verb;
-  verb.add_option("-o,--output", flags.output,
-                  "File to write; for several files, or with a '/' at\n"
-                  "its end, a folder; - is stdout. Default for one file:\n"
-                  "a new name beside it")
-      ->type_name("OUT");
-  verb.add_option("--to", flags.to,
-                  list_writable_names() + ": the format of files if OUT is a folder")
-      ->type_name("FORMAT");
+  add_option(verb, "-o,--output OUT", flags.output,
+             "File to write; for several files, or with a '/' at\n"
+             "its end, a folder; - is stdout. Default for one file:\n"
+             "a new name beside it");
+  add_option(verb, "--to FORMAT", flags.to,
+             list_writable_names() + ": the format of files if OUT is a folder");
   CLI::Option* list =
-      verb.add_option("--files-from", flags.files_from,
-                      "Text file with the name of a motion file in each line;\n- is stdin")
-          ->type_name("LIST");
-  verb.add_option("--below", flags.below,
-                  "Folder that the files of LIST lie in: their results have\n"
-                  "the same folders below OUT")
-      ->needs(list)
-      ->type_name("FOLDER");
-  verb.add_option("--shard", flags.shard,
-                  "Work on the I-th of N parts of the files, I from 1 to N:\n"
-                  "one for each machine")
-      ->type_name("I/N");
+      add_option(verb, "--files-from LIST", flags.files_from,
+                 "Text file with the name of a motion file in each line;\n- is stdin");
+  add_option(verb, "--below FOLDER", flags.below,
+             "Folder that the files of LIST lie in: their results have\n"
+             "the same folders below OUT")
+      ->needs(list);
+  add_option(verb, "--shard I/N", flags.shard,
+             "Work on the I-th of N parts of the files, I from 1 to N:\n"
+             "one for each machine");
   CLI::Option* force = verb.add_flag("--force", flags.force, "Overwrite files");
   verb.add_flag("--skip-existing", flags.skip_existing,
                 "Skip inputs whose output exists (resume a batch)")
       ->excludes(force);
   verb.add_flag("--dry-run", flags.dry_run, "Only show what would be written; reads no motion");
-  verb.add_option("--jobs", flags.jobs, "Files processed in parallel; default: one per core")
-      ->type_name("N");
+  add_option(verb, "--jobs N", flags.jobs, "Files processed in parallel; default: one per core");
   CLI::Option* quiet = verb.add_flag("--quiet", flags.quiet, "Print only errors, without progress");
   verb.add_flag("--json", flags.json, "Print the result for each file as JSON")->excludes(quiet);
-  CLI::Option* report = verb.add_option("--report", flags.report,
-                                        "Write a line of JSON for each file that is done;\n"
-                                        "with --skip-existing, add to those that are there")
-                            ->type_name("FILE");
+  CLI::Option* report = add_option(verb, "--report FILE", flags.report,
+                                   "Write a line of JSON for each file that is done;\n"
+                                   "with --skip-existing, add to those that are there");
   verb.add_flag("--mapping", flags.mapping, "With the mapping of each rig in the report")
       ->needs(report);
 }
@@ -229,10 +222,8 @@ int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::st
   if (flags.dry_run) return tell_plan(files, flags.json);
   std::unique_ptr<BatchReport> report;
   if (!flags.report.empty()) {
-    auto opened =
-        BatchReport::open(flags.report, batch_settings(*flags.verb, model), flags.skip_existing);
-    if (!opened) return fail(opened.error(), kBadInput);
-    report = *std::move(opened);
+    report = need(
+        BatchReport::open(flags.report, batch_settings(*flags.verb, model), flags.skip_existing));
   }
   watch_stop_signals();
   using Clock = std::chrono::steady_clock;
@@ -291,9 +282,7 @@ int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::st
       for (const std::string& line : file.details) tell("  " + line + "\n");
     }
   }
-  if (report) {
-    if (auto closed = report->close(); !closed) return fail(closed.error(), kBadInput);
-  }
+  if (report) need(report->close());
   return stopped ? kStopped : all_good ? kDone : kBadInput;
 }
 

@@ -65,9 +65,9 @@ struct OutputNaming {
 };
 
 // Checks the flags, finds the files of this shard, maybe none, and names their outputs; reads stdin
-// where that is the input. `model`: its file, or empty. A failure sets `exit_code`.
-Result<std::vector<FileJob>> plan_batch(const BatchFlags& flags, const OutputNaming& naming,
-                                        const std::string& model, int& exit_code);
+// where that is the input. `model`: its file, or empty. Throws Failure.
+std::vector<FileJob> plan_batch(const BatchFlags& flags, const OutputNaming& naming,
+                                const std::string& model);
 
 // The motion file of a job, whose notes become those of the job.
 Result<std::unique_ptr<MotionFile>> open_input(FileJob& file, const ReadOptions& options);

@@ -138,35 +138,26 @@ Result<void> convert_file(FileJob& file, const ConvertVerb& verb, const RigOptio
   return write_output(file, *bytes, verb.batch.force);
 }
 
-// The motions on a character.
-int convert_onto(const ConvertVerb& verb) {
-  return retarget_files(
-      {verb.batch, verb.read, verb.rig, verb.onto, {}, verb.figure, verb.clip, verb.in_place}, {},
-      "converting", "converted");
-}
-
 int convert(const ConvertVerb& verb) {
-  if (auto rig = check_rig_flags(verb.rig); !rig) return fail(rig.error(), kBadUsage);
-  if (auto read = check_read_options(verb.read); !read) return fail(read.error(), kBadUsage);
-  if (!verb.onto.file.empty()) return convert_onto(verb);
-  int exit_code = kDone;
-  Result<std::vector<FileJob>> files = plan_batch(verb.batch, {}, "", exit_code);
-  if (!files) return fail(files.error(), exit_code);
-  for (const FileJob& file : *files) {
-    auto format = check_format(file.input, file.output);
-    if (!format) return fail(format.error(), kBadUsage);
+  need(check_rig_flags(verb.rig), kBadUsage);
+  need(check_read_options(verb.read), kBadUsage);
+  if (!verb.onto.file.empty()) {
+    return retarget_files(
+        {verb.batch, verb.read, verb.rig, verb.onto, {}, verb.figure, verb.clip, verb.in_place}, {},
+        "converting", "converted");
   }
-  const FileJob& first = files->front();
+  std::vector<FileJob> files = plan_batch(verb.batch, {}, "");
+  for (const FileJob& file : files) need(check_format(file.input, file.output), kBadUsage);
+  const FileJob& first = files.front();
   const std::string output = verb.batch.output.value_or(first.output);
   if (verb.batch.to.empty() && !first.to_stdout && first.output != output) {
     return fail({"--output " + output + ": is a folder; expected --to with it, as in --to bvh"},
                 kBadUsage);
   }
-  Result<RigOptions> rig = read_rig_options(verb.rig);
-  if (!rig) return fail(rig.error(), kBadInput);
-  return run_batch(*std::move(files), verb.batch, "", "converting", "converted",
+  const RigOptions rig = need(read_rig_options(verb.rig));
+  return run_batch(std::move(files), verb.batch, "", "converting", "converted",
                    [&](FileJob& file, const std::function<void(double)>&) {
-                     return convert_file(file, verb, *rig);
+                     return convert_file(file, verb, rig);
                    });
 }
 
@@ -176,8 +167,7 @@ void add_convert(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("convert", "Convert motion files to another format");
   auto options = std::make_shared<ConvertVerb>();
   add_batch_options(*verb, options->batch);
-  verb->add_option("--clip", options->clip, "Motion to convert, if a file has several")
-      ->type_name("NAME");
+  add_option(*verb, "--clip NAME", options->clip, "Motion to convert, if a file has several");
   add_onto_options(*verb, options->onto);
   add_in_place_option(*verb, options->in_place);
   add_figure_options(*verb, options->figure);

@@ -241,28 +241,20 @@ Result<Info> model_info(const std::string& path) {
 
 // Several files are described one after another, in JSON as a list.
 int show(const InfoVerb& verb) {
-  if (auto flags = check_rig_flags(verb.rig); !flags) return fail(flags.error(), kBadUsage);
-  if (auto read = check_read_options(verb.read); !read) return fail(read.error(), kBadUsage);
-  const Result<RigOptions> options = read_rig_options(verb.rig);
-  if (!options) return fail(options.error(), kBadInput);
+  need(check_rig_flags(verb.rig), kBadUsage);
+  need(check_read_options(verb.read), kBadUsage);
+  const RigOptions options = need(read_rig_options(verb.rig));
   std::shared_ptr<const Model> remover;
-  if (verb.styles) {
-    Result<std::string> path = find_shipped(kRemoverModel);
-    if (!path) return fail(path.error(), kBadInput);
-    Result<std::shared_ptr<const Model>> model = Model::load(*path);
-    if (!model) return fail(model.error(), kBadInput);
-    remover = *std::move(model);
-  }
-  const Result<FoundFiles> found = find_inputs(verb.files, "");
-  if (!found) return fail(found.error(), kBadInput);
-  const bool many = found->is_batch || found->files.size() > 1;
+  if (verb.styles) remover = need(Model::load(need(find_shipped(kRemoverModel))));
+  const FoundFiles found = need(find_inputs(verb.files, ""));
+  const bool many = found.is_batch || found.files.size() > 1;
   int exit_code = kDone;
   Json list = Json::array();
   std::string between;
-  for (const FoundFile& file : found->files) {
+  for (const FoundFile& file : found.files) {
     const Result<Info> info = file.path.ends_with(".safetensors")
                                   ? model_info(file.path)
-                                  : motion_info(file.path, verb, *options, remover);
+                                  : motion_info(file.path, verb, options, remover);
     if (info && !verb.json) print(std::exchange(between, "\n") + info->text);
     if (info && verb.json && !many) print(info->json);
     if (info) print_notes(info->notes);
@@ -286,9 +278,8 @@ void add_info(CLI::App& app, int& exit_code) {
                        "), folders\nof them, patterns, or models (.safetensors)")
       ->required()
       ->type_name("");
-  verb->add_option("--clip", options->clip,
-                   "Motion to infer the rig from, if a file has\nseveral; default: the first")
-      ->type_name("NAME");
+  add_option(*verb, "--clip NAME", options->clip,
+             "Motion to infer the rig from, if a file has\nseveral; default: the first");
   add_rig_options(*verb, options->rig);
   add_read_options(*verb, options->read);
   verb->add_flag("--styles", options->styles, "Also tell which styles a motion shows");

@@ -26,8 +26,8 @@ Result<std::unique_ptr<MotionFile>> open_motion(const std::string& path,
 }
 
 void add_read_options(CLI::App& verb, ReadOptions& options) {
-  verb.add_option("--fps", options.fps, "Frames a second, where a file's rate is wrong or missing")
-      ->type_name("N");
+  add_option(verb, "--fps N", options.fps,
+             "Frames a second, where a file's rate is wrong or missing");
 }
 
 Result<void> check_read_options(const ReadOptions& options) {

@@ -47,65 +47,42 @@ Clip pose_of(const Clip& clip, const Rig& rig) {
   return pose;
 }
 
-Result<OpenClip> open(const std::string& path, const ReadOptions& read, const RigOptions& options,
-                      bool pose) {
-  Result<std::unique_ptr<MotionFile>> file = open_motion(path, read);
-  if (!file) return file.error();
-  std::vector<std::string> notes = (*file)->notes();
-  Result<std::vector<int>> picked = pick_clips(**file, "", options, path, notes);
-  if (!picked) return picked.error();
-  if (picked->size() > 1) {
-    return Error{path + ": holds " + std::to_string(picked->size()) + " motions (" +
-                 list_clips(**file, *picked) +
-                 "); expected one; panache convert --clip NAME takes one out of it"};
+OpenClip open(const std::string& path, const ReadOptions& read, const RigOptions& options,
+              bool pose) {
+  const std::unique_ptr<MotionFile> file = need(open_motion(path, read));
+  std::vector<std::string> notes = file->notes();
+  const std::vector<int> picked = need(pick_clips(*file, "", options, path, notes));
+  if (picked.size() > 1) {
+    throw Failure{{path + ": holds " + std::to_string(picked.size()) + " motions (" +
+                   list_clips(*file, picked) +
+                   "); expected one; panache convert --clip NAME takes one out of it"},
+                  kBadInput};
   }
-  const int only = picked->front();
-  Result<Rig> rig = make_rig((*file)->clip(only), options, path);
-  if (!rig) return rig.error();
-  const Clip& clip = (*file)->clip(only);
-  if (!pose) note_rate(clip, *rig, path, notes);
+  const Clip& clip = file->clip(picked.front());
+  OpenClip out{path, clip, need(make_rig(clip, options, path))};
+  if (!pose) note_rate(clip, out.rig, path, notes);
   print_notes(notes);
-  if (!pose) return OpenClip{path, clip, *std::move(rig)};
-  OpenClip out{path, pose_of(clip, *rig), *rig};
-  rig = make_rig(out.clip, options, path);
-  if (!rig) return rig.error();
-  out.rig = *std::move(rig);
+  if (!pose) return out;
+  out.clip = pose_of(clip, out.rig);
+  out.rig = need(make_rig(out.clip, options, path));
   return out;
 }
 
-Result<std::shared_ptr<const NeutralBank>> load_bank() {
-  Result<std::string> path = find_shipped(kNeutralBank);
-  if (!path) return path.error();
-  return NeutralBank::load(*path);
-}
-
-Result<LearnPair> make_alone(const LearnClip& styled, bool pose) {
-  if (pose) return make_pose_pair(styled);
-  Result<std::shared_ptr<const NeutralBank>> bank = load_bank();
-  if (!bank) return bank.error();
-  return make_learn_pair(styled, **bank);
-}
-
-Result<std::vector<LearnPair>> open_pairs(const LearnVerb& verb) {
-  Result<RigOptions> options = read_rig_options(verb.rig);
-  if (!options) return options.error();
+std::vector<LearnPair> open_pairs(const LearnVerb& verb) {
+  const RigOptions options = need(read_rig_options(verb.rig));
   std::vector<OpenClip> clips;
   for (const std::string& path : verb.clips) {
-    Result<OpenClip> clip = open(path, verb.read, *options, verb.pose);
-    if (!clip) return clip.error();
-    clips.push_back(*std::move(clip));
+    clips.push_back(open(path, verb.read, options, verb.pose));
+  }
+  if (clips.size() == 1) {
+    const LearnClip styled = clips[0].to_learn();
+    if (verb.pose) return {need(make_pose_pair(styled))};
+    return {
+        need(make_learn_pair(styled, *need(NeutralBank::load(need(find_shipped(kNeutralBank))))))};
   }
   std::vector<LearnPair> pairs;
-  if (clips.size() == 1) {
-    Result<LearnPair> pair = make_alone(clips[0].to_learn(), verb.pose);
-    if (!pair) return pair.error();
-    pairs.push_back(*std::move(pair));
-    return pairs;
-  }
   for (size_t i = 0; i < clips.size(); i += 2) {
-    Result<LearnPair> pair = make_learn_pair(clips[i].to_learn(), clips[i + 1].to_learn());
-    if (!pair) return pair.error();
-    pairs.push_back(*std::move(pair));
+    pairs.push_back(need(make_learn_pair(clips[i].to_learn(), clips[i + 1].to_learn())));
   }
   return pairs;
 }
@@ -194,48 +171,38 @@ Result<void> check_usage(const LearnVerb& verb) {
 }
 
 int learn(const LearnVerb& verb) {
-  if (auto usage = check_usage(verb); !usage) return fail(usage.error(), kBadUsage);
+  need(check_usage(verb), kBadUsage);
   // A model that is not there yet begins as a copy of the shipped one.
   std::error_code unknown;
   const bool is_new = !std::filesystem::exists(verb.model, unknown);
-  Result<std::string> base = is_new ? find_model("") : Result<std::string>(verb.model);
-  if (!base) return fail(base.error(), kBadInput);
-  if (!is_new) {
-    if (auto open = check_writable(verb.model); !open) return fail(open.error(), kBadInput);
-  }
-  Result<TensorFile> model = read_tensors(*base);
-  if (!model) return fail(model.error(), kBadInput);
+  const std::string base = is_new ? need(find_model("")) : verb.model;
+  if (!is_new) need(check_writable(verb.model));
+  const TensorFile model = need(read_tensors(base));
   // Before the work: a name that is taken.
-  Result<std::shared_ptr<const Model>> read = Model::create(*model, *base);
-  if (!read) return fail(read.error(), kBadInput);
-  if ((*read)->find_style(verb.name) && !verb.force) {
+  if (need(Model::create(model, base))->find_style(verb.name) && !verb.force) {
     const std::string owner =
-        is_new ? "the shipped model, which " + verb.model + " starts from," : *base + ":";
+        is_new ? "the shipped model, which " + verb.model + " starts from," : base + ":";
     return fail({owner + " has a style '" + verb.name +
                  "' already; give another --name, or --force to replace it"},
                 kBadInput);
   }
-  Result<std::vector<LearnPair>> pairs = open_pairs(verb);
-  if (!pairs) return fail(pairs.error(), kBadInput);
+  const std::vector<LearnPair> pairs = open_pairs(verb);
   const Stopwatch watch;
-  Result<LearntStyle> learnt = learn_style(*model, *base, *pairs, verb.name, verb.description);
-  if (!learnt) return fail(learnt.error(), kBadInput);
+  LearntStyle learnt = need(learn_style(model, base, pairs, verb.name, verb.description));
   const double seconds = watch.seconds();
-  set_source(verb.source, verb.licence, learnt->file);
-  Result<TensorFile> merged = add_style(*model, *base, learnt->file, verb.name, verb.force);
-  if (!merged) return fail(merged.error(), kBadInput);
-  auto written = is_new ? write_file(verb.model, format_safetensors(*merged), false)
-                        : replace_model(verb.model, *merged);
-  if (!written) return fail(written.error(), kBadInput);
-  for (const PairReport& pair : learnt->pairs) {
+  set_source(verb.source, verb.licence, learnt.file);
+  const TensorFile merged = need(add_style(model, base, learnt.file, verb.name, verb.force));
+  need(is_new ? write_file(verb.model, format_safetensors(merged), false)
+              : replace_model(verb.model, merged));
+  for (const PairReport& pair : learnt.pairs) {
     for (const std::string& warning : pair.warnings) print_message("warning: " + warning);
   }
-  for (const std::string& warning : learnt->warnings) print_message("warning: " + warning);
-  const size_t bytes = format_safetensors(learnt->file).size();
+  for (const std::string& warning : learnt.warnings) print_message("warning: " + warning);
+  const size_t bytes = format_safetensors(learnt.file).size();
   if (verb.json) {
-    print(to_json(*learnt, verb, bytes, seconds));
+    print(to_json(learnt, verb, bytes, seconds));
   } else {
-    print(describe(*learnt, verb, bytes, seconds));
+    print(describe(learnt, verb, bytes, seconds));
   }
   return kDone;
 }
@@ -252,21 +219,17 @@ void add_learn(CLI::App& app, int& exit_code) {
                        "style: how other people do it takes the neutral one's place")
       ->required()
       ->type_name("");
-  verb->add_option("--name", options->name, "Name of the style, as in stylize --style NAME=1")
-      ->required()
-      ->type_name("NAME");
-  verb->add_option("--into", options->model,
-                   "Model to add it to (.safetensors); if it does not\n"
-                   "exist, it starts as a copy of the shipped one")
-      ->required()
-      ->type_name("MODEL");
-  verb->add_option("--description", options->description, "Description, shown by panache styles")
-      ->type_name("TEXT");
-  verb->add_option("--source", options->source,
-                   "Where the motion comes from, for those who get\nthe style")
-      ->type_name("TEXT");
-  verb->add_option("--licence", options->licence, "Licence of the style, likewise")
-      ->type_name("TEXT");
+  add_option(*verb, "--name NAME", options->name, "Name of the style, as in stylize --style NAME=1")
+      ->required();
+  add_option(*verb, "--into MODEL", options->model,
+             "Model to add it to (.safetensors); if it does not\n"
+             "exist, it starts as a copy of the shipped one")
+      ->required();
+  add_option(*verb, "--description TEXT", options->description,
+             "Description, shown by panache styles");
+  add_option(*verb, "--source TEXT", options->source,
+             "Where the motion comes from, for those who get\nthe style");
+  add_option(*verb, "--licence TEXT", options->licence, "Licence of the style, likewise");
   verb->add_flag("--pose", options->pose,
                  "CLIPS are a neutral pose and a posed one, or only the\n"
                  "latter: of a motion its first frame. The style changes\n"

@@ -40,15 +40,14 @@ struct Options {
 };
 
 // One strength per style of the model.
-Result<std::vector<float>> read_styles(const std::vector<std::string>& texts, const Model& model) {
-  Result<std::vector<StrengthWish>> wishes = parse_styles(texts, model);
-  if (!wishes) return wishes.error();
+std::vector<float> read_styles(const std::vector<std::string>& texts, const Model& model) {
   std::vector<float> strengths(model.styles().size());
-  for (const StrengthWish& wish : *wishes) {
+  for (const StrengthWish& wish : need(parse_styles(texts, model), kBadUsage)) {
     const auto style = static_cast<size_t>(wish.track.style);
     if (wish.over_clip) {
-      return Error{"--style " + model.styles()[style].name + "=" + describe(wish) +
-                   ": live motion has no end to change towards; expected one strength"};
+      throw Failure{{"--style " + model.styles()[style].name + "=" + describe(wish) +
+                     ": live motion has no end to change towards; expected one strength"},
+                    kBadUsage};
     }
     strengths[style] = wish.track.points.front().strength;
   }
@@ -94,16 +93,14 @@ void print_summary(const VmcRelay& relay, double seconds) {
         std::to_string(all.latencies.quantile_us(0.99)) + " us\n");
 }
 
-Result<void> write_recording(const VmcRecording& recording, const Options& options) {
+void write_recording(const VmcRecording& recording, const Options& options) {
   if (recording.frames() == 0) {
-    return Error{options.record + ": not written, because no sender has a humanoid"};
+    throw Failure{{options.record + ": not written, because no sender has a humanoid"}, kBadInput};
   }
   const Clip clip = recording.clip();
-  auto written = write_file(options.record, format_bvh(clip), options.force);
-  if (!written) return written;
+  need(write_file(options.record, format_bvh(clip), options.force));
   print("recorded " + plural(recording.frames(), "frame") + " (" + fixed(clip.duration(), 1) +
         " s) into " + options.record + (recording.full() ? ", which is full\n" : "\n"));
-  return {};
 }
 
 // Answers the page's requests beside the relay, as long as it exists.
@@ -131,43 +128,27 @@ class Serving {
 };
 
 int live(const Options& options) {
-  Result<sockaddr_in> in = parse_address(options.in, "--vmc-in", "0.0.0.0");
-  if (!in) return fail(in.error(), kBadUsage);
-  Result<sockaddr_in> out = parse_address(options.out, "--vmc-out");
-  if (!out) return fail(out.error(), kBadUsage);
-  for (const Result<void>& good : {check_no_circle(*in, *out), check_record(options)}) {
-    if (!good) return fail(good.error(), kBadUsage);
-  }
-  if (!options.record.empty()) {
-    auto free = check_output("", options.record, options.force);
-    if (!free) return fail(free.error(), kBadInput);
-  }
+  const sockaddr_in in = need(parse_address(options.in, "--vmc-in", "0.0.0.0"), kBadUsage);
+  const sockaddr_in out = need(parse_address(options.out, "--vmc-out"), kBadUsage);
+  need(check_no_circle(in, out), kBadUsage);
+  need(check_record(options), kBadUsage);
+  if (!options.record.empty()) need(check_output("", options.record, options.force));
   LiveOptions how = options.time;
-  if (auto shape = read_shape(options.shape, how.stylizer); !shape) {
-    return fail(shape.error(), kBadUsage);
+  need(read_shape(options.shape, how.stylizer), kBadUsage);
+  const std::string path = need(find_model(options.model));
+  const std::shared_ptr<const Model> model = need(Model::load(path));
+  const std::vector<float> strengths = read_styles(options.styles, *model);
+  const std::optional<Removal> removal = read_removal(options.removal);
+  if (removal) how.remover = removal->remover;
+  if (auto good = LiveStylizer::check(*model, options.time); !good) {
+    throw Failure{{path + ": " + good.error().message}, kBadUsage};
   }
-  Result<std::string> path = find_model(options.model);
-  if (!path) return fail(path.error(), kBadInput);
-  Result<std::shared_ptr<const Model>> model = Model::load(*path);
-  if (!model) return fail(model.error(), kBadInput);
-  Result<std::vector<float>> strengths = read_styles(options.styles, **model);
-  if (!strengths) return fail(strengths.error(), kBadUsage);
-  int exit_code = kDone;
-  const Result<std::optional<Removal>> removal = read_removal(options.removal, exit_code);
-  if (!removal) return fail(removal.error(), exit_code);
-  if (*removal) how.remover = (*removal)->remover;
-  if (auto good = LiveStylizer::check(**model, options.time); !good) {
-    return fail({*path + ": " + good.error().message}, kBadUsage);
-  }
-  Result<UdpSocket> socket = UdpSocket::listen(*in, "--vmc-in");
-  if (!socket) return fail(socket.error(), kBadInput);
+  UdpSocket socket = need(UdpSocket::listen(in, "--vmc-in"));
 
   LiveView view;
   std::unique_ptr<PageServer> server;
   if (options.view) {
-    Result<std::unique_ptr<PageServer>> page = PageServer::create();
-    if (!page) return fail(page.error(), kBadInput);
-    server = *std::move(page);
+    server = need(PageServer::create());
     // For as many poses as each reader is fast enough for.
     server->serve("/live/body.bvh", [&view] { return view.body(); });
     server->serve_events("/live/poses", [&view] {
@@ -181,31 +162,28 @@ int live(const Options& options) {
   watch_stop_signals();
   const Serving serving(server.get());
   VmcRecording recording;
-  VmcRelay relay(*std::move(socket), *out, *std::move(model), how, *std::move(strengths),
+  VmcRelay relay(std::move(socket), out, model, how, strengths,
                  options.record.empty() ? nullptr : &recording, server ? &view : nullptr,
-                 *removal ? (*removal)->style : -1);
+                 removal ? removal->style : -1);
   if (!options.quiet) {
-    print_message("relaying from " + listened_at(*in) + " to " + to_string(*out) +
+    print_message("relaying from " + listened_at(in) + " to " + to_string(out) +
                   " until Ctrl-C ends it");
   }
   const double begin = stamp_now();
   relay_until_stopped(relay, options.quiet);
   print_summary(relay, stamp_now() - begin);
-  if (options.record.empty()) return kDone;
-  auto written = write_recording(recording, options);
-  return written ? kDone : fail(written.error(), kBadInput);
+  if (!options.record.empty()) write_recording(recording, options);
+  return kDone;
 }
 
 // What comes before 'send' would be read for live and then be ignored.
-Result<void> check_nothing_before_send(const CLI::App& live) {
+void check_nothing_before_send(const CLI::App& live) {
   for (const CLI::Option* option : live.get_options()) {
-    if (option->count() > 0) {
-      return Error{option->get_name() +
-                   ": 'live send' has no such option; see panache live send "
-                   "--help"};
-    }
+    if (option->count() == 0) continue;
+    throw Failure{
+        {option->get_name() + ": 'live send' has no such option; see panache live send --help"},
+        kBadUsage};
   }
-  return {};
 }
 
 }  // namespace
@@ -213,35 +191,28 @@ Result<void> check_nothing_before_send(const CLI::App& live) {
 void add_live(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("live", "Restyle live motion (VMC protocol)");
   auto options = std::make_shared<Options>();
-  verb->add_option("--vmc-in", options->in,
-                   "Port that trackers send to: PORT of all addresses of\n"
-                   "this machine, or HOST:PORT of one; default: 39539")
-      ->type_name("ADDRESS");
-  verb->add_option("--vmc-out", options->out,
-                   "Port of the avatars: PORT on this machine or\nHOST:PORT; default: 39540")
-      ->type_name("ADDRESS");
-  verb->add_option("--style", options->styles,
-                   "NAME=STRENGTH: 0 is neutral, 1 the style as captured,\n"
-                   "above 1 exaggerates (-4 to 4). One --style per style")
-      ->allow_extra_args(false)
-      ->type_name("STYLE");
+  add_option(*verb, "--vmc-in ADDRESS", options->in,
+             "Port that trackers send to: PORT of all addresses of\n"
+             "this machine, or HOST:PORT of one; default: 39539");
+  add_option(*verb, "--vmc-out ADDRESS", options->out,
+             "Port of the avatars: PORT on this machine or\nHOST:PORT; default: 39540");
+  add_option(*verb, "--style STYLE", options->styles,
+             "NAME=STRENGTH: 0 is neutral, 1 the style as captured,\n"
+             "above 1 exaggerates (-4 to 4). One --style per style")
+      ->allow_extra_args(false);
   add_removal_options(*verb, options->removal);
   add_shape_options(*verb, options->shape);
-  verb->add_option("--model", options->model,
-                   "Model; default: $PANACHE_MODEL, else the one shipped")
-      ->type_name("FILE");
-  verb->add_option("--record", options->record,
-                   "Write the first sender's styled motion (.bvh) when\nthe program ends")
-      ->type_name("FILE");
-  verb->add_option("--max-lag", options->time.max_lag,
-                   "Maximum lag for slower styles, 0 to 4 seconds;\ndefault: 0")
-      ->check(in_range(0.0, panache::LiveOptions::kMaxLag))
-      ->type_name("SECONDS");
-  verb->add_option(
-          "--max-lead", options->time.max_lead,
-          "Maximum lead for faster styles, using predicted\ninput, 0 to 0.25 seconds; default: 0")
-      ->check(in_range(0.0, PredictorNetwork::kMaxSeconds))
-      ->type_name("SECONDS");
+  add_option(*verb, "--model FILE", options->model,
+             "Model; default: $PANACHE_MODEL, else the one shipped");
+  add_option(*verb, "--record FILE", options->record,
+             "Write the first sender's styled motion (.bvh) when\nthe program ends");
+  add_option(*verb, "--max-lag SECONDS", options->time.max_lag,
+             "Maximum lag for slower styles, 0 to 4 seconds;\ndefault: 0")
+      ->check(in_range(0.0, panache::LiveOptions::kMaxLag));
+  add_option(
+      *verb, "--max-lead SECONDS", options->time.max_lead,
+      "Maximum lead for faster styles, using predicted\ninput, 0 to 0.25 seconds; default: 0")
+      ->check(in_range(0.0, PredictorNetwork::kMaxSeconds));
   verb->add_flag("--skip-cycles", options->time.skip_cycles,
                  "Skip or repeat whole gait cycles to stay within the\n"
                  "limits, so that a tempo lasts (with --max-lag 1.5)");
@@ -257,13 +228,9 @@ void add_live(CLI::App& app, int& exit_code) {
       "  panache live --vmc-in 39539 --vmc-out 192.168.1.20:39540 --record show.bvh");
   const std::function<int()> run_send = add_send(*verb);
   verb->callback([=, &exit_code] {
-    if (verb->get_subcommands().empty()) {
-      exit_code = live(*options);
-    } else if (auto good = check_nothing_before_send(*verb); !good) {
-      exit_code = fail(good.error(), kBadUsage);
-    } else {
-      exit_code = run_send();
-    }
+    const bool sends = !verb->get_subcommands().empty();
+    if (sends) check_nothing_before_send(*verb);
+    exit_code = sends ? run_send() : live(*options);
   });
 }
 

@@ -1,8 +1,9 @@
 #pragma once
-// Messages, results and exit codes of the program.
+// Options, messages, results and exit codes of the program.
 
 #include <string>
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "base/result.h"
@@ -27,6 +28,21 @@ inline constexpr const char* kRateHint =
 // Prints the message with its hint and hands `exit_code` back.
 int fail(const Error& error, int exit_code);
 
+// Thrown by a verb that cannot go on: run_program() prints the message and returns the exit code.
+struct Failure {
+  Error error;
+  int exit_code;
+};
+// What a verb cannot go on without.
+inline void need(const Result<void>& result, int exit_code = kBadInput) {
+  if (!result) throw Failure{result.error(), exit_code};
+}
+template <class T>
+T need(Result<T> result, int exit_code = kBadInput) {
+  if (!result) throw Failure{result.error(), exit_code};
+  return *std::move(result);
+}
+
 // Results for people and for machines, on stdout.
 void print(const std::string& text);
 using Json = nlohmann::ordered_json;
@@ -48,5 +64,14 @@ std::string padded(const std::string& text, size_t width);
 
 // "--every: expected a number from 0.01 to 60, found nan" unless low <= value <= high.
 Result<void> check_range(const std::string& option, double value, double low, double high);
+
+// An option of `verb`: its names and, after a space, what its value is called: "-o,--output OUT".
+template <class T>
+CLI::Option* add_option(CLI::App& verb, const std::string& names, T& value,
+                        const std::string& description) {
+  const size_t space = names.find(' ');
+  return verb.add_option(names.substr(0, space), value, description)
+      ->type_name(names.substr(space + 1));
+}
 
 }  // namespace panache::cli

@@ -40,14 +40,13 @@ std::string licence_of(const LoadedStyle& loaded);
 std::string describe(const LoadedStyle& loaded);
 Json to_json(const LoadedStyle& loaded);
 
-// Prints what is known of a model or of a style file, and returns the exit code.
+// Prints what is known of a model, of a style file or of a folder of these.
 template <class Loaded>
-int report(const Result<Loaded>& loaded, bool json) {
-  if (!loaded) return fail(loaded.error(), kBadInput);
+int report(const Loaded& loaded, bool json) {
   if (json) {
-    print(to_json(*loaded));
+    print(to_json(loaded));
   } else {
-    print(describe(*loaded));
+    print(describe(loaded));
   }
   return kDone;
 }

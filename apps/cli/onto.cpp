@@ -11,12 +11,10 @@
 
 namespace panache::cli {
 CLI::Option* add_onto_options(CLI::App& verb, OntoFlags& flags) {
-  CLI::Option* onto = verb.add_option("--onto", flags.file,
-                                      "Character to put the motion on (" + motion_extensions() +
-                                          "):\nits meshes, rest pose, proportions and units stay")
-                          ->type_name("FILE");
-  verb.add_option("--onto-map", flags.map, "As --map, for the joints of that character")
-      ->type_name("FILE")
+  CLI::Option* onto = add_option(verb, "--onto FILE", flags.file,
+                                 "Character to put the motion on (" + motion_extensions() +
+                                     "):\nits meshes, rest pose, proportions and units stay");
+  add_option(verb, "--onto-map FILE", flags.map, "As --map, for the joints of that character")
       ->needs(onto);
   return onto;
 }

@@ -70,32 +70,21 @@ bool uses_streams(const BatchFlags& flags) {
 }
 
 // The jobs without a look at what exists.
-Result<std::vector<FileJob>> name_jobs(const BatchFlags& flags, const OutputNaming& naming,
-                                       int& exit_code) {
+std::vector<FileJob> name_jobs(const BatchFlags& flags, const OutputNaming& naming) {
   std::vector<FileJob> files;
   if (uses_streams(flags)) {
-    Result<FileJob> file = plan_stream(flags, naming);
-    if (!file) return file.error();
-    files.push_back(*std::move(file));
+    files.push_back(need(plan_stream(flags, naming), kBadUsage));
     return files;
   }
-  Result<FoundFiles> found = flags.files_from.empty()
-                                 ? find_inputs(flags.inputs, flags.output.value_or(""))
-                                 : list_inputs(flags.files_from, flags.below);
-  if (!found) {
-    exit_code = kBadInput;
-    return found.error();
-  }
-  Result<std::string> output =
-      flags.output ? Result<std::string>(*flags.output) : default_output(*found, naming);
-  if (!output) return output.error();
-  Result<std::vector<FilePair>> pairs = name_outputs(*found, *output, naming.extension);
-  if (!pairs) return pairs.error();
-  for (const FilePair& pair : *pairs) {
-    FileJob file;
+  const FoundFiles found =
+      need(flags.files_from.empty() ? find_inputs(flags.inputs, flags.output.value_or(""))
+                                    : list_inputs(flags.files_from, flags.below));
+  const std::string output =
+      flags.output ? *flags.output : need(default_output(found, naming), kBadUsage);
+  for (const FilePair& pair : need(name_outputs(found, output, naming.extension), kBadUsage)) {
+    FileJob& file = files.emplace_back();
     file.input = pair.input;
     file.output = pair.output;
-    files.push_back(std::move(file));
   }
   return files;
 }
@@ -128,51 +117,47 @@ Result<void> check_sources(const BatchFlags& flags) {
 
 }  // namespace
 
-Result<std::vector<FileJob>> plan_batch(const BatchFlags& flags, const OutputNaming& wanted,
-                                        const std::string& model, int& exit_code) {
-  exit_code = kBadUsage;
-  if (auto sources = check_sources(flags); !sources) return sources.error();
+std::vector<FileJob> plan_batch(const BatchFlags& flags, const OutputNaming& wanted,
+                                const std::string& model) {
+  need(check_sources(flags), kBadUsage);
   OutputNaming naming = wanted;
   if (!flags.to.empty()) {
     naming.extension = "." + flags.to;
     if (!has_writer(naming.extension)) {
-      return Error{"--to: expected " + list_writable_names() + ", found " +
-                   panache::quoted(flags.to)};
+      throw Failure{
+          {"--to: expected " + list_writable_names() + ", found " + panache::quoted(flags.to)},
+          kBadUsage};
     }
   }
-  if (auto jobs = check_range("--jobs", flags.jobs, 0, 1024); !jobs) return jobs.error();
-  Result<std::vector<FileJob>> files = name_jobs(flags, naming, exit_code);
-  if (!files) return files.error();
-  if (!flags.to.empty() && extension_of(files->front().output) != naming.extension) {
-    exit_code = kBadUsage;
-    return Error{"--to " + flags.to + ": " + files->front().output + " has another format"};
+  need(check_range("--jobs", flags.jobs, 0, 1024), kBadUsage);
+  std::vector<FileJob> files = name_jobs(flags, naming);
+  if (!flags.to.empty() && extension_of(files.front().output) != naming.extension) {
+    throw Failure{{"--to " + flags.to + ": " + files.front().output + " has another format"},
+                  kBadUsage};
   }
-  if (!flags.shard.empty()) {
-    if (auto taken = take_shard(flags.shard, *files); !taken) return taken.error();
-  }
+  if (!flags.shard.empty()) need(take_shard(flags.shard, files), kBadUsage);
   std::vector<FilePair> pairs;
-  for (const FileJob& file : *files) {
+  for (const FileJob& file : files) {
     if (!file.to_stdout) pairs.push_back({file.input, file.output});
     if (!flags.report.empty() && file.output == flags.report) {
-      return Error{"--report: " + flags.report + " is an output too; expected a separate file"};
+      throw Failure{{"--report: " + flags.report + " is an output too; expected a separate file"},
+                    kBadUsage};
     }
   }
-  exit_code = kBadInput;
   if (!flags.report.empty() && flags.skip_existing) {
     std::vector<std::string> outputs;
     for (const FilePair& pair : pairs) outputs.push_back(pair.output);
-    auto same = check_settings(flags.report, outputs, batch_settings(*flags.verb, model));
-    if (!same) return same.error();
+    need(check_settings(flags.report, outputs, batch_settings(*flags.verb, model)));
   } else if (!flags.report.empty()) {
-    if (auto free = check_output("", flags.report, flags.force); !free) return free.error();
+    need(check_output("", flags.report, flags.force));
   }
   if (flags.skip_existing) {
     std::error_code status;
-    for (FileJob& file : *files) {
+    for (FileJob& file : files) {
       file.skipped = !file.to_stdout && std::filesystem::exists(file.output, status);
     }
-  } else if (auto free = check_outputs(pairs, flags.force); !free) {
-    return free.error();
+  } else {
+    need(check_outputs(pairs, flags.force));
   }
   return files;
 }

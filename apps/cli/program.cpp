@@ -75,6 +75,8 @@ int run(const Program& program, int argc, char** argv) {
   try {
     std::reverse(arguments.begin(), arguments.end());  // As CLI11 wants them.
     app->parse(std::move(arguments));
+  } catch (const Failure& failure) {
+    return fail(failure.error, failure.exit_code);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app->exit(error);  // --help and --version.
     const CLI::App& command = last_command(*app);

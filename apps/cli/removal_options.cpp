@@ -13,35 +13,29 @@ const std::string& name_of(const Removal& removal) {
 }  // namespace
 
 void add_removal_options(CLI::App& verb, RemovalFlags& flags) {
-  CLI::Option* remove = verb.add_option("--remove", flags.style,
-                                        "The style that the input shows: it is taken off first");
-  remove->type_name("STYLE");
+  CLI::Option* remove = add_option(verb, "--remove STYLE", flags.style,
+                                   "The style that the input shows: it is taken off first");
   verb.add_flag("--neutral", flags.neutral, "Take whatever style the input shows off first")
       ->excludes(remove);
-  verb.add_option("--remover", flags.remover,
-                  "Model that takes styles off; default: the one shipped")
-      ->type_name("FILE");
+  add_option(verb, "--remover FILE", flags.remover,
+             "Model that takes styles off; default: the one shipped");
 }
 
-Result<std::optional<Removal>> read_removal(const RemovalFlags& flags, int& exit_code) {
-  exit_code = kBadUsage;
+std::optional<Removal> read_removal(const RemovalFlags& flags) {
   if (!flags.given()) {
-    if (flags.remover.empty()) return std::optional<Removal>();
-    return Error{"--remover: nothing is to be taken off; add --remove STYLE or --neutral"};
+    if (flags.remover.empty()) return std::nullopt;
+    throw Failure{{"--remover: nothing is to be taken off; add --remove STYLE or --neutral"},
+                  kBadUsage};
   }
-  exit_code = kBadInput;
-  Result<std::string> path =
-      flags.remover.empty() ? find_shipped(kRemoverModel) : Result<std::string>(flags.remover);
-  if (!path) return path.error();
-  Result<std::shared_ptr<const Model>> remover = Model::load(*path);
-  if (!remover) return remover.error();
-  if (!is_remover(**remover)) {
-    return Error{*path + ": puts styles on; expected a model that takes them off"};
+  const std::string path =
+      flags.remover.empty() ? need(find_shipped(kRemoverModel)) : flags.remover;
+  const std::shared_ptr<const Model> remover = need(Model::load(path));
+  if (!is_remover(*remover)) {
+    throw Failure{{path + ": puts styles on; expected a model that takes them off"}, kBadInput};
   }
-  exit_code = kBadUsage;
-  Result<int> style = find_removal(**remover, flags.style);
-  if (!style) return Error{"--remove: " + style.error().message};
-  return std::optional(Removal{*std::move(remover), *style});
+  const Result<int> style = find_removal(*remover, flags.style);
+  if (!style) throw Failure{{"--remove: " + style.error().message}, kBadUsage};
+  return Removal{remover, *style};
 }
 
 std::string describe(const Removal& removal) {

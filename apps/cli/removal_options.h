@@ -6,7 +6,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "base/result.h"
 #include "messages.h"
 #include "style/removal.h"
 
@@ -22,8 +21,8 @@ struct RemovalFlags {
 // `flags` must outlive the verb.
 void add_removal_options(CLI::App& verb, RemovalFlags& flags);
 
-// What to take off; absent where nothing is to be. A failure sets `exit_code`.
-Result<std::optional<Removal>> read_removal(const RemovalFlags& flags, int& exit_code);
+// What to take off; absent where nothing is to be. Throws Failure.
+std::optional<Removal> read_removal(const RemovalFlags& flags);
 
 // "old off", or "neutral" where the style has no name.
 std::string describe(const Removal& removal);

@@ -31,9 +31,8 @@ void add_retarget(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<RetargetVerb>();
   add_batch_options(*verb, options->flags.batch);
   add_onto_options(*verb, options->flags.onto)->required();
-  verb->add_option("--clip", options->flags.clip,
-                   "Motion to take, if a file has several; default: all")
-      ->type_name("NAME");
+  add_option(*verb, "--clip NAME", options->flags.clip,
+             "Motion to take, if a file has several; default: all");
   add_place_options(*verb, options->flags.place, "the character's animations");
   add_in_place_option(*verb, options->flags.in_place);
   add_figure_options(*verb, options->flags.figure);

@@ -72,21 +72,16 @@ Result<void> retarget_file(FileJob& file, const CharacterFile& character,
 
 int retarget_files(const RetargetFlags& flags, const RetargetOptions& options,
                    const std::string& doing, const std::string& done) {
-  if (auto rig = check_rig_flags(flags.rig); !rig) return fail(rig.error(), kBadUsage);
-  if (auto read = check_read_options(flags.read); !read) return fail(read.error(), kBadUsage);
-  Result<CharacterFile> character = CharacterFile::open(flags.onto);
-  if (!character) return fail(character.error(), kBadInput);
-  int exit_code = kDone;
-  Result<std::vector<FileJob>> files = plan_batch(
-      flags.batch, {character->extension(), "on-" + fs::path(character->path()).stem().string()},
-      "", exit_code);
-  if (!files) return fail(files.error(), exit_code);
-  if (auto fit = character->check_outputs(*files); !fit) return fail(fit.error(), kBadUsage);
-  Result<RigOptions> rig = read_rig_options(flags.rig);
-  if (!rig) return fail(rig.error(), kBadInput);
-  return run_batch(*std::move(files), flags.batch, "", doing, done,
+  need(check_rig_flags(flags.rig), kBadUsage);
+  need(check_read_options(flags.read), kBadUsage);
+  const CharacterFile character = need(CharacterFile::open(flags.onto));
+  std::vector<FileJob> files = plan_batch(
+      flags.batch, {character.extension(), "on-" + fs::path(character.path()).stem().string()}, "");
+  need(character.check_outputs(files), kBadUsage);
+  const RigOptions rig = need(read_rig_options(flags.rig));
+  return run_batch(std::move(files), flags.batch, "", doing, done,
                    [&](FileJob& file, const std::function<void(double)>&) {
-                     return retarget_file(file, *character, flags, *rig, options);
+                     return retarget_file(file, character, flags, rig, options);
                    });
 }
 

@@ -82,16 +82,12 @@ void add_in_place_option(CLI::App& verb, bool& flag) {
 }
 
 void add_rig_options(CLI::App& verb, RigFlags& flags) {
-  verb.add_option(
-          "--scale", flags.scale,
-          "Metres per unit of the file (0.01: centimetres);\ndefault: inferred from the legs")
-      ->type_name("METRES");
-  verb.add_option("--up", flags.up, "Up axis: x, y, z, -x ...; default: inferred")
-      ->type_name("AXIS");
-  verb.add_option("--map", flags.map,
-                  "JSON map of joints, as in\n{\"leftHand\": \"Hand_L\", "
-                  "\"neck\": null}, or an edited\n'panache info --json'; others are found")
-      ->type_name("FILE");
+  add_option(verb, "--scale METRES", flags.scale,
+             "Metres per unit of the file (0.01: centimetres);\ndefault: inferred from the legs");
+  add_option(verb, "--up AXIS", flags.up, "Up axis: x, y, z, -x ...; default: inferred");
+  add_option(verb, "--map FILE", flags.map,
+             "JSON map of joints, as in\n{\"leftHand\": \"Hand_L\", "
+             "\"neck\": null}, or an edited\n'panache info --json'; others are found");
 }
 
 Result<void> check_rig_flags(const RigFlags& flags) {

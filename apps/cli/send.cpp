@@ -116,30 +116,23 @@ int64_t play(Player& player, double fps, const SendOptions& options, UdpSocket& 
 }
 
 int send(const SendOptions& options) {
-  if (auto good = check(options); !good) return fail(good.error(), kBadUsage);
-  Result<sockaddr_in> to = parse_address(options.to, "--to");
-  if (!to) return fail(to.error(), kBadUsage);
-  Result<RigOptions> rig_options = read_rig_options(options.rig);
-  if (!rig_options) return fail(rig_options.error(), kBadInput);
-  Result<std::unique_ptr<MotionFile>> motion = open_motion(options.input);
-  if (!motion) return fail(motion.error(), kBadInput);
-  std::vector<std::string> notes = (*motion)->notes();
-  Result<std::vector<int>> picked =
-      pick_clips(**motion, options.clip, *rig_options, options.input, notes);
-  if (!picked) return fail(picked.error(), kBadInput);
+  need(check(options), kBadUsage);
+  const sockaddr_in to = need(parse_address(options.to, "--to"), kBadUsage);
+  const RigOptions rig_options = need(read_rig_options(options.rig));
+  const std::unique_ptr<MotionFile> motion = need(open_motion(options.input));
+  std::vector<std::string> notes = motion->notes();
+  const std::vector<int> picked =
+      need(pick_clips(*motion, options.clip, rig_options, options.input, notes));
   print_notes(notes);
-  const Clip& clip = (*motion)->clip(picked->front());
-  Result<Rig> rig = make_rig(clip, *rig_options, options.input);
-  if (!rig) return fail(rig.error(), kBadInput);
-  Result<UdpSocket> socket = UdpSocket::open();
-  if (!socket) return fail(socket.error(), kBadInput);
+  const Clip& clip = motion->clip(picked.front());
+  Player player(clip, need(make_rig(clip, rig_options, options.input)));
+  UdpSocket socket = need(UdpSocket::open());
 
   watch_stop_signals();
-  Player player(clip, *std::move(rig));
   const double fps = options.fps.value_or(1 / clip.frame_time);
-  const int64_t frames = play(player, fps, options, *socket, *to);
+  const int64_t frames = play(player, fps, options, socket, to);
   print("sent " + plural(static_cast<size_t>(frames), "frame") + " (" +
-        fixed(static_cast<double>(frames) / fps, 1) + " s) to " + to_string(*to) + "\n");
+        fixed(static_cast<double>(frames) / fps, 1) + " s) to " + to_string(to) + "\n");
   return kDone;
 }
 
@@ -149,15 +142,13 @@ std::function<int()> add_send(CLI::App& live) {
   CLI::App* verb = live.add_subcommand("send", "Play a file as a tracker (VMC protocol)");
   auto options = std::make_shared<SendOptions>();
   verb->add_option("FILE", options->input, "Motion file")->required();
-  verb->add_option("--to", options->to,
-                   "Receiver: PORT on this machine or HOST:PORT;\ndefault: 39539")
-      ->type_name("ADDRESS");
-  verb->add_option("--fps", options->fps, "Frames a second; default: the file's")->type_name("N");
-  verb->add_option("--seconds", options->seconds, "Stop after this time")->type_name("SECONDS");
+  add_option(*verb, "--to ADDRESS", options->to,
+             "Receiver: PORT on this machine or HOST:PORT;\ndefault: 39539");
+  add_option(*verb, "--fps N", options->fps, "Frames a second; default: the file's");
+  add_option(*verb, "--seconds SECONDS", options->seconds, "Stop after this time");
   verb->add_flag("--loop", options->loop, "Repeat from the start");
-  verb->add_option("--clip", options->clip,
-                   "Motion to play, if a file has several;\ndefault: the first")
-      ->type_name("NAME");
+  add_option(*verb, "--clip NAME", options->clip,
+             "Motion to play, if a file has several;\ndefault: the first");
   add_rig_options(*verb, options->rig);
   verb->footer("Example:\n  panache live send walk.bvh --to 127.0.0.1:39539 --fps 90 --loop");
   return [options] { return send(*options); };

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "clip/text_cursor.h"
+#include "messages.h"
 #include "usage_error.h"
 
 namespace panache::cli {
@@ -27,31 +28,25 @@ std::optional<float> amount(const std::string& text) {
 
 void add_shape_options(CLI::App& verb, ShapeFlags& flags) {
   const auto add = [&](const char* name, float& value, const char* description) {
-    verb.add_option(name, value, description)
-        ->check(in_range(0, static_cast<double>(Shape::kMax)))
-        ->type_name("AMOUNT");
+    add_option(verb, name, value, description)
+        ->check(in_range(0, static_cast<double>(Shape::kMax)));
   };
-  add("--posture", flags.shape.posture,
+  add("--posture AMOUNT", flags.shape.posture,
       "Amount of the slow part of the style: 0 to 2;\ndefault: 1");
-  add("--dynamics", flags.shape.dynamics,
+  add("--dynamics AMOUNT", flags.shape.dynamics,
       "Amount of its movement and root motion: 0 to 2;\ndefault: 1");
-  verb.add_option("--timing", flags.timing,
-                  "Where the style's tempo is applied: where the feet step\n(steps, the default), "
-                  "everywhere (all) or nowhere (off:\nframe by frame); or its amount where they "
-                  "step: 0 to 2")
-      ->type_name("TIMING");
-  verb.add_option(
-          "--region", flags.regions,
-          "REGION=AMOUNT: amount of the style on legs, torso,\nleft_arm or right_arm, 0 to 2. "
-          "One --region per\nregion")
-      ->allow_extra_args(false)
-      ->type_name("REGION");
-  verb.add_option(
-          "--gestures", flags.gestures,
-          "Gestures of the styles, thrown in at random: so many per\nsecond, 0 to 10, such as "
-          "0.2; default: 0. panache styles\nlists them")
-      ->check(in_range(0, static_cast<double>(GesturePlayer::kMaxRate)))
-      ->type_name("RATE");
+  add_option(verb, "--timing TIMING", flags.timing,
+             "Where the style's tempo is applied: where the feet step\n(steps, the default), "
+             "everywhere (all) or nowhere (off:\nframe by frame); or its amount where they "
+             "step: 0 to 2");
+  add_option(verb, "--region REGION", flags.regions,
+             "REGION=AMOUNT: amount of the style on legs, torso,\nleft_arm or right_arm, 0 to 2. "
+             "One --region per\nregion")
+      ->allow_extra_args(false);
+  add_option(verb, "--gestures RATE", flags.gestures,
+             "Gestures of the styles, thrown in at random: so many per\nsecond, 0 to 10, such as "
+             "0.2; default: 0. panache styles\nlists them")
+      ->check(in_range(0, static_cast<double>(GesturePlayer::kMaxRate)));
 }
 
 Result<void> read_shape(const ShapeFlags& flags, StylizerOptions& how) {

@@ -37,15 +37,10 @@ std::string list(const std::vector<std::string>& names) {
 }
 
 int show_library(const std::string& folder, bool json) {
-  const Result<StyleLibrary> library = read_library(folder);
-  if (!library) return fail(library.error(), kBadInput);
-  if (json) {
-    print(to_json(*library));
-  } else {
-    print(describe(*library));
-  }
-  for (const Error& broken : library->broken) print_message(broken.message);
-  return library->broken.empty() ? kDone : kBadInput;
+  const StyleLibrary library = need(read_library(folder));
+  report(library, json);
+  for (const Error& broken : library.broken) print_message(broken.message);
+  return library.broken.empty() ? kDone : kBadInput;
 }
 
 int show(const std::string& path, bool json) {
@@ -53,61 +48,44 @@ int show(const std::string& path, bool json) {
   if (std::filesystem::is_directory(path, status)) return show_library(path, json);
   const Result<TensorFile> file = read_tensors(path);
   // An unreadable file is reported as models are everywhere.
-  if (file && is_style_file(*file)) return report(load_style(path), json);
-  return report(load_model(path), json);
+  if (file && is_style_file(*file)) return report(need(load_style(path)), json);
+  return report(need(load_model(path)), json);
 }
 
-// A model after a change, and what was done to it in a few words.
-struct Changed {
-  TensorFile file;
-  std::string deed;
-};
-
-Result<Changed> add(TensorFile model, const StylesVerb& verb) {
+// These change the model, and say in a few words what was done to it.
+std::string add(TensorFile& model, const StylesVerb& verb) {
   std::vector<std::string> names;
   for (const std::string& path : verb.add) {
-    Result<TensorFile> style = read_tensors(path);
-    if (!style) return style.error();
-    Result<TensorFile> merged = add_style(model, verb.model, *style, path, verb.force);
-    if (!merged) return merged.error();
-    model = *std::move(merged);
-    names.push_back(style->metadata.at("style"));
+    const TensorFile style = need(read_tensors(path));
+    model = need(add_style(model, verb.model, style, path, verb.force));
+    names.push_back(style.metadata.at("style"));
   }
-  return Changed{std::move(model), "added " + list(names) + " to " + verb.model};
+  return "added " + list(names) + " to " + verb.model;
 }
 
-Result<Changed> remove(TensorFile model, const StylesVerb& verb) {
-  for (const std::string& name : verb.remove) {
-    Result<TensorFile> rest = remove_style(model, name, verb.model);
-    if (!rest) return rest.error();
-    model = *std::move(rest);
-  }
-  return Changed{std::move(model), "removed " + list(verb.remove) + " from " + verb.model};
+std::string remove(TensorFile& model, const StylesVerb& verb) {
+  for (const std::string& name : verb.remove) model = need(remove_style(model, name, verb.model));
+  return "removed " + list(verb.remove) + " from " + verb.model;
 }
 
-Result<Changed> rename(const TensorFile& model, const StylesVerb& verb) {
+std::string rename(TensorFile& model, const StylesVerb& verb) {
   const size_t equals = verb.rename.find('=');
   const std::string from = verb.rename.substr(0, equals), to = verb.rename.substr(equals + 1);
-  Result<TensorFile> renamed = rename_style(model, from, to, verb.model);
-  if (!renamed) return renamed.error();
-  return Changed{*std::move(renamed), "renamed '" + from + "' to '" + to + "' in " + verb.model};
+  model = need(rename_style(model, from, to, verb.model));
+  return "renamed '" + from + "' to '" + to + "' in " + verb.model;
 }
 
 int change(const StylesVerb& verb) {
-  Result<TensorFile> model = read_tensors(verb.model);
-  if (!model) return fail(model.error(), kBadInput);
-  Result<Changed> changed = !verb.add.empty()      ? add(*std::move(model), verb)
-                            : !verb.remove.empty() ? remove(*std::move(model), verb)
-                                                   : rename(*model, verb);
-  if (!changed) return fail(changed.error(), kBadInput);
-  if (auto open = check_writable(verb.model); !open) return fail(open.error(), kBadInput);
-  if (auto written = replace_model(verb.model, changed->file); !written) {
-    return fail(written.error(), kBadInput);
-  }
-  const Result<LoadedModel> loaded = load_model(verb.model);
-  if (!loaded || verb.json) return report(loaded, true);
-  print(changed->deed + ", which has " + plural(loaded->model->styles().size(), "style") +
-        " now and " + std::to_string(loaded->bytes) + " bytes\n");
+  TensorFile model = need(read_tensors(verb.model));
+  const std::string deed = !verb.add.empty()      ? add(model, verb)
+                           : !verb.remove.empty() ? remove(model, verb)
+                                                  : rename(model, verb);
+  need(check_writable(verb.model));
+  need(replace_model(verb.model, model));
+  const LoadedModel loaded = need(load_model(verb.model));
+  if (verb.json) return report(loaded, true);
+  print(deed + ", which has " + plural(loaded.model->styles().size(), "style") + " now and " +
+        std::to_string(loaded.bytes) + " bytes\n");
   return kDone;
 }
 
@@ -136,15 +114,11 @@ int extract(const std::string& path, const StylesVerb& verb) {
   if (!verb.output.ends_with(".safetensors")) {
     return fail({verb.output + ": expected a name that ends in .safetensors"}, kBadUsage);
   }
-  Result<TensorFile> model = read_tensors(path);
-  if (!model) return fail(model.error(), kBadInput);
-  Result<TensorFile> style = extract_style(*model, verb.extract, path);
-  if (!style) return fail(style.error(), kBadInput);
-  add_thumbnail(*model, path, verb.extract, *style);
-  const std::string bytes = format_safetensors(*style);
-  if (auto written = write_file(verb.output, bytes, verb.force); !written) {
-    return fail(written.error(), kBadInput);
-  }
+  const TensorFile model = need(read_tensors(path));
+  TensorFile style = need(extract_style(model, verb.extract, path));
+  add_thumbnail(model, path, verb.extract, style);
+  const std::string bytes = format_safetensors(style);
+  need(write_file(verb.output, bytes, verb.force));
   if (verb.json) return show(verb.output, true);
   print("copied '" + verb.extract + "' from " + path + " to " + verb.output + ", which has " +
         std::to_string(bytes.size()) + " bytes\n");
@@ -180,11 +154,10 @@ Result<void> check_usage(const StylesVerb& verb) {
 }
 
 int styles(const StylesVerb& verb) {
-  if (auto usage = check_usage(verb); !usage) return fail(usage.error(), kBadUsage);
+  need(check_usage(verb), kBadUsage);
   if (changes(verb)) return change(verb);
-  Result<std::string> path = find_model(verb.model);
-  if (!path) return fail(path.error(), kBadInput);
-  return verb.extract.empty() ? show(*path, verb.json) : extract(*path, verb);
+  const std::string path = need(find_model(verb.model));
+  return verb.extract.empty() ? show(path, verb.json) : extract(path, verb);
 }
 
 }  // namespace
@@ -196,13 +169,11 @@ void add_styles(CLI::App& app, int& exit_code) {
                    "Model, or the file of a single style, or a folder of\n"
                    "such files; default: $PANACHE_MODEL, else the one shipped")
       ->type_name("");
-  verb->add_option("--extract", options->extract, "Copy a style to a file (-o)")->type_name("NAME");
-  verb->add_option("--add", options->add, "Add the styles of such files to MODEL")
-      ->type_name("FILE");
-  verb->add_option("--remove", options->remove, "Remove styles from MODEL")->type_name("NAME");
-  verb->add_option("--rename", options->rename, "Rename a style of MODEL")->type_name("OLD=NEW");
-  verb->add_option("-o,--output", options->output, "File for the style (.safetensors)")
-      ->type_name("OUT");
+  add_option(*verb, "--extract NAME", options->extract, "Copy a style to a file (-o)");
+  add_option(*verb, "--add FILE", options->add, "Add the styles of such files to MODEL");
+  add_option(*verb, "--remove NAME", options->remove, "Remove styles from MODEL");
+  add_option(*verb, "--rename OLD=NEW", options->rename, "Rename a style of MODEL");
+  add_option(*verb, "-o,--output OUT", options->output, "File for the style (.safetensors)");
   verb->add_flag("--force", options->force, "Overwrite the file; replace styles of the same name");
   verb->add_flag("--json", options->json, "Print JSON");
   verb->footer(

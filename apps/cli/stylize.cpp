@@ -232,39 +232,25 @@ Result<void> stylize_file(FileJob& file, const Wanted& wanted, const StylizeOpti
   return write_output(file, *bytes, options.batch.force);
 }
 
-// What the user wants of which style, from both sources. A failure sets `exit_code`.
-Result<std::vector<StrengthWish>> collect_wishes(const StylizeOptions& options, const Model& model,
-                                                 int& exit_code) {
-  exit_code = kBadUsage;
+// What the user wants of which style, from both sources.
+std::vector<StrengthWish> collect_wishes(const StylizeOptions& options, const Model& model) {
   if (options.styles.empty() && options.strengths.empty() && !options.removal.given()) {
-    return missing_style(options.batch.inputs, model);
+    throw Failure{missing_style(options.batch.inputs, model), kBadUsage};
   }
-  Result<std::vector<StrengthWish>> wishes = parse_styles(options.styles, model);
-  if (!wishes || options.strengths.empty()) return wishes;
-  Result<std::vector<StrengthWish>> table = read_strengths(options.strengths, model);
-  if (!table) {
-    exit_code = kBadInput;
-    return table.error();
-  }
-  for (StrengthWish& wish : *table) {
-    for (const StrengthWish& other : *wishes) {
+  std::vector<StrengthWish> wishes = need(parse_styles(options.styles, model), kBadUsage);
+  if (options.strengths.empty()) return wishes;
+  const std::vector<StrengthWish> table = need(read_strengths(options.strengths, model));
+  for (const StrengthWish& wish : table) {
+    for (const StrengthWish& other : wishes) {
       if (other.track.style != wish.track.style) continue;
       const std::string& name = model.styles()[static_cast<size_t>(wish.track.style)].name;
-      return Error{"style '" + name + "' has strengths both from --style and from " +
-                   options.strengths + "; expected one of them"};
+      throw Failure{{"style '" + name + "' has strengths both from --style and from " +
+                     options.strengths + "; expected one of them"},
+                    kBadUsage};
     }
   }
-  wishes->insert(wishes->end(), table->begin(), table->end());
+  wishes.insert(wishes.end(), table.begin(), table.end());
   return wishes;
-}
-
-Result<void> check_formats(const std::vector<FileJob>& files,
-                           const std::optional<CharacterFile>& onto) {
-  if (onto) return onto->check_outputs(files);
-  for (const FileJob& file : files) {
-    if (auto format = check_format(file.input, file.output); !format) return format;
-  }
-  return {};
 }
 
 // "old-proud": what a result is called that the user did not name.
@@ -282,54 +268,39 @@ std::string name_styles(const StylizeOptions& options) {
   return name;
 }
 
-Result<LoopMode> read_loop(const std::string& text) {
+LoopMode read_loop(const std::string& text) {
   if (text == "auto") return LoopMode::detect;
   if (text == "on") return LoopMode::force;
   if (text == "off") return LoopMode::off;
-  return Error{"--loop " + panache::quoted(text) + ": expected auto, on or off"};
+  throw Failure{{"--loop " + panache::quoted(text) + ": expected auto, on or off"}, kBadUsage};
 }
 
 int stylize(const StylizeOptions& options) {
-  if (auto rig = check_rig_flags(options.rig); !rig) return fail(rig.error(), kBadUsage);
-  if (auto read = check_read_options(options.read); !read) return fail(read.error(), kBadUsage);
-  RestyleOptions how;
-  if (auto shape = read_shape(options.shape, how.stylizer); !shape) {
-    return fail(shape.error(), kBadUsage);
-  }
-  const Result<LoopMode> loop = read_loop(options.loop);
-  if (!loop) return fail(loop.error(), kBadUsage);
-  how.loop = *loop;
-  Result<std::string> path = find_model(options.model);
-  if (!path) return fail(path.error(), kBadInput);
-  Result<std::shared_ptr<const Model>> model = Model::load(*path);
-  if (!model) return fail(model.error(), kBadInput);
-  // Before the files: who forgets the style shall not be asked for an output.
-  int exit_code = kDone;
-  Result<std::vector<StrengthWish>> wishes = collect_wishes(options, **model, exit_code);
-  if (!wishes) return fail(wishes.error(), exit_code);
-  Result<std::optional<Removal>> removal = read_removal(options.removal, exit_code);
-  if (!removal) return fail(removal.error(), exit_code);
-  std::optional<CharacterFile> onto;
-  if (!options.onto.file.empty()) {
-    Result<CharacterFile> character = CharacterFile::open(options.onto);
-    if (!character) return fail(character.error(), kBadInput);
-    onto = *std::move(character);
-  }
-  Result<std::vector<FileJob>> files = plan_batch(
-      options.batch, {onto ? onto->extension() : "", name_styles(options)}, *path, exit_code);
-  if (!files) return fail(files.error(), exit_code);
-  if (auto formats = check_formats(*files, onto); !formats) {
-    return fail(formats.error(), kBadUsage);
-  }
-  Result<RigOptions> rig = read_rig_options(options.rig);
-  if (!rig) return fail(rig.error(), kBadInput);
-
-  Wanted wanted{*std::move(model), *std::move(removal), *std::move(wishes), *std::move(rig), how,
-                options.in_place,  std::move(onto)};
-  wanted.how.stylizer.foot_lock = !options.no_feet;
+  need(check_rig_flags(options.rig), kBadUsage);
+  need(check_read_options(options.read), kBadUsage);
+  Wanted wanted;
+  RestyleOptions& how = wanted.how;
+  need(read_shape(options.shape, how.stylizer), kBadUsage);
+  how.loop = read_loop(options.loop);
+  how.stylizer.foot_lock = !options.no_feet;
   // Without an amount the tempo of a style that is taken off stays, too.
-  wanted.how.timing = !options.no_timing && how.stylizer.shape.timing != 0;
-  return run_batch(*std::move(files), options.batch, *path, "restyling", "restyled",
+  how.timing = !options.no_timing && how.stylizer.shape.timing != 0;
+  wanted.in_place = options.in_place;
+  const std::string path = need(find_model(options.model));
+  wanted.model = need(Model::load(path));
+  // Before the files: who forgets the style shall not be asked for an output.
+  wanted.wishes = collect_wishes(options, *wanted.model);
+  wanted.removal = read_removal(options.removal);
+  const std::optional<CharacterFile>& onto = wanted.onto;
+  if (!options.onto.file.empty()) wanted.onto = need(CharacterFile::open(options.onto));
+  std::vector<FileJob> files =
+      plan_batch(options.batch, {onto ? onto->extension() : "", name_styles(options)}, path);
+  if (onto) need(onto->check_outputs(files), kBadUsage);
+  for (const FileJob& file : files) {
+    if (!onto) need(check_format(file.input, file.output), kBadUsage);
+  }
+  wanted.rig = need(read_rig_options(options.rig));
+  return run_batch(std::move(files), options.batch, path, "restyling", "restyled",
                    [&](FileJob& file, const std::function<void(double)>& progress) {
                      auto done = stylize_file(file, wanted, options, progress);
                      if (!done || !options.verbose) file.details.clear();
@@ -344,31 +315,26 @@ void add_stylize(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<StylizeOptions>();
   add_batch_options(*verb, options->batch);
   // One value each, so that files may follow.
-  verb->add_option("--style", options->styles,
-                   "NAME=STRENGTH: 0 is neutral, 1 the style as captured,\n"
-                   "above 1 exaggerates (-4 to 4). NAME=1..0 changes evenly\n"
-                   "from the first frame to the last. One --style per style")
-      ->allow_extra_args(false)
-      ->type_name("STYLE");
-  verb->add_option("--strengths", options->strengths,
-                   "CSV with a column 'seconds' and a column per style")
-      ->type_name("FILE");
-  verb->add_option("--model", options->model,
-                   "Model; default: $PANACHE_MODEL, else the one shipped")
-      ->type_name("FILE");
+  add_option(*verb, "--style STYLE", options->styles,
+             "NAME=STRENGTH: 0 is neutral, 1 the style as captured,\n"
+             "above 1 exaggerates (-4 to 4). NAME=1..0 changes evenly\n"
+             "from the first frame to the last. One --style per style")
+      ->allow_extra_args(false);
+  add_option(*verb, "--strengths FILE", options->strengths,
+             "CSV with a column 'seconds' and a column per style");
+  add_option(*verb, "--model FILE", options->model,
+             "Model; default: $PANACHE_MODEL, else the one shipped");
   add_removal_options(*verb, options->removal);
-  verb->add_option("--clip", options->clip,
-                   "Motion to restyle, if a file has several;\ndefault: all of them")
-      ->type_name("NAME");
+  add_option(*verb, "--clip NAME", options->clip,
+             "Motion to restyle, if a file has several;\ndefault: all of them");
   add_onto_options(*verb, options->onto);
   add_place_options(*verb, options->place, "the original animations");
   add_in_place_option(*verb, options->in_place);
   add_figure_options(*verb, options->figure);
   add_shape_options(*verb, options->shape);
-  verb->add_option("--loop", options->loop,
-                   "Make the result loop: if the motion does (auto, the\n"
-                   "default), always (on) or never (off)")
-      ->type_name("LOOP");
+  add_option(*verb, "--loop LOOP", options->loop,
+             "Make the result loop: if the motion does (auto, the\n"
+             "default), always (on) or never (off)");
   verb->add_flag("--no-timing", options->no_timing, "The same as --timing off");
   verb->add_flag("--no-feet", options->no_feet, "Do not hold planted feet in place");
   verb->add_flag("--verbose", options->verbose,

@@ -27,37 +27,30 @@ struct Served {
 };
 
 // All that a file points to goes into what is served, and FBX comes as GLB.
-Result<Served> read_served(const std::string& path) {
-  Result<std::unique_ptr<MotionFile>> motion = open_motion(path);
-  if (!motion) return motion.error();
+Served read_served(const std::string& path) {
+  const std::unique_ptr<MotionFile> motion = need(open_motion(path));
   const std::string name = fs::path(path).filename().string(), extension = extension_of(path);
   if (must_be_encoded(extension)) {
     const std::string_view encoded_as = find_format(formats(), extension)->encoded_as;
     return Served{encoded_as == extension ? name : name + std::string(encoded_as),
-                  (*motion)->encode({}, EditMode::replace)};
+                  motion->encode({}, EditMode::replace)};
   }
-  Result<std::string> bytes = read_file(path);
-  if (!bytes) return bytes.error();
-  return Served{name, *std::move(bytes)};
+  return {name, need(read_file(path))};
 }
 
 // A model as it is, checked: the page has no other place to tell of a wrong one than its own view.
-Result<Served> read_model(const std::string& path) {
-  Result<std::string> bytes = read_file(path);
-  if (!bytes) return bytes.error();
-  if (auto model = Model::parse(*bytes, path); !model) return model.error();
-  return Served{fs::path(path).filename().string(), *std::move(bytes)};
+Served read_model(const std::string& path) {
+  Served model{fs::path(path).filename().string(), need(read_file(path))};
+  need(Model::parse(model.bytes, path));
+  return model;
 }
 
 // Puts the styles of a folder into a model.
-Result<void> add_library(const std::string& folder, Served& model) {
-  const Result<StyleLibrary> library = read_library(folder);
-  if (!library) return library.error();
-  for (const Error& broken : library->broken) print_message("warning: " + broken.message);
-  Result<TensorFile> file = parse_safetensors(model.bytes, model.name);
-  if (!file) return file.error();
-  model.bytes = format_safetensors(with_library(*std::move(file), model.name, *library));
-  return {};
+void add_library(const std::string& folder, Served& model) {
+  const StyleLibrary library = need(read_library(folder));
+  for (const Error& broken : library.broken) print_message("warning: " + broken.message);
+  const TensorFile file = need(parse_safetensors(model.bytes, model.name));
+  model.bytes = format_safetensors(with_library(file, model.name, library));
 }
 
 // In the path of an address.
@@ -83,39 +76,24 @@ struct ViewVerb {
 int view(const ViewVerb& verb) {
   Served motion, model;
   std::string query;
-  const auto add = [&](const std::string& path, const char* key,
-                       Result<Served> (*read)(const std::string&), Served& out) -> Result<void> {
-    if (path.empty()) return {};
-    Result<Served> served = read(path);
-    if (!served) return served.error();
-    out = *std::move(served);
+  const auto add = [&](const std::string& path, const char* key, Served (*read)(const std::string&),
+                       Served& out) {
+    if (path.empty()) return;
+    out = read(path);
     query += (query.empty() ? "?" : "&") + std::string(key) + "=" + percent_encoded(out.name);
-    return {};
   };
-  if (auto read = add(verb.file, "open", read_served, motion); !read) {
-    return fail(read.error(), kBadInput);
-  }
+  add(verb.file, "open", read_served, motion);
   const bool has_library = !verb.library.empty();
-  const Result<std::string> path = has_library ? find_model(verb.model) : verb.model;
-  if (!path) return fail(path.error(), kBadInput);
-  if (auto read = add(*path, "model", read_model, model); !read) {
-    return fail(read.error(), kBadInput);
-  }
-  if (has_library) {
-    if (auto added = add_library(verb.library, model); !added) {
-      return fail(added.error(), kBadInput);
-    }
-  }
-  Result<std::unique_ptr<PageServer>> server = PageServer::create();
-  if (!server) return fail(server.error(), kBadInput);
-  if (!motion.name.empty()) (*server)->serve("/open/.*", [&motion] { return motion.bytes; });
-  if (!model.name.empty()) (*server)->serve("/model/.*", [&model] { return model.bytes; });
-  print("http://" + (*server)->address() + "/" + query + "\n");
+  add(has_library ? need(find_model(verb.model)) : verb.model, "model", read_model, model);
+  if (has_library) add_library(verb.library, model);
+  const std::unique_ptr<PageServer> server = need(PageServer::create());
+  if (!motion.name.empty()) server->serve("/open/.*", [&motion] { return motion.bytes; });
+  if (!model.name.empty()) server->serve("/model/.*", [&model] { return model.bytes; });
+  print("http://" + server->address() + "/" + query + "\n");
   print_message("open this address in a browser; Ctrl-C ends");
   std::fflush(stdout);
   // Ctrl-C ends the program, so this returns after a failure alone.
-  const Result<void> listened = (*server)->listen();
-  return fail(listened.error(), kBadInput);
+  return fail(server->listen().error(), kBadInput);
 }
 
 }  // namespace
@@ -123,14 +101,12 @@ int view(const ViewVerb& verb) {
 void add_view(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("view", "Show and restyle motion in a browser");
   auto options = std::make_shared<ViewVerb>();
-  verb->add_option("file", options->file,
-                   "Motion file to open in the page; default: a walker to steer")
-      ->type_name("FILE");
-  verb->add_option("--model", options->model, "Model to style with; default: the page's own")
-      ->type_name("MODEL");
-  verb->add_option("--library", options->library,
-                   "Folder of style files whose styles are shown, too")
-      ->type_name("FOLDER");
+  add_option(*verb, "file FILE", options->file,
+             "Motion file to open in the page; default: a walker to steer");
+  add_option(*verb, "--model MODEL", options->model,
+             "Model to style with; default: the page's own");
+  add_option(*verb, "--library FOLDER", options->library,
+             "Folder of style files whose styles are shown, too");
   verb->footer("Example:\n  panache view walk.bvh --model mine.safetensors");
   verb->callback([options, &exit_code] { exit_code = view(*options); });
 }

@@ -44,16 +44,11 @@ Result<void> check(const WalkerVerb& verb) {
 }
 
 int walk(const WalkerVerb& verb) {
-  if (auto good = check(verb); !good) return fail(good.error(), kBadUsage);
+  need(check(verb), kBadUsage);
   const bool to_stdout = verb.output == kStandardStream;
-  if (auto free = check_output("", verb.output, verb.force); !free && !to_stdout) {
-    return fail(free.error(), kBadInput);
-  }
-  Result<std::string> path =
-      verb.model.empty() ? find_shipped(kWalkerModel) : Result<std::string>(verb.model);
-  if (!path) return fail(path.error(), kBadInput);
-  Result<std::shared_ptr<const WalkerModel>> model = WalkerModel::load(*path);
-  if (!model) return fail(model.error(), kBadInput);
+  if (!to_stdout) need(check_output("", verb.output, verb.force));
+  const auto model =
+      need(WalkerModel::load(verb.model.empty() ? need(find_shipped(kWalkerModel)) : verb.model));
   WalkClipOptions options;
   options.seconds = verb.seconds;
   options.fps = verb.fps;
@@ -61,10 +56,9 @@ int walk(const WalkerVerb& verb) {
   options.turn = static_cast<float>(verb.turn_deg * std::numbers::pi / 180);
   options.start = verb.start;
   options.stop = verb.stop;
-  const Clip clip = walk_clip(*model, options);
-  auto written = to_stdout ? write_stdout(format_bvh(clip))
-                           : write_file(verb.output, format_bvh(clip), verb.force);
-  if (!written) return fail(written.error(), kBadInput);
+  const Clip clip = walk_clip(model, options);
+  need(to_stdout ? write_stdout(format_bvh(clip))
+                 : write_file(verb.output, format_bvh(clip), verb.force));
   if (to_stdout) return kDone;
   print("walked " + fixed(clip.duration(), 1) + " s (" +
         plural(static_cast<size_t>(clip.frames), "frame") + ") into " + verb.output + "\n");
@@ -76,19 +70,18 @@ int walk(const WalkerVerb& verb) {
 void add_walker(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("walker", "Generate a neutral walk as sample input");
   auto options = std::make_shared<WalkerVerb>();
-  verb->add_option("-o,--output", options->output, "File to write (.bvh); - is stdout")
-      ->required()
-      ->type_name("OUT");
-  verb->add_option("--seconds", options->seconds, "Duration; default: 8")->type_name("SECONDS");
-  verb->add_option("--speed", options->speed, "0 stands, 1.4 walks, 3 runs (m/s); default: 1.4")
-      ->type_name("SPEED");
-  verb->add_option("--turn", options->turn_deg, "To the left (degrees a second); default: 0")
-      ->type_name("DEGREES");
-  verb->add_option("--fps", options->fps, "Frames a second; default: 60")->type_name("N");
+  add_option(*verb, "-o,--output OUT", options->output, "File to write (.bvh); - is stdout")
+      ->required();
+  add_option(*verb, "--seconds SECONDS", options->seconds, "Duration; default: 8");
+  add_option(*verb, "--speed SPEED", options->speed,
+             "0 stands, 1.4 walks, 3 runs (m/s); default: 1.4");
+  add_option(*verb, "--turn DEGREES", options->turn_deg,
+             "To the left (degrees a second); default: 0");
+  add_option(*verb, "--fps N", options->fps, "Frames a second; default: 60");
   verb->add_flag("--start", options->start, "Start standing");
   verb->add_flag("--stop", options->stop, "End standing");
-  verb->add_option("--model", options->model, "Model of the walker; default: the one shipped")
-      ->type_name("FILE");
+  add_option(*verb, "--model FILE", options->model,
+             "Model of the walker; default: the one shipped");
   verb->add_flag("--force", options->force, "Overwrite the file");
   verb->footer("Example:\n  panache walker -o walk.bvh --seconds 8 --speed 1.4 --turn 20");
   verb->callback([options, &exit_code] { exit_code = walk(*options); });

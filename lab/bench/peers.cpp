@@ -1,6 +1,5 @@
 #include "bench/peers.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>

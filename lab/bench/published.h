@@ -51,6 +51,7 @@ class PhaseNetwork {
 // The same with the blend for each of 50 phases made beforehand ("constant").
 class PhaseTable {
  public:
+  static constexpr int kInputs = PhaseNetwork::kInputs, kOutputs = PhaseNetwork::kOutputs;
   static constexpr int kPhases = 50;
   explicit PhaseTable(const PhaseNetwork& network);
   // Takes the weights of the last phase in the table that is not beyond `phase`.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <type_traits>
 
 #include "base/file.h"
 #include "bench/networks.h"
@@ -40,18 +41,15 @@ class Race {
                         std::function<void()> run);
   void add_evaluation(Measurements& out, const std::string& key,
                       std::unique_ptr<Evaluation> evaluation);
-  // `work` is called with a phase that goes round.
-  void add_other(Measurements& out, const std::string& key, const std::string& name, size_t bytes,
-                 const std::string& published, std::function<void(float)> work);
+  // `network` is run with a phase that goes round, where it takes one.
+  template <class Other>
+  void add_other(Measurements& out, const std::string& key, const std::string& name,
+                 const std::string& published, std::shared_ptr<Other> network);
 
   std::vector<Contestant> contestants_;
   std::vector<std::unique_ptr<Evaluation>> evaluations_;
   std::vector<float> x_ = random_numbers(1024, 1), y_ = std::vector<float>(1024);
   AlignedVector<float> as_many_;  // Numbers as the slides' networks have.
-  std::unique_ptr<PhaseNetwork> phase_network_;
-  std::unique_ptr<PhaseTable> phase_table_;
-  std::unique_ptr<ModeNetwork> mode_network_;
-  std::unique_ptr<StyleAdapterNetwork> adapter_network_;
 };
 
 void Race::add_forward_pass(Measurements& out, const std::string& key, const std::string& name,
@@ -69,11 +67,18 @@ void Race::add_evaluation(Measurements& out, const std::string& key,
   });
 }
 
+template <class Other>
 void Race::add_other(Measurements& out, const std::string& key, const std::string& name,
-                     size_t bytes, const std::string& published, std::function<void(float)> work) {
-  out.others.push_back({key, name, bytes, published, Timing{}});
-  contestants_.push_back({key, [work = std::move(work), phase = 0.0f]() mutable {
-                            work(phase);
+                     const std::string& published, std::shared_ptr<Other> network) {
+  out.others.push_back({key, name, network->bytes(), published, Timing{}});
+  const auto x = std::span<const float>(x_).first(Other::kInputs);
+  const auto y = std::span(y_).first(Other::kOutputs);
+  contestants_.push_back({key, [network, x, y, phase = 0.0f]() mutable {
+                            if constexpr (std::is_same_v<Other, ModeNetwork>) {
+                              network->run(x, y);
+                            } else {
+                              network->run(x, phase, y);
+                            }
                             phase += kPhaseStep;
                             if (phase >= 1) phase -= 1;
                           }});
@@ -98,31 +103,13 @@ Result<void> Race::prepare(Measurements& out) {
   add_forward_pass(out, "read_limit", "reading the weights, no more",
                    [this] { y_[0] = sum_in_any_order(as_many_); });
 
-  phase_network_ = std::make_unique<PhaseNetwork>();
-  phase_table_ = std::make_unique<PhaseTable>(*phase_network_);
-  mode_network_ = std::make_unique<ModeNetwork>();
-  adapter_network_ = std::make_unique<StyleAdapterNetwork>();
-  const std::span<const float> x = x_;
-  const std::span<float> y = y_;
-  add_other(out, "pfnn_cubic", "phase-functioned, cubic (2017)", phase_network_->bytes(),
-            "1.8 ms, 10 MB", [this, x, y](float phase) {
-              phase_network_->run(x.first(PhaseNetwork::kInputs), phase,
-                                  y.first(PhaseNetwork::kOutputs));
-            });
-  add_other(out, "pfnn_constant", "phase-functioned, constant (2017)", phase_table_->bytes(),
-            "0.8 ms, 125 MB", [this, x, y](float phase) {
-              phase_table_->run(x.first(PhaseNetwork::kInputs), phase,
-                                y.first(PhaseNetwork::kOutputs));
-            });
-  add_other(out, "mann", "mode-adaptive (2018)", mode_network_->bytes(), "2 ms, 22 MB",
-            [this, x, y](float) {
-              mode_network_->run(x.first(ModeNetwork::kInputs), y.first(ModeNetwork::kOutputs));
-            });
-  add_other(out, "mason", "phase-functioned with style adapters (2018)", adapter_network_->bytes(),
-            "1.1 ms, 126 KB a style", [this, x, y](float phase) {
-              adapter_network_->run(x.first(StyleAdapterNetwork::kInputs), phase,
-                                    y.first(StyleAdapterNetwork::kOutputs));
-            });
+  const auto phase_network = std::make_shared<PhaseNetwork>();
+  add_other(out, "pfnn_cubic", "phase-functioned, cubic (2017)", "1.8 ms, 10 MB", phase_network);
+  add_other(out, "pfnn_constant", "phase-functioned, constant (2017)", "0.8 ms, 125 MB",
+            std::make_shared<PhaseTable>(*phase_network));
+  add_other(out, "mann", "mode-adaptive (2018)", "2 ms, 22 MB", std::make_shared<ModeNetwork>());
+  add_other(out, "mason", "phase-functioned with style adapters (2018)", "1.1 ms, 126 KB a style",
+            std::make_shared<StyleAdapterNetwork>());
   return {};
 }
 

@@ -1,6 +1,7 @@
 // panache-lab bench: how fast it is here, and beside what.
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "base/progress.h"
@@ -23,36 +24,26 @@ struct Options {
 };
 
 int run(const Options& options) {
-  if (Result<void> steps = check_range("--steps", static_cast<double>(options.steps), 1, 1e9);
-      !steps) {
-    return fail(steps.error(), kBadUsage);
-  }
-  Result<std::string> model = find_model(options.model, kFloatModel);
-  if (!model) return fail(model.error(), kBadInput);
-  Result<std::string> walker = find_shipped(kWalkerModel);
-  if (!walker) return fail(walker.error(), kBadInput);
+  need(check_range("--steps", static_cast<double>(options.steps), 1, 1e9), kBadUsage);
   bench::Options how;
-  how.model = *model;
-  how.walker_model = *walker;
+  how.model = need(find_model(options.model, kFloatModel));
+  how.walker_model = need(find_shipped(kWalkerModel));
   how.steps = options.quick ? kQuickSteps : options.steps;
   // Before the process is tied to a core.
-  std::unique_ptr<BuiltSystems> systems;
+  std::optional<BuiltSystems> systems;
   if (!options.systems.empty()) {
-    auto built = build_systems(options.systems, options.styles, *model);
-    if (!built) return fail(built.error(), kBadInput);
-    systems = *std::move(built);
+    systems = need(build_systems(options.systems, options.styles, how.model));
   }
-  Result<bench::Measurements> measured = [&] {
+  const bench::Measurements measured = need([&] {
     Progress progress("measuring");
     return bench::measure_all(how, [&](double share) { progress.update(share); });
-  }();
-  if (!measured) return fail(measured.error(), kBadInput);
+  }());
   std::vector<SystemTime> times;
   if (systems) times = systems->time();
   if (options.json) {
-    print(to_json(*measured, times));
+    print(to_json(measured, times));
   } else {
-    print(describe(*measured, times));
+    print(describe(measured, times));
   }
   return kDone;
 }

@@ -9,32 +9,17 @@
 #include "train/training_data.h"
 
 namespace panache::cli {
-namespace {
 
-class Systems : public BuiltSystems {
- public:
-  Systems(TestInput input, std::vector<std::unique_ptr<System>> systems)
-      : input_(std::move(input)), systems_(std::move(systems)) {}
-
-  std::vector<SystemTime> time() const override {
-    std::vector<SystemTime> times;
-    times.reserve(systems_.size());
-    for (const std::unique_ptr<System>& system : systems_) {
-      times.push_back({system->name(), system->step_us(input_), system->facts().bytes});
-    }
-    return times;
+std::vector<SystemTime> BuiltSystems::time() const {
+  std::vector<SystemTime> times;
+  for (const std::unique_ptr<System>& system : systems) {
+    times.push_back({system->name(), system->step_us(input), system->facts().bytes});
   }
+  return times;
+}
 
- private:
-  TestInput input_;
-  std::vector<std::unique_ptr<System>> systems_;
-};
-
-}  // namespace
-
-Result<std::unique_ptr<BuiltSystems>> build_systems(const std::string& manifest,
-                                                    const std::string& styles,
-                                                    const std::string& model) {
+Result<BuiltSystems> build_systems(const std::string& manifest, const std::string& styles,
+                                   const std::string& model) {
   ManifestOptions options;
   options.paths = {manifest};
   options.styles = styles;
@@ -62,8 +47,7 @@ Result<std::unique_ptr<BuiltSystems>> build_systems(const std::string& manifest,
     if (!system) return system.error();
     systems.push_back(*std::move(system));
   }
-  return std::unique_ptr<BuiltSystems>(
-      std::make_unique<Systems>(*std::move(input), std::move(systems)));
+  return BuiltSystems{*std::move(input), std::move(systems)};
 }
 
 }  // namespace panache::cli

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "eval/system.h"
 
 namespace panache::cli {
 
@@ -15,17 +16,17 @@ struct SystemTime {
   size_t bytes = 0;     // What it keeps to work with.
 };
 
-class BuiltSystems {
- public:
-  virtual ~BuiltSystems() = default;
+struct BuiltSystems {
+  TestInput input;
+  std::vector<std::unique_ptr<System>> systems;
+
   // A frame of each, and of the model first, in one run on the same take.
-  virtual std::vector<SystemTime> time() const = 0;
+  std::vector<SystemTime> time() const;
 };
 
 // Builds all of them from the training takes of `manifest`; `styles`: a CSV of style names, or
 // empty; `model`: path of the model beside them. Takes minutes.
-Result<std::unique_ptr<BuiltSystems>> build_systems(const std::string& manifest,
-                                                    const std::string& styles,
-                                                    const std::string& model);
+Result<BuiltSystems> build_systems(const std::string& manifest, const std::string& styles,
+                                   const std::string& model);
 
 }  // namespace panache::cli

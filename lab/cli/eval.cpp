@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iterator>
 #include <map>
 #include <set>
 
@@ -40,8 +39,8 @@ struct Options {
 
 // The takes of `tests` that may judge: those marked test, all of a manifest that marks none. Takes
 // that are trained on never judge, and neither do styles that nothing trained on shows.
-Result<std::vector<ManifestRow>> read_tests(const std::vector<std::string>& tests,
-                                            const Manifests& training) {
+std::vector<ManifestRow> read_tests(const std::vector<std::string>& tests,
+                                    const Manifests& training) {
   std::set<std::string> learnt;
   for (const ManifestRow& row : training.rows) {
     if (!row.test) learnt.insert(std::filesystem::path(row.path).lexically_normal().string());
@@ -54,12 +53,10 @@ Result<std::vector<ManifestRow>> read_tests(const std::vector<std::string>& test
   std::vector<ManifestRow> judged;
   int set = 0;
   for (const std::string& path : tests) {
-    Result<std::vector<ManifestRow>> rows = read_manifest(path, set);
-    if (!rows) return rows.error();
-    set = next_set(*rows);
-    const bool marked =
-        std::any_of(rows->begin(), rows->end(), [](const ManifestRow& row) { return row.test; });
-    for (ManifestRow& row : *rows) {
+    std::vector<ManifestRow> rows = need(read_manifest(path, set));
+    set = next_set(rows);
+    const bool marked = std::ranges::any_of(rows, &ManifestRow::test);
+    for (ManifestRow& row : rows) {
       if (!persons.empty() && !row.person.empty()) {
         const int next = next_set(training.rows) + static_cast<int>(persons.size());
         row.set = persons.try_emplace(row.person, next).first->second;
@@ -74,88 +71,75 @@ Result<std::vector<ManifestRow>> read_tests(const std::vector<std::string>& test
 }
 
 // The report tells systems apart by their names.
-Result<void> check_names(const Options& options, const EvaluateOptions& evaluation) {
-  for (size_t a = 0; a < evaluation.models.size(); ++a) {
-    for (size_t b = 0; b < a; ++b) {
-      if (evaluation.models[a].name == evaluation.models[b].name) {
-        return Error{options.models[a] + ": has the name of " + options.models[b] +
-                     "; the report names models by their files, so give one another name"};
-      }
-    }
-  }
+void check_names(const Options& options, const EvaluateOptions& evaluation) {
   std::map<std::string, std::string> names;  // And what has it.
-  for (const SystemEntry& entry : evaluation.systems) names[entry.name] = "the judge's own system";
   for (size_t m = 0; m < evaluation.models.size(); ++m) {
-    names[evaluation.models[m].name] = options.models[m];
+    const auto [name, is_new] = names.try_emplace(evaluation.models[m].name, options.models[m]);
+    if (is_new) continue;
+    throw Failure{{options.models[m] + ": has the name of " + name->second +
+                   "; the report names models by their files, so give one another name"},
+                  kBadInput};
+  }
+  for (const SystemEntry& entry : evaluation.systems) {
+    names.try_emplace(entry.name, "the judge's own system");
   }
   for (const std::string& folder : options.recorded) {
     const auto [name, is_new] = names.try_emplace(Recorded::name_of(folder), folder);
     if (is_new) continue;
-    return Error{folder + ": has the name of " + name->second +
-                 "; the report names outputs by their folder, so give it another name"};
+    throw Failure{{folder + ": has the name of " + name->second +
+                   "; the report names outputs by their folder, so give it another name"},
+                  kBadInput};
   }
-  return {};
 }
 
-Result<EvaluateOptions> read_options(const Options& options) {
+EvaluateOptions read_options(const Options& options) {
   EvaluateOptions evaluation;
-  Result<Manifests> data = read_manifests(options.data);
-  if (!data) return data.error();
-  evaluation.styles = data->styles;
+  Manifests data = need(read_manifests(options.data));
+  evaluation.styles = data.styles;
   if (options.tests.empty()) {
-    for (const ManifestRow& row : data->rows) {
+    for (const ManifestRow& row : data.rows) {
       if (row.test) evaluation.test.push_back(row);
     }
-    if (evaluation.test.empty()) {
-      return Error{options.data.paths.front() +
-                   ": marks no take as test; mark some in its column split, or give a manifest of "
-                   "test takes with --test"};
-    }
   } else {
-    Result<std::vector<ManifestRow>> rows = read_tests(options.tests, *data);
-    if (!rows) return rows.error();
-    if (rows->empty()) {
-      return Error{options.tests.front() +
-                   ": has no usable test take: all of them are trained on, or of styles that the "
-                   "training manifests do not have"};
-    }
-    evaluation.test = *std::move(rows);
+    evaluation.test = read_tests(options.tests, data);
   }
-  evaluation.training = std::move(data->rows);
-  evaluation.unlabelled = std::move(data->unlabelled);
+  if (evaluation.test.empty()) {
+    throw Failure{{options.tests.empty()
+                       ? options.data.paths.front() +
+                             ": marks no take as test; mark some in its column split, or give a "
+                             "manifest of test takes with --test"
+                       : options.tests.front() +
+                             ": has no usable test take: all of them are trained on, or of styles "
+                             "that the training manifests do not have"},
+                  kBadInput};
+  }
+  evaluation.training = std::move(data.rows);
+  evaluation.unlabelled = std::move(data.unlabelled);
   for (const std::string& path : options.models) {
-    Result<std::shared_ptr<const Model>> model = Model::load(path);
-    if (!model) return model.error();
     std::error_code status;
-    const size_t bytes = std::filesystem::file_size(path, status);
+    const auto bytes = std::filesystem::file_size(path, status);
     evaluation.models.push_back(
-        {std::filesystem::path(path).stem().string(), *model, status ? 0 : bytes});
+        {std::filesystem::path(path).stem().string(), need(Model::load(path)), status ? 0 : bytes});
   }
-  if (!options.remover.empty()) {
-    Result<std::shared_ptr<const Model>> remover = Model::load(options.remover);
-    if (!remover) return remover.error();
-    evaluation.remover = *std::move(remover);
-  }
-  Result<std::vector<SystemEntry>> published = find_published(options.systems);
-  if (!published) return located("--system", published.error());
+  if (!options.remover.empty()) evaluation.remover = need(Model::load(options.remover));
+  const Result<std::vector<SystemEntry>> published = find_published(options.systems);
+  if (!published) throw Failure{located("--system", published.error()), kBadInput};
   evaluation.train_recipes = options.systems.empty() && options.recorded.empty();
   evaluation.systems.insert(evaluation.systems.end(), published->begin(), published->end());
   evaluation.recorded = options.recorded;
-  if (Result<void> unique = check_names(options, evaluation); !unique) return unique.error();
+  check_names(options, evaluation);
   if (!options.unseen.empty()) {
     std::string name;
     for (const std::string& content : options.unseen) name += (name.empty() ? "" : "+") + content;
     evaluation.unseen.push_back({name, options.unseen});
   }
   for (const std::string& name : options.splits) {
-    Result<UnseenSplit> split = read_split(name);
-    if (!split) return located("--unseen-split", split.error());
+    const Result<UnseenSplit> split = read_split(name);
+    if (!split) throw Failure{located("--unseen-split", split.error()), kBadInput};
     evaluation.unseen.push_back(*split);
   }
   for (const std::string& path : options.ood) {
-    Result<std::vector<std::string>> files = list_ood(path);
-    if (!files) return files.error();
-    evaluation.ood.insert(evaluation.ood.end(), files->begin(), files->end());
+    for (const std::string& file : need(list_ood(path))) evaluation.ood.push_back(file);
   }
   if (options.steps > 0) evaluation.steps = options.steps;
   evaluation.seed = options.seed;
@@ -165,42 +149,24 @@ Result<EvaluateOptions> read_options(const Options& options) {
 int run(const Options& options) {
   if (!options.report.empty()) {
     for (const char* name : {"report.json", "index.html"}) {
-      const std::string file = (std::filesystem::path(options.report) / name).string();
-      if (Result<void> free = check_free(file, options.force); !free) {
-        return fail(free.error(), kBadInput);
-      }
+      need(check_free((std::filesystem::path(options.report) / name).string(), options.force));
     }
   }
+  if (!options.requests.empty()) need(check_free(options.requests, options.force));
+  const EvaluateOptions evaluation = read_options(options);
+  const std::vector<ManifestRow> judged = rows_to_evaluate(evaluation);
+  std::vector<ManifestRow> read = rows_to_train_on(evaluation.training, evaluation.unlabelled);
+  read.insert(read.begin(), judged.begin(), judged.end());
+  need(check_files(read));
   if (!options.requests.empty()) {
-    if (Result<void> free = check_free(options.requests, options.force); !free) {
-      return fail(free.error(), kBadInput);
-    }
-  }
-  Result<EvaluateOptions> evaluation = read_options(options);
-  if (!evaluation) return fail(evaluation.error(), kBadInput);
-  std::vector<ManifestRow> read = rows_to_evaluate(*evaluation);
-  for (const auto* part : {&evaluation->training, &evaluation->unlabelled}) {
-    std::copy_if(part->begin(), part->end(), std::back_inserter(read),
-                 [](const ManifestRow& row) { return !row.test; });
-  }
-  if (Result<void> there = check_files(read); !there) return fail(there.error(), kBadInput);
-  if (!options.requests.empty()) {
-    const std::string csv = recorded_requests(rows_to_evaluate(*evaluation));
-    if (Result<void> written = write_file(options.requests, csv, true); !written) {
-      return fail(written.error(), kBadInput);
-    }
+    need(write_file(options.requests, recorded_requests(judged), true));
     return kDone;
   }
-  Result<Report> report = evaluate(*evaluation);
-  if (!report) return fail(report.error(), kBadInput);
-  report->trained_on = options.data.paths;
-  report->tested_on = options.tests.empty() ? options.data.paths : options.tests;
-  if (!options.report.empty()) {
-    if (Result<void> written = write_report(*report, options.report); !written) {
-      return fail(written.error(), kBadInput);
-    }
-  }
-  print(options.json ? report_json(*report) : report_text(*report));
+  Report report = need(evaluate(evaluation));
+  report.trained_on = options.data.paths;
+  report.tested_on = options.tests.empty() ? options.data.paths : options.tests;
+  if (!options.report.empty()) need(write_report(report, options.report));
+  print(options.json ? report_json(report) : report_text(report));
   return kDone;
 }
 
@@ -210,10 +176,13 @@ void add_eval(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   CLI::App* verb = app.add_subcommand("eval", "Evaluate models against real motion");
   add_manifest_options(*verb, options->data)->required();
-  verb->add_option("--test", options->tests,
-                   "A manifest of test takes, instead of the test takes of the manifests; "
-                   "may be given several times")
-      ->allow_extra_args(false);
+  const auto several = [&](const char* name, std::vector<std::string>& values,
+                           const std::string& description) {
+    verb->add_option(name, values, description + "; may be given several times")
+        ->allow_extra_args(false);
+  };
+  several("--test", options->tests,
+          "A manifest of test takes, instead of the test takes of the manifests");
   verb->add_option("--model", options->models,
                    "A model to evaluate; may be given several times; without any, and without "
                    "--system and --recorded, all recipes are trained first")
@@ -221,28 +190,20 @@ void add_eval(CLI::App& app, int& exit_code) {
   verb->add_option("--remover", options->remover,
                    "A remover to evaluate alone: on styled test takes, and on out-of-distribution "
                    "motion that the --model restyled");
-  verb->add_option("--system", options->systems,
-                   "A system of another paper to build from the same takes and evaluate beside the "
-                   "models: xia2015, yumer2016, holden2017 or all; may be given several times")
-      ->allow_extra_args(false);
-  verb->add_option("--unseen", options->unseen,
-                   "A content to leave out of training and then evaluate on; may be given "
-                   "several times")
-      ->allow_extra_args(false);
-  verb->add_option("--unseen-split", options->splits,
-                   "The same for several contents with commas between them, or for a split of "
-                   "docs/evaluation.md: A, B or C; may be given several times")
-      ->allow_extra_args(false);
+  several("--system", options->systems,
+          "A system of another paper to build from the same takes and evaluate beside the models: "
+          "xia2015, yumer2016, holden2017 or all");
+  several("--unseen", options->unseen, "A content to leave out of training and then evaluate on");
+  several("--unseen-split", options->splits,
+          "The same for several contents with commas between them, or for a split of "
+          "docs/evaluation.md: A, B or C");
   verb->add_option("--out-of-distribution", options->ood,
                    "A motion file, a folder of them or a manifest (of which contents without "
                    "a style are used): out-of-distribution motion to try every style on")
       ->allow_extra_args(false);
-  verb->add_option(
-          "--recorded", options->recorded,
-          "A folder of motion that another program made of test takes, with a "
-          "manifest.csv (input,style,strength,output): evaluated like a model; may be given "
-          "several times")
-      ->allow_extra_args(false);
+  several("--recorded", options->recorded,
+          "A folder of motion that another program made of test takes, with a manifest.csv "
+          "(input,style,strength,output): evaluated like a model");
   verb->add_option("--requests", options->requests,
                    "Evaluate nothing; write the manifest of inputs for --recorded, at "
                    "strength 1, for the other program to go through");

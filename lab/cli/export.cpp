@@ -22,17 +22,11 @@ int run(const ExportVerb& verb) {
   if (!verb.output.ends_with(".onnx")) {
     return fail({verb.output + ": expected a name that ends in .onnx"}, kBadUsage);
   }
-  if (auto free = check_output(verb.model, verb.output, verb.force); !free) {
-    return fail(free.error(), kBadInput);
-  }
-  Result<TensorFile> file = read_tensors(verb.model);
-  if (!file) return fail(file.error(), kBadInput);
-  Result<std::string> onnx = to_onnx(*file, verb.model);
-  if (!onnx) return fail(onnx.error(), kBadInput);
-  auto written = write_file(verb.output, *onnx, verb.force);
-  if (!written) return fail(written.error(), kBadInput);
+  need(check_output(verb.model, verb.output, verb.force));
+  const std::string onnx = need(to_onnx(need(read_tensors(verb.model)), verb.model));
+  need(write_file(verb.output, onnx, verb.force));
   print("exported " + verb.model + " into " + verb.output + " (" +
-        fixed(static_cast<double>(onnx->size()) / 1000, 1) + " KB, opset " +
+        fixed(static_cast<double>(onnx.size()) / 1000, 1) + " KB, opset " +
         std::to_string(kOnnxOpset) + ")\n");
   return kDone;
 }
@@ -45,9 +39,7 @@ void add_export(CLI::App& app, int& exit_code) {
   verb->add_option("MODEL", options->model, "Model to read (.safetensors, of float weights)")
       ->required()
       ->type_name("");
-  verb->add_option("-o,--output", options->output, "File to write (.onnx)")
-      ->required()
-      ->type_name("OUT");
+  add_option(*verb, "-o,--output OUT", options->output, "File to write (.onnx)")->required();
   verb->add_flag("--force", options->force, "Overwrite the file");
   verb->footer(
       "docs/onnx.md lists inputs and outputs.\n\n"

@@ -22,19 +22,14 @@ struct Options {
 };
 
 int fit(const Options& options) {
-  if (auto free = check_free(options.output, options.force); !free) {
-    return fail(free.error(), kBadInput);
-  }
-  Result<Manifests> data = read_manifests({options.manifests, "", {}});
-  if (!data) return fail(data.error(), kBadInput);
-  Result<FittedWalker> fitted = fit_walker(data->rows, options.data, options.licence);
-  if (!fitted) return fail(fitted.error(), kBadInput);
-  auto written = write_file(options.output, fitted->model.format(), options.force);
-  if (!written) return fail(written.error(), kBadInput);
-  print("fitted " + options.output + " to " + std::to_string(fitted->walk_frames) +
-        " frames of walk and " + std::to_string(fitted->run_frames) + " of run in " +
-        plural(static_cast<size_t>(fitted->takes), "take") + "; residual " +
-        brief(fitted->walk_residual, 3) + " rad walking, " + brief(fitted->run_residual, 3) +
+  need(check_free(options.output, options.force));
+  const Manifests data = need(read_manifests({options.manifests, "", {}}));
+  const FittedWalker fitted = need(fit_walker(data.rows, options.data, options.licence));
+  need(write_file(options.output, fitted.model.format(), options.force));
+  print("fitted " + options.output + " to " + std::to_string(fitted.walk_frames) +
+        " frames of walk and " + std::to_string(fitted.run_frames) + " of run in " +
+        plural(static_cast<size_t>(fitted.takes), "take") + "; residual " +
+        brief(fitted.walk_residual, 3) + " rad walking, " + brief(fitted.run_residual, 3) +
         " running\n");
   return kDone;
 }
@@ -46,13 +41,10 @@ void add_fit_walker(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   verb->add_option("MANIFEST", options->manifests, "Manifests with neutral takes to fit to")
       ->required();
-  verb->add_option("-o,--output", options->output, "Model to write (.safetensors)")
-      ->required()
-      ->type_name("OUT");
-  verb->add_option("--data", options->data, "Name of the data, for the model's metadata")
-      ->type_name("TEXT");
-  verb->add_option("--licence", options->licence, "Licence of the data, likewise")
-      ->type_name("TEXT");
+  add_option(*verb, "-o,--output OUT", options->output, "Model to write (.safetensors)")
+      ->required();
+  add_option(*verb, "--data TEXT", options->data, "Name of the data, for the model's metadata");
+  add_option(*verb, "--licence TEXT", options->licence, "Licence of the data, likewise");
   verb->add_flag("--force", options->force, "Overwrite the file");
   verb->footer("Example:\n  panache-lab fit-walker takes.csv -o walker.safetensors");
   verb->callback([options, &exit_code] { exit_code = fit(*options); });

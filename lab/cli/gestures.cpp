@@ -35,20 +35,19 @@ std::vector<ManifestRow> rows_of(const Manifests& data, const std::string& style
   return rows;
 }
 
-Result<std::vector<Gesture>> find(const Manifests& data, const std::string& style,
-                                  const std::vector<std::string>& actions) {
-  const Result<std::vector<Take>> takes =
-      load_takes(rows_of(data, style, actions), PoseLayout::positions);
-  if (!takes) return takes.error();
+std::vector<Gesture> find(const Manifests& data, const std::string& style,
+                          const std::vector<std::string>& actions) {
+  const std::vector<Take> takes =
+      need(load_takes(rows_of(data, style, actions), PoseLayout::positions));
   std::vector<int> styled, neutral;
-  for (size_t t = 0; t < takes->size(); ++t) {
-    ((*takes)[t].row.neutral ? neutral : styled).push_back(static_cast<int>(t));
+  for (size_t t = 0; t < takes.size(); ++t) {
+    (takes[t].row.neutral ? neutral : styled).push_back(static_cast<int>(t));
   }
-  const std::vector<Pairing> pairings = pair_takes(*takes, styled, neutral);
+  const std::vector<Pairing> pairings = pair_takes(takes, styled, neutral);
   std::vector<Gesture> gestures;
-  for (const FoundGesture& found : find_gestures(*takes, pairings)) {
+  for (const FoundGesture& found : find_gestures(takes, pairings)) {
     print(style + ": " + found.gesture.name() + ", in " +
-          (*takes)[static_cast<size_t>(found.take)].row.take + " at " + fixed(found.start, 1) +
+          takes[static_cast<size_t>(found.take)].row.take + " at " + fixed(found.start, 1) +
           " s\n");
     gestures.push_back(found.gesture);
   }
@@ -56,29 +55,17 @@ Result<std::vector<Gesture>> find(const Manifests& data, const std::string& styl
 }
 
 int run(const Options& options) {
-  Result<Manifests> data = read_manifests(options.data);
-  if (!data) return fail(data.error(), kBadInput);
-  if (auto there = check_files(data->rows); !there) return fail(there.error(), kBadInput);
+  const Manifests data = need(read_manifests(options.data));
+  need(check_files(data.rows));
   std::vector<TensorFile> models;
-  for (const std::string& path : options.models) {
-    Result<TensorFile> model = read_tensors(path);
-    if (!model) return fail(model.error(), kBadInput);
-    models.push_back(*std::move(model));
-  }
+  for (const std::string& path : options.models) models.push_back(need(read_tensors(path)));
   for (const std::string& style : options.of) {
-    const Result<std::vector<Gesture>> found = find(*data, style, options.actions);
-    if (!found) return fail(found.error(), kBadInput);
+    const std::vector<Gesture> found = find(data, style, options.actions);
     for (size_t m = 0; m < models.size(); ++m) {
-      Result<TensorFile> with = set_gestures(models[m], style, *found, options.models[m]);
-      if (!with) return fail(with.error(), kBadInput);
-      models[m] = *std::move(with);
+      models[m] = need(set_gestures(models[m], style, found, options.models[m]));
     }
   }
-  for (size_t m = 0; m < models.size(); ++m) {
-    if (auto written = replace_model(options.models[m], models[m]); !written) {
-      return fail(written.error(), kBadInput);
-    }
-  }
+  for (size_t m = 0; m < models.size(); ++m) need(replace_model(options.models[m], models[m]));
   return kDone;
 }
 
@@ -89,21 +76,18 @@ void add_gestures(CLI::App& app, int& exit_code) {
       app.add_subcommand("gestures", "Find the gestures of styles in their takes, for models");
   auto options = std::make_shared<Options>();
   add_manifest_options(*verb, options->data)->required();
-  verb->add_option("--model", options->models,
-                   "Model whose styles get the gestures; may be given several times")
+  add_option(*verb, "--model FILE", options->models,
+             "Model whose styles get the gestures; may be given several times")
       ->required()
-      ->allow_extra_args(false)
-      ->type_name("FILE");
-  verb->add_option("--of", options->of,
-                   "Style to find the gestures of; it loses those that it has.\nOne --of per style")
+      ->allow_extra_args(false);
+  add_option(*verb, "--of NAME", options->of,
+             "Style to find the gestures of; it loses those that it has.\nOne --of per style")
       ->required()
-      ->allow_extra_args(false)
-      ->type_name("NAME");
-  verb->add_option("--action", options->actions,
-                   "Action (column content) of the takes to look in; default:\nall. One --action "
-                   "per action")
-      ->allow_extra_args(false)
-      ->type_name("NAME");
+      ->allow_extra_args(false);
+  add_option(*verb, "--action NAME", options->actions,
+             "Action (column content) of the takes to look in; default:\nall. One --action "
+             "per action")
+      ->allow_extra_args(false);
   verb->footer(
       "Example:\n"
       "  panache-lab gestures takes.csv --model model.safetensors --of scared --action walk");

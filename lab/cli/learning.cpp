@@ -19,20 +19,14 @@ struct Options {
 };
 
 int measure(const Options& options) {
-  Result<Manifests> data = read_manifests({options.manifests, "", {}});
-  if (!data) return fail(data.error(), kBadInput);
-  const Result<TensorFile> model = read_tensors(options.model);
-  if (!model) return fail(model.error(), kBadInput);
-  const Result<std::shared_ptr<const NeutralBank>> bank = NeutralBank::load(options.bank);
-  if (!bank) return fail(bank.error(), kBadInput);
-  const Result<std::vector<Take>> takes = load_takes(data->rows, PoseLayout::positions);
-  if (!takes) return fail(takes.error(), kBadInput);
-  const Result<std::map<std::string, LearningErrors>> found =
-      measure_learning(*model, **bank, *takes);
-  if (!found) return fail(found.error(), kBadInput);
+  const Manifests data = need(read_manifests({options.manifests, "", {}}));
+  const TensorFile model = need(read_tensors(options.model));
+  const auto bank = need(NeutralBank::load(options.bank));
+  const std::vector<Take> takes = need(load_takes(data.rows, PoseLayout::positions));
+  const auto found = need(measure_learning(model, *bank, takes));
   std::string text =
       "cm off: no style, mean posture of the pair, learnt from the pair, from the clip alone\n";
-  for (const auto& [action, errors] : *found) {
+  for (const auto& [action, errors] : found) {
     std::string line = action + " (" + plural(static_cast<size_t>(errors.styles), "style") + ")";
     line.resize(std::max<size_t>(line.size() + 1, 28), ' ');
     for (const double cm : {errors.none, errors.posture, errors.pair, errors.alone}) {
@@ -55,10 +49,8 @@ void add_learning(CLI::App& app, int& exit_code) {
   verb->add_option("MANIFEST", options->manifests,
                    "Manifests with styled and neutral takes; takes marked test judge")
       ->required();
-  verb->add_option("--model", options->model, "Model to learn on")->required()->type_name("FILE");
-  verb->add_option("--bank", options->bank, "Bank of neutral motion")
-      ->required()
-      ->type_name("FILE");
+  add_option(*verb, "--model FILE", options->model, "Model to learn on")->required();
+  add_option(*verb, "--bank FILE", options->bank, "Bank of neutral motion")->required();
   verb->footer(
       "Example:\n"
       "  panache-lab learning takes.csv --model model.safetensors --bank neutral.safetensors");

@@ -1,6 +1,8 @@
 #include "manifests.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 #include "messages.h"
 
@@ -42,6 +44,16 @@ Result<Manifests> read_manifests(const ManifestOptions& options) {
   data.left_out = list_unnamed_styles(data.styles, data.rows);
   if (Result<void> named = apply_style_names(data.styles, data.rows); !named) return named.error();
   return data;
+}
+
+std::vector<ManifestRow> rows_to_train_on(const std::vector<ManifestRow>& rows,
+                                          const std::vector<ManifestRow>& unlabelled) {
+  std::vector<ManifestRow> trained_on;
+  for (const auto* part : {&rows, &unlabelled}) {
+    std::copy_if(part->begin(), part->end(), std::back_inserter(trained_on),
+                 [](const ManifestRow& row) { return !row.test; });
+  }
+  return trained_on;
 }
 
 Result<void> check_files(const std::vector<ManifestRow>& rows) {

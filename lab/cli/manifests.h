@@ -27,6 +27,10 @@ struct Manifests {
 };
 Result<Manifests> read_manifests(const ManifestOptions& options);
 
+// The rows of both that are not marked test.
+std::vector<ManifestRow> rows_to_train_on(const std::vector<ManifestRow>& rows,
+                                          const std::vector<ManifestRow>& unlabelled);
+
 // Names all files of `rows` that do not exist, each in a message of its own, and fails where there
 // are any.
 Result<void> check_files(const std::vector<ManifestRow>& rows);

@@ -23,20 +23,14 @@ struct Options {
 };
 
 int make(const Options& options) {
-  if (auto free = check_free(options.output, options.force); !free) {
-    return fail(free.error(), kBadInput);
-  }
-  Result<Manifests> data = read_manifests({options.manifests, "", {}});
-  if (!data) return fail(data.error(), kBadInput);
-  std::erase_if(data->rows, [](const ManifestRow& row) { return row.test || !row.neutral; });
-  Result<std::vector<Take>> takes = load_takes(data->rows, PoseLayout::positions);
-  if (!takes) return fail(takes.error(), kBadInput);
-  MadeBank made = make_neutral_bank(*takes, 1);
+  need(check_free(options.output, options.force));
+  Manifests data = need(read_manifests({options.manifests, "", {}}));
+  std::erase_if(data.rows, [](const ManifestRow& row) { return row.test || !row.neutral; });
+  MadeBank made = make_neutral_bank(need(load_takes(data.rows, PoseLayout::positions)), 1);
   made.file.metadata["data"] = options.data;
   made.file.metadata["licence"] = options.licence;
   const std::string bytes = format_safetensors(made.file);
-  auto written = write_file(options.output, bytes, options.force);
-  if (!written) return fail(written.error(), kBadInput);
+  need(write_file(options.output, bytes, options.force));
   print("made " + options.output + " of " + std::to_string(made.prototypes) + " prototypes from " +
         std::to_string(made.people) + " people (" +
         fixed(static_cast<double>(bytes.size()) / 1000, 0) + " KB)\n");
@@ -52,13 +46,9 @@ void add_neutral_bank(CLI::App& app, int& exit_code) {
   verb->add_option("MANIFEST", options->manifests,
                    "Manifests with neutral takes, whose files are called PERSON_TAKE")
       ->required();
-  verb->add_option("-o,--output", options->output, "Bank to write (.safetensors)")
-      ->required()
-      ->type_name("OUT");
-  verb->add_option("--data", options->data, "Name of the data, for the bank's metadata")
-      ->type_name("TEXT");
-  verb->add_option("--licence", options->licence, "Licence of the data, likewise")
-      ->type_name("TEXT");
+  add_option(*verb, "-o,--output OUT", options->output, "Bank to write (.safetensors)")->required();
+  add_option(*verb, "--data TEXT", options->data, "Name of the data, for the bank's metadata");
+  add_option(*verb, "--licence TEXT", options->licence, "Licence of the data, likewise");
   verb->add_flag("--force", options->force, "Overwrite the file");
   verb->footer("Example:\n  panache-lab neutral-bank takes.csv -o neutral.safetensors");
   verb->callback([options, &exit_code] { exit_code = make(*options); });

@@ -20,45 +20,35 @@ struct QuantizeVerb {
   bool force = false;
 };
 
-// Faults of a model or a style file are reported as everywhere.
-Result<void> check(const TensorFile& file, const std::string& path, const std::string& bytes) {
-  if (is_style_file(file)) {
-    if (auto info = read_style_info(file, path); !info) return info.error();
-  } else if (auto model = Model::parse(bytes, path); !model) {
-    return model.error();
-  }
-  return {};
-}
-
 // The file's bytes in int8.
-Result<std::string> quantize_file(const std::string& path, const std::string& bytes) {
-  Result<TensorFile> file = parse_safetensors(bytes, path);
-  if (!file) return file.error();
-  if (auto good = check(*file, path, bytes); !good) return good.error();
-  std::string int8 = format_safetensors(quantize(*file));
-  if (int8 != format_safetensors(*file)) return int8;
-  return Error{path + ": is a " + (is_style_file(*file) ? "style" : "model") +
-               " with int8 weights already"};
+std::string quantize_file(const std::string& path, const std::string& bytes) {
+  const TensorFile file = need(parse_safetensors(bytes, path));
+  // Faults of a model or a style file are reported as everywhere.
+  if (is_style_file(file)) {
+    need(read_style_info(file, path));
+  } else {
+    need(Model::parse(bytes, path));
+  }
+  const std::string int8 = format_safetensors(quantize(file));
+  if (int8 != format_safetensors(file)) return int8;
+  throw Failure{
+      {path + ": is a " + (is_style_file(file) ? "style" : "model") + " with int8 weights already"},
+      kBadInput};
 }
 
 int run(const QuantizeVerb& verb) {
   if (!verb.output.ends_with(".safetensors")) {
     return fail({verb.output + ": expected a name that ends in .safetensors"}, kBadUsage);
   }
-  if (auto free = check_output(verb.model, verb.output, verb.force); !free) {
-    return fail(free.error(), kBadInput);
-  }
-  Result<std::string> bytes = read_file(verb.model);
-  if (!bytes) return fail(bytes.error(), kBadInput);
-  Result<std::string> int8 = quantize_file(verb.model, *bytes);
-  if (!int8) return fail(int8.error(), kBadInput);
-  auto written = write_file(verb.output, *int8, verb.force);
-  if (!written) return fail(written.error(), kBadInput);
+  need(check_output(verb.model, verb.output, verb.force));
+  const std::string bytes = need(read_file(verb.model));
+  const std::string int8 = quantize_file(verb.model, bytes);
+  need(write_file(verb.output, int8, verb.force));
   const auto size = [](const std::string& file) {
     return fixed(static_cast<double>(file.size()) / 1000, 1) + " KB";
   };
-  print("quantized " + verb.model + " (" + size(*bytes) + ") into " + verb.output + " (" +
-        size(*int8) + ")\n");
+  print("quantized " + verb.model + " (" + size(bytes) + ") into " + verb.output + " (" +
+        size(int8) + ")\n");
   return kDone;
 }
 
@@ -71,9 +61,7 @@ void add_quantize(CLI::App& app, int& exit_code) {
   verb->add_option("MODEL", options->model, "Model or style file to read")
       ->required()
       ->type_name("");
-  verb->add_option("-o,--output", options->output, "File to write (.safetensors)")
-      ->required()
-      ->type_name("OUT");
+  add_option(*verb, "-o,--output OUT", options->output, "File to write (.safetensors)")->required();
   verb->add_flag("--force", options->force, "Overwrite the file");
   verb->footer("Example:\n  panache-lab quantize model.safetensors -o model-int8.safetensors");
   verb->callback([options, &exit_code] { exit_code = run(*options); });

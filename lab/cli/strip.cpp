@@ -66,27 +66,24 @@ Result<void> check(StripVerb& verb) {
   return {};
 }
 
-Result<StripRow> read_row(const std::string& path, const StripVerb& verb,
-                          const RigOptions& options) {
-  Result<std::unique_ptr<MotionFile>> file = open_motion(path);
-  if (!file) return file.error();
-  std::vector<std::string> notes = (*file)->notes();
-  Result<std::vector<int>> picked = pick_clips(**file, verb.clip, options, path, notes);
-  if (!picked) return picked.error();
+StripRow read_row(const std::string& path, const StripVerb& verb, const RigOptions& options) {
+  const std::unique_ptr<MotionFile> file = need(open_motion(path));
+  std::vector<std::string> notes = file->notes();
+  const std::vector<int> picked = need(pick_clips(*file, verb.clip, options, path, notes));
   print_notes(notes);
-  const Clip& clip = (*file)->clip(picked->front());
-  Result<Rig> rig = make_rig(clip, options, path);
-  if (!rig) return rig.error();
+  const Clip& clip = file->clip(picked.front());
+  const Rig rig = need(make_rig(clip, options, path));
   const double end = (clip.frames - 1) * clip.frame_time;
   if (verb.from > end) {
-    return Error{path + ": ends at " + fixed(end, 2) + " s; expected motion from " +
-                 brief(verb.from) + " s on"};
+    throw Failure{{path + ": ends at " + fixed(end, 2) + " s; expected motion from " +
+                   brief(verb.from) + " s on"},
+                  kBadInput};
   }
   // A calibration pose is no part of the motion.
-  const double begin = std::max(verb.from, rig->first_frame() * clip.frame_time);
+  const double begin = std::max(verb.from, rig.first_frame() * clip.frame_time);
   StripRow row;
   row.label = std::filesystem::path(path).stem().string();
-  PosedRig reader(*rig);
+  PosedRig reader(rig);
   std::vector<Quat> rotations(clip.joints());
   std::vector<Vec3> translations(clip.joints());
   for (int i = 0;; ++i) {
@@ -102,27 +99,21 @@ Result<StripRow> read_row(const std::string& path, const StripVerb& verb,
 }
 
 int strip(StripVerb verb) {
-  if (auto good = check(verb); !good) return fail(good.error(), kBadUsage);
-  Result<RigOptions> rig = read_rig_options(verb.rig);
-  if (!rig) return fail(rig.error(), kBadInput);
+  need(check(verb), kBadUsage);
+  const RigOptions rig = need(read_rig_options(verb.rig));
   std::vector<StripRow> rows;
   for (size_t i = 0; i < verb.inputs.size(); ++i) {
-    auto free = check_output(verb.inputs[i], verb.output, verb.force);
-    if (!free) return fail(free.error(), kBadInput);
-    Result<StripRow> row = read_row(verb.inputs[i], verb, *rig);
-    if (!row) return fail(row.error(), kBadInput);
-    if (!verb.labels.empty()) row->label = verb.labels[i];
-    rows.push_back(*std::move(row));
+    need(check_output(verb.inputs[i], verb.output, verb.force));
+    rows.push_back(read_row(verb.inputs[i], verb, rig));
+    if (!verb.labels.empty()) rows.back().label = verb.labels[i];
   }
   StripOptions options;
   options.seconds_between = verb.every;
   options.travel = verb.travel;
   if (verb.front) options.yaw_deg = 90;
-  Result<std::string> picture = draw_strip(rows, options);
-  if (verb.output.ends_with(".png")) picture = svg_to_png(*picture, verb.output);
-  if (!picture) return fail(picture.error(), kBadInput);
-  auto written = write_file(verb.output, *picture, verb.force);
-  if (!written) return fail(written.error(), kBadInput);
+  std::string picture = draw_strip(rows, options);
+  if (verb.output.ends_with(".png")) picture = need(svg_to_png(picture, verb.output));
+  need(write_file(verb.output, picture, verb.force));
   print("drew " + plural(rows.size(), "row") + " into " + verb.output + "\n");
   return kDone;
 }
@@ -136,20 +127,15 @@ void add_strip(CLI::App& app, int& exit_code) {
                    "Motion files (" + motion_extensions() + "),\none row each")
       ->required()
       ->type_name("");
-  verb->add_option("-o,--output", options->output, "Picture to write (.svg or .png)")
-      ->required()
-      ->type_name("OUT");
-  verb->add_option("--every", options->every, "Time between figures; default: 0.25")
-      ->type_name("SECONDS");
-  verb->add_option("--from", options->from, "First figure; default: the start")
-      ->type_name("SECONDS");
-  verb->add_option("--to", options->to, "Last figure; default: 4 s after the first")
-      ->type_name("SECONDS");
-  verb->add_option("--label", options->labels, "Names of the rows; default: those of the files")
-      ->type_name("TEXT");
-  verb->add_option("--clip", options->clip,
-                   "Motion to draw, if a file has several;\ndefault: the first")
-      ->type_name("NAME");
+  add_option(*verb, "-o,--output OUT", options->output, "Picture to write (.svg or .png)")
+      ->required();
+  add_option(*verb, "--every SECONDS", options->every, "Time between figures; default: 0.25");
+  add_option(*verb, "--from SECONDS", options->from, "First figure; default: the start");
+  add_option(*verb, "--to SECONDS", options->to, "Last figure; default: 4 s after the first");
+  add_option(*verb, "--label TEXT", options->labels,
+             "Names of the rows; default: those of the files");
+  add_option(*verb, "--clip NAME", options->clip,
+             "Motion to draw, if a file has several;\ndefault: the first");
   add_rig_options(*verb, options->rig);
   CLI::Option* travel =
       verb->add_flag("--travel", options->travel, "Draw figures where they are along the path");

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
-#include <iterator>
 #include <optional>
 #include <thread>
 
@@ -66,16 +65,6 @@ class StopWatch {
   std::thread thread_;
 };
 
-// The takes of `data` that are read.
-std::vector<ManifestRow> rows_to_read(const Manifests& data) {
-  std::vector<ManifestRow> rows;
-  for (const auto* part : {&data.rows, &data.unlabelled}) {
-    std::copy_if(part->begin(), part->end(), std::back_inserter(rows),
-                 [](const ManifestRow& row) { return !row.test; });
-  }
-  return rows;
-}
-
 // What each style was learnt from.
 std::string style_table(const std::vector<StyleCoverage>& styles) {
   if (styles.empty()) return "";
@@ -110,31 +99,24 @@ int run(const Options& options) {
                  " learns from styled takes alone; leave the option out"},
                 kBadInput);
   }
-  Result<Manifests> data = read_manifests(options.data);
-  if (!data) return fail(data.error(), kBadInput);
+  const Manifests data = need(read_manifests(options.data));
   // Training takes minutes: what stands in the way of its result is said before.
-  if (Result<void> free = check_free(options.output, options.force); !free) {
-    return fail(free.error(), kBadInput);
-  }
-  if (Result<void> there = check_files(rows_to_read(*data)); !there) {
-    return fail(there.error(), kBadInput);
-  }
+  need(check_free(options.output, options.force));
+  need(check_files(rows_to_train_on(data.rows, data.unlabelled)));
   std::vector<std::string> left_out;
   TrainOptions train_options(recipe);
   train_options.note = [&](const std::string& line) {
     print_message(line);
     left_out.push_back(line);
   };
-  for (const std::string& line : data->left_out) train_options.note(line);
+  for (const std::string& line : data.left_out) train_options.note(line);
   if (options.steps > 0) {
     TrainingSettings& settings = train_options.settings;
     settings.steps = options.steps;
     settings.predictor_steps = std::min(settings.predictor_steps, options.steps);
   }
   if (!options.remover_of.empty()) {
-    Result<std::shared_ptr<const Model>> model = Model::load(options.remover_of);
-    if (!model) return fail(model.error(), kBadInput);
-    train_options.remover_of = *std::move(model);
+    train_options.remover_of = need(Model::load(options.remover_of));
     // Nothing is predicted before its style is off.
     train_options.settings.predictor_steps = 0;
   }
@@ -143,40 +125,33 @@ int run(const Options& options) {
   train_options.licence = options.licence;
   train_options.checkpoint = options.output;
   std::optional<StopWatch> watch(options.output);
-  Result<Trained> trained = train(data->rows, data->styles, train_options, data->unlabelled);
+  const Trained trained = need(train(data.rows, data.styles, train_options, data.unlabelled));
   watch.reset();
-  if (!trained) return fail(trained.error(), kBadInput);
 
-  const std::string bytes = format_safetensors(trained->model);
-  const std::pair<std::string, std::string> files[] = {
-      {options.output, bytes},
-      {options.output + ".losses.csv", losses_csv(trained->losses)},
-      {options.output + ".losses.svg", losses_svg(trained->losses)}};
-  for (const auto& [path, text] : files) {
-    if (Result<void> written = write_file(path, text, true); !written) {
-      return fail(written.error(), kBadInput);
-    }
-  }
+  const std::string bytes = format_safetensors(trained.model);
+  need(write_file(options.output, bytes, true));
+  need(write_file(options.output + ".losses.csv", losses_csv(trained.losses), true));
+  need(write_file(options.output + ".losses.svg", losses_svg(trained.losses), true));
   remove_checkpoints(options.output);
   if (options.json) {
     print(Json{{"model", options.output},
                {"bytes", bytes.size()},
-               {"samples", trained->samples},
-               {"styles", to_json(trained->styles)},
+               {"samples", trained.samples},
+               {"styles", to_json(trained.styles)},
                {"left_out", left_out},
-               {"read_seconds", trained->read_seconds},
-               {"pair_seconds", trained->pair_seconds},
-               {"train_seconds", trained->train_seconds},
-               {"export_error", trained->export_error}});
+               {"read_seconds", trained.read_seconds},
+               {"pair_seconds", trained.pair_seconds},
+               {"train_seconds", trained.train_seconds},
+               {"export_error", trained.export_error}});
     return kDone;
   }
   print("trained " + options.output + " (" + std::to_string(bytes.size()) + " bytes, " +
-        plural(trained->styles.size(), "style") + ") on " + std::to_string(trained->samples) +
-        " samples: reading " + fixed(trained->read_seconds, 1) + " s, pairing " +
-        fixed(trained->pair_seconds, 1) + " s, training " + fixed(trained->train_seconds, 1) +
+        plural(trained.styles.size(), "style") + ") on " + std::to_string(trained.samples) +
+        " samples: reading " + fixed(trained.read_seconds, 1) + " s, pairing " +
+        fixed(trained.pair_seconds, 1) + " s, training " + fixed(trained.train_seconds, 1) +
         " s\nlosses: " + options.output + ".losses.csv and .losses.svg; the export differs from " +
-        "libtorch's forward pass by at most " + brief(trained->export_error) + "\n" +
-        style_table(trained->styles));
+        "libtorch's forward pass by at most " + brief(trained.export_error) + "\n" +
+        style_table(trained.styles));
   return kDone;
 }
 

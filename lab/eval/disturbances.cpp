@@ -1,7 +1,6 @@
 #include "eval/disturbances.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "base/parallel.h"

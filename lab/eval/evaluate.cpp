@@ -1,6 +1,5 @@
 #include "eval/evaluate.h"
 
-#include <algorithm>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -12,11 +11,11 @@
 #include "eval/motion_metrics.h"
 #include "eval/ood.h"
 #include "eval/prediction.h"
+#include "eval/report_numbers.h"
 #include "eval/style_judges.h"
 #include "eval/systems/mean_posture.h"
 #include "eval/systems/model_system.h"
 #include "eval/systems/recorded.h"
-#include "net/safetensors.h"
 
 namespace panache {
 namespace {

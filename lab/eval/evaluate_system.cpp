@@ -6,6 +6,7 @@
 #include "base/progress.h"
 #include "eval/evaluate.h"
 #include "eval/motion_metrics.h"
+#include "eval/report_numbers.h"
 
 namespace panache {
 namespace {

@@ -1,49 +1,19 @@
 #include "eval/evaluator.h"
 
-#include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "base/parallel.h"
 #include "eval/frechet.h"
+#include "eval/report_numbers.h"
 
 namespace panache {
 namespace {
-
-// Mean of numbers, those not measured left out.
-class Mean {
- public:
-  void add(double value) {
-    if (std::isnan(value)) return;
-    sum_ += value;
-    ++count_;
-  }
-  double value() const { return count_ > 0 ? sum_ / count_ : kNotMeasured; }
-
- private:
-  double sum_ = 0;
-  int count_ = 0;
-};
-
-Metrics mean_of(const std::vector<const Metrics*>& parts) {
-  Metrics mean;
-  for (const Measure& measure : measures()) {
-    Mean value;
-    for (const Metrics* part : parts) value.add((*part)[measure.key]);
-    mean[measure.key] = value.value();
-  }
-  for (const Metrics* part : parts) {
-    mean.takes += part->takes;
-    mean.windows += part->windows;
-  }
-  return mean;
-}
 
 MetricsTable grouped(const StyleContentTable& cells, std::string StyleContent::*key) {
   std::map<std::string, std::vector<const Metrics*>> groups;
   for (const auto& [cell, metrics] : cells) groups[cell.*key].push_back(&metrics);
   MetricsTable table;
-  for (const auto& [name, parts] : groups) table[name] = mean_of(parts);
+  for (const auto& [name, parts] : groups) table[name] = mean_metrics(parts);
   return table;
 }
 
@@ -56,27 +26,11 @@ std::vector<std::string> labels_of(const std::vector<Take>& takes, std::string M
 
 }  // namespace
 
-Metrics mean_metrics(const StyleContentTable& cells) {
-  std::vector<const Metrics*> parts;
-  for (const auto& [cell, metrics] : cells) parts.push_back(&metrics);
-  return mean_of(parts);
-}
 MetricsTable by_content(const StyleContentTable& cells) {
   return grouped(cells, &StyleContent::second);
 }
 MetricsTable by_style(const StyleContentTable& cells) {
   return grouped(cells, &StyleContent::first);
-}
-
-StyleContentTable of_contents(const StyleContentTable& cells,
-                              const std::vector<std::string>& contents) {
-  StyleContentTable some;
-  for (const auto& [cell, metrics] : cells) {
-    if (std::find(contents.begin(), contents.end(), cell.second) != contents.end()) {
-      some[cell] = metrics;
-    }
-  }
-  return some;
 }
 
 Evaluator Evaluator::create(const std::vector<Take>& training, std::vector<Take> test,

@@ -19,14 +19,9 @@ namespace panache {
 using StyleContent = std::pair<std::string, std::string>;
 using StyleContentTable = std::map<StyleContent, Metrics>;
 
-// Means of a table: over all cells, or per content or style.
-Metrics mean_metrics(const StyleContentTable& cells);
+// Means of a table per content or style.
 MetricsTable by_content(const StyleContentTable& cells);
 MetricsTable by_style(const StyleContentTable& cells);
-// The cells of these contents only.
-StyleContentTable of_contents(const StyleContentTable& cells,
-                              const std::vector<std::string>& contents);
-
 // Below these shares of real held-out windows, what the classifiers say of other motion means
 // little by itself: the report says so, and that it is to be compared with real motion.
 struct AccuracyFloor {

@@ -1,6 +1,5 @@
 #pragma once
-// A measure: one number that says how good motion is. Each is a file of eval/measures, and a line
-// of eval/measures/table.inc.
+// A measure: one number that says how good motion is. Each is an entry of the table in measure.cpp.
 
 #include <optional>
 #include <string_view>

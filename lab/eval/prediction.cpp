@@ -1,7 +1,5 @@
 #include "eval/prediction.h"
 
-#include <cmath>
-
 #include "base/quat.h"
 #include "style/pose_predictor.h"
 

@@ -1,7 +1,6 @@
 #include "eval/removal.h"
 
 #include <algorithm>
-#include <atomic>
 
 #include "base/parallel.h"
 #include "base/progress.h"
@@ -10,9 +9,7 @@
 #include "eval/ood.h"
 #include "eval/report_numbers.h"
 #include "eval/systems/styled_clip.h"
-#include "eval/warped_distance.h"
 #include "learn/recognise.h"
-#include "style/names.h"
 #include "style/removal.h"
 
 namespace panache {

@@ -1,15 +1,12 @@
 // The report for machines.
 
-#include "eval/report.h"
-
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
 #include "eval/measure.h"
 #include "eval/report_numbers.h"
-#include "eval/report_ood.h"
+#include "eval/report_tree.h"
 
 namespace panache {
 namespace {
@@ -47,20 +44,16 @@ Json table_json(const MetricsTable& table) {
   return out;
 }
 
-Json clip_summary_json(const ClipSummary& summary) {
-  return {{"clips", summary.clips},
-          {"recognised", number(summary.recognised)},
-          {"cm", number(summary.cm)},
-          {"hand_speed", number(summary.hand_speed)},
-          {"hand_sharpness", number(summary.hand_sharpness)}};
-}
-
 // `real`: what the shares recognised are divided by, in the same groups; null of real takes.
 Json clips_json(const std::vector<ClipVerdict>& clips, const std::vector<ClipVerdict>* real) {
   const auto entry = [](const std::vector<ClipVerdict>& of,
                         const std::vector<ClipVerdict>* beside) {
     const ClipSummary summary = summarize_clips(of);
-    Json out = clip_summary_json(summary);
+    Json out = {{"clips", summary.clips},
+                {"recognised", number(summary.recognised)},
+                {"cm", number(summary.cm)},
+                {"hand_speed", number(summary.hand_speed)},
+                {"hand_sharpness", number(summary.hand_sharpness)}};
     if (beside) out["of_real"] = number(summary.recognised / summarize_clips(*beside).recognised);
     return out;
   };
@@ -84,20 +77,6 @@ Json clips_json(const std::vector<ClipVerdict>& clips, const std::vector<ClipVer
   out["confusion"] = Json::object();
   for (const auto& [pair, count] : confusion(clips)) {
     out["confusion"][pair.first][pair.second] = count;
-  }
-  return out;
-}
-
-Json strength_json(const SystemReport& system) {
-  Json out = Json::object();
-  for (const auto& [strength, metrics] : system.strength) out[strength] = metrics_json(metrics);
-  return out;
-}
-
-Json strength_by_style_json(const SystemReport& system) {
-  Json out = Json::object();
-  for (const auto& [strength, styles] : system.strength_by_style) {
-    out[strength] = table_json(styles);
   }
   return out;
 }
@@ -168,10 +147,14 @@ Json traits_json(const Traits& change, const Signature* signature = nullptr) {
   return out;
 }
 
-// Mean change per style.
+// Mean change per style, of those that have any.
 Json signatures_json(const std::vector<OodRow>& rows) {
+  std::map<std::string, SignatureMatch> styles;
+  for (const OodRow& row : rows) {
+    if (row.verdict.signature.takes > 0) styles[row.style] += row.verdict.signature;
+  }
   Json out = Json::object();
-  for (const auto& [style, match] : signatures_by_style(rows)) {
+  for (const auto& [style, match] : styles) {
     out[style] = traits_json(match.mean_change());
     out[style]["sign"] = number(match.sign_share());
     out[style]["amount"] = number(match.amount_share());
@@ -179,34 +162,53 @@ Json signatures_json(const std::vector<OodRow>& rows) {
   return out;
 }
 
-Json ood_summary_json(const OodSummary& summary) {
-  Json out = {
-      {"rows", summary.rows},
-      {"clips", summary.clips},
-      {"jerk_ratio",
-       {{"median", number(summary.jerk_ratio_median)},
-        {"p90", number(summary.jerk_ratio_p90)},
-        {"max", number(summary.jerk_ratio_max)}}},
-      {"velocity_correlation",
-       {{"median", number(summary.velocity_correlation_median)},
-        {"p10", number(summary.velocity_correlation_p10)}}},
-      {"distance_cm", {{"mean", number(summary.distance_cm_mean)}}},
-      {"beyond_limits",
-       {{"mean", number(summary.beyond_limits_mean)},
-        {"max", number(summary.beyond_limits_max)},
-        {"rows", summary.beyond_limits_rows}}},
-      {"under_floor",
-       {{"mean", number(summary.under_floor_mean)},
-        {"max", number(summary.under_floor_max)},
-        {"rows", summary.under_floor_rows}}},
-      {"jumps", {{"frames", summary.jumps}, {"rows", summary.jump_rows}}},
-      {"skating_ratio", {{"mean", number(summary.skating_ratio_mean)}}},
-      {"input_skating_ratio", {{"mean", number(summary.input_skating_ratio_mean)}}},
-      {"turned_deg", {{"mean", number(summary.turned_deg_mean)}}},
-      {"drift_m", {{"max", number(summary.drift_m_max)}}},
-      {"gate", {{"mean", number(summary.gate_mean)}}},
+std::vector<double> values_of(const std::vector<OodRow>& rows, double OodRow::*value) {
+  std::vector<double> values;
+  values.reserve(rows.size());
+  for (const OodRow& row : rows) values.push_back(row.*value);
+  return values;
+}
+
+Json ood_summary_json(const std::vector<OodRow>& rows) {
+  const auto mean = [&](double OodRow::*value) {
+    return number(finite_mean(values_of(rows, value)));
   };
-  out.update(style_summary_json(summary.styles));
+  const auto at = [&](double OodRow::*value, double share) {
+    return number(quantile(values_of(rows, value), share));
+  };
+  // Of shares of frames; and how many rows have any such frame.
+  const auto shares = [&](double OodRow::*value) {
+    const auto any = [&](const OodRow& row) { return row.*value > 0; };
+    return Json{{"mean", mean(value)},
+                {"max", at(value, 1)},
+                {"rows", std::count_if(rows.begin(), rows.end(), any)}};
+  };
+  int jumps = 0, jump_rows = 0;
+  for (const OodRow& row : rows) {
+    jumps += row.jumps;
+    jump_rows += row.jumps > 0;
+  }
+  Json out = {
+      {"rows", rows.size()},
+      {"clips", ood_by_clip(rows).size()},
+      {"jerk_ratio",
+       {{"median", at(&OodRow::jerk_ratio, 0.5)},
+        {"p90", at(&OodRow::jerk_ratio, 0.9)},
+        {"max", at(&OodRow::jerk_ratio, 1)}}},
+      {"velocity_correlation",
+       {{"median", at(&OodRow::velocity_correlation, 0.5)},
+        {"p10", at(&OodRow::velocity_correlation, 0.1)}}},
+      {"distance_cm", {{"mean", mean(&OodRow::distance_cm)}}},
+      {"beyond_limits", shares(&OodRow::beyond_limits)},
+      {"under_floor", shares(&OodRow::under_floor)},
+      {"jumps", {{"frames", jumps}, {"rows", jump_rows}}},
+      {"skating_ratio", {{"mean", mean(&OodRow::skating_ratio)}}},
+      {"input_skating_ratio", {{"mean", mean(&OodRow::input_skating_ratio)}}},
+      {"turned_deg", {{"mean", mean(&OodRow::turned_deg)}}},
+      {"drift_m", {{"max", at(&OodRow::drift_m, 1)}}},
+      {"gate", {{"mean", mean(&OodRow::gate)}}},
+  };
+  out.update(style_summary_json(summarize_styles(rows)));
   return out;
 }
 
@@ -221,22 +223,27 @@ Json ood_by_clip_json(const std::vector<OodRow>& rows) {
   Json out = Json::object();
   for (const auto& [clip, of_clip] : ood_by_clip(rows)) {
     for (const auto& [key, value] : kNumbers) {
-      std::vector<double> values;
-      for (const OodRow& row : of_clip) values.push_back(row.*value);
-      out[clip][key] = number(finite_mean(values));
+      out[clip][key] = number(finite_mean(values_of(of_clip, value)));
     }
   }
   return out;
 }
 
+// Of each measure of shots, over the frames of all rows where it applies.
 Json shots_json(const std::vector<OodRow>& rows) {
   Json out;
-  const ShotSummaries shots = summarize_shots(rows);
-  for (size_t i = 0; i < shots.size(); ++i) {
-    out[kShotKeys[i]] = {{"frames", shots[i].frames},
-                         {"median", number(shots[i].median)},
-                         {"p90", number(shots[i].p90)},
-                         {"over_2", number(shots[i].over_2)}};
+  for (size_t i = 0; i < kShotKeys.size(); ++i) {
+    std::vector<double> values, over;
+    for (const OodRow& row : rows) {
+      for (const float value : row.shot[i]) {
+        values.push_back(value);
+        over.push_back(value > 2);
+      }
+    }
+    out[kShotKeys[i]] = {{"frames", values.size()},
+                         {"median", number(quantile(values, 0.5))},
+                         {"p90", number(quantile(values, 0.9))},
+                         {"over_2", number(finite_mean(over))}};
   }
   return out;
 }
@@ -261,7 +268,7 @@ Json ood_json(const std::vector<OodRow>& rows) {
                     {"style_lda", number(row.verdict.style_lda)}});
   }
   Json out;
-  out["summary"] = ood_summary_json(summarize_ood(rows));
+  out["summary"] = ood_summary_json(rows);
   out["shot"] = shots_json(rows);
   out["signatures"] = signatures_json(rows);
   out["by_clip"] = ood_by_clip_json(rows);
@@ -336,8 +343,14 @@ Json system_json(const SystemReport& system, const Report& report) {
       {"own", clips_json(system.clips, &report.real_clips)},
       {"across", clips_json(system.clips_across, &report.real_clips_across)},
       {"shared", clips_json(shared_clips(report.real_clips, system.clips), &shared)}};
-  out["strength"] = strength_json(system);
-  out["strength_by_style"] = strength_by_style_json(system);
+  out["strength"] = Json::object();
+  for (const auto& [strength, metrics] : system.strength) {
+    out["strength"][strength] = metrics_json(metrics);
+  }
+  out["strength_by_style"] = Json::object();
+  for (const auto& [strength, styles] : system.strength_by_style) {
+    out["strength_by_style"][strength] = table_json(styles);
+  }
   out["slider"] = {{"style", number(system.slider_style)},
                    {"distance", number(system.slider_distance)}};
   out["mixes"] = mixes_json(system.mixes);
@@ -386,7 +399,27 @@ Json removal_json(const RemovalReport& report) {
 
 }  // namespace
 
-std::string report_json(const Report& report) {
+std::vector<std::string> ceiling_notes(const Report& report) {
+  struct Judge {
+    const char *name, *key, *figures;
+    double floor;
+  };
+  const Judge judges[] = {{"style", "style_accuracy",
+                           "style, style probability, strengths and mixes", report.style_floor},
+                          {"content", "content_accuracy", "content and FMD", report.content_floor}};
+  std::vector<std::string> notes;
+  for (const Judge& judge : judges) {
+    const double share = report.real[judge.key];
+    if (share >= judge.floor || report.real.takes == 0) continue;
+    notes.push_back(std::string("The ") + judge.name + " classifier recognises " +
+                    number_text(share, 3) + " of the windows of real held-out takes, less than " +
+                    number_text(judge.floor, 3) + ": compare its figures (" + judge.figures +
+                    ") with those of the real takes, not with 1.");
+  }
+  return notes;
+}
+
+nlohmann::ordered_json report_tree(const Report& report) {
   Json out;
   out["format"] = "panache report 1";
   out["trained_on"] = report.trained_on;
@@ -431,8 +464,12 @@ std::string report_json(const Report& report) {
   }
   if (report.removal) out["removal"] = removal_json(*report.removal);
   out["contacts"] = contacts_json(report.contacts);
+  return out;
+}
+
+std::string report_json(const Report& report) {
   // Names come from files; bytes that are not UTF-8 are no reason to lose a report.
-  return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return report_tree(report).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace panache

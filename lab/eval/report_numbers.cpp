@@ -18,10 +18,6 @@ std::string number_text(double value, int digits) {
   return std::string(zero && written.starts_with('-') ? written.substr(1) : written);
 }
 
-std::string bytes_text(size_t bytes) {
-  return bytes == 0 ? kDash : count_text((bytes + 512) / 1024) + " KB";
-}
-
 std::string count_text(size_t count) {
   if (count == 0) return kDash;
   std::string text = std::to_string(count);
@@ -50,39 +46,18 @@ double finite_mean(const std::vector<double>& values) {
   return count > 0 ? sum / static_cast<double>(count) : kNotMeasured;
 }
 
-Metrics mean_metrics(const MetricsTable& table) {
+Metrics mean_metrics(const std::vector<const Metrics*>& lines) {
   Metrics mean;
-  for (const auto& [name, metrics] : table) {
-    mean.takes += metrics.takes;
-    mean.windows += metrics.windows;
+  for (const Metrics* line : lines) {
+    mean.takes += line->takes;
+    mean.windows += line->windows;
   }
   for (const Measure& measure : measures()) {
     std::vector<double> values;
-    for (const auto& [name, metrics] : table) values.push_back(metrics[measure.key]);
+    for (const Metrics* line : lines) values.push_back((*line)[measure.key]);
     mean[measure.key] = finite_mean(values);
   }
   return mean;
-}
-
-std::vector<std::string> names_of(const std::vector<const MetricsTable*>& tables,
-                                  const std::vector<std::string>& order) {
-  std::vector<std::string> names, rest;
-  const auto has = [&](const std::string& name) {
-    return std::any_of(tables.begin(), tables.end(),
-                       [&](const MetricsTable* table) { return table->contains(name); });
-  };
-  for (const std::string& name : order) {
-    if (has(name)) names.push_back(name);
-  }
-  for (const MetricsTable* table : tables) {
-    for (const auto& [name, metrics] : *table) {
-      if (std::find(names.begin(), names.end(), name) == names.end()) rest.push_back(name);
-    }
-  }
-  std::sort(rest.begin(), rest.end());
-  rest.erase(std::unique(rest.begin(), rest.end()), rest.end());
-  names.insert(names.end(), rest.begin(), rest.end());
-  return names;
 }
 
 size_t column_count(std::string_view text) {

@@ -1,6 +1,7 @@
 #pragma once
 // Numbers of a report as people read them.
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,9 +15,6 @@ inline constexpr const char* kDash = "\xe2\x80\x93";  // Stands where nothing wa
 // `value` with so many decimals, whatever the locale; a dash for what is not finite.
 std::string number_text(double value, int digits);
 
-// "848 KB"; a dash for 0.
-std::string bytes_text(size_t bytes);
-
 // "1,234,567"; a dash for 0.
 std::string count_text(size_t count);
 
@@ -27,13 +25,14 @@ double quantile(std::vector<double> values, double at);
 // The mean of those that are finite; NaN of none.
 double finite_mean(const std::vector<double>& values);
 
-// The mean of each number over the lines of a table where it was measured; takes and windows add
-// up.
-Metrics mean_metrics(const MetricsTable& table);
-
-// The names that any of the tables has: first those of `order`, in its order, then the rest.
-std::vector<std::string> names_of(const std::vector<const MetricsTable*>& tables,
-                                  const std::vector<std::string>& order);
+// The mean of each number over the lines where it was measured; takes and windows add up.
+Metrics mean_metrics(const std::vector<const Metrics*>& lines);
+template <class Key>
+Metrics mean_metrics(const std::map<Key, Metrics>& table) {
+  std::vector<const Metrics*> lines;
+  for (const auto& [name, metrics] : table) lines.push_back(&metrics);
+  return mean_metrics(lines);
+}
 
 // How many columns of a terminal `text`, UTF-8, takes.
 size_t column_count(std::string_view text);

@@ -1,8 +1,10 @@
 // The report as one page that needs nothing but itself: the page of the folder `page`, with the
-// film strips and report.json in it.
+// film strips and report.json in it; and both as a folder.
 
 #include <cassert>
+#include <filesystem>
 
+#include "base/file.h"
 #include "base/xml.h"
 #include "draw/strip.h"
 #include "eval/report.h"
@@ -50,6 +52,23 @@ std::string report_page(const Report& report) {
   put(page, "<!--report-->", json_for_html(report_json(report)));
   put(page, "<!--strips-->", strips_html(report));
   return page;
+}
+
+Result<void> write_report(const Report& report, const std::string& folder) {
+  namespace fs = std::filesystem;
+  std::error_code status;
+  const fs::path path = folder.empty() ? "." : folder;
+  if (fs::exists(path, status) && !fs::is_directory(path, status)) {
+    return Error{folder + ": is a file; expected a folder to write the report into"};
+  }
+  fs::create_directories(path, status);
+  if (!fs::is_directory(path, status)) {
+    return Error{folder + ": cannot be made; expected a place where a folder may be written"};
+  }
+  const std::string json = report_json(report), page = report_page(report);
+  Result<void> written = write_file((path / "report.json").string(), json, true);
+  if (!written) return written;
+  return write_file((path / "index.html").string(), page, true);
 }
 
 }  // namespace panache

@@ -1,22 +1,111 @@
-// The report for a terminal.
-
-#include "eval/report.h"
+// The report for a terminal: numbers of report.json in tables.
 
 #include <algorithm>
+#include <set>
 
 #include "eval/measure.h"
-#include "eval/report_clips.h"
 #include "eval/report_numbers.h"
-#include "eval/report_ood.h"
 #include "eval/report_text_table.h"
+#include "eval/report_tree.h"
 
 namespace panache {
 namespace {
 
-const Metrics& line_of(const MetricsTable& table, const std::string& name) {
-  static const Metrics kNothing;
-  const auto line = table.find(name);
-  return line == table.end() ? kNothing : line->second;
+using Json = nlohmann::ordered_json;
+
+// In place of the digits of how many there are of something: "1,234", and the same without the
+// comma. A dash stands for 0.
+constexpr int kCount = -1, kPlainCount = -2;
+
+// A column of numbers, each of which stands at a place (a JSON pointer) of its row.
+struct Column {
+  std::string label, place;
+  int digits;
+};
+struct Group {
+  std::string label;
+  std::vector<Column> columns;
+};
+using Rows = std::vector<std::pair<std::string, Json>>;
+
+std::string cell(const Json& row, const Column& column) {
+  const Json::json_pointer place(column.place);
+  if (!row.contains(place) || !row[place].is_number()) return kDash;
+  if (column.digits == kCount) return count_text(row[place]);
+  if (column.digits == kPlainCount) return row[place] == 0 ? kDash : number_text(row[place], 0);
+  return number_text(row[place], column.digits);
+}
+
+std::string table(const std::string& names, const std::vector<Group>& groups, const Rows& rows) {
+  TextTable out(names);
+  for (const Group& group : groups) {
+    std::vector<std::string> labels;
+    for (const Column& column : group.columns) labels.push_back(column.label);
+    out.add_columns(group.label, labels);
+  }
+  for (const auto& [name, row] : rows) {
+    std::vector<std::string> cells;
+    for (const Group& group : groups) {
+      for (const Column& column : group.columns) cells.push_back(cell(row, column));
+    }
+    out.add_row(name, std::move(cells));
+  }
+  return out.str();
+}
+
+// Rows by their names, and one that sums them up or is null.
+struct Source {
+  std::string label;
+  Json rows, total;
+  std::vector<Column> columns;
+};
+
+// The names that any of the sources has: first those of `order`, then the rest by the alphabet.
+std::vector<std::string> names_of(const std::vector<Source>& sources,
+                                  const std::vector<std::string>& order) {
+  std::set<std::string> rest;
+  for (const Source& source : sources) {
+    for (const auto& [name, row] : source.rows.items()) rest.insert(name);
+  }
+  std::vector<std::string> names;
+  for (const std::string& name : order) {
+    if (rest.erase(name) > 0) names.push_back(name);
+  }
+  names.insert(names.end(), rest.begin(), rest.end());
+  return names;
+}
+
+// Sources beside each other, a row for each name, and below them their totals as the row `total`,
+// where that is not empty.
+std::string side_by_side(const std::string& names, const std::vector<Source>& sources,
+                         const std::vector<std::string>& row_names, const std::string& total) {
+  std::vector<Group> groups;
+  for (size_t s = 0; s < sources.size(); ++s) {
+    groups.push_back({sources[s].label, sources[s].columns});
+    for (Column& column : groups.back().columns) {
+      column.place.insert(0, "/" + std::to_string(s));
+    }
+  }
+  Rows rows;
+  for (const std::string& name : row_names) {
+    Json& row = rows.emplace_back(name, Json::array()).second;
+    for (const Source& source : sources) row.push_back(source.rows.value(name, Json()));
+  }
+  if (!total.empty() && !rows.empty()) {
+    Json& row = rows.emplace_back(total, Json::array()).second;
+    for (const Source& source : sources) row.push_back(source.total);
+  }
+  return table(names, groups, rows);
+}
+
+// What each system has at `place`, but for systems where `needed` is empty.
+Rows of_systems(const Json& report, const std::string& place, const std::string& needed) {
+  Rows rows;
+  for (const auto& [name, system] : report["systems"].items()) {
+    if (system[Json::json_pointer(needed)].empty()) continue;
+    rows.emplace_back(name, system[Json::json_pointer(place)]);
+  }
+  return rows;
 }
 
 // A title and what stands under it; nothing without a body.
@@ -38,300 +127,264 @@ std::string wrapped(const std::string& text) {
   return out;
 }
 
-std::string overall(const Report& report) {
-  TextTable table("");
-  std::vector<std::string> labels;
-  for (const Measure& measure : measures()) labels.emplace_back(measure.label);
-  table.add_columns("", labels);
-  const auto add = [&](const std::string& name, const Metrics& metrics) {
-    std::vector<std::string> cells;
-    for (const Measure& measure : measures()) {
-      cells.push_back(number_text(metrics[measure.key], measure.digits));
-    }
-    table.add_row(name, std::move(cells));
-  };
-  add("real takes", report.real);
-  add("input", report.input);
-  for (const SystemReport& system : report.systems) add(system.name, system.seen);
-  return table.str();
+Column measured(const std::string& label, const std::string& key) {
+  return {label, "/" + key, find_measure(key).digits};
 }
 
-// What these measures found.
-std::vector<std::string> texts(const Metrics& metrics, const std::vector<const char*>& keys) {
-  std::vector<std::string> cells;
-  cells.reserve(keys.size());
-  for (const char* key : keys) cells.push_back(number_text(metrics[key], find_measure(key).digits));
-  return cells;
-}
-
-std::vector<std::string> four_numbers(const Metrics& metrics) {
-  return texts(metrics, {"style_accuracy", "content_accuracy", "jerk_ratio", "pose_error_deg"});
-}
-
-std::string by_content(const Report& report) {
-  TextTable table("content");
-  table.add_columns("real takes", {"style", "content"});
-  std::vector<const MetricsTable*> tables;
-  for (const SystemReport& system : report.systems) {
-    table.add_columns(system.name, {"style", "content", "jerk", "deg"});
-    tables.push_back(&system.by_content);
+std::string overall(const Json& report) {
+  Group group;
+  for (const Measure& measure : measures()) {
+    group.columns.push_back(measured(measure.label, measure.key));
   }
-  for (const std::string& content : names_of(tables, report.contents)) {
-    std::vector<std::string> cells =
-        texts(line_of(report.real_by_content, content), {"style_accuracy", "content_accuracy"});
-    for (const MetricsTable* of : tables) {
-      for (const std::string& cell : four_numbers(line_of(*of, content))) cells.push_back(cell);
-    }
-    table.add_row(content, std::move(cells));
+  Rows rows = of_systems(report, "/seen", "/seen");
+  rows.insert(rows.begin(), {{"real takes", report["real"]}, {"input", report["input"]}});
+  return table("", {group}, rows);
+}
+
+std::string by_content(const Json& report) {
+  const std::vector<Column> columns = {
+      measured("style", "style_accuracy"), measured("content", "content_accuracy"),
+      measured("jerk", "jerk_ratio"), measured("deg", "pose_error_deg")};
+  std::vector<Source> systems;
+  for (const auto& [name, rows] : of_systems(report, "/seen_by_content", "/seen")) {
+    systems.push_back({name, rows, {}, columns});
   }
-  return table.str();
+  const std::vector<std::string> names = names_of(systems, report["contents"]);
+  systems.insert(systems.begin(),
+                 {"real takes", report["real_by_content"], {}, {columns[0], columns[1]}});
+  return side_by_side("content", systems, names, "");
 }
 
 // One number of each system, strengths from left to right.
-std::string strengths(const Report& report, const char* measure) {
-  std::vector<std::string> keys;
-  for (const SystemReport& system : report.systems) {
-    for (const auto& [key, metrics] : system.strength) {
-      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+std::string strengths(const Json& report, const std::string& measure) {
+  const Rows rows = of_systems(report, "/strength", "/strength");
+  Group group;
+  for (const auto& [name, row] : rows) {
+    for (const auto& [strength, metrics] : row.items()) {
+      const auto is_same = [&](const Column& column) { return column.label == strength; };
+      if (std::ranges::any_of(group.columns, is_same)) continue;
+      group.columns.push_back(measured(strength, measure));
+      group.columns.back().place.insert(0, "/" + strength);
     }
   }
-  TextTable table("");
-  table.add_columns("", keys);
-  for (const SystemReport& system : report.systems) {
-    if (system.strength.empty()) continue;
-    std::vector<std::string> cells;
-    for (const std::string& key : keys) {
-      const auto at = std::find_if(system.strength.begin(), system.strength.end(),
-                                   [&](const auto& entry) { return entry.first == key; });
-      cells.push_back(at == system.strength.end() ? kDash : texts(at->second, {measure}).front());
-    }
-    table.add_row(system.name, std::move(cells));
-  }
-  return table.str();
+  return table("", {group}, rows);
 }
 
-std::string unseen(const Report& report, const UnseenReport& split) {
-  const std::vector<std::pair<std::string, const MetricsTable*>> kSources = {
-      {"unseen", &split.by_content},
-      {"seen", &split.seen_by_content},
-      {"real, blind", &split.blind_by_content},
-      {"mean posture", &split.mean_posture_by_content}};
-  TextTable table("content");
-  for (const auto& [name, source] : kSources) {
-    table.add_columns(name, {"style", "content", "jerk"});
+std::string unseen(const Json& report, const Json& split) {
+  const std::vector<Column> columns = {measured("style", "style_accuracy"),
+                                       measured("content", "content_accuracy"),
+                                       measured("jerk", "jerk_ratio")};
+  const Json& means = split["means"];
+  const std::vector<Source> sources = {
+      {"unseen", split, split["mean"], columns},
+      {"seen", split["seen"], means["seen"], columns},
+      {"real, blind", split["blind"], means["blind"], columns},
+      {"mean posture", split["mean_posture"], means["mean_posture"], columns}};
+  Json contents;
+  for (const std::string name : split["contents"]) contents[name] = split[name];
+  return side_by_side("content", sources, names_of({{"", contents, {}, {}}}, report["contents"]),
+                      "mean");
+}
+
+const Column kClips = {"clips", "/clips", kPlainCount},
+             kRecognised = {"recognised", "/recognised", 2}, kOfReal = {"of real", "/of_real", 2},
+             kCm = {"cm", "/cm", 1}, kHandSpeed = {"hands' speed", "/hand_speed", 2},
+             kHandSharpness = {"hands' sharpness", "/hand_sharpness", 2};
+
+// Clips before the judges of performers, of each style (or `by_content`) and together.
+Source clips(const std::string& label, const Json& from, const std::vector<Column>& columns,
+             const std::string& by = "by_style") {
+  return {label, from[by], from["all"], columns};
+}
+
+std::string own_clips(const Json& report) {
+  std::vector<Source> sources = {
+      clips("real takes", report["performers"]["own"], {kClips, kRecognised, kCm})};
+  for (const auto& [name, own] : of_systems(report, "/performers/own", "/seen")) {
+    sources.push_back(clips(name, own, {kClips, kRecognised, kOfReal, kCm}));
   }
-  const auto add = [&](const std::string& row, const std::vector<Metrics>& of) {
-    std::vector<std::string> cells;
-    for (const Metrics& metrics : of) {
-      for (const std::string& cell :
-           texts(metrics, {"style_accuracy", "content_accuracy", "jerk_ratio"})) {
-        cells.push_back(cell);
-      }
-    }
-    table.add_row(row, std::move(cells));
+  return side_by_side("style", sources, names_of(sources, {}), "all styles");
+}
+
+// The same of motion of performers who are not those of the style, and of shared styles.
+std::string clips_across(const Json& report) {
+  std::vector<Source> sources;
+  const auto add = [&](const std::string& name, const Json& performers) {
+    sources.push_back(clips(name, performers["across"], {kClips, kRecognised}));
+    sources.push_back(clips("own judge: " + name, performers["shared"], {kClips, kRecognised}));
   };
-  for (const std::string& content : names_of({&split.by_content}, report.contents)) {
-    std::vector<Metrics> of;
-    of.reserve(kSources.size());
-    for (const auto& [name, source] : kSources) of.push_back(line_of(*source, content));
-    add(content, of);
+  add("real takes", report["performers"]);
+  bool any = false;
+  for (const auto& [name, performers] : of_systems(report, "/performers", "/seen")) {
+    any = any || performers["across"]["all"]["clips"] > 0;
+    add(name, performers);
   }
-  add("mean", {split.mean, mean_metrics(split.seen_by_content),
-               mean_metrics(split.blind_by_content), mean_metrics(split.mean_posture_by_content)});
-  return table.str();
+  return any ? side_by_side("style", sources, names_of(sources, {}), "all styles") : "";
 }
 
-std::string clips(const ClipTable& from) {
-  TextTable table(from.names);
-  for (const auto& [label, columns] : from.groups) table.add_columns(label, columns);
-  for (const auto& [name, cells] : from.rows) {
-    std::vector<std::string> texts;
-    texts.reserve(cells.size());
-    for (const ClipCell& cell : cells) texts.push_back(number_text(cell.value, cell.digits));
-    table.add_row(name, std::move(texts));
-  }
-  return table.str();
+std::string unseen_clips(const Json& performers) {
+  const std::vector<Column> all = {kClips, kRecognised, kOfReal, kCm, kHandSpeed, kHandSharpness};
+  const std::vector<Source> sources = {
+      clips("unseen", performers["unseen"], all, "by_content"),
+      clips("mean posture", performers["mean_posture"], all, "by_content"),
+      clips("real takes", performers["real"], {kClips, kRecognised, kCm}, "by_content"),
+      clips("real, blind", performers["blind"], {kClips, kRecognised}, "by_content")};
+  return side_by_side("content", sources, names_of(sources, {}), "all styles");
 }
 
-std::string ood(const Report& report) {
-  TextTable table("");
-  table.add_columns("", {"clips"});
-  table.add_columns("jerk / input", {"median", "90%", "largest"});
-  table.add_columns("correlation", {"median", "lowest 10%"});
-  table.add_columns(
-      "", {"moved cm", "beyond limits", "under floor", "jumps", "turned deg", "drift m", "gate"});
-  for (const SystemReport& system : report.systems) {
-    if (system.ood.empty()) continue;
-    const OodSummary of = summarize_ood(system.ood);
-    table.add_row(system.name,
-                  {count_text(of.clips), number_text(of.jerk_ratio_median, 2),
-                   number_text(of.jerk_ratio_p90, 2), number_text(of.jerk_ratio_max, 2),
-                   number_text(of.velocity_correlation_median, 3),
-                   number_text(of.velocity_correlation_p10, 3), number_text(of.distance_cm_mean, 2),
-                   number_text(of.beyond_limits_mean, 4), number_text(of.under_floor_mean, 4),
-                   count_text(of.jumps), number_text(of.turned_deg_mean, 1),
-                   number_text(of.drift_m_max, 2), number_text(of.gate_mean, 3)});
-  }
-  return table.str();
+std::string ood(const Json& report) {
+  return table("",
+               {{"", {{"clips", "/clips", kCount}}},
+                {"jerk / input",
+                 {{"median", "/jerk_ratio/median", 2},
+                  {"90%", "/jerk_ratio/p90", 2},
+                  {"largest", "/jerk_ratio/max", 2}}},
+                {"correlation",
+                 {{"median", "/velocity_correlation/median", 3},
+                  {"lowest 10%", "/velocity_correlation/p10", 3}}},
+                {"",
+                 {{"moved cm", "/distance_cm/mean", 2},
+                  {"beyond limits", "/beyond_limits/mean", 4},
+                  {"under floor", "/under_floor/mean", 4},
+                  {"jumps", "/jumps/frames", kCount},
+                  {"turned deg", "/turned_deg/mean", 1},
+                  {"drift m", "/drift_m/max", 2},
+                  {"gate", "/gate/mean", 3}}}},
+               of_systems(report, "/foreign/summary", "/foreign/rows"));
 }
 
-std::string shots(const Report& report) {
-  TextTable table("");
-  for (const char* key : kShotKeys) {
+std::string shots(const Json& report) {
+  std::vector<Group> groups;
+  for (const std::string key : kShotKeys) {
     std::string name = key;
     std::replace(name.begin(), name.end(), '_', ' ');
-    table.add_columns(name, {"median", "90%", ">2"});
+    groups.push_back({name,
+                      {{"median", "/" + key + "/median", 1},
+                       {"90%", "/" + key + "/p90", 1},
+                       {">2", "/" + key + "/over_2", 3}}});
   }
-  for (const SystemReport& system : report.systems) {
-    if (system.ood.empty()) continue;
-    std::vector<std::string> cells;
-    for (const ShotSummary& of : summarize_shots(system.ood)) {
-      cells.insert(cells.end(),
-                   {number_text(of.median, 1), number_text(of.p90, 1), number_text(of.over_2, 3)});
-    }
-    table.add_row(system.name, std::move(cells));
-  }
-  return table.str();
+  return table("", groups, of_systems(report, "/foreign/shot", "/foreign/rows"));
 }
 
-std::string ood_styles(const Report& report) {
-  TextTable table("");
-  table.add_columns("style recognised", {"networks", "LDA"});
-  table.add_columns("forced choice", {"networks", "LDA"});
-  table.add_columns("signature", {"sign", "amount"});
-  const auto add = [&](const std::string& name, const StyleSummary& of) {
-    table.add_row(name, {number_text(of.style_robust, 3), number_text(of.style_lda, 3),
-                         number_text(of.forced_mlp, 3), number_text(of.forced_lda, 3),
-                         number_text(of.signature_sign, 3), number_text(of.signature_amount, 3)});
-  };
-  bool any = false;
-  for (const SystemReport& system : report.systems) any = any || !system.ood.empty();
-  if (!any) return "";
-  add("real takes", report.ood_real);
-  add("real takes of unseen actions", report.ood_real_unseen);
-  add("input", report.ood_input);
-  for (const SystemReport& system : report.systems) {
-    if (!system.ood.empty()) add(system.name, summarize_styles(system.ood));
-  }
-  return table.str();
+std::string ood_styles(const Json& report) {
+  Rows rows = of_systems(report, "/foreign/summary", "/foreign/rows");
+  if (rows.empty()) return "";
+  const Json& reference = report["foreign_reference"];
+  rows.insert(rows.begin(), {{"real takes", reference["real"]},
+                             {"real takes of unseen actions", reference["real_unseen"]},
+                             {"input", reference["input"]}});
+  return table(
+      "",
+      {{"style recognised", {{"networks", "/style_robust", 3}, {"LDA", "/style_lda", 3}}},
+       {"forced choice", {{"networks", "/forced_mlp", 3}, {"LDA", "/forced_lda", 3}}},
+       {"signature", {{"sign", "/signature_sign", 3}, {"amount", "/signature_amount", 3}}}},
+      rows);
 }
 
-std::string disturbances(const Report& report) {
-  TextTable table("disturbance");
-  std::vector<const SystemReport*> systems;
-  std::vector<std::string> names, labels;
-  for (const SystemReport& system : report.systems) {
-    if (system.disturbances.empty()) continue;
-    systems.push_back(&system);
-    labels.push_back(system.name);
-    for (const DisturbanceRow& row : system.disturbances) {
-      if (std::find(names.begin(), names.end(), row.name) == names.end()) names.push_back(row.name);
-    }
+std::string disturbances(const Json& report) {
+  std::vector<Source> systems;
+  std::vector<std::string> order;
+  for (const auto& [name, rows] : of_systems(report, "/disturbances", "/disturbances")) {
+    systems.push_back({"", rows, {}, {{name, "/cm", 2}}});
+    for (const auto& [disturbance, row] : rows.items()) order.push_back(disturbance);
   }
-  table.add_columns("", labels);
-  for (const std::string& name : names) {
-    std::vector<std::string> cells;
-    for (const SystemReport* system : systems) {
-      const auto row = std::find_if(system->disturbances.begin(), system->disturbances.end(),
-                                    [&](const DisturbanceRow& of) { return of.name == name; });
-      cells.push_back(row == system->disturbances.end() ? kDash : number_text(row->cm, 2));
-    }
-    table.add_row(name, std::move(cells));
-  }
-  return table.str();
+  return side_by_side("disturbance", systems, names_of(systems, order), "");
 }
 
-std::string prediction(const SystemReport& system) {
-  TextTable table("content");
-  const auto name = [](double seconds) { return number_text(seconds, 2) + " s ahead, cm"; };
+std::string prediction(const Json& contents) {
+  std::vector<Group> groups;
   for (const double seconds : kPredictionSeconds) {
-    table.add_columns(name(seconds), {"predicted", "velocity", "held"});
+    const std::string time = number_text(seconds, 2);
+    groups.push_back({time + " s ahead, cm",
+                      {{"predicted", "/" + time + "/predicted_cm", 2},
+                       {"velocity", "/" + time + "/velocity_cm", 2},
+                       {"held", "/" + time + "/held_cm", 2}}});
   }
-  for (const PredictionRow& row : system.prediction) {
-    std::vector<std::string> cells;
-    for (size_t h = 0; h < kPredictionSeconds.size(); ++h) {
-      for (const double cm : {row.predicted_cm[h], row.velocity_cm[h], row.held_cm[h]}) {
-        cells.push_back(number_text(cm, 2));
-      }
-    }
-    table.add_row(row.content, std::move(cells));
-  }
-  return table.str();
+  Rows rows;
+  for (const auto& [content, row] : contents.items()) rows.emplace_back(content, row);
+  return table("content", groups, rows);
 }
 
-std::string removal_text(const RemovalReport& report) {
-  TextTable removal("removed");
-  removal.add_columns("", {"clips", "neutral before", "neutral", "content kept", "cm",
-                           "cm, relative", "jerk", "jumps"});
-  const auto add = [&](const std::string& name, const RemovalSummary& of) {
-    if (of.clips == 0) return;
-    removal.add_row(
-        name, {std::to_string(of.clips), number_text(of.before, 2), number_text(of.neutral, 2),
-               number_text(of.content, 2), number_text(of.cm, 1), number_text(of.cm_ratio, 2),
-               number_text(of.jerk, 2), number_text(of.jumps, 0)});
+std::string removal_text(const Json& removal) {
+  const auto rows_of = [&](const std::vector<std::pair<std::string, const char*>>& names) {
+    Rows rows;
+    for (const auto& [name, key] : names) {
+      const Json& row = removal[key];
+      if (row["clips"] != 0 || row.value("neutral_clips", 0) != 0) rows.emplace_back(name, row);
+    }
+    return rows;
   };
-  add("test takes, by name", report.named);
-  add("test takes, any style", report.any);
-  add("restyled others", report.restyled);
-  add("others as they are", report.original);
-  TextTable recognition("recognised");
-  recognition.add_columns("", {"clips", "first", "in three", "neutral clips", "told neutral"});
-  const auto tell = [&](const std::string& name, const RecognitionSummary& of) {
-    if (of.clips + of.neutral_clips == 0) return;
-    recognition.add_row(
-        name, {std::to_string(of.clips), number_text(of.first, 2), number_text(of.third, 2),
-               std::to_string(of.neutral_clips), number_text(of.neutral, 2)});
-  };
-  tell("test takes", report.recognition);
-  tell("others", report.others);
-  return titled("Styles taken off", removal.str()) + titled("Styles recognised", recognition.str());
+  const std::string removed = table("removed",
+                                    {{"",
+                                      {{"clips", "/clips", 0},
+                                       {"neutral before", "/before", 2},
+                                       {"neutral", "/neutral", 2},
+                                       {"content kept", "/content", 2},
+                                       {"cm", "/cm", 1},
+                                       {"cm, relative", "/cm_ratio", 2},
+                                       {"jerk", "/jerk_ratio", 2},
+                                       {"jumps", "/jumps", 0}}}},
+                                    rows_of({{"test takes, by name", "named"},
+                                             {"test takes, any style", "any"},
+                                             {"restyled others", "restyled"},
+                                             {"others as they are", "original"}}));
+  const std::string recognised =
+      table("recognised",
+            {{"",
+              {{"clips", "/clips", 0},
+               {"first", "/first", 2},
+               {"in three", "/third", 2},
+               {"neutral clips", "/neutral_clips", 0},
+               {"told neutral", "/neutral", 2}}}},
+            rows_of({{"test takes", "recognition"}, {"others", "others"}}));
+  return titled("Styles taken off", removed) + titled("Styles recognised", recognised);
 }
 
 }  // namespace
 
-std::string report_text(const Report& report) {
-  if (report.removal) return removal_text(*report.removal);
+std::string report_text(const Report& of) {
+  const Json report = report_tree(of);
+  if (report.contains("removal")) return removal_text(report["removal"]);
   std::string text =
       titled("Overall: held-out takes, means over styles and contents", overall(report));
-  for (const std::string& note : ceiling_notes(report)) text += wrapped(note) + "\n\n";
-  for (const SystemReport& system : report.systems) {
-    if (!system.recorded) continue;
-    text += cut_text(system.name + ": " + std::to_string(system.recorded->evaluated) + " of " +
-                         std::to_string(system.recorded->listed) + " recorded outputs judged",
+  for (const std::string note : report["notes"]) text += wrapped(note) + "\n\n";
+  for (const auto& [name, system] : report["systems"].items()) {
+    if (!system.contains("recorded")) continue;
+    const Json& recorded = system["recorded"];
+    text += cut_text(name + ": " + recorded["judged"].dump() + " of " + recorded["listed"].dump() +
+                         " recorded outputs judged",
                      kTextWidth) +
             "\n\n";
   }
   text += titled("By content: style, content, jerk against real takes, pose error in degrees",
                  by_content(report));
-  text += titled("Whole clips before the judge of their performer", clips(own_clips_table(report)));
+  text += titled("Whole clips before the judge of their performer", own_clips(report));
   text +=
       titled("Motion of other performers, before the judge of the style's performer and their own",
-             clips(clips_across_table(report)));
-  const auto beside_real = [&](const std::string& title, const char* key) {
-    return titled(title + " (real takes: " + texts(report.real, {key}).front() + ")",
+             clips_across(report));
+  const auto beside_real = [&](const std::string& title, const std::string& key) {
+    return titled(title + " (real takes: " + cell(report["real"], measured("", key)) + ")",
                   strengths(report, key));
   };
   text += beside_real("Style recognised by strength", "style_accuracy");
   text += beside_real("Content kept by strength", "content_accuracy");
   text += titled("Jerk against real takes by strength", strengths(report, "jerk_ratio"));
-  for (const SystemReport& system : report.systems) {
-    for (const UnseenReport& split : system.unseen) {
-      text +=
-          titled(cut_text("Contents left out of training: " + system.name + ", split " + split.name,
-                          kTextWidth),
-                 unseen(report, split));
+  for (const auto& [name, system] : report["systems"].items()) {
+    for (const auto& [split, found] : system["unseen_splits"].items()) {
+      text += titled(
+          cut_text("Contents left out of training: " + name + ", split " + split, kTextWidth),
+          unseen(report, found));
       text += titled("The same clips before the judges of their performers",
-                     clips(unseen_clips_table(split)));
+                     unseen_clips(found["performers"]));
     }
   }
   text += titled("Out-of-distribution motion: every clip in every style", ood(report));
   text += titled("The same: how much of the style there is", ood_styles(report));
   text += titled("The same: feet, seats and hands in cm (turn in degrees)", shots(report));
   text += titled("Disturbed windows: pose error in cm", disturbances(report));
-  for (const SystemReport& system : report.systems) {
-    text +=
-        titled(cut_text("Input prediction, constant velocity, held: " + system.name, kTextWidth),
-               prediction(system));
+  for (const auto& [name, system] : report["systems"].items()) {
+    text += titled(cut_text("Input prediction, constant velocity, held: " + name, kTextWidth),
+                   prediction(system["foresight"]));
   }
   return text;
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "eval/evaluate.h"
+#include "eval/report_numbers.h"
 #include "eval/systems/mean_posture.h"
 #include "eval/systems/model_system.h"
 

@@ -10,11 +10,12 @@ namespace {
 // FNV-1a over the bytes of numbers, lists of them, and text.
 class Hash {
  public:
-  template <class T>
-  void add(const T& value) {
-    static_assert(std::has_unique_object_representations_v<T> || std::is_floating_point_v<T>,
-                  "bytes between the fields of a struct are anything");
-    add_bytes({reinterpret_cast<const char*>(&value), sizeof value});
+  template <class... T>
+  void add(const T&... values) {
+    static_assert(
+        ((std::has_unique_object_representations_v<T> || std::is_floating_point_v<T>)&&...),
+        "bytes between the fields of a struct are anything");
+    (add_bytes({reinterpret_cast<const char*>(&values), sizeof values}), ...);
   }
   void add_list(std::span<const float> values) {
     add(values.size());
@@ -42,10 +43,7 @@ uint64_t hash_data(const TrainingData& data, const SampleSet& set, const std::ve
   for (const Take& take : data.unlabelled) hash.add_list(take.pose_features);
   for (size_t i = 0; i < set.samples().size(); ++i) {
     const Sample& sample = set.samples()[i];
-    hash.add(sample.take);
-    hash.add(sample.frame);
-    hash.add(sample.style);
-    hash.add(sample.log_rate);
+    hash.add(sample.take, sample.frame, sample.style, sample.log_rate);
     hash.add_list(sample.contacts);
     hash.add_list(set.target(i));
   }
@@ -72,36 +70,22 @@ uint64_t hash_settings(const TrainOptions& options) {
   Hash hash;
   hash.add(options.seed);
   hash.add_text(options.recipe->name);
-  hash.add(settings.steps);
-  hash.add(settings.neutral_samples);
-  hash.add(settings.squared_tempo);
-  hash.add(settings.predictor_steps);
-  hash.add(settings.smoothness);
-  hash.add(settings.positions);
+  hash.add(settings.steps, settings.neutral_samples, settings.squared_tempo,
+           settings.predictor_steps, settings.smoothness, settings.positions);
   const BatchSettings& batch = settings.batch;
-  hash.add(batch.size);
-  hash.add(batch.by_style);
-  hash.add(batch.mirrored);
-  hash.add(batch.disturbed);
-  hash.add(batch.input_clip);
+  hash.add(batch.size, batch.by_style, batch.mirrored, batch.disturbed, batch.input_clip);
   hash_disturbance(batch.disturbance, hash);
   const GuidanceSettings& guidance = settings.guidance;
-  hash.add(guidance.sequences);
-  hash.add(guidance.every);
-  hash.add(guidance.weight);
-  hash.add(guidance.guides);
-  hash.add(guidance.guide_steps);
+  hash.add(guidance.sequences, guidance.every, guidance.weight, guidance.guides,
+           guidance.guide_steps);
   hash.add_list(
       std::to_array({guidance.style, guidance.statistics, guidance.velocity, guidance.smoothness,
                      guidance.balance, guidance.prior, guidance.signature, guidance.anatomy,
                      guidance.standing, guidance.tempo, guidance.ramp, guidance.spliced}));
   hash_disturbance(guidance.disturbance, hash);
   const OptimizerSettings& optimizer = settings.optimizer;
-  hash.add(optimizer.learning_rate);
-  hash.add(optimizer.epsilon);
-  hash.add(optimizer.one_cycle);
-  hash.add(optimizer.weight_decay);
-  hash.add(optimizer.dropout);
+  hash.add(optimizer.learning_rate, optimizer.epsilon, optimizer.one_cycle, optimizer.weight_decay,
+           optimizer.dropout);
   return hash.value();
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "train/network.h"
+
 namespace panache {
 namespace {
 
@@ -9,15 +11,6 @@ namespace {
 constexpr double kRidge = 0.02;  // Of the mean variance.
 // The rest are transitions and odd moments, and out-of-distribution motion begins among those.
 constexpr double kQuantile = 0.99;
-
-Tensor plain_tensor(const torch::Tensor& values, bool half) {
-  const torch::Tensor flat = values.to(torch::kFloat32).contiguous();
-  Tensor tensor;
-  tensor.shape.assign(flat.sizes().begin(), flat.sizes().end());
-  tensor.values.assign(flat.data_ptr<float>(), flat.data_ptr<float>() + flat.numel());
-  tensor.half = half;
-  return tensor;
-}
 
 }  // namespace
 
@@ -35,10 +28,10 @@ void fit_gate(const torch::Tensor& rows, TensorFile& file, double trusted) {
   const torch::Tensor distance = torch::mm(centred, whitening).square().sum(1).sqrt();
   const double limit = std::max(1.0, trusted * distance.quantile(kQuantile).item<double>());
 
-  file.tensors["gate.mean"] = plain_tensor(mean, false);
-  file.tensors["gate.whitening.weight"] = plain_tensor(whitening, true);
-  file.tensors["gate.whitening.bias"] = plain_tensor(torch::zeros({mean.size(0)}), false);
-  file.tensors["gate.limit"] = plain_tensor(torch::full({1}, limit), false);
+  file.tensors["gate.mean"] = to_tensor(mean);
+  file.tensors["gate.whitening.weight"] = to_tensor(whitening, true);
+  file.tensors["gate.whitening.bias"] = to_tensor(torch::zeros({mean.size(0)}));
+  file.tensors["gate.limit"] = to_tensor(torch::full({1}, limit));
 }
 
 }  // namespace panache

@@ -16,16 +16,16 @@ double cosine(double from, double to, double share) {
   return to + (from - to) * (1 + std::cos(std::numbers::pi * share)) / 2;
 }
 
-void put(TensorFile& file, const std::string& key, const torch::Tensor& tensor, bool half) {
-  const torch::Tensor flat = tensor.detach().contiguous();
-  Tensor out;
-  out.shape.assign(flat.sizes().begin(), flat.sizes().end());
-  out.values.assign(flat.data_ptr<float>(), flat.data_ptr<float>() + flat.numel());
-  out.half = half;
-  file.tensors[key] = std::move(out);
-}
-
 }  // namespace
+
+Tensor to_tensor(const torch::Tensor& values, bool half) {
+  const torch::Tensor flat = values.detach().to(torch::kFloat32).contiguous();
+  Tensor tensor;
+  tensor.shape.assign(flat.sizes().begin(), flat.sizes().end());
+  tensor.values.assign(flat.data_ptr<float>(), flat.data_ptr<float>() + flat.numel());
+  tensor.half = half;
+  return tensor;
+}
 
 NetworkTrainer::NetworkTrainer(const NetworkShape& shape, const OptimizerSettings& settings,
                                int64_t steps, uint64_t seed)
@@ -167,13 +167,13 @@ void NetworkTrainer::round_halves() {
 void NetworkTrainer::write(TensorFile& file) const {
   for (int l = 0; l < shape_.layers; ++l) {
     const std::string prefix = shape_.name + ".trunk." + std::to_string(l);
-    put(file, prefix + ".weight", weights_[l], false);
-    put(file, prefix + ".bias", biases_[l], false);
+    file.tensors[prefix + ".weight"] = to_tensor(weights_[l]);
+    file.tensors[prefix + ".bias"] = to_tensor(biases_[l]);
   }
   for (int h = 0; h < shape_.heads; ++h) {
     const std::string prefix = shape_.name + ".head." + std::to_string(h);
-    put(file, prefix + ".weight", heads_[h], shape_.half);
-    put(file, prefix + ".bias", head_biases_[h], false);
+    file.tensors[prefix + ".weight"] = to_tensor(heads_[h], shape_.half);
+    file.tensors[prefix + ".bias"] = to_tensor(head_biases_[h]);
   }
 }
 

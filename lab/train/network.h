@@ -25,6 +25,9 @@ struct NetworkShape {
   bool half = false;  // Heads are stored as 16-bit floats.
 };
 
+// As a model file holds it; `half`: as 16-bit floats.
+Tensor to_tensor(const torch::Tensor& values, bool half = false);
+
 class NetworkTrainer {
  public:
   NetworkTrainer(const NetworkShape& shape, const OptimizerSettings& settings, int64_t steps,

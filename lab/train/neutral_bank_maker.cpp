@@ -13,6 +13,7 @@
 #include "base/random.h"
 #include "learn/neutral_bank.h"
 #include "pose/mirror.h"
+#include "train/network.h"
 
 namespace panache {
 namespace {
@@ -72,14 +73,6 @@ std::vector<Place> draw_places(const std::vector<Take>& takes, const std::vector
     places.push_back({t, static_cast<int>(random.below(static_cast<uint32_t>(takes[t].frames())))});
   }
   return places;
-}
-
-Tensor as_tensor(const torch::Tensor& from) {
-  const torch::Tensor flat = from.to(torch::kFloat32).contiguous();
-  Tensor out;
-  out.shape.assign(flat.sizes().begin(), flat.sizes().end());
-  out.values.assign(flat.data_ptr<float>(), flat.data_ptr<float>() + flat.numel());
-  return out;
 }
 
 }  // namespace
@@ -199,13 +192,13 @@ MadeBank make_neutral_bank(const std::vector<Take>& all, uint64_t seed) {
   const torch::Tensor offset = table.mean(0), apart = table - offset;
   const torch::Tensor scale = std::get<0>(apart.abs().max(0)) / kWidest + 1e-9;
   auto& tensors = made.file.tensors;
-  tensors["rows"] = as_tensor((apart / scale).round());
+  tensors["rows"] = to_tensor((apart / scale).round());
   tensors["rows"].int8 = true;
-  tensors["rows.scale"] = as_tensor(scale.unsqueeze(0));
-  tensors["rows.offset"] = as_tensor(offset.unsqueeze(0));
+  tensors["rows.scale"] = to_tensor(scale.unsqueeze(0));
+  tensors["rows.offset"] = to_tensor(offset.unsqueeze(0));
   tensors["people"] = {{prototypes, NeutralBank::kPeople}, members, false, true};
-  tensors["mean"] = as_tensor(mean.unsqueeze(0));
-  tensors["directions"] = as_tensor(directions);
+  tensors["mean"] = to_tensor(mean.unsqueeze(0));
+  tensors["directions"] = to_tensor(directions);
   tensors["directions"].half = true;
   tensors["known"] = {
       {1, 1}, {distances[static_cast<size_t>(kKnown * static_cast<double>(distances.size()))]}};

@@ -1,6 +1,5 @@
 #include "train/recogniser.h"
 
-#include <algorithm>
 #include <map>
 
 #include <torch/nn/functional/loss.h>
@@ -11,6 +10,7 @@
 #include "base/random.h"
 #include "learn/recognise.h"
 #include "style/networks.h"
+#include "train/network.h"
 
 namespace panache {
 namespace {
@@ -19,14 +19,6 @@ constexpr int kSteps = 4000, kBatch = 512;
 constexpr float kRate = 0.004f, kDecay = 0.3f, kNoise = 0.3f;
 constexpr float kNeutralShare = 0.35f;    // Of a batch.
 constexpr float kLeastDeviation = 0.02f;  // Of a statistic.
-
-Tensor to_tensor(const torch::Tensor& values) {
-  const torch::Tensor flat = values.detach().to(torch::kFloat32).contiguous();
-  Tensor tensor;
-  tensor.shape.assign(flat.sizes().begin(), flat.sizes().end());
-  tensor.values.assign(flat.data_ptr<float>(), flat.data_ptr<float>() + flat.numel());
-  return tensor;
-}
 
 // Rows of a class, by content, so that what one action has most of does not decide.
 using Cells = std::vector<std::vector<std::vector<int64_t>>>;  // [classes][contents][rows]

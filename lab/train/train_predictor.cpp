@@ -157,14 +157,9 @@ class PredictorTraining {
       tensor.half = key.ends_with(".weight");
       file.tensors[key] = std::move(tensor);
     }
-    const auto put = [&](const char* key, const torch::Tensor& tensor, std::vector<int64_t> shape) {
-      const torch::Tensor flat = tensor.contiguous();
-      const float* values = flat.data_ptr<float>();
-      file.tensors[key] = {std::move(shape), {values, values + flat.numel()}, false};
-    };
-    put("predict.mean", mean_, {kFeatures});
-    put("predict.scale", scale_, {kFeatures});
-    put("predict.linear", linear_, {(kWindowPoses - 1) * kFeatures});
+    file.tensors["predict.mean"] = to_tensor(mean_.reshape({kFeatures}));
+    file.tensors["predict.scale"] = to_tensor(scale_.reshape({kFeatures}));
+    file.tensors["predict.linear"] = to_tensor(linear_.reshape({(kWindowPoses - 1) * kFeatures}));
   }
 
  private:

@@ -8,12 +8,22 @@
 #include "eval/systems/yumer2016/yumer2016.h"
 
 namespace panache {
+namespace {
+
+template <typename Published>
+Result<std::unique_ptr<System>> make(const std::string& name, const SystemData& data) {
+  auto made = Published::create(name, data);
+  if (!made) return made.error();
+  return std::unique_ptr<System>(std::move(*made));
+}
+
+}  // namespace
 
 const std::vector<SystemEntry>& published_systems() {
   static const std::vector<SystemEntry> systems = {
-      {"xia2015", make_xia2015},
-      {"yumer2016", make_yumer2016},
-      {"holden2017", make_holden2017},
+      {"xia2015", make<Xia2015>},
+      {"yumer2016", make<Yumer2016>},
+      {"holden2017", make<Holden2017>},
   };
   return systems;
 }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "eval/report_numbers.h"
 #include "make_styled_takes.h"
 #include "train/matrix_products.h"
 
@@ -150,12 +151,6 @@ TEST(StyleContentTables, cells_weigh_the_same_however_many_takes_they_have) {
 TEST(StyleContentTables, what_a_cell_did_not_measure_does_not_count_in_the_mean) {
   EXPECT_DOUBLE_EQ(mean_metrics(three_cells())["cadence_ratio"], 0.8);
   EXPECT_TRUE(std::isnan(by_content(three_cells()).at("wave")["cadence_ratio"]));
-}
-
-TEST(StyleContentTables, some_contents_are_picked_out) {
-  const StyleContentTable some = of_contents(three_cells(), {"wave", "jump"});
-  ASSERT_EQ(some.size(), 1u);
-  EXPECT_EQ(some.begin()->first, (StyleContent{"old", "wave"}));
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <tuple>
 
 #include "base/parallel.h"
 #include "base/progress.h"
@@ -132,12 +131,6 @@ std::unique_ptr<ChangeSource> Holden2017::make_source(const Take& take, double b
   changes.reserve(sums.size());
   for (const auto& sum : sums) changes.push_back(unpack(sum));
   return std::make_unique<WholeTakeSource>(take, begin, std::move(changes));
-}
-
-Result<std::unique_ptr<System>> make_holden2017(const std::string& name, const SystemData& data) {
-  Result<std::unique_ptr<Holden2017>> system = Holden2017::create(name, data);
-  if (!system) return system.error();
-  return std::unique_ptr<System>(*std::move(system));
 }
 
 }  // namespace panache

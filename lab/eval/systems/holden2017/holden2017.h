@@ -33,6 +33,4 @@ class Holden2017 : public ChangeSystem {
   std::vector<holden2017::Transfer> networks_;  // Of each style.
 };
 
-Result<std::unique_ptr<System>> make_holden2017(const std::string& name, const SystemData& data);
-
 }  // namespace panache

@@ -144,10 +144,4 @@ std::unique_ptr<ChangeSource> Xia2015::make_source(const Take&, double,
   return std::make_unique<LocalSource>(key_, std::move(styles), settings_);
 }
 
-Result<std::unique_ptr<System>> make_xia2015(const std::string& name, const SystemData& data) {
-  Result<std::unique_ptr<Xia2015>> system = Xia2015::create(name, data);
-  if (!system) return system.error();
-  return std::unique_ptr<System>(*std::move(system));
-}
-
 }  // namespace panache

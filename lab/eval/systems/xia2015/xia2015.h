@@ -27,6 +27,4 @@ class Xia2015 : public ChangeSystem {
   xia2015::LocalSettings settings_;
 };
 
-Result<std::unique_ptr<System>> make_xia2015(const std::string& name, const SystemData& data);
-
 }  // namespace panache

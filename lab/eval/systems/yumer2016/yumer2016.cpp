@@ -92,10 +92,4 @@ std::unique_ptr<ChangeSource> Yumer2016::make_source(const Take& take, double be
   return std::make_unique<WholeTakeSource>(take, begin, std::move(changes));
 }
 
-Result<std::unique_ptr<System>> make_yumer2016(const std::string& name, const SystemData& data) {
-  Result<std::unique_ptr<Yumer2016>> system = Yumer2016::create(name, data);
-  if (!system) return system.error();
-  return std::unique_ptr<System>(*std::move(system));
-}
-
 }  // namespace panache

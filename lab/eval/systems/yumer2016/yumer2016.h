@@ -29,6 +29,4 @@ class Yumer2016 : public ChangeSystem {
   std::vector<std::vector<Action>> actions_;  // Of each style.
 };
 
-Result<std::unique_ptr<System>> make_yumer2016(const std::string& name, const SystemData& data);
-
 }  // namespace panache
