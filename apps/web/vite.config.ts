@@ -101,5 +101,5 @@ export default defineConfig({
     chunkSizeWarningLimit: 4000,
     rollupOptions: { output: { format: 'iife' } },
   },
-  test: { include: ['test/**/*.test.ts'] },
+  test: { include: ['test/**/*.test.{ts,js}'] },
 } as Parameters<typeof defineConfig>[0]);

@@ -4,33 +4,13 @@ import {
   checkTriggered, inUse, timingNumber, unexpected,
 } from './checks.js';
 import { writeClip } from './clip.js';
-import { struct } from './memory.js';
 import { removedIndex, removerHandle } from './remover.js';
+import {
+  kCharacterOptions, kHumanJoint, kInputPose, kJoint, kReport, kShape, kSkeletonOptions,
+  kStrengthKey, kStrengthTrack, kStylizeOptions,
+} from './structs.js';
 
-const kJoint = struct(['name', 'i32'], ['parent', 'i32'], ['rotation', 'f32', 4],
-  ['translation', 'f32', 3]);
-const kHumanJoint = struct(['name', 'i32'], ['joint', 'i32']);
-const kSkeletonOptions = struct(['size', 'i32'], ['metresPerUnit', 'f32'], ['upAxis', 'i32'],
-  ['rotations', 'i32'], ['translations', 'i32'], ['poseCount', 'i32'], ['humanJointCount', 'i32'],
-  ['humanJoints', 'i32']);
-const kCharacterOptions = struct(['size', 'i32'], ['easeSeconds', 'f32'],
-  ['smoothingSeconds', 'f32'], ['holdFeet', 'i32'], ['styleRoot', 'i32'], ['skipCycles', 'i32'],
-  ['maxLag', 'f64'], ['maxLead', 'f64'], ['maxSpeed', 'f64'], ['remover', 'i32'],
-  ['gestureRate', 'f32'], ['gestureSeed', 'i32']);
-const kStylizeOptions = struct(['size', 'i32'], ['easeSeconds', 'f32'],
-  ['smoothingSeconds', 'f32'], ['holdFeet', 'i32'], ['styleRoot', 'i32'], ['styleTiming', 'i32'],
-  ['shape', 'i32'], ['maxSpeed', 'f64'], ['loop', 'i32'], ['removed', 'i32'],
-  ['remover', 'i32'], ['gestureRate', 'f32'], ['gestureSeed', 'i32']);
 const kLoops = ['off', 'auto', 'on'];
-const kShape = struct(['size', 'i32'], ['strength', 'f32'], ['posture', 'f32'],
-  ['dynamics', 'f32'], ['timing', 'f32'], ['legs', 'f32'], ['torso', 'f32'], ['leftArm', 'f32'],
-  ['rightArm', 'f32'], ['footLock', 'f32']);
-const kReport = struct(['size', 'i32'], ['gate', 'f32'], ['contacts', 'f32', 2], ['rate', 'f64'],
-  ['ahead', 'f64']);
-const kPose = struct(['rotations', 'i32'], ['translations', 'i32']);
-const kKey = struct(['seconds', 'f64'], ['strength', 'f32']);
-const kTrack = struct(['style', 'i32'], ['keyCount', 'i32'], ['keys', 'i32']);
-
 const kNeutralShape = {
   strength: 1, posture: 1, dynamics: 1, timing: 1, legs: 1, torso: 1, leftArm: 1, rightArm: 1,
   footLock: 1,
@@ -47,7 +27,7 @@ function optionsOf(defaults, given) {
 }
 
 export function writeShape(arena, shape) {
-  return arena.write(kShape, { size: kShape.size, ...optionsOf(kNeutralShape, shape) });
+  return arena.write(kShape, { structSize: kShape.size, ...optionsOf(kNeutralShape, shape) });
 }
 
 export class Skeleton {
@@ -66,12 +46,12 @@ export class Skeleton {
         translation: joint.translation,
       })));
       const map = Object.entries(humanJoints).map(([name, joint]) => (
-        { name: arena.text(name), joint: checkInteger(joint, `humanJoints.${name}`) }));
+        { vrmName: arena.text(name), joint: checkInteger(joint, `humanJoints.${name}`) }));
       poses.forEach((pose, i) => checkPose(pose, joints.length, `poses[${i}]`));
       const all = (key) => arena.copy(
         Float32Array.from(poses.flatMap((pose) => Array.from(pose[key]))));
       const told = arena.write(kSkeletonOptions, {
-        size: kSkeletonOptions.size, metresPerUnit,
+        structSize: kSkeletonOptions.size, metresPerUnit,
         upAxis: upAxis === null ? 0 : arena.text(upAxis),
         rotations: all('rotations'), translations: all('translations'), poseCount: poses.length,
         humanJointCount: map.length, humanJoints: arena.array(kHumanJoint, map),
@@ -112,13 +92,13 @@ export class Character {
     this.#styles = panache.styles;  // A character stays with the model that it was made with.
     this.#remover = remover;
     this.#character = panache._arena((arena) => {
-      const at = arena.write(kCharacterOptions, { size: kCharacterOptions.size, ...told,
+      const at = arena.write(kCharacterOptions, { structSize: kCharacterOptions.size, ...told,
         remover: remover ? removerHandle(panache, remover) : 0 });
       return arena.create((out) => this.#wasm.panache_character_create(
         panache._model(), skeleton._handleFor(panache), at, out));
     });
     // A pose, styled in place, and where it is.
-    this.#block = this.#wasm.malloc(28 * this.#joints + kPose.size);
+    this.#block = this.#wasm.malloc(28 * this.#joints + kInputPose.size);
     if (!this.#block) {
       this.free();
       throw new PanacheError('there is not enough memory');
@@ -167,7 +147,7 @@ export class Character {
 
   report() {
     return this.#panache._arena((arena) => {
-      const at = arena.write(kReport, { size: kReport.size });
+      const at = arena.write(kReport, { structSize: kReport.size });
       arena.check(this.#wasm.panache_character_get_report(this.#handle(), at));
       const [gate, contacts, rate, ahead] = ['gate', 'contacts', 'rate', 'ahead'].map(
         (name) => arena.read(kReport, name, at));
@@ -189,7 +169,7 @@ function writeTrack(arena, panache, name, strength) {
   const keys = checkKeys(typeof strength === 'number' ? [[0, strength]] : strength, name);
   return {
     style: panache._styleIndex(name), keyCount: keys.length,
-    keys: arena.array(kKey, keys.map(([seconds, value]) => ({ seconds, strength: value }))),
+    keys: arena.array(kStrengthKey, keys.map(([seconds, value]) => ({ seconds, strength: value }))),
   };
 }
 
@@ -214,11 +194,11 @@ export function stylizeClip(panache, skeleton, clip, strengths, options) {
     const tracks = Object.entries(strengths).map(
       ([name, strength]) => writeTrack(arena, panache, name, strength));
     const how = arena.write(kStylizeOptions, {
-      size: kStylizeOptions.size, ...told, styleTiming: timingNumber(styleTiming, 'styleTiming'),
+      structSize: kStylizeOptions.size, ...told, styleTiming: timingNumber(styleTiming, 'styleTiming'),
       shape: writeShape(arena, shape), loop: kLoops.indexOf(loop),
       ...removalOf(panache, remover, remove),
     });
-    const list = arena.array(kTrack, tracks);
+    const list = arena.array(kStrengthTrack, tracks);
     return arena.create((out) => wasm.panache_stylize_clip(
       panache._model(), from, list, tracks.length, how, out));
   });

@@ -1,9 +1,6 @@
 // A clip of the caller's own in the memory of the module, as panache.h has it.
 import { checkClip } from './checks.js';
-import { struct } from './memory.js';
-
-const kClip = struct(['skeleton', 'i32'], ['frameCount', 'i32'], ['frameSeconds', 'f64'],
-  ['rotations', 'i32'], ['translations', 'i32']);
+import { kClip } from './structs.js';
 
 export function writeClip(arena, panache, skeleton, clip) {
   return arena.write(kClip, {
