@@ -13,19 +13,19 @@ class WeightReader {
   WeightReader(const GltfContainer& container, GltfDocument& document)
       : container_(container),
         document_(document),
-        root_(container.json, unheard_),
+        json_(container.json),
         left_(gltf_max_values(container.size)) {}
 
   void read() {
-    for (const GltfPart& node : root_.list("nodes")) {
-      const int skin = node.index("skin", root_.size("skins"));
-      const int mesh = node.index("mesh", root_.size("meshes"));
+    for (const GltfJson& node : list(json_, "nodes")) {
+      const int skin = index(node, "skin", "skins"), mesh = index(node, "mesh", "meshes");
       if (skin < 0 || mesh < 0) continue;
-      const GltfPart part = root_.item("meshes", mesh);
-      const size_t primitives = part.size("primitives");
-      for (size_t p = 0; p < primitives && left_ > 0; ++p) {
-        const GltfPart attributes = part.item("primitives", p).object("attributes");
-        for (int set = 0; set < kMaxSets && add_set(attributes, set, skin); ++set) {
+      const GltfJson& joints = list(list(json_, "skins")[static_cast<size_t>(skin)], "joints");
+      const GltfJson& primitives =
+          list(list(json_, "meshes")[static_cast<size_t>(mesh)], "primitives");
+      for (const GltfJson& primitive : primitives) {
+        if (left_ == 0) return;
+        for (int set = 0; set < kMaxSets && add_set(primitive, set, skin, joints); ++set) {
         }
       }
     }
@@ -34,40 +34,54 @@ class WeightReader {
  private:
   static constexpr int kMaxSets = 16;
 
+  static const GltfJson& list(const GltfJson& object, const char* key) {
+    static const GltfJson kNone = GltfJson::array();
+    if (!object.is_object()) return kNone;
+    const auto member = object.find(key);
+    return member == object.end() || !member->is_array() ? kNone : *member;
+  }
+  // The member `key` of an object as a place in the file's list `of`; -1 where it is none.
+  int index(const GltfJson& object, const char* key, const char* of) const {
+    if (!object.is_object()) return -1;
+    const auto member = object.find(key);
+    if (member == object.end() || !member->is_number_unsigned()) return -1;
+    const auto place = member->get<uint64_t>();
+    return place < list(json_, of).size() ? static_cast<int>(place) : -1;
+  }
+
   // One set of four joints per vertex; whether there was one.
-  bool add_set(const GltfPart& attributes, int set, int skin) {
+  bool add_set(const GltfJson& primitive, int set, int skin, const GltfJson& joints) {
     if (left_ == 0) return false;
     --left_;
+    if (!primitive.is_object()) return false;
+    const auto attributes = primitive.find("attributes");
+    if (attributes == primitive.end()) return false;
     const std::string number = std::to_string(set);
     GltfValues which, weights;
-    const bool found = values(attributes, "JOINTS_" + number, which) &&
-                       values(attributes, "WEIGHTS_" + number, weights);
+    const bool found = values(*attributes, "JOINTS_" + number, which) &&
+                       values(*attributes, "WEIGHTS_" + number, weights);
     left_ -= std::min(left_, which.numbers.size() + weights.numbers.size());
-    // The skins were read before, so these are nodes.
-    const GltfPart joints = root_.item("skins", skin);
-    const size_t count = joints.size("joints");
-    if (!found || count == 0) return false;
-    const GltfJson& nodes = joints.json()["joints"];
+    if (!found) return false;
     for (size_t i = 0; i < std::min(which.numbers.size(), weights.numbers.size()); ++i) {
       const auto place = static_cast<size_t>(std::max(which.numbers[i], 0.0f));
-      if (!(weights.numbers[i] > 0) || place >= count) continue;
-      GltfNode& node = document_.nodes[nodes[place].get<size_t>()];
+      if (!(weights.numbers[i] > 0) || place >= joints.size()) continue;
+      // The skins were read before, so these are nodes.
+      GltfNode& node = document_.nodes[joints[place].get<size_t>()];
       if (node.skin < 0) node.skin = skin;
       if (node.skin == skin) node.skin_weight += weights.numbers[i];
     }
     return true;
   }
 
-  bool values(const GltfPart& attributes, const std::string& name, GltfValues& out) const {
-    const int accessor = attributes.index(name, root_.size("accessors"));
+  bool values(const GltfJson& attributes, const std::string& name, GltfValues& out) const {
+    const int accessor = index(attributes, name.c_str(), "accessors");
     GltfChecker unheard("");
     return accessor >= 0 && read_gltf_accessor(container_, accessor, "", unheard, out);
   }
 
   const GltfContainer& container_;
   GltfDocument& document_;
-  GltfChecker unheard_{""};
-  GltfPart root_;
+  const GltfJson& json_;
   // Numbers and sets that may still be read: nodes and primitives may share a large mesh.
   size_t left_;
 };
