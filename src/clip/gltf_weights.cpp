@@ -8,6 +8,8 @@ namespace {
 
 // Sums what the vertices of skinned meshes weigh on each joint. What cannot be read, such as a
 // compressed mesh, says nothing: motion does not depend on it. Nor does what is too much to read.
+// Members are looked up without a GltfPart: its path would be made for each of a million
+// primitives.
 class WeightReader {
  public:
   WeightReader(const GltfContainer& container, GltfDocument& document)

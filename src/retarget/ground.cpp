@@ -126,7 +126,7 @@ std::vector<Vec3> find_shifts(const std::vector<GroundedFrame>& frames,
 
 // Moves the feet by what they lack, the body lifted by `lifts`; returns how deep the lowest toe
 // still is in each frame. shifts: [feet][frames].
-std::vector<float> place_feet(const BodyPose& body, std::span<const std::vector<Vec3>> shifts,
+std::vector<float> place_feet(const HeadingBody& body, std::span<const std::vector<Vec3>> shifts,
                               const std::vector<float>& lifts, std::vector<GroundedFrame>& frames) {
   std::vector<float> depths;
   HumanPositions joints;
@@ -157,7 +157,7 @@ void match_heights(const BodyPose& body, GroundedFrame& frame) noexcept {
   frame.change.translation.y += sum / weights;
 }
 
-void hold_feet(const BodyPose& body, float seconds, std::vector<GroundedFrame>& frames) {
+void hold_feet(const HeadingBody& body, float seconds, std::vector<GroundedFrame>& frames) {
   std::array<std::vector<Vec3>, kFeet> toes, shifts;
   for (const GroundedFrame& frame : frames) {
     HumanPositions joints;

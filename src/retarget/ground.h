@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "pose/contacts.h"
-#include "rig/body_pose.h"
+#include "pose/changed_joints.h"
 
 namespace panache {
 
@@ -24,6 +24,6 @@ void match_heights(const BodyPose& body, GroundedFrame& frame) noexcept;
 
 // Bends the legs so that a planted foot moves exactly as in the motion, and lifts the body,
 // smoothly and ahead of time, where a toe would go under the floor. Frames are `seconds` apart.
-void hold_feet(const BodyPose& body, float seconds, std::vector<GroundedFrame>& frames);
+void hold_feet(const HeadingBody& body, float seconds, std::vector<GroundedFrame>& frames);
 
 }  // namespace panache
