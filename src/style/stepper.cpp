@@ -72,7 +72,7 @@ Seen Stepper::take_in(ConstPose in, const StepMoment& moment, std::span<float> r
 void Stepper::give_out(const AskedChange& asked, const Seen& seen, Pose out) noexcept {
   stages_.step(asked, options_, flight_, observer_, window_, seen.time, seen.clock);
   observer_.write(stages_.change(), out);
-  tell(seen.clock, Stage::write);
+  tell(seen.clock, kWriteStage);
   started_ = true;
   next_.seconds = 0;
 }

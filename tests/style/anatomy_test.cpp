@@ -140,11 +140,11 @@ TEST_F(AnatomyTest, a_torso_is_not_turned_around_and_its_arms_go_with_it) {
 TEST_F(AnatomyTest, a_thigh_that_is_pulled_across_the_other_is_noticed) {
   const auto share = [&](float degrees, size_t side, bool right = false) {
     const Quat inward = axis_angle(Vec3{0, 0, 1}, (right ? degrees : -degrees) * kDegree);
-    Anatomy anatomy;
-    anatomy.watch_thighs(body_, {},
-                         right ? turned(right_upper_leg, right_toes, inward)
-                               : turned(left_upper_leg, left_toes, inward));
-    return anatomy.thigh_share(side);
+    ThighWatch thighs;
+    thighs.step(body_, {},
+                right ? turned(right_upper_leg, right_toes, inward)
+                      : turned(left_upper_leg, left_toes, inward));
+    return thighs.share(side);
   };
   EXPECT_EQ(share(0, 0), 0);
   EXPECT_EQ(share(20, 0), 0);

@@ -1,5 +1,5 @@
 #pragma once
-// Between shape and anatomy: a gesture on top of the style.
+// A gesture on top of the style.
 
 #include "pose/changed_joints.h"
 #include "style/gesture.h"

@@ -217,14 +217,14 @@ void Anatomy::step(const HeadingBody& body, const Rig& rig, const StepTime& time
   }
 }
 
-void Anatomy::watch_thighs(const HeadingBody& body, const StepTime& time,
-                           const BodyChange& change) noexcept {
+void ThighWatch::step(const HeadingBody& body, const StepTime& time,
+                      const BodyChange& change) noexcept {
   BodyChange same = change;
   const Limits limits(body, time, same);
   const Base base = limits.hips_base();
   for (size_t side = 0; side < 2; ++side) {
     const HumanJoint upper = kUpperLegs[side];
-    limits.ease(thighs_[side], limits.swing_share(base, upper, limits.way(upper, kLowerLegs[side]),
+    limits.ease(shares_[side], limits.swing_share(base, upper, limits.way(upper, kLowerLegs[side]),
                                                   kHipSwings, kOutward[side]));
   }
 }

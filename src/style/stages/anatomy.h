@@ -1,5 +1,5 @@
 #pragma once
-// Seventh stage: no joint bends further than people can.
+// No joint bends further than people can.
 
 #include <array>
 
@@ -20,25 +20,37 @@ class Anatomy {
   void reset() noexcept { *this = {}; }
   void step(const HeadingBody& body, const Rig& rig, const StepTime& time,
             BodyChange& change) noexcept;
-  // What it would take back at each hip joint: a foot that is held may turn a thigh further than
-  // the style did.
-  void watch_thighs(const HeadingBody& body, const StepTime& time,
-                    const BodyChange& change) noexcept;
-  // 0 to 1, eased, as last watched; left, right.
-  float thigh_share(size_t side) const noexcept { return thighs_[side]; }
 
   // Calls visit(member) for everything that tells one character from another.
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
     visit(self.torso_), visit(self.neck_), visit(self.shoulders_), visit(self.elbows_);
-    visit(self.wrists_), visit(self.hips_), visit(self.knees_), visit(self.thighs_);
+    visit(self.wrists_), visit(self.hips_), visit(self.knees_);
   }
 
  private:
   // What is taken back at each joint, 0 to 1; of left and right.
   float torso_ = 0, neck_ = 0;
   std::array<float, 2> shoulders_{}, elbows_{}, wrists_{}, hips_{}, knees_{};
-  std::array<float, 2> thighs_{};  // By watch_thighs().
+};
+
+// What Anatomy would take back at each hip joint of a body whose feet are held: that may turn a
+// thigh further than the style does.
+class ThighWatch {
+ public:
+  void reset() noexcept { *this = {}; }
+  void step(const HeadingBody& body, const StepTime& time, const BodyChange& change) noexcept;
+  // 0 to 1, eased; left, right.
+  float share(size_t side) const noexcept { return shares_[side]; }
+
+  // Calls visit(member) for everything that tells one character from another.
+  template <class Self, class Visit>
+  static void visit_state(Self& self, Visit&& visit) {
+    visit(self.shares_);
+  }
+
+ private:
+  std::array<float, 2> shares_{};
 };
 
 }  // namespace panache

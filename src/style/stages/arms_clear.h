@@ -1,5 +1,5 @@
 #pragma once
-// After the hands: no forearm or hand goes through torso or head.
+// No forearm or hand goes through torso or head.
 
 #include <array>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Eighth stage: a style does not lean until the body would fall.
+// A style does not lean until the body would fall.
 
 #include "pose/changed_joints.h"
 

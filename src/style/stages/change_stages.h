@@ -1,17 +1,12 @@
 #pragma once
-// The stages of a step that carry out a change of any source: from the filter to the feet.
+// The stages of a step that carry out a change of any source.
 
 #include <algorithm>
 #include <array>
 #include <span>
 
 #include "base/elementary.h"
-#include "pose/foot_lock.h"
-#include "pose/observer.h"
-#include "pose/style_delta.h"
-#include "style/shape.h"
 #include "style/stage_clock.h"
-#include "style/stages/add_gesture.h"
 #include "style/stages/anatomy.h"
 #include "style/stages/arms_clear.h"
 #include "style/stages/fall.h"
@@ -19,38 +14,46 @@
 #include "style/stages/floor.h"
 #include "style/stages/foot_stance.h"
 #include "style/stages/hand_contacts.h"
+#include "style/stages/held_feet.h"
 #include "style/stages/legs_apart.h"
 #include "style/stages/root_motion.h"
 #include "style/stages/seat.h"
 #include "style/stages/shaping.h"
 #include "style/stages/stage_facts.h"
+#include "style/stages/stage_row.h"
+#include "style/stages/stage_work.h"
 #include "style/stages/step_watch.h"
-#include "style/stages/step_time.h"
-#include "style/stages/window.h"
 
 namespace panache {
 
-// The requested change at one step.
-struct AskedChange {
-  StyleDelta delta;
-  float log_rate = 0;                    // Logarithm of input seconds per output second.
-  std::array<float, kFeet> contacts{};   // Probability that each foot is planted.
-  float gate = 1;                        // How well the motion is known, 0 to 1.
-  Stance stance = {};                    // Of a foot that stands.
-  const GesturePose* gesture = nullptr;  // On top of it; null for none.
-  const Shape* shape = &kPlainShape;     // How it is given.
-  float amount = 1;  // How much of any style is in force, see EasedStrengths::amount().
-};
+// The stages that remember nothing.
+struct Gestures : NoMemory {};  // add_gesture.h
+struct Balance : NoMemory {};   // fold.h and balance.h
 
-// How changes are carried out; as StylizerOptions has it.
-struct StageOptions {
-  bool root = true, foot_lock = true, hold_hands = true;
-  bool tempo_everywhere = false;  // Otherwise only where the feet step.
-};
+// All stages in the order of a step; memory, reset, state, and the names of those who time them
+// follow from it. A new stage has a step(StageWork&), or an overload of carry_out() in
+// change_stages.cpp that hands it what it needs.
+using ChangeRow = StageRow<Named<StepWatch, "watch the steps">,            //
+                           Named<SeatWatch, "watch the seat">,             //
+                           Named<OutputFilter, "filter">,                  //
+                           Named<RootMotion, "root motion">,               //
+                           Named<Shaping, "shape">,                        //
+                           Named<Gestures, "add a gesture">,               //
+                           Named<Anatomy, "keep joints in range">,         //
+                           Named<Balance, "keep the balance">,             //
+                           Named<LegsApart, "keep the legs apart">,        //
+                           Named<FloorClearance, "keep above the floor">,  //
+                           Named<FreeFall, "fall as the input does">,      //
+                           Named<FootStance, "keep resting feet level">,   //
+                           Named<HeldFeet, "hold the feet">,               //
+                           Named<HandContacts, "keep hands in contact">,   //
+                           Named<ArmsClear, "keep arms outside">>;
 
 class ChangeStages {
  public:
-  explicit ChangeStages(float smoothing_seconds) : filter_(smoothing_seconds) {}
+  explicit ChangeStages(float smoothing_seconds) {
+    row_.get<OutputFilter>() = OutputFilter(smoothing_seconds);
+  }
 
   // Forgets the motion so far.
   void reset() noexcept;
@@ -60,55 +63,42 @@ class ChangeStages {
             StageClock* clock) noexcept;
 
   // How much something besides its feet holds the body, at the last step; see SeatWatch.
-  float seated() const noexcept { return seat_.amount(); }
+  float seated() const noexcept { return row_.get<SeatWatch>().amount(); }
   // At the last step: what is to be done to the input, the probability that each foot is planted,
   // and input seconds per output second; 1 in a flight, and where the feet stand.
   const BodyChange& change() const noexcept { return change_; }
-  std::span<const float, kFeet> contacts() const noexcept { return contacts_; }
+  std::span<const float, kFeet> contacts() const noexcept {
+    return row_.get<HeldFeet>().contacts();
+  }
   double rate() const noexcept { return static_cast<double>(exponential(log_rate_)); }
   StageFacts facts() const noexcept {
-    const HandHolds holds = hands_.holds();
-    return {seat_.amount(), std::max({holds.together, holds.by_body[0], holds.by_body[1]})};
+    const HandHolds holds = row_.get<HandContacts>().holds();
+    return {seated(), std::max({holds.together, holds.by_body[0], holds.by_body[1]})};
   }
 
   // Calls visit(member) for everything that tells one character from another.
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
-    visit(self.contacts_), visit(self.change_);
-    visit(self.log_rate_);
-    StepWatch::visit_state(self.steps_, visit);
-    SeatWatch::visit_state(self.seat_, visit);
-    OutputFilter::visit_state(self.filter_, visit);
-    RootMotion::visit_state(self.root_, visit);
-    Shaping::visit_state(self.shaping_, visit);
-    Anatomy::visit_state(self.anatomy_, visit);
-    FloorClearance::visit_state(self.floor_, visit);
-    FreeFall::visit_state(self.fall_, visit);
-    FootStance::visit_state(self.stance_, visit);
-    FootLock::visit_state(self.foot_lock_, visit);
-    LegsApart::visit_state(self.legs_, visit);
-    LegsApart::visit_state(self.held_legs_, visit);
-    HandContacts::visit_state(self.hands_, visit);
-    ArmsClear::visit_state(self.arms_, visit);
+    visit(self.change_), visit(self.log_rate_);
+    self.row_.each([&](auto& stage) { stage.visit_state(stage, visit); });
   }
 
  private:
-  StepWatch steps_;
-  SeatWatch seat_;
+  ChangeRow row_;
   float log_rate_ = 0;  // See rate(), at the last step.
-  OutputFilter filter_;
-  RootMotion root_;
-  Shaping shaping_;
-  Anatomy anatomy_;
-  FloorClearance floor_;
-  FreeFall fall_;
-  FootStance stance_;
-  FootLock foot_lock_;
-  LegsApart legs_, held_legs_;  // Before the feet are held, and after.
-  HandContacts hands_;
-  ArmsClear arms_;
-  std::array<float, kFeet> contacts_{};
   BodyChange change_;
 };
+
+// The stages of a whole step by name: those of Stage, the row, and the writing of the pose.
+inline constexpr auto kStageNames = [] {
+  constexpr auto kRow = ChangeRow::kNames;
+  std::array<const char*, static_cast<size_t>(Stage::first_of_row) + kRow.size() + 1> names = {
+      "observe the pose", "history and window", "ease strengths and shape",
+      "networks, heads and gate"};
+  std::ranges::copy(kRow, names.begin() + static_cast<size_t>(Stage::first_of_row));
+  names.back() = "write the pose (rig)";
+  return names;
+}();
+inline constexpr Stage kWriteStage = static_cast<Stage>(kStageNames.size() - 1);
 
 }  // namespace panache

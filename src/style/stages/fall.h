@@ -1,5 +1,5 @@
 #pragma once
-// Tenth stage: styles do not affect free fall.
+// Styles do not affect free fall.
 
 #include "rig/body_pose.h"
 #include "style/stages/step_time.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Fourth stage, after the networks: their outputs without jitter.
+// The outputs of the networks without jitter.
 
 #include <array>
 
@@ -15,7 +15,7 @@ namespace panache {
 // stays calm.
 class OutputFilter {
  public:
-  explicit OutputFilter(float smoothing_seconds) : smoothing_seconds_(smoothing_seconds) {}
+  explicit OutputFilter(float smoothing_seconds = 0) : smoothing_seconds_(smoothing_seconds) {}
 
   void reset() noexcept {
     delta_ = {}, log_rate_ = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Beside the stages: when the body is in the air. It falls as its input does, whatever the style's
+// When the body is in the air. It falls as its input does, whatever the style's
 // tempo: see Stylizer::rate().
 
 #include <array>

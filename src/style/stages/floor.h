@@ -1,5 +1,5 @@
 #pragma once
-// Ninth stage: no toe, knee or seat below the floor, and no body above it.
+// No toe, knee or seat below the floor, and no body above it.
 
 #include "rig/body_pose.h"
 #include "style/stages/step_time.h"

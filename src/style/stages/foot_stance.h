@@ -1,5 +1,5 @@
 #pragma once
-// Eleventh stage: a foot that rests in the input rests in the output.
+// A foot that rests in the input rests in the output.
 
 #include <array>
 #include <cstdint>

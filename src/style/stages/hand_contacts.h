@@ -1,5 +1,5 @@
 #pragma once
-// After the feet: hands keep what they touch in the input.
+// Hands keep what they touch in the input.
 
 #include <array>
 #include <cstdint>

@@ -1,5 +1,5 @@
 #pragma once
-// Before the floor and after the feet: no leg goes through the other.
+// No leg goes through the other.
 
 #include <array>
 

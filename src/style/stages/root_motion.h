@@ -1,5 +1,5 @@
 #pragma once
-// Fifth stage: where the character goes.
+// Where the character goes.
 
 #include "pose/observer.h"
 #include "pose/style_delta.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Sixth stage: the change as a change of the body, as much of it as the shape asks for.
+// The change as a change of the body, as much of it as the shape asks for.
 
 #include <array>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Second stage: strengths and shape as they are in force, eased.
+// Strengths and shape as they are in force, eased.
 
 #include <span>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-// First stage of a step: the window that the networks see.
+// The window that the networks see.
 
 #include <array>
 #include <span>

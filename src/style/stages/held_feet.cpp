@@ -1,0 +1,28 @@
+#include "style/stages/held_feet.h"
+
+#include <algorithm>
+
+namespace panache {
+
+void HeldFeet::step(StageWork& work) noexcept {
+  const BodyPose& input = work.now.world;
+  for (size_t f = 0; f < kFeet; ++f) {
+    const float height = input.positions[index(kToes[f])].y;
+    const float planted = planted_near_floor(work.asked.contacts[f], height);
+    // A foot is not held that turns its thigh further than a hip can; one that rests is planted,
+    // whatever the network makes of it.
+    const float held = planted * ((1 - thighs_.share(f)) * (1 - work.lifted));
+    contacts_[f] = std::max(held, work.resting[f]);
+  }
+  if (work.options.foot_lock) {
+    lock_.step(input, work.joints, contacts_, work.resting,
+               work.asked.amount * work.asked.shape->foot_lock,
+               {static_cast<float>(work.time.input), work.time.output}, work.change);
+    thighs_.step(work.body, work.time, work.change);
+  }
+  changed_legs(work.body, work.change, work.joints);
+  legs_.step(work.body, work.asked.amount, work.stepping, contacts_, work.time, work.joints,
+             work.change);
+}
+
+}  // namespace panache

@@ -1,0 +1,37 @@
+#pragma once
+// Planted feet stay where they are, as far as hips and knees allow.
+
+#include <array>
+
+#include "pose/foot_lock.h"
+#include "style/stages/anatomy.h"
+#include "style/stages/legs_apart.h"
+#include "style/stages/stage_work.h"
+
+namespace panache {
+
+class HeldFeet {
+ public:
+  void reset() noexcept { *this = {}; }
+  // Writes contacts, change and joints.
+  void step(StageWork& work) noexcept;
+  // Probability that each foot is planted and held, at the last step.
+  std::span<const float, kFeet> contacts() const noexcept { return contacts_; }
+
+  // Calls visit(member) for everything that tells one character from another.
+  template <class Self, class Visit>
+  static void visit_state(Self& self, Visit&& visit) {
+    FootLock::visit_state(self.lock_, visit);
+    ThighWatch::visit_state(self.thighs_, visit);
+    LegsApart::visit_state(self.legs_, visit);
+    visit(self.contacts_);
+  }
+
+ private:
+  FootLock lock_;
+  ThighWatch thighs_;
+  LegsApart legs_;  // Once the feet are held.
+  std::array<float, kFeet> contacts_{};
+};
+
+}  // namespace panache

@@ -1,0 +1,56 @@
+#pragma once
+// A list of stages that are carried out one after the other.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace panache {
+
+// A text as a template argument.
+template <size_t kSize>
+struct StageName {
+  constexpr StageName(const char (&name)[kSize]) { std::copy_n(name, kSize, text); }  // NOLINT
+  char text[kSize];
+};
+
+// A stage and its name.
+template <class Memory, StageName kText>
+struct Named : Memory {
+  using Stage = Memory;
+  static constexpr const char* kName = kText.text;
+};
+
+// The base of a stage that remembers nothing from one step to the next.
+struct NoMemory {
+  void reset() noexcept {}
+  template <class Self, class Visit>
+  static void visit_state(Self&, Visit&&) {}
+};
+
+// The memory of some stages, each of another type.
+template <class... Stages>
+class StageRow : Stages... {
+ public:
+  static constexpr std::array kNames = {Stages::kName...};
+
+  template <class Stage>
+  Stage& get() noexcept {
+    return *this;
+  }
+  template <class Stage>
+  const Stage& get() const noexcept {
+    return *this;
+  }
+  // Calls visit(stage) for each, in their order.
+  template <class Visit>
+  void each(Visit&& visit) noexcept {
+    (visit(static_cast<typename Stages::Stage&>(*this)), ...);
+  }
+  template <class Visit>
+  void each(Visit&& visit) const noexcept {
+    (visit(static_cast<const typename Stages::Stage&>(*this)), ...);
+  }
+};
+
+}  // namespace panache
