@@ -125,6 +125,15 @@ Vec3 FootLock::bend(Foot& foot, Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 ahead, flo
   return foot.knee;
 }
 
+Vec3 FootLock::pull() const noexcept {
+  Vec3 most;
+  for (const Foot& foot : feet_) {
+    const Vec3 pull = foot.state == State::planted ? foot.anchor - foot.toe : Vec3{};
+    if (length(pull) > length(most)) most = pull;
+  }
+  return most;
+}
+
 void FootLock::step(const BodyPose& body, const HumanPositions& joints,
                     std::span<const float, kFeet> contacts, std::span<const float, kFeet> level,
                     float amount, Seconds seconds, BodyChange& change) noexcept {

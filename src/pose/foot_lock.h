@@ -28,6 +28,10 @@ class FootLock {
             std::span<const float, kFeet> contacts, std::span<const float, kFeet> level,
             float amount, Seconds seconds, BodyChange& change) noexcept;
 
+  // From where the style wants a planted foot to where it stands, at the last step, world, metres:
+  // of the foot that is further away; 0 where none is planted.
+  Vec3 pull() const noexcept;
+
   // Calls visit(member) for everything that tells one foot lock from another.
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {

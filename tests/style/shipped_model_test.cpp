@@ -10,6 +10,8 @@
 #include "make_clip.h"
 #include "net/quantize.h"
 #include "style/restyle.h"
+#include "style/restyle_facts.h"
+#include "walker/walker.h"
 
 namespace panache {
 namespace {
@@ -136,6 +138,23 @@ TEST(ShippedModels, every_style_keeps_the_feet_on_the_ground_and_the_body_whole)
         ASSERT_GT(body.joints[index(HumanJoint::head)].y, 0.85f) << model->styles()[s].name;
       }
     }
+  }
+}
+
+// `old` shortens a brisk walk by more than its steps, unless the body goes on with its feet: then
+// they slide at 0.44 m/s.
+TEST(ShippedModels, planted_feet_do_not_slide_where_a_style_slows_a_brisk_walk) {
+  const auto walker = WalkerModel::load(kModels + "walker.safetensors");
+  ASSERT_TRUE(walker.ok()) << walker.error().message;
+  WalkClipOptions options;
+  options.seconds = 8;
+  options.speed = 1.4f;
+  const Clip walk = walk_clip(*walker, options);
+  const Rig rig = *Rig::create(walk);
+  const auto model = shipped("panache-int8.safetensors");
+  for (const char* style : {"old", "depressed", "duck-footed"}) {
+    const auto styled = restyle(walk, rig, model, {{*model->find_style(style), {{0, 1}}}});
+    EXPECT_LT(restyle_facts(walk, rig, *styled).slide, 0.27f) << style;
   }
 }
 

@@ -36,7 +36,7 @@ void carry_out(OutputFilter& filter, StageWork& work) noexcept {
 
 void carry_out(RootMotion& root, StageWork& work) noexcept {
   if (work.options.root) {
-    root.step(work.delta, work.asked.gate, work.observer, work.window, work.time);
+    root.step(work.delta, work.asked.gate, work.pull, work.observer, work.window, work.time);
   }
   work.root = root.offset();
 }
@@ -108,7 +108,8 @@ void ChangeStages::reset() noexcept {
 void ChangeStages::step(const AskedChange& asked, const StageOptions& options, float flight,
                         const Observer& observer, const InputWindow& window, const StepTime& time,
                         StageClock* clock) noexcept {
-  StageWork work{asked, options, flight, observer, window, time, change_};
+  const Vec3 pull = row_.get<HeldFeet>().pull();
+  StageWork work{asked, options, flight, observer, window, time, change_, pull};
   auto number = static_cast<size_t>(Stage::first_of_row);
   row_.each([&](auto& stage) {
     carry_out(stage, work);

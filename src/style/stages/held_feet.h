@@ -15,6 +15,8 @@ class HeldFeet {
   void reset() noexcept { *this = {}; }
   // Writes contacts, change and joints.
   void step(StageWork& work) noexcept;
+  // See FootLock::pull().
+  Vec3 pull() const noexcept { return lock_.pull(); }
   // Probability that each foot is planted and held, at the last step.
   std::span<const float, kFeet> contacts() const noexcept { return contacts_; }
 

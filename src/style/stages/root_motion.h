@@ -22,22 +22,23 @@ struct RootOffset {
 class RootMotion {
  public:
   void reset() noexcept { *this = RootMotion(); }
-  // `gate`: how well the motion is known, 0 to 1.
-  void step(const StyleDelta& delta, float gate, const Observer& observer,
+  // `gate`: how well the motion is known, 0 to 1; `pull`: see FootLock::pull().
+  void step(const StyleDelta& delta, float gate, Vec3 pull, const Observer& observer,
             const InputWindow& window, const StepTime& time) noexcept;
   RootOffset offset() const noexcept { return {drift_ + sway_, turn_}; }
 
   // Calls visit(member) for everything that tells one character from another.
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
-    visit(self.drift_), visit(self.sway_), visit(self.turn_);
+    visit(self.drift_), visit(self.sway_), visit(self.turn_), visit(self.catching_up_);
     visit(self.mean_forward_), visit(self.mean_speed_);
   }
 
  private:
-  Vec3 drift_;      // Along the way; world, metres.
-  Vec3 sway_;       // To the side, likewise,
-  float turn_ = 0;  // and to the heading, radians; both fade.
+  Vec3 drift_;             // Along the way; world, metres.
+  Vec3 sway_;              // To the side, likewise,
+  float turn_ = 0;         // and to the heading, radians; both fade.
+  float catching_up_ = 0;  // With its planted feet, m/s.
   // Of the input over the last seconds, m/s: forward, and in whatever direction.
   float mean_forward_ = 0, mean_speed_ = 0;
 };

@@ -46,6 +46,7 @@ struct StageWork {
   const InputWindow& window;
   const StepTime& time;
   BodyChange& change;  // From the shape on, what is to be done to the input.
+  Vec3 pull;           // Of a planted foot at the last step, see FootLock::pull().
 
   const Observation& now = observer.now();
   HeadingBody body = now.world;  // The input, heading frame, metres.
