@@ -7,10 +7,18 @@
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
 #include "base/result.h"
 #include "messages.h"
 
 namespace panache::cli {
+
+// What a batch is made with, all that may change its results:
+// {"version", "verb", "model": {"file", "sha256"} or null, "options": {"--style": ["old=1"], ...},
+// "files": {"--map": sha256, ...}}: the options given to `verb`, without those that choose files
+// and messages. `model`: its file, or empty.
+Json batch_settings(const CLI::App& verb, const std::string& model);
 
 // {"settings": ID, "of": batch_settings()} comes first, then a line for each file that is done.
 // Each line is written at once, so that several processes may add to one report.

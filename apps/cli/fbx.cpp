@@ -12,9 +12,8 @@
 
 #include "base/file.h"
 #include "child_process.h"
-#include "fbx_binary.h"
+#include "fbx_document.h"
 #include "fbx_scene.h"
-#include "fbx_text_scene.h"
 #include "glb.h"
 #include "picture.h"
 

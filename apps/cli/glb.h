@@ -3,11 +3,16 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/result.h"
 
 namespace panache::cli {
+
+// `text` as an address has it, which has its own way to write all but plain letters, digits and
+// `plain`.
+std::string percent_encoded(const std::string& text, std::string_view plain);
 
 // The PNG of a picture of another kind, such as TGA; the message of a failure says what the kinds
 // are.

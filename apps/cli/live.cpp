@@ -17,9 +17,7 @@
 #include "model_path.h"
 #include "outputs.h"
 #include "page_server.h"
-#include "removal_options.h"
-#include "send.h"
-#include "shape_options.h"
+#include "style_options.h"
 #include "stop_signal.h"
 #include "strengths.h"
 #include "usage_error.h"
@@ -162,9 +160,10 @@ int live(const Options& options) {
   watch_stop_signals();
   const Serving serving(server.get());
   VmcRecording recording;
-  VmcRelay relay(std::move(socket), out, model, how, strengths,
-                 options.record.empty() ? nullptr : &recording, server ? &view : nullptr,
-                 removal ? removal->style : -1);
+  VmcRelay relay(std::move(socket), out,
+                 {model, how, removal ? removal->style : -1,
+                  options.record.empty() ? nullptr : &recording, server ? &view : nullptr},
+                 strengths);
   if (!options.quiet) {
     print_message("relaying from " + listened_at(in) + " to " + to_string(out) +
                   " until Ctrl-C ends it");

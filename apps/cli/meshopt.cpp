@@ -1,4 +1,4 @@
-#include "meshopt.h"
+#include "formats.h"
 
 #include <meshoptimizer.h>
 

@@ -1,18 +1,13 @@
 #include "option_table.h"
 
+#include <algorithm>
+
 #include "messages.h"
 #include "model_path.h"
 #include "style/model.h"
 
 namespace panache::cli {
 namespace {
-
-std::string one_line(std::string text) {
-  for (char& c : text) {
-    if (c == '\n') c = ' ';
-  }
-  return text;
-}
 
 OptionEntry entry_of(const CLI::Option& option) {
   OptionEntry entry;
@@ -25,7 +20,8 @@ OptionEntry entry_of(const CLI::Option& option) {
         !entry.value.empty() && entry.value != CLI::detail::type_name<std::string>();
     if (entry.is_positional() && !own_type) entry.value = option.get_name(true);
   }
-  entry.description = one_line(option.get_description());
+  entry.description = option.get_description();
+  std::ranges::replace(entry.description, '\n', ' ');
   entry.required = option.get_required();
   entry.repeated = entry.is_positional() && option.get_items_expected_max() > 1;
   return entry;

@@ -6,7 +6,6 @@
 
 #include "batch.h"
 #include "batch_report.h"
-#include "batch_settings.h"
 #include "clip/text_cursor.h"
 #include "formats.h"
 #include "standard_streams.h"

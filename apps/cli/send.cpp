@@ -1,4 +1,4 @@
-#include "send.h"
+// panache live send: plays a motion file as a tracker would send it (VMC protocol).
 
 #include <algorithm>
 #include <array>
@@ -17,6 +17,7 @@
 #include "rig/posed_rig.h"
 #include "rig_options.h"
 #include "stop_signal.h"
+#include "verbs.h"
 #include "vmc_bones.h"
 #include "vmc_messages.h"
 #include "vmc_socket.h"
