@@ -134,10 +134,9 @@ void run_file(FileJob& file, const BatchFlags& flags, const FileWork& work,
     }
     if (is_taken()) {  // Another process wrote it meanwhile, and tells of it.
       FileJob skipped;
-      std::swap(skipped.input, file.input);
-      std::swap(skipped.output, file.output);
+      static_cast<FilePair&>(skipped) = file;
+      skipped.skipped = true;
       file = std::move(skipped);
-      file.skipped = true;
     } else {
       file.error = with_hint(failure.error);
       file.details.clear();
@@ -160,11 +159,7 @@ int tell_plan(const std::vector<FileJob>& files, bool json) {
                           : "would write " + file.output + " from " + file.input) +
             "\n";
   }
-  if (json) {
-    print(plan);
-  } else {
-    print(text);
-  }
+  print(json ? dump(plan) : text);
   return kDone;
 }
 

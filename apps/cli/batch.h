@@ -38,8 +38,7 @@ struct BatchFlags {
 void add_batch_options(CLI::App& verb, BatchFlags& flags);
 
 // One file on its way.
-struct FileJob {
-  std::string input, output;
+struct FileJob : FilePair {
   // Of an input that came through stdin; it is called "stdin.bvh", say.
   std::optional<std::string> bytes;
   bool to_stdout = false;          // It is called "stdout.bvh", say.

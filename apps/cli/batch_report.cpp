@@ -115,7 +115,7 @@ Result<void> BatchReport::close() {
   return Error{path_ + ": cannot be written: " + std::strerror(failure_)};
 }
 
-Result<void> check_settings(const std::string& path, const std::vector<std::string>& outputs,
+Result<void> check_settings(const std::string& path, const std::vector<FilePair>& files,
                             const Json& settings) {
   std::ifstream file(path);
   std::map<std::string, Json> settings_of;
@@ -135,7 +135,7 @@ Result<void> check_settings(const std::string& path, const std::vector<std::stri
   std::string first, other;
   size_t count = 0;
   std::error_code status;
-  for (const std::string& output : outputs) {
+  for (const auto& [input, output] : files) {
     const auto found = made_with.find(output);
     if (found == made_with.end() || found->second == id || !fs::exists(output, status)) continue;
     if (count++ == 0) first = output, other = found->second;

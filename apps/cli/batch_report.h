@@ -11,6 +11,7 @@
 
 #include "base/result.h"
 #include "messages.h"
+#include "outputs.h"
 
 namespace panache::cli {
 
@@ -48,7 +49,7 @@ class BatchReport {
 
 // Rejects outputs that the report at `path` names as made with other settings. A report that is not
 // there rejects nothing.
-Result<void> check_settings(const std::string& path, const std::vector<std::string>& outputs,
+Result<void> check_settings(const std::string& path, const std::vector<FilePair>& files,
                             const Json& settings);
 
 }  // namespace panache::cli

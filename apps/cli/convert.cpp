@@ -147,8 +147,7 @@ void add_convert(CLI::App& app, int& exit_code) {
   add_batch_options(*verb, options->batch);
   add_option(*verb, "--clip NAME", options->clip, "Motion to convert, if a file has several");
   add_onto_options(*verb, options->onto);
-  add_in_place_option(*verb, options->in_place);
-  add_body_option(*verb, options->no_body);
+  add_result_options(*verb, *options);
   add_rig_options(*verb, options->rig);
   add_read_options(*verb, options->read);
   verb->footer(

@@ -149,11 +149,6 @@ bool keeps_format(const std::string& input, const std::string& output) {
   return input == output || (!fits_into.empty() && fits_into == output);
 }
 
-void add_body_option(CLI::App& verb, bool& flag) {
-  verb.add_flag("--no-body", flag,
-                "Show joints that have no mesh as sticks in GLB files,\nnot as a body");
-}
-
 Result<std::string> in_container(std::string bytes, const std::string& input,
                                  const std::string& output, const RigOptions& rig, bool no_body) {
   if (extension_of(output) != ".glb") return bytes;

@@ -24,9 +24,6 @@ extern const MeshoptDecoder kMeshoptDecoder;
 // a GLB by then.
 bool keeps_format(const std::string& input, const std::string& output);
 
-// Gives `verb` --no-body: joints without a mesh are sticks in a GLB. `flag` must outlive it.
-void add_body_option(CLI::App& verb, bool& flag);
-
 // What a file gave that keeps its format, in the container that the output's extension asks for. A
 // GLB of joints alone gets a figure, `rig` as the user says where its humanoid is.
 Result<std::string> in_container(std::string bytes, const std::string& input,

@@ -220,7 +220,7 @@ class PictureRepair {
       image["mimeType"] = kind;
       return true;
     }
-    const Result<std::string> png = to_png_ ? to_png_(bytes) : Error{"its kind is not supported"};
+    const Result<std::string> png = to_png_(bytes);
     if (!png) return leave_out(panache::quoted(name) + ": " + png.error().message);
     bin_.resize((bin_.size() + 3) / 4 * 4);
     GltfJson view = {{"buffer", 0}, {"byteOffset", bin_.size()}, {"byteLength", png->size()}};
@@ -262,7 +262,7 @@ std::string percent_encoded(const std::string& text, std::string_view plain) {
 }
 
 std::string with_pictures(std::string glb, const std::string& path, const PictureToPng& to_png,
-                          std::vector<std::string>* notes) {
+                          std::vector<std::string>& notes) {
   if (glb.size() < kHeader + kChunkHeader) return glb;
   const size_t begin = kHeader + kChunkHeader;
   const size_t length = little_endian(std::string_view(glb).substr(kHeader, 4));
@@ -273,8 +273,7 @@ std::string with_pictures(std::string glb, const std::string& path, const Pictur
   drop_specular_glossiness(json);
   const size_t bin_at = begin + length + kChunkHeader;
   std::string bin = bin_at < glb.size() ? glb.substr(bin_at) : "";
-  std::vector<std::string> unheard;
-  PictureRepair(json, bin, path, to_png, notes ? *notes : unheard).run();
+  PictureRepair(json, bin, path, to_png, notes).run();
   return format_glb_file(json, bin);
 }
 

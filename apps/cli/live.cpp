@@ -63,11 +63,6 @@ Result<void> check_no_circle(const sockaddr_in& in, const sockaddr_in& out) {
                std::to_string(ntohs(in.sin_port)) + " for both"};
 }
 
-Result<void> check_record(const Options& options) {
-  if (options.record.empty() || options.record.ends_with(".bvh")) return {};
-  return Error{"--record " + options.record + ": expected a name that ends in .bvh"};
-}
-
 void relay_until_stopped(VmcRelay& relay, bool quiet) {
   double next = stamp_now() + 1;
   while (!stop_asked()) {
@@ -129,7 +124,9 @@ int live(const Options& options) {
   const sockaddr_in in = need(parse_address(options.in, "--vmc-in", "0.0.0.0"), kBadUsage);
   const sockaddr_in out = need(parse_address(options.out, "--vmc-out"), kBadUsage);
   need(check_no_circle(in, out), kBadUsage);
-  need(check_record(options), kBadUsage);
+  if (!options.record.empty() && !options.record.ends_with(".bvh")) {
+    return fail({"--record " + options.record + ": expected a name that ends in .bvh"}, kBadUsage);
+  }
   if (!options.record.empty()) need(check_output("", options.record, options.force));
   LiveOptions how = options.time;
   need(read_shape(options.shape, how.stylizer), kBadUsage);

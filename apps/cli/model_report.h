@@ -57,11 +57,7 @@ TensorFile with_library(TensorFile model, const std::string& name, const StyleLi
 // Prints what is known of a model, of a style file or of a folder of these.
 template <class Loaded>
 int report(const Loaded& loaded, bool json) {
-  if (json) {
-    print(to_json(loaded));
-  } else {
-    print(describe(loaded));
-  }
+  print(json ? dump(to_json(loaded)) : describe(loaded));
   return kDone;
 }
 

@@ -55,6 +55,14 @@ EditMode edit_mode(const PlaceFlags& flags, bool onto) {
   return flags.replace || (onto && !flags.first) ? EditMode::replace : EditMode::add_first;
 }
 
+void add_result_options(CLI::App& verb, MotionFlags& flags) {
+  verb.add_flag(
+      "--in-place", flags.in_place,
+      "Remove the horizontal path from hips and root, for\ngames that move the character");
+  verb.add_flag("--no-body", flags.no_body,
+                "Show joints that have no mesh as sticks in GLB files,\nnot as a body");
+}
+
 std::vector<ClipEdit> edits_of(const std::vector<NewMotion>& motions) {
   std::vector<ClipEdit> edits;
   edits.reserve(motions.size());

@@ -41,10 +41,13 @@ struct MotionFlags {
   RigFlags rig;
   OntoFlags onto;
   PlaceFlags place;
-  std::string clip;  // The motion to take, or empty for all.
-  bool in_place = false;
-  bool no_body = false;  // Sticks instead of a body where joints have no mesh.
+  std::string clip;       // The motion to take, or empty for all.
+  bool in_place = false;  // See stay_in_place().
+  bool no_body = false;   // Sticks instead of a body where joints have no mesh.
 };
+
+// Gives `verb` --in-place and --no-body.
+void add_result_options(CLI::App& verb, MotionFlags& flags);
 
 // A motion to be written, as ClipEdit has it.
 struct NewMotion {

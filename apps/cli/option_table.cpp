@@ -43,6 +43,16 @@ void add_entries(std::vector<VerbEntry>& verbs, const CLI::App& app, const std::
   }
 }
 
+// For the completions, which ask again and again.
+int print_style_names() {
+  const Result<std::string> path = find_model("");
+  if (!path) return fail(path.error(), kBadInput);
+  const Result<std::shared_ptr<const Model>> model = Model::load(*path);
+  if (!model) return fail(model.error(), kBadInput);
+  for (const StyleInfo& style : (*model)->styles()) print(style.name + "\n");
+  return kDone;
+}
+
 }  // namespace
 
 std::string VerbEntry::parent() const {
@@ -60,20 +70,6 @@ std::vector<VerbEntry> option_table(const CLI::App& app) {
   add_entries(verbs, app, "");
   return verbs;
 }
-
-namespace {
-
-// For the completions, which ask again and again.
-int print_style_names() {
-  const Result<std::string> path = find_model("");
-  if (!path) return fail(path.error(), kBadInput);
-  const Result<std::shared_ptr<const Model>> model = Model::load(*path);
-  if (!model) return fail(model.error(), kBadInput);
-  for (const StyleInfo& style : (*model)->styles()) print(style.name + "\n");
-  return kDone;
-}
-
-}  // namespace
 
 int print_reference(const CLI::App& app, const std::string& what, const std::string& version) {
   const std::vector<VerbEntry> verbs = option_table(app);

@@ -86,8 +86,7 @@ void add_retarget(CLI::App& app, int& exit_code) {
   add_option(*verb, "--clip NAME", options->clip,
              "Motion to take, if a file has several; default: all");
   add_place_options(*verb, options->place, "the character's animations");
-  add_in_place_option(*verb, options->in_place);
-  add_body_option(*verb, options->no_body);
+  add_result_options(*verb, *options);
   verb->add_flag("--no-feet", options->no_feet, "Do not correct feet and floor contact");
   verb->add_flag("--no-hands", options->no_hands, "Do not correct hands that touch");
   add_rig_options(*verb, options->rig);

@@ -77,12 +77,6 @@ std::string place_in(const std::string& text, size_t byte) {
 
 }  // namespace
 
-void add_in_place_option(CLI::App& verb, bool& flag) {
-  verb.add_flag(
-      "--in-place", flag,
-      "Remove the horizontal path from hips and root, for\ngames that move the character");
-}
-
 void add_rig_options(CLI::App& verb, RigFlags& flags) {
   add_option(verb, "--scale METRES", flags.scale,
              "Metres per unit of the file (0.01: centimetres);\ndefault: inferred from the legs");

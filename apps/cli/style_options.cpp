@@ -1,6 +1,8 @@
 #include "style_options.h"
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "clip/text_cursor.h"
 #include "model_path.h"
@@ -9,13 +11,6 @@
 
 namespace panache::cli {
 namespace {
-
-std::optional<size_t> find_region(const std::string& name) {
-  for (size_t r = 0; r < kRegions; ++r) {
-    if (name == kRegionNames[r]) return r;
-  }
-  return std::nullopt;
-}
 
 std::optional<float> amount(const std::string& text) {
   double value = 0;
@@ -67,8 +62,9 @@ Result<void> read_shape(const ShapeFlags& flags, StylizerOptions& how) {
   std::array<bool, kRegions> given{};
   for (const std::string& text : flags.regions) {
     const size_t equals = text.find('=');
-    const std::optional<size_t> region = find_region(text.substr(0, equals));
-    if (equals == std::string::npos || !region) {
+    const auto region = static_cast<size_t>(
+        std::ranges::find(kRegionNames, text.substr(0, equals)) - std::begin(kRegionNames));
+    if (equals == std::string::npos || region == kRegions) {
       return Error{"--region " + panache::quoted(text) +
                    ": expected legs, torso, left_arm or right_arm, '=' and an amount, such as "
                    "legs=0.5"};
@@ -78,11 +74,11 @@ Result<void> read_shape(const ShapeFlags& flags, StylizerOptions& how) {
       return Error{"--region " + panache::quoted(text) + ": expected an amount of 0 to 2, found " +
                    panache::quoted(text.substr(equals + 1))};
     }
-    if (given[*region]) {
-      return Error{std::string("--region ") + kRegionNames[*region] + " is given twice"};
+    if (given[region]) {
+      return Error{std::string("--region ") + kRegionNames[region] + " is given twice"};
     }
-    given[*region] = true;
-    shape.regions[*region] = *value;
+    given[region] = true;
+    shape.regions[region] = *value;
   }
   how.shape = shape;
   how.gesture_rate = flags.gestures;

@@ -275,8 +275,7 @@ void add_stylize(CLI::App& app, int& exit_code) {
              "Motion to restyle, if a file has several;\ndefault: all of them");
   add_onto_options(*verb, options->onto);
   add_place_options(*verb, options->place, "the original animations");
-  add_in_place_option(*verb, options->in_place);
-  add_body_option(*verb, options->no_body);
+  add_result_options(*verb, *options);
   add_shape_options(*verb, options->shape);
   add_option(*verb, "--loop LOOP", options->loop,
              "Make the result loop: if the motion does (auto, the\n"

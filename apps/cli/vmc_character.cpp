@@ -1,9 +1,8 @@
 #include "vmc_character.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
+#include <cstring>
 #include <iterator>
 #include <utility>
 
@@ -23,13 +22,10 @@ bool is_sound(const VmcMessage& bone) {
 }
 
 // Zeros of either sign differ, and a number is the same as itself even if it is none.
-bool same_bits(float a, float b) {
-  return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b);
+template <class T>
+bool same_bits(const T& a, const T& b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
 }
-bool same_bits(Vec3 a, Vec3 b) {
-  return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z);
-}
-bool same_bits(Quat a, Quat b) { return same_bits(a.xyz(), b.xyz()) && same_bits(a.w, b.w); }
 
 }  // namespace
 

@@ -58,7 +58,10 @@ void VmcRelay::run_once() {
     sender.character.end_late_frame(stamp_now(), strengths_);
     send_ready(sender);
   }
-  count_lost();
+  // The machine's count goes round.
+  const uint32_t lost = socket_.lost() - std::exchange(lost_before_, socket_.lost());
+  all_.lost += lost;
+  second_.lost += lost;
 }
 
 void VmcRelay::finish() {
@@ -148,13 +151,6 @@ void VmcRelay::send(const Datagram& datagram) {
   const double seconds = stamp_now() - datagram.received;
   all_.latencies.add(seconds);
   second_.latencies.add(seconds);
-}
-
-void VmcRelay::count_lost() {
-  // The machine's count goes round.
-  const uint32_t lost = socket_.lost() - std::exchange(lost_before_, socket_.lost());
-  all_.lost += lost;
-  second_.lost += lost;
 }
 
 std::string VmcRelay::second() {

@@ -68,7 +68,6 @@ class VmcRelay {
   void send_rest(Sender& sender);
   void send_ready(Sender& sender);
   void send(const Datagram& datagram);
-  void count_lost();
 
   UdpSocket socket_;
   sockaddr_in to_;
