@@ -13,7 +13,6 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "batch_report.h"
-#include "batch_settings.h"
 #include "formats.h"
 #include "input.h"
 #include "standard_streams.h"
@@ -127,17 +126,20 @@ void run_file(FileJob& file, const BatchFlags& flags, const FileWork& work,
   };
   try {
     share(0);
-    if (auto worked = work(file, share); !worked) {
-      if (stop_asked()) throw Stopped();  // A wait that Ctrl-C ended, or a child process.
-      if (is_taken()) {                   // Another process wrote it meanwhile, and tells of it.
-        FileJob skipped;
-        std::swap(skipped.input, file.input);
-        std::swap(skipped.output, file.output);
-        file = std::move(skipped);
-        file.skipped = true;
-      } else {
-        file.error = with_hint(worked.error());
-      }
+    work(file, share);
+  } catch (const Failure& failure) {
+    if (stop_asked()) {  // A wait that Ctrl-C ended, or a child process.
+      file.stopped = true;
+      return;
+    }
+    if (is_taken()) {  // Another process wrote it meanwhile, and tells of it.
+      FileJob skipped;
+      static_cast<FilePair&>(skipped) = file;
+      skipped.skipped = true;
+      file = std::move(skipped);
+    } else {
+      file.error = with_hint(failure.error);
+      file.details.clear();
     }
   } catch (const std::bad_alloc&) {
     file.error = file.input + ": out of memory";
@@ -157,11 +159,7 @@ int tell_plan(const std::vector<FileJob>& files, bool json) {
                           : "would write " + file.output + " from " + file.input) +
             "\n";
   }
-  if (json) {
-    print(plan);
-  } else {
-    print(text);
-  }
+  print(json ? dump(plan) : text);
   return kDone;
 }
 
@@ -205,16 +203,16 @@ void add_batch_options(CLI::App& verb, BatchFlags& flags) {
       ->needs(report);
 }
 
-Result<std::unique_ptr<MotionFile>> open_input(FileJob& file, const ReadOptions& options) {
-  auto motion = file.bytes ? find_format(formats(), extension_of(file.input))
-                                 ->parse(*file.bytes, file.input, options)
-                           : open_motion(file.input, options);
-  if (motion) file.notes = (*motion)->notes();
+std::unique_ptr<MotionFile> open_input(FileJob& file, const ReadOptions& options) {
+  auto motion = need(file.bytes ? find_format(formats(), extension_of(file.input))
+                                      ->parse(*file.bytes, file.input, options)
+                                : open_motion(file.input, options));
+  file.notes = motion->notes();
   return motion;
 }
 
-Result<void> write_output(const FileJob& file, std::string_view bytes, bool force) {
-  return file.to_stdout ? write_stdout(bytes) : write_file(file.output, bytes, force);
+void write_output(const FileJob& file, std::string_view bytes, bool force) {
+  need(file.to_stdout ? write_stdout(bytes) : write_file(file.output, bytes, force));
 }
 
 int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::string& model,

@@ -38,8 +38,7 @@ struct BatchFlags {
 void add_batch_options(CLI::App& verb, BatchFlags& flags);
 
 // One file on its way.
-struct FileJob {
-  std::string input, output;
+struct FileJob : FilePair {
   // Of an input that came through stdin; it is called "stdin.bvh", say.
   std::optional<std::string> bytes;
   bool to_stdout = false;          // It is called "stdout.bvh", say.
@@ -69,17 +68,18 @@ struct OutputNaming {
 std::vector<FileJob> plan_batch(const BatchFlags& flags, const OutputNaming& naming,
                                 const std::string& model);
 
-// The motion file of a job, whose notes become those of the job.
-Result<std::unique_ptr<MotionFile>> open_input(FileJob& file, const ReadOptions& options);
-// Puts the result of a job where it goes.
-Result<void> write_output(const FileJob& file, std::string_view bytes, bool force);
+// The motion file of a job, whose notes become those of the job. Throws Failure.
+std::unique_ptr<MotionFile> open_input(FileJob& file, const ReadOptions& options);
+// Puts the result of a job where it goes. Throws Failure.
+void write_output(const FileJob& file, std::string_view bytes, bool force);
 
 // Does `work` for each file, several at once, under a bar titled DOING, and tells of it: errors and
 // notes to stderr, to stdout "DONE walk.bvh into old.bvh ..." or "DONE 18 of 19 files, 1 failed,
-// in 3.2 s", or JSON. `work` gets a function to call with the share of the file that is done;
+// in 3.2 s", or JSON. `work` gets a function to call with the share of the file that is done, and
+// throws Failure where that file cannot be done;
 // `model` is that of plan_batch(). The exit code is 1 where a file failed, and kStopped where
 // Ctrl-C came: files that are not done then are left out.
-using FileWork = std::function<Result<void>(FileJob&, const std::function<void(double)>&)>;
+using FileWork = std::function<void(FileJob&, const std::function<void(double)>&)>;
 int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::string& model,
               const std::string& doing, const std::string& done, const FileWork& work);
 

@@ -1,17 +1,36 @@
 #include "batch_report.h"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cinttypes>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
+#include <string_view>
 
-#include "batch_settings.h"
+#include "model_path.h"
+#include "sha256.h"
 
 namespace panache::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 15> kOfTheBatch = {
+    "IN",       "--output",        "--files-from", "--below", "--shard",
+    "--force",  "--skip-existing", "--jobs",       "--quiet", "--json",
+    "--report", "--mapping",       "--dry-run",    "--help",  "--verbose"};
+
+// Sixteen hexadecimal digits: the same for the same settings.
+std::string id_of(const Json& settings) {
+  char digits[17];
+  std::snprintf(digits, sizeof digits, "%016" PRIx64,
+                static_cast<uint64_t>(std::hash<std::string>()(settings.dump())));
+  return digits;
+}
 
 // The first difference of two settings: "version 0.1.0 instead of 0.2.0".
 std::string difference(const Json& now, const Json& then) {
@@ -28,6 +47,41 @@ std::string difference(const Json& now, const Json& then) {
 }
 
 }  // namespace
+
+Json batch_settings(const CLI::App& verb, const std::string& model) {
+  Json options = Json::object(), files = Json::object();
+  for (const CLI::Option* option : verb.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() == 0 || name == "--model" ||
+        std::find(kOfTheBatch.begin(), kOfTheBatch.end(), name) != kOfTheBatch.end()) {
+      continue;
+    }
+    const std::vector<std::string> given = option->reduced_results();
+    options[name] = given;
+    std::error_code status;
+    if (given.size() == 1 && fs::is_regular_file(given[0], status)) {
+      files[name] = sha256_of_file(given[0]);
+    }
+  }
+  const auto given = [&](const char* name) {
+    const CLI::Option* option = verb.get_option_no_throw(name);
+    return option && option->count() > 0;
+  };
+  if ((given("--remove") || given("--neutral")) && !given("--remover")) {
+    if (const Result<std::string> shipped = find_shipped(kRemoverModel)) {
+      files["--remover"] = sha256_of_file(*shipped);
+    }
+  }
+  Json of_model;
+  if (!model.empty()) {
+    of_model = {{"file", fs::path(model).filename().string()}, {"sha256", sha256_of_file(model)}};
+  }
+  return {{"version", PANACHE_VERSION},
+          {"verb", verb.get_name()},
+          {"model", of_model},
+          {"options", options},
+          {"files", files}};
+}
 
 Result<std::unique_ptr<BatchReport>> BatchReport::open(const std::string& path,
                                                        const Json& settings, bool continues) {
@@ -61,7 +115,7 @@ Result<void> BatchReport::close() {
   return Error{path_ + ": cannot be written: " + std::strerror(failure_)};
 }
 
-Result<void> check_settings(const std::string& path, const std::vector<std::string>& outputs,
+Result<void> check_settings(const std::string& path, const std::vector<FilePair>& files,
                             const Json& settings) {
   std::ifstream file(path);
   std::map<std::string, Json> settings_of;
@@ -81,7 +135,7 @@ Result<void> check_settings(const std::string& path, const std::vector<std::stri
   std::string first, other;
   size_t count = 0;
   std::error_code status;
-  for (const std::string& output : outputs) {
+  for (const auto& [input, output] : files) {
     const auto found = made_with.find(output);
     if (found == made_with.end() || found->second == id || !fs::exists(output, status)) continue;
     if (count++ == 0) first = output, other = found->second;

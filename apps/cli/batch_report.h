@@ -7,10 +7,19 @@
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
 #include "base/result.h"
 #include "messages.h"
+#include "outputs.h"
 
 namespace panache::cli {
+
+// What a batch is made with, all that may change its results:
+// {"version", "verb", "model": {"file", "sha256"} or null, "options": {"--style": ["old=1"], ...},
+// "files": {"--map": sha256, ...}}: the options given to `verb`, without those that choose files
+// and messages. `model`: its file, or empty.
+Json batch_settings(const CLI::App& verb, const std::string& model);
 
 // {"settings": ID, "of": batch_settings()} comes first, then a line for each file that is done.
 // Each line is written at once, so that several processes may add to one report.
@@ -40,7 +49,7 @@ class BatchReport {
 
 // Rejects outputs that the report at `path` names as made with other settings. A report that is not
 // there rejects nothing.
-Result<void> check_settings(const std::string& path, const std::vector<std::string>& outputs,
+Result<void> check_settings(const std::string& path, const std::vector<FilePair>& files,
                             const Json& settings);
 
 }  // namespace panache::cli

@@ -80,19 +80,14 @@ int file_of(const std::string& bytes) {
 
 // Starts this program again with its standard input coming from `in` and its standard output going
 // to `out`; the errno of a failure, or 0.
-int start(const std::vector<std::string>& arguments, int in, int out, pid_t& child) {
-  std::vector<std::string> words = {"panache"};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> pointers;
-  pointers.reserve(words.size() + 1);
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
+int start(std::string role, std::string path, int in, int out, pid_t& child) {
+  char name[] = "panache";
+  char* const words[] = {name, role.data(), path.data(), nullptr};
   posix_spawn_file_actions_t actions;
   if (const int failed = ::posix_spawn_file_actions_init(&actions)) return failed;
   ::posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
   ::posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
-  const int failed =
-      ::posix_spawn(&child, "/proc/self/exe", &actions, nullptr, pointers.data(), environ);
+  const int failed = ::posix_spawn(&child, "/proc/self/exe", &actions, nullptr, words, environ);
   ::posix_spawn_file_actions_destroy(&actions);
   return failed;
 }
@@ -163,7 +158,7 @@ Result<std::string> run_in_child(const std::string& role, const std::string& pat
   }
   const auto end = Clock::now() + std::chrono::seconds(seconds);
   pid_t id = -1;
-  const int failed = start({role, path}, in, ends[1], id);
+  const int failed = start(role, path, in, ends[1], id);
   ::close(in);
   ::close(ends[1]);
   Child child(id);

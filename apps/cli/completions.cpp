@@ -121,6 +121,14 @@ void add_zsh_option(std::string& out, const OptionEntry& option) {
   }
 }
 
+// The start of a completion that fish offers after the verb `name` and no verb of that.
+std::string fish_after(const std::vector<VerbEntry>& verbs, const std::string& name) {
+  const std::string words = words_of(verbs, name);
+  const std::string seen = "__fish_seen_subcommand_from ";
+  return "complete -c panache -n '" + seen + name.substr(name.find(' ') + 1) +
+         (words.empty() ? "" : "; and not " + seen + words) + "'";
+}
+
 }  // namespace
 
 std::string bash_completion(const std::vector<VerbEntry>& verbs) {
@@ -222,18 +230,6 @@ std::string zsh_completion(const std::vector<VerbEntry>& verbs) {
          "  compdef _panache panache\n"
          "fi\n";
 }
-
-namespace {
-
-// The start of a completion that fish offers after the verb `name` and no verb of that.
-std::string fish_after(const std::vector<VerbEntry>& verbs, const std::string& name) {
-  const std::string words = words_of(verbs, name);
-  const std::string seen = "__fish_seen_subcommand_from ";
-  return "complete -c panache -n '" + seen + name.substr(name.find(' ') + 1) +
-         (words.empty() ? "" : "; and not " + seen + words) + "'";
-}
-
-}  // namespace
 
 std::string fish_completion(const std::vector<VerbEntry>& verbs) {
   std::string out = "# fish completion for panache. Generated from the options of the program.\n";

@@ -7,30 +7,17 @@
 #include <vector>
 
 #include "base/file.h"
-#include "batch.h"
 #include "formats.h"
 #include "input.h"
 #include "messages.h"
 #include "onto.h"
-#include "retarget_file.h"
 #include "rig/body_motions.h"
 #include "rig/in_place.h"
-#include "rig_options.h"
 #include "rig_report.h"
 #include "verbs.h"
 
 namespace panache::cli {
 namespace {
-
-struct ConvertVerb {
-  BatchFlags batch;
-  ReadOptions read;
-  RigFlags rig;
-  OntoFlags onto;
-  FigureFlags figure;
-  std::string clip;  // The motion to take, or empty.
-  bool in_place = false;
-};
 
 void account(FileJob& file, const std::string& name, const Clip& clip) {
   file.clips.push_back({{"name", name}, {"frames", clip.frames}, {"seconds", clip.duration()}});
@@ -38,51 +25,46 @@ void account(FileJob& file, const std::string& name, const Clip& clip) {
   file.seconds += clip.duration();
 }
 
-// The motions of a file on the spot, those of a body; the others without frames.
-std::vector<Clip> clips_in_place(const MotionFile& motion, const RigOptions& options) {
-  std::vector<Clip> out(motion.clip_names().size());
+// The motions of a file on the spot, those of a body.
+std::vector<NewMotion> motions_in_place(const MotionFile& motion, const RigOptions& options) {
+  std::vector<NewMotion> out;
   for (const int which : find_body_motions(motion, options).clips) {
     const Result<Rig> rig = Rig::create(motion.clip(which), options);
     if (!rig) continue;
-    out[static_cast<size_t>(which)] = motion.clip(which);
-    stay_in_place(*rig, out[static_cast<size_t>(which)]);
+    NewMotion& moved = out.emplace_back(NewMotion{.clip = motion.clip(which), .which = which});
+    stay_in_place(*rig, moved.clip);
+    moved.source_frames.resize(static_cast<size_t>(moved.clip.frames));
+    std::iota(moved.source_frames.begin(), moved.source_frames.end(), 0.0);
   }
   return out;
 }
 
 // All of a file that keeps its format.
-Result<std::string> whole_file(const MotionFile& motion, const FileJob& file,
-                               const ConvertVerb& verb, const RigOptions& options) {
+std::string whole_file(const MotionFile& motion, const FileJob& file, const MotionFlags& verb,
+                       const RigOptions& options) {
   const std::string from = extension_of(file.input);
   const bool is_changed =
       must_be_encoded(from) || verb.read.fps || motion.is_mended() || verb.in_place;
-  const std::vector<Clip> clips =
-      verb.in_place ? clips_in_place(motion, options) : std::vector<Clip>();
-  std::vector<ClipEdit> edits;
-  std::vector<std::vector<double>> frames;
-  for (size_t i = 0; i < clips.size(); ++i) {
-    if (clips[i].frames == 0) continue;
-    std::vector<double>& own = frames.emplace_back(static_cast<size_t>(clips[i].frames));
-    std::iota(own.begin(), own.end(), 0.0);
-    edits.push_back({static_cast<int>(i), &clips[i], own, ""});
-  }
-  Result<std::string> bytes = is_changed   ? motion.encode(edits, EditMode::replace)
-                              : file.bytes ? Result<std::string>(*file.bytes)
-                                           : read_file(file.input);
-  if (!bytes || from == extension_of(file.output)) return bytes;
-  return in_container(*std::move(bytes), file.input, file.output, options, verb.figure);
+  const std::vector<NewMotion> motions =
+      verb.in_place ? motions_in_place(motion, options) : std::vector<NewMotion>();
+  std::string bytes = is_changed   ? motion.encode(edits_of(motions), EditMode::replace)
+                      : file.bytes ? *file.bytes
+                                   : need(read_file(file.input));
+  if (from == extension_of(file.output)) return bytes;
+  return need(in_container(std::move(bytes), file.input, file.output, options, verb.no_body));
 }
 
-Result<std::string> with_path(const std::string& path, Result<std::string> bytes) {
-  if (!bytes) return located(path, bytes.error());
-  return bytes;
+std::string need_of(const std::string& path, Result<std::string> bytes) {
+  if (!bytes) throw Failure{located(path, bytes.error()), kBadInput};
+  return *std::move(bytes);
 }
 
-Result<std::string> convert_whole(const MotionFile& motion, FileJob& file, const ConvertVerb& verb,
-                                  const RigOptions& options) {
+std::string convert_whole(const MotionFile& motion, FileJob& file, const MotionFlags& verb,
+                          const RigOptions& options) {
   if (!verb.clip.empty()) {
-    return Error{file.input + ": all its motions are written to " + file.output +
-                 "; expected no --clip, which is for formats that hold one motion"};
+    throw Failure{{file.input + ": all its motions are written to " + file.output +
+                   "; expected no --clip, which is for formats that hold one motion"},
+                  kBadInput};
   }
   const std::vector<std::string> names = motion.clip_names();
   for (size_t i = 0; i < names.size(); ++i) {
@@ -98,13 +80,13 @@ Result<std::string> convert_whole(const MotionFile& motion, FileJob& file, const
   return whole_file(motion, file, verb, options);
 }
 
-Result<std::string> convert_motion(const MotionFile& motion, FileJob& file, const ConvertVerb& verb,
-                                   const RigOptions& options) {
-  Result<std::vector<int>> picked = pick_clips(motion, verb.clip, options, file.input, file.notes);
-  if (!picked) return picked.error();
-  if (auto fits = check_fits(motion, *picked, file.input, file.output); !fits) return fits.error();
-  Clip clip = motion.clip(picked->front());
-  const std::string name = motion.clip_names()[static_cast<size_t>(picked->front())];
+std::string convert_motion(const MotionFile& motion, FileJob& file, const MotionFlags& verb,
+                           const RigOptions& options) {
+  const std::vector<int> picked =
+      need(pick_clips(motion, verb.clip, options, file.input, file.notes));
+  need(check_fits(motion, picked, file.input, file.output));
+  Clip clip = motion.clip(picked.front());
+  const std::string name = motion.clip_names()[static_cast<size_t>(picked.front())];
   account(file, name, clip);
   const std::string title = title_of(name, file.input);
   const std::string extension = extension_of(file.output);
@@ -113,38 +95,35 @@ Result<std::string> convert_motion(const MotionFile& motion, FileJob& file, cons
     file.mapping = mapping_json(*rig);
     note_rate(clip, *rig, file.input, file.notes);
     if (verb.in_place) stay_in_place(*rig, clip);
-    return with_path(file.input,
-                     format_clip(clip, &*rig, title, placement_of(*rig), extension, verb.figure));
+    return need_of(file.input,
+                   format_clip(clip, &*rig, title, placement_of(*rig), extension, verb.no_body));
   }
   // What the user says of joints is meant for a humanoid.
-  if (!options.joints.empty() || holds_humanoids(extension) || verb.in_place) return rig.error();
+  if (!options.joints.empty() || holds_humanoids(extension) || verb.in_place) {
+    throw Failure{rig.error(), kBadInput};
+  }
   if (find_format(formats(), extension)->in_metres &&
       !(options.metres_per_unit && options.up_axis)) {
     file.notes.push_back(file.input +
                          ": is not a humanoid, so unit and up axis cannot be inferred; taken as "
                          "metres and +Y unless --scale and --up are given");
   }
-  return with_path(
-      file.input, format_clip(clip, nullptr, title, placement_of(options), extension, verb.figure));
+  return need_of(file.input,
+                 format_clip(clip, nullptr, title, placement_of(options), extension, verb.no_body));
 }
 
-Result<void> convert_file(FileJob& file, const ConvertVerb& verb, const RigOptions& options) {
-  Result<std::unique_ptr<MotionFile>> motion = open_input(file, verb.read);
-  if (!motion) return motion.error();
-  Result<std::string> bytes = keeps_format(extension_of(file.input), extension_of(file.output))
-                                  ? convert_whole(**motion, file, verb, options)
-                                  : convert_motion(**motion, file, verb, options);
-  if (!bytes) return bytes.error();
-  return write_output(file, *bytes, verb.batch.force);
+void convert_file(FileJob& file, const MotionFlags& verb, const RigOptions& options) {
+  const std::unique_ptr<MotionFile> motion = open_input(file, verb.read);
+  const bool keeps = keeps_format(extension_of(file.input), extension_of(file.output));
+  write_output(file, (keeps ? convert_whole : convert_motion)(*motion, file, verb, options),
+               verb.batch.force);
 }
 
-int convert(const ConvertVerb& verb) {
+int convert(const MotionFlags& verb) {
   need(check_rig_flags(verb.rig), kBadUsage);
   need(check_read_options(verb.read), kBadUsage);
   if (!verb.onto.file.empty()) {
-    return retarget_files(
-        {verb.batch, verb.read, verb.rig, verb.onto, {}, verb.figure, verb.clip, verb.in_place}, {},
-        "converting", "converted");
+    return retarget_files(verb, {}, "converting", "converted");
   }
   std::vector<FileJob> files = plan_batch(verb.batch, {}, "");
   for (const FileJob& file : files) need(check_format(file.input, file.output), kBadUsage);
@@ -155,22 +134,20 @@ int convert(const ConvertVerb& verb) {
                 kBadUsage);
   }
   const RigOptions rig = need(read_rig_options(verb.rig));
-  return run_batch(std::move(files), verb.batch, "", "converting", "converted",
-                   [&](FileJob& file, const std::function<void(double)>&) {
-                     return convert_file(file, verb, rig);
-                   });
+  return run_batch(
+      std::move(files), verb.batch, "", "converting", "converted",
+      [&](FileJob& file, const std::function<void(double)>&) { convert_file(file, verb, rig); });
 }
 
 }  // namespace
 
 void add_convert(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("convert", "Convert motion files to another format");
-  auto options = std::make_shared<ConvertVerb>();
+  auto options = std::make_shared<MotionFlags>();
   add_batch_options(*verb, options->batch);
   add_option(*verb, "--clip NAME", options->clip, "Motion to convert, if a file has several");
   add_onto_options(*verb, options->onto);
-  add_in_place_option(*verb, options->in_place);
-  add_figure_options(*verb, options->figure);
+  add_result_options(*verb, *options);
   add_rig_options(*verb, options->rig);
   add_read_options(*verb, options->read);
   verb->footer(

@@ -12,9 +12,8 @@
 
 #include "base/file.h"
 #include "child_process.h"
-#include "fbx_binary.h"
+#include "fbx_document.h"
 #include "fbx_scene.h"
-#include "fbx_text_scene.h"
 #include "glb.h"
 #include "picture.h"
 
@@ -111,7 +110,7 @@ Result<FbxAsGlb> fbx_to_glb(const std::string& path) {
   if (line > 0) out.notes.push_back(path + ": " + answer->substr(0, line));
   out.glb = with_pictures(
       answer->erase(0, line + 1), path,
-      [&](const std::string& picture) { return picture_to_png(picture, path); }, &out.notes);
+      [&](const std::string& picture) { return picture_to_png(picture, path); }, out.notes);
   return out;
 }
 

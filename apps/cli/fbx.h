@@ -16,7 +16,7 @@ struct FbxAsGlb {
 // The GLB that holds what Assimp understands of the FBX file at `path`: the tree of nodes, meshes,
 // skins, materials and animations, in metres with +Y up. Pictures that are neither in the file nor
 // where it says, nor beside it, become white. Of a file that Assimp does not read there are no
-// meshes (fbx_text_scene.h); a note says so where it has some.
+// meshes (fbx_scene.h); a note says so where it has some.
 //
 // Assimp's readers have a history of memory errors, so they run in a process of their own with
 // bounds on memory and time, which can reach neither files nor networks (sandbox.h): whatever a

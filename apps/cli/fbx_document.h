@@ -31,6 +31,8 @@ class FbxDocument {
 
   // Its children are the sections of the file.
   const FbxNode& root() const { return root_; }
+  // What is in all sections of a name.
+  std::vector<const FbxNode*> in_sections(std::string_view wanted) const;
   const std::string& name() const { return name_; }
 
   // The version, as in 6100; 0 where the file does not say it.
@@ -52,5 +54,13 @@ class FbxDocument {
   std::string name_;
   FbxNode root_;
 };
+
+// Whether a file begins as binary FBX does; its version, as in 6100, or 0 where it does not.
+int binary_fbx_version(std::string_view bytes);
+
+// The text form of a binary file of a version below 7000: later ones, which compress their arrays,
+// are Assimp's. Every length is checked against the bytes there are; `path` stands in front of the
+// messages.
+Result<std::string> fbx_text_of(std::string_view bytes, const std::string& path);
 
 }  // namespace panache::cli

@@ -1,7 +1,6 @@
 #include "fbx_models.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/utf8.h"
 #include "clip/unique_name.h"
@@ -75,11 +74,9 @@ class Properties {
 
 // What FBX 7 says once for all models.
 const FbxNode* model_template(const FbxDocument& document) {
-  const FbxNode* definitions = document.root().child("Definitions");
-  if (!definitions) return nullptr;
-  for (const FbxNode& type : definitions->children) {
-    if (type.name == "ObjectType" && type.value(0) == "Model") {
-      return type.child("PropertyTemplate");
+  for (const FbxNode* type : document.in_sections("Definitions")) {
+    if (type->name == "ObjectType" && type->value(0) == "Model") {
+      return type->child("PropertyTemplate");
     }
   }
   return nullptr;
@@ -106,8 +103,7 @@ Result<FbxModel> read_model(const FbxDocument& document, const FbxNode& node,
       properties.read("PreRotation", before) && properties.read("PostRotation", after);
   if (!good) return properties.error();
   if (is_active) {
-    out.order = kOrders[std::clamp<size_t>(static_cast<size_t>(std::max(order, 0)), 0,
-                                           std::size(kOrders) - 1)];
+    out.order = kOrders[std::clamp<int>(order, 0, std::size(kOrders) - 1)];
     out.before = turned(kOrders[0], before);
     out.after = conjugate(turned(kOrders[0], after));
   }
@@ -150,12 +146,9 @@ std::vector<std::string_view> fbx_property(const FbxNode& object, std::string_vi
 
 std::vector<FbxConnection> fbx_connections(const FbxDocument& document) {
   std::vector<FbxConnection> out;
-  for (const FbxNode& section : document.root().children) {
-    if (section.name != "Connections") continue;
-    for (const FbxNode& node : section.children) {
-      if (node.name != "C" && node.name != "Connect") continue;
-      out.push_back({node.value(1), node.value(2), node.value(3)});
-    }
+  for (const FbxNode* node : document.in_sections("Connections")) {
+    if (node->name != "C" && node->name != "Connect") continue;
+    out.push_back({node->value(1), node->value(2), node->value(3)});
   }
   return out;
 }
@@ -197,18 +190,15 @@ Result<std::vector<FbxModel>> fbx_models(const FbxDocument& document) {
   std::vector<FbxModel> found;
   std::vector<bool> is_needed;
   std::map<std::string_view, size_t> places;  // By id.
-  for (const FbxNode& section : document.root().children) {
-    if (section.name != "Objects") continue;
-    for (const FbxNode& node : section.children) {
-      if (node.name != "Model" || !places.emplace(node.value(0), found.size()).second) continue;
-      if (found.size() == kMostModels) {
-        return document.error(node.name, "at most " + std::to_string(kMostModels) + " models");
-      }
-      Result<FbxModel> model = read_model(document, node, fallback);
-      if (!model) return model.error();
-      found.push_back(*std::move(model));
-      is_needed.push_back(!is_left_out(node.values.empty() ? "" : node.values.back()));
+  for (const FbxNode* node : document.in_sections("Objects")) {
+    if (node->name != "Model" || !places.emplace(node->value(0), found.size()).second) continue;
+    if (found.size() == kMostModels) {
+      return document.error(node->name, "at most " + std::to_string(kMostModels) + " models");
     }
+    Result<FbxModel> model = read_model(document, *node, fallback);
+    if (!model) return model.error();
+    found.push_back(*std::move(model));
+    is_needed.push_back(!is_left_out(node->values.empty() ? "" : node->values.back()));
   }
   std::vector<std::vector<size_t>> children(found.size());
   for (const FbxConnection& connection : fbx_connections(document)) {

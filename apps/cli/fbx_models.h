@@ -1,7 +1,6 @@
 #pragma once
 // The models of an FBX document, which are its joints among others: their tree and how they stand.
 
-#include <array>
 #include <map>
 #include <string>
 #include <string_view>

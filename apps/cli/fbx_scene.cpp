@@ -1,9 +1,9 @@
 #include "fbx_scene.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,6 +44,17 @@ std::vector<aiNode*> all_nodes(const aiScene& scene) {
   }
   return nodes;
 }
+
+std::span<aiAnimation* const> animations_of(const aiScene& scene) {
+  return {scene.mAnimations, scene.mNumAnimations};
+}
+std::span<aiNodeAnim* const> channels_of(const aiAnimation& animation) {
+  return {animation.mChannels, animation.mNumChannels};
+}
+std::span<aiMesh* const> meshes_of(const aiScene& scene) {
+  return {scene.mMeshes, scene.mNumMeshes};
+}
+std::span<aiBone* const> bones_of(const aiMesh& mesh) { return {mesh.mBones, mesh.mNumBones}; }
 
 // Assimp gives every animated node keys for all of translation, rotation and scale. Translations
 // and scales that only repeat the node's own say nothing, but a joint that has them looks as if it
@@ -90,27 +101,15 @@ void join_close_keys(Key* keys, unsigned& count, double ticks_per_second) {
   count = kept;
 }
 
-void join_close_keys(const aiAnimation& animation) {
-  const double ticks = animation.mTicksPerSecond > 0 ? animation.mTicksPerSecond : 1;
-  for (unsigned c = 0; c < animation.mNumChannels; ++c) {
-    aiNodeAnim& channel = *animation.mChannels[c];
-    join_close_keys(channel.mPositionKeys, channel.mNumPositionKeys, ticks);
-    join_close_keys(channel.mRotationKeys, channel.mNumRotationKeys, ticks);
-    join_close_keys(channel.mScalingKeys, channel.mNumScalingKeys, ticks);
-  }
-}
-
 // Whether all animations have keys for the node, so that its own place counts for none of them.
 bool is_always_animated(const aiScene& scene, const aiNode& node) {
   const auto has_keys = [&](const aiAnimation* animation) {
-    return std::any_of(animation->mChannels, animation->mChannels + animation->mNumChannels,
-                       [&](const aiNodeAnim* channel) {
-                         return channel->mNodeName == node.mName && channel->mNumPositionKeys &&
-                                channel->mNumRotationKeys && channel->mNumScalingKeys;
-                       });
+    return std::ranges::any_of(channels_of(*animation), [&](const aiNodeAnim* channel) {
+      return channel->mNodeName == node.mName && channel->mNumPositionKeys &&
+             channel->mNumRotationKeys && channel->mNumScalingKeys;
+    });
   };
-  return scene.mNumAnimations > 0 &&
-         std::all_of(scene.mAnimations, scene.mAnimations + scene.mNumAnimations, has_keys);
+  return scene.mNumAnimations > 0 && std::ranges::all_of(animations_of(scene), has_keys);
 }
 
 bool is_usable(const aiMatrix4x4& m) { return std::isnormal(m.Determinant()); }
@@ -121,10 +120,9 @@ using Places = std::map<std::string, aiMatrix4x4>;  // World, by the node's name
 Places bind_places(const aiScene& scene, const Places& world) {
   Places out;
   const auto add = [&](const aiMesh& mesh, const aiMatrix4x4& place) {
-    for (unsigned i = 0; i < mesh.mNumBones; ++i) {
-      const aiBone& bone = *mesh.mBones[i];
-      if (!is_usable(bone.mOffsetMatrix)) continue;
-      out.emplace(bone.mName.C_Str(), place * aiMatrix4x4(bone.mOffsetMatrix).Inverse());
+    for (const aiBone* bone : bones_of(mesh)) {
+      if (!is_usable(bone->mOffsetMatrix)) continue;
+      out.emplace(bone->mName.C_Str(), place * aiMatrix4x4(bone->mOffsetMatrix).Inverse());
     }
   };
   for (const aiNode* node : all_nodes(scene)) {
@@ -174,22 +172,21 @@ void move_mesh(aiMesh& mesh, const aiMatrix4x4& by) {
          mesh.mAnimMeshes[i]->mNumVertices);
   }
   const aiMatrix4x4 back = aiMatrix4x4(by).Inverse();
-  for (unsigned i = 0; i < mesh.mNumBones; ++i) mesh.mBones[i]->mOffsetMatrix *= back;
+  for (aiBone* bone : bones_of(mesh)) bone->mOffsetMatrix *= back;
 }
 
 void share_bind_pose(aiScene& scene) {
   std::map<std::string, aiMatrix4x4> offsets;  // Of the first mesh that has the bone.
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-    aiMesh& mesh = *scene.mMeshes[m];
-    for (unsigned i = 0; i < mesh.mNumBones; ++i) {
-      const auto known = offsets.find(mesh.mBones[i]->mName.C_Str());
+  for (aiMesh* mesh : meshes_of(scene)) {
+    for (const aiBone* bone : bones_of(*mesh)) {
+      const auto known = offsets.find(bone->mName.C_Str());
       if (known == offsets.end() || !is_usable(known->second)) continue;
-      const aiMatrix4x4 by = aiMatrix4x4(known->second).Inverse() * mesh.mBones[i]->mOffsetMatrix;
-      if (is_usable(by) && !by.Equal(aiMatrix4x4(), 1e-6f)) move_mesh(mesh, by);
+      const aiMatrix4x4 by = aiMatrix4x4(known->second).Inverse() * bone->mOffsetMatrix;
+      if (is_usable(by) && !by.Equal(aiMatrix4x4(), 1e-6f)) move_mesh(*mesh, by);
       break;
     }
-    for (unsigned i = 0; i < mesh.mNumBones; ++i) {
-      offsets.emplace(mesh.mBones[i]->mName.C_Str(), mesh.mBones[i]->mOffsetMatrix);
+    for (const aiBone* bone : bones_of(*mesh)) {
+      offsets.emplace(bone->mName.C_Str(), bone->mOffsetMatrix);
     }
   }
 }
@@ -235,10 +232,9 @@ void fit_weights(aiMesh& mesh) {
 // Where no scale is animated or differs between axes, nodes get none: it goes into the places of
 // what is below them. Only a mesh without a skin keeps it, in its own node.
 void remove_scales(const aiScene& scene) {
-  for (unsigned a = 0; a < scene.mNumAnimations; ++a) {
-    const aiAnimation& animation = *scene.mAnimations[a];
-    for (unsigned c = 0; c < animation.mNumChannels; ++c) {
-      if (animation.mChannels[c]->mNumScalingKeys > 0) return;
+  for (const aiAnimation* animation : animations_of(scene)) {
+    for (const aiNodeAnim* channel : channels_of(*animation)) {
+      if (channel->mNumScalingKeys > 0) return;
     }
   }
   const std::vector<aiNode*> nodes = all_nodes(scene);
@@ -263,24 +259,21 @@ void remove_scales(const aiScene& scene) {
     node->mTransformation = aiMatrix4x4({own, own, own}, turn, place * above[name]);
     removed[name] = all / own;
   }
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-    for (unsigned b = 0; b < scene.mMeshes[m]->mNumBones; ++b) {
-      aiBone& bone = *scene.mMeshes[m]->mBones[b];
-      const auto lost = removed.find(bone.mName.C_Str());
+  for (const aiMesh* mesh : meshes_of(scene)) {
+    for (aiBone* bone : bones_of(*mesh)) {
+      const auto lost = removed.find(bone->mName.C_Str());
       if (lost == removed.end()) continue;
       aiMatrix4x4 grow;
       aiMatrix4x4::Scaling({lost->second, lost->second, lost->second}, grow);
-      bone.mOffsetMatrix = grow * bone.mOffsetMatrix;
+      bone->mOffsetMatrix = grow * bone->mOffsetMatrix;
     }
   }
-  for (unsigned a = 0; a < scene.mNumAnimations; ++a) {
-    const aiAnimation& animation = *scene.mAnimations[a];
-    for (unsigned c = 0; c < animation.mNumChannels; ++c) {
-      const aiNodeAnim& channel = *animation.mChannels[c];
-      const auto lost = above.find(channel.mNodeName.C_Str());
+  for (const aiAnimation* animation : animations_of(scene)) {
+    for (aiNodeAnim* channel : channels_of(*animation)) {
+      const auto lost = above.find(channel->mNodeName.C_Str());
       if (lost == above.end()) continue;
-      for (unsigned k = 0; k < channel.mNumPositionKeys; ++k) {
-        channel.mPositionKeys[k].mValue *= lost->second;
+      for (unsigned k = 0; k < channel->mNumPositionKeys; ++k) {
+        channel->mPositionKeys[k].mValue *= lost->second;
       }
     }
   }
@@ -292,18 +285,20 @@ void repair_scene(aiScene& scene) {
   rest_as_bound(scene);
   std::map<std::string, const aiNode*> nodes;
   for (const aiNode* node : all_nodes(scene)) nodes.emplace(node->mName.C_Str(), node);
-  for (unsigned a = 0; a < scene.mNumAnimations; ++a) {
-    aiAnimation& animation = *scene.mAnimations[a];
-    join_close_keys(animation);
-    for (unsigned c = 0; c < animation.mNumChannels; ++c) {
-      const auto node = nodes.find(animation.mChannels[c]->mNodeName.C_Str());
-      if (node != nodes.end()) drop_idle_keys(*animation.mChannels[c], *node->second);
+  for (const aiAnimation* animation : animations_of(scene)) {
+    const double ticks = animation->mTicksPerSecond > 0 ? animation->mTicksPerSecond : 1;
+    for (aiNodeAnim* channel : channels_of(*animation)) {
+      join_close_keys(channel->mPositionKeys, channel->mNumPositionKeys, ticks);
+      join_close_keys(channel->mRotationKeys, channel->mNumRotationKeys, ticks);
+      join_close_keys(channel->mScalingKeys, channel->mNumScalingKeys, ticks);
+      const auto node = nodes.find(channel->mNodeName.C_Str());
+      if (node != nodes.end()) drop_idle_keys(*channel, *node->second);
     }
   }
   share_bind_pose(scene);
   scene.mRootNode->mTransformation = to_metres_y_up(scene) * scene.mRootNode->mTransformation;
   remove_scales(scene);
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) fit_weights(*scene.mMeshes[m]);
+  for (aiMesh* mesh : meshes_of(scene)) fit_weights(*mesh);
 }
 
 }  // namespace panache::cli

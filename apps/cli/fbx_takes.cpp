@@ -35,12 +35,9 @@ class TakesReader {
   }
 
   Result<std::vector<FbxTake>> read() {
-    for (const FbxNode& section : document_.root().children) {
-      if (section.name != "Takes") continue;
-      for (const FbxNode& take : section.children) {
-        if (take.name != "Take") continue;
-        if (auto good = read_take(take); !good) return good.error();
-      }
+    for (const FbxNode* take : document_.in_sections("Takes")) {
+      if (take->name != "Take") continue;
+      if (auto good = read_take(*take); !good) return good.error();
     }
     if (auto good = read_stacks(); !good) return good.error();
     for (FbxTake& take : takes_) set_range(take);
@@ -138,13 +135,10 @@ class TakesReader {
   Result<void> read_stacks() {
     std::unordered_map<std::string_view, const FbxNode*> objects;
     std::vector<const FbxNode*> stacks;
-    for (const FbxNode& section : document_.root().children) {
-      if (section.name != "Objects") continue;
-      for (const FbxNode& node : section.children) {
-        if (!node.name.starts_with("Animation")) continue;
-        if (!objects.emplace(node.value(0), &node).second) continue;
-        if (node.name == "AnimationStack") stacks.push_back(&node);
-      }
+    for (const FbxNode* node : document_.in_sections("Objects")) {
+      if (!node->name.starts_with("Animation")) continue;
+      if (!objects.emplace(node->value(0), node).second) continue;
+      if (node->name == "AnimationStack") stacks.push_back(node);
     }
     std::unordered_map<std::string_view, std::vector<FbxConnection>> below, above;
     for (const FbxConnection& connection : fbx_connections(document_)) {

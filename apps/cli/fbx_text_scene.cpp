@@ -1,4 +1,4 @@
-#include "fbx_text_scene.h"
+#include "fbx_scene.h"
 
 #include <algorithm>
 #include <vector>
@@ -88,11 +88,8 @@ aiAnimation* make_animation(const std::vector<FbxModel>& models, const FbxTake& 
 
 // They are geometries in FBX 7, and models in FBX 6.
 bool has_meshes(const FbxDocument& document) {
-  return std::ranges::any_of(document.root().children, [](const FbxNode& section) {
-    return section.name == "Objects" &&
-           std::ranges::any_of(section.children, [](const FbxNode& node) {
-             return !node.values.empty() && node.values.back() == "Mesh";
-           });
+  return std::ranges::any_of(document.in_sections("Objects"), [](const FbxNode* node) {
+    return !node->values.empty() && node->values.back() == "Mesh";
   });
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/one_of.h"
 #include "clip/gltf.h"
 #include "clip/smpl.h"
 #include "fbx.h"
@@ -91,11 +92,14 @@ std::string list_without(size_t skipped) {
   for (const MotionFormat& format : formats()) {
     if (format.write) names.emplace_back(format.extension.substr(skipped));
   }
-  std::string list;
-  for (size_t i = 0; i < names.size(); ++i) {
-    list += (i == 0 ? "" : i + 1 < names.size() ? ", " : " or ") + names[i];
-  }
-  return list;
+  return one_of(names);
+}
+
+// That of an unknown extension is nothing and can nothing.
+const MotionFormat& format_of(std::string_view extension) {
+  static constexpr MotionFormat kNone;
+  const MotionFormat* format = find_format(formats(), extension);
+  return format ? *format : kNone;
 }
 
 // How a GLB becomes the FBX file that was asked for.
@@ -141,19 +145,12 @@ std::span<const MotionFormat> formats() {
 }
 
 bool keeps_format(const std::string& input, const std::string& output) {
-  if (input == output) return true;
-  const MotionFormat* format = find_format(formats(), input);
-  return format && !format->fits_into.empty() && format->fits_into == output;
-}
-
-void add_figure_options(CLI::App& verb, FigureFlags& flags) {
-  verb.add_flag("--no-body", flags.no_body,
-                "Show joints that have no mesh as sticks in GLB files,\nnot as a body");
+  const std::string_view fits_into = format_of(input).fits_into;
+  return input == output || (!fits_into.empty() && fits_into == output);
 }
 
 Result<std::string> in_container(std::string bytes, const std::string& input,
-                                 const std::string& output, const RigOptions& rig,
-                                 const FigureFlags& figure) {
+                                 const std::string& output, const RigOptions& rig, bool no_body) {
   if (extension_of(output) != ".glb") return bytes;
   if (extension_of(input) == ".gltf") {
     Result<std::string> glb = gltf_to_glb(bytes, input);
@@ -166,7 +163,7 @@ Result<std::string> in_container(std::string bytes, const std::string& input,
     std::optional<SkinnedBody> body;
     const bool moves = !file.clip_names().empty();
     const Clip* motion = moves ? &file.clip(first_body_motion(file, rig)) : nullptr;
-    if (figure.no_body) return body;
+    if (no_body) return body;
     const Result<std::pair<Clip, Rig>> found = find_body(file.rest(), motion, rig);
     if (found) body = body_of(found->second, found->first);
     return body;
@@ -174,17 +171,13 @@ Result<std::string> in_container(std::string bytes, const std::string& input,
 }
 
 bool must_be_encoded(const std::string& extension) {
-  const MotionFormat* format = find_format(formats(), extension);
-  return format && (!format->in_one_file || format->encoded_as != format->extension);
+  const MotionFormat& format = format_of(extension);
+  return !format.in_one_file || format.encoded_as != format.extension;
 }
 
-std::string list_writable() { return list_without(0); }
 std::string list_writable_names() { return list_without(1); }
 
-bool has_writer(const std::string& extension) {
-  const MotionFormat* format = find_format(formats(), extension);
-  return format && format->write;
-}
+bool has_writer(const std::string& extension) { return format_of(extension).write; }
 
 Result<void> check_format(const std::string& input, const std::string& output) {
   const std::string from = extension_of(input), to = extension_of(output);
@@ -193,7 +186,7 @@ Result<void> check_format(const std::string& input, const std::string& output) {
   const bool has_own = format->encoded_as == format->extension;
   if (has_own && to == from) return {};
   return Error{output + ": expected a name that ends in " +
-               (has_own && !format->write ? from + ", " : "") + list_writable() +
+               (has_own && !format->write ? from + ", " : "") + list_without(0) +
                ", or a folder (with a '/' at its end)" +
                (to == ".fbx" ? "; " + fbx_by_blender(output) : "")};
 }
@@ -217,14 +210,11 @@ bool holds_humanoids(const std::string& extension) {
                      [&](const OwnBody& own) { return own.extension == extension; });
 }
 
-bool holds_one_motion(const std::string& extension) {
-  const MotionFormat* format = find_format(formats(), extension);
-  return format && format->one_motion;
-}
+bool holds_one_motion(const std::string& extension) { return format_of(extension).one_motion; }
 
 Result<std::string> format_clip(const Clip& clip, const Rig* rig, const std::string& name,
                                 const Placement& placement, const std::string& extension,
-                                const FigureFlags& figure) {
+                                bool no_body) {
   const MotionFormat* format = find_format(formats(), extension);
   for (const OwnBody& own : kOwnBodies) {
     if (own.extension != extension) continue;
@@ -233,7 +223,7 @@ Result<std::string> format_clip(const Clip& clip, const Rig* rig, const std::str
     if (!put) return put.error();
     return format->write(*put, name, {}, nullptr);
   }
-  if (!rig || !format->has_meshes || figure.no_body) {
+  if (!rig || !format->has_meshes || no_body) {
     return format->write(clip, name, placement, nullptr);
   }
   const SkinnedBody body = body_of(*rig, clip);

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/result.h"
+#include "clip/meshopt.h"
 #include "clip/motion_format.h"
 #include "rig/rig.h"
 
@@ -15,28 +16,23 @@ namespace panache::cli {
 // Those of the library, and those that only the program reads.
 std::span<const MotionFormat> formats();
 
+// Of packed data of glTF files; null in a build without meshoptimizer.
+extern const MeshoptDecoder kMeshoptDecoder;
+
 // Whether a file with the extension `input` keeps its format where it is written with the extension
 // `output`, and with it all that is in it beside motion. Those of glTF count as one: an FBX file is
 // a GLB by then.
 bool keeps_format(const std::string& input, const std::string& output);
-// What joints without a mesh are shown on in a GLB.
-struct FigureFlags {
-  bool no_body = false;  // Sticks instead of a body.
-};
-// Gives `verb` --no-body; `flags` must outlive it.
-void add_figure_options(CLI::App& verb, FigureFlags& flags);
 
 // What a file gave that keeps its format, in the container that the output's extension asks for. A
 // GLB of joints alone gets a figure, `rig` as the user says where its humanoid is.
 Result<std::string> in_container(std::string bytes, const std::string& input,
-                                 const std::string& output, const RigOptions& rig,
-                                 const FigureFlags& figure);
+                                 const std::string& output, const RigOptions& rig, bool no_body);
 // Whether the bytes of a file with this extension are not all of it, or none that are handed on:
 // MotionFile::encode gives those.
 bool must_be_encoded(const std::string& extension);
 
-// The formats that motion of another format can be written in: ".bvh, .glb or .vrma".
-std::string list_writable();
+// The formats that motion of another format can be written in: "bvh, glb or vrma".
 std::string list_writable_names();
 // Whether a motion can be written with this extension.
 bool has_writer(const std::string& extension);
@@ -62,6 +58,6 @@ bool holds_humanoids(const std::string& extension);
 // humanoids get the motion on a body of their own; `rig` may be null for others.
 Result<std::string> format_clip(const Clip& clip, const Rig* rig, const std::string& name,
                                 const Placement& placement, const std::string& extension,
-                                const FigureFlags& figure);
+                                bool no_body);
 
 }  // namespace panache::cli

@@ -1,13 +1,14 @@
 #include "glb.h"
 
 #include <cstdint>
-#include <cstring>
+#include <cstdio>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
 #include "base/file.h"
+#include "base/little_endian.h"
 #include "base/utf8.h"
 #include "clip/gltf_json.h"
 #include "clip/gltf_uri.h"
@@ -22,20 +23,9 @@ namespace fs = std::filesystem;
 // first holds the JSON, the second, which may be absent, the binary data.
 constexpr size_t kHeader = 12, kChunkHeader = 8;
 
-uint32_t number_at(const std::string& glb, size_t place) {
-  uint32_t value = 0;
-  std::memcpy(&value, glb.data() + place, sizeof value);  // GLB and this machine: little-endian.
-  return value;
-}
-
-void append_number(std::string& out, size_t value) {
-  const auto small = static_cast<uint32_t>(value);
-  out.append(reinterpret_cast<const char*>(&small), sizeof small);
-}
-
 void append_chunk(std::string& out, const std::string& type, std::string bytes, char padding) {
   bytes.resize((bytes.size() + 3) / 4 * 4, padding);
-  append_number(out, bytes.size());
+  append_little_endian(bytes.size(), 4, out);
   out += type + bytes;
 }
 
@@ -44,8 +34,8 @@ std::string format_glb_file(const GltfJson& json, const std::string& bin) {
   append_chunk(chunks, "JSON", json.dump(-1, ' ', false, GltfJson::error_handler_t::replace), ' ');
   if (!bin.empty()) append_chunk(chunks, std::string("BIN\0", 4), bin, '\0');
   std::string out = "glTF";
-  append_number(out, 2);
-  append_number(out, kHeader + chunks.size());
+  append_little_endian(2, 4, out);
+  append_little_endian(kHeader + chunks.size(), 4, out);
   return out += chunks;
 }
 
@@ -63,23 +53,6 @@ std::string find_picture(std::string uri, const fs::path& folder) {
     at = next == std::string::npos ? uri.size() : next + 1;
   }
   return "";
-}
-
-// As an address, which has its own way to write all but plain letters.
-std::string percent_encoded(const std::string& path) {
-  static constexpr char kDigits[] = "0123456789ABCDEF";
-  std::string out;
-  for (const char c : path) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                       std::strchr("-._~/", c);
-    if (plain) {
-      out += c;
-    } else {
-      out += {'%', kDigits[byte >> 4], kDigits[byte & 15]};
-    }
-  }
-  return out;
 }
 
 // An extension that is no longer supported. The metallic-roughness material says the same.
@@ -223,7 +196,7 @@ class PictureRepair {
     Result<std::string> bytes = read_file((folder / found).string());
     if (!bytes) return leave_out(bytes.error().message);
     if (!kind_of(*bytes).empty()) {
-      image["uri"] = percent_encoded(found);
+      image["uri"] = percent_encoded(found, "-._~/");
       image["mimeType"] = kind_of(*bytes);
       return true;
     }
@@ -247,7 +220,7 @@ class PictureRepair {
       image["mimeType"] = kind;
       return true;
     }
-    const Result<std::string> png = to_png_ ? to_png_(bytes) : Error{"its kind is not supported"};
+    const Result<std::string> png = to_png_(bytes);
     if (!png) return leave_out(panache::quoted(name) + ": " + png.error().message);
     bin_.resize((bin_.size() + 3) / 4 * 4);
     GltfJson view = {{"buffer", 0}, {"byteOffset", bin_.size()}, {"byteLength", png->size()}};
@@ -276,10 +249,23 @@ class PictureRepair {
 
 }  // namespace
 
+std::string percent_encoded(const std::string& text, std::string_view plain) {
+  std::string out;
+  for (const char c : text) {
+    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                          (c >= '0' && c <= '9') || plain.find(c) != plain.npos;
+    char code[4];
+    std::snprintf(code, sizeof code, "%%%02X", static_cast<unsigned char>(c));
+    out += is_plain ? std::string(1, c) : code;
+  }
+  return out;
+}
+
 std::string with_pictures(std::string glb, const std::string& path, const PictureToPng& to_png,
-                          std::vector<std::string>* notes) {
+                          std::vector<std::string>& notes) {
   if (glb.size() < kHeader + kChunkHeader) return glb;
-  const size_t begin = kHeader + kChunkHeader, length = number_at(glb, kHeader);
+  const size_t begin = kHeader + kChunkHeader;
+  const size_t length = little_endian(std::string_view(glb).substr(kHeader, 4));
   if (length > glb.size() - begin) return glb;
   GltfJson json;  // What is wrong with it, its reader says.
   // Assimp writes names of any bytes.
@@ -287,8 +273,7 @@ std::string with_pictures(std::string glb, const std::string& path, const Pictur
   drop_specular_glossiness(json);
   const size_t bin_at = begin + length + kChunkHeader;
   std::string bin = bin_at < glb.size() ? glb.substr(bin_at) : "";
-  std::vector<std::string> unheard;
-  PictureRepair(json, bin, path, to_png, notes ? *notes : unheard).run();
+  PictureRepair(json, bin, path, to_png, notes).run();
   return format_glb_file(json, bin);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -140,34 +141,32 @@ struct Info {
   std::string text;
   Json json;
   std::vector<std::string> notes = {};
-  Result<void> good = {};
+  std::optional<Error> error = {};
 };
 
 // The motion that a report is about: the one that is asked for, whatever it moves, or the first of
-// those that the other verbs take. `notes` and `good` get what these say of the file.
-Result<size_t> pick_shown(const MotionFile& file, const BodyMotions& body, const std::string& path,
-                          const InfoVerb& verb, const RigOptions& options, Info& info) {
+// those that the other verbs take. `notes` and `error` get what these say of the file.
+size_t pick_shown(const MotionFile& file, const BodyMotions& body, const std::string& path,
+                  const InfoVerb& verb, const RigOptions& options, Info& info) {
   const std::vector<std::string> names = file.clip_names();
   const auto asked = std::find(names.begin(), names.end(), verb.clip);
   if (!verb.clip.empty() && asked != names.end()) {
     return static_cast<size_t>(asked - names.begin());
   }
-  if (verb.clip.empty() && names.empty()) return size_t{0};
+  if (verb.clip.empty() && names.empty()) return 0;
   Result<std::vector<int>> picked = pick_clips(file, verb.clip, options, path, info.notes);
   if (picked) return static_cast<size_t>(picked->front());
-  if (!verb.clip.empty() || !body.clips.empty()) return picked.error();
-  info.good = picked.error();
-  return size_t{0};
+  if (!verb.clip.empty() || !body.clips.empty()) throw Failure{picked.error(), kBadInput};
+  info.error = picked.error();
+  return 0;
 }
 
 // The styles that a motion shows: those of a hundredth at the least.
-Result<std::vector<std::pair<std::string, float>>> styles_of(
-    const Clip& clip, const Rig& rig, const std::shared_ptr<const Model>& remover) {
+std::vector<std::pair<std::string, float>> styles_of(const Clip& clip, const Rig& rig,
+                                                     const std::shared_ptr<const Model>& remover) {
   constexpr float kLeast = 0.01f;
-  Result<std::vector<StyleShare>> shares = recognise_styles(remover, clip, rig);
-  if (!shares) return shares.error();
   std::vector<std::pair<std::string, float>> named;
-  for (const StyleShare& share : *shares) {
+  for (const StyleShare& share : need(recognise_styles(remover, clip, rig))) {
     if (share.share < kLeast) continue;
     const bool neutral = share.style < 0;
     named.emplace_back(
@@ -177,34 +176,30 @@ Result<std::vector<std::pair<std::string, float>>> styles_of(
   return named;
 }
 
-Result<Info> motion_info(const std::string& path, const InfoVerb& verb, const RigOptions& options,
-                         const std::shared_ptr<const Model>& remover) {
-  Result<std::unique_ptr<MotionFile>> file = open_motion(path, verb.read);
-  if (!file) return file.error();
+Info motion_info(const std::string& path, const InfoVerb& verb, const RigOptions& options,
+                 const std::shared_ptr<const Model>& remover) {
+  const std::unique_ptr<MotionFile> file = need(open_motion(path, verb.read));
   Info info;
-  info.notes = (*file)->notes();
-  const BodyMotions body = find_body_motions(**file, options);
-  const Result<size_t> shown = pick_shown(**file, body, path, verb, options, info);
-  if (!shown) return shown.error();
-  const Clip& clip = (*file)->clip(static_cast<int>(*shown));
+  info.notes = file->notes();
+  const BodyMotions body = find_body_motions(*file, options);
+  const size_t shown = pick_shown(*file, body, path, verb, options, info);
+  const Clip& clip = file->clip(static_cast<int>(shown));
   // A file that is no humanoid is still a file that one may want to look at.
   const Result<Rig> rig = make_rig(clip, options, path);
   if (rig) note_rate(clip, *rig, path, info.notes);
-  if (!rig && info.good) info.good = rig.error();
-  const std::vector<bool> loops = find_loops(**file, body, options);
+  if (!rig && !info.error) info.error = rig.error();
+  const std::vector<bool> loops = find_loops(*file, body, options);
   info.json = {{"file", path},
-               {"clips", clips_json(**file, body, loops)},
+               {"clips", clips_json(*file, body, loops)},
                {"skeleton", skeleton_json(clip.skeleton)},
                {"mapping", rig ? mapping_json(*rig) : Json()},
                {"notes", info.notes},
-               {"error", info.good ? Json() : Json(info.good.error().message)}};
-  info.text = describe(path, **file, body, loops, *shown);
+               {"error", info.error ? Json(info.error->message) : Json()}};
+  info.text = describe(path, *file, body, loops, shown);
   if (remover && rig) {
-    const auto styles = styles_of(clip, *rig, remover);
-    if (!styles) return styles.error();
     Json list = Json::array();
     std::string text;
-    for (const auto& [name, share] : *styles) {
+    for (const auto& [name, share] : styles_of(clip, *rig, remover)) {
       list.push_back({{"name", name}, {"share", rounded(static_cast<double>(share))}});
       text += (text.empty() ? "" : ", ") + name + " " + fixed(100 * static_cast<double>(share), 0) +
               " %";
@@ -219,17 +214,15 @@ Result<Info> motion_info(const std::string& path, const InfoVerb& verb, const Ri
 }
 
 // In short what styles prints, and all else that the file says of itself.
-Result<Info> model_info(const std::string& path) {
+Info model_info(const std::string& path) {
   const Result<TensorFile> file = read_tensors(path);
   if (file && is_style_file(*file)) {
-    const Result<LoadedStyle> style = load_style(path);
-    if (!style) return style.error();
-    return Info{describe(*style), to_json(*style)};
+    const LoadedStyle style = need(load_style(path));
+    return {describe(style), to_json(style)};
   }
-  Result<LoadedModel> loaded = load_model(path);
-  if (!loaded) return loaded.error();
-  const auto& metadata = loaded->model->metadata();
-  Info info{summarize(*loaded) + "\nMetadata:\n", to_json(*loaded)};
+  const LoadedModel loaded = need(load_model(path));
+  const auto& metadata = loaded.model->metadata();
+  Info info{summarize(loaded) + "\nMetadata:\n", to_json(loaded)};
   info.json["metadata"] = metadata;
   for (const auto& [key, value] : metadata) {
     // These stand above.
@@ -252,15 +245,19 @@ int show(const InfoVerb& verb) {
   Json list = Json::array();
   std::string between;
   for (const FoundFile& file : found.files) {
-    const Result<Info> info = file.path.ends_with(".safetensors")
-                                  ? model_info(file.path)
-                                  : motion_info(file.path, verb, options, remover);
-    if (info && !verb.json) print(std::exchange(between, "\n") + info->text);
-    if (info && verb.json && !many) print(info->json);
-    if (info) print_notes(info->notes);
-    const Result<void> good = info ? info->good : Result<void>(info.error());
-    if (!good) exit_code = fail(good.error(), kBadInput);
-    list.push_back(info ? info->json : Json{{"file", file.path}, {"error", good.error().message}});
+    try {
+      const Info info = file.path.ends_with(".safetensors")
+                            ? model_info(file.path)
+                            : motion_info(file.path, verb, options, remover);
+      if (!verb.json) print(std::exchange(between, "\n") + info.text);
+      if (verb.json && !many) print(info.json);
+      print_notes(info.notes);
+      if (info.error) exit_code = fail(*info.error, kBadInput);
+      list.push_back(info.json);
+    } catch (const Failure& failure) {
+      exit_code = fail(failure.error, kBadInput);
+      list.push_back({{"file", file.path}, {"error", failure.error.message}});
+    }
   }
   if (verb.json && many) print(list);
   return exit_code;

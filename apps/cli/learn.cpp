@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -199,11 +198,8 @@ int learn(const LearnVerb& verb) {
   }
   for (const std::string& warning : learnt.warnings) print_message("warning: " + warning);
   const size_t bytes = format_safetensors(learnt.file).size();
-  if (verb.json) {
-    print(to_json(learnt, verb, bytes, seconds));
-  } else {
-    print(describe(learnt, verb, bytes, seconds));
-  }
+  print(verb.json ? dump(to_json(learnt, verb, bytes, seconds))
+                  : describe(learnt, verb, bytes, seconds));
   return kDone;
 }
 

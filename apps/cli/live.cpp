@@ -17,9 +17,7 @@
 #include "model_path.h"
 #include "outputs.h"
 #include "page_server.h"
-#include "removal_options.h"
-#include "send.h"
-#include "shape_options.h"
+#include "style_options.h"
 #include "stop_signal.h"
 #include "strengths.h"
 #include "usage_error.h"
@@ -63,11 +61,6 @@ Result<void> check_no_circle(const sockaddr_in& in, const sockaddr_in& out) {
   if (out.sin_port != in.sin_port || !to_itself) return {};
   return Error{"--vmc-out: expected another port than that of --vmc-in, found " +
                std::to_string(ntohs(in.sin_port)) + " for both"};
-}
-
-Result<void> check_record(const Options& options) {
-  if (options.record.empty() || options.record.ends_with(".bvh")) return {};
-  return Error{"--record " + options.record + ": expected a name that ends in .bvh"};
 }
 
 void relay_until_stopped(VmcRelay& relay, bool quiet) {
@@ -131,7 +124,9 @@ int live(const Options& options) {
   const sockaddr_in in = need(parse_address(options.in, "--vmc-in", "0.0.0.0"), kBadUsage);
   const sockaddr_in out = need(parse_address(options.out, "--vmc-out"), kBadUsage);
   need(check_no_circle(in, out), kBadUsage);
-  need(check_record(options), kBadUsage);
+  if (!options.record.empty() && !options.record.ends_with(".bvh")) {
+    return fail({"--record " + options.record + ": expected a name that ends in .bvh"}, kBadUsage);
+  }
   if (!options.record.empty()) need(check_output("", options.record, options.force));
   LiveOptions how = options.time;
   need(read_shape(options.shape, how.stylizer), kBadUsage);
@@ -162,9 +157,10 @@ int live(const Options& options) {
   watch_stop_signals();
   const Serving serving(server.get());
   VmcRecording recording;
-  VmcRelay relay(std::move(socket), out, model, how, strengths,
-                 options.record.empty() ? nullptr : &recording, server ? &view : nullptr,
-                 removal ? removal->style : -1);
+  VmcRelay relay(std::move(socket), out,
+                 {model, how, removal ? removal->style : -1,
+                  options.record.empty() ? nullptr : &recording, server ? &view : nullptr},
+                 strengths);
   if (!options.quiet) {
     print_message("relaying from " + listened_at(in) + " to " + to_string(out) +
                   " until Ctrl-C ends it");

@@ -12,15 +12,6 @@ namespace {
 
 constexpr std::chrono::milliseconds kPatience{500};  // For a pose.
 
-void append(std::string& out, std::span<const float> numbers) {
-  char text[32];
-  for (const float number : numbers) {
-    std::snprintf(text, sizeof text, "%s%.5g", out.size() > 1 ? "," : "",
-                  std::isfinite(number) ? static_cast<double>(number) : 0.0);
-    out += text;
-  }
-}
-
 }  // namespace
 
 void LiveView::start(const Rig& rig, const Clip& first) {
@@ -32,30 +23,32 @@ void LiveView::start(const Rig& rig, const Clip& first) {
 }
 
 void LiveView::show(ConstPose in, ConstPose styled) {
-  Parts in_parts, styled_parts;
-  in_->read(in, in_parts);
-  styled_->read(styled, styled_parts);
+  Parts parts;
+  in_->read(in, std::span(parts).first<kMannequinNumbers>());
+  styled_->read(styled, std::span(parts).last<kMannequinNumbers>());
   {
     const std::scoped_lock lock(mutex_);
-    in_parts_ = in_parts;
-    styled_parts_ = styled_parts;
+    parts_ = parts;
     ++number_;
   }
   changed_.notify_all();
 }
 
 std::string LiveView::next(uint64_t& known) {
-  Parts in, styled;
+  Parts parts;
   {
     std::unique_lock lock(mutex_);
     if (!changed_.wait_for(lock, kPatience, [&] { return number_ != known; })) return "";
     known = number_;
-    in = in_parts_;
-    styled = styled_parts_;
+    parts = parts_;
   }
   std::string out = "[";
-  append(out, in);
-  append(out, styled);
+  char text[32];
+  for (const float number : parts) {
+    std::snprintf(text, sizeof text, "%s%.5g", out.size() > 1 ? "," : "",
+                  std::isfinite(number) ? static_cast<double>(number) : 0.0);
+    out += text;
+  }
   return out + "]";
 }
 

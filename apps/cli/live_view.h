@@ -4,7 +4,6 @@
 #include <array>
 #include <condition_variable>
 #include <cstdint>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -30,13 +29,13 @@ class LiveView {
   std::string next(uint64_t& known);
 
  private:
-  using Parts = std::array<float, kMannequinNumbers>;
+  using Parts = std::array<float, 2 * kMannequinNumbers>;  // The input's, and the output's.
 
   std::optional<Mannequin> in_, styled_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::string body_;  // Guarded by the mutex, and so is:
-  Parts in_parts_{}, styled_parts_{};
+  Parts parts_{};
   uint64_t number_ = 0;
 };
 

@@ -1,41 +1,27 @@
 // The manual page: roff with the macros of man(7).
 
+#include <algorithm>
+#include <iterator>
 #include <sstream>
+#include <utility>
 
 #include "option_table.h"
 
 namespace panache::cli {
 namespace {
 
-// Text as roff takes it literally. A hyphen would become a typographic one, and a full stop or an
-// apostrophe at the start of a line a request.
+// What roff does not take literally. A hyphen would become a typographic one.
+constexpr std::pair<char, const char*> kEscapes[] = {
+    {'\\', "\\e"}, {'-', "\\-"}, {'\'', "\\(aq"}, {'`', "\\(ga"}, {'^', "\\(ha"}, {'~', "\\(ti"}};
+
+// A full stop or an apostrophe at the start of a line would be a request.
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
     const bool starts_line = out.empty() || out.back() == '\n';
     if (starts_line && (c == '.' || c == '\'')) out += "\\&";
-    switch (c) {
-      case '\\':
-        out += "\\e";
-        break;
-      case '-':
-        out += "\\-";
-        break;
-      case '\'':
-        out += "\\(aq";
-        break;
-      case '`':
-        out += "\\(ga";
-        break;
-      case '^':
-        out += "\\(ha";
-        break;
-      case '~':
-        out += "\\(ti";
-        break;
-      default:
-        out += c;
-    }
+    const auto escape = std::ranges::find(kEscapes, c, &std::pair<char, const char*>::first);
+    out += escape == std::end(kEscapes) ? std::string(1, c) : escape->second;
   }
   return out;
 }

@@ -1,4 +1,4 @@
-#include "meshopt.h"
+#include "formats.h"
 
 #include <meshoptimizer.h>
 
@@ -6,31 +6,18 @@ namespace panache::cli {
 namespace {
 
 bool decode(const MeshoptView& view, std::string_view packed, char* out) {
+  const auto [mode, filter, count, stride] = view;
   const auto* bytes = reinterpret_cast<const unsigned char*>(packed.data());
-  switch (view.mode) {
-    case MeshoptMode::triangles:
-      return meshopt_decodeIndexBuffer(out, view.count, view.stride, bytes, packed.size()) == 0;
-    case MeshoptMode::indices:
-      return meshopt_decodeIndexSequence(out, view.count, view.stride, bytes, packed.size()) == 0;
-    case MeshoptMode::attributes:
-      break;
+  if (mode == MeshoptMode::triangles) {
+    return meshopt_decodeIndexBuffer(out, count, stride, bytes, packed.size()) == 0;
   }
-  if (meshopt_decodeVertexBuffer(out, view.count, view.stride, bytes, packed.size()) != 0) {
-    return false;
+  if (mode == MeshoptMode::indices) {
+    return meshopt_decodeIndexSequence(out, count, stride, bytes, packed.size()) == 0;
   }
-  switch (view.filter) {
-    case MeshoptFilter::octahedral:
-      meshopt_decodeFilterOct(out, view.count, view.stride);
-      break;
-    case MeshoptFilter::quaternion:
-      meshopt_decodeFilterQuat(out, view.count, view.stride);
-      break;
-    case MeshoptFilter::exponential:
-      meshopt_decodeFilterExp(out, view.count, view.stride);
-      break;
-    case MeshoptFilter::none:
-      break;
-  }
+  if (meshopt_decodeVertexBuffer(out, count, stride, bytes, packed.size()) != 0) return false;
+  if (filter == MeshoptFilter::octahedral) meshopt_decodeFilterOct(out, count, stride);
+  if (filter == MeshoptFilter::quaternion) meshopt_decodeFilterQuat(out, count, stride);
+  if (filter == MeshoptFilter::exponential) meshopt_decodeFilterExp(out, count, stride);
   return true;
 }
 

@@ -3,48 +3,31 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <string_view>
+#include <utility>
 
 namespace panache::cli {
 namespace {
 
 const char* program_name = "panache";
 
-std::string_view hint_of(ErrorKind kind) {
-  switch (kind) {
-    case ErrorKind::file_exists:
-      return "; --force overwrites it";
-    case ErrorKind::rate_needed:
-      return kRateHint;
-    case ErrorKind::unknown_style:
-      return " (panache styles lists all)";
-    case ErrorKind::no_styles:
-      return "; panache learn adds one";
-    case ErrorKind::style_exists:
-      return " (--force, --rename)";
-    case ErrorKind::is_model:
-      return ", as panache styles MODEL --extract NAME -o FILE makes one";
-    case ErrorKind::is_style_file:
-      return "; panache styles MODEL --add FILE puts it into one";
-    case ErrorKind::style_of_another:
-      return " (panache learn)";
-    case ErrorKind::not_safetensors:
-      return ", as models and styles are";
-    case ErrorKind::model_cannot_learn:
-      return ", as panache-lab train writes it";
-    case ErrorKind::other_skeletons:
-      return " (panache retarget STYLED --onto NEUTRAL)";
-    case ErrorKind::loop_open:
-    case ErrorKind::loop_strengths:
-      return "; --loop auto leaves it open";
-    case ErrorKind::bad_style_name:
-      return " (--styles)";
-    case ErrorKind::not_humanoid:
-    case ErrorKind::other:
-      break;
-  }
-  return "";
-}
+constexpr std::pair<ErrorKind, std::string_view> kHints[] = {
+    {ErrorKind::file_exists, "; --force overwrites it"},
+    {ErrorKind::rate_needed, kRateHint},
+    {ErrorKind::unknown_style, " (panache styles lists all)"},
+    {ErrorKind::no_styles, "; panache learn adds one"},
+    {ErrorKind::style_exists, " (--force, --rename)"},
+    {ErrorKind::is_model, ", as panache styles MODEL --extract NAME -o FILE makes one"},
+    {ErrorKind::is_style_file, "; panache styles MODEL --add FILE puts it into one"},
+    {ErrorKind::style_of_another, " (panache learn)"},
+    {ErrorKind::not_safetensors, ", as models and styles are"},
+    {ErrorKind::model_cannot_learn, ", as panache-lab train writes it"},
+    {ErrorKind::other_skeletons, " (panache retarget STYLED --onto NEUTRAL)"},
+    {ErrorKind::loop_open, "; --loop auto leaves it open"},
+    {ErrorKind::loop_strengths, "; --loop auto leaves it open"},
+    {ErrorKind::bad_style_name, " (--styles)"},
+};
 
 }  // namespace
 
@@ -55,7 +38,9 @@ void print_message(const std::string& message) {
 }
 
 std::string with_hint(const Error& error) {
-  return error.message + std::string(hint_of(error.kind));
+  const auto hint =
+      std::ranges::find(kHints, error.kind, &std::pair<ErrorKind, std::string_view>::first);
+  return error.message + (hint == std::end(kHints) ? "" : std::string(hint->second));
 }
 
 int fail(const Error& error, int exit_code) {

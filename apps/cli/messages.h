@@ -28,7 +28,8 @@ inline constexpr const char* kRateHint =
 // Prints the message with its hint and hands `exit_code` back.
 int fail(const Error& error, int exit_code);
 
-// Thrown by a verb that cannot go on: run_program() prints the message and returns the exit code.
+// Thrown by a verb that cannot go on: run_program() prints the message and returns the exit code;
+// run_batch() goes on with the next file.
 struct Failure {
   Error error;
   int exit_code;

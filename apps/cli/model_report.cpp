@@ -1,6 +1,7 @@
 #include "model_report.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <span>
 
 #include "base/file.h"
@@ -109,6 +110,21 @@ std::string describe_head(const LoadedModel& loaded) {
   return text + plural(model.styles().size(), "style") + ":\n";
 }
 
+// Where the motion of a style comes from, and under which licence it is: its own, else what it was
+// trained on and that data's licence; "not stated" without either.
+std::string source_of(const LoadedStyle& loaded) {
+  const StyleInfo& info = loaded.info;
+  if (!info.source.empty()) return info.source;
+  if (info.learnt && !info.origin.empty()) return info.origin;
+  return stated(entry(loaded.file.metadata, "data"));
+}
+
+std::string licence_of(const LoadedStyle& loaded) {
+  if (!loaded.info.licence.empty()) return loaded.info.licence;
+  // What is learnt from somebody's own motion is theirs; the model's data are not its own.
+  return stated(loaded.info.learnt ? "" : entry(loaded.file.metadata, "licence"));
+}
+
 }  // namespace
 
 Result<LoadedModel> load_model(const std::string& path) {
@@ -184,19 +200,6 @@ Json to_json(const LoadedModel& loaded) {
           {"styles", styles}};
 }
 
-std::string source_of(const LoadedStyle& loaded) {
-  const StyleInfo& info = loaded.info;
-  if (!info.source.empty()) return info.source;
-  if (info.learnt && !info.origin.empty()) return info.origin;
-  return stated(entry(loaded.file.metadata, "data"));
-}
-
-std::string licence_of(const LoadedStyle& loaded) {
-  if (!loaded.info.licence.empty()) return loaded.info.licence;
-  // What is learnt from somebody's own motion is theirs; the model's data are not its own.
-  return stated(loaded.info.learnt ? "" : entry(loaded.file.metadata, "licence"));
-}
-
 std::string describe(const LoadedStyle& loaded) {
   std::string text = loaded.path + "\n";
   text += "  size         " + fixed(static_cast<double>(loaded.bytes) / 1000, 0) + " KB\n";
@@ -224,6 +227,58 @@ Json to_json(const LoadedStyle& loaded) {
           {"data", entry(loaded.file.metadata, "data")},
           {"licence", entry(loaded.file.metadata, "licence")},
           {"bytes", loaded.bytes}};
+}
+
+Result<StyleLibrary> read_library(const std::string& folder) {
+  namespace fs = std::filesystem;
+  std::error_code status;
+  std::vector<std::string> paths;
+  for (const auto& entry : fs::directory_iterator(folder, status)) {
+    if (entry.path().extension() == ".safetensors") paths.push_back(entry.path().string());
+  }
+  if (status) return Error{folder + ": is no folder that can be read: " + status.message()};
+  std::ranges::sort(paths);
+  StyleLibrary library{folder, {}, {}};
+  for (const std::string& path : paths) {
+    Result<LoadedStyle> style = load_style(path);
+    if (style) {
+      library.styles.push_back(*std::move(style));
+    } else if (style.error().kind != ErrorKind::is_model) {
+      library.broken.push_back(style.error());
+    }
+  }
+  return library;
+}
+
+std::string describe(const StyleLibrary& library) {
+  std::string text = library.folder + "\n" + plural(library.styles.size(), "style") + ":\n";
+  size_t width = 0;
+  for (const LoadedStyle& style : library.styles) width = std::max(width, style.info.name.size());
+  for (const LoadedStyle& style : library.styles) {
+    const std::string file = std::filesystem::path(style.path).filename().string();
+    text += "  " + padded(style.info.name, width + 2) + style.info.description + "\n";
+    text += "  " + padded("", width + 2) + "source: " + source_of(style) +
+            "; licence: " + licence_of(style) + "; " + file + "\n";
+  }
+  return text;
+}
+
+Json to_json(const StyleLibrary& library) {
+  Json styles = Json::array();
+  for (const LoadedStyle& style : library.styles) styles.push_back(to_json(style));
+  return {{"library", library.folder}, {"styles", styles}};
+}
+
+TensorFile with_library(TensorFile model, const std::string& name, const StyleLibrary& library) {
+  for (const LoadedStyle& style : library.styles) {
+    Result<TensorFile> merged = add_style(model, name, style.file, style.path, true);
+    if (merged) {
+      model = *std::move(merged);
+    } else {
+      print_message("warning: " + merged.error().message);
+    }
+  }
+  return model;
 }
 
 }  // namespace panache::cli

@@ -1,8 +1,9 @@
 #pragma once
-// What a model file is, and a style file, in words and as JSON.
+// What a model file is, a style file, and a folder of these, in words and as JSON.
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "messages.h"
 #include "net/safetensors.h"
@@ -32,22 +33,31 @@ struct LoadedStyle {
 };
 Result<LoadedStyle> load_style(const std::string& path);
 
-// Where its motion comes from, and under which licence it is: its own, else what it was trained on
-// and that data's licence; "not stated" without either.
-std::string source_of(const LoadedStyle& loaded);
-std::string licence_of(const LoadedStyle& loaded);
-
 std::string describe(const LoadedStyle& loaded);
 Json to_json(const LoadedStyle& loaded);
+
+struct StyleLibrary {
+  std::string folder;
+  std::vector<LoadedStyle> styles;  // By their files' names.
+  std::vector<Error> broken;        // Of files that end in .safetensors and cannot be read.
+};
+
+// The style files in a folder, not below it; models in it are left out. Fails where there is no
+// such folder.
+Result<StyleLibrary> read_library(const std::string& folder);
+
+// A line for each style: its name, description, source, licence and file.
+std::string describe(const StyleLibrary& library);
+Json to_json(const StyleLibrary& library);
+
+// The model with all styles of a library that are made for it; those of its own names are
+// replaced. A message says which are not.
+TensorFile with_library(TensorFile model, const std::string& name, const StyleLibrary& library);
 
 // Prints what is known of a model, of a style file or of a folder of these.
 template <class Loaded>
 int report(const Loaded& loaded, bool json) {
-  if (json) {
-    print(to_json(loaded));
-  } else {
-    print(describe(loaded));
-  }
+  print(json ? dump(to_json(loaded)) : describe(loaded));
   return kDone;
 }
 

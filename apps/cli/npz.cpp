@@ -18,34 +18,6 @@ size_t most_unpacked(size_t packed) {
 }
 constexpr zip_int64_t kMostMembers = 1000;
 
-// What libzip opened, closed again without a change.
-class Archive {
- public:
-  explicit Archive(const std::string& bytes) {
-    zip_error_t error;
-    zip_error_init(&error);
-    zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
-    if (source) zip_ = zip_open_from_source(source, ZIP_RDONLY, &error);
-    if (!zip_) {
-      message_ = zip_error_strerror(&error);
-      if (source) zip_source_free(source);
-    }
-    zip_error_fini(&error);
-  }
-  ~Archive() {
-    if (zip_) zip_discard(zip_);
-  }
-  Archive(const Archive&) = delete;
-  Archive& operator=(const Archive&) = delete;
-
-  zip_t* get() const { return zip_; }
-  const std::string& message() const { return message_; }
-
- private:
-  zip_t* zip_ = nullptr;
-  std::string message_;
-};
-
 // The bytes of a member, or a few more than `most` of them; what its header says of their number is
 // not trusted.
 Result<std::string> unpack(zip_t* zip, zip_uint64_t which, size_t most, const std::string& place) {
@@ -64,10 +36,17 @@ Result<std::string> unpack(zip_t* zip, zip_uint64_t which, size_t most, const st
 }
 
 Result<std::vector<NpzMember>> unpack_all(const std::string& bytes, const std::string& path) {
-  const Archive archive(bytes);
-  if (!archive.get()) {
-    return Error{path + ": expected an archive as numpy.savez writes it, found none (" +
-                 archive.message() + ")"};
+  zip_error_t error;
+  zip_error_init(&error);
+  zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
+  const std::unique_ptr<zip_t, decltype(&zip_discard)> archive(
+      source ? zip_open_from_source(source, ZIP_RDONLY, &error) : nullptr, &zip_discard);
+  const std::string message = archive ? "" : zip_error_strerror(&error);
+  zip_error_fini(&error);
+  if (!archive) {
+    zip_source_free(source);
+    return Error{path + ": expected an archive as numpy.savez writes it, found none (" + message +
+                 ")"};
   }
   const zip_int64_t count = zip_get_num_entries(archive.get(), 0);
   if (count > kMostMembers) {

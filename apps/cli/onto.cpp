@@ -2,14 +2,31 @@
 
 #include <utility>
 
+#include "clip/motion_format.h"
+#include "clip/text_cursor.h"
+#include "clip/unique_name.h"
 #include "formats.h"
 #include "input.h"
 #include "messages.h"
 #include "retarget/find_body.h"
 #include "rig/body_motions.h"
-#include "rig_options.h"
 
 namespace panache::cli {
+namespace {
+
+// "'walk', 'wave' and 3 more".
+std::string list_some(const std::vector<std::string>& names) {
+  constexpr size_t kNamed = 4;
+  std::string text;
+  for (size_t i = 0; i < names.size() && i < kNamed; ++i) {
+    text += (i ? ", " : "") + panache::quoted(names[i]);
+  }
+  return names.size() > kNamed ? text + " and " + std::to_string(names.size() - kNamed) + " more"
+                               : text;
+}
+
+}  // namespace
+
 CLI::Option* add_onto_options(CLI::App& verb, OntoFlags& flags) {
   CLI::Option* onto = add_option(verb, "--onto FILE", flags.file,
                                  "Character to put the motion on (" + motion_extensions() +
@@ -17,6 +34,68 @@ CLI::Option* add_onto_options(CLI::App& verb, OntoFlags& flags) {
   add_option(verb, "--onto-map FILE", flags.map, "As --map, for the joints of that character")
       ->needs(onto);
   return onto;
+}
+
+void add_place_options(CLI::App& verb, PlaceFlags& flags, const std::string& whose) {
+  CLI::Option* replace = verb.add_flag(
+      "--replace", flags.replace,
+      "Replace " + whose + " instead of adding\nnew ones (a BVH file holds only one)");
+  CLI::Option* first =
+      verb.add_flag("--first", flags.first,
+                    "Put new animations before those of the file (viewers\nplay "
+                    "the first); the default, except with --onto,\nwhich drops those");
+  verb.add_flag("--last", flags.last, "Put new animations after those of the file")
+      ->excludes(replace)
+      ->excludes(first);
+  first->excludes(replace);
+}
+
+EditMode edit_mode(const PlaceFlags& flags, bool onto) {
+  if (flags.last) return EditMode::add_beside;
+  return flags.replace || (onto && !flags.first) ? EditMode::replace : EditMode::add_first;
+}
+
+void add_result_options(CLI::App& verb, MotionFlags& flags) {
+  verb.add_flag(
+      "--in-place", flags.in_place,
+      "Remove the horizontal path from hips and root, for\ngames that move the character");
+  verb.add_flag("--no-body", flags.no_body,
+                "Show joints that have no mesh as sticks in GLB files,\nnot as a body");
+}
+
+std::vector<ClipEdit> edits_of(const std::vector<NewMotion>& motions) {
+  std::vector<ClipEdit> edits;
+  edits.reserve(motions.size());
+  for (const NewMotion& motion : motions) {
+    edits.push_back({motion.which, &motion.clip, motion.source_frames, motion.name});
+  }
+  return edits;
+}
+
+void name_new_motions(FileJob& file, const std::vector<std::string>& has, const PlaceFlags& flags,
+                      bool onto, std::vector<NewMotion>& motions) {
+  const bool are_named = !holds_one_motion(extension_of(file.output)) && !flags.replace;
+  const EditMode mode = edit_mode(flags, onto);
+  TakenNames taken;
+  if (mode != EditMode::replace) {
+    for (const std::string& name : has) unique_name(name, taken);
+  }
+  std::vector<std::string> names;
+  for (size_t i = 0; i < motions.size(); ++i) {
+    if (are_named) motions[i].name = unique_name(motions[i].name, taken);
+    names.push_back(motions[i].name);
+    file.clips[i]["result"] = names[i];
+  }
+  if (!are_named) return;
+  std::string text = "new: " + list_some(names);
+  if (!has.empty() && mode == EditMode::replace) {
+    text += "; the character's own (" + list_some(has) + ") are dropped; --first keeps them";
+  } else if (!has.empty() && mode == EditMode::add_first) {
+    text += ", before " + list_some(has) + "; --last puts it after, --replace in its place";
+  } else if (!has.empty()) {
+    text += ", after " + list_some(has);
+  }
+  file.added.push_back(text);
 }
 
 Result<CharacterFile> CharacterFile::open(const OntoFlags& flags) {
@@ -34,9 +113,7 @@ Result<CharacterFile> CharacterFile::open(const OntoFlags& flags) {
 }
 
 std::string CharacterFile::extension() const {
-  const std::string own = extension_of(path_);
-  const MotionFormat* format = find_format(formats(), own);
-  return format ? std::string(format->encoded_as) : own;
+  return std::string(find_format(formats(), extension_of(path_))->encoded_as);
 }
 
 Result<void> CharacterFile::check_outputs(const std::vector<FileJob>& files) const {
@@ -58,8 +135,7 @@ Result<Rig> CharacterFile::rig_of(const Clip& clip, const std::string& place) co
 }
 
 Result<std::string> CharacterFile::encode(const std::vector<NewMotion>& motions, EditMode mode,
-                                          const std::string& output,
-                                          const FigureFlags& figure) const {
+                                          const std::string& output, bool no_body) const {
   const std::string to = extension_of(output);
   const bool whole = keeps_format(extension_of(path_), to);
   if (motions.size() > 1 && (!whole || holds_one_motion(to))) {
@@ -69,14 +145,9 @@ Result<std::string> CharacterFile::encode(const std::vector<NewMotion>& motions,
   if (!whole) {
     const NewMotion& only = motions.front();
     const Result<Rig> rig = rig_of(only.clip, only.name);
-    return format_clip(only.clip, rig ? &*rig : &rig_, only.name, placement_of(rig_), to, figure);
+    return format_clip(only.clip, rig ? &*rig : &rig_, only.name, placement_of(rig_), to, no_body);
   }
-  std::vector<ClipEdit> edits;
-  edits.reserve(motions.size());
-  for (const NewMotion& motion : motions) {
-    edits.push_back({kNewClip, &motion.clip, {}, motion.name});
-  }
-  return in_container(file_->encode(edits, mode), path_, output, options_, figure);
+  return in_container(file_->encode(edits_of(motions), mode), path_, output, options_, no_body);
 }
 
 }  // namespace panache::cli

@@ -1,18 +1,13 @@
 #include "option_table.h"
 
+#include <algorithm>
+
 #include "messages.h"
 #include "model_path.h"
 #include "style/model.h"
 
 namespace panache::cli {
 namespace {
-
-std::string one_line(std::string text) {
-  for (char& c : text) {
-    if (c == '\n') c = ' ';
-  }
-  return text;
-}
 
 OptionEntry entry_of(const CLI::Option& option) {
   OptionEntry entry;
@@ -25,7 +20,8 @@ OptionEntry entry_of(const CLI::Option& option) {
         !entry.value.empty() && entry.value != CLI::detail::type_name<std::string>();
     if (entry.is_positional() && !own_type) entry.value = option.get_name(true);
   }
-  entry.description = one_line(option.get_description());
+  entry.description = option.get_description();
+  std::ranges::replace(entry.description, '\n', ' ');
   entry.required = option.get_required();
   entry.repeated = entry.is_positional() && option.get_items_expected_max() > 1;
   return entry;
@@ -47,6 +43,16 @@ void add_entries(std::vector<VerbEntry>& verbs, const CLI::App& app, const std::
   }
 }
 
+// For the completions, which ask again and again.
+int print_style_names() {
+  const Result<std::string> path = find_model("");
+  if (!path) return fail(path.error(), kBadInput);
+  const Result<std::shared_ptr<const Model>> model = Model::load(*path);
+  if (!model) return fail(model.error(), kBadInput);
+  for (const StyleInfo& style : (*model)->styles()) print(style.name + "\n");
+  return kDone;
+}
+
 }  // namespace
 
 std::string VerbEntry::parent() const {
@@ -64,20 +70,6 @@ std::vector<VerbEntry> option_table(const CLI::App& app) {
   add_entries(verbs, app, "");
   return verbs;
 }
-
-namespace {
-
-// For the completions, which ask again and again.
-int print_style_names() {
-  const Result<std::string> path = find_model("");
-  if (!path) return fail(path.error(), kBadInput);
-  const Result<std::shared_ptr<const Model>> model = Model::load(*path);
-  if (!model) return fail(model.error(), kBadInput);
-  for (const StyleInfo& style : (*model)->styles()) print(style.name + "\n");
-  return kDone;
-}
-
-}  // namespace
 
 int print_reference(const CLI::App& app, const std::string& what, const std::string& version) {
   const std::vector<VerbEntry> verbs = option_table(app);

@@ -1,13 +1,17 @@
 #include "page_server.h"
 
 #include <cerrno>
+#include <condition_variable>
 #include <cstring>
 #include <filesystem>
+#include <list>
+#include <mutex>
 #include <system_error>
+#include <thread>
 #include <utility>
+#include <vector>
 
 #include "base/os/os.h"
-#include "view_threads.h"
 
 namespace panache::cli {
 namespace {
@@ -54,6 +58,72 @@ int status_of(const httplib::Request& request, int port) {
   return request.method == "GET" || request.method == "HEAD" ? 0 : kMethodNotAllowed;
 }
 
+// Up to kThreads threads, as many as can be started. httplib's own would end the program where one
+// of them cannot, or where a request finds no memory; here that request gets no answer.
+class PageThreads final : public httplib::TaskQueue {
+ public:
+  // Throws std::system_error where no thread can be started.
+  PageThreads() {
+    threads_.reserve(kThreads);
+    while (threads_.size() < kThreads) {
+      try {
+        threads_.emplace_back([this] { work(); });
+      } catch (...) {
+        if (threads_.empty()) throw;
+        break;
+      }
+    }
+  }
+  ~PageThreads() override { shutdown(); }
+  PageThreads(const PageThreads&) = delete;
+  PageThreads& operator=(const PageThreads&) = delete;
+
+  // Newer releases want to hear that there was room.
+  using Enqueued = decltype(std::declval<httplib::TaskQueue&>().enqueue(nullptr));
+  Enqueued enqueue(std::function<void()> job) override {
+    {
+      const std::scoped_lock lock(mutex_);
+      jobs_.push_back(std::move(job));
+    }
+    changed_.notify_one();
+    return Enqueued(true);
+  }
+  void shutdown() override {
+    {
+      const std::scoped_lock lock(mutex_);
+      over_ = true;
+    }
+    changed_.notify_all();
+    for (std::thread& thread : threads_) {
+      if (thread.joinable()) thread.join();
+    }
+  }
+
+ private:
+  void work() {
+    for (;;) {
+      std::function<void()> job;
+      {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [&] { return over_ || !jobs_.empty(); });
+        if (jobs_.empty()) return;
+        job = std::move(jobs_.front());
+        jobs_.pop_front();
+      }
+      try {
+        job();
+      } catch (...) {  // Without memory: the request gets no answer.
+      }
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::list<std::function<void()>> jobs_;  // Guarded by the mutex, and so is:
+  bool over_ = false;
+  std::vector<std::thread> threads_;
+};
+
 }  // namespace
 
 Result<std::unique_ptr<PageServer>> PageServer::create() {
@@ -61,7 +131,7 @@ Result<std::unique_ptr<PageServer>> PageServer::create() {
   if (!page) return page.error();
   std::unique_ptr<PageServer> out(new PageServer);
   httplib::Server& server = out->server_;
-  server.new_task_queue = [] { return new ViewThreads(kThreads); };
+  server.new_task_queue = [] { return new PageThreads; };
   // With these a page may read a finer clock, which the times of a step are told by.
   server.set_default_headers({{"Cross-Origin-Opener-Policy", "same-origin"},
                               {"Cross-Origin-Embedder-Policy", "require-corp"},

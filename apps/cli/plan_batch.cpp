@@ -6,7 +6,6 @@
 
 #include "batch.h"
 #include "batch_report.h"
-#include "batch_settings.h"
 #include "clip/text_cursor.h"
 #include "formats.h"
 #include "standard_streams.h"
@@ -82,9 +81,7 @@ std::vector<FileJob> name_jobs(const BatchFlags& flags, const OutputNaming& nami
   const std::string output =
       flags.output ? *flags.output : need(default_output(found, naming), kBadUsage);
   for (const FilePair& pair : need(name_outputs(found, output, naming.extension), kBadUsage)) {
-    FileJob& file = files.emplace_back();
-    file.input = pair.input;
-    file.output = pair.output;
+    static_cast<FilePair&>(files.emplace_back()) = pair;
   }
   return files;
 }
@@ -138,16 +135,14 @@ std::vector<FileJob> plan_batch(const BatchFlags& flags, const OutputNaming& wan
   if (!flags.shard.empty()) need(take_shard(flags.shard, files), kBadUsage);
   std::vector<FilePair> pairs;
   for (const FileJob& file : files) {
-    if (!file.to_stdout) pairs.push_back({file.input, file.output});
+    if (!file.to_stdout) pairs.push_back(file);
     if (!flags.report.empty() && file.output == flags.report) {
       throw Failure{{"--report: " + flags.report + " is an output too; expected a separate file"},
                     kBadUsage};
     }
   }
   if (!flags.report.empty() && flags.skip_existing) {
-    std::vector<std::string> outputs;
-    for (const FilePair& pair : pairs) outputs.push_back(pair.output);
-    need(check_settings(flags.report, outputs, batch_settings(*flags.verb, model)));
+    need(check_settings(flags.report, pairs, batch_settings(*flags.verb, model)));
   } else if (!flags.report.empty()) {
     need(check_output("", flags.report, flags.force));
   }

@@ -15,7 +15,6 @@
 #include "base/one_of.h"
 #include "fbx.h"
 #include "formats.h"
-#include "meshopt.h"
 #include "messages.h"
 #include "picture.h"
 #include "standard_streams.h"

@@ -2,7 +2,6 @@
 // What the programs of this project share: the command line, its messages and its exit codes.
 
 #include <memory>
-#include <string>
 
 #include <CLI/CLI.hpp>
 

@@ -1,6 +1,7 @@
 #pragma once
 // What stylize did to a motion, told in a line or in JSON.
 
+#include <span>
 #include <string>
 
 #include "messages.h"
@@ -10,6 +11,19 @@ namespace panache::cli {
 
 // "loop closed; feet held; 96% known motion".
 std::string describe(const RestyleFacts& facts);
-Json facts_json(const RestyleFacts& facts);
+Json to_json(const RestyleFacts& facts);
+
+// How much of the styles' answers to this very motion a clip got, see Stylizer::gate().
+struct GateReport {
+  double mean = 0, least = 1;
+  double eased = 0;  // The share of frames that got more of the mean posture than of that.
+};
+
+// gates: [frames], at least one.
+GateReport report_gate(std::span<const float> gates);
+std::string describe(const GateReport& gate);
+// A warning if most of a clip was eased.
+std::string describe_eased(const GateReport& gate);
+Json to_json(const GateReport& gate);
 
 }  // namespace panache::cli

@@ -14,6 +14,8 @@ namespace {
 
 // From nanometres to kilometres.
 constexpr double kSmallestUnit = 1e-9, kLargestUnit = 1e3;
+constexpr const char* kExpectedMap =
+    "expected JSON such as {\"leftHand\": \"Hand_L\", \"neck\": null}";
 
 // "z" and "+Z" mean the same; empty where `text` is no axis.
 std::string axis_name(std::string text) {
@@ -75,12 +77,6 @@ std::string place_in(const std::string& text, size_t byte) {
 
 }  // namespace
 
-void add_in_place_option(CLI::App& verb, bool& flag) {
-  verb.add_flag(
-      "--in-place", flag,
-      "Remove the horizontal path from hips and root, for\ngames that move the character");
-}
-
 void add_rig_options(CLI::App& verb, RigFlags& flags) {
   add_option(verb, "--scale METRES", flags.scale,
              "Metres per unit of the file (0.01: centimetres);\ndefault: inferred from the legs");
@@ -118,28 +114,21 @@ Result<std::map<int, std::string>> parse_joint_map(const std::string& text,
   try {
     map = Json::parse(text);
   } catch (const Json::parse_error& error) {
-    return Error{name + ":" + place_in(text, error.byte) +
-                 ": expected JSON such as {\"leftHand\": \"Hand_L\", \"neck\": null}"};
+    return Error{name + ":" + place_in(text, error.byte) + ": " + kExpectedMap};
   } catch (const Json::out_of_range&) {
-    return Error{name +
-                 ": expected JSON such as {\"leftHand\": \"Hand_L\", \"neck\": null}, found a "
-                 "number that is too large"};
+    return Error{name + ": " + kExpectedMap + ", found a number that is too large"};
   }
   std::map<int, std::string> joints;
-  const bool from_info = map.is_object() && map.contains("mapping");
-  if (from_info) {
+  if (map.is_object() && map.contains("mapping")) {
     const Json& mapping = map["mapping"];
     if (!mapping.is_object() || !mapping.contains("joints") || !mapping["joints"].is_array()) {
-      return Error{name +
-                   ": holds no mapping, because that file has no humanoid; expected JSON such as "
-                   "{\"leftHand\": \"Hand_L\", \"neck\": null}"};
+      return Error{name + ": holds no mapping, because that file has no humanoid; " + kExpectedMap};
     }
     if (auto good = put_list(mapping["joints"], name, joints); !good) return good.error();
     return joints;
   }
   if (!map.is_object() || map.empty()) {
-    return Error{name +
-                 ": expected JSON such as {\"leftHand\": \"Hand_L\", \"neck\": null}, found " +
+    return Error{name + ": " + kExpectedMap + ", found " +
                  (map.is_object() ? "nothing in it" : std::string("a JSON ") + map.type_name())};
   }
   for (const auto& [human_joint, joint] : map.items()) {

@@ -17,9 +17,6 @@ struct RigFlags {
   std::string map;              // A JSON file, or empty.
 };
 
-// Gives `verb` --in-place, which stay_in_place() does; `flag` must outlive it.
-void add_in_place_option(CLI::App& verb, bool& flag);
-
 // Gives `verb` the three options; `flags` must outlive it.
 void add_rig_options(CLI::App& verb, RigFlags& flags);
 

@@ -1,4 +1,4 @@
-#include "send.h"
+// panache live send: plays a motion file as a tracker would send it (VMC protocol).
 
 #include <algorithm>
 #include <array>
@@ -17,6 +17,7 @@
 #include "rig/posed_rig.h"
 #include "rig_options.h"
 #include "stop_signal.h"
+#include "verbs.h"
 #include "vmc_bones.h"
 #include "vmc_messages.h"
 #include "vmc_socket.h"
@@ -42,7 +43,7 @@ int bone_of(int human_joint) {
 class Player {
  public:
   Player(const Clip& clip, Rig rig)
-      : clip_(clip), rig_(std::move(rig)), rotations_(clip.joints()), translations_(clip.joints()) {
+      : clip_(clip), rig_(std::move(rig)), pose_(rest_clip(clip.skeleton)) {
     for (int j = 0; j < kHumanJoints; ++j) bones_[j] = bone_of(j);
   }
 
@@ -53,10 +54,9 @@ class Player {
 
   // `at`: seconds into the motion.
   std::vector<VmcFrame::Bone> bones(double at) {
-    const Pose pose{rotations_, translations_};
-    sample(clip_, rig_.rig().first_frame() + at / clip_.frame_time, pose);
+    sample(clip_, rig_.rig().first_frame() + at / clip_.frame_time, pose_.pose(0));
     BodyPose body;
-    rig_.read(pose, body);
+    rig_.read(pose_.pose(0), body);
     std::array<Quat, kHumanJoints> world;
     canonical_frames(body.positions, body.facing, world);
     std::vector<VmcFrame::Bone> out = {{kVmcRoot, {}, {}}};
@@ -75,20 +75,15 @@ class Player {
  private:
   const Clip& clip_;
   PosedRig rig_;
-  std::vector<Quat> rotations_;
-  std::vector<Vec3> translations_;
+  Clip pose_;  // One frame.
   Skeleton skeleton_ = canonical_skeleton();
   std::array<int, kHumanJoints> bones_;  // Of vmc_bones.h.
 };
 
 Result<void> check(const SendOptions& options) {
-  if (options.fps) {
-    if (auto good = check_range("--fps", *options.fps, 1, 1000); !good) return good;
-  }
-  if (options.seconds) {
-    if (auto good = check_range("--seconds", *options.seconds, 0.1, 1e6); !good) return good;
-  }
-  return check_rig_flags(options.rig);
+  auto good = check_range("--fps", options.fps.value_or(1), 1, 1000);
+  if (good) good = check_range("--seconds", options.seconds.value_or(1), 0.1, 1e6);
+  return good ? check_rig_flags(options.rig) : good;
 }
 
 // Returns how many frames were sent before the end, or before the user had enough.

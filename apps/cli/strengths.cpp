@@ -9,6 +9,7 @@
 #include <fast_float/fast_float.h>
 
 #include "base/csv.h"
+#include "base/one_of.h"
 #include "clip/text_cursor.h"
 #include "messages.h"
 
@@ -143,14 +144,10 @@ Error missing_style(const std::vector<std::string>& files, const Model& model) {
   if (names.empty())
     return Error{"a style is missing; the model has no styles yet", ErrorKind::no_styles};
   constexpr size_t kListed = 12;
-  const size_t listed = std::min(names.size(), kListed);
-  std::string list = names[0];
-  for (size_t i = 1; i < listed; ++i) {
-    list += (i + 1 == names.size() ? " and " : ", ") + names[i];
-  }
-  if (listed < names.size()) {
-    list += " and " + std::to_string(names.size() - listed) + " more (panache styles lists all)";
-  }
+  const size_t more = names.size() - std::min(names.size(), kListed);
+  names.resize(names.size() - more);
+  std::string list = one_of(names, more ? ", " : " and ");
+  if (more) list += " and " + std::to_string(more) + " more (panache styles lists all)";
   return Error{"a style is missing; expected one, as in --style " + names[0] +
                "=1, or a table of strengths (--strengths); the model has " + list};
 }

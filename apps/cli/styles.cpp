@@ -15,7 +15,6 @@
 #include "model_path.h"
 #include "model_report.h"
 #include "style/restyle.h"
-#include "style_library.h"
 #include "verbs.h"
 #include "walker/walker.h"
 

@@ -9,21 +9,16 @@
 #include <string>
 #include <vector>
 
-#include "batch.h"
 #include "clip/text_cursor.h"
 #include "formats.h"
-#include "gate_report.h"
 #include "input.h"
 #include "messages.h"
 #include "model_path.h"
-#include "new_motions.h"
 #include "onto.h"
-#include "removal_options.h"
 #include "restyle_report.h"
 #include "rig/in_place.h"
-#include "rig_options.h"
 #include "rig_report.h"
-#include "shape_options.h"
+#include "style_options.h"
 #include "strengths.h"
 #include "style/restyle.h"
 #include "verbs.h"
@@ -31,21 +26,13 @@
 namespace panache::cli {
 namespace {
 
-struct StylizeOptions {
-  BatchFlags batch;
-  ReadOptions read;
-  RigFlags rig;
+struct StylizeOptions : MotionFlags {
   ShapeFlags shape;
   std::vector<std::string> styles;
   std::string strengths;  // A CSV, or empty.
   std::string model;
   RemovalFlags removal;
-  std::string clip;  // The motion to restyle, or empty for all.
-  OntoFlags onto;
-  PlaceFlags place;
-  FigureFlags figure;
   std::string loop = "auto";
-  bool in_place = false;
   bool no_timing = false;
   bool no_feet = false;
   bool verbose = false;
@@ -59,18 +46,11 @@ struct Wanted {
   RigOptions rig;
   RestyleOptions how;
   bool in_place = false;
+  bool verbose = false;
   std::optional<CharacterFile> onto;
 };
 
-// A motion of a file, and what became of it.
-struct RestyledClip {
-  int clip = 0;
-  std::string name;
-  Rig rig;
-  Restyled result;
-};
-
-Json to_json(const std::vector<StrengthTrack>& tracks, const Model& model) {
+Json tracks_json(const std::vector<StrengthTrack>& tracks, const Model& model) {
   Json styles = Json::array();
   for (const StrengthTrack& track : tracks) {
     Json points = Json::array();
@@ -95,141 +75,108 @@ std::string result_name(const std::string& title, const Wanted& wanted) {
 }
 
 // name: of the motion in its file.
-Result<RestyledClip> restyle_clip(const MotionFile& motion, int which, const std::string& name,
-                                  const Wanted& wanted, FileJob& file,
-                                  const std::function<void(double)>& progress) {
+NewMotion restyle_clip(const MotionFile& motion, int which, const std::string& name,
+                       const Wanted& wanted, FileJob& file,
+                       const std::function<void(double)>& progress) {
   const std::string place = name.empty() ? file.input : file.input + ": " + name;
-  Result<Rig> rig = make_rig(motion.clip(which), wanted.rig, place);
-  if (!rig) return rig.error();
-  if (file.mapping.is_null()) file.mapping = mapping_json(*rig);
-  note_rate(motion.clip(which), *rig, place, file.notes);
+  Rig rig = need(make_rig(motion.clip(which), wanted.rig, place));
+  if (file.mapping.is_null()) file.mapping = mapping_json(rig);
+  note_rate(motion.clip(which), rig, place, file.notes);
   // On a character first, then styled there: as two runs of the program would do it.
   Clip put;
   if (wanted.onto) {
-    Result<Clip> done = wanted.onto->put(motion.clip(which), *rig, place);
-    if (!done) return done.error();
-    put = *std::move(done);
-    rig = wanted.onto->rig_of(put, place);
-    if (!rig) return rig.error();
+    put = need(wanted.onto->put(motion.clip(which), rig, place));
+    rig = need(wanted.onto->rig_of(put, place));
   }
   const Clip& clip = wanted.onto ? put : motion.clip(which);
   const std::vector<StrengthTrack> tracks = tracks_for(
-      wanted.wishes, rig->first_frame() * clip.frame_time, (clip.frames - 1) * clip.frame_time);
+      wanted.wishes, rig.first_frame() * clip.frame_time, (clip.frames - 1) * clip.frame_time);
   Result<Restyled> restyled =
       wanted.removal
-          ? restyle_without(clip, *rig, *wanted.removal, wanted.model, tracks, wanted.how, progress)
-          : restyle(clip, *rig, wanted.model, tracks, wanted.how, progress);
-  if (!restyled) return located(place, restyled.error());
-  RestyledClip out{which, result_name(title_of(name, file.input), wanted), *std::move(rig),
-                   *std::move(restyled)};
+          ? restyle_without(clip, rig, *wanted.removal, wanted.model, tracks, wanted.how, progress)
+          : restyle(clip, rig, wanted.model, tracks, wanted.how, progress);
+  if (!restyled) throw Failure{located(place, restyled.error()), kBadInput};
+  NewMotion out{.name = result_name(title_of(name, file.input), wanted)};
   // A calibration pose in front is no motion, and is not restyled.
-  const auto first = static_cast<size_t>(std::min(out.rig.first_frame(), clip.frames - 1));
-  const RestyleFacts facts = restyle_facts(clip, out.rig, out.result);
-  const GateReport gate = report_gate(std::span(out.result.gates).subspan(first));
+  const auto first = static_cast<size_t>(std::min(rig.first_frame(), clip.frames - 1));
+  const RestyleFacts facts = restyle_facts(clip, rig, *restyled);
+  const GateReport gate = report_gate(std::span(restyled->gates).subspan(first));
   file.clips.push_back({{"name", name},
                         {"result", out.name},
                         {"frames_in", motion.clip(which).frames},
-                        {"frames_out", out.result.clip.frames},
-                        {"seconds", out.result.clip.duration()},
+                        {"frames_out", restyled->clip.frames},
+                        {"seconds", restyled->clip.duration()},
                         {"removed", removed_json(wanted.removal)},
-                        {"styles", to_json(tracks, *wanted.model)},
+                        {"styles", tracks_json(tracks, *wanted.model)},
                         {"gate", to_json(gate)},
-                        {"facts", facts_json(facts)}});
+                        {"facts", to_json(facts)}});
   file.facts.push_back(place + ": " + describe(facts));
-  file.details.push_back(place + ": " + describe(gate));
+  if (wanted.verbose) file.details.push_back(place + ": " + describe(gate));
   if (gate.eased > 0.5) file.notes.push_back(place + ": " + describe_eased(gate));
-  if (wanted.in_place) stay_in_place(out.rig, out.result.clip);
-  file.frames += out.result.clip.frames;
-  file.seconds += out.result.clip.duration();
+  if (wanted.in_place) stay_in_place(rig, restyled->clip);
+  file.frames += restyled->clip.frames;
+  file.seconds += restyled->clip.duration();
+  out.clip = std::move(restyled->clip);
+  if (!wanted.onto) {
+    out.which = which;
+    out.source_frames = std::move(restyled->source_frames);
+  }
+  out.rig = std::move(rig);
   return out;
 }
 
-// The bytes of the result: the file with its new motions, or a new file of another format that
-// holds the only one.
-Result<std::string> encode(const MotionFile& motion, const std::vector<RestyledClip>& clips,
-                           const FileJob& file, const StylizeOptions& options,
-                           const RigOptions& rig) {
-  if (keeps_format(extension_of(file.input), extension_of(file.output))) {
-    std::vector<ClipEdit> edits;
-    edits.reserve(clips.size());
-    for (const RestyledClip& clip : clips) {
-      edits.push_back({clip.clip, &clip.result.clip, clip.result.source_frames, clip.name});
-    }
-    return in_container(motion.encode(edits, edit_mode(options.place, false)), file.input,
-                        file.output, rig, options.figure);
-  }
-  const RestyledClip& only = clips.front();
-  return format_clip(only.result.clip, &only.rig, only.name, placement_of(only.rig),
-                     extension_of(file.output), options.figure);
-}
-
-// Gives the results names that are free in the file that they go into.
-void name_results(std::vector<RestyledClip>& clips, const Wanted& wanted, const MotionFile& motion,
-                  FileJob& file, const PlaceFlags& place) {
-  std::vector<std::string> has, names;
+// The bytes of the result: the character or the file with its new motions, or a new file of another
+// format that holds the only one.
+std::string encode(const MotionFile& motion, std::vector<NewMotion> motions, FileJob& file,
+                   const Wanted& wanted, const StylizeOptions& options) {
+  const EditMode mode = edit_mode(options.place, wanted.onto.has_value());
   if (wanted.onto) {
-    has = wanted.onto->clip_names();
-  } else if (keeps_format(extension_of(file.input), extension_of(file.output))) {
-    has = motion.clip_names();
+    name_new_motions(file, wanted.onto->clip_names(), options.place, true, motions);
+    return need(wanted.onto->encode(motions, mode, file.output, options.no_body));
   }
-  for (const RestyledClip& clip : clips) names.push_back(clip.name);
-  name_new_motions(file, has, place, wanted.onto.has_value(), names);
-  for (size_t i = 0; i < clips.size(); ++i) {
-    clips[i].name = names[i];
-    file.clips[i]["result"] = names[i];
+  const bool keeps = keeps_format(extension_of(file.input), extension_of(file.output));
+  const std::vector<std::string> has = keeps ? motion.clip_names() : std::vector<std::string>();
+  name_new_motions(file, has, options.place, false, motions);
+  if (keeps) {
+    return need(in_container(motion.encode(edits_of(motions), mode), file.input, file.output,
+                             wanted.rig, options.no_body));
   }
+  const NewMotion& only = motions.front();
+  return need(format_clip(only.clip, &*only.rig, only.name, placement_of(*only.rig),
+                          extension_of(file.output), options.no_body));
 }
 
-// The character with the new motions.
-Result<std::string> encode_onto(const CharacterFile& character,
-                                const std::vector<RestyledClip>& clips, const FileJob& file,
-                                const StylizeOptions& options) {
+void stylize_file(FileJob& file, const Wanted& wanted, const StylizeOptions& options,
+                  const std::function<void(double)>& progress) {
+  const std::unique_ptr<MotionFile> motion = open_input(file, options.read);
+  const std::vector<int> picked =
+      need(pick_clips(*motion, options.clip, wanted.rig, file.input, file.notes));
+  if (!wanted.onto) need(check_fits(*motion, picked, file.input, file.output));
+  const std::vector<std::string> names = motion->clip_names();
   std::vector<NewMotion> motions;
-  motions.reserve(clips.size());
-  for (const RestyledClip& clip : clips) motions.push_back({clip.result.clip, clip.name});
-  return character.encode(motions, edit_mode(options.place, true), file.output, options.figure);
-}
-
-Result<void> stylize_file(FileJob& file, const Wanted& wanted, const StylizeOptions& options,
-                          const std::function<void(double)>& progress) {
-  Result<std::unique_ptr<MotionFile>> motion = open_input(file, options.read);
-  if (!motion) return motion.error();
-  Result<std::vector<int>> picked =
-      pick_clips(**motion, options.clip, wanted.rig, file.input, file.notes);
-  if (!picked) return picked.error();
-  if (!wanted.onto) {
-    auto fits = check_fits(**motion, *picked, file.input, file.output);
-    if (!fits) return fits;
-  }
-  const std::vector<std::string> names = (*motion)->clip_names();
-  std::vector<RestyledClip> clips;
   std::vector<Error> failures;
-  for (size_t i = 0; i < picked->size(); ++i) {
+  for (size_t i = 0; i < picked.size(); ++i) {
     const auto part = [&](double done) {
-      progress((static_cast<double>(i) + done) / static_cast<double>(picked->size()));
+      progress((static_cast<double>(i) + done) / static_cast<double>(picked.size()));
     };
-    const int which = (*picked)[i];
-    Result<RestyledClip> clip =
-        restyle_clip(**motion, which, names[static_cast<size_t>(which)], wanted, file, part);
-    if (clip) {
-      clips.push_back(*std::move(clip));
-      continue;
+    const std::string& name = names[static_cast<size_t>(picked[i])];
+    try {
+      motions.push_back(restyle_clip(*motion, picked[i], name, wanted, file, part));
+    } catch (const Failure& failure) {
+      // All motions of a file have the same joints: if one is not a person, none is.
+      if (picked.size() > 1 && failure.error.kind == ErrorKind::not_humanoid) {
+        throw Failure{{failure.error.message + "; so its other motions are not restyled either"},
+                      kBadInput};
+      }
+      failures.push_back(failure.error);
     }
-    // All motions of a file have the same joints: if one is not a person, none is.
-    if (picked->size() > 1 && clip.error().kind == ErrorKind::not_humanoid) {
-      return Error{clip.error().message + "; so its other motions are not restyled either"};
-    }
-    failures.push_back(clip.error());
   }
-  if (clips.empty()) return failures.front();
+  if (motions.empty()) throw Failure{failures.front(), kBadInput};
   for (const Error& failure : failures) {
     file.notes.push_back(failure.message + "; this motion is left unchanged");
   }
-  name_results(clips, wanted, **motion, file, options.place);
-  Result<std::string> bytes = wanted.onto ? encode_onto(*wanted.onto, clips, file, options)
-                                          : encode(**motion, clips, file, options, wanted.rig);
-  if (!bytes) return bytes.error();
-  return write_output(file, *bytes, options.batch.force);
+  write_output(file, encode(*motion, std::move(motions), file, wanted, options),
+               options.batch.force);
 }
 
 // What the user wants of which style, from both sources.
@@ -286,6 +233,7 @@ int stylize(const StylizeOptions& options) {
   // Without an amount the tempo of a style that is taken off stays, too.
   how.timing = !options.no_timing && how.stylizer.shape.timing != 0;
   wanted.in_place = options.in_place;
+  wanted.verbose = options.verbose;
   const std::string path = need(find_model(options.model));
   wanted.model = need(Model::load(path));
   // Before the files: who forgets the style shall not be asked for an output.
@@ -302,9 +250,7 @@ int stylize(const StylizeOptions& options) {
   wanted.rig = need(read_rig_options(options.rig));
   return run_batch(std::move(files), options.batch, path, "restyling", "restyled",
                    [&](FileJob& file, const std::function<void(double)>& progress) {
-                     auto done = stylize_file(file, wanted, options, progress);
-                     if (!done || !options.verbose) file.details.clear();
-                     return done;
+                     stylize_file(file, wanted, options, progress);
                    });
 }
 
@@ -329,8 +275,7 @@ void add_stylize(CLI::App& app, int& exit_code) {
              "Motion to restyle, if a file has several;\ndefault: all of them");
   add_onto_options(*verb, options->onto);
   add_place_options(*verb, options->place, "the original animations");
-  add_in_place_option(*verb, options->in_place);
-  add_figure_options(*verb, options->figure);
+  add_result_options(*verb, *options);
   add_shape_options(*verb, options->shape);
   add_option(*verb, "--loop LOOP", options->loop,
              "Make the result loop: if the motion does (auto, the\n"

@@ -1,5 +1,6 @@
 #include "usage_error.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "base/nearest_names.h"
@@ -12,9 +13,7 @@ namespace {
 // CLI11 ends some of its messages in a line end, and tells of what CLI::App::exit() prints.
 std::string one_line(std::string text) {
   while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
-  for (char& c : text) {
-    if (c == '\n') c = ' ';
-  }
+  std::ranges::replace(text, '\n', ' ');
   return text;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 // The verbs of panache. A further one is a source file with its add_ function, and a line here.
 
+#include <functional>
+
 #include <CLI/CLI.hpp>
 
 // In the order of --help.
@@ -24,5 +26,8 @@ namespace panache::cli {
 #define PANACHE_DECLARE_VERB(name) void add_##name(CLI::App& app, int& exit_code);
 PANACHE_VERBS(PANACHE_DECLARE_VERB)
 #undef PANACHE_DECLARE_VERB
+
+// A verb of live: the function runs it, once it is parsed, and returns the exit code.
+std::function<int()> add_send(CLI::App& live);
 
 }  // namespace panache::cli

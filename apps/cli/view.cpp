@@ -1,6 +1,5 @@
 // panache view: the page, served to this machine alone.
 
-#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -8,12 +7,13 @@
 
 #include "base/file.h"
 #include "formats.h"
+#include "glb.h"
 #include "input.h"
 #include "messages.h"
 #include "model_path.h"
+#include "model_report.h"
 #include "page_server.h"
 #include "style/model.h"
-#include "style_library.h"
 #include "verbs.h"
 
 namespace panache::cli {
@@ -53,22 +53,6 @@ void add_library(const std::string& folder, Served& model) {
   model.bytes = format_safetensors(with_library(file, model.name, library));
 }
 
-// In the path of an address.
-std::string percent_encoded(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (std::isalnum(byte) || c == '-' || c == '_' || c == '.') {
-      out += c;
-    } else {
-      char code[4];
-      std::snprintf(code, sizeof code, "%%%02X", byte);
-      out += code;
-    }
-  }
-  return out;
-}
-
 struct ViewVerb {
   std::string file, model, library;
 };
@@ -80,7 +64,8 @@ int view(const ViewVerb& verb) {
                        Served& out) {
     if (path.empty()) return;
     out = read(path);
-    query += (query.empty() ? "?" : "&") + std::string(key) + "=" + percent_encoded(out.name);
+    query +=
+        (query.empty() ? "?" : "&") + std::string(key) + "=" + percent_encoded(out.name, "-_.");
   };
   add(verb.file, "open", read_served, motion);
   const bool has_library = !verb.library.empty();

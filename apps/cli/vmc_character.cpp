@@ -1,9 +1,8 @@
 #include "vmc_character.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
+#include <cstring>
 #include <iterator>
 #include <utility>
 
@@ -23,23 +22,12 @@ bool is_sound(const VmcMessage& bone) {
 }
 
 // Zeros of either sign differ, and a number is the same as itself even if it is none.
-bool same_bits(float a, float b) {
-  return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b);
+template <class T>
+bool same_bits(const T& a, const T& b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
 }
-bool same_bits(Vec3 a, Vec3 b) {
-  return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z);
-}
-bool same_bits(Quat a, Quat b) { return same_bits(a.xyz(), b.xyz()) && same_bits(a.w, b.w); }
 
 }  // namespace
-
-VmcCharacter::VmcCharacter(std::shared_ptr<const Model> model, const LiveOptions& options,
-                           VmcRecording* recording, LiveView* view, int removed)
-    : model_(std::move(model)),
-      options_(options),
-      recording_(recording),
-      view_(view),
-      removed_(removed) {}
 
 void VmcCharacter::reset() noexcept {
   if (stylizer_) stylizer_->reset();
@@ -124,56 +112,53 @@ Result<void> VmcCharacter::stand() {
   options.up_axis = "+Y";
   Result<Rig> rig = Rig::create(clip, options);
   if (!rig) return rig.error();
-  Result<LiveStylizer> stylizer = LiveStylizer::create(model_, *std::move(rig), options_);
+  Result<LiveStylizer> stylizer = LiveStylizer::create(how_.model, *std::move(rig), how_.options);
   if (!stylizer) return stylizer.error();
   stylizer_.emplace(*std::move(stylizer));
-  stylizer_->set_removed(removed_);
+  stylizer_->set_removed(how_.removed);
 
   bones_ = std::move(order);
   whole_ = now_.known;
   for (size_t j = 0; j < bones_.size(); ++j) joint_of_[static_cast<size_t>(bones_[j])] = j;
-  rotations_.resize(bones_.size());
-  translations_.resize(bones_.size());
-  styled_rotations_.resize(bones_.size());
-  styled_translations_.resize(bones_.size());
+  pose_ = styled_ = rest_clip(clip.skeleton);
   last_frame_ = now_.seconds;
-  if (view_ && !view_->started()) {
+  if (how_.view && !how_.view->started()) {
     shown_ = true;
     Clip first = clip;
     first.resize(1);
-    view_->start(stylizer_->stylizer().rig(), first);
+    how_.view->start(stylizer_->stylizer().rig(), first);
   }
-  if (recording_ && !recording_->started()) {
+  if (how_.recording && !how_.recording->started()) {
     records_ = true;
-    recording_->start(clip.skeleton);
+    how_.recording->start(clip.skeleton);
     for (int f = 0; f < clip.frames; ++f) {
-      recording_->add(learnt_[static_cast<size_t>(f)].seconds, std::as_const(clip).pose(f));
+      how_.recording->add(learnt_[static_cast<size_t>(f)].seconds, std::as_const(clip).pose(f));
     }
   }
   return {};
 }
 
 void VmcCharacter::style(std::span<const float> strengths) {
+  const Pose pose = pose_.pose(0), styled = styled_.pose(0);
   for (size_t j = 0; j < bones_.size(); ++j) {
     const auto b = static_cast<size_t>(bones_[j]);
-    rotations_[j] = now_.rotations[b];
-    translations_[j] = now_.positions[b];
+    pose.rotations[j] = now_.rotations[b];
+    pose.translations[j] = now_.positions[b];
   }
-  const Pose styled{styled_rotations_, styled_translations_};
-  stylizer_->step({rotations_, translations_}, strengths, now_.seconds - last_frame_, styled);
+  stylizer_->step(pose, strengths, now_.seconds - last_frame_, styled);
   last_frame_ = now_.seconds;
   for (const Place& place : open_) {
     std::vector<char>& bytes = held_[place.datagram].bytes;
     const size_t j = place.joint;
-    if (!same_bits(styled.rotations[j], rotations_[j])) {
+    if (!same_bits(styled.rotations[j], pose.rotations[j])) {
       put_rotation(bytes, place.at, styled.rotations[j]);
     }
-    if (!same_bits(styled.translations[j], translations_[j])) {
+    if (!same_bits(styled.translations[j], pose.translations[j])) {
       put_position(bytes, place.at, styled.translations[j]);
     }
   }
-  if (records_) recording_->add(now_.seconds, styled);
-  if (shown_) view_->show({rotations_, translations_}, styled);
+  if (records_) how_.recording->add(now_.seconds, styled);
+  if (shown_) how_.view->show(pose, styled);
 }
 
 // Hands out what no bone of an open frame is in or before.

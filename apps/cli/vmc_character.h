@@ -19,15 +19,23 @@
 
 namespace panache::cli {
 
+// What all characters of a relay have in common.
+struct VmcStyling {
+  std::shared_ptr<const Model> model;
+  LiveOptions options;
+  int removed = -1;  // See LiveStylizer::set_removed().
+  // The first character that is understood fills the recording and is shown by the view. Either may
+  // be null, and both must outlive the characters.
+  VmcRecording* recording = nullptr;
+  LiveView* view = nullptr;
+};
+
 // The first second goes through as it is: skeleton and rig are made of it. From then on a frame is
 // whole when all bones of that second have come again, when the sender says that it ends, when a
 // bone comes a second time, or when it has waited too long; datagrams wait for their frame.
 class VmcCharacter {
  public:
-  // The first character that is understood fills `recording` and is shown by `view`. Either may be
-  // null, and both must outlive it. `removed`: see LiveStylizer::set_removed().
-  VmcCharacter(std::shared_ptr<const Model> model, const LiveOptions& options,
-               VmcRecording* recording, LiveView* view, int removed = -1);
+  explicit VmcCharacter(VmcStyling how) : how_(std::move(how)) {}
 
   // Takes the sender's next datagram with its messages. strengths: one per style of the model.
   void take(Datagram datagram, std::span<const VmcMessage> messages,
@@ -68,11 +76,7 @@ class VmcCharacter {
   void style(std::span<const float> strengths);
   void release();
 
-  std::shared_ptr<const Model> model_;
-  LiveOptions options_;
-  VmcRecording* recording_;
-  LiveView* view_;
-  int removed_;
+  VmcStyling how_;
   bool records_ = false, shown_ = false;  // Fills the recording, is in view.
 
   Bones now_;
@@ -82,9 +86,8 @@ class VmcCharacter {
   std::optional<LiveStylizer> stylizer_;  // Once the rig stands.
   VmcBoneSet whole_;                      // What makes a frame whole: the root only if it is sent.
   std::vector<int> bones_;                // [joints]
-  std::array<size_t, kVmcBones> joint_of_{};              // Of the bones of the skeleton.
-  std::vector<Quat> rotations_, styled_rotations_;        // [joints]
-  std::vector<Vec3> translations_, styled_translations_;  // [joints]
+  std::array<size_t, kVmcBones> joint_of_{};  // Of the bones of the skeleton.
+  Clip pose_, styled_;                        // One frame each.
   double last_frame_ = 0;
 
   std::vector<Datagram> held_, ready_;

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cstdint>
 #include <cstdlib>
+#include <initializer_list>
 #include <memory>
 #include <string_view>
 
@@ -30,10 +31,12 @@ uint32_t read_number(std::span<const char> bytes, size_t at) {
   return out;
 }
 
-void put_float(std::span<char> bytes, size_t at, float value) {
-  assert(at + 4 <= bytes.size());
-  const auto number = std::bit_cast<uint32_t>(value);
-  for (size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<char>(number >> (24 - 8 * i));
+void put_floats(std::span<char> bytes, size_t at, std::initializer_list<float> values) {
+  assert(at + 4 * values.size() <= bytes.size());
+  for (const float value : values) {
+    const auto number = std::bit_cast<uint32_t>(value);
+    for (int shift = 24; shift >= 0; shift -= 8) bytes[at++] = static_cast<char>(number >> shift);
+  }
 }
 
 // OSC pads strings with one to four zeros.
@@ -145,17 +148,12 @@ std::optional<std::vector<VmcMessage>> read_vmc(std::span<const char> datagram) 
 
 void put_position(std::span<char> datagram, size_t place, Vec3 position) {
   const Vec3 p = mirrored_position(position);
-  put_float(datagram, place, p.x);
-  put_float(datagram, place + 4, p.y);
-  put_float(datagram, place + 8, p.z);
+  put_floats(datagram, place, {p.x, p.y, p.z});
 }
 
 void put_rotation(std::span<char> datagram, size_t place, Quat rotation) {
   const Quat q = mirrored_rotation(rotation);
-  put_float(datagram, place + 12, q.x);
-  put_float(datagram, place + 16, q.y);
-  put_float(datagram, place + 20, q.z);
-  put_float(datagram, place + 24, q.w);
+  put_floats(datagram, place + 12, {q.x, q.y, q.z, q.w});
 }
 
 std::vector<std::vector<char>> format_vmc(const VmcFrame& frame) {

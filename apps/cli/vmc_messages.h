@@ -2,7 +2,6 @@
 // VMC messages in OSC datagrams: found, read and changed in place, so that all else in a datagram
 // stays what it is.
 
-#include <array>
 #include <optional>
 #include <span>
 #include <string>

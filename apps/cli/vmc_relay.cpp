@@ -1,6 +1,7 @@
 #include "vmc_relay.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <poll.h>
@@ -22,17 +23,26 @@ bool is_command(const VmcMessage& message) {
 
 }  // namespace
 
-VmcRelay::VmcRelay(UdpSocket socket, const sockaddr_in& to, std::shared_ptr<const Model> model,
-                   const LiveOptions& options, std::vector<float> strengths,
-                   VmcRecording* recording, LiveView* view, int removed)
-    : socket_(std::move(socket)),
-      to_(to),
-      model_(std::move(model)),
-      options_(options),
-      strengths_(std::move(strengths)),
-      recording_(recording),
-      view_(view),
-      removed_(removed) {
+void VmcLatencies::add(double seconds) {
+  // A clock that is set meanwhile may give any number.
+  const double us = std::clamp(std::ceil(1e6 * seconds), 0.0, double{kMax});
+  ++counts_[static_cast<size_t>(us)];
+  ++all_;
+}
+
+int VmcLatencies::quantile_us(double share) const {
+  const auto wanted = static_cast<uint64_t>(std::ceil(share * static_cast<double>(all_)));
+  uint64_t sum = 0;
+  for (int us = 0; us <= kMax; ++us) {
+    sum += counts_[static_cast<size_t>(us)];
+    if (sum >= wanted) return us;
+  }
+  return kMax;
+}
+
+VmcRelay::VmcRelay(UdpSocket socket, const sockaddr_in& to, VmcStyling how,
+                   std::vector<float> strengths)
+    : socket_(std::move(socket)), to_(to), how_(std::move(how)), strengths_(std::move(strengths)) {
   senders_.reserve(kMaxSenders);
 }
 
@@ -48,7 +58,10 @@ void VmcRelay::run_once() {
     sender.character.end_late_frame(stamp_now(), strengths_);
     send_ready(sender);
   }
-  count_lost();
+  // The machine's count goes round.
+  const uint32_t lost = socket_.lost() - std::exchange(lost_before_, socket_.lost());
+  all_.lost += lost;
+  second_.lost += lost;
 }
 
 void VmcRelay::finish() {
@@ -84,7 +97,7 @@ void VmcRelay::apply_command(const VmcMessage& message) {
     for (Sender& sender : senders_) sender.character.reset();
   }
   if (message.kind != VmcMessage::style) return;
-  const Result<int> style = model_->find_style(message.name);
+  const Result<int> style = how_.model->find_style(message.name);
   const double strength = message.strength;
   if (!style) {
     note_ = with_hint(located("/panache/style", style.error()));
@@ -109,8 +122,7 @@ VmcRelay::Sender* VmcRelay::sender_of(const Datagram& datagram, bool meet) {
     send_rest(*silent);
     senders_.erase(silent);
   }
-  senders_.push_back({datagram.sender, datagram.received, true,
-                      VmcCharacter(model_, options_, recording_, view_, removed_)});
+  senders_.push_back({datagram.sender, datagram.received, true, VmcCharacter(how_)});
   ++met_;
   return &senders_.back();
 }
@@ -141,13 +153,6 @@ void VmcRelay::send(const Datagram& datagram) {
   second_.latencies.add(seconds);
 }
 
-void VmcRelay::count_lost() {
-  // The machine's count goes round.
-  const uint32_t lost = socket_.lost() - std::exchange(lost_before_, socket_.lost());
-  all_.lost += lost;
-  second_.lost += lost;
-}
-
 std::string VmcRelay::second() {
   size_t heard = 0;
   for (Sender& sender : senders_) heard += std::exchange(sender.this_second, false);
@@ -160,7 +165,7 @@ std::string VmcRelay::second() {
   for (size_t i = 0; i < strengths_.size(); ++i) {
     if (strengths_[i] == 0) continue;
     neutral = false;
-    line += ", " + model_->styles()[i].name + " " + brief(static_cast<double>(strengths_[i]));
+    line += ", " + how_.model->styles()[i].name + " " + brief(static_cast<double>(strengths_[i]));
   }
   if (neutral) line += ", neutral";
   second_ = {};

@@ -1,19 +1,30 @@
 #pragma once
 // The relay itself: from a socket to an address, a character for each sender.
 
+#include <array>
 #include <cstdint>
-#include <memory>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "style/model.h"
 #include "vmc_character.h"
-#include "vmc_latencies.h"
 #include "vmc_socket.h"
 
 namespace panache::cli {
+
+// How long datagrams stay in the relay: microseconds, all from 10 ms on as one, so that any number
+// of them takes the same room.
+class VmcLatencies {
+ public:
+  void add(double seconds);
+  // The microseconds that `share` (0 to 1) of them do not exceed; 0 of none.
+  int quantile_us(double share) const;
+
+ private:
+  static constexpr int kMax = 10'000;
+  std::array<uint32_t, kMax + 1> counts_{};  // [microseconds]
+  uint64_t all_ = 0;
+};
 
 // Counts of a second, or of all.
 struct VmcCounts {
@@ -25,11 +36,8 @@ struct VmcCounts {
 
 class VmcRelay {
  public:
-  // `recording` and `view` may be null, and must outlive the relay. strengths: one per style of the
-  // model; removed: see LiveStylizer::set_removed().
-  VmcRelay(UdpSocket socket, const sockaddr_in& to, std::shared_ptr<const Model> model,
-           const LiveOptions& options, std::vector<float> strengths, VmcRecording* recording,
-           LiveView* view, int removed = -1);
+  // strengths: one per style of the model.
+  VmcRelay(UdpSocket socket, const sockaddr_in& to, VmcStyling how, std::vector<float> strengths);
 
   // Waits for datagrams a little while and sends on what is ready.
   void run_once();
@@ -60,16 +68,11 @@ class VmcRelay {
   void send_rest(Sender& sender);
   void send_ready(Sender& sender);
   void send(const Datagram& datagram);
-  void count_lost();
 
   UdpSocket socket_;
   sockaddr_in to_;
-  std::shared_ptr<const Model> model_;
-  LiveOptions options_;
+  VmcStyling how_;
   std::vector<float> strengths_;  // [styles]
-  VmcRecording* recording_;
-  LiveView* view_;
-  int removed_;
   std::vector<Sender> senders_;
   size_t met_ = 0;
   uint32_t lost_before_ = 0;

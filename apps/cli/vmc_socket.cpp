@@ -19,16 +19,6 @@ namespace {
 
 constexpr int kRoom = 1 << 22;  // Bytes; three senders of 90 Hz fill a quarter of it in a second.
 
-Error no_socket() { return Error{std::string("cannot create a socket: ") + std::strerror(errno)}; }
-
-Result<uint16_t> parse_port(const std::string& text, const std::string& option) {
-  uint16_t port = 0;
-  const char* end = text.data() + text.size();
-  const auto [stop, failure] = std::from_chars(text.data(), end, port);
-  if (failure == std::errc() && stop == end && port > 0) return port;
-  return Error{option + ": expected a port from 1 to 65535, found " + panache::quoted(text)};
-}
-
 double seconds_of(const timespec& time) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
@@ -45,8 +35,12 @@ Result<sockaddr_in> parse_address(const std::string& text, const std::string& op
   const size_t colon = text.rfind(':');
   const std::string host = colon == std::string::npos ? default_host : text.substr(0, colon);
   const std::string digits = colon == std::string::npos ? text : text.substr(colon + 1);
-  Result<uint16_t> port = parse_port(digits, option);
-  if (!port) return port.error();
+  uint16_t port = 0;
+  const char* const end = digits.data() + digits.size();
+  const auto [stop, wrong] = std::from_chars(digits.data(), end, port);
+  if (wrong != std::errc() || stop != end || port == 0) {
+    return Error{option + ": expected a port from 1 to 65535, found " + panache::quoted(digits)};
+  }
   addrinfo wanted{};
   wanted.ai_family = AF_INET;
   wanted.ai_socktype = SOCK_DGRAM;
@@ -60,7 +54,7 @@ Result<sockaddr_in> parse_address(const std::string& text, const std::string& op
   }
   sockaddr_in address{};
   std::memcpy(&address, found->ai_addr, sizeof address);
-  address.sin_port = htons(*port);
+  address.sin_port = htons(port);
   return address;
 }
 
@@ -87,7 +81,7 @@ double stamp_now() {
 
 Result<UdpSocket> UdpSocket::open() {
   const int file = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  if (file < 0) return no_socket();
+  if (file < 0) return Error{std::string("cannot create a socket: ") + std::strerror(errno)};
   return UdpSocket(file);
 }
 

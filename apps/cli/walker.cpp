@@ -3,7 +3,6 @@
 #include <memory>
 #include <numbers>
 #include <string>
-#include <vector>
 
 #include "base/file.h"
 #include "clip/bvh.h"

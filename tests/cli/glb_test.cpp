@@ -22,9 +22,13 @@ std::string glb_of(std::string json) {
   return "glTF" + number(2) + number(20 + json.size()) + number(json.size()) + "JSON" + json;
 }
 
+Result<std::string> no_png(const std::string&) { return Error{"no picture"}; }
+
 // The JSON of what becomes of it.
 GltfJson with_pictures_of(const std::string& json) {
-  return GltfJson::parse(with_pictures(glb_of(json), "in.fbx").substr(20), nullptr, false);
+  std::vector<std::string> notes;
+  return GltfJson::parse(with_pictures(glb_of(json), "in.fbx", no_png, notes).substr(20), nullptr,
+                         false);
 }
 
 // Writing JSON recurses: a million brackets would exhaust the stack.
@@ -32,7 +36,8 @@ TEST(Glb, json_of_a_million_brackets_stays_as_it_is) {
   const size_t depth = 1'000'000;
   const std::string glb =
       glb_of("{\"a\":" + std::string(depth, '[') + std::string(depth, ']') + "}");
-  EXPECT_TRUE(with_pictures(glb, "in.fbx") == glb);
+  std::vector<std::string> notes;
+  EXPECT_TRUE(with_pictures(glb, "in.fbx", no_png, notes) == glb);
 }
 
 TEST(Glb, extensions_of_a_material_that_are_none_stay) {
@@ -45,7 +50,6 @@ TEST(Glb, extensions_of_a_material_that_are_none_stay) {
 
 TEST(Glb, pictures_that_are_none_are_taken_out_of_their_materials) {
   std::vector<std::string> notes;
-  const auto to_png = [](const std::string&) { return Result<std::string>(Error{"no picture"}); };
   const std::string glb = with_pictures(
       glb_of(
           R"({"images":[7,{"uri":"gone.png"},{"uri":"data:,x"},{"bufferView":9}],"textures":[)"
@@ -53,7 +57,7 @@ TEST(Glb, pictures_that_are_none_are_taken_out_of_their_materials) {
           R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0},"baseColorFactor":[0,0,0,1]},)"
           R"("normalTexture":{"index":1},"emissiveTexture":{"index":3},"extensions":{"a":{"bTexture":{"index":1}}}},)"
           R"({"pbrMetallicRoughness":7,"normalTexture":{"index":"a"}},7]})"),
-      "in.fbx", to_png, &notes);
+      "in.fbx", no_png, notes);
   const GltfJson json = GltfJson::parse(glb.substr(20));
   EXPECT_EQ(json["images"].dump(), R"([7,{"bufferView":9}])");
   EXPECT_EQ(json["textures"].dump(), R"([{"source":0},7,{"source":-1}])");

@@ -9,9 +9,8 @@
 #include <fuzzer/FuzzedDataProvider.h>
 
 #include "any_number.h"
-#include "fbx_binary.h"
+#include "fbx_document.h"
 #include "fbx_scene.h"
-#include "fbx_text_scene.h"
 #include "use_motion.h"
 
 namespace {

@@ -1,27 +1,26 @@
-#include "shape_options.h"
+#include "style_options.h"
 
+#include <algorithm>
 #include <array>
-#include <optional>
+#include <iterator>
 
 #include "clip/text_cursor.h"
-#include "messages.h"
+#include "model_path.h"
+#include "style/names.h"
 #include "usage_error.h"
 
 namespace panache::cli {
 namespace {
-
-std::optional<size_t> find_region(const std::string& name) {
-  for (size_t r = 0; r < kRegions; ++r) {
-    if (name == kRegionNames[r]) return r;
-  }
-  return std::nullopt;
-}
 
 std::optional<float> amount(const std::string& text) {
   double value = 0;
   if (!CLI::detail::lexical_cast(text, value)) return std::nullopt;
   if (!(value >= 0 && value <= static_cast<double>(Shape::kMax))) return std::nullopt;
   return static_cast<float>(value);
+}
+
+const std::string& name_of(const Removal& removal) {
+  return removal.remover->styles()[static_cast<size_t>(removal.style)].name;
 }
 
 }  // namespace
@@ -63,8 +62,9 @@ Result<void> read_shape(const ShapeFlags& flags, StylizerOptions& how) {
   std::array<bool, kRegions> given{};
   for (const std::string& text : flags.regions) {
     const size_t equals = text.find('=');
-    const std::optional<size_t> region = find_region(text.substr(0, equals));
-    if (equals == std::string::npos || !region) {
+    const auto region = static_cast<size_t>(
+        std::ranges::find(kRegionNames, text.substr(0, equals)) - std::begin(kRegionNames));
+    if (equals == std::string::npos || region == kRegions) {
       return Error{"--region " + panache::quoted(text) +
                    ": expected legs, torso, left_arm or right_arm, '=' and an amount, such as "
                    "legs=0.5"};
@@ -74,15 +74,49 @@ Result<void> read_shape(const ShapeFlags& flags, StylizerOptions& how) {
       return Error{"--region " + panache::quoted(text) + ": expected an amount of 0 to 2, found " +
                    panache::quoted(text.substr(equals + 1))};
     }
-    if (given[*region]) {
-      return Error{std::string("--region ") + kRegionNames[*region] + " is given twice"};
+    if (given[region]) {
+      return Error{std::string("--region ") + kRegionNames[region] + " is given twice"};
     }
-    given[*region] = true;
-    shape.regions[*region] = *value;
+    given[region] = true;
+    shape.regions[region] = *value;
   }
   how.shape = shape;
   how.gesture_rate = flags.gestures;
   return {};
+}
+
+void add_removal_options(CLI::App& verb, RemovalFlags& flags) {
+  CLI::Option* remove = add_option(verb, "--remove STYLE", flags.style,
+                                   "The style that the input shows: it is taken off first");
+  verb.add_flag("--neutral", flags.neutral, "Take whatever style the input shows off first")
+      ->excludes(remove);
+  add_option(verb, "--remover FILE", flags.remover,
+             "Model that takes styles off; default: the one shipped");
+}
+
+std::optional<Removal> read_removal(const RemovalFlags& flags) {
+  if (!flags.given()) {
+    if (flags.remover.empty()) return std::nullopt;
+    throw Failure{{"--remover: nothing is to be taken off; add --remove STYLE or --neutral"},
+                  kBadUsage};
+  }
+  const std::string path =
+      flags.remover.empty() ? need(find_shipped(kRemoverModel)) : flags.remover;
+  const std::shared_ptr<const Model> remover = need(Model::load(path));
+  if (!is_remover(*remover)) {
+    throw Failure{{path + ": puts styles on; expected a model that takes them off"}, kBadInput};
+  }
+  const Result<int> style = find_removal(*remover, flags.style);
+  if (!style) throw Failure{{"--remove: " + style.error().message}, kBadUsage};
+  return Removal{remover, *style};
+}
+
+std::string describe(const Removal& removal) {
+  return name_of(removal) == kAnyStyle ? "neutral" : name_of(removal) + " off";
+}
+
+Json removed_json(const std::optional<Removal>& removal) {
+  return removal ? Json(name_of(*removal)) : Json();
 }
 
 }  // namespace panache::cli

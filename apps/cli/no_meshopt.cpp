@@ -1,7 +1,0 @@
-#include "meshopt.h"
-
-namespace panache::cli {
-
-const MeshoptDecoder kMeshoptDecoder = nullptr;
-
-}  // namespace panache::cli
