@@ -91,12 +91,17 @@ export class Panache {
       this.#wasm.panache_page_style_add(arena.copy(this.#bytes), this.#bytes.byteLength,
         arena.copy(bytes), bytes.byteLength, arena.text(name), replace ? 1 : 0)))));
   }
-  extractStyle(style) { return this.#withStyle('extract', style); }
-  removeStyle(style) { this.setModel(this.#withStyle('remove', style)); }
-  #withStyle(action, style) {
-    return this._arena((arena) => this._take(arena.create((out) =>
-      this.#wasm[`panache_styles_${action}`](arena.copy(this.#bytes), this.#bytes.byteLength,
-        arena.text(style), out))));
+  extractStyle(style) {
+    return this.#withStyle(style, (bytes, size, name, out) =>
+      this.#wasm.panache_styles_extract(bytes, size, name, out));
+  }
+  removeStyle(style) {
+    this.setModel(this.#withStyle(style, (bytes, size, name, out) =>
+      this.#wasm.panache_styles_remove(bytes, size, name, out)));
+  }
+  #withStyle(style, change) {
+    return this._arena((arena) => this._take(arena.create((out) => change(
+      arena.copy(this.#bytes), this.#bytes.byteLength, arena.text(style), out))));
   }
 
   learnStyle(style, styled, neutral) {
