@@ -1,10 +1,9 @@
 // Styling poses of the caller's own: panache.h for JavaScript. See index.d.ts.
 import {
-  PanacheError, checkFinite, checkInteger, checkJoints, checkKeys, checkPose,
-  checkTriggered, inUse, timingNumber, unexpected,
+  PanacheError, checkFinite, checkInteger, checkJoints, checkKeys, checkPose, checkTriggered,
+  handleFor, inUse, timingNumber, unexpected,
 } from './checks.js';
-import { writeClip } from './clip.js';
-import { removedIndex, removerHandle } from './remover.js';
+import { removedIndex, removerHandle, writeClip } from './remover.js';
 import {
   kCharacterOptions, kHumanJoint, kInputPose, kJoint, kReport, kShape, kSkeletonOptions,
   kStrengthKey, kStrengthTrack, kStylizeOptions,
@@ -65,13 +64,9 @@ export class Skeleton {
     return this.#panache._arena((arena) => this.#wasm.panache_skeleton_find(
       this._handleFor(this.#panache), arena.text(humanJoint)));
   }
-  // Handles are addresses in the memory of their own module.
   _handleFor(panache) {
-    if (panache !== this.#panache) {
-      throw new PanacheError(
-        'this skeleton is of another Panache; create one with createSkeleton()');
-    }
-    return inUse(this.#skeleton, 'skeleton');
+    return handleFor(panache, this.#panache, this.#skeleton, 'skeleton',
+      'this skeleton is of another Panache; create one with createSkeleton()');
   }
 
   free() {

@@ -16,11 +16,15 @@ const kinds = [
   'isModel', 'isStyleFile', 'styleOfAnother', 'notSafetensors', 'modelCannotLearn',
   'otherSkeletons', 'loopOpen', 'loopStrengths', 'badStyleName',
 ];
+/** A text in the memory of the module. */
+export function textAt(wasm, at) {
+  const bytes = new Uint8Array(wasm.memory.buffer, at);
+  return new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)));
+}
 /** What the library says of its last failure. */
 export function lastError(wasm) {
-  const bytes = new Uint8Array(wasm.memory.buffer, wasm.panache_last_error());
-  const text = new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)));
-  return new PanacheError(text, kinds[wasm.panache_last_error_kind()]);
+  return new PanacheError(
+    textAt(wasm, wasm.panache_last_error()), kinds[wasm.panache_last_error_kind()]);
 }
 
 function describe(value) {
@@ -37,6 +41,11 @@ export function unexpected(what, expectation, value) {
 export function inUse(handle, what) {
   if (handle) return handle;
   throw new PanacheError(`this ${what} was freed and cannot be used any more; create another one`);
+}
+// The same for `panache`: handles are addresses in the memory of the module of their `owner`.
+export function handleFor(panache, owner, handle, what, foreign) {
+  if (panache !== owner) throw new PanacheError(foreign);
+  return inUse(handle, what);
 }
 
 export function checkBytes(bytes, what) {
