@@ -144,9 +144,8 @@ export class Character {
     return this.#panache._arena((arena) => {
       const at = arena.write(kReport, { structSize: kReport.size });
       arena.check(this.#wasm.panache_character_get_report(this.#handle(), at));
-      const [gate, contacts, rate, ahead] = ['gate', 'contacts', 'rate', 'ahead'].map(
-        (name) => arena.read(kReport, name, at));
-      return { gate, contacts, rate, ahead };
+      const { structSize, ...report } = arena.read(kReport, at);
+      return report;
     });
   }
   reset() { this.#wasm.panache_character_reset(this.#handle()); }

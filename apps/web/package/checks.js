@@ -16,15 +16,11 @@ const kinds = [
   'isModel', 'isStyleFile', 'styleOfAnother', 'notSafetensors', 'modelCannotLearn',
   'otherSkeletons', 'loopOpen', 'loopStrengths', 'badStyleName',
 ];
-/** A text in the memory of the module. */
-export function textAt(wasm, at) {
-  const bytes = new Uint8Array(wasm.memory.buffer, at);
-  return new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)));
-}
 /** What the library says of its last failure. */
 export function lastError(wasm) {
-  return new PanacheError(
-    textAt(wasm, wasm.panache_last_error()), kinds[wasm.panache_last_error_kind()]);
+  const bytes = new Uint8Array(wasm.memory.buffer, wasm.panache_last_error());
+  const text = new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)));
+  return new PanacheError(text, kinds[wasm.panache_last_error_kind()]);
 }
 
 function describe(value) {

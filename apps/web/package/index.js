@@ -4,7 +4,7 @@
 import { Character, Skeleton, stylizeClip, writeShape } from './character.js';
 import {
   PanacheError, checkBytes, checkFinite, checkInteger, checkKeys, checkTriggered, handleFor, inUse,
-  lastError, textAt, timingNumber,
+  lastError, timingNumber,
 } from './checks.js';
 import { Arena } from './memory.js';
 import { Remover, removedIndex, removerHandle } from './remover.js';
@@ -115,7 +115,7 @@ export class Panache {
         bank ? arena.copy(bank) : 0, bank?.byteLength ?? 0, after.file._handleFor(this), after.clip ?? 0,
         arena.text(after.file.name), arena.text(style), out)));
       const [report] = new Uint32Array(this.#wasm.memory.buffer, out, 1);
-      return { bytes, report: JSON.parse(new TextDecoder().decode(this._take(report))) };
+      return { bytes, report: this._json(report) };
     });
   }
 
@@ -163,18 +163,7 @@ export class Panache {
   get _wasm() { return this.#wasm; }
   _model() { return inUse(this.#model, 'Panache'); }
   _players() { return this.#players; }
-  _stylesOf(model) {
-    const wasm = this.#wasm;
-    return Array.from({ length: wasm.panache_model_style_count(model) }, (_, style) => ({
-      name: textAt(wasm, wasm.panache_model_style_name(model, style)),
-      description: textAt(wasm, wasm.panache_page_style_description(model, style)),
-      group: textAt(wasm, wasm.panache_model_style_group(model, style)),
-      learnt: wasm.panache_page_style_learnt(model, style) !== 0,
-      thumbnail: textAt(wasm, wasm.panache_page_style_thumbnail(model, style)),
-      gestures: Array.from({ length: wasm.panache_model_gesture_count(model, style) }, (__, k) =>
-        textAt(wasm, wasm.panache_model_gesture_name(model, style, k))),
-    }));
-  }
+  _stylesOf(model) { return this._json(this.#wasm.panache_page_styles(model)); }
   _styleIndex(name, styles = this.styles) {
     let index = styles.findIndex((style) => style.name === name);
     if (index < 0) {  // As the program: without case where that is needed.
@@ -192,6 +181,7 @@ export class Panache {
     throw lastError(this.#wasm);
   }
   _arena(use) { return Arena.use(this.#wasm, use); }
+  _json(handle) { return JSON.parse(new TextDecoder().decode(this._take(handle))); }
   // What a panache_bytes holds, which goes.
   _take(handle) {
     const at = this.#wasm.panache_bytes_data(handle), size = this.#wasm.panache_bytes_size(handle);
@@ -210,8 +200,8 @@ export class MotionFile {
     this.#file = panache._arena((arena) => panache._checked(this.#wasm.panache_page_file_create(
       arena.copy(bytes), bytes.byteLength,
       arena.text(name.slice(0, name.length - extension.length) + extension), fps)));
-    const { clips, joints, notes } = panache._arena((arena) => JSON.parse(new TextDecoder().decode(
-      panache._take(this.#wasm.panache_page_file_describe(this.#file, arena.text(name))))));
+    const { clips, joints, notes } = panache._arena((arena) => panache._json(
+      this.#wasm.panache_page_file_describe(this.#file, arena.text(name))));
     Object.assign(this, { name, extension, joints, notes });
     this.clips = clips.map((clip) => (
       { ...clip, seconds: Math.max(0, clip.frames - 1) * clip.frameTime }));

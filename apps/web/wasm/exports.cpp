@@ -9,8 +9,6 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "api/options.h"
 #include "clip/motion_format.h"
 #include "exports.h"
@@ -48,16 +46,22 @@ PANACHE_EXPORT panache_model* panache_page_remover_create(const char* data, uint
   if (const auto any = find_removal(**model, ""); !any) return fail(located(name, any.error()));
   return new panache_model{*std::move(model)};
 }
-PANACHE_EXPORT const char* panache_page_style_description(const panache_model* model,
-                                                          int32_t style) {
-  return model->model->styles()[static_cast<size_t>(style)].description.c_str();
-}
-// SVG; empty of most styles.
-PANACHE_EXPORT const char* panache_page_style_thumbnail(const panache_model* model, int32_t style) {
-  return model->model->styles()[static_cast<size_t>(style)].thumbnail.c_str();
-}
-PANACHE_EXPORT int32_t panache_page_style_learnt(const panache_model* model, int32_t style) {
-  return model->model->styles()[static_cast<size_t>(style)].learnt;
+// See index.d.ts: Style[].
+PANACHE_EXPORT panache_bytes* panache_page_styles(const panache_model* model) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const StyleInfo& style : model->model->styles()) {
+    nlohmann::json gestures = nlohmann::json::array();
+    for (const Gesture& gesture : model->model->gestures(static_cast<int>(all.size()))) {
+      gestures.push_back(gesture.name());
+    }
+    all.push_back({{"name", style.name},
+                   {"description", style.description},
+                   {"group", style.group},
+                   {"learnt", style.learnt},
+                   {"thumbnail", style.thumbnail},
+                   {"gestures", gestures}});
+  }
+  return to_bytes(all);
 }
 
 // Whether the bytes say that they are a style, and not a model.
@@ -80,7 +84,9 @@ PANACHE_EXPORT panache_bytes* panache_page_style_add(const char* model, uint32_t
 }
 
 PANACHE_EXPORT WalkerHandle* panache_page_walker_create(const char* data, uint32_t size) {
-  return keep(WalkerModel::parse(bytes_at(data, size), "the walker's model"));
+  auto walker = WalkerModel::parse(bytes_at(data, size), "the walker's model");
+  if (walker) return new WalkerHandle(*std::move(walker));
+  return fail(walker.error());
 }
 PANACHE_EXPORT void panache_page_walker_free(WalkerHandle* walker) { delete walker; }
 
@@ -135,8 +141,7 @@ PANACHE_EXPORT panache_bytes* panache_page_file_describe(FileHandle* file, const
   }
   const nlohmann::json all = {
       {"clips", clips}, {"joints", joints}, {"notes", motion_notes(**file, name)}};
-  // Names are the file's, and may be no UTF-8.
-  return new panache_bytes{all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
+  return to_bytes(all);
 }
 
 // See panache_recognise_styles().
@@ -276,5 +281,7 @@ PANACHE_EXPORT void panache_page_player_placement(Player* player, float* out) {
 PANACHE_EXPORT panache_bytes* panache_page_player_export(Player* player, const char* extension,
                                                          const char* file_extension, int32_t styled,
                                                          double seconds) {
-  return keep_bytes(player->export_as(extension, file_extension, styled != 0, seconds));
+  auto written = player->export_as(extension, file_extension, styled != 0, seconds);
+  if (written) return new panache_bytes{*std::move(written)};
+  return fail(written.error());
 }

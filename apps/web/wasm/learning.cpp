@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
 #include "exports.h"
 #include "learn/learn_style.h"
 #include "net/safetensors.h"
@@ -115,8 +113,6 @@ PANACHE_EXPORT panache_bytes* panache_page_learn(const char* model, uint32_t mod
   if (!file) return fail(file.error());
   const Result<LearntStyle> learnt = learn_style(*file, kModel, {&*pair, 1}, style, "");
   if (!learnt) return fail(learnt.error());
-  // Names are the files', and may be no UTF-8.
-  *report = new panache_bytes{
-      report_of(*learnt, *pair).dump(-1, ' ', false, Json::error_handler_t::replace)};
+  *report = to_bytes(report_of(*learnt, *pair));
   return new panache_bytes{format_safetensors(learnt->file)};
 }
