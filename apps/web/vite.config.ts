@@ -12,35 +12,39 @@ const files = {
   neutral: `${root}models/neutral.safetensors`,
 };
 
-// import wasm from 'virtual:panache-file/wasm': what the page would have to fetch, packed, as
-// base64, inside of the script. A page opened from a disk may fetch nothing.
-function embedFiles(): Plugin {
-  const prefix = 'virtual:panache-file/';
+// Scripts that the page loads when it first needs them, each by itself: src/late.ts.
+const late = {
+  gif: "export { applyPalette, GIFEncoder, quantize } from 'gifenc';",
+  neutral: "export { default as packed } from 'virtual:panache-file/neutral';",
+  remover: "export { default as packed } from 'virtual:panache-file/remover';",
+  zip: "export { zipSync } from 'fflate';",
+};
+
+// What the page would have to fetch, packed, as base64, inside of the script: a page opened from a
+// disk may fetch nothing.
+function pack(path: string) {
+  return `export default '${gzipSync(readFileSync(path), { level: 9 }).toString('base64')}';`;
+}
+// The styles of the remover, which comes late.
+function listRemovable() {
+  const bytes = readFileSync(files.remover);
+  const header = JSON.parse(bytes.toString('utf8', 8, 8 + Number(bytes.readBigUInt64LE())));
+  const [names, groups] = ['styles', 'style_groups'].map(
+    (key) => String(header.__metadata__[key]).split('\n'));
+  return `export default ${JSON.stringify(
+    names.filter(Boolean).map((style, i) => ({ name: style, group: groups[i] })))};`;
+}
+// import wasm from 'virtual:panache-file/wasm'
+function virtualModules(): Plugin {
+  const prefix = 'virtual:panache-';
   return {
-    name: 'panache-files',
+    name: 'panache-modules',
     resolveId: (id) => (id.startsWith(prefix) ? `\0${id}` : null),
     load(id) {
-      if (!id.startsWith(`\0${prefix}`)) return null;
-      const path = files[id.slice(prefix.length + 1) as keyof typeof files];
-      return `export default '${gzipSync(readFileSync(path), { level: 9 }).toString('base64')}';`;
-    },
-  };
-}
-
-// import removable from 'virtual:panache-removable': the styles of the remover, which comes late.
-function listRemovable(): Plugin {
-  const name = 'virtual:panache-removable';
-  return {
-    name: 'panache-removable',
-    resolveId: (id) => (id === name ? `\0${name}` : null),
-    load(id) {
-      if (id !== `\0${name}`) return null;
-      const bytes = readFileSync(files.remover);
-      const header = JSON.parse(bytes.toString('utf8', 8, 8 + Number(bytes.readBigUInt64LE())));
-      const [names, groups] = ['styles', 'style_groups'].map(
-        (key) => String(header.__metadata__[key]).split('\n'));
-      return `export default ${JSON.stringify(
-        names.filter(Boolean).map((style, i) => ({ name: style, group: groups[i] })))};`;
+      const [kind, name] = id.replace(`\0${prefix}`, '').split('/');
+      if (kind === 'file') return pack(files[name as keyof typeof files]);
+      if (kind === 'late') return late[name as keyof typeof late];
+      return kind === 'removable' ? listRemovable() : null;
     },
   };
 }
@@ -55,18 +59,17 @@ function plainScript(): Plugin {
   };
 }
 
-// Scripts that the page loads when it first needs them, each by itself: src/late.ts.
 function lateScripts(): Plugin {
   return {
     name: 'panache-late-scripts',
     apply: 'build',
     async generateBundle() {
-      for (const name of ['gif', 'neutral', 'remover', 'zip']) {
-        const input = fileURLToPath(new URL(`src/late/${name}.ts`, import.meta.url));
+      for (const name of Object.keys(late)) {
         const [made] = [await build({ configFile: false, logLevel: 'warn',
-          plugins: [embedFiles()], build: {
+          plugins: [virtualModules()], build: {
           write: false, target: 'es2022', modulePreload: false,
-          rollupOptions: { input, output: { format: 'iife' } },
+          rollupOptions: { input: `virtual:panache-late/${name}`,
+            preserveEntrySignatures: 'strict', output: { format: 'iife', name: `late_${name}` } },
         } })].flat();
         if (!('output' in made)) throw new Error('nothing was built');
         this.emitFile({ type: 'asset', fileName: `assets/${name}.js`, source: made.output[0].code });
@@ -90,7 +93,7 @@ function licences(): Plugin {
 
 export default defineConfig({
   base: './',
-  plugins: [embedFiles(), listRemovable(), lateScripts(), licences(), plainScript()],
+  plugins: [virtualModules(), lateScripts(), licences(), plainScript()],
   build: {
     outDir: `${root}build/web`,
     emptyOutDir: true,

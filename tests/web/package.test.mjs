@@ -77,12 +77,6 @@ test('the package is whole: licence, example and types', async () => {
     execFileSync(process.execPath, [example, 'walk.bvh', 'old=1'], { cwd: project }).toString());
   assert.match(styled[0], /^MOTION$/m);
   assert.equal(styled[1], styled[0]);
-  // And as README.md prints one.
-  const [, printed] = (await read('apps/web/package/README.md')).toString()
-    .match(/```js\n(\/\/ restyle\.mjs\n.*?)```/s);
-  await writeFile(join(project, 'restyle.mjs'), printed);
-  execFileSync(process.execPath, ['restyle.mjs'], { cwd: project });
-  assert.equal((await readFile(join(project, 'old.bvh'))).toString(), styled[0]);
   walk.free();
   made.free();
 

@@ -27,8 +27,7 @@ float gate(float limit, float limit_of_remover, int removed) {
   std::shared_ptr<const MotionFile> file =
       parse_motion(format_bvh(test::walking_clip(90)), "walk.bvh").value();
   auto player =
-      Player::create(model_of(limit, false), ClipSource::create(std::move(file), 0).value())
-          .value();
+      Player::create(model_of(limit, false), Source::create(std::move(file), 0).value()).value();
   EXPECT_TRUE(player->use_remover(model_of(limit_of_remover, true)).ok());
   player->set_removed(removed);
   player->strengths()[0] = 1;
@@ -54,17 +53,17 @@ TEST(PlayerTest, jumps_of_a_clip_are_seen_before_they_begin_in_each_round) {
     for (int f = 0; f < one.frames; ++f) many.append(one.pose(f));
   }
   std::shared_ptr<const MotionFile> file = parse_motion(format_bvh(many), "jumps.bvh").value();
-  const auto source = ClipSource::create(std::move(file), 0).value();
+  Source source = Source::create(std::move(file), 0).value();
   std::vector<Quat> rotations(many.joints());
   std::vector<Vec3> translations(rotations.size());
   for (int rounds = 0; rounds < 3;) {
-    if (source->advance(1.0 / 60, {rotations, translations})) ++rounds;
-    const double at = std::fmod(source->seconds(), seconds);
+    if (source.advance(1.0 / 60, {rotations, translations})) ++rounds;
+    const double at = std::fmod(source.seconds(), seconds);
     if (at > jump.take_off() && at < jump.landing()) {
-      EXPECT_GT(*source->flight(), 0.99f) << rounds << ", " << source->seconds();
+      EXPECT_GT(*source.flight(), 0.99f) << rounds << ", " << source.seconds();
     }
     if (at > jump.landing() + 0.5) {
-      EXPECT_EQ(*source->flight(), 0) << rounds << ", " << source->seconds();
+      EXPECT_EQ(*source.flight(), 0) << rounds << ", " << source.seconds();
     }
   }
 }

@@ -38,18 +38,6 @@ bool Engine::load(GetFunction get_function, void* its_library) {
 
 // ---- Names and text -----------------------------------------------------------------------------
 
-Name::Name(const char* utf8) { engine.make_name(&data_, utf8); }
-Name::Name(Name&& other) noexcept : data_(other.data_) { other.data_.data = nullptr; }
-Name::~Name() {
-  if (data_.data) engine.get_destroy(Type::name)(&data_);
-}
-
-Text::Text(const char* utf8) { engine.make_text(&data_, utf8); }
-Text::Text(Text&& other) noexcept : data_(other.data_) { other.data_.data = nullptr; }
-Text::~Text() {
-  if (data_.data) engine.get_destroy(Type::text)(&data_);
-}
-
 namespace {
 
 std::string take_utf8(TextData text) {

@@ -36,33 +36,25 @@ struct Engine {
 };
 extern Engine engine;
 
-// A StringName.
-class Name {
+// A StringName or a String.
+template <class Data, Type kType, MakeText Engine::*kMake>
+class Owned {
  public:
-  explicit Name(const char* utf8);
-  Name(Name&& other) noexcept;
-  Name& operator=(Name&&) = delete;
-  ~Name();
-  const NameData* get() const { return &data_; }
-  NameData* get() { return &data_; }
+  explicit Owned(const char* utf8) { (engine.*kMake)(&data_, utf8); }
+  Owned(Owned&& other) noexcept : data_(other.data_) { other.data_.data = nullptr; }
+  Owned& operator=(Owned&&) = delete;
+  ~Owned() {
+    if (data_.data) engine.get_destroy(kType)(&data_);
+  }
+  const Data* get() const { return &data_; }
+  Data* get() { return &data_; }
 
  private:
-  NameData data_;
+  Data data_;
 };
+using Name = Owned<NameData, Type::name, &Engine::make_name>;
+using Text = Owned<TextData, Type::text, &Engine::make_text>;
 std::string to_utf8(const NameData* name);
-
-// A String.
-class Text {
- public:
-  explicit Text(const char* utf8);
-  Text(Text&& other) noexcept;
-  Text& operator=(Text&&) = delete;
-  ~Text();
-  TextData* get() { return &data_; }
-
- private:
-  TextData data_;
-};
 
 // A Variant.
 class Value {

@@ -53,8 +53,7 @@ struct CallError {
   int32_t error, argument, expected;
 };
 
-// ---- Functions of the engine
-// ---------------------------------------------------------------------
+// ---- Functions of the engine -------------------------------------------------------------------
 
 using GetFunction = void (*(*)(const char* name))();
 using MakeText = void (*)(void* out, const char* utf8);
@@ -81,8 +80,7 @@ using SetInstance = void (*)(Object object, const NameData* type, void* instance
 using PrintError = void (*)(const char* description, const char* message, const char* function,
                             const char* file, int32_t line, Flag in_editor);
 
-// ---- Classes of an extension
-// ---------------------------------------------------------------------
+// ---- Classes of an extension -------------------------------------------------------------------
 
 struct Property {
   Type type;
@@ -143,8 +141,7 @@ using RegisterClass = void (*)(void* library, const NameData* name, const NameDa
 using UnregisterClass = void (*)(void* library, const NameData* name);
 using RegisterMethod = void (*)(void* library, const NameData* type, const MethodInfo* info);
 
-// ---- The entry of an extension
-// -------------------------------------------------------------------
+// ---- The entry of an extension -----------------------------------------------------------------
 
 constexpr int32_t kSceneLevel = 2;
 

@@ -10,30 +10,18 @@ namespace Panache.Unity {
 /// mirror images of each other in the plane x = 0. Only signs change, so that what the library
 /// leaves as it is keeps its bits.
 internal sealed class HumanoidJoints {
-  // VRM's name of each bone that styles turn. Spine and chest are below, as avatars have one to
-  // three bones there.
-  private static readonly Dictionary<HumanBodyBones, string> Names =
-      new Dictionary<HumanBodyBones, string> {
-        { HumanBodyBones.Hips, "hips" },
-        { HumanBodyBones.Neck, "neck" },
-        { HumanBodyBones.Head, "head" },
-        { HumanBodyBones.LeftShoulder, "leftShoulder" },
-        { HumanBodyBones.LeftUpperArm, "leftUpperArm" },
-        { HumanBodyBones.LeftLowerArm, "leftLowerArm" },
-        { HumanBodyBones.LeftHand, "leftHand" },
-        { HumanBodyBones.RightShoulder, "rightShoulder" },
-        { HumanBodyBones.RightUpperArm, "rightUpperArm" },
-        { HumanBodyBones.RightLowerArm, "rightLowerArm" },
-        { HumanBodyBones.RightHand, "rightHand" },
-        { HumanBodyBones.LeftUpperLeg, "leftUpperLeg" },
-        { HumanBodyBones.LeftLowerLeg, "leftLowerLeg" },
-        { HumanBodyBones.LeftFoot, "leftFoot" },
-        { HumanBodyBones.LeftToes, "leftToes" },
-        { HumanBodyBones.RightUpperLeg, "rightUpperLeg" },
-        { HumanBodyBones.RightLowerLeg, "rightLowerLeg" },
-        { HumanBodyBones.RightFoot, "rightFoot" },
-        { HumanBodyBones.RightToes, "rightToes" },
-      };
+  // The bones that styles turn. Spine and chest are below, as avatars have one to three bones there.
+  private static readonly HumanBodyBones[] Bones = {
+    HumanBodyBones.Hips, HumanBodyBones.Neck, HumanBodyBones.Head,
+    HumanBodyBones.LeftShoulder, HumanBodyBones.LeftUpperArm, HumanBodyBones.LeftLowerArm,
+    HumanBodyBones.LeftHand,
+    HumanBodyBones.RightShoulder, HumanBodyBones.RightUpperArm, HumanBodyBones.RightLowerArm,
+    HumanBodyBones.RightHand,
+    HumanBodyBones.LeftUpperLeg, HumanBodyBones.LeftLowerLeg, HumanBodyBones.LeftFoot,
+    HumanBodyBones.LeftToes,
+    HumanBodyBones.RightUpperLeg, HumanBodyBones.RightLowerLeg, HumanBodyBones.RightFoot,
+    HumanBodyBones.RightToes,
+  };
 
   private readonly List<Transform> transforms = new List<Transform>();
   // World scale of each one's parent: translations are in metres of the world.
@@ -60,8 +48,10 @@ internal sealed class HumanoidJoints {
     var joints = new List<Joint>();
     Add(animator.transform, -1, wanted, joints);
     var human = new Dictionary<string, int>();
-    foreach (KeyValuePair<HumanBodyBones, string> name in Names)
-      human[name.Value] = PlaceOf(animator, name.Key);
+    foreach (HumanBodyBones bone in Bones) {  // VRM calls LeftHand "leftHand".
+      string name = bone.ToString();
+      human[char.ToLowerInvariant(name[0]) + name.Substring(1)] = PlaceOf(animator, bone);
+    }
     int upperChest = PlaceOf(animator, HumanBodyBones.UpperChest);
     int chest = PlaceOf(animator, HumanBodyBones.Chest);
     int spine = PlaceOf(animator, HumanBodyBones.Spine);

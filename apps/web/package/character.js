@@ -1,10 +1,9 @@
 // Styling poses of the caller's own: panache.h for JavaScript. See index.d.ts.
 import {
-  PanacheError, checkFinite, checkInteger, checkJoints, checkKeys, checkPose,
-  checkTriggered, inUse, timingNumber, unexpected,
+  PanacheError, checkFinite, checkInteger, checkJoints, checkKeys, checkPose, checkTriggered,
+  handleFor, inUse, timingNumber, unexpected,
 } from './checks.js';
-import { writeClip } from './clip.js';
-import { removedIndex, removerHandle } from './remover.js';
+import { removedIndex, removerHandle, writeClip } from './remover.js';
 import {
   kCharacterOptions, kHumanJoint, kInputPose, kJoint, kReport, kShape, kSkeletonOptions,
   kStrengthKey, kStrengthTrack, kStylizeOptions,
@@ -65,13 +64,9 @@ export class Skeleton {
     return this.#panache._arena((arena) => this.#wasm.panache_skeleton_find(
       this._handleFor(this.#panache), arena.text(humanJoint)));
   }
-  // Handles are addresses in the memory of their own module.
   _handleFor(panache) {
-    if (panache !== this.#panache) {
-      throw new PanacheError(
-        'this skeleton is of another Panache; create one with createSkeleton()');
-    }
-    return inUse(this.#skeleton, 'skeleton');
+    return handleFor(panache, this.#panache, this.#skeleton, 'skeleton',
+      'this skeleton is of another Panache; create one with createSkeleton()');
   }
 
   free() {
@@ -149,9 +144,8 @@ export class Character {
     return this.#panache._arena((arena) => {
       const at = arena.write(kReport, { structSize: kReport.size });
       arena.check(this.#wasm.panache_character_get_report(this.#handle(), at));
-      const [gate, contacts, rate, ahead] = ['gate', 'contacts', 'rate', 'ahead'].map(
-        (name) => arena.read(kReport, name, at));
-      return { gate, contacts, rate, ahead };
+      const { structSize, ...report } = arena.read(kReport, at);
+      return report;
     });
   }
   reset() { this.#wasm.panache_character_reset(this.#handle()); }

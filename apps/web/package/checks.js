@@ -38,6 +38,11 @@ export function inUse(handle, what) {
   if (handle) return handle;
   throw new PanacheError(`this ${what} was freed and cannot be used any more; create another one`);
 }
+// The same for `panache`: handles are addresses in the memory of the module of their `owner`.
+export function handleFor(panache, owner, handle, what, foreign) {
+  if (panache !== owner) throw new PanacheError(foreign);
+  return inUse(handle, what);
+}
 
 export function checkBytes(bytes, what) {
   if (typeof bytes?.byteLength === 'number') return bytes;

@@ -6,12 +6,12 @@
 /** The 21 joints of a humanoid, in the order of `parts` and `offsets`; parents before children. */
 export const humanJoints: readonly string[];
 
-/** Bad input; the message says where, what was expected and what was found. */
 /** What kind of mistake an error is, for programs that help with it; most are 'other'. */
 export type ErrorKind =
   'other' | 'fileExists' | 'rateNeeded' | 'notHumanoid' | 'unknownStyle' | 'noStyles' | 'styleExists' |
   'isModel' | 'isStyleFile' | 'styleOfAnother' | 'notSafetensors' | 'modelCannotLearn' |
   'otherSkeletons' | 'loopOpen' | 'loopStrengths' | 'badStyleName';
+/** Bad input; the message says where, what was expected and what was found. */
 export class PanacheError extends Error {
   readonly kind: ErrorKind;
   constructor(message: string, kind?: ErrorKind);
@@ -344,12 +344,9 @@ export interface Body {
 
 /** A source of motion and the character that it moves. */
 declare class Player {
-  /** 0 is neutral, 1 the style as captured, more exaggerates it (-4 to 4). Eased in. Throws where
-   * the model has no such style, or the strength is not finite. */
+  /** As those of a Character. */
   setStrength(style: string, strength: number): void;
-  /** What is left out is 1. Eased in. */
   setShape(shape: Partial<Shape>): void;
-  /** See Character.trigger(). */
   trigger(style: string, gesture?: number): void;
   /** A model for setRemoved(); the motion goes on. */
   useRemover(remover: Remover): void;

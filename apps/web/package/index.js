@@ -3,8 +3,8 @@
 
 import { Character, Skeleton, stylizeClip, writeShape } from './character.js';
 import {
-  PanacheError, checkBytes, checkFinite, checkInteger, checkKeys, checkTriggered, inUse, lastError,
-  timingNumber,
+  PanacheError, checkBytes, checkFinite, checkInteger, checkKeys, checkTriggered, handleFor, inUse,
+  lastError, timingNumber,
 } from './checks.js';
 import { Arena } from './memory.js';
 import { Remover, removedIndex, removerHandle } from './remover.js';
@@ -91,12 +91,17 @@ export class Panache {
       this.#wasm.panache_page_style_add(arena.copy(this.#bytes), this.#bytes.byteLength,
         arena.copy(bytes), bytes.byteLength, arena.text(name), replace ? 1 : 0)))));
   }
-  extractStyle(style) { return this.#withStyle('extract', style); }
-  removeStyle(style) { this.setModel(this.#withStyle('remove', style)); }
-  #withStyle(action, style) {
-    return this._arena((arena) => this._take(arena.create((out) =>
-      this.#wasm[`panache_styles_${action}`](arena.copy(this.#bytes), this.#bytes.byteLength,
-        arena.text(style), out))));
+  extractStyle(style) {
+    return this.#withStyle(style, (bytes, size, name, out) =>
+      this.#wasm.panache_styles_extract(bytes, size, name, out));
+  }
+  removeStyle(style) {
+    this.setModel(this.#withStyle(style, (bytes, size, name, out) =>
+      this.#wasm.panache_styles_remove(bytes, size, name, out)));
+  }
+  #withStyle(style, change) {
+    return this._arena((arena) => this._take(arena.create((out) => change(
+      arena.copy(this.#bytes), this.#bytes.byteLength, arena.text(style), out))));
   }
 
   learnStyle(style, styled, neutral) {
@@ -110,7 +115,7 @@ export class Panache {
         bank ? arena.copy(bank) : 0, bank?.byteLength ?? 0, after.file._handleFor(this), after.clip ?? 0,
         arena.text(after.file.name), arena.text(style), out)));
       const [report] = new Uint32Array(this.#wasm.memory.buffer, out, 1);
-      return { bytes, report: JSON.parse(new TextDecoder().decode(this._take(report))) };
+      return { bytes, report: this._json(report) };
     });
   }
 
@@ -129,14 +134,14 @@ export class Panache {
           (extension ? `the extension '${extension}'` : 'no extension'));
     }
     checkBytes(bytes, name);
-    return new MotionFile(this, this.#wasm, bytes, name, extension, fps);
+    return new MotionFile(this, bytes, name, extension, fps);
   }
 
   createWalker() {
     const model = this._model();
     if (!this.#walker) throw new PanacheError('no walker was given to Panache.create');
     const player = this.#wasm.panache_page_player_walk(model, this.#walker);
-    return new Walk(this, this.#wasm, this._checked(player), '');
+    return new Walk(this, this._checked(player), '');
   }
 
   goldenHash() {
@@ -158,18 +163,7 @@ export class Panache {
   get _wasm() { return this.#wasm; }
   _model() { return inUse(this.#model, 'Panache'); }
   _players() { return this.#players; }
-  _stylesOf(model) {
-    const wasm = this.#wasm;
-    return Array.from({ length: wasm.panache_model_style_count(model) }, (_, style) => ({
-      name: this._text(wasm.panache_model_style_name(model, style)),
-      description: this._text(wasm.panache_page_style_description(model, style)),
-      group: this._text(wasm.panache_model_style_group(model, style)),
-      learnt: wasm.panache_page_style_learnt(model, style) !== 0,
-      thumbnail: this._text(wasm.panache_page_style_thumbnail(model, style)),
-      gestures: Array.from({ length: wasm.panache_model_gesture_count(model, style) }, (__, k) =>
-        this._text(wasm.panache_model_gesture_name(model, style, k))),
-    }));
-  }
+  _stylesOf(model) { return this._json(this.#wasm.panache_page_styles(model)); }
   _styleIndex(name, styles = this.styles) {
     let index = styles.findIndex((style) => style.name === name);
     if (index < 0) {  // As the program: without case where that is needed.
@@ -187,10 +181,7 @@ export class Panache {
     throw lastError(this.#wasm);
   }
   _arena(use) { return Arena.use(this.#wasm, use); }
-  _text(at) {
-    const bytes = new Uint8Array(this.#wasm.memory.buffer, at);
-    return new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)));
-  }
+  _json(handle) { return JSON.parse(new TextDecoder().decode(this._take(handle))); }
   // What a panache_bytes holds, which goes.
   _take(handle) {
     const at = this.#wasm.panache_bytes_data(handle), size = this.#wasm.panache_bytes_size(handle);
@@ -201,38 +192,30 @@ export class Panache {
 }
 
 export class MotionFile {
-  #panache; #wasm; #file; #extension;
+  #panache; #wasm; #file;
 
-  constructor(panache, wasm, bytes, name, extension, fps) {
+  constructor(panache, bytes, name, extension, fps) {
     this.#panache = panache;
-    this.#wasm = wasm;
-    this.#extension = extension;
-    this.#file = panache._arena((arena) => panache._checked(wasm.panache_page_file_create(
+    this.#wasm = panache._wasm;
+    this.#file = panache._arena((arena) => panache._checked(this.#wasm.panache_page_file_create(
       arena.copy(bytes), bytes.byteLength,
       arena.text(name.slice(0, name.length - extension.length) + extension), fps)));
-    const { clips, joints, notes } = panache._arena((arena) => JSON.parse(new TextDecoder().decode(
-      panache._take(wasm.panache_page_file_describe(this.#file, arena.text(name))))));
-    this.name = name;
-    this.extension = extension;
-    this.joints = joints;
-    this.notes = notes;
-    this.clips = clips.map(({ name: title, frames, frameTime, moves }) => (
-      { name: title, frames, frameTime, seconds: Math.max(0, frames - 1) * frameTime, moves }));
+    const { clips, joints, notes } = panache._arena((arena) => panache._json(
+      this.#wasm.panache_page_file_describe(this.#file, arena.text(name))));
+    Object.assign(this, { name, extension, joints, notes });
+    this.clips = clips.map((clip) => (
+      { ...clip, seconds: Math.max(0, clip.frames - 1) * clip.frameTime }));
   }
 
-  // Handles are addresses in the memory of their own module.
   _handleFor(panache) {
-    if (panache !== this.#panache) {
-      throw new PanacheError(`${this.name}: this file is open in another Panache; open it with ` +
-        'openFile()');
-    }
-    return inUse(this.#file, 'file');
+    return handleFor(panache, this.#panache, this.#file, 'file',
+      `${this.name}: this file is open in another Panache; open it with openFile()`);
   }
 
   createPlayer(clip = 0) {
     const player = this.#wasm.panache_page_player_clip(
       this.#panache._model(), this._handleFor(this.#panache), clip);
-    return new Playback(this.#panache, this.#wasm, this.#panache._checked(player), this.#extension);
+    return new Playback(this.#panache, this.#panache._checked(player), this.extension);
   }
 
   putOn(character, clip = 0) {
@@ -250,10 +233,10 @@ export class MotionFile {
 class Player {
   #panache; #player; #extension; #remover = null;
 
-  constructor(panache, wasm, player, extension) {
+  constructor(panache, player, extension) {
     this.#panache = panache;
     this.#extension = extension;
-    this._wasm = wasm;
+    this._wasm = panache._wasm;
     this.#player = player;
     panache._players().add(this);
   }

@@ -72,12 +72,14 @@ export class Arena {
     list.forEach((values, i) => this.write(type, values, at + i * type.size));
     return at;
   }
-  read(type, name, at) {
-    const { at: offset, type: kind, count } = type.places.get(name);
+  // The values of a struct by name, as write() takes them.
+  read(type, at) {
     const view = new DataView(this.#wasm.memory.buffer, at, type.size);
-    const numbers = Array.from({ length: count },
-      (_, i) => view[kAccess[kind][1]](offset + i * kSizes[kind], true));
-    return count === 1 ? numbers[0] : numbers;
+    return Object.fromEntries(Array.from(type.places, ([name, { at: offset, type: kind, count }]) => {
+      const numbers = Array.from({ length: count },
+        (_, i) => view[kAccess[kind][1]](offset + i * kSizes[kind], true));
+      return [name, count === 1 ? numbers[0] : numbers];
+    }));
   }
   zeros(size) {
     const at = this.allocate(size);

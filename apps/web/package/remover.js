@@ -1,6 +1,6 @@
 // A model that takes styles off, and tells which styles a motion shows. See index.d.ts.
-import { PanacheError, checkBytes, inUse, unexpected } from './checks.js';
-import { writeClip } from './clip.js';
+import { PanacheError, checkBytes, checkClip, handleFor, unexpected } from './checks.js';
+import { kClip } from './structs.js';
 
 const kAnyStyle = 'any', kNeutral = 'neutral';
 
@@ -38,12 +38,9 @@ export class Remover {
     });
   }
 
-  // Handles are addresses in the memory of their own module.
   _handleFor(panache) {
-    if (panache !== this.#panache) {
-      throw new PanacheError('this remover is of another Panache; create one with createRemover()');
-    }
-    return inUse(this.#remover, 'remover');
+    return handleFor(panache, this.#panache, this.#remover, 'remover',
+      'this remover is of another Panache; create one with createRemover()');
   }
   _styleIndex(style) { return this.#panache._styleIndex(style, this.styles); }
 
@@ -51,6 +48,15 @@ export class Remover {
     this.#wasm.panache_model_destroy(this.#remover);
     this.#remover = 0;
   }
+}
+
+// A clip of the caller's own in the memory of the module, as panache.h has it.
+export function writeClip(arena, panache, skeleton, clip) {
+  return arena.write(kClip, {
+    skeleton: skeleton._handleFor(panache), frameCount: checkClip(clip, skeleton.jointCount),
+    frameSeconds: clip.frameSeconds, rotations: arena.copy(clip.rotations),
+    translations: arena.copy(clip.translations),
+  });
 }
 
 // The handle of a remover.

@@ -1,15 +1,14 @@
 // Styles characters of three.js: panache/three.
 import type { AnimationMixer, Object3D } from 'three';
-import type { Character, CharacterOptions, Panache, Pose } from './index.js';
+import type {
+  Character, CharacterOptions, Panache, Pose, SkeletonOptions,
+} from './index.js';
 
-export interface StyledBonesOptions extends CharacterOptions {
+export interface StyledBonesOptions extends CharacterOptions,
+    Pick<SkeletonOptions, 'metresPerUnit' | 'upAxis'> {
   /** The name of the bone by the name of the humanoid's joint ("leftHand", as in VRM), where names
    * and shape are not enough; null where there is none. */
   humanBones?: Record<string, string | null>;
-  /** 0 (the default): judged by the length of the legs. */
-  metresPerUnit?: number;
-  /** "+Y", "-Z", ...; null (the default): found. */
-  upAxis?: string | null;
 }
 
 /** Styles bones in place, whatever has posed them. Bones are those below `root`, together with what

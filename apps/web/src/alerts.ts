@@ -17,12 +17,12 @@ export function say(text: string) {
 }
 
 /** Tells of what is wrong with a file; everything else is a fault of ours. */
-export async function attempt(action: () => Promise<void> | void) {
+export async function attempt(action: () => Promise<void> | void, tell = say) {
   try {
-    say('');
+    tell('');
     await action();
   } catch (error) {
     if (!(error instanceof PanacheError)) throw error;
-    say(error.message);
+    tell(error.message);
   }
 }

@@ -43,3 +43,29 @@ export function colour(name: string): string {
   }
   return value;
 }
+
+/** Gives a file to the visitor to keep. */
+export function saveBytes(bytes: BlobPart, name: string, type = 'application/octet-stream') {
+  const address = URL.createObjectURL(new Blob([bytes], { type }));
+  const link = element('a', { href: address, download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(address), 10_000);
+}
+
+/** Where a pointer is over an element, 0 to 1 across and down. */
+export function placeIn(field: HTMLElement, { clientX, clientY }: PointerEvent): [number, number] {
+  const box = field.getBoundingClientRect();
+  return [(clientX - box.left) / box.width, (clientY - box.top) / box.height];
+}
+/** Tells where a pointer that is held down on an element is, and when it is let go. */
+export function listenToDrags(field: HTMLElement, move: (x: number, y: number) => void,
+    end = () => {}) {
+  field.addEventListener('pointerdown', (event) => {
+    field.setPointerCapture(event.pointerId);
+    move(...placeIn(field, event));
+  });
+  field.addEventListener('pointermove', (event) => {
+    if (field.hasPointerCapture(event.pointerId)) move(...placeIn(field, event));
+  });
+  for (const name of ['pointerup', 'pointercancel']) field.addEventListener(name, end);
+}

@@ -1,88 +1,100 @@
 // What is taken away: the motion that is seen, in files of all kinds.
 
-import { PanacheError, type Panache, type Playback, type Remover, type Walk } from '../package/index.js';
+import { PanacheError, type MotionFile, type Playback, type Walk } from '../package/index.js';
+import { saveBytes } from './dom';
 import { late } from './late';
-import type { LoopMotion } from './loop';
-import { clipLoop, walkLoop } from './loop_motion';
-import { addFiles, addMotion, type Exports } from './save_all';
-import { saveBytes } from './saving';
-import type { Settings } from './settings';
-import { titleOf, type Source } from './source';
-import type { Pace } from './steering';
+import { clipLoop, walkLoop, type LoopMotion } from './loop';
+import type { Page } from './page';
+import { freed, openMoving, titleOf } from './source';
 import { activeStyles, applySettings } from './styling';
 
-/** What is seen now. */
-export interface Seen {
-  source: Source;
-  settings: Settings;
-  /** Once it is there. */
-  remover: Remover | null;
-  pace: Pace;
-  /** Those that are listed. */
-  files: File[];
-  /** Of the file that is open. */
-  bytes: ArrayBuffer;
-  /** From where to where a clip plays, seconds; `isPart`: that is less than all of it. */
-  range: [number, number];
-  isPart: boolean;
+const kFormats = ['.bvh', '.glb', '.vrma'];
+
+type Exports = Record<string, Uint8Array>;  // By file name.
+
+/** Adds what the player has in all formats, under a title that none of the others has. */
+function addMotion(out: Exports, player: Walk | Playback, title: string) {
+  while (`${title}${kFormats[0]}` in out) title += '-2';
+  for (const extension of kFormats) out[title + extension] = player.exportAs(extension);
 }
 
 export class Exporter {
-  constructor(private panache: Panache, private seen: () => Seen) {}
+  constructor(private page: Page) {}
 
   /** "walk-old.bvh": the source, the styles, the extension. */
   nameOf(extension: string, of?: string): string {
-    const { source, settings, pace } = this.seen();
-    const title = of ?? (source.kind === 'clip' ? titleOf(source.file.name) : pace);
-    const styles = activeStyles(source, settings);
+    const styles = activeStyles(this.page.source, this.page.store.settings);
+    const title = of ?? this.#title;
     return `${[title, ...(styles.length ? styles : ['neutral'])].join('-')}${extension}`;
   }
 
+  /** Of what is seen, by which its files are called. */
+  get #title(): string {
+    const { source, steering } = this.page;
+    return source.kind === 'clip' ? titleOf(source.file.name) : steering.pace;
+  }
+
   save(extension: string) {
-    const { player } = this.seen().source;
-    saveBytes(player.exportAs(extension) as BlobPart, this.nameOf(extension));
+    saveBytes(this.page.source.player.exportAs(extension) as BlobPart, this.nameOf(extension));
   }
   saveStyle(name: string) {
-    saveBytes(this.panache.extractStyle(name) as BlobPart, `${name}.safetensors`);
+    saveBytes(this.page.panache.extractStyle(name) as BlobPart, `${name}.safetensors`);
   }
 
   /** Everything that is listed, styled as is set now, in all formats. */
   async saveAll() {
-    const { source, pace, files } = this.seen();
-    const out: Exports = {};
-    const nameOf = (title: string) => this.nameOf('', title);
-    if (source.kind === 'walk') addMotion(out, source.player, nameOf(pace));
+    const { source, panache, files } = this.page;
+    const out: Exports = {}, failed: string[] = [];
+    if (source.kind === 'walk') addMotion(out, source.player, this.nameOf(''));
     const listed = source.kind === 'clip' ? files : [];
-    const failed = await addFiles(out, this.panache, listed,
-      (player) => this.#prepare(player), nameOf);
+    for (const file of listed) {
+      await new Promise((next) => setTimeout(next));  // The page goes on in between.
+      try {
+        freed((await openMoving(panache, file)).file, (opened) => this.#addFile(out, opened));
+      } catch (error) {
+        if (!(error instanceof PanacheError)) throw error;
+        failed.push(error.message);
+      }
+    }
     if (Object.keys(out).length) {
       const all = listed.length > 1 ? `${listed.length} motions` : titleOf(Object.keys(out)[0]);
-      saveBytes((await late('zip')).zipFiles(out) as BlobPart, `${all}.zip`, 'application/zip');
+      saveBytes((await late('zip')).zipSync(out) as BlobPart, `${all}.zip`, 'application/zip');
     }
     if (failed.length) throw new PanacheError(failed.join('\n'));
   }
 
+  #addFile(out: Exports, file: MotionFile) {
+    const title = titleOf(file.name);
+    file.clips.forEach(({ name, moves }, i) => {
+      if (!moves) return;
+      freed(file.createPlayer(i), (player) => {
+        this.#prepare(player);
+        addMotion(out, player,
+          this.nameOf('', file.clips.length > 1 ? `${title}-${name || i + 1}` : title));
+      });
+    });
+  }
+
   /** What is seen, as a motion file. */
   capture(which: 'input' | 'styled', seconds: number): File {
-    const { source, pace } = this.seen();
-    const [extension, title] = source.kind === 'clip'
-      ? [source.file.extension, titleOf(source.file.name)] : ['.bvh', pace];
+    const { source } = this.page;
+    const extension = source.kind === 'clip' ? source.file.extension : '.bvh';
     const bytes = source.player.exportAs(extension, { which, seconds });
     return new File([bytes as BlobPart],
-      `${which === 'input' ? title : this.nameOf('')}${extension}`);
+      `${which === 'input' ? this.#title : this.nameOf('')}${extension}`);
   }
 
   /** What is seen now, as a motion that can be gone through again, beside what is seen. */
   loopMotion(): LoopMotion {
-    const { source, settings, pace, bytes, range, isPart } = this.seen();
+    const { source, panache, store, steering, bytes, transport } = this.page;
     const prepare = (player: Walk | Playback) => this.#prepare(player);
-    if (source.kind === 'walk') return walkLoop(this.panache, pace, prepare);
-    const keyed = Object.keys(settings.keys).length > 0;
-    return clipLoop(source, bytes, range, prepare, !isPart && !keyed);
+    if (source.kind === 'walk') return walkLoop(panache, steering.pace, prepare);
+    const keyed = Object.keys(store.settings.keys).length > 0;
+    return clipLoop(source, bytes, transport.range, prepare, !transport.isPart && !keyed);
   }
 
   #prepare(player: Walk | Playback) {
-    const { settings, remover } = this.seen();
-    applySettings(this.panache, player, settings, remover);
+    const { panache, store, removal } = this.page;
+    applySettings(panache, player, store.settings, removal.remover);
   }
 }

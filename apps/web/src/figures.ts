@@ -123,10 +123,8 @@ export class Figures {
     this.#waiting.push(figure);
     const start = () => this.#move(figure);
     const stop = () => this.#moving === figure && this.#move(null);
-    row.addEventListener('pointerenter', start);
-    row.addEventListener('pointerleave', stop);
-    row.addEventListener('focusin', start);
-    row.addEventListener('focusout', stop);
+    for (const event of ['pointerenter', 'focusin']) row.addEventListener(event, start);
+    for (const event of ['pointerleave', 'focusout']) row.addEventListener(event, stop);
   }
   #next() {
     const figure = this.#waiting.shift();

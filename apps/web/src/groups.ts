@@ -1,35 +1,31 @@
 // The styles by what they are listed under.
 
-import type { Style } from '../package/index.js';
+import type { ClipInfo, Style } from '../package/index.js';
 import { element } from './dom';
 
 /** What is said of a style in a list. */
 type Listed = Pick<Style, 'name' | 'group'> & Partial<Pick<Style, 'learnt'>>;
 
-export interface StyleGroup<Own> {
-  /** "Moods"; empty for the only group of a model that has none. */
-  title: string;
-  styles: Own[];
-}
-
 /** "old" as it begins a line: "Old". */
 export const capitalized = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
 
-function titleOf({ group, learnt }: Listed): string {
-  return group ? capitalized(group) : learnt ? 'Yours' : 'Others';
-}
-
-/** Learnt styles first, then the groups in the order of the model. */
-export function groupStyles<Own extends Listed>(styles: readonly Own[]): StyleGroup<Own>[] {
+/** Learnt styles first, then the groups in the order of the model. A title is "Moods"; empty for the
+ * only group of a model that has none. */
+export function groupStyles<Own extends Listed>(styles: readonly Own[]) {
   const sorted = [...styles].sort((a, b) => Number(b.learnt ?? false) - Number(a.learnt ?? false));
   if (!styles.some(({ group }) => group)) return [{ title: '', styles: sorted }];
   const groups = new Map<string, Own[]>();
   for (const style of sorted) {
-    const title = titleOf(style);
+    const title = style.group ? capitalized(style.group) : style.learnt ? 'Yours' : 'Others';
     groups.set(title, [...(groups.get(title) ?? []), style]);
   }
   return [...groups].map(([title, own]) => ({ title, styles: own }));
 }
+
+/** What a menu of the motions of a file holds: those of the humanoid. */
+export const motionOptions = (clips: readonly ClipInfo[], selected: number) =>
+  clips.flatMap(({ name, moves }, i) => (moves
+    ? [element('option', { value: i, selected: i === selected }, name || `motion ${i + 1}`)] : []));
 
 /** What a menu of styles holds. */
 export function styleOptions(styles: readonly Listed[], selected: string): HTMLElement[] {

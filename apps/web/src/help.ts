@@ -1,6 +1,6 @@
 // What keys do, and what the page is.
 
-import { element, find } from './dom';
+import { button, element, find } from './dom';
 
 const kKeys: [string, string][] = [
   ['W A S D, arrows', 'steer the walker; Shift runs'],
@@ -20,11 +20,8 @@ const kKeys: [string, string][] = [
 ];
 
 export function buildHelp(): HTMLDialogElement {
-  const list = element('dl', {});
-  for (const [keys, what] of kKeys) {
-    list.append(element('dt', {}, keys), element('dd', {}, what));
-  }
-  const close = element('button', { type: 'button' }, 'Close');
+  const list = element('dl', {}, ...kKeys.flatMap(([keys, what]) =>
+    [element('dt', {}, keys), element('dd', {}, what)]));
   const dialog = element('dialog', { id: 'help', 'aria-labelledby': 'help-title' },
     element('h2', { id: 'help-title' }, 'Help'),
     element('p', {}, 'Move a slider: the same motion in another style, computed in this browser. ' +
@@ -37,8 +34,7 @@ export function buildHelp(): HTMLDialogElement {
       'in the style, from files or recorded from the view; a slider for it appears. Save it as a ' +
       'style file (.safetensors), and drop that, or a model, on the view to open it again. ' +
       'Keyframes, beside the time line of a clip, change the strength of a style over time.'),
-    list, close);
-  close.addEventListener('click', () => dialog.close());
+    list, button('Close', () => dialog.close()));
   find('main').append(dialog);
   return dialog;
 }

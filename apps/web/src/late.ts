@@ -1,12 +1,12 @@
 // Scripts that come when they are first needed, as plain scripts: a page opened from a disk may
-// import no modules. vite.config.ts makes assets/NAME.js of late/NAME.ts, which puts what it has
-// into the window under its name.
+// import no modules. vite.config.ts makes assets/NAME.js of each, which puts what it has into the
+// window as late_NAME.
 
 import { PanacheError } from '../package/index.js';
 import { element } from './dom';
 
 interface Late {
-  zip: { zipFiles(files: Record<string, Uint8Array>): Uint8Array };
+  zip: { zipSync(files: Record<string, Uint8Array>): Uint8Array };
   gif: typeof import('gifenc');
   remover: { packed: string };
   neutral: { packed: string };
@@ -23,7 +23,16 @@ function load(path: string): Promise<void> {
 }
 
 export async function late<Name extends keyof Late>(name: Name): Promise<Late[Name]> {
-  const known = ((window as { late?: Partial<Late> }).late ??= {});
-  if (!known[name]) await load(`./assets/${name}.js`);
-  return known[name]!;
+  const loaded = () => (window as unknown as Record<string, Late[Name]>)[`late_${name}`];
+  if (!loaded()) await load(`./assets/${name}.js`);
+  return loaded();
+}
+
+/** What the build packs into a script: gzip in base64. */
+export async function unpack(base64: string): Promise<ArrayBuffer> {
+  const text = atob(base64);
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+  const packed = new Blob([bytes]).stream();
+  return new Response(packed.pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
 }

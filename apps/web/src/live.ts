@@ -12,17 +12,12 @@ const kStale = 1000;    // Milliseconds without a pose until the page says so.
 export class LiveView {
   /** Drawn so far, for tests; and what was drawn last: input, then output. */
   frames = 0;
-  get poses() {
-    return this.#newest;
-  }
-  #panache: Panache;
+  poses: Float32Array | null = null;
   #stage = new Stage(find('#view') as HTMLCanvasElement);
-  #newest: Float32Array | null = null;
   #heard = 0;   // When, milliseconds.
   #drawn = 0;
 
-  constructor(panache: Panache) {
-    this.#panache = panache;
+  constructor(readonly panache: Panache) {
     document.body.dataset.source = 'live';
     document.body.dataset.view = this.#stage.view = 'side';
     this.#stage.trail = false;
@@ -40,11 +35,11 @@ export class LiveView {
   }
 
   async #begin() {
-    const file = this.#panache.openFile(await this.#body(), 'live.bvh');
+    const file = this.panache.openFile(await this.#body(), 'live.bvh');
     const player = file.createPlayer(0);
     const events = new EventSource('live/poses');
     events.addEventListener('message', ({ data }) => {
-      this.#newest = new Float32Array(JSON.parse(String(data)) as number[]);
+      this.poses = new Float32Array(JSON.parse(String(data)) as number[]);
       this.#heard = performance.now();
     });
     let ended = false;
@@ -54,7 +49,7 @@ export class LiveView {
     });
     const shown: Seen['player'] = {
       body: player.body, coarseBody: player.coarseBody, contacts: [0, 0],
-      parts: (which) => this.#newest?.subarray(...which === 'input'
+      parts: (which) => this.poses?.subarray(...which === 'input'
         ? [0, kNumbers] as const : [kNumbers, 2 * kNumbers] as const) ?? player.parts(which),
       pose: () => new Float32Array(),
     };
@@ -64,7 +59,7 @@ export class LiveView {
     const frame = (now: number) => {
       const seconds = (now - this.#drawn) / 1000;
       this.#drawn = now;
-      if (this.#newest) {
+      if (this.poses) {
         this.#stage.update(source, first, seconds);
         if (first) this.#stage.look('face', shown);
         first = false;

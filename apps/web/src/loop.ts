@@ -1,25 +1,67 @@
 // A loop of what is seen: an animated GIF of one cycle of the motion, else of all of it.
 
-import { humanJoints } from '../package/index.js';
+import { humanJoints, type Panache, type Playback, type Walk } from '../package/index.js';
 import { findCycle } from './cycle';
 import { late } from './late';
-import type { Source } from './source';
+import { clipSource, walkSource, type ClipSource, type Source } from './source';
 import type { Stage } from './stage';
+import { kPaces, type Pace } from './steering';
 
 export const kLoopStep = 0.04;  // Seconds of a frame; a GIF counts in hundredths.
 export const kLongest = 15;     // Seconds.
 const kShortest = 1;            // Seconds.
+const kSettle = 3;  // Seconds until the walker has her pace, and styles are eased in.
+const kEase = 0.5;  // Seconds until styles are.
 const kColours = 256;
 const kPaletteEvery = 4;  // Pixels that the colours are taken from.
 const kSharper = 2;       // Pixels drawn for one of the loop's, in each direction.
 
 /** A motion that plays by itself, from the same pose whenever it is opened. */
 export interface LoopMotion {
-  open(): Promise<Source>;
-  /** One frame on; false: there is none. */
-  advance(source: Source): boolean;
+  /** `advance` goes one frame on; false: there is none. */
+  open(): Promise<{ source: Source; advance(): boolean }>;
   /** Whether a cycle of it is wanted. */
   cyclic: boolean;
+}
+
+/** `prepare` gives a player its strengths. */
+export function walkLoop(panache: Panache, pace: Pace, prepare: (player: Walk) => void): LoopMotion {
+  const open = async () => {
+    const source = walkSource(panache);
+    const advance = () => {
+      source.player.steer(kPaces[pace].speed, kPaces[pace].turn);
+      source.player.step(kLoopStep);
+      return true;
+    };
+    prepare(source.player);
+    for (let t = 0; t < kSettle; t += kLoopStep) advance();
+    return { source, advance };
+  };
+  return { open, cyclic: true };
+}
+
+/** Of a clip from one second to another; a cycle of it where that is all of the clip, and no
+ * strength has keys in it. */
+export function clipLoop(of: ClipSource, bytes: ArrayBuffer,
+    [begin, end]: [number, number], prepare: (player: Playback) => void,
+    cyclic: boolean): LoopMotion {
+  const open = async () => {
+    const source = await clipSource(of.file, bytes, of.clip);
+    const { player } = source;
+    player.loop = false;
+    prepare(player);
+    player.seek(begin);
+    for (let t = 0; t < kEase; t += kLoopStep) player.step(kLoopStep);
+    player.seek(begin);
+    player.step(0);
+    const advance = () => {
+      if (player.seconds >= end - 1e-6) return false;
+      player.step(kLoopStep);
+      return player.seconds <= end + 1e-6;
+    };
+    return { source, advance };
+  };
+  return { open, cyclic };
 }
 
 /** The hips over the ground, and where all joints are from there, of the input and of the output. */
@@ -37,15 +79,12 @@ function posesOf({ player }: Source, seen: readonly ('input' | 'styled')[]) {
 
 /** Which frames [first, end) make the loop, and how far each body goes in it, metres. */
 async function plan(motion: LoopMotion, seen: readonly ('input' | 'styled')[]) {
-  const source = await motion.open();
+  const { source, advance } = await motion.open();
   const all: ReturnType<typeof posesOf>[] = [];
-  try {
-    do {
-      all.push(posesOf(source, seen));
-    } while (all.length * kLoopStep < kLongest && motion.advance(source));
-  } finally {
-    free(source);
-  }
+  do {
+    all.push(posesOf(source, seen));
+  } while (all.length * kLoopStep < kLongest && advance());
+  free(source);
   const cycle = motion.cyclic
     ? findCycle(all.map(({ pose }) => pose), Math.round(kShortest / kLoopStep)) : null;
   const [first, end] = cycle ?? [0, all.length];
@@ -66,7 +105,7 @@ export async function makeLoop(stage: Stage, motion: LoopMotion, width: number, 
     onProgress: (share: number) => boolean): Promise<Uint8Array | null> {
   const { applyPalette, GIFEncoder, quantize } = await late('gif');
   const { first, end, way } = await plan(motion, stage.seenBodies);
-  const source = await motion.open();
+  const { source, advance } = await motion.open();
   let studio: ReturnType<Stage['studio']> | undefined;
   const canvas = document.createElement('canvas');
   Object.assign(canvas, { width, height });
@@ -75,7 +114,7 @@ export async function makeLoop(stage: Stage, motion: LoopMotion, width: number, 
   let palette: ReturnType<typeof quantize> | undefined;
   try {
     studio = stage.studio(source);
-    for (let i = 0; i < first; ++i) motion.advance(source);
+    for (let i = 0; i < first; ++i) advance();
     for (let i = first; i < end; ++i) {
       studio.drawStill(source, kSharper * width, kSharper * height, way, (i - first) / (end - first));
       context.drawImage(studio.canvas, 0, 0, width, height);
@@ -89,7 +128,7 @@ export async function makeLoop(stage: Stage, motion: LoopMotion, width: number, 
       }
       await breathe();
       if (!onProgress((i + 1 - first) / (end - first))) return null;
-      motion.advance(source);
+      advance();
     }
   } finally {
     studio?.free();

@@ -6,19 +6,17 @@ import wasm from 'virtual:panache-file/wasm';
 
 import { Panache } from '../package/index.js';
 import { find } from './dom';
+import { unpack } from './late';
 import { LiveView } from './live';
 import { Page } from './page';
 import { served } from './served';
-import { unpack } from './unpack';
-
-/** The model that `panache view --model` serves beside the page, else the page's own. */
-async function findModel(): Promise<ArrayBuffer> {
-  return await (await served('model'))?.arrayBuffer() ?? unpack(model);
-}
 
 async function start() {
   try {
-    const files = await Promise.all([unpack(wasm), findModel(), unpack(walker)]);
+    // The model that `panache view --model` serves beside the page, else the page's own.
+    const given = await served('model');
+    const files = await Promise.all(
+      [unpack(wasm), given ? given.arrayBuffer() : unpack(model), unpack(walker)]);
     const panache = await Panache.create(
       { wasm: files[0], model: files[1], walker: files[2] });
     const live = new URLSearchParams(location.search).has('live');

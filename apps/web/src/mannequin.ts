@@ -4,7 +4,6 @@
 import * as THREE from 'three';
 
 import { humanJoints, type Body } from '../package/index.js';
-import { boxAround } from './measure';
 import { Translucency } from './translucency';
 
 export interface Look {
@@ -13,6 +12,20 @@ export interface Look {
 }
 
 const kNumbers = 7;
+const kMostVertices = 20000;  // Of a mesh that are looked at; of more than that every second or so.
+
+/** Around these meshes in their present pose, in the world. */
+export function boxAround(meshes: readonly THREE.Mesh[]): THREE.Box3 {
+  const box = new THREE.Box3(), point = new THREE.Vector3();
+  for (const mesh of meshes) {
+    const { count } = mesh.geometry.getAttribute('position');
+    const step = Math.ceil(count / kMostVertices);
+    for (let i = 0; i < count; i += step) {
+      box.expandByPoint(mesh.getVertexPosition(i, point).applyMatrix4(mesh.matrixWorld));
+    }
+  }
+  return box;
+}
 
 /** Both bodies and all ghosts of a player share it. */
 export function bodyGeometry(body: Body): THREE.BufferGeometry {
@@ -60,7 +73,7 @@ const kFragment = `
   }`;
 
 export class Mannequin {
-  readonly mesh: THREE.SkinnedMesh;
+  readonly object: THREE.SkinnedMesh;
   #bones: THREE.Bone[];
   #translucency: Translucency;
 
@@ -73,18 +86,18 @@ export class Mannequin {
         opacity: { value: 1 },
       },
     });
-    this.mesh = new THREE.SkinnedMesh(geometry, material);
+    this.object = new THREE.SkinnedMesh(geometry, material);
     this.#bones = humanJoints.map(() => new THREE.Bone());
     for (const bone of this.#bones) bone.matrixWorldAutoUpdate = bone.matrixAutoUpdate = false;
     const one = new THREE.Vector3(1, 1, 1);
     const inverses = this.#bones.map((_, joint) => new THREE.Matrix4().compose(
       new THREE.Vector3().fromArray(body.bindPositions, 3 * joint),
       new THREE.Quaternion().fromArray(body.bindRotations, 4 * joint), one).invert());
-    this.mesh.bind(new THREE.Skeleton(this.#bones, inverses), new THREE.Matrix4());
-    this.mesh.bindMode = THREE.DetachedBindMode;
-    this.mesh.frustumCulled = false;
-    this.mesh.castShadow = true;
-    this.#translucency = new Translucency([this.mesh]);
+    this.object.bind(new THREE.Skeleton(this.#bones, inverses), new THREE.Matrix4());
+    this.object.bindMode = THREE.DetachedBindMode;
+    this.object.frustumCulled = false;
+    this.object.castShadow = true;
+    this.#translucency = new Translucency([this.object]);
   }
 
   /** Takes the pose that Player.parts() gives, moved by `shift`. */
@@ -98,11 +111,8 @@ export class Mannequin {
     });
   }
 
-  get object() {
-    return this.mesh;
-  }
   get box() {
-    return boxAround([this.mesh]);
+    return boxAround([this.object]);
   }
   set opacity(opacity: number) {
     this.#translucency.opacity = opacity;
@@ -111,8 +121,8 @@ export class Mannequin {
   /** The geometry stays: others may use it. */
   free() {
     this.#translucency.free();
-    this.mesh.removeFromParent();
-    (this.mesh.material as THREE.Material).dispose();
-    this.mesh.skeleton.dispose();
+    this.object.removeFromParent();
+    (this.object.material as THREE.Material).dispose();
+    this.object.skeleton.dispose();
   }
 }

@@ -12,11 +12,6 @@ const kLinkEvery = 3;               // Instants.
 
 export const kMatchPlotHeight = 2 * kFigures + kTracks;
 
-/** What a distance is worth. */
-function linkColour(distance: number): string {
-  return colour(distance < kGood ? 'accent' : distance <= kFair ? 'soft' : 'bad');
-}
-
 /** Styled above, neutral below, on one scale of time. */
 export function drawMatch(canvas: HTMLCanvasElement, plot: LearnReport['plot']) {
   const context = canvas.getContext('2d')!;
@@ -30,7 +25,8 @@ export function drawMatch(canvas: HTMLCanvasElement, plot: LearnReport['plot']) 
   const top = kFigures + 6, bottom = kFigures + kTracks - 6;
   plot.instants.forEach(([styled, neutral, distance], i) => {
     if (i % kLinkEvery !== 0) return;
-    context.strokeStyle = linkColour(distance);
+    context.strokeStyle = colour(
+      distance < kGood ? 'accent' : distance <= kFair ? 'soft' : 'bad');
     context.globalAlpha = 0.7;
     context.lineWidth = 1;
     context.beginPath();

@@ -1,13 +1,25 @@
-// The pad on the page: a field to drag in, and four menus that say what its corners are.
+// The pad: a field to drag a point in between four corners, each of them a style of a menu.
 
 import type { Style } from '../package/index.js';
-import { place, shares } from './blend';
-import { element } from './dom';
+import { element, listenToDrags } from './dom';
 import { styleOptions } from './groups';
 import type { Store } from './settings';
 
 const kStep = 0.05;
 const kCornerNames = ['top left', 'top right', 'bottom left', 'bottom right'];
+
+/** Shares of the corners (top left, top right, bottom left, bottom right) at x, y in 0 to 1. */
+export function shares(x: number, y: number): [number, number, number, number] {
+  return [(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y];
+}
+
+/** Where on the pad these strengths are; the middle where they are all 0. */
+export function place(strengths: readonly number[]): { x: number; y: number } {
+  const [a, b, c, d] = strengths.map((s) => Math.max(0, s));
+  const sum = a + b + c + d;
+  if (sum <= 0) return { x: 0.5, y: 0.5 };
+  return { x: (b + d) / sum, y: (c + d) / sum };
+}
 
 export function buildPad(store: Store, first: readonly string[]) {
   const corners = [...first];
@@ -32,17 +44,7 @@ export function buildPad(store: Store, first: readonly string[]) {
     }
     store.set({ styles: strengths, keys: {} });
   };
-  const drag = (event: PointerEvent) => {
-    const box = field.getBoundingClientRect();
-    apply((event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height);
-  };
-  field.addEventListener('pointerdown', (event) => {
-    field.setPointerCapture(event.pointerId);
-    drag(event);
-  });
-  field.addEventListener('pointermove', (event) => {
-    if (field.hasPointerCapture(event.pointerId)) drag(event);
-  });
+  listenToDrags(field, apply);
   field.addEventListener('keydown', (event) => {
     const move = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[
       event.key];

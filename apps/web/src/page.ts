@@ -11,14 +11,11 @@ import { Cross } from './gamepad';
 import { buildHelp } from './help';
 import { withKey } from './keys';
 import { Learn } from './learn';
-import { buildPanel, captionOf, type Panel } from './panel';
+import { buildPanel, captionOf } from './panel';
 import { Plots } from './plots';
-import { Readout } from './readout';
 import { kRemovable, Removal } from './removal';
 import { served } from './served';
-import {
-  fromAddress, rememberInAddress, Store, toAddress, type Settings,
-} from './settings';
+import { fromAddress, rememberInAddress, Store, type Settings } from './settings';
 import { listenToKeys } from './shortcuts';
 import {
   clipSource, firstMotion, isModel, openMoving, putTogether, walkSource, type Source,
@@ -32,113 +29,68 @@ import { TransportBar } from './transport';
 import { buildViewControls } from './view_controls';
 
 export class Page {
-  #panache: Panache;
-  #store: Store;
-  #stage = new Stage(find<HTMLCanvasElement>('#view'));
+  readonly store: Store;
+  readonly stage = new Stage(find<HTMLCanvasElement>('#view'));
   #plots: Plots;
-  #readout: Readout;
-  #exporter: Exporter;
-  #steering = new Steering(find('#stick'));
+  readonly exporter: Exporter;
+  readonly steering = new Steering(find('#stick'));
   #cross = new Cross();
-  #transport: TransportBar;
+  readonly transport: TransportBar;
   #figures: Figures;
-  #panel: Panel;
-  #removal: Removal;
-  #learn: Learn;
+  #panel: ReturnType<typeof buildPanel>;
+  readonly removal: Removal;
+  readonly learn: Learn;
   #track: Track;
-  #help = buildHelp();
-  #source: Source;
-  #files: File[] = [];  // That were opened together.
+  readonly help = buildHelp();
+  source: Source;
+  frames = 0;
+  files: File[] = [];  // That were opened together.
   #file: File | null = null;    // That is open.
-  #bytes = new ArrayBuffer(0);  // Of that file.
+  bytes = new ArrayBuffer(0);  // Of that file.
   #cut = true;
   #last = 0;
   #seconds = 0;
-  #frames = 0;
 
-  constructor(panache: Panache) {
-    this.#panache = panache;
-    this.#store = new Store(this.#readAddress());
-    this.#removal = new Removal(panache, this.#store);
+  constructor(readonly panache: Panache) {
+    this.store = new Store(this.#readAddress());
+    this.removal = new Removal(panache, this.store);
     this.#plots = new Plots(find('#plots'), panache.styles.map(({ name }) => name));
-    this.#readout = new Readout(this.#plots);
-    this.#exporter = new Exporter(panache, () => ({
-      source: this.#source, settings: this.#store.settings,
-      remover: this.#removal.remover, pace: this.#steering.pace,
-      files: this.#files, bytes: this.#bytes,
-      range: this.#transport.range, isPart: this.#transport.isPart,
-    }));
-    this.#transport = new TransportBar({
-      onSeek: (seconds) => this.#seek(seconds),
-      onClip: (clip) => void attempt(() => this.#playClip(clip)),
-      onRate: (fps) => void attempt(() => this.#setRate(fps)),
-      onLoop: (loop) => this.#source.kind === 'clip' && (this.#source.player.loop = loop),
-      onStep: (frames) => this.#stepFrames(frames),
-    });
-    this.#source = walkSource(panache);
-    this.#learn = new Learn({
-      panache,
-      capture: (which, seconds) => this.#exporter.capture(which, seconds),
-      isLive: () => this.#source.kind === 'walk',
-      onLearnt: (name) => {
-        this.#stylesChanged(name);
-        this.#store.set({ styles: { [name]: 1 }, keys: {} });
-      },
-      onSave: (name) => this.#exporter.saveStyle(name),
-    });
-    this.#track = new Track(this.#store, {
-      now: () => (this.#source.kind === 'clip' ? this.#source.player.seconds : 0),
-      strength: (style) => this.#strengthOf(style),
-      onSeek: (seconds) => {
-        this.#transport.setPlaying(false);
-        this.#seek(seconds);
-      },
-    });
+    this.exporter = new Exporter(this);
+    this.transport = new TransportBar(this);
+    this.source = walkSource(panache);
+    this.learn = new Learn(this);
+    this.#track = new Track(this);
     this.#track.setStyles(panache.styles);
     find('.clip-row').append(this.#track.toggle);
-    this.#panel = buildPanel(this.#store, panache.styles, {
-      onStrength: (name, value) => this.#setStrength(name, value),
-      onReset: (name) => this.#store.dropStyle(name),
-      onGesture: (name, gesture) => {  // A style that is off is put on for it.
-        if (this.#strengthOf(name) === 0) this.#setStrength(name, 1);
-        this.#source.player.trigger(name, gesture);
-      },
-      onSave: (name) => this.#exporter.saveStyle(name),
-      onRemove: (name) => void attempt(() => {
-        panache.removeStyle(name);
-        this.#stylesChanged();
-      }),
-    }, this.#removal.element, this.#learn);
-    this.#figures = new Figures(panache, this.#panel.rows);
-    buildViewControls({
-      onLook: (angle) => this.#look(angle),
-      onCompare: (held) => (this.#stage.comparing = held),
-      onHelp: () => this.#help.showModal(),
-    });
-    this.#stage.keepClear = () => {
+    this.#panel = buildPanel(this);
+    this.#figures = new Figures(panache, this.#panel.rows.rows);
+    buildViewControls(this);
+    this.stage.keepClear = () => {
       const chips = find('#camera').getBoundingClientRect();
-      const view = this.#stage.canvas.getBoundingClientRect();
+      const view = this.stage.canvas.getBoundingClientRect();
       const above = chips.bottom - view.top;
       return above < view.height / 2 ? above : 0;
     };
-    this.#buildToolbar();
+    buildWalkerControls((pace) => this.#setPace(pace));
+    this.#setPace('walk');
+    buildFileControls(this);
     listenToDrops((given, target) => {
       const motions = given.filter((file) => !isModel(file));
       // While a style is being learnt, motions are for that.
-      if (this.#learn.open && motions.length) this.#learn.take(motions, target);
-      else void attempt(() => this.#openAll(given));
+      if (this.learn.open && motions.length) this.learn.take(motions, target);
+      else void attempt(() => this.openAll(given));
     });
     void attempt(async () => {
       const file = await served('open');
-      if (file) await this.#openAll([file]);
+      if (file) await this.openAll([file]);
     });
-    this.#use(this.#source);
-    this.#store.listen((settings) => this.#apply(settings));
-    rememberInAddress(this.#store, () => this.#readAddress());
+    this.use(this.source);
+    this.store.listen((settings) => this.#apply(settings));
+    rememberInAddress(this.store, () => this.#readAddress());
     matchMedia('(prefers-color-scheme: dark)')
       .addEventListener('change', () => {
         forgetColours();
-        this.#stage.paint();
+        this.stage.paint();
         this.#figures.paint();
       });
     this.#listenToKeys();
@@ -163,186 +115,200 @@ export class Page {
     this.#cross.step(seconds);
     this.#advance(seconds);
     this.#figures.step(seconds);
-    this.#stage.update(this.#source, this.#cut, seconds);
+    this.stage.update(this.source, this.#cut, seconds);
     this.#cut = false;
-    this.#stage.draw(seconds);
+    this.stage.draw(seconds);
     this.#report();
-    ++this.#frames;
+    ++this.frames;
   }
 
   #advance(seconds: number) {
-    const source = this.#source;
+    const source = this.source;
     if (source.kind === 'walk') {
-      const { speed, turn } = this.#steering.wish(seconds);
+      const { speed, turn } = this.steering.wish(seconds);
       source.player.steer(speed, turn);
       source.player.step(seconds);
       this.#seconds += seconds;
       return;
     }
-    const { passed, cut } = this.#transport.play(source, seconds);
+    const { passed, cut } = this.transport.play(source, seconds);
     this.#seconds += passed;
     this.#cut ||= cut;
     this.#track.at(source.player.seconds);
   }
 
   #report() {
-    const { settings } = this.#store;
-    const now = Object.entries({ ...settings.styles, ...keyedNow(this.#source, settings) });
-    const drawn = this.#readout.add(this.#source.player, this.#seconds,
+    const { settings } = this.store;
+    const now = Object.entries({ ...settings.styles, ...keyedNow(this.source, settings) });
+    const drawn = this.#plots.follow(this.source.player, this.#seconds,
       now.map(([name, value]) => [name, value * settings.strength]));
-    if (!drawn) return;
-    this.#panel.showNow(Object.fromEntries(
-      Object.keys(settings.keys).map((name) => [name, this.#strengthOf(name)])));
+    if (drawn) this.#panel.rows.showNow();
   }
 
   // ---- Settings ----
 
   #readAddress(): Settings {
-    return fromAddress(location.hash, this.#panache.styles.map(({ name }) => name), kRemovable);
+    return fromAddress(location.hash, this.panache.styles.map(({ name }) => name), kRemovable);
   }
   #apply(settings: Settings) {
-    const { remover } = this.#removal;
-    applySettings(this.#panache, this.#source.player, settings, remover);
+    const { remover } = this.removal;
+    applySettings(this.panache, this.source.player, settings, remover);
     if (settings.removed && !remover) {
       void attempt(async () => {
-        await this.#removal.load();
-        this.#apply(this.#store.settings);
+        await this.removal.load();
+        this.#apply(this.store.settings);
       });
     }
-    find('#caption').textContent = captionOf(settings, this.#source.kind === 'clip');
-    this.#stage.view = settings.view;
-    this.#stage.trail = settings.trail;
-    this.#stage.onion = settings.onion;
+    find('#caption').textContent = captionOf(settings, this.source.kind === 'clip');
+    this.stage.view = settings.view;
+    this.stage.trail = settings.trail;
+    this.stage.onion = settings.onion;
   }
 
-  #strengthOf(name: string): number {
-    const { settings } = this.#store;
-    return keyedNow(this.#source, settings)[name] ?? settings.styles[name] ?? 0;
+  /** As it is now. */
+  strengthOf(name: string): number {
+    const { settings } = this.store;
+    return keyedNow(this.source, settings)[name] ?? settings.styles[name] ?? 0;
+  }
+  /** Plays a gesture; a style that is off is put on for it. */
+  trigger(name: string, gesture: number) {
+    if (this.strengthOf(name) === 0) this.setStrength(name, 1);
+    this.source.player.trigger(name, gesture);
   }
   /** A style that has keys gets one at the play head, which stops for that. */
-  #setStrength(name: string, value: number) {
-    const keys = this.#store.settings.keys[name];
-    if (this.#source.kind !== 'clip' || !keys) return this.#store.setStyle(name, value);
-    this.#transport.setPlaying(false);
-    this.#store.setKeys(name, withKey(keys, this.#source.player.seconds, value).keys);
+  setStrength(name: string, value: number) {
+    const keys = this.store.settings.keys[name];
+    if (this.source.kind !== 'clip' || !keys) return this.store.setStyle(name, value);
+    this.transport.setPlaying(false);
+    this.store.setKeys(name, withKey(keys, this.source.player.seconds, value).keys);
   }
 
   // ---- Models ----
 
   /** The model has other styles; `changed` is one of the same name that is another now. */
-  #stylesChanged(changed = '') {
-    const { styles } = this.#panache;
+  stylesChanged(changed = '') {
+    const { styles } = this.panache;
     this.#panel.setStyles(styles, changed);
-    this.#figures.show(this.#panel.rows);
+    this.#figures.show(this.#panel.rows.rows);
     this.#plots.styles = styles.map(({ name }) => name);
     this.#track.setStyles(styles);
-    this.#store.keepStyles(this.#plots.styles);
+    this.store.keepStyles(this.#plots.styles);
+  }
+
+  removeStyle(name: string) {
+    this.panache.removeStyle(name);
+    this.stylesChanged();
   }
 
   /** Opens a model, or adds a style to the one that is open. */
   async #openModel(file: File) {
     const bytes = await file.arrayBuffer();
-    const known = this.#panache.styles.map(({ name }) => name);
-    const isStyle = this.#panache.isStyle(bytes);
-    if (isStyle) this.#panache.addStyle(bytes, { name: file.name });
-    else this.#panache.setModel(bytes, file.name);
-    this.#stylesChanged();
-    const added = this.#panache.styles.find(({ name }) => !known.includes(name));
-    if (isStyle && added) this.#store.set({ styles: { [added.name]: 1 }, keys: {} });
+    const known = this.panache.styles.map(({ name }) => name);
+    const isStyle = this.panache.isStyle(bytes);
+    if (isStyle) this.panache.addStyle(bytes, { name: file.name });
+    else this.panache.setModel(bytes, file.name);
+    this.stylesChanged();
+    const added = this.panache.styles.find(({ name }) => !known.includes(name));
+    if (isStyle && added) this.store.set({ styles: { [added.name]: 1 }, keys: {} });
   }
 
   #listenToKeys() {
-    const isClip = () => this.#source.kind === 'clip';
-    listenToKeys({
-      undo: () => this.#store.undo(),
-      redo: () => this.#store.redo(),
-      help: this.#help,
-      onCompare: (held) => (this.#stage.comparing = held),
-      onLook: (angle) => this.#look(angle),
-      onSpace: () => {
-        if (isClip()) this.#transport.setPlaying(!this.#transport.state.playing);
-        else this.#setPace(this.#steering.pace === 'idle' ? 'walk' : 'idle');
+    const ofClip = (action: () => void) => () => this.source.kind === 'clip' && action();
+    listenToKeys(this, {
+      Space: () => {
+        const isClip = this.source.kind === 'clip';
+        if (isClip) this.transport.setPlaying(!this.transport.state.playing);
+        else this.#setPace(this.steering.pace === 'idle' ? 'walk' : 'idle');
       },
-      onGesture: () => triggerAny(this.#panache, this.#source, this.#store.settings),
-      onNeutral: () => this.#store.set({ styles: {}, keys: {} }),
-      onKeyframe: () => isClip() && this.#track.add(),
-      onPastPoses: () => this.#store.set({ onion: !this.#store.settings.onion }),
-      onLoopStart: () => isClip() && this.#transport.setIn(),
-      onLoopEnd: () => isClip() && this.#transport.setOut(),
-      onStep: (frames) => this.#stepFrames(frames),
+      Digit0: () => this.store.set({ styles: {}, keys: {} }),
+      Digit1: () => this.look('front'),
+      Digit2: () => this.look('side'),
+      Digit3: () => this.look('top'),
+      Digit4: () => this.look('orbit'),
+      KeyF: () => this.look('face'),
+      KeyG: () => triggerAny(this.panache, this.source, this.store.settings),
+      KeyK: ofClip(() => this.#track.add()),
+      KeyN: () => this.store.set({ onion: !this.store.settings.onion }),
+      KeyI: ofClip(() => this.transport.setIn()),
+      KeyO: ofClip(() => this.transport.setOut()),
+      Comma: () => this.stepFrames(-1),
+      Period: () => this.stepFrames(1),
     });
   }
 
-  #look(angle: Angle) {
-    this.#stage.look(angle, this.#source.player);
+  look(angle: Angle) {
+    this.stage.look(angle, this.source.player);
   }
 
   // ---- Sources ----
 
-  #use(source: Source) {
-    if (this.#source !== source) {
-      const old = this.#source;
+  /** Shows a source in place of the one before, which it frees. */
+  use(source: Source) {
+    if (this.source !== source) {
+      const old = this.source;
       if (old.kind === 'clip' && (source.kind !== 'clip' || source.file !== old.file)) {
         old.file.free();
       }
       old.player.free();
     }
-    this.#source = source;
+    this.source = source;
     document.body.dataset.source = source.kind;
     find('#walker-controls').hidden = source.kind !== 'walk';
     find('#clip-controls').hidden = source.kind !== 'clip';
     find('#back').hidden = source.kind === 'walk';
-    if (source.kind === 'walk') find('#files').hidden = true;
-    this.#learn.showSource();
+    this.learn.showSource();
     find('#file-name').textContent = source.kind === 'clip' ? source.file.name : '';
     if (source.kind === 'clip') {
-      this.#transport.show(source);
-      this.#transport.setPlaying(true);
-      source.player.loop = this.#transport.state.loop;
+      this.transport.show(source);
+      this.transport.setPlaying(true);
+      source.player.loop = this.transport.state.loop;
       const { seconds, frameTime } = source.file.clips[source.clip] ?? { seconds: 0, frameTime: 0 };
       this.#track.setTime(seconds, frameTime);
-      if (Object.keys(this.#store.settings.keys).length) this.#track.open(true);
+      if (Object.keys(this.store.settings.keys).length) this.#track.open(true);
+    } else {
+      find('#files').hidden = true;
+      this.#track.open(false);
     }
-    if (source.kind === 'walk') this.#track.open(false);
-    this.#apply(this.#store.settings);
-    void attempt(() => this.#removal.look(source, () => this.#source === source));
+    this.#apply(this.store.settings);
+    void attempt(() => this.removal.look(source, () => this.source === source));
     source.player.step(0);
-    this.#stage.show(source);
+    this.stage.show(source);
     this.#plots.clear();
     this.#cut = true;
   }
 
-  #seek(seconds: number) {
-    if (this.#source.kind !== 'clip') return;
-    this.#source.player.seek(seconds);
+  /** Of a clip, as stepFrames(). */
+  seek(seconds: number) {
+    if (this.source.kind !== 'clip') return;
+    this.source.player.seek(seconds);
     this.#cut = true;
   }
 
-  #stepFrames(frames: number) {
-    if (this.#source.kind !== 'clip') return;
-    const { file, clip, player } = this.#source;
+  stepFrames(frames: number) {
+    if (this.source.kind !== 'clip') return;
+    const { file, clip, player } = this.source;
     const { frameTime, seconds } = file.clips[clip] ?? { frameTime: 0, seconds: 0 };
-    this.#transport.setPlaying(false);
+    this.transport.setPlaying(false);
     if (frameTime <= 0) return;
     const at = Math.round(player.seconds / frameTime) + frames;
-    this.#seek(Math.min(seconds, Math.max(0, at * frameTime)));
+    this.seek(Math.min(seconds, Math.max(0, at * frameTime)));
   }
 
   /** Takes models and styles, opens the first of the other files, and lists them where there are
    * several. */
-  async #openAll(given: File[]) {
+  async openAll(given: File[]) {
     for (const file of given.filter(isModel)) await this.#openModel(file);
     const files = given.filter((file) => !isModel(file));
     if (files.length === 0) return;
-    const list = await putTogether(this.#panache, files);
-    await this.#open(list[0]);
-    this.#files = list;
+    const list = await putTogether(this.panache, files);
+    await this.open(list[0]);
+    this.files = list;
     listFiles(list);
   }
 
   /** Plays a motion of a file, the first of a body where none is asked for. */
-  async #open(given: File, clip?: number, fps?: number) {
-    const opened = await openMoving(this.#panache, given, fps);
+  async open(given: File, clip?: number, fps?: number) {
+    const opened = await openMoving(this.panache, given, fps);
     let source: Source;
     try {
       source = await clipSource(opened.file, opened.bytes, clip ?? firstMotion(opened.file));
@@ -351,64 +317,28 @@ export class Page {
       throw error;
     }
     this.#file = opened.from;
-    this.#bytes = opened.bytes;
-    this.#use(source);
+    this.bytes = opened.bytes;
+    this.use(source);
     if (opened.notes.length > 0) say(opened.notes.join('\n'));
   }
 
-  async #playClip(clip: number) {
-    if (this.#source.kind !== 'clip') return;
-    this.#use(await clipSource(this.#source.file, this.#bytes, clip));
+  async playClip(clip: number) {
+    if (this.source.kind !== 'clip') return;
+    this.use(await clipSource(this.source.file, this.bytes, clip));
   }
 
   /** Reads the file that is open as if it had so many frames a second; 0: at its own rate. */
-  async #setRate(fps: number) {
-    const source = this.#source;
+  async setRate(fps: number) {
+    const source = this.source;
     if (source.kind !== 'clip' || !this.#file) return;
-    this.#transport.showRate(source.file, source.clip);  // What stays, if that fails.
-    await this.#open(this.#file, source.clip, fps);
+    this.transport.showRate(source.file, source.clip);  // What stays, if that fails.
+    await this.open(this.#file, source.clip, fps);
   }
 
   // ---- Controls under the view ----
 
   #setPace(pace: Pace) {
-    this.#steering.setPace(pace);
+    this.steering.setPace(pace);
     showPace(pace);
-  }
-
-  #buildToolbar() {
-    buildWalkerControls((pace) => this.#setPace(pace));
-    this.#setPace('walk');
-    buildFileControls({
-      stage: this.#stage,
-      nameOf: (extension) => this.#exporter.nameOf(extension),
-      motion: () => this.#exporter.loopMotion(),
-      onOpen: (files) => this.#openAll(files),
-      onFile: (index) => this.#open(this.#files[index]),
-      onWalker: () => this.#use(walkSource(this.#panache)),
-      onSave: (extension) => this.#exporter.save(extension),
-      onSaveAll: () => this.#exporter.saveAll(),
-      link: () => location.href.replace(/#.*$/, '') + `#${toAddress(this.#store.settings)}`,
-    });
-  }
-
-  /** For tests: what is going on. */
-  get panache() {
-    return this.#panache;
-  }
-  get stage() {
-    return this.#stage;
-  }
-  get settings() {
-    return this.#store.settings;
-  }
-  set(patch: Partial<Settings>) {
-    this.#store.set(patch);
-  }
-  get source() {
-    return this.#source;
-  }
-  get frames() {
-    return this.#frames;
   }
 }

@@ -4,13 +4,29 @@ import type { Style, Timing } from '../package/index.js';
 import { button, element, find } from './dom';
 import { capitalized } from './groups';
 import { buildPad } from './pad';
-import { kCorners, kPresets } from './presets';
+import type { Page } from './page';
 import { kAnyStyle } from './removal';
 import {
-  kAmounts, kDefaults, kRegions, kTempos, type Region, type Settings, type Store, type View,
+  kAmounts, kDefaults, kRegions, kTempos, type Settings, type Store, type Switch, type View,
 } from './settings';
 import { Slider } from './slider';
-import { StyleRows, type StyleEvents } from './style_rows';
+import { StyleRows } from './style_rows';
+
+/** Mixes worth a button. */
+const kPresets: readonly { title: string; styles: Record<string, number> }[] = [
+  { title: 'Neutral', styles: {} },
+  { title: 'Old', styles: { old: 1 } },
+  { title: 'Very old', styles: { old: 2 } },
+  { title: 'Zombie', styles: { zombie: 1 } },
+  { title: 'Proud robot', styles: { robot: 0.8, proud: 0.6 } },
+  { title: 'Drunken pirate', styles: { drunk: 0.8, 'dragging a leg': 0.6 } },
+  { title: 'Sneaking cat', styles: { cat: 0.7, sneaking: 0.5 } },
+  { title: 'Scared chicken', styles: { chicken: 0.8, scared: 0.5 } },
+  { title: 'Sulking teenager', styles: { teenager: 0.8, depressed: 0.6 } },
+  { title: 'Friday', styles: { joyful: 0.7, strutting: 0.6 } },
+];
+/** The corners of the pad, as they are at first. */
+const kCorners = ['old', 'proud', 'childlike', 'zombie'];
 
 const kAmountHints = {
   strength: 'Multiplies all styles',
@@ -18,14 +34,14 @@ const kAmountHints = {
   dynamics: 'Fast part of the change: swing, bounce, step length',
   timing: 'Change of tempo',
 };
-const kRegionTitles: Record<Region, string> = {
-  legs: 'Legs', torso: 'Torso', leftArm: 'Left arm', rightArm: 'Right arm',
-};
-const kRegionHints: Record<Region, string> = {
-  legs: 'Apply the style to legs and root motion',
-  torso: 'Apply the style to torso and head',
-  leftArm: 'Apply the style to the left arm',
-  rightArm: 'Apply the style to the right arm',
+const kSwitchTitles: Record<Switch, [string, string]> = {
+  legs: ['Legs', 'Apply the style to legs and root motion'],
+  torso: ['Torso', 'Apply the style to torso and head'],
+  leftArm: ['Left arm', 'Apply the style to the left arm'],
+  rightArm: ['Right arm', 'Apply the style to the right arm'],
+  feet: ['Foot lock', 'Planted feet stay in place'],
+  trail: ['Foot trails', 'Paths of the toes'],
+  onion: ['Past poses', 'Poses of the last second (N)'],
 };
 const kTempoTitles: Record<Timing, [string, string]> = {
   steps: ['Steps', 'The style\'s tempo only where the feet step; talk and gestures keep their length'],
@@ -86,30 +102,15 @@ function search(rows: StyleRows) {
   return { field, none, filter };
 }
 
-export interface Panel {
-  /** Of the styles, by name. */
-  rows: Map<string, HTMLElement>;
-  /** Shows the styles of another model. The one called `changed` is another than before. */
-  setStyles(styles: readonly Style[], changed?: string): void;
-  /** Shows the strengths of styles that have keys. */
-  showNow(strengths: Record<string, number>): void;
-}
-
-/** Puts the panel together. `removal` is what is set for the input, `learn` what opens under the
- * heading of the styles. */
-export function buildPanel(store: Store, styles: readonly Style[], events: StyleEvents,
-    removal: HTMLElement, learn: { button: HTMLElement; section: HTMLElement }): Panel {
-  const regions = kRegions.map((key) => toggle(kRegionTitles[key], kRegionHints[key],
-    (s) => s[key], store, (s) => ({ [key]: !s[key] })));
+/** Puts the panel together. `setStyles` shows the styles of another model, of which the one called
+ * `changed` is another than before. */
+export function buildPanel(page: Page) {
+  const { store, learn } = page;
+  const switches = (keys: readonly Switch[]) => keys.map((key) =>
+    toggle(...kSwitchTitles[key], (s) => s[key], store, (s) => ({ [key]: !s[key] })));
   const tempos = kTempos.map((tempo) => toggle(...kTempoTitles[tempo], (s) => s.tempo === tempo,
     store, () => ({ tempo })));
-  const feet = toggle('Foot lock', 'Planted feet stay in place', (s) => s.feet, store,
-    (s) => ({ feet: !s.feet }));
-  const trail = toggle('Foot trails', 'Paths of the toes', (s) => s.trail, store,
-    (s) => ({ trail: !s.trail }));
-  const onion = toggle('Past poses', 'Poses of the last second (N)', (s) => s.onion, store,
-    (s) => ({ onion: !s.onion }));
-  const rows = new StyleRows(store, events);
+  const rows = new StyleRows(page);
   const chips = presets(store), found = search(rows);
   const pad = buildPad(store, kCorners);
   const act = (id: string, text: string, hint: string, press: () => void, can: () => boolean) => {
@@ -123,7 +124,7 @@ export function buildPanel(store: Store, styles: readonly Style[], events: Style
       act('redo', 'Redo', 'Redo (Ctrl Shift Z)', () => store.redo(), () => store.canRedo),
       act('reset-all', 'Reset all', 'Reset all settings',
         () => store.set({ ...kDefaults, styles: {}, keys: {} }), () => true)),
-    element('h2', {}, 'Input'), removal,
+    element('h2', {}, 'Input'), page.removal.element,
     element('h2', {}, 'Presets'), chips.group,
     element('div', { class: 'heading' },
       element('h2', { id: 'styles', tabindex: -1 }, 'Styles'), learn.button),
@@ -136,10 +137,10 @@ export function buildPanel(store: Store, styles: readonly Style[], events: Style
       element('span', { class: 'word' }, 'Tempo of the style'), ...tempos),
     element('h2', {}, 'Body parts'),
     element('div', { class: 'chips', role: 'group', 'aria-label': 'Body parts' },
-      ...regions),
+      ...switches(kRegions)),
     element('h2', {}, 'Ground'),
-    element('div', { class: 'chips', role: 'group', 'aria-label': 'Ground' }, feet, trail,
-      onion));
+    element('div', { class: 'chips', role: 'group', 'aria-label': 'Ground' },
+      ...switches(['feet', 'trail', 'onion'])));
   find('#views').append(...(Object.keys(kViewTitles) as View[]).map((view) =>
     toggle(kViewTitles[view], 'View', (s) => s.view === view, store, () => ({ view }))));
   store.listen((settings) => {
@@ -152,8 +153,8 @@ export function buildPanel(store: Store, styles: readonly Style[], events: Style
     chips.setStyles(names);
     pad.setStyles(now);
   };
-  setStyles(styles);
-  return { rows: rows.rows, setStyles, showNow: (strengths) => rows.showNow(strengths) };
+  setStyles(page.panache.styles);
+  return { rows, setStyles };
 }
 
 /** "drunk off + old 1.00 + proud over time"; only clips have keys. */

@@ -1,10 +1,15 @@
-// What happened in the last seconds, drawn under the view in step with it.
+// What happened in the last seconds, drawn under the view in step with it, and the numbers in the
+// captions.
 
-import { colour } from './dom';
+import type { Playback, Walk } from '../package/index.js';
+import { colour, find } from './dom';
 
 const kSeconds = 6;
 const kBins = 24;
 const kBinMicroseconds = 4;
+const kMeasuredSteps = 16;   // At once: a browser's clock is too coarse for one.
+const kMeasureEvery = 6;     // Frames.
+const kPlotEvery = 3;        // Frames.
 
 interface Moment {
   time: number;
@@ -13,6 +18,11 @@ interface Moment {
   rate: number;
   contacts: number[];
 }
+
+/** What is drawn as one line, from where to where, and what is marked. */
+const kLines: ['gate' | 'rate', number, number, number[]][] = [
+  ['gate', 0, 1, [0, 1]], ['rate', 0.5, 1.5, [1]],
+];
 
 /** The middle one of some numbers; 0 where there are none. */
 export function median(numbers: readonly number[]): number {
@@ -36,7 +46,8 @@ export function styleColour(index: number): string {
 
 export class Plots {
   #moments: Moment[] = [];
-  #steps: number[] = [];
+  #steps: number[] = [];  // Microseconds.
+  #frames = 0;
   #canvases = new Map<string, HTMLCanvasElement>();
 
   /** Of the styles, in the order of their colours. */
@@ -55,14 +66,23 @@ export class Plots {
     while (moment.time - this.#moments[0].time > kSeconds) this.#moments.shift();
   }
 
-  /** A measured step, microseconds. */
-  addStep(microseconds: number) {
-    this.#steps.push(microseconds);
-    if (this.#steps.length > 600) this.#steps.shift();
-  }
-
-  get stepMedian() {
-    return median(this.#steps);
+  /** Adds what the player did in a frame, at a time of the motion in seconds, with these strengths;
+   * whether it was drawn. */
+  follow(player: Walk | Playback, time: number, strengths: [string, number][]): boolean {
+    const { gate, rate, contacts } = player;
+    this.add({ time, strengths, gate, rate, contacts });
+    if (this.#frames % kMeasureEvery === 0) {
+      const begin = performance.now();
+      player.measure(kMeasuredSteps);
+      this.#steps.push(((performance.now() - begin) * 1000) / kMeasuredSteps);
+      if (this.#steps.length > 600) this.#steps.shift();
+    }
+    if (this.#frames++ % kPlotEvery !== 0) return false;
+    this.draw();
+    find('#gate-now').textContent = gate.toFixed(2);
+    find('#rate-now').textContent = `${rate.toFixed(2)}×`;
+    find('#step-now').textContent = `${Math.round(median(this.#steps))} µs (median)`;
+    return true;
   }
 
   draw() {
@@ -77,16 +97,13 @@ export class Plots {
           (m) => m.strengths.find(([n]) => n === name)?.[1] ?? 0);
       }
     });
-    this.#paint('gate', (context, width, height) => {
-      this.#scale(context, width, height, 0, 1, [0, 1]);
-      context.strokeStyle = colour('accent');
-      this.#line(context, width, height, now, 0, 1, (m) => m.gate);
-    });
-    this.#paint('rate', (context, width, height) => {
-      this.#scale(context, width, height, 0.5, 1.5, [1]);
-      context.strokeStyle = colour('accent');
-      this.#line(context, width, height, now, 0.5, 1.5, (m) => m.rate);
-    });
+    for (const [name, least, most, marks] of kLines) {
+      this.#paint(name, (context, width, height) => {
+        this.#scale(context, width, height, least, most, marks);
+        context.strokeStyle = colour('accent');
+        this.#line(context, width, height, now, least, most, (m) => m[name]);
+      });
+    }
     this.#paint('contacts', (context, width, height) => {
       context.fillStyle = colour('accent');
       for (const foot of [0, 1]) {

@@ -5,10 +5,9 @@ import removable from 'virtual:panache-removable';
 import type { Panache, Remover } from '../package/index.js';
 import { button, element } from './dom';
 import { styleOptions } from './groups';
-import { late } from './late';
+import { late, unpack } from './late';
 import type { Store } from './settings';
 import type { Source } from './source';
-import { unpack } from './unpack';
 
 /** The remover's style for those that it does not know. */
 export const kAnyStyle = 'any';
@@ -43,15 +42,12 @@ export class Removal {
 
   /** The model, which comes with the first call. */
   load(): Promise<Remover> {
-    this.#coming ??= this.#load().catch((error: unknown) => {
+    return this.#coming ??= late('remover').then(async ({ packed }) =>
+      this.remover = this.panache.createRemover(await unpack(packed)),
+    ).catch((error: unknown) => {
       this.#coming = null;
       throw error;
     });
-    return this.#coming;
-  }
-  async #load() {
-    const { packed } = await late('remover');
-    return this.remover = this.panache.createRemover(await unpack(packed));
   }
 
   /** Says which style a clip shows, if any, once the model is there; `isSeen`: still then. */

@@ -1,45 +1,86 @@
 // What is seen, as a picture, a film or a loop.
 
 import { attempt } from './alerts';
-import { button } from './dom';
-import { kLongest, kLoopStep, makeLoop, type LoopMotion } from './loop';
-import { Film, saveBytes } from './saving';
-import { askSize } from './size_dialog';
+import { button, element, find, saveBytes } from './dom';
+import type { Exporter } from './exporter';
+import { kLongest, kLoopStep, makeLoop } from './loop';
 import type { Stage } from './stage';
 
 const kPictures = [[1280, 720], [1920, 1080], [3840, 2160], [1080, 1080], [1080, 1920]] as const;
 const kLoops = [[640, 360], [480, 480], [360, 640], [320, 240]] as const;
 const kLargestLoop = 800;
+const kLeast = 16;
 
-export interface ViewSaving {
-  stage: Stage;
-  /** Of the file with this extension. */
-  nameOf(extension: string): string;
-  motion(): LoopMotion;
+interface SizeDialog {
+  title: string;
+  /** Of the button that saves. */
+  action: string;
+  sizes: readonly (readonly [number, number])[];
+  /** Pixels, in either direction. */
+  largest: number;
+  /** What the view has. */
+  seen: [number, number];
+  hint?: string;
+  save(width: number, height: number): void | Promise<void>;
 }
 
-export interface ViewSavers {
-  /** Each saves the view in another way. */
-  savers: HTMLElement[];
-  /** Seen while a film or a loop is being made, which they end. */
-  stoppers: HTMLElement[];
+/** Asks which size a picture or a loop of the view has. */
+function askSize(what: SizeDialog) {
+  const field = (id: string, title: string) => element('input', { type: 'number', id,
+    'aria-label': title, min: kLeast, max: what.largest, step: 1, required: true });
+  const width = field('picture-width', 'Width, pixels');
+  const height = field('picture-height', 'Height, pixels');
+  const set = (wide: number, high: number) => {
+    width.value = String(wide);
+    height.value = String(high);
+  };
+  const [wide, high] = what.seen;
+  const smaller = Math.min(1, what.largest / Math.max(wide, high));
+  const seen = () => set(Math.round(smaller * wide), Math.round(smaller * high));
+  const form = element('form', { method: 'dialog' },
+    element('div', { class: 'chips' }, button('As seen', seen),
+      ...what.sizes.filter((size) => Math.max(...size) <= what.largest)
+        .map(([w, h]) => button(`${w} × ${h}`, () => set(w, h)))),
+    element('p', { class: 'size' }, width, ' × ', height, ' pixels'),
+    ...(what.hint ? [element('p', { class: 'hint' }, what.hint)] : []),
+    element('div', { class: 'chips' },
+      element('button', { type: 'submit', id: 'save-picture' }, what.action),
+      button('Close', () => dialog.close())));
+  const dialog = element('dialog', { id: 'picture', 'aria-labelledby': 'picture-title' },
+    element('h2', { id: 'picture-title' }, what.title), form);
+  form.addEventListener('submit', () =>
+    void what.save(width.valueAsNumber, height.valueAsNumber));
+  dialog.addEventListener('close', () => dialog.remove());
+  find('main').append(dialog);
+  seen();
+  dialog.showModal();
 }
 
-function filmSaver({ stage, nameOf }: ViewSaving) {
-  const film = new Film(stage.canvas);
+function filmSaver(stage: Stage, exporter: Exporter) {
+  let recorder: MediaRecorder | undefined;
+  const show = (recording: boolean) => {
+    stop.hidden = !recording;
+    record.disabled = recording;
+  };
   const stop = button('Stop recording', () => {
-    film.stop();
-    record.disabled = !(stop.hidden = true);
+    recorder?.stop();
+    show(false);
   }, { id: 'stop-webm', class: 'running', hidden: true });
   const record = button('Video (WebM)', () => {
-    film.start(nameOf('.webm'));
-    record.disabled = !(stop.hidden = false);
+    const name = exporter.nameOf('.webm'), pieces: Blob[] = [];
+    recorder = new MediaRecorder(stage.canvas.captureStream(60),
+      { mimeType: 'video/webm', videoBitsPerSecond: 8e6 });
+    recorder.ondataavailable = (event) => pieces.push(event.data);
+    recorder.onstop = () => saveBytes(new Blob(pieces), name, 'video/webm');
+    recorder.start();
+    show(true);
   }, { id: 'save-webm', title: 'Record a video of the view until Stop recording is pressed' });
-  record.hidden = !Film.possible;
+  record.hidden = typeof MediaRecorder === 'undefined' ||
+    !MediaRecorder.isTypeSupported('video/webm');
   return { record, stop };
 }
 
-function loopSaver({ stage, nameOf, motion }: ViewSaving) {
+function loopSaver(stage: Stage, exporter: Exporter) {
   const stop = button('Stop GIF', () => show(false),
     { id: 'stop-gif', class: 'running', hidden: true });
   const show = (making: boolean) => {
@@ -47,10 +88,10 @@ function loopSaver({ stage, nameOf, motion }: ViewSaving) {
     loop.disabled = making;
   };
   const make = async (width: number, height: number) => {
-    const name = nameOf('.gif');
+    const name = exporter.nameOf('.gif');
     show(true);
     try {
-      const bytes = await makeLoop(stage, motion(), width, height, (share) => {
+      const bytes = await makeLoop(stage, exporter.loopMotion(), width, height, (share) => {
         stop.textContent = `Stop GIF, ${Math.round(100 * share)} %`;
         return !stop.hidden;
       });
@@ -69,16 +110,17 @@ function loopSaver({ stage, nameOf, motion }: ViewSaving) {
   return { loop, stop };
 }
 
-export function buildViewSaving(saving: ViewSaving): ViewSavers {
-  const { stage, nameOf } = saving;
+/** `savers` save the view, each in another way; `stoppers` are seen while a film or a loop is being
+ * made, which they end. */
+export function buildViewSaving(stage: Stage, exporter: Exporter) {
   const picture = button('Picture (PNG)', () => askSize({
     title: 'Save the view as a picture', action: 'Save picture', sizes: kPictures,
     largest: stage.largestPicture, seen: stage.seen,
     save: async (width, height) => {
       const blob = await stage.picture(width, height);
-      if (blob) saveBytes(blob, nameOf('.png'), 'image/png');
+      if (blob) saveBytes(blob, exporter.nameOf('.png'), 'image/png');
     },
   }), { id: 'save-png', title: 'Save the view as a picture' });
-  const film = filmSaver(saving), loop = loopSaver(saving);
+  const film = filmSaver(stage, exporter), loop = loopSaver(stage, exporter);
   return { savers: [picture, film.record, loop.loop], stoppers: [film.stop, loop.stop] };
 }

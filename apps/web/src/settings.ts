@@ -10,31 +10,20 @@ export const kRegions = ['legs', 'torso', 'leftArm', 'rightArm'] as const;
 export const kAmounts = ['strength', 'posture', 'dynamics', 'timing'] as const;
 export const kTempos = ['steps', 'all', 'off'] as const satisfies readonly Timing[];
 export const kViews = ['styled', 'side', 'over'] as const;
-export type Region = (typeof kRegions)[number];
-export type Amount = (typeof kAmounts)[number];
+const kSwitches = [...kRegions, 'feet', 'trail', 'onion'] as const;
+export type Switch = (typeof kSwitches)[number];
 export type View = (typeof kViews)[number];
 
-export interface Settings {
+export interface Settings extends Record<(typeof kAmounts)[number], number>, Record<Switch, boolean> {
   /** Strength of each style that is not 0. */
   styles: Record<string, number>;
   /** Of a clip, instead: strengths over time. */
   keys: Record<string, readonly Key[]>;
   /** The style that is taken off the input: one of the remover's, or empty. */
   removed: string;
-  strength: number;
-  posture: number;
-  dynamics: number;
-  timing: number;
   /** Where the motion gets the tempo of its styles. */
   tempo: Timing;
-  legs: boolean;
-  torso: boolean;
-  leftArm: boolean;
-  rightArm: boolean;
-  feet: boolean;
   view: View;
-  trail: boolean;
-  onion: boolean;
 }
 
 /** What "Reset all" goes back to. */
@@ -50,8 +39,6 @@ export const kDefaults: Readonly<Settings> = {
 };
 /** What a visitor sees first. */
 export const kOpening: Readonly<Settings> = { ...kDefaults, styles: { old: 1 } };
-
-const kSwitches = [...kRegions, 'feet', 'trail', 'onion'] as const;
 
 /** To two decimals within the bounds; `otherwise` where it is no number. */
 export function bounded(value: number, least: number, most: number, otherwise: number): number {
@@ -77,12 +64,16 @@ export function toAddress(settings: Settings): string {
   for (const key of kSwitches) {
     if (settings[key] !== kDefaults[key]) out.set(key, settings[key] ? 'on' : 'off');
   }
-  if (settings.tempo !== kDefaults.tempo) out.set('tempo', settings.tempo);
-  if (settings.view !== kDefaults.view) out.set('view', settings.view);
+  for (const key of ['tempo', 'view'] as const) {
+    if (settings[key] !== kDefaults[key]) out.set(key, settings[key]);
+  }
   return out.toString() || 'neutral';
 }
 
 const same = (a: object, b: object): boolean => JSON.stringify(a) === JSON.stringify(b);
+
+const isOne = <Name extends string>(names: readonly Name[], name: string): name is Name =>
+  names.includes(name as Name);
 
 /** The settings of an address, for a model and a remover with these styles. Unknown or wrong parts
  * are ignored. "old=0.5" and "old.keys=..." are read as well, unless a setting has that name. */
@@ -91,6 +82,8 @@ export function fromAddress(text: string, styles: readonly string[],
   const given = new URLSearchParams(text.replace(/^#/, ''));
   if (given.size === 0) return { ...kOpening, styles: { ...kOpening.styles } };
   const settings: Settings = { ...kDefaults, styles: {}, keys: {} };
+  const choices: Record<string, readonly string[]> =
+    { view: kViews, tempo: kTempos, removed: removable };
   for (const [key, value] of given) {
     const number = value.trim() === '' ? NaN : Number(value);
     const setStyle = (name: string) => {
@@ -105,19 +98,13 @@ export function fromAddress(text: string, styles: readonly string[],
       setStyle(key.slice(kStyle.length));
     } else if (key.startsWith(kKeys) && styles.includes(key.slice(kKeys.length))) {
       setKeys(key.slice(kKeys.length));
-    } else if (kAmounts.includes(key as Amount)) {
-      settings[key as Amount] = bounded(number, 0, 2, 1);
-    } else if (kSwitches.includes(key as (typeof kSwitches)[number])) {
-      if (value === 'on' || value === 'off') {
-        settings[key as (typeof kSwitches)[number]] = value === 'on';
-      }
-    } else if (key === 'view' && kViews.includes(value as View)) {
-      settings.view = value as View;
-    } else if (key === 'tempo' && kTempos.includes(value as Timing)) {
-      settings.tempo = value as Timing;
-    } else if (key === 'removed' && removable.includes(value)) {
-      settings.removed = value;
-    } else if (!['view', 'tempo', 'removed'].includes(key) && styles.includes(key)) {
+    } else if (isOne(kAmounts, key)) {
+      settings[key] = bounded(number, 0, 2, 1);
+    } else if (isOne(kSwitches, key)) {
+      if (value === 'on' || value === 'off') settings[key] = value === 'on';
+    } else if (Object.hasOwn(choices, key)) {
+      if (choices[key].includes(value)) Object.assign(settings, { [key]: value });
+    } else if (styles.includes(key)) {
       setStyle(key);
     } else if (key.endsWith('.keys') && styles.includes(key.slice(0, -5))) {
       setKeys(key.slice(0, -5));
@@ -129,12 +116,8 @@ export function fromAddress(text: string, styles: readonly string[],
 /** What the library is asked for. */
 export function shapeOf(settings: Settings): Partial<Shape> {
   const { posture, dynamics, timing } = settings;
-  const on = (key: Region) => (settings[key] ? 1 : 0);
-  return {
-    posture, dynamics, timing,
-    legs: on('legs'), torso: on('torso'), leftArm: on('leftArm'), rightArm: on('rightArm'),
-    footLock: settings.feet ? 1 : 0,
-  };
+  const regions = Object.fromEntries(kRegions.map((key) => [key, Number(settings[key])]));
+  return { posture, dynamics, timing, ...regions, footLock: Number(settings.feet) };
 }
 
 const kTogether = 500;  // Milliseconds in which changes count as one: a drag, a typed number.

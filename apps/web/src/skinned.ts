@@ -5,7 +5,7 @@ import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
 import { clone } from 'three/examples/jsm/utils/SkeletonUtils.js';
 
 import type { MotionFile, Playback } from '../package/index.js';
-import { boxAround } from './measure';
+import { boxAround } from './mannequin';
 import { Translucency } from './translucency';
 
 /** Names from the top down to a thing; those of equals are numbered in order. */
@@ -30,7 +30,7 @@ interface Moved {
 }
 
 export class SkinnedCharacter {
-  readonly group = new THREE.Group();
+  readonly object = new THREE.Group();
   #scene: THREE.Object3D;
   #moved: Moved[] = [];
   #joints: number;
@@ -40,13 +40,9 @@ export class SkinnedCharacter {
   constructor(scene: THREE.Object3D, file: MotionFile, player: Playback) {
     this.#scene = scene;
     this.#joints = file.joints.length;
-    const nodes: THREE.Object3D[] = [], parents: number[] = [];
-    const walk = (node: THREE.Object3D, parent: number) => {
-      const index = nodes.push(node) - 1;
-      parents.push(parent);
-      for (const child of node.children) walk(child, index);
-    };
-    for (const child of scene.children) walk(child, -1);
+    const nodes: THREE.Object3D[] = [];
+    scene.traverse((node) => node !== scene && nodes.push(node));
+    const parents = nodes.map(({ parent }) => nodes.indexOf(parent!));
     // three.js renames nodes; what the file calls them it keeps aside.
     const paths = pathsOf(parents, nodes.map((node) => node.userData.name ?? node.name));
     scene.updateMatrixWorld(true);
@@ -58,11 +54,11 @@ export class SkinnedCharacter {
       this.#moved.push({ node: nodes[index], joint, scale: above || 1 });
     }
     const { toYUp, scale, floor } = player.placement;
-    this.group.add(scene);
+    this.object.add(scene);
     scene.quaternion.fromArray(toYUp);
     scene.scale.setScalar(scale);
     scene.position.y = -floor;
-    this.group.traverse((node) => {
+    this.object.traverse((node) => {
       node.frustumCulled = false;
       if (!(node instanceof THREE.Mesh)) return;
       node.castShadow = true;
@@ -81,15 +77,12 @@ export class SkinnedCharacter {
       node.quaternion.fromArray(numbers, 7 * joint);
       node.position.fromArray(numbers, 7 * joint + 4).divideScalar(scale);
     }
-    this.group.position.copy(shift);
+    this.object.position.copy(shift);
   }
 
-  get object() {
-    return this.group;
-  }
   /** Around all that the joints move; what else is in the file, such as a floor, does not count. */
   get box() {
-    this.group.updateMatrixWorld(true);
+    this.object.updateMatrixWorld(true);
     const joints = new Set(this.#moved.map(({ node }) => node));
     const isMoved = (node: THREE.Object3D | null): boolean =>
       node !== null && (joints.has(node) || isMoved(node.parent));
@@ -102,7 +95,7 @@ export class SkinnedCharacter {
 
   free() {
     this.#translucency.free();
-    this.group.removeFromParent();
+    this.object.removeFromParent();
     this.#scene.traverse((node) => {
       if (node instanceof THREE.Mesh) node.geometry.dispose();
     });

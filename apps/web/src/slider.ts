@@ -1,6 +1,6 @@
 // A number with a name: a slider to push, a field for the exact value, and a way back.
 
-import { element } from './dom';
+import { button, element, hinted } from './dom';
 import { bounded } from './settings';
 
 export interface SliderOptions {
@@ -21,19 +21,19 @@ export class Slider {
   readonly range: HTMLInputElement;
   #field: HTMLInputElement;
   #reset: HTMLButtonElement;
-  #options: SliderOptions;
 
-  constructor(options: SliderOptions) {
-    this.#options = options;
+  constructor(private options: SliderOptions) {
     const { id, title, hint, least, most } = options;
     const bounds = { min: least, max: most, step: 0.01 };
     this.range = element('input', { type: 'range', id, ...bounds, title: hint });
     this.#field = element('input', {
       type: 'number', ...bounds, 'aria-label': `${title}, exact`, inputmode: 'decimal',
     });
-    this.#reset = element('button', {
-      type: 'button', class: 'reset', 'aria-label': `Reset ${title}`, title: `Reset ${title}`,
-    }, '↺');
+    const reset = () => (options.onReset ? options.onReset() : this.#change(options.rest));
+    this.#reset = button('↺', () => {
+      reset();
+      this.range.focus();
+    }, { class: 'reset', ...hinted(`Reset ${title}`) });
     const label = element('label', { for: id, title: hint }, title);
     // Marks at where reset goes and at 1.
     const share = (value: number) => (value - least) / (most - least);
@@ -45,18 +45,13 @@ export class Slider {
       this.#change(bounded(this.#field.valueAsNumber, least, most, options.rest));
       this.#field.value = this.range.value;
     });
-    const reset = () => (options.onReset ? options.onReset() : this.#change(options.rest));
     this.range.addEventListener('dblclick', reset);
-    this.#reset.addEventListener('click', () => {
-      reset();
-      this.range.focus();
-    });
     this.show(options.rest);
   }
 
   /** Shows a value without telling anybody. */
   show(value: number) {
-    const { least, most, rest } = this.#options;
+    const { least, most, rest } = this.options;
     const text = String(value);
     if (this.range.value !== text) this.range.value = text;
     if (document.activeElement !== this.#field) this.#field.value = value.toFixed(2);
@@ -68,7 +63,7 @@ export class Slider {
   }
 
   #change(value: number) {
-    const { least, most, rest, onChange } = this.#options;
+    const { least, most, rest, onChange } = this.options;
     const good = bounded(value, least, most, rest);
     this.show(good);
     onChange(good);

@@ -7,14 +7,13 @@ import { kPaces } from './steering';
 
 const kLargestFile = 256 << 20;  // Bytes; a page has about four times that to work in.
 
-export type Source =
-  | { kind: 'walk'; player: Walk; joints: number; own: null }
-  | { kind: 'clip'; player: Playback; joints: number; file: MotionFile; clip: number;
-      own: [SkinnedCharacter, SkinnedCharacter] | null };
+export interface WalkSource { kind: 'walk'; player: Walk; joints: number; own: null }
+export interface ClipSource { kind: 'clip'; player: Playback; joints: number; file: MotionFile;
+  clip: number; own: [SkinnedCharacter, SkinnedCharacter] | null }
+export type Source = WalkSource | ClipSource;
 
-export function walkSource(panache: Panache): Source {
-  return { kind: 'walk', player: panache.createWalker(), joints: 21, own: null };
-}
+export const walkSource = (panache: Panache): WalkSource =>
+  ({ kind: 'walk', player: panache.createWalker(), joints: 21, own: null });
 
 /** Frames a second of opened files whose own rate is wrong or missing. */
 const rates = new WeakMap<File, number>();
@@ -50,18 +49,22 @@ const kSettle = 3;        // Seconds until the walker has her pace.
 /** Whether no clip of a file moves a humanoid for more than one frame. */
 const isStill = ({ clips }: MotionFile) => !clips.some(({ moves, frames }) => moves && frames > 1);
 
-/** The walker's walk as a file. */
-function walkFile(panache: Panache): MotionFile {
-  const walker = panache.createWalker();
+/** Frees what was used. */
+export function freed<Thing extends { free(): void }, Out>(thing: Thing, use: (thing: Thing) => Out) {
   try {
-    walker.steer(kPaces.walk.speed, kPaces.walk.turn);
-    for (let t = 0; t < kSettle + kWalkSeconds; t += 1 / 60) walker.step(1 / 60);
-    const bytes = walker.exportAs('.bvh', { which: 'input', seconds: kWalkSeconds });
-    return panache.openFile(bytes, 'walk.bvh');
+    return use(thing);
   } finally {
-    walker.free();
+    thing.free();
   }
 }
+
+/** The walker's walk as a file. */
+const walkFile = (panache: Panache) => freed(panache.createWalker(), (walker) => {
+  walker.steer(kPaces.walk.speed, kPaces.walk.turn);
+  for (let t = 0; t < kSettle + kWalkSeconds; t += 1 / 60) walker.step(1 / 60);
+  const bytes = walker.exportAs('.bvh', { which: 'input', seconds: kWalkSeconds });
+  return panache.openFile(bytes, 'walk.bvh');
+});
 
 /** Of characters without motion: with the walk on them. */
 const walking = new WeakMap<File, File>();
@@ -77,12 +80,8 @@ export async function openMoving(panache: Panache, from: File, fps?: number):
   const asItIs = { ...opened, from, notes };
   if (!isStill(file) || file.extension === '.vrma') return asItIs;
   try {
-    const walk = walkFile(panache);
-    try {
-      walking.set(from, new File([walk.putOn(file) as BlobPart], from.name));
-    } finally {
-      walk.free();
-    }
+    freed(walkFile(panache), (walk) =>
+      walking.set(from, new File([walk.putOn(file) as BlobPart], from.name)));
   } catch (error) {
     if (!(error instanceof PanacheError)) throw error;
     return { ...asItIs, notes: [...notes, error.message] };
@@ -118,21 +117,17 @@ export async function putTogether(panache: Panache, files: File[]): Promise<File
   const character = files.find(({ name }) => isCharacter(name));
   if (files.length !== 2 || !motion || !character) return files;
   const from = (await openFile(panache, motion)).file;
-  try {
-    const onto = (await openFile(panache, character)).file;
-    try {
-      const title = `${titleOf(motion.name)}-on-${character.name}`;
-      return [new File([from.putOn(onto, firstMotion(from)) as BlobPart], title)];
-    } finally {
-      onto.free();
-    }
-  } finally {
+  const onto = await openFile(panache, character).catch((error: unknown) => {
     from.free();
-  }
+    throw error;
+  });
+  const title = `${titleOf(motion.name)}-on-${character.name}`;
+  return freed(from, () => freed(onto.file, (body) =>
+    [new File([from.putOn(body, firstMotion(from)) as BlobPart], title)]));
 }
 
 export async function clipSource(file: MotionFile, bytes: ArrayBuffer, clip: number):
-    Promise<Source> {
+    Promise<ClipSource> {
   const player = file.createPlayer(clip);
   let own: [SkinnedCharacter, SkinnedCharacter] | null = null;
   if (!['.bvh', '.vrma'].includes(file.extension)) {

@@ -26,6 +26,11 @@ export interface Seen {
   readonly own: readonly [SkinnedCharacter, SkinnedCharacter] | null;
 }
 
+interface Stand {
+  place: THREE.Vector3;
+  toes: THREE.Vector3[];
+}
+
 interface Body {
   readonly object: THREE.Object3D;
   /** Around its meshes as they stand, in the world. */
@@ -40,6 +45,11 @@ const jointAt = (parts: Float32Array, name: string) =>
   new THREE.Vector3().fromArray(parts, 7 * humanJoints.indexOf(name));
 const groundUnder = (parts: Float32Array) => jointAt(parts, 'hips').setY(0);
 
+function onLayer(object: THREE.Object3D, layer: number) {
+  object.traverse((node) => node.layers.set(layer));
+  return object;
+}
+
 /** Whether a chip draws, and not the browser by itself, which takes ten times as long. */
 function hasGraphicsCard(): boolean {
   const context = document.createElement('canvas').getContext('webgl2');
@@ -50,7 +60,6 @@ function hasGraphicsCard(): boolean {
 }
 
 export class Stage {
-  readonly canvas: HTMLCanvasElement;
   view: View = 'styled';
   trail = true;
   onion = false;
@@ -68,10 +77,9 @@ export class Stage {
   #ground: Ground;
   #marks = new Marks();
   #bodies: { input: Body; styled: Body; skinned: boolean } | null = null;
-  #inputPlace = new THREE.Vector3();
-  #styledPlace = new THREE.Vector3();
-  #inputFeet: THREE.Vector3[] = [];
-  #styledFeet: THREE.Vector3[] = [];
+  /** Where each body is on the ground, and its toes. */
+  #input: Stand = { place: new THREE.Vector3(), toes: [] };
+  #styled: Stand = { place: new THREE.Vector3(), toes: [] };
   #geometry: THREE.BufferGeometry | null = null;
   #onions: Mannequin[] = [];
   #past: { time: number; parts: Float32Array }[] = [];
@@ -84,8 +92,7 @@ export class Stage {
   #loops: { input: THREE.Vector2; styled: THREE.Vector2; share: number } | null = null;
 
   /** `forLoop`: with a grid that can begin again. */
-  constructor(canvas: HTMLCanvasElement, forLoop = false) {
-    this.canvas = canvas;
+  constructor(readonly canvas: HTMLCanvasElement, forLoop = false) {
     const fast = (this.#fast = hasGraphicsCard());
     this.#sharpest = fast ? 2 : 0.75;
     // Opaque: where no card composes the page, that takes a fifth less of the whole.
@@ -106,9 +113,8 @@ export class Stage {
     const rim = new THREE.DirectionalLight(0xbfd4ff, 0.9);
     rim.position.set(-3, 2.5, -4);
     this.#scene.add(this.#sun, this.#sun.target, this.#sky, rim, this.#ground.group,
-      this.#marks.group);
+      onLayer(this.#marks.group, kStyledLayer));
     for (const light of [this.#sun, this.#sky, rim]) light.layers.enableAll();
-    this.#onLayer(this.#marks.group, kStyledLayer);
     this.#camera = new Camera(canvas);
     this.paint();
   }
@@ -123,21 +129,16 @@ export class Stage {
   /** Shows the bodies of another source: its own meshes where it has some, else mannequins. */
   show(source: Seen) {
     const { player, own } = source;
-    this.#bodies?.input.free();
-    this.#bodies?.styled.free();
-    for (const onion of this.#onions) onion.free();
-    this.#geometry?.dispose();
+    this.#freeBodies();
     const body = this.#fast ? player.body : player.coarseBody;
     const geometry = (this.#geometry = bodyGeometry(body));
-    const place = (object: THREE.Object3D, layer: number) => {
-      this.#onLayer(object, layer);
-      this.#scene.add(object);
-    };
+    const place = (object: THREE.Object3D, layer: number) =>
+      this.#scene.add(onLayer(object, layer));
     const inputLook = { body: '#a9b9cc', accent: '#4d6480' };
     const styledLook = { body: '#efe6d8', accent: '#d9622b' };
     this.#onions = Array.from({ length: kOnions }, () => new Mannequin(geometry, body, styledLook));
     this.#onions.forEach((onion, i) => {
-      place(onion.mesh, kStyledLayer);
+      place(onion.object, kStyledLayer);
       onion.opacity = 0.4 - 0.1 * i;
     });
     const [input, styled] = own ?? [new Mannequin(geometry, body, inputLook),
@@ -157,7 +158,7 @@ export class Stage {
     const { input, styled } = this.#bodies;
     const box = styled.box;
     if (this.view !== 'styled') {
-      box.union(input.box.translate(this.#styledPlace.clone().sub(this.#inputPlace)));
+      box.union(input.box.translate(this.#styled.place.clone().sub(this.#input.place)));
     }
     this.#camera.look(angle, player.parts('styled'), box);
   }
@@ -179,16 +180,14 @@ export class Stage {
       this.#bodies.input.pose(input, inputShift);
       this.#bodies.styled.pose(styled, still);
     }
-    const feet = (name: string) => ['left', 'right'].map((side) => jointAt(styled, side + name));
-    this.#marks.show(feet('Foot'), feet('Toes'), player.contacts, this.trail);
+    const feet = (parts: Float32Array, name: string) =>
+      ['left', 'right'].map((side) => jointAt(parts, side + name));
+    this.#input = { place: groundUnder(input).add(inputShift),
+      toes: feet(input, 'Toes').map((foot) => foot.add(inputShift)) };
+    this.#styled = { place: here, toes: feet(styled, 'Toes') };
+    this.#marks.show(feet(styled, 'Foot'), this.#styled.toes, player.contacts, this.trail);
     this.#showOnions(styled, cut, seconds);
     this.#camera.follow(here, cut ? 0 : seconds);
-    this.#inputPlace.copy(groundUnder(input)).add(inputShift);
-    this.#styledPlace.copy(here);
-    const ankles = (parts: Float32Array) =>
-      ['leftToes', 'rightToes'].map((name) => jointAt(parts, name));
-    this.#inputFeet = ankles(input).map((foot) => foot.add(inputShift));
-    this.#styledFeet = ankles(styled);
   }
 
   #showOnions(parts: Float32Array, cut: boolean, seconds: number) {
@@ -199,8 +198,8 @@ export class Stage {
     this.#onions.forEach((onion, i) => {
       const then = this.#time - kOnionSeconds * (i + 1);
       const moment = this.#past.filter(({ time }) => time <= then).pop();
-      onion.mesh.visible = this.onion && !this.#bodies?.skinned && moment !== undefined;
-      if (onion.mesh.visible && moment) onion.pose(moment.parts, new THREE.Vector3());
+      onion.object.visible = this.onion && !this.#bodies?.skinned && moment !== undefined;
+      if (onion.object.visible && moment) onion.pose(moment.parts, new THREE.Vector3());
     });
   }
 
@@ -209,7 +208,7 @@ export class Stage {
     return this.#camera.camera.position.toArray();
   }
   get onionsShown() {
-    return this.#onions.filter((onion) => onion.mesh.visible).length;
+    return this.#onions.filter((onion) => onion.object.visible).length;
   }
 
   /** Pixels, in either direction. */
@@ -262,10 +261,14 @@ export class Stage {
     this.update(source, true, 0);
     this.#drawAt(width, height);
   }
-  free() {
+  #freeBodies() {
     this.#bodies?.input.free();
     this.#bodies?.styled.free();
+    for (const onion of this.#onions) onion.free();
     this.#geometry?.dispose();
+  }
+  free() {
+    this.#freeBodies();
     this.#camera.free();
     this.#renderer.dispose();
     this.#renderer.forceContextLoss();
@@ -283,49 +286,43 @@ export class Stage {
     const camera = this.#camera.camera;
     if (this.comparing) {
       this.#seeInput(camera);
-      this.#drawPart(this.#otherCamera, 0, width, [kInputLayer], this.#inputPlace);
+      this.#drawPart(this.#otherCamera, 0, width, [kInputLayer]);
     } else if (this.view === 'side') {
       // Each half has its own body in the middle, seen from the same side.
       const half = Math.floor(width / 2);
       this.#seeInput(camera);
-      this.#drawPart(this.#otherCamera, 0, half, [kInputLayer], this.#inputPlace);
-      this.#drawPart(camera, half, width - half, [kStyledLayer], this.#styledPlace);
+      this.#drawPart(this.#otherCamera, 0, half, [kInputLayer]);
+      this.#drawPart(camera, half, width - half, [kStyledLayer]);
     } else {
       const layers = this.view === 'over' ? [kInputLayer, kStyledLayer] : [kStyledLayer];
-      this.#drawPart(camera, 0, width, layers, this.#styledPlace);
+      this.#drawPart(camera, 0, width, layers);
     }
   }
 
   #seeInput(camera: THREE.PerspectiveCamera) {
     this.#otherCamera.copy(camera);
-    this.#otherCamera.position.sub(this.#styledPlace).add(this.#inputPlace);
+    this.#otherCamera.position.sub(this.#styled.place).add(this.#input.place);
   }
 
-  #drawPart(camera: THREE.PerspectiveCamera, left: number, width: number, layers: number[],
-      middle: THREE.Vector3) {
+  /** The styled body is in the middle, if its layer is among these, else the input. */
+  #drawPart(camera: THREE.PerspectiveCamera, left: number, width: number, layers: number[]) {
     const { height } = this.#size;
+    const which = layers.includes(kStyledLayer) ? 'styled' : 'input';
+    const { place, toes } = which === 'input' ? this.#input : this.#styled;
     camera.setViewOffset(width, height, 0, -this.#down, width, height);
     camera.zoom = this.#camera.zoomFor(camera.aspect);
     camera.updateProjectionMatrix();
     camera.layers.set(0);
     for (const layer of layers) camera.layers.enable(layer);
-    const input = middle === this.#inputPlace;
-    this.#ground.follow(middle, input ? this.#inputFeet : this.#styledFeet);
-    if (this.#loops) {
-      this.#ground.close(input ? this.#loops.input : this.#loops.styled, this.#loops.share);
-    }
-    this.#sun.position.set(middle.x + 1.6, 4.2, middle.z + 2);
-    this.#sun.target.position.set(middle.x, 0.6, middle.z);
+    this.#ground.follow(place, toes);
+    if (this.#loops) this.#ground.close(this.#loops[which], this.#loops.share);
+    this.#sun.position.set(place.x + 1.6, 4.2, place.z + 2);
+    this.#sun.target.position.set(place.x, 0.6, place.z);
     if (this.#bodies) this.#bodies.input.opacity = layers.length > 1 ? kGhost : 1;
     this.#renderer.setViewport(left, 0, width, height);
     this.#renderer.setScissor(left, 0, width, height);
     this.#renderer.setScissorTest(true);
     this.#renderer.render(this.#scene, camera);
-  }
-
-  #dropShadow() {
-    this.#sun.castShadow = this.#renderer.shadowMap.enabled = false;
-    this.#ground.spots = true;
   }
 
   // Takes the size of the place that the page gives it. Where drawing is slow it gives up what is
@@ -335,7 +332,8 @@ export class Stage {
     let ratio = this.#size.ratio || Math.min(this.#sharpest, window.devicePixelRatio);
     const least = Math.min(ratio, this.#fast ? 0.6 : 0.5);
     if (this.#slowness > 0.7 && this.#sun.castShadow && ratio <= 1) {
-      this.#dropShadow();
+      this.#sun.castShadow = this.#renderer.shadowMap.enabled = false;
+      this.#ground.spots = true;
       this.#slowness = 0;
     } else if (this.#slowness > 0.7 && ratio > least) {
       ratio = Math.max(least, ratio * 0.8);
@@ -349,9 +347,5 @@ export class Stage {
     this.#down = Math.max(0, Math.min(kMaxDown * height, this.keepClear() - kAboveBody * height));
     this.#renderer.setPixelRatio(ratio);
     this.#renderer.setSize(width, height, false);
-  }
-
-  #onLayer(object: THREE.Object3D, layer: number) {
-    object.traverse((node) => node.layers.set(layer));
   }
 }

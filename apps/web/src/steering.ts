@@ -1,6 +1,8 @@
 // Where the walker is to go: keys, a stick on the screen, a gamepad; nobody at the helm lets her
 // wander.
 
+import { listenToDrags } from './dom';
+
 const kWalk = 1.35, kRun = 3, kTurn = 1.5;  // m/s, m/s, rad/s.
 const kFastest = 4;
 
@@ -39,8 +41,7 @@ export function keyWish(held: ReadonlySet<string>, pace: Pace): Wish {
   return { speed, turn: turn || kPaces[pace].turn };
 }
 
-const kSteeringKeys = ['KeyW', 'KeyA', 'KeyS', 'KeyD', 'ArrowUp', 'ArrowDown', 'ArrowLeft',
-  'ArrowRight', 'ShiftLeft', 'ShiftRight'];
+const kSteeringKeys = /^(Key[WASD]|Arrow(Up|Down|Left|Right)|Shift(Left|Right))$/;
 
 export class Steering {
   pace: Pace = 'walk';
@@ -57,7 +58,7 @@ export class Steering {
         event.code.startsWith('Arrow');
       const typing = target.matches('input[type=number]');
       if (taken || typing || event.ctrlKey || event.metaKey || event.altKey) return;
-      if (!kSteeringKeys.includes(event.code)) return;
+      if (!kSteeringKeys.test(event.code)) return;
       this.#held.add(event.code);
       this.#free = false;
       if (event.code.startsWith('Arrow')) event.preventDefault();
@@ -88,28 +89,14 @@ export class Steering {
 
   #listenToStick(stick: HTMLElement) {
     const knob = stick.firstElementChild as HTMLElement;
-    const move = (event: PointerEvent) => {
-      const box = stick.getBoundingClientRect();
-      const reach = box.width / 2;
-      let x = (event.clientX - box.left) / reach - 1, y = 1 - (event.clientY - box.top) / reach;
-      const far = Math.max(1, Math.hypot(x, y));
-      [x, y] = [x / far, y / far];
-      this.#stick = { x, y };
-      knob.style.transform = `translate(${x * 34}px, ${-y * 34}px)`;
-    };
-    stick.addEventListener('pointerdown', (event) => {
-      stick.setPointerCapture(event.pointerId);
+    listenToDrags(stick, (across, down) => {
+      const x = 2 * across - 1, y = 1 - 2 * down, far = Math.max(1, Math.hypot(x, y));
       this.#free = false;
-      move(event);
+      this.#stick = { x: x / far, y: y / far };
+      knob.style.transform = `translate(${(x / far) * 34}px, ${(-y / far) * 34}px)`;
+    }, () => {
+      this.#stick = null;
+      knob.style.transform = '';
     });
-    stick.addEventListener('pointermove', (event) => {
-      if (this.#stick) move(event);
-    });
-    for (const end of ['pointerup', 'pointercancel']) {
-      stick.addEventListener(end, () => {
-        this.#stick = null;
-        knob.style.transform = '';
-      });
-    }
   }
 }

@@ -1,24 +1,14 @@
 // The sliders of the styles: those that are not at 0 on top, all others in groups that fold.
 
 import type { Style } from '../package/index.js';
+import { attempt } from './alerts';
 import { button, element, hinted } from './dom';
 import { capitalized, groupStyles } from './groups';
-import { kLeast, kMost, type Store } from './settings';
+import type { Page } from './page';
+import { kLeast, kMost } from './settings';
 import { Slider } from './slider';
 
 const kManyStyles = 20;  // Of more than these, only the first group is open at first.
-
-export interface StyleEvents {
-  /** A slider was pushed. */
-  onStrength(name: string, value: number): void;
-  /** Back to neutral. */
-  onReset(name: string): void;
-  /** One of its gestures was asked for. */
-  onGesture(name: string, gesture: number): void;
-  /** Of a style that was learnt. */
-  onSave(name: string): void;
-  onRemove(name: string): void;
-}
 
 interface Row {
   style: Style;
@@ -34,10 +24,11 @@ interface Fold {
   count: HTMLElement;
 }
 
+/** What its row says of a style. */
+const said = ({ group, ...rest }: Style) => JSON.stringify(rest);
+
 export class StyleRows {
   readonly element = element('div', { id: 'style-rows' });
-  /** By the names of the styles. */
-  readonly rows = new Map<string, HTMLElement>();
   #rows: Row[] = [];
   #folds: Fold[] = [];
   #open = new Map<string, boolean>();  // The groups that somebody opened or closed.
@@ -48,8 +39,8 @@ export class StyleRows {
     element('h3', {}, 'Active'), this.#activeRows);
   #pressed = false;
 
-  constructor(private store: Store, private events: StyleEvents) {
-    store.listen(() => this.#show());
+  constructor(private page: Page) {
+    page.store.listen(() => this.#show());
     // A row that is in use stays where it is, and nothing moves below a finger. A menu that opens
     // may keep the end of the press to itself.
     addEventListener('pointerdown', (event) => {
@@ -64,10 +55,16 @@ export class StyleRows {
     this.element.addEventListener('focusout', () => setTimeout(() => this.#arrange()));
   }
 
-  /** The strengths of styles that have keys. */
-  showNow(strengths: Record<string, number>) {
+  /** By the names of the styles. */
+  get rows() {
+    return new Map(this.#rows.map(({ style, slider }) => [style.name, slider.row]));
+  }
+
+  /** The strengths that styles with keys have now. */
+  showNow() {
     for (const { style: { name }, slider } of this.#rows) {
-      if (name in strengths) slider.show(Math.round(strengths[name] * 100) / 100);
+      if (!(name in this.page.store.settings.keys)) continue;
+      slider.show(Math.round(this.page.strengthOf(name) * 100) / 100);
     }
   }
 
@@ -77,7 +74,6 @@ export class StyleRows {
     const groups = groupStyles(styles);
     this.#rows = [];
     this.#folds = [];
-    this.rows.clear();
     this.element.replaceChildren(this.#active);
     for (const { title, styles: own } of groups) {
       const list = element('div');
@@ -87,14 +83,10 @@ export class StyleRows {
         : list);
       for (const style of own) {
         const before = known.get(style.name);
-        const same = before && before.style.description === style.description &&
-          before.style.learnt === style.learnt &&
-          before.style.thumbnail === style.thumbnail &&
-          before.style.gestures.join() === style.gestures.join() && changed !== style.name;
+        const same = before && said(before.style) === said(style) && changed !== style.name;
         const slider = same ? before.slider : this.#make(style);
         list.append(slider.row);
         this.#rows.push({ style, slider, list });
-        this.rows.set(style.name, slider.row);
       }
     }
     this.#activeRows.replaceChildren();
@@ -137,15 +129,16 @@ export class StyleRows {
     const slider = new Slider({
       id: `style-${encodeURIComponent(name)}`, title: capitalized(name),
       hint: description || undefined, least: kLeast, most: kMost, rest: 0,
-      onChange: (value) => this.events.onStrength(name, value),
-      onReset: () => this.events.onReset(name),
+      onChange: (value) => this.page.setStrength(name, value),
+      onReset: () => this.page.store.dropStyle(name),
     });
     const words = element('p', { class: 'words' }, description);
     if (learnt) {
       words.className = 'own';
       words.append(
-        button('Save', () => this.events.onSave(name), hinted(`Save ${name} as a style file`)),
-        button('Remove', () => this.events.onRemove(name), hinted(`Remove ${name}`)));
+        button('Save', () => this.page.exporter.saveStyle(name), hinted(`Save ${name} as a style file`)),
+        button('Remove', () => void attempt(() => this.page.removeStyle(name)),
+          hinted(`Remove ${name}`)));
     }
     slider.row.append(words);
     if (thumbnail) {
@@ -155,14 +148,14 @@ export class StyleRows {
     }
     if (gestures.length > 0) {
       slider.row.append(element('p', { class: 'gestures' }, ...gestures.map((gesture, i) =>
-        button(capitalized(gesture), () => this.events.onGesture(name, i),
+        button(capitalized(gesture), () => this.page.trigger(name, i),
           hinted(`Play this gesture of ${name} (G plays one of the active styles)`)))));
     }
     return slider;
   }
 
   #show() {
-    const { styles, keys } = this.store.settings;
+    const { styles, keys } = this.page.store.settings;
     for (const { style: { name }, slider } of this.#rows) {
       slider.row.classList.toggle('keyed', name in keys);
       if (!(name in keys)) slider.show(styles[name] ?? 0);
@@ -173,7 +166,7 @@ export class StyleRows {
   /** Puts rows where they belong; what has the focus stays where it is on the screen. */
   #arrange() {
     if (this.#pressed) return;
-    const { styles, keys } = this.store.settings;
+    const { styles, keys } = this.page.store.settings;
     const focus = document.activeElement;
     const anchor = focus?.closest('#panel') ? focus : null;
     const top = anchor?.getBoundingClientRect().top ?? 0;

@@ -2,8 +2,11 @@
 
 import { attempt } from './alerts';
 import { button, element, find } from './dom';
-import { buildMenu } from './menu';
-import { buildViewSaving, type ViewSaving } from './save_view';
+import { capitalized } from './groups';
+import type { Page } from './page';
+import { buildViewSaving } from './save_view';
+import { toAddress } from './settings';
+import { walkSource } from './source';
 import { kPaces, type Pace } from './steering';
 
 /** Shows which pace the walker has. */
@@ -14,36 +17,57 @@ export function showPace(pace: Pace) {
 }
 
 export function buildWalkerControls(onPace: (pace: Pace) => void) {
-  const buttons = (Object.keys(kPaces) as Pace[]).map((pace) => {
-    const title = pace[0].toUpperCase() + pace.slice(1);
-    return button(title, () => onPace(pace), { 'data-pace': pace });
-  });
+  const buttons = (Object.keys(kPaces) as Pace[]).map((pace) =>
+    button(capitalized(pace), () => onPace(pace), { 'data-pace': pace }));
   const keys = element('span', { class: 'keys' });
   for (const key of ['W', 'A', 'S', 'D']) keys.append(element('kbd', {}, key), ' ');
   keys.append('steer');
   find('#walker-controls').append(...buttons, keys);
 }
 
-export interface FileActions extends ViewSaving {
-  onOpen(files: File[]): Promise<void>;
-  /** Another of the files that are listed. */
-  onFile(index: number): Promise<void>;
-  onWalker(): void;
-  onSave(extension: string): void;
-  onSaveAll(): Promise<void>;
-  /** The address of the page with its settings. */
-  link(): string;
-}
-
 /** A button whose faults are told. */
 const act = (id: string, text: string, title: string, press: () => void | Promise<void>) =>
   button(text, () => void attempt(press), { id, title });
 
-function saveMenu(on: FileActions) {
-  const view = buildViewSaving(on);
+/** A button and a list of others, which closes after a choice, by Escape, and when one goes elsewhere. */
+function buildMenu(id: string, text: string, title: string,
+    groups: readonly { title: string; buttons: readonly HTMLElement[] }[]): HTMLElement {
+  const list = element('div', { id: `${id}-menu`, class: 'menu-list', role: 'group',
+    'aria-label': text, hidden: true },
+  ...groups.map((group) => element('div', { role: 'group', 'aria-label': group.title },
+    element('h2', {}, group.title), ...group.buttons)));
+  const opener = button(text, () => open(list.hidden),
+    { id, title, 'aria-expanded': 'false', 'aria-controls': list.id });
+  const menu = element('div', { class: 'menu' }, opener, list);
+  const open = (wanted: boolean) => {
+    list.hidden = !wanted;
+    opener.setAttribute('aria-expanded', String(wanted));
+    if (wanted) list.scrollIntoView({ block: 'nearest' });
+  };
+  list.addEventListener('click', (event) => {
+    if ((event.target as Element).closest('button')) open(false);
+  });
+  addEventListener('pointerdown', (event) => {
+    if (!menu.contains(event.target as Node)) open(false);
+  }, true);
+  menu.addEventListener('focusout', ({ relatedTarget }) => {
+    if (relatedTarget instanceof Node && !menu.contains(relatedTarget)) open(false);
+  });
+  // A button that was clicked does not keep the focus.
+  addEventListener('keydown', (event) => {
+    if (event.key !== 'Escape' || list.hidden) return;
+    if (menu.contains(document.activeElement)) opener.focus();
+    open(false);
+  });
+  return menu;
+}
+
+function saveMenu({ stage, exporter, store }: Page) {
+  const view = buildViewSaving(stage, exporter);
   const link = act('copy-link', 'Copy link', 'A link to this page with these settings',
     async () => {
-      await navigator.clipboard.writeText(on.link());
+      await navigator.clipboard.writeText(
+        location.href.replace(/#.*$/, '') + `#${toAddress(store.settings)}`);
       find('#save').textContent = 'Link copied';
       setTimeout(() => (find('#save').textContent = kSave), 1500);
     });
@@ -51,11 +75,11 @@ function saveMenu(on: FileActions) {
   const kSave = 'Save ▾';
   const menu = buildMenu('save', kSave, 'Save the motion or the view', [
     { title: 'Motion', buttons: [
-      act('save-bvh', 'BVH', 'The motion, as a BVH file', () => on.onSave('.bvh')),
-      act('save-glb', 'GLB', 'The motion, as a GLB file', () => on.onSave('.glb')),
-      act('save-vrma', 'VRMA', 'The motion, as a VRM animation', () => on.onSave('.vrma')),
+      act('save-bvh', 'BVH', 'The motion, as a BVH file', () => exporter.save('.bvh')),
+      act('save-glb', 'GLB', 'The motion, as a GLB file', () => exporter.save('.glb')),
+      act('save-vrma', 'VRMA', 'The motion, as a VRM animation', () => exporter.save('.vrma')),
       act('save-zip', 'All files (zip)',
-        'All opened files, each as BVH, GLB and VRMA, in one zip', () => on.onSaveAll()),
+        'All opened files, each as BVH, GLB and VRMA, in one zip', () => exporter.saveAll()),
     ] },
     { title: 'View', buttons: [...view.savers, link] },
   ]);
@@ -69,19 +93,19 @@ export function listFiles(files: readonly File[]) {
   menu.hidden = files.length < 2;
 }
 
-export function buildFileControls(on: FileActions) {
+export function buildFileControls(page: Page) {
   const input = find<HTMLInputElement>('#file');
   input.addEventListener('change', () => {
     const files = [...(input.files ?? [])];
     input.value = '';
-    void attempt(() => on.onOpen(files));
+    void attempt(() => page.openAll(files));
   });
   const menu = element('select', { id: 'files', 'aria-label': 'Opened files', hidden: true });
-  menu.addEventListener('change', () => void attempt(() => on.onFile(Number(menu.value))));
+  menu.addEventListener('change', () => void attempt(() => page.open(page.files[Number(menu.value)])));
   find('#file-controls').append(menu,
-    act('back', 'Walker', 'Close the file and steer the walker again', () => on.onWalker()),
+    act('back', 'Walker', 'Close the file and steer the walker again', () => page.use(walkSource(page.panache))),
     act('open', 'Open …',
       'BVH, GLB, glTF, VRM or VRMA files, a model or a style; or drop them on the view',
       () => input.click()),
-    ...saveMenu(on));
+    ...saveMenu(page));
 }

@@ -1,28 +1,21 @@
 // The track under the time line: the keys of one style, to be pushed about.
 
 import type { Style } from '../package/index.js';
-import { button, element, find } from './dom';
+import { button, element, find, placeIn } from './dom';
 import { styleOptions } from './groups';
 import { moved, strengthAt, withKey, type Key } from './keys';
-import { kLeast, kMost, type Store } from './settings';
+import type { Page } from './page';
+import { kLeast, kMost } from './settings';
 
 const kPush = 0.05;
 const kDoubleClick = 1000;  // Milliseconds, for slow fingers.
 
-export interface TrackEvents {
-  /** Where the play head is, seconds. */
-  now(): number;
-  /** The strength that the style has there. */
-  strength(style: string): number;
-  onSeek(seconds: number): void;
-}
-
 export class Track {
-  readonly toggle = element('button', { type: 'button', id: 'show-keys', 'aria-pressed': 'false',
-    title: 'Strength of a style over time' }, 'Keyframes');
+  readonly toggle = button('Keyframes', () => this.open(find('#keys').hidden),
+    { id: 'show-keys', 'aria-pressed': 'false', title: 'Strength of a style over time' });
   #styles = element('select', { id: 'key-style', 'aria-label': 'Style of the keyframes' });
   #field = element('div', { class: 'key-field', role: 'group' });
-  #line = document.createElementNS('http://www.w3.org/2000/svg', 'polyline');
+  #line: SVGElement;
   #zero = element('i', { class: 'zero' });
   #head = element('i', { class: 'head' });
   #keys: HTMLButtonElement[] = [];
@@ -32,23 +25,20 @@ export class Track {
   #pressed = -1;  // The key that a click met.
   #added = -Infinity;  // When a click added one, milliseconds.
 
-  constructor(private store: Store, private events: TrackEvents) {
-    const picture = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
-    picture.setAttribute('viewBox', '0 0 100 100');
-    picture.setAttribute('preserveAspectRatio', 'none');
-    picture.setAttribute('aria-hidden', 'true');
-    picture.append(this.#line);
+  constructor(private page: Page) {
+    this.#field.innerHTML =
+      '<svg viewBox="0 0 100 100" preserveAspectRatio="none" aria-hidden="true"><polyline/></svg>';
+    this.#line = this.#field.querySelector('polyline')!;
     this.#zero.style.top = `${this.#down(0)}%`;
-    this.#field.append(picture, this.#zero, this.#head);
+    this.#field.append(this.#zero, this.#head);
     const add = button('Add keyframe', () => this.add(),
       { id: 'add-key', title: 'Add a keyframe with the current strength (K)' });
     const clear = button('Clear', () => this.#set([]),
       { id: 'clear-keys', title: 'Remove all keyframes of this style' });
     find('#keys').append(this.#styles, this.#field, add, clear);
     this.#styles.addEventListener('change', () => this.#show());
-    this.toggle.addEventListener('click', () => this.open(find('#keys').hidden));
     this.#listenToPointer();
-    store.listen(() => {
+    page.store.listen(() => {
       this.#show();
       clear.disabled = this.keys.length === 0;
     });
@@ -58,7 +48,7 @@ export class Track {
     return this.#styles.value;
   }
   get keys(): readonly Key[] {
-    return this.store.settings.keys[this.style] ?? [];
+    return this.page.store.settings.keys[this.style] ?? [];
   }
 
   open(open: boolean) {
@@ -84,8 +74,9 @@ export class Track {
 
   /** A key at the play head. */
   add() {
-    const now = this.events.now();
-    const { keys, index } = withKey(this.keys, now, this.events.strength(this.style));
+    const { source } = this.page;
+    const now = source.kind === 'clip' ? source.player.seconds : 0;
+    const { keys, index } = withKey(this.keys, now, this.page.strengthOf(this.style));
     this.open(true);
     this.#set(keys);
     this.#keys[index]?.focus();
@@ -93,14 +84,14 @@ export class Track {
 
   // The style that has keys already, else one that is on.
   #choose() {
-    const { keys, styles } = this.store.settings;
+    const { keys, styles } = this.page.store.settings;
     const wanted = [...Object.keys(keys), ...Object.keys(styles)]
       .find((name) => [...this.#styles.options].some((option) => option.value === name));
     if (wanted && !keys[this.style]) this.#styles.value = wanted;
   }
 
   #set(keys: readonly Key[]) {
-    this.store.setKeys(this.style, keys);
+    this.page.store.setKeys(this.style, keys);
   }
   #across(seconds: number) {
     return this.#seconds > 0 ? Math.min(100, (100 * seconds) / this.#seconds) : 0;
@@ -116,7 +107,7 @@ export class Track {
       `Keyframes of ${this.style}: click to add one, Delete removes the one that has the focus`);
     const points: Key[] = keys.length
       ? [[0, keys[0][1]], ...keys, [this.#seconds, strengthAt(keys, this.#seconds)]]
-      : [[0, this.events.strength(this.style)], [this.#seconds, this.events.strength(this.style)]];
+      : [[0, this.page.strengthOf(this.style)], [this.#seconds, this.page.strengthOf(this.style)]];
     this.#line.setAttribute('points',
       points.map(([t, s]) => `${this.#across(t)},${this.#down(s)}`).join(' '));
     this.#line.classList.toggle('constant', keys.length === 0);
@@ -156,7 +147,8 @@ export class Track {
   #move(index: number, seconds: number, strength: number) {
     const keys = moved(this.keys, index, seconds, strength, this.#seconds);
     this.#set(keys);
-    this.events.onSeek(keys[index][0]);
+    this.page.transport.setPlaying(false);
+    this.page.seek(keys[index][0]);
   }
   #remove(index: number) {
     this.#set(this.keys.filter((_, i) => i !== index));
@@ -165,8 +157,7 @@ export class Track {
 
   #listenToPointer() {
     const place = (event: PointerEvent): Key => {
-      const box = this.#field.getBoundingClientRect();
-      const x = (event.clientX - box.left) / box.width, y = (event.clientY - box.top) / box.height;
+      const [x, y] = placeIn(this.#field, event);
       return [Math.min(1, Math.max(0, x)) * this.#seconds, kMost - y * (kMost - kLeast)];
     };
     this.#field.addEventListener('pointerdown', (event) => {

@@ -1,16 +1,13 @@
 // Play, pause, scrub, loop, speed.
 
 import type { MotionFile } from '../package/index.js';
+import { attempt } from './alerts';
 import { button, element, find, hinted } from './dom';
-import type { Source } from './source';
+import { motionOptions } from './groups';
+import type { Page } from './page';
+import type { ClipSource } from './source';
 
 const kSpeeds = [0.25, 0.5, 1, 1.5, 2];
-
-export interface Transport {
-  playing: boolean;
-  loop: boolean;
-  speed: number;
-}
 
 /** The frame at this time, from 1 to `frames`; `first` is the one that plays first, from 0. */
 export function frameAt(seconds: number, frameTime: number, first: number, frames: number): number {
@@ -25,21 +22,9 @@ export function clock(seconds: number): string {
   return `${Math.floor(tenths / 600)}:${rest < 10 ? '0' : ''}${rest.toFixed(1)}`;
 }
 
-type Clip = Source & { kind: 'clip' };
-
-export interface TransportEvents {
-  onSeek(seconds: number): void;
-  onClip(clip: number): void;
-  /** Frames a second of the file; 0: its own. */
-  onRate(fps: number): void;
-  onLoop(loop: boolean): void;
-  /** One frame on, or back. */
-  onStep(frames: number): void;
-}
-
 export class TransportBar {
-  readonly state: Transport = { playing: true, loop: true, speed: 1 };
-  #play = element('button', { type: 'button', id: 'play' });
+  readonly state = { playing: true, loop: true, speed: 1 };
+  #play = button('', () => this.setPlaying(!this.state.playing), { id: 'play' });
   #scrub = element('input', { type: 'range', id: 'scrub', min: 0, max: 1, step: 0.001,
     'aria-label': 'Time in the clip' });
   #time = element('span', { class: 'seconds' });
@@ -48,7 +33,11 @@ export class TransportBar {
   #rate = element('input', { type: 'number', id: 'fps', min: 0.01, max: 10000, step: 'any',
     ...hinted('Frames a second of the file; empty: its own rate') });
   #range = element('span', { class: 'range', title: 'From the loop start to the loop end' });
-  #loop = element('button', { type: 'button', id: 'loop', 'aria-pressed': 'true' }, 'Loop');
+  #loop = button('Loop', () => {
+    this.state.loop = !this.state.loop;
+    this.#loop.setAttribute('aria-pressed', String(this.state.loop));
+    if (this.page.source.kind === 'clip') this.page.source.player.loop = this.state.loop;
+  }, { id: 'loop', 'aria-pressed': 'true' });
   #seconds = 0;
   /** "73 / 180" */
   #frame: (seconds: number) => string = () => '';
@@ -56,16 +45,16 @@ export class TransportBar {
   #in = 0;
   #out: number | null = null;
 
-  constructor(private events: TransportEvents) {
+  constructor(private page: Page) {
     const speed = element('select', { id: 'speed', 'aria-label': 'Speed' },
       ...kSpeeds.map((s) => element('option', { value: s, selected: s === 1 }, `${s}×`)));
     const row = (name: string, ...parts: HTMLElement[]) =>
       find('#clip-controls').append(element('div', { class: name }, ...parts));
     row('time-row',
-      button('‹', () => this.events.onStep(-1),
+      button('‹', () => page.stepFrames(-1),
         { id: 'back-frame', ...hinted('One frame back (comma)') }),
       this.#play,
-      button('›', () => this.events.onStep(1),
+      button('›', () => page.stepFrames(1),
         { id: 'next-frame', ...hinted('One frame on (full stop)') }),
       element('span', { class: 'track' }, this.#scrub, this.#range),
       element('output', { 'aria-live': 'off' }, this.#time, this.#frameNow));
@@ -76,17 +65,13 @@ export class TransportBar {
         title: 'End of the loop (O); press again to reset' }),
       this.#clips, this.#loop, speed,
       element('label', { class: 'word rate', for: 'fps' }, 'fps'), this.#rate);
-    this.#play.addEventListener('click', () => this.setPlaying(!this.state.playing));
     this.#scrub.addEventListener('input', () => {
-      this.events.onSeek(Number(this.#scrub.value) * this.#seconds);
+      page.seek(Number(this.#scrub.value) * this.#seconds);
     });
-    this.#clips.addEventListener('change', () => this.events.onClip(Number(this.#clips.value)));
-    this.#rate.addEventListener('change', () => this.events.onRate(Number(this.#rate.value)));
-    this.#loop.addEventListener('click', () => {
-      this.state.loop = !this.state.loop;
-      this.#loop.setAttribute('aria-pressed', String(this.state.loop));
-      this.events.onLoop(this.state.loop);
-    });
+    this.#clips.addEventListener('change',
+      () => void attempt(() => page.playClip(Number(this.#clips.value))));
+    this.#rate.addEventListener('change',
+      () => void attempt(() => page.setRate(Number(this.#rate.value))));
     speed.addEventListener('change', () => (this.state.speed = Number(speed.value)));
     this.setPlaying(true);
   }
@@ -122,14 +107,14 @@ export class TransportBar {
   setPlaying(playing: boolean) {
     // Who stands at the end begins again.
     const [begin, end] = this.range;
-    if (playing && !this.state.loop && this.#now >= end - 1e-3) this.events.onSeek(begin);
+    if (playing && !this.state.loop && this.#now >= end - 1e-3) this.page.seek(begin);
     this.state.playing = playing;
     this.#play.textContent = playing ? 'Pause' : 'Play';
   }
 
   /** Goes on by so many seconds where it plays, from the loop start to the loop end; the seconds of
    * motion that passed, and whether what is seen has nothing to do with what was. */
-  play({ file, clip, player }: Clip, seconds: number): { passed: number; cut: boolean } {
+  play({ file, clip, player }: ClipSource, seconds: number): { passed: number; cut: boolean } {
     const { playing, speed, loop } = this.state;
     const before = player.seconds;
     // Paused too: what is set is seen when the clip goes on, or is scrubbed.
@@ -147,14 +132,13 @@ export class TransportBar {
     return { passed: playing ? seconds * speed : 0, cut };
   }
 
-  show({ file, clip, player }: Clip) {
+  show({ file, clip, player }: ClipSource) {
     const { seconds, frames, frameTime } = file.clips[clip] ??
       { seconds: 0, frames: 1, frameTime: 0 };
     this.#seconds = seconds;
     const first = player.firstFrame;
     this.#frame = (now) => `${frameAt(now, frameTime, first, frames)} / ${frames}`;
-    this.#clips.replaceChildren(...file.clips.flatMap(({ name, moves }, i) => (moves
-      ? [element('option', { value: i, selected: i === clip }, name || `motion ${i + 1}`)] : [])));
+    this.#clips.replaceChildren(...motionOptions(file.clips, clip));
     this.#clips.hidden = this.#clips.childElementCount < 2;
     this.showRate(file, clip);
     this.#now = 0;

@@ -2,27 +2,21 @@
 
 import { kAngles, type Angle } from './camera';
 import { button, element, find, hinted } from './dom';
+import type { Page } from './page';
 
-export interface ViewActions {
-  onLook: (angle: Angle) => void;
-  /** Whether the button is held that shows the input alone. */
-  onCompare: (held: boolean) => void;
-  onHelp: () => void;
-}
-
-export function buildViewControls(on: ViewActions) {
+export function buildViewControls(page: Page) {
   const names = { face: 'Camera', front: 'Front', side: 'Side', top: 'Top', orbit: 'Orbit' };
   const menu = element('select', { id: 'angle', 'aria-label': 'Camera', title: 'Camera (1 to 4)' },
     ...kAngles.map((angle) => element('option', { value: angle }, names[angle])));
   menu.addEventListener('change', () => {
-    on.onLook(menu.value as Angle);
+    page.look(menu.value as Angle);
     menu.blur();
   });
   const compare = button('Show input (hold)', () => {},
     { id: 'compare', ...hinted('Hold to see the input alone (X)') });
-  compare.addEventListener('pointerdown', () => on.onCompare(true));
+  compare.addEventListener('pointerdown', () => (page.stage.comparing = true));
   for (const end of ['pointerup', 'pointerleave', 'pointercancel']) {
-    compare.addEventListener(end, () => on.onCompare(false));
+    compare.addEventListener(end, () => (page.stage.comparing = false));
   }
   const whole = button('Full screen', () => {
     if (document.fullscreenElement) void document.exitFullscreen();
@@ -45,8 +39,8 @@ export function buildViewControls(on: ViewActions) {
   find('#camera').append(menu,
     button('Fit', () => {
       menu.value = 'face';
-      on.onLook('face');
+      page.look('face');
     }, { id: 'fit', ...hinted('Face the character and fit it in the view (F)') }),
     compare, whole,
-    button('?', () => on.onHelp(), { id: 'show-help', ...hinted('Help: keys and more') }));
+    button('?', () => page.help.showModal(), { id: 'show-help', ...hinted('Help: keys and more') }));
 }

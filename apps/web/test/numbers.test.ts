@@ -1,9 +1,8 @@
 import { describe, expect, it } from 'vitest';
 
-import { place, shares } from '../src/blend';
+import { place, shares } from '../src/pad';
 import { histogram, median } from '../src/plots';
 import { keyWish, kPaces, stickWish } from '../src/steering';
-import { clock } from '../src/transport';
 
 describe('the pad', () => {
   it('gives all to a corner and a quarter to each in the middle', () => {
@@ -48,12 +47,5 @@ describe('the plots', () => {
   it('take the middle one for the median', () => {
     expect(median([9, 1, 5])).toBe(5);
     expect(median([])).toBe(0);
-  });
-});
-
-describe('the clock', () => {
-  it('counts minutes, seconds and tenths', () => {
-    expect(clock(4.23)).toBe('0:04.2');
-    expect(clock(59.97)).toBe('1:00.0');
   });
 });

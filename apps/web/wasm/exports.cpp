@@ -1,4 +1,5 @@
-// What only the page needs beside panache.h: motion and players. See exports.h.
+// What only the page needs beside panache.h: models, motion and players. See exports.h. Messages
+// have the names that the page gives to files.
 
 #include <algorithm>
 #include <cstdint>
@@ -8,18 +9,18 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "api/options.h"
 #include "clip/motion_format.h"
 #include "exports.h"
 #include "golden.h"
 #include "learn/recognise.h"
+#include "learn/style_file.h"
 #include "player.h"
 #include "pose/motion_notes.h"
 #include "retarget/find_body.h"
 #include "retarget/retarget.h"
 #include "rig/body_motions.h"
+#include "style/removal.h"
 
 using namespace panache;
 using namespace panache::web;
@@ -31,8 +32,61 @@ PANACHE_EXPORT void panache_page_golden(const panache_model* model, uint32_t* ou
   out[1] = static_cast<uint32_t>(hash >> 32);
 }
 
+PANACHE_EXPORT panache_model* panache_page_model_create(const char* data, uint32_t size,
+                                                        const char* name) {
+  auto model = Model::parse(bytes_at(data, size), name);
+  if (model) return new panache_model{*std::move(model)};
+  return fail(model.error());
+}
+// A model that takes styles off.
+PANACHE_EXPORT panache_model* panache_page_remover_create(const char* data, uint32_t size) {
+  const std::string name = "the remover";
+  auto model = Model::parse(bytes_at(data, size), name);
+  if (!model) return fail(model.error());
+  if (const auto any = find_removal(**model, ""); !any) return fail(located(name, any.error()));
+  return new panache_model{*std::move(model)};
+}
+// See index.d.ts: Style[].
+PANACHE_EXPORT panache_bytes* panache_page_styles(const panache_model* model) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const StyleInfo& style : model->model->styles()) {
+    nlohmann::json gestures = nlohmann::json::array();
+    for (const Gesture& gesture : model->model->gestures(static_cast<int>(all.size()))) {
+      gestures.push_back(gesture.name());
+    }
+    all.push_back({{"name", style.name},
+                   {"description", style.description},
+                   {"group", style.group},
+                   {"learnt", style.learnt},
+                   {"thumbnail", style.thumbnail},
+                   {"gestures", gestures}});
+  }
+  return to_bytes(all);
+}
+
+// Whether the bytes say that they are a style, and not a model.
+PANACHE_EXPORT int32_t panache_page_is_style(const char* data, uint32_t size) {
+  const Result<TensorFile> file = parse_safetensors(bytes_at(data, size), "");
+  return file && is_style_file(*file);
+}
+// The bytes of the model with the style of a style file.
+PANACHE_EXPORT panache_bytes* panache_page_style_add(const char* model, uint32_t model_size,
+                                                     const char* style, uint32_t style_size,
+                                                     const char* style_name, int32_t replace) {
+  const std::string model_name = "the model";
+  const Result<TensorFile> to = parse_safetensors(bytes_at(model, model_size), model_name);
+  if (!to) return fail(to.error());
+  const Result<TensorFile> from = parse_safetensors(bytes_at(style, style_size), style_name);
+  if (!from) return fail(from.error());
+  const Result<TensorFile> merged = add_style(*to, model_name, *from, style_name, replace != 0);
+  if (!merged) return fail(merged.error());
+  return new panache_bytes{format_safetensors(*merged)};
+}
+
 PANACHE_EXPORT WalkerHandle* panache_page_walker_create(const char* data, uint32_t size) {
-  return keep(WalkerModel::parse(bytes_at(data, size), "the walker's model"));
+  auto walker = WalkerModel::parse(bytes_at(data, size), "the walker's model");
+  if (walker) return new WalkerHandle(*std::move(walker));
+  return fail(walker.error());
 }
 PANACHE_EXPORT void panache_page_walker_free(WalkerHandle* walker) { delete walker; }
 
@@ -87,8 +141,7 @@ PANACHE_EXPORT panache_bytes* panache_page_file_describe(FileHandle* file, const
   }
   const nlohmann::json all = {
       {"clips", clips}, {"joints", joints}, {"notes", motion_notes(**file, name)}};
-  // Names are the file's, and may be no UTF-8.
-  return new panache_bytes{all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
+  return to_bytes(all);
 }
 
 // See panache_recognise_styles().
@@ -106,22 +159,24 @@ PANACHE_EXPORT panache_status panache_page_file_recognise(FileHandle* file, int3
 
 namespace {
 
-Player* make_player(const panache_model* model, std::unique_ptr<Source> source) {
-  Result<std::unique_ptr<Player>> player = Player::create(model->model, std::move(source));
+Player* make_player(const panache_model* model, Result<Source> source) {
+  if (!source) return fail(source.error());
+  Result<std::unique_ptr<Player>> player = Player::create(model->model, *std::move(source));
   if (player) return player->release();
   return fail(player.error());
+}
+panache_status status_of(const Result<void>& done, panache_status failed) {
+  return done ? PANACHE_OK : api::fail(failed, done.error());
 }
 
 }  // namespace
 
 PANACHE_EXPORT Player* panache_page_player_walk(const panache_model* model, WalkerHandle* walker) {
-  return make_player(model, std::make_unique<WalkerSource>(*walker));
+  return make_player(model, Source(*walker));
 }
 PANACHE_EXPORT Player* panache_page_player_clip(const panache_model* model, FileHandle* file,
                                                 int32_t which) {
-  Result<std::unique_ptr<ClipSource>> source = ClipSource::create(*file, which);
-  if (source) return make_player(model, *std::move(source));
-  return fail(source.error());
+  return make_player(model, Source::create(*file, which));
 }
 PANACHE_EXPORT void panache_page_player_free(Player* player) { delete player; }
 
@@ -139,13 +194,11 @@ PANACHE_EXPORT void panache_page_player_set_track(Player* player, int32_t style,
 }
 PANACHE_EXPORT panache_status panache_page_player_use_model(Player* player,
                                                             const panache_model* model) {
-  const Result<void> used = player->use_model(model->model);
-  return used ? PANACHE_OK : api::fail(PANACHE_BAD_SKELETON, used.error());
+  return status_of(player->use_model(model->model), PANACHE_BAD_SKELETON);
 }
 PANACHE_EXPORT panache_status panache_page_player_use_remover(Player* player,
                                                               const panache_model* remover) {
-  const Result<void> used = player->use_remover(remover->model);
-  return used ? PANACHE_OK : api::fail(PANACHE_BAD_SKELETON, used.error());
+  return status_of(player->use_remover(remover->model), PANACHE_BAD_SKELETON);
 }
 PANACHE_EXPORT void panache_page_player_set_removed(Player* player, int32_t style) {
   player->set_removed(style);
@@ -171,23 +224,22 @@ PANACHE_EXPORT void panache_page_player_measure(Player* player, int32_t count) {
   player->measure(count);
 }
 
-// The five below do nothing, or give 0, where the source is of the other kind.
+// Of the walker.
 PANACHE_EXPORT void panache_page_player_steer(Player* player, float speed, float turn) {
-  if (auto* walk = dynamic_cast<WalkerSource*>(&player->source())) walk->steer(speed, turn);
+  player->source().steer(speed, turn);
 }
+// Of a clip.
 PANACHE_EXPORT void panache_page_player_seek(Player* player, double seconds) {
-  if (auto* clip = dynamic_cast<ClipSource*>(&player->source())) clip->seek(seconds);
+  player->source().seek(seconds);
 }
 PANACHE_EXPORT void panache_page_player_loop(Player* player, int32_t loop) {
-  if (auto* clip = dynamic_cast<ClipSource*>(&player->source())) clip->set_loop(loop != 0);
+  player->source().set_loop(loop != 0);
 }
 PANACHE_EXPORT double panache_page_player_seconds(Player* player) {
-  auto* clip = dynamic_cast<ClipSource*>(&player->source());
-  return clip ? clip->seconds() : 0;
+  return player->source().seconds();
 }
 PANACHE_EXPORT int32_t panache_page_player_first_frame(Player* player) {
-  auto* clip = dynamic_cast<ClipSource*>(&player->source());
-  return clip ? clip->first_frame() : 0;
+  return player->source().first_frame();
 }
 
 PANACHE_EXPORT double panache_page_player_rate(Player* player) { return player->rate(); }
@@ -196,10 +248,10 @@ PANACHE_EXPORT float panache_page_player_contact(Player* player, int32_t foot) {
   return player->stylizer().contacts()[static_cast<size_t>(foot)];
 }
 PANACHE_EXPORT const float* panache_page_player_pose(Player* player, int32_t styled) {
-  return player->pose(styled != 0).data();
+  return player->shown(styled != 0).numbers.data();
 }
 PANACHE_EXPORT const float* panache_page_player_parts(Player* player, int32_t styled) {
-  return player->parts(styled != 0).data();
+  return player->shown(styled != 0).parts.data();
 }
 // Counts of vertices and of corners of triangles, then where the arrays of BodyMesh lie in their
 // order there, the bind pose as positions and rotations. Good as long as the player.
@@ -229,5 +281,7 @@ PANACHE_EXPORT void panache_page_player_placement(Player* player, float* out) {
 PANACHE_EXPORT panache_bytes* panache_page_player_export(Player* player, const char* extension,
                                                          const char* file_extension, int32_t styled,
                                                          double seconds) {
-  return keep_bytes(player->export_as(extension, file_extension, styled != 0, seconds));
+  auto written = player->export_as(extension, file_extension, styled != 0, seconds);
+  if (written) return new panache_bytes{*std::move(written)};
+  return fail(written.error());
 }

@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include <nlohmann/json.hpp>
+
 #include "api/errors.h"
 #include "api/objects.h"
 #include "base/result.h"
@@ -28,15 +30,9 @@ inline std::nullptr_t fail(const Error& error) {
   return nullptr;
 }
 
-template <class T>
-T* keep(Result<T> result) {
-  if (result) return new T(*std::move(result));
-  return fail(result.error());
-}
-
-inline panache_bytes* keep_bytes(Result<std::string> result) {
-  if (result) return new panache_bytes{*std::move(result)};
-  return fail(result.error());
+// Names are those of files, and may be no UTF-8.
+inline panache_bytes* to_bytes(const nlohmann::json& json) {
+  return new panache_bytes{json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
 }
 
 inline std::string_view bytes_at(const char* data, uint32_t size) { return {data, size}; }

@@ -15,16 +15,13 @@ constexpr float kFps = 60;
 
 // Arms hang, legs and arms swing, knees bend, the body bobs and goes ahead.
 Clip march() {
+  const Clip rest = rest_clip(canonical_skeleton());
   Clip clip;
-  clip.skeleton = canonical_skeleton();
+  clip.skeleton = rest.skeleton;
   clip.frame_time = 1 / static_cast<double>(kFps);
-  clip.resize(kFrames);
   for (int f = 0; f < kFrames; ++f) {
+    clip.append(rest.pose(0));
     const Pose pose = clip.pose(f);
-    for (size_t j = 0; j < clip.joints(); ++j) {
-      pose.rotations[j] = clip.skeleton.joints[j].rest;
-      pose.translations[j] = clip.skeleton.joints[j].offset;
-    }
     const float seconds = static_cast<float>(f) / kFps;
     const float swing = 0.5f * sine(6 * seconds);
     const auto turn = [&](HumanJoint joint, Vec3 by) {

@@ -1,16 +1,16 @@
-#include "learning.h"
+// A style learnt in the page, and what the page shows of it.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
+#include "exports.h"
 #include "learn/learn_style.h"
 #include "net/safetensors.h"
 #include "rig/rig.h"
 
-namespace panache::web {
+using namespace panache;
+using namespace panache::web;
+
 namespace {
 
 using Json = nlohmann::json;
@@ -49,56 +49,70 @@ Json match_plot(const LearnPair& pair, const std::vector<MatchedInstant>& instan
           {"poses", poses}};
 }
 
-Result<Learnt> learn_pair(std::string_view model, const Result<LearnPair>& pair,
-                          const std::string& style) {
-  if (!pair) return pair.error();
-  const Result<TensorFile> file = parse_safetensors(model, kModel);
-  if (!file) return file.error();
-  const Result<LearntStyle> learnt = learn_style(*file, kModel, {&*pair, 1}, style, "");
-  if (!learnt) return learnt.error();
-  const PairReport& report = learnt->pairs.front();
-  std::vector<std::string> warnings = learnt->warnings;
+// See index.d.ts: LearnReport.
+Json report_of(const LearntStyle& learnt, const LearnPair& pair) {
+  const PairReport& report = learnt.pairs.front();
+  std::vector<std::string> warnings = learnt.warnings;
   warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
-  const auto measured = [&](double cm) { return learnt->judged ? Json(cm) : Json(); };
-  const Json all = {{"neutral", report.neutral_name},
-                    {"styled", report.styled_name},
-                    {"seconds", report.seconds},
-                    {"tempo", report.tempo},
-                    {"match", report.match},
-                    {"verdict", learnt->judged ? Json(learnt->verdict()) : Json()},
-                    {"warnings", warnings},
-                    {"heldBackCm", measured(learnt->held_back_cm)},
-                    {"meanPostureCm", measured(learnt->mean_posture_cm)},
-                    {"untouchedCm", measured(learnt->untouched_cm)},
-                    {"people", report.twin ? Json(report.twin->people) : Json()},
-                    {"certainty", report.twin ? Json(report.twin->certainty) : Json()},
-                    {"plot", match_plot(*pair, report.instants)}};
-  // Names are the files', and may be no UTF-8.
-  return Learnt{format_safetensors(learnt->file),
-                all.dump(-1, ' ', false, Json::error_handler_t::replace)};
+  const auto measured = [&](double cm) { return learnt.judged ? Json(cm) : Json(); };
+  return {{"neutral", report.neutral_name},
+          {"styled", report.styled_name},
+          {"seconds", report.seconds},
+          {"tempo", report.tempo},
+          {"match", report.match},
+          {"verdict", learnt.judged ? Json(learnt.verdict()) : Json()},
+          {"warnings", warnings},
+          {"heldBackCm", measured(learnt.held_back_cm)},
+          {"meanPostureCm", measured(learnt.mean_posture_cm)},
+          {"untouchedCm", measured(learnt.untouched_cm)},
+          {"people", report.twin ? Json(report.twin->people) : Json()},
+          {"certainty", report.twin ? Json(report.twin->certainty) : Json()},
+          {"plot", match_plot(pair, report.instants)}};
+}
+
+// A motion of a file that is open.
+struct Motion {
+  const Clip& clip;
+  Result<Rig> rig;
+  std::string name;  // Of the file, for messages.
+};
+Motion motion_of(FileHandle* file, int which, const char* name) {
+  const Clip& clip = (*file)->clip(which);
+  return {clip, Rig::create(clip), name};
+}
+
+Result<LearnPair> pair_of(const Motion& neutral, const Motion& styled) {
+  if (!neutral.rig) return located(neutral.name, neutral.rig.error());
+  if (!styled.rig) return located(styled.name, styled.rig.error());
+  return make_learn_pair({neutral.clip, *neutral.rig, neutral.name},
+                         {styled.clip, *styled.rig, styled.name});
+}
+Result<LearnPair> pair_of(std::string_view bank, const Motion& styled) {
+  const auto people = NeutralBank::parse(bank, "the bank of neutral motion");
+  if (!people) return people.error();
+  if (!styled.rig) return located(styled.name, styled.rig.error());
+  return make_learn_pair({styled.clip, *styled.rig, styled.name}, **people);
 }
 
 }  // namespace
 
-Result<Learnt> learn(std::string_view model, const Motion& neutral, const Motion& styled,
-                     const std::string& style) {
-  const Clip &before = neutral.file.clip(neutral.which), &after = styled.file.clip(styled.which);
-  const Result<Rig> before_rig = Rig::create(before), after_rig = Rig::create(after);
-  if (!before_rig) return located(neutral.name, before_rig.error());
-  if (!after_rig) return located(styled.name, after_rig.error());
-  return learn_pair(
-      model, make_learn_pair({before, *before_rig, neutral.name}, {after, *after_rig, styled.name}),
-      style);
+// The bytes of a style file; those of the report come into *report. Without a neutral file the bank
+// of neutral motion in `bank` stands in for it.
+PANACHE_EXPORT panache_bytes* panache_page_learn(const char* model, uint32_t model_size,
+                                                 FileHandle* neutral, int32_t neutral_clip,
+                                                 const char* neutral_name, const char* bank,
+                                                 uint32_t bank_size, FileHandle* styled,
+                                                 int32_t styled_clip, const char* styled_name,
+                                                 const char* style, panache_bytes** report) {
+  const Motion after = motion_of(styled, styled_clip, styled_name);
+  const Result<LearnPair> pair =
+      neutral ? pair_of(motion_of(neutral, neutral_clip, neutral_name), after)
+              : pair_of(bytes_at(bank, bank_size), after);
+  if (!pair) return fail(pair.error());
+  const Result<TensorFile> file = parse_safetensors(bytes_at(model, model_size), kModel);
+  if (!file) return fail(file.error());
+  const Result<LearntStyle> learnt = learn_style(*file, kModel, {&*pair, 1}, style, "");
+  if (!learnt) return fail(learnt.error());
+  *report = to_bytes(report_of(*learnt, *pair));
+  return new panache_bytes{format_safetensors(learnt->file)};
 }
-
-Result<Learnt> learn_alone(std::string_view model, std::string_view bank, const Motion& styled,
-                           const std::string& style) {
-  const auto people = NeutralBank::parse(bank, "the bank of neutral motion");
-  if (!people) return people.error();
-  const Clip& after = styled.file.clip(styled.which);
-  const Result<Rig> rig = Rig::create(after);
-  if (!rig) return located(styled.name, rig.error());
-  return learn_pair(model, make_learn_pair({after, *rig, styled.name}, **people), style);
-}
-
-}  // namespace panache::web

@@ -1,6 +1,6 @@
 #pragma once
-// What the library uses, or is likely to, of C++20 and the standard library of Debian's Emscripten
-// (3.1.6) has not got. Included in front of every file; empty with a newer Emscripten.
+// What the library uses of C++20 and the standard library of Debian's Emscripten (3.1.6) has not
+// got. Included in front of every file; empty with a newer Emscripten.
 
 #include <algorithm>
 #include <iterator>
@@ -33,17 +33,9 @@ template <class Range, class Test>
 constexpr bool all_of(Range&& range, Test test) {
   return std::all_of(std::begin(range), std::end(range), test);
 }
-template <class Range, class Test>
-constexpr bool none_of(Range&& range, Test test) {
-  return std::none_of(std::begin(range), std::end(range), test);
-}
 template <class Range, class Value>
 constexpr void fill(Range&& range, const Value& value) {
   std::fill(std::begin(range), std::end(range), value);
-}
-template <class Range>
-constexpr auto max_element(Range&& range) {
-  return std::max_element(std::begin(range), std::end(range));
 }
 template <class Number>
 struct minmax_result {

@@ -26,10 +26,27 @@ struct Placement {
 // style_timing in panache.h.
 enum class Timing { off = 0, steps = 1, all = 2 };
 
+// The input, or what is made of it, at the last step.
+struct Shown {
+  explicit Shown(const Source& source);
+  // Takes the pose that is shown for `seconds`.
+  void update(double seconds);
+  Pose pose() { return {rotations, translations}; }
+
+  std::vector<Quat> rotations;     // [joints]
+  std::vector<Vec3> translations;  // Likewise.
+  // Per joint of the rig: rotation x y z w and translation, in the file's own units and axes.
+  // [joints][7]
+  std::vector<float> numbers;
+  // The same as the mannequin's parts. [21][7]
+  std::array<float, kMannequinNumbers> parts{};
+  Mannequin mannequin;
+  std::optional<Recording> recording;  // Of the walker.
+};
+
 class Player {
  public:
-  static Result<std::unique_ptr<Player>> create(std::shared_ptr<const Model> model,
-                                                std::unique_ptr<Source> source);
+  static Result<std::unique_ptr<Player>> create(std::shared_ptr<const Model> model, Source source);
 
   // What is asked for from the next step on.
   std::vector<float>& strengths() { return strengths_; }  // [styles]
@@ -39,7 +56,7 @@ class Player {
   Shape& shape() { return shape_; }
   // From the next step on; the motion goes on. Timing::steps at first.
   void set_timing(Timing timing);
-  Source& source() { return *source_; }
+  Source& source() { return source_; }
   const Stylizer& stylizer() const { return stylizer_; }
   // Input seconds per output second.
   double rate() const { return rate_ * removal_rate_; }
@@ -65,13 +82,8 @@ class Player {
   // Steps a copy of the stylizer `count` times with the pose in force, to see how long that takes.
   void measure(int count);
 
-  // Input and output of the last step, per joint of the rig: rotation x y z w and translation, in
-  // the file's own units and axes. [joints][7]
-  const std::vector<float>& pose(bool styled) const { return styled ? out_numbers_ : in_numbers_; }
-  // The same as the mannequin's parts. [21][7]
-  const std::array<float, kMannequinNumbers>& parts(bool styled) const {
-    return styled ? out_parts_ : in_parts_;
-  }
+  // Of the last step.
+  const Shown& shown(bool styled) const { return styled ? output_ : input_; }
   // A body to the measure of the source, for both; made when it is first asked for.
   const BodyMesh& body(BodyDetail detail);
   Placement placement() const;
@@ -83,33 +95,27 @@ class Player {
                                 bool styled, double seconds) const;
 
  private:
-  Player(std::shared_ptr<const Model> model, Stylizer stylizer, std::unique_ptr<Source> source);
+  Player(std::shared_ptr<const Model> model, Stylizer stylizer, Source source);
   // Of the timing in force.
   StylizerOptions options() const;
-  ConstPose input() const { return {in_rotations_, in_translations_}; }
   // The strengths at this instant, in strengths_now_.
   void read_strengths();
   // All that is not 0, with the times of the file.
   std::vector<StrengthTrack> file_tracks() const;
 
   std::shared_ptr<const Model> model_;
-  std::unique_ptr<Source> source_;
-  Stylizer stylizer_, twin_;
+  Source source_;
+  Stylizer stylizer_;
   std::shared_ptr<const Model> remover_;
-  std::optional<RemovalPass> removal_, removal_twin_;  // With a remover.
+  std::optional<RemovalPass> removal_;  // With a remover.
   int removed_ = -1;
-  Mannequin in_mannequin_, out_mannequin_;
+  Shown input_, output_;
   std::optional<BodyMesh> body_, coarse_body_;
-  Recording input_recording_, recording_;
   std::vector<float> strengths_, strengths_now_;  // [styles]
   std::vector<StrengthTrack> tracks_;             // [styles], most without points.
   Shape shape_;
   Timing timing_ = Timing::steps;
-  double rate_ = 1, removal_rate_ = 1;                                        // Of both passes.
-  std::vector<Quat> in_rotations_, out_rotations_, twin_rotations_;           // [joints]
-  std::vector<Vec3> in_translations_, out_translations_, twin_translations_;  // [joints]
-  std::vector<float> in_numbers_, out_numbers_;
-  std::array<float, kMannequinNumbers> in_parts_{}, out_parts_{};
+  double rate_ = 1, removal_rate_ = 1;  // Of both passes.
 };
 
 }  // namespace panache::web

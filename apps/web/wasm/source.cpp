@@ -1,70 +1,46 @@
 #include "source.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "rig/canonical_skeleton.h"
 
 namespace panache::web {
-namespace {
 
-Clip rest_clip() {
-  Clip clip;
-  clip.skeleton = canonical_skeleton();
-  clip.resize(1);
-  for (size_t j = 0; j < clip.joints(); ++j) {
-    clip.rotations[j] = clip.skeleton.joints[j].rest;
-    clip.translations[j] = clip.skeleton.joints[j].offset;
-  }
-  return clip;
-}
+Source::Source(std::shared_ptr<const WalkerModel> model)
+    : walker_(model),
+      clip_(std::make_shared<Clip>(walk_clip(model, {.seconds = 2}))),
+      rig_(*Rig::create(*clip_)),  // The canonical skeleton is a humanoid.
+      reference_(rest_clip(canonical_skeleton())) {}
 
-Clip short_walk(std::shared_ptr<const WalkerModel> model) {
-  WalkClipOptions options;
-  options.seconds = 2;
-  return walk_clip(std::move(model), options);
-}
-
-// The canonical skeleton is a humanoid.
-Rig known_rig(const Clip& clip) {
-  Result<Rig> rig = Rig::create(clip);
-  assert(rig.ok());
-  return *std::move(rig);
-}
-
-}  // namespace
-
-WalkerSource::WalkerSource(std::shared_ptr<const WalkerModel> model)
-    : walker_(model), clip_(short_walk(model)), t_pose_(rest_clip()), rig_(known_rig(clip_)) {}
-
-bool WalkerSource::advance(double seconds, Pose out) {
-  walker_.step(speed_, turn_, seconds, out);
-  return false;
-}
-
-Result<std::unique_ptr<ClipSource>> ClipSource::create(std::shared_ptr<const MotionFile> file,
-                                                       int which) {
+Result<Source> Source::create(std::shared_ptr<const MotionFile> file, int which) {
   Result<Rig> rig = Rig::create(file->clip(which));
   if (!rig) return rig.error();
-  return std::unique_ptr<ClipSource>(new ClipSource(std::move(file), which, *std::move(rig)));
+  return Source(std::move(file), which, *std::move(rig));
 }
 
-ClipSource::ClipSource(std::shared_ptr<const MotionFile> file, int which, Rig rig)
+Source::Source(std::shared_ptr<const MotionFile> file, int which, Rig rig)
     : file_(std::move(file)),
       which_(which),
+      clip_(file_, &file_->clip(which)),
       rig_(std::move(rig)),
-      lookout_(file_->clip(which_), rig_) {
-  first_ = std::min(rig_.first_frame(), clip().frames - 1);
-  last_ = clip().frames - 1 - first_;
+      first_(std::min(rig_.first_frame(), clip().frames - 1)),
+      last_(clip().frames - 1 - first_) {
+  lookout_.emplace(clip(), rig_);
+  reference_.skeleton = clip().skeleton;
+  reference_.append(clip().pose(first_));
 }
 
-void ClipSource::seek(double seconds) {
+void Source::seek(double seconds) {
   head_ = std::isfinite(seconds) ? std::clamp(seconds, 0.0, duration()) : 0;
   cut_ = true;
 }
 
-bool ClipSource::advance(double seconds, Pose out) {
+bool Source::advance(double seconds, Pose out) {
+  if (walker_) {
+    walker_->step(speed_, turn_, seconds, out);
+    return false;
+  }
   bool cut = cut_;
   if (!cut_) head_ += seconds;
   cut_ = false;
@@ -74,8 +50,8 @@ bool ClipSource::advance(double seconds, Pose out) {
   }
   const double frame = first_ + head_ / clip().frame_time;
   sample(clip(), frame, out);
-  if (cut) lookout_.restart(frame);
-  flight_ = lookout_.flight(frame);
+  if (cut) lookout_->restart(frame);
+  flight_ = lookout_->flight(frame);
   return cut;
 }
 

@@ -107,7 +107,7 @@ const look = () => tab.evaluate(() => {
 const count = ({ pixels }, kind) => pixels.split(kind).length - 1;
 
 test('Fit takes in all of the mesh: wings, a hat and a tail, from every side', async () => {
-  await tab.evaluate(() => window.page.set({ view: 'styled', trail: false }));
+  await tab.evaluate(() => window.page.store.set({ view: 'styled', trail: false }));
   const wings = [[-2.6, 1.3, -0.2], [2.6, 1.42, -0.1], 'chest'];
   const hat = [[-0.05, 1.7, -0.05], [0.05, 3.4, 0.05], 'head'];
   const tail = [[-0.05, 0.9, -3], [0.05, 1, 0], 'hips'];
@@ -138,7 +138,7 @@ test('Fit takes in all of the mesh: wings, a hat and a tail, from every side', a
 });
 
 test('the ghost of a textured character is whole, and nothing inside it is seen', async () => {
-  await tab.evaluate(() => window.page.set({ view: 'over', styles: { gorilla: 1.5 } }));
+  await tab.evaluate(() => window.page.store.set({ view: 'over', styles: { gorilla: 1.5 } }));
   for (const blend of [false, true]) {
     const name = blend ? 'blended' : 'opaque';
     await openBoxes(`${name}.glb`, { inside: true, blend });

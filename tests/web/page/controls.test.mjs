@@ -158,7 +158,7 @@ test('a body is drawn by one call', async () => {
       if (count > 9000) ++large;
       own.call(this, mode, count, ...rest);
     };
-    window.page.set({ view: name });
+    window.page.store.set({ view: name });
     window.page.stage.draw(0);
     kinds.drawElements = own;
     return large;

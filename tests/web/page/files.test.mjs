@@ -214,7 +214,7 @@ test('a loop is saved: a cycle of the clip whose end leads to its beginning, or 
 test('a clip that is saved is what the program makes of it, byte for byte', async () => {
   const model = join(models, 'panache-int8.safetensors');
   for (const tempo of ['all', 'off', 'steps']) {
-    await tab.evaluate((wanted) => window.page.set({ tempo: wanted }), tempo);
+    await tab.evaluate((wanted) => window.page.store.set({ tempo: wanted }), tempo);
     panache('stylize', 'walk.bvh', '--model', model, '--style', 'proud=1', '--timing', tempo,
       '-o', 'proud.bvh', '--force');
     assert.deepEqual(readFileSync(await save('BVH', '.bvh')), readFileSync(at('proud.bvh')), tempo);

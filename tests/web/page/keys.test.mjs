@@ -29,7 +29,7 @@ after(async () => {
 });
 
 const button = (name) => tab.getByRole('button', { name, exact: true });
-const keys = () => tab.evaluate(() => window.page.settings.keys.old ?? []);
+const keys = () => tab.evaluate(() => window.page.store.settings.keys.old ?? []);
 const seek = async (share) => {
   await tab.locator('#scrub').fill(String(share));
   await frames(tab, 5);
@@ -108,7 +108,7 @@ test('keyframes are added, moved and removed with the keyboard', async () => {
 });
 
 test('what is seen follows the keyframes, and the slider sets one', async () => {
-  await tab.evaluate(() => window.page.set({ styles: {}, keys: { old: [[0, 0], [2, 1]] } }));
+  await tab.evaluate(() => window.page.store.set({ styles: {}, keys: { old: [[0, 0], [2, 1]] } }));
   await seek(0.335);
   const now = Number(await tab.locator('#style-old').inputValue());
   assert.ok(Math.abs(now - 0.5) < 0.02, `${now}`);
@@ -131,7 +131,7 @@ test('what is seen follows the keyframes, and the slider sets one', async () => 
 });
 
 test('what is saved has the keyframes: the file is what the program makes of the same table', async () => {
-  await tab.evaluate(() => window.page.set({ keys: { old: [[0.25, 0], [1.5, 1.2], [2, 0.3]] } }));
+  await tab.evaluate(() => window.page.store.set({ keys: { old: [[0.25, 0], [1.5, 1.2], [2, 0.3]] } }));
   writeFileSync(at('keys.csv'), 'seconds,old\n0.25,0\n1.5,1.2\n2,0.3\n');
   panache('stylize', 'walk.bvh', '--model', model, '--strengths', 'keys.csv', '-o', 'keyed.bvh');
   const { name, bytes } = await save('BVH');

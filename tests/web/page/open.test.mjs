@@ -83,7 +83,7 @@ test('the page draws on while a slider is dragged', async () => {
   for (let i = 1; i <= 20; ++i) {
     await moveTo(i / 20);
     await frames(tab, 2);
-    seen.add(await tab.evaluate(() => window.page.settings.styles.old));
+    seen.add(await tab.evaluate(() => window.page.store.settings.styles.old));
   }
   await tab.mouse.up();
   // Each place of the mouse is another strength, in the frames that are drawn before the next.

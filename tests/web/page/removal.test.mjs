@@ -75,7 +75,7 @@ test('what is taken off is seen, and saved as the program does, byte for byte', 
   await tab.screenshot({ path: join(pictures, 'taken-off.png') });
   const options = ['--model', model, '--remover', remover, '--force'];
   for (const tempo of ['off', 'all', 'steps']) {
-    await tab.evaluate((wanted) => window.page.set({ tempo: wanted }), tempo);
+    await tab.evaluate((wanted) => window.page.store.set({ tempo: wanted }), tempo);
     panache('stylize', 'old.bvh', '--remove', 'old', '--timing', tempo, '-o', 'off.bvh', ...options);
     const saved = await save();
     assert.equal(saved.name, 'old-neutral.bvh');
@@ -84,11 +84,11 @@ test('what is taken off is seen, and saved as the program does, byte for byte', 
   const [first] = JSON.parse(panache('info', 'off.bvh', '--styles', '--json')).styles;
   assert.notEqual(first.name, 'old');
   // Another style goes on what is left.
-  await tab.evaluate(() => window.page.set({ styles: { proud: 1 } }));
+  await tab.evaluate(() => window.page.store.set({ styles: { proud: 1 } }));
   assert.equal(await caption(), 'old off + proud 1.00');
   panache('stylize', 'old.bvh', '--remove', 'old', '--style', 'proud=1', '-o', 'proud.bvh', ...options);
   assert.deepEqual((await save()).bytes, readFileSync(at('proud.bvh')));
-  await tab.evaluate(() => window.page.set({ styles: {} }));
+  await tab.evaluate(() => window.page.store.set({ styles: {} }));
   // And it comes back.
   await button('Take old off').click();
   assert.equal(await tab.locator('#removed').inputValue(), '');
@@ -134,7 +134,7 @@ test('a link takes a style off, also from a disk, where nothing can be fetched',
   for (const url of [site.address, pathToFileURL(join(pageFolder, 'index.html')).href]) {
     const other = await site.open('removed=zombie', { url });
     assert.equal(await other.locator('#removed').inputValue(), 'zombie');
-    await other.waitForFunction(() => window.late?.remover);
+    await other.waitForFunction(() => window.late_remover);
     await frames(other, 30);
     const far = await change(other);
     assert.ok(far > 0.005, `${url}: ${far} m`);
