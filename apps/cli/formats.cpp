@@ -95,7 +95,7 @@ std::string list_without(size_t skipped) {
   return one_of(names);
 }
 
-// That of an unknown extension is nothing and can nothing.
+// The format of an extension; one without functions where the extension is unknown.
 const MotionFormat& format_of(std::string_view extension) {
   static constexpr MotionFormat kNone;
   const MotionFormat* format = find_format(formats(), extension);

@@ -13,7 +13,7 @@
 
 namespace panache::cli {
 
-// Shows the first sender that is understood. The relay's thread calls start() and show(), those of
+// Shows the first sender that is recognised. The relay's thread calls start() and show(), those of
 // the server the rest.
 class LiveView {
  public:

@@ -24,7 +24,7 @@ struct VmcStyling {
   std::shared_ptr<const Model> model;
   LiveOptions options;
   int removed = -1;  // See LiveStylizer::set_removed().
-  // The first character that is understood fills the recording and is shown by the view. Either may
+  // The first character that is recognised fills the recording and is shown by the view. Either may
   // be null, and both must outlive the characters.
   VmcRecording* recording = nullptr;
   LiveView* view = nullptr;

@@ -14,7 +14,7 @@ namespace panache::web {
 
 class Source {
  public:
-  // A person who walks as she is steered.
+  // The walker, steered.
   explicit Source(std::shared_ptr<const WalkerModel> model);
   // A motion of a file, which begins at its first frame that is no calibration pose. `which` is one
   // of the file's motions (0 where it has none: its rest pose). Fails where the skeleton is no
