@@ -14,8 +14,8 @@ constexpr ClassifierSettings kRobust = {
 constexpr int kGroups = 4;       // Of actions that are left out in turn.
 constexpr int kJudgedTakes = 6;  // Of a style and action.
 
-// No style where an action was captured in none but neutral: a judge would learn that whoever
-// kicks is neutral, and the clips that it is to judge are such actions.
+// No style where an action was captured in none but neutral: a classifier would learn that
+// kicks are neutral, and it is to recognise styles in such actions.
 std::vector<std::string> labels_of(const std::vector<Take>& takes) {
   std::set<std::pair<int, std::string>> styled;  // Set, content.
   for (const Take& take : takes) {

@@ -42,8 +42,8 @@ class StyleJudges : public OodJudge {
 // What such judges say of real styled takes of actions that they were not trained on: what their
 // verdicts are worth where an action was never captured. The actions are split into four
 // groups, of which each is judged by judges of the others; actions whose names begin with the same
-// word (walk, walk-left) are in one group. A row is a take; its clip is the n-th take of an action,
-// whoever shows it. At most six takes of a style and action are judged. Empty where all actions are
+// word (walk, walk-left) are in one group. A row is a take; its clip is the n-th take of an action
+// by any performer. At most six takes of a style and action are judged. Empty where all actions are
 // of one group.
 std::vector<OodRow> judge_unseen_actions(const std::vector<Take>& takes, uint64_t seed);
 

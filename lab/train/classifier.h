@@ -54,7 +54,7 @@ class Classifier {
                      Random& random) const;
 
   const std::vector<std::string>& classes() const { return classes_; }
-  // Index of a class, -1 where it is none.
+  // Index of a class; -1 where there is no such class.
   int find(const std::string& label) const;
 
  private:

@@ -108,8 +108,8 @@ void level_feet(std::vector<GaitTake>& takes) {
   }
 }
 
-// Nor does a skeleton's spine say how its owner stood: the torso of these walks is straight and
-// upright in the mean, and runs lean ahead of that as they did.
+// The spine of a skeleton does not say how the person stood either: makes the torso of these walks
+// straight and upright in the mean; runs keep their lean relative to that.
 void straighten(std::vector<GaitTake>& walks, std::vector<GaitTake>& runs) {
   constexpr std::array kTorso = {HumanJoint::hips, HumanJoint::spine, HumanJoint::chest,
                                  HumanJoint::neck};

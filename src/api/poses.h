@@ -21,7 +21,7 @@ bool make_unit(Quat& q);
 // Whether rotations stay bit for bit as they were given, or are made exactly unit.
 enum class Rotations { as_given, unit };
 
-// Appends poses to a clip whose skeleton is known; rejects numbers that are none.
+// Appends poses to a clip whose skeleton is known; rejects numbers that are not finite.
 Result<void> read_frames(const float* rotations, const float* translations, int32_t count,
                          Rotations kept, Clip& clip);
 // `name` stands in front of the message of a failure.

@@ -65,7 +65,8 @@ class TreeFinder {
  private:
   size_t count() const { return joints_.size(); }
 
-  // Those that have vertices, of the character with the most of them: what hangs on one root.
+  // Picks the joints with vertices, of the character (what hangs on one root) that has most of
+  // them.
   bool pick_joints() {
     std::vector<int> root(count());
     std::map<int, float> weights;  // By root.

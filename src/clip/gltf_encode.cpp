@@ -230,7 +230,7 @@ class AnimationWriter {
   const Clip& changed_;
   std::span<const double> source_frames_;
   GltfDataWriter data_;
-  const GltfAnimation* animation_;  // Of the file; null where there is none behind the new one.
+  const GltfAnimation* animation_;  // Of the file; null for a new clip.
   const Clip& clip_;                // As it was read.
   double frame_time_;
   std::vector<double> at_rest_;  // [frames] of a new clip, 0.

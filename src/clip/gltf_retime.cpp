@@ -53,8 +53,8 @@ class Retimer {
   }
 
  private:
-  // The accessor that a member of a sampler names; -1 where it is none that can be read. What no
-  // channel of ours uses may be anything.
+  // The accessor that a member of a sampler names; -1 where it cannot be read. Samplers that no
+  // channel uses may hold anything.
   int accessor_of(const GltfPart& sampler, const char* member) const {
     return sampler.index(member, root_.size("accessors"));
   }

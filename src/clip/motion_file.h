@@ -23,7 +23,7 @@ struct ClipEdit {
   const Clip* changed = nullptr;
   // [frames]: which frame of the file's clip (fractional) each one came from. None of a new clip.
   std::span<const double> source_frames;
-  // Of the clip that results, in formats whose clips have names; made unique where it is taken.
+  // Name of the new clip, in formats whose clips have names; made unique where it is taken.
   std::string name;
 };
 

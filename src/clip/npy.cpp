@@ -18,7 +18,7 @@ namespace {
 constexpr std::string_view kMagic = "\x93NUMPY";
 constexpr size_t kMaxDimensions = 8;
 
-// Bytes of an element; 0 for what is none of ours.
+// Bytes of an element; 0 for a type that is not read.
 size_t size_of(std::string_view type) {
   if (type.size() < 3 || type.size() > 6) return 0;
   if (std::string_view("<>|=").find(type[0]) == std::string_view::npos) return 0;

@@ -34,7 +34,7 @@ bool is_style_file(const TensorFile& file);
 Result<StyleInfo> read_style_info(const TensorFile& file, const std::string& name);
 
 // The style file of a style of a model, or learnt on one. `tensors` are called as in a style file;
-// description and origin are brought to one line of UTF-8 where they are none.
+// description and origin become one line of UTF-8.
 TensorFile make_style_file(const TensorFile& model, const StyleInfo& info,
                            std::map<std::string, Tensor> tensors);
 

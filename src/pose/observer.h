@@ -25,8 +25,8 @@ class Observer {
  public:
   // A pose that comes after a longer gap does not continue what was before. Seconds.
   static constexpr double kMaxGap = 0.5;
-  // Nor does one that is further away than its greatest speed over the ground would bring it: by
-  // default this, m/s; a sprinter reaches 12. Bodies on vehicles are faster.
+  // A pose that implies a faster way over the ground does not continue it either. The default, m/s:
+  // a sprinter reaches 12; bodies on vehicles are faster.
   static constexpr float kMaxGroundSpeed = 15;
 
   // `max_speed`: m/s, more than 0; with infinity no way is too far.

@@ -35,9 +35,9 @@ struct TorsoFrames {
 // positions, facing: as in BodyPose.
 TorsoFrames torso_frames(const HumanPositions& positions, float facing);
 
-// Of the rest pose of `clip`, where its body stands in that, with its limbs brought into the T-pose
-// by the smallest rotations; else of its motion, by the directions of its limbs and the mean of
-// their twists.
+// The reference pose from the rest pose of `clip`, where its body stands in that, with its limbs
+// brought into the T-pose by the smallest rotations; else of its motion, by the directions of its
+// limbs and the mean of their twists.
 ReferencePose find_reference_pose(const Clip& clip, const Rig& rig);
 
 }  // namespace panache

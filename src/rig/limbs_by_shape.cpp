@@ -11,7 +11,7 @@ namespace {
 // longest way down from the root.
 constexpr float kUneven = 0.12f;
 constexpr float kShortest = 0.2f;
-// A pair of limbs that is odder than this in the mean is none.
+// Two limbs whose mean oddness is larger are no pair.
 constexpr float kOddest = 14;
 // The cosine between legs and torso of a body that stands.
 constexpr float kUpright = 0.5f;

@@ -11,8 +11,8 @@ namespace {
 
 // The second derivative of the height is that of a parabola through this much before and after.
 constexpr double kHalfFit = 0.06;  // Seconds.
-// In captured jumps the centre falls at 8 to 11 m/s^2, as limbs weigh otherwise than ours; whoever
-// crouches or walks downstairs reaches 5 for a moment, but has a foot on the floor.
+// In captured jumps the centre falls at 8 to 11 m/s^2, as limbs weigh otherwise than ours; a
+// body that crouches or walks downstairs reaches 5 for a moment, but has a foot on the floor.
 constexpr double kFalls = -6, kFallsOn = -4;       // m/s^2; to begin and to last.
 constexpr float kOffFloor = 0.05f, kNear = 0.03f;  // Metres; likewise.
 // The fit blurs both ends of a flight: found are about 0.04 s less than it lasts. Runs show 0.05 to

@@ -13,7 +13,7 @@ constexpr float kStandingSpeed = 0.3f;  // m/s
 // Well above this speed the root motion changes by the style's full share, below it by less.
 constexpr float kSlowSpeed = 0.4f;  // m/s
 constexpr float kMaxShortened = 0.8f, kMaxStretched = 1.5f;
-// Who goes back and forth over this many seconds, as a boxer does, goes nowhere.
+// A body that goes back and forth over this many seconds, as a boxer does, goes nowhere.
 constexpr float kTravelSeconds = 3;
 constexpr float kNoSpeed = 0.01f;  // m/s
 // How far a planted foot may be ahead of where the style wants it, in how many seconds the body
@@ -58,9 +58,8 @@ void RootMotion::step(const StyleDelta& delta, float gate, Vec3 pull, const Obse
   const Vec3 turned = rotate(rotation_y(turn_), way);
   const float wanted = std::clamp(share, -kMaxShortened, most), far = length(turned);
   drift_ += turned * wanted;
-  // Nor does a style hold the body back more than the legs of a planted foot do: a style that
-  // shortens the way by more than the steps would drag the foot. It catches up, by no more than it
-  // shortens.
+  // A style that shortens the way by more than the steps would drag the planted foot: the body
+  // catches up with it, by no more than the style shortens the way.
   const float behind = far > 0 ? std::max(0.0f, dot(pull, turned) / far - kBehind) : 0.0f;
   catching_up_ += time.gain(kEaseSeconds) * (behind / kBehindSeconds - catching_up_);
   if (far > 0 && wanted < 0) {
