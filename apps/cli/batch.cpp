@@ -21,7 +21,7 @@
 namespace panache::cli {
 namespace {
 
-// One bar for all files.
+// One progress bar for all files.
 class JointProgress {
  public:
   JointProgress(const std::string& title, size_t files) : bar_(title), shares_(files) {}
@@ -42,7 +42,7 @@ class JointProgress {
   int done_ = 0;
 };
 
-// Ends the work on a file that Ctrl-C came upon.
+// Thrown to stop work on a file after Ctrl-C.
 struct Stopped {};
 
 Json to_json(const FileJob& file) {
@@ -59,7 +59,7 @@ Json to_json(const FileJob& file) {
           {"notes", file.notes}};
 }
 
-// The same for the report, whose settings name the styles.
+// The same for the report, where the settings name the styles.
 Json report_of(const FileJob& file, bool mapping) {
   Json object = to_json(file);
   if (!mapping) object.erase("mapping");
@@ -67,7 +67,7 @@ Json report_of(const FileJob& file, bool mapping) {
   return object;
 }
 
-// The objects of all files as dump() prints them in a list, piece by piece.
+// Prints the objects of all files as dump() prints a list, piece by piece.
 void print_accounts(const std::vector<FileJob>& files) {
   std::string before = "[\n  ";
   for (const FileJob& file : files) {
@@ -111,7 +111,7 @@ std::string summary(const std::vector<FileJob>& files, const std::string& done, 
          in;
 }
 
-// Does the work on one file, and keeps its report for the end.
+// Processes one file and keeps its messages for the end.
 void run_file(FileJob& file, const BatchFlags& flags, const FileWork& work,
               const std::function<void(double)>& show) {
   std::error_code status;
@@ -128,11 +128,11 @@ void run_file(FileJob& file, const BatchFlags& flags, const FileWork& work,
     share(0);
     work(file, share);
   } catch (const Failure& failure) {
-    if (stop_asked()) {  // A wait that Ctrl-C ended, or a child process.
+    if (stop_asked()) {  // Ctrl-C interrupted a wait or a child process.
       file.stopped = true;
       return;
     }
-    if (is_taken()) {  // Another process wrote it meanwhile, and tells of it.
+    if (is_taken()) {  // Another process wrote it meanwhile, and reports it.
       FileJob skipped;
       static_cast<FilePair&>(skipped) = file;
       skipped.skipped = true;
@@ -228,7 +228,7 @@ int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::st
   const Clock::time_point begin = Clock::now();
   {
     JointProgress progress(doing, files.size());
-    // Processes that share a tree begin at different places, or all would do the same work at once.
+    // Processes that share a tree start at different files, or all would do the same work.
     const size_t first =
         flags.skip_existing && !files.empty() ? process_number() * 7919 % files.size() : 0;
     const auto run = [&](int i) {
@@ -240,7 +240,7 @@ int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::st
       if (report) report->add(report_of(file, flags.mapping));
       if (flags.json) {
         file.account = dump(to_json(file));
-        file.account.shrink_to_fit();  // Of ten thousand files, 160 MB.
+        file.account.shrink_to_fit();  // Saves 160 MB with ten thousand files.
       }
       file.bytes.reset();
       file.clips = file.mapping = Json();
@@ -250,7 +250,7 @@ int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::st
   const double spent = std::chrono::duration<double>(Clock::now() - begin).count();
 
   bool all_good = true, stopped = false;
-  // If the motion goes to stdout, the report does not.
+  // If the motion goes to stdout, the messages go to stderr.
   const auto tell = [&](const std::string& text) {
     if (!files.empty() && files[0].to_stdout) {
       std::fputs(text.c_str(), stderr);

@@ -1,5 +1,5 @@
 #pragma once
-// Many files, one after the other or side by side, and one account of them all at the end.
+// Processes many files, one by one or in parallel, and reports on all of them at the end.
 
 #include <functional>
 #include <memory>
@@ -20,12 +20,12 @@ namespace panache::cli {
 struct BatchFlags {
   std::vector<std::string> inputs;
   std::optional<std::string> output;
-  std::string files_from, below;  // A list of files and the folder that they lie in, or empty.
+  std::string files_from, below;  // A list of files and the folder that contains them, or empty.
   std::string shard;              // "2/8", or empty.
   std::string to;                 // The format of files in an output folder, or empty.
   std::string report;             // A file to write, or empty.
   const CLI::App* verb = nullptr;
-  bool mapping = false;  // In the report.
+  bool mapping = false;  // Include the joint mapping in the report.
   bool force = false;
   bool skip_existing = false;
   bool dry_run = false;
@@ -37,48 +37,47 @@ struct BatchFlags {
 // Gives `verb` inputs and the options of a batch; `flags` must outlive it.
 void add_batch_options(CLI::App& verb, BatchFlags& flags);
 
-// One file on its way.
+// The work on one file.
 struct FileJob : FilePair {
-  // Of an input that came through stdin; it is called "stdin.bvh", say.
+  // The content of an input read from stdin, which is then named "stdin.bvh" or similar.
   std::optional<std::string> bytes;
-  bool to_stdout = false;          // It is called "stdout.bvh", say.
-  bool stopped = false;            // Ctrl-C came before it was done.
-  bool skipped = false;            // Its output is there, and stays.
-  std::string error;               // Empty where all went well.
-  std::vector<std::string> notes;  // What a careful user would want to know; for stderr.
-  // Lines that name the motions that are new beside others; printed where there is one file.
+  bool to_stdout = false;          // The output is then named "stdout.bvh" or similar.
+  bool stopped = false;            // Ctrl-C came before the file was done.
+  bool skipped = false;            // The output already exists and is kept.
+  std::string error;               // Empty on success.
+  std::vector<std::string> notes;  // Warnings for stderr.
+  // Lines that name the added motions; printed if there is only one file.
   std::vector<std::string> added;
-  std::vector<std::string> facts;    // A line for each motion: what was done to it.
-  std::vector<std::string> details;  // Lines to print below the summary, where they are asked for.
-  Json clips = Json::array();        // An object for each motion that was worked on.
-  int frames = 0;                    // Of the result, all motions together.
-  double seconds = 0;                // Likewise.
-  Json mapping;                      // Of the rig, null where there was none.
-  std::string account;               // All of this as JSON, where it is printed.
+  std::vector<std::string> facts;    // One line per motion: what was done to it.
+  std::vector<std::string> details;  // Lines to print below the summary, on request.
+  Json clips = Json::array();        // One object per processed motion.
+  int frames = 0;                    // Total frames of all resulting motions.
+  double seconds = 0;                // Total duration of all resulting motions.
+  Json mapping;                      // The rig's joint mapping; null without one.
+  std::string account;               // All of this as JSON, if JSON is printed.
 };
 
-// How outputs are called that the user did not name.
+// How to name outputs that the user did not name.
 struct OutputNaming {
-  std::string extension;  // In place of the input's own, where it is not empty.
-  std::string suffix;     // Between the input's name and its extension, where no --output is given.
+  std::string extension;  // Replaces the input's extension unless empty.
+  std::string suffix;     // Goes between the input's name and its extension, without --output.
 };
 
-// Checks the flags, finds the files of this shard, maybe none, and names their outputs; reads stdin
-// where that is the input. `model`: its file, or empty. Throws Failure.
+// Checks the flags, finds the files of this shard (possibly none) and names their outputs; reads
+// stdin if it is the input. `model`: the model file, or empty. Throws Failure.
 std::vector<FileJob> plan_batch(const BatchFlags& flags, const OutputNaming& naming,
                                 const std::string& model);
 
-// The motion file of a job, whose notes become those of the job. Throws Failure.
+// Opens the motion file of a job and adds its notes to the job's. Throws Failure.
 std::unique_ptr<MotionFile> open_input(FileJob& file, const ReadOptions& options);
-// Puts the result of a job where it goes. Throws Failure.
+// Writes the result of a job to its output. Throws Failure.
 void write_output(const FileJob& file, std::string_view bytes, bool force);
 
-// Does `work` for each file, several at once, under a bar titled DOING, and tells of it: errors and
-// notes to stderr, to stdout "DONE walk.bvh into old.bvh ..." or "DONE 18 of 19 files, 1 failed,
-// in 3.2 s", or JSON. `work` gets a function to call with the share of the file that is done, and
-// throws Failure where that file cannot be done;
-// `model` is that of plan_batch(). The exit code is 1 where a file failed, and kStopped where
-// Ctrl-C came: files that are not done then are left out.
+// Does `work` on several files at once, with a progress bar titled DOING. Prints errors and notes
+// to stderr, and to stdout "DONE walk.bvh into old.bvh ..." or "DONE 18 of 19 files, 1 failed, in
+// 3.2 s", or JSON. `work` reports its progress (0 to 1) through the function it gets, and throws
+// Failure if the file fails. `model` as for plan_batch(). The exit code is 1 if a file failed, and
+// kStopped after Ctrl-C, which drops unfinished files.
 using FileWork = std::function<void(FileJob&, const std::function<void(double)>&)>;
 int run_batch(std::vector<FileJob> files, const BatchFlags& flags, const std::string& model,
               const std::string& doing, const std::string& done, const FileWork& work);

@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, 15> kOfTheBatch = {
     "--force",  "--skip-existing", "--jobs",       "--quiet", "--json",
     "--report", "--mapping",       "--dry-run",    "--help",  "--verbose"};
 
-// Sixteen hexadecimal digits: the same for the same settings.
+// Sixteen hexadecimal digits that identify the settings.
 std::string id_of(const Json& settings) {
   char digits[17];
   std::snprintf(digits, sizeof digits, "%016" PRIx64,
@@ -32,7 +32,7 @@ std::string id_of(const Json& settings) {
   return digits;
 }
 
-// The first difference of two settings: "version 0.1.0 instead of 0.2.0".
+// The first difference between two settings: "version 0.1.0 instead of 0.2.0".
 std::string difference(const Json& now, const Json& then) {
   const auto text = [](const Json& value) {
     return value.is_string() ? value.get<std::string>() : value.dump();

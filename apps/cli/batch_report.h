@@ -1,5 +1,5 @@
 #pragma once
-// The report of a batch: lines of JSON that grow while it works.
+// The report of a batch: JSON lines, written as the files are done.
 
 #include <cstdio>
 #include <memory>
@@ -15,24 +15,23 @@
 
 namespace panache::cli {
 
-// What a batch is made with, all that may change its results:
+// Everything that may change the results of a batch:
 // {"version", "verb", "model": {"file", "sha256"} or null, "options": {"--style": ["old=1"], ...},
 // "files": {"--map": sha256, ...}}: the options given to `verb`, without those that choose files
-// and messages. `model`: its file, or empty.
+// and messages. `model`: the model file, or empty.
 Json batch_settings(const CLI::App& verb, const std::string& model);
 
-// {"settings": ID, "of": batch_settings()} comes first, then a line for each file that is done.
-// Each line is written at once, so that several processes may add to one report.
+// The first line is {"settings": ID, "of": batch_settings()}; then comes a line per finished file.
+// Each line is written at once, so that several processes can append to one report.
 class BatchReport {
  public:
-  // A new file, or, where it `continues`, lines at the end of one that exists. Missing folders are
-  // made.
+  // Creates a file, or appends to an existing one if `continues`. Creates missing folders.
   static Result<std::unique_ptr<BatchReport>> open(const std::string& path, const Json& settings,
                                                    bool continues);
 
-  // Adds "settings" to the object of a file. Threads may call it at once.
+  // Adds "settings" to the object and writes it. Thread-safe.
   void add(Json file);
-  // Fails where a line could not be written.
+  // Fails if a line could not be written.
   Result<void> close();
 
  private:
@@ -44,11 +43,11 @@ class BatchReport {
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
   std::string id_;
   std::mutex mutex_;
-  int failure_ = 0;  // errno of the first line that was not written.
+  int failure_ = 0;  // errno of the first line that could not be written.
 };
 
-// Rejects outputs that the report at `path` names as made with other settings. A report that is not
-// there rejects nothing.
+// Rejects outputs that the report at `path` lists as made with other settings. A missing report
+// rejects nothing.
 Result<void> check_settings(const std::string& path, const std::vector<FilePair>& files,
                             const Json& settings);
 

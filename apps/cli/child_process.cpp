@@ -21,10 +21,10 @@
 namespace panache::cli {
 namespace {
 
-// What an answer begins with: a result, or the message of a failure.
+// The first byte of an answer: a result or an error message.
 constexpr char kGood = '+', kBad = '-';
-// A library that somebody has taken over may answer for ever.
-constexpr size_t kLargestAnswer = size_t{2} << 30;  // Bytes, as of any file.
+// A compromised library might answer for ever.
+constexpr size_t kLargestAnswer = size_t{2} << 30;  // The size limit of any file.
 
 using Clock = std::chrono::steady_clock;
 
@@ -44,14 +44,14 @@ bool write_all(int file, const char* bytes, size_t count) {
   return true;
 }
 
-// For poll(): at least 0, and rounded up, so that 0 is the end.
+// For poll(): at least 0, and rounded up, so that 0 means that time is up.
 int milliseconds_until(Clock::time_point end) {
   using std::chrono::milliseconds;
   const auto left = std::chrono::ceil<milliseconds>(end - Clock::now()).count();
   return static_cast<int>(std::clamp<int64_t>(left, 0, 1'000'000'000));
 }
 
-// Stops beyond the largest answer, and at `end`.
+// Stops at `end`, or when the answer is too large.
 std::string read_all(int file, Clock::time_point end) {
   std::string bytes;
   char part[1 << 16];
@@ -67,7 +67,7 @@ std::string read_all(int file, Clock::time_point end) {
   }
 }
 
-// A file in memory from its beginning, or -1.
+// An in-memory file, positioned at its start, or -1.
 int file_of(const std::string& bytes) {
   const int file = ::memfd_create("input", MFD_CLOEXEC);
   if (file < 0) return -1;
@@ -78,8 +78,8 @@ int file_of(const std::string& bytes) {
   return -1;
 }
 
-// Starts this program again with its standard input coming from `in` and its standard output going
-// to `out`; the errno of a failure, or 0.
+// Starts this program again with `in` as its standard input and `out` as its standard output;
+// returns errno or 0.
 int start(std::string role, std::string path, int in, int out, pid_t& child) {
   char name[] = "panache";
   char* const words[] = {name, role.data(), path.data(), nullptr};
@@ -92,7 +92,7 @@ int start(std::string role, std::string path, int in, int out, pid_t& child) {
   return failed;
 }
 
-// A child that is killed where nobody waits for it any longer.
+// A child that is killed when it goes out of scope.
 class Child {
  public:
   explicit Child(pid_t id) : id_(id) {}
@@ -102,9 +102,9 @@ class Child {
     if (id_ > 0) end();
   }
 
-  // Its status when it ends by itself before `end`; false where it has to be killed.
+  // True, with the status, if the child ends before `end_of_time`; otherwise kills it.
   bool wait(Clock::time_point end_of_time, int& status) {
-    // A child whose answer is complete is about to end.
+    // A child that has sent its whole answer ends soon.
     for (int pause = 1;; pause = std::min(2 * pause, 50)) {
       const pid_t ended = ::waitpid(id_, &status, WNOHANG);
       if (ended == id_) {
@@ -130,8 +130,8 @@ class Child {
   pid_t id_;
 };
 
-// Lets this process be killed when the thread that started it ends, which waits for the answer in
-// `out` as long as it lives. False where it has ended already: then nobody reads that pipe.
+// Has this process killed when the thread that started it, which waits for the answer in `out`,
+// ends. False if that has already happened and nobody reads the pipe.
 bool end_with_parent(int out) {
   if (::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) return false;
   pollfd answer = {out, 0, 0};
@@ -149,7 +149,7 @@ Result<std::string> run_in_child(const std::string& role, const std::string& pat
   };
   const int in = file_of(input);
   if (in < 0) return no_child(errno);
-  // Closed in every child, so that none of another thread's holds this pipe open.
+  // Closed on exec, so that children of other threads do not keep this pipe open.
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) {
     const int failed = errno;
@@ -186,7 +186,7 @@ std::string read_input_as_child() { return read_all(STDIN_FILENO, Clock::time_po
 int answer_as_child(const std::string& path, const std::function<Result<std::string>()>& read,
                     const std::function<Result<std::string>(const std::string&)>& work,
                     int seconds) {
-  // What a library says on its way is not the answer, nor the program's message.
+  // What a library prints must not mix with the answer or the program's messages.
   const int out = ::dup(STDOUT_FILENO);
   const int nowhere = ::open("/dev/null", O_WRONLY);
   if (out < 0 || nowhere < 0 || !end_with_parent(out)) return kBadInput;
@@ -194,11 +194,11 @@ int answer_as_child(const std::string& path, const std::function<Result<std::str
   ::dup2(nowhere, STDERR_FILENO);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, static_cast<rlim_t>(seconds));
-#ifndef PANACHE_SANITIZED  // It reserves more addresses than there is memory.
+#ifndef PANACHE_SANITIZED  // The sanitizer reserves more address space than there is memory.
   limit(RLIMIT_AS, rlim_t{8} << 30);
 #endif
   const auto locked = [&](const std::string& bytes) -> Result<std::string> {
-#ifndef PANACHE_SANITIZED  // It looks at other processes and files of the system at the end.
+#ifndef PANACHE_SANITIZED  // The sanitizer reads other processes and system files at exit.
     if (has_lock() && !lock_down(out)) {
       return Error{path +
                    ": the process that works on it could not be locked away from files and "

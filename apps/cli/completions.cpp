@@ -1,4 +1,4 @@
-// Completions for shells. Each completes commands and their options; what is neither is a file.
+// Shell completions for commands and options; anything else completes as a file.
 
 #include "formats.h"
 #include "option_table.h"
@@ -7,14 +7,14 @@
 namespace panache::cli {
 namespace {
 
-// In single quotes of a POSIX shell or, as '"'"' reads the same there, of fish.
+// In single quotes, for POSIX shells and fish, which read '"'"' the same way.
 std::string quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("'\"'\"'") : std::string(1, c);
   return out + "'";
 }
 
-// The words of the verbs of `parent`: of the program where that is empty.
+// The names of the verbs of `parent`; those of the program if it is empty.
 std::string words_of(const std::vector<VerbEntry>& verbs, const std::string& parent) {
   std::string words;
   for (const VerbEntry& verb : verbs) {
@@ -26,7 +26,7 @@ std::string words_of(const std::vector<VerbEntry>& verbs, const std::string& par
 
 std::string names_of(const std::vector<VerbEntry>& verbs) { return words_of(verbs, "") + " help"; }
 
-// The names of the options of `verb`: all, or those that take a value.
+// The option names of `verb`: all, or only those that take a value.
 std::string options_of(const VerbEntry& verb, bool with_value) {
   std::string out;
   for (const OptionEntry& option : verb.options) {
@@ -36,13 +36,13 @@ std::string options_of(const VerbEntry& verb, bool with_value) {
   return out;
 }
 
-// The verb as a label of a shell's `case`.
+// The verb as a label in a shell's `case`.
 std::string label_of(const VerbEntry& verb) {
   return verb.parent().empty() ? verb.name : quoted(verb.name);
 }
 
-// A line of bash and zsh, after `start`: where the two words `words` are the name of a verb of a
-// verb, that becomes $verb.
+// A line of bash and zsh, after `start`: if the two words `words` name a nested verb, sets $verb to
+// that.
 std::string nested_case(const std::vector<VerbEntry>& verbs, const std::string& start,
                         const std::string& words) {
   std::string labels;
@@ -53,7 +53,7 @@ std::string nested_case(const std::vector<VerbEntry>& verbs, const std::string& 
   return start + "case " + words + " in " + labels + ") verb=" + words + " ;; esac\n";
 }
 
-// The text of a message or description within a specification of _arguments.
+// Escapes the text of a message or description for a specification of _arguments.
 std::string zsh_text(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -63,10 +63,10 @@ std::string zsh_text(const std::string& text) {
   return out;
 }
 
-// The command that lists the styles of the default model, one on each line.
+// The command that lists the default model's styles, one a line.
 const std::string kListStyles = std::string("panache ") + kPrintReference + " styles 2>/dev/null";
 
-// The words that a value of this kind can be, parted by spaces; empty for a file or anything else.
+// The possible values of this kind, separated by spaces; empty for files and anything else.
 std::string choices_of(const std::string& value) {
   if (value == "AXIS") return "x y z -x -y -z";
   if (value == "LOOP") return "auto on off";
@@ -84,7 +84,7 @@ std::string choices_of(const std::string& value) {
   return out;
 }
 
-// The lines of bash in a verb's case that name the choices of its options.
+// The bash lines in a verb's case that complete the values of its options.
 std::string bash_choices(const VerbEntry& verb) {
   std::string out;
   for (const OptionEntry& option : verb.options) {
@@ -98,14 +98,14 @@ std::string bash_choices(const VerbEntry& verb) {
   return out.empty() ? "" : "      case $before in\n" + out + "      esac\n";
 }
 
-// The action of zsh that completes a value of this kind.
+// The zsh action that completes a value of this kind.
 std::string zsh_action(const std::string& value) {
   if (value == "STYLE") return "_panache_styles";
   const std::string choices = choices_of(value);
   return choices.empty() ? "_files" : "(" + choices + ")";
 }
 
-// The specifications of an option, one for each name.
+// The zsh specifications of an option, one per name.
 void add_zsh_option(std::string& out, const OptionEntry& option) {
   const std::string value =
       option.value.empty() ? "" : ":" + zsh_text(option.value) + ":" + zsh_action(option.value);
@@ -121,7 +121,7 @@ void add_zsh_option(std::string& out, const OptionEntry& option) {
   }
 }
 
-// The start of a completion that fish offers after the verb `name` and no verb of that.
+// The start of a fish completion after the verb `name` and none of its nested verbs.
 std::string fish_after(const std::vector<VerbEntry>& verbs, const std::string& name) {
   const std::string words = words_of(verbs, name);
   const std::string seen = "__fish_seen_subcommand_from ";
@@ -160,7 +160,7 @@ std::string bash_completion(const std::vector<VerbEntry>& verbs) {
     if (!words.empty()) out += "      ((COMP_CWORD > 2)) || verbs='" + words + "'\n";
     out += bash_choices(verb) + "      ;;\n";
   }
-  // Without a reply, "-o default" completes the name of a file.
+  // With an empty reply, "-o default" completes file names.
   return out +
          "    *) return ;;\n"
          "  esac\n"

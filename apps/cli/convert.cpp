@@ -1,4 +1,4 @@
-// panache convert: motion files from one format to another.
+// panache convert: converts motion files between formats.
 
 #include <functional>
 #include <memory>
@@ -25,7 +25,7 @@ void account(FileJob& file, const std::string& name, const Clip& clip) {
   file.seconds += clip.duration();
 }
 
-// The motions of a file on the spot, those of a body.
+// The humanoid motions of a file, kept in place.
 std::vector<NewMotion> motions_in_place(const MotionFile& motion, const RigOptions& options) {
   std::vector<NewMotion> out;
   for (const int which : find_body_motions(motion, options).clips) {
@@ -39,7 +39,7 @@ std::vector<NewMotion> motions_in_place(const MotionFile& motion, const RigOptio
   return out;
 }
 
-// All of a file that keeps its format.
+// All content of a file that keeps its format.
 std::string whole_file(const MotionFile& motion, const FileJob& file, const MotionFlags& verb,
                        const RigOptions& options) {
   const std::string from = extension_of(file.input);
@@ -98,7 +98,7 @@ std::string convert_motion(const MotionFile& motion, FileJob& file, const Motion
     return need_of(file.input,
                    format_clip(clip, &*rig, title, placement_of(*rig), extension, verb.no_body));
   }
-  // What the user says of joints is meant for a humanoid.
+  // Joint options apply only to humanoids.
   if (!options.joints.empty() || holds_humanoids(extension) || verb.in_place) {
     throw Failure{rig.error(), kBadInput};
   }

@@ -43,7 +43,7 @@ Result<std::string> read_fbx(const std::string& path) {
   return bytes;
 }
 
-// What Assimp reads of a file: FBX 7.1 and later, binary or text.
+// Assimp reads FBX 7.1 and later, binary or text.
 Result<FbxScene> read_by_assimp(const std::string& bytes, const std::string& path) {
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
@@ -55,7 +55,7 @@ Result<FbxScene> read_by_assimp(const std::string& bytes, const std::string& pat
   return Error{path + ": cannot be read as FBX: " + importer.GetErrorString()};
 }
 
-// Whether text is of a version that Assimp does not read.
+// Whether a text file has a version that Assimp does not read.
 bool is_old_text(std::string_view bytes) {
   const std::string_view start = bytes.substr(0, 4096);
   return std::ranges::any_of(
@@ -63,7 +63,7 @@ bool is_old_text(std::string_view bytes) {
       [&](const char* sign) { return start.find(sign) != std::string_view::npos; });
 }
 
-// FBX 6, and text that Assimp rejects, have only a skeleton and motions.
+// FBX 6, and text that Assimp rejects, yield only a skeleton and motions.
 Result<FbxScene> read_scene(const std::string& bytes, const std::string& path) {
   const int version = binary_fbx_version(bytes);
   if (version > 0 && version < 7000) {
@@ -74,12 +74,12 @@ Result<FbxScene> read_scene(const std::string& bytes, const std::string& path) {
   if (is_old_text(bytes)) return fbx_text_scene(bytes, path);
   Result<FbxScene> scene = read_by_assimp(bytes, path);
   if (scene || bytes.starts_with("Kaydara")) return scene;
-  // Of what is wrong with version 7, Assimp says more.
+  // For version 7, Assimp's error message is more detailed.
   Result<FbxScene> read = fbx_text_scene(bytes, path);
   return read && read->scene ? std::move(read) : std::move(scene);
 }
 
-// A note of the file or nothing, the end of a line, and the GLB.
+// An optional note, a line end, and the GLB.
 Result<std::string> convert(const std::string& bytes, const std::string& path) {
   Result<FbxScene> read = read_scene(bytes, path);
   if (!read) return read.error();
@@ -88,7 +88,7 @@ Result<std::string> convert(const std::string& bytes, const std::string& path) {
   repair_scene(*scene);
   Assimp::Exporter exporter;
   Assimp::ExportProperties properties;
-  // An animated node may have no matrix.
+  // In glTF an animated node must not have a matrix.
   properties.SetPropertyBool("GLTF2_NODE_IN_TRS", true);
   const aiExportDataBlob* glb = exporter.ExportToBlob(scene.get(), "glb2", 0, &properties);
   if (!glb) return Error{path + ": cannot be turned into GLB: " + exporter.GetErrorString()};

@@ -13,8 +13,8 @@
 namespace panache::cli {
 namespace {
 
-constexpr int kMaxDepth = 64;                          // Files have ten levels.
-constexpr const char* kNoWord = " \t\r\n\v\f,:;{}\"";  // Ends one.
+constexpr int kMaxDepth = 64;                          // Real files have about ten levels.
+constexpr const char* kNoWord = " \t\r\n\v\f,:;{}\"";  // Characters that end a word.
 
 // "NAME:LINE:COLUMN: expected EXPECTED, found FOUND".
 Error error_at(std::string_view text, size_t offset, const std::string& name,
@@ -32,7 +32,7 @@ class Parser {
 
   Result<void> read(FbxNode& root) {
     if (auto good = read_children(root, 0); !good) return good;
-    if (!is_end()) return error("the end of the file");  // A brace that closes nothing.
+    if (!is_end()) return error("the end of the file");  // An unmatched closing brace.
     return {};
   }
 
@@ -56,7 +56,7 @@ class Parser {
     return text_.substr(at_, text_.find_first_of(kNoWord, at_) - at_);
   }
 
-  // Whether `Name:` is here.
+  // Whether the text continues with `Name:`.
   bool is_at_name() const {
     const size_t after = text_.find_first_not_of(" \t", at_ + word().size());
     return !word().empty() && after < text_.size() && text_[after] == ':';
@@ -85,7 +85,7 @@ class Parser {
     return {};
   }
 
-  // Values go on in the next line where that begins with none of the names.
+  // Values continue on the next line unless it begins with a name.
   Result<void> read_values(FbxNode& node) {
     for (skip_space(); !is_end(); skip_space()) {
       if (here() == ',') {
@@ -110,13 +110,13 @@ class Parser {
   size_t at_ = 0;
 };
 
-static_assert(std::endian::native == std::endian::little);  // As the file.
+static_assert(std::endian::native == std::endian::little);  // Same as the file.
 
 constexpr std::string_view kBinaryStart = std::string_view("Kaydara FBX Binary  \0\x1a\0", 23);
-constexpr size_t kBinaryHeader = 27;  // The start and the version.
-constexpr size_t kNodeHeader = 13;    // End, count and bytes of the values, length of the name.
+constexpr size_t kBinaryHeader = 27;  // Magic and version.
+constexpr size_t kNodeHeader = 13;    // End offset, number and size of values, name length.
 
-// Brings binary nodes to text.
+// Converts binary nodes to text.
 class BinaryReader {
  public:
   BinaryReader(std::string_view bytes, const std::string& path) : bytes_(bytes), path_(path) {}
@@ -139,7 +139,7 @@ class BinaryReader {
     return true;
   }
 
-  // Nodes up to one without a name, which ends a list, or up to `end`.
+  // Reads nodes up to `end` or up to a nameless node, which ends a list.
   bool read_nodes(size_t end, int depth) {
     while (at_ < end) {
       uint32_t node_end = 0, count = 0, size = 0;
@@ -154,7 +154,7 @@ class BinaryReader {
         return false;
       }
       const std::string_view name = bytes_.substr(at_, name_size);
-      // It is a word in the text, too.
+      // A single word in text, too.
       if (name.empty() || name.find_first_of(kNoWord) != name.npos) return false;
       out_.append(name).append(": ");
       at_ += name_size;
@@ -203,13 +203,13 @@ class BinaryReader {
       case 'S':
         return read_string(end, true);
       case 'R':
-        return read_string(end, false);  // Pictures, which nobody wants here.
+        return read_string(end, false);  // Embedded pictures, which are not used.
       default:
         return false;
     }
   }
 
-  // A truth value, or how a key goes on.
+  // A boolean, or a key's interpolation.
   bool read_letter(size_t end) {
     uint8_t letter = 0;
     if (!take(letter, end)) return false;
@@ -218,7 +218,7 @@ class BinaryReader {
     return true;
   }
 
-  // "Hips\0\1Model" is "Model::Hips" in text.
+  // "Hips\0\1Model" is "Model::Hips" in text form.
   bool read_string(size_t end, bool is_wanted) {
     uint32_t size = 0;
     if (!take(size, end) || size > end - at_) return false;
@@ -278,7 +278,7 @@ int FbxDocument::version() const {
 }
 
 Error FbxDocument::error(std::string_view found, const std::string& expected) const {
-  // What a node lacks has no place.
+  // Missing values have no position in the text.
   if (found.data() < text_.data() || found.data() > text_.data() + text_.size()) {
     return {name_ + ": expected " + expected + ", found nothing"};
   }

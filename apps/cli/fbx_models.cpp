@@ -12,8 +12,8 @@ constexpr size_t kMostModels = 10'000, kMaxParents = 500, kLongestName = 200;
 
 Vec3d product(Vec3d a, Vec3d b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
-// By the number that the file has for it; R = R(axis[0]) R(axis[1]) R(axis[2]). The last is that of
-// "spheric" rotations, which no program interpolates otherwise.
+// By FBX number; R = R(axis[0]) R(axis[1]) R(axis[2]). The last is "spheric" rotation, which
+// programs treat as XYZ.
 constexpr EulerOrder kOrders[] = {{3, {2, 1, 0}}, {3, {1, 2, 0}}, {3, {0, 2, 1}}, {3, {2, 0, 1}},
                                   {3, {1, 0, 2}}, {3, {0, 1, 2}}, {3, {2, 1, 0}}};
 
@@ -23,18 +23,18 @@ Quatd turned(const EulerOrder& order, Vec3d degrees) {
   return euler_to_quat(order, {of[axis[0]], of[axis[1]], of[axis[2]]});
 }
 
-// Frames a second by the number of the time mode.
+// Frames per second, by time mode.
 constexpr double kRates[] = {30,         120, 100, 60,   50,         48, 30, 30, 30 / 1.001,
                              30 / 1.001, 25,  24,  1000, 24 / 1.001, 0,  96, 72, 60 / 1.001};
 constexpr size_t kCustomRate = 14;
 
-// Numbers of properties: of the object, or of the template of its kind.
+// Reads numeric properties from the object, or else from the template for its type.
 class Properties {
  public:
   Properties(const FbxDocument& document, const FbxNode& object, const FbxNode* fallback)
       : document_(document), object_(object), fallback_(fallback) {}
 
-  // Leaves `out` where the property is nowhere; false where it is no number.
+  // Keeps `out` if the property is missing; false if it is not a number.
   bool read(std::string_view name, double& out) {
     return read(name, 1, [&](const double* v) { out = v[0]; });
   }
@@ -72,7 +72,7 @@ class Properties {
   Error error_;
 };
 
-// What FBX 7 says once for all models.
+// Defaults that FBX 7 states once for all models.
 const FbxNode* model_template(const FbxDocument& document) {
   for (const FbxNode* type : document.in_sections("Definitions")) {
     if (type->name == "ObjectType" && type->value(0) == "Model") {
@@ -85,7 +85,7 @@ const FbxNode* model_template(const FbxDocument& document) {
 Result<FbxModel> read_model(const FbxDocument& document, const FbxNode& node,
                             const FbxNode* fallback) {
   FbxModel out;
-  // Identified by a number (FBX 7) or by its name (FBX 6).
+  // A number (FBX 7) or the name (FBX 6).
   out.id = node.value(0);
   out.name = fbx_name(fbx_without_class(node.value(node.values.size() > 2 ? 1 : 0)));
   Properties properties(document, node, fallback);
@@ -189,7 +189,7 @@ Result<std::vector<FbxModel>> fbx_models(const FbxDocument& document) {
   const FbxNode* fallback = model_template(document);
   std::vector<FbxModel> found;
   std::vector<bool> is_needed;
-  std::map<std::string_view, size_t> places;  // By id.
+  std::map<std::string_view, size_t> places;  // Index by id.
   for (const FbxNode* node : document.in_sections("Objects")) {
     if (node->name != "Model" || !places.emplace(node->value(0), found.size()).second) continue;
     if (found.size() == kMostModels) {
@@ -208,10 +208,10 @@ Result<std::vector<FbxModel>> fbx_models(const FbxDocument& document) {
     found[child->second].parent = static_cast<int>(parent->second);
     children[parent->second].push_back(child->second);
   }
-  // Level after level from the roots.
+  // Breadth-first from the roots.
   std::vector<FbxModel> out;
   TakenNames taken;
-  std::vector<std::pair<size_t, int>> level;  // The model as it was found, and its parent in `out`.
+  std::vector<std::pair<size_t, int>> level;  // Index in `found`, and the parent's index in `out`.
   for (size_t i = 0; i < found.size(); ++i) {
     if (found[i].parent < 0) level.emplace_back(i, -1);
   }

@@ -1,5 +1,5 @@
 #pragma once
-// The models of an FBX document, which are its joints among others: their tree and how they stand.
+// The models of an FBX document, which include its joints: their hierarchy and transforms.
 
 #include <map>
 #include <string>
@@ -13,13 +13,13 @@
 
 namespace panache::cli {
 
-// The three numbers that curves change, in degrees and in the file's unit.
+// Animated Euler angles in degrees, and lengths in the file's unit.
 struct FbxPlace {
   Vec3d translation, rotation;
   Vec3d scale = {1, 1, 1};
 };
 
-// A place relative to the parent, as others have it: scaled, then turned, then moved.
+// A transform relative to the parent: scale, then rotation, then translation.
 struct Trs {
   Vec3d translation;
   Quatd rotation;
@@ -27,12 +27,12 @@ struct Trs {
 };
 
 struct FbxModel {
-  std::string name;     // Without "Model::"; no two have one name.
-  std::string_view id;  // By which connections and takes call it.
-  int parent = -1;      // An index that is smaller than its own, or none.
-  FbxPlace place;       // As the file was written.
+  std::string name;     // Without "Model::"; unique.
+  std::string_view id;  // As used by connections and takes.
+  int parent = -1;      // An index smaller than the model's own, or -1.
+  FbxPlace place;       // At the time of saving.
   EulerOrder order = {3, {2, 1, 0}};
-  Quatd before, after;  // The rotations around the joint's own, as it is.
+  Quatd before, after;  // Constant factors left and right of the rotation.
   Vec3d rotation_offset, rotation_pivot, scale_offset, scale_pivot;
 
   // T Roff Rp Rpre R Rpost^-1 Rp^-1 Soff Sp S Sp^-1, which has no shear.
@@ -46,25 +46,25 @@ struct FbxConnection {
 
 struct FbxSettings {
   int up_axis = 1, up_sign = 1, side_axis = 0, side_sign = 1;
-  double centimetres = 1;  // To a unit.
+  double centimetres = 1;  // Per unit.
   double rate = 30;        // Frames a second.
 };
 
 std::vector<FbxConnection> fbx_connections(const FbxDocument& document);
 Result<FbxSettings> fbx_settings(const FbxDocument& document);
 
-// Parents before children; without cameras and lights that nothing hangs on. Rejected are more than
-// 10,000 models, more than 500 below each other, and those that are each other's parents.
+// Parents before children; without childless cameras and lights. Rejects more than 10,000 models,
+// more than 500 levels, and cyclic parents.
 Result<std::vector<FbxModel>> fbx_models(const FbxDocument& document);
 
 // "Hips" of "Model::Hips".
 std::string_view fbx_without_class(std::string_view text);
-// `text` as a GLB can hold it: 200 bytes of it at most, and U+FFFD for each that is no UTF-8, as
-// programs of one country wrote them.
+// `text` as GLB can hold it: at most 200 bytes, with U+FFFD for each byte that is not valid UTF-8,
+// as old programs with local encodings wrote.
 std::string fbx_name(std::string_view text);
 
-// The values of a property of an object, of FBX 6 (`Property:`) or 7 (`P:`); null where it has
-// none. Only those of the property itself, without its name, types and flags.
+// The values of a property of an object, FBX 6 (`Property:`) or 7 (`P:`), without its name, types
+// and flags; null if it is missing.
 std::vector<std::string_view> fbx_property(const FbxNode& object, std::string_view name);
 
 }  // namespace panache::cli

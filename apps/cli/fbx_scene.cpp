@@ -11,7 +11,7 @@
 namespace panache::cli {
 namespace {
 
-// An axis of the file as the global settings have it: 0 x, 1 y, 2 z and a sign.
+// An axis in the global settings: 0 x, 1 y, 2 z, with a sign.
 aiVector3D axis_of(const aiScene& scene, const std::string& name, int fallback) {
   int axis = fallback, sign = 1;
   scene.mMetaData->Get(name, axis);
@@ -21,7 +21,7 @@ aiVector3D axis_of(const aiScene& scene, const std::string& name, int fallback) 
   return out;
 }
 
-// Turns the file's axes to x to the side, y up, and scales to metres.
+// Rotates the file's axes to x sideways and y up, and scales to metres.
 aiMatrix4x4 to_metres_y_up(const aiScene& scene) {
   if (!scene.mMetaData) return {};
   float centimetres = 1;
@@ -29,7 +29,7 @@ aiMatrix4x4 to_metres_y_up(const aiScene& scene) {
   if (!(centimetres > 1e-9f && centimetres < 1e9f)) centimetres = 1;
   const aiVector3D up = axis_of(scene, "UpAxis", 1);
   aiVector3D side = axis_of(scene, "CoordAxis", 0);
-  if (std::abs(side * up) > 0) side = {up.y, up.z, up.x};  // Settings that contradict themselves.
+  if (std::abs(side * up) > 0) side = {up.y, up.z, up.x};  // The settings contradict each other.
   const aiVector3D front = side ^ up;
   const float s = centimetres * 0.01f;
   return {side.x * s,  side.y * s,  side.z * s,  0, up.x * s, up.y * s, up.z * s, 0,
@@ -56,15 +56,14 @@ std::span<aiMesh* const> meshes_of(const aiScene& scene) {
 }
 std::span<aiBone* const> bones_of(const aiMesh& mesh) { return {mesh.mBones, mesh.mNumBones}; }
 
-// Assimp gives every animated node keys for all of translation, rotation and scale. Translations
-// and scales that only repeat the node's own say nothing, but a joint that has them looks as if it
-// moved.
+// Assimp gives every animated node translation, rotation and scale keys. Translations and scales
+// that only repeat the node's own are redundant, but make the joint look as if it moved.
 void drop_idle_keys(aiNodeAnim& channel, const aiNode& node) {
   aiVector3D scale, place;
   aiQuaternion turn;
   node.mTransformation.Decompose(scale, turn, place);
-  // Programs that sample a motion while they write it round in the world, far from the origin. Two
-  // hundredths of a millimetre on a limb are no motion.
+  // Programs that bake a motion round its world positions, far from the origin. 0.02 mm on a limb
+  // is not motion.
   const float near = 1e-4f * place.Length();
   const auto idle = [](const aiVectorKey* keys, unsigned count, const aiVector3D& value,
                        float tolerance) {
@@ -80,9 +79,8 @@ void drop_idle_keys(aiNodeAnim& channel, const aiNode& node) {
   }
 }
 
-// Keys of several curves that a program meant to be at one time may be a tick apart, which is
-// nothing in the floats of glTF, where times have to grow. The last of them counts, as after a
-// jump.
+// Keys of several curves meant for one time may lie a tick apart, which vanishes in glTF's floats,
+// where times must increase. The last one is kept, as after a jump.
 template <class Key>
 void join_close_keys(Key* keys, unsigned& count, double ticks_per_second) {
   constexpr double kSame = 1e-5;  // Seconds.
@@ -101,7 +99,7 @@ void join_close_keys(Key* keys, unsigned& count, double ticks_per_second) {
   count = kept;
 }
 
-// Whether all animations have keys for the node, so that its own place counts for none of them.
+// Whether all animations have keys for the node, so that its static transform is never used.
 bool is_always_animated(const aiScene& scene, const aiNode& node) {
   const auto has_keys = [&](const aiAnimation* animation) {
     return std::ranges::any_of(channels_of(*animation), [&](const aiNodeAnim* channel) {
@@ -114,9 +112,10 @@ bool is_always_animated(const aiScene& scene, const aiNode& node) {
 
 bool is_usable(const aiMatrix4x4& m) { return std::isnormal(m.Determinant()); }
 
-using Places = std::map<std::string, aiMatrix4x4>;  // World, by the node's name.
+using Places = std::map<std::string, aiMatrix4x4>;  // World transforms, by node name.
 
-// Where skinned joints are when their meshes are not bent. Assimp measures from the mesh's node.
+// The world transforms of skinned joints in the bind pose. Assimp stores them relative to the
+// mesh's node.
 Places bind_places(const aiScene& scene, const Places& world) {
   Places out;
   const auto add = [&](const aiMesh& mesh, const aiMatrix4x4& place) {
@@ -135,15 +134,15 @@ Places bind_places(const aiScene& scene, const Places& world) {
 
 Places world_places(const aiScene& scene) {
   Places out;
-  for (const aiNode* node : all_nodes(scene)) {  // Parents first.
+  for (const aiNode* node : all_nodes(scene)) {  // Parents before children.
     const aiMatrix4x4 above = node->mParent ? out[node->mParent->mName.C_Str()] : aiMatrix4x4();
     out[node->mName.C_Str()] = above * node->mTransformation;
   }
   return out;
 }
 
-// An FBX file's nodes stand as they stood when it was written, most often as in the first frame of
-// the motion, while the rest pose that others want to know is that of the skin.
+// Nodes of an FBX file have their pose at the time of saving, usually the first frame of the
+// motion, but the rest pose should be the skin's bind pose.
 void rest_as_bound(const aiScene& scene) {
   const Places bound = bind_places(scene, world_places(scene));
   Places world;
@@ -157,7 +156,7 @@ void rest_as_bound(const aiScene& scene) {
   }
 }
 
-// Moves the points of a mesh by `by`, its bones' offsets the other way.
+// Transforms the vertices of a mesh by `by`, and its bones' offsets by the inverse.
 void move_mesh(aiMesh& mesh, const aiMatrix4x4& by) {
   const aiMatrix3x3 turn = aiMatrix3x3(aiMatrix4x4(by).Inverse().Transpose());
   const auto move = [&](aiVector3D* points, aiVector3D* normals, unsigned count) {
@@ -176,7 +175,7 @@ void move_mesh(aiMesh& mesh, const aiMatrix4x4& by) {
 }
 
 void share_bind_pose(aiScene& scene) {
-  std::map<std::string, aiMatrix4x4> offsets;  // Of the first mesh that has the bone.
+  std::map<std::string, aiMatrix4x4> offsets;  // From the first mesh that has the bone.
   for (aiMesh* mesh : meshes_of(scene)) {
     for (const aiBone* bone : bones_of(*mesh)) {
       const auto known = offsets.find(bone->mName.C_Str());
@@ -191,8 +190,8 @@ void share_bind_pose(aiScene& scene) {
   }
 }
 
-// glTF wants weights that sum to one, in sets of four. The heaviest four of each corner are kept; a
-// corner without any goes with the mesh's first joint.
+// glTF expects weights that sum to one, in sets of four. Keeps the four heaviest of each vertex; a
+// vertex without any follows the mesh's first joint.
 void fit_weights(aiMesh& mesh) {
   constexpr size_t kMost = 4;
   if (mesh.mNumBones == 0) return;
@@ -213,7 +212,7 @@ void fit_weights(aiMesh& mesh) {
     std::stable_sort(corner.begin(), corner.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
     corner.resize(std::min(corner.size(), kMost));
-    double sum = 0;  // Of floats of any size.
+    double sum = 0;  // Double, because the floats may be huge.
     for (const auto& [weight, bone] : corner) sum += weight;
     for (const auto& [weight, bone] : corner) {
       weights[bone].emplace_back(v, static_cast<float>(weight / sum));
@@ -228,9 +227,9 @@ void fit_weights(aiMesh& mesh) {
   }
 }
 
-// Programs count in centimetres below a node that makes them metres, and some scale those up again.
-// Where no scale is animated or differs between axes, nodes get none: it goes into the places of
-// what is below them. Only a mesh without a skin keeps it, in its own node.
+// Programs often use centimetres below a node that scales to metres, and some scale up again. If no
+// scale is animated or non-uniform, node scales are baked into the transforms below them. Only a
+// mesh without a skin keeps its scale, in its own node.
 void remove_scales(const aiScene& scene) {
   for (const aiAnimation* animation : animations_of(scene)) {
     for (const aiNodeAnim* channel : channels_of(*animation)) {
@@ -246,7 +245,7 @@ void remove_scales(const aiScene& scene) {
                       std::abs(scale.z - scale.x) <= 1e-4f * scale.x;
     if (!even || !std::isnormal(scale.x)) return;
   }
-  std::map<std::string, float> above, removed;  // By the node's name: what it lost, and its parent.
+  std::map<std::string, float> above, removed;  // Scale factors, by node name.
   for (aiNode* node : nodes) {
     const std::string name = node->mName.C_Str();
     above[name] = node->mParent ? removed[node->mParent->mName.C_Str()] : 1.0f;

@@ -10,12 +10,12 @@
 namespace panache::cli {
 namespace {
 
-constexpr double kSparse = kFbxSecond / 20;  // Between keys that are poses and no frames.
-constexpr double kSameFrame = 0.1;           // In frames: how far apart a key and a frame may be.
-// 18 days; differences of times stay far from overflowing.
+constexpr double kSparse = kFbxSecond / 20;  // Keys no further apart than this are the frames.
+constexpr double kSameFrame = 0.1;           // In frames: max distance between a key and its frame.
+// 18 days, which keeps differences of times far from overflow.
 constexpr int64_t kLatest = int64_t{1} << 56;
 
-// In order of time; the last of those at one time counts, as a jump has two.
+// Sorts by time; the last of several keys at one time wins, as a jump has two.
 void sort_keys(std::vector<FbxKey>& keys) {
   std::stable_sort(keys.begin(), keys.end(),
                    [](const FbxKey& a, const FbxKey& b) { return a.time < b.time; });
@@ -71,7 +71,7 @@ class TakesReader {
     return FbxKey{*when, *number};
   }
 
-  // FBX 6: a channel has channels, down to those of a single number.
+  // FBX 6: channels are nested, down to those of a single number.
   Result<void> read_take(const FbxNode& node) {
     FbxTake& take = takes_.emplace_back();
     take.name = fbx_name(node.value(0));
@@ -100,8 +100,8 @@ class TakesReader {
     return nullptr;
   }
 
-  // A key is its time, its value, a capital letter for what leads to the next one (Constant,
-  // Linear, cUbic), and more about that in small letters and numbers.
+  // A key is its time, its value, a capital letter for the interpolation to the next key (Constant,
+  // Linear, cUbic), then its details in lower-case letters and numbers.
   Result<void> read_channel(const FbxNode& node, FbxCurve& curve) const {
     curve.is_there = true;
     if (const FbxNode* value = node.child("Default")) {
@@ -131,7 +131,7 @@ class TakesReader {
     return {};
   }
 
-  // FBX 7: curves hang on nodes, those on layers and on properties of models, layers on stacks.
+  // FBX 7: curves belong to nodes, nodes to layers and model properties, layers to stacks.
   Result<void> read_stacks() {
     std::unordered_map<std::string_view, const FbxNode*> objects;
     std::vector<const FbxNode*> stacks;
@@ -163,7 +163,7 @@ class TakesReader {
     return {};
   }
 
-  // The curves of a node that is on a property of a model, if it is.
+  // The curves of a node, if it animates a property of a model.
   Result<void> read_curves(const FbxNode& node, const FbxConnection& on,
                            const std::vector<FbxConnection>& curves,
                            const std::unordered_map<std::string_view, const FbxNode*>& objects,
@@ -174,7 +174,7 @@ class TakesReader {
     const auto place = places_.find(on.parent);
     if (what == std::end(kProperties) || place == places_.end()) return {};
     auto& axes = take.curves[place->second][static_cast<size_t>(what - kProperties)];
-    if (axes[0].is_there) return {};  // Of another layer.
+    if (axes[0].is_there) return {};  // From another layer.
     for (size_t axis = 0; axis < 3; ++axis) {
       const std::string number = std::string("d|") + "XYZ"[axis];
       if (const auto value = fbx_property(node, number); !value.empty()) {
@@ -210,7 +210,7 @@ class TakesReader {
       if (!key) return key.error();
       curve.keys.push_back(*key);
     }
-    // How keys go on is said for runs of them; bit 1 is held.
+    // Interpolation flags apply to runs of keys; bit 1 is constant.
     const auto *flags = list(node, "KeyAttrFlags"), *counts = list(node, "KeyAttrRefCount");
     size_t k = 0;
     for (size_t run = 0; flags && counts && run < std::min(flags->size(), counts->size()); ++run) {
@@ -226,11 +226,11 @@ class TakesReader {
   }
 
   const FbxDocument& document_;
-  std::unordered_map<std::string_view, size_t> places_;  // Of the models, by id.
+  std::unordered_map<std::string_view, size_t> places_;  // Model indices by id.
   std::vector<FbxTake> takes_;
 };
 
-// Whether any number is another at the later time, no key lying between.
+// Whether any value differs at the later time; there are no keys in between.
 bool moves_between(const FbxCurves& curves, int64_t earlier, int64_t later) {
   return std::ranges::any_of(curves, [&](const auto& axes) {
     return std::ranges::any_of(
@@ -276,8 +276,8 @@ std::vector<int64_t> fbx_pose_times(const FbxTake& take, const FbxCurves& curves
   const auto frames_to = [&](int64_t time) {
     return static_cast<double>(time - take.begin) / frame;
   };
-  // Keys beside the frames say that the rate is not the motion's own. Then those that follow each
-  // other closely are its frames.
+  // Keys off the frames show that the file's rate is not the motion's; then closely spaced keys are
+  // its frames.
   const bool are_on_frames = std::ranges::all_of(keys, [&](int64_t key) {
     return std::abs(frames_to(key) - std::round(frames_to(key))) < kSameFrame;
   });

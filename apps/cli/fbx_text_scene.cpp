@@ -8,8 +8,8 @@
 namespace panache::cli {
 namespace {
 
-// Frames times joints of all takes: with so many, no small file takes long to read. A file with a
-// key in every frame has more bytes than that.
+// A limit on frames times joints of all takes, so that no small file takes long to read. A file
+// with a key in every frame is larger than that.
 double most_poses(std::string_view text) {
   return std::max(1e6, 4 * static_cast<double>(text.size()));
 }
@@ -31,7 +31,7 @@ aiMatrix4x4 matrix(const Trs& trs) {
 void add_nodes(const std::vector<FbxModel>& models, aiScene& scene) {
   scene.mRootNode = new aiNode("RootNode");
   std::vector<aiNode*> nodes;
-  std::vector<std::vector<aiNode*>> children(models.size() + 1);  // The last is the root's.
+  std::vector<std::vector<aiNode*>> children(models.size() + 1);  // The last one is for the root.
   for (const FbxModel& model : models) {
     nodes.push_back(new aiNode(model.name));
     nodes.back()->mTransformation = matrix(model.trs(model.place));
@@ -86,7 +86,7 @@ aiAnimation* make_animation(const std::vector<FbxModel>& models, const FbxTake& 
   return animation;
 }
 
-// They are geometries in FBX 7, and models in FBX 6.
+// Meshes are geometries in FBX 7, and models in FBX 6.
 bool has_meshes(const FbxDocument& document) {
   return std::ranges::any_of(document.in_sections("Objects"), [](const FbxNode* node) {
     return !node->values.empty() && node->values.back() == "Mesh";
@@ -121,7 +121,7 @@ Result<FbxScene> fbx_text_scene(std::string_view text, const std::string& path) 
                  "time of a key wrong?"};
   }
   auto scene = std::make_unique<aiScene>();
-  scene->mFlags = AI_SCENE_FLAGS_INCOMPLETE;  // Without meshes.
+  scene->mFlags = AI_SCENE_FLAGS_INCOMPLETE;  // It has no meshes.
   add_nodes(*models, *scene);
   add_settings(*settings, *scene);
   if (!takes->empty()) scene->mAnimations = new aiAnimation*[takes->size()];

@@ -18,14 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Where no user's folders are as deep, and no stack is in danger.
+// Deeper than any user's folders, but safe for the stack.
 constexpr size_t kDeepest = 256;
 
 bool has_wildcard(const std::string& text) {
   return text.find_first_of("*?[") != std::string::npos;
 }
 
-// The entries of a folder in order of name, without hidden ones.
+// The entries of a folder sorted by name, without hidden ones.
 Result<std::vector<fs::path>> entries_of(const fs::path& folder) {
   std::vector<fs::path> entries;
   std::error_code failure;
@@ -40,7 +40,7 @@ Result<std::vector<fs::path>> entries_of(const fs::path& folder) {
   return entries;
 }
 
-// A folder that a link brings in again would be walked for ever.
+// A link back to a parent folder would recurse for ever.
 bool is_real_folder(const fs::path& path) {
   std::error_code status;
   return fs::is_directory(path, status) && !fs::is_symlink(path, status);
@@ -83,13 +83,13 @@ class Finder {
   }
 
   FoundFiles found;
-  size_t matched = 0;  // With those that were found before.
+  size_t matched = 0;  // Includes files that were found before.
 
  private:
   // Adds the files below `folder` that match the pattern from `part` on.
   Result<void> match(const fs::path& folder, size_t part, size_t depth) {
     if (depth > kDeepest) return Error{folder.string() + ": is nested too deeply for a batch"};
-    // "**" is no folder at all, or any folder and then "**" again.
+    // "**" matches no folder, or one folder and then "**" again.
     if (pattern_[part] == "**") {
       if (auto here = match(folder, part + 1, depth); !here) return here;
     }
@@ -126,7 +126,7 @@ class Finder {
 
   std::optional<fs::path> output_;
   fs::path base_;                     // Before the first wildcard.
-  std::vector<std::string> pattern_;  // The rest, folder by folder.
+  std::vector<std::string> pattern_;  // The rest, one per folder level.
   std::set<std::pair<fs::path, fs::path>> seen_;
 };
 

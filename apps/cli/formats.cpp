@@ -26,7 +26,7 @@
 namespace panache::cli {
 namespace {
 
-// A file with more to say of how it was read.
+// A file with additional notes from its reader.
 class NotedFile : public MotionFile {
  public:
   NotedFile(std::unique_ptr<MotionFile> file, std::vector<std::string> notes)
@@ -60,14 +60,14 @@ Result<std::unique_ptr<MotionFile>> read_fbx(const std::string& path, const Read
       std::make_unique<NotedFile>(*std::move(file), std::move(fbx->notes)));
 }
 
-// The formats that hold a body of their own in T-pose, which a motion has to be put on.
+// Formats with their own body in T-pose, to which a motion has to be retargeted.
 struct OwnBody {
   std::string_view extension;
   Clip (*make)(const Clip& clip, const Rig& rig);
   RetargetOptions how;
 };
 constexpr OwnBody kOwnBodies[] = {
-    // As long in arms and legs as the rig: directions alone bring feet and hands to their places.
+    // Arms and legs are as long as the rig's, so directions alone place feet and hands.
     {".vrma", t_pose_body, {.feet = false, .hands = false}},
     {".npz", [](const Clip&, const Rig&) { return smpl_body(); }, {}},
 };
@@ -86,7 +86,7 @@ const MotionFormat kNpz = {.extension = ".npz",
                            .encoded_as = ".npz",
                            .one_motion = true};
 
-// The extensions of the writable formats, the first `skipped` letters left out.
+// The extensions of the writable formats, each without its first `skipped` letters.
 std::string list_without(size_t skipped) {
   std::vector<std::string> names;
   for (const MotionFormat& format : formats()) {
@@ -95,14 +95,14 @@ std::string list_without(size_t skipped) {
   return one_of(names);
 }
 
-// The format of an extension; one without functions where the extension is unknown.
+// The format for an extension; one without functions if the extension is unknown.
 const MotionFormat& format_of(std::string_view extension) {
   static constexpr MotionFormat kNone;
   const MotionFormat* format = find_format(formats(), extension);
   return format ? *format : kNone;
 }
 
-// How a GLB becomes the FBX file that was asked for.
+// How to make the requested FBX file from a GLB.
 std::string fbx_by_blender(const std::string& fbx) {
   const std::string glb = std::filesystem::path(fbx).replace_extension(".glb").string();
   return "write " + glb +
@@ -114,12 +114,12 @@ std::string fbx_by_blender(const std::string& fbx) {
          "motion)";
 }
 
-// To the measure of the rig of `clip`.
+// A body with the proportions of the rig of `clip`.
 SkinnedBody body_of(const Rig& rig, const Clip& clip) {
   return make_rig_body(rig, clip.pose(std::min(rig.first_frame(), clip.frames - 1)));
 }
 
-// The motion on the body that the format has.
+// The motion retargeted to the format's body.
 Result<Clip> put_on(const OwnBody& own, const Clip& clip, const Rig& rig) {
   const Clip body = own.make(clip, rig);
   Result<Rig> onto = Rig::create(body);
@@ -157,7 +157,7 @@ Result<std::string> in_container(std::string bytes, const std::string& input,
     if (!glb) return glb;
     bytes = *std::move(glb);
   }
-  // A skin that another program has made for glTF is as its maker wants it.
+  // A skin that another program made for glTF is left as it is.
   const bool is_fbx = extension_of(input) == ".fbx";
   return whole_character(std::move(bytes), input, is_fbx, [&](const MotionFile& file) {
     std::optional<SkinnedBody> body;
@@ -182,7 +182,7 @@ bool has_writer(const std::string& extension) { return format_of(extension).writ
 Result<void> check_format(const std::string& input, const std::string& output) {
   const std::string from = extension_of(input), to = extension_of(output);
   const MotionFormat* format = find_format(formats(), from);
-  if (!format || has_writer(to)) return {};  // Opening the input says what is wrong.
+  if (!format || has_writer(to)) return {};  // Opening the input reports what is wrong.
   const bool has_own = format->encoded_as == format->extension;
   if (has_own && to == from) return {};
   return Error{output + ": expected a name that ends in " +

@@ -1,5 +1,5 @@
 #pragma once
-// The formats that the program reads and writes, and motions brought from one to another.
+// The formats that the program reads and writes, and conversion between them.
 
 #include <span>
 #include <string>
@@ -13,49 +13,49 @@
 
 namespace panache::cli {
 
-// Those of the library, and those that only the program reads.
+// The library's formats and those that only the program reads.
 std::span<const MotionFormat> formats();
 
-// Of packed data of glTF files; null in a build without meshoptimizer.
+// Decodes packed data in glTF files; null in a build without meshoptimizer.
 extern const MeshoptDecoder kMeshoptDecoder;
 
-// Whether a file with the extension `input` keeps its format where it is written with the extension
-// `output`, and with it all that is in it beside motion. Those of glTF count as one: an FBX file is
-// a GLB by then.
+// Whether a file with extension `input` keeps its format, and so all its content besides motion, if
+// written with extension `output`. All glTF extensions count as one format, and so does FBX, which
+// has become GLB by then.
 bool keeps_format(const std::string& input, const std::string& output);
 
-// What a file gave that keeps its format, in the container that the output's extension asks for. A
-// GLB of joints alone gets a figure, `rig` as the user says where its humanoid is.
+// Puts the bytes of a file that keeps its format into the container for the output's extension. A
+// GLB with joints only gets a figure; `rig` helps to find its humanoid.
 Result<std::string> in_container(std::string bytes, const std::string& input,
                                  const std::string& output, const RigOptions& rig, bool no_body);
-// Whether the bytes of a file with this extension are not all of it, or none that are handed on:
-// MotionFile::encode gives those.
+// Whether a file with this extension has to be written by MotionFile::encode, because its bytes are
+// incomplete or not an output format.
 bool must_be_encoded(const std::string& extension);
 
-// The formats that motion of another format can be written in: "bvh, glb or vrma".
+// The formats that any motion can be converted to: "bvh, glb or vrma".
 std::string list_writable_names();
 // Whether a motion can be written with this extension.
 bool has_writer(const std::string& extension);
 
-// Rejects an output with an extension that its input cannot be written with.
+// Rejects an output whose extension the input cannot be converted to.
 Result<void> check_format(const std::string& input, const std::string& output);
 
-// Rejects several motions where the output's format holds a single one.
+// Rejects several motions if the output's format holds only one.
 Result<void> check_fits(const MotionFile& file, std::span<const int> clips,
                         const std::string& input, const std::string& output);
 
 Placement placement_of(const Rig& rig);
-// Of a skeleton that is no humanoid; what is not given is metres and +Y.
+// For a non-humanoid skeleton; defaults to metres and +Y.
 Placement placement_of(const RigOptions& options);
 
-// Whether files with this extension hold one motion.
+// Whether files with this extension hold only one motion.
 bool holds_one_motion(const std::string& extension);
 
-// Whether files with this extension hold the motion of humanoids and nothing else.
+// Whether files with this extension hold humanoid motion only.
 bool holds_humanoids(const std::string& extension);
 
-// A new file of this motion alone, with an extension that has a writer. Formats that hold
-// humanoids get the motion on a body of their own; `rig` may be null for others.
+// A new file with this motion alone, for an extension that has a writer. Humanoid formats get the
+// motion retargeted to their own body; `rig` may be null for other formats.
 Result<std::string> format_clip(const Clip& clip, const Rig* rig, const std::string& name,
                                 const Placement& placement, const std::string& extension,
                                 bool no_body);

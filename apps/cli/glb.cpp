@@ -19,8 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The header of 12 bytes (magic, version, length of all), then chunks: length, type, bytes. The
-// first holds the JSON, the second, which may be absent, the binary data.
+// A header of 12 bytes (magic, version, total length), then chunks: length, type, bytes. The first
+// chunk is the JSON, the optional second one the binary data.
 constexpr size_t kHeader = 12, kChunkHeader = 8;
 
 void append_chunk(std::string& out, const std::string& type, std::string bytes, char padding) {
@@ -39,7 +39,7 @@ std::string format_glb_file(const GltfJson& json, const std::string& bin) {
   return out += chunks;
 }
 
-// A picture at its own path below `folder`, or at the end of that path: of "C:/art/tex/skin.png"
+// Finds a picture at its path below `folder`, or at the end of that path: for "C:/art/tex/skin.png"
 // also "tex/skin.png" and "skin.png".
 std::string find_picture(std::string uri, const fs::path& folder) {
   for (char& c : uri) {
@@ -55,7 +55,7 @@ std::string find_picture(std::string uri, const fs::path& folder) {
   return "";
 }
 
-// An extension that is no longer supported. The metallic-roughness material says the same.
+// An extension that is no longer supported; the metallic-roughness material has the same content.
 void drop_specular_glossiness(GltfJson& json) {
   constexpr const char* kName = "KHR_materials_pbrSpecularGlossiness";
   if (!json.contains("extensionsUsed") || !json.contains("materials")) return;
@@ -72,7 +72,7 @@ void drop_specular_glossiness(GltfJson& json) {
   if (used.empty()) json.erase("extensionsUsed");
 }
 
-// A list of the file; empty where it is something else.
+// A list in the file; empty if it is not a list.
 GltfJson& list_of(GltfJson& json, const char* key) {
   static thread_local GltfJson none;
   const auto list = json.find(key);
@@ -80,7 +80,7 @@ GltfJson& list_of(GltfJson& json, const char* key) {
   return none = GltfJson::array();
 }
 
-// The member `key` as a place in a list of `size` entries; -1 if it is no such index.
+// The member `key` as an index into a list of `size` entries; -1 if it is not a valid index.
 int index_in(const GltfJson& object, const char* key, size_t size) {
   if (!object.is_object()) return -1;
   const auto member = object.find(key);
@@ -89,13 +89,13 @@ int index_in(const GltfJson& object, const char* key, size_t size) {
   return place < size ? static_cast<int>(place) : -1;
 }
 
-// "image/png" or "image/jpeg", which glTF holds; else empty.
+// The types that glTF supports, "image/png" or "image/jpeg"; else empty.
 std::string kind_of(std::string_view picture) {
   if (picture.starts_with("\x89PNG")) return "image/png";
   return picture.starts_with("\xFF\xD8\xFF") ? "image/jpeg" : "";
 }
 
-// Puts the pictures of materials in order.
+// Repairs the pictures of materials.
 class PictureRepair {
  public:
   PictureRepair(GltfJson& json, std::string& bin, const std::string& path,
@@ -104,7 +104,7 @@ class PictureRepair {
 
   void run() {
     GltfJson& images = list_of(json_, "images");
-    std::vector<int> image_places, texture_places;  // Where each goes; -1 for nowhere.
+    std::vector<int> image_places, texture_places;  // New indices; -1 if removed.
     std::vector<GltfJson> kept;
     for (size_t i = 0; i < images.size(); ++i) {
       const bool good = repair(i);
@@ -122,7 +122,7 @@ class PictureRepair {
       textures.push_back(std::move(texture));
     }
     for (GltfJson& material : list_of(json_, "materials")) {
-      // A texture takes the place of the colour in FBX, and is multiplied by it in glTF.
+      // A texture replaces the colour in FBX, but is multiplied by it in glTF.
       whiten(material, "pbrMetallicRoughness", "baseColorTexture", "baseColorFactor");
       whiten(material, "", "emissiveTexture", "emissiveFactor");
       renumber(material, texture_places);
@@ -141,7 +141,7 @@ class PictureRepair {
     }
   }
 
-  // The colour where there is a texture; its opacity stays.
+  // Makes the colour of a textured material white; keeps its opacity.
   static void whiten(GltfJson& material, const char* part, const char* texture,
                      const char* factor) {
     if (!material.is_object() || (*part && !material.contains(part))) return;
@@ -154,7 +154,7 @@ class PictureRepair {
     }
   }
 
-  // Takes textures out that are gone, and gives the others their new places, in extensions too.
+  // Removes missing textures and renumbers the others, in extensions too.
   static void renumber(GltfJson& object, const std::vector<int>& places) {
     if (!object.is_object()) return;
     std::vector<std::string> gone;
@@ -170,10 +170,10 @@ class PictureRepair {
     for (const std::string& key : gone) object.erase(key);
   }
 
-  // Whether the picture is one that programs show afterwards.
+  // Whether programs can show the picture after the repair.
   bool repair(size_t which) {
     GltfJson& image = json_["images"][which];
-    if (!image.is_object()) return true;  // What is wrong with it, its reader says.
+    if (!image.is_object()) return true;  // The reader reports the error.
     const GltfJson& views = list_of(json_, "bufferViews");
     const int view = index_in(image, "bufferView", views.size());
     if (view >= 0) {
@@ -214,7 +214,7 @@ class PictureRepair {
     return begin > bin_.size() || size > bin_.size() - begin ? "" : bin_.substr(begin, size);
   }
 
-  // Gives the image these bytes, as a PNG where they are of another kind.
+  // Gives the image these bytes, converted to PNG if needed.
   bool embed(GltfJson& image, const std::string& bytes, const std::string& name) {
     if (const std::string kind = kind_of(bytes); !kind.empty()) {
       image["mimeType"] = kind;
@@ -267,8 +267,8 @@ std::string with_pictures(std::string glb, const std::string& path, const Pictur
   const size_t begin = kHeader + kChunkHeader;
   const size_t length = little_endian(std::string_view(glb).substr(kHeader, 4));
   if (length > glb.size() - begin) return glb;
-  GltfJson json;  // What is wrong with it, its reader says.
-  // Assimp writes names of any bytes.
+  GltfJson json;  // The reader reports errors.
+  // Assimp writes names that may not be valid UTF-8.
   if (!GltfChecker(path).parse(to_utf8({glb.data() + begin, length}), json)) return glb;
   drop_specular_glossiness(json);
   const size_t bin_at = begin + length + kChunkHeader;
@@ -286,7 +286,7 @@ Result<std::string> gltf_to_glb(const std::string& gltf, const std::string& path
   if (!checker.ok()) return checker.error();
   if (buffers.empty()) return format_glb_file(json, "");
   std::string bin;
-  std::vector<size_t> begins;  // Of each buffer in `bin`.
+  std::vector<size_t> begins;  // Offset of each buffer in `bin`.
   for (const GltfPart& buffer : buffers) {
     const std::string uri = buffer.text("uri");
     if (!buffer.member("uri")) {

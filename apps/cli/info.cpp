@@ -1,4 +1,4 @@
-// panache info: what a file is, and how its rig was understood.
+// panache info: describes a file and how its rig was mapped.
 
 #include <algorithm>
 #include <memory>
@@ -25,7 +25,7 @@
 namespace panache::cli {
 namespace {
 
-// Each joint on a line, below and to the right of its parent.
+// One joint per line, indented below its parent.
 std::string draw_tree(const Skeleton& skeleton) {
   std::vector<std::vector<size_t>> children(skeleton.joints.size());
   std::vector<std::pair<size_t, size_t>> waiting;  // Joint and depth.
@@ -72,7 +72,7 @@ std::vector<bool> find_loops(const MotionFile& file, const BodyMotions& body,
   return loops;
 }
 
-// `shown` is the motion that the rest of the report is about.
+// `shown` is the motion that the rest of the report describes.
 std::string describe(const std::string& path, const MotionFile& file, const BodyMotions& body,
                      const std::vector<bool>& loops, size_t shown) {
   const std::vector<std::string> names = file.clip_names();
@@ -136,7 +136,7 @@ struct InfoVerb {
   bool json = false;
 };
 
-// What is known of a file, and what is wrong with it all the same.
+// What is known of a file, even if it has errors.
 struct Info {
   std::string text;
   Json json;
@@ -144,8 +144,8 @@ struct Info {
   std::optional<Error> error = {};
 };
 
-// The motion that a report is about: the one that is asked for, whatever it moves, or the first of
-// those that the other verbs take. `notes` and `error` get what these say of the file.
+// The motion to report on: the requested one, whatever it moves, or else the first that other verbs
+// would use. Adds notes and errors about the file to `info`.
 size_t pick_shown(const MotionFile& file, const BodyMotions& body, const std::string& path,
                   const InfoVerb& verb, const RigOptions& options, Info& info) {
   const std::vector<std::string> names = file.clip_names();
@@ -161,7 +161,7 @@ size_t pick_shown(const MotionFile& file, const BodyMotions& body, const std::st
   return 0;
 }
 
-// The styles that a motion shows: those of a hundredth at the least.
+// The styles recognised in a motion, with a share of at least 0.01.
 std::vector<std::pair<std::string, float>> styles_of(const Clip& clip, const Rig& rig,
                                                      const std::shared_ptr<const Model>& remover) {
   constexpr float kLeast = 0.01f;
@@ -184,7 +184,7 @@ Info motion_info(const std::string& path, const InfoVerb& verb, const RigOptions
   const BodyMotions body = find_body_motions(*file, options);
   const size_t shown = pick_shown(*file, body, path, verb, options, info);
   const Clip& clip = file->clip(static_cast<int>(shown));
-  // A file that is no humanoid is still a file that one may want to look at.
+  // A file without a humanoid is described too.
   const Result<Rig> rig = make_rig(clip, options, path);
   if (rig) note_rate(clip, *rig, path, info.notes);
   if (!rig && !info.error) info.error = rig.error();
@@ -213,7 +213,7 @@ Info motion_info(const std::string& path, const InfoVerb& verb, const RigOptions
   return info;
 }
 
-// In short what styles prints, and all else that the file says of itself.
+// The summary that `styles` prints, and the rest of the file's metadata.
 Info model_info(const std::string& path) {
   const Result<TensorFile> file = read_tensors(path);
   if (file && is_style_file(*file)) {
@@ -225,14 +225,14 @@ Info model_info(const std::string& path) {
   Info info{summarize(loaded) + "\nMetadata:\n", to_json(loaded)};
   info.json["metadata"] = metadata;
   for (const auto& [key, value] : metadata) {
-    // These stand above.
+    // Already printed above.
     if (key == "styles" || key.starts_with("style_")) continue;
     info.text += "  " + padded(key, 16) + value + "\n";
   }
   return info;
 }
 
-// Several files are described one after another, in JSON as a list.
+// Describes several files one after another; in JSON as a list.
 int show(const InfoVerb& verb) {
   need(check_rig_flags(verb.rig), kBadUsage);
   need(check_read_options(verb.read), kBadUsage);

@@ -59,7 +59,7 @@ Result<std::vector<int>> pick_clips(const MotionFile& file, const std::string& w
     const auto is_in = [&](const std::vector<int>& list) {
       return std::find(list.begin(), list.end(), clip) != list.end();
     };
-    // Who names a pose means it.
+    // A pose (a single frame) is used only if asked for by name.
     if (is_in(body.clips) || (!wanted.empty() && is_in(body.poses))) {
       picked.push_back(clip);
     } else {

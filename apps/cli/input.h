@@ -1,5 +1,5 @@
 #pragma once
-// A motion file as the verbs take it: opened, its motions picked, its rig found.
+// A motion file as input for the verbs: opened, its motions picked, its rig found.
 
 #include <memory>
 #include <span>
@@ -19,8 +19,7 @@ bool is_motion_extension(const std::string& extension);
 // ".bvh, .glb, ...", for messages and help.
 std::string motion_extensions();
 
-// Reads a motion file of any kind that the program knows. An FBX file comes as the GLB that it is
-// turned into.
+// Reads a motion file of any known format. FBX is converted to GLB.
 Result<std::unique_ptr<MotionFile>> open_motion(const std::string& path,
                                                 const ReadOptions& options = {});
 
@@ -29,30 +28,29 @@ void add_read_options(CLI::App& verb, ReadOptions& options);
 // Checks what the command line says, without reading anything.
 Result<void> check_read_options(const ReadOptions& options);
 
-// Which motions of a file are meant: the one called `wanted`, or, where that is empty, all that
-// move the humanoid that `rig` helps to find (rig/body_motions.h); a note in `notes` names those
-// that are passed over. Never empty: a file without such motion is rejected, as is a name that it
-// does not hold, or holds for another kind of motion. `path` stands in front of the message of a
-// failure.
+// Picks the motions of a file: the one called `wanted`, or, if that is empty, all that move the
+// humanoid found with `rig` (rig/body_motions.h); a note in `notes` names the skipped ones. Never
+// empty: rejects a file without such motions, and a name that is missing or belongs to another kind
+// of motion. Failure messages begin with `path`.
 Result<std::vector<int>> pick_clips(const MotionFile& file, const std::string& wanted,
                                     const RigOptions& rig, const std::string& path,
                                     std::vector<std::string>& notes);
 
-// Whether the steps of a motion say that its rate is wrong (pose/step_rate.h): adds that to
-// `notes`.
+// Adds a note to `notes` if the steps of a motion suggest that its frame rate is wrong
+// (pose/step_rate.h).
 void note_rate(const Clip& clip, const Rig& rig, const std::string& path,
                std::vector<std::string>& notes);
 
-// Each as a message on stderr.
+// Prints each as a message on stderr.
 void print_notes(const std::vector<std::string>& notes);
 
 // "'walk', 'wave'": the names of these motions, for messages.
 std::string list_clips(const MotionFile& file, std::span<const int> clips);
 
-// What to call a motion: its name in the file, or the file's where it has none.
+// The title of a motion: its name in the file, or the file's name if it has none.
 std::string title_of(const std::string& clip_name, const std::string& path);
 
-// Rig::create with `path` in front of the message of a failure.
+// Rig::create, with failure messages that begin with `path`.
 Result<Rig> make_rig(const Clip& clip, const RigOptions& options, const std::string& path);
 
 }  // namespace panache::cli

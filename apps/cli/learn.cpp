@@ -171,13 +171,13 @@ Result<void> check_usage(const LearnVerb& verb) {
 
 int learn(const LearnVerb& verb) {
   need(check_usage(verb), kBadUsage);
-  // A model that is not there yet begins as a copy of the shipped one.
+  // A new model begins as a copy of the shipped one.
   std::error_code unknown;
   const bool is_new = !std::filesystem::exists(verb.model, unknown);
   const std::string base = is_new ? need(find_model("")) : verb.model;
   if (!is_new) need(check_writable(verb.model));
   const TensorFile model = need(read_tensors(base));
-  // Before the work: a name that is taken.
+  // Checked before the work: the name is taken.
   if (need(Model::create(model, base))->find_style(verb.name) && !verb.force) {
     const std::string owner =
         is_new ? "the shipped model, which " + verb.model + " starts from," : base + ":";

@@ -1,5 +1,5 @@
-// panache live: motion from trackers in, the same motion in another style out to avatars, while it
-// happens (VMC protocol).
+// panache live: restyles motion from trackers in real time and sends it on to avatars (VMC
+// protocol).
 
 #include <chrono>
 #include <cstdio>
@@ -52,7 +52,7 @@ std::vector<float> read_styles(const std::vector<std::string>& texts, const Mode
   return strengths;
 }
 
-// What is sent to the port that is listened at would come in again, and again.
+// Output sent to the input port would loop for ever.
 Result<void> check_no_circle(const sockaddr_in& in, const sockaddr_in& out) {
   const uint32_t from = ntohl(in.sin_addr.s_addr), to = ntohl(out.sin_addr.s_addr);
   const bool to_itself =
@@ -67,7 +67,7 @@ void relay_until_stopped(VmcRelay& relay, bool quiet) {
   double next = stamp_now() + 1;
   while (!stop_asked()) {
     relay.run_once();
-    // Also where the clock was set back.
+    // Also when the clock was set back.
     if (stamp_now() < next && stamp_now() > next - 2) continue;
     next = stamp_now() + 1;
     const std::string line = relay.second(), note = relay.take_note();
@@ -96,7 +96,7 @@ void write_recording(const VmcRecording& recording, const Options& options) {
         " s) into " + options.record + (recording.full() ? ", which is full\n" : "\n"));
 }
 
-// Answers the page's requests beside the relay, as long as it exists.
+// Serves the page in parallel with the relay, for the lifetime of this object.
 class Serving {
  public:
   // `server` may be null.
@@ -107,7 +107,7 @@ class Serving {
     });
   }
   ~Serving() {
-    // A stop that comes before the server listens is not heard.
+    // A stop before the server listens has no effect, so it is repeated.
     while (server_ && over_.wait_for(kStopEvery) != std::future_status::ready) server_->stop();
   }
   Serving(const Serving&) = delete;
@@ -144,7 +144,7 @@ int live(const Options& options) {
   std::unique_ptr<PageServer> server;
   if (options.view) {
     server = need(PageServer::create());
-    // For as many poses as each reader is fast enough for.
+    // Each reader gets as many poses as it can keep up with.
     server->serve("/live/body.bvh", [&view] { return view.body(); });
     server->serve_events("/live/poses", [&view] {
       return [&view, known = uint64_t{0}]() mutable { return view.next(known); };
@@ -172,7 +172,7 @@ int live(const Options& options) {
   return kDone;
 }
 
-// What comes before 'send' would be read for live and then be ignored.
+// Options before 'send' would be read as options of live and then be ignored.
 void check_nothing_before_send(const CLI::App& live) {
   for (const CLI::Option* option : live.get_options()) {
     if (option->count() == 0) continue;

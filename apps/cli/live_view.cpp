@@ -10,7 +10,7 @@
 namespace panache::cli {
 namespace {
 
-constexpr std::chrono::milliseconds kPatience{500};  // For a pose.
+constexpr std::chrono::milliseconds kPatience{500};  // Max wait for a pose.
 
 }  // namespace
 

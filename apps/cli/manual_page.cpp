@@ -1,4 +1,4 @@
-// The manual page: roff with the macros of man(7).
+// Writes the manual page in roff, with the macros of man(7).
 
 #include <algorithm>
 #include <iterator>
@@ -10,11 +10,11 @@
 namespace panache::cli {
 namespace {
 
-// What roff does not take literally. A hyphen would become a typographic one.
+// Escapes special characters. roff would turn a hyphen into a typographic one.
 constexpr std::pair<char, const char*> kEscapes[] = {
     {'\\', "\\e"}, {'-', "\\-"}, {'\'', "\\(aq"}, {'`', "\\(ga"}, {'^', "\\(ha"}, {'~', "\\(ti"}};
 
-// A full stop or an apostrophe at the start of a line would be a request.
+// A full stop or apostrophe at the start of a line would be read as a request.
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -52,7 +52,7 @@ void write_options(std::string& out, const VerbEntry& verb) {
   }
 }
 
-// Notes and examples: indented lines keep their form, an empty line begins a paragraph.
+// Notes and examples: indented lines keep their layout, an empty line begins a paragraph.
 void write_footer(std::string& out, const std::string& footer) {
   std::istringstream lines(footer);
   bool in_example = false;
@@ -71,7 +71,7 @@ void write_footer(std::string& out, const std::string& footer) {
   if (in_example) out += ".fi\n.RE\n";
 }
 
-// The required arguments of a verb in the order of a command line, and a place for the rest.
+// The required arguments of a verb in command-line order, and a placeholder for the rest.
 std::string synopsis_of(const VerbEntry& verb) {
   std::string text = bold("panache") + " " + bold(verb.name);
   for (const bool positional : {true, false}) {
@@ -104,7 +104,7 @@ Bad usage: an unknown command or option, or a value out of range.
 std::string manual_page(const std::vector<VerbEntry>& verbs, const std::string& version) {
   const VerbEntry& program = verbs.front();
   std::string out = ".TH PANACHE 1 \"\" \"panache " + version + "\" \"User Commands\"\n";
-  // Neither hyphens nor padding between words: options and file names stay whole.
+  // Disables hyphenation and justification, so that options and file names stay intact.
   out += ".nh\n.ad l\n.SH NAME\npanache \\- change the style of motion\n.SH SYNOPSIS\n";
   for (const VerbEntry& verb : verbs) {
     if (!verb.name.empty()) out += synopsis_of(verb) + "\n.br\n";

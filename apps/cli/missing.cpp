@@ -1,4 +1,4 @@
-// What stands in the place of sources whose library a build lacks: PANACHE_NO_... says which.
+// Replaces sources whose library is missing in this build; PANACHE_NO_... says which.
 
 #include "fbx.h"
 #include "formats.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Model files that are changed in their place.
+// Edits model files in place.
 
 #include <string>
 
@@ -11,11 +11,10 @@ namespace panache::cli {
 // The tensors of a model or style file.
 Result<TensorFile> read_tensors(const std::string& path);
 
-// Rejects a read-only file: renaming over it would need no permission.
+// Rejects a read-only file: replacing it by renaming would not need write permission.
 Result<void> check_writable(const std::string& path);
 
-// Puts a changed model into the place of the old one, whole or not at all; a link stays one. The
-// file is writable.
+// Replaces a model file atomically; a link remains a link. The file must be writable.
 Result<void> replace_model(const std::string& path, const TensorFile& model);
 
 }  // namespace panache::cli

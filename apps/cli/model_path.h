@@ -1,5 +1,5 @@
 #pragma once
-// Where the models are that come with the program.
+// Finds the models that are shipped with the program.
 
 #include <string>
 
@@ -8,18 +8,18 @@
 namespace panache::cli {
 
 inline constexpr const char* kDefaultModel = "panache-int8.safetensors";
-inline constexpr const char* kFloatModel = "panache.safetensors";  // The default as floats.
+inline constexpr const char* kFloatModel = "panache.safetensors";  // The default model in float.
 inline constexpr const char* kRemoverModel = "remover-int8.safetensors";
 inline constexpr const char* kNeutralBank = "neutral.safetensors";
 inline constexpr const char* kWalkerModel = "walker.safetensors";
 
-// The path of the shipped model called `file_name`: in share/panache/models beside an installed
-// program's folder, in models/ beside the program, or in models/ of the checkout that it was built
-// in. The message of a failure lists where it was looked for.
+// The path of the shipped model `file_name`: in share/panache/models next to an installed program's
+// folder, in models/ next to the program, or in models/ of the checkout that it was built in.
+// Failure messages list the searched paths.
 Result<std::string> find_shipped(const std::string& file_name);
 
-// The path of the model to use: `given` (--model) if not empty, else the one that the environment
-// variable PANACHE_MODEL names, else the shipped one called `file_name`. Nothing is read yet.
+// The path of the model to use: `given` (--model) if not empty, else the environment variable
+// PANACHE_MODEL, else the shipped model `file_name`. Does not read the file.
 Result<std::string> find_model(const std::string& given,
                                const std::string& file_name = kDefaultModel);
 

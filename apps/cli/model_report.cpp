@@ -10,7 +10,7 @@
 namespace panache::cli {
 namespace {
 
-// A metadata entry; empty where the file has none.
+// A metadata entry; empty if missing.
 std::string entry(const std::map<std::string, std::string>& metadata, const std::string& key) {
   const auto found = metadata.find(key);
   return found == metadata.end() ? "" : found->second;
@@ -21,21 +21,21 @@ std::string entry(const Model& model, const std::string& key) {
 
 std::string stated(const std::string& text) { return text.empty() ? "not stated" : text; }
 
-// What the file was made of, and under which terms.
+// The sources of the file and their licences.
 std::string describe_data(const std::map<std::string, std::string>& metadata) {
   const std::string data = entry(metadata, "data"), licence = entry(metadata, "licence");
   return "  trained on   " + stated(data) + "\n" + "  data licence " + stated(licence) + "\n";
 }
 
-// "gestures: head nods, 1.2 s; dip, 0.8 s"; empty without any.
+// "gestures: head nods, 1.2 s; dip, 0.8 s"; empty if there are none.
 std::string list_gestures(std::span<const std::string> gestures) {
   std::string text;
   for (const std::string& name : gestures) text += (text.empty() ? "gestures: " : "; ") + name;
   return text;
 }
 
-// A line for the style, its description `width` letters from its name's start; below that what it
-// was learnt from, and its gestures.
+// One line for the style, with the description in column `width`; below it the style's sources and
+// gestures.
 std::string describe(const StyleInfo& style, std::span<const std::string> gestures, size_t width) {
   const std::string from = style.origin.empty() ? "" : " from " + style.origin;
   const std::string origin = style.learnt ? "learnt" + from : "";
@@ -58,11 +58,11 @@ std::vector<std::string> gestures_of(const Model& model, ptrdiff_t style) {
 }
 
 struct Group {
-  std::string title;  // Empty where the model has no groups.
+  std::string title;  // Empty if the model has no groups.
   std::vector<const StyleInfo*> styles;
 };
 
-// The styles by their groups, each where the first of its styles stands.
+// The styles by group; groups are ordered by their first style.
 std::vector<Group> group_styles(const std::vector<StyleInfo>& styles) {
   const auto has_group = [](const StyleInfo& style) { return !style.group.empty(); };
   const bool any = std::ranges::any_of(styles, has_group);
@@ -77,7 +77,7 @@ std::vector<Group> group_styles(const std::vector<StyleInfo>& styles) {
   return groups;
 }
 
-// Names with commas between them, in lines of at most 80 letters that begin with `indent` spaces.
+// Names separated by commas, in lines of at most 80 letters with an indent of `indent` spaces.
 std::string list_names(const Group& group, size_t indent) {
   constexpr size_t kWidth = 80;
   std::string text;
@@ -98,7 +98,7 @@ std::string list_names(const Group& group, size_t indent) {
   return text + "\n";
 }
 
-// All but the styles.
+// All except the styles.
 std::string describe_head(const LoadedModel& loaded) {
   const Model& model = *loaded.model;
   std::string text = loaded.path + "\n";
@@ -110,8 +110,8 @@ std::string describe_head(const LoadedModel& loaded) {
   return text + plural(model.styles().size(), "style") + ":\n";
 }
 
-// Where the motion of a style comes from, and under which licence it is: its own, else what it was
-// trained on and that data's licence; "not stated" without either.
+// The source of a style's motion and its licence: the style's own, else those of the model's
+// training data; "not stated" if both are missing.
 std::string source_of(const LoadedStyle& loaded) {
   const StyleInfo& info = loaded.info;
   if (!info.source.empty()) return info.source;
@@ -121,7 +121,7 @@ std::string source_of(const LoadedStyle& loaded) {
 
 std::string licence_of(const LoadedStyle& loaded) {
   if (!loaded.info.licence.empty()) return loaded.info.licence;
-  // What is learnt from somebody's own motion is theirs; the model's data are not its own.
+  // A style learnt from a user's motion is the user's; the model's data licence does not apply.
   return stated(loaded.info.learnt ? "" : entry(loaded.file.metadata, "licence"));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a model file is, a style file, and a folder of these, in words and as JSON.
+// Describes a model file, a style file or a folder of style files, in text and as JSON.
 
 #include <memory>
 #include <string>
@@ -14,22 +14,22 @@ namespace panache::cli {
 struct LoadedModel {
   std::string path;
   std::shared_ptr<const Model> model;
-  uint64_t bytes = 0;  // Of the file.
+  uint64_t bytes = 0;  // Size of the file.
 };
 Result<LoadedModel> load_model(const std::string& path);
 
-// A few lines about the model, then a line for each style, by groups where the model has them.
+// A few lines about the model, then one per style, grouped if the model has groups.
 std::string describe(const LoadedModel& loaded);
-// The same, but only the names of the styles.
+// The same with style names only.
 std::string summarize(const LoadedModel& loaded);
 Json to_json(const LoadedModel& loaded);
 
 struct LoadedStyle {
   std::string path;
   StyleInfo info;
-  std::vector<std::string> gestures;  // Their names.
+  std::vector<std::string> gestures;  // Names.
   TensorFile file;
-  uint64_t bytes = 0;  // Of the file.
+  uint64_t bytes = 0;  // Size of the file.
 };
 Result<LoadedStyle> load_style(const std::string& path);
 
@@ -38,23 +38,22 @@ Json to_json(const LoadedStyle& loaded);
 
 struct StyleLibrary {
   std::string folder;
-  std::vector<LoadedStyle> styles;  // By their files' names.
-  std::vector<Error> broken;        // Of files that end in .safetensors and cannot be read.
+  std::vector<LoadedStyle> styles;  // Sorted by file name.
+  std::vector<Error> broken;        // Errors of unreadable .safetensors files.
 };
 
-// The style files in a folder, not below it; models in it are left out. Fails where there is no
-// such folder.
+// Reads the style files directly in a folder, without models. Fails if the folder does not exist.
 Result<StyleLibrary> read_library(const std::string& folder);
 
-// A line for each style: its name, description, source, licence and file.
+// One line per style: its name, description, source, licence and file.
 std::string describe(const StyleLibrary& library);
 Json to_json(const StyleLibrary& library);
 
-// The model with all styles of a library that are made for it; those of its own names are
-// replaced. A message says which are not.
+// The model with all matching styles of a library added; they replace styles of the same name.
+// Prints a message for each style made for another model.
 TensorFile with_library(TensorFile model, const std::string& name, const StyleLibrary& library);
 
-// Prints what is known of a model, of a style file or of a folder of these.
+// Prints a report on a model, a style file or a folder of these.
 template <class Loaded>
 int report(const Loaded& loaded, bool json) {
   print(json ? dump(to_json(loaded)) : describe(loaded));

@@ -11,15 +11,15 @@
 namespace panache::cli {
 namespace {
 
-// Bytes of all members, unpacked, of an archive of `packed` bytes. Motion is packed to a half or a
-// third, a skeleton at rest to less.
+// Max unpacked bytes of all members in an archive of `packed` bytes. Motion compresses to a half or
+// a third, a motionless skeleton to less.
 size_t most_unpacked(size_t packed) {
   return std::min(size_t{1} << 30, std::max(size_t{32} << 20, 20 * packed));
 }
 constexpr zip_int64_t kMostMembers = 1000;
 
-// The bytes of a member, or a few more than `most` of them; what its header says of their number is
-// not trusted.
+// The bytes of a member, or slightly more than `most` of them; the size in its header is not
+// trusted.
 Result<std::string> unpack(zip_t* zip, zip_uint64_t which, size_t most, const std::string& place) {
   zip_file_t* file = zip_fopen_index(zip, which, 0);
   if (!file) return Error{place + ": cannot be unpacked: " + zip_strerror(zip)};
@@ -74,7 +74,7 @@ Result<std::vector<NpzMember>> unpack_all(const std::string& bytes, const std::s
   return members;
 }
 
-// Writing to memory fails only where memory does.
+// Writing to memory fails only if memory runs out.
 std::string pack(const std::vector<NpzMember>& members) {
   zip_error_t error;
   zip_error_init(&error);
@@ -88,7 +88,7 @@ std::string pack(const std::vector<NpzMember>& members) {
     assert(at >= 0);
     const auto which = static_cast<zip_uint64_t>(at);
     zip_set_file_compression(zip, which, ZIP_CM_STORE, 0);
-    zip_file_set_dostime(zip, which, 0, 1 << 5 | 1, 0);  // 1980-01-01, as numpy has it.
+    zip_file_set_dostime(zip, which, 0, 1 << 5 | 1, 0);  // 1980-01-01, as numpy writes it.
   }
   [[maybe_unused]] const int closed = zip_close(zip);
   assert(closed == 0);

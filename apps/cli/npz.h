@@ -1,5 +1,5 @@
 #pragma once
-// Archives of numpy's arrays (.npz), which are zip files, and the motion of body models in them.
+// NumPy archives (.npz), which are zip files, and the motion of body models in them.
 
 #include <memory>
 #include <string>
@@ -10,13 +10,13 @@
 
 namespace panache::cli {
 
-// Reads the motion of SMPL, SMPL-H or SMPL-X (clip/smpl.h) from the bytes of an archive, stored or
-// compressed, of at most 1 GB unpacked. A build without libzip has only a message.
+// Reads SMPL, SMPL-H or SMPL-X motion (clip/smpl.h) from the bytes of an archive, stored or
+// compressed, at most 1 GB unpacked. A build without libzip always fails with a message.
 Result<std::unique_ptr<MotionFile>> parse_npz(std::string bytes, const std::string& path,
                                               const ReadOptions& options = {});
 
-// A new archive, stored as numpy.savez does it, of a motion of smpl_body(). The same motion gives
-// the same bytes. Null in a build without libzip.
+// A new archive, stored as by numpy.savez, with a motion of smpl_body(). Deterministic. Null in a
+// build without libzip.
 extern std::string (*const kWriteNpz)(const Clip& clip, const std::string& name,
                                       const Placement& placement, const SkinnedBody* body);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Where new motions go: into the file that they are of, or into that of a character (--onto).
+// Where new motions go: into their input file, or into a character's file (--onto).
 
 #include <memory>
 #include <optional>
@@ -19,75 +19,75 @@ namespace panache::cli {
 
 struct OntoFlags {
   std::string file;  // Or empty.
-  std::string map;   // A JSON file for that file's joints, or empty.
+  std::string map;   // JSON mapping of that file's joints, or empty.
 };
 // Gives `verb` --onto and --onto-map; `flags` must outlive it.
 CLI::Option* add_onto_options(CLI::App& verb, OntoFlags& flags);
 
-// Without a flag new motions come first in the file that they are of, and alone on a character.
+// By default new motions come first in their input file, and replace all in a character's file.
 struct PlaceFlags {
   bool replace = false, first = false, last = false;
 };
-// Gives `verb` --replace, --first and --last, of which one goes; `whose` are the motions that would
-// go.
+// Gives `verb` --replace, --first and --last, which exclude each other; `whose` says in the help
+// which motions are replaced.
 void add_place_options(CLI::App& verb, PlaceFlags& flags, const std::string& whose);
-// `onto`: into a character's file.
+// `onto`: new motions go into a character's file.
 EditMode edit_mode(const PlaceFlags& flags, bool onto);
 
-// What retarget, convert and stylize have in common.
+// The options common to retarget, convert and stylize.
 struct MotionFlags {
   BatchFlags batch;
   ReadOptions read;
   RigFlags rig;
   OntoFlags onto;
   PlaceFlags place;
-  std::string clip;       // The motion to take, or empty for all.
+  std::string clip;       // The motion to use, or empty for all.
   bool in_place = false;  // See stay_in_place().
-  bool no_body = false;   // Sticks instead of a body where joints have no mesh.
+  bool no_body = false;   // A stick figure instead of a body if joints have no mesh.
 };
 
 // Gives `verb` --in-place and --no-body.
 void add_result_options(CLI::App& verb, MotionFlags& flags);
 
-// A motion to be written, as ClipEdit has it.
+// A motion to be written; see ClipEdit.
 struct NewMotion {
   Clip clip = {};
   std::string name = {};
   int which = kNewClip;
   std::vector<double> source_frames = {};
-  std::optional<Rig> rig = {};  // Where it goes into a file of its own.
+  std::optional<Rig> rig = {};  // Set if it goes into a separate file.
 };
-// `motions` outlive the edits.
+// `motions` must outlive the edits.
 std::vector<ClipEdit> edits_of(const std::vector<NewMotion>& motions);
 
-// Makes the names of new motions different from each other and from those that the file `has`, and
-// puts them into `file`, with the sentence that tells them. They stay where the output is a BVH
-// file, whose motion has no name, or where the motions take the place of others and their names.
+// Gives new motions names that differ from each other and from those in `has`, and adds a line that
+// lists them to `file`. Names stay for a BVH output, which stores none, and if the motions replace
+// others and take their names.
 void name_new_motions(FileJob& file, const std::vector<std::string>& has, const PlaceFlags& flags,
                       bool onto, std::vector<NewMotion>& motions);
 
 class CharacterFile {
  public:
-  // Fails where the file cannot be read or holds no humanoid.
+  // Fails if the file cannot be read or holds no humanoid.
   static Result<CharacterFile> open(const OntoFlags& flags);
 
   const std::string& path() const { return path_; }
-  // Of the files that hold the character: .glb for .fbx, else the file's own.
+  // The extension of output files: .glb for .fbx, else the character file's.
   std::string extension() const;
-  // Rejects outputs that the character cannot be written to.
+  // Rejects outputs whose format the character cannot be written in.
   Result<void> check_outputs(const std::vector<FileJob>& files) const;
 
-  // The motion on the character. `place` stands in front of the message of a failure.
+  // The motion retargeted to the character. Failure messages begin with `place`.
   Result<Clip> put(const Clip& motion, const Rig& rig, const std::string& place,
                    const RetargetOptions& options = {}) const;
-  // The rig of motion that was put on it.
+  // The rig of a motion after put().
   Result<Rig> rig_of(const Clip& clip, const std::string& place) const;
 
-  // The bytes of the character's file with these motions; a file of another format has the joints
-  // alone, and one motion.
+  // The bytes of the character's file with these motions; other formats get the joints only, and
+  // one motion.
   Result<std::string> encode(const std::vector<NewMotion>& motions, EditMode mode,
                              const std::string& output, bool no_body) const;
-  // The motions that the file has.
+  // The names of the motions in the file.
   std::vector<std::string> clip_names() const { return file_->clip_names(); }
 
  private:
@@ -102,12 +102,12 @@ class CharacterFile {
   std::string path_;
   std::shared_ptr<const MotionFile> file_;
   RigOptions options_;
-  Clip clip_;  // What tells the rig: the rest pose, or a motion where that does not stand.
+  Clip clip_;  // Defines the rig: the rest pose, or a motion if the rest pose is unusable.
   Rig rig_;
 };
 
-// Writes the character with the motions of each input, as they are: retarget and convert --onto.
-// `doing`, `done`: as for run_batch(). The exit code.
+// Writes the character with the unstyled motions of each input (retarget and convert --onto).
+// `doing`, `done`: see run_batch(). Returns the exit code.
 int retarget_files(const MotionFlags& flags, const RetargetOptions& options,
                    const std::string& doing, const std::string& done);
 

@@ -13,7 +13,7 @@ OptionEntry entry_of(const CLI::Option& option) {
   OptionEntry entry;
   for (const std::string& name : option.get_snames()) entry.names.push_back("-" + name);
   for (const std::string& name : option.get_lnames()) entry.names.push_back("--" + name);
-  // A flag takes no value. A positional argument without a type of its own goes by its name.
+  // A flag takes no value. A positional argument without a type is named after itself.
   if (option.get_items_expected_max() > 0) {
     entry.value = option.get_type_name();
     const bool own_type =
@@ -43,7 +43,7 @@ void add_entries(std::vector<VerbEntry>& verbs, const CLI::App& app, const std::
   }
 }
 
-// For the completions, which ask again and again.
+// Kept for the completions, which ask many times.
 int print_style_names() {
   const Result<std::string> path = find_model("");
   if (!path) return fail(path.error(), kBadInput);

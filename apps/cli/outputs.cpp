@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Existing files that a message names before it says how many more there are.
+// Max existing files listed in a message before "and N more".
 constexpr size_t kNamed = 3;
 
 }  // namespace
@@ -38,7 +38,7 @@ Result<std::vector<FilePair>> name_outputs(const FoundFiles& inputs, const std::
   if (!is_folder && fs::exists(output, status)) {
     return Error{output + ": is a file; expected a folder for the results of " + many};
   }
-  // Most likely a file was meant, and a glob brought more than one.
+  // Probably a file was meant, and a glob matched more than one.
   if (!is_folder && !slash && fs::path(output).has_extension()) {
     return Error{output + ": expected a folder for the results of " + many + "; call it '" +
                  output + "/' if it is to be one"};

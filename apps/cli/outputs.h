@@ -1,5 +1,5 @@
 #pragma once
-// Where results go.
+// Names and checks output files.
 
 #include <filesystem>
 #include <string>
@@ -10,25 +10,25 @@
 
 namespace panache::cli {
 
-// A file to be made, and the one that it is made of.
+// An output file and the input that it is made from.
 struct FilePair {
   std::string input, output;
 };
 
-// `name` with `extension` for its own where that is not empty, and with .glb for .fbx, which nobody
-// writes here.
+// `name` with its extension replaced by `extension` unless that is empty, and .fbx by .glb, as FBX
+// is not written.
 std::filesystem::path with_extension(std::filesystem::path name, const std::string& extension);
 
-// The output file of each input. `output` is a folder where the inputs are a batch, where it ends
-// in '/' and where it is one; files in it are called as the inputs, see with_extension(). Two
-// inputs with one output are rejected.
+// The output file of each input. `output` is a folder for a batch, if it ends in '/' or if it is an
+// existing folder; files in it are named after the inputs, see with_extension(). Rejects two inputs
+// with one output.
 Result<std::vector<FilePair>> name_outputs(const FoundFiles& inputs, const std::string& output,
                                            const std::string& extension = "");
 
-// Rejects all outputs that exist, in one message, unless `force`: before any work is done. The
-// message says where one of them is its very input.
+// Rejects all outputs that exist, in one message, unless `force`; called before any work is done.
+// The message says if an output is its own input.
 Result<void> check_outputs(const std::vector<FilePair>& files, bool force);
-// The same for a single file.
+// For a single file.
 Result<void> check_output(const std::string& input, const std::string& output, bool force);
 
 }  // namespace panache::cli

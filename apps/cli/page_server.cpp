@@ -21,14 +21,14 @@ namespace fs = std::filesystem;
 constexpr const char* kAddress = "127.0.0.1";
 constexpr size_t kThreads = 8;
 constexpr int kForbidden = 403, kNotFound = 404, kMethodNotAllowed = 405;
-// What the page may do: run its own scripts and its WebAssembly, read its own files and those that
-// a user opens, and be shown in no page of others.
+// The page may only run its own scripts and WebAssembly, read its own files and those that the user
+// opens, and must not be framed by other pages.
 constexpr const char* kPolicy =
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; "
     "img-src 'self' data: blob:; media-src blob:; connect-src 'self' data: blob:; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-// The folder that ./run web makes: beside an installed program's folder or beside the build's.
+// The folder that ./run web builds: next to an installed program's folder or next to the build's.
 Result<std::string> find_page() {
   std::error_code status;
   const fs::path folder = fs::path(program_path()).parent_path();
@@ -41,8 +41,8 @@ Result<std::string> find_page() {
   return Error{"the page was not found; searched " + looked + "; ./run web makes it"};
 }
 
-// Pages of others must not reach this server: neither under a name of theirs that leads to this
-// machine, nor by requests that their browsers send here.
+// Blocks other sites from reaching this server, by a domain name that resolves to this machine or
+// by cross-origin requests from the user's browser.
 int status_of(const httplib::Request& request, int port) {
   const std::string end = ":" + std::to_string(port);
   const auto is_own = [&](const std::string& host) {
@@ -58,11 +58,11 @@ int status_of(const httplib::Request& request, int port) {
   return request.method == "GET" || request.method == "HEAD" ? 0 : kMethodNotAllowed;
 }
 
-// Up to kThreads threads, as many as can be started. httplib's own would end the program where one
-// of them cannot, or where a request finds no memory; here that request gets no answer.
+// A pool of up to kThreads threads, or as many as can be started. httplib's own pool would abort if
+// a thread cannot start or a request runs out of memory; here that request gets no answer.
 class PageThreads final : public httplib::TaskQueue {
  public:
-  // Throws std::system_error where no thread can be started.
+  // Throws std::system_error if no thread can be started.
   PageThreads() {
     threads_.reserve(kThreads);
     while (threads_.size() < kThreads) {
@@ -78,7 +78,7 @@ class PageThreads final : public httplib::TaskQueue {
   PageThreads(const PageThreads&) = delete;
   PageThreads& operator=(const PageThreads&) = delete;
 
-  // Newer releases want to hear that there was room.
+  // Newer releases check whether the job was accepted.
   using Enqueued = decltype(std::declval<httplib::TaskQueue&>().enqueue(nullptr));
   Enqueued enqueue(std::function<void()> job) override {
     {
@@ -112,14 +112,14 @@ class PageThreads final : public httplib::TaskQueue {
       }
       try {
         job();
-      } catch (...) {  // Without memory: the request gets no answer.
+      } catch (...) {  // Out of memory: the request gets no answer.
       }
     }
   }
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::list<std::function<void()>> jobs_;  // Guarded by the mutex, and so is:
+  std::list<std::function<void()>> jobs_;  // The mutex guards this and the following:
   bool over_ = false;
   std::vector<std::thread> threads_;
 };
@@ -132,14 +132,14 @@ Result<std::unique_ptr<PageServer>> PageServer::create() {
   std::unique_ptr<PageServer> out(new PageServer);
   httplib::Server& server = out->server_;
   server.new_task_queue = [] { return new PageThreads; };
-  // With these a page may read a finer clock, which the times of a step are told by.
+  // These headers give the page a finer clock, which measures the time of a step.
   server.set_default_headers({{"Cross-Origin-Opener-Policy", "same-origin"},
                               {"Cross-Origin-Embedder-Policy", "require-corp"},
                               {"Cross-Origin-Resource-Policy", "same-origin"},
                               {"Content-Security-Policy", kPolicy},
                               {"X-Content-Type-Options", "nosniff"},
                               {"Cache-Control", "no-cache"}});
-  // What follows a rejected request on its connection is not read as another one.
+  // Data after a rejected request must not be parsed as another request.
   server.set_keep_alive_max_count(1);
   const int port = server.bind_to_any_port(kAddress);
   if (port < 0) {
@@ -178,8 +178,7 @@ void PageServer::serve_events(const std::string& path,
               [this, open = std::move(open)](const httplib::Request&, httplib::Response& answer) {
                 answer.set_chunked_content_provider(
                     "text/event-stream", [this, next = open()](size_t, httplib::DataSink& sink) {
-                      // A comment where there is no event, so that a reader that has gone is
-                      // noticed.
+                      // Sends a comment if there is no event, to detect disconnected readers.
                       const std::string text = next();
                       const std::string event = text.empty() ? ":\n\n" : "data: " + text + "\n\n";
                       if (!sink.write(event.data(), event.size())) return false;

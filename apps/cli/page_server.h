@@ -1,5 +1,5 @@
 #pragma once
-// The page over HTTP, for this machine alone.
+// Serves the page over HTTP, to this machine only.
 
 #include <atomic>
 #include <functional>
@@ -14,21 +14,21 @@ namespace panache::cli {
 
 class PageServer {
  public:
-  // Finds the folder of the page and binds a free port of the loopback address. Fails with a
-  // message where there is neither.
+  // Finds the page's folder and binds a free port of the loopback address. Fails if there is
+  // neither.
   static Result<std::unique_ptr<PageServer>> create();
 
   // "127.0.0.1:40123"
   const std::string& address() const { return address_; }
 
-  // Before listen(). `path`: a regular expression of what follows the address. `content` is called
-  // in a thread of its own for each request; the answer is 404 while it is empty.
+  // Call before listen(). `path`: a regular expression for the URL path. `content` is called in a
+  // server thread for each request; while it returns an empty string, the response is 404.
   void serve(const std::string& path, std::function<std::string()> content);
-  // Server-sent events: `open` is called for each reader, and what it returns gives the next line
-  // or, after a while at the latest, an empty one.
+  // Server-sent events: `open` is called for each reader and returns a function that yields the
+  // next line, or an empty one after a timeout.
   void serve_events(const std::string& path, std::function<std::function<std::string()>()> open);
 
-  // Answers requests until stop(), which any thread may call.
+  // Answers requests until stop(), which is thread-safe.
   Result<void> listen();
   void stop();
 

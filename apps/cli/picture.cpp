@@ -39,7 +39,7 @@ Result<std::string> convert(const std::string& picture) {
 
 Result<std::string> picture_to_png(const std::string& picture, const std::string& path) {
   Result<std::string> png = run_in_child(kPictureReader, path, picture, kFailure, kLongestRead);
-  // What the picture is called, the caller says.
+  // The caller adds the picture's name.
   return png ? png : Error{kFailure};
 }
 

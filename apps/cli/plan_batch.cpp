@@ -1,4 +1,4 @@
-// Which files a batch reads and writes.
+// Plans which files a batch reads and writes.
 
 #include <algorithm>
 #include <cstdio>
@@ -13,7 +13,7 @@
 namespace panache::cli {
 namespace {
 
-// The name of a result that the user did not name: "takes/walk-old.bvh" of "takes/walk.bvh".
+// The default name of an output: "takes/walk-old.bvh" for "takes/walk.bvh".
 Result<std::string> default_output(const FoundFiles& found, const OutputNaming& naming) {
   if (found.is_batch) {
     const std::string& last = found.files.back().path;
@@ -33,7 +33,7 @@ Result<std::string> default_output(const FoundFiles& found, const OutputNaming& 
   return Error{"--output is required: " + output + " is the input itself"};
 }
 
-// A job whose input or output, or both, are standard streams.
+// A job with stdin as its input, stdout as its output, or both.
 Result<FileJob> plan_stream(const BatchFlags& flags, const OutputNaming& naming) {
   if (flags.inputs.size() != 1) {
     return Error{"- (standard input) cannot be combined with other inputs; found " +
@@ -68,7 +68,7 @@ bool uses_streams(const BatchFlags& flags) {
          std::find(flags.inputs.begin(), flags.inputs.end(), kStandardStream) != flags.inputs.end();
 }
 
-// The jobs without a look at what exists.
+// The jobs, without checking which files exist.
 std::vector<FileJob> name_jobs(const BatchFlags& flags, const OutputNaming& naming) {
   std::vector<FileJob> files;
   if (uses_streams(flags)) {
@@ -86,8 +86,7 @@ std::vector<FileJob> name_jobs(const BatchFlags& flags, const OutputNaming& nami
   return files;
 }
 
-// Leaves the files of a shard: every N-th, so that long takes that stand side by side are shared
-// out.
+// Keeps the files of a shard: every N-th, so that neighbouring long takes are spread over shards.
 Result<void> take_shard(const std::string& text, std::vector<FileJob>& files) {
   size_t index = 0, count = 0;
   int length = -1;

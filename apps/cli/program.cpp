@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::string_view kHelp = "help";
 
-// The library's own message for a verb that does not exist names no verb that does.
+// CLI11's own message for an unknown verb lists no known ones.
 Result<void> check_verb(const CLI::App& app, const std::string& verb) {
   std::vector<std::string> names;
   for (const CLI::App* known : app.get_subcommands([](const CLI::App*) { return true; })) {
@@ -38,7 +38,7 @@ Result<void> check_verb(const CLI::App& app, const std::string& verb) {
                one_of(names)};
 }
 
-// The command that a command line got to: the program, a verb, or a verb of a verb.
+// The command that was parsed: the program, a verb, or a nested verb.
 const CLI::App& last_command(const CLI::App& app) {
   const std::vector<CLI::App*> parsed = app.get_subcommands();
   return parsed.empty() ? app : last_command(*parsed.front());
@@ -56,7 +56,7 @@ int run(const Program& program, int argc, char** argv) {
     return read_picture_as_child(argv[2]);
   }
   set_meshopt_decoder(kMeshoptDecoder);
-  set_motion_formats(formats());  // Those of manifests, too.
+  set_motion_formats(formats());  // For manifests, too.
   int exit_code = kDone;
   const std::unique_ptr<CLI::App> app = make_app(program, exit_code);
   if (argc < 2) {
@@ -72,7 +72,7 @@ int run(const Program& program, int argc, char** argv) {
     if (auto known = check_verb(*app, arguments[0]); !known) return fail(known.error(), kBadUsage);
   }
   try {
-    std::reverse(arguments.begin(), arguments.end());  // As CLI11 wants them.
+    std::reverse(arguments.begin(), arguments.end());  // CLI11 expects them reversed.
     app->parse(std::move(arguments));
   } catch (const Failure& failure) {
     return fail(failure.error, failure.exit_code);
@@ -85,8 +85,8 @@ int run(const Program& program, int argc, char** argv) {
   return exit_code;
 }
 
-// Freed when memory runs out for the first time: nlohmann's JSON allocates while it is destroyed,
-// which would end the program where an exception is on its way.
+// Memory kept in reserve and freed when memory first runs out: nlohmann's JSON allocates in its
+// destructor, which would abort the program while an exception is in flight.
 std::atomic<void*> reserve{nullptr};
 constexpr size_t kReserve = 1 << 16;
 
@@ -95,8 +95,8 @@ constexpr size_t kReserve = 1 << 16;
   throw std::bad_alloc();
 }
 
-// The exit code once it is known whether all that was printed arrived. A reader that has left, as
-// head does, has what it wanted.
+// The final exit code, after checking that all output was written. A reader that closed the pipe,
+// such as head, is not an error.
 int check_printed(int exit_code) {
   const Result<void> printed = finish_stdout();
   if (printed) return exit_code;
@@ -127,7 +127,7 @@ int run_program(const Program& program, int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     print_message("out of memory");
   } catch (const std::exception& error) {
-    // Of libraries below. Those of libtorch go on with where in its sources they come from.
+    // From libraries. libtorch appends its source location to messages.
     const std::string_view text = error.what();
     if (text.find("can't allocate memory") != std::string_view::npos) {
       print_message("out of memory");

@@ -5,28 +5,28 @@
 namespace panache::cli {
 namespace {
 
-// Of frames, as a whole number of hundredths.
+// A share of frames as a whole percentage.
 std::string percent(float share) { return fixed(100 * static_cast<double>(share), 0) + "%"; }
 
 double cm(float metres) { return 100 * static_cast<double>(metres); }
 
 std::string describe_loop(const LoopFacts& loop) {
-  constexpr float kTold = 0.005f;  // A gap of the input that one can see, metres.
+  constexpr float kTold = 0.005f;  // A visible gap in the input, metres.
   if (loop.input_gap < kTold) return "loop closed";
   return "loop closed (its ends were " + fixed(cm(loop.input_gap), 1) + " cm apart)";
 }
 
-// What was kept in a share of the motion: told of from the first share on, and as always from the
-// second on.
+// What was kept for a share of the motion: mentioned from kNowAndThen on, and without a percentage
+// from kAlways on.
 std::string describe_kept(const std::string& what, float share) {
   constexpr float kNowAndThen = 0.1f, kAlways = 0.9f;
   if (share < kNowAndThen) return "";
   return what + " kept" + (share < kAlways ? " for " + percent(share) + " of it" : "");
 }
 
-// Feet are held where they slide no more than this, m/s, or than in the input. Without the foot
-// lock nine of ten clips have more, with it one of ten has. Of feet that hardly ever stand nothing
-// is said.
+// Feet count as held if they slide no faster than this, m/s, or no faster than in the input.
+// Without the foot lock nine clips in ten exceed this, with it one in ten. Feet that are rarely
+// planted are not mentioned.
 std::string describe_feet(const RestyleFacts& facts) {
   constexpr float kPlanted = 0.05f, kHeld = 0.08f, kLikeInput = 1.1f;
   if (facts.planted < kPlanted) return "";

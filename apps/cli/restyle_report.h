@@ -1,5 +1,5 @@
 #pragma once
-// What stylize did to a motion, told in a line or in JSON.
+// What stylize did to a motion, in text and as JSON.
 
 #include <span>
 #include <string>
@@ -13,16 +13,16 @@ namespace panache::cli {
 std::string describe(const RestyleFacts& facts);
 Json to_json(const RestyleFacts& facts);
 
-// How much of the styles' answers to this very motion a clip got, see Stylizer::gate().
+// How far a clip's style was reduced to the mean posture; see Stylizer::gate().
 struct GateReport {
   double mean = 0, least = 1;
-  double eased = 0;  // The share of frames that got more of the mean posture than of that.
+  double eased = 0;  // The share of frames that got mostly the mean posture.
 };
 
 // gates: [frames], at least one.
 GateReport report_gate(std::span<const float> gates);
 std::string describe(const GateReport& gate);
-// A warning if most of a clip was eased.
+// A warning if most of a clip was reduced.
 std::string describe_eased(const GateReport& gate);
 Json to_json(const GateReport& gate);
 

@@ -17,7 +17,7 @@ constexpr double kSmallestUnit = 1e-9, kLargestUnit = 1e3;
 constexpr const char* kExpectedMap =
     "expected JSON such as {\"leftHand\": \"Hand_L\", \"neck\": null}";
 
-// "z" and "+Z" mean the same; empty where `text` is no axis.
+// "z" and "+Z" are equivalent; empty if `text` is not an axis.
 std::string axis_name(std::string text) {
   for (char& c : text) {
     if (c >= 'x' && c <= 'z') c = static_cast<char>(c - 'x' + 'X');
@@ -52,7 +52,7 @@ Result<void> put(const std::string& human_joint, const Json& joint, const std::s
   return {};
 }
 
-// The list that panache info --json prints, without what is only for reading.
+// Reads the list that panache info --json prints; ignores its informative entries.
 Result<void> put_list(const Json& list, const std::string& name, std::map<int, std::string>& out) {
   for (size_t i = 0; i < list.size(); ++i) {
     const Json& entry = list[i];

@@ -1,5 +1,5 @@
 #pragma once
-// What the user says of a rig instead of having it found: --scale, --up and --map.
+// Rig settings given by the user instead of detected: --scale, --up and --map.
 
 #include <optional>
 #include <string>
@@ -20,13 +20,13 @@ struct RigFlags {
 // Gives `verb` the three options; `flags` must outlive it.
 void add_rig_options(CLI::App& verb, RigFlags& flags);
 
-// Checks what the command line says, without reading anything: the scale's range and the axis.
+// Checks the scale's range and the axis without reading any file.
 Result<void> check_rig_flags(const RigFlags& flags);
-// The same as the rig wants it, the mapping file read. The flags have passed the check.
+// Reads the mapping file and returns the options for the rig. Call check_rig_flags() first.
 Result<RigOptions> read_rig_options(const RigFlags& flags);
 
-// The joints of a mapping: {"leftHand": "Hand_L", "neck": null}, or what panache info --json
-// prints. `name` stands in front of the message of a failure.
+// The joints of a mapping: {"leftHand": "Hand_L", "neck": null}, or the output of panache info
+// --json. Failure messages begin with `name`.
 Result<std::map<int, std::string>> parse_joint_map(const std::string& text,
                                                    const std::string& name);
 

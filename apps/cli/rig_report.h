@@ -1,5 +1,5 @@
 #pragma once
-// How a rig was understood, in words and as JSON.
+// How a rig was mapped, in text and as JSON.
 
 #include <string>
 
@@ -8,8 +8,8 @@
 
 namespace panache::cli {
 
-// Unit, up axis and first frame, then a line for each human joint, then notes. `given` says which
-// of them the user gave.
+// Unit, up axis and first frame, then a line per human joint, then notes. `given` tells which of
+// them the user set.
 std::string describe_mapping(const Rig& rig, const RigOptions& given);
 Json mapping_json(const Rig& rig);
 

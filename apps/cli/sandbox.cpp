@@ -22,7 +22,7 @@ bool lock_down(int out) {
   const auto allow = [&](int call) {
     return ::seccomp_rule_add(rules.get(), SCMP_ACT_ALLOW, call, 0) == 0;
   };
-  // Memory, time, signals of the process to itself, what is open already, and the end.
+  // Memory, time, signals to the process itself, files that are already open, and exit.
   for (const int call :
        {SCMP_SYS(brk), SCMP_SYS(munmap), SCMP_SYS(mremap), SCMP_SYS(madvise), SCMP_SYS(futex),
         SCMP_SYS(clock_gettime), SCMP_SYS(gettimeofday), SCMP_SYS(getpid), SCMP_SYS(gettid),
@@ -31,7 +31,7 @@ bool lock_down(int out) {
         SCMP_SYS(exit_group)}) {
     if (!allow(call)) return false;
   }
-  // No memory becomes code. Of 32-bit systems, mmap2 is what mmap is elsewhere.
+  // No executable memory. 32-bit systems have mmap2 instead of mmap.
   for (const int call : {SCMP_SYS(mmap), SCMP_SYS(mmap2), SCMP_SYS(mprotect)}) {
     if (::seccomp_rule_add(rules.get(), SCMP_ACT_ALLOW, call, 1,
                            SCMP_A2(SCMP_CMP_MASKED_EQ, PROT_EXEC, 0)) != 0) {

@@ -32,14 +32,14 @@ struct SendOptions {
   RigFlags rig;
 };
 
-// VRM's name is Unity's with a small first letter.
+// VRM's name is Unity's with a lower-case first letter.
 int bone_of(int human_joint) {
   std::string name(human_joint_name(human_joint));
   name[0] = static_cast<char>(name[0] - 'a' + 'A');
   return find_vmc_bone(name).value();
 }
 
-// Reads poses of a clip as the canonical body's bones, whose T-pose has no rotations.
+// Reads poses of a clip as bones of the canonical body, whose rotations are zero in T-pose.
 class Player {
  public:
   Player(const Clip& clip, Rig rig)
@@ -77,7 +77,7 @@ class Player {
   PosedRig rig_;
   Clip pose_;  // One frame.
   Skeleton skeleton_ = canonical_skeleton();
-  std::array<int, kHumanJoints> bones_;  // Of vmc_bones.h.
+  std::array<int, kHumanJoints> bones_;  // See vmc_bones.h.
 };
 
 Result<void> check(const SendOptions& options) {
@@ -86,7 +86,7 @@ Result<void> check(const SendOptions& options) {
   return good ? check_rig_flags(options.rig) : good;
 }
 
-// Returns how many frames were sent before the end, or before the user had enough.
+// Returns how many frames were sent before the end or Ctrl-C.
 int64_t play(Player& player, double fps, const SendOptions& options, UdpSocket& socket,
              const sockaddr_in& to) {
   using Clock = std::chrono::steady_clock;
@@ -94,18 +94,18 @@ int64_t play(Player& player, double fps, const SendOptions& options, UdpSocket& 
   const double motion = player.duration();
   constexpr double kRounding = 1e-3;  // Frames; files round their frame times.
   double count = std::numeric_limits<double>::infinity();
-  if (!options.loop) count = std::floor(motion * fps + kRounding) + 1;  // The last one too.
+  if (!options.loop) count = std::floor(motion * fps + kRounding) + 1;  // Includes the last frame.
   if (options.seconds) count = std::min(count, std::ceil(*options.seconds * fps - kRounding));
   for (int64_t frame = 0;; ++frame) {
     if (static_cast<double>(frame) >= count) return frame;
     const double at = static_cast<double>(frame) / fps;
-    // Where the motion has but one pose, there is nothing to go round.
+    // A motion with a single pose cannot loop.
     const double in_motion = options.loop && motion > 0 ? std::fmod(at, motion) : at;
     std::this_thread::sleep_until(
         begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(at)));
     if (stop_asked()) return frame;
     for (const std::vector<char>& bundle : format_vmc({at, player.bones(in_motion)})) {
-      socket.send(bundle, to);  // Nobody has to listen.
+      socket.send(bundle, to);  // Nobody may be listening, so failures are ignored.
     }
   }
 }

@@ -7,7 +7,7 @@
 namespace panache::cli {
 namespace {
 
-// The extension of files that begin and go on like this one; empty where it is none of ours.
+// The extension for the detected format of a file; empty if it is unknown.
 std::string extension_of_content(std::string_view bytes) {
   if (bytes.starts_with("glTF")) {
     const bool is_animation = bytes.find("\"VRMC_vrm_animation\"") != std::string_view::npos;
@@ -51,11 +51,11 @@ Result<void> write_stdout(std::string_view bytes) {
 }
 
 Result<void> finish_stdout() {
-  // Where an earlier write failed, another one tells the cause.
+  // If an earlier write failed, another one sets errno to the cause.
   if (std::ferror(stdout)) std::fputc('\n', stdout);
   errno = 0;
   if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return {};
-  if (errno == 0) errno = EIO;  // It came back to order meanwhile.
+  if (errno == 0) errno = EIO;  // The stream works again meanwhile.
   return Error{std::string("stdout: cannot be written: ") + std::strerror(errno)};
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Motion through stdin and stdout, which the name "-" stands for, and what is printed.
+// Motion through stdin and stdout (file name "-"), and printed output.
 
 #include <string>
 #include <string_view>
@@ -10,20 +10,20 @@ namespace panache::cli {
 
 inline constexpr std::string_view kStandardStream = "-";
 
-// A file that came through stdin.
+// A file read from stdin.
 struct StdinMotion {
-  std::string name;  // "stdin.bvh": for messages, with the extension that its content has.
+  std::string name;  // "stdin.bvh": for messages, with the extension for the detected format.
   std::string bytes;
 };
 
-// All of stdin. Rejects what cannot come that way: FBX, which is read by a process of its own, and
+// Reads all of stdin. Rejects formats that cannot be piped: FBX, which a child process reads, and
 // .amc, which needs a second file.
 Result<StdinMotion> read_stdin();
 
 Result<void> write_stdout(std::string_view bytes);
 
-// Whether all that was printed arrived: what write_stdout reports is not reported again. Called
-// once, at the end of the program. Sets errno where it fails.
+// Checks that all output was written, without repeating errors of write_stdout(). Call once, at the
+// end of the program. Sets errno on failure.
 Result<void> finish_stdout();
 
 }  // namespace panache::cli

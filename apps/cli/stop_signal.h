@@ -1,12 +1,11 @@
 #pragma once
-// Ctrl-C, for work that has to leave things in order.
+// Handles Ctrl-C for work that needs to clean up.
 
 namespace panache::cli {
 
-// From now on the first SIGINT or SIGTERM does not end the program, but is remembered. A second one
-// ends it.
+// From now on the first SIGINT or SIGTERM is only recorded. A second one ends the program.
 void watch_stop_signals();
-// Whether one has come.
+// Whether a signal was recorded.
 bool stop_asked();
 
 }  // namespace panache::cli

@@ -18,7 +18,7 @@ namespace {
 
 constexpr char kExpectedStrength[] = "expected a strength from -4 to 4";
 
-// The finite number that `text` is, whole.
+// `text` as a finite number; none if other characters follow.
 std::optional<double> parse_number(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0;
@@ -34,7 +34,7 @@ std::optional<float> parse_strength(std::string_view text) {
   return static_cast<float>(*value);
 }
 
-// What is wrong with a --style that gives no strength: "old", "old:1", "olld".
+// The error for a --style without a strength: "old", "old:1", "olld".
 Error without_strength(const std::string& text, const Model& model) {
   if (text.starts_with('-')) {
     return Error{"--style: expected a name and a strength after it, found " +
@@ -51,7 +51,7 @@ Error without_strength(const std::string& text, const Model& model) {
   return Error{"--style " + text + ": expected a name and a strength, as in '" + name + "=1'"};
 }
 
-// The usual mistakes of "1=old" and "old=1,proud=1".
+// Detects the common mistakes "1=old" and "old=1,proud=1".
 Result<void> check_order(const std::string& text, const std::string& name, const std::string& value,
                          const Model& model) {
   if (!model.find_style_in_any_case(name) && parse_number(name) &&
@@ -95,7 +95,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-// The styles of a table's columns, and which column holds the seconds.
+// The columns of a table: which style each holds, and which one holds the seconds.
 struct StrengthColumns {
   size_t seconds = 0;
   std::vector<int> styles;  // [columns], -1 for the seconds.

@@ -1,5 +1,5 @@
 #pragma once
-// Which styles the user wants, and how strongly, from the command line or from a table.
+// The requested styles and their strengths, from the command line or a table.
 
 #include <string>
 #include <vector>
@@ -10,31 +10,31 @@
 
 namespace panache::cli {
 
-// What the stylizer holds strengths to.
+// The stylizer's range of strengths.
 inline constexpr float kLowestStrength = -4, kHighestStrength = 4;
 
-// A strength track whose times may have to wait for a clip.
+// A strength track whose times may be relative to a clip that is not known yet.
 struct StrengthWish {
   StrengthTrack track;
   bool over_clip = false;  // The times are shares of the clip, 0 to 1, not seconds.
 };
 
-// What to say where no style is asked for: how that is done, and which styles there are. `files`:
-// the input files; a style among them lacks its option.
+// The error if no style is requested: explains the option and lists the styles. `files`: the input
+// files; a style name among them lacks its option.
 Error missing_style(const std::vector<std::string>& files, const Model& model);
 
 // Reads "old=1" and "old=1..0" (from the first to the last frame).
 Result<std::vector<StrengthWish>> parse_styles(const std::vector<std::string>& texts,
                                                const Model& model);
 
-// Reads a CSV with a column `seconds` (of the input, rising) and one column per style.
+// Reads a CSV with a column `seconds` (input time, increasing) and one column per style.
 Result<std::vector<StrengthWish>> read_strengths(const std::string& path, const Model& model);
 
-// The wishes for a clip that moves from `first` to `last` seconds.
+// The tracks for a clip that lasts from `first` to `last` seconds.
 std::vector<StrengthTrack> tracks_for(const std::vector<StrengthWish>& wishes, double first,
                                       double last);
 
-// A wish in a few letters, for names: "1", "1..0", "varies" (a table that changes it).
+// A short form for file names: "1", "1..0", "varies" (changed by a table).
 std::string describe(const StrengthWish& wish);
 
 }  // namespace panache::cli

@@ -1,7 +1,7 @@
 #pragma once
-// The options that stylize and live share: how much the user wants of what a style does (--posture,
-// --dynamics, --timing, --region and --gestures), and the style that is taken off the input
-// (--remove, --neutral and --remover).
+// Options shared by stylize and live: how much of a style's effects to use (--posture, --dynamics,
+// --timing, --region and --gestures), and the style to remove from the input (--remove, --neutral
+// and --remover).
 
 #include <optional>
 #include <string>
@@ -16,17 +16,17 @@
 namespace panache::cli {
 
 struct ShapeFlags {
-  Shape shape;                       // All but regions and timing.
+  Shape shape;                       // All except regions and timing.
   std::string timing = "steps";      // As typed.
   std::vector<std::string> regions;  // As typed: "legs=0.5".
-  float gestures = 0;                // Per second, at random.
+  float gestures = 0;                // Per second, at random times.
 };
 
 // Gives `verb` the five options; `flags` must outlive it.
 void add_shape_options(CLI::App& verb, ShapeFlags& flags);
 
-// Writes the shape, where the style has its tempo and the rate of gestures to `how`. Fails with a
-// message where a region is unknown, out of range or given twice, or the timing is unknown.
+// Writes the shape, the timing mode and the gesture rate to `how`. Fails if a region is unknown,
+// out of range or repeated, or if the timing is unknown.
 Result<void> read_shape(const ShapeFlags& flags, StylizerOptions& how);
 
 struct RemovalFlags {
@@ -39,12 +39,12 @@ struct RemovalFlags {
 // `flags` must outlive the verb.
 void add_removal_options(CLI::App& verb, RemovalFlags& flags);
 
-// What to take off; absent where nothing is to be. Throws Failure.
+// The style to remove, if any. Throws Failure.
 std::optional<Removal> read_removal(const RemovalFlags& flags);
 
-// "old off", or "neutral" where the style has no name.
+// "old off", or "neutral" if no style is named.
 std::string describe(const Removal& removal);
-// The name of the style that is taken off; null without one.
+// The name of the removed style; null if there is none.
 Json removed_json(const std::optional<Removal>& removal);
 
 }  // namespace panache::cli

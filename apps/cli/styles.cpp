@@ -1,4 +1,4 @@
-// panache styles: what a model can do, and its styles taken out, put in, removed and renamed.
+// panache styles: lists a model's styles, and extracts, adds, removes and renames them.
 
 #include <algorithm>
 #include <array>
@@ -46,12 +46,12 @@ int show(const std::string& path, bool json) {
   std::error_code status;
   if (std::filesystem::is_directory(path, status)) return show_library(path, json);
   const Result<TensorFile> file = read_tensors(path);
-  // An unreadable file is reported as models are everywhere.
+  // Reports an unreadable file with the usual error for models.
   if (file && is_style_file(*file)) return report(need(load_style(path)), json);
   return report(need(load_model(path)), json);
 }
 
-// These change the model, and say in a few words what was done to it.
+// These edit the model and describe the edit in a few words.
 std::string add(TensorFile& model, const StylesVerb& verb) {
   std::vector<std::string> names;
   for (const std::string& path : verb.add) {
@@ -88,8 +88,8 @@ int change(const StylesVerb& verb) {
   return kDone;
 }
 
-// A style that has no picture of its own gets one of a generated walk in it, where the walker's
-// model is at hand.
+// Gives a style without a thumbnail one, from a generated walk in that style, if the walker's model
+// is installed.
 void add_thumbnail(const TensorFile& file, const std::string& path, const std::string& style,
                    TensorFile& out) {
   const Result<std::shared_ptr<const Model>> model = Model::create(file, path);
@@ -128,7 +128,7 @@ bool changes(const StylesVerb& verb) {
   return !verb.add.empty() || !verb.remove.empty() || !verb.rename.empty();
 }
 
-// Whether the options go together.
+// Checks that the options can be combined.
 Result<void> check_usage(const StylesVerb& verb) {
   const std::array wishes = {!verb.extract.empty(), !verb.add.empty(), !verb.remove.empty(),
                              !verb.rename.empty()};

@@ -1,4 +1,4 @@
-// panache stylize: motion files in, the same motion in another style out.
+// panache stylize: restyles the motions of files.
 
 #include <algorithm>
 #include <filesystem>
@@ -38,7 +38,7 @@ struct StylizeOptions : MotionFlags {
   bool verbose = false;
 };
 
-// What all files have in common.
+// Settings shared by all files.
 struct Wanted {
   std::shared_ptr<const Model> model;
   std::optional<Removal> removal;
@@ -74,7 +74,7 @@ std::string result_name(const std::string& title, const Wanted& wanted) {
   return title + " (" + styles + ")";
 }
 
-// name: of the motion in its file.
+// name: the motion's name in its file.
 NewMotion restyle_clip(const MotionFile& motion, int which, const std::string& name,
                        const Wanted& wanted, FileJob& file,
                        const std::function<void(double)>& progress) {
@@ -82,7 +82,7 @@ NewMotion restyle_clip(const MotionFile& motion, int which, const std::string& n
   Rig rig = need(make_rig(motion.clip(which), wanted.rig, place));
   if (file.mapping.is_null()) file.mapping = mapping_json(rig);
   note_rate(motion.clip(which), rig, place, file.notes);
-  // On a character first, then styled there: as two runs of the program would do it.
+  // Retargets first and then restyles, with the same result as two runs of the program.
   Clip put;
   if (wanted.onto) {
     put = need(wanted.onto->put(motion.clip(which), rig, place));
@@ -97,7 +97,7 @@ NewMotion restyle_clip(const MotionFile& motion, int which, const std::string& n
           : restyle(clip, rig, wanted.model, tracks, wanted.how, progress);
   if (!restyled) throw Failure{located(place, restyled.error()), kBadInput};
   NewMotion out{.name = result_name(title_of(name, file.input), wanted)};
-  // A calibration pose in front is no motion, and is not restyled.
+  // Skips a leading reference pose, which is not restyled.
   const auto first = static_cast<size_t>(std::min(rig.first_frame(), clip.frames - 1));
   const RestyleFacts facts = restyle_facts(clip, rig, *restyled);
   const GateReport gate = report_gate(std::span(restyled->gates).subspan(first));
@@ -125,8 +125,8 @@ NewMotion restyle_clip(const MotionFile& motion, int which, const std::string& n
   return out;
 }
 
-// The bytes of the result: the character or the file with its new motions, or a new file of another
-// format that holds the only one.
+// The bytes of the result: the character's or input's file with its new motions, or a new file of
+// another format with the only motion.
 std::string encode(const MotionFile& motion, std::vector<NewMotion> motions, FileJob& file,
                    const Wanted& wanted, const StylizeOptions& options) {
   const EditMode mode = edit_mode(options.place, wanted.onto.has_value());
@@ -163,7 +163,7 @@ void stylize_file(FileJob& file, const Wanted& wanted, const StylizeOptions& opt
     try {
       motions.push_back(restyle_clip(*motion, picked[i], name, wanted, file, part));
     } catch (const Failure& failure) {
-      // All motions of a file have the same joints: if one is not a person, none is.
+      // All motions of a file share their joints: if one is not humanoid, none is.
       if (picked.size() > 1 && failure.error.kind == ErrorKind::not_humanoid) {
         throw Failure{{failure.error.message + "; so its other motions are not restyled either"},
                       kBadInput};
@@ -179,7 +179,7 @@ void stylize_file(FileJob& file, const Wanted& wanted, const StylizeOptions& opt
                options.batch.force);
 }
 
-// What the user wants of which style, from both sources.
+// The requested strengths, from the options and the table.
 std::vector<StrengthWish> collect_wishes(const StylizeOptions& options, const Model& model) {
   if (options.styles.empty() && options.strengths.empty() && !options.removal.given()) {
     throw Failure{missing_style(options.batch.inputs, model), kBadUsage};
@@ -200,7 +200,7 @@ std::vector<StrengthWish> collect_wishes(const StylizeOptions& options, const Mo
   return wishes;
 }
 
-// "old-proud": what a result is called that the user did not name.
+// "old-proud": the default suffix of result names.
 std::string name_styles(const StylizeOptions& options) {
   std::vector<std::string> parts;
   parts.reserve(options.styles.size() + 1);
@@ -230,13 +230,13 @@ int stylize(const StylizeOptions& options) {
   need(read_shape(options.shape, how.stylizer), kBadUsage);
   how.loop = read_loop(options.loop);
   how.stylizer.foot_lock = !options.no_feet;
-  // Without an amount the tempo of a style that is taken off stays, too.
+  // With timing 0, the tempo of a removed style stays, too.
   how.timing = !options.no_timing && how.stylizer.shape.timing != 0;
   wanted.in_place = options.in_place;
   wanted.verbose = options.verbose;
   const std::string path = need(find_model(options.model));
   wanted.model = need(Model::load(path));
-  // Before the files: who forgets the style shall not be asked for an output.
+  // Before the files, so that a missing style is reported before a missing output.
   wanted.wishes = collect_wishes(options, *wanted.model);
   wanted.removal = read_removal(options.removal);
   const std::optional<CharacterFile>& onto = wanted.onto;
@@ -260,7 +260,7 @@ void add_stylize(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("stylize", "Restyle motion files");
   auto options = std::make_shared<StylizeOptions>();
   add_batch_options(*verb, options->batch);
-  // One value each, so that files may follow.
+  // One value per option, so that files may follow.
   add_option(*verb, "--style STYLE", options->styles,
              "NAME=STRENGTH: 0 is neutral, 1 the style as captured,\n"
              "above 1 exaggerates (-4 to 4). NAME=1..0 changes evenly\n"

@@ -12,19 +12,19 @@ namespace {
 
 using enum HumanJoint;
 
-constexpr int kFigures = 6, kColumns = 12, kRows = 11;  // Characters of a figure.
-constexpr int kWide = 2 * kColumns, kHigh = 4 * kRows;  // Its dots: 2 by 4 in a character.
+constexpr int kFigures = 6, kColumns = 12, kRows = 11;  // Number of figures; characters per figure.
+constexpr int kWide = 2 * kColumns, kHigh = 4 * kRows;  // In dots: 2 by 4 per character.
 constexpr float kDotsPerMetre = 21;                     // A standing body with raised arms fits.
-constexpr float kYaw = 0.6f;    // From the side view towards the viewer, radians.
+constexpr float kYaw = 0.6f;    // Turned from the side view towards the viewer, radians.
 constexpr float kSkull = 0.1f;  // Radius, metres.
 
 class Dots {
  public:
-  // To the right and up from the lower left corner; those outside are left out.
+  // Right and up from the lower left corner; dots outside are ignored.
   void set(float x, float y) {
     const auto column = static_cast<int>(std::lround(x)), row = static_cast<int>(std::lround(y));
     if (column < 0 || column >= kFigures * kWide || row < 0 || row >= kHigh) return;
-    // The bits of a character's dots, from its top row down.
+    // The bits of a character's dots, from the top row down.
     constexpr std::array<std::array<int, 2>, 4> kBits = {
         {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}}};
     const int down = kHigh - 1 - row;
@@ -43,13 +43,13 @@ class Dots {
     for (const auto& row : bits_) {
       std::string line;
       for (const int bits : row) {
-        // U+2800 and the bits, in UTF-8.
+        // U+2800 plus the bits, in UTF-8.
         line += bits ? std::string{'\xe2', static_cast<char>(0xa0 | (bits >> 6)),
                                    static_cast<char>(0x80 | (bits & 0x3f))}
                      : std::string(" ");
       }
       line.erase(line.find_last_not_of(' ') + 1);
-      // Rows above all heads are left out.
+      // Omits rows above all heads.
       if (!line.empty() || !text.empty()) text += line + "\n";
     }
     return text;

@@ -1,5 +1,5 @@
 #pragma once
-// Motion as figures in a terminal.
+// Draws motion as figures in a terminal.
 
 #include <string>
 
@@ -8,9 +8,9 @@
 
 namespace panache::cli {
 
-// Six instants of the motion, evenly spread from its first to its last frame: stick figures on the
-// floor that face right, drawn with the dots of Braille characters (UTF-8), above a line with their
-// times. 72 columns; lines end with "\n". An instant that is not finite repeats the one before it.
+// Draws six evenly spaced instants from first to last frame: stick figures facing right on the
+// floor, in Braille characters (UTF-8), above a line with their times. 72 columns; lines end with
+// "\n". An instant that is not finite repeats the previous one.
 std::string draw_figures(const Clip& clip, const Rig& rig);
 
 }  // namespace panache::cli

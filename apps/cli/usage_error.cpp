@@ -10,14 +10,14 @@
 namespace panache::cli {
 namespace {
 
-// CLI11 ends some of its messages in a line end, and tells of what CLI::App::exit() prints.
+// Joins the lines of a CLI11 message and removes a final full stop.
 std::string one_line(std::string text) {
   while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
   std::ranges::replace(text, '\n', ' ');
   return text;
 }
 
-// Of arguments that no option takes, the first that looks like an option, or none.
+// The first unparsed argument that looks like an option, or "".
 std::string unknown_option(const CLI::App& verb) {
   for (const std::string& extra : verb.remaining(true)) {
     if (extra.size() > 1 && extra[0] == '-') return extra.substr(0, extra.find('='));
@@ -36,8 +36,7 @@ std::string describe_option(const CLI::App& verb, const std::string& option) {
          (nearest.empty() ? "" : "; the nearest " + is_or_are(nearest));
 }
 
-// Of arguments that no option takes, the first one. CLI11 keeps them last first where an option is
-// among them.
+// Describes the first unparsed argument. CLI11 returns them last first if one is an option.
 std::string describe_extra(const CLI::App& verb) {
   const std::string option = unknown_option(verb);
   if (option.empty()) return "unexpected argument " + panache::quoted(verb.remaining(true).front());
@@ -51,7 +50,7 @@ std::string usage_message(const CLI::ParseError& error, const CLI::App& verb) {
   if (dynamic_cast<const CLI::ExtrasError*>(&error)) return describe_extra(verb);
   if (dynamic_cast<const CLI::RequiredError*>(&error)) {
     if (!verb.get_parent()) return "expected a command first";
-    // A mistyped option is why the right one is missing.
+    // The required option may be missing because it was mistyped.
     const std::string option = unknown_option(verb);
     return option.empty() ? text : describe_option(verb, option) + "; " + text;
   }

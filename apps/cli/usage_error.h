@@ -1,5 +1,5 @@
 #pragma once
-// What is wrong with a command line, in our words: CLI11's own name types and internals.
+// Describes command line errors in our words: CLI11's messages mention types and internals.
 
 #include <string>
 
@@ -7,11 +7,11 @@
 
 namespace panache::cli {
 
-// The message for arguments that could not be parsed. `verb` is the command whose arguments they
-// are, or the program itself where no command was named.
+// The message for arguments that could not be parsed. `verb` is the command they belong to, or the
+// program itself if no command was given.
 std::string usage_message(const CLI::ParseError& error, const CLI::App& verb);
 
-// Accepts numbers from `low` to `high`; the message is that of check_range().
+// Accepts numbers from `low` to `high`; otherwise fails with the message of check_range().
 CLI::Validator in_range(double low, double high);
 
 }  // namespace panache::cli

@@ -1,5 +1,5 @@
 #pragma once
-// The verbs of panache. A further one is a source file with its add_ function, and a line here.
+// The verbs of panache. To add one, add a source file with its add_ function, and a line here.
 
 #include <functional>
 
@@ -21,13 +21,13 @@
 
 namespace panache::cli {
 
-// add_stylize() and so on: each makes its subcommand; running that sets `exit_code`. In a build
-// without the library that a verb needs, the verb exists and says so.
+// add_stylize() and so on: each adds its subcommand, which sets `exit_code` when run. In a build
+// without a required library, the verb exists and reports that.
 #define PANACHE_DECLARE_VERB(name) void add_##name(CLI::App& app, int& exit_code);
 PANACHE_VERBS(PANACHE_DECLARE_VERB)
 #undef PANACHE_DECLARE_VERB
 
-// A verb of live: the function runs it, once it is parsed, and returns the exit code.
+// A nested verb of live: the returned function runs it after parsing and returns the exit code.
 std::function<int()> add_send(CLI::App& live);
 
 }  // namespace panache::cli

@@ -1,4 +1,4 @@
-// panache view: the page, served to this machine alone.
+// panache view: serves the page to this machine only.
 
 #include <cstdio>
 #include <filesystem>
@@ -21,12 +21,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A file as the page takes it, and what to call it there.
+// A file as served to the page, and its name there.
 struct Served {
   std::string name, bytes;
 };
 
-// All that a file points to goes into what is served, and FBX comes as GLB.
+// Makes the file self-contained; converts FBX to GLB.
 Served read_served(const std::string& path) {
   const std::unique_ptr<MotionFile> motion = need(open_motion(path));
   const std::string name = fs::path(path).filename().string(), extension = extension_of(path);
@@ -38,14 +38,14 @@ Served read_served(const std::string& path) {
   return {name, need(read_file(path))};
 }
 
-// A model as it is, checked: the page has no other place to tell of a wrong one than its own view.
+// A model, unchanged but validated: the page could show an error only in the browser.
 Served read_model(const std::string& path) {
   Served model{fs::path(path).filename().string(), need(read_file(path))};
   need(Model::parse(model.bytes, path));
   return model;
 }
 
-// Puts the styles of a folder into a model.
+// Adds the styles of a folder to a model.
 void add_library(const std::string& folder, Served& model) {
   const StyleLibrary library = need(read_library(folder));
   for (const Error& broken : library.broken) print_message("warning: " + broken.message);
@@ -77,7 +77,7 @@ int view(const ViewVerb& verb) {
   print("http://" + server->address() + "/" + query + "\n");
   print_message("open this address in a browser; Ctrl-C ends");
   std::fflush(stdout);
-  // Ctrl-C ends the program, so this returns after a failure alone.
+  // Ctrl-C ends the program, so this returns only on failure.
   return fail(server->listen().error(), kBadInput);
 }
 

@@ -38,7 +38,7 @@ std::vector<Bone> all_bones() {
 
 const std::vector<Bone> kBones = all_bones();  // [kVmcBones]
 
-// VRM's name of the bone: Unity's with a small first letter.
+// VRM's name of the bone: Unity's with a lower-case first letter.
 std::string role_of(int bone) {
   std::string role = kBones[bone].name;
   role[0] = static_cast<char>(role[0] - 'A' + 'a');
@@ -65,7 +65,7 @@ Skeleton vmc_skeleton(const VmcBoneSet& bones, std::span<const Vec3> positions) 
   std::array<int, kVmcBones> joint_of{};
   for (int b = 0; b < kVmcBones; ++b) {
     if (b != kVmcRoot && !bones[b]) {
-      joint_of[b] = joint_of[kBones[b].parent];  // Of what hangs on it.
+      joint_of[b] = joint_of[kBones[b].parent];  // Used as the parent of its children.
       continue;
     }
     Joint joint;

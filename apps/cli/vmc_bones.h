@@ -1,6 +1,6 @@
 #pragma once
-// The bones that VMC messages speak of: those of Unity's humanoid, each relative to the nearest of
-// its ancestors that the sender has.
+// The bones of VMC messages: Unity's humanoid, each relative to its nearest ancestor that the
+// sender has.
 
 #include <bitset>
 #include <optional>
@@ -15,16 +15,16 @@ namespace panache::cli {
 inline constexpr int kVmcBones = 56;
 inline constexpr int kVmcRoot = 0, kVmcHips = 1;
 
-// "LeftUpperArm"; the root is called "root".
+// "LeftUpperArm"; "root" for the root.
 std::string_view vmc_bone_name(int bone);
-// The bone of a /VMC/Ext/Bone/Pos message, never the root.
+// The bone named in a /VMC/Ext/Bone/Pos message; never the root.
 std::optional<int> find_vmc_bone(std::string_view name);
 
 using VmcBoneSet = std::bitset<kVmcBones>;
 
-// A skeleton of these bones and the root, in their order, whose offsets are `positions`
-// [kVmcBones] (metres, Panache's axes). At rest it stands in the T-pose; the root and the hips
-// move, all joints turn.
+// A skeleton of the root and these bones, in their order, with `positions` as offsets: [kVmcBones],
+// metres, Panache's axes. Its rest pose is the T-pose; the root and hips can move, all joints can
+// rotate.
 Skeleton vmc_skeleton(const VmcBoneSet& bones, std::span<const Vec3> positions);
 
 }  // namespace panache::cli

@@ -10,18 +10,18 @@ namespace panache::cli {
 namespace {
 
 constexpr double kLearnSeconds = 1;
-constexpr size_t kMaxLearnt = 240;     // Frames of that second that are kept.
-constexpr double kLongestWait = 0.02;  // Seconds; all of a frame comes in one go.
+constexpr size_t kMaxLearnt = 240;     // Max frames kept of the first second.
+constexpr double kLongestWait = 0.02;  // Seconds; a frame's datagrams arrive together.
 constexpr float kFarthest = 10'000;    // Metres.
 
-// Fit to make a skeleton of. The stylizer looks after itself later.
+// Whether the values are valid for a skeleton. Later the stylizer does its own checks.
 bool is_sound(const VmcMessage& bone) {
   const Vec3 p = bone.position;
   return is_finite(p) && std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) < kFarthest &&
          is_finite(bone.rotation) && std::abs(dot(bone.rotation, bone.rotation) - 1) < 0.1f;
 }
 
-// Zeros of either sign differ, and a number is the same as itself even if it is none.
+// Distinguishes 0 from -0, and treats equal NaNs as the same.
 template <class T>
 bool same_bits(const T& a, const T& b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
@@ -38,7 +38,7 @@ void VmcCharacter::take(Datagram datagram, std::span<const VmcMessage> messages,
   held_.push_back(std::move(datagram));
   for (const VmcMessage& message : messages) {
     if (message.kind == VmcMessage::bone) take_bone(message, strengths);
-    // Before the rig stands, nobody knows whether this says that all bones have come.
+    // Before there is a rig, this may end an incomplete frame.
     if (message.kind == VmcMessage::frame_end && stylizer_) finish_frame(strengths);
   }
   release();
@@ -53,7 +53,7 @@ void VmcCharacter::take_bone(const VmcMessage& bone, std::span<const float> stre
   now_.known.set(b);
   now_.positions[b] = bone.position;
   now_.rotations[b] = bone.rotation;
-  // The rig may have come to stand just now.
+  // finish_frame() may just have made the rig.
   if (!stylizer_) return;
   open_.push_back({held_.size() - 1, bone.place, joint_of_[b]});
   if (seen_ == whole_) finish_frame(strengths);
@@ -161,7 +161,7 @@ void VmcCharacter::style(std::span<const float> strengths) {
   if (shown_) how_.view->show(pose, styled);
 }
 
-// Hands out what no bone of an open frame is in or before.
+// Releases datagrams up to the first that holds bones of the current frame.
 void VmcCharacter::release() {
   const size_t done = open_.empty() ? held_.size() : open_.front().datagram;
   const auto end = held_.begin() + static_cast<std::ptrdiff_t>(done);

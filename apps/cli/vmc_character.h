@@ -1,6 +1,6 @@
 #pragma once
-// One sender's character in the relay: its messages are gathered into frames, the frames styled,
-// and the numbers changed in the very datagrams that they came in.
+// One sender's character in the relay: collects its messages into frames, styles the frames, and
+// patches the values in the received datagrams.
 
 #include <array>
 #include <memory>
@@ -19,50 +19,50 @@
 
 namespace panache::cli {
 
-// What all characters of a relay have in common.
+// Settings shared by all characters of a relay.
 struct VmcStyling {
   std::shared_ptr<const Model> model;
   LiveOptions options;
   int removed = -1;  // See LiveStylizer::set_removed().
-  // The first character that is recognised fills the recording and is shown by the view. Either may
-  // be null, and both must outlive the characters.
+  // The first character that is recognised is recorded and shown. Either may be null; both must
+  // outlive the characters.
   VmcRecording* recording = nullptr;
   LiveView* view = nullptr;
 };
 
-// The first second goes through as it is: skeleton and rig are made of it. From then on a frame is
-// whole when all bones of that second have come again, when the sender says that it ends, when a
-// bone comes a second time, or when it has waited too long; datagrams wait for their frame.
+// The first second passes through unchanged, and determines the skeleton and rig. After that a
+// frame is complete when all bones of that second have been received, when the sender ends it, when
+// a bone is repeated, or after a timeout; datagrams are held until their frame is complete.
 class VmcCharacter {
  public:
   explicit VmcCharacter(VmcStyling how) : how_(std::move(how)) {}
 
-  // Takes the sender's next datagram with its messages. strengths: one per style of the model.
+  // Takes the sender's next datagram and its messages. strengths: one per style of the model.
   void take(Datagram datagram, std::span<const VmcMessage> messages,
             std::span<const float> strengths);
-  // Ends a frame that has waited too long for its rest.
+  // Ends the current frame if it has timed out.
   void end_late_frame(double now, std::span<const float> strengths);
-  // Ends the frame that waits, whatever is missing.
+  // Ends the current frame, even if it is incomplete.
   void end_frame(std::span<const float> strengths);
-  // Forgets the motion so far: what the style added to the way is undone.
+  // Forgets the motion so far, and with it the style's changes to the root motion.
   void reset() noexcept;
 
-  // Datagrams that are done, in the order in which they came; each is handed out once.
+  // The datagrams that can be sent, in the order received; returns each once.
   std::vector<Datagram> take_ready() { return std::exchange(ready_, {}); }
-  // Frames that ended since this was asked.
+  // The number of frames that ended since the last call.
   int take_frames() { return std::exchange(frames_, 0); }
-  // Why the sender's motion cannot be styled, once; else empty.
+  // Why the sender's motion cannot be styled, returned once; else empty.
   std::string take_note() { return std::exchange(note_, {}); }
 
  private:
-  // The bones as last heard of, whether they have been heard of or not.
+  // The last received state of all bones; `known` tells which have been received.
   struct Bones {
     double seconds = 0;
     VmcBoneSet known;
     std::array<Vec3, kVmcBones> positions{};
     std::array<Quat, kVmcBones> rotations{};
   };
-  // A bone's numbers in a datagram that waits.
+  // The position of a bone's values in a held datagram.
   struct Place {
     size_t datagram;
     size_t at;
@@ -77,21 +77,21 @@ class VmcCharacter {
   void release();
 
   VmcStyling how_;
-  bool records_ = false, shown_ = false;  // Fills the recording, is in view.
+  bool records_ = false, shown_ = false;  // Is recorded; is shown.
 
   Bones now_;
-  VmcBoneSet seen_;            // In this frame.
-  std::vector<Bones> learnt_;  // The first second.
+  VmcBoneSet seen_;            // Received in this frame.
+  std::vector<Bones> learnt_;  // Frames of the first second.
 
-  std::optional<LiveStylizer> stylizer_;  // Once the rig stands.
-  VmcBoneSet whole_;                      // What makes a frame whole: the root only if it is sent.
-  std::vector<int> bones_;                // [joints]
-  std::array<size_t, kVmcBones> joint_of_{};  // Of the bones of the skeleton.
-  Clip pose_, styled_;                        // One frame each.
+  std::optional<LiveStylizer> stylizer_;      // Set once the rig is made.
+  VmcBoneSet whole_;                          // Complete frame; has the root only if sent.
+  std::vector<int> bones_;                    // [joints]
+  std::array<size_t, kVmcBones> joint_of_{};  // Joint of each bone.
+  Clip pose_, styled_;                        // Single frames.
   double last_frame_ = 0;
 
   std::vector<Datagram> held_, ready_;
-  std::vector<Place> open_;  // Of this frame, in the order of the datagrams.
+  std::vector<Place> open_;  // In the current frame, by datagram.
   int frames_ = 0;
   std::string note_;
 };

@@ -23,7 +23,7 @@ constexpr const char* kOkPath = "/VMC/Ext/OK";
 constexpr const char* kTimePath = "/VMC/Ext/T";
 constexpr std::string_view kBundle("#bundle\0", 8);
 constexpr size_t kBundleHead = 16;  // "#bundle" and a time tag.
-constexpr int kMaxNesting = 8;      // Bundles in bundles.
+constexpr int kMaxNesting = 8;      // Levels of nested bundles.
 
 uint32_t read_number(std::span<const char> bytes, size_t at) {
   uint32_t out = 0;
@@ -42,13 +42,13 @@ void put_floats(std::span<char> bytes, size_t at, std::initializer_list<float> v
 // OSC pads strings with one to four zeros.
 size_t padded(size_t length) { return length / 4 * 4 + 4; }
 
-// The first argument of a message, a string. An lo_arg is no more aligned than the message is, and
-// so is never looked into as the union that it is.
+// The first argument of a message, a string. An lo_arg is only aligned as the message is, so it
+// must not be accessed as a union.
 std::string_view string_at(lo_arg** arguments) {
   return reinterpret_cast<const char*>(arguments[0]);
 }
 
-// The message's string and numbers, where they are those of a bone.
+// Reads the message's name and values if it is a bone message.
 void read_bone(VmcMessage& out, std::span<const char> bytes, std::string_view path,
                std::string_view types, std::string_view name) {
   const std::optional<int> bone = path == kRootPath ? kVmcRoot : find_vmc_bone(name);
@@ -62,18 +62,18 @@ void read_bone(VmcMessage& out, std::span<const char> bytes, std::string_view pa
   out.rotation = mirrored_rotation({n[3], n[4], n[5], n[6]});
 }
 
-// `begin`: where the message's bytes begin in the datagram.
+// `begin`: the message's offset in the datagram.
 VmcMessage read_message(std::span<const char> bytes, size_t begin) {
   VmcMessage out;
   const std::unique_ptr<void, decltype(&lo_message_free)> message(
       lo_message_deserialise(const_cast<char*>(bytes.data()), bytes.size(), nullptr),
       &lo_message_free);
   if (!message) return out;
-  const std::string_view path = bytes.data();  // Ends in a zero, or it would be no message.
+  const std::string_view path = bytes.data();  // Zero-terminated, as liblo has checked.
   const std::string_view types = lo_message_get_types(message.get());
   lo_arg** arguments = lo_message_get_argv(message.get());
   if (path == kBonePath || path == kRootPath) {
-    // The root may come with scale and offset after its numbers.
+    // The root's values may be followed by scale and offset.
     if (types.starts_with("sfffffff")) read_bone(out, bytes, path, types, string_at(arguments));
     out.place += begin;
   } else if (path == kOkPath || path == kTimePath) {
@@ -101,7 +101,7 @@ bool read_element(std::span<const char> datagram, size_t begin, size_t end, int 
   if (bytes.size() < kBundleHead) return false;
   size_t at = begin + kBundleHead;
   while (at < end) {
-    // Both are whole numbers of four bytes, so that four are left for the size.
+    // Both are multiples of four bytes, so at least four are left for the size.
     const size_t size = read_number(datagram, at);
     at += 4;
     if (size > end - at || !read_element(datagram, at, at + size, depth + 1, out)) return false;
@@ -157,7 +157,7 @@ void put_rotation(std::span<char> datagram, size_t place, Quat rotation) {
 }
 
 std::vector<std::vector<char>> format_vmc(const VmcFrame& frame) {
-  // A message of the longest name takes 88 bytes, so that the bundle stays below 1,500.
+  // The message with the longest name takes 88 bytes, so the bundle stays below 1,500.
   constexpr size_t kBonesPerBundle = 12;
   std::vector<std::vector<char>> out;
   for (size_t i = 0; i < frame.bones.size(); i += kBonesPerBundle) {

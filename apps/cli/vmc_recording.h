@@ -1,5 +1,5 @@
 #pragma once
-// What a character did, on its way into a file.
+// Records a character's motion for a file.
 
 #include <deque>
 #include <vector>
@@ -8,19 +8,18 @@
 
 namespace panache::cli {
 
-// Memory is bounded: what comes after the first 360,000 frames (an hour at 100 Hz) is left out.
+// Drops frames after the first 360,000 (an hour at 100 Hz), to limit memory.
 class VmcRecording {
  public:
-  // Frames of this skeleton follow.
+  // Must precede add(), with poses of this skeleton.
   void start(Skeleton skeleton) { skeleton_ = std::move(skeleton); }
   bool started() const { return !skeleton_.joints.empty(); }
-  // One pose of the skeleton's joints at a time that is later than the last one's, seconds; a pose
-  // that is not later is left out.
+  // Adds a pose of the skeleton's joints at a time in seconds; dropped unless later than the last.
   void add(double seconds, ConstPose pose);
   bool full() const { return frames_.size() >= kMaxFrames; }
   size_t frames() const { return frames_.size(); }
 
-  // As many frames at their mean rate, between those that came. At least one was added.
+  // As many frames resampled at their mean rate. Requires at least one.
   Clip clip() const;
 
  private:
@@ -32,7 +31,7 @@ class VmcRecording {
   };
 
   Skeleton skeleton_;
-  std::deque<Frame> frames_;  // Grows without moving what is there: that would hold up a frame.
+  std::deque<Frame> frames_;  // Grows without copying, which would delay a frame.
 };
 
 }  // namespace panache::cli

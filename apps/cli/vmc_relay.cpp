@@ -14,7 +14,7 @@ namespace panache::cli {
 namespace {
 
 constexpr int kWaitMilliseconds = 10;
-// So that frames that wait and the statistics have their turn in a flood.
+// Limits a burst, so that held frames and statistics get their turn.
 constexpr int kMaxAtOnce = 64;
 
 bool is_command(const VmcMessage& message) {
@@ -24,7 +24,7 @@ bool is_command(const VmcMessage& message) {
 }  // namespace
 
 void VmcLatencies::add(double seconds) {
-  // A clock that is set meanwhile may give any number.
+  // A clock that is set meanwhile may cause any value.
   const double us = std::clamp(std::ceil(1e6 * seconds), 0.0, double{kMax});
   ++counts_[static_cast<size_t>(us)];
   ++all_;
@@ -58,7 +58,7 @@ void VmcRelay::run_once() {
     sender.character.end_late_frame(stamp_now(), strengths_);
     send_ready(sender);
   }
-  // The machine's count goes round.
+  // The system's counter wraps around.
   const uint32_t lost = socket_.lost() - std::exchange(lost_before_, socket_.lost());
   all_.lost += lost;
   second_.lost += lost;
@@ -76,7 +76,7 @@ void VmcRelay::take(Datagram datagram) {
     return;
   }
   for (const VmcMessage& message : *messages) apply_command(message);
-  // What is for this program alone is not for the avatar.
+  // Commands to this program are not sent to the avatar.
   if (!messages->empty() && std::all_of(messages->begin(), messages->end(), is_command)) return;
   const bool has_bones = std::any_of(messages->begin(), messages->end(), [](const VmcMessage& m) {
     return m.kind == VmcMessage::bone;
@@ -114,7 +114,7 @@ VmcRelay::Sender* VmcRelay::sender_of(const Datagram& datagram, bool meet) {
     if (same_address(sender.address, datagram.sender)) return &sender;
   }
   if (!meet) return nullptr;
-  // The one that was silent longest makes room for one too many; what waits of it is sent first.
+  // A new sender replaces the one silent for longest, after sending what that one holds.
   if (senders_.size() == kMaxSenders) {
     const auto silent =
         std::min_element(senders_.begin(), senders_.end(),

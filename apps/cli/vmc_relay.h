@@ -1,5 +1,5 @@
 #pragma once
-// The relay itself: from a socket to an address, a character for each sender.
+// The relay from a socket to an address, with one character per sender.
 
 #include <array>
 #include <cstdint>
@@ -12,12 +12,12 @@
 
 namespace panache::cli {
 
-// How long datagrams stay in the relay: microseconds, all from 10 ms on as one, so that any number
-// of them takes the same room.
+// A histogram of how long datagrams stay in the relay, in microseconds, of fixed size; 10 ms and
+// more count as one.
 class VmcLatencies {
  public:
   void add(double seconds);
-  // The microseconds that `share` (0 to 1) of them do not exceed; 0 of none.
+  // The percentile at `share` (0 to 1), microseconds; 0 if empty.
   int quantile_us(double share) const;
 
  private:
@@ -26,11 +26,11 @@ class VmcLatencies {
   uint64_t all_ = 0;
 };
 
-// Counts of a second, or of all.
+// Counts for a second or for the whole run.
 struct VmcCounts {
   int64_t frames = 0;    // Of all senders.
-  int64_t lost = 0;      // Datagrams that found no room on the way in or out.
-  int64_t rejected = 0;  // Datagrams that are no OSC.
+  int64_t lost = 0;      // Datagrams dropped for lack of buffer space, received or sent.
+  int64_t rejected = 0;  // Datagrams that are not OSC.
   VmcLatencies latencies;
 };
 
@@ -39,22 +39,22 @@ class VmcRelay {
   // strengths: one per style of the model.
   VmcRelay(UdpSocket socket, const sockaddr_in& to, VmcStyling how, std::vector<float> strengths);
 
-  // Waits for datagrams a little while and sends on what is ready.
+  // Waits briefly for datagrams and sends those that are ready.
   void run_once();
-  // Sends on what still waits.
+  // Sends all held datagrams.
   void finish();
 
   const VmcCounts& all() const { return all_; }
   size_t senders() const { return met_; }  // So far.
-  // "270 frames of 3 senders, 0 lost, p50 85 us, p99 210 us, old 1": since this was last asked.
+  // "270 frames of 3 senders, 0 lost, p50 85 us, p99 210 us, old 1": since the last call.
   std::string second();
-  // What a user should know, since this was last asked; the last such message, or empty.
+  // The last message for the user since the last call, or empty.
   std::string take_note() { return std::exchange(note_, {}); }
 
  private:
   struct Sender {
     sockaddr_in address;
-    double heard;  // When last.
+    double heard;  // Time of the last datagram.
     bool this_second;
     VmcCharacter character;
   };
@@ -62,9 +62,9 @@ class VmcRelay {
 
   void take(Datagram datagram);
   void apply_command(const VmcMessage& message);
-  // Null where the sender is new and not to be met.
+  // Null if the sender is new and `meet` is false.
   Sender* sender_of(const Datagram& datagram, bool meet);
-  // All that waits of a sender, whole or begun.
+  // Sends all held datagrams of a sender, even of an incomplete frame.
   void send_rest(Sender& sender);
   void send_ready(Sender& sender);
   void send(const Datagram& datagram);

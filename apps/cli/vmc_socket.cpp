@@ -17,7 +17,7 @@
 namespace panache::cli {
 namespace {
 
-constexpr int kRoom = 1 << 22;  // Bytes; three senders of 90 Hz fill a quarter of it in a second.
+constexpr int kRoom = 1 << 22;  // Bytes; three senders at 90 Hz fill a quarter per second.
 
 double seconds_of(const timespec& time) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
@@ -75,7 +75,7 @@ bool same_address(const sockaddr_in& a, const sockaddr_in& b) {
 
 double stamp_now() {
   timespec now{};
-  ::clock_gettime(CLOCK_REALTIME, &now);  // What SO_TIMESTAMPNS stamps with.
+  ::clock_gettime(CLOCK_REALTIME, &now);  // The clock of SO_TIMESTAMPNS.
   return seconds_of(now);
 }
 

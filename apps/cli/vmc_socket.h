@@ -1,5 +1,5 @@
 #pragma once
-// UDP as a relay needs it.
+// UDP sockets for the relay.
 
 #include <cstdint>
 #include <optional>
@@ -13,33 +13,33 @@
 
 namespace panache::cli {
 
-// "192.168.1.20:39540", "puppet.local:39540", or "39540" of `default_host`. The host is
-// looked up. The message of a failure begins with `option`.
+// "192.168.1.20:39540", "puppet.local:39540", or "39540" on `default_host`. Resolves the host.
+// Failure messages begin with `option`.
 Result<sockaddr_in> parse_address(const std::string& text, const std::string& option,
                                   const std::string& default_host = "127.0.0.1");
 // "127.0.0.1:39540"
 std::string to_string(const sockaddr_in& address);
-// The same, or "port 39539" of all of the machine's addresses.
+// The same, or "port 39539" for all addresses of the machine.
 std::string listened_at(const sockaddr_in& address);
-// The same machine and port.
+// Whether host and port are equal.
 bool same_address(const sockaddr_in& a, const sockaddr_in& b);
 
-// Seconds of the clock that datagrams are stamped with.
+// The current time of the clock that stamps datagrams, in seconds.
 double stamp_now();
 
 struct Datagram {
   std::vector<char> bytes;
   sockaddr_in sender{};
-  double received = 0;  // When the machine got it, see stamp_now().
+  double received = 0;  // Time of receipt by the system, see stamp_now().
 };
 
-// An IPv4 socket; closed at the end of its life.
+// An IPv4 socket, closed by its destructor.
 class UdpSocket {
  public:
-  // Listens at an address of this machine, or at all of them (0.0.0.0), with room for about a
-  // second of datagrams.
+  // Listens on one address of this machine or on all (0.0.0.0), and buffers about a second of
+  // datagrams.
   static Result<UdpSocket> listen(const sockaddr_in& address, const std::string& option);
-  // Only sends.
+  // A socket for sending only.
   static Result<UdpSocket> open();
 
   UdpSocket(UdpSocket&& other) noexcept;
@@ -47,18 +47,18 @@ class UdpSocket {
   ~UdpSocket();
 
   int file() const { return file_; }  // For poll().
-  // The next datagram if one waits.
+  // The next datagram, if one has arrived.
   std::optional<Datagram> receive();
-  // False where the machine does not take it.
+  // False if the system rejects it.
   bool send(std::span<const char> bytes, const sockaddr_in& to);
-  // Datagrams that came and found no room, as far as the machine tells.
+  // The number of received datagrams dropped for lack of buffer space, if the system reports it.
   uint32_t lost() const { return lost_; }
 
  private:
   explicit UdpSocket(int file) : file_(file), buffer_(1 << 16) {}
 
   int file_;
-  std::vector<char> buffer_;  // The largest datagram fits.
+  std::vector<char> buffer_;  // Fits the largest datagram.
   uint32_t lost_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// panache walker: a neutral walk of our own making, for machines without motion data.
+// panache walker: generates a neutral walk, for users without motion data.
 
 #include <memory>
 #include <numbers>

@@ -1,4 +1,4 @@
-// Panache for C#: gives the motion of a character a style, live. One file over the shared library
+// Panache for C#: styles the motion of a character, live. A single file over the shared library
 // (libpanache.so, panache.dll or libpanache.dylib where the runtime looks for native libraries).
 //
 //     var model = Panache.Model.Load("panache-int8.safetensors");      // shared by all characters
@@ -9,10 +9,10 @@
 //                 character.Step(1.0 / 60);
 //                 use character.Rotations and Translations
 //
-// Rotations are unit quaternions x, y, z, w and translations three numbers, both of a joint relative
-// to its parent, in the units and axes of the skeleton itself (any right-handed ones). Joints stand
-// in the order in which the skeleton was given, parents before children. Whatever fails throws a
-// PanacheException with the library's own sentence. Needs C# 7 and no unsafe code.
+// Rotations are unit quaternions x, y, z, w; translations are x, y, z. Both are relative to the
+// joint's parent, in the skeleton's units and axes (any right-handed ones). Joints are in the order
+// in which the skeleton was given, parents before children. Failures throw a PanacheException with
+// the library's message. Needs C# 7 and no unsafe code.
 
 using System;
 using System.Collections.Generic;
@@ -22,9 +22,9 @@ using System.Text;
 
 namespace Panache {
 
-/// What the library says of bad input, in one sentence.
+/// The library's error message about bad input.
 public sealed class PanacheException : Exception {
-  /// What kind of mistake it is, for programs that help with it.
+  /// The kind of error, for programs that handle it.
   public ErrorKind Kind { get; }
   public PanacheException(string message, ErrorKind kind = ErrorKind.Other) : base(message) {
     Kind = kind;
@@ -38,17 +38,16 @@ public enum ErrorKind {
   LoopStrengths, BadStyleName
 }
 
-/// A trained model: its styles and networks. Never changes; may be used by any number of threads.
+/// A trained model: its styles and networks. Immutable; any number of threads may use it.
 public sealed class Model : IDisposable {
   internal readonly Handle Handle;
-  /// The bytes of its file (.safetensors).
+  /// The bytes of the model file (.safetensors).
   public byte[] File { get; }
   /// The names of its styles, in the model's order.
   public IReadOnlyList<string> Styles { get; }
-  /// What each of them is listed under, "moods"; "" for learnt ones, and in models without groups.
+  /// The group of each style, "moods"; "" for learnt styles, and in models without groups.
   public IReadOnlyList<string> Groups { get; }
-  /// The gestures of a style, "head turns left, 1.2 s", for Character.Trigger(); most styles have
-  /// none.
+  /// The gestures of a style, "head turns left, 1.2 s", for Character.Trigger(); often empty.
   public IReadOnlyList<string> Gestures(string style) {
     int place = FindStyle(style);
     var names = new List<string>();
@@ -72,7 +71,7 @@ public sealed class Model : IDisposable {
     Groups = groups;
   }
   public static Model Load(string path) => new Model(System.IO.File.ReadAllBytes(path));
-  /// The place of a style; throws where the model has none of that name.
+  /// The index of a style; throws if the model has no style of that name.
   public int FindStyle(string name) {
     int place = Native.panache_model_find_style(Handle, Native.Utf8(name));
     if (place >= 0) return place;
@@ -82,8 +81,8 @@ public sealed class Model : IDisposable {
   public void Dispose() => Handle.Dispose();
 }
 
-/// One joint of a skeleton: its rest transform relative to its parent, which stands before it; the
-/// parent of a root is -1.
+/// One joint of a skeleton: its rest transform relative to its parent. Parents come before their
+/// children; the parent of a root is -1.
 public sealed class Joint {
   public string Name = "";
   public int Parent = -1;
@@ -91,14 +90,14 @@ public sealed class Joint {
   public float[] Translation = { 0, 0, 0 };
 }
 
-/// A rig, and which of its joints are a humanoid's, found by their names and shape. Never changes.
+/// A rig and its mapping to a humanoid, recognised by joint names and shape. Immutable.
 public sealed class Skeleton : IDisposable {
   internal readonly Handle Handle;
   public int JointCount { get; }
 
-  /// upAxis: "+Y", "-Z", ..., and metresPerUnit; null and 0: found. humanJoints: the place of each
-  /// joint of the humanoid ("leftHand", VRM's names), -1 where the rig has none; what it does not
-  /// list is found.
+  /// upAxis ("+Y", "-Z", ...) and metresPerUnit: null and 0 detect them. humanJoints: the index of
+  /// each joint of the humanoid ("leftHand", VRM's names), -1 if the rig has none; joints that it
+  /// does not list are detected.
   public Skeleton(IReadOnlyList<Joint> joints, string upAxis = null, float metresPerUnit = 0,
                   IReadOnlyDictionary<string, int> humanJoints = null) {
     using (var kept = new Kept()) {
@@ -131,13 +130,13 @@ public sealed class Skeleton : IDisposable {
     Handle = new Handle(skeleton, Native.panache_skeleton_destroy);
     JointCount = Native.panache_skeleton_joint_count(Handle);
   }
-  /// The place of the joint that is this joint of the humanoid ("leftHand", VRM's names), or -1.
+  /// The index of the joint mapped to this human joint ("leftHand", VRM's names), or -1.
   public int Find(string humanJoint) =>
       Native.panache_skeleton_find(Handle, Native.Utf8(humanJoint));
   public void Dispose() => Handle.Dispose();
 }
 
-/// How much is given of what the styles do, 0 to 2 each; 1 is the style as the model has it.
+/// Scales the parts of what the styles do, 0 to 2 each; 1 is the style as the model has it.
 [StructLayout(LayoutKind.Sequential)]
 public sealed class Shape {
   private uint structSize = Native.SizeOf<Shape>();
@@ -146,50 +145,50 @@ public sealed class Shape {
   public float FootLock = 1;  // 0 to 1.
 }
 
-/// How a character is styled, as panache_character_options.
+/// How a character is styled; see panache_character_options.
 [StructLayout(LayoutKind.Sequential)]
 public sealed class CharacterOptions {
   private uint structSize = Native.SizeOf<CharacterOptions>();
   public float EaseSeconds = 0.15f;       // A change of strength takes about this long; 0 to 10.
-  public float SmoothingSeconds = 0.04f;  // Of the filter on what a style adds; 0 to 10.
+  public float SmoothingSeconds = 0.04f;  // Time constant of the filter on the change; 0 to 10.
   public int HoldFeet = 1;                // 1: planted feet are held in place.
   public int StyleRoot = 1;               // 1: root motion is styled too.
   public int SkipCycles = 0;              // 1: whole cycles are skipped or repeated to keep time.
-  public double MaxLag = 0;               // Seconds behind the input, 0 to 4,
-  public double MaxLead = 0;              // and ahead of it, 0 to 0.25, that a tempo may take.
-  // m/s; faster hips have jumped, and the style starts afresh. Bodies on vehicles need more; 0 or
-  // infinity: nothing is a jump.
+  public double MaxLag = 0;               // Seconds the output may lag the input, 0 to 4.
+  public double MaxLead = 0;              // Seconds the output may lead the input, 0 to 0.25.
+  // m/s. Faster hips count as a jump, which resets the style. Bodies on vehicles need more; 0 or
+  // infinity turns this off.
   public double MaxSpeed = 15;
   internal IntPtr remover;  // Set by UseRemover().
-  /// A model that takes styles off, for Character.SetRemoved(); it must live until the character is
-  /// made.
+  /// A model that removes styles, for Character.SetRemoved(); it must outlive the creation of the
+  /// character.
   public void UseRemover(Model model) => remover = model.Handle.DangerousGetHandle();
-  public float GestureRate = 0;  // Gestures of the active styles at random, per second, 0 to 10;
-  public uint GestureSeed = 0;   // characters with different seeds make them at different times.
+  public float GestureRate = 0;  // Random gestures of the active styles per second, 0 to 10.
+  public uint GestureSeed = 0;   // Characters with different seeds gesture at different times.
 }
 
-/// What went on at the last step.
+/// Measurements of the last step.
 [StructLayout(LayoutKind.Sequential)]
 public sealed class Report {
   private uint structSize = Native.SizeOf<Report>();
-  public float Gate;  // 1: motion like what the model knows; 0: unlike.
+  public float Gate;  // 1: the input resembles the training motion; 0: out-of-distribution.
   public float LeftContact, RightContact;  // Probability that the foot is planted.
-  public double Rate;   // Seconds of input that the style would take per second.
-  public double Ahead;  // Seconds from the newest input to what is shown; below 0: it is late.
+  public double Rate;   // Input seconds per output second that the style asks for.
+  public double Ahead;  // Seconds by which the output leads the newest input; below 0: it lags.
 }
 
-/// One character in motion. Its arrays are made once and stay where they are in memory, so that a
-/// step allocates nothing. One thread at a time.
+/// One character in motion. Its arrays are allocated and pinned once; a step allocates nothing.
+/// Use it from one thread at a time.
 public sealed class Character : IDisposable {
   private readonly Handle handle;
   private readonly Model model;
   private readonly Pinned inRotations, inTranslations, outRotations, outTranslations;
   private readonly Native.Pose input, output;
 
-  /// Fill these before a step. [joints * 4] x, y, z, w; [joints * 3]
+  /// Input: fill these before a step. [joints * 4] x, y, z, w; [joints * 3]
   public float[] InputRotations { get; }
   public float[] InputTranslations { get; }
-  /// What a step gives, likewise.
+  /// Output of a step, in the same layout.
   public float[] Rotations { get; }
   public float[] Translations { get; }
 
@@ -211,17 +210,17 @@ public sealed class Character : IDisposable {
     input = new Native.Pose(inRotations, inTranslations);
     output = new Native.Pose(outRotations, outTranslations);
   }
-  /// Styles the input; `seconds` have gone by since the last step. Cannot fail: numbers that are not
-  /// finite are replaced by the last good pose.
+  /// Styles the input, `seconds` after the last step. Cannot fail: the last good pose replaces
+  /// non-finite values.
   public void Step(double seconds) => Native.panache_character_step(handle, input, seconds, output);
-  /// 0 not at all, 1 as captured, more exaggerates; -4 to 4, eased over a few frames.
+  /// 0 is off, 1 as captured, above 1 exaggerates; -4 to 4, eased over a few frames.
   public void SetStrength(string style, float strength) =>
       Native.panache_character_set_strength(handle, model.FindStyle(style), strength);
-  /// Takes a style off the input: its index in the model of CharacterOptions.UseRemover(); -1: none.
+  /// Removes a style from the input: its index in the model of UseRemover(), or -1 for none.
   public void SetRemoved(int style) =>
       Native.panache_character_set_removed(handle, style);
-  /// Plays one of Model.Gestures(style) on top of the style, as strongly as that acts: when no other
-  /// plays and a foot is on the floor, within 3 seconds or not at all.
+  /// Plays one of Model.Gestures(style) at the style's strength. Waits up to 3 seconds until no
+  /// other gesture plays and a foot is on the floor; otherwise drops it.
   public void Trigger(string style, int gesture = 0) {
     if (Native.panache_character_trigger(handle, model.FindStyle(style), gesture) != 0) return;
     throw new PanacheException("style '" + style + "' has no gesture " + gesture + "; it has " +
@@ -229,24 +228,24 @@ public sealed class Character : IDisposable {
   }
   public void SetShape(Shape shape) =>
       Native.Check(Native.panache_character_set_shape(handle, shape));
-  /// Forgets the motion so far; strengths stay.
+  /// Forgets the motion so far; keeps the strengths.
   public void Reset() => Native.panache_character_reset(handle);
   public Report Report() {
     var report = new Report();
     Native.Check(Native.panache_character_get_report(handle, report));
     return report;
   }
-  /// The character's memory, to return to this moment: for memory, not for files.
+  /// The character's state, to return to this moment. Not a file format.
   public byte[] Save() {
     var state = new byte[(int)Native.panache_character_state_size(handle)];
     Native.panache_character_save(handle, state);
     return state;
   }
-  /// Goes on bit for bit from where a character of the same model, skeleton and options was saved.
+  /// Continues, bit for bit, from a state saved with the same model, skeleton and options.
   public void Restore(byte[] state) =>
       Native.Check(Native.panache_character_restore(handle, state, (UIntPtr)state.Length));
   public void Dispose() {
-    handle.Dispose();  // Before what it writes to.
+    handle.Dispose();  // Before the arrays that it writes to.
     foreach (var array in new[] { inRotations, inTranslations, outRotations, outTranslations })
       array.Dispose();
   }
@@ -260,8 +259,8 @@ public sealed class Clip {
   public float[] Translations;  // [frames * joints * 3]
   public int FrameCount => Rotations.Length / (4 * Skeleton.JointCount);
 
-  /// A motion of a BVH, GLB, glTF or VRM file, the first that moves the humanoid where none is asked
-  /// for; framesPerSecond where its rate is wrong or missing.
+  /// Loads a motion of a BVH, GLB, glTF or VRM file, by default the first that moves the humanoid.
+  /// Pass framesPerSecond if the file's rate is wrong or missing.
   public static Clip Load(string path, int? motion = null, double? framesPerSecond = null) {
     byte[] bytes = File.ReadAllBytes(path);
     IntPtr created;
@@ -289,7 +288,7 @@ public sealed class Clip {
     for (int i = 0; i < count; ++i) {
       if (Native.panache_motion_file_clip_moves(file, i) != 0) return i;
     }
-    if (count == 0) return 0;  // The library says so.
+    if (count == 0) return 0;  // The library reports this.
     throw new PanacheException(path + ": none of its motions moves a joint of the humanoid; " +
                                "expected an animation that does");
   }
@@ -307,29 +306,29 @@ public sealed class Clip {
   }
 }
 
-/// A model that has learnt a style, and how well that went.
+/// A model with a newly learnt style, and a report on the learning.
 public sealed class Learnt {
-  /// The file of the model with the style, for new Model() and for disk.
+  /// The bytes of the model with the style, for new Model() or for saving.
   public byte[] ModelFile { get; private set; }
-  /// Sentences about the clips.
+  /// Warnings about the clips.
   public IReadOnlyList<string> Warnings { get; private set; }
-  /// Whether the clips are long enough to hold a quarter of each back; then the mean distances of
-  /// the joints there, in centimetres: of the style, and of the neutral motion as it is.
+  /// Whether the clips are long enough to hold out a quarter of each. If so, the mean joint errors
+  /// there, in centimetres: with the style, and of the neutral motion.
   public bool WasTested { get; private set; }
   public double HeldBackCm { get; private set; }
   public double UntouchedCm { get; private set; }
-  /// By these distances "good", "fair", or "poor" where the style is no better than the neutral
-  /// motion; "" where it was not tested.
+  /// "good", "fair" or "poor" by these errors; "poor" is no better than the neutral motion. ""
+  /// if not tested.
   public string Verdict { get; private set; }
 
-  /// Of LearnAlone(), otherwise 0: the people whose mean takes the neutral clip's place, and the
-  /// share of the difference in posture that counts as style, not as what people differ by.
+  /// For LearnAlone(), otherwise 0: the number of people whose mean replaces the neutral clip, and
+  /// the share of the difference in posture that counts as style rather than as personal variation.
   public int People { get; private set; }
   public double Certainty { get; private set; }
 
-  /// Learns the style `name` from one action, done neutrally and in the style, by one skeleton: 2 to
-  /// 3 seconds of a walk, or the whole of a gesture. A style of this name is replaced only where
-  /// `replace`. The model stays as it is.
+  /// Learns the style `name` from one action, performed neutrally and in the style on one skeleton:
+  /// 2 to 3 seconds of a walk, or a whole gesture. Replaces a style of this name only if `replace`.
+  /// Does not change the model.
   public static Learnt Learn(Model model, string name, Clip neutral, Clip styled,
                              bool replace = false) {
     using (var kept = new Kept()) {
@@ -343,7 +342,7 @@ public sealed class Learnt {
     }
   }
 
-  /// As Learn(), from a clip in the style alone: how other people move takes the place of the
+  /// Like Learn(), but from the styled clip alone: the mean motion of other people replaces the
   /// neutral clip. `bank` is the content of models/neutral.safetensors.
   public static Learnt LearnAlone(Model model, byte[] bank, string name, Clip styled,
                                   bool replace = false) {
@@ -376,7 +375,7 @@ public sealed class Learnt {
   }
 }
 
-/// An object of the library, destroyed when it is no longer used.
+/// Owns an object of the library.
 internal sealed class Handle : SafeHandle {
   private readonly Action<IntPtr> destroy;
   public Handle(IntPtr pointer, Action<IntPtr> destroy) : base(IntPtr.Zero, true) {
@@ -390,7 +389,7 @@ internal sealed class Handle : SafeHandle {
   }
 }
 
-/// An array that stays where it is in memory.
+/// A pinned array.
 internal sealed class Pinned : IDisposable {
   private GCHandle pin;
   public Pinned(Array array) { pin = GCHandle.Alloc(array, GCHandleType.Pinned); }
@@ -402,7 +401,7 @@ internal sealed class Pinned : IDisposable {
   ~Pinned() { Dispose(); }
 }
 
-/// What a call points to, until it is over.
+/// Keeps what a call points to alive and pinned until it returns.
 internal sealed class Kept : IDisposable {
   private readonly List<Pinned> arrays = new List<Pinned>();
   public IntPtr Array(Array array) {
@@ -418,7 +417,7 @@ internal sealed class Kept : IDisposable {
 /// The C interface (include/panache/panache.h).
 internal static class Native {
   private const string Library = "panache";
-  private const int Version = 2;  // 0.2: major times 100 and minor, of the header of these structs.
+  private const int Version = 2;  // 100 * major + minor of the header that these structs mirror.
 
   static Native() {
     int found = panache_version() / 100;

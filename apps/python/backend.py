@@ -1,5 +1,5 @@
-"""Makes the Python package: what `pip install CHECKOUT` and `python -m build` call (PEP 517), and the
-metadata of the wheel that scripts/python packs.
+"""Builds the Python package: the hooks called by `pip install CHECKOUT` and `python -m build` (PEP
+517), and the metadata of the wheel that scripts/python packs.
 
     backend.py FOLDER     writes panache-VERSION.dist-info into an unpacked wheel
 """
@@ -15,14 +15,14 @@ import tarfile
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-# Of the sources that a wheel is built from.
+# The sources that a wheel is built from.
 SOURCES = ('CMakeLists.txt', 'LICENSE', 'pyproject.toml', 'apps/python', 'include', 'models',
            'scripts/python', 'src')
-# glibc, and the newest symbols of the C++ library, in the distributions of each policy of manylinux.
+# For each manylinux policy: the newest versions of glibc, GLIBCXX and CXXABI symbols.
 POLICIES = (((2, 28), (3, 4, 24), (1, 3, 11)), ((2, 31), (3, 4, 28), (1, 3, 12)),
             ((2, 34), (3, 4, 29), (1, 3, 13)), ((2, 35), (3, 4, 30), (1, 3, 13)),
             ((2, 36), (3, 4, 30), (1, 3, 13)))
-# Libraries that these policies leave to the system; those of X11 and the like are not ours.
+# Libraries that these policies expect on every system; X11 and others are not needed here.
 OF_THE_SYSTEM = re.compile(r'(lib(c|m|dl|rt|pthread|util|gcc_s|stdc\+\+)\.so\.\d+|ld-linux.*)$')
 
 
@@ -50,7 +50,7 @@ def metadata() -> str:
 
 
 def _needs(library: pathlib.Path):
-    """The names of the libraries that a library needs, and the versions of its symbols by kind."""
+    """The libraries that a library needs, and its newest symbol version of each kind."""
     text = subprocess.run(['objdump', '-p', '-T', str(library)], check=True, capture_output=True,
                           text=True).stdout
     versions = {}
@@ -60,7 +60,7 @@ def _needs(library: pathlib.Path):
 
 
 def tag(folder: pathlib.Path) -> str:
-    """The oldest policy of manylinux that all libraries in a folder keep; without one, linux."""
+    """The tag of the oldest manylinux policy that all libraries in a folder meet, else linux."""
     libraries = sorted(folder.iterdir())
     carried = {library.name for library in libraries}
     newest = {}
@@ -90,7 +90,7 @@ def write_dist_info(wheel: pathlib.Path) -> None:
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None) -> str:
-    """Builds the library alone, and packs it."""
+    """Builds only the library and packs it into a wheel."""
     with tempfile.TemporaryDirectory() as folder:
         built, target = os.path.join(folder, 'build'), os.path.join(folder, 'wheel')
         subprocess.run(['cmake', '-S', str(ROOT), '-B', built, '-DPANACHE_PROGRAM=OFF',

@@ -12,7 +12,7 @@ const files = {
   neutral: `${root}models/neutral.safetensors`,
 };
 
-// Scripts that the page loads when it first needs them, each by itself: src/late.ts.
+// Scripts that the page loads separately when it first needs them: see src/late.ts.
 const late = {
   gif: "export { applyPalette, GIFEncoder, quantize } from 'gifenc';",
   neutral: "export { default as packed } from 'virtual:panache-file/neutral';",
@@ -20,12 +20,11 @@ const late = {
   zip: "export { zipSync } from 'fflate';",
 };
 
-// What the page would have to fetch, packed, as base64, inside of the script: a page opened from a
-// disk may fetch nothing.
+// Embeds a file in the script, as gzip in base64: a page opened from disk may not fetch anything.
 function pack(path: string) {
   return `export default '${gzipSync(readFileSync(path), { level: 9 }).toString('base64')}';`;
 }
-// The styles of the remover, which comes late.
+// The styles of the remover, which itself is loaded later.
 function listRemovable() {
   const bytes = readFileSync(files.remover);
   const header = JSON.parse(bytes.toString('utf8', 8, 8 + Number(bytes.readBigUInt64LE())));
@@ -49,7 +48,7 @@ function virtualModules(): Plugin {
   };
 }
 
-// Modules are fetched as from a server, which a page opened from a disk has not: one plain script.
+// Loading modules needs a server, which a page opened from disk lacks: use one plain script.
 function plainScript(): Plugin {
   return {
     name: 'panache-plain-script',
@@ -78,7 +77,7 @@ function lateScripts(): Plugin {
   };
 }
 
-// The licences of what is in the page want their texts to go with it.
+// The bundled libraries' licences require their texts to be included.
 function licences(): Plugin {
   return {
     name: 'panache-licences',

@@ -1,4 +1,4 @@
-"""Panache in Blender: the motion of an armature in another style."""
+"""Panache in Blender: restyles the motion of an armature."""
 
 from . import operators, panel, preview, settings
 

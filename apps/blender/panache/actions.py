@@ -1,5 +1,5 @@
-"""Actions in every Blender from 3.4 to 5. From 4.4 on an action holds channels for several things,
-each in a slot, and 5.0 has no Action.fcurves: all reads and writes of channels go through here."""
+"""Access to actions in Blender 3.4 to 5. From 4.4 on an action has slots, each with the channels of
+one data-block, and 5.0 has no Action.fcurves, so all access to channels goes through here."""
 
 import bpy
 
@@ -7,14 +7,14 @@ from . import library
 
 
 def _has_slots():
-    # 4.3 has parts of slots as an experiment, under other names.
+    # 4.3 has experimental slots under other names.
     return bpy.app.version >= (4, 4, 0)
 
 
 def slot_of(armature, action):
     """The slot of `action` that animates `armature`, whether or not it plays that action: the one
-    in use, else one of the same identifier, of the object's name, or the first for objects.
-    None without slots. Fails if all slots are for things of other types."""
+    in use, else one with the same identifier or the object's name, else the first for objects.
+    None without slots. Fails if all slots are for other types of data."""
     if not _has_slots() or not len(action.slots):
         return None
     data = armature.animation_data
@@ -33,18 +33,18 @@ def slot_of(armature, action):
 
 
 def play(armature, action):
-    """Makes `action` what the armature plays."""
+    """Makes the armature play `action`."""
     play_slot(armature, action, slot_of(armature, action))
 
 
 def playing(armature):
-    """(action, slot), each None if there is none."""
+    """The armature's (action, slot); each may be None."""
     data = armature.animation_data
     return data.action, data.action_slot if _has_slots() else None
 
 
 def play_slot(armature, action, slot):
-    """As playing() gives them: makes the armature play just that again."""
+    """Makes the armature play an action and slot returned by playing()."""
     data = armature.animation_data
     data.action = action
     if _has_slots() and action is not None:
@@ -56,7 +56,7 @@ def _strips(action):
 
 
 def curves(armature, action):
-    """The curves of `action` that animate `armature`, to read."""
+    """The curves of `action` that animate `armature`; read-only."""
     if not _has_slots():
         return list(action.fcurves)
     slot = slot_of(armature, action)
@@ -65,7 +65,7 @@ def curves(armature, action):
 
 
 def channels(armature, action):
-    """What holds these curves and their groups, as `fcurves` and `groups`; made if missing."""
+    """The owner of these curves (`fcurves`) and their groups (`groups`); created if missing."""
     if not _has_slots():
         return action
     slot = slot_of(armature, action)
@@ -79,7 +79,7 @@ def channels(armature, action):
 
 
 def replace_curve(armature, action, path, index, group):
-    """A new curve without keys, in place of the one that there may be."""
+    """A new curve without keys; removes an existing one."""
     held = channels(armature, action)
     old = held.fcurves.find(path, index=index)
     if old is not None:
@@ -90,7 +90,7 @@ def replace_curve(armature, action, path, index, group):
 
 
 def frame_range(armature, action):
-    """The first and the last frame of what `action` does with `armature`."""
+    """The first and last frame at which `action` animates `armature`."""
     if not _has_slots() or action.use_frame_range or len(action.slots) < 2:
         return tuple(action.frame_range)
     ranges = [curve.range() for curve in curves(armature, action)]
@@ -100,7 +100,7 @@ def frame_range(armature, action):
 
 
 def add_strip(track, name, start, armature, action):
-    """A strip of `action` on an NLA track of `armature`."""
+    """Adds a strip of `action` to an NLA track of `armature`."""
     strip = track.strips.new(name, start, action)
     slot = slot_of(armature, action)
     if slot is not None:
@@ -109,13 +109,13 @@ def add_strip(track, name, start, armature, action):
 
 
 def data_path(bone, name):
-    """Of a property of the bone with the name `bone`, or of the object if that is None."""
+    """The data path of a property of the bone named `bone`, or of the object if that is None."""
     return name if bone is None else 'pose.bones["%s"].%s' % (bpy.utils.escape_identifier(bone),
                                                               name)
 
 
 def put_back(armature, values):
-    """values: [[data path, numbers], ...]. Those of bones that are gone are passed over."""
+    """values: [[data path, numbers], ...]. Skips bones that no longer exist."""
     for path, numbers in values:
         owner, _, name = path.rpartition('.')
         try:

@@ -6,11 +6,11 @@ import bpy
 
 from . import actions, controls, sampling
 
-_SAME = 1e-6  # Metres and parts of quaternions: what evaluation loses.
+_SAME = 1e-6  # Evaluation error, in metres and quaternion components.
 
 
 def source_action(armature):
-    """What the armature plays, or what that was baked from; None without an action."""
+    """The armature's action, or the one that it was baked from; None without an action."""
     data = armature.animation_data
     action = data.action if data else None
     if action is None:
@@ -19,8 +19,8 @@ def source_action(armature):
 
 
 def bake(context, armature, sampled, styled, action, name):
-    """Makes the styled motion the armature's action. A generator: it yields how much is done, 0 to
-    1, and returns the action. Until it returns, nothing of the file is changed."""
+    """Makes the styled motion the armature's action. A generator that yields its progress (0 to 1)
+    and returns the action. The Blender file is unchanged until it returns."""
     plan = controls.Plan(armature, sampled.joints)
     values = {}
     if not sampled.is_same(styled):
@@ -44,10 +44,10 @@ def bake(context, armature, sampled, styled, action, name):
 
 
 class _Track:
-    """A control's numbers in every frame, styled and not."""
+    """A control's transform in every frame, styled and unstyled."""
 
     def __init__(self, rotation):
-        self.rotation = rotation  # The name of the property, or None.
+        self.rotation = rotation  # Name of the rotation property.
         self.new = {'location': [], 'rotation': []}
         self.old = {'location': [], 'rotation': []}
 
@@ -60,8 +60,8 @@ class _Track:
                    for a, b in zip(new, old))
 
 
-# A generator like bake(): {None or name of a bone: _Track}, None is the object; and what UNKEYED
-# holds.
+# A generator like bake(). Returns {bone name, or None for the object: _Track} and the value of
+# UNKEYED.
 def _solve(context, armature, sampled, styled, action, plan):
     targets = {None: armature}
     targets.update((name, armature.pose.bones[name]) for name in plan.controls())
@@ -84,7 +84,7 @@ def _solve(context, armature, sampled, styled, action, plan):
     return tracks, solver.unkeyed
 
 
-# A quaternion and its negative are one rotation: the one nearer to the frame before is written.
+# A quaternion and its negative are the same rotation: keeps the one nearer to the previous frame.
 def _keep_sign(track):
     numbers = track.new['rotation']
     if track.rotation != 'rotation_quaternion' or len(numbers) < 2:
@@ -96,7 +96,7 @@ def _keep_sign(track):
 def _write_tracks(armature, action, bone, track, frames, keeps_time):
     for kind, name in (('location', 'location'), ('rotation', track.rotation)):
         if not track.has_changed(kind):
-            continue  # The channels are those of the old action, at their new times.
+            continue  # The retimed channels of the old action are right.
         path = actions.data_path(bone, name)
         for index in range(len(track.new[kind][0])):
             curve = actions.replace_curve(armature, action, path, index,
@@ -113,7 +113,7 @@ def _set_keys(curve, frames, values):
     curve.update()
 
 
-# All channels at the times that a style's tempo gives them.
+# Resamples all channels to the style's tempo.
 def _retime(armature, action, sources, frames):
     for curve in actions.curves(armature, action):
         values = [curve.evaluate(frame) for frame in sources]

@@ -1,5 +1,5 @@
-"""Which bones carry the pose of an armature, and how they are moved so that its joints come to
-where they are wanted: directly, or through IK targets, poles and the controls of Rigify."""
+"""Finds the bones that control an armature's pose, and moves them so that its joints reach a given
+pose: directly, or through IK targets, poles and Rigify's controls."""
 
 import math
 
@@ -7,18 +7,18 @@ from mathutils import Matrix, Quaternion
 
 from . import actions, sampling
 
-# Rigify: control, and the bone (without ORG-) that follows it. Parents first. The other controls
-# of a limb are those of IK or of FK, as the limb's own switch says.
+# Rigify: control, and the bone (without ORG-) that follows it. Parents first. A limb is moved by
+# its IK or its FK controls, depending on its switch.
 _RIGIFY_SPINE = [('chest', 'spine.003'), ('neck', 'spine.004'), ('head', 'spine.006')]
 _RIGIFY_LIMBS = [
-    # parent with the switch, FK, (IK control, what follows it), pole, IK root, joints
+    # parent with the switch, FK, (IK control, its follower), pole, IK root, joints
     ('upper_arm_parent', ['upper_arm_fk', 'forearm_fk', 'hand_fk'], 'hand_ik',
      'upper_arm_ik_target', 'upper_arm_ik', ['upper_arm', 'forearm', 'hand']),
     ('thigh_parent', ['thigh_fk', 'shin_fk', 'foot_fk'], 'foot_ik', 'thigh_ik_target', 'thigh_ik',
      ['thigh', 'shin', 'foot'])]
-_MOST_ROUNDS = 8  # Of moving a control and looking where its joints went.
-_NEAR = 2e-4      # Radians and metres.
-_STALLED = 0.8    # Of what was left in the round before.
+_MOST_ROUNDS = 8  # Max iterations for a control.
+_NEAR = 2e-4      # Converged, radians and metres.
+_STALLED = 0.8    # Max ratio to the previous error.
 
 
 class Follow:
@@ -29,35 +29,35 @@ class Follow:
 
 
 class Lead:
-    """A control that a joint follows in its own way: it is turned, and moved if it `moves`, until
-    the joint is there."""
+    """A control that a joint follows indirectly: it is rotated, and moved if `moves` is set, until
+    the joint reaches its goal."""
 
     def __init__(self, control, joint, moves):
         self.control, self.joint, self.moves = control, joint, moves
 
 
 class Knee:
-    """A control that turns the plane of a limb about the line from its root to its end."""
+    """A control that rotates the plane of a limb about the line from its root to its end."""
 
     def __init__(self, control, upper, lower, end):
         self.control, self.joints = control, (upper, lower, end)
 
 
 class Pole:
-    """A control that a knee or an elbow points to."""
+    """A control that a knee or elbow points at."""
 
     def __init__(self, control, upper, lower, end):
         self.control, self.joints = control, (upper, lower, end)
 
 
 class Plan:
-    """How the pose of an armature is put on its bones."""
+    """Which bones to move, and how, to pose an armature."""
 
     def __init__(self, armature, joints):
         self.joints = joints
         self.place = {joint.bone: i for i, joint in enumerate(joints) if joint.bone}
-        self.direct = []  # Bones that are put where they are wanted, parents first.
-        self.moves = []   # Of the kinds above, in the order in which they act on each other.
+        self.direct = []  # Bones that are set directly, parents first.
+        self.moves = []   # Follow, Lead, Knee or Pole, in order of evaluation.
         self.notes = []
         if sampling.is_rigify(armature):
             self._plan_rigify(armature.pose.bones)
@@ -68,7 +68,7 @@ class Plan:
         names = list(self.direct)
         return names + [m.control for m in self.moves if m.control not in names]
 
-    # Rigs with constraints: a bone that one moves is moved through the target.
+    # Rigs with constraints: a constrained bone is moved through the target.
     def _plan_bones(self, armature):
         bones = armature.pose.bones
         driven, targets, poles = set(), {}, {}
@@ -98,7 +98,7 @@ class Plan:
             self.moves.append(Follow(name, targets[name]))
         self.moves += [poles[name] for name in sorted(poles, key=order.get)]
 
-    # The bone at the tip of a chain, which the IK target stands for: a foot or a hand.
+    # The bone at the tip of a chain, a foot or hand, whose pose the IK target sets.
     def _end_of(self, bone):
         for child in bone.children:
             if (child.bone.head_local - bone.bone.tail_local).length < 1e-3 * bone.bone.length:
@@ -107,7 +107,7 @@ class Plan:
 
     def _add_target(self, armature, constraint, joint, targets):
         if constraint.target == armature and constraint.subtarget:
-            # A foot that turns with its target says more of it than the shin's end.
+            # A foot that rotates with its target determines it better than the shin's end.
             targets.setdefault(constraint.subtarget, joint)
         elif constraint.target:
             self.notes.append('%s is moved by %s, which is no bone of the armature and is left '
@@ -148,12 +148,12 @@ def _rigid(pose):
 
 
 class Solver:
-    """Puts poses on an armature, one at a time: the pose bones are left as they come out."""
+    """Poses an armature by setting its pose bones, one pose at a time."""
 
     def __init__(self, context, armature, plan, action):
         self.context, self.armature, self.plan = context, armature, plan
-        # What the action does not key stays where it was put, beyond the next change of the frame.
-        # [[data path, numbers], ...], without references to bones, which editing makes anew.
+        # Unkeyed properties would keep their new values after a frame change, so they are stored:
+        # [[data path, numbers], ...], without references to bones, which editing recreates.
         keyed = {curve.data_path for curve in actions.curves(armature, action)}
         targets = [(None, armature)] + [(name, armature.pose.bones[name])
                                         for name in plan.controls()]
@@ -163,22 +163,22 @@ class Solver:
                         if actions.data_path(bone, name) not in keyed]
 
     def restore(self):
-        """Puts back what no key puts back, before the next frame is set."""
+        """Restores unkeyed properties; call before setting the next frame."""
         actions.put_back(self.armature, self.unkeyed)
 
     def put(self, wanted):
-        """wanted: [joints] (rotation, place), world. The armature is in the unstyled pose of that
-        moment."""
+        """wanted: [joints] (rotation, position), world space. The armature must be in the unstyled
+        pose of that time."""
         to_armature = self.armature.matrix_world.inverted()
         self._put_object(wanted)
         current = self._current()
         goal = [self._goal(to_armature, now, pose) for now, pose in zip(current, wanted)]
-        # What joints and controls have to do with each other shows in the unstyled pose: while IK
-        # cannot reach, the styled one would mislead.
+        # The offsets of controls from joints are measured in the unstyled pose: in the styled one
+        # they would be wrong where IK cannot reach.
         before = {move.control: self._bones()[move.control].matrix.copy()
                   for move in self.plan.moves}
         self._put_direct(goal)
-        # Parents first: no control moves what one before it has put in place.
+        # Parents first, so that no control moves a joint that is already in place.
         for move in self.plan.moves:
             if isinstance(move, Lead):
                 self._approach(lambda: self._lead(move, goal))
@@ -189,8 +189,8 @@ class Solver:
                 self._place(move, before[move.control], current, goal)
 
     def _approach(self, turn):
-        """Calls turn() until what is left to go is little, or does not get less: a control that
-        leads several joints cannot bring them all where they are wanted."""
+        """Calls turn() until the remaining error is small or stops shrinking: a control of several
+        joints may not bring all of them to their goals."""
         left = math.inf
         for _ in range(_MOST_ROUNDS):
             self.context.view_layer.update()
@@ -201,13 +201,13 @@ class Solver:
     def _bones(self):
         return self.armature.pose.bones
 
-    # [joints] matrices of the armature's own space, None for the object.
+    # [joints] matrices in armature space, None for the object.
     def _current(self):
         evaluated = self.armature.evaluated_get(self.context.evaluated_depsgraph_get())
         bones = evaluated.pose.bones
         return [bones[j.bone].matrix.copy() if j.bone else None for j in self.plan.joints]
 
-    # The wanted pose in the armature's space, with the scale that the bone has.
+    # The goal in armature space, with the bone's current scale.
     def _goal(self, to_armature, now, pose):
         if now is None:
             return None
@@ -244,7 +244,7 @@ class Solver:
             after = goal[at] @ current[at].inverted() @ before
         _set_matrix(self._bones()[move.control], after)
 
-    # These two return how far it was to go, radians and metres.
+    # These two return the error before the move, radians and metres.
     def _lead(self, move, goal):
         bone = self._bones()[move.control]
         at = self.plan.place[move.joint]
@@ -253,7 +253,7 @@ class Solver:
         shift = goal[at].translation - now.translation
         place, old, scale = bone.matrix.decompose()
         if move.moves:
-            # It turns the joint about somewhere else, so half of the way is on the safe side.
+            # It rotates the joint about another point, so half a step is safer.
             place = place + 0.7 * shift
         _set_matrix(bone, Matrix.LocRotScale(place, turn @ old, scale), stays=not move.moves)
         return max(abs(_signed(turn.angle)), shift.length if move.moves else 0)
@@ -275,13 +275,13 @@ class Solver:
         _set_matrix(bone, Matrix.LocRotScale(place, turn, scale), stays=True)
         return abs(angle)
 
-    # The pole keeps its place against the plane of hip, knee and ankle.
+    # The pole keeps its position relative to the plane of hip, knee and ankle.
     def _pole_place(self, move, before, current, goal):
         places = [self.plan.place[name] for name in move.joints]
         old = _bend_frame(*[current[i].translation for i in places])
         new = _bend_frame(*[goal[i].translation for i in places])
         if old is None or new is None:
-            # A straight limb points nowhere: the pole goes along with its upper part.
+            # A straight limb has no direction: the pole follows its upper part.
             old, new = current[places[0]], goal[places[0]]
         return Matrix.Translation(new @ old.inverted() @ before.translation -
                                   before.translation) @ before
@@ -299,7 +299,7 @@ def _bend_frame(root, middle, end):
 
 
 def _set_basis(bone, basis):
-    """Sets rotation and location; scale is no style's to change."""
+    """Sets rotation and location; styles never change scale."""
     place, turn, _ = basis.decompose()
     bone.location = place
     set_rotation(bone, turn)
@@ -310,7 +310,7 @@ def _signed(angle):
 
 
 def _set_matrix(bone, matrix, stays=False):
-    """The bone comes to `matrix`, as far as it can without being scaled; or only turns."""
+    """Sets the bone to `matrix` without changing its scale; only rotates it if it `stays`."""
     place, scale = tuple(bone.location), tuple(bone.scale)
     bone.matrix = matrix
     bone.scale = scale

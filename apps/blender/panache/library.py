@@ -1,4 +1,4 @@
-"""Panache's Python package, which the zip holds as `core`, as far as the add-on needs it."""
+"""The parts of Panache's Python package (`core` in the zip) that the add-on uses."""
 
 import glob
 import os
@@ -12,14 +12,14 @@ __all__ = ['Clip', 'Model', 'PanacheError', 'Skeleton', 'learn', 'stylize']
 
 
 class Model:
-    """A model file, and the styles of a folder of style files beside its own.
+    """A model file, plus the styles of a folder of style files.
 
-    `own` is the file's model, which learning adds to; `all` has the folder's styles too."""
+    `own` is the file's model, to which learnt styles are added; `all` includes the folder's."""
 
     def __init__(self, path, folder=''):
         self.path = path
         self.own = self.all = CoreModel(path)
-        self.problems = []  # Of style files that are not in use.
+        self.problems = []  # Errors of unusable style files.
         files = glob.glob(os.path.join(glob.escape(folder), '*.safetensors')) if folder else []
         for name in sorted(files):
             try:
@@ -28,16 +28,16 @@ class Model:
             except (PanacheError, OSError) as error:
                 self.problems.append('%s: %s' % (name, error))
         self.styles = self.all.styles
-        # {group: its styles}, in the model's order; '' has the styles of no group.
+        # {group: its styles}, in the model's order; '' holds styles without a group.
         self.groups = {}
         for style, group in zip(self.styles, self.all.groups):
             self.groups.setdefault(group, []).append(style)
 
 
 def learn(model, neutral, styled, name, replace):
-    """Clips of one rig; without a neutral one (None) the mean of other people takes its place. A
-    style of that name is replaced if `replace`, else it is an error. Returns the bytes of the model
-    with the style and what is to say about it."""
+    """Learns a style from clips of one rig; if `neutral` is None, the mean of other people is used.
+    An existing style of that name is replaced if `replace`, else it is an error. Returns the bytes
+    of the model with the style, and messages about it."""
     learnt = core_learn(model.own, [(neutral, styled)] if neutral else styled, name, replace)
     lines = list(learnt.warnings)
     if learnt.people:

@@ -1,4 +1,4 @@
-"""What the buttons do."""
+"""The operators behind the buttons."""
 
 import contextlib
 import time
@@ -8,14 +8,14 @@ import bpy
 from . import baking, controls, library, preview, sampling, settings
 
 
-_TICK = 0.01     # Seconds between two turns of a bake,
-_AT_ONCE = 0.1   # and of each.
-_SAMPLING = 0.1  # Of the time of a bake.
+_TICK = 0.01     # Seconds between steps of a bake.
+_AT_ONCE = 0.1   # Seconds per step.
+_SAMPLING = 0.1  # Share of a bake's progress.
 
 
 @contextlib.contextmanager
 def _reported(operator):
-    """A failure inside ends it, and is reported."""
+    """Reports an error raised in the block, which it ends."""
     try:
         yield
     except library.PanacheError as error:
@@ -25,7 +25,7 @@ def _reported(operator):
 
 
 def _part(begin, end, work):
-    """Yields what `work` does as the part from `begin` to `end` of more; returns its result."""
+    """Maps the progress of `work` to the range `begin` to `end`; returns its result."""
     while True:
         try:
             yield begin + (end - begin) * next(work)
@@ -63,7 +63,7 @@ class PANACHE_OT_bake(_OnArmature, bpy.types.Operator):
     bl_idname = 'panache.bake'
     bl_label = 'Bake'
 
-    # From its button it shows how much is done, and Esc cancels it; a script waits for its end.
+    # The button shows progress, and Esc cancels; a script call blocks until it is done.
     def invoke(self, context, event):
         if bpy.app.background:
             return self.execute(context)
@@ -80,7 +80,7 @@ class PANACHE_OT_bake(_OnArmature, bpy.types.Operator):
             self.report({'INFO'}, 'cancelled; nothing is changed')
             return self._end(context, {'CANCELLED'})
         if event.type != 'TIMER':
-            return {'RUNNING_MODAL'}  # Nobody changes what is being read.
+            return {'RUNNING_MODAL'}  # Blocks edits while reading.
         until = time.monotonic() + _AT_ONCE
         try:
             while time.monotonic() < until:
@@ -105,7 +105,7 @@ class PANACHE_OT_bake(_OnArmature, bpy.types.Operator):
             except StopIteration as stop:
                 return stop.value
 
-    # The whole of it, a generator: yields how much is done, 0 to 1.
+    # The whole bake as a generator, which yields its progress, 0 to 1.
     def _guarded(self, context):
         with _reported(self), preview.paused(context):
             yield from self._bake(context, context.object)
@@ -148,7 +148,7 @@ class PANACHE_OT_learn(_OnArmature, bpy.types.Operator):
     """Learn a style from an action of this armature, best beside a neutral one"""
     bl_idname = 'panache.learn'
     bl_label = 'Learn'
-    bl_options = {'REGISTER'}  # A style is in the model's file, where undo does not reach.
+    bl_options = {'REGISTER'}  # Undo does not cover the model file.
 
     def run(self, context, armature):
         found = armature.panache

@@ -1,5 +1,5 @@
-"""The style at the current frame, while sliders move. Nothing of the file is changed: the next
-change of the frame without preview shows the action again."""
+"""Previews the style at the current frame while sliders move. Changes no animation: without preview
+the next frame change shows the action again."""
 
 import contextlib
 import json
@@ -8,12 +8,12 @@ import bpy
 
 from . import actions, baking, controls, library, sampling
 
-# On an armature that is shown styled: what its unkeyed controls were, [[data path, numbers], ...]
-# in JSON. Undo steps and saved files hold the styled pose, so they must hold this too.
+# On a previewed armature: the original values of its unkeyed controls, [[data path, numbers], ...]
+# in JSON. Undo steps and saved files contain the styled pose, so they need these too.
 SHOWN = 'panache_shown'
 
-# Of the armature that is shown styled. It refers to data of Blender, which undo and loading make
-# anew: both drop it.
+# State of the previewed armature. It refers to Blender data, which undo and loading recreate, so
+# both drop it.
 _state = None
 _may_resume = False  # Whether an armature may be in preview without a state.
 _busy = False
@@ -43,14 +43,14 @@ class _State:
         note(self.armature, self.sampled, self.styled, self.plan)
 
     def show(self, context):
-        """The armature is in the unstyled pose of the current frame."""
+        """Poses the armature, which must be in the unstyled pose of the current frame."""
         frame = min(max(context.scene.frame_current - self.sampled.first, 0),
                     len(self.styled) - 1)
         self.solver.put(self.sampled.world_pose(self.styled, frame))
 
 
 def note(armature, sampled, styled, plan):
-    """Puts into the panel how the rig was understood and how well the motion is known."""
+    """Shows in the panel how the rig was mapped and how well the model knows the motion."""
     names = sampled.skeleton.mapping()
     found = armature.panache
     found.mapping = '\n'.join('%s\t%s' % (human, name or '-') for human, name in names.items())
@@ -61,7 +61,7 @@ def note(armature, sampled, styled, plan):
 
 @contextlib.contextmanager
 def _quiet():
-    """While it lasts, changes of the frame show no style."""
+    """Within the block, frame changes show no style."""
     global _busy
     before, _busy = _busy, True
     try:
@@ -71,7 +71,7 @@ def _quiet():
 
 
 def _unstyle(armature):
-    """Puts back what no key puts back."""
+    """Restores unkeyed properties."""
     if SHOWN in armature:
         actions.put_back(armature, json.loads(armature[SHOWN]))
         del armature[SHOWN]
@@ -88,19 +88,19 @@ def _start(context, armature):
 
 
 def stop():
-    """Shows no style; the poses that are keyed come back with the next change of the frame."""
+    """Ends the preview; keyed poses return with the next frame change."""
     global _state, _may_resume
     if _state is not None:
         try:
             _unstyle(_state.armature)
-        except ReferenceError:  # The armature is gone.
+        except ReferenceError:  # The armature was deleted.
             pass
     _state = None
     _may_resume = True
 
 
 def _resume(context):
-    """After what has dropped the state, the armature that is in preview is shown again."""
+    """Restarts the preview of an armature after its state was dropped."""
     global _may_resume
     _may_resume = False
     for armature in _armatures(bpy.data.objects):
@@ -117,7 +117,7 @@ def _armatures(objects):
 
 
 def refresh(armature):
-    """A slider of `armature` was moved."""
+    """Call when a slider of `armature` was moved."""
     context = bpy.context
     if _busy or not armature.panache.preview:
         return
@@ -142,7 +142,7 @@ def toggled(found, context):
         _unstyle(armature)
         context.scene.frame_set(context.scene.frame_current)
         return
-    for other in _armatures(bpy.data.objects):  # One is shown at a time.
+    for other in _armatures(bpy.data.objects):  # Only one is previewed.
         if other != armature and other.panache.preview:
             other.panache.preview = False
     try:
@@ -160,7 +160,7 @@ def _fail(armature, error):
 
 @contextlib.contextmanager
 def paused(context):
-    """While it lasts, no armature is shown styled."""
+    """Within the block, no armature is previewed."""
     was_shown = _state is not None
     stop()
     with _quiet():
@@ -173,7 +173,7 @@ def paused(context):
 
 @bpy.app.handlers.persistent
 def _on_frame(_scene, _depsgraph=None):
-    # Renders change the frame in a thread of their own, on data of their own.
+    # Renders change the frame in another thread, on a copy of the data.
     if _busy or _rendering or (_state is None and not _may_resume):
         return
     context = bpy.context
@@ -186,7 +186,7 @@ def _on_frame(_scene, _depsgraph=None):
             _state.solver.restore()
             context.view_layer.update()
             _state.show(context)
-        except (ReferenceError, KeyError):  # The armature or one of its bones is gone.
+        except (ReferenceError, KeyError):  # The armature or a bone was deleted.
             stop()
 
 
@@ -207,17 +207,17 @@ def _drop_state():
 
 @bpy.app.handlers.persistent
 def _after_load(*_):
-    """A file that was saved during a preview shows its action."""
+    """Shows the action in a file that was saved during a preview."""
     with _quiet():
         for armature in _armatures(bpy.data.objects):
             if armature.panache.preview:
                 armature.panache.preview = False
-                armature.update_tag(refresh={'TIME'})  # Of no effect yet is a change of the frame.
+                armature.update_tag(refresh={'TIME'})  # A frame change has no effect yet.
 
 
 @bpy.app.handlers.persistent
 def _before_render(*_):
-    """A render shows the action."""
+    """Renders show the action, not the preview."""
     global _rendering
     _rendering = True
     if _state is not None:

@@ -1,5 +1,5 @@
-"""What a user sets: a slider per style and per part of the shape, and what is remembered of the
-last look at the motion."""
+"""The user's settings: a slider per style and per part of the shape, and the results of the last
+analysis of the motion."""
 
 import hashlib
 import os
@@ -12,7 +12,7 @@ from . import library, preview
 
 SHIPPED = os.path.join(os.path.dirname(__file__), 'core', 'models', 'panache-int8.safetensors')
 MANY_STYLES = 20
-# name: (label, what it says, default)
+# name: (label, description, default)
 SHAPE = {
     'posture': ('Posture', 'Amount of the slow part of the style', 1.0),
     'dynamics': ('Movement', 'Amount of the fast part of the style', 1.0),
@@ -23,13 +23,13 @@ SHAPE = {
     'right_arm': ('Right Arm', 'Amount of the style on the right arm', 1.0),
 }
 _model = None
-_problem = ''  # Why the model of the preferences is not in use.
-_path = ''     # Of the model in use where the add-on has no preferences: started by a script.
+_problem = ''  # Why the model in the preferences is not in use.
+_path = ''     # Of the model in use without preferences, when started by a script.
 
 
 def model():
-    """The model in use: that of the preferences, or the shipped one if there is none or it cannot
-    be read, which draw_problem() says."""
+    """The model in use: the one in the preferences, or the shipped one if none is set or it cannot
+    be read, which draw_problem() shows."""
     if _model is None:
         _load_model()
     return _model
@@ -61,8 +61,8 @@ def draw_problem(layout):
 
 
 def learnt_path():
-    """Where learnt styles are kept."""
-    if __package__.startswith('bl_ext.'):  # Extensions have a folder of their own.
+    """The path of the model with learnt styles."""
+    if __package__.startswith('bl_ext.'):  # Extensions have their own folder.
         folder = bpy.utils.extension_path_user(__package__, create=True)
     else:
         folder = bpy.utils.user_resource('CONFIG', path='panache', create=True)
@@ -70,10 +70,9 @@ def learnt_path():
 
 
 def learnt_style(name):
-    """The style of this name in the model in use if it was learnt here, so that it may be replaced;
-    None if there is no such style. Fails if it is one of another model, as the shipped ones are, and
-    if learning would lose the styles that were learnt before. Names that differ in case alone are
-    one name."""
+    """The style of this name in the model in use if it was learnt here and may be replaced; None if
+    there is no such style. Fails if the style is shipped or from another model, or if learning
+    would lose styles learnt before. Names are compared without case."""
     if model().path != learnt_path() and os.path.exists(learnt_path()):
         raise library.PanacheError(
             '%s holds styles that were learnt before, but is not the model in use; expected it as '
@@ -89,8 +88,8 @@ def learnt_style(name):
 
 
 def keep_learnt(content):
-    """Makes these bytes the model of learnt styles, and that the model in use. The file is whole at
-    any time: the old one or the new one."""
+    """Saves these bytes as the model with learnt styles and makes it the model in use. The file is
+    replaced atomically."""
     global _path
     path = learnt_path()
     handle, part = tempfile.mkstemp(prefix='.styles.', suffix='.part', dir=os.path.dirname(path))
@@ -113,7 +112,7 @@ def keep_learnt(content):
 
 
 def property_of(style):
-    """The name of a style's slider: that of the style, unless Blender takes none like it."""
+    """The name of a style's slider: the style's name, unless Blender does not allow it."""
     if len(style.encode(errors='replace')) <= 63 and not style.startswith('_'):
         return style
     return 'style ' + hashlib.sha1(style.encode(errors='replace')).hexdigest()[:16]
@@ -161,8 +160,8 @@ def property_of_group(group):
 
 
 def _make_groups_class():
-    """Whether the sliders of each group are shown. Of many styles, only the first group and learnt
-    styles are at first, so that the buttons below them stay in sight."""
+    """Whether the sliders of each group are shown. If there are many styles, only the first group
+    and learnt styles are shown initially, so that the buttons below stay visible."""
     few = len(model().styles) <= MANY_STYLES
     shown = {property_of_group(group): BoolProperty(name=title_of(group),
                                                     default=few or i == 0 or group == '')
@@ -212,7 +211,7 @@ def _unregister_sliders():
 
 
 def reload_styles():
-    """After the model was changed."""
+    """Call after the model was changed."""
     preview.stop()
     _load_model()
     _unregister_sliders()
@@ -227,7 +226,7 @@ def strengths(armature):
 
 
 def sliders_shown(found, styles, is_open):
-    """Those of the styles of a group that the panel draws: all, or those that are not at 0."""
+    """The styles of a group that the panel draws: all, or only those that are not at 0."""
     return [name for name in styles
             if is_open or getattr(found.styles, property_of(name), 0.0) != 0]
 
@@ -241,7 +240,7 @@ def register():
     try:
         _load_model()
         _register_sliders()
-    except Exception:  # Without a library nothing stays registered, so that it can be tried again.
+    except Exception:  # If the library is missing, nothing stays registered, to allow a retry.
         bpy.utils.unregister_class(PanachePreferences)
         raise
 

@@ -3,17 +3,17 @@
 namespace panache::godot {
 namespace {
 
-// Made when the class is registered: the engine wants them back before it ends.
+// Created when the class is registered; must be released before the engine exits.
 struct Shared {
   Names names;
   Name class_name{"PanacheCharacter"}, parent_name{"SkeletonModifier3D"}, no_name{""};
-  std::map<std::string, std::weak_ptr<panache_model>> models;  // By their paths.
+  std::map<std::string, std::weak_ptr<panache_model>> models;  // By path.
 };
 std::unique_ptr<Shared> shared;
 
 constexpr std::string_view kStyles = "styles/";
 
-// The style that a property is the strength of; empty for others.
+// The style whose strength a property holds; empty for other properties.
 std::string style_of(const std::string& property) {
   return property.starts_with(kStyles) ? property.substr(kStyles.size()) : "";
 }
@@ -36,7 +36,7 @@ bool Character::set(const std::string& property, const ValueData* value) {
   } else {
     return false;
   }
-  if (style_of(property).empty()) of_ = nullptr;  // What is made of these is made anew.
+  if (style_of(property).empty()) of_ = nullptr;  // Recreates the character.
   return true;
 }
 
@@ -120,7 +120,7 @@ void Character::apply(const std::string& style) const {
   panache_character_set_strength(character_.get(), place, static_cast<float>(strengths_.at(style)));
 }
 
-// The skeleton says when its modifiers run: 0 with physics, else with what is drawn.
+// The skeleton's setting says when its modifiers run: 0 in physics frames, else in drawn frames.
 double Character::seconds_of(const Value& skeleton) const {
   const Names& names = shared->names;
   const bool physics =
@@ -169,7 +169,7 @@ Object create(void*) {
   return object;
 }
 
-// Godot 4.5 and newer tell the time; 4.3 and 4.4 have only the other of the two.
+// Godot 4.5 and newer call the method that passes the time; 4.3 and 4.4 only have the other.
 Virtual find_virtual(void*, const NameData* name) {
   const std::string method = to_utf8(name);
   if (method == "_process_modification_with_delta") {
@@ -198,7 +198,7 @@ void Character::register_class() {
     *count = static_cast<uint32_t>(list.size());
     return list.data();
   };
-  info.free_properties = [](void*, const Property*, uint32_t) {};  // The node keeps them.
+  info.free_properties = [](void*, const Property*, uint32_t) {};  // The node owns them.
   info.can_revert = [](void* instance, const NameData* name) -> Flag {
     return at(instance).initial(to_utf8(name)).has_value();
   };

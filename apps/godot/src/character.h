@@ -1,7 +1,6 @@
 #pragma once
 // The node PanacheCharacter: a SkeletonModifier3D that styles the pose of its skeleton in each
-// frame, after the animation. The engine takes the pose back afterwards, so that what it plays is
-// never styled twice.
+// frame, after the animation. The engine restores the pose afterwards, so no pose is styled twice.
 
 #include <panache/panache.h>
 
@@ -19,7 +18,6 @@ class Character {
  public:
   explicit Character(Object self) : self_(self) {}
 
-  // Registers the class with the engine, or takes it back.
   static void register_class();
   static void unregister_class();
 
@@ -29,13 +27,13 @@ class Character {
   std::optional<Value> initial(const std::string& property) const;
   const std::vector<Property>& properties();
 
-  // One frame, so many seconds after the last; without them, those of the skeleton's clock.
+  // Processes one frame, `seconds` after the last; by default the skeleton's frame time.
   void process(std::optional<double> seconds);
-  // Forgets the motion so far, as after a teleport.
+  // Forgets the motion so far; call it after a teleport.
   void reset_motion();
 
  private:
-  // The engine's list of properties points into it.
+  // Backing storage for the engine's list of properties, which points into it.
   struct PropertyText {
     Name name;
     Text hint;
@@ -52,14 +50,14 @@ class Character {
   Object self_;
   std::string model_path_;
   bool hold_feet_ = true, style_root_ = false;
-  // By name, so that they may be set before the model is.
+  // By style name, so they can be set before the model.
   std::map<std::string, double> strengths_;
 
   std::shared_ptr<panache_model> model_;
   std::unique_ptr<SkeletonPose> pose_;
   std::unique_ptr<panache_character, Destroy> character_;
-  // Of which skeleton, and of which version of its bones, they are; also where they could not be
-  // made, so that it is said once.
+  // The skeleton, and the version of its bones, that pose_ and character_ were made for. Also set
+  // if making them failed, so the error is printed once.
   Object of_ = nullptr;
   int64_t version_ = -1;
 

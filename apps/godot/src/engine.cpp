@@ -50,7 +50,7 @@ std::string take_utf8(TextData text) {
 }  // namespace
 
 std::string to_utf8(const NameData* name) {
-  constexpr int32_t kFromName = 2;  // Of the constructors of String.
+  constexpr int32_t kFromName = 2;  // Index of the constructor of String.
   TextData text;
   const void* arguments[] = {name};
   engine.get_construct(Type::text, kFromName)(&text, arguments);
@@ -80,7 +80,7 @@ Value::~Value() { engine.destroy_value(&data_); }
 Value Value::call_with(const Name& method, const ValueData* const* arguments, int64_t count) const {
   Value out;
   CallError error{};
-  ValueData self = data_;  // The engine does not change what it calls.
+  ValueData self = data_;  // The engine does not change the object.
   engine.call_value(&self, method.get(), arguments, count, &out.data_, &error);
   return out;
 }
@@ -96,7 +96,7 @@ namespace {
 template <class Plain>
 Plain read_as(Type type, const ValueData* value) {
   Plain out{};
-  ValueData same = *value;  // The engine reads it only.
+  ValueData same = *value;  // The engine only reads it.
   if (engine.get_type(value) == type) engine.get_read_value(type)(&out, &same);
   return out;
 }
@@ -123,7 +123,7 @@ Object to_object(const ValueData* value) { return read_as<Object>(Type::object, 
 // ---- Files and messages -------------------------------------------------------------------------
 
 std::vector<uint8_t> read_file(const std::string& path) {
-  constexpr int64_t kHash = 659035735;  // Of the method's signature, in all of Godot 4.
+  constexpr int64_t kHash = 659035735;  // The method's signature, in all of Godot 4.
   const void* method =
       engine.get_method(Name("FileAccess").get(), Name("get_file_as_bytes").get(), kHash);
   if (!method) return {};

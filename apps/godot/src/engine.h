@@ -9,7 +9,7 @@
 
 namespace panache::godot {
 
-// The functions that the engine handed out. Filled by load() once, before anything else here.
+// The engine's functions. load() fills it once, before anything else here is used.
 struct Engine {
   void* library;
   MakeText make_name, make_text;
@@ -31,7 +31,7 @@ struct Engine {
   UnregisterClass unregister_class;
   RegisterMethod register_method;
 
-  // Whether the engine has all of them.
+  // Returns whether the engine has all of them.
   bool load(GetFunction get_function, void* its_library);
 };
 extern Engine engine;
@@ -71,13 +71,13 @@ class Value {
   Value& operator=(Value&&) = delete;
   ~Value();
 
-  // Calls a method of what this is. A call that the engine rejects gives nothing.
+  // Calls a method of this object. Returns nil if the engine rejects the call.
   template <class... Arguments>
   Value call(const Name& method, const Arguments&... arguments) const {
     const ValueData* list[] = {arguments.get()..., nullptr};
     return call_with(method, list, sizeof...(arguments));
   }
-  // Leaves the value to the engine.
+  // Passes ownership of the value to the engine.
   ValueData release();
   const ValueData* get() const { return &data_; }
 
@@ -87,20 +87,20 @@ class Value {
   ValueData data_;
 };
 
-// What a value is, or 0 where it is of another type.
+// The content of a value, or 0 if it has another type.
 bool to_flag(const ValueData* value);
 int64_t to_integer(const ValueData* value);
-double to_real(const ValueData* value);  // Of integers too.
+double to_real(const ValueData* value);  // Accepts integers too.
 std::string to_utf8(const ValueData* value);
 Vector to_vector(const ValueData* value);
 Rotation to_rotation(const ValueData* value);
 Transform to_transform(const ValueData* value);
 Object to_object(const ValueData* value);
 
-// The bytes of a file, res:// or other; empty if it cannot be read.
+// The bytes of a file (res:// or any other path); empty if it cannot be read.
 std::vector<uint8_t> read_file(const std::string& path);
 
-// An error in the console and the editor.
+// Prints an error in the console and the editor.
 void tell(const std::string& message);
 
 }  // namespace panache::godot

@@ -1,4 +1,4 @@
-// Where the engine enters.
+// The entry point of the extension.
 
 #include "character.h"
 

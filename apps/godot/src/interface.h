@@ -1,14 +1,14 @@
 #pragma once
-// The part of Godot's C interface for extensions that this one uses, by the names under which the
-// engine hands its functions out (Godot 4.3 and newer, 64 bits, real numbers of 32 bits). Layouts
-// are the engine's; what it does not fill or read here is a plain pointer.
+// The part of Godot's C interface for extensions that this one uses, with the names under which the
+// engine provides its functions (Godot 4.3 and newer, 64 bits, 32-bit reals). Layouts match the
+// engine's; members that this extension does not use are plain pointers.
 
 #include <cstddef>
 #include <cstdint>
 
 namespace panache::godot {
 
-// Values of the engine lie in memory of these sizes and are made and destroyed by its functions.
+// Storage for the engine's values, with their sizes; the engine's functions make and destroy them.
 struct NameData {
   void* data;
 };
@@ -28,7 +28,7 @@ struct Rotation {
   float x, y, z, w;
 };
 struct Transform {
-  Vector rows[3];  // Of the basis.
+  Vector rows[3];  // Rows of the basis.
   Vector origin;
 };
 

@@ -18,11 +18,11 @@ Column unit_column(const Transform& t, float Vector::*axis) {
   return length > 0 ? Column{x / length, y / length, z / length, length} : Column{0, 0, 0, 0};
 }
 
-// The rotation of a basis that may be scaled, but is not sheared or mirrored.
+// The rotation of a basis that may be scaled, but not sheared or mirrored.
 Rotation rotation_of(const Transform& t) {
   const Column a = unit_column(t, &Vector::x), b = unit_column(t, &Vector::y),
                c = unit_column(t, &Vector::z);
-  // The largest of the four is divided by, so that none is lost to rounding.
+  // Divide by the largest of the four, so that rounding loses none.
   const double w = 1 + a.x + b.y + c.z, x = 1 + a.x - b.y - c.z, y = 1 - a.x + b.y - c.z,
                z = 1 - a.x - b.y + c.z;
   double q[4];

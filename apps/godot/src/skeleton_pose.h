@@ -1,5 +1,5 @@
 #pragma once
-// A Skeleton3D as a skeleton of the library, and its poses.
+// Converts a Skeleton3D and its poses to the library's.
 
 #include <panache/panache.h>
 
@@ -11,7 +11,7 @@
 
 namespace panache::godot {
 
-// Names that are used in each frame, made once.
+// Names used in each frame, created once.
 struct Names {
   Name get_skeleton{"get_skeleton"}, get_version{"get_version"}, get_bone_count{"get_bone_count"},
       get_bone_name{"get_bone_name"}, get_bone_parent{"get_bone_parent"},
@@ -26,21 +26,21 @@ struct Names {
       notify_property_list_changed{"notify_property_list_changed"};
 };
 
-// The bones of a Skeleton3D, parents first, below a joint that stands for the node itself and so
-// carries the root motion. In the node's units; the floor is where the node stands.
+// The bones of a Skeleton3D, parents first, below a joint that stands for the node and carries the
+// root motion. In the node's units; the floor is at the node's height.
 class SkeletonPose {
  public:
-  // As many bones as the node has now. On failure skeleton() is null, and error() says why.
+  // Takes the bones that the node has now. On failure skeleton() is null, and error() says why.
   SkeletonPose(const Names& names, const Value& node);
 
   const panache_skeleton* skeleton() const { return skeleton_.get(); }
   const std::string& error() const { return error_; }
 
-  // The pose of the bones, and where the node stands in the world.
+  // Reads the pose of the bones, and the node's position in the world.
   panache_input_pose read(const Names& names, const Value& node);
-  // Where a step writes to.
+  // The output buffer of a step.
   panache_output_pose out() { return {out_rotations_.data(), out_translations_.data()}; }
-  // Sets what the step changed.
+  // Writes to the node what the step changed.
   void write(const Names& names, const Value& node) const;
 
  private:
@@ -49,7 +49,7 @@ class SkeletonPose {
   };
   std::unique_ptr<panache_skeleton, Destroy> skeleton_;
   std::string error_;
-  std::vector<int64_t> bones_;  // Of each joint after the first.
+  std::vector<int64_t> bones_;  // The bone of each joint after the first.
   std::vector<float> rotations_, translations_, out_rotations_, out_translations_;
 };
 

@@ -1,4 +1,4 @@
-"""Bytes from and to files."""
+"""Reads and writes files."""
 
 import itertools
 import os
@@ -9,7 +9,7 @@ from ._library import PanacheError
 
 
 def read_bytes(path) -> bytes:
-    """All of a file."""
+    """The content of a file."""
     try:
         return pathlib.Path(path).read_bytes()
     except OSError as error:
@@ -17,14 +17,14 @@ def read_bytes(path) -> bytes:
 
 
 def check_free(path, force: bool) -> None:
-    """Before any work is done: raises where a file would be overwritten."""
+    """Raises if a file would be overwritten; call before any work is done."""
     if not force and os.path.exists(path):
         raise _taken(path)
 
 
 def write(path, content: bytes, force: bool) -> None:
-    """Puts a file at `path`, whole or not at all: writes a new one beside it, then renames. As the
-    program does: a replaced file keeps its permissions, and where a link points is written to."""
+    """Writes a file atomically: writes a new file next to it, then renames that. As in the program,
+    a replaced file keeps its permissions, and a link is followed."""
     check_free(path, force)
     part = None
     try:
@@ -37,7 +37,7 @@ def write(path, content: bytes, force: bool) -> None:
         if permissions is not None:
             os.chmod(part, permissions)
         _rename(part, target, force)
-        part = None  # Another thread may have made a new one of this name.
+        part = None  # Another thread may now use this name.
     except FileExistsError as error:
         raise _taken(path) from error
     except OSError as error:
@@ -52,7 +52,7 @@ def _taken(path) -> PanacheError:
 
 
 def _permissions(target: str, path):
-    """Of a file that is there; None where there is none. Nothing but a file is replaced."""
+    """The permissions of an existing file; None without one. Raises if it is not a file."""
     try:
         mode = os.stat(target).st_mode
     except FileNotFoundError:
@@ -66,7 +66,7 @@ def _permissions(target: str, path):
 
 
 def _create_beside(target: str):
-    """The name and handle of a new file: .NAME.PID.part, as the program calls it."""
+    """The path and handle of a new file, .NAME.PID.part as in the program."""
     folder, name = os.path.split(target)
     stem = os.fsdecode(os.fsencode('.' + name)[:255 - len('.PID4567-1000.part')])
     how = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, 'O_BINARY', 0)
@@ -83,13 +83,13 @@ def _create_beside(target: str):
 def _rename(part: str, target: str, force: bool) -> None:
     if not force:
         if os.name == 'nt':
-            return os.rename(part, target)  # Replaces nothing there.
+            return os.rename(part, target)  # Never overwrites on Windows.
         try:
-            os.link(part, target)  # Replaces nothing anywhere.
+            os.link(part, target)  # Never overwrites.
             return os.unlink(part)
         except FileExistsError:
             raise
-        except OSError:  # A file system without links.
+        except OSError:  # The file system has no links.
             if os.path.exists(target):
                 raise FileExistsError() from None
     os.replace(part, target)

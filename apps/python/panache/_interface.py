@@ -29,8 +29,8 @@ def _class_name(name: str) -> str:
 
 
 def _kind(text: str):
-    """The type that a declaration begins with: numbers, structs and pointers to them; pointers to
-    anything else are addresses."""
+    """The ctypes type at the start of a declaration: a number, a struct or a pointer to a struct;
+    other pointers are plain addresses."""
     name, stars = text.replace('const', ' ').replace('*', ' ').split()[0], text.count('*')
     struct = getattr(structs, _class_name(name), None)
     if not stars:
@@ -56,7 +56,7 @@ for _body, _name in re.findall(r'typedef struct \w+ \{(.*?)\} (\w+);', _TEXT, re
 
 
 def declare(library: ctypes.CDLL) -> None:
-    """Gives the library its functions with their types: panache_version() as library.version()."""
+    """Adds typed functions to the library: panache_version() as library.version()."""
     for result, name, arguments in re.findall(
             r'PANACHE_API ([\w\s*]+?)\bpanache_(\w+)\(\s*(.*?)\);', _TEXT, re.DOTALL):
         function = getattr(library, 'panache_' + name)

@@ -1,4 +1,4 @@
-"""The C interface (include/panache/panache.h) by ctypes."""
+"""The C interface (include/panache/panache.h) through ctypes."""
 
 import ctypes
 import operator
@@ -28,7 +28,7 @@ def _open():
     if not own.exists():
         raise PanacheError(f'there is no {own}; install the wheel that ./run python makes')
     for other in sorted(folder.iterdir()):
-        if other != own:  # What it needs is found where it has been opened already.
+        if other != own:  # Dependencies must be loaded before it.
             ctypes.CDLL(str(other), mode=ctypes.RTLD_GLOBAL)
     library = ctypes.CDLL(str(own))
     found = library.panache_version()
@@ -49,14 +49,14 @@ def version() -> str:
 
 
 def utf8(text, what: str) -> bytes:
-    """A name as the library takes it; bytes of a path that are no UTF-8 stay what they are."""
+    """A name encoded for the library; keeps bytes of a path that are not UTF-8."""
     if not isinstance(text, str):
         raise PanacheError(f'{what}: expected a string, found {type(text).__name__}')
     return text.encode(errors='surrogateescape')
 
 
 def number(value, what: str) -> float:
-    """A number of any type."""
+    """A number of any type as float."""
     try:
         return float(value)
     except (TypeError, ValueError, OverflowError):
@@ -64,7 +64,7 @@ def number(value, what: str) -> float:
 
 
 def whole(value, what: str) -> int:
-    """A place or a count."""
+    """An index or a count."""
     try:
         return operator.index(value)
     except TypeError:
@@ -72,7 +72,7 @@ def whole(value, what: str) -> int:
 
 
 def check(status: int) -> None:
-    """Raises what the library says of a failure."""
+    """Raises the library's last error if `status` is not 0."""
     if status != 0:
         raise PanacheError(lib.last_error().decode(), ERROR_KINDS[lib.last_error_kind()])
 
@@ -89,11 +89,11 @@ class Handle:
         if getattr(self, 'pointer', None):
             self._destroy(self.pointer)
 
-    def __reduce__(self):  # By pickle and copy: two would give the same object back.
+    def __reduce__(self):  # Copies would be destroyed twice.
         raise TypeError('an object of the library cannot be copied; make another one')
 
     def view(self, address: int, shape, dtype=np.float32) -> np.ndarray:
-        """An array of the library's memory, read-only, which keeps this object. No copy."""
+        """A read-only array of the library's memory, without a copy; keeps this object alive."""
         dtype = np.dtype(dtype)
         size = int(np.prod(shape)) * dtype.itemsize
         if not size:
@@ -106,13 +106,13 @@ class Handle:
 
 
 def take_bytes(create, *arguments) -> bytes:
-    """The content of a panache_bytes that a function makes."""
+    """The content of a panache_bytes made by `create`."""
     out = Handle('bytes', create, *arguments)
     return ctypes.string_at(lib.bytes_data(out.pointer), lib.bytes_size(out.pointer))
 
 
 def floats(array, shape, what: str) -> np.ndarray:
-    """`array` as contiguous float32 of this shape, None for any size: itself, if it is that."""
+    """`array` as contiguous float32 of this shape (None: any size); copies only if needed."""
     out = np.ascontiguousarray(array, np.float32)
     if out.ndim != len(shape) or any(want not in (None, has)
                                      for want, has in zip(shape, out.shape)):
@@ -123,13 +123,13 @@ def floats(array, shape, what: str) -> np.ndarray:
 
 
 def fixed(shape) -> np.ndarray:
-    """Zeros, float32, in memory that stays where it is: such an array cannot be resized."""
+    """float32 zeros at a fixed address: the array cannot be resized."""
     size = int(np.prod(shape)) * 4
     return np.frombuffer(bytearray(size), np.float32).reshape(shape)
 
 
 def mapping(value, what: str):
-    """Names with numbers, or an error."""
+    """A mapping of names to numbers, checked."""
     if not isinstance(value, Mapping):
         raise PanacheError(f'{what}: expected a dict of names and numbers, found '
                            f'{type(value).__name__}')
@@ -137,14 +137,14 @@ def mapping(value, what: str):
 
 
 def flag(value, what: str) -> int:
-    """True or False, or a count."""
+    """A boolean or a count as int."""
     if not isinstance(value, (int, np.integer, np.bool_)):
         raise PanacheError(f'{what}: expected True or False, found {str(value)[:40]!r}')
     return int(value)
 
 
 def sized(struct, **fields):
-    """A struct that begins with its size; of fields that are numbers any type will do."""
+    """A struct that begins with its size; converts numeric fields from any type."""
     takes = {c_float: number, c_double: number, c_int32: flag}
     for name, kind in struct._fields_:
         if name in fields and kind in takes:
@@ -156,7 +156,7 @@ SHAPE = tuple(name for name, _ in structs.Shape._fields_[1:])
 
 
 def shape_of(amounts) -> structs.Shape:
-    """A panache_shape: 1 where `amounts` names nothing else."""
+    """A panache_shape; amounts that are not named are 1."""
     for name in mapping(amounts, 'shape'):
         if name not in SHAPE:
             raise PanacheError(f'there is no amount {name!r} of a shape; expected one of '

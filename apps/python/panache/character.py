@@ -78,7 +78,7 @@ class Character:
         self._input_translations = fixed((joints, 3))
         self._rotations, self._translations = fixed((joints, 4)), fixed((joints, 3))
         self._rotations[:, 3] = 1
-        # Made once: what a step costs beyond the library's own time is one call.
+        # Created once, so that a step adds only one call to the library's own time.
         self._in = c.structs.InputPose(self._input_rotations.ctypes.data, self._input_translations.ctypes.data)
         self._out = c.structs.OutputPose(self._rotations.ctypes.data, self._translations.ctypes.data)
         self._step = lib.character_step
@@ -183,7 +183,7 @@ class Crowd:
     """
 
     def __init__(self, characters: Sequence[Character], *, threads: int = 1):
-        self._characters = tuple(characters)  # Whose arrays the step reads and writes.
+        self._characters = tuple(characters)  # The step uses their arrays.
         threads = c.whole(threads, 'threads')
         if not 0 <= threads <= 256:
             raise PanacheError(f'threads: expected 0 to 256, found {threads}')
@@ -205,7 +205,7 @@ class Crowd:
         seconds = number(seconds, 'seconds')
         if len(self._parts) == 1:
             return _step_part(self._parts[0], seconds)
-        if self._pool_of != os.getpid():  # A fork has none of its parent's threads.
+        if self._pool_of != os.getpid():  # A fork does not inherit threads.
             self._pool = ThreadPoolExecutor(len(self._parts) - 1)
             self._pool_of = os.getpid()
         others = [self._pool.submit(_step_part, part, seconds) for part in self._parts[1:]]
@@ -215,14 +215,14 @@ class Crowd:
 
 
 def _cores() -> int:
-    """Those that this process may use."""
+    """The number of cores that this process may use."""
     if hasattr(os, 'sched_getaffinity'):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
 
 
 def _part(characters):
-    """The arguments of panache_step_many() but for the seconds."""
+    """The arguments of panache_step_many() except the seconds."""
     count = len(characters)
     return ((ctypes.c_void_p * count)(*[one._pointer.value for one in characters]), count,
             (c.structs.InputPose * count)(*[one._in for one in characters]),

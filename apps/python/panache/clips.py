@@ -15,9 +15,9 @@ HUMAN_JOINTS = ('hips', 'spine', 'chest', 'neck', 'head') + tuple(
     for joint in ('Shoulder', 'UpperArm', 'LowerArm', 'Hand', 'UpperLeg', 'LowerLeg', 'Foot',
                   'Toes'))
 Strength = Union[float, Sequence[Tuple[float, float]]]
-_REMOVER, _ANY = 'remover-int8', 'any'  # The shipped remover, and its style for unknown ones.
+_REMOVER, _ANY = 'remover-int8', 'any'  # The shipped remover, and its entry for other styles.
 _LOOPS = ('off', 'auto', 'on')
-_TIMINGS = ('off', 'steps', 'all')  # As panache_stylize_options.style_timing counts them.
+_TIMINGS = ('off', 'steps', 'all')  # In the order of panache_stylize_options.style_timing.
 
 
 class Skeleton:
@@ -67,7 +67,7 @@ class Skeleton:
                     (_skeleton_again, (made_of, told)))
 
     def _adopt(self, handle: Handle, names, parents, again) -> 'Skeleton':
-        """`again`: a function and its arguments that make this skeleton in another process."""
+        """`again`: a function and its arguments that recreate this skeleton in another process."""
         self._handle = handle
         self.joint_names = list(names)
         self.parents = [int(parent) for parent in parents]
@@ -98,7 +98,7 @@ def _skeleton_again(made_of, told) -> Skeleton:
 
 
 def _options(metres_per_unit=0.0, up_axis=None, human_joints=None):
-    """The struct, and what it points to."""
+    """The struct, and the objects that it points to."""
     human = [c.structs.HumanJoint(utf8(name, 'human joint'), c.whole(joint, name))
              for name, joint in mapping(human_joints or {}, 'human_joints').items()]
     array = (c.structs.HumanJoint * max(len(human), 1))(*human)
@@ -148,7 +148,7 @@ class Clip:
         return dict(sorted((pair for pair in named if pair[0] != _ANY), key=lambda pair: -pair[1]))
 
     def _struct(self) -> c.structs.Clip:
-        """Points into the arrays, whose shape may have been changed in place."""
+        """Points into the arrays; checks their shape again, as it can be changed in place."""
         Clip.__post_init__(self)
         return c.structs.Clip(self.skeleton._handle.pointer, len(self), self.frame_seconds,
                       self.rotations.ctypes.data, self.translations.ctypes.data)

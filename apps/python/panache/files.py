@@ -58,7 +58,7 @@ class MotionFile:
                                   for i in range(len(self.clip_names))]
         return self
 
-    def __reduce__(self):  # The file as it was read; another process may find another one there.
+    def __reduce__(self):  # Pickles the content, as the file may change meanwhile.
         return _file_again, (self.path, self._content, self._fps)
 
     @property
@@ -70,7 +70,7 @@ class MotionFile:
         return text.decode(errors='replace').splitlines()
 
     def _body_motions(self) -> List[int]:
-        """The places of the motions that move the humanoid; warns of all that is noted."""
+        """The indices of the motions that move the humanoid; issues all notes as warnings."""
         self._place(0)
         found = [i for i, moves in enumerate(self.moves) if moves]
         if not found:

@@ -11,8 +11,8 @@ from ._files import write
 from ._library import HERE, Handle, PanacheError, lib, take_bytes, utf8
 
 _MODELS = HERE / 'models'
-NEUTRAL_BANK = _MODELS / 'neutral.safetensors'  # For learn(), of one clip.
-_DEFAULT = 'panache-int8'  # As the program's.
+NEUTRAL_BANK = _MODELS / 'neutral.safetensors'  # For learn() from a single clip.
+_DEFAULT = 'panache-int8'  # Same as the program's.
 _TYPES = {'F32': np.float32, 'F16': np.float16, 'I8': np.int8}
 
 

@@ -3,14 +3,14 @@ using UnityEngine;
 
 namespace Panache.Unity {
 
-/// The transforms of a humanoid character as a skeleton of the library: first that of the Animator,
-/// which carries the root motion, then its bones and the transforms between them, parents first.
+/// Maps the transforms of a humanoid character to a library skeleton: first the Animator's, which
+/// carries the root motion, then its bones and the transforms between them, parents first.
 ///
-/// Unity is left-handed, the library right-handed: both have Y up and bodies that face +z, and are
-/// mirror images of each other in the plane x = 0. Only signs change, so that what the library
-/// leaves as it is keeps its bits.
+/// Unity is left-handed, the library right-handed. Both have Y up and bodies that face +z, so they
+/// are mirror images in the plane x = 0. Converting only flips signs, so values that the library
+/// does not change keep their bits.
 internal sealed class HumanoidJoints {
-  // The bones that styles turn. Spine and chest are below, as avatars have one to three bones there.
+  // The bones that styles rotate, except spine and chest: avatars have one to three bones there.
   private static readonly HumanBodyBones[] Bones = {
     HumanBodyBones.Hips, HumanBodyBones.Neck, HumanBodyBones.Head,
     HumanBodyBones.LeftShoulder, HumanBodyBones.LeftUpperArm, HumanBodyBones.LeftLowerArm,
@@ -24,18 +24,18 @@ internal sealed class HumanoidJoints {
   };
 
   private readonly List<Transform> transforms = new List<Transform>();
-  // World scale of each one's parent: translations are in metres of the world.
+  // World scale of each transform's parent: translations are in world metres.
   private readonly List<Vector3> scales = new List<Vector3>();
   private readonly int hips;
-  // What Load() read and Store() wrote last. [joints]
+  // The last rotations that Load() read and Store() wrote. [joints]
   private readonly Quaternion[] read, written;
   private Vector3 readHips, writtenHips;
   private bool stored;
 
-  /// As the character stands now: that is its rest pose, with its feet on the floor.
+  /// Its rest pose is the character's pose at construction, with the feet on the floor.
   public Skeleton Skeleton { get; }
 
-  /// Throws a PanacheException where the avatar is no humanoid that the library can style.
+  /// Throws a PanacheException if the avatar is not a humanoid that the library can style.
   public HumanoidJoints(Animator animator) {
     if (!animator.isHuman)
       throw new PanacheException("'" + animator.name + "': its Animator has no humanoid avatar; " +
@@ -55,7 +55,7 @@ internal sealed class HumanoidJoints {
     int upperChest = PlaceOf(animator, HumanBodyBones.UpperChest);
     int chest = PlaceOf(animator, HumanBodyBones.Chest);
     int spine = PlaceOf(animator, HumanBodyBones.Spine);
-    // The chest is the highest of them, the spine the next below it.
+    // Map the highest bone to the chest and the next one below to the spine.
     human["chest"] = upperChest >= 0 ? upperChest : chest >= 0 ? chest : spine;
     human["spine"] = upperChest >= 0 && chest >= 0 ? chest
                      : upperChest >= 0 || chest >= 0 ? spine : -1;
@@ -65,8 +65,8 @@ internal sealed class HumanoidJoints {
     written = new Quaternion[joints.Count];
   }
 
-  /// The pose as it stands, into a character's input. A joint that is as Store() left it was not
-  /// animated since (a culled Animator, a frame between physics steps): it is read as it was before.
+  /// Reads the current pose into a character's input. A joint that still is as Store() left it was
+  /// not animated since (culled Animator, frame between physics steps): its last input is reused.
   public void Load(Character character) {
     float[] r = character.InputRotations, p = character.InputTranslations;
     for (int j = 0; j < transforms.Count; ++j) {
@@ -80,12 +80,12 @@ internal sealed class HumanoidJoints {
       }
       ToLibrary(Vector3.Scale(at, scales[j]), p, j);
     }
-    // The floor is where the GameObject stands.
+    // The floor is at the height of the GameObject.
     Vector3 root = transforms[0].position;
     ToLibrary(new Vector3(root.x, 0, root.z), p, 0);
   }
 
-  /// A character's result, onto the transforms. What a style leaves as it is is not written.
+  /// Writes a character's output to the transforms, except values that the style did not change.
   public void Store(Character character) {
     float[] from = character.InputRotations, r = character.Rotations;
     for (int j = 1; j < transforms.Count; ++j) {
@@ -117,7 +117,7 @@ internal sealed class HumanoidJoints {
     var joint = new Joint { Name = t.name, Parent = parent };
     transforms.Add(t);
     scales.Add(parent < 0 ? Vector3.one : t.parent.lossyScale);
-    if (parent >= 0) {  // At rest the character stands at the origin and faces +z.
+    if (parent >= 0) {  // The rest pose is at the origin and faces +z.
       ToLibrary(t.localRotation, joint.Rotation, 0);
       ToLibrary(Vector3.Scale(t.localPosition, scales[place]), joint.Translation, 0);
     }

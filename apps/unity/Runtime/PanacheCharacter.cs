@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace Panache.Unity {
 
-/// How much of one style.
+/// The strength of one style.
 [Serializable]
 public sealed class StyleStrength {
   [Tooltip("A style of the model, such as old.")]
@@ -13,7 +13,7 @@ public sealed class StyleStrength {
   public float strength;
 }
 
-/// How much is given of what the styles do, and where; 1 is the style as the model has it.
+/// Scales the parts of what the styles do; 1 is the style as the model has it.
 [Serializable]
 public sealed class StyleShape {
   [Range(0, 2), Tooltip("Of the lasting part of the change.")] public float posture = 1;
@@ -24,7 +24,7 @@ public sealed class StyleShape {
   [Range(0, 2)] public float rightArm = 1;
   [Range(0, 1), Tooltip("How firmly planted feet are held.")] public float footLock = 1;
 
-  /// Copies the amounts; whether any of them was another.
+  /// Copies the amounts. Returns whether any of them changed.
   internal bool CopyTo(Shape shape) {
     if (shape.Posture == posture && shape.Dynamics == dynamics && shape.Legs == legs &&
         shape.Torso == torso && shape.LeftArm == leftArm && shape.RightArm == rightArm &&
@@ -42,8 +42,8 @@ public sealed class StyleShape {
 }
 
 /// Styles the pose of a humanoid Animator in each frame, after the animation and before the
-/// LateUpdate of other scripts. The pose in which the character awakes is its rest pose: it stands,
-/// with its feet on the floor, at the height of its GameObject.
+/// LateUpdate of other scripts. The pose at Awake is the rest pose: upright, with the feet on the
+/// floor at the height of the GameObject.
 [AddComponentMenu("Animation/Panache Character")]
 [RequireComponent(typeof(Animator))]
 [DisallowMultipleComponent]
@@ -60,7 +60,7 @@ public sealed class PanacheCharacter : MonoBehaviour {
            "Read when the component is enabled.")]
   public bool styleRoot;
 
-  // Models are shared by all characters that name the same file.
+  // All characters that use the same file share its model.
   private static readonly Dictionary<TextAsset, Model> Models = new Dictionary<TextAsset, Model>();
 
   private HumanoidJoints joints;
@@ -72,7 +72,7 @@ public sealed class PanacheCharacter : MonoBehaviour {
   private readonly HashSet<string> unknown = new HashSet<string>();
   private Shape shaped;
 
-  /// Sets the strength of a style, and adds it to the list where it is not there.
+  /// Sets the strength of a style; adds it to the list if it is not there.
   public void SetStrength(string style, float strength) {
     foreach (StyleStrength entry in styles) {
       if (!string.Equals(entry.style, style, StringComparison.OrdinalIgnoreCase)) continue;
@@ -82,11 +82,10 @@ public sealed class PanacheCharacter : MonoBehaviour {
     styles.Add(new StyleStrength { style = style, strength = strength });
   }
 
-  /// Forgets the motion so far, as after a teleport. Hips that move faster than 15 m/s do so by
-  /// themselves.
+  /// Forgets the motion so far; call it after a teleport. Hips faster than 15 m/s also cause this.
   public void ResetMotion() { character?.Reset(); }
 
-  /// Adds the model's styles that are not in the list, with a strength of 0.
+  /// Adds the model's missing styles to the list, with a strength of 0.
   [ContextMenu("List the model's styles")]
   public void ListStyles() {
     if (model == null) return;
@@ -154,7 +153,7 @@ public sealed class PanacheCharacter : MonoBehaviour {
 
   private void TellUnknown(string style) { Try(() => read.FindStyle(style), false); }
 
-  // What fails is told in the console; without a skeleton, model or library the component ends.
+  // Logs failures; disables the component if it lacks a skeleton, model or library (`needed`).
   private void Try(Action action, bool needed = true) {
     try {
       action();

@@ -1,4 +1,4 @@
-// Styling poses of the caller's own: panache.h for JavaScript. See index.d.ts.
+// Styles the caller's own poses: panache.h for JavaScript. See index.d.ts.
 import {
   PanacheError, checkFinite, checkInteger, checkJoints, checkKeys, checkPose, checkTriggered,
   handleFor, inUse, timingNumber, unexpected,
@@ -17,7 +17,7 @@ const kNeutralShape = {
 const kStylizing = { easeSeconds: 0.15, smoothingSeconds: 0.04, holdFeet: true, styleRoot: true,
   maxSpeed: 15, gestureRate: 0, gestureSeed: 0 };
 
-// A caller's options over the defaults, of which there is one for each that is known.
+// Merges a caller's options into the defaults, which list all known options.
 function optionsOf(defaults, given) {
   if (given === null || typeof given !== 'object') throw unexpected('options', 'an object', given);
   const unknown = Object.keys(given).find((key) => !(key in defaults));
@@ -84,7 +84,7 @@ export class Character {
     this.#panache = panache;
     this.#wasm = panache._wasm;
     this.#joints = skeleton.jointCount;
-    this.#styles = panache.styles;  // A character stays with the model that it was made with.
+    this.#styles = panache.styles;  // A character keeps the model that it was created with.
     this.#remover = remover;
     this.#character = panache._arena((arena) => {
       const at = arena.write(kCharacterOptions, { structSize: kCharacterOptions.size, ...told,
@@ -92,7 +92,7 @@ export class Character {
       return arena.create((out) => this.#wasm.panache_character_create(
         panache._model(), skeleton._handleFor(panache), at, out));
     });
-    // A pose, styled in place, and where it is.
+    // A pose, which is styled in place, and the struct that points to it.
     this.#block = this.#wasm.malloc(28 * this.#joints + kInputPose.size);
     if (!this.#block) {
       this.free();
@@ -158,7 +158,7 @@ export class Character {
   #handle() { return inUse(this.#character, 'character'); }
 }
 
-// A number, or keys [seconds, strength].
+// `strength`: a number, or keyframes [seconds, strength].
 function writeTrack(arena, panache, name, strength) {
   const keys = checkKeys(typeof strength === 'number' ? [[0, strength]] : strength, name);
   return {
@@ -167,7 +167,7 @@ function writeTrack(arena, panache, name, strength) {
   };
 }
 
-// What stylizeClip() takes off first.
+// The style that stylizeClip() removes first.
 function removalOf(panache, remover, remove) {
   if (!remover && remove === null) return {};
   if (!remover) {

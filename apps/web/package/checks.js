@@ -1,9 +1,8 @@
-// What callers pass, checked before it reaches the module: the message says what was expected and
-// what was found.
+// Checks arguments before they reach the module. Messages say what was expected and what was found.
 
-/** Bad input; the message is one sentence. */
+/** Bad input. */
 export class PanacheError extends Error {
-  /** What kind of mistake it is, for programs that help with it. */
+  /** The kind of error, for programs that handle it. */
   kind;
   constructor(message, kind = 'other') {
     super(message);
@@ -16,7 +15,7 @@ const kinds = [
   'isModel', 'isStyleFile', 'styleOfAnother', 'notSafetensors', 'modelCannotLearn',
   'otherSkeletons', 'loopOpen', 'loopStrengths', 'badStyleName',
 ];
-/** What the library says of its last failure. */
+/** The library's last error. */
 export function lastError(wasm) {
   const bytes = new Uint8Array(wasm.memory.buffer, wasm.panache_last_error());
   const text = new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)));
@@ -33,12 +32,12 @@ export function unexpected(what, expectation, value) {
   return new PanacheError(`${what}: expected ${expectation}, found ${describe(value)}`);
 }
 
-// The handle of an object that is still in use; 0 is that of a freed one.
+// Returns the handle of an object, or throws if the object was freed (its handle is 0).
 export function inUse(handle, what) {
   if (handle) return handle;
   throw new PanacheError(`this ${what} was freed and cannot be used any more; create another one`);
 }
-// The same for `panache`: handles are addresses in the memory of the module of their `owner`.
+// Also checks that `owner` is `panache`: handles are addresses in the owner's module memory.
 export function handleFor(panache, owner, handle, what, foreign) {
   if (panache !== owner) throw new PanacheError(foreign);
   return inUse(handle, what);
@@ -56,13 +55,13 @@ export function checkInteger(value, what) {
   if (Number.isInteger(value)) return value;
   throw unexpected(what, 'a whole number', value);
 }
-// What a trigger gave: whether the style has such a gesture.
+// Checks the result of a trigger: whether the style has such a gesture.
 export function checkTriggered(found, { name, gestures }, gesture) {
   if (found) return;
   throw new PanacheError(
     `style '${name}' has no gesture ${gesture}; it has ${gestures.length}`);
 }
-// As style_timing in panache.h.
+// See style_timing in panache.h.
 export function timingNumber(timing, what) {
   const number = new Map([['off', 0], ['steps', 1], ['all', 2], [false, 0], [true, 1]]).get(timing);
   if (number !== undefined) return number;
@@ -100,7 +99,7 @@ export function checkPose(pose, joints, what) {
   checkArray(pose?.rotations, 4 * joints, `${what}.rotations`);
   checkArray(pose?.translations, 3 * joints, `${what}.translations`);
 }
-// How many frames of so many joints there are.
+// Returns the number of frames of a clip with `joints` joints.
 export function checkClip(clip, joints) {
   if (!(clip?.rotations instanceof Float32Array)) {
     throw unexpected('clip.rotations', 'a Float32Array with 4 numbers for each joint of each frame',
@@ -111,7 +110,7 @@ export function checkClip(clip, joints) {
   return frames;
 }
 
-// Keys [seconds, strength] of a style.
+// Checks the keyframes [seconds, strength] of a style.
 export function checkKeys(keys, style) {
   const what = `strength of '${style}'`;
   if (!Array.isArray(keys)) throw unexpected(what, 'a number or keys [seconds, strength]', keys);

@@ -1,12 +1,12 @@
-// Panache for JavaScript. Objects live in WebAssembly memory: call free() on what you made; after
-// that all its other methods throw a PanacheError. Objects of one Panache are no use to another.
-// Names of styles match without case. Typed arrays that are views are good until the next call into
+// Panache for JavaScript. Objects live in WebAssembly memory: call free() on what you create; after
+// that all its other methods throw a PanacheError. Objects of one Panache do not work with another.
+// Style names are case-insensitive. Typed arrays that are views are valid until the next call into
 // the module.
 
 /** The 21 joints of a humanoid, in the order of `parts` and `offsets`; parents before children. */
 export const humanJoints: readonly string[];
 
-/** What kind of mistake an error is, for programs that help with it; most are 'other'. */
+/** The kind of an error, for programs that handle it; most are 'other'. */
 export type ErrorKind =
   'other' | 'fileExists' | 'rateNeeded' | 'notHumanoid' | 'unknownStyle' | 'noStyles' | 'styleExists' |
   'isModel' | 'isStyleFile' | 'styleOfAnother' | 'notSafetensors' | 'modelCannotLearn' |
@@ -20,73 +20,72 @@ export class PanacheError extends Error {
 export interface Style {
   /** "old" */
   name: string;
-  /** What it looks like, for people. */
+  /** What the style looks like, for people. */
   description: string;
-  /** What it is listed under, "moods"; "" for learnt styles, and in models without groups. */
+  /** The group of the style, "moods"; "" for learnt styles, and in models without groups. */
   group: string;
-  /** From a pair of clips, see learnStyle(). */
+  /** Whether learnStyle() made it. */
   learnt: boolean;
-  /** A row of figures from the styled clip, SVG; "" for styles that were not learnt. */
+  /** A row of poses from the styled clip, SVG; "" for styles that were not learnt. */
   thumbnail: string;
-  /** What its gestures do and how long, "head turns left, 1.2 s"; most styles have none. */
+  /** What its gestures do and how long they take, "head turns left, 1.2 s"; often empty. */
   gestures: string[];
 }
 
 /** A motion of a file. */
 export interface Motion {
   file: MotionFile;
-  /** 0 where it is left out. */
+  /** Default: 0. */
   clip?: number;
 }
 
-/** How a neutral and a styled motion went together. */
+/** How well a neutral and a styled motion matched. */
 export interface LearnReport {
-  /** Names of files. */
+  /** File names. */
   neutral: string;
   styled: string;
-  /** Of the styled motion. */
+  /** Duration of the styled motion. */
   seconds: number;
   /** Neutral seconds per styled second. */
   tempo: number;
-  /** Mean distance of the two after time alignment; 0 is equal. */
+  /** Mean distance between the two after time alignment; 0 is equal. */
   match: number;
-  /** What may spoil the style, and what helps. */
+  /** Problems that may spoil the style, and how to fix them. */
   warnings: string[];
-  /** Mean distance of the joints from the last quarter of the styled motion, when the style was
-   * learnt without it: of the style, of its mean posture alone, of the neutral motion. null where
-   * the clips are too short for that. */
+  /** Mean joint errors on the last quarter of the styled motion, held out from learning: of the
+   * style, of its mean posture alone, of the neutral motion. null if the clips are too short. */
   heldBackCm: number | null;
   meanPostureCm: number | null;
   untouchedCm: number | null;
-  /** By these distances; 'poor' is no better than the neutral motion. null as they are. */
+  /** Based on these errors; 'poor' is no better than the neutral motion. null if they are. */
   verdict: 'good' | 'fair' | 'poor' | null;
-  /** Without a neutral motion: how many people's mean takes its place, and the share of the
-   * difference in posture that counts as style, not as what people differ by; otherwise null. */
+  /** Without a neutral motion: the number of people whose mean replaces it, and the share of the
+   * posture difference that counts as style rather than personal variation; otherwise null. */
   people: number | null;
   certainty: number | null;
   plot: {
-    /** Of both, from the first frame to the last. */
+    /** Durations of both motions, from the first frame to the last. */
     styledSeconds: number;
     neutralSeconds: number;
-    /** [styled seconds, neutral seconds, distance] of what goes together, 30 a second. */
+    /** The time alignment: [styled seconds, neutral seconds, distance], 30 per second. */
     instants: [number, number, number][];
-    /** A few of them, with positions of humanJoints [21][3] in metres: Y up, facing +Z. */
+    /** A few aligned poses: positions of humanJoints [21][3] in metres, Y up, facing +Z. */
     poses: { styledSeconds: number; neutralSeconds: number; styled: number[];
       neutral: number[] }[];
   };
 }
 
-/** How much is given of what the styles do, 0 to 2; 1 is the style as the model has it. Posture is
- * the lasting part of the change, dynamics what goes beyond it; the parts of the body are relative
- * to what they are attached to. */
+/** Scales the parts of what the styles do, 0 to 2; 1 is the style as the model has it. Posture is
+ * the constant part of the change, dynamics the rest. Parts of the body are relative to what they
+ * are attached to. */
 export interface Shape {
   strength: number;
   posture: number;
   dynamics: number;
   timing: number;
-  /** With the hips, their height and the root motion. */
+  /** Includes the hips, their height and the root motion. */
   legs: number;
-  /** With the head. */
+  /** Includes the head. */
   torso: number;
   leftArm: number;
   rightArm: number;
@@ -94,85 +93,86 @@ export interface Shape {
   footLock: number;
 }
 
-/** One joint of a skeleton of yours. */
+/** One joint of your skeleton. */
 export interface Joint {
   name: string;
   /** Index of the parent, smaller than the joint's own; -1 for a root. */
   parent: number;
-  /** At rest, relative to the parent: x y z w, and a translation in any unit. */
+  /** Rest transform relative to the parent: rotation x y z w, and translation in any unit. */
   rotation: ArrayLike<number>;
   translation: ArrayLike<number>;
 }
 
-/** Local rotations [joints][4] and translations [joints][3], in the skeleton's own units and axes. */
+/** Local rotations [joints][4] and translations [joints][3], in the skeleton's units and axes. */
 export interface Pose {
   rotations: Float32Array;
   translations: Float32Array;
 }
 
 export interface SkeletonOptions {
-  /** 0 (the default): judged by the length of the legs. */
+  /** 0 (the default): detected from the length of the legs. */
   metresPerUnit?: number;
-  /** "+Y", "-Z", ...; null (the default): found. */
+  /** "+Y", "-Z", ...; null (the default): detected. */
   upAxis?: string | null;
-  /** The joint map, where names and shape are not enough: index of the joint by the name of the
-   * humanoid's ("leftHand", as in VRM), -1 where there is none. */
+  /** The joint map, if names and shape are not enough: the index of the joint for each human joint
+   * ("leftHand", as in VRM), -1 if there is none. */
   humanJoints?: Record<string, number>;
-  /** A few poses of ordinary motion; they tell axes and floor better than the rest pose alone. */
+  /** A few poses of ordinary motion, to detect axes and floor more reliably than from the rest pose
+   * alone. */
   poses?: readonly Pose[];
 }
 
 interface StylizingOptions {
-  /** A change of strength takes about this long; 0.15. */
+  /** A change of strength takes about this long. Default: 0.15. */
   easeSeconds?: number;
-  /** Time constant of the filter on what a style adds; 0.04. */
+  /** Time constant of the filter on the change. Default: 0.04. */
   smoothingSeconds?: number;
-  /** Planted feet are held in place; true. */
+  /** Hold planted feet in place. Default: true. */
   holdFeet?: boolean;
-  /** The root motion is styled too; true. */
+  /** Style the root motion too. Default: true. */
   styleRoot?: boolean;
-  /** Hips that are faster, in m/s, have jumped, and the style starts afresh; 15. A body on a vehicle
-   * needs more; 0 or Infinity: nothing is a jump. */
+  /** m/s. Faster hips count as a jump, which resets the style. Bodies on vehicles need more; 0 or
+   * Infinity turns this off. Default: 15. */
   maxSpeed?: number;
-  /** Gestures of the active styles at random, per second, 0 to 10; 0. */
+  /** Random gestures of the active styles per second, 0 to 10. Default: 0. */
   gestureRate?: number;
-  /** Characters with different whole numbers make them at different times; 0. */
+  /** An integer; characters with different seeds gesture at different times. Default: 0. */
   gestureSeed?: number;
 }
 export interface CharacterOptions extends StylizingOptions {
-  /** How far the character may be shown behind its input, and ahead of it, seconds; 0. */
+  /** How far the output may lag or lead the input, seconds. Default: 0. */
   maxLag?: number;
   maxLead?: number;
-  /** Leave out or repeat whole cycles to stay within them; false. */
+  /** Skip or repeat whole cycles to stay within these limits. Default: false. */
   skipCycles?: boolean;
-  /** For setRemoved(); none. */
+  /** For setRemoved(). Default: null. */
   remover?: Remover | null;
 }
-/** Where a motion gets the tempo of its styles: where the feet step, so that talk and gestures keep
- * their length; everywhere; or nowhere, frame by frame. */
+/** Where a motion takes the tempo of its styles: only where the feet step, so talk and gestures
+ * keep their length; everywhere; or nowhere. */
 export type Timing = 'steps' | 'all' | 'off';
 export interface StylizeOptions extends StylizingOptions {
-  /** Where the clip gets the tempo of the style; 'steps'. true is 'steps', false 'off'. */
+  /** Where the clip takes the tempo of the style. true is 'steps', the default; false is 'off'. */
   styleTiming?: Timing | boolean;
   shape?: Partial<Shape>;
-  /** Whether the last pose of the result is its first, travel aside: where that is so in the clip
-   * ('auto'), always, or an error where the two are too far apart ('on'), or never. */
+  /** Whether the last pose of the result equals its first, except for travel: if it does in the
+   * clip ('auto'), always, or an error if the two are too far apart ('on'), or never ('off'). */
   loop?: 'auto' | 'on' | 'off';
-  /** The style that the clip shows, which is taken off first, also its tempo; 'any' for one without
-   * a name. Needs a remover. */
+  /** The style of the clip, to remove first, including its tempo; 'any' for an unknown style. Needs
+   * a remover. */
   remove?: string | null;
   remover?: Remover | null;
 }
 
-/** What went on at the last step. */
+/** Measurements of the last step. */
 export interface Report {
-  /** 1 where the styles know a motion like this one, towards 0 they give their mean posture. */
+  /** 1 if the input resembles the training motion; towards 0 styles only add their mean posture. */
   gate: number;
   /** Probability that each foot is planted: left, right. */
   contacts: [number, number];
   /** Input seconds per output second that the style asks for. */
   rate: number;
-  /** Seconds from the newest input to what is shown; below 0: it is late. */
+  /** Seconds by which the output leads the newest input; below 0: it lags. */
   ahead: number;
 }
 
@@ -181,7 +181,7 @@ export interface Clip extends Pose {
 }
 export interface StyledClip extends Clip {
   frameCount: number;
-  /** The frame of the input that each frame shows, with fractions. */
+  /** The (fractional) input frame that each output frame shows. */
   sourceFrames: Float64Array;
   /** [frames][2]: 1 where the left and the right foot are planted. */
   contacts: Uint8Array;
@@ -190,53 +190,53 @@ export interface StyledClip extends Clip {
   isLoop: boolean;
 }
 
-/** How much of a motion shows a style. */
+/** The share of a style in a motion. */
 export interface StyleShare {
-  /** Of the remover's style, or 'neutral'. */
+  /** Name of one of the remover's styles, or 'neutral'. */
   name: string;
   /** 0 to 1. */
   share: number;
 }
 
-/** A model that takes styles off, and tells which ones a motion shows. */
+/** A model that removes styles and recognises which ones a motion shows. */
 export class Remover {
   private constructor();
-  /** What it takes off; its style 'any' suits motion in a style that it does not know. */
+  /** The styles that it removes; 'any' is for motion in a style that it does not know. */
   readonly styles: readonly Style[];
-  /** The styles that a clip shows, and neutral, the largest share first; together 1. */
+  /** The shares of all styles and neutral in a clip, largest first; they add up to 1. */
   recognise(skeleton: Skeleton, clip: Clip): StyleShare[];
-  /** The same of a clip of a file. */
+  /** The same for a clip of a file. */
   recogniseFile(file: MotionFile, clip?: number): StyleShare[];
-  /** Characters and players keep what they need of it. */
+  /** Characters and players that use it keep working. */
   free(): void;
 }
 
-/** A rig of yours, shared by all its characters. */
+/** Your rig, shared by all its characters. */
 export class Skeleton {
   private constructor();
   readonly jointCount: number;
-  /** Index of the joint that a human joint was found to be, or -1. */
+  /** Index of the joint mapped to a human joint, or -1. */
   find(humanJoint: string): number;
-  /** Characters keep what they need of it. */
+  /** Characters that use it keep working. */
   free(): void;
 }
 
-/** One character of yours in motion. */
+/** One of your characters in motion. */
 export class Character {
   private constructor();
-  /** 0 is neutral, 1 the style as captured, more exaggerates it (-4 to 4). Eased in. Throws where
+  /** 0 is neutral, 1 the style as captured, above 1 exaggerates it (-4 to 4). Eased in. Throws if
    * the model has no such style, or the strength is not finite. */
   setStrength(style: string, strength: number): void;
-  /** Plays a gesture of a style (its place in `gestures`, 0) on top of it, as strongly as the style
-   * acts: when no other plays and a foot is on the floor, within 3 s or not at all. Throws where the
-   * style has none there. */
+  /** Plays a gesture of a style (its index in `gestures`; 0) at the style's strength. Waits up to
+   * 3 s until no other gesture plays and a foot is on the floor; otherwise drops it. Throws if the
+   * style has no such gesture. */
   trigger(style: string, gesture?: number): void;
-  /** Takes a style of the remover off the input, at the input's tempo, before styles are put on;
-   * null: none, as at first. Eased in. Throws where the character was given no remover. */
+  /** Removes a style of the remover from the input before styles are added. Keeps the input's
+   * tempo. null: none, the default. Eased in. Throws if the character has no remover. */
   setRemoved(style: string | null): void;
-  /** What is left out is 1. Eased in. */
+  /** Missing amounts are 1. Eased in. */
   setShape(shape: Partial<Shape>): void;
-  /** Styles the next pose; `seconds` have gone by since the last. Both may be the same arrays. */
+  /** Styles the next pose, `seconds` after the last. Input and output may be the same arrays. */
   step(input: Pose, output: Pose, seconds: number): void;
   report(): Report;
   /** Forgets the motion so far. */
@@ -245,55 +245,55 @@ export class Character {
 }
 
 export class Panache {
-  /** `wasm`: panache.wasm; `model`: a .safetensors of panache-lab train; `walker`: walker.safetensors,
-   * for createWalker(). Fails with a PanacheError where a model is none. */
+  /** `wasm`: panache.wasm; `model`: a .safetensors of panache-lab train; `walker`:
+   * walker.safetensors, for createWalker(). Rejects with a PanacheError if a model is invalid. */
   static create(files: {
     wasm: BufferSource | WebAssembly.Module;
     model: ArrayBuffer | Uint8Array;
     walker?: ArrayBuffer | Uint8Array;
   }): Promise<Panache>;
   readonly styles: readonly Style[];
-  /** Another model in place of the present one. Players go on with it, with all strengths at 0;
-   * characters keep theirs. `name` stands in front of the message of a failure. */
+  /** Replaces the model. Players switch to it, with all strengths at 0; characters keep theirs.
+   * Error messages begin with `name`. */
   setModel(bytes: ArrayBuffer | Uint8Array, name?: string): void;
   readonly modelBytes: ArrayBuffer | Uint8Array;
-  /** Learns a style for the present model, which stays as it is: the bytes of a style file, for
-   * addStyle(). `neutral` is a motion of the same skeleton; without one, pass the bytes of
+  /** Learns a style for the current model without changing it. Returns the bytes of a style file,
+   * for addStyle(). `neutral` is a motion of the same skeleton, or else the bytes of
    * neutral.safetensors, the mean motion of other people. Takes some tenths of a second. */
   learnStyle(name: string, styled: Motion, neutral: Motion | ArrayBuffer | Uint8Array):
     { bytes: Uint8Array; report: LearnReport };
-  /** Whether bytes say that they are a style file, and not a model. */
+  /** Whether the bytes are a style file, and not a model. */
   isStyle(bytes: ArrayBuffer | Uint8Array): boolean;
-  /** As setModel() with the style of a style file in the present model. */
+  /** Adds the style of a style file to the current model, as in setModel(). */
   addStyle(bytes: ArrayBuffer | Uint8Array, options?: {
-    /** Of the file, for messages. */
+    /** File name, for messages. */
     name?: string;
-    /** A style of the same name; false: that fails. */
+    /** Whether to replace a style of the same name; false: fail instead. */
     replace?: boolean;
   }): void;
   /** The bytes of a style file. */
   extractStyle(name: string): Uint8Array;
   removeStyle(name: string): void;
-  /** Reads a .bvh, .glb, .gltf (self-contained), .vrm or .vrma; the extension of `name` decides. */
+  /** Reads a .bvh, .glb, .gltf (self-contained), .vrm or .vrma, by the extension of `name`. */
   openFile(bytes: ArrayBuffer | Uint8Array, name: string, options?: {
-    /** Frames a second, where the file's rate is wrong or missing. */
+    /** Frames per second, if the file's rate is wrong or missing. */
     fps?: number;
   }): MotionFile;
-  /** Somebody who walks as she is steered, on a skeleton of humanJoints. */
+  /** A walker to steer, with a skeleton of humanJoints. */
   createWalker(): Walk;
-  /** Finds the humanoid among the joints of a skeleton of yours, or throws. */
+  /** Recognises the humanoid in your skeleton, or throws. */
   createSkeleton(joints: readonly Joint[], options?: SkeletonOptions): Skeleton;
   createCharacter(skeleton: Skeleton, options?: CharacterOptions): Character;
-  /** Of the bytes of remover-int8.safetensors. Throws where the model puts styles on. */
+  /** Takes the bytes of remover-int8.safetensors. Throws if the model adds styles. */
   createRemover(bytes: ArrayBuffer | Uint8Array): Remover;
-  /** Styles a whole clip, with the tempo of the style. Strengths by style: a number, or keys
-   * [seconds, strength] with straight lines between them. */
+  /** Styles a whole clip, with the tempo of the style. Strengths by style: a number, or keyframes
+   * [seconds, strength], interpolated linearly. */
   stylizeClip(skeleton: Skeleton, clip: Clip,
     strengths: Record<string, number | readonly [seconds: number, strength: number][]>,
     options?: StylizeOptions): StyledClip;
-  /** The hash of 300 styled frames, 16 hexadecimal digits: the same on every machine. */
+  /** The hash of 300 styled frames, 16 hexadecimal digits; the same on all machines. */
   goldenHash(): string;
-  /** After everything that was made with it. */
+  /** Call it after freeing everything that was made with it. */
   free(): void;
 }
 
@@ -304,7 +304,7 @@ export interface ClipInfo {
   frameTime: number;
   /** From the first frame to the last. */
   seconds: number;
-  /** Whether it moves a joint of the humanoid; animations of morph weights or props do not. */
+  /** Whether it moves a humanoid joint; animations of morph weights or props do not. */
   moves: boolean;
 }
 
@@ -312,91 +312,91 @@ export class MotionFile {
   readonly name: string;
   /** ".bvh", lower case. */
   readonly extension: string;
-  /** Empty where the file has a skeleton and no motion; clip 0 is then its rest pose. */
+  /** Empty if the file has a skeleton but no motion; clip 0 is then its rest pose. */
   readonly clips: readonly ClipInfo[];
-  /** What is odd about the file although it was read, a sentence each. */
+  /** Oddities of the file that did not prevent reading it. */
   readonly notes: readonly string[];
-  /** Parents before children; -1 above a root. */
+  /** Parents before children; the parent of a root is -1. */
   readonly joints: readonly { name: string; parent: number }[];
-  /** Fails where the skeleton is no humanoid. The file may be freed first. */
+  /** Throws if the skeleton is not a humanoid. The file may be freed before the player. */
   createPlayer(clip?: number): Playback;
-  /** The bytes of the character's file with this motion put on it, in place of its own. */
+  /** The bytes of the character's file, with its motions replaced by this one, retargeted. */
   putOn(character: MotionFile, clip?: number): Uint8Array;
   free(): void;
 }
 
 /** A skinned mesh of a person, moved by `parts`. */
 export interface Body {
-  /** [21][3], [21][4]: the pose that the vertices stand in. */
+  /** [21][3], [21][4]: the bind pose of the vertices. */
   bindPositions: Float32Array;
   bindRotations: Float32Array;
   /** [vertices][3], metres. */
   positions: Float32Array;
   normals: Float32Array;
-  /** [vertices][4]: human joints, and their weights, which add up to 255. */
+  /** [vertices][4]: human joints, and their weights, which sum to 255. */
   joints: Uint8Array;
   weights: Uint8Array;
   /** [vertices]: 255 where the body has its second colour. */
   accents: Uint8Array;
-  /** Three vertices each. */
+  /** [triangles][3]: vertex indices. */
   triangles: Uint16Array;
 }
 
 /** A source of motion and the character that it moves. */
 declare class Player {
-  /** As those of a Character. */
+  /** Like the methods of Character. */
   setStrength(style: string, strength: number): void;
   setShape(shape: Partial<Shape>): void;
   trigger(style: string, gesture?: number): void;
-  /** A model for setRemoved(); the motion goes on. */
+  /** Sets the model for setRemoved(); the motion continues. */
   useRemover(remover: Remover): void;
-  /** Takes a style of the remover off the input, also its tempo, before styles are put on; null:
-   * none, as at first. Eased in. Throws before useRemover(). */
+  /** Removes a style of the remover from the input, including its tempo, before styles are added;
+   * null: none, the default. Eased in. Throws before useRemover(). */
   setRemoved(style: string | null): void;
-  /** 'steps' at first; the motion goes on. */
+  /** Initially 'steps'; the motion continues. */
   setTiming(timing: Timing): void;
-  /** Goes on by so many seconds, at most a tenth at once. */
+  /** Advances by `seconds`, at most a tenth per call. */
   step(seconds: number): void;
-  /** Steps a copy so often with the present pose, to see how long that takes. */
+  /** Steps a copy `count` times with the current pose, to measure the speed. */
   measure(count: number): void;
   /** Input seconds per output second: the tempo of the style, 1 where the timing is off. */
   readonly rate: number;
-  /** How much of the styles' answer to this very motion is given: 1 where they know a motion like
-   * it, 0 where they do not and give no more than their mean posture. */
+  /** How much of the styles' change is applied: 1 if the input resembles the training motion; 0 if
+   * it does not, so that styles only add their mean posture. */
   readonly gate: number;
   /** Probability that each foot is planted: left, right. */
   readonly contacts: number[];
-  /** View, [joints][7]: local rotation x y z w and translation, the file's own units and axes. */
+  /** View, [joints][7]: local rotation x y z w and translation, in the file's units and axes. */
   pose(which: 'input' | 'styled', joints: number): Float32Array;
-  /** View, [21][7]: world position (metres, Y up) and orientation x y z w of each human joint. In
-   * its own frame a part lies as in the T-pose: left arm along +x, legs along -y, feet along +z. */
+  /** View, [21][7]: world position (metres, Y up) and orientation x y z w of each human joint. The
+   * orientation is relative to the T-pose: left arm along +x, legs along -y, feet along +z. */
   parts(which: 'input' | 'styled'): Float32Array;
-  /** A body to the measure of the rig; takes some tenths of a second the first time. */
+  /** A body with the rig's proportions; takes some tenths of a second the first time. */
   readonly body: Body;
-  /** The same of a third of the triangles, for where no graphics card draws them. */
+  /** The same with a third of the triangles, for machines without a graphics card. */
   readonly coarseBody: Body;
-  /** world = scale * rotate(toYUp, point of the file) - {0, floor, 0}. */
+  /** world = scale * rotate(toYUp, point in the file) - {0, floor, 0}. */
   readonly placement: { toYUp: number[]; scale: number; floor: number };
   /** A file with this extension (".bvh", ".glb", ".vrma", or that of the file played): the whole
-   * clip as styled now, or the last seconds of a walk, twenty at most. */
+   * clip with the current settings, or the last seconds of a walk, at most 20. */
   exportAs(extension: string, options?: { which?: 'input' | 'styled'; seconds?: number }):
     Uint8Array;
   free(): void;
 }
 
 export class Walk extends Player {
-  /** m/s, 0 to 4.5, and rad/s, to the left. Eased. */
+  /** `speed`: m/s, 0 to 4.5; `turn`: rad/s, positive to the left. Eased. */
   steer(speed: number, turn: number): void;
 }
 
 export class Playback extends Player {
-  /** To so many seconds after the first frame; shown by the next step. */
+  /** Jumps to `seconds` after the first frame; takes effect at the next step. */
   seek(seconds: number): void;
-  /** The strength of a style over time instead of a constant one: keys with straight lines between
-   * them, seconds after the first frame, rising. None: constant again. */
+  /** Sets the strength of a style over time instead of a constant one: keyframes, interpolated
+   * linearly, with ascending seconds after the first frame. Empty: constant again. */
   setTrack(style: string, keys: readonly (readonly [seconds: number, strength: number])[]): void;
   set loop(loop: boolean);
   readonly seconds: number;
-  /** The frame of the file that plays first, from 0; those before it are a calibration pose. */
+  /** The first frame that plays, from 0; earlier frames of the file are a reference pose. */
   readonly firstFrame: number;
 }

@@ -1,5 +1,5 @@
-// Panache for JavaScript: a thin hand over the WebAssembly module. See index.d.ts for what it
-// promises.
+// Panache for JavaScript: a thin wrapper around the WebAssembly module. See index.d.ts for the
+// interface.
 
 import { Character, Skeleton, stylizeClip, writeShape } from './character.js';
 import {
@@ -22,7 +22,7 @@ export const humanJoints = [
 
 export { Character, PanacheError, Remover, Skeleton };
 
-// The module asks for a file system, which it never gets to use: whatever is not given fails.
+// The module imports a file system but never uses it: imports that are not provided fail.
 function importsOf(module, given) {
   const imports = {};
   for (const { module: space, name } of WebAssembly.Module.imports(module)) {
@@ -35,7 +35,7 @@ function importsOf(module, given) {
 export class Panache {
   #wasm;
   #model = 0;
-  #bytes;         // Of the model.
+  #bytes;         // The model file.
   #walker = 0;
   #players = new Set();
 
@@ -70,7 +70,7 @@ export class Panache {
     const wasm = this.#wasm;
     const model = this._arena((arena) => this._checked(wasm.panache_page_model_create(
       arena.copy(bytes), bytes.byteLength, arena.text(name))));
-    // Players keep what they need of the model that they had.
+    // Players keep what they need of their old model.
     const old = this.#model;
     this.#model = model;
     this.#bytes = bytes;
@@ -166,7 +166,7 @@ export class Panache {
   _stylesOf(model) { return this._json(this.#wasm.panache_page_styles(model)); }
   _styleIndex(name, styles = this.styles) {
     let index = styles.findIndex((style) => style.name === name);
-    if (index < 0) {  // As the program: without case where that is needed.
+    if (index < 0) {  // Like the program: an exact match first, then without case.
       const wanted = String(name).toLowerCase();
       index = styles.findIndex((style) => style.name.toLowerCase() === wanted);
     }
@@ -182,7 +182,7 @@ export class Panache {
   }
   _arena(use) { return Arena.use(this.#wasm, use); }
   _json(handle) { return JSON.parse(new TextDecoder().decode(this._take(handle))); }
-  // What a panache_bytes holds, which goes.
+  // Copies the content of a panache_bytes and frees it.
   _take(handle) {
     const at = this.#wasm.panache_bytes_data(handle), size = this.#wasm.panache_bytes_size(handle);
     const bytes = new Uint8Array(this.#wasm.memory.buffer, at, size).slice();
@@ -334,7 +334,7 @@ class Player {
       this._player, index, arena.copy(Float64Array.from(keys.flat())), keys.length));
   }
 
-  // A view of the module's memory; good until the next call into it.
+  // A view of the module's memory; valid until the next call into it.
   _floats(at, count) { return new Float32Array(this._wasm.memory.buffer, at, count); }
 }
 

@@ -1,11 +1,11 @@
-// The memory of the WebAssembly module: what a call needs there, and structs of panache.h as the
-// module lays them out.
+// The memory of the WebAssembly module: temporary allocations for calls, and the layout of the
+// structs of panache.h.
 
 import { lastError, PanacheError } from './checks.js';
 
 const kSizes = { i32: 4, f32: 4, f64: 8 };
 
-// A struct by its fields, in order: [name, type, count].
+// Lays out a struct from its fields, in order: [name, type, count].
 export function struct(...fields) {
   let size = 0;
   const places = new Map();
@@ -22,7 +22,7 @@ const kAccess = {
   i32: ['setInt32', 'getInt32'], f32: ['setFloat32', 'getFloat32'], f64: ['setFloat64', 'getFloat64'],
 };
 
-// Allocates for the time of a call.
+// Allocates memory for the duration of a call.
 export class Arena {
   #wasm;
   #blocks = [];
@@ -54,7 +54,7 @@ export class Arena {
   }
   text(text) { return this.copy(new TextEncoder().encode(text + '\0')); }
 
-  // Writes `values` by name, numbers or arrays, into a struct at `at`, or into a new one of zeros.
+  // Writes `values` (numbers or arrays, by name) to the struct at `at`; by default a new one.
   write(type, values, at = this.zeros(type.size)) {
     const view = new DataView(this.#wasm.memory.buffer, at, type.size);
     for (const [name, value] of Object.entries(values)) {
@@ -66,13 +66,13 @@ export class Arena {
     }
     return at;
   }
-  // [structs.length] one after the other.
+  // Writes an array of structs. [list.length]
   array(type, list) {
     const at = this.zeros(type.size * list.length);
     list.forEach((values, i) => this.write(type, values, at + i * type.size));
     return at;
   }
-  // The values of a struct by name, as write() takes them.
+  // Returns the values of a struct by name, as write() takes them.
   read(type, at) {
     const view = new DataView(this.#wasm.memory.buffer, at, type.size);
     return Object.fromEntries(Array.from(type.places, ([name, { at: offset, type: kind, count }]) => {
@@ -87,7 +87,7 @@ export class Arena {
     return at;
   }
 
-  // The handle that a function of panache.h creates, which gives a status.
+  // Returns the handle created by a function of panache.h that returns a status.
   create(call) {
     const out = this.zeros(4);
     this.check(call(out));

@@ -1,4 +1,4 @@
-// A model that takes styles off, and tells which styles a motion shows. See index.d.ts.
+// A model that removes styles and recognises which ones a motion shows. See index.d.ts.
 import { PanacheError, checkBytes, checkClip, handleFor, unexpected } from './checks.js';
 import { kClip } from './structs.js';
 
@@ -25,7 +25,7 @@ export class Remover {
     return this.#recognise((_, remover, shares) => this.#wasm.panache_page_file_recognise(
       file._handleFor(this.#panache), clip, remover, shares));
   }
-  // `tell` writes a share for each style, and one for neutral.
+  // `tell` writes the share of each style, then of neutral.
   #recognise(tell) {
     const names = [...this.styles.map(({ name }) => name), kNeutral];
     return this.#panache._arena((arena) => {
@@ -50,7 +50,7 @@ export class Remover {
   }
 }
 
-// A clip of the caller's own in the memory of the module, as panache.h has it.
+// Writes the caller's clip to the module's memory, as a panache_clip.
 export function writeClip(arena, panache, skeleton, clip) {
   return arena.write(kClip, {
     skeleton: skeleton._handleFor(panache), frameCount: checkClip(clip, skeleton.jointCount),
@@ -59,13 +59,12 @@ export function writeClip(arena, panache, skeleton, clip) {
   });
 }
 
-// The handle of a remover.
 export function removerHandle(panache, remover) {
   if (!(remover instanceof Remover)) throw unexpected('remover', 'a Remover', remover);
   return remover._handleFor(panache);
 }
 
-// As the module counts what is taken off `what`, which was given this remover; null: nothing.
+// The module's index of the style to remove from `what`, which has this remover; null: none.
 export function removedIndex(remover, style, what) {
   if (!remover) throw new PanacheError(`setRemoved: expected a ${what} that was given a remover`);
   return style === null ? -1 : remover._styleIndex(style);

@@ -6,41 +6,41 @@ import type {
 
 export interface StyledBonesOptions extends CharacterOptions,
     Pick<SkeletonOptions, 'metresPerUnit' | 'upAxis'> {
-  /** The name of the bone by the name of the humanoid's joint ("leftHand", as in VRM), where names
-   * and shape are not enough; null where there is none. */
+  /** The name of the bone for each human joint ("leftHand", as in VRM), if names and shape are not
+   * enough; null if there is none. */
   humanBones?: Record<string, string | null>;
 }
 
-/** Styles bones in place, whatever has posed them. Bones are those below `root`, together with what
- * they hang on; scales are read once and have to be the same along all axes. */
+/** Styles bones in place, however they were posed. Takes the bones below `root` with all nodes in
+ * between; scales are read once and have to be uniform. */
 export class StyledBones {
-  /** The bones are at rest now, or in an upright pose. Throws a PanacheError where they are no
-   * humanoid. */
+  /** The bones have to be in their rest pose or an upright pose. Throws a PanacheError if they are
+   * not a humanoid. */
   constructor(panache: Panache, root: Object3D, options?: StyledBonesOptions);
-  /** For strengths, the shape of the style, reports and resets. */
+  /** Use it for strengths, the shape of the style, reports and resets. */
   readonly character: Character;
-  /** What the last step gave, parents before children, with scales multiplied in. */
+  /** The output of the last step, parents before children, with scales multiplied in. */
   readonly pose: Pose;
-  /** Styles the bones as they are posed; `seconds` have gone by since the last step. All have to be
-   * posed anew before the next step, or restore()d. */
+  /** Styles the current pose of the bones, `seconds` after the last step. Pose all bones again, or
+   * call restore(), before the next step. */
   step(seconds: number): void;
-  /** Puts the pose before the last step back. */
+  /** Restores the pose from before the last step. */
   restore(): void;
   /** The bones stay as they are. */
   free(): void;
 }
 
-/** Styles the character that an AnimationMixer moves. Call update() in place of the mixer's. */
+/** Styles the character that an AnimationMixer moves. Call update() instead of the mixer's. */
 export class StyledMixer {
   constructor(panache: Panache, mixer: AnimationMixer, options?: StyledBonesOptions);
-  /** For the shape of the style, reports and resets. */
+  /** Use it for the shape of the style, reports and resets. */
   readonly character: Character;
   /** 0 is neutral, 1 the style as captured, -4 to 4. Eased in. */
   setStrength(style: string, strength: number): void;
-  /** Updates the mixer by `seconds`, then styles what it has posed. */
+  /** Updates the mixer by `seconds`, then styles its pose. */
   update(seconds: number): void;
-  /** Puts the mixer's own pose back, for example before mixer.stopAllAction(). */
+  /** Restores the mixer's pose, for example before mixer.stopAllAction(). */
   restore(): void;
-  /** Puts the mixer's own pose back, and frees the character. */
+  /** Restores the mixer's pose, and frees the character. */
   free(): void;
 }

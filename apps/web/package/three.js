@@ -1,8 +1,8 @@
-// Styles the bones of a three.js scene. Reads and writes three's objects, and imports nothing of it.
+// Styles the bones of a three.js scene. Reads and writes three's objects without importing three.
 // See three.d.ts.
 import { PanacheError, checkFinite, unexpected } from './checks.js';
 
-// All that bones hang on, parents first: `root`, bones, and what has bones below it.
+// Returns `root`, the bones below it and all nodes in between, parents first.
 function findBones(root) {
   if (typeof root?.traverse !== 'function') throw unexpected('root', 'an Object3D', root);
   const wanted = new Set();
@@ -16,7 +16,7 @@ function findBones(root) {
   return bones;
 }
 
-// How large a unit of a bone's parent is, in units of what `root` stands in: joints have no scale.
+// The scale of each bone's parent, relative to the parent of `root`: joints have no scale.
 function scalesOf(bones, index) {
   const own = [];
   return bones.map((bone, i) => {
@@ -74,7 +74,7 @@ export class StyledBones {
     this.#character.step(this.#pose, this.#pose, seconds);
     const { rotations, translations } = this.#pose;
     this.#bones.forEach((bone, i) => {
-      // What no style moves keeps the digits that 32 bits do not hold.
+      // Do not write unchanged values: they would lose the digits beyond 32 bits.
       if (differs(rotations, this.#input.rotations, 4 * i, 4)) {
         bone.quaternion.fromArray(rotations, 4 * i);
       }
@@ -130,7 +130,7 @@ export class StyledMixer {
   get character() { return this.#bones.character; }
   setStrength(style, strength) { this.character.setStrength(style, strength); }
 
-  // The mixer writes only what its actions change, so it has to find its own pose, not the styled one.
+  // The mixer only writes what its actions change, so it needs its own pose back first.
   update(seconds) {
     checkFinite(seconds, 'seconds');
     this.#bones.restore();

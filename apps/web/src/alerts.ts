@@ -1,4 +1,4 @@
-// What the page says over the view when something is wrong with a file, or odd about it.
+// Messages over the view about errors in files, or oddities.
 
 import { PanacheError } from '../package/index.js';
 import { find } from './dom';
@@ -7,7 +7,7 @@ const kSeconds = 12;
 
 let timer = 0;
 
-/** Shows a text for a while; an empty one hides the last. */
+/** Shows a text for a while; an empty text hides the current one. */
 export function say(text: string) {
   const alert = find('#alert');
   alert.textContent = text;
@@ -16,7 +16,7 @@ export function say(text: string) {
   timer = window.setTimeout(() => (alert.hidden = true), kSeconds * 1000);
 }
 
-/** Tells of what is wrong with a file; everything else is a fault of ours. */
+/** Shows errors in files; all other errors are bugs. */
 export async function attempt(action: () => Promise<void> | void, tell = say) {
   try {
     tell('');

@@ -1,4 +1,4 @@
-// Where the view is seen from: it follows the body, faces it, and fits it in.
+// The camera of a view: it follows the body, faces it, and fits it in.
 
 import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
@@ -6,19 +6,19 @@ import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 export const kAngles = ['face', 'front', 'side', 'top', 'orbit'] as const;
 export type Angle = (typeof kAngles)[number];
 
-// Both the lean of a style and the swing of its arms and legs are seen from there.
+// This angle shows both the lean of a style and the swing of arms and legs.
 const kThreeQuarters = Math.PI / 4;
-/** From ahead of the body to its left, and up from the ground, radians. */
+/** Azimuth from the front of the body to its left, and elevation, radians. */
 const kPlaces: Record<Angle, [number, number]> = {
   face: [kThreeQuarters, 0.14], front: [0, 0.05], side: [Math.PI / 2, 0.05], top: [0, 1.42],
   orbit: [kThreeQuarters, 0.14],
 };
 const kNearest = 1.5, kFarthest = 12;  // Metres, for a person.
 const kLag = 0.14;          // Seconds behind the body.
-const kRoom = 1.42;         // Of the view, for the height of a body: words lie over its edges.
-const kEdge = 1.1;          // Of the view, at least, in every direction.
-const kSlimmest = 0.52;     // Width to height of a view that a person always fits in.
-const kTan = Math.tan(THREE.MathUtils.degToRad(15));  // Of half the angle of view.
+const kRoom = 1.42;         // View height to body height: text covers the edges of the view.
+const kEdge = 1.1;          // The minimum ratio of view to body, in every direction.
+const kSlimmest = 0.52;     // Aspect ratio of a view that always fits a person.
+const kTan = Math.tan(THREE.MathUtils.degToRad(15));  // Half the field of view.
 const kOrbitSpeed = 4;      // Turns in four minutes.
 
 const reduced = matchMedia('(prefers-reduced-motion: reduce)');
@@ -27,8 +27,8 @@ export class Camera {
   readonly camera = new THREE.PerspectiveCamera(30, 1, 0.1, 80);
   readonly followed = new THREE.Vector3();
   #controls: OrbitControls;
-  #middle = new THREE.Vector3(0, 0.8, 0);  // Of what is looked at, from the place that is followed.
-  #width = kSlimmest;  // Width to height of the view that it needs.
+  #middle = new THREE.Vector3(0, 0.8, 0);  // The centre of the view, relative to `followed`.
+  #width = kSlimmest;  // Aspect ratio of the view that it needs.
 
   constructor(canvas: HTMLCanvasElement) {
     this.#controls = new OrbitControls(this.camera, canvas);
@@ -39,8 +39,8 @@ export class Camera {
     });
   }
 
-  /** Looks from an angle, which it keeps, at what is in a box of the world, from as far as all of it
-   * needs. `parts` tell where the body is and where it faces. */
+  /** Looks at a world-space box from an angle, which it keeps, at a distance that fits the box.
+   * `parts` give the position and heading of the body. */
   look(angle: Angle, parts: Float32Array, box: THREE.Box3) {
     const facing = new THREE.Vector3(0, 0, 1)
       .applyQuaternion(new THREE.Quaternion().fromArray(parts, 3));
@@ -57,7 +57,7 @@ export class Camera {
     this.#controls.update();
   }
 
-  /** How far away all of a box is seen, where the view is wide enough. */
+  /** The distance that fits a box, if the view is wide enough. */
   #fit(box: THREE.Box3, from: THREE.Vector3): number {
     const half = box.getSize(new THREE.Vector3()).multiplyScalar(0.5);
     const around = Math.hypot(half.x, half.z);
@@ -70,7 +70,7 @@ export class Camera {
       distance = Math.max(distance,
         place.dot(from) + (kEdge * Math.abs(place.dot(over))) / kTan);
     }
-    // From whatever side: it is dragged about.
+    // For any side, as the user can orbit the camera.
     this.#width = Math.max(kSlimmest,
       (kEdge * around) / Math.sqrt(distance ** 2 - around ** 2) / kTan);
     this.#controls.minDistance = Math.min(kNearest, distance / 3);
@@ -80,12 +80,12 @@ export class Camera {
     return distance;
   }
 
-  /** Of a view of this aspect: a narrow one steps back, so that all still fits in. */
+  /** The zoom for a view of this aspect ratio: a narrow view zooms out so that everything fits. */
   zoomFor(aspect: number) {
     return Math.min(1, aspect / this.#width);
   }
 
-  /** Sees its own body as `other` sees its. */
+  /** Takes the angle of `other`, relative to the body. */
   takeAngle(other: Camera) {
     const from = other.camera.position.clone().sub(other.#controls.target);
     this.#middle.copy(other.#middle);
@@ -96,7 +96,7 @@ export class Camera {
     this.#controls.update();
   }
 
-  /** Goes where the body goes, a little later. */
+  /** Follows the body with a small lag. */
   follow(place: THREE.Vector3, seconds: number) {
     const step = place.clone().sub(this.followed);
     const cut = reduced.matches || seconds === 0 || step.length() > 2;

@@ -1,11 +1,11 @@
-// Where a motion is where it was before.
+// Finds a cycle in a motion.
 
-const kSame = 0.05;     // Metres, the mean of all points.
+const kSame = 0.05;     // Metres, mean over all points.
 const kGood = 1.25;
 const kUnseen = 0.004;  // Metres.
 
-/** Of its poses, [first, end): the pose at the end is like the first one, and so is the one after.
- * `poses`: positions [points][3], metres, as often as `minimum` is counted. null: it never is. */
+/** Returns frames [first, end): the pose at the end matches the first one, and so does the next
+ * pair. `poses`: positions [points][3], metres; `minimum`: frames. null: there is no cycle. */
 export function findCycle(poses: readonly Float32Array[], minimum: number):
     [number, number] | null {
   const far = (a: Float32Array, b: Float32Array) => {
@@ -23,7 +23,7 @@ export function findCycle(poses: readonly Float32Array[], minimum: number):
     }
   }
   const best = pairs.reduce((least, pair) => Math.min(least, pair[2]), Infinity);
-  // The shortest of those that close about as well as any.
+  // Take the shortest cycle that closes about as well as the best.
   const good = pairs.filter((pair) => pair[2] <= kGood * best + kUnseen)
     .sort((a, b) => a[1] - a[0] - (b[1] - b[0]) || a[2] - b[2]);
   return good.length ? [good[0][0], good[0][1]] : null;

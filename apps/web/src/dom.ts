@@ -1,8 +1,8 @@
-// A little help with elements.
+// Helpers for DOM elements.
 
 type Attributes = Record<string, string | number | boolean | undefined>;
 
-/** An element with attributes and children; `class`, `text` and everything else by its own name. */
+/** Creates an element with attributes and children. */
 export function element<Tag extends keyof HTMLElementTagNameMap>(
   tag: Tag, attributes: Attributes = {}, ...children: (Node | string)[]
 ): HTMLElementTagNameMap[Tag] {
@@ -15,13 +15,12 @@ export function element<Tag extends keyof HTMLElementTagNameMap>(
   return out;
 }
 
-/** A button that does something when it is pressed. */
 export function button(text: string, press: () => void, attributes: Attributes = {}) {
   const out = element('button', { type: 'button', ...attributes }, text);
   out.addEventListener('click', press);
   return out;
 }
-/** What says in words what a button with a short text does: its tooltip, and its name. */
+/** Describes a button with a short text: its tooltip and accessible name. */
 export const hinted = (hint: string) => ({ title: hint, 'aria-label': hint });
 
 export function find<T extends HTMLElement>(selector: string): T {
@@ -31,10 +30,10 @@ export function find<T extends HTMLElement>(selector: string): T {
 }
 
 const colours = new Map<string, string>();
-/** When others apply. */
+/** Call it when the colour scheme changes. */
 export const forgetColours = () => colours.clear();
 
-/** The value of a colour of the style sheet; asking that itself may take longer than a drawing. */
+/** A colour of the style sheet, cached: reading it there can take longer than drawing. */
 export function colour(name: string): string {
   let value = colours.get(name);
   if (value === undefined) {
@@ -44,7 +43,7 @@ export function colour(name: string): string {
   return value;
 }
 
-/** Gives a file to the visitor to keep. */
+/** Downloads a file. */
 export function saveBytes(bytes: BlobPart, name: string, type = 'application/octet-stream') {
   const address = URL.createObjectURL(new Blob([bytes], { type }));
   const link = element('a', { href: address, download: name });
@@ -52,12 +51,12 @@ export function saveBytes(bytes: BlobPart, name: string, type = 'application/oct
   setTimeout(() => URL.revokeObjectURL(address), 10_000);
 }
 
-/** Where a pointer is over an element, 0 to 1 across and down. */
+/** The position of a pointer in an element, 0 to 1 across and down. */
 export function placeIn(field: HTMLElement, { clientX, clientY }: PointerEvent): [number, number] {
   const box = field.getBoundingClientRect();
   return [(clientX - box.left) / box.width, (clientY - box.top) / box.height];
 }
-/** Tells where a pointer that is held down on an element is, and when it is let go. */
+/** Reports the position of a pointer while it is pressed on an element, and its release. */
 export function listenToDrags(field: HTMLElement, move: (x: number, y: number) => void,
     end = () => {}) {
   field.addEventListener('pointerdown', (event) => {

@@ -1,4 +1,4 @@
-// What is taken away: the motion that is seen, in files of all kinds.
+// Exports the displayed motion to files of all formats.
 
 import { PanacheError, type MotionFile, type Playback, type Walk } from '../package/index.js';
 import { saveBytes } from './dom';
@@ -12,7 +12,7 @@ const kFormats = ['.bvh', '.glb', '.vrma'];
 
 type Exports = Record<string, Uint8Array>;  // By file name.
 
-/** Adds what the player has in all formats, under a title that none of the others has. */
+/** Adds the player's motion in all formats, under a unique title. */
 function addMotion(out: Exports, player: Walk | Playback, title: string) {
   while (`${title}${kFormats[0]}` in out) title += '-2';
   for (const extension of kFormats) out[title + extension] = player.exportAs(extension);
@@ -28,7 +28,7 @@ export class Exporter {
     return `${[title, ...(styles.length ? styles : ['neutral'])].join('-')}${extension}`;
   }
 
-  /** Of what is seen, by which its files are called. */
+  /** The title of the displayed motion, for file names. */
   get #title(): string {
     const { source, steering } = this.page;
     return source.kind === 'clip' ? titleOf(source.file.name) : steering.pace;
@@ -41,14 +41,14 @@ export class Exporter {
     saveBytes(this.page.panache.extractStyle(name) as BlobPart, `${name}.safetensors`);
   }
 
-  /** Everything that is listed, styled as is set now, in all formats. */
+  /** Saves all listed files with the current settings, in all formats. */
   async saveAll() {
     const { source, panache, files } = this.page;
     const out: Exports = {}, failed: string[] = [];
     if (source.kind === 'walk') addMotion(out, source.player, this.nameOf(''));
     const listed = source.kind === 'clip' ? files : [];
     for (const file of listed) {
-      await new Promise((next) => setTimeout(next));  // The page goes on in between.
+      await new Promise((next) => setTimeout(next));  // Keeps the page responsive.
       try {
         freed((await openMoving(panache, file)).file, (opened) => this.#addFile(out, opened));
       } catch (error) {
@@ -75,7 +75,7 @@ export class Exporter {
     });
   }
 
-  /** What is seen, as a motion file. */
+  /** The displayed motion as a file. */
   capture(which: 'input' | 'styled', seconds: number): File {
     const { source } = this.page;
     const extension = source.kind === 'clip' ? source.file.extension : '.bvh';
@@ -84,7 +84,7 @@ export class Exporter {
       `${which === 'input' ? this.#title : this.nameOf('')}${extension}`);
   }
 
-  /** What is seen now, as a motion that can be gone through again, beside what is seen. */
+  /** A replayable copy of the displayed motion, independent of the view. */
   loopMotion(): LoopMotion {
     const { source, panache, store, steering, bytes, transport } = this.page;
     const prepare = (player: Walk | Playback) => this.#prepare(player);

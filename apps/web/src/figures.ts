@@ -1,17 +1,17 @@
-// Each style as a small figure beside its slider: a pose of a walk in that style, and the walk
-// itself while it is pointed at.
+// A small figure of each style next to its slider: a pose of a walk in that style, animated while
+// the pointer is over it.
 
 import type { Panache, Walk } from '../package/index.js';
 import { humanJoints } from '../package/index.js';
 import { colour } from './dom';
 
-const kWide = 42, kHigh = 52;  // Pixels of the page.
-const kWarmUp = 1.3;           // Seconds until a style is there.
+const kWide = 42, kHigh = 52;  // CSS pixels.
+const kWarmUp = 1.3;           // Seconds until a style is fully eased in.
 const kPace = 1.3;             // m/s
-const kHeight = 1.75;          // Metres that fit in.
-const kTurn = -0.9;            // From where the figure faces the viewer, radians.
+const kHeight = 1.75;          // Metres, the height of the box.
+const kTurn = -0.9;            // Radians; at 0 the figure faces the viewer.
 
-/** Lines from joint to joint, and how thick, metres; those behind come first. */
+/** Lines from joint to joint, and their widths in metres, back to front. */
 const kLines: [string[], number][] = [
   [['rightUpperLeg', 'rightLowerLeg', 'rightFoot', 'rightToes'], 0.11],
   [['rightUpperArm', 'rightLowerArm', 'rightHand'], 0.075],
@@ -20,8 +20,8 @@ const kLines: [string[], number][] = [
   [['leftUpperArm', 'leftLowerArm', 'leftHand'], 0.08],
 ];
 
-/** A person of strokes in a box, from where its joints are: metres, Y up, facing +Z. `near` is the
- * colour of the side that is nearer. */
+/** Draws a stick figure in a box from joint positions: metres, Y up, facing +Z. `near` is the
+ * colour of the nearer side. */
 export function paintFigure(context: CanvasRenderingContext2D, width: number, height: number,
     joint: (name: string) => readonly [number, number, number], near: string) {
   const scale = height / kHeight;
@@ -60,7 +60,7 @@ class Figure {
     this.canvas.height = kHigh * ratio;
   }
 
-  /** Draws the figure as it stands after some steps. */
+  /** Draws the figure after some steps. */
   begin() {
     this.#walk = this.panache.createWalker();
     this.#walk.setStrength(this.style, 1);
@@ -74,7 +74,7 @@ class Figure {
   }
   draw(seconds: number) {
     if (this.#walk) {
-      this.#walk.setStrength(this.style, 1);  // Another model may have come.
+      this.#walk.setStrength(this.style, 1);  // The model may have changed.
       this.#walk.step(seconds);
       this.#last = this.#walk.parts('styled').slice();
     }
@@ -92,7 +92,7 @@ class Figure {
   }
 }
 
-/** Makes the figures of rows one after the other, so that the page opens without waiting. */
+/** Draws the figures of the rows one at a time, so the page opens without a delay. */
 export class Figures {
   #figures = new Map<HTMLElement, Figure>();
   #moving: Figure | null = null;
@@ -102,7 +102,7 @@ export class Figures {
     this.show(rows, 400);
   }
 
-  /** Gives each row a figure, and forgets those of rows that are gone. */
+  /** Gives each row a figure, and drops the figures of removed rows. */
   show(rows: Map<string, HTMLElement>, wait = 0) {
     const kept = new Set(rows.values());
     for (const [row, figure] of this.#figures) {

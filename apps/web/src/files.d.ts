@@ -11,12 +11,12 @@ declare module 'virtual:panache-removable' {
 
 declare module 'gifenc' {
   type Colour = [red: number, green: number, blue: number];
-  /** At most so many colours for these pixels, RGBA. */
+  /** Returns at most `count` colours for RGBA pixels. */
   export function quantize(pixels: Uint8ClampedArray, count: number): Colour[];
   /** The index of the colour of each pixel. */
   export function applyPalette(pixels: Uint8ClampedArray, palette: Colour[]): Uint8Array;
   export function GIFEncoder(): {
-    /** The first frame has the colours of all. `delay`: milliseconds; `repeat` 0: for ever. */
+    /** The palette of the first frame is global. `delay`: milliseconds; `repeat` 0: forever. */
     writeFrame(indices: Uint8Array, width: number, height: number,
       options: { palette?: Colour[]; delay: number; repeat?: number }): void;
     finish(): void;

@@ -1,4 +1,4 @@
-// A gamepad's cross on the sliders: up and down choose one, left and right push it.
+// A gamepad's D-pad on the sliders: up and down choose a slider, left and right move it.
 
 const kUp = 12, kDown = 13, kLeft = 14, kRight = 15;
 const kPush = 0.05;
@@ -7,7 +7,7 @@ const kRepeat = 0.14;  // Seconds.
 export class Cross {
   #wait = 0;
 
-  /** Asked once a frame. */
+  /** Call it once per frame. */
   step(seconds: number) {
     this.#wait -= seconds;
     const pad = navigator.getGamepads?.().find((p) => p?.connected);

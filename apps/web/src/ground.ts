@@ -1,14 +1,13 @@
-// The ground: a grid that goes on for ever, the shadow on it, where feet are planted and where they
-// went.
+// The ground: an endless grid, and the shadow on it.
 
 import * as THREE from 'three';
 
-const kSize = 24;       // Metres; the grid fades before.
+const kSize = 24;       // Metres; the grid fades out before its edge.
 const kShadowSize = 5;  // Metres.
 
-const kTile = 256;  // Pixels of a square metre of lines.
+const kTile = 256;  // Pixels of the texture, which is a square metre.
 
-/** A square metre: a line along its edges, finer ones every quarter; or equal ones. */
+/** A square metre: lines along its edges, and thinner or `equal` ones every quarter. */
 function lineTexture(sharp: boolean, equal: boolean): THREE.Texture {
   const canvas = document.createElement('canvas');
   canvas.width = canvas.height = kTile;
@@ -26,8 +25,8 @@ function lineTexture(sharp: boolean, equal: boolean): THREE.Texture {
   return texture;
 }
 
-/** Lines that fade with the distance. One look into a texture: shaders that compute lines, or
- * colours, for each pixel cost half of a frame where no graphics card draws. */
+/** Lines that fade with distance. One texture lookup: shaders that compute lines or colours for
+ * each pixel take half of the frame time without a graphics card. */
 function gridMaterial(sharp: boolean, equal: boolean): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
     depthWrite: false,
@@ -58,7 +57,7 @@ function gridMaterial(sharp: boolean, equal: boolean): THREE.ShaderMaterial {
   });
 }
 
-/** Dark in the middle, nothing at the edge. */
+/** Dark in the middle, transparent at the edge. */
 function spotMaterial(): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
     transparent: true,
@@ -87,7 +86,7 @@ export class Ground {
   #grid: THREE.Mesh<THREE.PlaneGeometry, THREE.ShaderMaterial>;
   #shadow: THREE.Mesh;
 
-  /** `spots`: without a cast shadow, and with lines that cost little. `equal`: of one width. */
+  /** `spots`: no cast shadow, and cheap lines. `equal`: all lines have the same width. */
   constructor(public spots: boolean, equal: boolean) {
     const plane = new THREE.PlaneGeometry(kSize, kSize, 24, 24).rotateX(-Math.PI / 2);
     this.#grid = new THREE.Mesh(plane, gridMaterial(!spots, equal));
@@ -102,20 +101,20 @@ export class Ground {
   }
 
   paint(ground: string, line: string) {
-    // As they are on the screen.
+    // The shader takes sRGB.
     const { uniforms } = this.#grid.material;
     uniforms.ground.value.set(ground).convertLinearToSRGB();
     uniforms.line.value.set(line).convertLinearToSRGB();
   }
 
-  /** Moves the lines so that a loop, in which the body goes `way`, ends on the lines that it began
-   * on, and no one of them jumps: `share` of the loop is over. */
+  /** Drifts the grid over a loop in which the body travels `way`, so that the grid matches at both
+   * ends without a jump. `share` of the loop has passed. */
   close(way: THREE.Vector2, share: number) {
     const drift = this.#grid.material.uniforms.drift.value as THREE.Vector2;
     drift.copy(way).multiplyScalar(4).round().divideScalar(4).sub(way).multiplyScalar(share);
   }
 
-  /** Keeps the ground under the body; the lines stay where they are. `feet` are the toes. */
+  /** Keeps the ground under the body without moving the lines. `feet` are the toes. */
   follow(place: THREE.Vector3, feet: readonly THREE.Vector3[]) {
     this.#shadow.visible = !this.spots;
     this.#spots.forEach((spot, i) => {

@@ -1,16 +1,15 @@
-// The styles by what they are listed under.
+// Lists the styles by group.
 
 import type { ClipInfo, Style } from '../package/index.js';
 import { element } from './dom';
 
-/** What is said of a style in a list. */
+/** What lists need to know about a style. */
 type Listed = Pick<Style, 'name' | 'group'> & Partial<Pick<Style, 'learnt'>>;
 
-/** "old" as it begins a line: "Old". */
 export const capitalized = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
 
-/** Learnt styles first, then the groups in the order of the model. A title is "Moods"; empty for the
- * only group of a model that has none. */
+/** Learnt styles first, then the groups in the order of the model. Titles are like "Moods", or ""
+ * if the model has no groups. */
 export function groupStyles<Own extends Listed>(styles: readonly Own[]) {
   const sorted = [...styles].sort((a, b) => Number(b.learnt ?? false) - Number(a.learnt ?? false));
   if (!styles.some(({ group }) => group)) return [{ title: '', styles: sorted }];
@@ -22,12 +21,12 @@ export function groupStyles<Own extends Listed>(styles: readonly Own[]) {
   return [...groups].map(([title, own]) => ({ title, styles: own }));
 }
 
-/** What a menu of the motions of a file holds: those of the humanoid. */
+/** The options of a menu of a file's motions: only those that move the humanoid. */
 export const motionOptions = (clips: readonly ClipInfo[], selected: number) =>
   clips.flatMap(({ name, moves }, i) => (moves
     ? [element('option', { value: i, selected: i === selected }, name || `motion ${i + 1}`)] : []));
 
-/** What a menu of styles holds. */
+/** The options of a menu of styles. */
 export function styleOptions(styles: readonly Listed[], selected: string): HTMLElement[] {
   return groupStyles(styles).flatMap(({ title, styles: own }) => {
     const options = own.map(({ name }) =>

@@ -1,4 +1,4 @@
-// What keys do, and what the page is.
+// The help dialog: keyboard shortcuts, and about the page.
 
 import { button, element, find } from './dom';
 

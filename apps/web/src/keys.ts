@@ -1,8 +1,8 @@
-// Keys: the strength of a style over the time of a clip, with straight lines between them.
+// Keyframes: the strength of a style over the time of a clip, interpolated linearly.
 
 import { bounded, kLeast, kMost } from './settings';
 
-/** Seconds after the first frame, to the millisecond, and a strength. */
+/** Seconds after the first frame, rounded to the millisecond, and a strength. */
 export type Key = readonly [seconds: number, strength: number];
 
 const kSamePlace = 0.004;  // Seconds: less than half of any frame.
@@ -10,7 +10,7 @@ const kSamePlace = 0.004;  // Seconds: less than half of any frame.
 const atMillisecond = (seconds: number) => Math.round(Math.max(0, seconds) * 1000) / 1000;
 const strengthOf = (value: number) => bounded(value, kLeast, kMost, 0);
 
-/** As the library goes from key to key; they are at least one, in order of time. */
+/** Interpolates like the library. There has to be at least one key, in ascending time. */
 export function strengthAt(keys: readonly Key[], seconds: number): number {
   const after = keys.findIndex(([time]) => time > seconds);
   if (after === 0) return keys[0][1];
@@ -19,7 +19,7 @@ export function strengthAt(keys: readonly Key[], seconds: number): number {
   return s0 + ((seconds - t0) / (t1 - t0)) * (s1 - s0);
 }
 
-/** With a key there, in the place of one that is there already; and which it is. */
+/** Adds a key, or replaces the one at this time; also returns its index. */
 export function withKey(keys: readonly Key[], seconds: number, strength: number):
     { keys: Key[]; index: number } {
   const time = atMillisecond(seconds);
@@ -29,7 +29,7 @@ export function withKey(keys: readonly Key[], seconds: number, strength: number)
   return { keys: [...others.slice(0, index), added, ...others.slice(index)], index };
 }
 
-/** With one key elsewhere, between its neighbours and not after the end. */
+/** Moves a key, at most to its neighbours or the end. */
 export function moved(keys: readonly Key[], index: number, seconds: number, strength: number,
     end: number): Key[] {
   const least = index > 0 ? keys[index - 1][0] + 2 * kSamePlace : 0;
@@ -41,7 +41,7 @@ export function moved(keys: readonly Key[], index: number, seconds: number, stre
 /** "0_0*1.5_1" */
 export const toText = (keys: readonly Key[]) => keys.map((key) => key.join('_')).join('*');
 
-/** What is no key counts as not said. */
+/** Ignores invalid keys. */
 export function fromText(text: string): Key[] {
   let keys: Key[] = [];
   for (const part of text.split('*')) {

@@ -1,6 +1,6 @@
-// Scripts that come when they are first needed, as plain scripts: a page opened from a disk may
-// import no modules. vite.config.ts makes assets/NAME.js of each, which puts what it has into the
-// window as late_NAME.
+// Loads scripts when they are first needed, as plain scripts: a page opened from disk cannot import
+// modules. vite.config.ts builds assets/NAME.js for each, which stores its exports in
+// window.late_NAME.
 
 import { PanacheError } from '../package/index.js';
 import { element } from './dom';
@@ -28,7 +28,7 @@ export async function late<Name extends keyof Late>(name: Name): Promise<Late[Na
   return loaded();
 }
 
-/** What the build packs into a script: gzip in base64. */
+/** Unpacks a file that the build embedded in a script: gzip in base64. */
 export async function unpack(base64: string): Promise<ArrayBuffer> {
   const text = atob(base64);
   const bytes = new Uint8Array(text.length);

@@ -1,4 +1,4 @@
-// A style from two motions: where they come from, its name, and how it went.
+// The form that learns a style from two motions, with the sources, the name and the report.
 
 import type { LearnReport, MotionFile } from '../package/index.js';
 import { attempt } from './alerts';
@@ -44,12 +44,12 @@ class Slot {
     return Number(this.#clips.value || 0);
   }
 
-  /** Whether what is seen goes on for ever, so that it has to be recorded. */
+  /** Whether the displayed motion is endless, so it has to be recorded. */
   get #isLive() {
     return this.page.source.kind === 'walk';
   }
 
-  /** The button says what it does with what is seen. */
+  /** Updates the text of the button for the displayed source. */
   showSource() {
     if (this.#timer) return;
     const what = this.role === 'neutral' ? 'the input' : 'the styled motion';
@@ -130,12 +130,12 @@ export class Learn {
     this.section.hidden = !open;
     this.button.setAttribute('aria-expanded', String(open));
   }
-  /** Another motion is seen. */
+  /** Call it when the displayed motion changes. */
   showSource() {
     for (const slot of Object.values(this.#slots)) slot.showSource();
   }
 
-  /** Takes clips that were dropped: on one of the two places, or wherever there is room. */
+  /** Takes dropped clips: into the slot under the pointer, or else an empty one. */
   take(files: File[], target: EventTarget | null) {
     const place = target instanceof Element ? target.closest<HTMLElement>('[data-slot]') : null;
     const { neutral, styled } = this.#slots;

@@ -1,20 +1,20 @@
-// `panache live --view`: what its relay receives and sends, drawn while it happens.
+// `panache live --view`: draws live what the relay receives and sends.
 
 import { humanJoints, type Panache } from '../package/index.js';
 import { find } from './dom';
 import { Stage, type Seen } from './stage';
 
-const kAskEvery = 500;  // Milliseconds, until a sender is understood.
-const kNumbers = 7 * humanJoints.length;  // Of a body, see Player.parts().
+const kAskEvery = 500;  // Milliseconds, until a sender is recognised.
+const kNumbers = 7 * humanJoints.length;  // Per body, see Player.parts().
 const kEnded = 'panache live has ended';
-const kStale = 1000;    // Milliseconds without a pose until the page says so.
+const kStale = 1000;    // Milliseconds without a pose until the page reports it.
 
 export class LiveView {
-  /** Drawn so far, for tests; and what was drawn last: input, then output. */
+  /** For tests: the number of drawn frames, and the last poses: input, then output. */
   frames = 0;
   poses: Float32Array | null = null;
   #stage = new Stage(find('#view') as HTMLCanvasElement);
-  #heard = 0;   // When, milliseconds.
+  #heard = 0;   // Time of the last pose, milliseconds.
   #drawn = 0;
 
   constructor(readonly panache: Panache) {
@@ -24,7 +24,7 @@ export class LiveView {
     void this.#begin();
   }
 
-  /** The body of the first sender, once there is one. */
+  /** Waits for the body of the first sender. */
   async #body(): Promise<ArrayBuffer> {
     for (;;) {
       const answer = await fetch('live/body.bvh').catch(() => null);

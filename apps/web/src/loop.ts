@@ -1,4 +1,4 @@
-// A loop of what is seen: an animated GIF of one cycle of the motion, else of all of it.
+// Makes a loop of the view: an animated GIF of one cycle of the motion, or else of all of it.
 
 import { humanJoints, type Panache, type Playback, type Walk } from '../package/index.js';
 import { findCycle } from './cycle';
@@ -7,20 +7,20 @@ import { clipSource, walkSource, type ClipSource, type Source } from './source';
 import type { Stage } from './stage';
 import { kPaces, type Pace } from './steering';
 
-export const kLoopStep = 0.04;  // Seconds of a frame; a GIF counts in hundredths.
+export const kLoopStep = 0.04;  // Seconds per frame; GIF times are in hundredths.
 export const kLongest = 15;     // Seconds.
 const kShortest = 1;            // Seconds.
-const kSettle = 3;  // Seconds until the walker has her pace, and styles are eased in.
-const kEase = 0.5;  // Seconds until styles are.
+const kSettle = 3;  // Seconds until the walker has its pace and styles are eased in.
+const kEase = 0.5;  // Seconds until styles are eased in.
 const kColours = 256;
-const kPaletteEvery = 4;  // Pixels that the colours are taken from.
-const kSharper = 2;       // Pixels drawn for one of the loop's, in each direction.
+const kPaletteEvery = 4;  // The palette is made from every fourth pixel.
+const kSharper = 2;       // Supersampling factor in each direction.
 
-/** A motion that plays by itself, from the same pose whenever it is opened. */
+/** A motion that starts from the same pose each time it is opened. */
 export interface LoopMotion {
-  /** `advance` goes one frame on; false: there is none. */
+  /** `advance` moves on by one frame; false: the motion has ended. */
   open(): Promise<{ source: Source; advance(): boolean }>;
-  /** Whether a cycle of it is wanted. */
+  /** Whether to loop one cycle of it. */
   cyclic: boolean;
 }
 
@@ -40,8 +40,7 @@ export function walkLoop(panache: Panache, pace: Pace, prepare: (player: Walk) =
   return { open, cyclic: true };
 }
 
-/** Of a clip from one second to another; a cycle of it where that is all of the clip, and no
- * strength has keys in it. */
+/** A loop of a range of a clip, in seconds. `cyclic`: only for a whole clip without keyframes. */
 export function clipLoop(of: ClipSource, bytes: ArrayBuffer,
     [begin, end]: [number, number], prepare: (player: Playback) => void,
     cyclic: boolean): LoopMotion {
@@ -64,7 +63,7 @@ export function clipLoop(of: ClipSource, bytes: ArrayBuffer,
   return { open, cyclic };
 }
 
-/** The hips over the ground, and where all joints are from there, of the input and of the output. */
+/** The hips' positions on the ground, and all joint positions relative to them, per body. */
 function posesOf({ player }: Source, seen: readonly ('input' | 'styled')[]) {
   const place: number[] = [], pose: number[] = [];
   for (const which of seen) {
@@ -77,7 +76,7 @@ function posesOf({ player }: Source, seen: readonly ('input' | 'styled')[]) {
   return { place, pose: new Float32Array(pose) };
 }
 
-/** Which frames [first, end) make the loop, and how far each body goes in it, metres. */
+/** Returns the frames [first, end) of the loop, and each body's travel in it, metres. */
 async function plan(motion: LoopMotion, seen: readonly ('input' | 'styled')[]) {
   const { source, advance } = await motion.open();
   const all: ReturnType<typeof posesOf>[] = [];
@@ -99,8 +98,8 @@ function free(source: Source) {
 
 const breathe = () => new Promise((next) => setTimeout(next));
 
-/** The bytes of a GIF of what `stage` shows of the motion. `onProgress` gets shares of 1, and says
- * whether to go on; null: it did not. A frame at a time, so that the page goes on meanwhile. */
+/** The bytes of a GIF of the motion as `stage` shows it. `onProgress` gets values from 0 to 1 and
+ * returns whether to continue; null: cancelled. Yields after each frame to keep the page live. */
 export async function makeLoop(stage: Stage, motion: LoopMotion, width: number, height: number,
     onProgress: (share: number) => boolean): Promise<Uint8Array | null> {
   const { applyPalette, GIFEncoder, quantize } = await late('gif');
@@ -138,7 +137,7 @@ export async function makeLoop(stage: Stage, motion: LoopMotion, width: number, 
   return gif.bytes();
 }
 
-/** Some of the pixels. */
+/** A sample of the pixels. */
 function everyFew(pixels: Uint8ClampedArray): Uint8ClampedArray {
   const words = new Uint32Array(pixels.buffer);
   return new Uint8ClampedArray(words.filter((_, i) => i % kPaletteEvery === 0).buffer);

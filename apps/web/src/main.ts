@@ -1,4 +1,4 @@
-// Loads what the page consists of, and starts it.
+// Loads the parts of the page and starts it.
 
 import model from 'virtual:panache-file/model';
 import walker from 'virtual:panache-file/walker';
@@ -13,7 +13,7 @@ import { served } from './served';
 
 async function start() {
   try {
-    // The model that `panache view --model` serves beside the page, else the page's own.
+    // The model that `panache view --model` serves with the page, or else the page's own.
     const given = await served('model');
     const files = await Promise.all(
       [unpack(wasm), given ? given.arrayBuffer() : unpack(model), unpack(walker)]);

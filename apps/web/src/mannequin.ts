@@ -1,5 +1,5 @@
-// The body that the library makes to the measure of a rig: one skinned mesh, lit per vertex, which
-// costs little even where no graphics card draws.
+// The body that the library builds with a rig's proportions: one skinned mesh, lit per vertex, so
+// it is cheap even without a graphics card.
 
 import * as THREE from 'three';
 
@@ -12,9 +12,9 @@ export interface Look {
 }
 
 const kNumbers = 7;
-const kMostVertices = 20000;  // Of a mesh that are looked at; of more than that every second or so.
+const kMostVertices = 20000;  // Per mesh; larger meshes are subsampled.
 
-/** Around these meshes in their present pose, in the world. */
+/** The world-space bounding box of the meshes in their current pose. */
 export function boxAround(meshes: readonly THREE.Mesh[]): THREE.Box3 {
   const box = new THREE.Box3(), point = new THREE.Vector3();
   for (const mesh of meshes) {
@@ -27,7 +27,7 @@ export function boxAround(meshes: readonly THREE.Mesh[]): THREE.Box3 {
   return box;
 }
 
-/** Both bodies and all ghosts of a player share it. */
+/** The geometry that both bodies and all ghosts of a player share. */
 export function bodyGeometry(body: Body): THREE.BufferGeometry {
   const geometry = new THREE.BufferGeometry();
   const add = (name: string, array: THREE.TypedArray, size: number, normalized = false) =>
@@ -100,7 +100,7 @@ export class Mannequin {
     this.#translucency = new Translucency([this.object]);
   }
 
-  /** Takes the pose that Player.parts() gives, moved by `shift`. */
+  /** Takes a pose from Player.parts(), moved by `shift`. */
   pose(parts: Float32Array, shift: THREE.Vector3) {
     const place = new THREE.Vector3(), turn = new THREE.Quaternion();
     const one = new THREE.Vector3(1, 1, 1);
@@ -118,7 +118,7 @@ export class Mannequin {
     this.#translucency.opacity = opacity;
   }
 
-  /** The geometry stays: others may use it. */
+  /** Keeps the geometry, which other bodies may use. */
   free() {
     this.#translucency.free();
     this.object.removeFromParent();

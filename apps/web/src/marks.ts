@@ -1,10 +1,10 @@
-// What the feet leave on the ground: a disc under each planted foot, and a ribbon where the toes
-// went.
+// The marks of the feet on the ground: a disc under each planted foot, and a ribbon that traces the
+// toes.
 
 import * as THREE from 'three';
 
-const kSamples = 110;  // Of a ribbon.
-const kGap = 0.02;     // Metres between them, at least.
+const kSamples = 110;  // Per ribbon.
+const kGap = 0.02;     // Minimum distance between samples, metres.
 const kWidth = 0.016;
 
 class Ribbon {
@@ -84,7 +84,7 @@ export class Marks {
     for (const ribbon of this.#ribbons) ribbon.clear();
   }
 
-  /** `ankles` and `toes` in the world; `planted`: how surely each foot stands. */
+  /** `ankles` and `toes` in the world; `planted`: probability that each foot is planted. */
   show(ankles: THREE.Vector3[], toes: THREE.Vector3[], planted: number[], trail: boolean) {
     for (const foot of [0, 1]) {
       this.#ribbons[foot].mesh.visible = trail;

@@ -1,18 +1,18 @@
-// How two motions went together: which instant of the one belongs to which of the other, and a few
-// pairs of poses to judge that by.
+// Plots the time alignment of two motions: the matching instants, and a few pairs of poses to check
+// it by.
 
 import type { LearnReport } from '../package/index.js';
 import { humanJoints } from '../package/index.js';
 import { colour } from './dom';
 import { paintFigure } from './figures';
 
-const kFigures = 58, kTracks = 58;  // Pixels of the page: each row of figures, both time lines.
-const kGood = 0.35, kFair = 0.6;    // Distances, as the report judges them.
+const kFigures = 58, kTracks = 58;  // CSS pixels: each row of figures, both time lines.
+const kGood = 0.35, kFair = 0.6;    // Distances, as in the report's verdict.
 const kLinkEvery = 3;               // Instants.
 
 export const kMatchPlotHeight = 2 * kFigures + kTracks;
 
-/** Styled above, neutral below, on one scale of time. */
+/** Styled above, neutral below, on the same time scale. */
 export function drawMatch(canvas: HTMLCanvasElement, plot: LearnReport['plot']) {
   const context = canvas.getContext('2d')!;
   const width = canvas.clientWidth;

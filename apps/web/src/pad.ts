@@ -1,4 +1,4 @@
-// The pad: a field to drag a point in between four corners, each of them a style of a menu.
+// The pad: mixes four styles, chosen at its corners, by dragging a point between them.
 
 import type { Style } from '../package/index.js';
 import { element, listenToDrags } from './dom';
@@ -8,12 +8,12 @@ import type { Store } from './settings';
 const kStep = 0.05;
 const kCornerNames = ['top left', 'top right', 'bottom left', 'bottom right'];
 
-/** Shares of the corners (top left, top right, bottom left, bottom right) at x, y in 0 to 1. */
+/** Weights of the corners (top left, top right, bottom left, bottom right) at x, y in 0 to 1. */
 export function shares(x: number, y: number): [number, number, number, number] {
   return [(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y];
 }
 
-/** Where on the pad these strengths are; the middle where they are all 0. */
+/** The position of these strengths on the pad; the middle if they are all 0. */
 export function place(strengths: readonly number[]): { x: number; y: number } {
   const [a, b, c, d] = strengths.map((s) => Math.max(0, s));
   const sum = a + b + c + d;
@@ -61,7 +61,7 @@ export function buildPad(store: Store, first: readonly string[]) {
     });
     return menu;
   });
-  /** The styles to choose from; a corner whose style is gone gets another. */
+  /** Sets the styles to choose from; a corner whose style is gone gets another. */
   const setStyles = (styles: readonly Style[]) => menus.forEach((menu, i) => {
     const known = styles.some(({ name }) => name === corners[i]);
     if (!known && styles.length) corners[i] = styles[i % styles.length].name;

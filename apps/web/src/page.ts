@@ -1,4 +1,4 @@
-// The page: makes everything and runs it, one frame after the other.
+// The page: creates everything and runs it frame by frame.
 
 import { Panache } from '../package/index.js';
 import { attempt, say } from './alerts';
@@ -44,9 +44,9 @@ export class Page {
   readonly help = buildHelp();
   source: Source;
   frames = 0;
-  files: File[] = [];  // That were opened together.
-  #file: File | null = null;    // That is open.
-  bytes = new ArrayBuffer(0);  // Of that file.
+  files: File[] = [];  // Opened together.
+  #file: File | null = null;    // The open one.
+  bytes = new ArrayBuffer(0);  // Content of the open file.
   #cut = true;
   #last = 0;
   #seconds = 0;
@@ -76,7 +76,7 @@ export class Page {
     buildFileControls(this);
     listenToDrops((given, target) => {
       const motions = given.filter((file) => !isModel(file));
-      // While a style is being learnt, motions are for that.
+      // While the learning form is open, it takes the motions.
       if (this.learn.open && motions.length) this.learn.take(motions, target);
       else void attempt(() => this.openAll(given));
     });
@@ -94,7 +94,7 @@ export class Page {
         this.#figures.paint();
       });
     this.#listenToKeys();
-    // A button that was clicked gives the keys back to the view; one reached by Tab keeps them.
+    // A clicked button gives the keyboard focus back to the view; one reached by Tab keeps it.
     addEventListener('click', (event) => {
       const button = (event.target as HTMLElement).closest('button');
       if (button && event.detail > 0 && !button.closest('dialog')) button.blur();
@@ -165,17 +165,17 @@ export class Page {
     this.stage.onion = settings.onion;
   }
 
-  /** As it is now. */
+  /** The current strength of a style. */
   strengthOf(name: string): number {
     const { settings } = this.store;
     return keyedNow(this.source, settings)[name] ?? settings.styles[name] ?? 0;
   }
-  /** Plays a gesture; a style that is off is put on for it. */
+  /** Plays a gesture; turns its style on if it is off. */
   trigger(name: string, gesture: number) {
     if (this.strengthOf(name) === 0) this.setStrength(name, 1);
     this.source.player.trigger(name, gesture);
   }
-  /** A style that has keys gets one at the play head, which stops for that. */
+  /** Sets the strength; a style with keys gets a key at the play head, and playing stops. */
   setStrength(name: string, value: number) {
     const keys = this.store.settings.keys[name];
     if (this.source.kind !== 'clip' || !keys) return this.store.setStyle(name, value);
@@ -185,7 +185,7 @@ export class Page {
 
   // ---- Models ----
 
-  /** The model has other styles; `changed` is one of the same name that is another now. */
+  /** Call it when the model's styles change; `changed` is a style replaced under the same name. */
   stylesChanged(changed = '') {
     const { styles } = this.panache;
     this.#panel.setStyles(styles, changed);
@@ -200,7 +200,7 @@ export class Page {
     this.stylesChanged();
   }
 
-  /** Opens a model, or adds a style to the one that is open. */
+  /** Opens a model, or adds a style to the open model. */
   async #openModel(file: File) {
     const bytes = await file.arrayBuffer();
     const known = this.panache.styles.map(({ name }) => name);
@@ -242,7 +242,7 @@ export class Page {
 
   // ---- Sources ----
 
-  /** Shows a source in place of the one before, which it frees. */
+  /** Shows a source, and frees the one before. */
   use(source: Source) {
     if (this.source !== source) {
       const old = this.source;
@@ -277,7 +277,7 @@ export class Page {
     this.#cut = true;
   }
 
-  /** Of a clip, as stepFrames(). */
+  /** Only for clips, like stepFrames(). */
   seek(seconds: number) {
     if (this.source.kind !== 'clip') return;
     this.source.player.seek(seconds);
@@ -294,7 +294,7 @@ export class Page {
     this.seek(Math.min(seconds, Math.max(0, at * frameTime)));
   }
 
-  /** Takes models and styles, opens the first of the other files, and lists them where there are
+  /** Loads models and styles, opens the first of the other files, and lists them if there are
    * several. */
   async openAll(given: File[]) {
     for (const file of given.filter(isModel)) await this.#openModel(file);
@@ -306,7 +306,7 @@ export class Page {
     listFiles(list);
   }
 
-  /** Plays a motion of a file, the first of a body where none is asked for. */
+  /** Plays a motion of a file, by default the first that moves a body. */
   async open(given: File, clip?: number, fps?: number) {
     const opened = await openMoving(this.panache, given, fps);
     let source: Source;
@@ -327,11 +327,11 @@ export class Page {
     this.use(await clipSource(this.source.file, this.bytes, clip));
   }
 
-  /** Reads the file that is open as if it had so many frames a second; 0: at its own rate. */
+  /** Reads the open file at `fps` frames per second; 0: at its own rate. */
   async setRate(fps: number) {
     const source = this.source;
     if (source.kind !== 'clip' || !this.#file) return;
-    this.transport.showRate(source.file, source.clip);  // What stays, if that fails.
+    this.transport.showRate(source.file, source.clip);  // Kept if opening fails.
     await this.open(this.#file, source.clip, fps);
   }
 

@@ -1,4 +1,4 @@
-// Everything that is set by hand: presets, styles, the pad, how much, and of which part.
+// The panel of controls: presets, styles, the pad, amounts, and parts of the body.
 
 import type { Style, Timing } from '../package/index.js';
 import { button, element, find } from './dom';
@@ -12,7 +12,7 @@ import {
 import { Slider } from './slider';
 import { StyleRows } from './style_rows';
 
-/** Mixes worth a button. */
+/** Mixes of styles with a button. */
 const kPresets: readonly { title: string; styles: Record<string, number> }[] = [
   { title: 'Neutral', styles: {} },
   { title: 'Old', styles: { old: 1 } },
@@ -25,7 +25,7 @@ const kPresets: readonly { title: string; styles: Record<string, number> }[] = [
   { title: 'Sulking teenager', styles: { teenager: 0.8, depressed: 0.6 } },
   { title: 'Friday', styles: { joyful: 0.7, strutting: 0.6 } },
 ];
-/** The corners of the pad, as they are at first. */
+/** The initial corners of the pad. */
 const kCorners = ['old', 'proud', 'childlike', 'zombie'];
 
 const kAmountHints = {
@@ -72,7 +72,7 @@ function presets(store: Store) {
   });
   const group = element('div',
     { class: 'chips', id: 'presets', role: 'group', 'aria-label': 'Presets' }, ...buttons);
-  /** Hides those that need a style which the model has not. */
+  /** Hides presets that need a style that the model lacks. */
   const setStyles = (names: readonly string[]) => kPresets.forEach((preset, i) =>
     (buttons[i].hidden = !Object.keys(preset.styles).every((name) => names.includes(name))));
   return { group, setStyles };
@@ -89,7 +89,7 @@ function amountSliders(store: Store) {
   });
 }
 
-/** A field that leaves the styles whose name, group or description holds all its words. */
+/** A field that filters the styles: name, group or description have to contain all its words. */
 function search(rows: StyleRows) {
   const field = element('input', { type: 'search', id: 'search', placeholder: 'Search: slow, arms …',
     'aria-label': 'Search the styles' });
@@ -102,8 +102,8 @@ function search(rows: StyleRows) {
   return { field, none, filter };
 }
 
-/** Puts the panel together. `setStyles` shows the styles of another model, of which the one called
- * `changed` is another than before. */
+/** Builds the panel. `setStyles` shows the model's styles; `changed` names a style that was
+ * replaced. */
 export function buildPanel(page: Page) {
   const { store, learn } = page;
   const switches = (keys: readonly Switch[]) => keys.map((key) =>

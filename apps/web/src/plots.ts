@@ -1,5 +1,4 @@
-// What happened in the last seconds, drawn under the view in step with it, and the numbers in the
-// captions.
+// Plots the last seconds under the view, in sync with it, and updates the values in the captions.
 
 import type { Playback, Walk } from '../package/index.js';
 import { colour, find } from './dom';
@@ -7,50 +6,50 @@ import { colour, find } from './dom';
 const kSeconds = 6;
 const kBins = 24;
 const kBinMicroseconds = 4;
-const kMeasuredSteps = 16;   // At once: a browser's clock is too coarse for one.
+const kMeasuredSteps = 16;   // Per measurement: a browser's clock is too coarse for a single step.
 const kMeasureEvery = 6;     // Frames.
 const kPlotEvery = 3;        // Frames.
 
 interface Moment {
   time: number;
   strengths: [string, number][];
-  gate: number;  // How much of the styles' answer is given: 1 where they know the motion.
+  gate: number;  // How much of the change is applied: 1 if the input resembles the training motion.
   rate: number;
   contacts: number[];
 }
 
-/** What is drawn as one line, from where to where, and what is marked. */
+/** The values drawn as a line, their range, and the values of its grid lines. */
 const kLines: ['gate' | 'rate', number, number, number[]][] = [
   ['gate', 0, 1, [0, 1]], ['rate', 0.5, 1.5, [1]],
 ];
 
-/** The middle one of some numbers; 0 where there are none. */
+/** The median; 0 if there are no numbers. */
 export function median(numbers: readonly number[]): number {
   const sorted = [...numbers].sort((a, b) => a - b);
   return sorted.length ? sorted[Math.floor(sorted.length / 2)] : 0;
 }
 
-/** How many of `numbers` fall into each of `bins` ranges of this width; the last takes the rest. */
+/** Counts `numbers` in `bins` ranges of this width; the last bin takes the rest. */
 export function histogram(numbers: readonly number[], bins: number, width: number): number[] {
   const out = new Array<number>(bins).fill(0);
   for (const n of numbers) ++out[Math.max(0, Math.min(bins - 1, Math.floor(n / width)))];
   return out;
 }
 
-const kGoldenAngle = 137.508;  // Degrees: many colours, and neighbours in the list far apart.
+const kGoldenAngle = 137.508;  // Degrees: many colours, far apart for neighbours in the list.
 
-/** A colour that one style always has. */
+/** The fixed colour of a style. */
 export function styleColour(index: number): string {
   return `hsl(${(index * kGoldenAngle + 18) % 360} 65% var(--plot-light))`;
 }
 
 export class Plots {
   #moments: Moment[] = [];
-  #steps: number[] = [];  // Microseconds.
+  #steps: number[] = [];  // Microseconds per step.
   #frames = 0;
   #canvases = new Map<string, HTMLCanvasElement>();
 
-  /** Of the styles, in the order of their colours. */
+  /** `styles`: names, in the order of their colours. */
   constructor(root: HTMLElement, public styles: readonly string[]) {
     for (const figure of root.querySelectorAll<HTMLElement>('figure')) {
       this.#canvases.set(figure.dataset.plot ?? '', figure.querySelector('canvas')!);
@@ -66,8 +65,8 @@ export class Plots {
     while (moment.time - this.#moments[0].time > kSeconds) this.#moments.shift();
   }
 
-  /** Adds what the player did in a frame, at a time of the motion in seconds, with these strengths;
-   * whether it was drawn. */
+  /** Adds a frame of the player, at a time of the motion in seconds, with these strengths. Returns
+   * whether the plots were redrawn. */
   follow(player: Walk | Playback, time: number, strengths: [string, number][]): boolean {
     const { gate, rate, contacts } = player;
     this.add({ time, strengths, gate, rate, contacts });

@@ -1,4 +1,4 @@
-// The style that the input shows, and taking it off: by a model that comes when it is first needed.
+// Recognises the style of the input and removes it, with a model that is loaded when first needed.
 
 import removable from 'virtual:panache-removable';
 
@@ -9,16 +9,16 @@ import { late, unpack } from './late';
 import type { Store } from './settings';
 import type { Source } from './source';
 
-/** The remover's style for those that it does not know. */
+/** The remover's style for unknown styles. */
 export const kAnyStyle = 'any';
 export const kRemovable = removable.map(({ name }) => name);
 
 export class Removal {
   readonly element: HTMLElement;
-  /** Once it is there. */
+  /** Set once it is loaded. */
   remover: Remover | null = null;
   #coming: Promise<Remover> | null = null;
-  #style = '';  // That the clip shows.
+  #style = '';  // The recognised style of the clip.
   #text = element('span');
   #take = button('', () => this.store.set(
     { removed: this.store.settings.removed === this.#style ? '' : this.#style }));
@@ -40,7 +40,7 @@ export class Removal {
       element('label', { for: 'removed' }, 'The input is'), menu, this.#looks);
   }
 
-  /** The model, which comes with the first call. */
+  /** The model; the first call loads it. */
   load(): Promise<Remover> {
     return this.#coming ??= late('remover').then(async ({ packed }) =>
       this.remover = this.panache.createRemover(await unpack(packed)),
@@ -50,7 +50,7 @@ export class Removal {
     });
   }
 
-  /** Says which style a clip shows, if any, once the model is there; `isSeen`: still then. */
+  /** Shows the style of a clip, if any, once the model is loaded and if `isSeen()` still holds. */
   async look(source: Source, isSeen: () => boolean) {
     this.#looks.hidden = true;
     if (source.kind !== 'clip' || !(source.file.clips[source.clip]?.frames > 1)) return;

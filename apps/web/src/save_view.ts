@@ -1,4 +1,4 @@
-// What is seen, as a picture, a film or a loop.
+// Saves the view as a picture, a film or a loop.
 
 import { attempt } from './alerts';
 import { button, element, find, saveBytes } from './dom';
@@ -13,18 +13,18 @@ const kLeast = 16;
 
 interface SizeDialog {
   title: string;
-  /** Of the button that saves. */
+  /** Text of the save button. */
   action: string;
   sizes: readonly (readonly [number, number])[];
-  /** Pixels, in either direction. */
+  /** Maximum size in either direction, pixels. */
   largest: number;
-  /** What the view has. */
+  /** The size of the view, pixels. */
   seen: [number, number];
   hint?: string;
   save(width: number, height: number): void | Promise<void>;
 }
 
-/** Asks which size a picture or a loop of the view has. */
+/** Asks for the size of a picture or a loop. */
 function askSize(what: SizeDialog) {
   const field = (id: string, title: string) => element('input', { type: 'number', id,
     'aria-label': title, min: kLeast, max: what.largest, step: 1, required: true });
@@ -110,8 +110,8 @@ function loopSaver(stage: Stage, exporter: Exporter) {
   return { loop, stop };
 }
 
-/** `savers` save the view, each in another way; `stoppers` are seen while a film or a loop is being
- * made, which they end. */
+/** `savers` save the view in different ways; `stoppers` are visible while a film or a loop is being
+ * made, and stop it. */
 export function buildViewSaving(stage: Stage, exporter: Exporter) {
   const picture = button('Picture (PNG)', () => askSize({
     title: 'Save the view as a picture', action: 'Save picture', sizes: kPictures,

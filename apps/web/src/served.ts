@@ -1,4 +1,4 @@
-// Files that `panache view` serves beside the page; its address names them.
+// Files that `panache view` serves with the page; the page's address names them.
 
 import { PanacheError } from '../package/index.js';
 

@@ -1,4 +1,4 @@
-// Everything that a person can set, and its way into the address bar and back.
+// All settings, and their conversion to and from the page's address.
 
 import type { Shape, Timing } from '../package/index.js';
 import { fromText, toText, type Key } from './keys';
@@ -17,16 +17,16 @@ export type View = (typeof kViews)[number];
 export interface Settings extends Record<(typeof kAmounts)[number], number>, Record<Switch, boolean> {
   /** Strength of each style that is not 0. */
   styles: Record<string, number>;
-  /** Of a clip, instead: strengths over time. */
+  /** For clips: keyframes by style, which replace its strength. */
   keys: Record<string, readonly Key[]>;
-  /** The style that is taken off the input: one of the remover's, or empty. */
+  /** The style to remove from the input: one of the remover's, or empty. */
   removed: string;
-  /** Where the motion gets the tempo of its styles. */
+  /** Where the motion takes the tempo of its styles. */
   tempo: Timing;
   view: View;
 }
 
-/** What "Reset all" goes back to. */
+/** The settings after "Reset all". */
 export const kDefaults: Readonly<Settings> = {
   styles: {},
   keys: {},
@@ -40,18 +40,18 @@ export const kDefaults: Readonly<Settings> = {
 /** What a visitor sees first. */
 export const kOpening: Readonly<Settings> = { ...kDefaults, styles: { old: 1 } };
 
-/** To two decimals within the bounds; `otherwise` where it is no number. */
+/** Clamps to the bounds and rounds to two decimals; returns `otherwise` if not finite. */
 export function bounded(value: number, least: number, most: number, otherwise: number): number {
   if (!Number.isFinite(value)) return otherwise;
   return Math.round(Math.min(most, Math.max(least, value)) * 100) / 100 || 0;
 }
 
-// Styles have a space of their own in an address: a learnt style may be called as a setting is.
+// Styles have a prefix in the address, as a learnt style may have the name of a setting.
 const kStyle = 'style.';
 const kKeys = 'keys.';
 
-/** "style.old=0.5&view=over": what differs from the defaults; "neutral" where nothing does, and
- * nothing for what a visitor sees first. */
+/** "style.old=0.5&view=over": all differences from the defaults; "neutral" if there are none, and
+ * empty for kOpening. */
 export function toAddress(settings: Settings): string {
   if (same(settings, kOpening)) return '';
   const out = new URLSearchParams();
@@ -75,8 +75,8 @@ const same = (a: object, b: object): boolean => JSON.stringify(a) === JSON.strin
 const isOne = <Name extends string>(names: readonly Name[], name: string): name is Name =>
   names.includes(name as Name);
 
-/** The settings of an address, for a model and a remover with these styles. Unknown or wrong parts
- * are ignored. "old=0.5" and "old.keys=..." are read as well, unless a setting has that name. */
+/** Parses an address, for a model and a remover with these styles. Ignores unknown and invalid
+ * parts. Also reads "old=0.5" and "old.keys=...", unless a setting has that name. */
 export function fromAddress(text: string, styles: readonly string[],
     removable: readonly string[]): Settings {
   const given = new URLSearchParams(text.replace(/^#/, ''));
@@ -113,17 +113,17 @@ export function fromAddress(text: string, styles: readonly string[],
   return settings;
 }
 
-/** What the library is asked for. */
+/** The settings as the library's Shape. */
 export function shapeOf(settings: Settings): Partial<Shape> {
   const { posture, dynamics, timing } = settings;
   const regions = Object.fromEntries(kRegions.map((key) => [key, Number(settings[key])]));
   return { posture, dynamics, timing, ...regions, footLock: Number(settings.feet) };
 }
 
-const kTogether = 500;  // Milliseconds in which changes count as one: a drag, a typed number.
+const kTogether = 500;  // Milliseconds; closer changes, as in a drag, are undone together.
 const kMostSteps = 200;
 
-/** Holds the settings; tells everybody who listens of every change, and takes changes back. */
+/** Holds the settings, notifies listeners of changes, and undoes changes. */
 export class Store {
   #listeners: ((settings: Settings) => void)[] = [];
   #done: Settings[] = [];
@@ -157,13 +157,13 @@ export class Store {
     if (list.length === 0) delete keys[name];
     this.set({ keys });
   }
-  /** Back to neutral. */
+  /** Removes a style's strength and keys. */
   dropStyle(name: string) {
     const { [name]: _style, ...styles } = this.settings.styles;
     const { [name]: _keys, ...keys } = this.settings.keys;
     this.set({ styles, keys });
   }
-  /** Forgets all other styles, which are no longer there: now and in what can be undone. */
+  /** Drops all styles that no longer exist, in the settings and in the undo history. */
   keepStyles(names: readonly string[]) {
     const kept = <T>(all: Record<string, T>) =>
       Object.fromEntries(Object.entries(all).filter(([name]) => names.includes(name)));
@@ -191,7 +191,7 @@ export class Store {
   }
 }
 
-/** Keeps the address of the page and the settings alike, whichever changes. */
+/** Keeps the page's address and the settings in sync. */
 export function rememberInAddress(store: Store, read: () => Settings) {
   let timer = 0;
   store.listen((settings) => {

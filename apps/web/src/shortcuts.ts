@@ -1,8 +1,8 @@
-// What keys do while the page has the focus; help.ts lists them.
+// Keyboard shortcuts; help.ts lists them.
 
 import type { Page } from './page';
 
-/** `keys`: what they do by their codes, but for those that are held or go with Ctrl. */
+/** `keys`: actions by key code, except for keys that are held or combined with Ctrl. */
 export function listenToKeys({ store, help, stage }: Page, keys: Record<string, () => void>) {
   addEventListener('keydown', (event) => {
     const target = event.target as HTMLElement;
@@ -18,7 +18,7 @@ export function listenToKeys({ store, help, stage }: Page, keys: Record<string, 
     }
     if (typing || event.altKey || help.open) return;
     if (event.key === '?') return help.showModal();
-    // A button or a menu that has the focus takes the space bar.
+    // A focused button or menu handles the space bar.
     if (event.code === 'Space' && target.matches('button, select')) return;
     const action = event.code === 'KeyX' ? () => (stage.comparing = true) : keys[event.code];
     if (!action) return;

@@ -8,7 +8,7 @@ import type { MotionFile, Playback } from '../package/index.js';
 import { boxAround } from './mannequin';
 import { Translucency } from './translucency';
 
-/** Names from the top down to a thing; those of equals are numbered in order. */
+/** Paths of node names from the root down; equal paths get a "+" for each earlier one. */
 function pathsOf(parents: number[], names: string[]): Map<string, number> {
   const paths: string[] = [];
   const found = new Map<string, number>();
@@ -25,7 +25,7 @@ function pathsOf(parents: number[], names: string[]): Map<string, number> {
 interface Moved {
   node: THREE.Object3D;
   joint: number;
-  /** The resting scale of everything above, which the library multiplies translations by. */
+  /** The rest scale of all ancestors, by which the library multiplies translations. */
   scale: number;
 }
 
@@ -43,7 +43,7 @@ export class SkinnedCharacter {
     const nodes: THREE.Object3D[] = [];
     scene.traverse((node) => node !== scene && nodes.push(node));
     const parents = nodes.map(({ parent }) => nodes.indexOf(parent!));
-    // three.js renames nodes; what the file calls them it keeps aside.
+    // three.js renames nodes, but keeps the names in the file in userData.
     const paths = pathsOf(parents, nodes.map((node) => node.userData.name ?? node.name));
     scene.updateMatrixWorld(true);
     const wanted = pathsOf(file.joints.map((j) => j.parent), file.joints.map((j) => j.name));
@@ -67,7 +67,7 @@ export class SkinnedCharacter {
     this.opacity = 1;
   }
 
-  /** Whether the joints of the library were found among the nodes that three.js made. */
+  /** Whether all of the library's joints were found among three.js's nodes. */
   get complete() {
     return this.#moved.length === this.#joints;
   }
@@ -80,7 +80,7 @@ export class SkinnedCharacter {
     this.object.position.copy(shift);
   }
 
-  /** Around all that the joints move; what else is in the file, such as a floor, does not count. */
+  /** The bounding box of all that the joints move, without other objects, such as a floor. */
   get box() {
     this.object.updateMatrixWorld(true);
     const joints = new Set(this.#moved.map(({ node }) => node));
@@ -102,7 +102,7 @@ export class SkinnedCharacter {
   }
 }
 
-/** The file's character twice, for input and output; nothing where it has no skin. */
+/** The file's character twice, for input and output; null if it has no skin. */
 export async function loadSkinned(bytes: ArrayBuffer, file: MotionFile, player: Playback):
     Promise<[SkinnedCharacter, SkinnedCharacter] | null> {
   const { scene, parser } = await new GLTFLoader().parseAsync(bytes, '');

@@ -1,4 +1,4 @@
-// A number with a name: a slider to push, a field for the exact value, and a way back.
+// A labelled number: a slider, a field for the exact value, and a reset button.
 
 import { button, element, hinted } from './dom';
 import { bounded } from './settings';
@@ -9,10 +9,10 @@ export interface SliderOptions {
   hint?: string;
   least: number;
   most: number;
-  /** Where reset goes. */
+  /** The value after a reset. */
   rest: number;
   onChange(value: number): void;
-  /** Reset was pressed; else that is a change to `rest`. */
+  /** Replaces the default reset, which changes the value to `rest`. */
   onReset?(): void;
 }
 
@@ -35,7 +35,7 @@ export class Slider {
       this.range.focus();
     }, { class: 'reset', ...hinted(`Reset ${title}`) });
     const label = element('label', { for: id, title: hint }, title);
-    // Marks at where reset goes and at 1.
+    // Marks at the reset value and at 1.
     const share = (value: number) => (value - least) / (most - least);
     const marks = `--rest: ${share(options.rest)}; --one: ${share(1)}`;
     this.row = element('div', { class: 'slider', style: marks },
@@ -49,7 +49,7 @@ export class Slider {
     this.show(options.rest);
   }
 
-  /** Shows a value without telling anybody. */
+  /** Shows a value without calling onChange. */
   show(value: number) {
     const { least, most, rest } = this.options;
     const text = String(value);

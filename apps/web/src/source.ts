@@ -1,11 +1,11 @@
-// What moves: the walker, or a clip of a file that was dropped or chosen.
+// The source of motion: the walker, or a clip of an opened file.
 
 import type { MotionFile, Panache, Playback, Walk } from '../package/index.js';
 import { PanacheError } from '../package/index.js';
 import { loadSkinned, type SkinnedCharacter } from './skinned';
 import { kPaces } from './steering';
 
-const kLargestFile = 256 << 20;  // Bytes; a page has about four times that to work in.
+const kLargestFile = 256 << 20;  // Bytes; a page has about four times that of memory.
 
 export interface WalkSource { kind: 'walk'; player: Walk; joints: number; own: null }
 export interface ClipSource { kind: 'clip'; player: Playback; joints: number; file: MotionFile;
@@ -15,11 +15,11 @@ export type Source = WalkSource | ClipSource;
 export const walkSource = (panache: Panache): WalkSource =>
   ({ kind: 'walk', player: panache.createWalker(), joints: 21, own: null });
 
-/** Frames a second of opened files whose own rate is wrong or missing. */
+/** The frame rates given for files whose own rate is wrong or missing; 0: the file's. */
 const rates = new WeakMap<File, number>();
 
-/** Reads a file, at `fps` frames a second or at its own rate where that is 0; what was given for a
- * file stays with it. Rejects with the library's message. */
+/** Reads a file at `fps` frames per second, or at its own rate if that is 0. Remembers the rate for
+ * the file. Rejects with the library's message. */
 export async function openFile(panache: Panache, file: File, fps = rates.get(file) ?? 0):
     Promise<{ file: MotionFile; bytes: ArrayBuffer }> {
   if (file.size > kLargestFile) {
@@ -35,7 +35,7 @@ export async function openFile(panache: Panache, file: File, fps = rates.get(fil
   try {
     return open(fps);
   } catch (error) {
-    // The library says so where a file has no rate, or one that cannot be.
+    // The library's error if the file's rate is missing or impossible.
     if (!(error instanceof PanacheError) || error.kind !== 'rateNeeded') throw error;
     const given = Number(window.prompt(`${error.message}\n\nFrames a second of ${file.name}:`));
     if (!(given > 0)) throw error;
@@ -43,13 +43,13 @@ export async function openFile(panache: Panache, file: File, fps = rates.get(fil
   }
 }
 
-const kWalkSeconds = 12;  // Of the walk that a character without motion gets.
-const kSettle = 3;        // Seconds until the walker has her pace.
+const kWalkSeconds = 12;  // Length of the walk for a character without motion.
+const kSettle = 3;        // Seconds until the walker has its pace.
 
-/** Whether no clip of a file moves a humanoid for more than one frame. */
+/** Whether no clip of a file moves the humanoid in more than one frame. */
 const isStill = ({ clips }: MotionFile) => !clips.some(({ moves, frames }) => moves && frames > 1);
 
-/** Frees what was used. */
+/** Returns use(thing), and frees the thing. */
 export function freed<Thing extends { free(): void }, Out>(thing: Thing, use: (thing: Thing) => Out) {
   try {
     return use(thing);
@@ -66,11 +66,11 @@ const walkFile = (panache: Panache) => freed(panache.createWalker(), (walker) =>
   return panache.openFile(bytes, 'walk.bvh');
 });
 
-/** Of characters without motion: with the walk on them. */
+/** For files of characters without motion: the same with the walk. */
 const walking = new WeakMap<File, File>();
 
-/** What openFile() gives, and where the file is a character without motion, the same with the
- * walker's walk on it: `from` has that motion, and `notes` say so. */
+/** Like openFile(), but puts the walker's walk onto a character without motion: `from` then has the
+ * walk, and `notes` say so. */
 export async function openMoving(panache: Panache, from: File, fps?: number):
     Promise<{ file: MotionFile; bytes: ArrayBuffer; from: File; notes: readonly string[] }> {
   const known = walking.get(from);
@@ -92,7 +92,7 @@ export async function openMoving(panache: Panache, from: File, fps?: number):
     'open a motion together with it to use that one instead'] };
 }
 
-/** The first motion of the humanoid. Rejects a file that has motions, and none of it. */
+/** The first motion of the humanoid. Throws if the file only has other motions. */
 export function firstMotion({ clips, name }: MotionFile): number {
   const first = clips.findIndex(({ moves }) => moves);
   if (first < 0 && clips.length > 0) {
@@ -110,8 +110,8 @@ export const isModel = ({ name }: File) => /\.safetensors$/i.test(name);
 const isCharacter = (name: string) => /\.(glb|gltf|vrm)$/i.test(name);
 const isMotionAlone = (name: string) => /\.(bvh|vrma)$/i.test(name);
 
-/** A motion and a character that were dropped together as one file: the motion on the character.
- * Anything else stays as it is. */
+/** Combines a motion and a character that were dropped together into one file: the motion on the
+ * character. Returns other files unchanged. */
 export async function putTogether(panache: Panache, files: File[]): Promise<File[]> {
   const motion = files.find(({ name }) => isMotionAlone(name));
   const character = files.find(({ name }) => isCharacter(name));
@@ -131,7 +131,7 @@ export async function clipSource(file: MotionFile, bytes: ArrayBuffer, clip: num
   const player = file.createPlayer(clip);
   let own: [SkinnedCharacter, SkinnedCharacter] | null = null;
   if (!['.bvh', '.vrma'].includes(file.extension)) {
-    // What three.js cannot show is shown as a mannequin.
+    // Fall back to the mannequin if three.js cannot show the character.
     own = await loadSkinned(bytes, file, player).catch(() => null);
   }
   return { kind: 'clip', player, joints: file.joints.length, file, clip, own };

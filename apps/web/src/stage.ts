@@ -1,4 +1,4 @@
-// The view: two bodies on a ground, in good light, side by side, overlaid or the output alone.
+// The view: two lit bodies on a ground, side by side, overlaid or the output alone.
 
 import * as THREE from 'three';
 
@@ -13,13 +13,13 @@ import type { View } from './settings';
 import type { SkinnedCharacter } from './skinned';
 
 const kInputLayer = 1, kStyledLayer = 2;
-const kAboveBody = 0.16;      // Of the view: free above a body that is fitted in.
-const kMaxDown = 0.08;        // Of the view.
+const kAboveBody = 0.16;      // Share of the view that is free above a fitted body.
+const kMaxDown = 0.08;        // Share of the view.
 const kGhost = 0.4;           // Opacity of the input over the output.
-const kOnions = 3;            // Poses before this one.
-const kOnionSeconds = 0.3;    // Between them.
+const kOnions = 3;            // Number of past poses.
+const kOnionSeconds = 0.3;    // Time between them.
 
-/** What moves and what it looks like: a source, or as much of one. */
+/** The motion and looks to show: the part of a source that the stage needs. */
 export interface Seen {
   readonly player: Pick<Walk, 'body' | 'coarseBody' | 'contacts' | 'parts' | 'pose'>;
   readonly joints: number;
@@ -33,7 +33,7 @@ interface Stand {
 
 interface Body {
   readonly object: THREE.Object3D;
-  /** Around its meshes as they stand, in the world. */
+  /** The world-space bounding box of its meshes. */
   readonly box: THREE.Box3;
   /** 1 is solid. */
   opacity: number;
@@ -50,7 +50,7 @@ function onLayer(object: THREE.Object3D, layer: number) {
   return object;
 }
 
-/** Whether a chip draws, and not the browser by itself, which takes ten times as long. */
+/** Whether a graphics card renders; software rendering takes ten times as long. */
 function hasGraphicsCard(): boolean {
   const context = document.createElement('canvas').getContext('webgl2');
   const told = context?.getExtension('WEBGL_debug_renderer_info');
@@ -63,11 +63,11 @@ export class Stage {
   view: View = 'styled';
   trail = true;
   onion = false;
-  /** The input alone, whatever the view is: for comparing. */
+  /** Shows only the input, in all views, for comparison. */
   comparing = false;
-  /** Pixels at the top that bodies keep out of, where there is room. */
+  /** Height at the top, in pixels, to keep free of bodies if there is room. */
   keepClear = () => 0;
-  #fast: boolean;  // A graphics card draws.
+  #fast: boolean;  // Whether a graphics card renders.
   #renderer: THREE.WebGLRenderer;
   #scene = new THREE.Scene();
   #camera: Camera;
@@ -77,7 +77,7 @@ export class Stage {
   #ground: Ground;
   #marks = new Marks();
   #bodies: { input: Body; styled: Body; skinned: boolean } | null = null;
-  /** Where each body is on the ground, and its toes. */
+  /** The position of each body on the ground, and of its toes. */
   #input: Stand = { place: new THREE.Vector3(), toes: [] };
   #styled: Stand = { place: new THREE.Vector3(), toes: [] };
   #geometry: THREE.BufferGeometry | null = null;
@@ -86,19 +86,19 @@ export class Stage {
   #time = 0;
   #size = { width: 0, height: 0, ratio: 0 };
   #slowness = 0;
-  #down = 0;  // Pixels by which what is seen is moved, see keepClear.
-  #sharpest = 2;  // Pixels drawn for one of the page's.
+  #down = 0;  // Pixels by which the picture is moved down, see keepClear.
+  #sharpest = 2;  // Maximum rendered pixels per CSS pixel.
 
   #loops: { input: THREE.Vector2; styled: THREE.Vector2; share: number } | null = null;
 
-  /** `forLoop`: with a grid that can begin again. */
+  /** `forLoop`: with a grid that can loop seamlessly. */
   constructor(readonly canvas: HTMLCanvasElement, forLoop = false) {
     const fast = (this.#fast = hasGraphicsCard());
     this.#sharpest = fast ? 2 : 0.75;
-    // Opaque: where no card composes the page, that takes a fifth less of the whole.
+    // Opaque: saves a fifth of the frame time if the page is composed in software.
     const context = canvas.getContext('webgl2', { alpha: false, antialias: fast });
     this.#renderer = new THREE.WebGLRenderer({ canvas, context: context ?? undefined });
-    // Without a card a shadow map takes longer than all the rest: soft spots stand in for it.
+    // Without a card a shadow map takes longer than all the rest: use soft spots instead.
     this.#renderer.shadowMap.enabled = fast;
     this.#renderer.shadowMap.type = THREE.PCFSoftShadowMap;
     this.#ground = new Ground(!fast, forLoop);
@@ -126,7 +126,7 @@ export class Stage {
     this.#marks.paint(colour('accent'));
   }
 
-  /** Shows the bodies of another source: its own meshes where it has some, else mannequins. */
+  /** Shows the bodies of another source: its own meshes if it has any, else mannequins. */
   show(source: Seen) {
     const { player, own } = source;
     this.#freeBodies();
@@ -152,7 +152,7 @@ export class Stage {
     this.look('face', player);
   }
 
-  /** Turns the camera: it faces what is seen and fits it in, or stands at its side, over it, .... */
+  /** Moves the camera to the front, the side, the top, ... of the bodies, and fits them in. */
   look(angle: Angle, player: Seen['player']) {
     if (!this.#bodies) return;
     const { input, styled } = this.#bodies;
@@ -163,14 +163,14 @@ export class Stage {
     this.#camera.look(angle, player.parts('styled'), box);
   }
 
-  /** Brings the player's last step into view. */
+  /** Updates the bodies from the player's last step. */
   update({ player, joints }: Seen, cut: boolean, seconds: number) {
     if (!this.#bodies) return;
     if (cut) this.#marks.clear();
     const input = player.parts('input').slice(), styled = player.parts('styled').slice();
     const here = groundUnder(styled);
     const still = new THREE.Vector3();
-    // Where both are seen at once, the input walks where the output does.
+    // In the overlaid view the input is moved to the position of the output.
     const beside = here.clone().sub(groundUnder(input));
     const inputShift = this.view === 'over' ? beside : still;
     if (this.#bodies.skinned) {
@@ -203,7 +203,7 @@ export class Stage {
     });
   }
 
-  /** For tests: where the view is seen from, and how many poses of the past are shown. */
+  /** For tests: the camera's position, and the number of past poses shown. */
   get eye() {
     return this.#camera.camera.position.toArray();
   }
@@ -211,17 +211,17 @@ export class Stage {
     return this.#onions.filter((onion) => onion.object.visible).length;
   }
 
-  /** Pixels, in either direction. */
+  /** Maximum size of a picture in either direction, pixels. */
   get largestPicture() {
     return Math.min(8192, this.#renderer.capabilities.maxTextureSize);
   }
-  /** What the view has on the screen, pixels. */
+  /** The size of the view on the screen, pixels. */
   get seen(): [number, number] {
     const ratio = window.devicePixelRatio;
     return [Math.round(this.canvas.clientWidth * ratio),
       Math.round(this.canvas.clientHeight * ratio)];
   }
-  /** The view as a PNG; null where the browser has not got the memory. */
+  /** The view as a PNG; null if the browser is out of memory. */
   picture(width: number, height: number): Promise<Blob | null> {
     const { ratio } = this.#size;
     this.#drawAt(width, height);
@@ -238,11 +238,11 @@ export class Stage {
     this.#drawAll();
   }
 
-  /** What is seen of the motion. */
+  /** The visible bodies. */
   get seenBodies(): readonly ('input' | 'styled')[] {
     return this.view === 'styled' ? ['styled'] : ['input', 'styled'];
   }
-  /** A view of another player like this one, on a canvas of its own; free() it. */
+  /** A view of another player with the same angle, on a separate canvas; free() it. */
   studio(source: Seen): Stage {
     const out = new Stage(document.createElement('canvas'), true);
     out.view = this.view;
@@ -251,8 +251,8 @@ export class Stage {
     out.#camera.takeAngle(this.#camera);
     return out;
   }
-  /** One picture of a loop in which the bodies go `way`: x and z of each that is seen, metres; none
-   * where it does not close. `share` of it is over. */
+  /** Draws one frame of a loop in which the bodies travel `way`: x and z of each visible one,
+   * metres; empty if the loop does not close. `share` of it has passed. */
   drawStill(source: Seen, width: number, height: number, way: readonly number[],
       share: number) {
     const [input, styled] = [way.slice(0, 2), way.slice(-2)].map(([x = 0, z = 0]) =>
@@ -288,7 +288,7 @@ export class Stage {
       this.#seeInput(camera);
       this.#drawPart(this.#otherCamera, 0, width, [kInputLayer]);
     } else if (this.view === 'side') {
-      // Each half has its own body in the middle, seen from the same side.
+      // Each half shows one body in the middle, from the same angle.
       const half = Math.floor(width / 2);
       this.#seeInput(camera);
       this.#drawPart(this.#otherCamera, 0, half, [kInputLayer]);
@@ -304,7 +304,7 @@ export class Stage {
     this.#otherCamera.position.sub(this.#styled.place).add(this.#input.place);
   }
 
-  /** The styled body is in the middle, if its layer is among these, else the input. */
+  /** Centres on the styled body if its layer is among `layers`, else on the input. */
   #drawPart(camera: THREE.PerspectiveCamera, left: number, width: number, layers: number[]) {
     const { height } = this.#size;
     const which = layers.includes(kStyledLayer) ? 'styled' : 'input';
@@ -325,8 +325,8 @@ export class Stage {
     this.#renderer.render(this.#scene, camera);
   }
 
-  // Takes the size of the place that the page gives it. Where drawing is slow it gives up what is
-  // above a pixel for each of the page's, then the cast shadow, then more sharpness.
+  // Fits the renderer to the canvas. If drawing is slow, lowers the resolution to one pixel per CSS
+  // pixel, then drops the cast shadow, then lowers the resolution further.
   #fit(seconds: number) {
     this.#slowness += 0.05 * ((seconds > 0.024 ? 1 : 0) - this.#slowness);
     let ratio = this.#size.ratio || Math.min(this.#sharpest, window.devicePixelRatio);

@@ -1,12 +1,11 @@
-// Where the walker is to go: keys, a stick on the screen, a gamepad; nobody at the helm lets her
-// wander.
+// Steers the walker by keys, a stick on the screen or a gamepad; until someone steers, it wanders.
 
 import { listenToDrags } from './dom';
 
 const kWalk = 1.35, kRun = 3, kTurn = 1.5;  // m/s, m/s, rad/s.
 const kFastest = 4;
 
-/** Samples of what the walker can do: m/s, and rad/s to the left. */
+/** The walker's paces: m/s, and rad/s to the left. */
 export const kPaces = {
   idle: { speed: 0, turn: 0 },
   creep: { speed: 0.45, turn: 0 },
@@ -23,14 +22,14 @@ export interface Wish {
   turn: number;
 }
 
-/** What a stick pushed `x` to the right and `y` ahead (-1 to 1) asks for. */
+/** The wish of a stick pushed `x` to the right and `y` forward (-1 to 1). */
 export function stickWish(x: number, y: number): Wish {
   const push = Math.min(1, Math.hypot(x, y));
   if (push < 0.12) return { speed: 0, turn: 0 };
   return { speed: Math.max(0, y) * kFastest * push, turn: -x * kTurn * (y < -0.3 ? 1.3 : 1) };
 }
 
-/** What the keys held down ask for, on top of the pace. */
+/** The wish of the keys held down, on top of the pace. */
 export function keyWish(held: ReadonlySet<string>, pace: Pace): Wish {
   const on = (...codes: string[]) => codes.some((code) => held.has(code));
   const turn = (on('KeyA', 'ArrowLeft') ? kTurn : 0) - (on('KeyD', 'ArrowRight') ? kTurn : 0);
@@ -51,7 +50,7 @@ export class Steering {
   #seconds = 0;
 
   constructor(stick: HTMLElement) {
-    // Arrows belong to whatever has the focus, and steer where that has no use for them.
+    // Arrows steer unless the focused element uses them.
     addEventListener('keydown', (event) => {
       const target = event.target as HTMLElement;
       const taken = target.matches('input, select, textarea, [data-arrows]') &&
@@ -73,7 +72,7 @@ export class Steering {
     this.#held.clear();
   }
 
-  /** Asked once a frame. */
+  /** Call it once per frame. */
   wish(seconds: number): Wish {
     this.#seconds += seconds;
     if (this.#stick) return stickWish(this.#stick.x, this.#stick.y);

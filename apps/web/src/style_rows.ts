@@ -1,4 +1,4 @@
-// The sliders of the styles: those that are not at 0 on top, all others in groups that fold.
+// The sliders of the styles: active styles on top, all others in collapsible groups.
 
 import type { Style } from '../package/index.js';
 import { attempt } from './alerts';
@@ -8,15 +8,15 @@ import type { Page } from './page';
 import { kLeast, kMost } from './settings';
 import { Slider } from './slider';
 
-const kManyStyles = 20;  // Of more than these, only the first group is open at first.
+const kManyStyles = 20;  // With more, only the first group is initially open.
 
 interface Row {
   style: Style;
   slider: Slider;
-  /** Where it is while the style is not active. */
+  /** The row's parent while the style is not active. */
   list: HTMLElement;
 }
-/** What folds. */
+/** A collapsible group. */
 interface Fold {
   title: string;
   box: HTMLDetailsElement;
@@ -24,14 +24,14 @@ interface Fold {
   count: HTMLElement;
 }
 
-/** What its row says of a style. */
+/** The content of a style's row, to detect changes. */
 const said = ({ group, ...rest }: Style) => JSON.stringify(rest);
 
 export class StyleRows {
   readonly element = element('div', { id: 'style-rows' });
   #rows: Row[] = [];
   #folds: Fold[] = [];
-  #open = new Map<string, boolean>();  // The groups that somebody opened or closed.
+  #open = new Map<string, boolean>();  // The groups that the user opened or closed.
   #words: string[] = [];
   #activeRows = element('div');
   #active = element('div',
@@ -41,8 +41,7 @@ export class StyleRows {
 
   constructor(private page: Page) {
     page.store.listen(() => this.#show());
-    // A row that is in use stays where it is, and nothing moves below a finger. A menu that opens
-    // may keep the end of the press to itself.
+    // Move no rows during a press. Exclude menus: an open menu may swallow the end of the press.
     addEventListener('pointerdown', (event) => {
       this.#pressed = !(event.target as Element).closest('select');
     }, true);
@@ -55,12 +54,12 @@ export class StyleRows {
     this.element.addEventListener('focusout', () => setTimeout(() => this.#arrange()));
   }
 
-  /** By the names of the styles. */
+  /** The rows by style name. */
   get rows() {
     return new Map(this.#rows.map(({ style, slider }) => [style.name, slider.row]));
   }
 
-  /** The strengths that styles with keys have now. */
+  /** Shows the current strengths of styles with keys. */
   showNow() {
     for (const { style: { name }, slider } of this.#rows) {
       if (!(name in this.page.store.settings.keys)) continue;
@@ -68,7 +67,7 @@ export class StyleRows {
     }
   }
 
-  /** Leaves rows as they are where they say the same, and `changed` is not theirs. */
+  /** Keeps rows whose content is the same, except that of the style `changed`. */
   set(styles: readonly Style[], changed: string) {
     const known = new Map(this.#rows.map((row) => [row.style.name, row]));
     const groups = groupStyles(styles);
@@ -93,8 +92,8 @@ export class StyleRows {
     this.#show();
   }
 
-  /** Leaves the styles whose name, group or description holds all words, and those that are active;
-   * how many hold them. */
+  /** Shows the styles whose name, group or description contains all words, and active styles.
+   * Returns the number of matches. */
   filter(words: string[]) {
     this.#words = words.filter((word) => word);
     let found = 0;
@@ -117,7 +116,8 @@ export class StyleRows {
     const summary = element('summary', {}, element('h3', {}, title), count);
     const box = element('details', { class: 'fold', open }, summary, list);
     this.#open.set(title, open);
-    // A click comes before the box changes. Its `toggle` comes later, and may meet a new search.
+    // Not `toggle`: it fires later, when the search may have changed. A click fires before the box
+    // changes.
     summary.addEventListener('click', () => {
       if (this.#words.length === 0) this.#open.set(title, !box.open);
     });
@@ -163,7 +163,7 @@ export class StyleRows {
     this.#arrange();
   }
 
-  /** Puts rows where they belong; what has the focus stays where it is on the screen. */
+  /** Moves rows to their lists; the focused element keeps its position on the screen. */
   #arrange() {
     if (this.#pressed) return;
     const { styles, keys } = this.page.store.settings;

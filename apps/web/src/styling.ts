@@ -1,12 +1,12 @@
-// What the settings mean for what is seen.
+// Applies the settings to a player.
 
 import { Playback, type Panache, type Remover, type Walk } from '../package/index.js';
 import { strengthAt, type Key } from './keys';
 import { shapeOf, type Settings } from './settings';
 import type { Source } from './source';
 
-/** Gives a player strengths, keyframes, shape and timing, and what is taken off its input as soon as
- * the remover is there. */
+/** Sets a player's strengths, keyframes, shape and timing, and the style to remove once the remover
+ * is loaded. */
 export function applySettings(panache: Panache, player: Walk | Playback, settings: Settings,
     remover: Remover | null) {
   if (remover) {
@@ -23,7 +23,7 @@ export function applySettings(panache: Panache, player: Walk | Playback, setting
   player.setTiming(settings.tempo);
 }
 
-/** Plays a gesture of the styles that change a source, if they have any. */
+/** Plays a gesture of a source's active styles, if they have any. */
 export function triggerAny(panache: Panache, source: Source, settings: Settings) {
   const active = activeStyles(source, settings);
   const all = panache.styles.filter(({ name }) => active.includes(name))
@@ -31,7 +31,7 @@ export function triggerAny(panache: Panache, source: Source, settings: Settings)
   if (all.length > 0) source.player.trigger(...all[Math.floor(Math.random() * all.length)]);
 }
 
-/** The strengths that keyframes give at the play head. */
+/** The keyframed strengths at the play head. */
 export function keyedNow(source: Source, { keys }: Settings): Record<string, number> {
   if (source.kind !== 'clip') return {};
   const { seconds } = source.player;
@@ -39,7 +39,7 @@ export function keyedNow(source: Source, { keys }: Settings): Record<string, num
     .map(([name, own]) => [name, strengthAt(own, seconds)]));
 }
 
-/** The names of all styles that change a source. */
+/** The names of a source's active styles. */
 export function activeStyles(source: Source, { styles, keys, strength }: Settings): string[] {
   const named = Object.keys(styles).filter((name) => styles[name] * strength !== 0);
   if (source.kind !== 'clip') return named;

@@ -1,4 +1,4 @@
-// The buttons under the view: paces of the walker, opening files, and all ways of saving.
+// The buttons under the view: the walker's paces, opening files, and saving.
 
 import { attempt } from './alerts';
 import { button, element, find } from './dom';
@@ -9,7 +9,7 @@ import { toAddress } from './settings';
 import { walkSource } from './source';
 import { kPaces, type Pace } from './steering';
 
-/** Shows which pace the walker has. */
+/** Shows the walker's pace. */
 export function showPace(pace: Pace) {
   for (const chip of document.querySelectorAll<HTMLElement>('[data-pace]')) {
     chip.setAttribute('aria-pressed', String(chip.dataset.pace === pace));
@@ -25,11 +25,11 @@ export function buildWalkerControls(onPace: (pace: Pace) => void) {
   find('#walker-controls').append(...buttons, keys);
 }
 
-/** A button whose faults are told. */
+/** A button that reports errors. */
 const act = (id: string, text: string, title: string, press: () => void | Promise<void>) =>
   button(text, () => void attempt(press), { id, title });
 
-/** A button and a list of others, which closes after a choice, by Escape, and when one goes elsewhere. */
+/** A button with a menu, which closes after a choice, on Escape, and when the focus leaves. */
 function buildMenu(id: string, text: string, title: string,
     groups: readonly { title: string; buttons: readonly HTMLElement[] }[]): HTMLElement {
   const list = element('div', { id: `${id}-menu`, class: 'menu-list', role: 'group',
@@ -53,7 +53,7 @@ function buildMenu(id: string, text: string, title: string,
   menu.addEventListener('focusout', ({ relatedTarget }) => {
     if (relatedTarget instanceof Node && !menu.contains(relatedTarget)) open(false);
   });
-  // A button that was clicked does not keep the focus.
+  // A clicked button does not keep the focus.
   addEventListener('keydown', (event) => {
     if (event.key !== 'Escape' || list.hidden) return;
     if (menu.contains(document.activeElement)) opener.focus();
@@ -86,7 +86,7 @@ function saveMenu({ stage, exporter, store }: Page) {
   return [...view.stoppers, menu];
 }
 
-/** Lists files to choose from, where there are several. */
+/** Lists files to choose from, if there are several. */
 export function listFiles(files: readonly File[]) {
   const menu = find<HTMLSelectElement>('#files');
   menu.replaceChildren(...files.map(({ name }, i) => element('option', { value: i }, name)));

@@ -1,4 +1,4 @@
-// The track under the time line: the keys of one style, to be pushed about.
+// The track under the time line: edits the keys of one style.
 
 import type { Style } from '../package/index.js';
 import { button, element, find, placeIn } from './dom';
@@ -22,8 +22,8 @@ export class Track {
   #seconds = 0;
   #frame = 1 / 60;
   #drag: { index: number; pointer: number } | null = null;
-  #pressed = -1;  // The key that a click met.
-  #added = -Infinity;  // When a click added one, milliseconds.
+  #pressed = -1;  // Index of the key under the last click.
+  #added = -Infinity;  // Time of the last click that added a key, milliseconds.
 
   constructor(private page: Page) {
     this.#field.innerHTML =
@@ -62,7 +62,7 @@ export class Track {
     this.#choose();
     this.#show();
   }
-  /** Of the clip that is played, and of a frame of it. */
+  /** Sets the durations of the clip and of a frame, seconds. */
   setTime(seconds: number, frame: number) {
     this.#seconds = seconds;
     if (frame > 0) this.#frame = frame;
@@ -72,7 +72,7 @@ export class Track {
     this.#head.style.left = `${this.#across(seconds)}%`;
   }
 
-  /** A key at the play head. */
+  /** Adds a key at the play head. */
   add() {
     const { source } = this.page;
     const now = source.kind === 'clip' ? source.player.seconds : 0;
@@ -82,7 +82,7 @@ export class Track {
     this.#keys[index]?.focus();
   }
 
-  // The style that has keys already, else one that is on.
+  // Chooses a style that has keys, else an active one.
   #choose() {
     const { keys, styles } = this.page.store.settings;
     const wanted = [...Object.keys(keys), ...Object.keys(styles)]
@@ -178,7 +178,7 @@ export class Track {
     this.#field.addEventListener('pointermove', (event) => {
       if (this.#drag?.pointer === event.pointerId) this.#move(this.#drag.index, ...place(event));
     });
-    // A double click on nothing adds a key, which its second half does not remove.
+    // The first click of a double click may add a key; do not remove that one again.
     this.#field.addEventListener('dblclick', (event) => {
       if (event.timeStamp - this.#added > kDoubleClick) this.#remove(this.#pressed);
     });

@@ -1,13 +1,13 @@
-// Draws what is translucent of a body as a whole: its depth first, so that only its outside is seen
-// and a pixel is blended once, whatever the order of its triangles and meshes. A ghost is translucent
-// all over; of a solid body, so are materials with a blended texture, which many files have all over.
+// Draws the translucent parts of a body as a whole, depth first: only the outside is visible, and
+// each pixel is blended once, whatever the order of triangles and meshes. All of a ghost is
+// translucent; on a solid body, materials with a blended texture (in many files all of them) are.
 
 import * as THREE from 'three';
 
-// After all that is translucent on the ground; what is seen through a ghost comes before it.
+// Render orders, after everything translucent on the ground. Ghosts come after solid bodies.
 const kSolidOrder = 1, kGhostOrder = 3;
-const kSurface = 0.5;    // Least alpha of a texture that hides what is behind it.
-const kSeen = 1 / 255;   // Least alpha that is drawn.
+const kSurface = 0.5;    // Minimum alpha of a texture that hides what is behind it.
+const kSeen = 1 / 255;   // Minimum alpha that is drawn.
 
 interface Part {
   mesh: THREE.Mesh;
@@ -17,8 +17,8 @@ interface Part {
   depth: THREE.Mesh;
 }
 
-/** A copy of a material that is drawn after everything solid. Both passes are the same program, so
- * that they give a point the same depth, bit for bit. */
+/** A copy of a material that is drawn after everything solid. Both passes use the same program, so
+ * their depths are equal bit for bit. */
 function pass(from: THREE.Material, opacity: number, isColour: boolean): THREE.Material {
   const out = from.clone();
   Object.assign(out, { transparent: true, forceSinglePass: true, depthWrite: !isColour,
@@ -31,7 +31,7 @@ function pass(from: THREE.Material, opacity: number, isColour: boolean): THREE.M
   return out;
 }
 
-/** The mesh again, moved by the same bones. */
+/** A copy of the mesh with the same bones. */
 function twin(mesh: THREE.Mesh, material: THREE.Material): THREE.Mesh {
   const skinned = mesh instanceof THREE.SkinnedMesh;
   const out = skinned ? new THREE.SkinnedMesh(mesh.geometry, material)
@@ -51,10 +51,10 @@ export class Translucency {
   #parts: Part[] = [];
   #opacity = 0;
 
-  /** For `opacity` to be set. */
+  /** Set `opacity` afterwards. */
   constructor(private meshes: readonly THREE.Mesh[]) {}
 
-  /** 1 is the body as it was made. */
+  /** 1: the original body. */
   set opacity(opacity: number) {
     if (opacity === this.#opacity) return;
     this.free();

@@ -9,7 +9,7 @@ import type { ClipSource } from './source';
 
 const kSpeeds = [0.25, 0.5, 1, 1.5, 2];
 
-/** The frame at this time, from 1 to `frames`; `first` is the one that plays first, from 0. */
+/** The frame number at this time, 1 to `frames`; `first` is the index of the first played frame. */
 export function frameAt(seconds: number, frameTime: number, first: number, frames: number): number {
   const frame = frameTime > 0 ? Math.round(seconds / frameTime) : 0;
   return Math.max(1, Math.min(frames, first + frame + 1));
@@ -76,11 +76,11 @@ export class TransportBar {
     this.setPlaying(true);
   }
 
-  /** Where playing begins and ends, seconds. */
+  /** The start and end of playback, seconds. */
   get range(): [number, number] {
     return [this.#in, this.#out ?? this.#seconds];
   }
-  /** Whether that is less than the clip. */
+  /** Whether the range is less than the whole clip. */
   get isPart() {
     return this.#in > 0 || this.#out !== null;
   }
@@ -105,19 +105,19 @@ export class TransportBar {
   }
 
   setPlaying(playing: boolean) {
-    // Who stands at the end begins again.
+    // Playing from the end starts again.
     const [begin, end] = this.range;
     if (playing && !this.state.loop && this.#now >= end - 1e-3) this.page.seek(begin);
     this.state.playing = playing;
     this.#play.textContent = playing ? 'Pause' : 'Play';
   }
 
-  /** Goes on by so many seconds where it plays, from the loop start to the loop end; the seconds of
-   * motion that passed, and whether what is seen has nothing to do with what was. */
+  /** Advances by `seconds` while playing, from the loop start to the loop end. Returns the seconds
+   * of motion that passed, and whether the motion jumped. */
   play({ file, clip, player }: ClipSource, seconds: number): { passed: number; cut: boolean } {
     const { playing, speed, loop } = this.state;
     const before = player.seconds;
-    // Paused too: what is set is seen when the clip goes on, or is scrubbed.
+    // Step even when paused, so new settings are applied when the clip continues or is scrubbed.
     player.step(playing ? seconds * speed : 0);
     let cut = player.seconds < before;
     const [begin, end] = this.range;

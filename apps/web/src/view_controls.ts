@@ -1,4 +1,4 @@
-// The buttons in the corner of the view: camera, comparing, full screen, help.
+// The buttons in the corner of the view: camera, comparison, full screen, help.
 
 import { kAngles, type Angle } from './camera';
 import { button, element, find, hinted } from './dom';
@@ -28,7 +28,7 @@ export function buildViewControls(page: Page) {
     const open = find('#plots').classList.toggle('open');
     more.setAttribute('aria-pressed', String(open));
   });
-  // A phone on its side has room for Open and Save in the panel only; the same query as in style.css.
+  // A phone in landscape only has room for Open and Save in the panel; same query as in style.css.
   const low = matchMedia('(max-height: 480px) and (min-width: 560px)');
   const place = () => {
     if (low.matches) find('#panel').prepend(find('#file-controls'));

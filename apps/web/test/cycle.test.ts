@@ -2,7 +2,7 @@ import { expect, test } from 'vitest';
 
 import { findCycle } from '../src/cycle';
 
-/** Two points that go round with a period, in frames, and grow by the frame. */
+/** Two points that circle in `period` frames; the circle grows by `grow` per frame. */
 const turning = (frames: number, period: number, grow = 0) => Array.from({ length: frames }, (_, i) => {
   const angle = (2 * Math.PI * i) / period, size = 1 + grow * i;
   return new Float32Array([size * Math.cos(angle), 1, size * Math.sin(angle), 0, 1, size]);
@@ -19,7 +19,7 @@ test('a cycle is no shorter than the minimum', () => {
 });
 
 test('a pose that comes back on another way is no cycle', () => {
-  // There and back again: the poses are the same, their order is not.
+  // Forward, then backward: the same poses in another order.
   const there = turning(121, 60).map((_, i, all) => all[i % 60 < 30 ? i % 60 : 60 - (i % 60)]);
   const [first, end] = findCycle(there, 10)!;
   expect(end - first).toBe(60);

@@ -1,5 +1,5 @@
-// What mirrors panache.h: the structs of the npm package, the functions that it calls, and those
-// that the file for C# declares.
+// Checks what mirrors panache.h: the structs of the npm package, the functions that it calls, and
+// the declarations in the C# file.
 
 import { readdirSync, readFileSync } from 'node:fs';
 
@@ -16,12 +16,12 @@ const header = read('include/panache/panache.h').replaceAll(/\/\*[^]*?\*\//g, ''
 const enums = Array.from(header.matchAll(/typedef enum (\w+)/g), ([, name]) => name);
 const inC = (name) => name.replaceAll(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`);
 
-// The kind of what a declaration begins with: "const panache_clip* clip" is a pointer.
+// The kind of the type in a declaration: "const panache_clip* clip" is a pointer.
 function kindOf(declaration) {
   const [type] = declaration.replace('const ', '').trim().split(' ');
   return declaration.includes('*') ? 'pointer' : enums.includes(type) ? 'int32_t' : type;
 }
-// [result, ...parameters] of each function, by its name.
+// [result, ...parameters] of each function, by name.
 function functionsOf(text) {
   return new Map(Array.from(
     text.matchAll(/PANACHE_(?:API|EXPORT) ([^(]*?)(panache_\w+)\(([^)]*)\)/g),
@@ -49,7 +49,7 @@ describe('the structs of the package', () => {
   }
 });
 
-// A call makes of its numbers what the function of the module takes, so only their count can drift.
+// A call converts numbers to what the module takes, so only the number of arguments can drift.
 it('the package calls the functions of the module with as many arguments as they take', () => {
   const functions = functionsOf(header + sources('apps/web/wasm', '.cpp').join(''));
   const calls = sources('apps/web/package', '.js').flatMap((text) => callsIn(

@@ -4,7 +4,7 @@ import { Plots } from '../src/plots';
 
 const kHeight = 58;
 
-// A canvas that remembers the points of the last line, and lets everything else be done to it.
+// A canvas that records the points of the last line, and ignores all other calls.
 function fakeCanvas() {
   const points: [number, number][] = [];
   const own = {
@@ -37,7 +37,7 @@ describe('a line under the view', () => {
 
   it('is at the top where the styles know the motion, and at the bottom where they do not', () => {
     const points = drawn('gate', kMoments);
-    // Six seconds are as wide as the canvas, and the last moment is at its right edge.
+    // The canvas is six seconds wide, and its right edge is the last moment.
     expect(points.map(([x]) => Math.round(x))).toEqual([80, 100, 120]);
     expect(points.map(([, y]) => y)).toEqual([3, kHeight - 3, kHeight / 2]);
   });

@@ -80,7 +80,7 @@ describe('undo', () => {
     const store = new Store({ ...kDefaults });
     store.setStyle('old', 0.2);
     now = 100;
-    store.setStyle('old', 0.6);  // The same drag.
+    store.setStyle('old', 0.6);  // Part of the same drag.
     now = 2000;
     store.set({ legs: false });
     store.undo();
@@ -92,7 +92,7 @@ describe('undo', () => {
     store.redo();
     expect(store.settings).toEqual({ ...kDefaults, styles: { old: 0.6 }, legs: false });
     store.undo();
-    store.set({ feet: false });  // What was undone is gone.
+    store.set({ feet: false });  // This clears the redo list.
     expect(store.canRedo).toBe(false);
   });
   it('does not count what changes nothing', () => {

@@ -1,5 +1,5 @@
-// What only the page needs beside panache.h: models, motion and players. See exports.h. Messages
-// have the names that the page gives to files.
+// Functions for the page that panache.h lacks: models, motion and players. See exports.h. Messages
+// use the file names that the page passes.
 
 #include <algorithm>
 #include <cstdint>
@@ -25,7 +25,7 @@
 using namespace panache;
 using namespace panache::web;
 
-// The two words of the number, the lower first.
+// Writes the two words of the hash, the lower first.
 PANACHE_EXPORT void panache_page_golden(const panache_model* model, uint32_t* out) {
   const uint64_t hash = golden_hash(model->model);
   out[0] = static_cast<uint32_t>(hash);
@@ -38,7 +38,7 @@ PANACHE_EXPORT panache_model* panache_page_model_create(const char* data, uint32
   if (model) return new panache_model{*std::move(model)};
   return fail(model.error());
 }
-// A model that takes styles off.
+// A model that removes styles.
 PANACHE_EXPORT panache_model* panache_page_remover_create(const char* data, uint32_t size) {
   const std::string name = "the remover";
   auto model = Model::parse(bytes_at(data, size), name);
@@ -64,12 +64,12 @@ PANACHE_EXPORT panache_bytes* panache_page_styles(const panache_model* model) {
   return to_bytes(all);
 }
 
-// Whether the bytes say that they are a style, and not a model.
+// Whether the bytes are a style file, and not a model.
 PANACHE_EXPORT int32_t panache_page_is_style(const char* data, uint32_t size) {
   const Result<TensorFile> file = parse_safetensors(bytes_at(data, size), "");
   return file && is_style_file(*file);
 }
-// The bytes of the model with the style of a style file.
+// The bytes of the model with the style of a style file added.
 PANACHE_EXPORT panache_bytes* panache_page_style_add(const char* model, uint32_t model_size,
                                                      const char* style, uint32_t style_size,
                                                      const char* style_name, int32_t replace) {
@@ -102,7 +102,7 @@ PANACHE_EXPORT FileHandle* panache_page_file_create(const char* data, uint32_t s
   if (file) return new FileHandle(*std::move(file));
   return fail(file.error());
 }
-// The bytes of the character's file with one motion of the other on it, in place of its own.
+// The bytes of the character's file, with its motions replaced by the retargeted one.
 PANACHE_EXPORT panache_bytes* panache_page_file_put_on(FileHandle* motion, int32_t which,
                                                        FileHandle* character) {
   const Clip& clip = (*motion)->clip(which);
@@ -123,7 +123,7 @@ PANACHE_EXPORT panache_bytes* panache_page_file_put_on(FileHandle* motion, int32
   return new panache_bytes{(*character)->encode({&edit, 1}, EditMode::replace)};
 }
 PANACHE_EXPORT void panache_page_file_free(FileHandle* file) { delete file; }
-// `name` is that of the file, for its notes.
+// `name`: the file name, for the notes.
 PANACHE_EXPORT panache_bytes* panache_page_file_describe(FileHandle* file, const char* name) {
   nlohmann::json clips = nlohmann::json::array(), joints = nlohmann::json::array();
   const std::vector<std::string> names = (*file)->clip_names();
@@ -210,7 +210,7 @@ PANACHE_EXPORT panache_status panache_page_player_set_shape(Player* player,
   player->shape() = *read;
   return PANACHE_OK;
 }
-// `timing` as style_timing in panache.h.
+// `timing`: see style_timing in panache.h.
 PANACHE_EXPORT void panache_page_player_set_timing(Player* player, int32_t timing) {
   player->set_timing(static_cast<Timing>(timing));
 }
@@ -224,11 +224,11 @@ PANACHE_EXPORT void panache_page_player_measure(Player* player, int32_t count) {
   player->measure(count);
 }
 
-// Of the walker.
+// For the walker only.
 PANACHE_EXPORT void panache_page_player_steer(Player* player, float speed, float turn) {
   player->source().steer(speed, turn);
 }
-// Of a clip.
+// For clips only.
 PANACHE_EXPORT void panache_page_player_seek(Player* player, double seconds) {
   player->source().seek(seconds);
 }
@@ -253,8 +253,8 @@ PANACHE_EXPORT const float* panache_page_player_pose(Player* player, int32_t sty
 PANACHE_EXPORT const float* panache_page_player_parts(Player* player, int32_t styled) {
   return player->shown(styled != 0).parts.data();
 }
-// Counts of vertices and of corners of triangles, then where the arrays of BodyMesh lie in their
-// order there, the bind pose as positions and rotations. Good as long as the player.
+// Writes the numbers of vertices and of triangle indices, then the addresses of the arrays of
+// BodyMesh in order, the bind pose as positions and rotations. Valid as long as the player.
 PANACHE_EXPORT void panache_page_player_body(Player* player, int32_t coarse, uint32_t* out) {
   const BodyMesh& body = player->body(coarse ? BodyDetail::coarse : BodyDetail::fine);
   const auto address = [](const void* data) {
@@ -272,7 +272,7 @@ PANACHE_EXPORT void panache_page_player_body(Player* player, int32_t coarse, uin
                           address(body.triangles.data())};
   std::copy(std::begin(all), std::end(all), out);
 }
-// As Placement: x y z w, scale, floor.
+// Writes a Placement: x y z w, scale, floor.
 PANACHE_EXPORT void panache_page_player_placement(Player* player, float* out) {
   const web::Placement placement = player->placement();
   std::memcpy(out, &placement, sizeof placement);

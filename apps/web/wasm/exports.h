@@ -1,7 +1,7 @@
 #pragma once
-// What only the page needs beside panache.h, which the module exports whole: functions of numbers
-// and addresses, with the prefix panache_page_. Who creates a thing frees it. A function that fails
-// gives null, and panache_last_error() says why.
+// Functions for the page in addition to panache.h, which the module exports in full. They take
+// numbers and addresses and have the prefix panache_page_. The caller frees what it creates. On
+// failure they return null, and panache_last_error() says why.
 
 #include <cstddef>
 #include <cstdint>
@@ -24,13 +24,13 @@ namespace panache::web {
 using WalkerHandle = std::shared_ptr<const WalkerModel>;
 using FileHandle = std::shared_ptr<const MotionFile>;
 
-// Failure is reported as null.
+// Stores the error and returns null.
 inline std::nullptr_t fail(const Error& error) {
   api::fail(PANACHE_BAD_ARGUMENT, error);
   return nullptr;
 }
 
-// Names are those of files, and may be no UTF-8.
+// Names come from files and may not be valid UTF-8.
 inline panache_bytes* to_bytes(const nlohmann::json& json) {
   return new panache_bytes{json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
 }

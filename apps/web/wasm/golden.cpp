@@ -13,7 +13,7 @@ namespace {
 constexpr int kFrames = 300;
 constexpr float kFps = 60;
 
-// Arms hang, legs and arms swing, knees bend, the body bobs and goes ahead.
+// Arms hang, legs and arms swing, knees bend, the body bobs and moves forward.
 Clip march() {
   const Clip rest = rest_clip(canonical_skeleton());
   Clip clip;

@@ -1,5 +1,5 @@
 #pragma once
-// Three hundred styled frames as one number, to compare machines by.
+// Hashes three hundred styled frames, to compare results between machines.
 
 #include <cstdint>
 #include <memory>
@@ -8,9 +8,9 @@
 
 namespace panache::web {
 
-// A figure marches on the spot and forward, made of nothing but arithmetic that is the same
-// everywhere, and goes from the model's first style over all others to its last. The hash (FNV-1a)
-// is of the bits of all joints of the 300 frames that a Stylizer makes of it; 0 where it cannot.
+// The input is a figure that marches, generated with arithmetic that is the same on all machines.
+// It passes through all styles of the model, first to last. The result is the FNV-1a hash of the
+// bits of all joints in the 300 frames that a Stylizer outputs; 0 on failure.
 uint64_t golden_hash(std::shared_ptr<const Model> model);
 
 }  // namespace panache::web

@@ -1,5 +1,5 @@
-# The headers of others that the library takes from the system, in a folder of their own: the whole
-# of /usr/include would hide the headers that Emscripten brings.
+# Collects the library's third-party system headers in a separate folder: including all of
+# /usr/include would shadow Emscripten's headers.
 set(headers ${CMAKE_BINARY_DIR}/headers)
 foreach(name hwy fast_float nlohmann)
   find_path(${name}_parent ${name} PATHS /usr/include /usr/local/include NO_CMAKE_FIND_ROOT_PATH
@@ -9,7 +9,7 @@ foreach(name hwy fast_float nlohmann)
 endforeach()
 include_directories(SYSTEM ${headers})
 add_compile_options(-include ${CMAKE_CURRENT_LIST_DIR}/missing_std.h)
-# What find_package finds instead of the system's, which names /usr/include.
+# find_package gets these targets instead of the system's, which point to /usr/include.
 foreach(target FastFloat::fast_float nlohmann_json::nlohmann_json)
   string(REGEX REPLACE ":.*" "" package ${target})
   string(TOLOWER ${package} package)

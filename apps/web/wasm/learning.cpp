@@ -1,4 +1,4 @@
-// A style learnt in the page, and what the page shows of it.
+// Learns a style in the page, and writes the report that the page shows.
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 constexpr const char* kModel = "the model";
 constexpr int kShownPoses = 7;
 
-// Positions in the body frame, [21][3], to the millimetre.
+// Positions in the body frame, [21][3], rounded to the millimetre.
 Json positions(const Take& take, double seconds) {
   const auto frame = static_cast<size_t>(
       std::clamp(std::lround(seconds * kTakeRate), 0L, static_cast<long>(take.frames() - 1)));
@@ -29,7 +29,7 @@ Json positions(const Take& take, double seconds) {
   return out;
 }
 
-// What was laid together, and a few poses of both, evenly spread over the styled motion.
+// The time alignment, and a few pairs of poses, evenly spread over the styled motion.
 Json match_plot(const LearnPair& pair, const std::vector<MatchedInstant>& instants) {
   Json lines = Json::array(), poses = Json::array();
   for (const MatchedInstant& at : instants) {
@@ -70,11 +70,11 @@ Json report_of(const LearntStyle& learnt, const LearnPair& pair) {
           {"plot", match_plot(pair, report.instants)}};
 }
 
-// A motion of a file that is open.
+// A motion of an open file.
 struct Motion {
   const Clip& clip;
   Result<Rig> rig;
-  std::string name;  // Of the file, for messages.
+  std::string name;  // File name, for messages.
 };
 Motion motion_of(FileHandle* file, int which, const char* name) {
   const Clip& clip = (*file)->clip(which);
@@ -96,8 +96,8 @@ Result<LearnPair> pair_of(std::string_view bank, const Motion& styled) {
 
 }  // namespace
 
-// The bytes of a style file; those of the report come into *report. Without a neutral file the bank
-// of neutral motion in `bank` stands in for it.
+// Returns the bytes of a style file, and those of the report in *report. Without a neutral file,
+// uses the mean neutral motion in `bank`.
 PANACHE_EXPORT panache_bytes* panache_page_learn(const char* model, uint32_t model_size,
                                                  FileHandle* neutral, int32_t neutral_clip,
                                                  const char* neutral_name, const char* bank,

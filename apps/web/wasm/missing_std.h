@@ -1,6 +1,6 @@
 #pragma once
-// What the library uses of C++20 and the standard library of Debian's Emscripten (3.1.6) has not
-// got. Included in front of every file; empty with a newer Emscripten.
+// C++20 features that the library uses and Debian's Emscripten (3.1.6) lacks. Included before every
+// file; empty with a newer Emscripten.
 
 #include <algorithm>
 #include <iterator>

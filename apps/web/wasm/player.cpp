@@ -15,12 +15,12 @@
 namespace panache::web {
 namespace {
 
-constexpr double kLongestStep = 0.1;  // Seconds; a page that was hidden does not jump.
+constexpr double kLongestStep = 0.1;  // Seconds; avoids a jump after the page was hidden.
 constexpr double kRecordedSeconds = 20;
 constexpr double kRecordedFps = 60;
-constexpr const char* kName = "styled";  // Of a motion in a new file.
+constexpr const char* kName = "styled";  // Name of the motion in a new file.
 
-// Puts another stylizer or pass of the same model and rig in the place of one, with its memory.
+// Replaces a stylizer or pass by another of the same model and rig, and keeps its state.
 template <class Pass>
 void replace(Pass& one, Pass other) {
   std::vector<std::byte> state(one.state_size());
@@ -29,7 +29,7 @@ void replace(Pass& one, Pass other) {
   one.restore(state);
 }
 
-// As panache convert writes it: the body is as long in arms and legs as the rig.
+// Like `panache convert`: the body has the rig's arm and leg lengths.
 Result<std::string> vrma_of(const Clip& clip, const Rig& rig) {
   const Clip body = t_pose_body(clip, rig);
   const Result<Rig> onto = Rig::create(body);
@@ -39,8 +39,8 @@ Result<std::string> vrma_of(const Clip& clip, const Rig& rig) {
   return format_vrma(done->clip, kName);
 }
 
-// The bytes of a new file: BVH for ".bvh", for ".vrma" the motion on that format's own body, else
-// GLB with a body. Fails where the motion cannot be put on another body.
+// The bytes of a new file: BVH for ".bvh", the motion on the VRMA body for ".vrma", else GLB with a
+// body. Fails if the motion cannot be retargeted.
 Result<std::string> format_clip(const Clip& clip, const Source& source,
                                 const std::string& extension) {
   const Rig& rig = source.rig();
@@ -107,7 +107,7 @@ StylizerOptions Player::options() const {
 void Player::set_timing(Timing timing) {
   if (timing == timing_) return;
   timing_ = timing;
-  // The same models and rig as before, which suit each other.
+  // Cannot fail: the models and the rig are the same as before.
   replace(stylizer_, *Stylizer::create(model_, source_.rig(), options()));
   if (!removal_) return;
   replace(*removal_, *RemovalPass::create(remover_, source_.rig(), options()));
@@ -194,7 +194,7 @@ void Player::measure(int count) {
   for (int i = 0; i < count; ++i) {
     ConstPose in = input_.pose();
     if (removal_twin) in = removal_twin->step(in, kSeconds, kSeconds);
-    twin.step(in, strengths_now_, kSeconds, output_.pose());  // Which update() has read.
+    twin.step(in, strengths_now_, kSeconds, output_.pose());  // update() has already read it.
   }
 }
 

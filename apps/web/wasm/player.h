@@ -1,5 +1,5 @@
 #pragma once
-// What the page shows: a source of motion, the character that it moves, and both as mannequins.
+// What the page shows: a source of motion, the styled character, and both as mannequins.
 
 #include <array>
 #include <memory>
@@ -16,20 +16,21 @@
 
 namespace panache::web {
 
-// How the rig's file lies in the world: world = scale * rotate(to_y_up, point) - {0, floor, 0}.
+// Maps points of the rig's file to the world:
+// world = scale * rotate(to_y_up, point) - {0, floor, 0}.
 struct Placement {
   Quat to_y_up;
   float scale, floor;  // Metres per file unit; metres.
 };
 
-// Where a motion takes the tempo of its styles: nowhere, where the feet step, or everywhere. As
+// Where a motion takes the tempo of its styles: nowhere, where the feet step, or everywhere. See
 // style_timing in panache.h.
 enum class Timing { off = 0, steps = 1, all = 2 };
 
-// The input, or what is made of it, at the last step.
+// The input or the output of the last step.
 struct Shown {
   explicit Shown(const Source& source);
-  // Takes the pose that is shown for `seconds`.
+  // Updates the other members from the pose, which is shown for `seconds`.
   void update(double seconds);
   Pose pose() { return {rotations, translations}; }
 
@@ -38,84 +39,83 @@ struct Shown {
   // Per joint of the rig: rotation x y z w and translation, in the file's own units and axes.
   // [joints][7]
   std::vector<float> numbers;
-  // The same as the mannequin's parts. [21][7]
+  // The same pose as the mannequin's parts. [21][7]
   std::array<float, kMannequinNumbers> parts{};
   Mannequin mannequin;
-  std::optional<Recording> recording;  // Of the walker.
+  std::optional<Recording> recording;  // Only for the walker.
 };
 
 class Player {
  public:
   static Result<std::unique_ptr<Player>> create(std::shared_ptr<const Model> model, Source source);
 
-  // What is asked for from the next step on.
+  // Used from the next step on.
   std::vector<float>& strengths() { return strengths_; }  // [styles]
-  // Of a clip: the strength of a style over time instead, seconds after the first frame, rising.
-  // Without points it is the constant one again.
+  // For clips: sets keyframes for the strength of a style. Times are seconds after the first frame,
+  // ascending. Without points the constant strength applies again.
   void set_track(int style, std::vector<StrengthTrack::Point> points);
   Shape& shape() { return shape_; }
-  // From the next step on; the motion goes on. Timing::steps at first.
+  // Used from the next step on; the motion continues. Initially Timing::steps.
   void set_timing(Timing timing);
   Source& source() { return source_; }
   const Stylizer& stylizer() const { return stylizer_; }
   // Input seconds per output second.
   double rate() const { return rate_ * removal_rate_; }
-  // See StyleNetworks::gate(): the smaller one of what takes a style off and of what puts styles
-  // on.
+  // See StyleNetworks::gate(): the smaller gate of the remover and of the stylizer.
   float gate() const;
 
-  // A model that takes styles off; the motion goes on. Fails where it puts styles on, and where the
-  // rig does not suit.
+  // Sets the model that removes styles; the motion continues. Fails if the model adds styles or
+  // does not suit the rig.
   Result<void> use_remover(std::shared_ptr<const Model> remover);
-  // Its style that is taken off the input before others are put on; -1: none, as at first. Eased.
-  // Ignored without a remover, and for an index out of range.
+  // Sets the remover's style to remove from the input before others are added; -1: none, the
+  // default. Eased. Ignored without a remover, and if the index is out of range.
   void set_removed(int style);
 
-  // Goes on with another model: strengths are 0, without tracks. Fails where the rig does not suit.
+  // Switches to another model; clears strengths and tracks. Fails if it does not suit the rig.
   Result<void> use_model(std::shared_ptr<const Model> model);
 
   // See Stylizer::trigger().
   bool trigger(int style, int gesture) { return stylizer_.trigger(style, gesture); }
 
-  // Goes on by `seconds` (at most a tenth is taken at once) of the viewer's time.
+  // Advances by `seconds` of the viewer's time, at most a tenth per call.
   void step(double seconds);
-  // Steps a copy of the stylizer `count` times with the pose in force, to see how long that takes.
+  // Steps a copy of the stylizer `count` times with the current pose, to measure its speed.
   void measure(int count);
 
-  // Of the last step.
+  // The input or output of the last step.
   const Shown& shown(bool styled) const { return styled ? output_ : input_; }
-  // A body to the measure of the source, for both; made when it is first asked for.
+  // A body with the source's proportions, for input and output; built on first use.
   const BodyMesh& body(BodyDetail detail);
   Placement placement() const;
 
-  // The bytes of a file of this `extension` (".bvh", ".glb", ".vrma", or that of the file that the
-  // clip is from), with the whole clip restyled as is asked for now, or the last `seconds` of a
-  // walk, 20 at most. Not `styled`: of the input.
+  // The bytes of a file with this `extension` (".bvh", ".glb", ".vrma", or the clip's own): the
+  // whole clip with the current settings, or the last `seconds` of a walk, at most 20. Unless
+  // `styled`, exports the input.
   Result<std::string> export_as(const std::string& extension, const std::string& file_extension,
                                 bool styled, double seconds) const;
 
  private:
   Player(std::shared_ptr<const Model> model, Stylizer stylizer, Source source);
-  // Of the timing in force.
+  // For the current timing.
   StylizerOptions options() const;
-  // The strengths at this instant, in strengths_now_.
+  // Writes the strengths at this instant to strengths_now_.
   void read_strengths();
-  // All that is not 0, with the times of the file.
+  // All strengths that are not 0, with times of the file.
   std::vector<StrengthTrack> file_tracks() const;
 
   std::shared_ptr<const Model> model_;
   Source source_;
   Stylizer stylizer_;
   std::shared_ptr<const Model> remover_;
-  std::optional<RemovalPass> removal_;  // With a remover.
+  std::optional<RemovalPass> removal_;  // Set with a remover.
   int removed_ = -1;
   Shown input_, output_;
   std::optional<BodyMesh> body_, coarse_body_;
   std::vector<float> strengths_, strengths_now_;  // [styles]
-  std::vector<StrengthTrack> tracks_;             // [styles], most without points.
+  std::vector<StrengthTrack> tracks_;             // [styles], mostly empty.
   Shape shape_;
   Timing timing_ = Timing::steps;
-  double rate_ = 1, removal_rate_ = 1;  // Of both passes.
+  double rate_ = 1, removal_rate_ = 1;  // Rates of the two passes.
 };
 
 }  // namespace panache::web

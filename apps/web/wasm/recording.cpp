@@ -6,7 +6,7 @@ namespace panache::web {
 
 void Recording::add(ConstPose pose, double seconds) {
   const double now = times_.empty() ? 0 : times_.back() + seconds;
-  // What is too old goes when it is as much as what stays, so that each pose moves once or twice.
+  // Drop old poses only when they are as many as the rest, so each pose moves at most twice.
   if (!times_.empty() && now - times_.front() > 2 * keep_) {
     const auto old = std::lower_bound(times_.begin(), times_.end(), now - keep_) - times_.begin();
     const auto joints = static_cast<ptrdiff_t>(skeleton_.joints.size());

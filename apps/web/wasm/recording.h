@@ -1,5 +1,5 @@
 #pragma once
-// The last seconds of a live motion, to be written as a clip.
+// Records the last seconds of a live motion, to write them as a clip.
 
 #include <vector>
 
@@ -12,16 +12,16 @@ class Recording {
   // Keeps at least the last `seconds` of motion on `skeleton`.
   Recording(Skeleton skeleton, double seconds) : skeleton_(std::move(skeleton)), keep_(seconds) {}
 
-  // Adds the pose that is shown for the `seconds` after the one before it.
+  // Adds a pose, `seconds` after the last one.
   void add(ConstPose pose, double seconds);
-  // The last `seconds`, as far as they are kept, at `fps` frames a second; empty where nothing was
+  // The last `seconds`, as far as they are kept, at `fps` frames per second; empty if nothing was
   // added.
   Clip clip(double fps, double seconds) const;
 
  private:
   Skeleton skeleton_;
   double keep_;
-  std::vector<double> times_;  // Of each pose, rising.
+  std::vector<double> times_;  // Time of each pose, ascending.
   std::vector<Quat> rotations_;
   std::vector<Vec3> translations_;
 };

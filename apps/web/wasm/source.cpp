@@ -10,7 +10,7 @@ namespace panache::web {
 Source::Source(std::shared_ptr<const WalkerModel> model)
     : walker_(model),
       clip_(std::make_shared<Clip>(walk_clip(model, {.seconds = 2}))),
-      rig_(*Rig::create(*clip_)),  // The canonical skeleton is a humanoid.
+      rig_(*Rig::create(*clip_)),  // Cannot fail: the canonical skeleton is a humanoid.
       reference_(rest_clip(canonical_skeleton())) {}
 
 Result<Source> Source::create(std::shared_ptr<const MotionFile> file, int which) {

@@ -1,5 +1,5 @@
 #pragma once
-// Where the neutral motion comes from: the walker, steered, or a clip with a play head.
+// The source of the neutral motion: the steered walker, or a clip with a play head.
 
 #include <memory>
 #include <optional>
@@ -14,36 +14,34 @@ namespace panache::web {
 
 class Source {
  public:
-  // The walker, steered.
+  // The steered walker.
   explicit Source(std::shared_ptr<const WalkerModel> model);
-  // A motion of a file, which begins at its first frame that is no calibration pose. `which` is one
-  // of the file's motions (0 where it has none: its rest pose). Fails where the skeleton is no
-  // humanoid.
+  // A motion of a file, from the first frame after any reference pose. `which` is the index of the
+  // motion (0 is the rest pose if the file has no motion). Fails if the skeleton is not a humanoid.
   static Result<Source> create(std::shared_ptr<const MotionFile> file, int which);
 
-  // Goes on by `seconds` of the input's own time. Returns true where the motion was cut: what comes
-  // has nothing to do with what was.
+  // Advances by `seconds` of the input's time. Returns true if the motion was cut, so the next pose
+  // does not continue the last one.
   bool advance(double seconds, Pose out);
-  // How much of a flight that pose is part of, see FlightWatch::amount(), where what comes is
-  // known.
+  // FlightWatch::amount() for the last pose; set only if the motion ahead is known.
   std::optional<float> flight() const { return flight_; }
-  const Clip& clip() const { return *clip_; }  // Its skeleton, and for a file its motion.
+  const Clip& clip() const { return *clip_; }  // The skeleton, and for a file the motion.
   const Rig& rig() const { return rig_; }
-  // A pose in which nothing is twisted.
+  // A reference pose, without twist in any joint.
   ConstPose reference() const { return reference_.pose(0); }
   // Null for the walker.
   const MotionFile* file() const { return file_.get(); }
 
-  // Of the walker, as Walker::step takes them.
+  // For the walker; see Walker::step.
   void steer(float speed, float turn) { speed_ = speed, turn_ = turn; }
 
-  // Of a motion of a file. All times are 0 for the walker.
+  // For a motion of a file. All times are 0 for the walker.
   void set_loop(bool loop) { loop_ = loop; }
-  // To so many seconds after the first frame; the next advance() is a cut.
+  // Jumps to `seconds` after the first frame; the next advance() is a cut.
   void seek(double seconds);
   double seconds() const { return head_; }
-  double begin() const { return first_ * clip().frame_time; }  // Of the first frame, in the file.
-  int first_frame() const { return first_; }  // Of the file's frames; those before it do not play.
+  double begin() const { return first_ * clip().frame_time; }  // In the file.
+  int first_frame() const { return first_; }  // Index in the file; earlier frames do not play.
   int which() const { return which_; }
 
  private:
@@ -53,7 +51,7 @@ class Source {
   std::optional<Walker> walker_;
   std::shared_ptr<const MotionFile> file_;
   int which_ = 0;
-  std::shared_ptr<const Clip> clip_;  // Of the walker a short walk, by which the rig is known.
+  std::shared_ptr<const Clip> clip_;  // For the walker: a short walk, to set up the rig.
   Rig rig_;
   Clip reference_;  // One frame.
   float speed_ = 0, turn_ = 0;
