@@ -1,5 +1,5 @@
 include(${CMAKE_CURRENT_LIST_DIR}/PanacheTargets.cmake OPTIONAL RESULT_VARIABLE Panache_shared)
-# The static library leaves its kernels' dispatch to Highway.
+# The static library uses Highway to dispatch its kernels.
 if(Panache_shared)
   find_package(hwy QUIET)
 else()
@@ -9,7 +9,7 @@ endif()
 if(hwy_FOUND)
   include(${CMAKE_CURRENT_LIST_DIR}/PanacheStaticTargets.cmake OPTIONAL)
 endif()
-# Where only the static library is installed, it has both names.
+# If only the static library is installed, it gets both names.
 if(NOT TARGET Panache::panache)
   add_library(Panache::panache ALIAS Panache::panache_static)
 endif()

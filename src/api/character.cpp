@@ -74,7 +74,7 @@ void panache_character_step(panache_character* character, panache_input_pose in,
 void panache_step_many(panache_character* const* characters, int32_t count,
                        const panache_input_pose* in, double seconds,
                        const panache_output_pose* out) {
-  // As many at a time as have a place on the stack.
+  // As many at a time as fit on the stack.
   std::array<CrowdMember, 256> members;
   int32_t done = 0;
   while (done < count) {

@@ -51,7 +51,7 @@ Result<std::vector<StrengthTrack>> read_tracks(const panache_strength_track* fro
 }
 
 Result<RestyleOptions> read_options(const panache_stylize_options* options) {
-  // Programs of a header without loops get what they always got.
+  // Programs compiled with a header without loops get the old behaviour.
   panache_stylize_options initial = PANACHE_STYLIZE_OPTIONS;
   if (options) initial.loop = 0;
   const auto given =

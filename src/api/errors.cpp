@@ -5,8 +5,8 @@
 namespace panache::api {
 namespace {
 
-// Kept per thread: the message that was made last, and the one to show, which is that or a fixed
-// one that needs no memory.
+// Per thread: the message made last, and the one to show, which is either that or a fixed one that
+// needs no memory.
 thread_local std::string made_error;
 thread_local const char* last_error = "";
 thread_local panache_error_kind last_kind = PANACHE_ERROR_OTHER;
@@ -14,7 +14,7 @@ thread_local panache_error_kind last_kind = PANACHE_ERROR_OTHER;
 }  // namespace
 
 panache_status fail(panache_status status, const Error& error) {
-  made_error = to_utf8(error.message);  // Names and paths may be bytes of any kind.
+  made_error = to_utf8(error.message);  // Names and paths may contain any bytes.
   last_error = made_error.c_str();
   last_kind = static_cast<panache_error_kind>(error.kind);
   return status;

@@ -1,5 +1,5 @@
 #pragma once
-// A model as a file in memory, for what makes another file of it.
+// A model file in memory, for functions that make a changed file from it.
 
 #include <memory>
 #include <string>
@@ -16,9 +16,9 @@ struct ModelFile {
   TensorFile file;
   std::shared_ptr<const Model> model;
 
-  // Fails where the bytes are no model.
+  // Fails if the bytes are not a model.
   static Result<ModelFile> parse(const void* bytes, size_t size);
-  // Fails where a style of this name would be in the way.
+  // Fails if a style of this name exists and must not be replaced.
   Result<void> check_free(const std::string& style, bool replace) const;
 };
 

@@ -15,7 +15,7 @@ using namespace panache::api;
 
 namespace {
 
-// The motion at this place, the rest pose at -1, null where there is none.
+// The motion with this index, the rest pose for -1, null if there is none.
 const Clip* find_clip(const panache_motion_file& file, int32_t clip) {
   if (clip == -1) return &file.rest;
   return clip >= 0 && static_cast<size_t>(clip) < file.names.size() ? &file.file->clip(clip)
@@ -27,14 +27,14 @@ Error no_clip(const panache_motion_file& file, int32_t clip) {
           std::to_string(file.names.size())};
 }
 
-// A body at rest, with the rig that the motion tells.
+// A body at rest, with the rig inferred from the motion.
 Result<std::pair<Clip, Rig>> with_rig(const Clip& motion, const RigOptions& options) {
   Result<Rig> rig = Rig::create(motion, options);
   if (!rig) return rig.error();
   return std::pair{rest_clip(motion.skeleton), *std::move(rig)};
 }
 
-// An edit with the frames that it points to.
+// An edit and the frames that it points to.
 struct Edit {
   int clip;
   Clip frames;

@@ -40,8 +40,8 @@ struct panache_learnt {
 struct panache_motion_file {
   std::unique_ptr<panache::MotionFile> file;
   std::string path;
-  std::vector<std::string> names;  // Of its motions.
-  std::vector<char> moves;         // Likewise: whether it moves the humanoid.
+  std::vector<std::string> names;  // Names of its motions.
+  std::vector<char> moves;         // Whether each motion moves the humanoid.
   panache::Clip rest;
 };
 struct panache_samples {

@@ -1,5 +1,5 @@
 #pragma once
-// Options of the C interface as the library has them.
+// Converts options of the C interface to those of the library.
 
 #include <limits>
 
@@ -10,10 +10,10 @@
 
 namespace panache::api {
 
-// Units, axes and human joints of the options, checked; not their poses.
+// The checked units, axes and human joints of the options, without their poses.
 Result<RigOptions> read_rig_options(const panache_skeleton_options& options, int32_t joint_count);
 
-// Null: all of it at 1.
+// Null means 1 for every field.
 inline Result<Shape> read_shape(const panache_shape* given) {
   const auto read = read_struct<panache_shape>(given, PANACHE_SHAPE, "panache_shape");
   if (!read) return read.error();
@@ -30,7 +30,7 @@ inline Result<Shape> read_shape(const panache_shape* given) {
   return out;
 }
 
-// Metres per second, where 0 is no limit.
+// Metres per second; 0 means no limit.
 inline float read_max_speed(double given) {
   return given == 0 ? std::numeric_limits<float>::infinity() : static_cast<float>(given);
 }

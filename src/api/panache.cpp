@@ -1,4 +1,4 @@
-// The C interface: checks what comes in, and hands it on. Here is what has no object of its own.
+// The C interface: checks arguments and calls the library. Here: the functions without an object.
 #include "panache/panache.h"
 
 #include "api/objects.h"

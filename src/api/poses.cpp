@@ -15,7 +15,7 @@ constexpr float kUnit = 1e-6f;
 bool make_unit(Quat& q) {
   const float square = dot(q, q);
   if (!is_finite(q) || std::abs(square - 1) > 0.1f) return false;
-  // What is unit but for the last bits of its numbers, as files give it, keeps them.
+  // Rotations from files that are unit except for rounding keep their bits.
   if (std::abs(square - 1) > kUnit) q = normalized(q);
   return true;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Poses and clips of the C interface as the library has them.
+// Converts poses and clips of the C interface to those of the library.
 
 #include <string>
 
@@ -14,19 +14,19 @@ static_assert(sizeof(Quat) == 4 * sizeof(float) && sizeof(Vec3) == 3 * sizeof(fl
 inline Quat quat(const float* q) { return {q[0], q[1], q[2], q[3]}; }
 inline Vec3 vec(const float* v) { return {v[0], v[1], v[2]}; }
 
-// Makes a rotation that is nearly of unit length exactly so; to within a float's rounding it is
-// already. Returns false, and leaves it alone, where it is far from it.
+// Normalises a rotation of nearly unit length; one that is unit up to float rounding stays as it
+// is. Returns false, and changes nothing, if the length is far from 1.
 bool make_unit(Quat& q);
 
-// Whether rotations stay bit for bit as they were given, or are made exactly unit.
+// Whether rotations keep their bits or are normalised.
 enum class Rotations { as_given, unit };
 
-// Appends poses to a clip whose skeleton is known; rejects numbers that are not finite.
+// Appends poses to a clip with a known skeleton; rejects non-finite numbers.
 Result<void> read_frames(const float* rotations, const float* translations, int32_t count,
                          Rotations kept, Clip& clip);
-// `name` stands in front of the message of a failure.
+// Error messages start with `name`.
 Result<Clip> read_clip(const panache_clip& from, Rotations kept, const std::string& name);
-// The same of other joints than those of the clip's skeleton, which is not read.
+// The same with `joints` in place of the clip's own skeleton, which is ignored.
 Result<Clip> read_clip(const panache_clip& from, const Skeleton& joints, Rotations kept,
                        const std::string& name);
 

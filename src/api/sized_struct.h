@@ -11,10 +11,10 @@
 
 namespace panache::api {
 
-// No struct will ever be larger; what claims to be was never set.
+// No struct will ever be larger; a larger size was never initialised.
 inline constexpr uint32_t kMaxStructBytes = 4096;
 
-// Whether the struct's size is possible, and all of its bytes beyond the `known` ones are 0. `name`
+// Checks that the struct's size is possible and that all bytes after the `known` ones are 0. `name`
 // is its type.
 inline Result<void> check_struct(const void* given, size_t known, const std::string& name) {
   uint32_t size;
@@ -41,7 +41,7 @@ Result<T> read_struct(const T* given, const T& defaults, const std::string& name
   return out;
 }
 
-// Puts `from` into a struct of the caller's, as far as that goes.
+// Copies `from` into the caller's struct, as far as it fits.
 template <class T>
 Result<void> write_struct(T from, T* out, const std::string& name) {
   if (auto good = check_struct(out, sizeof(T), name); !good) return good.error();

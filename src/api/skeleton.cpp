@@ -37,7 +37,7 @@ Result<Skeleton> read_skeleton(const panache_joint* joints, int32_t count) {
   return out;
 }
 
-// The poses given, or the rest pose where there are none.
+// The given poses, or the rest pose if there are none.
 Result<Clip> read_poses(Skeleton skeleton, const panache_skeleton_options& options) {
   Clip clip{std::move(skeleton), 1.0 / 30, 0, {}, {}};
   const int32_t count = options.pose_count;

@@ -1,5 +1,5 @@
 #pragma once
-// Lists of numbers at fractional indices.
+// Interpolation in lists of numbers.
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 namespace panache {
 
-// The number at the index `at` of a list that is not empty, linear between its neighbours; before
-// the first and after the last it is that one.
+// The value at the fractional index `at` of a non-empty list, linearly interpolated; clamped to the
+// first and last value.
 inline double between(const std::vector<double>& list, double at) {
   const size_t a = std::min(static_cast<size_t>(std::max(at, 0.0)), list.size() - 1);
   const size_t b = std::min(a + 1, list.size() - 1);

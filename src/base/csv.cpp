@@ -7,7 +7,7 @@
 namespace panache {
 namespace {
 
-// Splits one line; `rest` is moved behind it. Quoted cells may hold commas and doubled quotes.
+// Splits the line at `at` and moves past it. Quoted cells may hold commas and doubled quotes.
 std::vector<std::string> take_row(const std::string& text, size_t& at) {
   std::vector<std::string> cells(1);
   bool quoted = false;
@@ -45,7 +45,7 @@ Result<CsvTable> read_csv(const std::string& path, const std::vector<std::string
   CsvTable table;
   const std::vector<std::string> header = take_row(*text, at);
   table.columns = columns.empty() ? header : columns;
-  std::vector<size_t> order;  // Of the cells; header.size() where a column is missing.
+  std::vector<size_t> order;  // Indices of the cells; header.size() for a missing column.
   for (const std::string& column : table.columns) {
     const auto found = std::find(header.begin(), header.end(), column);
     if (found == header.end()) {
@@ -60,7 +60,7 @@ Result<CsvTable> read_csv(const std::string& path, const std::vector<std::string
   }
   int line = 1;
   for (size_t counted = 0; at < text->size();) {
-    // A quoted cell may be of several lines.
+    // A quoted cell may span several lines.
     for (; counted < at; ++counted) line += (*text)[counted] == '\n';
     const std::vector<std::string> cells = take_row(*text, at);
     if (cells.size() == 1 && cells[0].empty()) continue;

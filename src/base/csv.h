@@ -17,9 +17,9 @@ struct CsvTable {
   std::vector<CsvRow> rows;
 };
 
-// Reads the table in the file at `path`. With `columns` given, rows hold just these, in this order,
-// and a missing one is an error; without, all columns of the file. `optional` columns follow them:
-// cells of one that the file lacks are empty. Cells may be quoted.
+// Reads the table in the file at `path`. If `columns` are given, rows hold just these, in this
+// order, and a missing one is an error; otherwise all columns of the file. `optional` columns
+// follow; if the file lacks one, its cells are empty. Cells may be quoted.
 Result<CsvTable> read_csv(const std::string& path, const std::vector<std::string>& columns = {},
                           const std::vector<std::string>& optional = {});
 

@@ -1,9 +1,9 @@
 #pragma once
-// Elementary functions of float that give the same bits on every machine and in the browser, which
-// those of a machine's own library do not. Inside they are sums of series in double, to about 1e-9;
-// rounding that to float leaves at most one unit in the last place.
+// Elementary functions of float that give the same bits on every machine and in the browser, unlike
+// those of the system library. They sum series in double, to about 1e-9; rounding to float leaves
+// an error of at most one unit in the last place.
 //
-// The functions of double are the machine's own: nothing whose bits are promised uses them.
+// The functions of double are the system's; nothing with guaranteed bits uses them.
 
 #include <bit>
 #include <cmath>
@@ -15,17 +15,17 @@ namespace elementary {
 inline constexpr double kHalfPi = 1.57079632679489661923;
 inline constexpr double kQuartersPerRadian = 0.63661977236758134308;
 inline constexpr double kLn2 = 0.69314718055994530942, kLog2E = 1.44269504088896340736;
-// 1.5 * 2^52: adding it rounds to a whole number, which is then found in the low bits of the sum.
+// 1.5 * 2^52: adding it rounds to an integer, which is then in the low bits of the sum.
 inline constexpr double kRound = 6755399441055744.0;
 
-// Taylor's series; |r| <= pi / 4 leaves out less than r^13 / 13! = 7e-12.
+// Taylor series; for |r| <= pi / 4 the error is below r^13 / 13! = 7e-12.
 inline double sine_near_zero(double r) {
   const double s = r * r;
   return r *
          (1 + s * (-1.0 / 6 + s * (1.0 / 120 + s * (-1.0 / 5040 +
                                                     s * (1.0 / 362880 + s * (-1.0 / 39916800))))));
 }
-// Leaves out less than r^14 / 14! = 4e-13.
+// The error is below r^14 / 14! = 4e-13.
 inline double cosine_near_zero(double r) {
   const double s = r * r;
   return 1 +
@@ -34,9 +34,9 @@ inline double cosine_near_zero(double r) {
                                                                         s * (1.0 / 479001600))))));
 }
 
-// The sine of `x` advanced by so many quarters of a turn.
+// The sine of `x` plus `quarters` quarter turns.
 inline float sine(double x, uint64_t quarters) {
-  // Beyond this a float's own steps are longer than a turn.
+  // Beyond this, neighbouring floats are more than a turn apart.
   if (!(std::abs(x) < 1e8)) return std::isfinite(x) ? 0.0f : std::nanf("");
   const double shifted = x * kQuartersPerRadian + kRound;
   const double r = x - (shifted - kRound) * kHalfPi;
@@ -45,7 +45,7 @@ inline float sine(double x, uint64_t quarters) {
   return static_cast<float>(quarter & 2 ? -part : part);
 }
 
-// The arc tangent of `t`, |t| <= sqrt(2) - 1: the series leaves out less than t^25 / 25 = 1e-11.
+// The arc tangent of `t`, |t| <= sqrt(2) - 1; the error of the series is below t^25 / 25 = 1e-11.
 inline double arc_tangent_near_zero(double t) {
   const double s = t * t;
   double sum = 0;
@@ -80,12 +80,12 @@ inline float arc_tangent(float y, float x) {
 // e to the power of `x`.
 inline float exponential(float x) {
   using namespace elementary;
-  // Beyond these a float is 0 or infinite.
+  // Outside this range a float is 0 or infinite.
   const double wide = x < -110.0f ? -110.0 : x > 90.0f ? 90.0 : static_cast<double>(x);
   if (std::isnan(wide)) return x;
   const double shifted = wide * kLog2E + kRound;
   const double r = wide - (shifted - kRound) * kLn2;
-  // Taylor's series; |r| <= ln(2) / 2 leaves out less than r^10 / 10! = 7e-12.
+  // Taylor series; for |r| <= ln(2) / 2 the error is below r^10 / 10! = 7e-12.
   constexpr double kInverse[] = {1.0,     1.0 / 2, 1.0 / 3, 1.0 / 4, 1.0 / 5,
                                  1.0 / 6, 1.0 / 7, 1.0 / 8, 1.0 / 9};
   double sum = 1;

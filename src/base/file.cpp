@@ -14,17 +14,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Names of what this process has open already: its standard input, and what a shell puts at
-// <(command).
+// Paths of files that this process has open already: its standard input, and what a shell passes
+// for <(command).
 bool is_open_already(const std::string& path) {
   return path == "/dev/stdin" || path.starts_with("/dev/fd/") || path.starts_with("/proc/self/fd/");
 }
 
-// Where the links of a path lead, also where there is no file yet: the system follows 40 of them.
+// Resolves symbolic links, even if there is no file yet; the system follows at most 40.
 fs::path without_links(fs::path path, std::error_code& status) {
   for (int i = 0; i < 40; ++i) {
     if (!fs::is_symlink(fs::symlink_status(path, status))) {
-      status.clear();  // Of a file that is not there.
+      status.clear();  // The file does not exist.
       return path;
     }
     path = path.parent_path() / fs::read_symlink(path, status);
@@ -40,11 +40,11 @@ Result<std::string> read_file(const std::string& path) {
   std::error_code status;
   const fs::file_status there = fs::status(path, status);
   if (fs::is_directory(there)) return Error{path + ": is a folder; expected a file"};
-  // Opening a named pipe waits until somebody writes to it, and devices may never end.
+  // Opening a named pipe waits for a writer, and devices may never end.
   if (fs::exists(there) && !fs::is_regular_file(there) && !is_open_already(path)) {
     return Error{path + ": is a device, pipe or socket; expected a regular file"};
   }
-  // Closes the file also where the memory for its bytes runs out.
+  // Closes the file even if memory for its bytes runs out.
   const auto close = [](std::FILE* open_file) { std::fclose(open_file); };
   const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
   if (!file) return Error{path + ": cannot be read: " + std::strerror(errno)};

@@ -1,5 +1,5 @@
 #pragma once
-// Whole numbers in binary files, their lowest byte first.
+// Little-endian integers in binary files.
 
 #include <cstdint>
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace panache {
 
-// The number that all of `bytes`, 8 at most, are.
+// The integer in `bytes`, at most 8 of them.
 inline uint64_t little_endian(std::string_view bytes) {
   uint64_t value = 0;
   for (size_t i = bytes.size(); i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[i]);

@@ -1,11 +1,11 @@
 #pragma once
-// Letters of names and extensions, whatever the user's language.
+// Lower case for names and extensions, independent of the locale.
 
 #include <string>
 
 namespace panache {
 
-// A to Z become a to z; all else stays.
+// A to Z become a to z; other characters stay.
 constexpr char lower_case(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }

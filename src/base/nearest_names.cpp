@@ -11,14 +11,14 @@
 namespace panache {
 namespace {
 
-// A name of any length may stand in a file; what is beyond this is not compared.
+// Names in files can have any length; letters beyond this are not compared.
 constexpr size_t kCompared = 64;
 
 std::string folded(std::string_view name) {
   return lower_case(std::string(name.substr(0, kCompared)));
 }
 
-// The fewest letters to add, drop, replace or exchange with their neighbours.
+// The minimum number of letters to add, drop, replace or swap with a neighbour.
 size_t edit_distance(std::string_view a, std::string_view b) {
   std::array<std::vector<size_t>, 3> rows;  // Two letters of `a` back, one back, and this one.
   rows.fill(std::vector<size_t>(b.size() + 1));

@@ -1,5 +1,5 @@
 #pragma once
-// Names in a message.
+// Lists of names in messages.
 
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-// Filters of first order.
+// First-order filters.
 
 #include <cmath>
 
@@ -7,12 +7,12 @@
 
 namespace panache {
 
-// Share of the way to its target that such a filter goes in `seconds`.
+// The fraction of the distance to its target that a filter covers in `seconds`.
 inline float filter_gain(float seconds, float time_constant) noexcept {
   return time_constant > 0 ? 1 - exponential(-seconds / time_constant) : 1.0f;
 }
 
-// Goes the share `gain` of the way to `target`, and all of it from `near` on.
+// Moves by the fraction `gain` towards `target`; within `near` of it, all the way.
 inline void approach(float& value, float target, float gain, float near) noexcept {
   value += gain * (target - value);
   if (std::abs(target - value) < near) value = target;

@@ -1,5 +1,5 @@
 #pragma once
-// The same work for many items, over all cores.
+// Parallel loops over many items.
 
 #include <algorithm>
 #include <atomic>
@@ -10,10 +10,10 @@
 
 namespace panache {
 
-// Calls work(i) for each i in [0, count) from as many threads as there are cores (or `threads`; 1
-// is the caller's own alone). Items are handed out in order. Where threads cannot be started, those
-// that could do the work, the caller's own at least. If work(i) throws, no further item begins, and
-// the caller gets the first exception. WebAssembly has no threads: the caller does it all.
+// Calls work(i) for each i in [0, count) on as many threads as there are cores, or on `threads`; 1
+// means the caller's thread only. Items start in order. If threads cannot be started, the remaining
+// ones do the work, at least the caller's. If work(i) throws, no further item starts and the caller
+// gets the first exception. WebAssembly has no threads: the caller does it all.
 inline void parallel_for(int count, const std::function<void(int)>& work, int threads = 0) {
 #if defined(__EMSCRIPTEN__) && !defined(__EMSCRIPTEN_PTHREADS__)
   static_cast<void>(threads);

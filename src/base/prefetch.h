@@ -1,5 +1,5 @@
 #pragma once
-// Asks the caches for memory that is needed soon.
+// Prefetches memory that is needed soon.
 
 #include <array>
 #include <cassert>
@@ -10,16 +10,15 @@ namespace panache {
 
 inline constexpr size_t kPrefetchLine = 64;  // Bytes.
 
-// For reading, at once.
+// Prefetches for reading, all at once.
 inline void prefetch(const void* first, size_t bytes) noexcept {
   for (size_t i = 0; i < bytes; i += kPrefetchLine) {
     __builtin_prefetch(static_cast<const char*>(first) + i);
   }
 }
 
-// Memory that is read and written some microseconds later. It is asked for a few lines at a time,
-// into the second-level cache: a processor waits for only some 16 lines at once, and further
-// requests would hold up the work in between.
+// Prefetches memory that is read and written some microseconds later, a few lines at a time, into
+// the L2 cache: a processor has only some 16 requests in flight, and more would stall other work.
 class Prefetch {
  public:
   void add(const void* first, size_t bytes) noexcept {
@@ -30,7 +29,7 @@ class Prefetch {
   void add(std::span<T> numbers) noexcept {
     add(numbers.data(), numbers.size_bytes());
   }
-  // Asks for so many lines more, as far as there are any.
+  // Prefetches up to `lines` more lines.
   void fetch(int lines) noexcept {
     for (; lines > 0 && now_ < count_; --lines) {
       const Range& range = ranges_[now_];

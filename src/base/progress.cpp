@@ -11,7 +11,7 @@ namespace {
 
 std::string clock_text(double seconds) {
   char text[32];
-  // A first guess may be longer than any whole number: a hundred hours are enough.
+  // A first estimate may not fit a long; a hundred hours are enough.
   const long whole = std::lround(std::min(seconds, 360'000.0));
   std::snprintf(text, sizeof text, "%ld:%02ld", whole / 60, whole % 60);
   return text;
@@ -43,7 +43,7 @@ void Progress::update(double share, const std::string& text) {
                  clock_text(left).c_str(), text.empty() ? "" : ", ", text.c_str());
     return;
   }
-  // Work of under a second needs no bar, and ten pictures a second are enough.
+  // Work of under a second needs no bar, and ten updates a second are enough.
   if (!any_ && (spent < 1 || share == 1)) return;
   if (any_ && share < 1 && now - drawn_ < std::chrono::milliseconds(100)) return;
   any_ = true;

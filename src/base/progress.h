@@ -1,6 +1,5 @@
 #pragma once
-// How far a long work has come: a bar on stderr, or, where that is no terminal, a line of a log now
-// and then.
+// The progress of long work: a bar on stderr, or occasional log lines if that is not a terminal.
 
 #include <chrono>
 #include <mutex>
@@ -11,14 +10,14 @@ namespace panache {
 class Progress {
  public:
   using Clock = std::chrono::steady_clock;
-  // `every`: the time between two lines of a log.
+  // `every`: the time between two log lines.
   explicit Progress(std::string title, Clock::duration every = std::chrono::seconds(30));
   ~Progress();  // Leaves the finished bar standing, on a line of its own.
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // Shows that `share` (0 to 1) of the work is done, with the time left and `text` behind it. May
-  // be called from any thread as often as one likes.
+  // Shows that `share` (0 to 1) of the work is done, with the remaining time and then `text`. Can
+  // be called from any thread, any number of times.
   void update(double share, const std::string& text = "");
 
  private:

@@ -42,7 +42,7 @@ template <class T>
 constexpr T dot(BasicQuat<T> a, BasicQuat<T> b) {
   return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
 }
-// `q` made unit; the identity where it has no length.
+// `q` normalised; the identity if its length is 0.
 template <class T>
 BasicQuat<T> normalized(BasicQuat<T> q) {
   const T n = std::sqrt(dot(q, q));
@@ -54,14 +54,14 @@ constexpr BasicVec3<T> rotate(BasicQuat<T> q, BasicVec3<T> v) {
   const BasicVec3<T> t = cross(q.xyz(), v) * T(2);
   return v + t * q.w + cross(q.xyz(), t);
 }
-// rotate(q, v) - v, which is exactly zero where q is the identity.
+// rotate(q, v) - v, which is exactly zero for the identity.
 template <class T>
 constexpr BasicVec3<T> rotate_offset(BasicQuat<T> q, BasicVec3<T> v) {
   const BasicVec3<T> t = cross(q.xyz(), v) * T(2);
   return t * q.w + cross(q.xyz(), t);
 }
-// The rotation that does in other axes what `q` does in its own: `axes` turns its axes to those.
-// The scalar part stays as it is, so that the identity stays the identity to the bit.
+// The rotation `q` expressed in other axes, to which `axes` turns its own. The scalar part does not
+// change, so the identity stays bit-exact.
 template <class T>
 constexpr BasicQuat<T> in_axes(BasicQuat<T> axes, BasicQuat<T> q) {
   const BasicVec3<T> v = rotate(axes, q.xyz());
@@ -97,7 +97,7 @@ BasicVec3<T> log_rotation(BasicQuat<T> q) {
 template <class T>
 BasicQuat<T> rotation_between(BasicVec3<T> from, BasicVec3<T> to) {
   const T w = 1 + dot(from, to);
-  if (w < T(1e-6)) {  // Opposite: half a turn about any axis at right angles.
+  if (w < T(1e-6)) {  // Opposite: half a turn about any perpendicular axis.
     const BasicVec3<T> other =
         std::abs(from.x) < T(0.7) ? BasicVec3<T>{1, 0, 0} : BasicVec3<T>{0, 1, 0};
     const BasicVec3<T> axis = normalized(cross(from, other));

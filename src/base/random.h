@@ -1,5 +1,5 @@
 #pragma once
-// Random numbers that are the same on every machine and can start anywhere: the state is a seed.
+// Random numbers that are the same on every machine. The state is the seed.
 
 #include <cmath>
 #include <cstdint>

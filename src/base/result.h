@@ -1,5 +1,5 @@
 #pragma once
-// Errors of a user's input, and their messages.
+// Errors in user input, and their messages.
 
 #include <cassert>
 #include <optional>
@@ -9,19 +9,19 @@
 
 namespace panache {
 
-// What kind of mistake an error is, where a caller can help with it or decides by it. The C
-// interface has the same, in the same order: panache_error_kind.
+// The kind of an error, for callers that react to it. The same as panache_error_kind of the C
+// interface, in the same order.
 enum class ErrorKind {
   other,
   file_exists,         // A file would be overwritten.
-  rate_needed,         // A file has no frame rate, or one that cannot be.
-  not_humanoid,        // A skeleton in which no person was found.
-  unknown_style,       // A model has many styles, but not this one; the message names the nearest.
+  rate_needed,         // A file has no frame rate, or an impossible one.
+  not_humanoid,        // A skeleton that is not recognised as a humanoid.
+  unknown_style,       // A model has styles, but not this one; the message names the nearest.
   no_styles,           // A model has no styles yet.
   style_exists,        // A model has a style of that name.
-  is_model,            // A model in the place of a style file.
-  is_style_file,       // A style file in the place of a model.
-  style_of_another,    // A style file that was made with another model.
+  is_model,            // A model instead of a style file.
+  is_style_file,       // A style file instead of a model.
+  style_of_another,    // A style file made with another model.
   not_safetensors,     // Neither a model nor a style file.
   model_cannot_learn,  // A model without the statistics that learning needs.
   other_skeletons,     // A pair of clips whose skeletons differ.
@@ -30,14 +30,14 @@ enum class ErrorKind {
   bad_style_name,      // A style name of a manifest that people cannot type.
 };
 
-// One message for a person: where, what was expected, what was found and, if there is one, the
-// cure. Nothing reads it but people.
+// A message for people only: where, what was expected, what was found and, if there is one, the
+// cure.
 struct Error {
   std::string message;
   ErrorKind kind = ErrorKind::other;
 };
 
-// The error with its place in front: "WHERE: MESSAGE", of the same kind.
+// The error with its location in front: "WHERE: MESSAGE", of the same kind.
 inline Error located(const std::string& where, Error error) {
   error.message.insert(0, where + ": ");
   return error;
@@ -68,7 +68,7 @@ class [[nodiscard]] Result {
   std::variant<T, Error> state_;
 };
 
-// Done, or the message that says why not.
+// Success, or an error.
 template <>
 class [[nodiscard]] Result<void> {
  public:

@@ -4,7 +4,7 @@
 
 namespace panache {
 
-// From 0 to 1 as `x` goes from 0 to 1, level at both ends; held beyond them.
+// Rises from 0 to 1 with `x`, with zero slope at both ends; constant beyond them.
 inline float smooth_step(float x) noexcept {
   x = std::clamp(x, 0.0f, 1.0f);
   return x * x * (3 - 2 * x);

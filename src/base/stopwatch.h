@@ -1,5 +1,5 @@
 #pragma once
-// How long something took.
+// Measures elapsed time.
 
 #include <chrono>
 
@@ -7,7 +7,7 @@ namespace panache {
 
 class Stopwatch {
  public:
-  // Since it was made.
+  // Since construction.
   double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// Text that files and file systems give as bytes of any kind.
+// Text from files and file systems, which may contain any bytes.
 
 #include <cstddef>
 #include <string>
@@ -9,11 +9,11 @@ namespace panache {
 
 inline constexpr std::string_view kReplacementCharacter = "\xef\xbf\xbd";  // U+FFFD
 
-// Bytes of the well-formed UTF-8 character that `text`, which is not empty, starts with, 1 to 4; 0
-// where it starts with none: over-long forms, surrogates, and what lies beyond U+10FFFF.
+// The length in bytes, 1 to 4, of the well-formed UTF-8 character at the start of `text`, which is
+// not empty; 0 if there is none: over-long forms, surrogates, and anything beyond U+10FFFF.
 size_t utf8_length(std::string_view text) noexcept;
 
-// `text` with each byte that is part of no well-formed character replaced by U+FFFD.
+// `text` with each byte outside well-formed characters replaced by U+FFFD.
 std::string to_utf8(std::string_view text);
 
 }  // namespace panache

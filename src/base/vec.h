@@ -45,7 +45,7 @@ template <class T>
 T length(BasicVec3<T> a) {
   return std::sqrt(dot(a, a));
 }
-// The direction of `a`, or `otherwise` where `a` is too short to have one.
+// `a` normalised, or `otherwise` if `a` is too short.
 template <class T>
 BasicVec3<T> normalized(BasicVec3<T> a, BasicVec3<T> otherwise = {}) {
   const T n = length(a);

@@ -7,7 +7,7 @@
 namespace panache {
 namespace {
 
-// U+FFFE and U+FFFF, which XML has not.
+// U+FFFE and U+FFFF, which XML does not allow.
 bool is_no_xml(std::string_view character) {
   return character == "\xef\xbf\xbe" || character == "\xef\xbf\xbf";
 }

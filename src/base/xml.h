@@ -1,13 +1,13 @@
 #pragma once
-// Text inside of XML and HTML.
+// Escapes text for XML and HTML.
 
 #include <string>
 #include <string_view>
 
 namespace panache {
 
-// `text`, UTF-8 of any content, fit to stand between tags and in double quotes: characters that
-// mean something are written as entities, what XML cannot hold is replaced by U+FFFD.
+// Any UTF-8 `text`, escaped for use between tags and in double quotes: special characters become
+// entities, and characters that XML does not allow become U+FFFD.
 std::string xml_escaped(std::string_view text);
 
 }  // namespace panache

@@ -22,7 +22,7 @@ constexpr int kMaxDepth = 1'000;
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
-// A number of a frame: what it moves.
+// What a number of a frame moves.
 struct Channel {
   bool rotates = false;
   int axis = 0;  // 0 x, 1 y, 2 z.
@@ -30,7 +30,7 @@ struct Channel {
 
 struct Bone {
   std::string name;
-  Vec3d tip;   // From its beginning to its end, file units.
+  Vec3d tip;   // From its start to its end, file units.
   Quatd axes;  // C.
   std::vector<Channel> channels;
   int parent = -1;
@@ -40,7 +40,7 @@ struct Bone {
 struct Acclaim {
   std::vector<Bone> bones;  // Parents before children.
   Vec3d root_place;
-  double per_degree = kDegree;  // Radians of an angle in the file; 1 where it has radians.
+  double per_degree = kDegree;  // Radians per angle unit of the file; 1 if it uses radians.
 };
 
 Quatd turn_about(int axis, double angle) {
@@ -54,18 +54,18 @@ class Words : public TextCursor {
  public:
   Words(std::string_view text, const std::string& name) : TextCursor(text, name) { next(); }
 
-  // To the next word, on whatever line it is.
+  // Moves to the next word, on this line or a later one.
   void next() {
     skip_space();
     while (!at_end() && word().starts_with('#')) skip_line();
   }
-  // Passes a word, and what is before the next one.
+  // Skips a word and everything before the next one.
   bool pass(std::string_view keyword) {
     if (!take(keyword)) return false;
     next();
     return true;
   }
-  // Whether the line goes on; words of a line are read with these two.
+  // Whether the line has more words; words of a line are read with these two.
   bool more_on_line() {
     skip_spaces();
     return !at_line_end();
@@ -91,7 +91,7 @@ class Words : public TextCursor {
   }
 };
 
-// "XYZ", as an order of axes.
+// Parses an order of axes such as "XYZ".
 bool read_order(const std::string& word, std::array<int, 3>& order) {
   if (word.size() != 3) return false;
   for (size_t i = 0; i < 3; ++i) {
@@ -172,7 +172,7 @@ class AsfReader {
     return {};
   }
 
-  // The word at the end of an "axis".
+  // The order at the end of an "axis" line.
   Result<void> read_axis_order(std::array<int, 3>& order) {
     words_.more_on_line();
     const std::string word(words_.word());
@@ -240,7 +240,7 @@ class AsfReader {
       } else if (words_.at_end() || words_.word().starts_with(':')) {
         done = words_.error("'end' of a bone");
       } else {
-        words_.skip_line();  // Of no meaning for the motion: id, limits, mass, ...
+        words_.skip_line();  // Irrelevant for the motion: id, limits, mass, ...
       }
       if (!done) return done;
       words_.next();
@@ -276,7 +276,7 @@ class AsfReader {
     return {};
   }
 
-  // Depth first from the root; bones that it does not lead to are in a circle or alone.
+  // Depth first from the root; bones that are not reached are in a cycle or disconnected.
   Result<Acclaim> order() {
     struct Visit {
       std::string name;
@@ -421,13 +421,13 @@ class AmcReader {
   Words words_;
   const Acclaim& file_;
   double per_degree_;
-  // Joints times frames. A frame may be a number alone, so the bytes do not bound them.
+  // Joints times frames. A frame may be a single number, so the bytes do not bound them.
   size_t max_poses_;
   std::map<std::string, size_t> places_;
   Clip clip_;
 };
 
-// The skeleton's file of an .amc.
+// The skeleton file of an .amc.
 Result<std::string> find_asf(const std::string& path) {
   const fs::path amc(path), folder = amc.parent_path();
   const std::string stem = amc.stem().string();
@@ -456,7 +456,7 @@ Result<Skeleton> parse_asf(const std::string& text, const std::string& name) {
   return skeleton_of(*file);
 }
 
-// As all formats of the table are read. NOLINTNEXTLINE(performance-unnecessary-value-param)
+// The table of formats requires this signature. NOLINTNEXTLINE(performance-unnecessary-value-param)
 Result<std::unique_ptr<MotionFile>> parse_amc(std::string text, const std::string& path,
                                               const ReadOptions& options) {
   Result<std::string> asf = find_asf(path);

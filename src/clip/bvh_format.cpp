@@ -32,7 +32,7 @@ class BvhFormatter {
     size_t depth;
   };
 
-  // A BVH file lists every joint right after its parent's branch before it; a skeleton need not.
+  // BVH files list joints depth first; a skeleton need not.
   static std::vector<Visit> depth_first(const Skeleton& skeleton) {
     const size_t count = skeleton.joints.size();
     std::vector<std::vector<size_t>> children(count + 1);  // The last holds the roots.
@@ -90,7 +90,7 @@ class BvhFormatter {
     }
   }
 
-  // A name must stay on its line and be no brace, or the file does not read back.
+  // A name must stay on its line and must not be a brace, or the file cannot be read back.
   void append_name(std::string_view name, size_t joint) {
     if (name.find_first_not_of(" \t") == std::string_view::npos) {
       out_ += "joint" + std::to_string(joint);

@@ -41,8 +41,8 @@ class BvhReader {
     return read_frames();
   }
 
-  // Finds what says the rate, without reading it: the rest of the line of "Frame Time:", or the
-  // place where that line is missing.
+  // Finds the frame time without parsing it: the rest of the line of "Frame Time:", or the position
+  // where that line is missing.
   struct RatePlace {
     size_t begin = 0, end = 0;
     bool has_label = false;
@@ -60,8 +60,8 @@ class BvhReader {
   }
 
  private:
-  // HIERARCHY and the joints, up to and with MOTION. No recursion: the depth is the file's to
-  // choose.
+  // HIERARCHY and the joints, up to and including MOTION. No recursion, because the file determines
+  // the depth.
   Result<void> read_hierarchy() {
     cursor_.skip_space();
     if (!cursor_.take("HIERARCHY")) return cursor_.error("'HIERARCHY'");
@@ -173,7 +173,7 @@ class BvhReader {
     return {};
   }
 
-  // One channel name, with its place in the numbers of a frame.
+  // One channel name, with its index in the numbers of a frame.
   Result<void> read_channel(const std::string& which, BvhChannels& channels) {
     const ChannelName* channel = find_channel();
     if (!channel) {
@@ -197,7 +197,7 @@ class BvhReader {
     return {};
   }
 
-  // The channel whose name stands here, if one does.
+  // The channel with the name at the cursor, if any.
   const ChannelName* find_channel() const {
     for (const ChannelName& channel : kChannelNames) {
       if (cursor_.is_at(channel.name)) return &channel;
@@ -241,8 +241,8 @@ class BvhReader {
     return error;
   }
 
-  // A joint without channels takes memory in every frame but no byte of the file, so the bytes
-  // alone do not bound the poses. This does, far above what any honest file needs.
+  // A joint without channels takes memory in every frame but no byte of the file, so the file size
+  // does not bound the poses. This does, far above what any honest file needs.
   uint64_t max_frames() const {
     const uint64_t poses = std::max<uint64_t>(1'000'000, 4 * document_.text.size());
     return std::min<uint64_t>(poses / joints().size(), std::numeric_limits<int>::max());
@@ -253,14 +253,14 @@ class BvhReader {
            plural(document_.text.size(), "byte");
   }
 
-  // The rows that can follow, if there are as many as announced. A number takes a byte at least,
-  // and a space or line end each but for the last.
+  // An upper bound of the rows that can follow if the count is right. A number takes at least a
+  // byte, and a space or line end, except for the last.
   uint64_t likely_frames() const {
     const uint64_t room = (cursor_.remaining() + 1) / (2 * document_.numbers);
     return std::min({announced_, room, max_frames()});
   }
 
-  // The table to the end of the file, as in Blender: the announced count may be any.
+  // The table up to the end of the file, as in Blender, whatever the announced count is.
   Result<void> read_frames() {
     std::vector<double> numbers(document_.numbers);
     document_.lines.reserve(likely_frames());
@@ -285,8 +285,8 @@ class BvhReader {
     return {};
   }
 
-  // Whether the row here is the last of the file, and what is there of it is the beginning of a
-  // row. If so, notes it.
+  // Whether this row is the last in the file and is cut, so that only the beginning is there. If
+  // so, notes it.
   bool is_cut_row() {
     TextCursor ahead = cursor_;
     int count = 0;
@@ -306,7 +306,7 @@ class BvhReader {
                               "; this row is left out");
     return true;
   }
-  // "-", "1.5e": the beginning of a number, and none itself.
+  // Whether the word is the beginning of a number but not a number: "-", "1.5e".
   static bool is_cut_number(std::string_view word) {
     return !word.empty() && std::string_view("+-.eE").find(word.back()) != std::string_view::npos &&
            word.find_first_not_of("+-.0123456789eE") == std::string_view::npos;
@@ -339,7 +339,7 @@ class BvhReader {
     return {};
   }
 
-  // "channel 3 of joint 'Hips'" for a place in the numbers of a frame.
+  // "channel 3 of joint 'Hips'" for an index in the numbers of a frame.
   std::string number_name(int number) const {
     size_t joint = 0;
     int first = 0;
@@ -381,7 +381,7 @@ class BvhReader {
   Clip& clip_;
   TextCursor cursor_;
   TextCursor before_count_;
-  uint64_t announced_ = 0;  // Frames that the file says it has.
+  uint64_t announced_ = 0;  // Frame count according to the file.
 };
 
 }  // namespace

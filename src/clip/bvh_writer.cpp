@@ -10,7 +10,7 @@
 namespace panache {
 namespace {
 
-// Writes frames in the manner of the file's own: its spaces, its line ends and, where nothing
+// Writes frames in the formatting of the file: its spaces, its line ends and, where nothing
 // changed, its digits.
 class BvhEncoder {
  public:
@@ -53,8 +53,8 @@ class BvhEncoder {
     return source_frame > 0 ? static_cast<int>(std::lround(std::min(source_frame, last))) : 0;
   }
 
-  // As many as the file uses. The first frame may be a rest pose of whole numbers, so a few are
-  // looked at; a float holds nothing beyond nine.
+  // As many as the file uses. The first frame may be a rest pose of whole numbers, so several
+  // frames are checked; a float needs no more than nine.
   int find_decimals() {
     int most = 4;
     for (int frame = 0; frame < std::min(document_.clip.frames, 16); ++frame) {
@@ -64,7 +64,7 @@ class BvhEncoder {
     return std::min(most, 9);
   }
 
-  // The words and numbers of a frame of the file, and where its line ends.
+  // Splits a line of the file into words and numbers, and finds its end.
   void split_line(int frame) {
     const size_t begin = document_.lines[frame];
     TextCursor cursor(std::string_view(document_.text).substr(begin), "");
@@ -72,7 +72,7 @@ class BvhEncoder {
       cursor.skip_spaces();
       const size_t word = cursor.offset();
       [[maybe_unused]] const bool number = cursor.take_number(source_[i]);
-      assert(number);  // It was read before.
+      assert(number);  // It was valid when it was read.
       words_[i] = std::string_view(document_.text).substr(begin + word, cursor.offset() - word);
     }
     cursor.skip_spaces();
@@ -92,7 +92,7 @@ class BvhEncoder {
     out += text.substr(document_.count_end, first_line - document_.count_end);
   }
 
-  // Decides the numbers of a frame: the file's, in source_, or new ones.
+  // Chooses the numbers of a frame: those of the file, in source_, or new ones.
   void choose_numbers(ConstPose pose, ConstPose source_pose, bool first) {
     if (first) {
       previous_source_ = source_;
@@ -119,9 +119,9 @@ class BvhEncoder {
     written_[i] = same ? source_[i] : value;
   }
 
-  // Angles for a new rotation. They are to follow the file's: they start near its numbers and from
-  // frame to frame do what these do, jumps of a whole turn included. So a wrap is where the file
-  // has one and nowhere else, even where the new rotation is half a turn from the old.
+  // Angles for a new rotation. They follow the file's: they start near its numbers and change from
+  // frame to frame as these do, jumps of a whole turn included. So they wrap where the file does
+  // and nowhere else, even if the new rotation is half a turn from the old.
   EulerAngles near_angles(const BvhChannels& channels, Quatd rotation) const {
     EulerAngles near = {0, 0, 0};
     for (int k = 0; k < channels.order.count; ++k) {
@@ -135,7 +135,7 @@ class BvhEncoder {
     size_t at = document_.lines[nearest];
     const char* const text = document_.text.data();
     for (size_t i = 0; i < numbers(); ++i) {
-      if (!changed_[i]) continue;  // Goes with the piece that ends at the next changed number.
+      if (!changed_[i]) continue;  // Copied with the piece that ends at the next changed number.
       const size_t word = words_[i].data() - text;
       out.append(text + at, word - at);
       append_fixed(out, written_[i], decimals_);
@@ -144,7 +144,7 @@ class BvhEncoder {
     out.append(text + at, line_end_ - at);
   }
 
-  // What parts this line from the next: the file's own line end, empty lines included.
+  // The separator from this line to the next: the file's own line end, empty lines included.
   void append_gap(std::string& out, int nearest) const {
     const std::string_view text = document_.text;
     if (nearest + 1 < document_.clip.frames) {
@@ -165,7 +165,7 @@ class BvhEncoder {
   std::vector<double> previous_source_;  // [numbers] of the source line of the frame before
   std::vector<double> written_;          // [numbers] of the frame before, then of this one
   std::vector<char> changed_;            // [numbers] 1 where written_ differs from the file's
-  size_t line_end_ = 0;                  // Of the line in hand, before its line end.
+  size_t line_end_ = 0;                  // End of the current line, before its line end.
   int decimals_ = 4;
 };
 

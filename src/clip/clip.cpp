@@ -53,18 +53,18 @@ void world_pose(const Skeleton& skeleton, ConstPose local, Pose world) noexcept 
       world.translations[j] = local.translations[j];
       continue;
     }
-    // Parents come before children, so the parent's place in `world` is already the world's.
+    // Parents come before children, so `world` already has the parent's position.
     const size_t p = static_cast<size_t>(parent);
     world.translations[j] =
         world.translations[p] + rotate(world.rotations[p], local.translations[j]);
-    // Rounding shortens or lengthens a product a little; over a deep chain that would add up.
+    // Rounding changes the length of a product a little; over a deep chain that would add up.
     world.rotations[j] = normalized(world.rotations[p] * local.rotations[j]);
   }
 }
 
 void mark_still_joints(Clip& clip) {
-  // Programs write the rest pose into every frame with floats that went through matrices. A tenth
-  // of a thousandth of a radian, or of the largest distance between two joints, is nothing to see.
+  // Programs write the rest pose into every frame, in floats that went through matrices. Less than
+  // 1e-4 radians, or 1e-4 of the largest distance between two joints, is invisible.
   constexpr float kRounding = 1e-4f;
   float size = 0;
   for (const Joint& joint : clip.skeleton.joints) size = std::max(size, length(joint.offset));
@@ -84,7 +84,7 @@ void sample(const Clip& clip, double frame, Pose out) {
   assert(clip.frames > 0);
   assert(out.rotations.size() == clip.joints() && out.translations.size() == clip.joints());
   const double last = clip.frames - 1;
-  const double place = frame > 0 ? std::min(frame, last) : 0.0;  // Not a number counts as 0.
+  const double place = frame > 0 ? std::min(frame, last) : 0.0;  // NaN counts as 0.
   const int before = static_cast<int>(place);
   const float t = static_cast<float>(place - before);
   const ConstPose a = clip.pose(before);
@@ -95,8 +95,8 @@ void sample(const Clip& clip, double frame, Pose out) {
   }
   const ConstPose b = clip.pose(std::min(before + 1, clip.frames - 1));
   for (size_t j = 0; j < clip.joints(); ++j) {
-    // a (1 - t) + a t is not always a: a joint that holds still must not tremble by a last bit, or
-    // it would lose the file's own numbers on the way out.
+    // a (1 - t) + a t is not always a: a joint that holds still must not change by a last bit, or
+    // it would lose the file's own numbers when written.
     out.rotations[j] = a.rotations[j] == b.rotations[j] ? a.rotations[j]
                                                         : nlerp(a.rotations[j], b.rotations[j], t);
     out.translations[j] = a.translations[j] == b.translations[j]

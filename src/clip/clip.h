@@ -1,5 +1,5 @@
 #pragma once
-// A skeleton and its motion, as a file gave them: in the file's own units and axes.
+// A skeleton and its motion, in the units and axes of the file.
 // The rig infers the up axis, the unit and the meaning of joints.
 
 #include <span>
@@ -19,11 +19,11 @@ struct Joint {
   bool can_rotate = false;     // The file animates its rotation.
   bool can_translate = false;  // The file animates its translation.
   std::vector<Vec3> ends;      // End Sites: points fixed to the joint, file units.
-  std::string role;            // The joint's role by the file itself ("leftHand"), or empty.
-  int skin = -1;          // Which of the file's skins has vertices that follow it; -1 for none.
-  float skin_weight = 0;  // Vertices of that skin that follow it, by weight.
-  // The file's animation leaves it at rest from beginning to end, as one of morph weights or props
-  // does; never in formats that hold nothing but the motion of joints.
+  std::string role;            // The joint's role according to the file ("leftHand"), or empty.
+  int skin = -1;          // The index of the file's skin with vertices that follow it; -1 for none.
+  float skin_weight = 0;  // Total weight of the vertices of that skin that follow it.
+  // The file's animation leaves it at rest throughout, as if it animated only morph weights or
+  // props; always false in formats that hold only the motion of joints.
   bool still = false;
 };
 
@@ -31,8 +31,8 @@ struct Skeleton {
   std::vector<Joint> joints;  // Parents before children.
 };
 
-// One instant: per joint, the transform relative to its parent. Views; the arrays are someone
-// else's.
+// One instant: the transform of each joint relative to its parent. A view: it does not own its
+// arrays.
 struct ConstPose {
   std::span<const Quat> rotations;     // [joints], unit
   std::span<const Vec3> translations;  // [joints], file units
@@ -64,18 +64,18 @@ struct Clip {
 // One frame of the skeleton at rest.
 Clip rest_clip(const Skeleton& skeleton);
 
-// Forward kinematics: world = the joints of `local` in the space of the roots' parent, file units.
-// Both have the skeleton's joints, and may be the same arrays. Allocates nothing.
+// Forward kinematics: `world` gets the joints of `local` in the space of the roots' parent, file
+// units. Both have the skeleton's joints, and may share arrays. Allocates nothing.
 void world_pose(const Skeleton& skeleton, ConstPose local, Pose world) noexcept;
 
-// Sets `still` of each joint that rests in all frames of `clip` but for rounding. Its skeleton says
-// where joints rest.
+// Sets `still` for each joint that stays at rest in all frames of `clip`, up to rounding. The rest
+// pose is that of its skeleton.
 void mark_still_joints(Clip& clip);
 
 // The pose at `frame` (fractional, clamped to the clip): rotations along the shorter arc,
-// translations straight. Whole frames come back bit for bit, and so does a joint that is the same
-// in the frames on both sides. The clip has a frame at least; `out` has the clip's joints.
-// Allocates nothing.
+// translations linear. Whole frames are returned bit for bit, and so are joints that are equal in
+// the frames on both sides. The clip has at least one frame; `out` has the clip's joints. Allocates
+// nothing.
 void sample(const Clip& clip, double frame, Pose out);
 
 }  // namespace panache

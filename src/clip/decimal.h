@@ -6,18 +6,18 @@
 
 namespace panache {
 
-// Numbers in files stay within this size: it holds the solar system in neither metres nor
-// millimetres, and no sum or square of such numbers overflows a float.
+// Largest magnitude of numbers in files: too small for the solar system in metres or millimetres,
+// and no sum or square of such numbers overflows a float.
 inline constexpr double kLargestNumber = 1e9;
 
-// Appends `value` with exactly `decimals` (0 to 9) digits after the point, never with an exponent
-// nor as a negative zero. Numbers are clamped to kLargestNumber, NaN is written as 0.
+// Appends `value` with exactly `decimals` (0 to 9) digits after the point, without an exponent and
+// never as negative zero. Numbers are clamped to kLargestNumber; NaN is written as 0.
 void append_fixed(std::string& out, double value, int decimals);
 
-// The same as a text of its own.
+// The same as a string.
 std::string with_decimals(double value, int decimals);
 
-// Digits after the point of `number`; 0 where it has an exponent, which says nothing about them.
+// Digits after the point of `number`; 0 if it has an exponent.
 int decimals_of(std::string_view number);
 
 }  // namespace panache

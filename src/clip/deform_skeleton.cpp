@@ -10,7 +10,7 @@
 namespace panache {
 namespace {
 
-// A clip of the file on the tree.
+// A clip of the file, on the joints of the tree.
 Clip on_tree(const Clip& clip, const DeformTree& tree) {
   Clip out;
   out.frame_time = clip.frame_time;
@@ -75,7 +75,7 @@ class JoinedFile final : public MotionFile {
   }
 
  private:
-  // An edited clip on the file's own skeleton.
+  // An edited clip, on the file's own skeleton.
   Clip in_file(const ClipEdit& edit) const {
     const bool is_new = edit.clip == kNewClip;
     const Clip& before = is_new ? own_rest_ : file_->clip(edit.clip);
@@ -96,8 +96,8 @@ class JoinedFile final : public MotionFile {
     return out;
   }
 
-  // `pose` comes as the frame of the file; joints from the first on that differs from
-  // `joined_before`, and all that are below it in the tree, are put where `joined` has them.
+  // `pose` is initially the file's frame. From the first joint that differs from `joined_before`
+  // down the tree, joints move to where `joined` has them.
   void write_frame(ConstPose joined, ConstPose joined_before, const Skeleton& skeleton,
                    Pose pose) const {
     const size_t count = tree_.joints.size();
@@ -135,12 +135,12 @@ class JoinedFile final : public MotionFile {
 }  // namespace
 
 std::unique_ptr<MotionFile> join_deforming_joints(std::unique_ptr<MotionFile> file) {
-  // A file that says which joint is which has them in a tree.
+  // A file that states the roles of its joints has them in one tree.
   const std::vector<Joint>& joints = file->clip(0).skeleton.joints;
   if (std::any_of(joints.begin(), joints.end(), [](auto& joint) { return !joint.role.empty(); })) {
     return file;
   }
-  // What moves together is seen in the first motion.
+  // The first motion shows what moves together.
   std::optional<DeformTree> tree = find_deform_tree(file->clip(0));
   if (!tree) return file;
   return std::make_unique<JoinedFile>(std::move(file), *std::move(tree));

@@ -11,13 +11,13 @@
 namespace panache {
 namespace {
 
-// As many joints as a person has at the least: what is smaller is a prop.
+// The minimum number of joints of a person; anything smaller is a prop.
 constexpr size_t kFewestJoints = 11;
-// No character has more, and no file shall take long.
+// No character has more; bounds the run time.
 constexpr size_t kMostJoints = 1000;
-// Share of the vertices that may hang beside its main tree: a prop, a hem.
+// Share of the vertices that may be outside the main tree: a prop, a hem.
 constexpr float kMostBeside = 0.25f;
-// Frames that are looked at for what moves together.
+// Frames that are compared to find what moves together.
 constexpr int kFramesLookedAt = 16;
 
 float to_segment(Vec3 point, Vec3 begin, Vec3 end) {
@@ -27,7 +27,7 @@ float to_segment(Vec3 point, Vec3 begin, Vec3 end) {
   return length(point - (begin + along * share));
 }
 
-// Left or right by the last letter or a word: .L, _R, Left.
+// 'l' or 'r' by the last letter or a word (.L, _R, Left), '-' for neither.
 char side_of(const std::string& name) {
   if (name.size() > 2 && (name[name.size() - 2] == '.' || name[name.size() - 2] == '_')) {
     const char last = name.back();
@@ -50,7 +50,7 @@ class TreeFinder {
   // clip: motion or rest of the file.
   explicit TreeFinder(const Clip& clip) : clip_(clip), joints_(clip.skeleton.joints) {}
 
-  // Nothing where the joints hang together as they are.
+  // Nothing if the joints are connected already.
   std::optional<DeformTree> find() {
     if (!pick_joints()) return std::nullopt;
     find_pieces();
@@ -65,8 +65,8 @@ class TreeFinder {
  private:
   size_t count() const { return joints_.size(); }
 
-  // Picks the joints with vertices, of the character (what hangs on one root) that has most of
-  // them.
+  // Picks the joints with vertices that belong to the character (the tree of one root) with the
+  // most of them.
   bool pick_joints() {
     std::vector<int> root(count());
     std::map<int, float> weights;  // By root.
@@ -86,11 +86,11 @@ class TreeFinder {
     return picked >= kFewestJoints && picked <= kMostJoints;
   }
 
-  // parent_ and piece_: the nearest picked joint above each, and the highest.
+  // parent_ and piece_: the nearest picked joint above each joint, and the topmost.
   void find_pieces() {
     parent_.assign(count(), -1);
     piece_.assign(count(), -1);
-    std::vector<int> nearest(count(), -1);  // Itself where picked.
+    std::vector<int> nearest(count(), -1);  // The joint itself if picked.
     for (size_t j = 0; j < count(); ++j) {
       const int up = joints_[j].parent;
       const int above = up < 0 ? -1 : nearest[up];
@@ -121,19 +121,19 @@ class TreeFinder {
     }
   }
 
-  // Picks what deforms nothing and carries several pieces: hips that are not in the skin's list, on
-  // which legs and spine hang. Unlike the root or a control of a rig, they are near to their
-  // pieces, which keep their places on them in motion. The lowest come first. A control rig has
-  // many such joints, each with a piece or two: it keeps none of them.
+  // Picks joints that deform nothing and carry several pieces: hips outside the skin's list, with
+  // legs and spine below. Unlike the root or a control of a rig, they are near their pieces, which
+  // keep their positions on them in motion. The lowest come first. A control rig has many such
+  // joints, each with a piece or two: none of them is picked.
   void pick_carriers() {
-    constexpr int kJointsOfCarrier = 3;  // At most one carrier to so many joints that deform.
+    constexpr int kJointsOfCarrier = 3;  // At most one carrier per this many deforming joints.
     const std::vector<char> deforming = picked_;
     const auto picked = [&] { return std::count(picked_.begin(), picked_.end(), 1); };
     const auto most = picked() + picked() / kJointsOfCarrier;
     const float size = body_size();
     for (size_t j = count(); j-- > 0;) {
       if (picked_[j]) continue;
-      std::vector<size_t> between;  // It, and what lies between it and its pieces.
+      std::vector<size_t> between;  // The carrier, and the joints between it and its pieces.
       int pieces = 0;
       for (size_t root = j + 1; root < count(); ++root) {
         if (!picked_[root] || parent_[root] >= 0) continue;
@@ -151,10 +151,10 @@ class TreeFinder {
     find_pieces();
   }
 
-  // Whether the root of a piece keeps its place on a joint above it in motion, near to it. `path`
-  // gets that joint and what lies between them.
+  // Whether the root of a piece keeps its position relative to a near joint above it in motion.
+  // `path` gets that joint and the joints between them.
   bool hangs_on(size_t root, size_t above, float size, std::vector<size_t>& path) const {
-    constexpr float kStays = 1e-3f, kNear = 0.25f;  // Of the body's size.
+    constexpr float kStays = 1e-3f, kNear = 0.25f;  // Relative to the body's size.
     for (size_t at = root; at != above;) {
       const int up = joints_[at].parent;
       if (up < 0 || static_cast<size_t>(up) < above) return false;
@@ -172,7 +172,7 @@ class TreeFinder {
     return length(first[root].position - first[above].position) <= kNear * size;
   }
 
-  // The longest way between two deforming joints along one axis.
+  // The largest extent of the deforming joints along one axis.
   float body_size() const {
     Vec3 low{INFINITY, INFINITY, INFINITY}, high = -low;
     for (size_t j = 0; j < count(); ++j) {
@@ -184,8 +184,8 @@ class TreeFinder {
     return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
   }
 
-  // How far the root of a piece is from following joint `above`, in the file's units: by how much
-  // its place varies as seen from there, and how far off the limb it is.
+  // How badly the root of a piece follows joint `above`, in the file's units: how much its position
+  // relative to that joint varies, and how far it is from the limb.
   float cost(size_t root, size_t above) const {
     Vec3 mean{};
     for (const auto& pose : poses_) mean = mean + seen_from(pose[above], pose[root].position);
@@ -204,14 +204,14 @@ class TreeFinder {
     constexpr float kDistance = 0.25f, kSameSide = 0.7f, kUnlikely = 3;
     const char side = side_of(joints_[root].name), other = side_of(joints_[above].name);
     const bool same = side != '-' && side == other, across = side != '-' && other != '-' && !same;
-    // A joint alone (a breast, half a pelvis, a lip) carries no others, but for a shoulder.
+    // A single joint (a breast, half a pelvis, a lip) carries no others, except for a shoulder.
     const bool alone = piece_[above] == static_cast<int>(above) && children_[above].empty();
     const bool carries = !alone || (same && is_shoulder(joints_[above].name));
     const float weight = !carries || across ? kUnlikely : same ? kSameSide : 1;
     return varies + kDistance * off * weight;
   }
 
-  // Grows the main piece by the one that follows it best, until all are in.
+  // Repeatedly adds to the main piece the one that follows it best, until all are in.
   void join_pieces() {
     children_.assign(count(), {});
     std::vector<size_t> roots;
@@ -257,7 +257,7 @@ class TreeFinder {
     return list;
   }
 
-  // The piece that most others follow better than any third: the spine.
+  // The piece that most others follow better than any third one: the spine.
   size_t find_main(const std::vector<size_t>& roots) const {
     std::map<int, size_t> followers;
     for (const size_t root : roots) {
@@ -275,7 +275,7 @@ class TreeFinder {
     });
   }
 
-  // Parents before children, and otherwise as in the file.
+  // Parents before children, otherwise in file order.
   DeformTree in_order() const {
     DeformTree tree;
     std::vector<int> place(count(), -1);
@@ -295,7 +295,7 @@ class TreeFinder {
 
   const Clip& clip_;
   const std::vector<Joint>& joints_;
-  std::vector<std::vector<Placed>> poses_;  // Of some frames.
+  std::vector<std::vector<Placed>> poses_;  // Of the compared frames.
   std::vector<char> picked_;                // [joints]
   std::vector<int> parent_, piece_;         // [joints]
   std::vector<std::vector<int>> children_;  // [joints] In the pieces.

@@ -1,5 +1,5 @@
 #pragma once
-// The tree of the joints that deform a mesh, where a file has them in pieces. Private to the
+// One tree of the joints that deform a mesh, for files that have them in pieces. Private to the
 // folder.
 
 #include <optional>
@@ -9,19 +9,19 @@
 
 namespace panache {
 
-// A place and a rotation in the space that the roots are in, file units.
+// A position and a rotation in the space of the roots, file units.
 struct Placed {
   Quat rotation;
   Vec3 position;
 };
 
-// What turns and stands so as seen from `parent`.
+// The position and rotation of a child of `parent` with this local transform.
 inline Placed below(const Placed& parent, Quat rotation, Vec3 translation) {
   return {normalized(parent.rotation * rotation),
           parent.position + rotate(parent.rotation, translation)};
 }
 
-// The place of `to` as seen from `from`.
+// The position `to` in the axes of `from`.
 inline Vec3 seen_from(const Placed& from, Vec3 to) {
   return rotate(conjugate(from.rotation), to - from.position);
 }
@@ -38,12 +38,12 @@ inline std::vector<Placed> place(const Skeleton& skeleton, ConstPose pose) {
 }
 
 struct DeformTree {
-  std::vector<int> joints;   // Of the file, parents first.
-  std::vector<int> parents;  // [joints]: place in `joints`, or -1.
+  std::vector<int> joints;   // Indices in the file, parents first.
+  std::vector<int> parents;  // [joints]: index in `joints`, or -1.
 };
 
-// clip: a motion of the file or its rest pose, one frame at least; what moves together is seen in
-// it. Nothing where the joints hang together as they are, or where they are no person's.
+// `clip`: a motion of the file or its rest pose, at least one frame; it shows what moves together.
+// Nothing if the joints are connected already, or do not belong to a person.
 std::optional<DeformTree> find_deform_tree(const Clip& clip);
 
 }  // namespace panache

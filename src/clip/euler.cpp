@@ -10,16 +10,16 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kDegrees = 180 / kPi;
 
-// Poses are floats: a unit quaternion off by a last bit, 6e-8, in each component is a rotation off
-// by 2.4e-7 radians. A choice within this much is free.
+// Poses are floats: an error of a last bit, 6e-8, in each component of a unit quaternion is a
+// rotation error of 2.4e-7 radians. Angles may be chosen freely within this bound.
 constexpr double kFreedom = 3e-7;
 
-// +1 where the axes are in the order x y z or a turn of it, -1 otherwise.
+// +1 if the axes are a cyclic permutation of x y z, -1 otherwise.
 double handedness(int a, int b) { return b == (a + 1) % 3 ? 1.0 : -1.0; }
 
 double component(Quatd q, int axis) { return axis == 0 ? q.x : axis == 1 ? q.y : q.z; }
 
-// `angle` plus the multiple of a turn that brings it nearest to `near`; radians.
+// `angle` plus the multiple of a full turn that brings it nearest to `near`; radians.
 double unwrap(double angle, double near) {
   return angle + 2 * kPi * std::round((near - angle) / (2 * kPi));
 }

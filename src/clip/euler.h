@@ -17,10 +17,10 @@ using EulerAngles = std::array<double, 3>;  // Degrees, in the order of the axes
 // The rotation by `angles`; the identity where the order has no axes.
 Quatd euler_to_quat(const EulerOrder& order, const EulerAngles& angles);
 
-// The angles that turn by `rotation`, as near as can be to `near` (degrees): of both solutions, and
-// of all multiples of 360, those with the smallest squares of differences. Where gimbal lock leaves
-// an angle undetermined it stays as in `near`. With fewer than three axes, the rotation about them
-// that comes closest. Unused angles are 0.
+// The angles of `rotation` nearest to `near` (degrees): of both solutions, and of all multiples of
+// 360, those with the smallest sum of squared differences. An angle that gimbal lock leaves
+// undetermined stays as in `near`. With fewer than three axes, the nearest rotation about them.
+// Unused angles are 0.
 EulerAngles quat_to_euler(const EulerOrder& order, Quatd rotation, const EulerAngles& near);
 
 }  // namespace panache

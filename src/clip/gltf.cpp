@@ -50,7 +50,7 @@ Result<GltfDocument> read_once(std::string bytes, const std::string& name,
   if (!read_gltf_container(std::move(bytes), name, checker, document.container)) {
     return checker.error();
   }
-  // Packed meshes alone stay as they are in what is written.
+  // Packed meshes alone stay packed in the output.
   std::optional<GltfContainer> plain;
   if (has_packed_data(document.container)) {
     const bool is_needed = has_packed_motion(document.container);
@@ -72,7 +72,7 @@ Result<GltfDocument> read_once(std::string bytes, const std::string& name,
   return document;
 }
 
-// Where times are not as they should be, the file is read again with such as are.
+// If keys need other times, rewrites them and reads the file again.
 Result<GltfDocument> read_document(std::string bytes, const std::string& name,
                                    const ReadOptions& options) {
   Result<GltfDocument> document = read_once(std::move(bytes), name, {});

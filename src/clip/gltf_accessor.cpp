@@ -20,7 +20,7 @@ enum ComponentType : uint64_t {
   kFloat = 5126,
 };
 
-// Bytes of a component; 0 where there is no such type.
+// Bytes of a component; 0 for an invalid type.
 size_t component_bytes(uint64_t type) {
   switch (type) {
     case kInt8:
@@ -47,7 +47,7 @@ float component(const char* bytes, uint64_t type, bool normalized) {
   if (type == kInt8) value = static_cast<int8_t>(bits);
   if (type == kInt16) value = static_cast<int16_t>(bits);
   if (normalized) value /= static_cast<double>(largest);
-  // Both of the two lowest signed numbers stand for -1.
+  // Both of the two lowest signed integers stand for -1.
   return static_cast<float>(normalized ? std::max(value, -1.0) : value);
 }
 
@@ -68,7 +68,7 @@ class AccessorReader {
     const GltfPart sparse = accessor_.object("sparse");
     if (!checker_.ok()) return false;
     if (view < 0 && out.count > bytes_of_file()) {
-      // Zeros, whose number nothing in the file bounds but its size.
+      // Zeros take no bytes; only the size of the file bounds their number.
       return fail("expected fewer zeros than the file has bytes, found " +
                   std::to_string(out.count));
     }
@@ -76,8 +76,8 @@ class AccessorReader {
     if (view >= 0 && !find_elements(accessor_, view, out.count, size_of(out), elements)) {
       return false;
     }
-    // A stride is at least a component here, and the elements lie within the buffer; that bounds
-    // the room taken.
+    // A stride is at least a component here, and the elements lie within the buffer, which bounds
+    // the allocation.
     out.numbers.assign(out.count * out.components, 0.0f);
     for (size_t i = 0; view >= 0 && i < out.count; ++i) put(elements.at(i), i, out);
     return (!sparse || read_sparse(sparse, out)) && check_numbers(out);
@@ -90,7 +90,7 @@ class AccessorReader {
     const char* at(size_t i) const { return first + i * stride; }
   };
 
-  // A message about this accessor, at the place where it is asked for.
+  // Reports an error in this accessor, at the path that refers to it.
   bool fail(const std::string& message) {
     return checker_.fail(asked_at_ + " (" + accessor_.path() + ")", message);
   }
@@ -131,8 +131,8 @@ class AccessorReader {
     }
   }
 
-  // The `count` elements of `size` bytes that `part` (an accessor or a part of a sparse one) places
-  // in a view.
+  // Finds the `count` elements of `size` bytes that `part` (an accessor or a part of a sparse one)
+  // locates in a view.
   bool find_elements(const GltfPart& part, int which, size_t count, size_t size, Elements& out) {
     const GltfPart view = root_.item("bufferViews", which);
     if (const char* name = gltf_packing(view)) {

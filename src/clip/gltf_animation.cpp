@@ -20,7 +20,7 @@ GltfPath path_named(const std::string& name) {
   return GltfPath::other;
 }
 
-// Numbers in a value of `path`; 0 for weights, which are as many as the mesh has targets.
+// Numbers in a value of `path`; 0 for weights, whose number is that of the mesh's targets.
 size_t components_of(GltfPath path) {
   return path == GltfPath::rotation ? 4 : path == GltfPath::weights ? 0 : 3;
 }
@@ -70,7 +70,7 @@ class ChannelReader {
     if (channel.node < 0) return channel;
     GltfNode& node = document_.nodes[channel.node];
     channel.path = path_named(moved);
-    // glTF has no animation of a node that a matrix places.
+    // glTF does not allow animation of a node that has a matrix.
     if (node.matrix && channel.path != GltfPath::weights) channel.path = GltfPath::other;
     const bool moves = channel.path != GltfPath::weights && channel.path != GltfPath::other;
     if (moves && !node.carrier) node.moves = true;
@@ -101,7 +101,7 @@ class ClipReader {
   }
 
  private:
-  // The keys of all channels that are ours to understand.
+  // Reads the keys of all channels that we support.
   bool read_tracks(size_t which) {
     const std::vector<GltfChannel>& channels = document_.animations[which].channels;
     tracks_.assign(channels.size(), {});
@@ -120,8 +120,8 @@ class ClipReader {
     return true;
   }
 
-  // The channel whose keys say when the frames are: the one with most of those that turn or move
-  // nodes. One or two equal keys only hold a pose.
+  // The channel whose keys determine the frames: the one that rotates or moves a node with the most
+  // keys. One or two equal keys only hold a pose.
   const GltfTrack* deciding_track(const GltfAnimation& animation) const {
     const GltfTrack* most = nullptr;
     for (size_t c = 0; c < tracks_.size(); ++c) {
@@ -171,13 +171,13 @@ class ClipReader {
                                     "expected positions between -1e9 and 1e9, found one outside");
   }
 
-  // -1 of a node that carries an expression or a gaze.
+  // -1 for a node that carries an expression or a gaze.
   int joint_of(const GltfChannel& channel) const { return document_.nodes[channel.node].joint; }
 
   GltfDocument& document_;
   GltfChecker& checker_;
   std::optional<double> fps_;
-  std::vector<GltfTrack> tracks_;  // [channels] of the animation in hand.
+  std::vector<GltfTrack> tracks_;  // [channels] of the current animation.
   size_t values_ = 0;
   double poses_ = 0;
 };

@@ -14,9 +14,9 @@ constexpr uint32_t kMagic = 0x46546c67;      // "glTF"
 constexpr uint32_t kJsonChunk = 0x4e4f534a;  // "JSON"
 constexpr uint32_t kBinChunk = 0x004e4942;   // "BIN\0"
 constexpr size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
-// Half of what the 32-bit lengths of a GLB can say, so that there is room for new motion.
+// Half of the maximum 32-bit length of a GLB, which leaves room for new motion.
 static_assert(kMaxFileBytes == uint64_t{1} << 31);
-// Of all other files together: a small file can point to the same large one again and again.
+// For all other files together: a small file can refer to the same large one many times.
 constexpr size_t kMaxFetchedBytes = size_t{1} << 30;
 
 uint32_t read_uint32(std::string_view bytes, size_t at) {
@@ -108,8 +108,8 @@ class ContainerReader {
                       (needed.empty() ? version : needed).substr(0, 20) + "'");
   }
 
-  // The bytes at the uri of `json`, which stands at `path`; one in another file becomes a data URI
-  // of `type`, or of what the bytes look like.
+  // Reads the bytes at the uri of `json`, whose path is `path`. A reference to another file becomes
+  // a data URI of `type`, or of the type that its bytes indicate.
   bool fetch(GltfJson& json, const std::string& path, const std::string& type, std::string& bytes) {
     std::string& uri = json["uri"].get_ref<std::string&>();
     const auto fail = [&](const std::string& message) {
@@ -183,8 +183,8 @@ class ContainerReader {
     for (size_t i = 0; i < list.size(); ++i) {
       const std::string uri = list[i].text("uri"), type = list[i].text("mimeType");
       if (!checker_.ok()) return false;
-      if (uri.empty() || is_data_uri(uri)) continue;  // A picture is not ours to look into.
-      // Motion does not need it, so one that is nowhere, or elsewhere, stays an address.
+      if (uri.empty() || is_data_uri(uri)) continue;  // Pictures are not examined.
+      // Motion does not need it, so a missing picture, or one elsewhere, stays a reference.
       const auto file = resolve_uri(uri, name_);
       std::error_code unknown;
       if (!file || !std::filesystem::is_regular_file(*file, unknown)) continue;
@@ -199,7 +199,7 @@ class ContainerReader {
   GltfContainer& out_;
   GltfPart root_;
   std::string_view bin_;
-  size_t fetched_ = 0;  // Bytes of other files.
+  size_t fetched_ = 0;  // Bytes read from other files.
 };
 
 }  // namespace
@@ -237,7 +237,7 @@ std::string write_gltf_container(const GltfContainer& container, GltfJson json,
   if (has_bin) bin = *container.buffers[0];
   if (!added.empty()) {
     const GltfPlace place = gltf_added_at(container);
-    // In a GLB the first buffer is the chunk; where there are others already, it cannot be first.
+    // In a GLB the first buffer is the chunk; a new chunk cannot come before existing buffers.
     if (container.binary && place.buffer == 0) {
       has_bin = true;
       bin.resize(place.offset);

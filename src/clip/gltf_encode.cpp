@@ -26,7 +26,7 @@ class AnimationWriter {
         changed_(*edit.changed),
         source_frames_(edit.source_frames),
         data_(data),
-        // What has no animation of the file behind it is a change of the rest pose.
+        // An edit without an animation of the file is a change of the rest pose.
         animation_(edit.clip == kNewClip || document.animations.empty()
                        ? nullptr
                        : &document.animations[edit.clip]),
@@ -44,7 +44,7 @@ class AnimationWriter {
     find_places();
   }
 
-  // The animation's JSON; no channels in it where the file has no animation and nothing moves.
+  // The animation's JSON; without channels if the file has no animation and nothing moves.
   GltfJson write() {
     GltfJson result = GltfJson::object();
     if (animation_) {
@@ -65,8 +65,8 @@ class AnimationWriter {
   }
 
  private:
-  // The file's poses at the times that the new frames came from, what every frame is in the file,
-  // and what of it the file does not have.
+  // Computes the file's poses at the source times of the new frames, the new frames in the file's
+  // terms, and which of their positions differ from the file's.
   void find_places() {
     source_.skeleton = in_file_.skeleton = clip_.skeleton;
     source_.resize(changed_.frames);
@@ -104,18 +104,18 @@ class AnimationWriter {
     GltfChecker checker("");
     GltfTrack track;
     [[maybe_unused]] const bool read = read_gltf_track(document_, place(), channel, checker, track);
-    assert(read);  // It was read before.
+    assert(read);  // It was valid when it was read.
     return track;
   }
 
-  // In the file, of the frame that the new one came from.
+  // The time in the file of the frame that the new one came from.
   double source_seconds(int frame) const {
     const double source = source_frames_[frame], last = clip_.frames - 1;
     return seconds(source > 0 ? std::min(source, last) : 0.0);
   }
 
-  // Whether the joint of a channel is at `frame` what it was in the file; scale, weights and nodes
-  // that are no joints (-1) are nobody's to change.
+  // Whether the joint of a channel is unchanged at `frame`; scale, weights and nodes that are not
+  // joints (-1) always are.
   bool is_same(int frame, int joint, GltfPath path) const {
     if (joint < 0) return true;
     if (path == GltfPath::translation) return !moved_[frame * clip_.joints() + joint];
@@ -144,8 +144,8 @@ class AnimationWriter {
     GltfJson json = animation["channels"][which];
     const GltfJson& sampler = animation["samplers"][channel.sampler];
     if (channel.path == GltfPath::other) return keep(std::move(json), channel, sampler);
-    // A node whose mesh has weights need not be a joint, and one that carries an expression is
-    // none.
+    // A node whose mesh has weights need not be a joint, and one that carries an expression never
+    // is.
     const int joint = document_.nodes[channel.node].joint;
     const bool same = is_same(joint, channel.path);
     if (same && keeps_time_) return keep(std::move(json), channel, sampler);
@@ -158,7 +158,7 @@ class AnimationWriter {
     channels_.push_back(std::move(json));
   }
 
-  // The channel with the file's own sampler, which other channels may share.
+  // Keeps a channel with the file's own sampler, which other channels may share.
   void keep(GltfJson channel, const GltfChannel& read, const GltfJson& sampler) {
     int& kept = kept_samplers_[read.sampler];
     if (kept < 0) {
@@ -178,7 +178,7 @@ class AnimationWriter {
         {{"sampler", sampler}, {"target", {{"node", node}, {"path", path_name(path)}}}});
   }
 
-  // A sampler with a key per frame, in other things like `like`; its index in the animation.
+  // Adds a sampler with a key per frame, otherwise like `like`; returns its index in the animation.
   size_t add_sampler(GltfJson like, const GltfTrack& track, int joint, GltfPath path, bool same) {
     const std::vector<float> numbers = new_numbers(track, joint, path);
     const bool vectors = path == GltfPath::translation || path == GltfPath::scale;
@@ -194,7 +194,7 @@ class AnimationWriter {
     return samplers_.size() - 1;
   }
 
-  // A value per frame: where nothing changed the file's own at that time, and so a key's own bits.
+  // A value per frame: the file's own at that time if nothing changed, so on a key its exact bits.
   std::vector<float> new_numbers(const GltfTrack& track, int joint, GltfPath path) const {
     const size_t n = track.components;
     std::vector<float> numbers(changed_.frames * n);
@@ -209,7 +209,7 @@ class AnimationWriter {
         out[0] = v.x, out[1] = v.y, out[2] = v.z;
       } else {
         Quat q = in_file.rotations[joint];
-        // Of the two quaternions of a rotation the one on the side of the frame before.
+        // Of the two quaternions of a rotation, the one nearer to the previous frame's.
         const float* p = out.data() - 4;
         if (i > 0 && dot(q, Quat{p[0], p[1], p[2], p[3]}) < 0) q = {-q.x, -q.y, -q.z, -q.w};
         out[0] = q.x, out[1] = q.y, out[2] = q.z, out[3] = q.w;
@@ -231,18 +231,18 @@ class AnimationWriter {
   std::span<const double> source_frames_;
   GltfDataWriter data_;
   const GltfAnimation* animation_;  // Of the file; null for a new clip.
-  const Clip& clip_;                // As it was read.
+  const Clip& clip_;                // The clip as read.
   double frame_time_;
   std::vector<double> at_rest_;  // [frames] of a new clip, 0.
   double start_ = 0;
   bool keeps_time_ = false;
   Clip source_;                     // What the file has at the times of the new frames.
-  Clip in_file_;                    // The new frames in the terms of the file.
-  std::vector<char> moved_;         // [frames][joints] 1 where the file has another place.
-  std::vector<int> kept_samplers_;  // [samplers of the file] where each went; -1 for nowhere yet.
+  Clip in_file_;                    // The new frames in the file's terms.
+  std::vector<char> moved_;         // [frames][joints] 1 if the position differs from the file's.
+  std::vector<int> kept_samplers_;  // [samplers of the file] new index of each; -1 for none yet.
   GltfJson channels_ = GltfJson::array();
   GltfJson samplers_ = GltfJson::array();
-  int times_ = -1;  // Accessor of the frames' times; -1 where none was needed yet.
+  int times_ = -1;  // Accessor of the frames' times; -1 if not needed yet.
 };
 
 }  // namespace
@@ -278,7 +278,7 @@ size_t GltfDataWriter::add_times(double start, double frame_time, int frames) {
   std::vector<float> times;
   for (int f = 0; f < frames; ++f) {
     float time = static_cast<float>(start + f * frame_time);
-    // Far from zero, floats are further apart than frames; times have to increase all the same.
+    // Far from zero, floats are further apart than frames; times must increase nevertheless.
     if (f > 0) time = std::max(time, std::nextafter(times.back(), HUGE_VALF));
     times.push_back(time);
   }
@@ -302,7 +302,7 @@ std::string encode_gltf(const GltfDocument& document, std::span<const ClipEdit> 
   for (const ClipEdit& edit : edits) {
     const GltfDataWriter data(gltf_added_at(document.container), json, added);
     GltfJson animation = AnimationWriter(document, edit, data).write();
-    if (animation["channels"].empty()) continue;  // glTF has no animation that moves nothing.
+    if (animation["channels"].empty()) continue;  // glTF requires at least one channel.
     if (mode == EditMode::replace && edit.clip != kNewClip && !document.animations.empty()) {
       json["animations"][edit.clip] = std::move(animation);
       continue;

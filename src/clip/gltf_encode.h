@@ -14,19 +14,19 @@ namespace panache {
 std::string encode_gltf(const GltfDocument& document, std::span<const ClipEdit> edits,
                         EditMode mode);
 
-// New numbers at the end of a file's binary data, and their accessors in its JSON. All numbers of
-// one writer share a buffer view.
+// Appends new numbers to a file's binary data, and their accessors to its JSON. All numbers of one
+// writer share a buffer view.
 class GltfDataWriter {
  public:
-  // Appends to `bytes`, which begin at `place` of the file; both outlive the writer.
+  // Appends to `bytes`, which begin at `place` in the file; both outlive the writer.
   GltfDataWriter(GltfPlace place, GltfJson& json, std::string& bytes)
       : place_(place), json_(json), bytes_(bytes) {}
 
-  // An accessor of floats of `type` ("SCALAR", "VEC3", ...), its index in the file; with their
-  // bounds where `bounds`.
+  // Adds an accessor of floats of `type` ("SCALAR", "VEC3", ...), with min and max if `bounds`;
+  // returns its index in the file.
   size_t add(std::span<const float> numbers, std::string_view type, size_t components,
              bool bounds = false);
-  // The accessor of the times of frames, seconds.
+  // Adds the accessor of the times of frames, seconds.
   size_t add_times(double start, double frame_time, int frames);
 
  private:

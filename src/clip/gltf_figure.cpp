@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kUnsignedByte = 5121, kUnsignedShort = 5123;
 constexpr int kVertexData = 34962, kTriangleData = 34963;
-// Where an octahedron is widest, and how wide it is there, in lengths of its stick.
+// Position and half width of an octahedron's widest point, relative to the length of its stick.
 constexpr double kWaist = 0.2, kHalfWidth = 0.08;
 
 void append(std::vector<float>& numbers, Vec3d v) {
@@ -18,8 +18,8 @@ void append(std::vector<float>& numbers, Vec3d v) {
   numbers.insert(numbers.end(), {f.x, f.y, f.z});
 }
 
-// In the place of the list's last element; its index. New members move the others: no reference to
-// one outlives an addition.
+// Appends to a list and returns the index. New members move the others: references to them do not
+// survive an addition.
 size_t push(GltfJson& json, const char* list, GltfJson element) {
   json[list].push_back(std::move(element));
   return json[list].size() - 1;
@@ -53,7 +53,7 @@ class FigureWriter {
   }
 
   void add_body(const SkinnedBody& body) {
-    // The joints of the mesh come first, so that vertices name them as in the body.
+    // The joints of the mesh come first, so that vertices can keep the body's indices.
     std::vector<size_t> order;
     std::vector<char> bound(joints_.size());
     std::vector<Affine> inverse_binds(joints_.size()), binds(joints_.size());
@@ -98,9 +98,9 @@ class FigureWriter {
  private:
   GltfDataWriter writer() { return {place_, json_, bytes_}; }
 
-  // A skin with `order` of the joints and their inverse bind matrices; its index.
+  // Adds a skin with the joints in `order` and their inverse bind matrices; returns its index.
   size_t add_skin(std::span<const size_t> order, std::span<const Affine> inverse_binds) {
-    std::vector<float> matrices;  // [joints][16], columns one after the other.
+    std::vector<float> matrices;  // [joints][16], column-major.
     GltfJson joints = GltfJson::array();
     for (const size_t j : order) {
       append_matrix(matrices, inverse_binds[j]);
@@ -122,12 +122,12 @@ class FigureWriter {
     const size_t index = push(json_, "meshes", std::move(mesh));
     const size_t node =
         push(json_, "nodes", {{"name", name_ + " " + what}, {"mesh", index}, {"skin", skin}});
-    // A skinned mesh stands where its joints are, whatever is above its node.
+    // A skinned mesh follows its joints, whatever is above its node.
     const size_t scene = json_.value("scene", size_t{0});
     json_["scenes"][scene]["nodes"].push_back(node);
   }
 
-  // With the bounds that a file has to say.
+  // With the bounds that the format requires.
   size_t add_positions(const std::vector<float>& positions) {
     const size_t index = add_vertex_data(positions, "VEC3", 3);
     GltfJson& accessor = json_["accessors"][index];
@@ -164,7 +164,7 @@ class FigureWriter {
   void add_stick(size_t joint, Vec3d tip) {
     const Vec3d base = joints_[joint].world.place, along = tip - base;
     const double size = length(along);
-    // Shorter than a tenth of a millimetre there is nothing to see, and no direction.
+    // A stick shorter than a tenth of a millimetre is invisible and has no direction.
     if (!(size > 1e-4)) return;
     const Quatd turn = rotation_between(Vec3d{0, 1, 0}, along / size);
     const auto corner = [&](double x, double z) {
@@ -177,7 +177,7 @@ class FigureWriter {
     }
   }
 
-  // Counterclockwise as seen from outside.
+  // Counterclockwise seen from outside.
   void add_triangle(size_t joint, Vec3d a, Vec3d b, Vec3d c) {
     const Vec3d normal = normalized(cross(b - a, c - a), {0, 1, 0});
     for (const Vec3d corner : {a, b, c}) {
@@ -202,7 +202,7 @@ class FigureWriter {
     return add_accessor(begin, kUnsignedShort, joint_numbers_.size(), "VEC4", kVertexData);
   }
 
-  // An accessor of all bytes from `begin` on, with a view of its own.
+  // Adds an accessor of all bytes from `begin` on, with its own view.
   size_t add_accessor(size_t begin, int component, size_t count, const char* type, int target) {
     const size_t view = push(json_, "bufferViews",
                              {{"buffer", place_.buffer},

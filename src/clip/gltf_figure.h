@@ -15,7 +15,7 @@
 
 namespace panache {
 
-// An affine map of space: what the matrix of a node or an inverse bind matrix does.
+// An affine map: the matrix of a node, or an inverse bind matrix.
 struct Affine {
   std::array<Vec3d, 3> columns = {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
   Vec3d place = {};  // Where the origin goes.
@@ -27,14 +27,14 @@ struct Affine {
   }
 };
 
-// Turns and then moves.
+// Rotates, then translates.
 inline Affine affine(Quatd rotation, Vec3d place, Vec3d scale = {1, 1, 1}) {
   return {{rotate(rotation, Vec3d{scale.x, 0, 0}), rotate(rotation, Vec3d{0, scale.y, 0}),
            rotate(rotation, Vec3d{0, 0, scale.z})},
           place};
 }
 
-// The identity where `m` has no inverse.
+// Returns the identity if `m` has no inverse.
 inline Affine inverse(const Affine& m) {
   const auto& [x, y, z] = m.columns;
   const double determinant = dot(cross(x, y), z);
@@ -51,37 +51,37 @@ inline Affine inverse(const Affine& m) {
 // A node that becomes a joint of the skin.
 struct FigureJoint {
   size_t node;           // In the file.
-  int parent = -1;       // Place in the list, an earlier one.
-  int clip_joint = -1;   // In the clips; -1 for an end, which no clip has.
+  int parent = -1;       // Index in the list, smaller than the joint's own.
+  int clip_joint = -1;   // In the clips; -1 for an end, which clips do not have.
   Affine local = {};     // The node's own matrix at rest.
-  Affine world = {};     // With those of the nodes above it; metres.
-  Affine stretch = {};   // From the node's own axes and units to those of the joint in the clips.
-  bool wanders = false;  // It leaves its place, so that a stick to it stays behind.
+  Affine world = {};     // With the nodes above; metres.
+  Affine stretch = {};   // From the node's axes and units to those of the joint in the clips.
+  bool wanders = false;  // It leaves its position, so that a stick to it would not follow.
 };
 
 // Adds a skin with all `joints`, a mesh on it, and a node in the scene that shows the mesh, to
-// `json`; their data goes to the end of `bytes`, which begin at `place` of the file. The mesh is
-// `body`, with binds on joints of the list; the other joints keep their place on their parents. Or,
-// where that is null, an octahedron from every joint to each of its children, where they rest.
-// `name`: what the node is called, before the kind of figure.
+// `json`; their data is appended to `bytes`, which begin at `place` in the file. The mesh is
+// `body`, whose binds are on joints of the list; the other joints keep their positions on their
+// parents. If it is null, the mesh is an octahedron from every joint to each of its children at
+// rest. `name`: the node's name, before the kind of figure.
 void add_figure(GltfPlace place, GltfJson& json, std::string& bytes,
                 std::span<const FigureJoint> joints, const std::string& name,
                 const SkinnedBody* body);
 
-// The 16 numbers of a matrix at the end of `numbers`, columns one after the other.
+// Appends the 16 numbers of a matrix to `numbers`, column-major.
 void append_matrix(std::vector<float>& numbers, const Affine& matrix);
 
-// Whether a stick to the joint would stay behind in `clip`: it moves further from its offset than
-// half of that.
+// Whether a stick to the joint would not follow it in `clip`: it moves away from its offset by more
+// than half of that.
 bool wanders(const Clip& clip, size_t joint);
 
-// Whether the file has no skin, and no mesh hangs on what moves in it: programs show nothing of it
+// Whether the file has no skin, and no mesh is attached to what moves: programs show nothing of it
 // and build no armature.
 bool lacks_figure(const GltfDocument& document);
-// Such a file with a skin over its whole skeleton, fingers, face and ends included, and a figure:
-// `body`, whose binds are on joints of the document's clips, or sticks where that is null.
+// Such a file with a skin over its whole skeleton, including fingers, face and ends, and a figure:
+// `body`, whose binds are on joints of the document's clips, or sticks if it is null.
 std::string with_figure(const GltfDocument& document, const SkinnedBody* body);
-// A file with one skin, and in that also the joints of the skeleton that no vertex follows.
+// A file with one skin, which gets the joints of the skeleton that no vertex follows, too.
 std::string with_whole_skin(const GltfDocument& document);
 
 }  // namespace panache

@@ -23,7 +23,7 @@ class GlbFormatter {
     return end();
   }
 
-  // As a VRM animation: without a figure, but with a humanoid.
+  // Makes a VRM animation: without a figure, but with a humanoid.
   std::string format_vrma() {
     begin();
     add_humanoid();
@@ -49,7 +49,7 @@ class GlbFormatter {
     return write_gltf_container(container, std::move(json_), bytes_);
   }
 
-  // The node above all, the joints, then the End Sites.
+  // Adds the top node, the joints, then the End Sites.
   void add_nodes() {
     const Skeleton& skeleton = clip_.skeleton;
     GltfJson above = {{"name", name_}, {"children", GltfJson::array()}};
@@ -88,7 +88,7 @@ class GlbFormatter {
 
   size_t node_above(size_t joint) const { return clip_.skeleton.joints[joint].parent + 1; }
 
-  // The joints and the End Sites as the skin has them.
+  // The joints and the End Sites, for the skin.
   std::vector<FigureJoint> figure_joints() const {
     const Affine above = affine(turn_, {}, {scale_, scale_, scale_});
     std::vector<FigureJoint> out;
@@ -154,7 +154,7 @@ class GlbFormatter {
     Quat before;
     for (int f = 0; f < clip_.frames; ++f) {
       Quat q = clip_.pose(f).rotations[joint];
-      // Of the two quaternions of a rotation the one on the side of the frame before.
+      // Of the two quaternions of a rotation, the one nearer to the previous frame's.
       if (f > 0 && dot(q, before) < 0) q = {-q.x, -q.y, -q.z, -q.w};
       numbers.insert(numbers.end(), {q.x, q.y, q.z, q.w});
       before = q;

@@ -7,13 +7,13 @@
 namespace panache {
 namespace {
 
-// Whole numbers up to here are exact as doubles, which is how some writers put them.
+// Integers up to this are exact as doubles, which some writers use.
 constexpr double kLargestCount = 9007199254740992.0;
 
-// Whether `text` nests deeper or has larger objects than we read. Strings are passed over; whether
-// the text is JSON at all is the parser's to say.
+// Whether `text` nests deeper, or has larger objects, than we accept. Strings are skipped; whether
+// the text is valid JSON is left to the parser.
 bool is_excessive(std::string_view text) {
-  std::vector<int> members;  // Per open bracket, the colons in it.
+  std::vector<int> members;  // Colons per open bracket.
   bool in_string = false;
   for (size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
@@ -46,7 +46,7 @@ bool to_count(const GltfJson& value, uint64_t& out) {
   return true;
 }
 
-// A value for a message, short.
+// A short form of a value, for messages.
 std::string shown(const GltfJson& value) {
   if (value.is_object()) return "an object";
   if (value.is_array()) return "a list of " + std::to_string(value.size());

@@ -1,6 +1,6 @@
 #pragma once
-// The JSON of a glTF file, taken apart with every type and index checked. For the readers in this
-// folder and for the program's.
+// The JSON of a glTF file, with every type and index checked on reading. For the readers in this
+// folder and in the program.
 
 #include <cstdint>
 #include <span>
@@ -15,27 +15,27 @@
 
 namespace panache {
 
-// Members keep their order, so that a file comes back as its author wrote it.
+// Members keep their order, so that a file is written as its author wrote it.
 using GltfJson = nlohmann::ordered_json;
 
-// Limits of a file's JSON, so that no file can exhaust the stack or the patience of those
-// who write it back: writing recurses, and finding a member takes as long as there are members.
+// Limits that keep a file's JSON from exhausting the stack or taking too long to write: writing
+// recurses, and finding a member takes linear time.
 inline constexpr size_t kGltfMaxJsonDepth = 200;
-inline constexpr int kGltfMaxJsonMembers = 1'000;  // Of one object.
+inline constexpr int kGltfMaxJsonMembers = 1'000;  // In one object.
 
-// Remembers the first thing that is wrong with a file.
+// Remembers the first error in a file.
 class GltfChecker {
  public:
-  // `name` stands in front of the message.
+  // Messages start with `name`.
   explicit GltfChecker(std::string name) : name_(std::move(name)) {}
 
-  // Keeps "NAME: PATH: SENTENCE" if it is the first failure; an empty path is left out. Returns
+  // Keeps "NAME: PATH: MESSAGE" if it is the first failure; an empty path is omitted. Returns
   // false.
   bool fail(const std::string& path, const std::string& message);
   bool ok() const { return message_.empty(); }
   Error error() const { return Error{message_}; }
 
-  // The whole text, which `out` then holds; an object.
+  // Parses the whole text into `out`; it must be an object.
   bool parse(std::string_view text, GltfJson& out);
 
  private:
@@ -43,11 +43,11 @@ class GltfChecker {
   std::string message_;
 };
 
-// A value of the JSON and its path ("animations[1].channels[0]"), or the lack of one. A member that
-// is absent reads as nothing; so does one of the wrong kind, which the checker remembers.
+// A value of the JSON and its path ("animations[1].channels[0]"), or nothing. A missing member
+// reads as nothing; so does one of the wrong kind, which the checker remembers.
 class GltfPart {
  public:
-  // The whole of a file. Both outlive the part, and those that are made from it.
+  // The root of a file. Both outlive the part and those that are made from it.
   GltfPart(const GltfJson& json, GltfChecker& checker) : GltfPart(&json, checker, "") {}
 
   explicit operator bool() const { return json_ != nullptr; }
@@ -56,22 +56,22 @@ class GltfPart {
   bool fail(const std::string& message) const { return checker_->fail(path_, message); }
   bool ok() const { return checker_->ok(); }
 
-  // Of any kind.
+  // A member of any type.
   GltfPart member(const std::string& key) const;
   GltfPart object(const std::string& key) const;
-  // All members, and their names; paths have the beginning of a long name.
+  // All members with their names; long names are shortened in paths.
   std::vector<std::pair<std::string, GltfPart>> members() const;
   std::vector<GltfPart> list(const std::string& key) const;
   size_t size(const std::string& key) const;                  // Of a list.
-  GltfPart item(const std::string& key, size_t index) const;  // Of a list that has it.
+  GltfPart item(const std::string& key, size_t index) const;  // In a list that has it.
   std::string text(const std::string& key, const std::string& otherwise = "") const;
   bool flag(const std::string& key) const;
-  // A whole number from 0 on.
+  // A non-negative integer.
   uint64_t count(const std::string& key, uint64_t otherwise = 0) const;
-  // The place in a list of `size` things that a member, or the value itself, is; -1 for none.
+  // The index in a list of `size` things that a member, or the value itself, holds; -1 for none.
   int index(const std::string& key, size_t size) const;
   int as_index(size_t size) const;
-  // Exactly out.size() numbers within kLargestNumber; `out` stays where there is no such member.
+  // Exactly out.size() numbers within kLargestNumber; a missing member leaves `out` unchanged.
   void numbers(const std::string& key, std::span<double> out) const;
 
  private:
@@ -79,7 +79,7 @@ class GltfPart {
       : json_(json), checker_(&checker), path_(std::move(path)) {}
   GltfPart member(const std::string& key, bool (GltfJson::*is)() const noexcept,
                   const std::string& kind) const;
-  // Remembers that something else was expected here; nothing.
+  // Remembers that something else was expected here; returns nothing.
   GltfPart wrong(const std::string& expected) const;
 
   const GltfJson* json_;
@@ -87,7 +87,7 @@ class GltfPart {
   std::string path_;
 };
 
-// "PATH.KEY", or the key alone where the path is empty.
+// "PATH.KEY", or just the key if the path is empty.
 std::string member_path(const std::string& path, const std::string& key);
 // "PATH[INDEX]".
 std::string item_path(const std::string& path, size_t index);

@@ -13,8 +13,8 @@ namespace {
 Quat quat_of(const std::array<double, 4>& v) { return Quatd{v[0], v[1], v[2], v[3]}.as<float>(); }
 Vec3 vec_of(const std::array<double, 3>& v) { return Vec3d{v[0], v[1], v[2]}.as<float>(); }
 
-// VRM 0.x counts the joints of a thumb from the hand's first phalanx on, VRM 1.0 from the bone in
-// the palm; all other names are the same.
+// VRM 0.x counts the joints of a thumb from the hand's first phalanx, VRM 1.0 from the bone in the
+// palm; all other names are the same.
 std::string role_of_vrm0(const std::string& name) {
   for (const char* side : {"left", "right"}) {
     const std::string thumb = std::string(side) + "Thumb";
@@ -92,7 +92,7 @@ class NodeReader {
     node.own = split_scale(node.scale);
   }
 
-  // Columns one after the other.
+  // Column-major.
   static void place_by_matrix(const std::array<double, 16>& m, GltfNode& node) {
     const auto column = [&](size_t c) { return Vec3d{m[4 * c], m[4 * c + 1], m[4 * c + 2]}; };
     const SplitMatrix split = split_matrix({column(0), column(1), column(2)});
@@ -114,7 +114,7 @@ class NodeReader {
 
   void set_role(const GltfPart& bone, const std::string& role) {
     const GltfPart member = bone.member("node");
-    // VRM 0.x writes -1 for a joint that the body has not.
+    // VRM 0.x writes -1 for a joint that the body lacks.
     if (member && member.json() == -1) return;
     const int node = bone.index("node", nodes_.size());
     if (node < 0) return;
@@ -122,7 +122,7 @@ class NodeReader {
     nodes_[node].moves = true;
   }
 
-  // VRM 1.0, and the animations for it, which name their own nodes in the same way.
+  // VRM 1.0, and its animations, which name their own nodes in the same way.
   void read_vrm1(const char* name) {
     const GltfPart bones = extension(name).object("humanoid").object("humanBones");
     for (const auto& [role, bone] : bones.members()) set_role(bone, role);
@@ -134,8 +134,8 @@ class NodeReader {
     }
   }
 
-  // The nodes of a VRM animation whose places and rotations are weights of expressions and the
-  // gaze: extensions.VRMC_vrm_animation.expressions.{preset,custom}.NAME.node and .lookAt.node.
+  // The nodes of a VRM animation whose translations and rotations are weights of expressions and
+  // the gaze: extensions.VRMC_vrm_animation.expressions.{preset,custom}.NAME.node and .lookAt.node.
   void read_carriers() {
     const GltfPart animation = extension("VRMC_vrm_animation");
     const GltfPart expressions = animation.object("expressions");
@@ -149,7 +149,7 @@ class NodeReader {
 
   void read_carrier(const GltfPart& carrier) {
     const int node = carrier.index("node", nodes_.size());
-    // What is a joint as well stays one.
+    // A node that is also a joint stays a joint.
     if (node >= 0 && !nodes_[node].moves) nodes_[node].carrier = true;
   }
 
@@ -176,7 +176,7 @@ class SkeletonBuilder {
   }
 
  private:
-  // Stops where it has been: also in a circle of nodes, which order() finds.
+  // Stops at visited nodes, so also in a cycle of nodes, which order() finds.
   void mark_above(const GltfNode& node) {
     if (!node.moves) return;
     for (int up = node.parent; up >= 0 && !nodes_[up].moves;) {
@@ -185,8 +185,8 @@ class SkeletonBuilder {
     }
   }
 
-  // Depth first, children in the file's order; without recursion, the depth is the file's to
-  // choose. Nodes that no root leads to form circles.
+  // Depth first, children in the file's order; without recursion, because the file determines the
+  // depth. Nodes that no root leads to form cycles.
   bool order() {
     struct Visit {
       int node;
@@ -229,7 +229,7 @@ class SkeletonBuilder {
     Stretch above;
     bool below_skin = false;
     if (node.parent >= 0) {
-      // The parent of what moves is a joint too, and an earlier one.
+      // The parent of a moving node is also a joint, and an earlier one.
       const GltfNode& parent = nodes_[node.parent];
       const int p = joint.parent = parent.joint;
       if (!parent.own.stretch.can_undo()) {
@@ -265,20 +265,20 @@ class SkeletonBuilder {
   GltfDocument& document_;
   std::vector<GltfNode>& nodes_;
   GltfChecker& checker_;
-  std::vector<Stretch> above_;    // [joints] what the nodes above do to its place, at rest.
-  std::vector<char> below_skin_;  // [joints] 1 where a node above is in a skin.
+  std::vector<Stretch> above_;    // [joints] effect of the nodes above on its position, at rest.
+  std::vector<char> below_skin_;  // [joints] 1 if a node above is in a skin.
 };
 
 }  // namespace
 
 Quat clip_rotation(Quat in_file, Quat scale_turn) {
   const Quatd exact = in_file.as<double>();
-  // A unit quaternion that was rounded to floats is left alone: it is as good as ours would be, and
-  // comes back as it was. Its length squared is off by 4 times 2^-24 at most; files whose writers
-  // computed with floats are off by some more.
+  // A unit quaternion that was rounded to floats is kept: normalising would not improve it, and it
+  // is written as it was. Its squared length is off by at most 4 times 2^-24; files whose writers
+  // computed with floats are off by a little more.
   const Quat unit =
       std::abs(dot(exact, exact) - 1) < 5e-7 ? in_file : normalized(exact).as<float>();
-  // A product with half a turn about an axis only changes places and signs of the numbers.
+  // A product with half a turn about an axis only permutes and negates the numbers.
   return scale_turn == Quat{} ? unit : unit * scale_turn;
 }
 

@@ -10,7 +10,7 @@
 namespace panache {
 namespace {
 
-// A time t of the file becomes t scale + shift.
+// Maps time t of the file to t scale + shift.
 struct Retiming {
   double scale = 1, shift = 0;
   bool changes() const { return scale != 1 || shift != 0; }
@@ -53,7 +53,7 @@ class Retimer {
   }
 
  private:
-  // The accessor that a member of a sampler names; -1 where it cannot be read. Samplers that no
+  // The accessor that a member of a sampler names; -1 if it cannot be read. Samplers that no
   // channel uses may hold anything.
   int accessor_of(const GltfPart& sampler, const char* member) const {
     return sampler.index(member, root_.size("accessors"));
@@ -103,7 +103,7 @@ class Retimer {
     return true;
   }
 
-  // A writer of its own for each accessor, so that times and values do not share a view.
+  // Each accessor has its own writer, so that times and values do not share a view.
   GltfDataWriter writer() {
     return GltfDataWriter(gltf_added_at(document_.container), json_, added_);
   }
@@ -115,14 +115,14 @@ class Retimer {
     for (const float old_time : old.numbers) {
       const double exact = old_time * to.scale + to.shift;
       float time = static_cast<float>(std::max(0.0, exact));
-      // Where floats are further apart than the keys, times have to increase all the same.
+      // Where floats are further apart than the keys, times must increase nevertheless.
       if (!times.empty()) time = std::max(time, std::nextafter(times.back(), HUGE_VALF));
       times.push_back(time);
     }
     return made = static_cast<int>(writer().add(times, "SCALAR", 1, true));
   }
 
-  // The values of a cubic spline: its tangents are per second. -1 where there are none.
+  // The values of a cubic spline: its tangents are per second. -1 if there are none.
   int tangents_at(int accessor, size_t keys, double scale) {
     int& made = tangents_.emplace(std::pair(accessor, scale), -1).first->second;
     if (made >= 0) return made;

@@ -10,7 +10,7 @@
 namespace panache {
 namespace {
 
-// Keys that only repeat the node's scale, but for what exporters round.
+// Keys within this only repeat the node's scale, rounded by exporters.
 constexpr double kSame = 1e-4;
 
 Vec3d vec_at(std::span<const float> v) { return Vec3{v[0], v[1], v[2]}.as<double>(); }
@@ -28,7 +28,7 @@ bool is_idle(const GltfTrack& track, Vec3d scale) {
   return track.interpolation != GltfTrack::Interpolation::cubic || track.times.size() == 1;
 }
 
-// The channels of an animation that turn or move each joint, and their values at a time.
+// The channels of an animation that rotate or move each joint, and their values at a time.
 class JointTracks {
  public:
   JointTracks(const GltfDocument& document, const GltfAnimation& animation,
@@ -74,9 +74,9 @@ class JointTracks {
   std::vector<int> turning_, moving_;  // [joints] channel, or -1.
 };
 
-// Whether the joint leaves the place where it rests.
+// Whether the joint leaves its rest position.
 bool moves(const Clip& clip, size_t joint) {
-  constexpr float kStays = 1e-4f;  // Of its distance.
+  constexpr float kStays = 1e-4f;  // Relative to its distance.
   const Vec3 offset = clip.skeleton.joints[joint].offset;
   for (int f = 0; f < clip.frames; ++f) {
     if (length(clip.pose(f).translations[joint] - offset) > kStays * length(offset)) return true;
@@ -118,7 +118,7 @@ void GltfScales::set_time(double seconds, double tolerance) {
     float v[3];
     moving.track->evaluate(seconds, tolerance, v);
     const NodeScale now = split_scale(vec_at(v));
-    // A body that is scaled away keeps the size that it has at rest.
+    // A body that is scaled away keeps its size at rest.
     const bool gone = vec_at(v) == Vec3d{} || !now.stretch.can_undo();
     own_[moving.joint] = gone || is_same(vec_at(v), node.scale) ? node.own : now;
   }

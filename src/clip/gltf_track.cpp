@@ -10,9 +10,9 @@ namespace panache {
 namespace {
 
 constexpr double kUsualRate = 30, kLowestRate = 24, kHighestRate = 120;  // Frames per second.
-// Below this, keys are poses to move between and not frames. Film's 24 and 23.976 are above.
+// Below this, keys are poses to move between, not frames. Film's 24 and 23.976 are above.
 constexpr double kSparseRate = 20;
-// How far from its frame a key may be, in frames; the rounding of times is not counted.
+// Maximum distance of a key from its frame, in frames, apart from the rounding of times.
 constexpr double kKeyTolerance = 1e-3;
 
 Quatd quat_at(std::span<const float> v) { return Quat{v[0], v[1], v[2], v[3]}.as<double>(); }
@@ -22,12 +22,12 @@ void put(Quatd q, std::span<float> out) {
   out[0] = f.x, out[1] = f.y, out[2] = f.z, out[3] = f.w;
 }
 
-// Along the shorter arc at constant speed, as glTF wants it.
+// Along the shorter arc at constant speed, as glTF requires.
 Quatd slerp(Quatd a, Quatd b, double t) {
   a = normalized(a);
   b = normalized(b);
   const double c = dot(a, b);
-  // A small angle has no sine worth dividing by, and a straight line is as good.
+  // For a small angle, dividing by the sine is inaccurate, and a straight line is as good.
   if (std::abs(c) > 1 - 1e-9) return nlerp(a, b, t);
   const double angle = std::acos(std::abs(c));
   const double u = std::sin((1 - t) * angle), v = std::sin(t * angle) * (c < 0 ? -1 : 1);
@@ -35,7 +35,7 @@ Quatd slerp(Quatd a, Quatd b, double t) {
       Quatd{a.x * u + b.x * v, a.y * u + b.y * v, a.z * u + b.z * v, a.w * u + b.w * v});
 }
 
-// Whether every key is a whole number of `step`s after the first.
+// Whether every key is an integer number of `step`s after the first.
 bool lies_on(const std::vector<float>& times, double step) {
   const double first = times.front();
   for (const double seconds : times) {
@@ -55,11 +55,11 @@ double median_spacing(const std::vector<float>& times) {
   return *middle;
 }
 
-// Seconds between frames that carry all of these keys; 0 where there is no such rate.
+// Seconds between frames that hit all of these keys; 0 if there is no such rate.
 double key_step(const std::vector<float>& times) {
   const double mean = (double(times.back()) - times.front()) / (times.size() - 1);
-  // A whole number of frames per second is what was meant if it fits: times are rounded. The mean
-  // is the step of keys without gaps, the median that of keys with a few left out.
+  // If an integer rate fits, it was meant: times are rounded. The mean is the step of keys without
+  // gaps, the median that of keys with a few missing.
   for (const double step : {mean, median_spacing(times)}) {
     const double rate = std::round(1 / step);
     if (rate >= 1 && lies_on(times, 1 / rate)) return 1 / rate;

@@ -14,9 +14,9 @@ MeshoptDecoder decoder = nullptr;
 
 // They differ in what the second adds, which the decoder may reject.
 constexpr const char* kNames[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
-// Of all data in all; parts of a small file may be the same bytes again and again.
+// For all data together; parts of a small file may refer to the same bytes many times.
 constexpr size_t kMaxBytes = size_t{1} << 30;
-// How many times smaller than its data a part may be: more than either version of the packing does.
+// Maximum ratio of unpacked to packed size: more than either version of the packing reaches.
 constexpr size_t kMaxRatio = 1024;
 
 bool is_packed_accessor(const GltfPart& root, int which) {
@@ -122,7 +122,7 @@ class Unpacker {
                      std::to_string(out.count));
   }
 
-  // The place of a member among `words`; -1 where it is absent.
+  // The index of a member among `words`; -1 if it is absent.
   static int word(const GltfPart& from, const char* key,
                   std::initializer_list<std::string_view> words) {
     const std::string found = from.text(key);
@@ -133,7 +133,7 @@ class Unpacker {
     return -1;
   }
 
-  // Takes the extensions from a list of those that the file uses.
+  // Removes the extensions from a list of those that the file uses.
   void forget(const char* list) {
     GltfJson* names = out_.json.contains(list) ? &out_.json[list] : nullptr;
     if (!names || !names->is_array()) return;
@@ -148,7 +148,7 @@ class Unpacker {
   const GltfContainer& in_;
   GltfChecker& checker_;
   GltfContainer& out_;
-  std::string bytes_;  // Of the one buffer.
+  std::string bytes_;  // Of the single buffer.
 };
 
 }  // namespace

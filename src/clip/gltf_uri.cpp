@@ -27,7 +27,7 @@ Result<std::string> decode_base64(std::string_view text) {
   std::string bytes;
   bytes.reserve(text.size() / 4 * 3 + 3);
   uint32_t bits = 0;
-  int held = 0;  // Bits not yet given out.
+  int held = 0;  // Bits not yet written.
   for (const char c : text) {
     const int value = kValues[static_cast<unsigned char>(c)];
     if (value < 0) return Error{"expected base64, found " + quoted(std::string_view(&c, 1))};
@@ -63,7 +63,7 @@ std::string percent_decoded(std::string_view text) {
   return out;
 }
 
-// "http:", "file:" and the like; a colon after a slash belongs to a name.
+// Whether it starts with "http:", "file:" or the like; a colon after a slash belongs to a name.
 bool has_scheme(std::string_view uri) {
   const size_t colon = uri.find(':');
   return colon != std::string_view::npos && colon < uri.find('/');

@@ -6,10 +6,9 @@
 namespace panache {
 namespace {
 
-// Sums what the vertices of skinned meshes weigh on each joint. What cannot be read, such as a
-// compressed mesh, says nothing: motion does not depend on it. Nor does what is too much to read.
-// Members are looked up without a GltfPart: its path would be made for each of a million
-// primitives.
+// Sums the weights of the vertices of skinned meshes for each joint. Data that cannot be read, such
+// as a compressed mesh, or is too large, is ignored: motion does not depend on it. Members are
+// looked up without a GltfPart, which would build a path for each of a million primitives.
 class WeightReader {
  public:
   WeightReader(const GltfContainer& container, GltfDocument& document)
@@ -42,7 +41,7 @@ class WeightReader {
     const auto member = object.find(key);
     return member == object.end() || !member->is_array() ? kNone : *member;
   }
-  // The member `key` of an object as a place in the file's list `of`; -1 where it is none.
+  // The member `key` of an object as an index in the file's list `of`; -1 if it is not one.
   int index(const GltfJson& object, const char* key, const char* of) const {
     if (!object.is_object()) return -1;
     const auto member = object.find(key);
@@ -51,7 +50,7 @@ class WeightReader {
     return place < list(json_, of).size() ? static_cast<int>(place) : -1;
   }
 
-  // One set of four joints per vertex; whether there was one.
+  // Adds one set of four joints per vertex; returns whether there was one.
   bool add_set(const GltfJson& primitive, int set, int skin, const GltfJson& joints) {
     if (left_ == 0) return false;
     --left_;
@@ -67,7 +66,7 @@ class WeightReader {
     for (size_t i = 0; i < std::min(which.numbers.size(), weights.numbers.size()); ++i) {
       const auto place = static_cast<size_t>(std::max(which.numbers[i], 0.0f));
       if (!(weights.numbers[i] > 0) || place >= joints.size()) continue;
-      // The skins were read before, so these are nodes.
+      // The skins were checked before, so these are nodes.
       GltfNode& node = document_.nodes[joints[place].get<size_t>()];
       if (node.skin < 0) node.skin = skin;
       if (node.skin == skin) node.skin_weight += weights.numbers[i];

@@ -30,9 +30,9 @@ Affine matrix_at(std::span<const float> m) {
   return {{column(0), column(1), column(2)}, column(3)};
 }
 
-// The nodes of a file that are its skeleton: those that an animation moves, that a skin, a humanoid
-// or a body needs, and all below them that carry nothing to see. A node that only stands above
-// them, such as a scene's root, is the armature's, not a joint.
+// The nodes that form a file's skeleton: those that an animation moves, those that a skin, a
+// humanoid or a body needs, and all below them that carry nothing visible. A node that is only
+// above them, such as a scene's root, becomes the armature, not a joint.
 class SkeletonNodes {
  public:
   SkeletonNodes(const GltfDocument& document, const SkinnedBody* body)
@@ -56,7 +56,7 @@ class SkeletonNodes {
     list_parents_first();
   }
 
-  // Whether something to see hangs on the skeleton.
+  // Whether anything visible is attached to the skeleton.
   bool has_mesh() const {
     return std::ranges::any_of(nodes_, [&](size_t n) { return below_[n] && has(n, "mesh"); });
   }
@@ -107,7 +107,7 @@ class SkeletonNodes {
     }
   }
 
-  // A skin is of one tree: the root of that with the body, or of that with most joints.
+  // A skin covers one tree: that of the body, or the one with the most joints. Returns its root.
   int tree_of_skin() const {
     if (of_body_ >= 0) return root_[of_body_];
     std::map<int, size_t> sizes;
@@ -137,10 +137,10 @@ class SkeletonNodes {
   }
 
   const GltfDocument& document_;
-  std::vector<char> is_joint_, below_;  // [nodes] 1 where it is one; also where it is below one.
+  std::vector<char> is_joint_, below_;  // [nodes] 1 for joints; 1 for nodes below one.
   std::vector<int> root_;               // [nodes] the node at the top of its tree.
-  std::vector<size_t> nodes_;           // All, parents before children.
-  int of_body_ = -1;                    // A node that a body needs; -1 where there is no body.
+  std::vector<size_t> nodes_;           // All nodes, parents before children.
+  int of_body_ = -1;                    // A node that a body needs; -1 without a body.
 };
 
 // Adds missing lists, and a scene that shows all nodes if there is no scene.
@@ -198,9 +198,9 @@ std::string with_whole_skin(const GltfDocument& document) {
     return write_gltf_container(document.container, std::move(json), added);
   }
   const std::vector<FigureJoint> joints = SkeletonNodes(document, nullptr).joints();
-  std::map<size_t, size_t> places;  // In the skin, by node.
+  std::map<size_t, size_t> places;  // Index in the skin, by node.
   for (size_t i = 0; i < matrices.count; ++i) places.emplace(skin["joints"][i].get<size_t>(), i);
-  std::vector<Affine> binds(joints.size());  // World, where the mesh is not bent.
+  std::vector<Affine> binds(joints.size());  // World transform in the mesh's unbent pose.
   for (size_t j = 0; j < joints.size(); ++j) {
     const auto found = places.find(joints[j].node);
     const int parent = joints[j].parent;

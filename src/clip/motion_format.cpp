@@ -16,7 +16,7 @@
 namespace panache {
 namespace {
 
-// Whether the nodes of the file stand as in the first frame, so that nothing is known of a rest.
+// Whether the rest pose has the rotations of the first frame, so that the real one is unknown.
 bool rests_as_it_starts(const Clip& clip) {
   const ConstPose pose = clip.pose(0);
   for (size_t j = 0; j < clip.joints(); ++j) {
@@ -26,8 +26,8 @@ bool rests_as_it_starts(const Clip& clip) {
   return true;
 }
 
-// The rest pose is the skeleton's, units and axes are the clip's. Axes stay where the rest is not
-// known.
+// The rest pose is that of the skeleton, units and axes are those of the clip. Axes are kept if the
+// rest pose is unknown.
 std::string write_bvh(const Clip& clip, const std::string&, const Placement&, const SkinnedBody*) {
   Clip out = rests_as_it_starts(clip) ? clip : in_rest_axes(clip);
   add_end_sites(out.skeleton);

@@ -18,7 +18,7 @@ namespace {
 constexpr std::string_view kMagic = "\x93NUMPY";
 constexpr size_t kMaxDimensions = 8;
 
-// Bytes of an element; 0 for a type that is not read.
+// Bytes of an element; 0 for an unsupported type.
 size_t size_of(std::string_view type) {
   if (type.size() < 3 || type.size() > 6) return 0;
   if (std::string_view("<>|=").find(type[0]) == std::string_view::npos) return 0;
@@ -31,7 +31,7 @@ size_t size_of(std::string_view type) {
   return type[1] == 'U' ? 4 * size : size;
 }
 
-// Reads "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }".
+// Parses "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }".
 Result<void> read_header(std::string_view text, const std::string& name, NpyArray& out) {
   const auto value_of = [&](std::string_view key) {
     const size_t at = text.find(key);
@@ -44,7 +44,7 @@ Result<void> read_header(std::string_view text, const std::string& name, NpyArra
   bool good = !type.empty() && shape.starts_with('(') && shape.find(')') != shape.npos;
   std::string_view sizes = good ? shape.substr(1, shape.find(')') - 1) : "";
   for (size_t at; good && (at = sizes.find_first_not_of(", ")) != sizes.npos;) {
-    constexpr uint64_t kLargest = uint64_t{1} << 50;  // More than any file has.
+    constexpr uint64_t kLargest = uint64_t{1} << 50;  // No file is larger.
     uint64_t size = 0;
     const char* const end = sizes.data() + sizes.size();
     const auto [after, failure] = std::from_chars(sizes.data() + at, end, size);
@@ -102,7 +102,7 @@ Result<NpyArray> parse_npy(std::string_view bytes, const std::string& name) {
   NpyArray out;
   if (auto done = read_header(bytes.substr(begin, length), name, out); !done) return done.error();
   out.elements = bytes.substr(begin + length);
-  // Compared without a product that might overflow.
+  // Compares without a product that might overflow.
   size_t left = out.elements.size() / size_of(out.type);
   const bool none = std::find(out.shape.begin(), out.shape.end(), size_t{0}) != out.shape.end();
   for (const size_t size : out.shape) left = none ? 0 : left / size;
@@ -115,13 +115,13 @@ Result<NpyArray> parse_npy(std::string_view bytes, const std::string& name) {
 std::string format_npy(const NpyArray& array) {
   std::string shape;
   for (const size_t size : array.shape) shape += std::to_string(size) + ", ";
-  // A single size keeps its comma: "(5,)".
+  // A single dimension keeps its comma: "(5,)".
   if (array.shape.size() > 1) shape.resize(shape.size() - 2);
   if (array.shape.size() == 1) shape.pop_back();
   std::string header = "{'descr': '" + array.type +
                        "', 'fortran_order': " + (array.by_columns ? "True" : "False") +
                        ", 'shape': (" + shape + "), }";
-  // With what stands before it a multiple of 64, as numpy wants it.
+  // Padded to a multiple of 64 bytes, as numpy requires.
   const size_t unpadded = 10 + header.size() + 1;
   header.append((unpadded + 63) / 64 * 64 - unpadded, ' ');
   header += '\n';

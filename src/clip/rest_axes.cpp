@@ -7,11 +7,11 @@ namespace panache {
 
 // With W the world rotation of a joint at rest, W_p that of its parent, and R and R_p the same in a
 // frame: the new local rotation is W_p q W^-1 and the new translation W_p t. By induction the new
-// world rotation is R W^-1, the identity at rest, and a child's new place R_p W_p^-1 W_p t = R_p t
-// from its parent is the old one.
+// world rotation is R W^-1, the identity at rest, and a child's new offset from its parent, R_p
+// W_p^-1 W_p t = R_p t, is the old one.
 Clip in_rest_axes(const Clip& clip) {
   const std::vector<Joint>& old = clip.skeleton.joints;
-  // What is right already keeps its last bits.
+  // A skeleton without rest rotations keeps its exact bits.
   if (std::all_of(old.begin(), old.end(), [](const Joint& j) { return j.rest == Quat{}; })) {
     return clip;
   }

@@ -1,5 +1,5 @@
 #pragma once
-// A skinned mesh that a new GLB file shows its motion on.
+// A skinned mesh that shows the motion of a new GLB file.
 
 #include <array>
 #include <cstddef>
@@ -11,8 +11,8 @@
 namespace panache {
 
 struct SkinnedBody {
-  // How a point of the mesh is seen from a joint of the clip: scale * rotate(rotation, point) +
-  // translation, in the joint's own axes and the clip's units.
+  // The position of a point of the mesh relative to a joint of the clip: scale * rotate(rotation,
+  // point) + translation, in the joint's axes and the clip's units.
   struct Bind {
     size_t joint;
     float scale;
@@ -23,8 +23,8 @@ struct SkinnedBody {
 
   std::vector<Vec3> positions;                  // [vertices] metres
   std::vector<Vec3> normals;                    // [vertices] unit
-  std::vector<std::array<uint8_t, 4>> joints;   // [vertices] places in `binds`
-  std::vector<std::array<uint8_t, 4>> weights;  // [vertices] add up to 255
+  std::vector<std::array<uint8_t, 4>> joints;   // [vertices] indices in `binds`
+  std::vector<std::array<uint8_t, 4>> weights;  // [vertices] sum to 255
   std::vector<std::array<uint8_t, 4>> colours;  // [vertices] red, green, blue, alpha; linear
   std::vector<uint16_t> triangles;              // Three vertices each, counterclockwise.
 };

@@ -15,14 +15,14 @@ namespace {
 
 constexpr size_t kMaxPoses = 50'000'000;  // Joints times frames.
 constexpr double kMinRate = 1e-3, kMaxRate = 1e6;
-// Arrays that hold the frames per second, in the order of preference: those of AMASS first.
+// Arrays that hold the frames per second, in order of preference: those of AMASS first.
 constexpr const char* kRateNames[] = {"mocap_framerate", "mocap_frame_rate", "fps", "framerate",
                                       "frame_rate"};
 bool is_rate(const std::string& array) {
   return std::find(std::begin(kRateNames), std::end(kRateNames), array) != std::end(kRateNames);
 }
 
-// Names of arrays that repeat some of the columns of `poses`, by the model.
+// Names of arrays that repeat some of the columns of `poses`, for each model.
 struct Part {
   const char* name;
   size_t joints;  // Of the model.
@@ -41,7 +41,7 @@ std::string array_name(const NpzMember& member) {
   return member.name.substr(0, member.name.size() - (npy ? 4 : 0));
 }
 
-// Frames per second; programs cut off what is behind the point, so 59.999999 is 60.
+// Frames per second; some programs truncate the rate, so 59.999999 must become 60.
 double rate_of(const Clip& clip) {
   const double rate = 1 / clip.frame_time;
   return std::abs(rate - std::round(rate)) < 1e-4 ? std::round(rate) : rate;
@@ -162,7 +162,7 @@ class SmplFile final : public MotionFile {
     return format_npy(npy_array({&rate, 1}, {}, "<f8"));
   }
 
-  // Makes the archive one of this rate.
+  // Sets the rate in the archive.
   void set_rate(double rate) {
     bool has_rate = false;
     for (NpzMember& member : members_) {
@@ -202,12 +202,12 @@ class SmplFile final : public MotionFile {
       pose.translations[j] = clip_.skeleton.joints[j].offset;
     }
     const double* t = &trans_.numbers[size_t(frame) * 3];
-    // A model turns about its pelvis and moves then.
+    // A model rotates about its pelvis, then translates.
     pose.translations[0] = (pelvis() + Vec3d{t[0], t[1], t[2]}).as<float>();
   }
   Vec3d pelvis() const { return clip_.skeleton.joints[0].offset.as<double>(); }
 
-  // Where the frames of an edit come from; -1 from nowhere in the file or from between two frames.
+  // The file's frame that an edit's frame came from; -1 if it is from none, or between two.
   int source(const ClipEdit& edit, int frame) const {
     if (edit.clip == kNewClip) return -1;
     const double at = edit.source_frames[frame];
@@ -264,7 +264,7 @@ class SmplFile final : public MotionFile {
     return out;
   }
 
-  // The columns of the poses that an array repeats; nothing of other arrays.
+  // The columns of the poses that an array repeats; nothing for other arrays.
   std::optional<Table> part_of(const Table& poses, const std::string& name) const {
     for (const Part& part : kParts) {
       if (part.joints != clip_.joints() || name != part.name) continue;
@@ -281,7 +281,7 @@ class SmplFile final : public MotionFile {
 
   bool has_row_per_frame(const NpzMember& member) const {
     const Result<NpyArray> array = parse_npy(member.bytes, "");
-    // Of a single frame, everything would seem to have as many rows.
+    // With a single frame, everything would seem to have a row per frame.
     return array && array->shape.size() > 1 && array->shape[0] == poses_.shape[0];
   }
 
@@ -322,7 +322,7 @@ std::vector<NpzMember> format_smpl(const Clip& clip) {
   }
   const double rate = rate_of(clip);
   const std::vector<double> betas(16);
-  std::string gender;  // Numpy's text has four bytes a letter.
+  std::string gender;  // Numpy's Unicode text has four bytes per character.
   for (const char c : std::string("neutral")) gender += {c, '\0', '\0', '\0'};
   return {{"trans.npy", format_npy(npy_array(trans, {frames, 3}, "<f8"))},
           {"gender.npy", format_npy({"<U7", false, {}, gender})},

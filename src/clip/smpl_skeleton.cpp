@@ -11,7 +11,7 @@ struct Line {
   std::string_view name;  // '*' stands for "left" or "right".
   std::string_view role;
   std::string_view parent;
-  Vec3 place;  // Of the left side in the model's frame.
+  Vec3 place;  // Left side, in the model's frame.
 };
 
 // In the order of the models: for each '*', left before right.

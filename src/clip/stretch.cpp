@@ -6,16 +6,16 @@
 namespace panache {
 namespace {
 
-// Axes whose scales differ by less, relatively, are scaled alike: what exporters round.
+// Scales with smaller relative differences count as equal: exporters round.
 constexpr double kEven = 1e-4;
-// What is flatter than this has lost an axis.
+// Anything flatter than this has lost an axis.
 constexpr double kFlat = 1e-6;
 
 double entry(Vec3d v, size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
-// The one number that comes nearest to three scales of one sign.
+// The single number nearest to three scales of one sign.
 double even_size(double x, double y, double z) {
-  // A cube root is not exact, and most scales are even.
+  // A cube root is not exact, and most scales are uniform.
   return x == y && y == z ? x : std::cbrt(x * y * z);
 }
 
@@ -94,7 +94,7 @@ NodeScale split_scale(Vec3d scale) {
 SplitMatrix split_matrix(const std::array<Vec3d, 3>& columns) {
   Vec3d x = columns[0], y = columns[1], z = columns[2];
   if (x == Vec3d{} && y == Vec3d{} && z == Vec3d{}) return {};
-  // A mirror image is the opposite of a rotation.
+  // A mirror image is the negative of a rotation.
   const double sign = dot(cross(x, y), z) < 0 ? -1 : 1;
   x = normalized(x * sign, {1, 0, 0});
   y = normalized(y * sign - x * dot(x, y * sign), {0, 1, 0});

@@ -3,16 +3,16 @@
 // move. Private to the folder.
 //
 // The world transform of a node has the linear part L = W B: W is the product of the rotations of
-// the node and of all above it, which is what a joint of a clip turns by, and B is the stretch,
-// with which a child at `t` in the file stands at B t from the joint, in the joint's axes. Below a
-// parent with W', B' a node that turns by C and stretches by U has W = W' C and B = C^-1 B' C U, by
-// L = L' C U. An even B' (one number times the identity) is the same whatever C is; the others turn
-// with the pose.
+// the node and of all above it, which is the rotation of the clip's joint, and B is the stretch: a
+// child at `t` in the file is at B t from the joint, in the joint's axes. Below a parent with W',
+// B' a node that rotates by C and stretches by U has W = W' C and B = C^-1 B' C U, because L = L' C
+// U. A uniform B' (one number times the identity) does not depend on C; others change with the
+// pose.
 //
-// A mirror image is no rotation, but its opposite is: a scale with the signs s has the half turn
-// d diag(s) in it, where d is the product of the signs, and what remains is d |scale|. So B is even
-// for every scale whose axes differ in their signs only, and W does not depend on which of several
-// scales and rotations say the same.
+// A mirror image is not a rotation, but its negative is: a scale with the signs s contains the half
+// turn d diag(s), where d is the product of the signs, and what remains is d |scale|. So B is
+// uniform for every scale whose axes differ only in sign, and W does not depend on which of several
+// equivalent scales and rotations a file uses.
 
 #include <array>
 
@@ -26,7 +26,7 @@ class Stretch {
   Stretch() = default;
   // The identity times `size`, which may be negative.
   explicit Stretch(double size) : size_(size) {}
-  // The matrix with these columns; even where it is the identity times a number to 1e-4.
+  // The matrix with these columns; uniform if it is a number times the identity to within 1e-4.
   explicit Stretch(const std::array<Vec3d, 3>& columns);
 
   // Lengths of the columns.
@@ -35,10 +35,10 @@ class Stretch {
   bool can_undo() const;
 
   Vec3 apply(Vec3 place) const;
-  // The place that apply() brings to `stretched`; can_undo().
+  // The position that apply() maps to `stretched`; requires can_undo().
   Vec3 undo(Vec3 stretched) const;
 
-  // That of a node below, which turns by `turn` and stretches by `own`.
+  // The stretch of a node below, which rotates by `turn` and stretches by `own`.
   Stretch below(Quat turn, const Stretch& own) const;
 
   friend bool operator==(const Stretch&, const Stretch&) = default;
@@ -48,19 +48,19 @@ class Stretch {
   double determinant() const { return dot(cross(columns_[0], columns_[1]), columns_[2]); }
 
   bool even_ = true;
-  double size_ = 1;                 // Where even.
-  std::array<Vec3d, 3> columns_{};  // Where not.
+  double size_ = 1;                 // If uniform.
+  std::array<Vec3d, 3> columns_{};  // If not.
 };
 
-// A scale of three numbers, taken apart.
+// A scale of three numbers, decomposed.
 struct NodeScale {
   Quat turn;        // The identity or half a turn; after the node's rotation.
-  Stretch stretch;  // Along the axes that these give.
+  Stretch stretch;  // In the axes after that turn.
 };
-// What is scaled away entirely has no size to get wrong: three zeros are three ones.
+// If all three scales are 0, they count as 1.
 NodeScale split_scale(Vec3d scale);
 
-// The linear part of a matrix as a rotation and what comes before it.
+// The linear part of a matrix, as a rotation applied after a stretch.
 struct SplitMatrix {
   Quat rotation;
   Stretch stretch;

@@ -20,8 +20,7 @@ bool same_letters(std::string_view a, std::string_view b) {
                     [](char x, char y) { return lower_case(x) == lower_case(y); });
 }
 
-// Reads a number at the start of [p, end); null where there is none. Beyond a double it is
-// infinite.
+// Parses a number at the start of [p, end); null if there is none. Infinite if it exceeds a double.
 const char* parse_number(const char* p, const char* end, double& value) {
   if (p != end && *p == '+') {
     ++p;
@@ -142,7 +141,7 @@ bool TextCursor::take_number(double& value) {
   const char* const end = text_.data() + text_.size();
   const char* const after = parse_number(begin, end, value);
   if (!after || (after != end && !is_space(*after) && !is_line_end(*after))) return false;
-  if (!(std::abs(value) <= kLargestNumber)) return false;  // Also where it is not a number.
+  if (!(std::abs(value) <= kLargestNumber)) return false;  // Also true for NaN.
   offset_ += static_cast<size_t>(after - begin);
   return true;
 }
@@ -170,7 +169,7 @@ Error TextCursor::number_error(const std::string& of_what) const {
   const char* const end = here.data() + here.size();
   double value = 0;
   if (parse_number(here.data(), end, value) == end && std::abs(value) > kLargestNumber) {
-    // Infinity spelt out is no number; 1e400 is one, though no double holds it.
+    // A spelt-out infinity is not a number; 1e400 is one, although it exceeds a double.
     const bool spelt_out = here.find_first_of("nN") != std::string_view::npos;
     if (!spelt_out) return error("a number between -1e9 and 1e9 for " + of_what);
   }

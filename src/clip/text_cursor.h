@@ -1,5 +1,5 @@
 #pragma once
-// Reading words and numbers off a text, and saying where one of them is wrong.
+// Reads words and numbers from a text, and reports where one of them is wrong.
 
 #include <cstdint>
 #include <string>
@@ -9,16 +9,16 @@
 
 namespace panache {
 
-// A place in a text. Words are parted by spaces (space, tab, vertical tab, form feed) and line ends
-// (\n, \r\n, lone \r). Nothing but skip_space() leaves the line.
+// A position in a text. Words are separated by spaces (space, tab, vertical tab, form feed) and
+// line ends (\n, \r\n, lone \r). Only skip_space() moves to another line.
 class TextCursor {
  public:
-  // `text` outlives the cursor; `name` stands in front of every message. A UTF-8 byte order mark
-  // at the start is passed over.
+  // `text` outlives the cursor; messages start with `name`. A UTF-8 byte order mark at the start is
+  // skipped.
   TextCursor(std::string_view text, std::string name);
 
   size_t offset() const { return offset_; }                    // Bytes from the start.
-  size_t line_begin() const { return line_begin_; }            // Of the line of offset().
+  size_t line_begin() const { return line_begin_; }            // Start of the current line.
   size_t remaining() const { return text_.size() - offset_; }  // Bytes to the end.
   bool at_end() const { return offset_ == text_.size(); }
   bool at_line_end() const { return at_end() || is_line_end(text_[offset_]); }
@@ -26,29 +26,29 @@ class TextCursor {
   void skip_spaces() {
     while (offset_ < text_.size() && is_space(text_[offset_])) ++offset_;
   }
-  // Passes spaces and line ends.
+  // Skips spaces and line ends.
   void skip_space();
 
-  // The word here; empty at a space, a line end and the end.
+  // The word here; empty at a space, a line end or the end.
   std::string_view word() const;
   // Whether the word here is `keyword`, in any case.
   bool is_at(std::string_view keyword) const;
-  // Passes the word here if it is `keyword`, in any case.
+  // Skips the word here if it is `keyword`, in any case.
   bool take(std::string_view keyword);
-  // Passes `label` and the colon after it, in any case and with any spaces between the words and
+  // Skips `label` and the colon after it, in any case and with any spaces between the words and
   // before the colon ("Frame Time:"); if something else is here, stays and returns false.
   bool take_label(std::string_view label);
-  // The rest of the line without spaces around it and without a "{" as its last word.
+  // The rest of the line, trimmed, and without a "{" as its last word.
   std::string_view take_name();
-  // Passes the word here if it is a whole number, zero or above; saturates at 2^64 - 1.
+  // Reads the word here if it is a non-negative integer; saturates at 2^64 - 1.
   bool take_count(uint64_t& value);
-  // Passes the word here if it is a finite number within kLargestNumber.
+  // Reads the word here if it is a finite number within kLargestNumber.
   bool take_number(double& value);
 
-  // "NAME:LINE:COLUMN: expected EXPECTED, found ...": the word here, the end of the line or of the
+  // "NAME:LINE:COLUMN: expected EXPECTED, found ...": the word here, or the end of the line or
   // file.
   Error error(const std::string& expected) const;
-  // The same where a number was expected, with the cure where there is one.
+  // The same for a missing number, with the cure if there is one.
   Error number_error(const std::string& of_what) const;
 
   static bool is_space(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
@@ -64,7 +64,7 @@ class TextCursor {
   size_t line_begin_ = 0;
 };
 
-// `text` in single quotes for a message: cut when long, bytes that are no text as \xNN.
+// `text` in single quotes for a message: long text is cut, bytes that are not text become \xNN.
 std::string quoted(std::string_view text);
 
 }  // namespace panache

@@ -1,16 +1,16 @@
 #pragma once
-// Names of motions that are not taken.
+// Unique names for motions.
 
 #include <map>
 #include <string>
 
 namespace panache {
 
-// Names that are taken, each with the number of times that it was asked for.
+// Taken names, each with the number of requests for it.
 using TakenNames = std::map<std::string, int>;
-// `name`, or where it is taken the same with the next free " (2)", " (3)", ...; then taken too.
+// `name`, or if it is taken, the same with the next free " (2)", " (3)", ...; marks it as taken.
 inline std::string unique_name(const std::string& name, TakenNames& taken) {
-  int& asked = taken[name];  // Insertions move nothing in a map.
+  int& asked = taken[name];  // Insertions do not move the elements of a map.
   std::string result = name;
   while (++asked > 1) {
     result = name + " (" + std::to_string(asked) + ")";

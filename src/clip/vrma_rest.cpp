@@ -22,8 +22,8 @@ class Straightener {
     }
   }
 
-  // With R a joint's rest rotation in the world and T what turns the rest pose into the T-pose
-  // there, a child at p from the joint is at T p, which is R^-1 T p in the joint's axes.
+  // With R a joint's rest rotation in the world and T the rotation from the rest pose to the T-pose
+  // there, a child at p from the joint moves to T p, which is R^-1 T p in the joint's axes.
   std::vector<Vec3> run() {
     std::vector<Vec3> offsets;
     for (size_t j = 0; j < joints_.size(); ++j) {
@@ -43,7 +43,7 @@ class Straightener {
   }
 
  private:
-  // The place of a role's joint from that of another; nothing where one is missing.
+  // The vector from one role's joint to another's; nothing if one is missing.
   std::optional<Vec3> between(const std::string& from, const std::string& to) const {
     const auto a = by_role_.find(from), b = by_role_.find(to);
     if (a == by_role_.end() || b == by_role_.end()) return std::nullopt;
@@ -70,7 +70,7 @@ class Straightener {
     }
   }
 
-  // Upright, the way from its right to its left joint along x. Spines curve by less than this.
+  // Makes the torso upright, and its right and left joint lie along x. Spines curve by less.
   void turn_torso(size_t joint, const std::string& pair, std::initializer_list<const char*> top) {
     constexpr float kCosine = 0.866f;
     const std::optional<Vec3> up = between_first(joints_[joint].role, top);
@@ -105,7 +105,7 @@ class Straightener {
     if (part == "Foot") turn_foot(joint, side);
   }
 
-  // Ahead, as steep as it is.
+  // Turns the foot ahead and keeps its slope.
   void turn_foot(size_t joint, const std::string& side) {
     const std::optional<Vec3> way = between(side + "Foot", side + "Toes");
     if (!way) return;
@@ -117,7 +117,7 @@ class Straightener {
 
   const std::vector<Joint>& joints_;
   std::vector<Quat> rotations_;  // [joints] At rest, in the world.
-  std::vector<Vec3> places_;     // [joints] Likewise.
+  std::vector<Vec3> places_;     // [joints] At rest, in the world.
   std::vector<Quat> turns_;      // [joints] From the rest pose to the T-pose, in the world.
   std::map<std::string, size_t> by_role_;
 };

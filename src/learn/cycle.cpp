@@ -12,13 +12,13 @@ namespace panache {
 namespace {
 
 constexpr double kLongestCycle = 2;  // Seconds.
-// How far the last pose of a cycle may be from its first, in metres, or in the steps from frame to
-// frame there: a file may leave out the frame that repeats the first.
+// Maximum distance between the last pose of a cycle and its first, in metres, or in the
+// frame-to-frame steps there: a file may omit the frame that repeats the first.
 constexpr double kSeam = 0.02, kSeamSteps = 1.6;
-// What is added to a cycle: two windows of a styled take that is half as fast as it.
+// Frames added to a cycle: two windows of a styled take at half its speed.
 constexpr int kAddedFrames = 90;
-// A pair that is nearer than this is in phase. A continued cycle always fits a little better, so it
-// has to by this factor.
+// A pair with less than this cost is in phase. A continued cycle always fits a little better, so it
+// must do so by this factor.
 constexpr double kInPhase = 0.1, kBetter = 0.9;
 
 double mean_distance(const HumanPositions& a, const HumanPositions& b) {
@@ -32,8 +32,8 @@ void repeat(std::vector<T>& frames, size_t cycle, size_t count) {
   for (size_t f = cycle; f < count; ++f) frames.push_back(T(frames[f - cycle]));
 }
 
-// `cycle`: as cycle_frames() has it. The take may end a frame before the cycle does, by where its
-// frames lie.
+// `cycle`: from cycle_frames(). The take may end a frame before the cycle does, because of where
+// its frames lie.
 Take continued(Take take, int cycle) {
   cycle = std::min(cycle, take.frames());
   const RootPose begin = take.root.front();

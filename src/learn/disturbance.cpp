@@ -11,7 +11,7 @@ using enum HumanJoint;
 
 constexpr int kPositions = 3 * kHumanJoints;
 
-// The deviation of one joint's turn about each axis.
+// The standard deviation of one joint's rotation about each axis.
 float turn_of(const Disturbance& how, int joint) {
   if (joint <= index(chest)) return how.torso;
   if (joint <= index(head)) return how.head;
@@ -33,7 +33,7 @@ void draw_person(const Disturbance& how, const InputUnits& units, Random& random
   draw.centre = units.mean;
 }
 
-// One pose as that person would take it.
+// Changes one pose to how another person would hold it.
 void put_person(const Disturbed& draw, float* pose) {
   HumanPositions wide, turned;
   for (int i = 0; i < kPositions; ++i) {

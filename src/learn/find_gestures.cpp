@@ -13,16 +13,16 @@ namespace {
 
 using enum HumanJoint;
 
-// What may move in a gesture.
+// Parts of the body that a gesture may move.
 enum GesturePart { kHead, kTorso, kHips, kLeftArm, kRightArm, kHeight, kLift, kGestureParts };
 
 struct Excess {
-  GesturePose pose;  // On top of the usual change; zero where nothing is paired.
-  // Of each part: radians that it turns beyond what it hangs on, metres for height and lift.
+  GesturePose pose;  // Added to the usual change; zero where nothing is paired.
+  // Of each part: its rotation relative to its parent, radians; metres for height and lift.
   std::array<float, kGestureParts> size{};
 };
 
-// The middle one; 0 of none.
+// The median; 0 if empty.
 float median(std::vector<float> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + values.size() / 2;
@@ -30,10 +30,10 @@ float median(std::vector<float> values) {
   return *middle;
 }
 
-constexpr double kSmooth = 0.08;    // Deviation of the filter; seconds.
+constexpr double kSmooth = 0.08;    // Standard deviation of the filter; seconds.
 constexpr float kOffFloor = 0.03f;  // Metres.
 
-// What a styled take changes, frame by frame.
+// The change in each frame of a styled take.
 struct Change {
   std::array<Quat, kGestureJoints> turns{};  // World rotations in the heading frame.
   float height = 0, lift = 0, weight = 0;
@@ -43,7 +43,7 @@ float lift_of(const HumanPositions& body) {
   return std::clamp(lowest_foot(body), kOffFloor, 1.0f) - kOffFloor;
 }
 
-// Windows overlap; those whose middle is nearer count more.
+// Windows overlap; those with a nearer middle weigh more.
 std::vector<Change> changes_of(const std::vector<Take>& takes, int styled,
                                std::span<const Pairing> pairings) {
   const Take& take = takes[styled];
@@ -81,7 +81,7 @@ std::vector<Change> changes_of(const std::vector<Take>& takes, int styled,
   return changes;
 }
 
-// The usual change of a take: medians.
+// The usual change of a take: its medians.
 Change usual_change(const std::vector<Change>& changes) {
   Change usual;
   for (size_t j = 0; j < kGestureJoints; ++j) {
@@ -109,7 +109,7 @@ Change usual_change(const std::vector<Change>& changes) {
   return usual;
 }
 
-// How far a joint of `beyond` (world rotations) is turned beyond another.
+// How far a joint of `beyond` (world rotations) is turned relative to another.
 float turned(const std::array<Quat, kGestureJoints>& beyond, HumanJoint from, HumanJoint joint) {
   return length(log_rotation(conjugate(beyond[index(from)]) * beyond[index(joint)]));
 }
@@ -132,7 +132,7 @@ std::array<float, kGestureParts> sizes_of(const GesturePose& pose) {
           pose.lift};
 }
 
-// Rotation vectors that do not jump from one turn to the other.
+// Rotation vectors without jumps by a full turn.
 Vec3 unwrapped(Vec3 turn, Vec3 before) {
   const float angle = length(turn);
   if (angle < 1e-3f) return turn;
@@ -140,7 +140,7 @@ Vec3 unwrapped(Vec3 turn, Vec3 before) {
   return length(other - before) < length(turn - before) ? other : turn;
 }
 
-// What goes beyond the usual change, each joint's part of it.
+// The excess over the usual change, as local rotations.
 std::vector<GesturePose> beyond_usual(const std::vector<Change>& changes) {
   const Change usual = usual_change(changes);
   std::vector<GesturePose> poses(changes.size());
@@ -159,8 +159,8 @@ std::vector<GesturePose> beyond_usual(const std::vector<Change>& changes) {
   return poses;
 }
 
-// Of each frame of takes[styled]: how its change from the neutral motion that it is paired with
-// differs from the median change of the take, smoothed over about 0.1 s.
+// For each frame of takes[styled]: the difference between its change from the paired neutral motion
+// and the take's median change, smoothed over about 0.1 s.
 std::vector<Excess> style_excess(const std::vector<Take>& takes, int styled,
                                  std::span<const Pairing> pairings) {
   const std::vector<Change> changes = changes_of(takes, styled, pairings);
@@ -187,23 +187,22 @@ std::vector<Excess> style_excess(const std::vector<Take>& takes, int styled,
 using Parts = std::array<float, kGestureParts>;
 using ExcessOfTakes = std::map<int, std::vector<Excess>>;  // By take, [frames].
 
-// Found on the takes of 60 styles of CMU's performers, of which scared, shy, drunk and clumsy ones
-// have gestures that people name, and steady walks have none.
+// Tuned on takes of 60 styles by CMU's performers: scared, shy, drunk and clumsy ones have gestures
+// that people name, and steady walks have none.
 
-// From how much on a part is in a gesture whatever is usual, and is so in any case: radians,
-// metres.
+// Excess below which a part is never in a gesture, and above which it always is: radians, metres.
 constexpr Parts kLeast = {0.35f, 0.30f, 0.30f, 0.6f, 0.6f, 0.07f, 0.04f};
 constexpr Parts kAlways = {0.6f, 0.5f, 0.6f, 1.8f, 1.8f, 0.16f, 0.08f};
-constexpr float kDeviations = 3;  // Beyond the median, of a normal distribution.
-constexpr float kClear = 1.15f;   // Of that limit: a gesture's peak.
-// Of its peak: where a gesture begins and ends; where it may be cut short; and a stronger one near
-// it, on whose slope it is.
+constexpr float kDeviations = 3;  // Standard deviations beyond the median.
+constexpr float kClear = 1.15f;   // A gesture's peak, relative to that limit.
+// Relative to the peak: where a gesture begins and ends; where it may be cut short; and a nearby
+// stronger peak, on whose slope it is.
 constexpr float kQuiet = 0.4f, kFairlyQuiet = 0.7f, kStronger = 1.15f;
-constexpr float kMovesAlong = 0.75f;            // Of its limit: a part that is in the gesture, too.
+constexpr float kMovesAlong = 0.75f;            // Times its limit: another part of the gesture.
 constexpr int kShortest = 9, kLongest = 75;     // Frames from the beginning to the end.
-constexpr int kEdge = 12;                       // Frames at each end of a take that are left out.
-constexpr float kMaxTurn = 0.9f;                // Of the heading within a gesture, radians.
-constexpr float kWalks = 0.4f, kStops = 0.35f;  // m/s; and the share of it that counts as standing.
+constexpr int kEdge = 12;                       // Frames ignored at each end of a take.
+constexpr float kMaxTurn = 0.9f;                // Change of heading within a gesture, radians.
+constexpr float kWalks = 0.4f, kStops = 0.35f;  // m/s; and the fraction that counts as standing.
 constexpr double kEase = 0.2;                   // Before the beginning and after the end; seconds.
 
 struct Moment {
@@ -211,7 +210,7 @@ struct Moment {
   float strength = 0;
 };
 
-// What leaves the usual range of each part.
+// Limits of the usual range of each part.
 Parts limits_of(const ExcessOfTakes& excess) {
   Parts limits;
   for (size_t p = 0; p < kGestureParts; ++p) {
@@ -221,14 +220,14 @@ Parts limits_of(const ExcessOfTakes& excess) {
     }
     const float usual = median(sizes);
     for (const float size : sizes) apart.push_back(std::abs(size - usual));
-    // Of a normal distribution, a deviation is 1.4826 of these.
+    // For a normal distribution, the deviation is 1.4826 times the median absolute deviation.
     const float wide = usual + kDeviations * 1.4826f * median(std::move(apart));
     limits[p] = std::clamp(wide, kLeast[p], kAlways[p]);
   }
   return limits;
 }
 
-// Of each frame the part that is furthest beyond its limit, as a share of the limit.
+// For each frame, the largest excess of a part relative to its limit.
 std::vector<float> scores_of(const std::vector<Excess>& frames, const Parts& limits) {
   std::vector<float> scores;
   for (const Excess& frame : frames) {
@@ -239,7 +238,7 @@ std::vector<float> scores_of(const std::vector<Excess>& frames, const Parts& lim
   return scores;
 }
 
-// From the peak forwards (`way` 1) or backwards (-1) to where it is quiet; nothing if it is not.
+// From the peak forwards (`way` 1) or backwards (-1) to where it is quiet; nothing if it never is.
 std::optional<int> end_of(const std::vector<float>& scores, int peak, int way) {
   const int end = static_cast<int>(scores.size()) - kEdge;
   int quietest = peak;
@@ -260,7 +259,7 @@ float usual_speed(const Take& take) {
   return median(std::move(steps)) * static_cast<float>(kTakeRate);
 }
 
-// Whether a body turns around, stops or starts, rather than making a gesture on its way.
+// Whether the body turns around, stops or starts, which is not a gesture.
 bool changes_course(const Take& take, int first, int last, float speed) {
   if (std::abs(take.root[last].facing - take.root[first].facing) > kMaxTurn) return true;
   const float way = length(take.root[last].position - take.root[first].position);
@@ -280,7 +279,7 @@ void add_moments(const Take& take, int number, const std::vector<float>& scores,
   }
 }
 
-// The strongest that do not overlap.
+// The strongest moments that do not overlap.
 std::vector<Moment> strongest(std::vector<Moment> moments) {
   std::stable_sort(moments.begin(), moments.end(),
                    [](const Moment& a, const Moment& b) { return a.strength > b.strength; });
@@ -294,7 +293,7 @@ std::vector<Moment> strongest(std::vector<Moment> moments) {
   return kept;
 }
 
-// Which joints a gesture turns, and whether it moves the hips.
+// The joints that a gesture rotates, and whether it moves the hips.
 struct Moving {
   std::array<bool, kGestureJoints> joints{};
   bool hips = false;
@@ -324,7 +323,7 @@ Gesture make_gesture(const std::vector<Excess>& frames, const Moment& moment, co
   const int count = static_cast<int>(std::lround((end - begin) / step)) - 3;
   std::vector<GesturePose> points;
   for (int k = 0; k < std::clamp(count, Gesture::kMinPoints, Gesture::kMaxPoints); ++k) {
-    const double at = begin + (k + 2) * step;  // The middle of what this control point weighs in.
+    const double at = begin + (k + 2) * step;  // The middle of this control point's range.
     const int last = static_cast<int>(frames.size()) - 1;
     const int frame = std::clamp(static_cast<int>(std::lround(at * kTakeRate)), 0, last);
     const auto share = static_cast<float>(std::min(at - begin, end - at) / (1.5 * kEase));

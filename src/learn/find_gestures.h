@@ -12,14 +12,14 @@ namespace panache {
 
 struct FoundGesture {
   Gesture gesture;
-  int take = 0;        // The styled take that holds it,
-  double start = 0;    // and when, seconds after its first frame.
-  float strength = 0;  // How far it leaves the usual range: 1 only just.
+  int take = 0;        // The styled take with the gesture,
+  double start = 0;    // and its time, seconds after the first frame.
+  float strength = 0;  // How far it exceeds the usual range; 1 is the limit.
 };
 
-// Moments of 0.5 to 2.5 s at which the change from neutral to styled leaves the range that is
-// usual for its style, without those at which the body turns, starts or stops. `pairings`: those of
-// one style. The strongest first, at most kFoundGestures, none within another.
+// Moments of 0.5 to 2.5 s at which the change from neutral to styled leaves the range that is usual
+// for its style, except where the body turns, starts or stops. `pairings`: those of one style.
+// Strongest first, at most kFoundGestures, without overlap.
 inline constexpr int kFoundGestures = 4;
 std::vector<FoundGesture> find_gestures(const std::vector<Take>& takes,
                                         std::span<const Pairing> pairings);

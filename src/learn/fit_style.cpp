@@ -11,17 +11,17 @@
 namespace panache {
 namespace {
 
-constexpr int kCopies = 8;  // Disturbed ones of each window, beside the window itself.
-// What a foot that is planted, or is not, asks of the contact network: a probability of 0.88. The
-// network's own is held within the same bounds.
+constexpr int kCopies = 8;  // Disturbed copies of each window, besides the window itself.
+// The target logit of the contact network for a planted or lifted foot: a probability of 0.88. The
+// network's own logit is clamped to the same bounds.
 constexpr float kSure = 2;
-// Directions that the gate tells apart; all others share what is left of the variance.
+// Directions that the gate distinguishes; all others share the remaining variance.
 constexpr size_t kDirections = 32;
-constexpr int kSweeps = 12;  // Of the iteration that finds them.
-// Windows of at most this quantile of the leverage in learning are trusted.
+constexpr int kSweeps = 12;  // Iterations to find them.
+// Windows up to this quantile of the leverage in training are trusted.
 constexpr double kTrusted = 0.99;
 
-// What the regression sees: a row of standardised activations and one of answers per window.
+// The data of the regression: a row of standardised activations and a row of targets per window.
 struct Table {
   size_t rows = 0, activations = 0;
   std::vector<double> seen;     // [rows][activations]
@@ -32,7 +32,7 @@ struct Table {
 
 Table make_table(const std::shared_ptr<const Model>& model, const SampleSet& set,
                  std::span<const size_t> samples) {
-  StyleNetworks networks(model);  // Of no style: its contacts are those of the networks alone.
+  StyleNetworks networks(model);  // Without a style: the contacts are those of the networks alone.
   Table table;
   table.activations = model->activation_count();
   Random random(1);
@@ -68,7 +68,7 @@ Table make_table(const std::shared_ptr<const Model>& model, const SampleSet& set
   return table;
 }
 
-// Takes the mean of each column out of the rows, and returns it.
+// Subtracts the mean of each column from the rows, and returns it.
 std::vector<double> centre(std::vector<double>& rows, size_t columns) {
   std::vector<double> mean(columns);
   const double count = double(rows.size()) / columns;
@@ -83,9 +83,9 @@ double dot(std::span<const double> a, std::span<const double> b) {
   return sum;
 }
 
-// The directions of a covariance in which it varies most, of length 1 and at right angles to each
-// other, and its variance along each. By orthogonal iteration: when two variances are close, their
-// directions may be mixed, which no leverage depends on.
+// The orthonormal directions of a covariance with the largest variance, and the variance along
+// each, by orthogonal iteration: if two variances are close, their directions may be mixed, which
+// does not affect leverage.
 struct Directions {
   std::vector<double> vectors;  // [directions][size]
   std::vector<double> variances;
@@ -127,8 +127,8 @@ Tensor tensor(std::vector<int64_t> shape, const std::vector<double>& values, boo
   return out;
 }
 
-// Puts a layer on standardised activations into the file as one on the activations themselves:
-// halves, and a bias such that the answer to the activations `mean` is exactly `answer`.
+// Stores a layer on standardised activations in the file as one on the activations themselves:
+// F16 weights, and a bias that makes the output for the activations `mean` exactly `answer`.
 void put_layer(const std::string& key, const Model& model, const std::vector<double>& weights,
                const std::vector<double>& mean, std::vector<double> answer, TensorFile& file) {
   const size_t outputs = answer.size();
@@ -144,13 +144,13 @@ void put_layer(const std::string& key, const Model& model, const std::vector<dou
   file.tensors[key + ".bias"] = tensor({columns}, answer);
 }
 
-// The gate: leverage of a window, z^T (S + penalty)^-1 z with S the covariance of what was learnt
-// from, in units of where trust ends.
+// The gate: the leverage of a window, z^T (S + penalty)^-1 z with S the covariance of the training
+// data, in units of the limit of trust.
 void put_gate(const Model& model, Table& table, const std::vector<double>& covariance,
               const std::vector<double>& mean, double penalty, TensorFile& file) {
   const size_t size = table.activations, count = std::min(kDirections, size);
   Directions main = main_directions(covariance, size, count);
-  double left = 0;  // Variance beside the main directions.
+  double left = 0;  // Variance outside the main directions.
   for (size_t f = 0; f < size; ++f) left += covariance[f * size + f];
   for (const double variance : main.variances) left -= variance;
   const double others = size > count ? std::max(0.0, left) / (size - count) : 0;
@@ -172,7 +172,7 @@ void put_gate(const Model& model, Table& table, const std::vector<double>& covar
   }
   const auto place = static_cast<size_t>(kTrusted * (table.rows - 1));
   std::nth_element(leverages.begin(), leverages.begin() + place, leverages.end());
-  const double limit = std::max(leverages[place], 1e-6);  // A single pose has none.
+  const double limit = std::max(leverages[place], 1e-6);  // 0 for a single pose.
   for (double& w : gate_weights) w /= limit;
 
   std::vector<double> weights(size * count);
@@ -195,12 +195,12 @@ TensorFile fit_style(const std::shared_ptr<const Model>& model, const SampleSet&
   const std::vector<double> answer = centre(table.answers, kLearntOutputs);
   Ridge ridge(static_cast<int>(table.activations), kLearntOutputs);
   ridge.add(table.seen, table.answers, 1 / double(table.rows));
-  // The mean posture costs nothing: rows and answers are centred.
+  // The mean posture is not penalised: rows and targets are centred.
   const std::vector<double> weights = ridge.solve(std::vector<double>(table.activations, penalty));
   std::vector<double> mean;
   for (size_t f = 0; f < table.activations; ++f) {
     const double scale = model->activation_scale()[f];
-    // As the file will hold it.
+    // In the file's precision.
     mean.push_back(static_cast<float>(model->activation_mean()[f] + middle[f] * scale));
   }
   TensorFile file;
@@ -225,12 +225,12 @@ TensorFile fit_posture(const Model& model, const StyleDelta& change) {
             std::vector<double>(directions), file);
   file.tensors["gate.worth"] =
       tensor({static_cast<int64_t>(directions)}, std::vector<double>(directions));
-  file.tensors["gate.rest"] = tensor({1}, {0});  // All motion is known.
+  file.tensors["gate.rest"] = tensor({1}, {0});  // All motion counts as known.
   return file;
 }
 
 Result<void> add_activation_statistics(const std::vector<Take>& takes, TensorFile& file) {
-  // A feature that hardly moves must not count for its noise.
+  // The noise of a feature that hardly moves must not count.
   constexpr double kStill = 0.01;
   constexpr int kEvery = 5;  // Frames.
   Result<std::shared_ptr<const Model>> model = Model::create(file, "the model");

@@ -16,15 +16,15 @@
 namespace panache {
 namespace {
 
-// Less teaches nothing: the ends of a warped window are left out.
+// Anything shorter teaches nothing: the ends of a warped window are dropped.
 constexpr int kMinFrames = 15;
-// Rests that are further apart than this are two rest poses.
+// Larger differences make two rest poses different.
 constexpr double kSameRest = 5;  // Degrees.
 
 Result<Take> take_of(const LearnClip& from) {
   if (from.clip.frames == 1) return make_take(from.clip, from.rig, PoseLayout::positions);
   const double seconds = (from.clip.frames - from.rig.first_frame()) * from.clip.frame_time;
-  // Files round the time of a frame: half a frame less is the same.
+  // Files round the frame time: half a frame less counts as the same.
   if (seconds * kTakeRate < kMinFrames - 0.5) {
     return Error{from.name + ": has " + with_decimals(std::max(0.0, seconds), 2) +
                  " s of motion; a style is learnt from " +
@@ -34,8 +34,8 @@ Result<Take> take_of(const LearnClip& from) {
   return make_take(from.clip, from.rig, PoseLayout::positions);
 }
 
-// Of each joint its names from the topmost joint down. The joints above the hips have none: they
-// are often called like the file or the scene, and not like a part of the body.
+// The names of each joint's ancestors and its own, from the root down. Joints above the hips have
+// no path: they are often named after the file or the scene, not after a part of the body.
 std::vector<std::string> joint_paths(const std::vector<Joint>& joints, const Rig& rig) {
   std::vector<bool> above(joints.size());
   for (int joint = rig.joints()[index(HumanJoint::hips)]; (joint = joints[joint].parent) >= 0;) {
@@ -51,14 +51,14 @@ std::vector<std::string> joint_paths(const std::vector<Joint>& joints, const Rig
   return paths;
 }
 
-// The places of joints by their paths, those of the same path in the order of the file.
+// Joint indices by path; several joints of the same path are in file order.
 std::map<std::string, std::vector<size_t>> places_of(const std::vector<std::string>& paths) {
   std::map<std::string, std::vector<size_t>> places;
   for (size_t j = 0; j < paths.size(); ++j) places[paths[j]].push_back(j);
   return places;
 }
 
-// For each joint of the neutral skeleton the joint of the styled one with its name and parents.
+// For each joint of the neutral skeleton, the styled one's joint with the same path.
 Result<std::vector<size_t>> match_joints(const LearnClip& neutral, const LearnClip& styled) {
   const std::vector<Joint>& a = neutral.clip.skeleton.joints;
   const std::vector<Joint>& b = styled.clip.skeleton.joints;
@@ -95,8 +95,8 @@ Result<std::vector<size_t>> match_joints(const LearnClip& neutral, const LearnCl
   return matches;
 }
 
-// Which joints the body's bones go through. The hips and what is above them are not among these:
-// files put there where the body was, not how it is made. Nor are props.
+// The joints of the body itself, without props. The hips and joints above are excluded: files use
+// them for the position of the body, not its build.
 std::vector<bool> joints_below_hips(const std::vector<Joint>& joints, const Rig& rig) {
   std::vector<bool> below(joints.size());
   const int hips = rig.joints()[index(HumanJoint::hips)];
@@ -106,8 +106,8 @@ std::vector<bool> joints_below_hips(const std::vector<Joint>& joints, const Rig&
   return below;
 }
 
-// Whether the bones of the body have the same directions at rest, so that rotations of one
-// skeleton mean the same on the other. What stands on its parent has no direction.
+// Whether the body's bones have the same directions at rest, so that rotations have the same
+// meaning on both skeletons. A joint at its parent's position has no direction.
 bool rest_alike(const LearnClip& neutral, const LearnClip& styled,
                 const std::vector<size_t>& matches) {
   const std::vector<Joint>& joints = neutral.clip.skeleton.joints;
@@ -123,7 +123,7 @@ bool rest_alike(const LearnClip& neutral, const LearnClip& styled,
   return true;
 }
 
-// The take of the styled motion on the neutral skeleton.
+// The take of the styled motion, retargeted to the neutral skeleton.
 Result<Take> take_onto(const LearnClip& styled, const LearnClip& neutral) {
   Result<Retargeted> done = retarget(styled.clip, styled.rig, neutral.clip, neutral.rig);
   if (!done) return located(styled.name + " onto " + neutral.name, done.error());
@@ -136,7 +136,7 @@ Result<Take> take_onto(const LearnClip& styled, const LearnClip& neutral) {
   return take_of({done->clip, *rig, styled.name});
 }
 
-// The canonical body upright, with hanging arms.
+// The canonical body standing upright, with its arms down.
 Clip standing_pose() {
   constexpr float kDown = 1.35f, kBent = 0.2f;  // Radians: upper arms, elbows.
   Clip clip = rest_clip(canonical_skeleton());
@@ -148,7 +148,7 @@ Clip standing_pose() {
   return clip;
 }
 
-// Rotations that follow from the positions alone, the same for every rig.
+// Recomputes rotations from positions alone, so that they are the same for every rig.
 void forget_twist(Take& take) {
   for (int f = 0; f < take.frames(); ++f) canonical_frames(take.body[f], 0, take.rotations[f]);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Pairs to learn a style from: one action, done neutrally and in the style.
+// Pairs for learning a style: one action, performed neutrally and in the style.
 
 #include <optional>
 #include <string>
@@ -16,30 +16,30 @@ namespace panache {
 struct LearnClip {
   const Clip& clip;
   const Rig& rig;
-  std::string name;  // Of its file, for messages.
+  std::string name;  // The file's name, for messages.
 };
 
-// An action done neutrally and in the style, or a neutral pose and one in the style, on the
-// canonical body.
+// An action performed neutrally and in the style, or a neutral and a styled pose, on the canonical
+// body.
 struct LearnPair {
   std::string neutral_name, styled_name;
   Take neutral, styled;
   bool is_pose = false;
-  int neutral_cycle = 0;  // Frames, where the neutral clip is one cycle; see cycle_frames().
-  std::optional<TwinFacts> twin = {};  // Where the neutral motion is not a clip's.
+  int neutral_cycle = 0;  // Frames, if the neutral clip is one cycle; see cycle_frames().
+  std::optional<TwinFacts> twin = {};  // If the neutral motion is not from a clip.
 };
 
-// Clips of one frame each are a pair of poses. Both skeletons have joints of the same names with
-// the same parents, in any order; what is above the hips may differ. Where their rest poses differ,
-// the styled motion is put on the neutral skeleton; bone lengths may always differ. Other skeletons
-// are rejected, and so are clips that are too short to learn from.
+// Two clips of one frame are a pair of poses. Both skeletons must have joints with the same names
+// and parents, in any order; joints above the hips may differ. If their rest poses differ, the
+// styled motion is retargeted to the neutral skeleton; bone lengths may always differ. Other
+// skeletons are rejected, and so are clips that are too short to learn from.
 Result<LearnPair> make_learn_pair(const LearnClip& neutral, const LearnClip& styled);
-// Without a neutral clip: what people in the bank do in its place. The turn of a limb about its own
-// axis is not learnt. A pose is as of make_pose_pair().
+// Without a neutral clip: uses what people in the bank do instead. Twist, the rotation of a limb
+// about its own axis, is not learnt. A single pose is handled by make_pose_pair().
 Result<LearnPair> make_learn_pair(const LearnClip& styled, const NeutralBank& bank);
 
-// A pose in the style, the only frame of the clip, beside a body that stands upright with hanging
-// arms. The turn of a limb about its own axis is not learnt.
+// A styled pose, the only frame of the clip, paired with a body that stands upright with its arms
+// down. Twist, the rotation of a limb about its own axis, is not learnt.
 Result<LearnPair> make_pose_pair(const LearnClip& styled);
 
 }  // namespace panache

@@ -22,28 +22,29 @@ namespace {
 
 constexpr double kShort = 2;  // Seconds.
 // Mean squared distances of takes of one action are below kGoodMatch, of different ones mostly
-// above the first of these; beyond the second nothing was laid together at all. Found on takes of
-// 22 styles.
+// above the first of these; above the second nothing was matched at all. Measured on takes of 22
+// styles.
 constexpr double kPoorMatch = 0.6, kNoMatch = 1.6;
-// Pairs of one action that are in step agree to 0.88 and more, those half a cycle off to 0.6 and
-// less. See step_agreement().
+// Pairs of one action that are in step agree to at least 0.88, those half a cycle off to at most
+// 0.6. See step_agreement().
 constexpr double kInStep = 0.85;
-// A clip that matches so much better when left and right are exchanged is mirrored, or a cycle that
-// begins with the other foot and is too short to find its beginning. Found on 242 pairs, of which
-// none that is not so comes below 0.75. Below the second it matches anyway.
-// Of two clips that differ by rounding alone.
+// Below this, two clips differ only by rounding.
 constexpr double kSameMotion = 0.001;
+// A clip that matches better by this factor when mirrored is mirrored, or a cycle that begins with
+// the other foot and is too short to find its beginning. Measured on 242 pairs: all others are
+// above 0.75. Below the second value, a clip matches anyway.
 constexpr double kMirrored = 0.6, kNearlyEqual = 0.1;
 constexpr double kSlowest = 0.5, kFastest = 2;  // Tempo.
-// See fit_style(). Of a pair less fits an action's own clips better and other takes of it worse; 1
-// is smoother too. What a twin does from frame to frame is less sure than its posture.
+// See fit_style(). With less penalty, a pair fits its own clips better and other takes of the
+// action worse; 1 is also smoother. A twin's frame-to-frame motion is less reliable than its
+// posture.
 constexpr double kPairPenalty = 1, kTwinPenalty = 100;
-constexpr double kHeldBack = 0.75;  // The share of a styled clip from which on it is held back.
-// What is left of the distance to the styled motion, of what it is without a style. Of pairs whose
-// clips show another action 0.84 to 1.03 is left, of pairs of one action 0.3 to 0.86.
+constexpr double kHeldBack = 0.75;  // From this fraction of a styled clip on, it is held out.
+// The remaining fraction of the distance to the styled motion, relative to no style: 0.84 to 1.03
+// for pairs whose clips show different actions, 0.3 to 0.86 for pairs of one action.
 constexpr double kNoBetter = 0.9, kGoodShare = 0.75, kMostShare = 0.25;
 
-// Of a path, as a model may tell it to others: without folders, on one line.
+// The name of a file for the model's metadata: without folders, on one line.
 std::string file_name(const std::string& path) {
   std::string name = path.substr(path.find_last_of("/\\") + 1);
   for (char& c : name) {
@@ -60,8 +61,8 @@ double mean_tempo(const std::vector<Pairing>& pairings) {
   return sum / count;
 }
 
-// Windows overlap: of each styled frame, in the window whose middle is nearest. `cycle`: frames
-// after which the neutral motion starts again, or 0.
+// The matched instant of each styled frame, from the window with the nearest middle, as windows
+// overlap. `cycle`: frames after which the neutral motion repeats, or 0.
 std::vector<MatchedInstant> matched_instants(const std::vector<Pairing>& pairings, int cycle) {
   struct Placed {
     double from_middle;
@@ -148,7 +149,7 @@ Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& p
   }
   for (const bool is_neutral : {true, false}) {
     const double seconds = (is_neutral ? pair.neutral : pair.styled).frames() / kTakeRate;
-    // A clip of as long has up to two frames less, by where its frames lie.
+    // A clip of this length has up to two frames less, depending on where its frames lie.
     if (seconds > kShort - 1.5 / kTakeRate || (is_neutral && pair.twin)) continue;
     warn((is_neutral ? pair.neutral_name : pair.styled_name) + ": has only " +
          with_decimals(seconds, 2) +
@@ -157,7 +158,7 @@ Result<PairReport> describe(const LearnPair& pair, const std::vector<Pairing>& p
   return report;
 }
 
-// Errors of the style over some samples, its mean posture's, and the neutral motion's own.
+// Errors over some samples: of the style, of its mean posture, and of the unchanged neutral motion.
 void measure(const std::shared_ptr<const Model>& model, const std::string& style,
              const std::vector<Take>& takes, const SampleSet& set,
              const std::vector<size_t>& learnt, const std::vector<size_t>& held_back,
@@ -191,7 +192,7 @@ void measure(const std::shared_ptr<const Model>& model, const std::string& style
   }
 }
 
-// A style of one pair of poses: their difference, as it is.
+// A style from one pair of poses: their difference.
 Result<LearntStyle> learn_pose(const TensorFile& file, const Model& model,
                                std::span<const LearnPair> pairs, const std::string& style,
                                const std::string& description) {
@@ -243,7 +244,7 @@ Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
   if (std::any_of(pairs.begin(), pairs.end(), [](const LearnPair& pair) { return pair.is_pose; })) {
     return learn_pose(file, **model, pairs, style, description);
   }
-  // Each pair is a set of its own, so that it goes together with nothing else.
+  // Each pair is a separate set, so that it is not matched with others.
   std::vector<Take> takes;
   std::vector<Pairing> pairings;
   LearntStyle learnt;
@@ -281,7 +282,7 @@ Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
     info.origin += " " + file_name(pair.neutral_name) + " -> " + file_name(pair.styled_name) + ";";
   }
   info.origin.pop_back();
-  // Once without what is held back, to be judged, and once with everything.
+  // One fit without the held-out part, to evaluate it, and one with everything.
   learnt.judged = !first.empty() && !held_back.empty();
   double penalty = kPairPenalty, trust = 1;
   for (const LearnPair& pair : pairs) {
@@ -307,7 +308,7 @@ Result<LearntStyle> learn_style(const TensorFile& file, const std::string& name,
           "); record 2 to 3 s of one action, neutrally and in the style");
     }
   }
-  // Beside a twin that does something else, the action itself would be the gesture.
+  // If a twin does something else, the action itself would count as a gesture.
   std::vector<FoundGesture> gestures;
   if (trust == 1) gestures = find_gestures(takes, pairings);
   for (const FoundGesture& found : gestures) {

@@ -13,12 +13,12 @@ namespace panache {
 
 namespace {
 
-// "takes.csv:12: ", or nothing.
+// "takes.csv:12: ", or empty.
 std::string where(const ManifestRow& row) {
   return row.manifest.empty() ? "" : row.manifest + ":" + std::to_string(row.line) + ": ";
 }
 
-// The name in `names` of a row's style; null if they do not list it.
+// The entry in `names` for a row's style; null if there is none.
 const StyleName* find_style_name(const std::vector<StyleName>& names, const ManifestRow& row) {
   const auto find = [&](const std::string& from) -> const StyleName* {
     for (const StyleName& style : names) {
@@ -38,7 +38,7 @@ Result<std::vector<ManifestRow>> read_manifest(const std::string& path, int set)
   if (!table) return table.error();
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   std::vector<ManifestRow> rows;
-  std::map<std::string, int> sets;  // Of each performer.
+  std::map<std::string, int> sets;  // The set of each performer.
   for (const CsvRow& cells : table->rows) {
     ManifestRow row;
     row.path = (folder / cells.values[0]).string();
@@ -85,7 +85,7 @@ Result<std::vector<StyleName>> read_style_names(const std::string& path) {
       return Error{where + "style '" + style.name +
                    "' is listed already; expected one line with all its names in column from"};
     }
-    for (const size_t column : {2, 3}) {  // A model keeps each on a line of its metadata.
+    for (const size_t column : {2, 3}) {  // A model stores each on a line of its metadata.
       if (is_one_line(cells.values[column])) continue;
       return Error{where + "column " + table->columns[column] +
                    " is not one line of UTF-8 text; expected no line breaks and no tabs in it"};
@@ -120,7 +120,7 @@ std::vector<std::string> list_missing_files(const std::vector<ManifestRow>& rows
 std::vector<std::string> list_unnamed_styles(const std::vector<StyleName>& names,
                                              const std::vector<ManifestRow>& rows) {
   if (names.empty()) return {};
-  std::map<std::pair<std::string, std::string>, int> dropped;  // Performer and style, takes.
+  std::map<std::pair<std::string, std::string>, int> dropped;  // Takes by performer and style.
   for (const ManifestRow& row : rows) {
     if (row.neutral || find_style_name(names, row)) continue;
     ++dropped[{row.manifest + (row.person.empty() ? "" : ": performer '" + row.person + "'"),

@@ -22,30 +22,30 @@ constexpr int kRootBegin = root_offset(PoseLayout::positions);
 constexpr int kNearest = 6;
 constexpr float kNearestFloor = 0.5f;  // Squared distance below which all prototypes count alike.
 constexpr int kSmoothed = 7;           // Frames.
-// Tempos that a style may have, and by how much nearer another than 1 has to bring the prototypes.
+// Tempos to try for a style, and the factor by which another than 1 must reduce the distance.
 constexpr float kTempos[] = {1, 0.84f, 1.19f, 0.71f, 1.41f};
 constexpr float kNearer = 0.93f;
-constexpr int kTempoStride = 5;  // Of so many frames one is looked at.
-// How much of the deviation between people in one moment is that of their mean postures.
+constexpr int kTempoStride = 5;  // One of this many frames is examined.
+// The fraction of the deviation between people in a moment that is due to their mean postures.
 constexpr float kPostureShare = 0.3f;
-// How far the nearest prototypes are, in units of what is known, for each share of a clip's motion
-// that they have: up to the first all of the difference is style, from the second on nothing. Found
-// on 206 clips of 80 styles: punches and kicks have 4.4 to 27, jumps 3.4 to 7.4, walks, runs, bows
-// and waves 0.3 to 4.0.
+// Distances of the nearest prototypes, in units of the known distance, each divided by the fraction
+// of the clip's motion that they have: up to the first, all of the difference is style, from the
+// second on none. Measured on 206 clips of 80 styles: punches and kicks have 4.4 to 27, jumps 3.4
+// to 7.4, walks, runs, bows and waves 0.3 to 4.0.
 constexpr double kFar = 3.75, kTooFar = 4.5;
-// What the coarse posture and the rig weigh.
+// Weights of the coarse posture and the rig.
 constexpr float kCoarse = 0.5f, kRigWeight = 1.5f;
 
-// When a moment is looked at, in frames; and those of it that its steps are seen in.
+// Frames at which a moment is sampled; and the range of these for the steps.
 constexpr std::array kTimes = {-15, -12, -9, -6, -4, -3, -2, -1, 0, 1, 2, 3, 4, 6, 9, 12, 15};
 constexpr size_t kFirst = 3, kCount = 11;
-// Evenly spread over the three seconds.
+// Evenly spaced over the three seconds.
 constexpr std::array<size_t, 11> kSpread = {0, 1, 2, 3, 5, 8, 11, 13, 14, 15, 16};
 constexpr float kTimeUnit = 3;
 
 struct Seen {
   HumanJoint joint;
-  float weight;  // A style changes the steps least.
+  float weight;  // Highest for the legs: a style changes the steps least.
 };
 constexpr std::array<Seen, 12> kSeen = {{{chest, 0.5f},
                                          {head, 0.5f},
@@ -65,7 +65,7 @@ constexpr std::array kAmplitudes = {left_lower_leg,  left_foot,      right_lower
 
 float bounded(float value, float most) { return std::clamp(value, -most, most); }
 
-// The canonical body nearest to `joints`, whose limbs may have other lengths.
+// The canonical body nearest to `joints`, whose limb lengths may differ.
 HumanPositions whole_body(const HumanPositions& joints) {
   BodyShape shape;
   shape.has.fill(true);
@@ -100,7 +100,7 @@ HumanPositions mean_body(const std::vector<HumanPositions>& bodies) {
   return mean;
 }
 
-// How far the joints are from their mean, the root of the mean square, metres.
+// The root mean square distance of the joints from their mean, metres.
 double motion_about(const HumanPositions& mean, const std::vector<HumanPositions>& bodies) {
   double sum = 0;
   for (const HumanPositions& body : bodies) {
@@ -168,7 +168,7 @@ void write_moment(const Take& take, float frame, float tempo, std::span<float> o
   for (int k = 0; k < kRootFeatures; ++k) put(root[k] * kMeanWeights[k]);
   for (int f = 0; f < kFeet; ++f) put(4 * planted[f]);
   for (const HumanJoint joint : kAmplitudes) put(0.6f * std::log(amplitude[index(joint)]));
-  // What tells sitting, lying and fighting from standing, whatever the style.
+  // Distinguishes sitting, lying and fighting from standing, whatever the style.
   const auto coarse = [&](float way, float unit) { put(kCoarse * bounded(way / unit, 4)); };
   const auto at = [&](HumanJoint joint) { return mean[index(joint)]; };
   coarse(at(hips).y, 0.15f);
@@ -178,7 +178,7 @@ void write_moment(const Take& take, float frame, float tempo, std::span<float> o
   for (const HumanJoint hand : {left_hand, right_hand}) {
     coarse(at(hand).y - at(hips).y, 0.3f), coarse(at(hand).z, 0.3f);
   }
-  // Where a planted foot is: rigs differ in it, and with it in the whole leg.
+  // The height of a planted foot differs between rigs, and with it the whole leg.
   put(bounded(((ankle[0] + ankle[1]) / 2 - 0.07f) / 0.02f, 3) * kRigWeight);
   put(bounded(((toe[0] + toe[1]) / 2 - 0.03f) / 0.02f, 3) * kRigWeight);
   assert(number == out.data() + out.size());
@@ -258,7 +258,7 @@ void NeutralBank::find(const Take& take, float frame, float tempo, std::span<Nea
 
 NeutralTwin NeutralBank::twin(const Take& styled) const {
   NeutralTwin out;
-  // The tempo that most people would do it at.
+  // The tempo at which most people would do it.
   double best = 0, unlike = 0;
   for (const float tempo : kTempos) {
     double sum = 0, count = 0;
@@ -278,7 +278,7 @@ NeutralTwin NeutralBank::twin(const Take& styled) const {
   }
   const auto tempo = static_cast<float>(out.tempo);
   const int frames = 1 + static_cast<int>(static_cast<float>(styled.frames() - 1) * tempo);
-  constexpr int kNumbers = kPoseNumbers + kHumanJoints;  // A pose, and deviations squared.
+  constexpr int kNumbers = kPoseNumbers + kHumanJoints;  // A pose, and squared deviations.
   std::vector<float> rows(size_t(frames) * kNumbers);
   std::vector<std::array<Near, kNearest>> nearest(frames);
   parallel_for(frames, [&](int f) {
@@ -304,7 +304,7 @@ NeutralTwin NeutralBank::twin(const Take& styled) const {
   }
   out.facts.people = static_cast<int>(people.size());
   rows = smoothed(rows, frames, kNumbers);
-  HumanPositions variance{};  // Of each joint, in x.
+  HumanPositions variance{};  // Of each joint, stored in x.
   for (int f = 0; f < frames; ++f) {
     const float* numbers = &rows[size_t(f) * kNumbers];
     out.take.body.push_back(read_positions({numbers, kPoseNumbers}));
@@ -312,8 +312,8 @@ NeutralTwin NeutralBank::twin(const Take& styled) const {
       variance[j].x += numbers[kPoseNumbers + j] / static_cast<float>(frames);
     }
   }
-  // A performer differs from the mean of people: of the difference in posture as much stays with
-  // the twin as people differ by (Wiener 1949).
+  // A performer differs from the mean of people: a part of the difference in posture that
+  // corresponds to the variation between people stays with the twin (Wiener 1949).
   const HumanPositions was = mean_body(out.take.body), is = mean_body(styled.body);
   constexpr double kStill = 1e-3;  // A millimetre.
   const double far =

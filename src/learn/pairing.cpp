@@ -23,7 +23,7 @@ constexpr std::array kKeyJoints = {HumanJoint::chest,           HumanJoint::head
                                    HumanJoint::right_foot,      HumanJoint::right_toes};
 constexpr int kNumbers = 6 * static_cast<int>(kKeyJoints.size()) + 1;
 
-// Per styled frame the neutral side advances 0 to 3 frames; each costs this much of the distance.
+// Per styled frame the neutral side advances 0 to 3 frames; the distance is multiplied by this.
 constexpr float kPenalty[4] = {1.15f, 1.0f, 1.1f, 1.3f};
 // It may wait this many frames in a row: a styled action may dwell where the neutral one does not.
 constexpr int kMaxWaits = 2;
@@ -31,12 +31,12 @@ constexpr int kSmoothFrames = 7;
 // Smaller movements are ignored: 5 cm, 0.15 m/s.
 constexpr float kStillWay = 0.05f, kStillSpeed = 0.15f;
 constexpr float kFar = 1e30f;
-// Short windows always fit a little better. Of takes that are in step they cost no less than 0.75
-// of what long ones do, of runs and backward walks that long ones lay out of step 0.14 to 0.68.
+// Short windows always fit a little better. For takes in step they cost at least 0.75 of what long
+// ones do; for runs and backward walks that long ones align out of step, 0.14 to 0.68.
 constexpr float kOutOfStep = 0.7f;
-// Nothing is in step with less of a neutral take than this, in short windows.
+// Short windows need at least this much of a neutral take to be in step.
 constexpr double kMinNeutral = 1.2;
-// Feet that are this close to each other along the heading, in the mean, take no steps. Metres.
+// Feet whose mean distance along the heading is below this take no steps. Metres.
 constexpr double kFeetTogether = 0.1;
 
 // Features of a take for the comparison: positions and velocities of the key joints in the body
@@ -59,16 +59,16 @@ std::vector<float> comparison_numbers(const Take& take) {
   return numbers;
 }
 
-// All takes of one action in one style: their activations, standardised together, so that the
-// style's own posture does not spoil the comparison.
+// All takes of one action in one style: their features, standardised together, so that the style's
+// own posture does not affect the comparison.
 struct Group {
   std::vector<int> takes;
   std::vector<float> numbers;  // [frames][kNumbers]
-  std::vector<int> begin;      // First frame of each take; one more at the end.
+  std::vector<int> begin;      // First frame of each take, and the total.
 };
 
-// A number that hardly moves must not drown the others in its noise: while a hand is raised, only
-// that arm tells where in the action one is.
+// The noise of a feature that hardly moves must not dominate the others: while a hand is raised,
+// only that arm shows the phase of the action.
 float still(int number) {
   const bool speed = number + 1 < kNumbers && number % 6 >= 3;
   return speed ? kStillSpeed / static_cast<float>(kTakeRate) : kStillWay;
@@ -100,7 +100,7 @@ Group make_group(const std::vector<Take>& takes, std::vector<int> members) {
   return group;
 }
 
-// The neutral side of the warping: what its frames are like, and which may follow which.
+// The neutral side of the warping: its frames, and their possible successors.
 struct Track {
   int frames = 0;
   // Such that |a - b|^2 / kNumbers = |a|^2 / kNumbers + square[b] + sum of a[i] * factors[i][b].
@@ -132,8 +132,8 @@ Track make_track(const Group& group) {
 }
 
 // Warps `rows` styled frames, whose distances to all neutral frames are
-// distance[rows][track.frames]. Returns the neutral frame of each and the mean cost; no path where
-// every neutral take is too short.
+// distance[rows][track.frames]. Returns the neutral frame of each and the mean cost; the path is
+// empty if every neutral take is too short.
 struct Warp {
   std::vector<int> path;
   float cost = 0;
@@ -145,7 +145,7 @@ Warp warp(const float* distance, int rows, const Track& track, std::vector<float
   before.assign(m + pad, kFar);
   after.assign(m + pad, kFar);
   steps.assign(size_t(rows) * m, 1);
-  std::vector<int8_t> waits(m, 0);  // How many of the last steps were waits.
+  std::vector<int8_t> waits(m, 0);  // Number of consecutive waits so far.
   for (int j = 0; j < m; ++j) before[j + pad] = distance[j];
   for (int i = 1; i < rows; ++i) {
     const float* d = distance + size_t(i) * m;
@@ -207,8 +207,8 @@ std::vector<float> slopes(const std::vector<float>& path) {
   return rates;
 }
 
-// Distances of `frames` frames of a group, from `begin` on, to all neutral frames: mean over the
-// numbers of their squared difference. [frames][track.frames]
+// Distances of `frames` frames of a group, from `begin` on, to all neutral frames: the mean over
+// the features of their squared difference. [frames][track.frames]
 std::vector<float> distances(const Group& styled, int begin, int frames, const Track& track) {
   const size_t columns = track.frames;
   std::vector<float> distance(size_t(frames) * columns);
@@ -226,7 +226,7 @@ std::vector<float> distances(const Group& styled, int begin, int frames, const T
   return distance;
 }
 
-// Pairs one styled take, number `which` of its group, in windows of these lengths.
+// Pairs one styled take, number `which` of its group, in windows of the given lengths.
 std::vector<Pairing> pair_windows(const Group& styled, int which, const Group& neutral,
                                   const Track& track, std::span<const float> distance,
                                   const PairingOptions& options) {

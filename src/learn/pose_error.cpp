@@ -16,7 +16,7 @@ double degrees_between(Quat a, Quat b) {
 
 PoseError pose_error(const Take& styled, int frame, const Take& neutral, float at,
                      const StyleDelta& change) {
-  // The true change t leads from the neutral rotations n to the styled ones, s = t n; so the model
+  // The true change t maps the neutral rotations n to the styled ones, s = t n; so the model
   // reaches c n = c t^-1 s.
   const StyleDelta truth = change_between(styled, frame, neutral, at, 1);
   const std::array<Quat, kHumanJoints>& real = styled.rotations[frame];

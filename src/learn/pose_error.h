@@ -1,5 +1,5 @@
 #pragma once
-// How far one pose is from the pose of a real styled take.
+// The distance of a pose from that of a real styled take.
 
 #include "learn/take.h"
 #include "pose/style_delta.h"

@@ -13,7 +13,7 @@
 namespace panache {
 namespace {
 
-constexpr int kStride = 3;  // Of so many frames of a window one is looked at.
+constexpr int kStride = 3;  // One of this many frames of a window is evaluated.
 
 }  // namespace
 

@@ -1,5 +1,5 @@
 #pragma once
-// Which styles a motion shows, told by a remover: its trunk has learnt what styles are made of.
+// Recognises the styles of a motion with a remover, whose trunk has learnt features of styles.
 
 #include <span>
 #include <vector>
@@ -12,35 +12,35 @@
 
 namespace panache {
 
-inline constexpr int kRecognisedFrames = 60;  // Of a window, at kTakeRate; or a shorter take's all,
-inline constexpr int kRecognisedHop = 15;     // and from one to the next.
+inline constexpr int kRecognisedFrames = 60;  // Window length, at kTakeRate, at most the take's,
+inline constexpr int kRecognisedHop = 15;     // and the step from one to the next.
 
-// Deviations from its mean that a statistic counts at the most.
+// Statistics are clamped to this many deviations from their mean.
 inline constexpr float kFarthestStatistic = 4;
 
-// The first frames of the windows of a take of so many frames; at least one.
+// The first frames of the windows of a take with `frames` frames; at least one.
 std::vector<int> recognised_windows(int frames);
 
-// Means and deviations, over the window of the take (numbers in the model's layout) that begins at
-// `first`, of the activations of the pose trunk and of the pose features. `mirrored`: of the motion
-// left for right. out[Model::recognition_count()]
+// Means and deviations of the activations of the pose trunk and of the pose features, over the
+// window that begins at `first` of the take (features in the model's layout). `mirrored`: of the
+// mirrored motion. out[Model::recognition_count()]
 void write_statistics(const StyleNetworks& networks, const Take& take, int first, bool mirrored,
                       std::span<float> out);
 
 struct StyleShare {
-  int style = -1;  // Of the remover; -1 is neutral.
+  int style = -1;  // Index in the remover; -1 is neutral.
   float share = 0;
 };
-// How much of the motion shows each style of the remover but kAnyStyle, and neutral, the largest
-// first; together 1. Fails where the model recognises no styles.
+// The share of each style of the remover except kAnyStyle, and of neutral, largest first; they sum
+// to 1. Fails if the model cannot recognise styles.
 Result<std::vector<StyleShare>> recognise_styles(const std::shared_ptr<const Model>& remover,
                                                  const Clip& clip, const Rig& rig);
-// The same of a take with numbers in the model's layout.
+// The same for a take with features in the model's layout.
 Result<std::vector<StyleShare>> recognise_styles(const std::shared_ptr<const Model>& remover,
                                                  const Take& take);
 
-// Writes the shares in the order of the remover's styles, then that of neutral; 0 where there is
-// none. out.size() = styles + 1
+// Writes the shares in the order of the remover's styles, then that of neutral; 0 for missing ones.
+// out.size() = styles + 1
 void write_shares(std::span<const StyleShare> shares, std::span<float> out) noexcept;
 
 }  // namespace panache

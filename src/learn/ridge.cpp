@@ -14,7 +14,7 @@ Ridge::Ridge(int unknowns, int outputs)
 
 void Ridge::add(std::span<const double> rows, std::span<const double> outputs, double weight) {
   assert(rows.size() % unknowns_ == 0 && rows.size() / unknowns_ * outputs_ == outputs.size());
-  // A few rows at a time, as the sums are larger than the caches that are near.
+  // A few rows at a time, because the sums do not fit the inner caches.
   constexpr size_t kRows = 8;
   const size_t count = rows.size() / unknowns_;
   for (size_t first = 0; first < count; first += kRows) {

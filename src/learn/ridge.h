@@ -6,15 +6,15 @@
 
 namespace panache {
 
-// Finds the weights[unknowns][outputs] that bring row * weights near to what is given for each row.
+// Finds the weights[unknowns][outputs] that bring row * weights near to the outputs of each row.
 class Ridge {
  public:
   Ridge(int unknowns, int outputs);
 
-  // Adds a row, or several of one weight. rows[...][unknowns], outputs[...][outputs]
+  // Adds a row, or several with the same weight. rows[...][unknowns], outputs[...][outputs]
   void add(std::span<const double> rows, std::span<const double> outputs, double weight = 1);
-  // penalties[unknowns], not negative: what a weight's square costs. With `prior`
-  // ([unknowns][outputs], or empty for zero) it is the distance from the prior that costs. The
+  // penalties[unknowns], not negative: the cost of a squared weight. With `prior`
+  // ([unknowns][outputs], or empty for zero), the cost of the squared distance from the prior. The
   // rows and penalties together must determine every unknown.
   std::vector<double> solve(std::span<const double> penalties,
                             std::span<const double> prior = {}) const;
@@ -24,7 +24,7 @@ class Ridge {
 
  private:
   const size_t unknowns_, outputs_;
-  std::vector<double> gram_;    // [unknowns][unknowns], of which [i][j] with j <= i is filled
+  std::vector<double> gram_;    // [unknowns][unknowns], lower triangle only
   std::vector<double> target_;  // [unknowns][outputs]
 };
 

@@ -20,9 +20,9 @@ Between between(float frame, int frames) {
 }
 
 // The hips' x and z are constant in the body frame, and others nearly so: divided by their true
-// deviation, any disturbance would explode. So 3 cm (0.1 m/s, 0.2 rad/s) are mixed in. Rotations
-// are normalised as they are, but for those that hardly move: 0.02 of a matrix entry is about a
-// degree.
+// deviation, any disturbance would explode. So a deviation of 3 cm (0.1 m/s, 0.2 rad/s) is added.
+// Rotations are normalised without it, except for those that hardly move: 0.02 of a matrix entry is
+// about a degree.
 float floored_deviation(PoseLayout layout, int number, double variance) {
   double floor = 0.02;
   if (layout == PoseLayout::positions) {

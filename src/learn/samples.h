@@ -1,5 +1,5 @@
 #pragma once
-// Training data: windows of neutral motion, and the style's change of each.
+// Training data: windows of neutral motion, and the style's change for each.
 
 #include <algorithm>
 #include <array>
@@ -13,11 +13,10 @@
 
 namespace panache {
 
-// The ends of a warped window are pulled about by what lies beyond them: so many frames of each are
-// left out.
+// The frames dropped at each end of a warped window, which depend on what lies beyond it.
 inline constexpr int kTrimFrames = 4;
 
-// The tempo of a pairing, neutral seconds per styled second, held within what is believable.
+// The tempo of a pairing, neutral seconds per styled second, clamped to a plausible range.
 constexpr float believable_rate(float rate) { return std::clamp(rate, 0.33f, 3.0f); }
 
 // One training sample. The window is cut from the neutral take when it is needed.
@@ -32,19 +31,19 @@ struct Sample {
   bool has_next = false;              // The next sample is the next frame of the same window.
 };
 
-// How the numbers of a pose are normalised: less the mean, divided by the scale, which is their
-// deviation with a floor under it. [pose_feature_count(layout)]
+// Normalisation of pose features: subtract the mean, divide by the scale, which is their deviation
+// with a lower limit. [pose_feature_count(layout)]
 struct InputUnits {
   std::vector<float> mean, scale;
 };
-// Measured on all frames of takes[which], both sides mirrored.
+// Measured on all frames of takes[which], both as they are and mirrored.
 InputUnits input_units(const std::vector<Take>& takes, const std::vector<int>& which,
                        PoseLayout layout);
 
 class SampleSet {
  public:
-  // Samples of the pairings, and of the neutral takes themselves where `with_neutral`. `styles`:
-  // names in the order of the model.
+  // Samples of the pairings, and of the neutral takes themselves if `with_neutral`. `styles`: names
+  // in the model's order.
   SampleSet(const std::vector<Take>& takes, const std::vector<Pairing>& pairings,
             const std::vector<std::string>& styles, const Recipe& recipe, bool with_neutral);
 
@@ -66,10 +65,10 @@ class SampleSet {
   const std::vector<float>& mean() const { return units_.mean; }
   const std::vector<float>& scale() const { return units_.scale; }
 
-  // The action that a sample shows.
+  // The action in a sample.
   const std::string& content(const Sample& sample) const { return takes_[sample.take].row.content; }
 
-  // Writes the window of sample i as it is, or played `tempo` times as fast. [inputs]
+  // Writes the window of sample i, played `tempo` times as fast. [inputs]
   void window(size_t i, std::span<float> out, float tempo = 1) const;
 
  private:
@@ -84,8 +83,8 @@ class SampleSet {
   InputUnits units_;
 };
 
-// The change that turns the neutral take at frame `at` into frame `frame` of the styled one, `rate`
-// neutral seconds passing per styled second.
+// The change from the neutral take at frame `at` to frame `frame` of the styled one, at `rate`
+// neutral seconds per styled second.
 StyleDelta change_between(const Take& styled, int frame, const Take& neutral, float at, float rate);
 
 // The body and the root activations of a take at a fractional frame, straight between its frames.

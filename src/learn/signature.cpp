@@ -11,12 +11,12 @@ namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr double kAgree = 0.75;    // Share of the actions that change to the same side.
-constexpr double kStill = 0.05;    // m/s, added to speeds: a hand at rest has no sharpness.
+constexpr double kAgree = 0.75;    // Fraction of the actions with a change of the same sign.
+constexpr double kStill = 0.05;    // m/s, added to speeds, so that a hand at rest has no sharpness.
 constexpr double kStillJerk = 5;   // m/s^3
-constexpr double kNoChange = 0.1;  // Of a trait's least difference.
+constexpr double kNoChange = 0.1;  // Relative to a trait's smallest difference.
 
-// How far a direction is pitched forward from upright.
+// The forward pitch of a direction from upright.
 double pitch(Vec3 up) { return std::atan2(up.z, up.y) * kDegrees; }
 
 double bend(Vec3 upper, Vec3 lower) {

@@ -1,6 +1,6 @@
 #pragma once
-// A style described by traits: how posture, speed and tempo of its real takes differ from
-// neutral takes of the same action. It tells what is missing where a classifier only tells that it
+// A style described by traits: how posture, speed and tempo of its real takes differ from neutral
+// takes of the same action. It shows what is missing, where a classifier only shows that something
 // is.
 
 #include <array>
@@ -33,7 +33,7 @@ inline constexpr std::array kTraits = std::to_array<Trait>({
     {"tempo", "tempo, %", 5},
 });
 inline constexpr size_t kTempoTrait = kTraits.size() - 1;
-// The place of a key of the table.
+// The index of a key in the table.
 consteval size_t trait_index(std::string_view key) {
   size_t t = 0;
   while (key != kTraits[t].key) ++t;
@@ -41,27 +41,27 @@ consteval size_t trait_index(std::string_view key) {
 }
 using Traits = std::array<double, kTraits.size()>;
 
-// Means over the frames of a take; percentages as 100 log, so that differences of them are changes.
-// The tempo is not in a take: 0.
+// Means over the frames of a take; percentages as 100 log, so that their differences are changes.
+// The tempo is 0, because a take alone does not determine it.
 Traits traits(const Take& take);
 
-// The changes of one style that its real takes agree on.
+// The changes of a style on which its real takes agree.
 struct Signature {
   Traits change{}, deviation{};                // Mean and deviation over the actions.
-  std::array<bool, kTraits.size()> certain{};  // Most actions agree in the sign, and it is enough.
+  std::array<bool, kTraits.size()> certain{};  // Most actions agree on a sizeable change.
 };
 
-// The comparison of the outputs' traits with a signature.
+// Comparison of the outputs' traits with a signature.
 struct SignatureMatch {
-  size_t traits = 0;  // That were compared,
-  size_t sign = 0;    // changed to the right side,
-  size_t amount = 0;  // and by half to double of the real change.
-  Traits change{};    // Sum over the outputs, of all traits.
-  size_t takes = 0;   // Outputs.
+  size_t traits = 0;  // Number of compared traits,
+  size_t sign = 0;    // of those with the right sign,
+  size_t amount = 0;  // and of those with half to double the real change.
+  Traits change{};    // Sum over the outputs, for all traits.
+  size_t takes = 0;   // Number of outputs.
 
   void add(const Signature& signature, const Traits& change);
   SignatureMatch& operator+=(const SignatureMatch& other);
-  // NaN where nothing was compared.
+  // NaN if nothing was compared.
   double sign_share() const;
   double amount_share() const;
   Traits mean_change() const;
@@ -69,18 +69,18 @@ struct SignatureMatch {
 
 class Signatures {
  public:
-  // From real takes: each style against the neutral takes of the same set and content. The tempo is
-  // that of the pairings.
+  // From real takes: each style relative to the neutral takes of the same set and content. The
+  // tempo is that of the pairings.
   Signatures(const std::vector<Take>& takes, const std::vector<Pairing>& pairings);
 
-  // Null where the style has no takes of two actions at least.
+  // Null if the style does not have takes of at least two actions.
   const Signature* find(const std::string& style) const;
-  // How each real action matches what the others agree on: as good as it gets.
+  // How each real action matches what the others agree on: an upper bound for outputs.
   SignatureMatch real(const std::string& style) const;
 
  private:
   static Signature agree(const std::vector<Traits>& actions);
-  std::map<std::string, std::vector<Traits>> actions_;  // Changes of a style, one for each action.
+  std::map<std::string, std::vector<Traits>> actions_;  // Changes of each style, one per action.
   std::map<std::string, Signature> signatures_;
 };
 

@@ -22,7 +22,7 @@ constexpr const char* kStyleFormat = "panache-style";
 constexpr const char* kStyleVersion = "1";
 constexpr size_t kMaxNameBytes = 60;
 
-// What the tensors of a style are called in a style file.
+// Names of a style's tensors in a style file.
 constexpr std::array kBuiltInTensors = {
     "pose.head.weight",    "pose.head.bias",    "pose.head.scale",
     "timing.head.weight",  "timing.head.bias",  "timing.head.scale",
@@ -31,7 +31,7 @@ constexpr std::array kLearntTensors = {"head.weight", "head.bias",   "head.scale
                                        "mean",        "gate.weight", "gate.bias",
                                        "gate.scale",  "gate.worth",  "gate.rest"};
 
-// The texts of a style: in the metadata of its file, and as a line of a list in that of a model.
+// Text of a style: metadata of its file, and an entry of a list in a model's metadata.
 struct StyleText {
   const char *key, *list;
   std::string StyleInfo::*entry;
@@ -46,23 +46,23 @@ constexpr StyleText kTexts[] = {{"style", "styles", &StyleInfo::name},
 
 using Tensors = std::map<std::string, Tensor>;
 
-// A style with its tensors, which are named as in a style file.
+// A style and its tensors, named as in a style file.
 struct Style {
   StyleInfo info;
   Tensors tensors;
 };
 
-// A model file, and the styles taken out of it, in their order.
+// A model file without its styles, and the styles in order.
 struct Parts {
   TensorFile rest;
   std::vector<Style> styles;
 };
 
-// What the tensor `key` of a style file is called in a model, where `index` styles of its kind are
-// before this one.
+// The name in a model of a style file's tensor `key`, if `index` styles of its kind come before
+// this one.
 std::string key_in_model(const std::string& key, bool learnt, size_t index) {
   if (learnt) return "learnt." + std::to_string(index) + "." + key;
-  // The contact network has a head of no style before those of the styles.
+  // The contact network has a head for no style before those of the styles.
   const size_t head = index + (key.starts_with("contact.") ? 1 : 0);
   const size_t dot = key.rfind('.');
   return key.substr(0, dot + 1) + std::to_string(head) + key.substr(dot);
@@ -78,7 +78,7 @@ void for_each_tensor(bool learnt, Visit&& visit) {
   for (size_t k = 0; k < kMaxGestures; ++k) visit(gesture_key(k));
 }
 
-// `parsed` is the same model.
+// `parsed` is the same model, parsed.
 Parts take_apart(const TensorFile& model, const Model& parsed) {
   Parts parts{model, {}};
   size_t built_in = 0, learnt = 0;
@@ -94,11 +94,11 @@ Parts take_apart(const TensorFile& model, const Model& parsed) {
   return parts;
 }
 
-// The lists of styles that a model carries as text.
+// Writes the lists of styles in a model's metadata.
 void write_lists(const std::vector<Style>& styles, std::map<std::string, std::string>& metadata) {
   for (const auto& [key, list, entry] : kTexts) {
     std::string lines;
-    // Lists without an entry are left out, but for the first two.
+    // Lists without entries are omitted, except for the first two.
     bool any = entry == &StyleInfo::name || entry == &StyleInfo::description;
     for (const Style& style : styles) {
       lines += style.info.*entry + "\n";
@@ -128,7 +128,7 @@ Result<void> check_has_heads(const Model& model, const std::string& name) {
                learning_recipe_names() + ", where each has a head of its own"};
 }
 
-// `text` as one line of UTF-8: what it may not hold is replaced.
+// `text` as one line of UTF-8; invalid characters are replaced.
 std::string in_one_line(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
@@ -145,14 +145,14 @@ std::string metadata_of(const TensorFile& file, const std::string& key) {
   return found == file.metadata.end() ? "" : found->second;
 }
 
-// Where the styles of this kind end.
+// The end of the styles of this kind.
 auto end_of_kind(std::vector<Style>& styles, bool learnt) {
   if (learnt) return styles.end();
   return std::find_if(styles.begin(), styles.end(),
                       [](const Style& style) { return style.info.learnt; });
 }
 
-// A model taken apart, and the index of the style in question.
+// A model without its styles, and the index of the style in question.
 struct Opened {
   Parts parts;
   size_t style;
@@ -190,7 +190,7 @@ std::string trunk_fingerprint(const TensorFile& model) {
 bool is_one_line(const std::string& text) {
   const auto is_space = [](char c) { return c == '\t' || c == '\n' || c == '\r'; };
   if (std::ranges::any_of(text, is_space)) return false;
-  // Everything else that no line of UTF-8 holds is replaced there.
+  // Everything else that a line of UTF-8 cannot contain is replaced there.
   return xml_escaped(text).find("\xef\xbf\xbd") == std::string::npos;
 }
 
@@ -306,7 +306,7 @@ Result<TensorFile> add_style(const TensorFile& model, const std::string& name,
   Parts parts = take_apart(model, **parsed);
   std::vector<Style>& styles = parts.styles;
   Style added{*info, style.tensors};
-  // The picture of a trained style is drawn when it is taken out: put back, the model is the same.
+  // A trained style's picture is drawn on extraction; without it, adding back restores the model.
   if (!info->learnt) added.info.thumbnail.clear();
   const auto taken = std::find_if(styles.begin(), styles.end(), [&](const Style& other) {
     return other.info.name == info->name;
@@ -323,7 +323,7 @@ Result<TensorFile> add_style(const TensorFile& model, const std::string& name,
     styles.insert(end_of_kind(styles, info->learnt), std::move(added));
   }
   TensorFile merged = put_together(std::move(parts));
-  // Nobody knows better than the model what it can hold and evaluate.
+  // Model::create() knows best what a model can hold and evaluate.
   if (auto read = Model::create(merged, name + " with " + style_name); !read) return read.error();
   return merged;
 }

@@ -12,7 +12,7 @@
 
 namespace panache {
 
-// The way of the root is measured over one window spacing, as it is live.
+// Root motion is measured over one window spacing, as in live use.
 void write_numbers(PoseLayout layout, Take& take) {
   const int count = pose_feature_count(layout), frames = take.frames();
   take.pose_features.resize(size_t(frames) * count);
@@ -38,7 +38,7 @@ Take make_take(const Clip& clip, const Rig& rig, PoseLayout layout) {
   std::vector<HumanPositions> world(frames);
   Observation now;
   for (int f = 0; f < frames; ++f) {
-    // Rates that are 30 but for the digits of the file (0.0333333) are not resampled.
+    // Rates that are 30 up to the file's precision (0.0333333) are not resampled.
     double at = rig.first_frame() + f * step;
     if (std::abs(at - std::round(at)) < 0.02) at = std::round(at);
     sample(clip, at, {rotations, translations});

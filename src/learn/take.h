@@ -1,5 +1,5 @@
 #pragma once
-// Takes: motion brought to the canonical body at one rate, ready to be paired and learnt from.
+// Takes: motion retargeted to the canonical body at one rate, for pairing and learning.
 
 #include <array>
 #include <functional>
@@ -31,13 +31,13 @@ struct Take {
   int frames() const { return static_cast<int>(body.size()); }
 };
 
-// The take of a clip on a character, from the first frame that is motion; its row stays empty.
+// The take of a clip on a character, from its first frame of motion; its row stays empty.
 Take make_take(const Clip& clip, const Rig& rig, PoseLayout layout);
 
 // Reads one take.
 Result<Take> load_take(const ManifestRow& row, PoseLayout layout);
 
-// Reads all takes over all cores; `progress` gets the number done. Fails with the message of the
+// Reads all takes on all cores; `progress` gets the number done. Fails with the message of the
 // first file, in order of the rows, that cannot be read.
 Result<std::vector<Take>> load_takes(const std::vector<ManifestRow>& rows, PoseLayout layout,
                                      const std::function<void(int)>& progress = {});

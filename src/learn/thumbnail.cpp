@@ -12,7 +12,7 @@ using enum HumanJoint;
 // Pixels are centimetres.
 constexpr int kPictureWidth = 90, kPictureHeight = 190, kGround = 180, kSkull = 11,
               kNeckToHead = 12;
-// How far the figures turn from the side view towards the viewer, 35 degrees.
+// Rotation of the figures from the side view towards the viewer: 35 degrees.
 constexpr float kAlong = 0.82f, kAcross = 0.57f;
 constexpr const char* kDark = "#1f5f8b";
 constexpr const char* kLight = "#8fb8d4";
@@ -21,7 +21,7 @@ struct Place {
   int x, y;
 };
 Place place(Vec3 joint, int figure) {
-  // Ahead is to the right; the body's right side, -x, faces the viewer.
+  // Forward is to the right; the body's right side, -x, faces the viewer.
   const float right = joint.z * kAlong - joint.x * kAcross;
   return {kPictureWidth * figure + kPictureWidth / 2 + static_cast<int>(std::lround(100 * right)),
           kGround - static_cast<int>(std::lround(100 * joint.y))};

@@ -1,5 +1,5 @@
 #pragma once
-// A picture of a style, small enough to be kept in its file.
+// A picture of a style, small enough to store in its file.
 
 #include <span>
 #include <string>
@@ -12,7 +12,7 @@ namespace panache {
 // in the body frame, metres. The body's right is drawn dark, its left light.
 std::string draw_thumbnail(std::span<const HumanPositions> bodies);
 
-// Six instants of the middle 1.5 seconds of a take, or the only one of a pose.
+// Six instants of the middle 1.5 seconds of a take, or the single one of a pose.
 std::string thumbnail_of(const Take& take);
 
 }  // namespace panache

@@ -1,5 +1,5 @@
 #pragma once
-// Arrays that begin on a cache line, so that no vector of theirs lies across two.
+// Arrays aligned to cache lines, so that no SIMD vector crosses two lines.
 
 #include <cstddef>
 #include <new>
@@ -7,7 +7,7 @@
 
 namespace panache {
 
-inline constexpr size_t kCacheLine = 64;  // Bytes; the longest vector of any instruction set too.
+inline constexpr size_t kCacheLine = 64;  // Bytes; also the longest vector of any instruction set.
 
 template <class T>
 struct LineAllocator {

@@ -7,7 +7,7 @@
 
 #include "net/exponential.h"
 
-// The accumulators live in an array, which vectors of a length unknown to the compiler cannot.
+// The accumulators are an array, which cannot hold vectors of a length unknown to the compiler.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 
 // From here on this file is compiled once per instruction set.
@@ -24,19 +24,19 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Floats = hn::ScalableTag<float>;
 using Vector = hn::Vec<Floats>;
-// Running sums in registers: enough of them hide the latency of an addition. There must be room for
-// the inputs and a product beside them, in 32 registers or in 16.
+// Running sums in registers: enough of them hide the latency of an addition. The inputs and a
+// product need registers too, of which there are 32 or 16.
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL || HWY_ARCH_ARM_A64
-constexpr size_t kMaxVectors = 16;  // Of one row,
-constexpr size_t kMaxRows = 8;      // or two of each of these.
+constexpr size_t kMaxVectors = 16;  // For one row,
+constexpr size_t kMaxRows = 8;      // or two for each of these.
 #else
 constexpr size_t kMaxVectors = 12;
 constexpr size_t kMaxRows = 4;
 #endif
 static_assert(kMaxRows <= kRowsAtOnce);
 constexpr size_t kRowVectors = 2;
-// With one row the kernel waits for weights, not for arithmetic: it asks for them so many numbers
-// ahead, which the processor by itself does too late.
+// With one row the kernel is memory-bound. It prefetches weights this many numbers ahead, because
+// the hardware's own prefetching comes too late.
 constexpr size_t kAhead = 512;
 
 struct Task {
@@ -71,7 +71,7 @@ HWY_INLINE void tile(const Task& task, size_t row, size_t first) {
     for (size_t r = 0; r < kRows; ++r) {
       const Vector input = hn::Set(d, x[r * stride + i]);
       for (size_t v = 0; v < kVectors; ++v) {
-        // Multiplied and added apart: a fused step would round once where others round twice.
+        // No fused multiply-add: it would round once where the plain loop rounds twice.
         sums[r][v] = hn::Add(sums[r][v], hn::Mul(input, column[v]));
       }
     }
@@ -85,12 +85,12 @@ HWY_INLINE void tile(const Task& task, size_t row, size_t first) {
 }
 
 using Tile = void (*)(const Task&, size_t, size_t);
-// kTiles[vectors - 1] of one row.
+// kTiles[vectors - 1] for one row.
 template <size_t... k>
 constexpr std::array<Tile, sizeof...(k)> one_row_tiles(std::index_sequence<k...>) {
   return {tile<1, k + 1>...};
 }
-// kTiles[rows - 1], of so many vectors each.
+// kTiles[rows - 1], each for kVectors vectors.
 template <size_t kVectors, size_t... k>
 constexpr std::array<Tile, sizeof...(k)> tiles_of(std::index_sequence<k...>) {
   return {tile<k + 1, kVectors>...};
@@ -143,8 +143,8 @@ void dense_rows(const Rows<const float>& x, size_t inputs, const float* weights,
       } else {
         some_rows(task, row, rows);
       }
-      // Where the outputs are no multiple of the lanes, a last vector overlaps the one before: what
-      // they have in common is computed twice with the same bits.
+      // If the outputs are not a multiple of the lanes, a last vector overlaps the one before; the
+      // shared outputs are computed twice with the same bits.
       if (task.outputs % lanes != 0) kNarrow[rows - 1](task, row, task.outputs - lanes);
     }
     row += rows;

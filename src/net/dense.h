@@ -1,7 +1,7 @@
 #pragma once
 // The arithmetic of small dense networks. Each kernel exists twice: a plain loop, which defines the
-// result, and a vectorised one, which gives the same bits on every instruction set: one lane per
-// output, multiply and add apart, inputs in order, our own exponential.
+// result, and a vectorised one with the same bits on every instruction set: one lane per output, no
+// fused multiply-add, inputs in order, our own exponential.
 
 #include <span>
 
@@ -13,8 +13,8 @@ namespace panache {
 // out = y.size() = bias.size(). No argument may overlap y.
 void dense(std::span<const float> x, std::span<const float> weights, std::span<const float> bias,
            std::span<float> y) noexcept;
-// The same for each row of x, of `inputs` numbers, with bias.size() outputs in each row of y: bit
-// for bit what the rows give alone, but weights are read once for several of them.
+// The same for each row of x, with `inputs` numbers, and of y, with bias.size() outputs. The bits
+// are those of separate calls, but weights are read once for several rows.
 void dense_rows(const Rows<const float>& x, size_t inputs, std::span<const float> weights,
                 std::span<const float> bias, const Rows<float>& y) noexcept;
 // y[i] = y[i] > 0 ? y[i] : exp(y[i]) - 1, in place (ELU, Clevert et al. 2016), to within one unit
@@ -22,7 +22,7 @@ void dense_rows(const Rows<const float>& x, size_t inputs, std::span<const float
 void elu(std::span<float> y) noexcept;
 // y[i] += a * x[i].
 void add_scaled(float a, std::span<const float> x, std::span<float> y) noexcept;
-// y[i] = (x[i] - mean[i]) * factor[i], held within -clip to clip. NaN stays NaN.
+// y[i] = (x[i] - mean[i]) * factor[i], clamped to [-clip, clip]. NaN stays NaN.
 void standardise(std::span<const float> x, std::span<const float> mean,
                  std::span<const float> factor, float clip, std::span<float> y) noexcept;
 
@@ -41,8 +41,7 @@ void standardise(std::span<const float> x, std::span<const float> mean,
 float square_length(std::span<const float> x) noexcept;
 }  // namespace scalar
 
-// The sum of x, in an order that is the machine's: as fast as memory gives the numbers. For
-// measurements.
+// The sum of x in a machine-dependent order, as fast as memory allows. For measurements.
 float sum_in_any_order(std::span<const float> x) noexcept;
 
 // The instruction set that the vectorised kernels run on ("AVX2", "SSE4", ...).

@@ -8,7 +8,7 @@
 #include "net/aligned_vector.h"
 #include "net/int8_rounding.h"
 
-// The sums live in an array, which vectors of a length unknown to the compiler cannot.
+// The sums are an array, which cannot hold vectors of a length unknown to the compiler.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 
 // From here on this file is compiled once per instruction set.
@@ -19,7 +19,7 @@
 #include "hwy/highway.h"
 
 #if HWY_TARGET == HWY_AVX3_DL
-// Highway asks the processor for this extension, but leaves it out of what it tells the compiler.
+// Highway checks for this extension, but does not enable it in the compiler.
 HWY_PUSH_ATTRIBUTES(HWY_TARGET_STR ",avx512vnni")
 #else
 HWY_BEFORE_NAMESPACE();
@@ -28,7 +28,7 @@ namespace panache {
 namespace HWY_NAMESPACE {
 #if HWY_TARGET == HWY_SCALAR
 
-// A machine without vectors has the plain loop.
+// Machines without vectors use the plain loop.
 void dense_int8(const Rows<const float>& x, const Int8Matrix& layer, const Rows<float>& y) {
   scalar::dense_int8(x, layer, y);
 }
@@ -43,23 +43,23 @@ void dense_int8(const Rows<const float>& x, const Int8Matrix& layer, const Rows<
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Floats = hn::ScalableTag<float>;
-using Wholes = hn::ScalableTag<int32_t>;          // As many as floats.
+using Wholes = hn::ScalableTag<int32_t>;          // As many lanes as floats.
 using Shorts = hn::Repartition<int16_t, Wholes>;  // Twice as many.
-using FewShorts = hn::Rebind<int16_t, Wholes>;    // As many as floats.
+using FewShorts = hn::Rebind<int16_t, Wholes>;    // As many lanes as floats.
 using Sums = hn::Vec<Wholes>;
 
-// Vectors of weights in a tile of one row; each has two vectors of sums. As in dense.cpp; here the
-// weights of a tile take registers too.
+// Vectors of weights in a tile of one row, each with two vectors of sums. See dense.cpp; here the
+// weights of a tile need registers too.
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL || HWY_ARCH_ARM_A64
 constexpr size_t kMaxVectors = 8, kMaxRows = 8;
 #else
 constexpr size_t kMaxVectors = 6, kMaxRows = 4;
 #endif
 static_assert(kMaxRows <= kRowsAtOnce);
-// Inputs of a row, rounded, with room for whole vectors.
+// A rounded row of inputs, with room for whole vectors.
 constexpr size_t kRowRoom = kMaxInt8Inputs + kPadding;
 
-// Numbers ahead of which weights are prefetched in a tile of one row: 2 KB.
+// How far ahead weights are prefetched in a tile of one row: 2 KB.
 constexpr size_t kAhead = 1024;
 constexpr size_t kVectorsInLine =
     HWY_MAX(kCacheLine / (sizeof(int16_t) * hn::MaxLanes(Shorts())), size_t{1});
@@ -70,7 +70,7 @@ struct RoundedRow {
   float step;
   int32_t sum;  // Of the rounded numbers.
 };
-// Rounds a row to whole steps.
+// Rounds a row to integer steps.
 RoundedRow round_row(const float* x, size_t inputs, int16_t* out) {
   using namespace int8_rounding;
   const Floats d;
@@ -115,12 +115,12 @@ HWY_INLINE void keep([[maybe_unused]] V& v) {
 #endif
 }
 
-// Adds the products of neighbours; `other` holds what has no place in `sums`, where an instruction
-// set has it so.
+// Adds the products of neighbours; `other` takes what does not go into `sums` on some instruction
+// sets.
 HWY_INLINE void add_pairs(hn::Vec<Shorts> a, hn::Vec<Shorts> b, Sums& sums,
                           [[maybe_unused]] Sums& other) {
 #if HWY_TARGET == HWY_AVX3_DL && HWY_COMPILER_GCC_ACTUAL
-  // Not by the intrinsic, with which GCC 12 copies each sum to another register and back.
+  // Not with the intrinsic: GCC 12 would copy each sum to another register and back.
   __asm__("vpdpwssd %2, %1, %0" : "+v"(sums.raw) : "v"(a.raw), "v"(b.raw));
 #elif HWY_TARGET == HWY_AVX3_DL
   sums.raw = _mm512_dpwssd_epi32(sums.raw, a.raw, b.raw);
@@ -137,8 +137,8 @@ struct Int8Task {
   Rows<float> y;
 };
 
-// The vectors of outputs that follow from those of both halves of their pairs. Where a vector holds
-// the pairs of two blocks, each of these is a block; else the second is half a block further.
+// The vectors of outputs from both halves of their pairs. If a vector holds the pairs of two
+// blocks, each result is a block; otherwise the second is half a block further.
 constexpr bool kTwoBlocks = hn::MaxLanes(Wholes()) > kBlockPairs;
 static_assert(hn::MaxLanes(Wholes()) <= 2 * kBlockPairs);
 constexpr size_t kSecond = kTwoBlocks ? kPadding : kBlockPairs;
@@ -151,7 +151,7 @@ HWY_INLINE Sums second_outputs(Sums low, Sums high) {
   return high;
 }
 
-// Computes kVectors vectors of pairs of outputs, from pair `first` on, of all kRows rows.
+// Computes kVectors vectors of output pairs, from pair `first` on, for all kRows rows.
 template <size_t kRows, size_t kVectors>
 HWY_INLINE void int8_tile(const Int8Task& task, size_t first) {
   const Floats d;
@@ -159,7 +159,7 @@ HWY_INLINE void int8_tile(const Int8Task& task, size_t first) {
   const Shorts ds;
   const size_t lanes = hn::Lanes(di);
   const Int8Matrix layer = *task.layer;
-  // Of whole numbers of two weights, and of the upper weights alone.
+  // Sums for whole numbers of two weights, and for the upper weights alone.
   Sums both[kRows][kVectors], others[kRows][kVectors];
   Sums high[kRows][kVectors], high_others[kRows][kVectors];
   PANACHE_UNROLL
@@ -197,7 +197,7 @@ HWY_INLINE void int8_tile(const Int8Task& task, size_t first) {
     }
     weights += layer.outputs;
   }
-  // Where a block goes that the last vector holds and the layer does not have.
+  // Takes a block that the last vector has and the layer lacks.
   HWY_ALIGN float none[hn::MaxLanes(d)];
   PANACHE_UNROLL
   for (size_t v = 0; v < kVectors; ++v) {
@@ -213,7 +213,7 @@ HWY_INLINE void int8_tile(const Int8Task& task, size_t first) {
     for (size_t r = 0; r < kRows; ++r) {
       const RoundedRow& rounded = task.rows[r];
       float* row = task.y.row(r);
-      // What the offset of the lower weights has added to their sums.
+      // What the offset of the lower weights added to their sums.
       const uint32_t offset = kLowWeightOffset * static_cast<uint32_t>(rounded.sum);
       const Sums upper = hn::RearrangeToOddPlusEven(high[r][v], high_others[r][v]);
       const Sums whole = hn::RearrangeToOddPlusEven(both[r][v], others[r][v]);
@@ -230,12 +230,12 @@ HWY_INLINE void int8_tile(const Int8Task& task, size_t first) {
 }
 
 using Int8Tile = void (*)(const Int8Task&, size_t);
-// [vectors - 1], of one row.
+// [vectors - 1], for one row.
 template <size_t... k>
 constexpr std::array<Int8Tile, sizeof...(k)> one_row_int8_tiles(std::index_sequence<k...>) {
   return {int8_tile<1, k + 1>...};
 }
-// [rows - 1], of one vector.
+// [rows - 1], for one vector.
 template <size_t... k>
 constexpr std::array<Int8Tile, sizeof...(k)> one_vector_int8_tiles(std::index_sequence<k...>) {
   return {int8_tile<k + 1, 1>...};

@@ -10,7 +10,7 @@
 namespace panache {
 namespace {
 
-// Where a weight is among the packed ones.
+// The index of a weight among the packed ones.
 size_t packed_index(size_t outputs, size_t input, size_t output) {
   const size_t pair = output / kPadding * kBlockPairs + output % kBlockPairs;
   return (input / 2 * (outputs / 2) + pair) * 2 + input % 2;

@@ -1,5 +1,5 @@
 #pragma once
-// The numbers of our own exp(x) - 1 for x <= 0, shared by the plain and the vectorised kernel.
+// Constants of our own exp(x) - 1 for x <= 0, shared by the plain and the vectorised kernel.
 //
 // With n = round(x / ln 2) and r = x - n ln 2, |r| <= ln(2) / 2:
 //   exp(x) - 1 = 2^n exp(r) - 1 = 2^n (exp(r) - 1) + (2^n - 1),

@@ -1,6 +1,5 @@
 #pragma once
-// How numbers are rounded to whole steps, shared by the plain and the vectorised kernel of
-// dense_int8.h.
+// Rounding to integer steps, shared by the plain and the vectorised kernel of dense_int8.h.
 
 #include <bit>
 #include <cstdint>
@@ -9,20 +8,20 @@
 
 namespace panache::int8_rounding {
 
-inline constexpr uint32_t kSizeBits = 0x7fffffff;  // All but the sign.
+inline constexpr uint32_t kSizeBits = 0x7fffffff;  // All bits but the sign.
 inline constexpr uint32_t kLargestFinite = 0x7f7fffff;
 inline constexpr int kMantissaBits = 23, kExponentBias = 127;
-// 1.5 * 2^23, and its bits. Adding it rounds to the nearest whole number (even on a tie), which is
-// then what the bits of the sum are above these.
+// 1.5 * 2^23, and its bits. Adding it rounds to the nearest integer (ties to even), which is the
+// difference between the bits of the sum and these.
 inline constexpr float kRound = 12582912.0f;
 inline constexpr uint32_t kRoundBits = 0x4b400000;
-// Numbers below 2^-87, which have steps below 2^-100, are nothing.
+// Numbers below 2^-87 would need steps below 2^-100: they count as 0.
 inline constexpr int kSmallestExponent = kExponentBias - 87;
 
 struct Step {
   float size, reciprocal;
 };
-// The step for a row whose largest finite size has these bits.
+// The step for a row whose largest finite magnitude has these bits.
 inline Step step_for(uint32_t largest) {
   const int exponent = static_cast<int>(largest >> kMantissaBits);
   if (exponent < kSmallestExponent) return {0, 0};

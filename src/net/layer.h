@@ -14,18 +14,18 @@ struct DenseLayer {
   int inputs = 0, outputs = 0;
   std::vector<float> weights;  // [inputs][outputs]
   std::vector<float> bias;     // [outputs]
-  // If the file has int8 weights: these, and their scale
-  // in each column. `weights` are then their products. Otherwise empty.
-  std::vector<int8_t> int8_weights = {};  // [inputs][outputs], at most 127 in size.
+  // If the file has int8 weights: these, and the scale of each column. `weights` then holds their
+  // products. Otherwise empty.
+  std::vector<int8_t> int8_weights = {};  // [inputs][outputs], at most 127 in magnitude.
   std::vector<float> scale = {};          // [outputs]
 };
 
-// The layers' outputs one after another, as one layer of floats. All have the same inputs.
+// Concatenates the outputs of the layers in one layer of floats. All have the same inputs.
 DenseLayer side_by_side(std::span<const DenseLayer> layers);
 
-// One or several layers of the same inputs, side by side in one matrix: the input is gone through
-// once, with the bits that each layer gives alone. Weights are bytes (dense_int8.h) where those of
-// all the layers are, else floats (dense.h).
+// One or several layers of the same inputs, side by side in one matrix: the input is read once, and
+// the bits are those of separate layers. Weights are int8 (dense_int8.h) if all the layers' are,
+// otherwise floats (dense.h).
 class PackedLayer {
  public:
   PackedLayer() = default;
@@ -33,9 +33,9 @@ class PackedLayer {
   explicit PackedLayer(std::span<const DenseLayer> layers);
 
   size_t inputs() const { return inputs_; }
-  // Numbers in a row of outputs. Each layer's begin at a multiple of kPadding; zeros follow them.
+  // Length of a row of outputs. Each layer starts at a multiple of kPadding, padded with zeros.
   size_t width() const { return bias_.size(); }
-  // Where the outputs of layer `l` begin.
+  // Where the outputs of layer `l` start.
   size_t begin(size_t l) const { return begins_[l]; }
   // Computes width() numbers in each row of y from inputs() numbers in each row of x.
   void forward(const Rows<const float>& x, const Rows<float>& y) const noexcept;
@@ -43,9 +43,9 @@ class PackedLayer {
  private:
   size_t inputs_ = 0;
   std::vector<size_t> begins_;
-  AlignedVector<float> weights_;  // [inputs][width], or none:
-  AlignedVector<int16_t> int8_;   // pairs of int8, see Int8Matrix.
-  AlignedVector<float> scale_;    // [width], of bytes.
+  AlignedVector<float> weights_;  // [inputs][width], or empty:
+  AlignedVector<int16_t> int8_;   // then pairs of int8, see Int8Matrix.
+  AlignedVector<float> scale_;    // [width], for int8 only.
   AlignedVector<float> bias_;     // [width]
 };
 

@@ -61,7 +61,7 @@ Result<Trunk> Trunk::read(const TensorFile& file, const std::string& prefix, int
     trunk.layers_.emplace_back(*layer);
     trunk.plain_.push_back(*std::move(layer));
   } while (has(trunk.layers_.size()));
-  // A layer behind a gap would be left out in silence.
+  // A layer after a gap would be ignored silently.
   const std::string start = prefix + ".";
   size_t found = 0;
   for (auto it = file.tensors.lower_bound(start);
@@ -104,7 +104,7 @@ size_t Trunk::trunk_scratch_size(size_t rows) const {
 Rows<const float> Trunk::forward(const Rows<const float>& x,
                                  std::span<float> scratch) const noexcept {
   assert(scratch.size() >= trunk_scratch_size(x.count));
-  // Layer after layer, each with all rows: what a layer answers stays for all_layers().
+  // Layer by layer, each with all rows; the outputs of each stay for all_layers().
   float* to = scratch.data();
   const float* from = x.first;
   size_t stride = x.stride;

@@ -5,14 +5,13 @@
 
 namespace panache {
 
-// The file with the weights of its dense layers (every matrix `X.weight` that has a bias `X.bias`)
-// rounded to int8; `X.scale` holds the scale of each column.
-// Layers of fewer than kPadding outputs, which weigh nothing, and those of more inputs than
-// kMaxInt8Inputs stay as they are, as does everything else. Any trunk of the result is read and
-// evaluated as before: Trunk and TrunkTrio see what its layers are made of. Weights are finite.
+// Quantizes the weights of all dense layers (every matrix `X.weight` with a bias `X.bias`) to int8;
+// `X.scale` holds the scale of each column. Small layers with fewer than kPadding outputs, and
+// those with more than kMaxInt8Inputs inputs, stay as they are, as does everything else. Trunk and
+// TrunkTrio read and evaluate the result as before. Weights must be finite.
 TensorFile quantize(const TensorFile& file);
 
-// Whether some of the file's tensors are bytes.
+// Whether any of the file's tensors is int8.
 bool is_quantized(const TensorFile& file);
 
 }  // namespace panache

@@ -19,7 +19,7 @@ namespace panache {
 namespace {
 
 constexpr size_t kLengthBytes = 8;
-// A model's header is a few kilobytes; this bounds what a hostile one makes us hold.
+// A model's header is a few kilobytes; this bounds the memory that a hostile one takes.
 constexpr uint64_t kMaxHeaderBytes = 4 << 20;
 constexpr size_t kMaxDimensions = 8;
 
@@ -28,10 +28,10 @@ struct Entry {
   std::string type;
   std::vector<uint64_t> shape;
   std::vector<uint64_t> offsets;  // [begin, end) in the data, bytes.
-  std::set<std::string> fields;   // Which of the above the header has told so far.
+  std::set<std::string> fields;   // Those of the above that were read so far.
 };
 
-// A text from the file, fit for a message: short and without control characters.
+// Text from the file for a message: short and without control characters.
 std::string printable(std::string_view text) {
   constexpr size_t kLongest = 80;
   size_t length = std::min(text.size(), kLongest);
@@ -60,8 +60,8 @@ std::string shape_text(const std::vector<Size>& shape) {
   return text + "]";
 }
 
-// Takes the header's JSON apart as it streams by, so that neither depth nor repetition costs
-// memory: whatever a header may not hold ends the reading with a message.
+// Parses the header's JSON as a stream, so that neither depth nor repetition costs memory. Anything
+// that a header may not contain ends the parsing with a message.
 class HeaderReader : public nlohmann::json_sax<nlohmann::json> {
  public:
   std::map<std::string, std::string> metadata;
@@ -172,7 +172,7 @@ class HeaderReader : public nlohmann::json_sax<nlohmann::json> {
     return true;
   }
 
-  // Says what stood where another kind of value belongs.
+  // Reports an unexpected kind of value.
   bool unexpected() {
     switch (in_) {
       case In::outside:
@@ -199,7 +199,7 @@ class HeaderReader : public nlohmann::json_sax<nlohmann::json> {
   std::vector<uint64_t>* numbers_ = nullptr;  // The list being filled.
 };
 
-// The tensor that `entry` describes, once type, shape and place in `data` agree.
+// The tensor that `entry` describes, if type, shape and position in `data` agree.
 Result<Tensor> read_tensor(const Entry& entry, std::string_view data, const std::string& name) {
   const std::string where = name + ": tensor " + in_quotes(entry.name);
   Tensor tensor;
@@ -239,9 +239,9 @@ Result<Tensor> read_tensor(const Entry& entry, std::string_view data, const std:
   return tensor;
 }
 
-// Rejects tensors that share bytes, and bytes that no tensor has.
+// Rejects tensors that share bytes, and bytes outside all tensors.
 Result<void> check_coverage(std::vector<Entry>& entries, uint64_t bytes, const std::string& name) {
-  // Not as vectors: the library of GCC 12 compares too few bytes of those on big-endian machines.
+  // Not as vectors: GCC 12's library compares too few of their bytes on big-endian machines.
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
     return std::pair(a.offsets[0], a.offsets[1]) < std::pair(b.offsets[0], b.offsets[1]);
   });
@@ -343,7 +343,7 @@ Result<TensorFile> parse_safetensors(std::string_view bytes, const std::string& 
   for (const Entry& entry : reader.entries) {
     const uint64_t begin = entry.offsets[0], end = entry.offsets[1];
     const bool fits = begin <= end && end <= data.size();
-    if (fits && end - begin > left) break;  // Some share bytes, and are rejected below.
+    if (fits && end - begin > left) break;  // Some share bytes; rejected below.
     Result<Tensor> tensor = read_tensor(entry, data, name);
     if (!tensor) return tensor.error();
     left -= end - begin;
@@ -357,7 +357,7 @@ Result<TensorFile> parse_safetensors(std::string_view bytes, const std::string& 
 
 std::string format_safetensors(const TensorFile& file) {
   std::string header, data;
-  // Appends one member to the JSON object that the header is.
+  // Appends a member to the header's JSON object.
   const auto member = [](std::string& object, const std::string& key, const std::string& value) {
     object += object.empty() ? '{' : ',';
     object += json_text(key);
@@ -369,7 +369,7 @@ std::string format_safetensors(const TensorFile& file) {
     for (const auto& [key, text] : file.metadata) member(texts, key, json_text(text));
     member(header, "__metadata__", texts + "}");
   }
-  // The wide ones first: with the header a multiple of 8 long, every number is then aligned.
+  // Wide types first: the header's length is a multiple of 8, so every number is then aligned.
   for (const char* type : {"F32", "F16", "I8"}) {
     for (const auto& [key, tensor] : file.tensors) {
       if (type_of(tensor) != std::string_view(type)) continue;
@@ -399,7 +399,7 @@ uint16_t to_half(float value) {
   }
   if (magnitude == 0x7f800000) return sign | 0x7c00;
   const int exponent = static_cast<int>(magnitude >> 23) - 127 + 15;  // In half's own bias.
-  // The bits that half has no room for: 13, and one more for each power of two below its smallest.
+  // The bits that half lacks: 13, and one more for each power of two below its smallest.
   const int dropped = exponent > 0 ? 13 : 14 - exponent;
   if (dropped > 24) return sign;  // Less than half of the smallest step.
   const uint32_t mantissa =

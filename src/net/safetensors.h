@@ -1,5 +1,5 @@
 #pragma once
-// The safetensors container: named arrays of numbers and a table of texts.
+// The safetensors container: named arrays of numbers, and text metadata.
 
 #include <cstdint>
 #include <limits>
@@ -24,20 +24,19 @@ struct TensorFile {
   std::map<std::string, Tensor> tensors;
 };
 
-// The tensor called `key`, if its shape is this (-1 for any size above zero) and its numbers are
-// finite and smaller than `limit`. `name` stands in front of the message of a failure.
+// The tensor `key`, if it has this shape (-1 for any size above zero) and its numbers are finite
+// and smaller than `limit`. Error messages start with `name`.
 Result<const Tensor*> find_tensor(const TensorFile& file, const std::string& key,
                                   const std::vector<int64_t>& shape, const std::string& name,
                                   float limit = std::numeric_limits<float>::infinity());
 
-// Reads a safetensors file (types F32, F16 and I8). Every count is bounded by the bytes that are
-// there; `name` stands in front of the message of a failure.
+// Reads a safetensors file (types F32, F16 and I8). Every count is bounded by the available bytes.
+// Error messages start with `name`.
 Result<TensorFile> parse_safetensors(std::string_view bytes, const std::string& name);
 
-// The bytes of a safetensors file: tensors and metadata sorted by name (full floats before halves
-// before bytes), numbers aligned, so that the same contents always give the same bytes. Every
-// tensor must have as many values as its shape says, a shape of at most 8 sizes, and a name other
-// than "__metadata__".
+// The bytes of a safetensors file: tensors and metadata sorted by name (F32 before F16 before I8),
+// numbers aligned, so that the same contents always give the same bytes. Every tensor must have as
+// many values as its shape says, at most 8 dimensions, and a name other than "__metadata__".
 std::string format_safetensors(const TensorFile& file);
 
 // IEEE half precision, rounded to nearest even. Finite numbers beyond the largest half become that

@@ -1,5 +1,5 @@
 #pragma once
-// The recipes that there are.
+// The table of recipes.
 
 #include <span>
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace panache {
 
-// All, in the order of the table in recipes.cpp.
+// All recipes, in the order of the table in recipes.cpp.
 std::span<const Recipe* const> recipes() noexcept;
 // The recipe of this name, or null.
 const Recipe* find_recipe(std::string_view name) noexcept;
-// The first of the table: the default of training.
+// The first in the table: the default for training.
 const Recipe& default_recipe() noexcept;
 
-// "panache or smith2019", for messages: all recipes, or those on whose models styles are learnt.
+// "panache or smith2019", for messages: all recipes, or those whose models can learn styles.
 std::string recipe_names();
 std::string learning_recipe_names();
 

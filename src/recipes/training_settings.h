@@ -5,25 +5,25 @@
 
 namespace panache {
 
-// How a window is disturbed in training, so that the networks hold on bodies and captures they
-// never saw. Each a standard deviation; all but the jitter and what is per pose are the same for
-// the six poses of a window.
+// Disturbances of a window in training, so that the networks work on unseen bodies and captures.
+// Each is a standard deviation; all but the jitter and the per-pose ones are the same for the six
+// poses of a window.
 struct Disturbance {
-  float scale = 0;      // Of body size.
+  float scale = 0;      // Relative, of the body size.
   float floor = 0;      // Height of the floor, metres.
   float heading = 0;    // Radians.
-  float posture = 0;    // Constant offset of each number, in deviations.
+  float posture = 0;    // Constant offset of each feature, in deviations.
   float jitter = 0;     // Per pose and joint, metres.
   float velocity = 0;   // Per pose, m/s.
   float turn_rate = 0;  // Per pose, rad/s.
-  float tempo = 0;      // Logarithm of how fast the window is played.
-  // Other people hold and move themselves otherwise: constant turns of the joints about each axis
-  // of the body frame, radians, and the share by which all movement is wider or narrower.
+  float tempo = 0;      // Logarithm of the playback speed.
+  // Other people's postures and movements: constant rotations of the joints about each axis of the
+  // body frame, radians, and the fraction by which all movement is wider or narrower.
   float torso = 0, head = 0, arms = 0, legs = 0;
   float amplitude = 0;
 };
 
-// Disturbances of a window by other people, captures and files.
+// Disturbances that stand for other people, captures and files.
 inline constexpr Disturbance kUsualDisturbance = {.scale = 0.08f,
                                                   .floor = 0.015f,
                                                   .heading = 0.12f,
@@ -33,8 +33,8 @@ inline constexpr Disturbance kUsualDisturbance = {.scale = 0.08f,
                                                   .turn_rate = 0.27f,
                                                   .tempo = 0.1f};
 
-// What a style learnt from one person must hold on: the usual, and other people. Found on walks of
-// four performers that a style of a fifth was put on.
+// What a style learnt from one person must tolerate: the usual, and other people. Tuned on walks of
+// four performers with the style of a fifth.
 inline constexpr Disturbance kOtherPeople = [] {
   Disturbance how = kUsualDisturbance;
   how.torso = how.legs = 0.09f;
@@ -46,43 +46,43 @@ inline constexpr Disturbance kOtherPeople = [] {
 
 struct BatchSettings {
   int size = 256;
-  // Rows grouped by style and in pairs of neighbouring frames, drawn by the square root of the
-  // share that each action in each style has; else one by one from all. Style heads need it.
+  // Rows grouped by style and in pairs of neighbouring frames, drawn by the square root of each
+  // action's share in each style; otherwise single rows from all. Style heads need it.
   bool by_style = false;
-  bool mirrored = false;   // Half of the rows left for right.
+  bool mirrored = false;   // Half of the rows are mirrored.
   bool disturbed = false;  // Layout positions only.
   Disturbance disturbance = kUsualDisturbance;
-  float input_clip = 0;  // Normalised inputs are held within this many deviations; 0: not.
+  float input_clip = 0;  // Normalised inputs are clamped to this many deviations; 0: not.
 };
 
 struct OptimizerSettings {
   float learning_rate = 0.01f;
   float epsilon = 1e-8f;   // Added to the root of the mean square in Adam.
-  bool one_cycle = false;  // Rises to the learning rate, then falls to nothing (Smith 2018).
-  float weight_decay = 0;  // Decoupled (AdamW, Loshchilov and Hutter 2019); biases have none.
-  float dropout = 0;       // Share of hidden units left out.
+  bool one_cycle = false;  // Rises to the learning rate, then falls to 0 (Smith 2018).
+  float weight_decay = 0;  // Decoupled (AdamW, Loshchilov and Hutter 2019); not for biases.
+  float dropout = 0;       // Fraction of hidden units dropped.
 };
 
 // How the pose network is trained on motion without styles, under a style classifier: see
 // lab/train/guidance.h.
 struct GuidanceSettings {
   int sequences = 0;         // Drawn at each guided step, each in one style; 0: no guidance.
-  int every = 2;             // Of so many steps one is guided: it takes as long as two others.
+  int every = 2;             // One of this many steps is guided; it takes as long as two others.
   int guides = 4;            // Networks of the guide,
   int guide_steps = 2500;    // and steps of training each.
-  float weight = 1.4f;       // Of the sum of the following, beside the loss of the pairs.
-  float style = 0.22f;       // Weight of the guides' cross entropy for the requested style,
-  float statistics = 0.15f;  // and of not being so by a discriminant of statistics.
-  float velocity = 0.7f;     // Of hands and feet that move otherwise or less than the input's.
-  float smoothness = 1.2f;   // Of the change from one instant to the next.
-  float balance = 1;         // Of leaving the feet's support, or sinking through the floor.
-  float prior = 0.05f;       // Of changes that the pairs never show.
-  float signature = 0.3f;    // Of posture and speed that change otherwise than in real takes.
-  float anatomy = 0.1f;      // Of joints that leave their range of motion.
-  float standing = 0.12f;    // Of moving feet that stand.
-  float tempo = 0.1f;        // Of a tempo unlike that of real takes, beside the timing's own loss.
-  float ramp = 0.2f;         // Share of the training until all of it counts in full.
-  float spliced = 0.6f;      // Share of the sequences with arms or upper body of another take.
+  float weight = 1.4f;       // Weight of the sum of the penalties below, besides the pairs' loss.
+  float style = 0.22f;       // The guides' cross entropy for the requested style,
+  float statistics = 0.15f;  // and a discriminant of statistics that rejects it.
+  float velocity = 0.7f;     // Hands and feet that move differently or less than the input's.
+  float smoothness = 1.2f;   // Change from one instant to the next.
+  float balance = 1;         // Leaving the feet's support, or sinking through the floor.
+  float prior = 0.05f;       // Changes that never occur in the pairs.
+  float signature = 0.3f;    // Posture and speed that change unlike in real takes.
+  float anatomy = 0.1f;      // Joints that leave their range of motion.
+  float standing = 0.12f;    // Movement of planted feet.
+  float tempo = 0.1f;        // A tempo unlike that of real takes, besides the timing's own loss.
+  float ramp = 0.2f;         // Fraction of the training until it has its full weight.
+  float spliced = 0.6f;      // Fraction of the sequences with arms or upper body of another take.
   // Other people, two thirds as far from those of the takes as in kOtherPeople.
   Disturbance disturbance = {.scale = 0.06f,
                              .floor = 0.01f,
@@ -96,15 +96,15 @@ struct GuidanceSettings {
 
 struct TrainingSettings {
   int64_t steps = 0;
-  bool neutral_samples = false;  // Neutral takes are shown too, with themselves as the target.
+  bool neutral_samples = false;  // Neutral takes are samples too, with themselves as the target.
   BatchSettings batch = {};
   OptimizerSettings optimizer = {};
-  // The tempo is taught by the squared error of its logarithm, not by Poisson's loss.
+  // The loss of the tempo is the squared error of its logarithm, not Poisson's loss.
   bool squared_tempo = false;
-  float smoothness = 0;            // Weight of the loss on the change from one frame to the next,
-  float positions = 0;             // and of that on where changes put the joints: PositionLoss.
-  GuidanceSettings guidance = {};  // Where there is motion without styles.
-  int64_t predictor_steps = 0;     // Of the network that predicts input; 0: the model has none.
+  float smoothness = 0;            // Weight of the loss on frame-to-frame change,
+  float positions = 0;             // and of the loss on joint positions: PositionLoss.
+  GuidanceSettings guidance = {};  // If there is motion without styles.
+  int64_t predictor_steps = 0;     // Training steps of the input predictor; 0: the model has none.
 };
 
 }  // namespace panache

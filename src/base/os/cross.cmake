@@ -1,7 +1,7 @@
-# For a cross build, for Windows by MinGW or for another processor. Debian has none of the libraries
-# that we use for it, so it gets by with those that are headers only, in a folder of their own: the
-# whole of /usr/include would hide the target's headers. Highway is headers only for one instruction
-# set, which is that of the compiler.
+# For cross builds: for Windows with MinGW, or for another processor. Debian has no libraries for
+# these targets, so the build uses header-only ones in a folder of their own; all of /usr/include
+# would hide the target's headers. Highway is header-only with a single instruction set, the
+# compiler's.
 set(headers ${CMAKE_BINARY_DIR}/headers)
 file(MAKE_DIRECTORY ${headers})
 foreach(name hwy fast_float nlohmann CLI)
@@ -10,7 +10,7 @@ foreach(name hwy fast_float nlohmann CLI)
   file(CREATE_LINK ${${name}_parent}/${name} ${headers}/${name} SYMBOLIC)
 endforeach()
 include_directories(SYSTEM ${headers})
-# What find_package finds instead of the system's own.
+# What find_package finds instead of the system's packages.
 foreach(target FastFloat::fast_float hwy::hwy nlohmann_json::nlohmann_json CLI11::CLI11)
   string(REGEX REPLACE ":.*" "" package ${target})
   string(TOLOWER ${package} package)
@@ -20,6 +20,6 @@ endforeach()
 add_compile_definitions(HWY_COMPILE_ONLY_STATIC)
 if(WIN32)
   add_compile_definitions(NOMINMAX)
-  # Programs need no DLL but those of Windows and, if they use it, ours.
+  # Programs need no DLLs except those of Windows and, if they use it, ours.
   add_link_options(-static)
 endif()

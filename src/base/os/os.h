@@ -1,5 +1,5 @@
 #pragma once
-// Functions of the operating system. os_posix.cpp and os_windows.cpp each have all of it.
+// Operating system functions, implemented by os_posix.cpp and os_windows.cpp.
 
 #include <string>
 
@@ -11,13 +11,13 @@ bool is_terminal_stderr();
 // Whether this process may write to the file at `path`; false for a missing file.
 bool is_writable(const std::string& path);
 
-// Whether a file name fits a pattern of a shell: "*" and "?", and "[a-z]" where the system has it.
+// Whether a file name matches a shell pattern: "*" and "?", and "[a-z]" if the system supports it.
 bool fits_pattern(const std::string& name, const std::string& pattern);
 
-// Calls `handler` at the first Ctrl-C, or other wish that this process end; the second one ends it.
+// Calls `handler` at the first Ctrl-C or other request to stop; the second one ends the process.
 void on_stop_signal(void (*handler)(int));
 
-// A number that no other process of the machine has.
+// The process ID, unique on the machine.
 unsigned process_number();
 
 // The path of the running program, without symbolic links; empty if unknown.

@@ -21,7 +21,7 @@ bool fits_pattern(const std::string& name, const std::string& pattern) {
   return ::PathMatchSpecA(name.c_str(), pattern.c_str()) != 0;
 }
 
-// Windows forgets a handler that it has called.
+// Windows resets a handler when it calls it.
 void on_stop_signal(void (*handler)(int)) { std::signal(SIGINT, handler); }
 
 unsigned process_number() { return ::GetCurrentProcessId(); }

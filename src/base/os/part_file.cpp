@@ -18,7 +18,7 @@ constexpr std::string_view kExtension = ".part";
 constexpr int kMaxTries = 1000;
 constexpr size_t kNumberRoom = 16;  // For ".PID-TRY".
 
-// The number of the process in ".STEM.PID.part" or ".STEM.PID-TRY.part"; 0 in any other name.
+// The process ID in ".STEM.PID.part" or ".STEM.PID-TRY.part"; 0 for any other name.
 long pid_in(std::string_view name, std::string_view stem) {
   if (!name.starts_with(stem) || !name.ends_with(kExtension)) return 0;
   if (name.size() <= stem.size() + kExtension.size()) return 0;
@@ -37,8 +37,8 @@ long pid_in(std::string_view name, std::string_view stem) {
   return number(name.substr(0, dash));
 }
 
-// The names of part files in a folder as they were when this process first wrote there: looking
-// each time would cost a batch of n files n^2 looks.
+// The part files in a folder when this process first wrote there; listing the folder for each of n
+// files would take n^2 time.
 std::vector<std::string> parts_in(const fs::path& folder) {
   static std::mutex mutex;
   static std::map<fs::path, std::vector<std::string>> known;
@@ -53,7 +53,7 @@ std::vector<std::string> parts_in(const fs::path& folder) {
   return at->second;
 }
 
-// As much of a name as fits, without half a letter (UTF-8) at its end.
+// Cuts a name to fit, without splitting a UTF-8 character.
 std::string shortened(std::string name, size_t size) {
   if (name.size() <= size) return name;
   while (size > 0 && (name[size] & 0xc0) == 0x80) --size;

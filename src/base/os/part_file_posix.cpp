@@ -20,18 +20,18 @@ PartFile::~PartFile() {
 
 int PartFile::create(const std::string& name) {
   const int file = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
-  // Where a file system knows no locks, nobody takes the file for abandoned either.
+  // On a file system without locks, no file counts as abandoned either.
   if (file >= 0) ::flock(file, LOCK_EX | LOCK_NB);
   return file;
 }
 
 bool PartFile::is_abandoned(const std::string& name, long pid) {
   if (::kill(static_cast<pid_t>(pid), 0) == 0 || errno != ESRCH) return false;
-  // Without waiting, should there be a pipe of this name.
+  // O_NONBLOCK in case there is a pipe of this name.
   const int file = ::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (file < 0) return false;
   struct stat status = {};
-  // The process may be one of another machine or container: it holds the lock.
+  // The process may be on another machine or in another container; it then holds the lock.
   const bool ours = ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) &&
                     status.st_uid == ::geteuid() && ::flock(file, LOCK_EX | LOCK_NB) == 0;
   ::close(file);
@@ -58,14 +58,14 @@ bool PartFile::set_permissions(std::filesystem::perms permissions) {
 }
 
 bool PartFile::keep(bool replace) {
-  // Network file systems tell of a full disk only where a file is closed; the lock stays.
+  // Network file systems report a full disk only when a file is closed; the lock stays.
   const int copy = ::dup(file_);
   if (copy < 0 || ::close(copy) != 0) return false;
   if (!replace) {
-    // A second name is given only where it is free; the destructor removes the first.
+    // link() fails if the target exists; the destructor removes the first name.
     if (::link(name_.c_str(), target_.c_str()) == 0) return true;
     if (errno == EEXIST) return false;
-    // A file system without links, such as that of a memory card.
+    // File systems without links, such as those of memory cards.
     if (::access(target_.c_str(), F_OK) == 0) {
       errno = EEXIST;
       return false;

@@ -22,7 +22,7 @@ PartFile::~PartFile() {
   errno = cause;
 }
 
-// Nobody else can open a file that is not shared.
+// Others cannot open a file that is not shared.
 int PartFile::create(const std::string& name) {
   int file = -1;
   constexpr int kHow = _O_WRONLY | _O_CREAT | _O_EXCL | _O_BINARY | _O_NOINHERIT;
@@ -55,7 +55,7 @@ bool PartFile::write(std::string_view bytes) {
   return true;
 }
 
-// Windows keeps the rights of a folder for the files in it.
+// On Windows, files inherit the permissions of their folder.
 bool PartFile::set_permissions(std::filesystem::perms) { return true; }
 
 bool PartFile::keep(bool replace) {

@@ -1,5 +1,5 @@
-// Our own recipe: the networks see joint positions and answer with a change of the input, and each
-// style is a head on trunks that all styles share.
+// Our own recipe: the networks see joint positions and output a change of the input; each style is
+// a head on trunks that all styles share.
 
 #include <algorithm>
 #include <cassert>
@@ -29,7 +29,7 @@ StyleDelta to_change(std::span<const float> answer, const HumanPositions&,
   return unpack(answer.first<StyleDelta::kSize>());
 }
 
-// Units in which the numbers of a change weigh the same: 0.25 rad, 5 cm, 0.15 m/s, 0.6 rad/s.
+// Units that give all parts of a change equal weight: 0.25 rad, 5 cm, 0.15 m/s, 0.6 rad/s.
 std::vector<float> output_scale() {
   StyleDelta unit;
   unit.rotations.fill({0.25f, 0.25f, 0.25f});

@@ -1,6 +1,6 @@
 // The recipe of Smith et al. 2019, as in the paper's slides, for comparison: the networks see
-// rotations and the style as a vector, and answer with a whole pose; the change is the difference
-// to the input.
+// rotations and a style vector, and output a whole pose; the change is the difference from the
+// input.
 
 #include <algorithm>
 #include <cassert>
@@ -13,7 +13,7 @@
 namespace panache {
 namespace {
 
-// The style vector: first neutral, which gets what the styles leave of 1, then the styles.
+// The style vector: neutral first, with the remainder of the styles to 1, then the styles.
 int style_inputs(int styles) noexcept { return styles + 1; }
 
 void write_style_inputs(std::span<const float> strengths, std::span<float> out) noexcept {
@@ -77,7 +77,7 @@ const Recipe& smith2019_recipe() noexcept {
       .mirror_target = mirror_target,
       .to_change = to_change,
       // The slides: Adam, learning rate 0.01, 20 epochs of 550,000 samples in batches of 64. They
-      // do not tell Adam's epsilon. With the usual 1e-8 this learning rate makes all three networks
+      // do not give Adam's epsilon. With the usual 1e-8 this learning rate makes all three networks
       // collapse to the mean within 2,000 steps, whatever the activation; with 0.01 they learn.
       .training = {.steps = 20 * 550000 / 64,
                    .neutral_samples = true,
