@@ -6,7 +6,7 @@
 namespace panache {
 namespace {
 
-// Two columns that are nearly unit and at right angles: made so by Gram and Schmidt's method.
+// Orthonormalises two columns (Gram-Schmidt).
 Quat read_rotation(const float* n) {
   const Vec3 x = normalized(Vec3{n[0], n[1], n[2]}, Vec3{1, 0, 0});
   const Vec3 raw{n[3], n[4], n[5]};

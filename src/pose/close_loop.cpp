@@ -18,9 +18,8 @@ void copy(ConstPose from, Pose to) {
 
 Quat apart(Quat from, Quat to) { return to * conjugate(from); }
 
-// Of each frame, the share of a gap that a foot makes up, counted from the middle of the cycle:
-// what it makes up while it is in the air, and where it never is, evenly. From the last frame to
-// the first it is 1.
+// Per frame, the share of a gap that a foot closes, counted from the middle of the cycle: while it
+// is in the air or, if it never is, evenly. From the last frame to the first it is 1.
 std::vector<float> swing_shares(std::span<const FootContacts> contacts, int foot) {
   std::vector<float> shares(contacts.size(), 0.0f);
   for (size_t f = 1; f < shares.size(); ++f) {
@@ -52,7 +51,7 @@ class LoopCloser {
   }
 
  private:
-  // What a joint of the skeleton goes with.
+  // What a joint of the skeleton follows.
   static constexpr int kLeftAlone = -2, kWithBody = -1;  // Or with a foot: 0, 1.
   struct Gap {
     Vec3 rotation, translation;  // Rotation vector on the right of the local rotation; file units.
@@ -83,7 +82,7 @@ class LoopCloser {
     }
   }
 
-  // The body at `frame` with its joints brought half of the way, see share().
+  // The body at `frame` with its joints moved half way, see share().
   RotatedBodyPose met(int frame) {
     std::vector<Quat> rotations(clip_.joints());
     std::vector<Vec3> translations(clip_.joints());
@@ -113,13 +112,13 @@ class LoopCloser {
     }
   }
 
-  // How the hips are tilted.
+  // The tilt of the hips.
   static Quat in_heading(const RotatedBodyPose& body) {
     return rotation_y(-body.facing) * body.rotations[index(HumanJoint::hips)];
   }
 
-  // What is made up of a gap: the last frame comes half of the way to the first one, and that one
-  // to it. A foot takes its share of the way in the air.
+  // The share of a gap that is closed: the last frame and the first one each move half way to the
+  // other. A foot moves in the air.
   float share(int followed, int frame) const {
     if (followed >= 0) return shares_[followed][frame - first_];
     return static_cast<float>(frame - first_) / static_cast<float>(clip_.frames - 1 - first_) -
@@ -154,13 +153,13 @@ class LoopCloser {
     reader_.write(pose, body, change, pose);
   }
 
-  // Puts the foot where it was before, but for its own share of the gap.
+  // Puts the foot back to its position before, plus its share of the gap.
   void place_foot(int foot, int frame, const RotatedBodyPose& before, const RotatedBodyPose& body,
                   HumanPositions& joints, BodyChange& change) const {
     const LimbJoints leg = leg_joints(foot);
     const int ankle = index(kAnkles[foot]), toes = index(kToes[foot]);
     const float part = share(foot, frame);
-    // The gap is that of the end, which the body sees from another side when it begins.
+    // The gap is relative to the heading at the end; the heading at the begin differs.
     const bool begins = 2 * (frame - first_) < clip_.frames - 1 - first_;
     const Quat seen = begins ? conjugate(turn_) : Quat{};
     const Quat to_heading = rotation_y(-body.facing);
@@ -183,13 +182,12 @@ class LoopCloser {
   std::vector<int> followed_;                     // [joints]
   std::vector<Gap> gaps_;                         // [joints]
   std::array<std::vector<float>, kFeet> shares_;  // [frames from first_ on]
-  // Of the hips: what tilts them back, a rotation vector in the heading frame, and lifts them,
-  // metres.
+  // Corrections of the hips: tilt, a rotation vector in the heading frame, and lift, metres.
   Vec3 tilt_;
   float rise_ = 0;
-  Quat turn_;  // Of the heading from the first frame to the last.
-  // Of each foot at the last frame: from where its toes are to where they were at first, metres,
-  // and how it is turned to how it was, a rotation vector; world.
+  Quat turn_;  // Turn of the heading from the first frame to the last.
+  // Gaps of each foot, from the last frame to the first: translation of the toes, metres, and
+  // rotation vector; world.
   std::array<Vec3, kFeet> toe_gaps_, foot_gaps_;
 };
 

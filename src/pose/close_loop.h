@@ -1,5 +1,5 @@
 #pragma once
-// Makes the last pose of a clip its first one again, and goes through a cycle more than once.
+// Makes the last pose of a clip equal to its first, and repeats cycles.
 
 #include <span>
 
@@ -10,18 +10,19 @@
 
 namespace panache {
 
-// Brings the poses of frame `first` and of the last one together, each half of the way, and spreads
-// that over the frames between them: rotations and translations of the body's joints, and tilt and
-// height of the hips. The path of the root stays. Feet are brought along while they are in the air
-// and stay where they stand; `contacts`: of each frame from `first` on. Joints that the hips do not
-// carry, and that are not part of the body, are left alone.
+// Moves the poses of frame `first` and of the last frame half way to each other, and spreads the
+// difference over the frames between: rotations and translations of the body's joints, and tilt and
+// height of the hips. The path of the root stays. Feet are adjusted in the air and stay in place on
+// the ground; `contacts`: of each frame from `first` on. Joints that are neither part of the body
+// nor below the hips stay unchanged.
 void close_loop(const Rig& rig, int first, std::span<const FootContacts> contacts, Clip& clip);
 
-// The way from where a cycle begins to where it ends, gone `round` times.
+// The way from the start of a cycle to its end, `round` times.
 class Travel {
  public:
   Travel(const RootPose& begin, const RootPose& end) : begin_(begin), end_(end) {}
-  // How far the body is turned by then, radians, and where what was at `begin` is, metres.
+  // The turn of the body after these rounds, radians, and the position then of a body starting at
+  // `begin`, metres.
   float turned(int round) const noexcept;
   Vec3 position(int round) const noexcept;
   const RootPose& begin() const noexcept { return begin_; }
@@ -30,9 +31,9 @@ class Travel {
   RootPose begin_, end_;
 };
 
-// `clip` up to its last frame, then the frames after `first` again, each round where the one before
-// it ended, until its motion is there `rounds` times. Frame f of round r is the frame
-// f + r * (clip.frames - 1 - first).
+// `clip`, followed by its frames after `first` again, each round starting where the last one ended,
+// until the motion is repeated `rounds` times. Frame f of round r is frame f + r * (clip.frames - 1
+// - first).
 Clip repeat_loop(const Clip& clip, const Rig& rig, int first, const Travel& travel, int rounds);
 
 }  // namespace panache

@@ -19,10 +19,10 @@ inline constexpr std::array<HumanJoint, kFeet> kAnkles = {HumanJoint::left_foot,
 inline constexpr std::array<HumanJoint, kFeet> kToes = {HumanJoint::left_toes,
                                                         HumanJoint::right_toes};
 
-inline constexpr float kAnkleHeight = 0.07f;  // Of a standing foot, at least; metres.
+inline constexpr float kAnkleHeight = 0.07f;  // Minimum for a standing foot; metres.
 
-// How high the lowest foot is above where it stands: its toe, or its ankle above kAnkleHeight.
-// Metres above the floor of `body`.
+// Height of the lowest foot: its toe, or its ankle minus kAnkleHeight. Metres above the floor of
+// `body`.
 inline float lowest_foot(const HumanPositions& body) noexcept {
   const auto height = [&](int f) {
     return std::min(body[index(kToes[f])].y, body[index(kAnkles[f])].y - kAnkleHeight);
@@ -36,9 +36,9 @@ using FootContacts = std::array<bool, kFeet>;
 // A foot is planted while its toe is low and nearly at rest.
 std::vector<FootContacts> detect_contacts(const std::vector<HumanPositions>& world, double fps);
 
-// The probability that a foot is planted, given what `probability` says of its motion and where its
-// toe is in the input (metres above the floor): a foot in the air is not planted, whatever the rest
-// of the body looks like.
+// The probability that a foot is planted, from the network's `probability` and the height of its
+// toe in the input (metres above the floor): a foot in the air is not planted, whatever the rest of
+// the body does.
 float planted_near_floor(float probability, float toe_height) noexcept;
 
 }  // namespace panache

@@ -15,7 +15,7 @@ inline constexpr int kRootFeatures = 3;         // See RootNumber.
 // The root features in their order: velocity over the ground, m/s, and turn rate, rad/s.
 enum RootNumber { kVelocityLeft, kVelocityForward, kTurnRate };
 
-// How a pose is laid out in numbers. Root numbers come last in both.
+// The layout of a pose's features. Root features come last in both.
 enum class PoseLayout {
   // 21 joint positions in the body frame, metres [63]; then the root features.
   positions,
@@ -29,15 +29,14 @@ constexpr int pose_feature_count(PoseLayout layout) {
 // Where the root features begin.
 constexpr int root_offset(PoseLayout layout) { return pose_feature_count(layout) - kRootFeatures; }
 
-// Writes the pose_feature_count(layout) - kRootFeatures first numbers of a pose given in the body
-// frame.
+// Writes the first pose_feature_count(layout) - kRootFeatures features of a pose in the body frame.
 void write_pose_features(PoseLayout layout, const HumanPositions& body,
                          std::span<float> out) noexcept;
 // Writes the root features of a body that went from `before` to `now` in `seconds` > 0.
 void write_root_features(const RootPose& before, const RootPose& now, double seconds,
                          std::span<float, kRootFeatures> out) noexcept;
-// The reverse of the two: the body that these numbers of layout positions are, and where a body
-// comes to stand that moves from `before` with these root features for `seconds`.
+// The inverse of both: the body with these features of layout positions, and the root after moving
+// from `before` with these root features for `seconds`.
 HumanPositions read_positions(std::span<const float> pose) noexcept;
 RootPose move_root(const RootPose& before, std::span<const float, kRootFeatures> root,
                    double seconds) noexcept;

@@ -30,19 +30,18 @@ constexpr float kRestSeconds = 0.03f;
 constexpr float kFadeRate = 20;  // 1/s
 constexpr float kMaxGlide = 1;   // m/s; a faster foot is not about to stand.
 
-// A leg follows only a share of what would make it longer or shorter, as its knee would fly back
-// and forth where it is nearly straight: the sine of the angle between its reach and its length. A
-// toe that is kDeep below the floor is drawn up by more: by all of it from this sine on.
+// A nearly straight leg follows only a share of changes of its length, or its knee would fly back
+// and forth: the sine of the angle between its reach and its length. A toe that is kDeep below the
+// floor is raised by more: fully from this sine on.
 constexpr float kBent = 0.6f, kDeep = 0.03f;  // Metres.
 
-// A knee that a style or noise bends backwards by a few degrees may not be bent on that way: a leg
-// that is nearly straight bends to where its foot points. In force in full from this shift on.
+// A knee that a style or noise bends backwards by a few degrees must not bend further that way: a
+// nearly straight leg bends to where its foot points. Fully active from this shift on.
 constexpr float kFirm = 0.05f, kFirmShift = 0.02f;  // Metres.
-// A nearly straight knee that would come out on another side goes around the leg, not faster than
-// this.
+// A nearly straight knee that changes its side turns around the leg at most this fast.
 constexpr float kKneeRate = 12;  // Radians/s.
 
-// Where the ankle goes in place of `target`. `depth`: of its toe below the floor, metres.
+// The position of the ankle instead of `target`. `depth`: of its toe below the floor, metres.
 Vec3 easy_target(Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 target, float depth) {
   const float leg = length(knee - hip) + length(ankle - knee);
   const Vec3 way = target - hip;
@@ -54,7 +53,7 @@ Vec3 easy_target(Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 target, float depth) {
   return hip + way * ((before + follow * (wanted - before)) / wanted);
 }
 
-// How far a planted foot is held back towards its anchor, which is `pull` away from it.
+// How far a planted foot is pulled back to its anchor, at `pull` from it.
 Vec3 held(Vec3 pull) {
   constexpr float kGives = kMaxOffset - kHeld;
   const float far = length(pull);
@@ -63,7 +62,7 @@ Vec3 held(Vec3 pull) {
   return pull * ((kHeld + kGives * (1 - exponential((kHeld - far) / kGives))) / far);
 }
 
-// What a planted foot creeps in so many seconds towards what is `way` from it.
+// How far a planted foot creeps in `seconds` towards a point at `way` from it.
 Vec3 crept(Vec3 way, float seconds) {
   const float far = length(way);
   if (!(far > kSettled && std::isfinite(far))) return {};
@@ -92,7 +91,7 @@ void FootLock::follow(Foot& foot, Vec3 input, Vec3 toe, float contact, Seconds t
   if (foot.state == State::planted) {
     foot.anchor += foot.glide * seconds;
     foot.glide *= exponential(-seconds / kRestSeconds);
-    // What the input's foot slides by itself is not followed.
+    // Sliding of the input's foot is not followed.
     foot.anchor += crept(toe - foot.anchor - (input - foot.stood), seconds);
     const Vec3 pull = foot.anchor - toe;
     foot.offset = held(pull);
@@ -111,7 +110,7 @@ Vec3 FootLock::bend(Foot& foot, Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 ahead, flo
   const Vec3 axis = normalized(ankle - hip);
   const Vec3 wanted = normalized(bend_of(hip, knee, ankle, ahead, kFirm * firm));
   const Vec3 last = normalized(across(foot.knee, axis));
-  // A foot that is hardly moved, and a knee that is well bent, throw no knee to the other side.
+  // A small shift of the foot, or a well bent knee, does not move a knee to the other side.
   const float straight = 1 - length(across(knee - hip, axis)) / (2 * kFirm);
   const float share = firm * straight;
   const float most = share > 0 ? kKneeRate * seconds / share : 1.0f;

@@ -5,8 +5,7 @@
 namespace panache {
 namespace {
 
-// Lengths of an arm, which is some 52 cm: hands that hold one thing, and hands that have nothing to
-// do with each other.
+// In arm lengths of about 52 cm: hands that hold one thing, and unrelated hands.
 constexpr float kNear = 0.36f, kFar = 0.65f;
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// Hands that touch each other or the body in a motion touch it on a changed body as well.
+// Keeps contacts of hands with each other or the body on a changed body.
 
 #include <array>
 
@@ -9,16 +9,16 @@ namespace panache {
 
 // How much hands keep contacts, 0 (none) to 1 (fully).
 struct HandHolds {
-  std::array<float, 2> by_body{};  // Left and right wrist, by the part of the body that they touch.
-  float together = 0;              // By each other.
+  std::array<float, 2> by_body{};  // Left and right wrist with the body.
+  float together = 0;              // With each other.
 };
 
-// How near wrists are that are so many lengths of an arm apart: 1 where the hands touch or hold one
-// thing, 0 where they have nothing to do with each other, smooth between.
+// The contact of wrists at a distance in arm lengths: 1 if the hands touch or hold one thing, 0 if
+// they are unrelated, smooth between.
 float hands_nearness(float arm_lengths) noexcept;
 
-// Moves wrists so that the right one is nearer to being `between` from the left one: by the share
-// `amount`, of which the right one moves `of_right`, both 0 to 1.
+// Moves the vector from the left to the right wrist towards `between` by the share `amount`, of
+// which the right wrist moves `of_right`, both 0 to 1.
 void bring_together(Vec3 between, float amount, float of_right, Vec3& left, Vec3& right) noexcept;
 
 }  // namespace panache

@@ -63,7 +63,7 @@ float PoseHistory::window(std::span<float> out) const noexcept {
 
 void PoseHistory::fetch_window(double seconds) const noexcept {
   if (count_ == 0) return;
-  int age = 0, fetched = 0;  // Poses younger than `fetched` were asked for.
+  int age = 0, fetched = 0;  // Poses younger than `fetched` were prefetched.
   for (int k = 0; k < kWindowPoses; ++k) {
     const double time = newest(0).time + seconds - k * kWindowSpacing;
     while (age + 1 < count_ && newest(age).time > time) ++age;

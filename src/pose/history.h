@@ -1,5 +1,5 @@
 #pragma once
-// The last quarter of a second of a body, at any frame rate, as a window of six poses.
+// The last quarter of a second of a body's motion, at any frame rate, as a window of six poses.
 
 #include <array>
 #include <span>
@@ -21,11 +21,11 @@ class PoseHistory {
   // newest first. Times before the first pose show the first pose at rest. At least one pose was
   // pushed. Returns the mean speed over the ground in it, m/s.
   float window(std::span<float> out) const noexcept;
-  // Asks the caches for what window() reads after a push `seconds` from now, which in a crowd is
-  // far away by then. Changes nothing.
+  // Prefetches what window() will read after a push `seconds` from now; in a crowd it has left the
+  // caches. Changes nothing.
   void fetch_window(double seconds) const noexcept;
 
-  // Calls visit(member) for everything that tells one history from another of its layout.
+  // Calls visit(member) for all state of a history.
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
     const auto used = static_cast<size_t>(self.count_);
@@ -38,7 +38,8 @@ class PoseHistory {
     double time = 0;
     RootPose root;
   };
-  // The stored poses around a time, as places in the ring: earlier, later, and how far between.
+  // The stored poses around a time, as indices in the ring: earlier, later, and the fraction
+  // between.
   struct Between {
     int a, b;
     float t;
@@ -46,8 +47,8 @@ class PoseHistory {
   static constexpr int stored_features(PoseLayout layout) {
     return pose_feature_count(layout) - kRootFeatures;
   }
-  // Looks from the pose of that age on, which is not older than `time` unless it is the newest, and
-  // leaves there how far it came: for earlier times the search goes on from there.
+  // Searches from `age` on, a pose not older than `time` unless it is the newest, and updates it,
+  // so that a search for an earlier time can continue from there.
   Between find(double time, int& age) const noexcept;
   RootPose root(const Between& between) const noexcept;
   int index_of(int age) const noexcept {
@@ -59,15 +60,15 @@ class PoseHistory {
     return std::span(features_).subspan(place * count, count);
   }
 
-  // A pose closer than this to the one before it gives way to the next, so that any rate fits: the
+  // A pose closer than this to the one before is replaced by the next, so that any rate fits: the
   // window and one more spacing for the oldest velocity need 0.3 s. Trackers send 90 poses a
-  // second, and finer would be a waste: between poses 11 ms apart a foot that swings at 50 m/s^2 is
-  // shown 0.8 mm off at most.
+  // second, and more is not needed: between poses 11 ms apart a foot accelerating at 50 m/s^2 is
+  // off by at most 0.8 mm.
   static constexpr double kMinGap = 0.0108;
   static constexpr int kCapacity = 30;
 
   PoseLayout layout_;
-  int head_ = kCapacity - 1, count_ = 0;  // The newest; the first that is pushed has place 0.
+  int head_ = kCapacity - 1, count_ = 0;  // `head_`: the newest; the first push gets index 0.
   std::array<Entry, kCapacity> ring_{};
   std::vector<float> features_;  // [kCapacity][stored_features]
 };

@@ -9,7 +9,7 @@ void add_turn(const LimbJoints& limb, const TwoBoneTurn& turn, BodyChange& chang
   change.rotations[limb.middle] = normalized(turn.lower * change.rotations[limb.middle]);
 }
 
-// Joints and change of a limb that turns like this.
+// Applies the turn to joints and change.
 void apply(const LimbJoints& limb, const TwoBoneTurn& turn, HumanPositions& joints,
            BodyChange& change) {
   Vec3 &middle = joints[limb.middle], &end = joints[limb.end];

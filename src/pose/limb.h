@@ -1,5 +1,5 @@
 #pragma once
-// An arm or a leg as two straight parts that are moved by where their middle and end go.
+// Moves an arm or a leg, two straight parts, by target positions of its middle and end.
 
 #include <algorithm>
 #include <array>
@@ -23,20 +23,20 @@ inline Vec3 from_line(Vec3 point, Vec3 a, Vec3 b) noexcept {
   return point - (a + along * t);
 }
 
-// `v`, of which the length beyond `free` is compressed so that it stays below `most`.
+// `v` with its length beyond `free` compressed so that it stays below `most`.
 inline Vec3 softly_bounded(Vec3 v, float free, float most) noexcept {
   const float far = length(v), over = far - free, room = most - free;
   if (!(over > 0)) return v;
   return v * ((free + over * room / (over + room)) / far);
 }
 
-// Whether the rig has a head: a missing one carries the position of what it would hang on.
+// Whether the rig has a head: a missing one has the position of its parent.
 inline bool has_head(const HumanPositions& joints) noexcept {
   constexpr float kShortest = 0.01f;  // Metres.
   return length(joints[index(HumanJoint::head)] - joints[index(HumanJoint::neck)]) > kShortest;
 }
 
-// The joints of a limb, and to which side its middle goes where it is straight.
+// The joints of a limb, and the side of its middle if it is straight.
 struct LimbJoints {
   int root, middle, end;
   Vec3 hint;
@@ -48,18 +48,18 @@ inline LimbJoints leg_joints(int side) noexcept {
   return {index(kUpperLegs[side]), index(kLowerLegs[side]), index(kAnkles[side]), {0, 0, 1}};
 }
 
-// Where a knee points: where the foot does, and ahead where that points down. Heading frame.
+// The direction of a knee: that of the foot, or ahead if the foot points down. Heading frame.
 Vec3 knee_way(Vec3 ankle, Vec3 toe) noexcept;
 
-// Where elbow or knee, and wrist or ankle are moved; metres, in the space of changed_joints().
+// The moves of elbow or knee, and of wrist or ankle; metres, in the space of changed_joints().
 struct LimbMove {
   Vec3 middle, end;
   friend constexpr bool operator==(LimbMove, LimbMove) = default;
 };
 
-// Turns a limb of `change` so that its end comes to `target`, as far as it reaches. `bend`: see
-// two_bone_ik(). Hand or foot keeps its rotation. `joints`: changed_joints(), of which it keeps up
-// middle and end, but not what hangs on them.
+// Turns a limb of `change` so that its end reaches `target`, as far as possible. `bend`: see
+// two_bone_ik(). Hand or foot keeps its rotation. `joints`: changed_joints(); updates middle and
+// end, but not their children.
 void turn_limb(const LimbJoints& limb, Vec3 target, Vec3 bend, HumanPositions& joints,
                BodyChange& change) noexcept;
 // The same; the middle goes to the side `out`, unit, at a right angle to the line from the root to
@@ -69,10 +69,10 @@ void aim_limb(const LimbJoints& limb, Vec3 target, Vec3 out, HumanPositions& joi
 // The same; the middle stays on its side of the limb.
 void reach_with_limb(const LimbJoints& limb, Vec3 target, HumanPositions& joints,
                      BodyChange& change) noexcept;
-// The same; the middle moves as nearly as it can as `move` says.
+// The same; the middle moves as closely as possible to `move`.
 void move_limb(const LimbJoints& limb, const LimbMove& move, HumanPositions& joints,
                BodyChange& change) noexcept;
-// Of that only the joints.
+// The same for the joints only.
 void move_joints(const LimbJoints& limb, const LimbMove& move, HumanPositions& joints) noexcept;
 
 }  // namespace panache

@@ -9,11 +9,11 @@
 namespace panache {
 namespace {
 
-constexpr int kLooks = 64;  // Poses that the extent is measured at.
+constexpr int kLooks = 64;  // Poses sampled for the extent.
 // A shorter clip is part of a cycle.
 constexpr double kShortest = 0.3;  // Seconds.
 constexpr int kFewestFrames = 4;
-// The poses of an authored loop differ by what its file rounds. Metres.
+// The poses of an authored loop differ only by rounding in the file. Metres.
 constexpr float kAuthoredGap = 0.001f, kAuthoredWorst = 0.005f;
 // Walks and runs of CMU that are cut after the cycle that ends nearest to where it began are 0.8 to
 // 3.2 cm off in the mean of the joints and 2.5 to 9.5 at the worst one: a quarter of what any two
@@ -21,8 +21,8 @@ constexpr float kAuthoredGap = 0.001f, kAuthoredWorst = 0.005f;
 // are as near, but pass the seam so slowly that they are 80 ms off or more. Of 1,375 whole takes
 // six are loops: walks that happen to end as they began.
 constexpr float kCutGap = 0.04f, kCutWorst = 0.15f, kCutShare = 0.25f, kCutSeconds = 0.06f;
-// What can be spread over a cycle where it is asked for: two poses of a walk are up to twice that
-// far apart.
+// The largest gap that can be spread over a cycle: two poses of a walk are up to twice that far
+// apart.
 constexpr float kMaxGap = 0.1f;  // Metres.
 
 bool is_long_enough(const LoopSeam& seam, double frame_time) {

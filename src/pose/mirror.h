@@ -1,5 +1,5 @@
 #pragma once
-// Left for right of a pose's numbers.
+// Mirrors a pose's features, left for right.
 
 #include <span>
 
@@ -9,7 +9,7 @@ namespace panache {
 
 // In place. numbers[pose_feature_count(layout)]
 void mirror_pose(PoseLayout layout, std::span<float> numbers) noexcept;
-// The same for any number of poses, one behind the other.
+// The same for any number of consecutive poses.
 void mirror_poses(PoseLayout layout, std::span<float> numbers) noexcept;
 
 }  // namespace panache

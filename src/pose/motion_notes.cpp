@@ -15,7 +15,7 @@ std::vector<std::string> motion_notes(const MotionFile& file, const std::string&
   for (const int clip : body.clips) {
     const std::string& name = names[static_cast<size_t>(clip)];
     const Result<Rig> rig = Rig::create(file.clip(clip));
-    if (!rig) continue;  // The caller is told when it asks for that skeleton.
+    if (!rig) continue;  // The caller gets this error with that skeleton.
     if (const auto doubt = doubtful_rate(file.clip(clip), *rig)) {
       notes.push_back(path + ": " + (name.empty() ? "" : name + ": ") + *doubt);
     }

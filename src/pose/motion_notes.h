@@ -8,8 +8,8 @@
 
 namespace panache {
 
-// MotionFile::notes(), which motions move no joint of the humanoid and are passed over, and whose
-// steps speak against their rate: one sentence each, with `path` in front.
+// MotionFile::notes(), motions that are skipped because they move no joint of the humanoid, and
+// motions whose steps contradict their rate: one message each, starting with `path`.
 std::vector<std::string> motion_notes(const MotionFile& file, const std::string& path);
 
 }  // namespace panache

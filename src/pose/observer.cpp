@@ -35,14 +35,14 @@ void Observer::add_memory(Prefetch& prefetch) const noexcept {
   rig_.add_memory(prefetch);
 }
 
-// Also guards against numbers so large that products overflow.
+// Also rejects numbers so large that products overflow.
 void Observer::sanitize_pose(ConstPose in) noexcept {
   constexpr float kFar = 1e9f;
   assert(in.rotations.size() == rotations_.size());
   for (size_t j = 0; j < rotations_.size(); ++j) {
     const Quat q = in.rotations[j];
     const Vec3 t = in.translations[j];
-    // False of what is not finite, too.
+    // Also false for non-finite values.
     if (std::abs(dot(q, q) - 1) < 0.1f) rotations_[j] = q;
     if (std::abs(t.x) < kFar && std::abs(t.y) < kFar && std::abs(t.z) < kFar) translations_[j] = t;
   }

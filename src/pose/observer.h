@@ -1,6 +1,6 @@
 #pragma once
-// One character's input as it comes: poses are made sound, brought to the canonical body and seen
-// in the body frame, and cuts are detected.
+// Takes in one character's input: sanitises poses, converts them to the canonical body and to the
+// body frame, and detects cuts.
 
 #include <span>
 #include <vector>
@@ -13,23 +13,23 @@ namespace panache {
 // One instant of a character.
 struct Observation {
   BodyPose world;               // In the world.
-  RootPose root;                // Where it stands and looks.
-  HumanPositions body_frame{};  // Its canonical joints seen from there, metres.
+  RootPose root;                // Its position and heading.
+  HumanPositions body_frame{};  // Its canonical joints relative to `root`, metres.
 };
 
 // Reads `pose` with `rig`; the facing is the one nearest to `last_facing`.
 void observe(PosedRig& rig, ConstPose pose, float last_facing, Observation& out) noexcept;
 
-// The constructor allocates; nothing else does, and nothing fails.
+// Only the constructor allocates; nothing fails.
 class Observer {
  public:
-  // A pose that comes after a longer gap does not continue what was before. Seconds.
+  // A pose after a longer gap does not continue the motion. Seconds.
   static constexpr double kMaxGap = 0.5;
-  // A pose that implies a faster way over the ground does not continue it either. The default, m/s:
-  // a sprinter reaches 12; bodies on vehicles are faster.
+  // A pose that implies a higher speed over the ground does not continue it either. The default,
+  // m/s: sprinters reach 12; bodies on vehicles are faster.
   static constexpr float kMaxGroundSpeed = 15;
 
-  // `max_speed`: m/s, more than 0; with infinity no way is too far.
+  // `max_speed`: m/s, positive; infinity: no limit.
   explicit Observer(Rig rig, float max_speed = kMaxGroundSpeed);
 
   // Forgets the motion so far.
@@ -39,19 +39,19 @@ class Observer {
   // the last valid ones. Returns whether it continues the motion; false at the first pose, too.
   bool observe(ConstPose in, double seconds) noexcept;
 
-  // The pose as taken in: every number of it is finite.
+  // The pose as taken in: all values are finite.
   ConstPose pose() const noexcept { return {rotations_, translations_}; }
   const Observation& now() const noexcept { return now_; }
-  // Where the body stood and looked at the pose before; the origin at the first.
+  // Position and heading at the pose before; the origin at the first.
   const RootPose& last_root() const noexcept { return last_root_; }
   const Rig& rig() const noexcept { return rig_.rig(); }
 
-  // The pose as taken in with `change` on it, see PosedRig::write().
+  // The pose as taken in with `change`, see PosedRig::write().
   void write(const BodyChange& change, Pose out) noexcept {
     rig_.write(pose(), now_.world, change, out);
   }
 
-  // Names the arrays that observe() and write() work on.
+  // Adds the arrays that observe() and write() use.
   void add_memory(Prefetch& prefetch) const noexcept;
 
   // Calls visit(member) for everything that tells one character from another of this rig.

@@ -1,5 +1,5 @@
 #pragma once
-// How far apart two bodies are.
+// The distance between two poses.
 
 #include <algorithm>
 

@@ -25,15 +25,15 @@ namespace {
 // 2.5 times, 85 % at a quarter and 80 % at 0.4 of it.
 
 constexpr double kGravity = 9.81;
-constexpr int kMaxFrames = 3000;  // More tell nothing new.
+constexpr int kMaxFrames = 3000;  // More add nothing.
 
 // Lengths are in those of a leg, and rates in those of a pendulum as long, sqrt(g / leg).
-constexpr double kTurn = 0.25;    // How far the feet have to come back to have passed each other.
+constexpr double kTurn = 0.25;    // How far the feet must move back to count as a step.
 constexpr double kStance = 0.06;  // Above the floor, of the lowest foot at most.
-constexpr double kLifted = 0.07;  // Of the sums of the heights of ankle and toe of both feet.
+constexpr double kLifted = 0.07;  // Difference of both feet's ankle height plus toe height.
 constexpr double kAnkle = 0.07;   // Its height where the foot is planted.
 constexpr double kHeel = 0.085;   // Behind the ankle.
-constexpr double kTip = 0.075;    // Before the toe joint.
+constexpr double kTip = 0.075;    // Ahead of the toe joint.
 
 // Too fast: more steps than this, the point so far off the foot, and so many times further than at
 // 0.4 of the rate. Salsa reaches a rate of 1.3 with steps below 0.45; no steps reach 1.5.
@@ -117,7 +117,7 @@ struct Steps {
   double frames = 0, size = 0;  // The medians.
 };
 
-// How far the left foot is before the right one, as the hips look.
+// How far the left foot is ahead of the right one, in the heading of the hips.
 std::vector<double> separations(const Clip& clip, const Rig& rig, const Walk& walk) {
   std::vector<double> out;
   PosedRig reader(rig);
@@ -133,7 +133,7 @@ std::vector<double> separations(const Clip& clip, const Rig& rig, const Walk& wa
   return out;
 }
 
-// Whether both feet are below the body's centre throughout, as in no cartwheel.
+// Whether both feet stay below the body's centre, unlike in a cartwheel.
 bool is_upright(const Walk& walk, size_t begin, size_t end) {
   return std::all_of(walk.bodies.begin() + static_cast<std::ptrdiff_t>(begin),
                      walk.bodies.begin() + static_cast<std::ptrdiff_t>(end), [](const Body& body) {
@@ -211,8 +211,8 @@ class Balance {
     floor_ = *low;
   }
 
-  // The mean distance of the point from the foot that carries all, if the clip were played `times`
-  // as fast; nothing where too few frames stand on one foot.
+  // The mean distance of the point from the supporting foot, if the clip were played `times` as
+  // fast; nothing if too few frames stand on one foot.
   std::optional<double> miss(double times) const {
     constexpr int kFewest = 6;
     double sum = 0;
@@ -231,7 +231,7 @@ class Balance {
   }
 
  private:
-  // The foot that carries all: 0 left, 1 right; -1 for both, or where it is not clear.
+  // The supporting foot: 0 left, 1 right; -1 for both or if unclear.
   int stance(const Body& body) const {
     const auto lowest = [&](int side) {
       return std::min(body.toe[side].y, body.ankle[side].y - kAnkle);

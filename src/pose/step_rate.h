@@ -1,5 +1,5 @@
 #pragma once
-// Whether a motion walks as fast as legs of its length can.
+// Detects a wrong frame rate from the speed of a motion's steps.
 
 #include <optional>
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace panache {
 
-// The fault of the rate of a clip of `rig`'s skeleton, as a message without the file's name:
-// its steps are far too fast or far too slow for the length of its legs. Nothing where they are
-// not, or where it takes too few steps to tell.
+// The fault of the rate of a clip of `rig`'s skeleton, as a message without the file's name: its
+// steps are far too fast or far too slow for the length of its legs. Nothing if they are plausible,
+// or if there are too few steps.
 std::optional<std::string> doubtful_rate(const Clip& clip, const Rig& rig);
 
 }  // namespace panache

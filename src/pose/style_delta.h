@@ -1,6 +1,6 @@
 #pragma once
-// A style's change of one instant, by name; and the same as a row of numbers, as networks
-// answer with it and model files are scaled by it.
+// A style's change of one pose as named fields, and packed in the order of network outputs and of
+// the scales in model files.
 
 #include <array>
 #include <span>
@@ -9,24 +9,23 @@
 
 namespace panache {
 
-// Zero everywhere leaves the instant as it is.
+// Zero everywhere leaves the pose unchanged.
 struct StyleDelta {
-  // Rotation vectors, heading frame, radians: put on top of each joint's world rotation.
+  // Rotation vectors, heading frame, radians: applied on top of each joint's world rotation.
   std::array<Vec3, kHumanJoints> rotations{};
   float hips_height = 0;  // Metres.
-  // Over the ground, m/s and radians/s of the input's own time, so that the way is the same at any
-  // tempo.
+  // Over the ground, m/s and radians/s of input time, so that the way is the same at any tempo.
   float velocity_left = 0, velocity_forward = 0;
   float turn_rate = 0;
 
   static constexpr int kSize = 3 * kHumanJoints + 4;  // Numbers when packed.
 };
 
-// The one order of the numbers: as the fields stand above, each rotation as x, y, z.
+// Packs the fields in the order above, each rotation as x, y, z.
 void pack(const StyleDelta& delta, std::span<float, StyleDelta::kSize> out) noexcept;
 StyleDelta unpack(std::span<const float, StyleDelta::kSize> numbers) noexcept;
 
-// Left for right: the same change of the mirrored body.
+// The same change of the mirrored body.
 StyleDelta mirrored(const StyleDelta& delta) noexcept;
 
 }  // namespace panache

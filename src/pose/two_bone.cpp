@@ -6,8 +6,8 @@
 namespace panache {
 namespace {
 
-// Straightening the last degrees of a knee takes no distance but much angle: a leg is never asked
-// for more than this share of its length unless the style itself stretches it further.
+// The last bit of a leg's reach takes a large turn of the knee: a leg never extends beyond this
+// share of its length unless the style stretches it further.
 constexpr float kMaxReach = 0.995f;
 }  // namespace
 
@@ -20,7 +20,7 @@ TwoBonePlaces two_bone_places(Vec3 root, Vec3 middle, Vec3 end, Vec3 target, Vec
   const float shortest = std::abs(upper - lower) * 1.001f + 1e-4f;
   const float reach = std::clamp(far, std::min(shortest, longest), longest);
   const Vec3 axis = normalized(way);
-  // Law of cosines: where along the way the middle is, and how far off it.
+  // Law of cosines: the middle's position along the line and its distance from it.
   const float along = (upper * upper - lower * lower + reach * reach) / (2 * reach);
   const float off = std::sqrt(std::max(0.0f, upper * upper - along * along));
   return {root + axis * along + out * off, root + axis * reach};

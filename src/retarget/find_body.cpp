@@ -10,7 +10,7 @@ Result<std::pair<Clip, Rig>> find_body(Clip rest, const Clip* motion, const RigO
   Result<Rig> at_rest = Rig::create(rest, options);
   bool on_floor = false;
   if (at_rest && motion) {
-    // A rest pose that hangs in the air, as in BVH files, does not tell the floor.
+    // A rest pose in the air, as in BVH files, does not define the floor.
     const ReferencePose standing = find_reference_pose(rest, *at_rest);
     on_floor = standing.from_rest && std::abs(at_rest->floor()) < 0.25f * standing.leg;
   }

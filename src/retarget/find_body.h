@@ -1,5 +1,5 @@
 #pragma once
-// The part of a file that describes its character best.
+// Finds the pose in a file that describes its character best.
 
 #include <utility>
 
@@ -9,8 +9,8 @@
 
 namespace panache {
 
-// The clip to hand to retarget() for a character, and its rig: its rest pose, where that is a body
-// that stands on the floor; else its first motion, on the joints of `rest`. `motion` may be null.
+// The clip for retarget()'s `character`, and its rig: the rest pose if it stands on the floor, else
+// the first motion on the joints of `rest`. `motion` may be null.
 Result<std::pair<Clip, Rig>> find_body(Clip rest, const Clip* motion, const RigOptions& options);
 
 }  // namespace panache

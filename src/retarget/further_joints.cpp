@@ -12,20 +12,20 @@
 namespace panache {
 namespace {
 
-// Which of the row (a finger, or the twist joints) below which human joint.
+// A human joint, and the name of a row below it: a finger or the twist joints.
 using Row = std::pair<int, std::string>;
 
 bool has_any(const JointName& name, std::initializer_list<std::string_view> words) {
   return std::any_of(words.begin(), words.end(), [&](auto word) { return name.has(word); });
 }
 
-// "thumb", "index", ... as the name tells; 3ds Max numbers fingers from 0 and their joints by a
-// second digit ("Finger11"), Rokoko numbers digits from 1.
+// "thumb", "index", ... from the name; 3ds Max numbers fingers from 0 and their joints by a second
+// digit ("Finger11"), Rokoko numbers digits from 1.
 std::string finger_of(const JointName& name) {
   static constexpr std::array<std::string_view, 5> kFingers = {"thumb", "index", "middle", "ring",
                                                                "little"};
   if (has_any(name, {"ik", "target"})) return "";
-  // A thumb begins in the palm, the other fingers after it.
+  // A thumb begins in the palm, other fingers further out.
   if (name.has("thumb")) return "thumb";
   if (has_any(name, {"metacarpal", "carpal", "palm"})) return "";
   for (const std::string_view finger : kFingers) {

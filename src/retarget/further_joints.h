@@ -1,6 +1,5 @@
 #pragma once
-// Joints beyond the humanoid that two rigs have in common: fingers, and those that spread a twist
-// over the skin.
+// Joints beyond the humanoid that two rigs have in common: fingers and twist joints.
 
 #include <string>
 #include <utility>
@@ -17,14 +16,13 @@ struct JointPair {
   int human = 0;           // The nearest human joint above both.
 };
 
-// Fingers by their names, wherever both rigs say which finger a joint belongs to, in order from the
-// hand; twist joints where both have as many of them below the same human joint. In the order of
-// the joints of `onto`.
+// Fingers by their names, if both rigs name the finger, in order from the hand; twist joints if
+// both rigs have the same number below the same human joint. In the order of `onto`'s joints.
 std::vector<JointPair> find_further_joints(const Skeleton& from, const Rig& from_rig,
                                            const Skeleton& onto, const Rig& onto_rig);
 
-// The fingers that the rig has, as pairs of the human joint of the hand and "thumb", "index",
-// "middle", "ring" or "little".
+// The rig's fingers, as pairs of the hand's human joint and "thumb", "index", "middle", "ring" or
+// "little".
 std::vector<std::pair<int, std::string>> find_fingers(const Skeleton& skeleton, const Rig& rig);
 
 }  // namespace panache

@@ -12,16 +12,16 @@
 namespace panache {
 namespace {
 
-// A foot counts the less, the higher it is: a third at 7 cm, a hundredth far up.
+// A foot counts less the higher it is: a third at 7 cm, a hundredth far up.
 constexpr float kLow = 0.07f;
 constexpr float kLeastWeight = 0.01f;
 // The body rises this long before a toe would go under the floor.
 constexpr float kRiseSeconds = 0.12f;
-// A foot comes to where it is planted, and leaves from there, in this time.
+// Time for a foot to blend to and from its planted position.
 constexpr float kBlendSeconds = 0.25f;
-// Two plants that are not further apart are one.
+// Plants with a shorter gap are merged.
 constexpr float kGapSeconds = 0.07f;
-// A knee that is nearly straight goes where the foot points, see bend_of().
+// A nearly straight knee points where the foot does, see bend_of().
 constexpr float kFirm = 0.05f, kFirmShift = 0.02f;
 
 float weight(float height) {
@@ -47,7 +47,7 @@ void bend_leg(int foot, Vec3 shift, const HumanPositions& joints, BodyChange& ch
   change.rotations[knee] = normalized(turn.lower * change.rotations[knee]);
 }
 
-// What is at least `depths` everywhere, and rises and falls without a corner.
+// A smooth curve that is at least `depths` everywhere.
 std::vector<float> smooth_above(const std::vector<float>& depths, int reach) {
   const int count = static_cast<int>(depths.size());
   const auto window = [&](int f, const auto& take) {
@@ -69,10 +69,10 @@ std::vector<float> smooth_above(const std::vector<float>& depths, int reach) {
   return out;
 }
 
-// While one foot is planted.
+// An interval in which one foot is planted.
 struct Plant {
   int first = 0, last = 0;
-  Vec3 offset;  // Of the foot from the motion's, on average; y = 0.
+  Vec3 offset;  // Mean offset of the foot from the motion's; y = 0.
 };
 
 std::vector<Plant> find_plants(const std::vector<GroundedFrame>& frames,
@@ -98,10 +98,10 @@ std::vector<Plant> find_plants(const std::vector<GroundedFrame>& frames,
   return plants;
 }
 
-// How much of the way to a plant that is `away` seconds off a foot has: 1 to 0.
+// How far a foot is blended to a plant that is `away` seconds off: 1 to 0.
 float nearness(float away) { return smooth_step(1 - away / kBlendSeconds); }
 
-// How each frame's foot has to be moved. toes: [frames] where it is.
+// The shift of the foot in each frame. toes: [frames] its positions.
 std::vector<Vec3> find_shifts(const std::vector<GroundedFrame>& frames,
                               const std::vector<Vec3>& toes, int foot, float seconds) {
   const std::vector<Plant> plants = find_plants(frames, toes, foot, seconds);
@@ -124,8 +124,8 @@ std::vector<Vec3> find_shifts(const std::vector<GroundedFrame>& frames,
   return shifts;
 }
 
-// Moves the feet by what they lack, the body lifted by `lifts`; returns how deep the lowest toe
-// still is in each frame. shifts: [feet][frames].
+// Moves the feet by `shifts`, with the body lifted by `lifts`; returns the remaining depth of the
+// lowest toe in each frame. shifts: [feet][frames].
 std::vector<float> place_feet(const HeadingBody& body, std::span<const std::vector<Vec3>> shifts,
                               const std::vector<float>& lifts, std::vector<GroundedFrame>& frames) {
   std::vector<float> depths;

@@ -1,6 +1,6 @@
 #pragma once
-// A body on the ground as another one is: feet as high, planted where the motion plants them, no
-// toe under the floor.
+// Puts a body on the ground as in the source motion: feet at the same height, planted where the
+// motion plants them, no toe below the floor.
 
 #include <array>
 #include <vector>
@@ -13,13 +13,13 @@ namespace panache {
 // One frame of a body that follows a motion.
 struct GroundedFrame {
   BodyChange change;
-  // Where the toes are in the motion, above its floor: world, in the size of this body, metres.
+  // Positions of the toes in the motion, above its floor: world, scaled to this body, metres.
   std::array<Vec3, kFeet> toes;
   FootContacts contacts;  // In the motion.
 };
 
-// Lifts or lowers the body so that the feet that are near the floor are as high as in the motion.
-// `body`: what the change is of, its floor at 0; its heading frame is the world's.
+// Lifts or lowers the body so that feet near the floor are as high as in the motion. `body`: the
+// body before the change, floor at 0, heading frame equal to the world's.
 void match_heights(const BodyPose& body, GroundedFrame& frame) noexcept;
 
 // Bends the legs so that a planted foot moves exactly as in the motion, and lifts the body,

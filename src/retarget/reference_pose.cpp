@@ -15,15 +15,15 @@ namespace {
 
 using enum HumanJoint;
 
-constexpr int kMaxFrames = 400;  // Of the motion, evenly spread.
-// Cosines of what a rest pose may be off a standing body's: torso and legs from the vertical, the
-// forearm from the line of the upper arm.
+constexpr int kMaxFrames = 400;  // Samples of the motion, evenly spread.
+// Cosines of the largest angles of a standing rest pose: torso and legs to the vertical, forearm to
+// upper arm.
 constexpr float kUpright = 0.8f, kUprightLeg = 0.75f, kStraightArm = 0.5f;
-// A foot is flat in the frames of this share in which its ankle is lowest.
+// A foot is flat in this share of the frames, those with the lowest ankle.
 constexpr float kFlatShare = 0.2f;
-// Toes are on the floor in the frames of this share in which they are lowest.
+// Toes are on the floor in this share of the frames, their lowest.
 constexpr float kFloorShare = 0.02f;
-// A rest pose stands where its toes are this near to the plane, in lengths of a leg.
+// A rest pose stands if its toes are this near to the plane, in leg lengths.
 constexpr float kNearPlane = 0.25f;
 
 struct Arm {
@@ -34,7 +34,7 @@ constexpr std::array<Arm, 2> kArms = {
     {{index(left_upper_arm), index(left_lower_arm), index(left_hand), {1, 0, 0}},
      {index(right_upper_arm), index(right_lower_arm), index(right_hand), {-1, 0, 0}}}};
 
-// The sum of rotations that are near to each other, whatever their signs.
+// The mean of similar rotations, whatever the signs of their quaternions.
 class MeanRotation {
  public:
   void add(Quat q) {
@@ -59,7 +59,7 @@ float toes_height(const HumanPositions& joints) {
   return std::min(joints[index(kToes[0])].y, joints[index(kToes[1])].y);
 }
 
-// Where a foot points, about +y; nothing where it points up or down.
+// The heading of a foot, about +y; nothing if it points up or down.
 std::optional<float> foot_heading(const HumanPositions& joints, int foot) {
   const Vec3 ahead = way(joints, index(kAnkles[foot]), index(kToes[foot]));
   if (std::abs(ahead.y) > 0.95f) return std::nullopt;
@@ -156,9 +156,8 @@ class Finder {
                       (at(left_upper_leg) + at(right_upper_leg)));
   }
 
-  // The torso comes upright joint by joint, as rest poses lean and curve as their makers built
-  // them; head and shoulders stay as they rest. Whole limbs turn about shoulder and hip, then what
-  // is below elbow and knee once more.
+  // The torso is made upright joint by joint, as rest poses may lean and curve; head and shoulders
+  // stay as at rest. Whole limbs turn about shoulder and hip, then again below elbow and knee.
   void take_rest() {
     out_.rotations = rest_.rotations;
     const TorsoFrames torso = torso_frames(rest_.positions, 0);
@@ -190,7 +189,7 @@ class Finder {
     }
   }
 
-  // canonical_frames() are those of the same body in local axes that are the world's in T-pose.
+  // canonical_frames() gives the same body's rotations with the world's axes in T-pose.
   void take_motion() {
     std::array<MeanRotation, kHumanJoints> means;
     for (const RotatedBodyPose& body : motion_) {

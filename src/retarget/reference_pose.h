@@ -1,6 +1,6 @@
 #pragma once
-// How a rig's joints are turned when its body stands in a T-pose: what makes the rotations of two
-// rigs comparable, whatever their rest poses and local axes.
+// A rig's joint rotations in a T-pose: they make the rotations of two rigs comparable, whatever
+// their rest poses and local axes.
 
 #include <array>
 
@@ -11,21 +11,20 @@
 namespace panache {
 
 struct ReferencePose {
-  // World rotations of the human joints, Y up, in their raw local axes, of the body that faces +z
-  // with arms along x, legs straight down and feet flat and pointing ahead. A missing joint carries
-  // its parent's.
+  // World rotations of the human joints, Y up, in their raw local axes, of the body facing +z with
+  // arms along x, legs straight down and feet flat and pointing ahead. A missing joint has its
+  // parent's.
   std::array<Quat, kHumanJoints> rotations;
-  // The rest pose stands, so it is the start; otherwise the motion decides.
+  // Derived from the rest pose, which stands; otherwise from the motion.
   bool from_rest = false;
-  float leg = 0, arm = 0;  // Both parts of one, mean of both sides, metres of the rig.
-  // Height of the toe joints on the floor, metres of the rig: at rest, where the body stands near
-  // the origin's plane in that, and where the motion has them lowest. A motion of one frame says
-  // nothing; then the plane itself.
+  float leg = 0, arm = 0;  // Length of a limb, mean of both sides, metres of the rig.
+  // Height of the toe joints on the floor, metres of the rig: at rest, if that pose stands near the
+  // plane y = 0, and at the lowest point of the motion; 0 for a motion of one frame.
   float rest_toes = 0, motion_toes = 0;
 };
 
-// How the torso of a canonical body is turned, by the places of its joints: that is the same for
-// all rigs, wherever theirs bend.
+// The orientation of a canonical body's torso, from joint positions only: comparable between rigs
+// with different spines.
 struct TorsoFrames {
   Quat hips;  // World, the identity for a body that stands upright and faces +z.
   // Unit directions from spine to chest, from chest to the middle of the shoulders, and from neck
@@ -35,9 +34,9 @@ struct TorsoFrames {
 // positions, facing: as in BodyPose.
 TorsoFrames torso_frames(const HumanPositions& positions, float facing);
 
-// The reference pose from the rest pose of `clip`, where its body stands in that, with its limbs
-// brought into the T-pose by the smallest rotations; else of its motion, by the directions of its
-// limbs and the mean of their twists.
+// Finds the reference pose from the rest pose of `clip`, if it stands, by bringing its limbs into
+// the T-pose with the smallest rotations; else from the motion, by the limbs' directions and mean
+// twists.
 ReferencePose find_reference_pose(const Clip& clip, const Rig& rig);
 
 }  // namespace panache

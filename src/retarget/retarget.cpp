@@ -39,7 +39,7 @@ class Retargeter {
         further_(find_further_joints(motion.skeleton, rig, character.skeleton, onto)) {
     onto_.read(rest_.pose(0), body_);
     toes_at_rest_ = std::min(body_.joints[index(kToes[0])].y, body_.joints[index(kToes[1])].y);
-    // From here on the floor is where these toes are.
+    // From here on the floor is at these toes.
     for (Vec3& p : body_.joints) p.y -= toes_at_rest_;
     first_ = std::min(rig.first_frame(), motion.frames - 1);
     world_pose(motion_.skeleton, world_.pose(0), world_.pose(0));
@@ -65,8 +65,8 @@ class Retargeter {
   }
 
  private:
-  // How each joint of the motion is turned against the T-pose. Torsos bend elsewhere in other rigs:
-  // theirs points where the joints are, and twists as the motion's own joints do.
+  // The rotation of each joint of the motion relative to the T-pose. Spines differ between rigs:
+  // the torso's direction follows joint positions, its twist the motion's joints.
   std::array<Quat, kHumanJoints> turns_of(const RotatedBodyPose& from) const {
     std::array<Quat, kHumanJoints> turns;
     for (int j = 0; j < kHumanJoints; ++j) {
@@ -111,9 +111,8 @@ class Retargeter {
     return frame;
   }
 
-  // Hands that meet in the motion meet on other arms and shoulders, too; the middle between them
-  // keeps its place. `between`: from the left to the right wrist in the motion, in lengths of an
-  // arm.
+  // Hands that meet in the motion also meet with other arms and shoulders; the middle between them
+  // stays. `between`: from the left to the right wrist in the motion, in arm lengths.
   void meet_hands(Vec3 between, BodyChange& change) const {
     const float amount = hands_nearness(length(between));
     if (amount <= 0) return;
@@ -125,7 +124,7 @@ class Retargeter {
     reach_with_limb(arm_joints(1), right, joints, change);
   }
 
-  // A torso with other joints than the motion's comes near to its shape at once, and to it in a few
+  // A torso with different joints approximates the motion's curve at once, and matches it in a few
   // steps.
   void bend_torso(const TorsoFrames& wanted, BodyChange& change) {
     constexpr int kSteps = 3;
@@ -156,8 +155,8 @@ class Retargeter {
     if (!further_.empty()) turn_further_joints(frame, pose);
   }
 
-  // Each turns against its human joint as in the motion, both seen in T-pose. Its parent may be
-  // another of them, or a joint that rests.
+  // Each turns relative to its human joint as in the motion, both relative to the T-pose. Its
+  // parent may be another such joint, or one at rest.
   void turn_further_joints(int frame, const Pose& pose) {
     world_pose(motion_.skeleton, motion_.pose(first_ + frame), world_.pose(0));
     for (const JointPair& pair : further_) {
@@ -170,7 +169,7 @@ class Retargeter {
           relative(world_.rotations, pair.from) * conjugate(relative(from_rest_, pair.from));
       const Quat in_t_pose = in_axes(from_reference_.rotations[pair.human], turned);
       const Quat in_onto = in_axes(conjugate(onto_reference_.rotations[pair.human]), in_t_pose);
-      // The joint against its human joint, and what lies between them.
+      // The joint relative to its human joint, and the chain between.
       Quat above, rest;
       chain(pair.onto, onto_human, pose, above, rest);
       pose.rotations[pair.onto] = normalized(conjugate(above) * in_onto * rest);
@@ -192,10 +191,10 @@ class Retargeter {
   const Rig& onto_rig_;
   RetargetOptions options_;
   PosedRig from_, onto_;
-  PosedRig look_;  // At what was written, into
+  PosedRig look_;  // Reads the written pose, into
   Clip seen_;
   ReferencePose from_reference_, onto_reference_;
-  float scale_;  // Lengths of a leg: the character's against the motion's.
+  float scale_;  // Ratio of leg lengths, character to motion.
   Clip rest_;    // Of the character.
   Clip world_;   // A pose of the motion's skeleton, world.
   std::vector<JointPair> further_;

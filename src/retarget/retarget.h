@@ -1,5 +1,5 @@
 #pragma once
-// A motion put on another character, in that one's own rest pose, proportions, units and axes.
+// Retargets a motion to another character with its rest pose, proportions, units and axes.
 
 #include <vector>
 
@@ -12,7 +12,7 @@ namespace panache {
 
 struct RetargetOptions {
   bool feet = true;   // Feet on the floor, and planted where the motion plants them.
-  bool hands = true;  // Hands that met meet again.
+  bool hands = true;  // Hands that touch keep touching.
 };
 
 struct Retargeted {
@@ -20,12 +20,12 @@ struct Retargeted {
   std::vector<FootContacts> contacts;  // Per frame of it, as in the motion.
 };
 
-// The motion of `motion` (whose rig is `rig`) on the skeleton of `character` (whose rig is `onto`),
-// at the motion's rate, without a calibration pose in front. Limbs get the directions that they
-// have in the motion, hips its place and height times the ratio of the legs; fingers and twist
-// joints follow where both rigs have them, and all that the motion does not have rests. The frames
-// of `character` tell its floor and, where its rest pose does not stand, its axes. Fails where the
-// character's hips can neither move nor any joint above them.
+// Puts `motion` (whose rig is `rig`) on the skeleton of `character` (whose rig is `onto`), at the
+// motion's rate, without a leading calibration pose. Limbs keep their directions, the hips'
+// position is scaled by the ratio of the legs; fingers and twist joints follow if both rigs have
+// them, and all other joints keep their rest pose. The frames of `character` define its floor and,
+// if its rest pose does not stand, its axes. Fails if neither the character's hips nor a joint
+// above them can move.
 Result<Retargeted> retarget(const Clip& motion, const Rig& rig, const Clip& character,
                             const Rig& onto, const RetargetOptions& options = {});
 

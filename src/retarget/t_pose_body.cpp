@@ -22,7 +22,7 @@ HumanPositions joints_at_rest(const Clip& clip, const Rig& rig) {
   return body.joints;
 }
 
-// A finger of the canonical body: where it leaves the hand and how long its parts are; the left
+// A finger of the canonical body: its origin at the hand and the lengths of its parts; the left
 // hand in T-pose, metres.
 struct Finger {
   std::string_view name;
@@ -78,7 +78,7 @@ Clip t_pose_body(const Clip& clip, const Rig& rig) {
     joint.offset *= size;
     for (Vec3& end : joint.ends) end *= size;
   }
-  // Both sides alike, or the body would not stand straight.
+  // Symmetric, or the body would not stand straight.
   for (const HumanJoint joint : {left_lower_arm, left_hand, left_lower_leg, left_foot}) {
     const int left = index(joint), right = kHumanMirror[left];
     const float mean = (length_of(left) + length_of(right)) / 2;

@@ -9,15 +9,15 @@
 namespace panache {
 namespace {
 
-constexpr float kCell = 0.0165f;  // Metres: fingers are seen, and there are about 7000 vertices.
+constexpr float kCell = 0.0165f;  // Metres: resolves fingers, with about 7000 vertices.
 constexpr float kCoarseCell = 0.028f;
-constexpr float kSharpness = 0.014f;  // Metres of distance by which a joint's share falls to 1/e.
-constexpr int kWeightSteps = 5;       // Of smoothing; each reaches one cell further.
+constexpr float kSharpness = 0.014f;  // Metres over which a joint's weight falls to 1/e.
+constexpr int kWeightSteps = 5;       // Smoothing steps; each reaches one cell further.
 constexpr int kCoarseWeightSteps = 3;
 
 using Shares = std::array<float, kHumanJoints>;
 
-// Shares of the joints by how near their own parts are.
+// Weights of the joints by the distance of their parts.
 Shares shares_at(const BodySurface& surface, Vec3 point,
                  const std::array<int, kHumanJoints>& movers) {
   Shares distances;
@@ -34,7 +34,7 @@ Shares shares_at(const BodySurface& surface, Vec3 point,
   return out;
 }
 
-// Shares spread over the surface, not through the air: what is near across a gap stays apart.
+// Smooths weights along the surface, not through the air, so that parts across a gap stay separate.
 void smooth(const TriangleMesh& mesh, int steps, std::vector<Shares>& shares) {
   std::vector<Shares> sums(shares.size());
   std::vector<float> counts(shares.size());
@@ -54,7 +54,7 @@ void smooth(const TriangleMesh& mesh, int steps, std::vector<Shares>& shares) {
   }
 }
 
-// The largest shares as bytes that add up to 255.
+// Adds the largest weights as bytes that add up to 255.
 void add_weights(const Shares& shares, BodyMesh& out) {
   std::array<int, kHumanJoints> order;
   for (int j = 0; j < kHumanJoints; ++j) order[j] = j;
@@ -67,7 +67,7 @@ void add_weights(const Shares& shares, BodyMesh& out) {
   int rest = 255;
   for (size_t i = kSkinJoints; i-- > 1;) {
     const int weight = static_cast<int>(std::lround(255 * share(order[i]) / sum));
-    // A joint without a share is named 0, as glTF wants it.
+    // glTF requires index 0 for joints with zero weight.
     joints[i] = static_cast<uint8_t>(weight > 0 ? order[i] : 0);
     weights[i] = static_cast<uint8_t>(weight);
     rest -= weight;
@@ -90,7 +90,7 @@ BodyMesh make_body_mesh(const HumanPositions& offsets, const std::array<int, kHu
   out.bind = surface.bind();
   std::vector<Shares> shares;
   for (Vec3& vertex : mesh.vertices) {
-    // Onto the surface, which the net only comes near.
+    // Surface nets only approximate the surface.
     surface.approach(vertex);
     out.normals.push_back(surface.approach(vertex));
     out.accents.push_back(static_cast<uint8_t>(std::lround(255 * surface.accent(vertex))));

@@ -11,7 +11,7 @@ namespace {
 
 bool moves(const Joint& joint) { return !joint.still; }
 
-// Those of `out.clips` that are poses go to `out.poses`, unless nothing else is there.
+// Moves poses from `out.clips` to `out.poses`, unless there is nothing else.
 BodyMotions without_poses(const MotionFile& file, BodyMotions out) {
   const std::vector<std::string> names = file.clip_names();
   const auto pose = [&](int i) { return is_pose(names[i], file.clip(i).frames); };
@@ -30,7 +30,7 @@ BodyMotions find_moving(const MotionFile& file, const RigOptions& options) {
     if (std::any_of(joints.begin(), joints.end(), moves)) out.clips.push_back(i);
     all_move = all_move && std::all_of(joints.begin(), joints.end(), moves);
   }
-  if (all_move) return out;  // No humanoid could tell more.
+  if (all_move) return out;  // The humanoid makes no difference.
   for (const int tried : out.clips) {
     const Result<Rig> rig = Rig::create(file.clip(tried), options);
     if (!rig) continue;
@@ -67,7 +67,7 @@ bool moves_humanoid(const Skeleton& joints, const Rig& rig) {
 
 bool is_pose(const std::string& name, int frames) {
   if (frames < 2) return true;
-  // "pose" after a kind of it, in one word or two, or nothing but "rest".
+  // "pose" after its kind, in one word or two, or just "rest".
   const std::vector<std::string> words = without_number(parse_joint_name(name).words);
   for (size_t i = 0; i < words.size(); ++i) {
     for (const char* kind : {"t", "rest", "bind", "reference"}) {

@@ -1,6 +1,6 @@
 #pragma once
-// Which motions of a file are a person's: files also hold animations of morph weights, materials,
-// cameras and props.
+// Finds the motions of a file that move its humanoid: files also hold animations of morph weights,
+// materials, cameras and props.
 
 #include <string>
 #include <vector>
@@ -10,30 +10,30 @@
 
 namespace panache {
 
-// Whether a motion moves the humanoid of `rig`: one of its joints, a joint between them, or one
-// that carries them all. `joints` are those of the motion, with what it leaves still.
+// Whether a motion moves the humanoid of `rig`: one of its joints, a joint between them, or an
+// ancestor of them all. `joints`: the motion's joints, including those without animation.
 bool moves_humanoid(const Skeleton& joints, const Rig& rig);
 
 // Whether a motion of this name and length is a pose: "T-Pose", "Armature|Rest", one frame.
 bool is_pose(const std::string& name, int frames);
 
 struct BodyMotions {
-  std::vector<int> clips;  // As in MotionFile::clip(), in their order.
-  // Poses beside motions, in their order: they have one frame, or are called a T-pose, a rest or a
-  // bind pose. In a file without other motions they are in `clips`.
+  std::vector<int> clips;  // Indices for MotionFile::clip(), ascending.
+  // Poses, ascending: clips of one frame, or named T-pose, rest or bind pose. If a file has nothing
+  // else, they are in `clips`.
   std::vector<int> poses;
   bool humanoid =
-      false;  // Whether the file has a humanoid; otherwise all motions count that move a joint.
+      false;  // Whether the file has a humanoid; otherwise every motion that moves a joint counts.
 };
 BodyMotions find_body_motions(const MotionFile& file, const RigOptions& options = {});
 
 // "'blink' and 'lamp' move no joint of the humanoid", for messages.
 std::string describe_still(const std::vector<std::string>& names, bool humanoid);
-// The same of all motions that `body` of a file lacks, its poses too, "... and are passed over";
-// empty where there are none.
+// The same for all motions of the file that are not in `body`, poses included, "... and are passed
+// over"; empty if there are none.
 std::string note_passed_over(const MotionFile& file, const BodyMotions& body);
 
-// The first of them, or 0: what stands for a file of which one motion is wanted.
+// The first of them, or 0: the default if one motion of a file is wanted.
 int first_body_motion(const MotionFile& file, const RigOptions& options = {});
 
 }  // namespace panache

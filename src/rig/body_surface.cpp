@@ -8,15 +8,15 @@ namespace {
 
 using enum HumanJoint;
 
-// How far arms hang and legs are spread while the surface is made, radians.
+// Angles of the hanging arms and the spread legs in the bind pose, radians.
 constexpr float kArmsDown = 0.75f, kLegsApart = 0.16f;
-// How softly limbs and head, and legs, melt into the torso, metres.
+// Width of the blend of limbs and head, and of legs, with the torso, metres.
 constexpr float kSoftLimb = 0.045f, kSoftLeg = 0.035f;
 constexpr int kGroups = 6;
 enum Group { kTorso, kHead, kLeftArm, kRightArm, kLeftLeg, kRightLeg };
 constexpr float kAccentEdge = 0.02f;  // Metres.
 
-// A part as thick from end to end.
+// A part of constant thickness.
 constexpr std::array<float, 5> even(float radius) {
   return {radius, radius, radius, radius, radius};
 }
@@ -99,8 +99,8 @@ void BodySurface::add(const Part& part) {
   parts_.push_back(out);
 }
 
-// From mid-hip along the spine to the shoulders, as wide as the joints ask for. The tubes meet end
-// to end, so that no torso is too long for them.
+// From mid-hip along the spine to the shoulders, with the width of the joints. The tubes meet end
+// to end, so that they fit any length of torso.
 void BodySurface::add_torso() {
   const Vec3 left_hip = place(left_upper_leg), right_hip = place(right_upper_leg);
   const Vec3 left_arm = place(left_upper_arm), right_arm = place(right_upper_arm);
@@ -143,10 +143,10 @@ void BodySurface::add_torso() {
   }
 }
 
-// A neck, a skull and a face, on the joints that there are.
+// A neck, a skull and a face, on the existing joints.
 void BodySurface::add_head() {
   const Vec3 top = (place(left_upper_arm) + place(right_upper_arm)) * 0.5f;
-  // What a rig without neck or head has in their place lies on the joint above.
+  // A missing neck or head coincides with the joint above.
   Vec3 base = place(neck), skull = place(head);
   if (!(skull.y > top.y + 0.02f)) skull = top + Vec3{0, 0.125f, 0.015f};
   if (!(base.y > top.y - 0.08f) || length(skull - base) < 0.02f) base = lerp(top, skull, 0.3f);
@@ -213,7 +213,7 @@ void BodySurface::add_leg(const HumanPositions& offsets, int side) {
   const float thigh = length(offsets[index(lower)]);
   const float shin = length(offsets[index(foot)]);
   const Vec3 left_hip = place(left_upper_leg), right_hip = place(right_upper_leg);
-  // Thighs that are closer than they are thick would grow together.
+  // Thighs closer than their thickness would merge.
   const float room = length(left_hip - right_hip) / 2;
   const float thick = std::clamp(room * 1.02f, 0.06f, 0.087f);
   add(upper, group, {out * 0.004f, 0, 0}, {0, -thigh, 0},
@@ -237,7 +237,7 @@ void BodySurface::add_leg(const HumanPositions& offsets, int side) {
        {0.034f, 0.036f, 0.038f, 0.038f, 0.037f}, sole, 1);
   shoe(foot, {0, 0.2f * sole, 0.004f}, {out * 0.004f, sole + 0.022f, ball.z},
        {0.035f, 0.039f, 0.041f, 0.04f, 0.038f}, sole, 1.12f);
-  // In the axes of the toes, which are those of the foot.
+  // In the axes of the toes, which equal those of the foot.
   shoe(toes, {out * 0.004f, 0.022f, 0}, {out * 0.004f, 0.014f, 0.052f * size},
        {0.038f, 0.038f, 0.037f, 0.035f, 0.031f}, 0, 1.2f);
 }
@@ -266,7 +266,7 @@ float BodySurface::distance(Vec3 point) const {
   for (const PlacedPart& placed : parts_) {
     if (placed.part.use == Use::weights) continue;
     float& group = groups[placed.part.group];
-    // Far from a part its ball is near enough.
+    // Far from a part its bounding sphere is accurate enough.
     const float ball = length(point - placed.middle) - placed.reach;
     if (ball > 0.1f || ball > group + placed.part.soft) {
       group = std::min(group, ball);
@@ -282,7 +282,7 @@ float BodySurface::distance(Vec3 point) const {
 }
 
 Vec3 BodySurface::approach(Vec3& point) const {
-  // Differences over four corners of a cube.
+  // Gradient from four corners of a cube.
   constexpr float kStep = 0.002f;
   Vec3 slope;
   float mean = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// A smooth human surface around the joints of a humanoid, as a signed distance: the shape that a
-// body mesh is cut from.
+// A smooth human surface around the joints of a humanoid, as a signed distance field; body meshes
+// are extracted from it.
 
 #include <array>
 #include <vector>
@@ -10,15 +10,15 @@
 
 namespace panache {
 
-// Where a joint stands while the surface is made: arms and legs a little apart from each other and
-// from the torso, so that nothing touches that has to part later. World, metres, Y up.
+// The pose in which the surface is made: arms and legs slightly away from each other and from the
+// torso, so that separate parts do not touch. World, metres, Y up.
 struct BindPose {
   HumanPositions positions;
   std::array<Quat, kHumanJoints> rotations;
 };
 
-// `offsets`: of each joint from its parent in the canonical T-pose's axes, metres, for legs as long
-// as the canonical body's; zero where the joint is missing; the hips' is their height.
+// `offsets`: each joint relative to its parent in the axes of the canonical T-pose, metres, scaled
+// to canonical legs; zero for missing joints; the hips' offset is their height.
 BindPose bind_pose(const HumanPositions& offsets);
 
 class BodySurface {
@@ -26,14 +26,13 @@ class BodySurface {
   explicit BodySurface(const HumanPositions& offsets);
 
   const BindPose& bind() const { return bind_; }
-  // Metres to the surface, below zero inside; near enough to a distance to step by.
+  // Metres to the surface, negative inside; accurate enough for ray marching.
   float distance(Vec3 point) const;
-  // Moves a point near the surface onto it, nearly; the unit normal there.
+  // Moves a nearby point approximately onto the surface and returns the unit normal there.
   Vec3 approach(Vec3& point) const;
-  // Metres from `point` to the parts of each joint alone.
+  // Metres from `point` to each joint's own parts.
   void joint_distances(Vec3 point, std::array<float, kHumanJoints>& out) const;
-  // 1 where the body is drawn in its second colour (face, hands, feet), 0 elsewhere, with a soft
-  // edge.
+  // 1 in the body's second colour (face, hands, feet), 0 elsewhere, with a soft edge.
   float accent(Vec3 point) const;
   // The corners of a box around the surface.
   Vec3 low() const { return low_; }
@@ -41,29 +40,29 @@ class BodySurface {
 
  private:
   static constexpr size_t kRings = 5;
-  using Radii = std::array<float, kRings>;  // At even steps from end to end; between them a spline.
+  using Radii = std::array<float, kRings>;  // Evenly spaced from end to end, with a spline between.
 
   enum class Use { both, shape, weights };
 
   // A tube with round ends, squeezed along its joint's axes.
   struct Part {
     HumanJoint joint;
-    int group;      // Parts of one group melt into each other first.
-    Vec3 from, to;  // In the axes of the joint, from the joint.
+    int group;      // Parts of one group are blended first.
+    Vec3 from, to;  // In the joint's space.
     Radii radii;
-    float soft = 0.004f;       // How softly it melts into the parts of its group before it, metres.
-    Vec3 bow = {};             // How far the middle lies off the straight line.
-    Vec3 squeeze = {1, 1, 1};  // 1 leaves the axis as it is, 0.5 makes the part half as thick.
+    float soft = 0.004f;       // Width of the blend with earlier parts of the group, metres.
+    Vec3 bow = {};             // Offset of the middle from the straight line.
+    Vec3 squeeze = {1, 1, 1};  // Scale per axis: 0.5 halves the thickness.
     Use use = Use::both;
-    float sole = -1e3f;  // The part ends below this height of the joint's axes.
+    float sole = -1e3f;  // The part is cut off below this height in the joint's space.
   };
   // A part in the world.
   struct PlacedPart {
     Part part;
     Vec3 from, along, bow;    // Squeezed.
-    float along_squared = 0;  // Of `along`, or 1 where that has no length.
+    float along_squared = 0;  // Of `along`; 1 if its length is zero.
     float thinnest = 1;
-    Vec3 middle;  // Of a ball of the radius `reach` that holds the part, world.
+    Vec3 middle;  // Centre of the bounding sphere, world; `reach`: its radius.
     float reach = 0;
   };
 

@@ -14,24 +14,24 @@ namespace {
 using enum HumanJoint;
 
 constexpr int kMaxFrames = 2000;
-// A toe joint or End Site that is nearer to the ankle than this says nothing of the foot, metres.
+// A toe joint or End Site nearer to the ankle than this does not show the foot's direction, metres.
 constexpr float kShortestToe = 0.03f;
 // Nor does one straight below the ankle: its direction's mean y in stance would be near -1.
 constexpr float kSteepestToe = -0.95f;
-// A foot counts as standing in the frames of this share in which it is lowest.
+// A foot counts as standing in this share of the frames, its lowest.
 constexpr float kStanceShare = 0.3f;
-// The floor is as low as the lower toe is in this share of the frames, and in three of them: one
-// frame that is no part of the motion does not set it.
+// The floor is at this quantile of the lower toe's height, but at least its third lowest frame: a
+// single frame outside the motion does not set it.
 constexpr float kFloorShare = 0.02f;
 constexpr float kFloorFrames = 2;
 
-// A body stands if the cosine of the angle between its axis and up is at least the first; the
-// second is the share of the frames in which it has to.
+// A body stands if the cosine of the angle between its axis and up is at least the first value; the
+// second is the required share of the frames.
 constexpr float kUpright = 0.9f;
 constexpr double kUprightShare = 0.05;
 
 float component(Vec3 v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
-// The axis that is nearest to `v`.
+// The axis nearest to `v`.
 int main_axis(Vec3 v) {
   int k = 0;
   for (const int i : {1, 2}) {
@@ -80,9 +80,9 @@ class Calibrator {
     return mapped_joints(frames_.world(frame), of, out_);
   }
 
-  // The axis along which the body stands at rest, if it also stands along it in some of the frames:
-  // a clip of a body that mostly lies shows it getting up. Otherwise the axis along which the head
-  // is farthest above the feet on average.
+  // The body's axis in an upright rest pose, if it also stands along it in some of the frames: a
+  // clip of a body that mostly lies shows it getting up. Otherwise the axis with the largest mean
+  // height of the head above the feet.
   void find_up() {
     const HumanJoint top = has(head) ? head : has(neck) ? neck : left_upper_arm;
     std::vector<Vec3> ways;
@@ -112,7 +112,7 @@ class Calibrator {
     float leg = legs.front();
     const auto middle = legs.begin() + legs.size() / 2;
     std::nth_element(legs.begin(), middle, legs.end());
-    // A body that grows at the beginning or shrinks at the end is as large as it is in between.
+    // If a body grows at the beginning or shrinks at the end, its size in between counts.
     constexpr float kStays = 0.01f;
     if (std::abs(leg - *middle) > kStays * *middle) leg = *middle;
     out_.scale = 2 * kProportions.leg / leg;
@@ -129,7 +129,7 @@ class Calibrator {
     return leg;
   }
 
-  // Fills where one wrist is if there is no hand: at the End Site of the lower arm, else straight
+  // Sets the position of one wrist without a hand: at the End Site of the lower arm, else straight
   // on from the upper arm as at rest.
   void find_wrist(int side) {
     if (has(side ? right_hand : left_hand)) return;
@@ -148,7 +148,7 @@ class Calibrator {
                          (shown ? "the lower arm's End Site" : "estimated from the upper arm"));
   }
 
-  // Fills the direction of one hand: in the rest pose, to what of it is farthest from the wrist.
+  // Sets the direction of one hand: in the rest pose, to its farthest joint or End Site.
   void find_hand(int side) {
     const int hand = joint_of_[index(side ? right_hand : left_hand)];
     if (hand < 0) return;
@@ -170,7 +170,7 @@ class Calibrator {
     out_.hands[side] = normalized(rotate(conjugate(rest_.rotations[hand]), longest));
   }
 
-  // Fills the direction of one foot: its toe joint, its End Site, or where it must point in stance.
+  // Sets the direction of one foot: from its toe joint, its End Site, or estimate_toe().
   void find_toes(int side) {
     const HumanJoint foot = side ? right_foot : left_foot, toe = side ? right_toes : left_toes;
     ToeSource& out = out_.toes[side];
@@ -189,7 +189,7 @@ class Calibrator {
     out = {false, estimate};
     note_toe(side, "estimated from the standing foot");
   }
-  // Metres, on the average.
+  // Metres, mean over the frames.
   double mean_distance(HumanJoint a, HumanJoint b) const {
     double sum = 0;
     for (int f = 0; f < frames_.count(); ++f) sum += length(file(f, a) - file(f, b));
@@ -214,9 +214,9 @@ class Calibrator {
     for (int f : stance_) y += mapped(f).toes[side].y;
     return y / stance_.size() > kSteepestToe;
   }
-  // Standing, the foot points where the body faces, down by the canonical slope: in the mean of
-  // the frames in which the foot is lowest, or more exactly in the rest pose, if the body stands in
-  // that and the frames roughly agree.
+  // A standing foot points where the body faces, down by the canonical slope: on average over the
+  // frames in which it is lowest, or more exactly in the rest pose, if the body stands in it and
+  // the frames roughly agree.
   Vec3 estimate_toe(HumanJoint foot) const {
     const float slope = kProportions.toe_pitch;
     const Vec3 sloping = {0, -sine(slope), cosine(slope)};
@@ -239,7 +239,7 @@ class Calibrator {
     return dot(at_rest, mean) > 0.5f ? at_rest : mean;
   }
 
-  // Where the body faces in its rest pose, if it stands upright on straight legs in that.
+  // The heading in the rest pose, if the body stands upright there on straight legs.
   std::optional<float> standing_at_rest() const {
     constexpr float kStraight = 0.96f;  // Within 16 degrees.
     const MappedJoints joints = mapped_joints(rest_.pose(0), joint_of_, out_);

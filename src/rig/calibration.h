@@ -1,7 +1,6 @@
 #pragma once
-// Properties of a rig that follow from a clip, not from its skeleton: which way is up, how long a
-// metre is, where the floor is, where the toes point and from which frame on the motion can be
-// used.
+// Properties of a rig that follow from a clip, not from its skeleton: up axis, unit, floor height,
+// direction of the toes and first usable frame.
 
 #include <array>
 #include <optional>
@@ -15,26 +14,25 @@
 
 namespace panache {
 
-// How the direction of one foot is known.
+// The source of the direction of one foot.
 struct ToeSource {
-  bool from_joint = false;  // From the foot to the toe joint; otherwise `local`.
+  bool from_joint = false;  // From foot to toe joint; otherwise `local` is used.
   Vec3 local;               // A unit direction in the foot's own axes.
 };
 
 struct Calibration {
-  int first_frame = 0;  // 1 where frame 0 is a calibration pose or does not belong to the motion.
+  int first_frame = 0;  // 1 if frame 0 is a calibration pose or not part of the motion.
   std::string up_axis;  // In the file: "+Y", "-Z", ...
-  Quat y_up;            // Turns the file's axes Y up.
+  Quat y_up;            // Rotation from the file's axes to Y up.
   float scale = 1;      // Metres per file unit, for canonical legs.
   float floor = 0;      // Height of the floor, Y up, in scaled metres.
-  float facing = 0;     // Heading of the first usable frame that has one, radians.
+  float facing = 0;     // Heading of the first usable frame with one, radians.
   BodyShape shape;
   std::array<ToeSource, 2> toes;  // [left, right]
-  // [left, right]: where the wrist is in the lower arm's own axes, file units, where there is no
-  // hand.
+  // [left, right]: position of the wrist in the lower arm's space, file units, if there is no hand.
   std::array<Vec3, 2> wrists;
-  // [left, right]: unit direction of the fingers in the hand's own axes; zero where there is no
-  // hand or nothing below it.
+  // [left, right]: unit direction of the fingers in the hand's space; zero if there is no hand or
+  // nothing below it.
   std::array<Vec3, 2> hands;
   std::vector<std::string> notes;
 };
@@ -43,16 +41,16 @@ struct Calibration {
 Result<void> check_units(std::optional<float> metres_per_unit,
                          const std::optional<std::string>& up_axis);
 
-// Looks at 2,000 frames of the clip at most. Unit and up axis are found unless they are given.
-// Fails where the legs have no length, and where check_units does.
+// Reads at most 2,000 frames of the clip. Infers unit and up axis unless they are given. Fails if
+// the legs have no length, or if check_units() fails.
 Result<Calibration> calibrate(const Clip& clip, const Mapping& mapping,
                               std::optional<float> metres_per_unit = {},
                               const std::optional<std::string>& up_axis = {});
 
-// One instant of the mapped joints, Y up, in scaled metres above the floor.
+// The mapped joints at one instant, Y up, in scaled metres above the floor.
 struct MappedJoints {
-  // A missing hand stands at the wrist and missing toes at the canonical length from the foot; any
-  // other missing joint carries its nearest mapped ancestor's position.
+  // A missing hand is at the wrist, missing toes are at the canonical distance from the foot; any
+  // other missing joint has the position of its nearest mapped ancestor.
   HumanPositions positions;
   std::array<Vec3, 2> toes;  // Unit directions from foot to toes, [left, right].
 };

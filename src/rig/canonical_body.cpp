@@ -10,7 +10,7 @@ using enum HumanJoint;
 constexpr Vec3 kUp = {0, 1, 0};
 constexpr Vec3 kDown = {0, -1, 0};
 
-// Where the user's spine is missing, that much of the way from mid-hip to the chest.
+// Position of a missing spine, as a fraction from mid-hip to the chest.
 constexpr float kSpineOnTorso = 0.6f;
 
 // The line from mid-hip through the torso's joints to mid-shoulder.
@@ -134,7 +134,7 @@ class Builder {
 
 Frame frame_of(Vec3 left, Vec3 up) noexcept {
   const Vec3 x = normalized(left, {1, 0, 0});
-  // Where `up` has no direction beside x, the world's up stands in, and where that has none, +z.
+  // If `up` is parallel to x, the world's up is used, and if that is parallel, too, +z.
   const Vec3 upright = normalized(cross(x, kUp), {0, 0, 1});
   const Vec3 z = normalized(cross(x, normalized(up)), upright);
   return {x, cross(z, x), z};

@@ -1,5 +1,6 @@
 #pragma once
-// The canonical body in the pose of another: canonical lengths along the other's joint directions.
+// Puts the canonical body into the pose of another one: canonical lengths along the other's
+// directions.
 
 #include <array>
 #include <optional>
@@ -10,20 +11,20 @@
 namespace panache {
 
 // The humanoid joints of a skeleton; constant over its motion. Always present: the hips, upper and
-// lower parts of all four limbs, and the feet. Positions of hands and toes are there in any case.
+// lower parts of all four limbs, and the feet. Hands and toes always have positions.
 struct BodyShape {
   std::array<bool, kHumanJoints> has{};
-  bool chest_at_shoulders = false;  // The chest sits between the shoulders and bends nothing.
+  bool chest_at_shoulders = false;  // The chest is between the shoulders and bends nothing.
 };
 
 // joints: the user's own, Y up, metres of a body with canonical legs. toes[left, right]: unit
-// directions from foot to toes. Mid-hip stays where it is; limbs keep their directions exactly; the
-// torso's bend is resampled at the canonical fractions.
+// directions from foot to toes. Mid-hip stays where it is; limbs keep their exact directions; the
+// torso's curve is resampled at the canonical fractions.
 HumanPositions canonical_positions(const HumanPositions& joints, const BodyShape& shape,
                                    const std::array<Vec3, 2>& toes) noexcept;
 
-// The heading about +y of a body, in radians, 0 facing +z; nothing where hips and shoulders have no
-// horizontal axis, as in a body that lies on its side. joints as above.
+// The heading about +y of a body, in radians, 0 facing +z; nothing if hips and shoulders have no
+// horizontal axis, as when the body lies on its side. joints as above.
 std::optional<float> facing_of(const HumanPositions& joints) noexcept;
 
 // The orthonormal frame (columns) with x along `left`, and y as near to `up` as that allows.

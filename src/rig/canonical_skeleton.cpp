@@ -10,7 +10,7 @@ namespace {
 
 using enum HumanJoint;
 
-// Where a body's lengths do not reach: from the last joints to skull, finger tips and toe tips.
+// Lengths beyond the last joints: to skull, finger tips and toe tips.
 constexpr float kHeadLength = 0.20f;
 constexpr float kHandLength = 0.17f;
 constexpr float kToeLength = 0.06f;
@@ -45,7 +45,7 @@ HumanPositions rest_offsets() noexcept {
   return out;
 }
 
-// Made before main(): canonical_frames() may run where nothing may wait.
+// Initialised before main(): canonical_frames() must not block.
 const HumanPositions kRestOffsets = rest_offsets();
 
 // The child that a joint points at; -1 for the ends, and for hips and chest, which point at

@@ -1,6 +1,6 @@
 #pragma once
-// The canonical body as a skeleton of its own: what our walker moves and what needs joint rotations
-// where only positions are known.
+// The canonical body as a skeleton: used by the walker, and to derive joint rotations from
+// positions.
 
 #include <array>
 
@@ -15,11 +15,11 @@ namespace panache {
 // rotate, the hips also move; hands, toes and head end in End Sites.
 Skeleton canonical_skeleton();
 
-// World rotations of that skeleton that give it the pose of `positions` (21 positions of a
-// canonical body, any place and heading, which is `facing`). Hips and chest take their frame from
-// the axis between the legs or arms; any other joint is its parent's frame turned by the smallest
-// rotation that points it at its child; head, hands and toes keep their parent's frame. Smooth: no
-// signs flip as long as the hips stay within half a turn of `facing`.
+// World rotations of that skeleton that give it the pose of `positions` (21 joints of a canonical
+// body, at any position, with the heading `facing`). Hips and chest take their frame from the axis
+// between the legs or arms; any other joint is its parent's frame turned by the smallest rotation
+// that points it at its child; head, hands and toes keep their parent's frame. Smooth: no signs
+// flip as long as the hips stay within half a turn of `facing`.
 void canonical_frames(const HumanPositions& positions, float facing,
                       std::array<Quat, kHumanJoints>& world) noexcept;
 

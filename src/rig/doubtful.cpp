@@ -42,10 +42,9 @@ bool is_at_or_below(const Skeleton& skeleton, int above, int joint) {
   return joint == above;
 }
 
-// Where the skin of the arms also hangs on joints that do not follow the hips: moving those would
-// tear it.
+// Detects arms whose skin is also moved by joints that do not follow the hips: it would tear.
 std::optional<Error> find_tear(const Skeleton& skeleton, int hips_joint, int arm) {
-  constexpr float kMostLeft = 0.25f;  // Share of the skin: a prop, a hem that hangs on the root.
+  constexpr float kMostLeft = 0.25f;  // Share of the skin: a prop, a hem that follows the root.
   const std::vector<Joint>& joints = skeleton.joints;
   int skin = -1;
   for (size_t j = 0; j < joints.size() && skin < 0; ++j) {
@@ -71,7 +70,7 @@ std::optional<Error> find_tear(const Skeleton& skeleton, int hips_joint, int arm
                ", such as what follows " + quoted_name(skeleton, most) + kCure};
 }
 
-// Where a mesh follows another skeleton of the file: nobody would see the style.
+// Detects meshes that follow another skeleton of the file: the style would be invisible.
 std::optional<Error> find_bare(const Skeleton& skeleton, int hips_joint) {
   constexpr std::ptrdiff_t kFewest = 11;  // Joints of a person; fewer carry a prop.
   const std::vector<Joint>& joints = skeleton.joints;
@@ -114,7 +113,7 @@ Stance stance_of(const JointPositions& at, const Mapping& mapping) {
   }
   return stance;
 }
-// Both arms and legs go the same way, at right angles to the trunk.
+// Whether arms and legs are parallel, at right angles to the torso.
 bool is_on_four_legs(const Stance& stance, float same_way) {
   constexpr float kAcross = 0.6f;
   return stance.arms_legs > same_way && std::abs(stance.trunk_arms) < kAcross &&
@@ -160,7 +159,7 @@ std::optional<Error> find_doubt(const Skeleton& skeleton, const Mapping& mapping
   }
   if (auto tear = find_tear(skeleton, joint(hips), arm)) return tear;
   if (auto bare = find_bare(skeleton, joint(hips))) return bare;
-  // A spine of at least so many joints that does not carry the arms is no neck.
+  // A spine of at least so many joints above the arms is not a neck.
   constexpr size_t kSpineJoints = 4;
   const int top = joint(head) >= 0 ? joint(head) : joint(neck);
   if (top < 0 || joint(chest) >= 0 || joint(spine) >= 0) return std::nullopt;

@@ -13,7 +13,7 @@ bool is_rest(const Clip& clip, int frame) {
   const ConstPose pose = clip.pose(frame);
   for (size_t j = 0; j < clip.joints(); ++j) {
     const Joint& joint = clip.skeleton.joints[j];
-    // The root's rotation places the character and says nothing about its pose.
+    // The root's rotation is not part of the pose.
     if (joint.parent < 0) continue;
     if (length((conjugate(joint.rest) * pose.rotations[j]).xyz()) > 1e-6f) return false;
   }
@@ -59,9 +59,8 @@ int find_first_frame(const Clip& clip, std::vector<std::string>& notes) {
   }
   const Step first = step_between(frames.world(0), frames.world(1));
   const float size = size_of(frames.world(0));
-  // The next step tells a jump into the motion from a motion that is fast from its first frame. In
-  // many files joints rest as the motion begins, so a rest pose alone does not tell it either, but
-  // it takes less of a jump.
+  // The next step distinguishes a jump into the motion from a fast start. A rest pose alone is no
+  // proof, as joints rest at the start of many motions, but then a smaller jump suffices.
   const float share = rests ? 0.02f : 0.1f, times = rests ? 3.0f : 8.0f;
   const auto jumps = [&](float step, const std::vector<float>& others) {
     return step > share * size && step > times * quantile(others, 0.5f) + 1e-6f * size &&

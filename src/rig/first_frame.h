@@ -1,5 +1,5 @@
 #pragma once
-// Whether a clip's first frame belongs to its motion. Private to the folder.
+// Detects whether a clip's first frame belongs to its motion. Private to the folder.
 
 #include <string>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace panache {
 
-// 0, or 1 where frame 0 is a calibration pose; the note that says so is added to `notes`.
+// 0, or 1 if frame 0 is a calibration pose, with a note added to `notes`.
 int find_first_frame(const Clip& clip, std::vector<std::string>& notes);
 
 }  // namespace panache

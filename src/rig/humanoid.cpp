@@ -23,10 +23,10 @@ static_assert(mirror_is_its_own_inverse());
 
 }  // namespace
 
-// A body of no one in particular, in round numbers, so that models may be free of any data set's
-// figures. Of an adult's proportions, legs of 0.8 m; narrow shoulders and short collar bones, so
-// that a rig without collar bones loses little. The distances of torso joints, collar bones and hip
-// joints follow from the numbers below them.
+// A generic body in round numbers, so that models do not depend on any data set's figures. Adult
+// proportions, legs of 0.8 m; narrow shoulders and short collar bones, so that a rig without collar
+// bones loses little. The distances of torso joints, collar bones and hip joints follow from the
+// values below.
 constinit const Proportions kProportions = {
     // hips, spine, chest, neck, head; then shoulder, upper arm, lower arm, hand of either side;
     // then upper leg, lower leg, foot, toes of either side.

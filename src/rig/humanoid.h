@@ -42,7 +42,7 @@ constexpr int index(HumanJoint joint) { return static_cast<int>(joint); }
 inline constexpr std::array<int, kHumanJoints> kHumanParent = {
     -1, 0, 1, 2, 3, 2, 5, 6, 7, 2, 9, 10, 11, 0, 13, 14, 15, 0, 17, 18, 19};
 
-// The same joint on the other side; the middle ones are their own.
+// The same joint on the other side; central joints map to themselves.
 inline constexpr std::array<int, kHumanJoints> kHumanMirror = {
     0, 1, 2, 3, 4, 9, 10, 11, 12, 5, 6, 7, 8, 17, 18, 19, 20, 13, 14, 15, 16};
 
@@ -50,11 +50,11 @@ inline constexpr std::array<int, kHumanJoints> kHumanMirror = {
 std::string_view human_joint_name(int joint);
 std::optional<int> find_human_joint(std::string_view vrm_name);
 
-// One instant of the canonical body: positions[21] in metres, in the world (Y up) or in the body
-// frame, as the holder says.
+// One pose of the canonical body: positions[21] in metres, in world space (Y up) or in the body
+// frame, as documented where it is used.
 using HumanPositions = std::array<Vec3, kHumanJoints>;
 
-// The same instant with left and right exchanged: its reflection in the plane x = 0.
+// The same pose with left and right exchanged: its reflection in the plane x = 0.
 HumanPositions mirrored(const HumanPositions& positions);
 
 // Proportions of the canonical body, metres.
@@ -63,8 +63,8 @@ struct Proportions {
   std::array<float, kHumanJoints> length;
   float leg;                             // Upper plus lower leg.
   float torso;                           // Mid-hip to spine to chest to mid-shoulder.
-  float spine_fraction, chest_fraction;  // Where spine and chest sit on the torso, 0 to 1.
-  float half_hips, half_shoulders;       // Middle to one hip joint; middle to one shoulder joint.
+  float spine_fraction, chest_fraction;  // Positions of spine and chest on the torso, 0 to 1.
+  float half_hips, half_shoulders;       // From the middle to a hip joint and to a shoulder joint.
   Vec3 hips_to_mid_hip;                  // In the frame of the hips: x left, y up, z ahead.
   Vec3 mid_shoulder_to_neck;             // In the frame of the chest, likewise.
   Vec3 mid_shoulder_to_left_shoulder, mid_shoulder_to_right_shoulder;  // In the frame of the chest.

@@ -8,7 +8,7 @@
 namespace panache {
 namespace {
 
-// Where a joint stands, and what its parent turns it by, given that of the joints above it.
+// The position of a joint and the rotation of its parent, from the joints above.
 struct Placed {
   Quatd above, turn;
   Vec3d place;

@@ -58,8 +58,8 @@ Side take_first_letter(std::string& word) {
   return Side::none;
 }
 
-// "lhand", "handleft": a side that nothing separates is believed only beside a word of which the
-// mapping depends, or every "leg" would be a left "eg".
+// "lhand", "handleft": a side without separator counts only next to a word that the mapping uses,
+// or every "leg" would be a left "eg".
 Side split_run_on(std::string& word) {
   constexpr std::string_view kWords[] = {"hand", "wrist",   "foot", "ankle",   "toe",
                                          "toes", "toebase", "ball", "forearm", "elbow"};
@@ -96,7 +96,7 @@ JointName parse_joint_name(std::string_view name) {
     right |= side == Side::right;
     if (!is_side) out.words.push_back(std::move(word));
   }
-  // A name with both sides in it has none.
+  // A name with both sides counts as central.
   if (left != right) out.side = left ? Side::left : Side::right;
   return out;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// What a joint's name says, in the naming of any tool: "mixamorig:LeftHand", "Bip01 L Hand",
-// "hand.L", "lHand".
+// Splits a joint's name into words and side, for the naming of any tool: "mixamorig:LeftHand",
+// "Bip01 L Hand", "hand.L", "lHand".
 
 #include <string>
 #include <string_view>
@@ -17,11 +17,11 @@ struct JointName {
   bool has(std::string_view word) const;
 };
 
-// Splits `name` at its last colon or bar (what precedes is a namespace), then at everything that is
-// not a letter or digit, between lower and upper case and between letters and digits.
+// Splits `name` at its last colon or bar (the part before is a namespace), then at everything that
+// is not a letter or digit, between lower and upper case and between letters and digits.
 JointName parse_joint_name(std::string_view name);
 
-// The words without a number at their end, which counts the pieces of one limb ("forearm", "001").
+// The words without a trailing number, which counts the pieces of a limb ("forearm", "001").
 std::vector<std::string> without_number(const std::vector<std::string>& words);
 
 }  // namespace panache

@@ -1,5 +1,5 @@
 #pragma once
-// Questions about the tree of a skeleton and about how far its joints are apart. Private to the
+// Queries on the hierarchy of a skeleton and on distances between its joints. Private to the
 // folder.
 
 #include <span>
@@ -9,12 +9,12 @@
 
 namespace panache {
 
-// Where the joints of a skeleton are, [joints], in any axes and units.
+// Positions of the joints of a skeleton, [joints], in any axes and units.
 using JointPositions = std::vector<Vec3>;
 
 class JointTree {
  public:
-  // poses: the skeleton in a few poses, at least one. Both outlive the tree.
+  // poses: the skeleton in a few poses, at least one. Both must outlive the tree.
   JointTree(const Skeleton& skeleton, std::span<const JointPositions> poses);
 
   int count() const { return static_cast<int>(skeleton_.joints.size()); }
@@ -24,20 +24,20 @@ class JointTree {
   // Whether `above` is `joint` or one of its ancestors.
   bool is_above(int above, int joint) const;
   int depth(int joint) const;  // 1 for a root.
-  // Whether vertices of a mesh follow the joint, as far as the file says.
+  // Whether the file skins vertices of a mesh to the joint.
   bool moves_mesh(int joint) const { return skeleton_.joints[joint].skin >= 0; }
-  // How many of the joint and what is above it have more than one child.
+  // How many joints from the root to this one have more than one child.
   int forks(int joint) const { return joint < 0 ? 0 : forks_[joint]; }
-  // The lowest joint that is above both; -1 where they have no tree in common, or one is -1.
+  // The lowest common ancestor; -1 if there is none, or if one is -1.
   int meeting(int a, int b) const;
 
   // Mean over the poses, file units.
   float distance(int a, int b) const;
-  // Whether they stand further apart than half a percent of the body.
+  // Whether their distance is more than half a percent of the body.
   bool apart(int a, int b) const { return distance(a, b) >= nearness_; }
-  // From the joint to the farthest of its End Sites, file units; 0 where it has none.
+  // From the joint to its farthest End Site, file units; 0 if it has none.
   float end_length(int joint) const;
-  // The longest way from the joint down to a leaf or End Site, along the joints, file units.
+  // The longest path from the joint down to a leaf or End Site, along the joints, file units.
   float reach(int joint) const { return reach_[joint]; }
 
  private:

@@ -63,8 +63,8 @@ constexpr Standard kStandards[] = {
 
 bool is_number(const std::string& word) { return word.front() >= '0' && word.front() <= '9'; }
 
-// The words that say something, run together: no "def", no "bip 01", no "cc base", and no number
-// at the end where `numbered`.
+// The meaningful words, joined: without "def", "bip 01", "cc base", and without a trailing number
+// if `numbered`.
 std::string plain(const JointName& name, bool numbered) {
   constexpr std::string_view kPrefixes[] = {"def", "bind", "bnd", "jnt",  "joint", "bone",
                                             "bip", "j",    "cc",  "base", "c",     "skin"};
@@ -149,7 +149,7 @@ bool is_standard_piece_of(const JointName& name, HumanJoint joint) {
   if (name.side != Side::none) return false;
   const std::string text = plain(name, true);
   if (joint == neck) return text == "neck";
-  // One spine alone is below the chest.
+  // A spine without a number is below the chest.
   const bool numbered = text != plain(name, false);
   return joint == chest &&
          (text == "chest" || text == "upperchest" || (numbered && text == "spine"));

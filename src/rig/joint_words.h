@@ -7,7 +7,7 @@
 namespace panache {
 
 bool is_hand(const JointName& name);  // Or wrist.
-bool is_foot(const JointName& name);  // Or ankle; no toe.
+bool is_foot(const JointName& name);  // Or ankle; not toe.
 bool is_toe(const JointName& name);
 bool is_head(const JointName& name);
 bool is_neck(const JointName& name);
@@ -18,28 +18,27 @@ bool is_shin(const JointName& name);     // Or knee.
 bool is_ankle(const JointName& name);
 // A joint that only spreads another's twist or bend over the skin.
 bool is_twist(const JointName& name);
-// Something near a hand, a foot or a head, but not it: a finger, a target, a tip, a prop.
+// Something near a hand, foot or head: a finger, a target, a tip, a prop.
 bool is_near(const JointName& name);
 // Something that sits on a head: a jaw, an eye, a strand of hair.
 bool is_on_head(const JointName& name);
-// How many words of the name say more than that it is a joint.
+// The number of meaningful words in the name.
 size_t word_count(const JointName& name);
 
-// The names that standards and tools give the humanoid joints: VRM and glTF, Mixamo, Unreal, Unity,
-// 3ds Max.
+// Standard names of the humanoid joints: VRM and glTF, Mixamo, Unreal, Unity, 3ds Max.
 
-// Whether the whole name, but for prefixes such as "mixamorig:", "Bip01" or "DEF-", is a standard's
-// own for that joint: "chest", "upperarm_l", "Bip01 L Clavicle". A number behind it makes another
-// name, as it counts the pieces of a chain.
+// Whether the whole name, except for prefixes such as "mixamorig:", "Bip01" or "DEF-", is a
+// standard name of that joint: "chest", "upperarm_l", "Bip01 L Clavicle". A name with a trailing
+// number is different, as it counts the pieces of a chain.
 bool is_standard_name_of(const JointName& name, HumanJoint joint);
 
-// Whether it is one for a piece of the torso or the neck, of which there may be several: a name of
-// spine or chest for `chest`, of the neck for `neck`, a number behind it or not ("spine_03",
-// "upperChest", "neck_01").
+// Whether it is a standard name for one of several pieces of the torso or neck: spine or chest for
+// `chest`, neck for `neck`, with or without a trailing number ("spine_03", "upperChest",
+// "neck_01").
 bool is_standard_piece_of(const JointName& name, HumanJoint joint);
 
-// Whether it is one for any joint, or with a number behind it for one of a chain ("spine_03"), or
-// "upperChest".
+// Whether it is a standard name of any joint or, with a trailing number, of a piece of a chain
+// ("spine_03"), or "upperChest".
 bool is_standard_name(const JointName& name);
 
 }  // namespace panache

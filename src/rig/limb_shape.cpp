@@ -6,23 +6,23 @@
 namespace panache {
 namespace {
 
-// What is usual, from a dozen rigs and two of our actors: means, and how far rigs differ.
+// Usual proportions, from a dozen rigs and two of our actors: means and deviations.
 struct Usual {
-  float upper_over_lower;          // Of lengths; its logarithm deviates by kRatioDeviation.
+  float upper_over_lower;          // Ratio of lengths; its logarithm deviates by kRatioDeviation.
   float offset, offset_deviation;  // From branch to upper joint, in lengths of the limb.
   float beyond, beyond_deviation;  // From end to fingertip or toe, in lower lengths; logarithm.
   float nothing_beyond;            // The deviation of a limb that stops at its end.
 };
 constexpr float kRatioDeviation = 0.2f;
 constexpr float kBeyondFork = 9;
-// No limb of a person has more joints, fingers and twists included. All ways to choose three of
-// them are tried.
+// No human limb has more joints, fingers and twists included. All choices of three of them are
+// tried.
 constexpr size_t kLongestLimb = 32;
 constexpr Usual kArm = {1.1f, 0.42f, 0.2f, 0.55f, 0.55f, 1.4f};
 constexpr Usual kLeg = {1.0f, 0.13f, 0.12f, 0.45f, 0.6f, 1.2f};
 
-// The square of a deviation; straight on beyond three of them, since some makers put a wrist or a
-// knee far from where others do.
+// The square of a deviation; linear beyond three deviations, since the positions of wrists and
+// knees differ between tools.
 float odd_of(float deviations) {
   const float size = std::abs(deviations);
   return size < 3 ? size * size : 6 * size - 9;
@@ -40,10 +40,10 @@ float limb_oddity(const JointTree& tree, LimbKind kind, int branch, const Limb& 
   const float beyond = limb.end < 0 ? 0 : tree.reach(limb.end) / lower;
   float odd = odd_of(std::log(upper / lower / usual.upper_over_lower) / kRatioDeviation);
   odd += odd_of((offset - usual.offset) / usual.offset_deviation);
-  // What lies beyond the end may be short, or missing; it cannot be told from twigs then.
+  // The part beyond the end may be short or missing.
   odd += beyond < 0.02f ? odd_of(usual.nothing_beyond)
                         : odd_of(std::log(beyond / usual.beyond) / usual.beyond_deviation);
-  // Fingers leave at the hand, and none of them is the hand.
+  // Fingers branch off at the hand; the hand is not one of them.
   if (limb.end >= 0) {
     const int passed = tree.forks(tree.parent(limb.end)) - tree.forks(limb.lower);
     odd += kBeyondFork * static_cast<float>(passed);

@@ -9,9 +9,9 @@ namespace panache {
 namespace {
 
 constexpr Side kSides[] = {Side::left, Side::right};
-// How much the plain order of the joints, the same with numbered pieces counted as joints, and a
-// name such as "knee" weigh against odd lengths, in the units of limb_oddity(); and so do joints
-// that both have the standards' own names.
+// Weights against odd lengths, in the units of limb_oddity(): of the plain order of the joints, of
+// the same with numbered pieces counted as joints, of a name such as "knee", and of two joints with
+// standard names.
 constexpr float kPlainOrder = 12, kAllPieces = 8, kNamed = 20, kOwnNames = 40;
 
 bool is_plain_forearm(const JointName& name) { return is_forearm(name) && !is_twist(name); }
@@ -21,7 +21,7 @@ class LimbFinder {
   LimbFinder(const JointTree& tree, std::span<const JointName> names)
       : tree_(tree), names_(names) {}
 
-  // Of the ways to read the joints above the end, the one that looks most like a limb.
+  // Finds the most plausible limb among the joints above the end.
   Limb find(const LimbNames& human, const Limb& known, int other_tip) const {
     const LimbKind kind = human.kind;
     const int branch = tree_.meeting(lowest_joint(known), other_tip);
@@ -53,7 +53,7 @@ class LimbFinder {
   }
 
  private:
-  // The nearest joint above that has the standards' own name for `human`; -1 where there is none.
+  // The nearest joint above with a standard name of `human`; -1 if there is none.
   int own_above(int joint, HumanJoint human) const {
     int q = tree_.parent(joint);
     while (q >= 0 && !is_standard_name_of(names_[q], human)) q = tree_.parent(q);
@@ -66,8 +66,8 @@ class LimbFinder {
     const auto stem = without_number(names_[joint].words);
     return stem.size() < names_[joint].words.size() && stem == without_number(names_[above].words);
   }
-  // The next joint above that stands elsewhere and is no twist joint (nor a piece of a limb); -1
-  // where it belongs to the other limb too.
+  // The next joint above at another position that is not a twist joint (or a piece of a limb); -1
+  // if it belongs to the other limb, too.
   int above(int joint, int other_tip, bool skip_pieces) const {
     int q = joint < 0 ? -1 : tree_.parent(joint);
     while (q >= 0 &&
@@ -81,9 +81,9 @@ class LimbFinder {
   std::span<const JointName> names_;
 };
 
-// Whether what is called hand or foot, below a wrist or an ankle, is only the palm or the front of
-// the foot: it carries no thumb or index finger, or the forearm has another name; or it carries no
-// toes.
+// Whether a joint named hand or foot, below a wrist or an ankle, is only the palm or the front of
+// the foot: a hand without thumb or index finger or with a forearm of another name, or a foot
+// without toes.
 bool is_front(const JointTree& tree, std::span<const JointName> names, const LimbNames& limb,
               int joint) {
   const auto carries = [&](auto is) {
@@ -100,8 +100,8 @@ bool is_front(const JointTree& tree, std::span<const JointName> names, const Lim
   return true;
 }
 
-// The end of a limb: the joint with the plainest name, or another in line with it that has the
-// standards' own.
+// The end of a limb: the joint with the plainest name, or another in line with it that has a
+// standard name.
 int find_end(const JointTree& tree, std::span<const JointName> names, const LimbNames& limb,
              Side side) {
   const auto is = limb.kind == LimbKind::arm ? is_hand : is_foot;

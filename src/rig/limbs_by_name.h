@@ -1,5 +1,5 @@
 #pragma once
-// Arms and legs of a skeleton by its joints' names. Private to the folder.
+// Finds arms and legs by the joints' names. Private to the folder.
 
 #include <array>
 #include <functional>
@@ -29,21 +29,21 @@ inline constexpr std::array<std::array<LimbNames, 2>, 2> kLimbNames = {
        {LimbKind::leg, HumanJoint::right_upper_leg, HumanJoint::right_lower_leg,
         HumanJoint::right_foot}}}}};
 
-// Of the joints of that side whose names `is` accepts, that are near nothing else and for which
-// `where` holds, the plainest: fewest words besides, then nearest to the root, then first. -1 where
-// there is none.
+// The joint on that side with the plainest name that `is` accepts: fewest further words, then
+// nearest to the root, then first. Skips names for which is_near() holds, and joints for which
+// `where` does not. -1 if there is none.
 int find_named(
     const JointTree& tree, std::span<const JointName> names, Side side,
     bool (*is)(const JointName&), const std::function<bool(int)>& where = [](int) { return true; });
 
-// The same, but a joint that has the standards' own name for `joint` goes before plainer ones,
-// unless a mesh follows the plainest and not that one.
+// The same, but a joint with a standard name of `joint` is preferred to plainer names, unless only
+// the plainest moves a mesh.
 int find_own_named(const JointTree& tree, std::span<const JointName> names, HumanJoint joint,
                    Side side, bool (*is)(const JointName&), const std::function<bool(int)>& where);
 
-// Hands and feet by their names, what is above them by the tree. A missing hand leaves `end` -1
-// where a forearm is named. known: skeleton joints of human joints, which go before names. What was
-// not found is added to `missing`; the result then lacks it.
+// Finds hands and feet by their names, the joints above them by the hierarchy. A missing hand
+// leaves `end` -1 if a forearm is named. known: skeleton joints of human joints, which override
+// names. Joints that are not found are added to `missing`.
 Limbs find_limbs_by_name(const JointTree& tree, std::span<const JointName> names,
                          const std::map<int, int>& known, std::vector<HumanJoint>& missing);
 

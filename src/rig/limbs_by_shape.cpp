@@ -7,16 +7,16 @@
 namespace panache {
 namespace {
 
-// Limbs of a pair may differ by this share of their length, and are at least that share of the
-// longest way down from the root.
+// Limbs of a pair may differ by this share of their length; they are at least that share of the
+// longest path down from the root.
 constexpr float kUneven = 0.12f;
 constexpr float kShortest = 0.2f;
-// Two limbs whose mean oddness is larger are no pair.
+// Limbs with a larger mean oddity are not a pair.
 constexpr float kOddest = 14;
 // The cosine between legs and torso of a body that stands.
 constexpr float kUpright = 0.5f;
 
-// Of more pairs the longest are looked at.
+// If there are more pairs, only the longest count.
 constexpr size_t kMostPairs = 256;
 
 // Two limbs of one length that leave the torso at one joint.
@@ -37,7 +37,7 @@ float lower_length(const JointTree& tree, const Limb& limb) {
   return limb.end < 0 ? tree.end_length(limb.lower) : tree.distance(limb.lower, limb.end);
 }
 
-// How much the limbs of a body's two sides differ, in the units of their oddity.
+// How much the limbs of both sides differ, in the units of their oddity.
 float unevenness(const JointTree& tree, const std::array<Limb, 2>& limbs) {
   constexpr float kDeviation = 0.06f;
   const auto apart = [](float a, float b) { return square(std::log(a / b) / kDeviation); };
@@ -53,8 +53,8 @@ bool are_rigid(const JointTree& tree, int a, int b) {
   });
 }
 
-// The legs begin at their lowest joints that no motion of the body moves against each other: what
-// is above them is flesh of the pelvis.
+// The legs begin at their lowest joints that stay rigid to each other in all poses: joints above
+// them belong to the pelvis.
 void lower_hips(const JointTree& tree, const std::array<std::vector<int>, 2>& chains,
                 std::array<Limb, 2>& legs) {
   for (;;) {
@@ -83,7 +83,7 @@ float fit(const JointTree& tree, LimbKind kind, Pair& pair, std::array<Limb, 2>&
 }
 
 std::vector<Pair> find_pairs(const JointTree& tree) {
-  // From a joint where limbs leave: a root may be anywhere.
+  // Measured from a branching joint: a root may be anywhere.
   float longest = 0;
   for (int j = 0; j < tree.count(); ++j) {
     if (tree.children(j).size() > 1) longest = std::max(longest, tree.reach(j));
@@ -97,7 +97,7 @@ std::vector<Pair> find_pairs(const JointTree& tree) {
     }
     std::sort(reaches.rbegin(), reaches.rend());
     for (size_t a = 0; a < reaches.size(); ++a) {
-      // Four are enough: no joint of a person has more limbs of one length.
+      // Four are enough: no human joint has more limbs of one length.
       for (size_t b = a + 1; b < std::min(reaches.size(), a + 4); ++b) {
         if (reaches[b].first < (1 - kUneven) * reaches[a].first) break;
         pairs.push_back({j, {reaches[a].second, reaches[b].second}, reaches[b].first, {}, {}});
@@ -128,7 +128,7 @@ Vec3 torso(const JointPositions& pose, const std::array<Limb, 2>& arms,
          middle(pose[legs[0].upper], pose[legs[1].upper]);
 }
 
-// Whether one of both pairs hangs on a limb of the other.
+// Whether one pair branches off a limb of the other.
 bool entangled(const JointTree& tree, const Pair& a, const Pair& b) {
   for (const int top : a.tops) {
     if (tree.is_above(top, b.branch)) return true;
@@ -140,9 +140,8 @@ bool entangled(const JointTree& tree, const Pair& a, const Pair& b) {
                                   a.tops[1] == b.tops[0] || a.tops[1] == b.tops[1]);
 }
 
-// How far the body's toes, knees and elbows say that its first limbs are its left ones: -1 to 1.
-// Toes and knees point ahead; elbows point back, mostly, and are asked only where there are no
-// toes.
+// Evidence from toes, knees and elbows that the first limbs are the left ones: -1 to 1. Toes and
+// knees point ahead; elbows mostly point back, and count only without toes.
 float leftness(const JointTree& tree, const std::array<Limb, 2>& arms,
                const std::array<Limb, 2>& legs) {
   float sum = 0;
@@ -168,7 +167,7 @@ float leftness(const JointTree& tree, const std::array<Limb, 2>& arms,
   return sum / static_cast<float>(tree.poses().size());
 }
 
-// Whether the names below both tops say which is left: 1 the first, -1 the second, 0 they do not.
+// Which side is left by the names below both tops: 1 the first, -1 the second, 0 unknown.
 int named_left(const JointTree& tree, std::span<const JointName> names,
                const std::array<int, 2>& tops) {
   int votes = 0;

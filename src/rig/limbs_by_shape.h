@@ -1,5 +1,5 @@
 #pragma once
-// Arms and legs of a skeleton whose names say nothing, found by branching, symmetry, lengths and
+// Finds arms and legs of a skeleton without meaningful names, by branching, symmetry, lengths and
 // heights. Private to the folder.
 
 #include <array>
@@ -12,12 +12,12 @@
 
 namespace panache {
 
-// names[joints]: only their sides are used. Nothing where no two pairs of limbs look like arms and
+// names[joints]: only their sides are used. Nothing if no two pairs of limbs look like arms and
 // legs of a body that stands in some of the poses.
 std::optional<Limbs> find_limbs_by_shape(const JointTree& tree, std::span<const JointName> names);
 
-// How upright the body stands with these limbs: the cosine between legs and torso, 1 for a body
-// that stands straight, below 0 where arms and legs are exchanged. The largest over the poses.
+// How upright the body is with these limbs: the cosine between legs and torso, 1 for an upright
+// body, negative if arms and legs are exchanged. The maximum over the poses.
 float uprightness(const JointTree& tree, const std::array<Limb, 2>& arms,
                   const std::array<Limb, 2>& legs);
 

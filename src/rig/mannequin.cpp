@@ -10,7 +10,7 @@ Mannequin::Mannequin(const Rig& rig, ConstPose reference) : rig_(rig) {
   rig_.read(reference, body_);
   std::array<Quat, kHumanJoints> parts;
   canonical_frames(body_.positions, body_.facing, parts);
-  // A head shows nothing of how it is turned but its own rotation: it is taken for upright.
+  // A head's direction is only known from its rotation: assume that it is upright.
   parts[index(HumanJoint::head)] = rotation_y(body_.facing);
   for (int j = 0; j < kHumanJoints; ++j) {
     to_part_[j] = conjugate(body_.rotations[j]) * parts[j];

@@ -17,8 +17,8 @@ using enum HumanJoint;
 
 constexpr float kByTree = 0.95f, kByPlace = 0.7f, kByShape = 0.8f;
 
-// What to do about feet that no leg carries, as those of game characters whose legs follow targets
-// (inverse kinematics); empty where all feet are below a shin.
+// Advice for feet that are not below a leg, as in game characters whose legs follow IK targets;
+// empty if all feet are below a shin.
 std::string feet_advice(const std::vector<Joint>& joints, const Limbs& limbs,
                         const std::vector<HumanJoint>& missing) {
   for (size_t side : {0, 1}) {
@@ -34,7 +34,7 @@ std::string feet_advice(const std::vector<Joint>& joints, const Limbs& limbs,
   return "";
 }
 
-// The message for a skeleton that lacks these.
+// The message for a skeleton that lacks `missing`.
 Error rejection(const std::vector<Joint>& joints, const std::vector<HumanJoint>& missing,
                 const std::string& advice = "") {
   constexpr size_t kNamed = 12;
@@ -70,7 +70,7 @@ class Mapper {
          const KnownJoints& known)
       : draft_(skeleton.joints, tree, names, known) {}
 
-  // limbs: all that there are.
+  // limbs: all four, complete.
   Result<Mapping> run(const Limbs& limbs, bool by_shape) {
     draft_.by_shape = by_shape;
     for (size_t side : {0, 1}) {
@@ -145,14 +145,14 @@ class Mapper {
     if (arms < 0) missing_.push_back(chest);
     if (low < 0) missing_.push_back(hips);
     if (!missing_.empty()) return;
-    // Some rigs hang the legs on the first joint of the spine, which sits in the pelvis.
+    // In some rigs the legs are children of the first joint of the spine, inside the pelvis.
     const int over = parent(low);
     if (is_spine(names_[low]) && over >= 0 && is_pelvis(names_[over])) {
       low = over;
       reason = "above where the legs meet, and named so";
     }
     put(hips, low, reason, kByTree);
-    // Some rigs hang the arms on the neck: then the chest is the joint below it.
+    // In some rigs the arms are children of the neck: then the chest is the joint below it.
     int below_neck = arms;
     while (below_neck != low && is_neck(names_[below_neck])) below_neck = parent(below_neck);
     if (below_neck != low && below_neck != arms) {
@@ -171,7 +171,7 @@ class Mapper {
       return [this, root](int j) { return j != root && tree_.is_above(root, j); };
     };
     int found = find(head, Side::none, is_head, below(top));
-    if (found < 0) {  // Beside the neck, but not the torso, whatever that is called.
+    if (found < 0) {  // Next to the neck, but not the torso, whatever its name.
       found = find(head, Side::none, is_head,
                    [&](int j) { return tree_.is_above(at(hips), j) && !tree_.is_above(j, top); });
     }
@@ -179,8 +179,8 @@ class Mapper {
     if (found < 0) find_head_by_place(top);
     if (at(head) >= 0 && at(neck) < 0) find_neck();
   }
-  // The child of a joint that leads the farthest up in the middle between the arms; -1 where none
-  // does. `most_off`: how far beside the middle it may be.
+  // The child that leads farthest up in the middle between the arms; -1 if none does. `most_off`:
+  // the maximum distance from the middle.
   int middle_child(int joint, float most_off) const {
     int middle = -1;
     float most = 0;
@@ -194,10 +194,10 @@ class Mapper {
     }
     return middle;
   }
-  // What leaves the top of the torso besides the arms, in the middle between them.
+  // The chain from the top of the torso in the middle between the arms.
   std::vector<int> chain_above(int top) const {
-    // In poses that lean, and with one shoulder forward, a neck is farther off than anything else
-    // there is; a joint for a breast would be at 0.45.
+    // In leaning poses, and with one shoulder forward, a neck may be this far off; a joint for a
+    // breast would be at 0.45.
     constexpr float kStraight = 0.2f, kLeaning = 0.35f;
     std::vector<int> chain;
     const bool leans = middle_child(top, kStraight) < 0;
@@ -207,14 +207,15 @@ class Mapper {
     }
     return chain;
   }
-  // How much farther a joint is from one shoulder than from the other, of their distance.
+  // Difference of a joint's distances from both shoulders, relative to the distance of the
+  // shoulders.
   float off_centre(int joint) const {
     const float left = tree_.distance(joint, at(left_upper_arm));
     const float right = tree_.distance(joint, at(right_upper_arm));
     return std::abs(left - right) / tree_.distance(at(left_upper_arm), at(right_upper_arm));
   }
-  // The joint of a chain whose distance from a place is nearest to what it is in a body with legs
-  // as long as these; -1 where there is none.
+  // The joint of a chain whose distance is nearest to that in a body with legs of this length; -1
+  // if there is none.
   template <class Distance>
   int most_usual(const std::vector<int>& chain, float usual, Distance distance) const {
     const float leg = tree_.distance(at(left_upper_leg), at(left_lower_leg)) +
@@ -228,7 +229,7 @@ class Mapper {
     return best;
   }
   void find_head_by_place(int top) {
-    // Most makers put it a little higher than the canonical body has it, metres.
+    // Most rigs have it slightly higher than the canonical body, metres.
     constexpr float kUsual = 0.15f;
     const auto above_shoulders = [&](int joint) {
       float sum = 0;
@@ -253,8 +254,7 @@ class Mapper {
     if (count > 1) map_.notes.push_back(std::to_string(count) + " joints between chest and head");
   }
 
-  // Of the joints between hips and chest the one nearest to 64 % of the way, where the canonical
-  // spine is.
+  // The joint nearest to 64 % of the way from hips to chest, where the canonical spine is.
   void find_spine() {
     if (at(chest) < 0) return;
     float total = 0;
@@ -262,7 +262,7 @@ class Mapper {
     for (int q = at(chest); q != at(hips); q = parent(q), ++count) {
       total += tree_.distance(q, parent(q));
     }
-    // Pieces without a standard's own name, such as a group, come after those with one.
+    // Pieces without a standard name, such as a group, come after those with one.
     constexpr float kNoPiece = 2;
     float walked = 0, best = 2 * kNoPiece;
     int found = -1;
@@ -295,7 +295,7 @@ class Mapper {
       put(joint, found, "by its name", kCertain);
       if (found >= 0) return;
     }
-    // Where the foot is called ankle, what is called foot is the front of it.
+    // If the foot is named ankle, a joint named foot is the front of it.
     const Side side = names_[foot].side;
     const int front = !is_ankle(names_[foot]) ? -1 : find(joint, side, is_foot, below);
     put(joint, front, "next joint below an ankle", kByTree);
@@ -306,7 +306,7 @@ class Mapper {
     put(joint, found, "in the chain below " + name_of(foot_joint), kByPlace);
   }
 
-  // Puts what is known in place of what was found.
+  // Replaces detected joints by given ones.
   Result<void> apply_overrides() {
     for (const auto& [human, joint] : draft_.known) {
       for (int j = 0; j < kHumanJoints; ++j) {
@@ -352,7 +352,7 @@ class Mapper {
   std::vector<HumanJoint> missing_;
 };
 
-// What the file says of its joints goes before their names.
+// Roles in the file take precedence over names.
 std::vector<JointName> read_names(const Skeleton& skeleton) {
   const bool roles = std::any_of(skeleton.joints.begin(), skeleton.joints.end(),
                                  [](const Joint& joint) { return !joint.role.empty(); });
@@ -364,8 +364,8 @@ std::vector<JointName> read_names(const Skeleton& skeleton) {
   return names;
 }
 
-// Whether arms and legs look like a person's: not folded the wrong way, left about as long as
-// right, upper and lower part in some proportion.
+// Whether arms and legs look human: not folded the wrong way, left about as long as right, upper
+// and lower part in proportion.
 bool is_plausible(const JointTree& tree, const Limbs& limbs) {
   for (const auto& pair : {limbs.arms, limbs.legs}) {
     std::array<float, 2> lengths;

@@ -64,9 +64,8 @@ void NamePreferences::note_ends() {
   }
 }
 
-// A joint that has the standards' own name for `joint` takes the place of one that was found by
-// its place and has no such name, where it fits into the tree and the mesh does not follow the
-// other instead.
+// A joint with a standard name of `joint` replaces one that was found by its position and has none,
+// if it fits into the hierarchy and the mesh does not follow only the other one.
 template <class Fits>
 void NamePreferences::prefer(HumanJoint joint, Fits fits) {
   if (is_settled(joint)) return;
@@ -87,8 +86,8 @@ void NamePreferences::prefer(HumanJoint joint, Fits fits) {
   draft_.put(joint, best, "by its name", kCertain);
 }
 
-// Of the pieces of torso or neck above the one that was found by its place, and below `end`, the
-// nearest that has a standard's own name takes its place.
+// Replaces a piece of torso or neck that was found by its position by the nearest piece above it,
+// below `end`, with a standard name.
 void NamePreferences::prefer_piece(HumanJoint joint, int end) {
   const int guess = draft_.at(joint);
   if (is_settled(joint) || guess < 0) return;
@@ -99,7 +98,7 @@ void NamePreferences::prefer_piece(HumanJoint joint, int end) {
   }
 }
 
-// Says of a joint that has the standards' own name for `joint` why another is taken.
+// Notes why a joint with a standard name of `joint` is not used.
 void NamePreferences::note_contradiction(HumanJoint joint, int named) {
   const int taken = draft_.at(joint);
   if (taken < 0) return;
@@ -109,20 +108,20 @@ void NamePreferences::note_contradiction(HumanJoint joint, int named) {
       draft_.joints[taken].name + "' is taken");
 }
 
-// The same where there is such a joint and it is not taken.
+// The same, if there is such an unused joint.
 void NamePreferences::note_untaken(HumanJoint joint) {
   const int taken = draft_.at(joint);
   if (is_settled(joint) || taken < 0) return;
   if (is_standard_name_of(draft_.names[taken], joint)) return;
   for (int j = 0; j < draft_.tree.count(); ++j) {
     if (!is_standard_name_of(draft_.names[j], joint) || is_taken(j)) continue;
-    // In its line and no other reason: a palm, which is no contradiction.
+    // In line with it, without another reason: a palm, which is no contradiction.
     if (draft_.tree.is_above(taken, j) && !moves_less(j, taken)) continue;
     return note_contradiction(joint, j);
   }
 }
 
-// Whether names have no say.
+// Whether names cannot change this joint.
 bool NamePreferences::is_settled(HumanJoint joint) const {
   return draft_.by_shape || draft_.known.contains(index(joint));
 }
@@ -132,7 +131,7 @@ bool NamePreferences::is_taken(int joint) const {
   return std::find(taken.begin(), taken.end(), joint) != taken.end();
 }
 
-// Whether `joint` is strictly below one joint and above another; one that is -1 is no limit.
+// Whether `joint` is strictly below `above` and above `below`; -1: no limit.
 bool NamePreferences::is_between(int above, int joint, int below) const {
   const JointTree& tree = draft_.tree;
   return (above < 0 || (joint != above && tree.is_above(above, joint))) &&
@@ -144,7 +143,7 @@ bool NamePreferences::moves_less(int joint, int other) const {
   return draft_.tree.moves_mesh(other) && !draft_.tree.moves_mesh(joint);
 }
 
-// What the neck stands on.
+// The joint that carries the neck.
 int NamePreferences::neck_base() const {
   return draft_.at(chest) >= 0 ? draft_.at(chest) : draft_.at(hips);
 }

@@ -1,8 +1,8 @@
 #pragma once
-// The standards' own names go before guesses by place: a joint that is called as VRM, Mixamo or
-// Unreal call it takes the place of one that was found by where it hangs, unless hierarchy or mesh
-// contradict the name; then a note says so. What is known beforehand stays, and nothing is
-// preferred where the limbs are found by shape. Private to the folder.
+// Prefers standard names to guesses by hierarchy: a joint with a VRM, Mixamo or Unreal name
+// replaces one that was found by its position in the hierarchy, unless hierarchy or mesh contradict
+// the name; then a note says so. Given joints stay, and nothing changes if the limbs were found by
+// shape. Private to the folder.
 
 #include <array>
 #include <string>
@@ -17,12 +17,12 @@
 
 namespace panache {
 
-// A mapping while it is found, and what it is found from.
-constexpr float kCertain = 1;  // The confidence of what a name says.
+// A mapping in progress and its inputs.
+constexpr float kCertain = 1;  // The confidence of a name.
 
 inline std::string name_of(HumanJoint joint) { return std::string(human_joint_name(index(joint))); }
 
-// Refers to what it is made of, which must outlive it.
+// Refers to its arguments, which must outlive it.
 struct MappingDraft {
   MappingDraft(const std::vector<Joint>& skeleton_joints, const JointTree& joint_tree,
                const std::vector<JointName>& joint_names, const KnownJoints& known_joints)
@@ -55,7 +55,7 @@ class NamePreferences {
   // Changes `draft`, which must outlive it.
   explicit NamePreferences(MappingDraft& draft) : draft_(draft) {}
 
-  // Upper and lower parts of an arm and a leg, once all limbs are found. side: 0 left, 1 right.
+  // Upper and lower parts of an arm and a leg, after all limbs are found. side: 0 left, 1 right.
   void limbs(size_t side);
   // Hips and chest, once they are found.
   void torso();
@@ -65,8 +65,8 @@ class NamePreferences {
   void spine();
   // A shoulder, once it and the neck are found. side: 0 left, 1 right.
   void shoulder(size_t side);
-  // Names decide head, hands, feet and toes already: only notes where another joint has a
-  // standard's own name for one of them.
+  // Head, hands, feet and toes were found by name: only adds notes if another joint has a standard
+  // name of one of them.
   void note_ends();
 
  private:

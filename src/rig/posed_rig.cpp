@@ -102,7 +102,7 @@ void PosedRig::write_rotations(ConstPose in, const Deltas& deltas, Pose out) noe
     const Quat inherited = delta_of(deltas, parent);
     const Quat world = parent < 0 ? Quat{} : world_rotations_[parent];
     const Quat local = in_axes(conjugate(world), conjugate(inherited) * deltas[shared.human_of[j]]);
-    // Even a product with 1 could change the sign of a zero, and making it unit the last bit.
+    // Multiplying by 1 could change the sign of a zero, and normalising the last bit.
     if (is_identity(local) || !is_finite(local)) continue;
     out.rotations[j] = normalized(local * q);
   }
@@ -120,7 +120,7 @@ void PosedRig::write_translation(ConstPose in, const Deltas& deltas, const BodyC
   const Vec3 mid_hip = (at(left_upper_leg) + at(right_upper_leg)) * 0.5f;
   const Vec3 wanted =
       rotate(conjugate(shared.calibration.y_up), change.translation) / shared.calibration.scale;
-  // The new rotation carries mid-hip about the hips; the hips give way so that it stays.
+  // The new rotation moves mid-hip about the hips; the hips compensate so that it stays.
   const Vec3 move = wanted - rotate_offset(delta_of(deltas, hips_joint), mid_hip - at(hips));
   if (move == Vec3{} || !is_finite(move)) return;
   const int parent = shared.skeleton.joints[shared.moved_joint].parent;

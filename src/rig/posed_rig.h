@@ -1,5 +1,5 @@
 #pragma once
-// How poses travel between one character's skeleton and the canonical body.
+// Converts poses between one character's skeleton and the canonical body.
 
 #include <array>
 #include <vector>
@@ -10,34 +10,35 @@
 
 namespace panache {
 
-// A rig and the little that one character's poses leave behind: the pose read last. The constructor
-// allocates; read() and write() neither allocate nor fail.
+// A rig and the last pose read from one character. The constructor allocates; read() and write()
+// neither allocate nor fail.
 class PosedRig {
  public:
   explicit PosedRig(Rig rig);
 
   const Rig& rig() const noexcept { return rig_; }
 
-  // The user's pose on the canonical body. A heading that the pose does not show is the last one. A
-  // pose that is not finite is read as the last one that was; returns whether it was finite.
+  // Reads the user's pose as one of the canonical body. A pose without a heading keeps the last
+  // one. A pose that is not finite is replaced by the last finite one; returns whether it was
+  // finite.
   bool read(ConstPose pose, BodyPose& out) noexcept;
-  // The same with all rotations, which stay as they were where the pose is not finite.
+  // The same with all rotations, which stay unchanged if the pose is not finite.
   bool read(ConstPose pose, RotatedBodyPose& out) noexcept;
 
-  // A joint's rotation in the last pose, see RotatedBodyPose; not finite where the pose is not.
+  // A joint's rotation in the last pose, see RotatedBodyPose; not finite if the pose is not.
   Quat world_rotation(int human_joint) const noexcept;
 
-  // The user's pose with `change` on it. `in` and `body` are those of the last read(), whose
-  // forward kinematics it reuses. Where the change is the identity, `out` is `in` bit for bit.
-  // Joints that are not part of the humanoid, or that the file does not rotate, keep their local
-  // rotation and follow their parent. The middle between the upper legs turns in place and moves by
-  // the translation, if the hips or a joint above them can. `in` and `out` may be the same arrays.
+  // Writes the user's pose with `change`. `in` and `body` are those of the last read(), whose
+  // forward kinematics it reuses. If the change is the identity, `out` is identical to `in`. Joints
+  // outside the humanoid, or without rotation channels, keep their local rotation and follow their
+  // parent. The middle between the upper legs turns in place and moves by the translation, if the
+  // hips or a joint above them can. `in` and `out` may be the same arrays.
   void write(ConstPose in, const BodyPose& body, const BodyChange& change, Pose out) noexcept;
 
-  // Names the arrays that read() and write() work on.
+  // Adds the arrays that read() and write() use.
   void add_memory(Prefetch& prefetch) const noexcept;
 
-  // Calls visit(member) for what is remembered from one read() to the next.
+  // Calls visit(member) for the memory from one read() to the next.
   template <class Self, class Visit>
   static void visit_state(Self& self, Visit&& visit) {
     visit(self.last_);
@@ -47,7 +48,7 @@ class PosedRig {
   // The rotations that write() applies to the human joints, file axes.
   using Deltas = std::array<Quat, kHumanJoints>;
 
-  // The delta that a joint of the skeleton has or inherits; -1 stands for the world.
+  // The delta that a joint of the skeleton has or inherits; -1: the world.
   Quat delta_of(const Deltas& deltas, int joint) const noexcept;
   void write_rotations(ConstPose in, const Deltas& deltas, Pose out) noexcept;
   void write_translation(ConstPose in, const Deltas& deltas, const BodyChange& change,

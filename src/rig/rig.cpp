@@ -13,7 +13,7 @@ namespace {
 
 using enum HumanJoint;
 
-// The rest pose and a few of the motion's, as far as they are finite.
+// The finite ones of the rest pose and a few poses of the motion.
 std::vector<JointPositions> some_poses(const Clip& clip) {
   constexpr int kMax = 15;
   Clip world = rest_clip(clip.skeleton);
@@ -29,7 +29,7 @@ std::vector<JointPositions> some_poses(const Clip& clip) {
   return poses;
 }
 
-// The skeleton's joints that the options say.
+// Finds the joints given in the options.
 Result<KnownJoints> find_joints(const Skeleton& skeleton, const RigOptions& options) {
   KnownJoints known = options.joint_places;
   for (const auto& [human, name] : options.joints) {
@@ -109,7 +109,7 @@ Result<Rig> Rig::create(const Clip& clip, const RigOptions& options) {
         "neither the hips nor a joint above them are animated (no translation channels)");
 
   Rig rig;
-  // Until a pose was read, `first_body` stands in for one that is not finite.
+  // Until a finite pose was read, `first_body` is used instead.
   shared->first_body.facing = shared->calibration.facing;
   rig.shared_ = shared;
   PosedRig reader(rig);

@@ -1,5 +1,5 @@
 #pragma once
-// The body mesh on the joints of a rig's own skeleton, for files.
+// The body mesh, skinned to the joints of a rig's skeleton, for files.
 
 #include "clip/skinned_body.h"
 #include "rig/body_mesh.h"
@@ -7,12 +7,11 @@
 
 namespace panache {
 
-// The joint that moves what hangs on each human joint: itself, or the nearest joint above that the
-// rig has.
+// The joint that moves each human joint's part of the body: itself, or the nearest ancestor that
+// the rig has.
 std::array<int, kHumanJoints> moving_joints(const Rig& rig);
 
-// A body to the measure of `rig`, metres as Rig::unit() means them. `reference` is a pose in which
-// nothing is twisted.
+// A body in the proportions of `rig`, scaled by Rig::unit(). `reference`: a pose without twists.
 SkinnedBody make_rig_body(const Rig& rig, ConstPose reference);
 
 }  // namespace panache

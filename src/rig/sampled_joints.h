@@ -1,5 +1,5 @@
 #pragma once
-// Some joints in some frames of a clip, and what is usual among numbers. Private to the folder.
+// Samples some joints of a clip, and computes quantiles. Private to the folder.
 
 #include <span>
 #include <vector>
@@ -11,8 +11,8 @@ namespace panache {
 // Some joints in some frames of the clip, in world space, file axes and units.
 class SampledJoints {
  public:
-  // Takes every `step`-th frame from `first` to before `end`, and of it the joints `of`, -1
-  // standing for none. A frame in which one of them is nowhere says nothing and is left out.
+  // Samples the joints `of` (-1: none) in every `step`-th frame of [first, end). Skips frames in
+  // which one of them is not finite.
   SampledJoints(const Clip& clip, int first, int end, int step, std::span<const int> of);
 
   int count() const { return count_; }
@@ -29,7 +29,7 @@ class SampledJoints {
   std::vector<Vec3> translations_;
 };
 
-// The value that a share of the numbers does not exceed, linear between neighbours; 0 of none.
+// The `share` quantile of the values, linear between neighbours; 0 if there are none.
 float quantile(std::vector<float> values, float share);
 
 }  // namespace panache

@@ -8,7 +8,7 @@
 namespace panache {
 namespace {
 
-constexpr int kBlock = 4;  // Cells along a side of what is looked at as a whole.
+constexpr int kBlock = 4;  // Cells along a side of a block.
 constexpr float kMostCells = 2e6f;
 constexpr int kNone = -1;
 
@@ -26,7 +26,7 @@ class SurfaceNet {
     sample();
   }
 
-  // False where there are more vertices than indices can name.
+  // False if there are more vertices than indices can address.
   bool build(TriangleMesh& out) {
     place_vertices(out);
     if (out.vertices.size() > 0xffff) return false;
@@ -38,7 +38,7 @@ class SurfaceNet {
   size_t at(int x, int y, int z) const { return (size_t(z) * ny_ + y) * nx_ + x; }
   Vec3 place(float x, float y, float z) const { return low_ + Vec3{x, y, z} * cell_; }
 
-  // Where the middle of a block is further from the surface than its corners, one value will do.
+  // If the middle of a block is further from the surface than its corners, one value suffices.
   void sample() {
     constexpr float kHalf = 0.5f * kBlock;
     const float reach = kHalf * 1.7320508f * cell_ * 1.3f;
@@ -70,7 +70,7 @@ class SurfaceNet {
     }
   }
 
-  // The mean of where the surface cuts the edges of the cell.
+  // The mean of the surface's intersections with the edges of the cell.
   void place_vertex(int x, int y, int z, TriangleMesh& out) {
     std::array<float, 8> corner;
     int inside = 0;
@@ -138,7 +138,7 @@ class SurfaceNet {
   float cell_;
   int nx_ = 0, ny_ = 0, nz_ = 0;  // Grid points.
   std::vector<float> values_;     // [nz][ny][nx]
-  std::vector<int> vertex_of_;    // Of the cell above each grid point, or kNone.
+  std::vector<int> vertex_of_;    // Vertex of the cell above each grid point, or kNone.
 };
 
 }  // namespace

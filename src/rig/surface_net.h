@@ -1,6 +1,6 @@
 #pragma once
-// A mesh of even triangles around a signed distance (naive surface nets: a vertex per cell of a
-// grid that the surface passes, Gibson 1998).
+// Meshes a signed distance with regular triangles (naive surface nets: one vertex per grid cell
+// that the surface crosses, Gibson 1998).
 
 #include <cstdint>
 #include <functional>
@@ -15,9 +15,9 @@ struct TriangleMesh {
   std::vector<uint16_t> triangles;  // Three vertices each, counterclockwise from outside.
 };
 
-// The surface where `distance` is 0, between the corners `low` and `high`, by cells of `cell`. The
-// cells grow until there are at most 2^16 vertices and a bounded number of cells. `distance` may be
-// too small but hardly too large.
+// The surface where `distance` is 0 in the box from `low` to `high`, with cells of size `cell`.
+// Cells grow until there are at most 2^16 vertices and a bounded number of cells. `distance` may
+// underestimate, but hardly overestimate.
 TriangleMesh surface_net(const std::function<float(Vec3)>& distance, Vec3 low, Vec3 high,
                          float cell);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The axis of a file that points up, by its name.
+// Names of the up axis of a file.
 
 #include <optional>
 #include <string_view>
@@ -8,7 +8,7 @@
 
 namespace panache {
 
-// The rotation that turns `axis` ("+X", "-Z", ...) to +y; nothing where it is no axis.
+// The rotation that turns `axis` ("+X", "-Z", ...) to +y; nothing if the name is invalid.
 std::optional<Quat> turn_up(std::string_view axis);
 
 }  // namespace panache

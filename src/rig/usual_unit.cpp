@@ -17,8 +17,8 @@ constexpr std::array<UsualUnit, 6> kUnits = {{{"metres", 1},
 }  // namespace
 
 std::optional<UsualUnit> usual_unit(double metres) {
-  // The scale is that of canonical legs, and people differ: 1.35 lies half-way between the
-  // neighbours in this list that are nearest to each other.
+  // The scale is that of canonical legs, and people differ: 1.35 is half-way between the closest
+  // neighbours in this list.
   for (const UsualUnit& unit : kUnits) {
     if (std::abs(std::log(metres / unit.metres)) < std::log(1.35)) return unit;
   }

@@ -1,5 +1,5 @@
 #pragma once
-// The units that motion files are in.
+// The units of motion files.
 
 #include <optional>
 #include <string_view>
@@ -11,8 +11,8 @@ struct UsualUnit {
   double metres;
 };
 
-// The unit that is meant by a scale that was inferred from the length of legs (metres per file
-// unit, for legs as long as the canonical body's); nothing where none comes close.
+// The likely unit for a scale inferred from the length of the legs (metres per file unit, for
+// canonical legs); nothing if none is close.
 std::optional<UsualUnit> usual_unit(double metres);
 
 }  // namespace panache

@@ -1,6 +1,6 @@
 #pragma once
-// What asks for the change of a body, instant by instant: a model's networks (NetworkSource), or a
-// system that they are compared with. A Stepper carries out the change.
+// A source of changes for a body, pose by pose: a model's networks (NetworkSource), or a system to
+// compare them with. A Stepper carries out the change.
 
 #include <span>
 
@@ -11,7 +11,7 @@
 
 namespace panache {
 
-// One instant of the input, good for one call.
+// One instant of the input, valid for one call.
 struct Seen {
   // As PoseHistory::window() gives it, in the source's layout.
   std::span<const float> window;
@@ -26,13 +26,13 @@ struct Seen {
   }
 };
 
-// Of one character; it may keep what it has asked for.
+// A source for one character; it may have state.
 class ChangeSource {
  public:
   virtual ~ChangeSource() = default;
-  // Of the windows that it looks at.
+  // The layout of its windows.
   virtual PoseLayout layout() const { return PoseLayout::positions; }
-  // The change at the next instant. What it points to stays until the next call.
+  // The change at the next instant. Its pointers are valid until the next call.
   virtual AskedChange ask(const Seen& seen) = 0;
 };
 

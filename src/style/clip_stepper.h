@@ -1,5 +1,5 @@
 #pragma once
-// A character that is led through a clip, frame by frame.
+// Steps a character through a clip, frame by frame.
 
 #include <vector>
 
@@ -11,15 +11,15 @@ namespace panache {
 
 class ClipStepper {
  public:
-  // Clip and source outlive it.
+  // Clip and source must outlive it.
   ClipStepper(const Clip& clip, const Rig& rig, ChangeSource& source,
               const StylizerOptions& options);
 
-  // Goes on to the pose at `frame` (fractional, never before the last one), `advance` frames after
-  // the last one; `seconds`: what the source takes for its time, of the clip.
+  // Steps to the pose at `frame` (fractional, never before the last one), `advance` frames after
+  // the last one; `seconds`: the clip time given to the source.
   void step(double frame, double advance, double seconds);
 
-  // Of the last step.
+  // Results of the last step.
   ConstPose pose() const { return {rotations_, translations_}; }
   const BodyChange& change() const { return stepper_.change(); }
   double rate() const { return stepper_.rate(); }

@@ -7,7 +7,7 @@
 namespace panache {
 namespace {
 
-// How many of the first members can be stepped at once: different characters of one model.
+// How many of the first members can be stepped together: different characters of one model.
 size_t count_together(std::span<const CrowdMember> members) {
   const size_t most = std::min(members.size(), kRowsAtOnce);
   for (size_t i = 1; i < most; ++i) {
@@ -19,7 +19,7 @@ size_t count_together(std::span<const CrowdMember> members) {
   return most;
 }
 
-// Asks for the memory of a character that is stepped later, a part at each stage of this one.
+// Prefetches the memory of a later character, a part at each stage of this one.
 class FetchLater final : public StageClock {
  public:
   void begin(const CrowdMember& later, void (*add_memory)(const CrowdMember&, Prefetch&)) {
@@ -54,7 +54,7 @@ void step_crowd(std::span<const CrowdMember> members, double seconds) noexcept {
     for (size_t i = 0; i < count; ++i) {
       const auto& [character, in, strengths, out] = members[i];
       if (count + i < members.size()) fetches[i].begin(members[count + i], add_memory);
-      // By its turn the next one's past has come from a far cache.
+      // The next character's history arrives from a far cache in time.
       if (i + 1 < members.size()) members[i + 1].character->stepper_.fetch_poses(seconds);
       seen[i] = character->stepper_.take_in(in, {seconds, seconds}, windows[i], &fetches[i]);
       character->source_.set_strengths(strengths);

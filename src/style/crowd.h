@@ -15,10 +15,10 @@ struct CrowdMember {
   Pose out;
 };
 
-// Steps every member by `seconds`, with the bits that each gets alone. Fastest where characters of
-// one model stand side by side. A character that comes twice is stepped twice, in order. A member's
-// `out` may be its own `in`, but no part of another's. Allocates nothing, never fails; works in
-// about 200 KB of the stack.
+// Steps every member by `seconds`, with results identical to separate steps. Fastest if characters
+// of one model are adjacent. A character that occurs twice is stepped twice, in order. A member's
+// `out` may be the same as its `in`, but must not overlap another's. Allocates nothing, never
+// fails; uses about 200 KB of stack.
 void step_crowd(std::span<const CrowdMember> members, double seconds) noexcept;
 
 }  // namespace panache

@@ -8,10 +8,10 @@
 namespace panache {
 namespace {
 
-// Two moments are the same of a cycle if the joints are that close, in the mean and each. Metres.
-// Cycles of one person's walk differ by two to three centimetres in the mean.
+// Two poses match if their joints are this close, on average and each. Metres. Cycles of one
+// person's walk differ by two to three centimetres in the mean.
 constexpr float kMaxDistance = 0.04f, kMaxDistanceEach = 0.15f;
-constexpr double kCandidates = 1.0 / 60;  // Seconds between moments that are compared.
+constexpr double kCandidates = 1.0 / 60;  // Seconds between compared poses.
 
 }  // namespace
 

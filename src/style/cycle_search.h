@@ -1,5 +1,5 @@
 #pragma once
-// Where a motion repeats itself: so a cycle can be left out, or played again.
+// Finds where a motion repeats, so that a cycle can be skipped or repeated.
 
 #include <optional>
 
@@ -7,14 +7,14 @@
 
 namespace panache {
 
-// A cycle is at least this long: a shuffle of two steps takes longer. Seconds.
+// The length of a cycle: even a shuffle of two steps takes longer than the minimum. Seconds.
 inline constexpr double kShortestCycle = 0.4, kLongestCycle = 2.0;
-// The moments this long before must be alike, too. Seconds.
+// The poses this long before must be similar, too. Seconds.
 inline constexpr double kBeforeCycle = 0.1;
 
-// How far from `at` (a time of `ring`) the body looks most as it does then, of all times `nearest`
-// to `farthest` away (seconds, below zero is earlier); nothing where it never looks alike enough.
-// `ring` reaches kBeforeCycle further back than both.
+// The offset from `at` (a time in `ring`) of the most similar pose, among offsets from `nearest` to
+// `farthest` (seconds, negative is earlier); nothing if none is similar enough. `ring` must reach
+// kBeforeCycle further back than both.
 std::optional<double> find_cycle(const InputRing& ring, double at, double nearest,
                                  double farthest) noexcept;
 

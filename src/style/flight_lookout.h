@@ -1,5 +1,5 @@
 #pragma once
-// How a play head goes through a whole clip: flights ahead of it, and where it comes to next.
+// The path of a play head through a whole clip: flights ahead of it, and its next position.
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +11,9 @@
 
 namespace panache {
 
-// How many frames a play head at `frame` goes on, which a style asks to go at `rate`. Between two
-// frames an impact is a mean of both and loses its edge: where a flight (FlightWatch::amount())
-// takes the rate to 1, the head is drawn to whole frames, and stays on those that it is on.
+// How many frames a play head at `frame` advances if a style requests `rate`. Interpolation between
+// frames blurs an impact: in a flight (FlightWatch::amount()), which brings the rate to 1, the head
+// is drawn to whole frames.
 inline double clip_advance(double frame, double rate, float flight) {
   constexpr float kMost = 0.06f, kTurn = 6.2831853f;
   const double next = frame + rate;
@@ -22,13 +22,13 @@ inline double clip_advance(double frame, double rate, float flight) {
                                     sine(kTurn * static_cast<float>(next - std::round(next))));
 }
 
-// The clip outlives it.
+// The clip must outlive it.
 class FlightLookout {
  public:
   FlightLookout(const Clip& clip, const Rig& rig)
       : clip_(clip), reader_(rig), next_(rig.first_frame()) {}
 
-  // Goes on from another frame, which may be an earlier one.
+  // Continues from another frame, possibly an earlier one.
   void restart(double frame) {
     const double first = frame - kFlightAhead / clip_.frame_time;
     next_ = static_cast<int>(std::max<double>(reader_.rig().first_frame(), first));

@@ -24,7 +24,7 @@ GesturePose unpack(std::span<const float> numbers) {
   return pose;
 }
 
-// How far `joint` is turned beyond `parent` (an ancestor, or -1), a rotation vector.
+// The turn of `joint` relative to `parent` (an ancestor, or -1), a rotation vector.
 Vec3 turn_beyond(const GesturePose& pose, int parent, int joint) {
   Quat turn;
   for (int j = joint; j != parent; j = kHumanParent[j]) turn = exp_rotation(pose.turns[j]) * turn;
@@ -34,7 +34,7 @@ Vec3 turn_beyond(const GesturePose& pose, int parent, int joint) {
 struct Moved {
   const char* part;
   Vec3 turn = {};  // At its largest.
-  float size = 0;  // In units of what people notice.
+  float size = 0;  // In units of a noticeable turn.
 };
 
 // The direction of a turn of torso or head.
@@ -46,7 +46,7 @@ const char* direction_of(Vec3 turn, bool is_head) {
   return turn.z > 0 ? "leans right" : "leans left";
 }
 
-// Of how many times what people notice each part is turned at most.
+// The largest turn of each part, in units of a noticeable one.
 struct Moves {
   Moved head{"head"}, body{"body"}, left{"left arm"}, right{"right arm"};
   float lift = 0, low = 0;  // Metres.
@@ -127,7 +127,7 @@ Result<Gesture> Gesture::read(const Tensor& tensor, const std::string& key,
                  std::to_string(kMinPoints) + " to " + std::to_string(kMaxPoints) + " rows of " +
                  std::to_string(GesturePose::kSize) + " numbers"};
   }
-  // What no body does would only be limited later.
+  // Impossible movements would only be limited later.
   constexpr float kMost = 10;
   if (!std::ranges::all_of(tensor.values, [](float v) { return std::abs(v) <= kMost; })) {
     return Error{name + ": tensor '" + key + "' holds a number beyond 10 radians or metres"};

@@ -1,6 +1,6 @@
 #pragma once
-// Gestures: short movements that a style is known by, such as a glance over the shoulder. They are
-// kept with the style and played on top of it.
+// Gestures: short characteristic movements of a style, such as a glance over the shoulder. They are
+// stored with the style and played on top of it.
 
 #include <array>
 #include <string>
@@ -18,7 +18,7 @@ inline constexpr int kGestureJoints = index(HumanJoint::left_upper_leg);
 
 // What a gesture adds at one instant; zero adds nothing.
 struct GesturePose {
-  // Rotation vectors, heading frame, radians: what each joint turns beyond its parent.
+  // Rotation vectors, heading frame, radians: each joint's turn relative to its parent.
   std::array<Vec3, kGestureJoints> turns{};
   float height = 0;  // Of the hips, metres.
   float lift = 0;    // Of both feet, metres, 0 or more: a hop.
@@ -29,8 +29,8 @@ struct GesturePose {
 GesturePose scaled(float weight, GesturePose pose) noexcept;
 void add_scaled(float weight, const GesturePose& pose, GesturePose& sum) noexcept;
 
-// A curve of such instants: a uniform cubic B-spline, which is zero with its first two derivatives
-// at both ends.
+// A curve of such poses: a uniform cubic B-spline whose value and first two derivatives are zero at
+// both ends.
 class Gesture {
  public:
   static constexpr float kRate = 15;  // Control points per second.
@@ -48,7 +48,7 @@ class Gesture {
   GesturePose at(float time) const noexcept;
   // Whether it moves hips or feet, so that the feet must be down to start it.
   bool moves_hips() const noexcept { return moves_hips_; }
-  // What moves most, how and how long, for people: "head turns left, 1.2 s".
+  // The largest movement and the duration, for display: "head turns left, 1.2 s".
   const std::string& name() const noexcept { return name_; }
 
  private:
@@ -57,7 +57,7 @@ class Gesture {
   std::string name_;
 };
 
-// The gestures of one style hold at most this many.
+// The maximum number of gestures of one style.
 inline constexpr int kMaxGestures = 16;
 
 }  // namespace panache

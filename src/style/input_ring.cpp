@@ -30,7 +30,7 @@ void InputRing::push(double time, ConstPose pose, const HumanPositions& body,
 }
 
 InputRing::Between InputRing::find(double time) const noexcept {
-  // The youngest entry that is no younger than `time`: halving, as ages go back in time.
+  // The youngest entry that is no younger than `time`: binary search, as ages go back in time.
   size_t young = 0, old = count_ - 1;
   while (young < old) {
     const size_t middle = (young + old) / 2;
@@ -52,7 +52,7 @@ void InputRing::pose(double time, Pose out) const noexcept {
   const auto [a, b, t] = find(time);
   for (size_t j = 0; j < joints_; ++j) {
     const Quat &from = rotations_[a * joints_ + j], &to = rotations_[b * joints_ + j];
-    // At the poses themselves to the bit.
+    // Exact at the poses themselves.
     out.rotations[j] = t == 0 ? from : nlerp(from, to, t);
     const Vec3 &here = translations_[a * joints_ + j], &there = translations_[b * joints_ + j];
     out.translations[j] = t == 0 ? here : lerp(here, there, t);

@@ -1,5 +1,5 @@
 #pragma once
-// The input of the last seconds, to be read at any time in it.
+// The input of the last seconds, readable at any time within it.
 
 #include <span>
 #include <vector>
@@ -9,21 +9,22 @@
 
 namespace panache {
 
-// Allocates when it is made and never again.
+// Only the constructor allocates.
 class InputRing {
  public:
-  // Room for `seconds` of poses of that many joints, whatever their rate.
+  // Room for `seconds` of poses with that many joints, at any rate.
   InputRing(size_t joints, double seconds);
 
   void clear() noexcept { head_ = times_.size() - 1, count_ = 0; }
-  // Adds a pose at `time` (seconds, never before the last one), with what the rig made of it.
+  // Adds a pose at `time` (seconds, never before the last one), with the body and root that the rig
+  // read from it.
   void push(double time, ConstPose pose, const HumanPositions& body, const RootPose& root) noexcept;
 
   bool empty() const noexcept { return count_ == 0; }
   double oldest() const noexcept { return time(count_ - 1); }
   double newest() const noexcept { return time(0); }
-  // The input at `time`, which is held within oldest() and newest(): joints, body (in the body
-  // frame) and ground, straight between two poses. Nothing if empty.
+  // The input at `time`, clamped to oldest() to newest(), linear between poses: joints, body (in
+  // the body frame) and root. Nothing if empty.
   void pose(double time, Pose out) const noexcept;
   HumanPositions body(double time) const noexcept;
   RootPose root(double time) const noexcept;
@@ -38,17 +39,17 @@ class InputRing {
   }
 
  private:
-  // A pose as the rig read it. Times are stored apart to avoid padding.
+  // A pose as the rig read it. Times are stored separately to avoid padding.
   struct Body {
     HumanPositions positions{};
     RootPose root;
   };
   struct Between {
-    size_t a, b;  // Places: earlier, later.
+    size_t a, b;  // Indices: earlier, later.
     float t;
   };
-  // A pose closer than this to the one before it gives way to the next, so that any rate fits. All
-  // of a tracker of 120 Hz are kept.
+  // A pose closer than this to the one before is replaced by the next, so that any rate fits. All
+  // poses of a 120 Hz tracker are kept.
   static constexpr double kMinGap = 0.008;
 
   size_t index_of(size_t age) const noexcept {
@@ -62,7 +63,7 @@ class InputRing {
   std::vector<Body> bodies_;
   std::vector<Quat> rotations_;     // [entries][joints]
   std::vector<Vec3> translations_;  // Likewise.
-  size_t head_, count_ = 0;         // The newest; the first that is pushed has place 0.
+  size_t head_, count_ = 0;         // `head_`: index of the newest; the first push has index 0.
 };
 
 }  // namespace panache

@@ -1,5 +1,5 @@
 #pragma once
-// One character being restyled live, with the tempo of the style as far as time allows.
+// Restyles one character live, with the style's tempo as far as lag and lead allow.
 
 #include <memory>
 #include <optional>
@@ -17,34 +17,35 @@ struct LiveOptions : PlaybackOptions {
   std::shared_ptr<const Model> remover = nullptr;
 };
 
-// A stylizer, and what goes before it: a pass that takes a style off, and a playback.
+// A stylizer, preceded by a pass that takes a style off and by a playback.
 class LiveStylizer {
  public:
-  // Fails with a message where an option of time is out of its range, or where `max_lead` is asked
-  // of a model that predicts nothing.
+  // Fails with a message if a time option is out of range, or if `max_lead` is used with a model
+  // without a predictor.
   static Result<void> check(const Model& model, const LiveOptions& options);
-  // Fails likewise, and where Stylizer::create() does.
+  // Fails likewise, or if Stylizer::create() fails.
   static Result<LiveStylizer> create(std::shared_ptr<const Model> model, Rig rig,
                                      const LiveOptions& options = {});
 
-  // Forgets the motion so far, and with it lag, lead and place.
+  // Forgets the motion so far, including lag, lead and position.
   void reset() noexcept;
 
   // See Stylizer::step(); `seconds` passed since the last step. Allocates nothing, never fails.
   void step(ConstPose in, std::span<const float> strengths, double seconds, Pose out) noexcept;
 
-  // The style of the remover that is taken off the input before all else, at the input's tempo; -1:
-  // none, as at first. Eased as strengths are. Other numbers are ignored.
+  // The remover's style to take off the input first, at the input's tempo; -1 (initially): none.
+  // Eased like strengths. Other numbers are ignored.
   void set_removed(int style) noexcept {
     if (removal_) removal_->set_removed(style);
   }
 
-  // Where the shown input is: seconds after the newest pose, below zero if late, at the last step.
+  // Position of the shown input: seconds after the newest pose, negative if it lags, at the last
+  // step.
   double ahead() const noexcept { return playback_ ? playback_->ahead() : 0; }
-  // Cycles left out (above zero) and played again (below) since the start, in sum.
+  // Cycles skipped minus cycles repeated since the start.
   int skipped_cycles() const noexcept { return playback_ ? playback_->skipped_cycles() : 0; }
-  // Whether time is the input's own and nothing is taken off, so that a step is that of the
-  // stylizer alone.
+  // Whether the tempo is the input's and no style can be taken off, so that a step only calls the
+  // stylizer.
   bool is_pass_through() const noexcept { return !playback_ && !removal_; }
 
   // See Stylizer.
@@ -60,7 +61,7 @@ class LiveStylizer {
   size_t removal_state_size() const noexcept { return removal_ ? removal_->state_size() : 0; }
 
   Stylizer stylizer_;
-  std::unique_ptr<Playback> playback_;  // Null where time is the input's own.
+  std::unique_ptr<Playback> playback_;  // Null if the tempo is the input's.
   std::optional<RemovalPass> removal_;  // With a remover.
 };
 

@@ -9,9 +9,9 @@ namespace panache {
 namespace {
 
 constexpr double kSameFrames = 0.6;
-constexpr float kMaxFit = 1;  // Of the logarithm of the rate.
+constexpr float kMaxFit = 1;  // Maximum change of the logarithm of the rate.
 
-// The pace at `phase`, straight between two samples, and around the seam.
+// The pace at `phase`, linear between samples, also across the seam.
 PaceSample pace_at(const std::vector<PaceSample>& round, double phase, int length) {
   const auto later = std::upper_bound(round.begin(), round.end(), phase,
                                       [](double p, const PaceSample& s) { return p < s.phase; });
@@ -31,7 +31,7 @@ double advance_at(const std::vector<PaceSample>& round, double phase, int length
   return clip_advance(phase, pace.rate * static_cast<double>(factor), pace.flight);
 }
 
-// The phases after so many steps, from 0 on.
+// The phases of `frames` steps, from 0 on.
 std::vector<double> play(const std::vector<PaceSample>& round, int length, int frames, float fit) {
   std::vector<double> phases = {0};
   for (int i = 0; i < frames; ++i) {
@@ -40,7 +40,7 @@ std::vector<double> play(const std::vector<PaceSample>& round, int length, int f
   return phases;
 }
 
-// Steps that a round takes, with fractions.
+// Number of steps in a round, fractional.
 double duration(const std::vector<PaceSample>& round, int length) {
   double phase = 0, advance = advance_at(round, 0, length, 0);
   int steps = 0;
@@ -51,8 +51,8 @@ double duration(const std::vector<PaceSample>& round, int length) {
   return steps + (length - phase) / advance;
 }
 
-// The phases with what the search leaves made up: flights go frame by frame and land on whole
-// frames of the input, and the tempo between them is scaled to fit.
+// Corrects the remaining error of the search: flights go frame by frame and land on whole frames of
+// the input; the tempo between them is scaled to fit.
 std::vector<double> fit_between_flights(const std::vector<PaceSample>& round, int length,
                                         const std::vector<double>& phases) {
   const size_t steps = phases.size() - 1;

@@ -14,9 +14,9 @@ namespace panache {
 namespace {
 
 constexpr const char* kFormatVersion = "1";
-constexpr std::string_view kScale = ".scale";  // Of a layer of bytes.
+constexpr std::string_view kScale = ".scale";  // Of an int8 layer.
 
-// Without streams: with them, the module of the page would hold all of the library's locales.
+// Without streams, which would add all locales of the library to the page's module.
 std::vector<std::string> split_lines(std::string_view text) {
   std::vector<std::string> lines;
   while (!text.empty()) {
@@ -60,7 +60,7 @@ Result<std::shared_ptr<const Model>> Model::create(const TensorFile& file,
   if (Result<void> read = model->read_metadata(file, name); !read) return read.error();
   if (Result<void> read = model->read_numbers(file, name); !read) return read.error();
   for (const auto& [key, tensor] : file.tensors) {
-    // What a byte is worth is no parameter, but a part of how one is written.
+    // Scales of int8 weights do not count as parameters.
     const bool unit = key.ends_with(kScale) &&
                       file.tensors.contains(key.substr(0, key.size() - kScale.size()) + ".weight");
     if (!unit && !is_gesture(key)) model->parameter_count_ += tensor.values.size();
@@ -131,7 +131,7 @@ Result<void> Model::read_metadata(const TensorFile& file, const std::string& nam
     }
     for (size_t i = 0; i < lines.size(); ++i) styles_[i].*entry = lines[i];
   }
-  // Styles may be learnt on it.
+  // A model without styles can be used to learn some.
   if (styles_.empty() && !recipe_->learns_styles) return Error{name + ": has no styles"};
   if (styles_.size() > kMaxStyles) {
     return Error{name + ": has " + std::to_string(styles_.size()) + " styles; expected at most " +

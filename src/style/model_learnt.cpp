@@ -1,5 +1,4 @@
-// Reading what a model has of styles beside the heads that were trained: those that were learnt in
-// closed form, and gestures.
+// Reads the parts of styles besides trained heads: styles learnt in closed form, and gestures.
 
 #include <cmath>
 
@@ -8,9 +7,9 @@
 namespace panache {
 namespace {
 
-// What the tensors of a learnt style begin with.
+// Prefix of a learnt style's tensors.
 std::string learnt_prefix(size_t learnt) { return "learnt." + std::to_string(learnt) + "."; }
-// What the gestures of a style begin with. `index`: among the styles of its kind.
+// Prefix of a style's gestures. `index`: among the styles of its kind.
 std::string gesture_prefix(bool learnt, size_t index) {
   return learnt ? learnt_prefix(index) + "gesture." : "gesture." + std::to_string(index) + ".";
 }

@@ -1,4 +1,4 @@
-// Reading the networks of a model: its tensors, and the numbers in its metadata.
+// Reads the networks of a model: its tensors, and the numbers in its metadata.
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ Result<void> Model::read_networks(const TensorFile& file, const std::string& nam
   std::array<Trunk, kNetworks> trunks;
   for (size_t n = 0; n < kNetworks; ++n) {
     const std::string prefix = networks[n].prefix;
-    // Styles are learnt on the pose network's; others that no style asks may be missing.
+    // Styles are learnt on the pose network's trunk; trunks without heads may be missing.
     const bool needed = networks[n].heads > 0 || n == kPose;
     Result<Trunk> trunk =
         needed ? Trunk::read(file, prefix + ".trunk", inputs, name) : Trunk::none(inputs);

@@ -1,5 +1,5 @@
 #pragma once
-// A model as a source of change: its networks by the strengths of its styles, and its gestures.
+// A model as a source of change: its networks, weighted by the styles' strengths, and its gestures.
 
 #include "style/change_source.h"
 #include "style/networks.h"
@@ -21,7 +21,7 @@ class NetworkSource final : public ChangeSource {
 
   PoseLayout layout() const override { return model().layout(); }
   AskedChange ask(const Seen& seen) noexcept override;
-  // The two parts of ask(), so that a crowd's networks can be evaluated together between them.
+  // The two parts of ask(); between them, a crowd's networks are evaluated together.
   StyleNetworks::Pass begin(const Seen& seen) noexcept;
   AskedChange finish(const Seen& seen) noexcept;
 
@@ -31,7 +31,7 @@ class NetworkSource final : public ChangeSource {
   const GesturePose* gesture() const noexcept { return gestures_.now(); }
   const Model& model() const noexcept { return networks_.model(); }
 
-  // Names what is read and written outside this object.
+  // Adds the memory that is used outside this object.
   void add_memory(Prefetch& prefetch) const noexcept { networks_.add_memory(prefetch); }
 
   // Calls visit(member) for everything that tells one character from another.
@@ -48,7 +48,7 @@ class NetworkSource final : public ChangeSource {
     uint32_t gesture_seed;
   } options_;
   std::span<const float> wanted_;
-  Shape shape_;  // As asked for.
+  Shape shape_;  // As requested.
   EasedStrengths strengths_;
   StyleNetworks networks_;
   GesturePlayer gestures_;

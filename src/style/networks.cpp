@@ -42,7 +42,7 @@ void StyleNetworks::add_heads(std::span<const Pass> passes, Styles in_force, int
   const Model::Heads& heads = m.heads_[network];
   for (const Pass& pass : passes) std::ranges::fill(out(*pass.networks), 0.0f);
   if (heads.layers.empty()) return;
-  // Heads that are active whatever the styles: the only one, or that of no style.
+  // Heads that are always active: the only one, or that of no style.
   const size_t always = heads.count > m.built_in() || !m.recipe().style_heads;
   const size_t first = always > 0 ? 0 : in_force.begin;
   const size_t last = std::min(heads.count, always + in_force.end);

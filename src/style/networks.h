@@ -11,45 +11,44 @@
 
 namespace panache {
 
-// The evaluation of a model for one character. It holds little more than its results: what it works
-// in is on the stack, so that a thousand characters share the caches with the one model.
+// The evaluation of a model for one character. It holds little more than its results; scratch
+// memory is on the stack, so that a thousand characters and the model share the caches.
 class StyleNetworks {
  public:
   explicit StyleNetworks(std::shared_ptr<const Model> model);
 
-  // Strengths in force from now on, one per style of the model; above 1 a strength counts less. A
-  // forward pass goes through the heads of the styles that are not 0, and through no other.
+  // Strengths from now on, one per style of the model; above 1 a strength has less effect. A
+  // forward pass evaluates only the heads of styles with a nonzero strength.
   void set_strengths(std::span<const float> strengths) noexcept;
 
-  // Evaluates a window as PoseHistory::window() gives it. The results stay until the next call.
-  // The gate goes this share of the way from where it was to where the window wants it.
+  // Evaluates a window as PoseHistory::window() gives it. The results stay until the next call. The
+  // gate moves by the share `gate_share` from its last value towards the window's.
   void forward(std::span<const float> window, float gate_share = 1) noexcept;
-  // The same for several characters of one model at once, which reads its weights once for several
-  // of them: bit for bit what forward() gives each. No character may come twice. Allocates nothing;
-  // works in about 200 KB of the stack.
+  // The same for several characters of one model at once, which share the reading of its weights;
+  // bit-identical to forward() for each. No character may occur twice. Allocates nothing; uses
+  // about 200 KB of stack.
   struct Pass {
     StyleNetworks* networks;
     std::span<const float> window;
     float gate_share = 1;
   };
   static void forward_all(std::span<const Pass> passes) noexcept;
-  // How much of the styles' answer to this very motion is given, beside their mean answer: 1 on
-  // most motion like what they were trained or learnt on, towards 0 on motion unlike it. Learnt
-  // styles have a gate each; this is the mean over the styles in force, by their strengths.
+  // How much of the styles' response to this motion is used, instead of their mean: 1 on most
+  // motion similar to the training data, towards 0 on out-of-distribution motion. Each learnt style
+  // has a gate; this is the mean over the active styles, weighted by strength.
   float gate() const noexcept;
   // The features that styles are learnt on: the activations of all hidden layers of the pose trunk
   // for a window. out.size() = Model::activation_count().
   void activations(std::span<const float> window, std::span<float> out) const noexcept;
-  // The pose network's numbers, in the model's own units undone. What change they are,
-  // Recipe::to_change() tells. [Recipe::outputs]
+  // The pose network's denormalised outputs; Recipe::to_change() converts them. [Recipe::outputs]
   std::span<const float> pose() const { return pose_out_; }
-  // Of the styles in force together, by their strengths.
+  // The sum of the active styles' stances, weighted by strength.
   Stance stance() const noexcept;
   float log_rate() const { return timing_out_[0]; }  // log of input seconds per output second.
   std::span<const float> contact() const { return contact_out_; }  // Probability per foot [2].
 
   const Model& model() const { return *model_; }
-  // Names strengths and results.
+  // Adds strengths and results.
   void add_memory(Prefetch& prefetch) const noexcept;
 
   // Calls visit(member) for everything that tells one character from another of this model.
@@ -62,25 +61,25 @@ class StyleNetworks {
  private:
   class ScratchArena;
   static void evaluate(std::span<const Pass> passes, std::span<float> numbers) noexcept;
-  // Writes a window, and what else the networks take in.
+  // Writes the networks' input: the window and further features.
   void write_input(std::span<const float> window, std::span<float> input) const noexcept;
-  // Draws the pose trunk's activations towards their mean as far as the gates are closed.
+  // Moves the pose trunk's activations towards their mean as the gates close.
   static Rows<const float> shrink(std::span<const Pass> passes, Rows<const float> hidden,
                                   ScratchArena& arena) noexcept;
-  // All styles with a strength that is not 0 are among these.
+  // A range that includes all styles with a nonzero strength.
   struct Styles {
     size_t begin, end;
   };
   static Styles styles_in_force(std::span<const Pass> passes) noexcept;
-  // The sum of a network's heads in force, each times its strength, into out(character).
+  // Writes the sum of a network's active heads, weighted by strength, to out(character).
   template <class Out>
   static void add_heads(std::span<const Pass> passes, Styles in_force, int network,
                         Rows<const float> hidden, ScratchArena& arena, Out out) noexcept;
-  // Adds what the learnt styles in force answer to what the trunks have left in `scratch`.
+  // Adds the outputs of the active learnt styles, from the trunks' activations in `scratch`.
   static void add_learnt(std::span<const Pass> passes, std::span<const float> scratch,
                          ScratchArena& arena);
-  // How far a window is from those that a style was learnt from: 1 where trust in it ends. Leaves
-  // the standardised difference of the activations from their mean in `apart`.
+  // How far a window is from a style's examples; at 1 its gate begins to close. Writes the
+  // standardised difference of the activations from their mean to `apart`.
   float leverage(const Model::Learnt& learnt, std::span<const float> activations,
                  std::span<float> apart, ScratchArena& arena) const noexcept;
 
@@ -89,8 +88,8 @@ class StyleNetworks {
   std::vector<float> pose_out_;
   std::array<float, 1> timing_out_{};
   std::array<float, 2> contact_out_{};
-  float gate_ = 1;                   // Of the built-in styles.
-  std::vector<float> learnt_gates_;  // As it was when the style was last in force. [learnt styles]
+  float gate_ = 1;                   // The built-in styles' gate.
+  std::vector<float> learnt_gates_;  // From when each style was last active. [learnt styles]
 };
 
 }  // namespace panache

@@ -1,4 +1,4 @@
-// The styles that were learnt in closed form, and how well they know a window.
+// Styles learnt in closed form, and their gates.
 
 #include <algorithm>
 #include <cmath>

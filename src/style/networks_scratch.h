@@ -9,12 +9,12 @@
 
 namespace panache {
 
-// Moves a gate by `share` of the way; at 1 to the very bit, wherever it was.
+// Moves a gate by `share` of the way; a share of 1 gives exactly `wanted`.
 inline void ease_gate(float wanted, float share, float& open) {
   open = share < 1 ? open + share * (wanted - open) : wanted;
 }
 
-// Room on the stack, handed out in parts that begin on a cache line.
+// An arena on the stack; allocations are aligned to cache lines.
 class StyleNetworks::ScratchArena {
  public:
   explicit ScratchArena(std::span<float> numbers) : remaining_(numbers) {}
@@ -23,11 +23,11 @@ class StyleNetworks::ScratchArena {
     remaining_ = remaining_.subspan(part.size());
     return part;
   }
-  // So many rows of so many numbers.
+  // `count` rows of `numbers` floats.
   Rows<float> rows(size_t count, size_t numbers) {
     return {take(count * padded(numbers)).data(), count, padded(numbers)};
   }
-  // The memory allocated so far, to be handed out again by a copy.
+  // The remaining memory, for a nested arena.
   std::span<float> remaining() const { return remaining_; }
 
  private:

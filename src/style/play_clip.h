@@ -1,6 +1,6 @@
 #pragma once
-// A whole clip with the changes of a source, at the tempo that it asks for: what restyle() does
-// with a model's, and the laboratory with those of other systems.
+// Plays a whole clip with the changes of a source, at the tempo it requests: restyle() uses a model
+// as the source, the laboratory other systems.
 
 #include <functional>
 #include <memory>
@@ -10,12 +10,11 @@
 
 namespace panache {
 
-// Each time a new one, which has asked for nothing yet.
+// Returns a new, unused source each time.
 using MakeSource = std::function<std::unique_ptr<ChangeSource>()>;
 
-// `loop`: the result becomes a loop, if the clip does not stay as it is, bit for bit; of one that
-// is_loop() or that check_closable() lets pass. LoopMode is not looked at. `progress`: see
-// restyle().
+// `loop`: the result becomes a loop, unless it is identical to the clip; requires is_loop() or
+// check_closable(). LoopMode is ignored. `progress`: see restyle().
 Restyled play_clip(const Clip& clip, const Rig& rig, const MakeSource& make_source, bool loop,
                    const RestyleOptions& options, const std::function<void(double)>& progress = {});
 

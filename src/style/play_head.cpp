@@ -7,7 +7,7 @@ namespace panache {
 namespace {
 
 constexpr double kEase = 0.1;         // Seconds.
-constexpr double kReturnSpeed = 0.1;  // Of the clock: a tenth is not noticeable.
+constexpr double kReturnSpeed = 0.1;  // Relative to the clock: a tenth is not noticeable.
 constexpr double kReturnSeconds = 0.5;
 
 double smooth(double t) {

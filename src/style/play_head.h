@@ -1,26 +1,26 @@
 #pragma once
-// How far the play head may be from now, and how it gets there.
+// A play head that lags or leads the live input within bounds.
 
 namespace panache {
 
-// A style plays its input faster or slower than it comes. Live the head can be late by `max_lag`
-// and, where input is predicted, ahead by `max_lead`; near a bound the rate eases to 1. Without a
-// style it returns to now.
+// A style plays its input faster or slower than it arrives. Live, the head can lag by `max_lag`
+// and, if input is predicted, lead by `max_lead`; near a bound the rate eases to 1. Without a style
+// it returns to the newest input.
 class PlayHead {
  public:
   // Seconds, both 0 or more.
   PlayHead(double max_lag, double max_lead) : max_lag_(max_lag), max_lead_(max_lead) {}
 
   void reset() noexcept { ahead_ = 0; }
-  // Goes on by `seconds` of the clock; `rate`: input seconds per second that the style asks for, or
-  // nothing where no style asks. Returns the input seconds that the head went.
+  // Advances by `seconds` of the clock; `rate`: the style's input seconds per second, ignored
+  // unless `styled`. Returns the input seconds that the head moved.
   double advance(double seconds, double rate, bool styled) noexcept;
-  // Goes on elsewhere: `seconds` later in the input.
+  // Jumps by `seconds` in the input.
   void jump(double seconds) noexcept { ahead_ += seconds; }
 
-  // Seconds from now to the head: below zero it is late.
+  // Seconds from the newest input to the head; negative: it lags.
   double ahead() const noexcept { return ahead_; }
-  // How much of the way a style that is faster (slower) than its input is still free to go, 0 to 1.
+  // How freely a style can still play faster (slower) than its input, 0 to 1.
   double room_ahead() const noexcept;
   double room_behind() const noexcept;
 
@@ -31,7 +31,7 @@ class PlayHead {
   }
 
  private:
-  // The rate eases over this much before a bound, or half of what lies between the bounds. Seconds.
+  // The rate eases over this time before a bound, at most half the distance of the bounds. Seconds.
   double ease() const noexcept;
 
   double max_lag_, max_lead_;

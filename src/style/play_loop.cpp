@@ -13,15 +13,14 @@
 namespace panache {
 namespace {
 
-// A result repeats itself when no pose of a round is further than this from that of the round
-// before it, in the mean of the joints. Metres.
+// A result repeats if no pose of a round differs by more than this from the previous round, mean
+// over the joints. Metres.
 constexpr float kRepeats = 0.0003f;
-// The longest time that a style may take to settle: the slowest filters have forgotten 98 % by
-// then.
+// The maximum time for a style to settle: the slowest filters have decayed by 98 % then.
 constexpr double kSettleSeconds = 12;
 constexpr int kFewestRounds = 3;
 
-// What a step did.
+// The result of a step.
 struct LoopStep {
   PaceSample pace;
   BodyChange change;
@@ -64,7 +63,7 @@ class LoopPlayer {
         timing_(options.timing),
         stepper_(looped, rig, source, options.stylizer) {}
 
-  // The first round, at the tempo that the styles ask for.
+  // Plays the first round, at the tempo of the styles.
   void play_free() {
     Round round;
     double phase = 0;
@@ -76,7 +75,7 @@ class LoopPlayer {
     finish(std::move(round));
   }
 
-  // The next one, in whole frames.
+  // Plays the next one, in whole frames.
   void play_round(int number) {
     std::vector<PaceSample> pace;
     for (const LoopStep& step : round_) pace.push_back(step.pace);
@@ -93,7 +92,7 @@ class LoopPlayer {
     return round;
   }
   bool has_settled() const { return settled_; }
-  // Of the frames of the last round, and its end.
+  // The phases of the last round's frames, and of its end.
   const std::vector<double>& phases() const { return phases_; }
 
  private:
@@ -108,7 +107,7 @@ class LoopPlayer {
                  stepper_.gate(),
                  stepper_.stage_facts(),
                  {}};
-    // The body as it came out, seen from its own root.
+    // The resulting body, relative to its root.
     BodyPose body;
     reader_.read(stepper_.pose(), body);
     const Quat to_heading = rotation_y(-body.facing);

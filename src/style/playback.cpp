@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kSearchEvery = 0.06;  // Seconds.
 constexpr double kBlend = 0.2;         // Seconds from the old head to the new one.
-// Time constant of what is predicted beyond the newest pose: guesses tremble more than motion does.
+// Time constant for predictions beyond the newest pose, which are noisier than motion.
 constexpr float kLeadSeconds = 0.04f;
 
 float smooth(double t) { return static_cast<float>(t * t * (3 - 2 * t)); }
@@ -23,7 +23,7 @@ Playback::Playback(const Rig& rig, float max_speed, std::shared_ptr<const Model>
     : options_(options),
       head_(options.max_lag, options.max_lead),
       input_(rig, max_speed),
-      // A candidate for a cycle needs what was before it.
+      // A candidate for a cycle needs earlier poses, too.
       ring_(rig.joint_count(), options.max_lag + (options.skip_cycles ? kBeforeCycle + kBlend : 0)),
       shown_rotations_(rig.joint_count()),
       old_rotations_(rig.joint_count()),
@@ -90,21 +90,21 @@ void Playback::pose_at(double ahead, const RootOffset& offset, Pose out) noexcep
   } else {
     ring_.pose(time_ + ahead, out);
   }
-  // The whole body, by its root joints: turned where it stands, and moved.
+  // Turns the whole body in place and moves it, by its root joints.
   input_.rig().transform_root(offset.turn, root_at(ahead).position, offset.translation, out);
 }
 
-// Leaves out a cycle, or plays one again, where that is due and the motion has one.
+// Skips or repeats a cycle if that is due and the motion has one.
 void Playback::skip_cycle(double rate) noexcept {
   if (!options_.skip_cycles || blended_ < 1 || time_ - searched_ < kSearchEvery) return;
   searched_ = time_;
   const double at = time_ + std::min(head_.ahead(), 0.0);
   std::optional<double> away;
   if (rate < 1) {
-    // Late by a cycle: a moment that came later and looks the same.
+    // Lagging by a cycle: look for a later, similar pose.
     away = find_cycle(ring_, at, kShortestCycle, std::min(kLongestCycle, time_ - at));
   } else if (rate > 1 && head_.room_ahead() < 1) {
-    // At the bound: one that came earlier.
+    // At the maximum lead: look for an earlier one.
     const double oldest = std::max(ring_.oldest() + kBeforeCycle, time_ - options_.max_lag);
     away = find_cycle(ring_, at, std::max(-kLongestCycle, oldest - at), -kShortestCycle);
   }
@@ -119,7 +119,7 @@ void Playback::skip_cycle(double rate) noexcept {
   skipped_ += *away > 0 ? 1 : -1;
 }
 
-// The head as it was goes on beside the new one until that has taken over.
+// The old head continues during the blend to the new one.
 void Playback::blend_from_old(double seconds, double played, Pose shown) noexcept {
   if (blended_ >= 1) return;
   blended_ = std::min(1.0, blended_ + seconds / kBlend);

@@ -1,6 +1,6 @@
 #pragma once
-// The input of the last seconds, what is predicted of the next, and a play head between them: it
-// goes through a live input at the tempo of a style.
+// Plays a live input at the tempo of a style: the recent input, a prediction of the next, and a
+// play head between them.
 
 #include <memory>
 #include <optional>
@@ -19,32 +19,32 @@ struct PlaybackOptions {
   // kMaxLag, and 0 to PredictorNetwork::kMaxSeconds. With both at 0 nothing is delayed, and the
   // tempo is the input's own.
   double max_lag = 0, max_lead = 0;
-  // Where the head is late by a whole cycle of a gait (or of anything that repeats), it leaves out
-  // that cycle; where it can go no further ahead, it plays the last one again. So a style can be
-  // slower or faster than its input indefinitely. Needs a max_lag longer than a cycle.
+  // If the head lags by a whole cycle of a gait (or of any repetition), it skips that cycle; if it
+  // reaches the maximum lead, it repeats the last one. This lets a style be slower or faster than
+  // its input indefinitely. Needs a max_lag longer than a cycle.
   bool skip_cycles = false;
   static constexpr double kMaxLag = 4;
 };
 
-// What a skipped or repeated cycle would have added to the way is left out of it, or added: the
-// character goes on from where it is, and stands elsewhere than its input does. The constructor
-// allocates; nothing else does, and nothing fails.
+// A skipped cycle is missing from the way, a repeated one is added to it: the character continues
+// from its position, which then differs from the input's. Only the constructor allocates; nothing
+// fails.
 class Playback {
  public:
-  // `max_speed`: see Observer; `model`: predicts the input, where `options` ask for a lead.
+  // `max_speed`: see Observer; `model`: predicts the input if `options` allow a lead.
   Playback(const Rig& rig, float max_speed, std::shared_ptr<const Model> model,
            const PlaybackOptions& options);
 
-  // Forgets the motion so far, and with it lag, lead and place.
+  // Forgets the motion so far, including lag, lead and position.
   void reset() noexcept;
-  // Takes in the newest pose; returns whether it continues the motion, see Observer. Otherwise all
+  // Adds the newest pose; returns whether it continues the motion, see Observer. If not, everything
   // before it is forgotten.
   bool take_in(ConstPose in, double seconds) noexcept;
 
-  // What a play head shows next.
+  // The next pose at the play head.
   struct Shown {
-    ConstPose pose;  // Good until the next one.
-    double seconds;  // Of the input, since the last one.
+    ConstPose pose;  // Valid until the next call.
+    double seconds;  // Input time since the last one.
     float flight;    // See FlightWatch::amount().
   };
   // `seconds`: since the last pose; `rate`: see PlayHead::advance().
@@ -68,7 +68,7 @@ class Playback {
   }
 
  private:
-  void forget() noexcept;  // Of the motion so far, all but the observer's part.
+  void forget() noexcept;  // Forgets all but the observer.
   void skip_cycle(double rate) noexcept;
   void look_ahead(double seconds) noexcept;
   RootPose root_at(double ahead) const noexcept;
@@ -78,19 +78,19 @@ class Playback {
   PlaybackOptions options_;
   PlayHead head_;
   int skipped_ = 0;
-  Observer input_;  // The newest pose; the stylizer's own is that of the play head.
+  Observer input_;  // Sees the newest pose; the stylizer's sees the play head's.
   InputRing ring_;
-  FlightWatch flights_;  // Of the newest poses, which the play head may still be behind.
+  FlightWatch flights_;  // Up to the newest pose, so it can see ahead of the play head.
   std::optional<PosePredictor> predictor_;
-  PredictedPose ahead_;  // The smoothed lead of the play head's body over the newest.
-  // The body that is shown, and the one before a skip. [joints]
+  PredictedPose ahead_;  // The smoothed difference from the newest pose to the play head's.
+  // The shown pose, and the one from before a skip. [joints]
   std::vector<Quat> shown_rotations_, old_rotations_;
   std::vector<Vec3> shown_translations_, old_translations_;
   double time_ = 0;                 // Input seconds since the start,
-  double searched_ = 0;             // and when a cycle was last looked for.
-  RootOffset offset_, old_offset_;  // Of skipped cycles; its turn fades.
-  double old_ahead_ = 0;            // Of the head as it was before the last skip,
-  double blended_ = 1;              // and how much of the way from it is done, 0 to 1.
+  double searched_ = 0;             // and the time of the last search for a cycle.
+  RootOffset offset_, old_offset_;  // From skipped and repeated cycles; the turn fades.
+  double old_ahead_ = 0;            // The head's position before the last skip,
+  double blended_ = 1;              // and the progress of the blend from it, 0 to 1.
 };
 
 }  // namespace panache

@@ -14,13 +14,13 @@ Vec3 mid_hip_of(const PredictedPose& pose) {
   return to_world(middle, pose.root);
 }
 
-// The rotations of rotation vectors. All at once, as compilers make vectors of such loops; the bits
-// are those of one by one.
+// Converts rotation vectors to rotations. All at once, because compilers vectorise such loops;
+// results are bit-identical.
 template <size_t n>
 void rotations_of(std::span<const Vec3, n> vectors, std::span<Quat, n> out) {
   std::array<float, n> s, sine, cosine;
   for (size_t j = 0; j < n; ++j)
-    s[j] = dot(vectors[j], vectors[j]) / 4;  // Of the half angle a: a^2.
+    s[j] = dot(vectors[j], vectors[j]) / 4;  // a^2 of the half angle a.
   sine.fill(1);
   cosine.fill(1);
   // Half a turn and less: Taylor's series of sin(a) / a and cos(a) in a^2, of which rounding loses

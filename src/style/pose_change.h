@@ -1,5 +1,5 @@
 #pragma once
-// A style's change and the body that it changes.
+// Applies a style's change to a body.
 
 #include <array>
 
@@ -10,12 +10,12 @@
 
 namespace panache {
 
-// World rotation that the change puts on a joint, in the heading frame.
+// World rotation that the change applies to a joint, in the heading frame.
 Quat joint_rotation(const StyleDelta& change, int joint) noexcept;
-// Of all joints.
+// The same for all joints.
 std::array<Quat, kHumanJoints> joint_rotations(const StyleDelta& change) noexcept;
 
-// The canonical body (body frame, metres) with the change's rotations and hips height on it.
+// The canonical body (body frame, metres) with the change's rotations and hips height.
 HumanPositions change_body(const HumanPositions& body, const StyleDelta& change) noexcept;
 
 // The change from the body `before` to the body `after`, both canonical.

@@ -8,7 +8,7 @@
 namespace panache {
 namespace {
 
-// Until predictions were checked the network is trusted most. Metres.
+// Until predictions are checked, the network has the largest weight. Metres.
 constexpr std::array<float, 4> kFirstErrors = {0.02f, 0.04f, 0.06f, 0.06f};
 // The share of a new error in the mean: four checks a second, so half is forgotten in a second.
 constexpr float kErrorGain = 0.16f;
@@ -83,7 +83,7 @@ PosePredictor::Predictions PosePredictor::ask_experts(double seconds) const noex
           newest_};
 }
 
-// By the fourth power: twice the error, one sixteenth of the weight.
+// Fourth power: twice the error gives one sixteenth of the weight.
 PosePredictor::PerExpert PosePredictor::weights_of(const PerExpert& errors) noexcept {
   constexpr float kNothing = 1e-5f;  // Metres.
   const float least = *std::min_element(errors.begin(), errors.end()) + kNothing;
@@ -103,7 +103,7 @@ PredictedPose PosePredictor::predict(double seconds) const noexcept {
   // The share of the later check.
   const auto later =
       static_cast<float>(std::clamp((seconds - kChecks[0]) / (kChecks[1] - kChecks[0]), 0.0, 1.0));
-  // Each is laid on what is known, by its part.
+  // Adds each prediction, by its weight.
   PredictedPose out = newest_;
   for (size_t g = 0; g < kExperts; ++g) {
     const float share = (1 - later) * weights_[0][g] + later * weights_[1][g];

@@ -10,9 +10,9 @@
 
 namespace panache {
 
-// The model's network knows motion like that of its training; on other motion constant velocity,
-// constant acceleration, or no motion at all, may be the better prediction. So each of them is held
-// to what came of its last predictions, and they are mixed by how far off they were.
+// The model's network predicts motion similar to its training data well; on other motion constant
+// velocity, constant acceleration or no motion at all may be better. The weights of these experts
+// follow the errors of their last predictions.
 class PosePredictor {
  public:
   // `model` has a predictor.
@@ -21,7 +21,8 @@ class PosePredictor {
   void reset() noexcept;
   // Adds the pose at `time` (seconds, never before the last one).
   void push(double time, const HumanPositions& body, const RootPose& root) noexcept;
-  // The body `seconds` (0 to PredictorNetwork::kMaxSeconds) after the newest pose. One was pushed.
+  // The body `seconds` (0 to PredictorNetwork::kMaxSeconds) after the newest pose. At least one was
+  // pushed.
   PredictedPose predict(double seconds) const noexcept;
 
   // Calls visit(member) for everything that tells one character from another of this model.
@@ -48,12 +49,12 @@ class PosePredictor {
   PoseHistory history_;
   double time_ = 0;
   PredictedPose newest_;
-  // Mean distance of the joints, metres, forgotten over a second or so; and how much of the say
-  // each has by that, eased. Per check.
+  // Mean joint error, metres, averaged over about a second; and the resulting weights of the
+  // experts, eased. Per check.
   std::array<PerExpert, kChecks.size()> errors_{}, weights_{};
-  std::array<Predictions, kChecks.size()> predictions_;  // That wait to be checked,
+  std::array<Predictions, kChecks.size()> predictions_;  // Waiting to be checked,
   double predicted_at_ = 0;                              // all made at this time.
-  size_t checked_ = kChecks.size();                      // How many of them were.
+  size_t checked_ = kChecks.size();                      // How many were checked.
 };
 
 }  // namespace panache

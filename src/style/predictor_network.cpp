@@ -11,7 +11,7 @@
 namespace panache {
 namespace {
 
-// As many deviations from the mean as the network ever saw.
+// Deviations from the mean, the limit in training.
 constexpr float kInputClip = 3;
 
 }  // namespace

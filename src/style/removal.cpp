@@ -9,7 +9,7 @@
 namespace panache {
 namespace {
 
-// Where in a list of rising numbers `value` is: an index with a fraction.
+// The position of `value` in an ascending list: an index with a fraction.
 double place_in(const std::vector<double>& list, double value) {
   const auto later = std::lower_bound(list.begin(), list.end(), value);
   if (later == list.begin()) return 0;
@@ -25,7 +25,7 @@ bool asks_for_a_style(const std::vector<StrengthTrack>& tracks) {
   });
 }
 
-// What the second pass made of the result of the first, as if it were of the input.
+// Combines the results of both passes into one relative to the input.
 Restyled joined(const Restyled& neutral, Restyled styled) {
   for (size_t f = 0; f < styled.source_frames.size(); ++f) {
     const double at = styled.source_frames[f];

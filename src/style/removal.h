@@ -1,6 +1,6 @@
 #pragma once
-// A style taken off a motion: a first pass with a model that was trained on reversed pairs, the
-// remover, makes it neutral; a second one may put another style on.
+// Takes a style off a motion: a first pass with the remover, a model trained on reversed pairs,
+// makes it neutral; a second pass may put another style on.
 
 #include <memory>
 #include <string>
@@ -10,21 +10,21 @@
 
 namespace panache {
 
-// Whether a model takes styles off (see names.h). Its styles are those that it takes off.
+// Whether a model takes its styles off instead of putting them on (see names.h).
 bool is_remover(const Model& model);
 
-// The index in the remover of the style to take off; "" is kAnyStyle, for motion in a style that it
-// does not know. Fails if `remover` puts styles on; an unknown name is answered with the nearest.
+// The remover's index of the style to take off; "" means kAnyStyle, for motion in an unknown style.
+// Fails if `remover` puts styles on, or with the nearest names if the name is unknown.
 Result<int> find_removal(const Model& remover, std::string_view style);
 
 // What to take off.
 struct Removal {
   std::shared_ptr<const Model> remover;
-  int style = 0;  // Of the remover.
+  int style = 0;  // Index in the remover.
 };
 
-// restyle() of the clip without the style. Shape and tracks are those of the styles that are put
-// on; times count in seconds of the clip. With all strengths at 0 the result is the neutral motion.
+// Takes the style off the clip, then calls restyle(). Shape and tracks apply to the styles that are
+// put on; times are seconds of the clip. With all strengths at 0 the result is the neutral motion.
 Result<Restyled> restyle_without(const Clip& clip, const Rig& rig, const Removal& removal,
                                  const std::shared_ptr<const Model>& model,
                                  const std::vector<StrengthTrack>& tracks,

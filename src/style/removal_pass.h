@@ -1,5 +1,5 @@
 #pragma once
-// The first of two live passes: it takes a style off the input, before another puts styles on.
+// The first of two live passes: takes a style off the input before the second puts styles on.
 
 #include <cstddef>
 #include <memory>
@@ -12,18 +12,18 @@ namespace panache {
 
 class RemovalPass {
  public:
-  // `options` but for their shape. Fails where `remover` puts styles on, and where
-  // Stylizer::create() does.
+  // `options`: all but the shape is used. Fails if `remover` puts styles on, or if
+  // Stylizer::create() fails.
   static Result<RemovalPass> create(std::shared_ptr<const Model> remover, Rig rig,
                                     StylizerOptions options);
 
-  // The style of the remover that is taken off; -1: none, as at first. Eased as strengths are.
-  // Other numbers are ignored.
+  // The remover's style to take off; -1 (initially): none. Eased like strengths. Other numbers are
+  // ignored.
   void set_removed(int style) noexcept;
-  // The input without the style, good until the next step; times as Stylizer::step() takes them.
+  // The input without the style, valid until the next step; times as for Stylizer::step().
   ConstPose step(ConstPose in, double input_seconds, double output_seconds) noexcept;
 
-  // See Stylizer; the style that is taken off is no part of the state.
+  // See Stylizer; the style to take off is not part of the state.
   void reset() noexcept { stylizer_.reset(); }
   const Stylizer& stylizer() const noexcept { return stylizer_; }
   size_t state_size() const noexcept { return stylizer_.state_size(); }

@@ -10,7 +10,7 @@
 namespace panache {
 namespace {
 
-// A model's styles as a clip has them.
+// A model's styles with strengths that change over a clip.
 class TrackedStyles final : public ChangeSource {
  public:
   TrackedStyles(const std::shared_ptr<const Model>& model, const std::vector<StrengthTrack>& tracks,
@@ -31,7 +31,7 @@ class TrackedStyles final : public ChangeSource {
   NetworkSource networks_;
 };
 
-// Fails where a style is not as strong at the end of the loop as at its beginning.
+// Fails if a style's strength differs between both ends of the loop.
 Result<void> check_strengths(const LoopSeam& seam, double frame_time, const Model& model,
                              const std::vector<StrengthTrack>& tracks) {
   constexpr float kSame = 1e-4f;

@@ -1,6 +1,6 @@
 #pragma once
-// A whole clip restyled, with the tempo of the style: the play head runs through the input as fast
-// or as slowly as the style asks. A loop becomes a loop.
+// Restyles a whole clip at the style's tempo: the play head runs through the input as fast or as
+// slowly as the style requests. Loops stay loops.
 
 #include <functional>
 #include <string>
@@ -12,52 +12,52 @@
 
 namespace panache {
 
-// The strength of one style along the input: straight lines between points, held before the first
-// and after the last.
+// The strength of one style over input time: linear between points, constant before the first and
+// after the last.
 struct StrengthTrack {
   struct Point {
     double seconds;  // Of the input.
     float strength;
   };
   int style = 0;
-  std::vector<Point> points;  // In order of time, at least one.
+  std::vector<Point> points;  // Sorted by time, at least one.
 
   float at(double seconds) const;
 };
 
-// Whether a clip is restyled as a loop, so that its last pose is its first, travel aside.
+// Whether a clip is restyled as a loop, so that its last pose equals its first, except for travel.
 enum class LoopMode {
   off,
-  // Where it is one, see is_loop(), no strength differs between its ends, and there are no gestures
-  // at random.
+  // If it is a loop (is_loop()), strengths are equal at both ends, and there are no random
+  // gestures.
   detect,
-  force,  // Or restyle() fails and says why that cannot be.
+  force,  // Otherwise restyle() fails and says why.
 };
 
 struct RestyleOptions {
   StylizerOptions stylizer;
-  bool timing = true;  // Change the tempo too; off, the result has the input's frames.
+  bool timing = true;  // Change the tempo too; otherwise keep the input's frames.
   LoopMode loop = LoopMode::detect;
 };
 
-// How a clip was made a loop.
+// How a clip was closed into a loop.
 struct LoopFacts {
-  bool closed = false;   // The last pose is the first, travel aside; otherwise all else is 0.
-  int rounds = 0;        // How often it was played, the round before the result included,
-  bool settled = false;  // until one repeated the one before it; false: until the rounds ran out.
-  float input_gap = 0;   // See LoopSeam::gap: of the input, metres,
-  float spread = 0;      // and what was left of it in the result, to be spread over the cycle.
+  bool closed = false;   // The last pose is the first, except travel; if not, all else is 0.
+  int rounds = 0;        // Rounds played, including the one before the result,
+  bool settled = false;  // until one repeated the one before; false: up to the limit.
+  float input_gap = 0;   // See LoopSeam::gap: in the input, metres,
+  float spread = 0;      // and the rest in the result, spread over the cycle.
 };
 
 struct Restyled {
   Clip clip;                           // At the input's rate.
-  std::vector<double> source_frames;   // Per frame of it, the input's frame (fractional).
+  std::vector<double> source_frames;   // Per output frame, the input's frame (fractional).
   std::vector<FootContacts> contacts;  // Per frame of it.
   std::vector<float> gates;            // Per frame of it, see Stylizer::gate().
   std::vector<StageFacts> stages;      // Per frame of it.
   LoopFacts loop;
 
-  // Of the frames of `clip` before `first` as they are: a calibration pose is no motion.
+  // Starts with the frames of `clip` before `first`, unchanged, such as a calibration pose.
   static Restyled begin(const Clip& clip, int first);
   void append(ConstPose pose, double source_frame, FootContacts planted, float gate,
               StageFacts facts);
@@ -66,8 +66,8 @@ struct Restyled {
 // Whether `result` is the clip, bit for bit.
 bool is_unchanged(const Clip& clip, const Restyled& result);
 
-// `progress` is called with 0 to 1 now and then; may be empty. With all strengths at 0, model and
-// recipe permitting, the result is the input. Fails where `rig` or the options do not suit.
+// `progress` is called with 0 to 1 occasionally; may be empty. With all strengths at 0, the result
+// is the input if the model's recipe allows. Fails if `rig` or the options do not fit.
 Result<Restyled> restyle(const Clip& clip, const Rig& rig,
                          const std::shared_ptr<const Model>& model,
                          const std::vector<StrengthTrack>& tracks,

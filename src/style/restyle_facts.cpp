@@ -21,7 +21,7 @@ Toes toes_of(PosedRig& reader, ConstPose pose) {
 
 float over_ground(Vec3 a, Vec3 b) { return std::hypot(b.x - a.x, b.z - a.z); }
 
-// Fills in what the feet did from frame `first` on.
+// Sets the facts about the feet from frame `first` on.
 void measure_feet(const Clip& clip, const Rig& rig, const Restyled& result, int first,
                   RestyleFacts& facts) {
   PosedRig reader(rig);

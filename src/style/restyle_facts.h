@@ -8,16 +8,15 @@ namespace panache {
 struct RestyleFacts {
   bool unchanged = false;  // The result is the clip, bit for bit.
   LoopFacts loop;
-  // Shares of the motion, 0 to 1: what the styles made of this very motion (the mean of
-  // Stylizer::gate()), and frames in which something besides its feet held the body, and in which
-  // hands kept what they touch.
+  // Shares, 0 to 1: the mean of Stylizer::gate(), frames in which something besides the feet held
+  // the body, and frames in which hands kept what they touch.
   float known = 1, seated = 0, touching = 0;
-  // The share of frames with a planted foot that stands in the input, 0 to 1, and how fast the toes
-  // of such feet slide, in the mean: in the result and in the input, m/s.
+  // The share of frames with a planted foot that stands in the input, 0 to 1, and the mean sliding
+  // speed of such feet's toes in the result and in the input, m/s.
   float planted = 0, slide = 0, input_slide = 0;
 };
 
-// `clip`: what `result` was made of, with joints of `rig`.
+// `clip`: the input of `result`, with the joints of `rig`.
 RestyleFacts restyle_facts(const Clip& clip, const Rig& rig, const Restyled& result);
 
 }  // namespace panache

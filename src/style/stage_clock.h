@@ -1,5 +1,5 @@
 #pragma once
-// Who times the stages of a step.
+// Timing of the stages of a step.
 
 #include <cstddef>
 
@@ -15,7 +15,7 @@ enum class Stage : size_t {
   first_of_row,
 };
 
-// Told when each stage of a step is done, to time them.
+// Is notified when each stage of a step is done.
 class StageClock {
  public:
   virtual ~StageClock() = default;

@@ -14,8 +14,8 @@ struct Stance {
   std::array<float, kFeet> turn{};  // About +y, radians.
 };
 
-// `mean`: what the style changes in the mean. Only styles on tiptoe lift heels: in other styles a
-// small mean lift comes from their steps.
+// `mean`: the style's mean change. Only styles on tiptoe lift heels: in other styles a small mean
+// lift comes from their steps.
 Stance stance_of(const StyleDelta& mean) noexcept;
 
 }  // namespace panache

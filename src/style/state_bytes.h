@@ -1,6 +1,6 @@
 #pragma once
-// Members of a character's memory as bytes, for those who save and restore it. Characters with the
-// same history save the same bytes: members are set before they are saved and have no padding.
+// Saves and restores a character's memory as bytes. Characters with the same history save the same
+// bytes: members are initialised and have no padding.
 
 #include <algorithm>
 #include <cstddef>
@@ -30,16 +30,16 @@ auto bytes_of(T& value) {
   }
 }
 
-// Fowler, Noll and Vo's hash (FNV-1a): tells a damaged state from a whole one.
+// Fowler, Noll and Vo's hash (FNV-1a): detects damaged states.
 inline uint64_t hash_of(std::span<const std::byte> bytes) {
   uint64_t hash = 0xcbf29ce484222325;
   for (const std::byte b : bytes) hash = (hash ^ static_cast<uint64_t>(b)) * 0x100000001b3;
   return hash;
 }
 
-// A state is the hash of what follows it, and all members that `visit_all` visits, one behind the
-// other. `visit_all(visitor)` calls visitor(member) for each, or visitor(member, used) where only
-// the first `used` bytes mean anything: the others are saved as zeros.
+// A state consists of a hash of the rest and all members that `visit_all` visits, concatenated.
+// `visit_all(visitor)` calls visitor(member) for each, or visitor(member, used) if only the first
+// `used` bytes are meaningful: the others are saved as zeros.
 template <class VisitAll>
 size_t state_bytes(VisitAll&& visit_all) {
   size_t size = sizeof(uint64_t);

@@ -1,6 +1,5 @@
 #pragma once
-// A character's step around a source of change: before it the input is seen, after it the change is
-// carried out.
+// A character's step: observes the input, asks a source for the change and carries it out.
 
 #include <array>
 #include <optional>
@@ -14,33 +13,33 @@
 
 namespace panache {
 
-// When a pose is: how much of the input's own time passed since the last step, and how much of the
-// viewer's. They are the same unless a play head runs through the input at another rate.
+// Input time and viewer's time since the last step. They are equal unless a play head runs through
+// the input at another rate.
 struct StepMoment {
   double input_seconds, output_seconds;
-  // How much of a flight the pose is part of, see FlightWatch::amount(), where a play head has seen
-  // poses to come. Otherwise the poses so far tell.
+  // FlightWatch::amount(), if a play head has seen later poses. Otherwise it is derived from the
+  // poses so far.
   std::optional<float> flight = {};
   double clip_seconds = 0;  // See StepTime::clip.
 };
 
-// The constructor allocates; nothing else does unless the source does, and nothing fails.
+// Only the constructor allocates, unless the source does; nothing fails.
 class Stepper {
  public:
-  // `layout`: of the source's windows; `options` are in their ranges.
+  // `layout`: the layout of the source's windows; `options` must be in their ranges.
   Stepper(Rig rig, PoseLayout layout, const StylizerOptions& options);
 
   // Forgets the motion so far.
   void reset() noexcept;
-  // Before the first step of a motion whose second pose is known: the first step then knows whether
-  // the body moves. Later steps do not need it.
+  // Call before the first step of a motion if its second pose is known: the first step then knows
+  // whether the body moves.
   void set_next(ConstPose next, double seconds) noexcept;
-  // See Stylizer::step(). Returns what the source asked for; `clock` may be null.
+  // See Stylizer::step(). Returns the source's request; `clock` may be null.
   AskedChange step(ConstPose in, const StepMoment& moment, ChangeSource& source, Pose out,
                    StageClock* clock = nullptr) noexcept;
 
-  // The two parts of a step, between which the source is asked. `room`: where the window is
-  // written, InputWindow::kMaxNumbers.
+  // The two parts of a step, before and after asking the source. `room`: memory for the window,
+  // InputWindow::kMaxNumbers.
   Seen take_in(ConstPose in, const StepMoment& moment, std::span<float> room,
                StageClock* clock) noexcept;
   void give_out(const AskedChange& asked, const Seen& seen, Pose out) noexcept;
@@ -52,9 +51,9 @@ class Stepper {
   StageFacts stage_facts() const noexcept { return stages_.facts(); }
   const Rig& rig() const noexcept { return observer_.rig(); }
 
-  // Asks the caches for the poses that the next window is made of.
+  // Prefetches the poses of the next window.
   void fetch_poses(double seconds) const noexcept { window_.fetch_poses(seconds); }
-  // Names what a step reads and writes outside this object, but for the poses of the window.
+  // Adds the memory that a step uses outside this object, except for the poses of the window.
   void add_memory(Prefetch& prefetch) const noexcept { observer_.add_memory(prefetch); }
 
   // Calls visit(member) for everything that tells one character from another.
@@ -68,7 +67,7 @@ class Stepper {
   }
 
  private:
-  void forget() noexcept;  // Of the motion so far, all but the observer's part.
+  void forget() noexcept;  // Forgets all but the observer.
   GesturePlayer::Ground ground() const noexcept;
 
   StageOptions options_;
@@ -77,8 +76,8 @@ class Stepper {
   InputWindow window_;
   ChangeStages stages_;
   FlightWatch flights_;
-  float flight_ = 0;  // Of FlightWatch::amount(), at the last step.
-  NextPose next_;     // By set_next(), for the first step; no time for none.
+  float flight_ = 0;  // FlightWatch::amount() at the last step.
+  NextPose next_;     // From set_next(), for the first step; 0 seconds: none.
 };
 
 }  // namespace panache

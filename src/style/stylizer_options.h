@@ -1,5 +1,5 @@
 #pragma once
-// How a character is restyled, whatever asks for the change.
+// Options for restyling a character, with any source of change.
 
 #include <cstdint>
 
@@ -10,27 +10,27 @@
 namespace panache {
 
 struct StylizerOptions {
-  // A change of strength or shape takes about this long to arrive.
+  // A change of strength or shape takes about this long.
   float ease_seconds = 0.15f;
   // Time constant of the filter on the change, never on the input; see OutputFilter.
   float smoothing_seconds = 0.04f;
   bool foot_lock = true;
-  // Hands keep what they touch. Not where a style is taken off: it may be what puts them there.
+  // Hands keep what they touch. Off when a style is removed: the style may cause the contact.
   bool hold_hands = true;
   bool root = true;  // Style the root motion, not only the pose.
-  // The style's tempo also where the feet stand; otherwise such motion keeps its input's time.
+  // Use the style's tempo even while the feet stand; otherwise such motion keeps the input's time.
   bool tempo_everywhere = false;
-  Shape shape;  // At first, see Stylizer::set_shape().
-  // Hips that are faster over the ground, m/s, have jumped, and the past is forgotten. Bodies on
-  // vehicles need more; infinity: nothing is a jump.
+  Shape shape;  // Initially, see Stylizer::set_shape().
+  // Faster hips over the ground, m/s, count as a cut, and the past is forgotten. Bodies on vehicles
+  // need more; infinity: no cuts.
   float max_speed = Observer::kMaxGroundSpeed;
-  // Gestures of the styles in force, thrown in at random: so many per second, 0 to
-  // GesturePlayer::kMaxRate. Characters with different seeds play them at different times.
+  // Random gestures of the active styles per second, 0 to GesturePlayer::kMaxRate. Characters with
+  // different seeds play them at different times.
   float gesture_rate = 0;
   uint32_t gesture_seed = 0;
 };
 
-// Fails with a message where an option is out of its range.
+// Fails with a message if an option is out of range.
 Result<void> check(const StylizerOptions& options);
 
 }  // namespace panache

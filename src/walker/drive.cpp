@@ -17,11 +17,11 @@ constexpr float kMaxTurnOnTheSpot = kTurn / 3;  // rad/s
 constexpr float kSpeedRate = 2.5f, kSpeedLag = 0.12f;
 constexpr float kTurnRate = 4.0f, kTurnLag = 0.1f;
 constexpr float kMaxTurnChange = 3.5f;  // rad/s^2
-// The body leans into a change of speed no sooner than within a step.
+// The body takes about a step to lean into a change of speed.
 constexpr float kLeanLag = 0.35f;
 
-// People walk up to about 2 m/s and run from there; the gap between the two keeps a steady speed
-// from being a mixture.
+// People walk up to about 2 m/s and run above; the hysteresis keeps a steady speed from being a
+// mixture.
 constexpr float kRunAbove = 2.0f, kWalkBelow = 1.8f;
 constexpr float kGaitChangeSeconds = 0.45f;
 
@@ -78,7 +78,7 @@ void Drive::keep_stepping(const WalkerModel& model, bool wanted, bool feet_settl
                           float dt) noexcept {
   const bool moves = going_.speed > 0.02f || std::abs(going_.turn) > 0.03f;
   if (!stepping_ && wanted) {
-    // Starts as the foot on the side of the turn, else the right one, lifts. Standing looks the
+    // Starts when the foot on the side of the turn, else the right one, lifts. Standing looks the
     // same at every phase.
     const float lifts = contact(model)[1] - 0.05f * kTurn;
     phase_ = going_.turn + turn_change_ > 0 ? lifts : lifts + kTurn / 2;
@@ -92,11 +92,11 @@ void Drive::keep_stepping(const WalkerModel& model, bool wanted, bool feet_settl
   const float run = smooth_step(running_);
   float wanted_frequency =
       (1 - run) * cadence(model.walk(), going_.speed) + run * cadence(model.run(), going_.speed);
-  // On the spot, steps come often enough for a foot not to be turned far under the body, and at the
-  // end of a way often enough to come to rest.
+  // When turning on the spot, steps are frequent enough that a foot does not twist far under the
+  // body, and when stopping, frequent enough to come to rest.
   wanted_frequency = std::max(wanted_frequency, kSlowestCadence + 0.35f * std::abs(going_.turn));
   if (!wanted) wanted_frequency = std::max(wanted_frequency, 0.75f);
-  // No two strides of a person take the same time; these differ by about a percent.
+  // Human strides vary in duration; these differ by about a percent.
   const auto t = static_cast<float>(std::fmod(seconds_, 1e4));
   wanted_frequency *= 1 + 0.007f * std::sin(1.9f * t) + 0.006f * std::sin(0.83f * t + 1);
   frequency_ = approach(frequency_, wanted_frequency, dt, 0.1f);
@@ -109,13 +109,13 @@ void Drive::tick(const WalkerModel& model, float wanted_speed, float wanted_turn
   ease(wanted_speed, wanted_turn, dt);
   choose_gait(dt);
   keep_stepping(model, wanted_speed > 0.02f || std::abs(wanted_turn) > 0.03f, feet_settled, dt);
-  // Slow steps are no rarer than the rarest, but shorter.
+  // Below the lowest cadence, steps get shorter instead.
   const float rarer = cadence(model.walk(), going_.speed) / kSlowestCadence;
   amount_ = model.walk_stride(going_.speed).amount * std::min(1.0f, rarer);
 
   const double half = heading_ + double(going_.turn * dt) / 2;
   heading_ += going_.turn * dt;
-  // The body faces where the path will turn to.
+  // The body faces ahead along the turning path.
   const double way = half - going_.turn * model.walk().gaze_lead * amount_;
   x_ += std::sin(way) * double(going_.speed * dt);
   z_ += std::cos(way) * double(going_.speed * dt);
@@ -137,7 +137,7 @@ void Drive::channels(const WalkerModel& model, Channels& out) const noexcept {
 }
 
 Steps Drive::steps(const WalkerModel& model) const noexcept {
-  // A foot takes this much of the cycle to be taken hold of, and to be let go.
+  // The part of the cycle in which the hold of a foot eases in, and out.
   constexpr float kRamp = 0.05f * kTurn;
   const std::array<float, 2> at = contact(model);
   const float stance = at[1] - at[0], swing = kTurn - stance;

@@ -1,32 +1,31 @@
 #pragma once
-// How the walker goes: eases what is wanted, follows the path, chooses between walk and run, and
-// keeps the phase of the steps.
+// The walker's path: eases the wanted speed and turn, chooses between walk and run, and keeps the
+// phase of the steps.
 
 #include "walker/walker_model.h"
 
 namespace panache {
 
 inline constexpr float kMaxWalkerSpeed = 4.5f;  // m/s
-// The sharpest turn at `speed`, rad/s: two rounds in six seconds on the spot, and less where it
-// would need more than a third of gravity to the side.
+// The sharpest turn at `speed`, rad/s: two rounds in six seconds on the spot, and less if the
+// lateral acceleration would exceed a third of gravity.
 float max_walker_turn(float speed) noexcept;
 
-// The state of the steps at one moment, for the feet.
+// The state of the steps at one moment.
 struct Steps {
-  // Of each foot: how firmly it stands (0 to 1), how far through its swing it is (0 to 1; 0 while
-  // it stands), and how far through its stance (likewise).
+  // Per foot: how firmly it stands (0 to 1), its progress through the swing (0 to 1; 0 while it
+  // stands) and through the stance (likewise).
   std::array<float, 2> stands{}, swing{}, stance{};
-  float stance_seconds = 0;  // How long a foot stands.
+  float stance_seconds = 0;  // Duration of a stance.
 };
 
 class Drive {
  public:
-  // Goes on by `dt` seconds towards these; `feet_settled`: neither foot has to step before the body
-  // can stand.
+  // Advances by `dt` seconds; `feet_settled`: the body can stand without another step.
   void tick(const WalkerModel& model, float wanted_speed, float wanted_turn, bool feet_settled,
             float dt) noexcept;
 
-  // The body over the path at this moment, before the feet.
+  // The gait's pose at this moment, before the feet are adjusted.
   void channels(const WalkerModel& model, Channels& out) const noexcept;
   Steps steps(const WalkerModel& model) const noexcept;
 
@@ -44,11 +43,11 @@ class Drive {
   void ease(float wanted_speed, float wanted_turn, float dt) noexcept;
   void choose_gait(float dt) noexcept;
   void keep_stepping(const WalkerModel& model, bool wanted, bool feet_settled, float dt) noexcept;
-  // Landing and lift of the left foot; the latter is the later one.
+  // Phases of landing and lift of the left foot, ascending.
   std::array<float, 2> contact(const WalkerModel& model) const noexcept;
 
   Going going_;
-  float speed_change_ = 0;  // m/s^2; `going_` has it smoothed.
+  float speed_change_ = 0;  // m/s^2; smoothed in `going_`.
   float turn_change_ = 0;   // rad/s^2
   double x_ = 0, z_ = 0, heading_ = 0;
   double phase_ = 0, seconds_ = 0;

@@ -14,14 +14,14 @@ constexpr float kMaxOffset = 0.4f;  // Metres; a foot pulled further slides.
 constexpr float kMaxTwist = 1.0f;   // Radians, likewise.
 constexpr float kSettledOffset = 0.03f, kSettledTwist = 0.12f;
 constexpr float kStepLift = 0.05f;   // Height of a step on the spot.
-constexpr float kMaxReach = 0.995f;  // Of the length of the leg.
+constexpr float kMaxReach = 0.995f;  // Share of the leg's length.
 constexpr float kMaxDrop = 0.1f;
 
-// What is left of an offset at a share of the swing; it is gone before the foot lands.
+// The rest of an offset at a share of the swing; it is 0 before the foot lands.
 float left_at(float swing) { return 1 - smooth_step(swing / 0.92f); }
 
-// A knee that straightens at full stretch does so in no time. Where the gait itself does not reach
-// as far as `wanted`, the leg comes to its `most` only gradually.
+// A knee near full stretch straightens abruptly. If the gait does not reach as far as `wanted`, the
+// leg approaches `most` only gradually.
 float soft_reach(float wanted, float gait, float most) {
   if (wanted <= gait || gait >= most) return std::min(wanted, std::max(gait, most));
   return gait + (most - gait) * (1 - std::exp(-(wanted - gait) / (most - gait)));
@@ -38,7 +38,7 @@ float wrapped(float angle) {
   return angle - turn * std::round(angle / turn);
 }
 
-// Bends the leg so that its ankle comes to `ankle`; by how much the hip is too high for that.
+// Bends the leg so that its ankle reaches `ankle`; returns by how much the hip is too high.
 float reach_for(Vec3 ankle, Leg& leg) {
   const float most = kMaxReach * (length(leg.knee - leg.hip) + length(leg.ankle - leg.knee));
   const Vec3 way = ankle - leg.hip;
@@ -121,7 +121,7 @@ void Feet::tick(const Drive& drive, const Steps& steps, float lead, float dt, Le
     now.stance = steps.stance[f];
     step(f, legs[f], now);
   }
-  // The hips go down fast, as long as a leg is too short, and come up slowly.
+  // The hips sink fast while a leg is too short, and rise slowly.
   drop_ += (std::clamp(drop_ + needed_drop_, 0.0f, kMaxDrop) - drop_) * (1 - std::exp(-dt / 0.04f));
   drop_ *= std::exp(-dt / 0.25f);
 }

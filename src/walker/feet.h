@@ -1,5 +1,5 @@
 #pragma once
-// Keeps the walker's standing feet where they are, and brings the others back under the body.
+// Keeps the walker's standing feet in place, and brings the others back under the body.
 
 #include <array>
 
@@ -13,30 +13,30 @@ namespace panache {
 struct Leg {
   Vec3 hip, knee, ankle, toe;
   Quat upper, lower, foot;  // World rotations.
-  float height = 0;         // Of the toe over a ground that leans with the body.
+  float height = 0;         // Of the toe above a ground that leans with the body.
 };
 using Legs = std::array<Leg, 2>;  // Left, right.
 
 class Feet {
  public:
-  // Moves the legs of this moment, as the gait has them, to where the feet stand. `lead`: how far
-  // the body turns while a foot stands, radians, as far as the gait itself does not show it.
+  // Moves the legs from their pose in the gait to where the feet stand. `lead`: how far the body
+  // turns during a stance beyond the gait itself, radians.
   void tick(const Drive& drive, const Steps& steps, float lead, float dt, Legs& legs) noexcept;
   // Whether both feet stand, and under the body.
   bool are_settled() const noexcept { return settled_; }
-  // How much lower the hips have to be for the legs to reach the ground, metres; eased.
+  // How far the hips must sink for the legs to reach the ground, metres; eased.
   float drop() const noexcept { return drop_; }
 
  private:
   struct Foot {
     bool lifted = false;
     bool known = false;  // `toe` and `yaw` are of the last tick.
-    Vec3 toe;            // World, as the gait had it.
+    Vec3 toe;            // World, in the gait.
     float yaw = 0;       // Likewise.
-    Vec3 offset;         // The horizontal offset from that to the foot.
-    float twist = 0;     // Likewise of the yaw.
+    Vec3 offset;         // Horizontal, from `toe` to the foot.
+    float twist = 0;     // Likewise for the yaw.
     float swing = 0;     // As in Steps, at the last tick.
-    float lift = 0;      // How much higher this swing goes than the gait, metres.
+    float lift = 0;      // Extra height of this swing, metres.
   };
   // The steps of one foot.
   struct Stepping {

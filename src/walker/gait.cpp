@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kTurn = 2 * std::numbers::pi_v<float>;
 
-// Beyond this the data, which turn by up to 60 degrees a second, have too little to say.
+// The data only cover turns up to 60 degrees a second.
 constexpr float kMaxTurn = 1.3f;
 constexpr float kMaxAcceleration = 0.7f;
 
@@ -20,8 +20,7 @@ constexpr float kMaxAcceleration = 0.7f;
 // in people who walk freely (Grieve 1968), and the steps take up the rest.
 constexpr float kFreeExponent = 0.42f;
 
-// From the hips to the left toes, at rest. Made when first used: the skeleton is not there before
-// main().
+// From the hips to the left toes, at rest. Initialised at first use, after the skeleton.
 const std::array<Vec3, 4>& left_leg() {
   static const std::array<Vec3, 4> offsets = [] {
     const Skeleton skeleton = canonical_skeleton();
@@ -59,7 +58,8 @@ Vec3 left_toe(const Channels& channels) {
 
 Channels mirrored(const Channels& channels) noexcept {
   Channels out;
-  // A reflection in x = 0 turns a position's x around, and of a rotation's axis the other two.
+  // A reflection in x = 0 negates a position's x, and the other two components of a rotation's
+  // axis.
   out[0] = -channels[0];
   out[1] = channels[1];
   out[2] = channels[2];

@@ -1,6 +1,6 @@
 #pragma once
-// A gait as numbers: Fourier series over the cycle of two steps, whose coefficients are polynomials
-// of how the body goes.
+// A gait as Fourier series over the cycle of two steps, whose coefficients are polynomials of
+// speed, turn and acceleration.
 
 #include <array>
 #include <span>
@@ -38,10 +38,10 @@ inline constexpr std::array<HumanJoint, 16> kDriven = {HumanJoint::hips,
 inline constexpr int kChannels = 3 + 3 * static_cast<int>(kDriven.size());
 using Channels = std::array<float, kChannels>;
 
-// The same instant with left and right exchanged.
+// The same pose with left and right exchanged.
 Channels mirrored(const Channels& channels) noexcept;
 
-// How a body goes: along its path, smoothed over the steps.
+// A body's motion along its path, smoothed over the steps.
 struct Going {
   float speed = 0;         // m/s
   float turn = 0;          // rad/s, to the left.
@@ -49,12 +49,12 @@ struct Going {
 };
 
 struct Gait {
-  float reference = 0;              // m/s; u is the speed less this one.
-  float slowest = 0, fastest = 0;   // m/s; where it was learnt. u^2 goes no further.
+  float reference = 0;              // m/s; u is the speed minus this.
+  float slowest = 0, fastest = 0;   // m/s; the learnt range, to which u^2 is limited.
   float cadence = 0, exponent = 0;  // Cycles a second: cadence * speed ^ exponent.
-  float gaze_lead = 0;              // Seconds by which the body faces where the path will turn.
-  // Phases at which the left foot lands and lifts at the reference speed, and how they change with
-  // it: radians and radians per m/s. The right foot's are half a cycle later.
+  float gaze_lead = 0;              // Seconds by which the facing leads the path.
+  // Phases at which the left foot lands and lifts at the reference speed, and their change with the
+  // speed: radians and radians per m/s. The right foot's are half a cycle later.
   std::array<float, 2> lands{}, lifts{};
   std::vector<float> coefficients;  // [kChannels][kWaves][kTerms]
 };
@@ -62,12 +62,12 @@ struct Gait {
 void gait_terms(const Gait& gait, const Going& going, std::span<float, kTerms> terms) noexcept;
 void gait_waves(float phase, std::span<float, kWaves> waves) noexcept;
 
-// The instant at `phase` (radians; at 0 the left ankle is furthest ahead of the right).
+// The pose at `phase` (radians; at 0 the left ankle is furthest ahead of the right).
 void evaluate(const Gait& gait, float phase, const Going& going, Channels& out) noexcept;
 // Cycles of two steps a second, at any speed above zero.
 float cadence(const Gait& gait, float speed) noexcept;
-// How far the body goes over its standing foot in a cycle, metres, if all of it were like the
-// middle of the stance; evaluated at `speed`, without turning.
+// How far the body would move over its standing foot in a cycle, metres, if all of it were like the
+// middle of the stance; at `speed`, without turning.
 float way_over_foot(const Gait& gait, float speed);
 
 }  // namespace panache

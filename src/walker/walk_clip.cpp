@@ -8,9 +8,9 @@
 namespace panache {
 namespace {
 
-// How long standing is shown before the first step and after the last.
+// Standing time before the first step and after the last.
 constexpr double kStandSeconds = 0.6;
-// From any speed a walker stands after this long; the last seconds of a clip with a stop.
+// Maximum time to stop from any speed: the last seconds of a clip with a stop.
 constexpr double kSecondsToStand = 2.2;
 
 }  // namespace
@@ -22,7 +22,7 @@ Clip walk_clip(std::shared_ptr<const WalkerModel> model, const WalkClipOptions& 
   clip.resize(static_cast<int>(std::max(1.0, std::round(options.seconds * options.fps))));
   Walker walker(std::move(model));
   if (!options.start) {
-    // Walks itself in, so that the clip begins at full speed.
+    // Starts walking before the clip, so that it begins at full speed.
     std::array<Quat, kHumanJoints> rotations;
     std::array<Vec3, kHumanJoints> translations;
     for (int i = 0; i < 600; ++i) {

@@ -12,14 +12,14 @@
 namespace panache {
 namespace {
 
-// The walker thinks at a rate of its own, so that the caller's makes no difference.
+// The walker has a fixed rate, so that the caller's makes no difference.
 constexpr double kTick = 1.0 / 120;
 constexpr double kLongestStep = 0.25;
-// The lean that the gaits learnt with their turns is that of this speed.
+// The gaits learnt their lean in turns at this speed.
 constexpr float kLearntLeanSpeed = 1.05f;
 
-// A gait faster than the learnt ones, or a mixture, may ask a knee to bend the wrong way; it comes
-// near to straight at most, and slowly there.
+// A gait faster than the learnt ones, or a mixture, may bend a knee the wrong way; limits it softly
+// to almost straight.
 float bent_knee(float bend) {
   constexpr float kSoft = 0.15f;  // Radians.
   return (bend + std::sqrt(bend * bend + kSoft * kSoft)) / 2;
@@ -31,8 +31,8 @@ constexpr float kDegree = std::numbers::pi_v<float> / 180;
 constexpr int kHips = 3, kSpine = 6, kChest = 9, kNeck = 12, kLeftShoulder = 15,
               kRightShoulder = 24;
 
-// Adds breath, a wandering gaze and, as far as the body stands (`standing`, 0 to 1), weight going
-// from foot to foot. A function of time alone.
+// Adds breath, a wandering gaze and, while the body stands (`standing`, 0 to 1), shifts of weight.
+// A function of time only.
 void add_idle(double seconds, float standing, Channels& channels) noexcept {
   constexpr double turn = 2 * std::numbers::pi;
   const auto wave = [&](double hertz, double phase) {
@@ -44,7 +44,7 @@ void add_idle(double seconds, float standing, Channels& channels) noexcept {
   channels[kNeck] += 0.6f * kDegree * breath;
   channels[kLeftShoulder + 2] += 0.6f * kDegree * breath;
   channels[kRightShoulder + 2] -= 0.6f * kDegree * breath;
-  // Frequencies without a common measure do not repeat within a clip.
+  // With incommensurable frequencies nothing repeats within a clip.
   channels[kNeck + 1] += kDegree * (1.6f * wave(0.071, 0.2) + 1.1f * wave(0.173, 0.6));
   channels[kNeck] += kDegree * 0.8f * wave(0.113, 0.4);
   channels[kChest + 1] += kDegree * 0.7f * wave(0.093, 0.1);
@@ -88,7 +88,7 @@ void Walker::step(float speed, float turn, double seconds, Pose out) noexcept {
   speed = std::clamp(finite_or_zero(speed), 0.0f, kMaxWalkerSpeed);
   turn = finite_or_zero(turn);
   seconds_ += std::isfinite(seconds) ? std::clamp(seconds, 0.0, kLongestStep) : 0.0;
-  // A hair's breadth less, for the rounding of sums of 1/60 and the like.
+  // A small tolerance for rounding in sums of 1/60 and similar.
   while (ticks_ * kTick < seconds_ - 1e-9) tick(speed, turn);
   const double behind = ticks_ - seconds_ / kTick;
   const float t = static_cast<float>(std::clamp(1 - behind, 0.0, 1.0));
@@ -125,7 +125,7 @@ void Walker::pose_body() noexcept {
         exp_rotation(Vec3{is_knee ? bent_knee(r[0]) : r[0], r[1], r[2]});
   }
 
-  // The faster the turn, the further into it the whole body leans, about its path on the ground.
+  // The faster the turn, the further the whole body leans into it, about its path on the ground.
   const Going& going = drive_.going();
   const float lean = std::atan((going.speed - kLearntLeanSpeed * drive_.amount()) * going.turn /
                                static_cast<float>(kGravity));

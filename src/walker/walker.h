@@ -13,20 +13,20 @@
 
 namespace panache {
 
-// One character. Equal inputs give equal motion, and nearly the same at any length of step.
+// One character. Deterministic, and nearly independent of the length of steps.
 class Walker {
  public:
   explicit Walker(std::shared_ptr<const WalkerModel> model);
 
   // Stands at the origin, facing +z.
   void reset() noexcept;
-  // Goes on by `seconds` (at most a quarter is taken at once) towards `speed` (0 to
-  // kMaxWalkerSpeed, m/s) and `turn` (rad/s, to the left; up to max_walker_turn), both eased.
-  // Wishes beyond that are brought to it, those that are not numbers are read as zero. `out`: the
-  // 21 joints of canonical_skeleton(), metres. Allocates nothing, never fails.
+  // Advances by `seconds` (limited to 0.25) towards `speed` (0 to kMaxWalkerSpeed, m/s) and `turn`
+  // (rad/s, to the left; up to max_walker_turn), both eased. Values out of range are clamped,
+  // non-finite ones count as zero. `out`: the 21 joints of canonical_skeleton(), metres. Allocates
+  // nothing, never fails.
   void step(float speed, float turn, double seconds, Pose out) noexcept;
 
-  // Where the path is, and how the body goes along it.
+  // Position and heading on the path, and the motion along it.
   RootPose root() const noexcept;
   Going going() const noexcept { return drive_.going(); }
 
@@ -46,7 +46,7 @@ class Walker {
   double seconds_ = 0;  // Since reset().
   int64_t ticks_ = 0;
   Vec3 up_;               // Of the leaning body.
-  Instant before_, now_;  // At the last two ticks: the pose shown lies between them.
+  Instant before_, now_;  // At the last two ticks: the pose is interpolated between them.
 };
 
 // Parameters of walk_clip: a constant speed and turn, from the middle of a stride or, with `start`,

@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kFormat = "panache-walker";
 constexpr const char* kFormatVersion = "1";
 
-// The single numbers of a gait, in the order of the tensor that holds them.
+// The scalars of a gait, in the order of their tensor.
 constexpr int kGaitNumbers = 10;
 template <class SomeGait>
 auto numbers_of(SomeGait& gait) {
@@ -23,9 +23,9 @@ auto numbers_of(SomeGait& gait) {
                     &gait.lifts[1],  &gait.gaze_lead};
 }
 
-constexpr float kTooLarge = 1e3f;  // No gait has such a number.
+constexpr float kTooLarge = 1e3f;  // Larger than any value of a gait.
 
-// Whether the steps come out at sensible times: what every later division counts on.
+// Whether the times of the steps are sensible: later divisions rely on it.
 bool is_gait(const Gait& gait) {
   if (!(gait.slowest > 0.1f && gait.fastest > gait.slowest && gait.fastest < 20)) return false;
   if (!(gait.cadence > 0.01f && gait.cadence < 10 && std::abs(gait.exponent) < 3)) return false;
@@ -87,7 +87,7 @@ WalkerModel::WalkerModel(Gait walk, Gait run, const Channels& stand,
 }
 
 WalkerModel::Strides WalkerModel::find_strides(const Gait& gait) {
-  // A gait is extrapolated this far beyond the speeds that it was learnt at.
+  // A gait is extrapolated this far beyond its learnt speeds.
   const float low = gait.slowest * 0.9f, high = gait.fastest * 1.4f;
   Strides strides;
   for (int i = 0; i < kStrides; ++i) {

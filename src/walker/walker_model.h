@@ -1,5 +1,5 @@
 #pragma once
-// The walker's model: a walk, a run and how it stands. A few thousand numbers.
+// The walker's model: a walk, a run and a standing pose. A few thousand numbers.
 
 #include <array>
 #include <map>
@@ -12,8 +12,8 @@
 
 namespace panache {
 
-// How to evaluate a gait at a speed: as it was learnt at `speed`, and of that so much (`amount`, 0
-// to 1) that the standing foot goes back under the body as fast as the body goes ahead.
+// How to evaluate a gait at a given speed: as learnt at `speed`, scaled by `amount` (0 to 1) so
+// that the standing foot moves back under the body as fast as the body moves ahead.
 struct Stride {
   float speed = 0;
   float amount = 1;
@@ -21,7 +21,7 @@ struct Stride {
 
 class WalkerModel {
  public:
-  // Reads and checks a model file; the message of a failure names what is wrong with it.
+  // Reads and checks a model file; the error message says what is wrong.
   static Result<std::shared_ptr<const WalkerModel>> load(const std::string& path);
   static Result<std::shared_ptr<const WalkerModel>> parse(std::string_view bytes,
                                                           const std::string& name);
@@ -50,7 +50,7 @@ class WalkerModel {
   Gait walk_, run_;
   Channels stand_{};
   Strides walk_strides_, run_strides_;
-  std::map<std::string, std::string> metadata_;  // Data and licence; format adds its own.
+  std::map<std::string, std::string> metadata_;  // Data and licence; format() adds more.
 };
 
 }  // namespace panache

@@ -12,13 +12,13 @@ namespace {
 
 constexpr float kLifted = 0.03f;     // Metres: a foot that is lifted by this is free.
 constexpr float kFirmKnee = 0.05f;   // See bend_of(), metres.
-constexpr float kLegReach = 0.985f;  // Of its length, what a leg is stretched to at most.
+constexpr float kLegReach = 0.985f;  // Maximum stretch, as a share of the leg's length.
 constexpr float kSoftLimit = 0.02f;  // Metres over which the limit sets in.
 
 float legs_of(const Shape& shape) { return shape.regions[static_cast<size_t>(Region::legs)]; }
 
-// How much lower the hips must be than `height` so that no leg is stretched beyond kLegReach, or
-// beyond what it is without the gesture; softly. `before` and `joints`: without it and with it.
+// How far the hips must sink so that no leg stretches beyond kLegReach, or beyond its stretch
+// without the gesture; softly. `before` and `joints`: without and with the gesture.
 float drop_for_legs(const HumanPositions& before, const HumanPositions& joints, float raised) {
   float drop = 0;
   for (size_t f = 0; f < kFeet; ++f) {
@@ -55,7 +55,7 @@ void add_gesture(const GesturePose& gesture, const Shape& shape, const HeadingBo
   change.translation.y += height;
   for (size_t f = 0; f < kFeet; ++f) {
     const LimbJoints leg = leg_joints(static_cast<int>(f));
-    // Seen from the hips.
+    // Relative to the hips.
     const Vec3 target = before[leg.end] + Vec3{0, lift - height, 0};
     const Vec3 ahead = knee_way(before[leg.end], before[index(kToes[f])]);
     turn_limb(leg, target,

@@ -1,5 +1,5 @@
 #pragma once
-// A gesture on top of the style.
+// Adds a gesture to the style's change.
 
 #include "pose/changed_joints.h"
 #include "style/gesture.h"
@@ -7,12 +7,12 @@
 
 namespace panache {
 
-// Turns the upper body of `change` as `gesture` says, as much as `shape` gives each region, and
-// moves the hips. Legs keep ankles and feet where they were, or lift them in a hop.
+// Applies `gesture` to the upper body and hips of `change`, weighted per region by `shape`. Legs
+// keep ankles and feet in place, or lift them in a hop.
 void add_gesture(const GesturePose& gesture, const Shape& shape, const HeadingBody& body,
                  BodyChange& change) noexcept;
 
-// How much a gesture has the feet off the floor, 0 to 1.
+// How far a gesture lifts the feet off the floor, 0 to 1.
 float share_lifted(const GesturePose& gesture, const Shape& shape) noexcept;
 
 }  // namespace panache

@@ -16,24 +16,24 @@ namespace {
 
 using enum HumanJoint;
 
-// A change is taken back over this much before a limit; where the input is beyond its limit, or
-// near it, over at least kLeast beyond the input.
+// A change is reduced from this much before a limit on; if the input is near or beyond the limit,
+// over at least kLeast beyond the input.
 constexpr float kSoft = in_radians(10), kLeast = in_radians(2);
-// Time constants of the shares, as they grow and as they go. With half of the first, legs and hands
-// jumped by more than 6 cm in a frame, three times as often; with it for both, knees did.
+// Time constants of rising and falling shares. With half of the first, jumps of legs and hands by
+// more than 6 cm in a frame were three times as frequent; with the first for both, those of knees.
 constexpr float kTakeSeconds = 0.16f, kGiveSeconds = 0.3f;
 
-// No joint of legs or torso is turned by more than kTurned beyond what it hangs on, softly up to
+// No joint of legs or torso turns by more than kTurned relative to its parent, softly up to
 // kTurnedSoftly more. On a captured walk styles turn them by up to 37 degrees.
 constexpr float kTurned = in_radians(60), kTurnedSoftly = in_radians(30), kCosHalfTurned = .8660f;
 
 constexpr float kWrist = in_radians(70), kSafeWrist = .3420f;
-// A hand whose direction is not known turns no further on its forearm than this. Radians.
+// The maximum turn on its forearm of a hand with unknown direction. Radians.
 constexpr float kUnknownWrist = in_radians(40);
 
-// The share of a change to take back where it brings something from `in` to `out`, both radians
-// beyond a limit, below zero within it. What is left of it, t -> t room / (t + room), stays within
-// `room` of where it begins, and begins without a kink.
+// The share of a change to take back if it moves a joint from `in` to `out`, both radians beyond a
+// limit, negative within it. What is left of it, t -> t room / (t + room), stays within `room` of
+// where it begins, and begins without a kink.
 float share_back(float out, float in) {
   const float from = std::max(in, -kSoft), room = std::max(kLeast, -from), over = out - from;
   return over > 0 ? over / (over + room) * (over / (out - in)) : 0.0f;
@@ -42,14 +42,14 @@ float share_back(float out, float in) {
 void bound_turns(std::array<Quat, kHumanJoints>& rotations) {
   const auto is_far = [&](int j) {
     const Region region = region_of(j);
-    // The scalar part of what it turns beyond the joint that it hangs on is this product.
+    // This product is the scalar part of its turn relative to its parent.
     return (region == Region::legs || region == Region::torso) &&
            !(std::abs(dot(rotations[kHumanParent[j]], rotations[j])) > kCosHalfTurned);
   };
   int first = index(spine);
   while (first < kHumanJoints && !is_far(first)) ++first;
   if (first == kHumanJoints) return;
-  std::array<Quat, kHumanJoints> own;  // Beyond the joint that each hangs on.
+  std::array<Quat, kHumanJoints> own;  // Relative to the parent.
   for (int j = index(spine); j < kHumanJoints; ++j) {
     own[j] = conjugate(rotations[kHumanParent[j]]) * rotations[j];
     if (!is_far(j)) continue;
@@ -69,13 +69,13 @@ Vec3 seen_in(const Frame& frame, Vec3 v) {
   return {dot(v, frame.x), dot(v, frame.y), dot(v, frame.z)};
 }
 
-// A joint that limbs are seen from, and its frame in the input, heading frame.
+// A reference joint for limbs, and its frame in the input, heading frame.
 struct Base {
   HumanJoint joint;
   Frame frame;
 };
 
-// Takes back what a change does beyond the limits.
+// Reduces a change to the limits.
 class Limits {
  public:
   Limits(const HeadingBody& body, const StepTime& time, BodyChange& change)
@@ -102,8 +102,8 @@ class Limits {
     approach(share, wanted, wanted > share ? take_ : give_, 1e-4f);
   }
 
-  // The share to take back where `joint` turns a direction of the input, seen from the base.
-  // `side`: 1 or -1 where x is outward for the limb; 0 where both are.
+  // The share to take back if `joint` turns a direction of the input, relative to the base. `side`:
+  // the sign of x that is outward for the limb; 0 for both.
   float swing_share(const Base& base, HumanJoint joint, Vec3 direction, const Swings& swings,
                     float side) const {
     const auto beyond = [&](Vec3 v) {
@@ -113,7 +113,7 @@ class Limits {
     const float out = dot(now, swings.rest) < swings.safe ? beyond(now) : -kSoft;
     return out > -kSoft ? share_back(out, beyond(seen_in(base.frame, direction))) : 0.0f;
   }
-  // Takes it back, eased as `share`, from all joints from `first` to `last`.
+  // Takes back that share, eased in `share`, from all joints from `first` to `last`.
   void keep_swing(const Base& base, HumanJoint joint, Vec3 direction, const Swings& swings,
                   float side, HumanJoint first, HumanJoint last, float& share) {
     ease(share, swing_share(base, joint, direction, swings, side));
@@ -121,7 +121,7 @@ class Limits {
     turn(base, changed(base, joint, direction), seen_in(base.frame, direction), share, first, last);
   }
 
-  // The same of a hinge between two limbs, from the joint of the lower one on.
+  // The same for a hinge between two limbs, from the joint of the lower one on.
   void keep_hinge(const Base& base, HumanJoint upper, Vec3 upper_way, HumanJoint lower,
                   Vec3 lower_way, const Hinge& hinge, HumanJoint last, float& share) {
     const Vec3 above = changed(base, upper, upper_way), below = changed(base, lower, lower_way);
@@ -136,11 +136,11 @@ class Limits {
     }
     ease(share, wanted);
     if (share == 0) return;
-    // To the bend that it has in the input.
+    // Towards its bend in the input.
     turn(base, below, changed(base, upper, lower_way), share, lower, last);
   }
 
-  // `local`: the hand's direction in its own axes; none where it is not known.
+  // `local`: the hand's direction in its own axes; zero if unknown.
   void keep_wrist(const Base& base, HumanJoint lower, Vec3 lower_way, HumanJoint hand,
                   Quat hand_rotation, Vec3 local, float& share) {
     if (local == Vec3{}) return keep_unknown_wrist(lower, hand, share);
@@ -159,12 +159,12 @@ class Limits {
  private:
   Vec3 at(HumanJoint joint) const { return body_.positions[index(joint)]; }
   Quat of(HumanJoint joint) const { return change_.rotations[index(joint)]; }
-  // A direction of `joint` in the input, heading frame, as the change has it, seen from the base.
+  // A direction of `joint` in the input, heading frame, after the change, relative to the base.
   Vec3 changed(const Base& base, HumanJoint joint, Vec3 direction) const {
     return seen_in(base.frame, rotate(conjugate(of(base.joint)), rotate(of(joint), direction)));
   }
-  // Turns all joints from one to the other by that share of what takes the direction `from` to
-  // `to`, both seen from the base.
+  // Turns all joints from `first` to `last` by a share of the rotation that takes the direction
+  // `from` to `to`, both relative to the base.
   void turn(const Base& base, Vec3 from, Vec3 to, float share, HumanJoint first, HumanJoint last) {
     const Vec3 about = cross(from, to);
     const float sine = length(about);

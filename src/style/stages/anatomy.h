@@ -1,5 +1,5 @@
 #pragma once
-// No joint bends further than people can.
+// Keeps joints within the human range of motion.
 
 #include <array>
 
@@ -9,12 +9,11 @@
 
 namespace panache {
 
-// Takes back a share of what a change bends torso, neck, shoulders, elbows, wrists, hips and knees
-// where that goes beyond the range of motion of people and the input itself does not: from nothing
-// of it 10 degrees before the limit to nearly all. So a limb is always between where the input has
-// it and where the style wants it. The shares come gradually, and go more slowly, so that nothing
-// pops. Nor is a joint of legs or torso turned by more than 90 degrees beyond what it hangs on, as
-// that would be another motion. Where a change leaves a joint as it is, this does, too, to the bit.
+// Reduces a change of torso, neck, shoulders, elbows, wrists, hips and knees that exceeds the human
+// range of motion while the input does not: by nothing 10 degrees before the limit, up to nearly
+// all. A limb thus stays between its directions in the input and in the style. The reductions rise
+// gradually and fall more slowly, so that nothing pops. Joints of legs and torso turn by at most 90
+// degrees relative to their parents; more would be another motion. Unchanged joints stay identical.
 class Anatomy {
  public:
   void reset() noexcept { *this = {}; }
@@ -29,13 +28,13 @@ class Anatomy {
   }
 
  private:
-  // What is taken back at each joint, 0 to 1; of left and right.
+  // Reductions at each joint, 0 to 1; [left, right].
   float torso_ = 0, neck_ = 0;
   std::array<float, 2> shoulders_{}, elbows_{}, wrists_{}, hips_{}, knees_{};
 };
 
-// What Anatomy would take back at each hip joint of a body whose feet are held: that may turn a
-// thigh further than the style does.
+// The reduction that Anatomy would apply at each hip joint after the feet are held, which may turn
+// a thigh further than the style does.
 class ThighWatch {
  public:
   void reset() noexcept { *this = {}; }

@@ -7,17 +7,17 @@ using enum HumanJoint;
 
 // Radii of the canonical body, metres.
 constexpr float kTorsoRadius = 0.122f, kSkull = 0.092f, kForearm = 0.036f;
-// The torso goes from between the hip joints so far towards the middle of the shoulders; the skull
-// so far beyond the head's joint, metres.
+// The torso extends from mid-hip by this share towards mid-shoulder; the skull by this length
+// beyond the head's joint, metres.
 constexpr float kTorsoEnd = 0.85f, kSkullLength = 0.09f;
-// The share of a push that a wrist does not give way by where it is held.
+// The share of a push that a held wrist resists.
 constexpr float kStays = 0.5f;
 // A push may lead into another, unless it is small, metres.
 constexpr int kPasses = 8;
 constexpr float kSmall = 0.005f;
 
-// Along a forearm, from the elbow; beyond 1 is the hand. Up to kElbow it has to be on its own side
-// of the torso; hands go anywhere around it.
+// Positions along a forearm, from the elbow; the hand is beyond 1. Up to kElbow they stay on their
+// own side of the torso; hands may be anywhere around it.
 constexpr std::array<float, 5> kArmPoints = {0, 0.33f, 0.67f, 1, 1.3f};
 constexpr float kElbow = 0.5f;
 // An elbow of the input that is this far on its own side counts as being there, metres.
@@ -64,8 +64,8 @@ class Pusher {
     if (together > 0) way_of_both_ = find_way_of_both();
   }
 
-  // Across the torso, from its axis to the middle between the hands in the input, unit: where hands
-  // go that hold each other; 0 where they do not.
+  // From the torso's axis to the middle between the hands in the input, unit: the direction for
+  // hands that hold each other; 0 if they do not.
   Vec3 way_of_both() const { return way_of_both_; }
 
   ArmPush push_of(const HumanPositions& joints, int side) const {
@@ -78,7 +78,7 @@ class Pusher {
       const float reach = trunk_[c].radius + kForearm;
       const bool far = length(from_line(middle, trunk_[c].from, trunk_[c].to)) > half + reach;
       for (const float place : kArmPoints) {
-        // An elbow may have gone through, and be beyond.
+        // An elbow may have passed through to the other side.
         const bool elbow = c == 0 && place < kElbow;
         if (far && !elbow) continue;
         const Vec3 point = lerp(joints[arm.middle], joints[arm.end], place);
@@ -95,7 +95,7 @@ class Pusher {
         if (!(depth > 0)) continue;
         raise_push(push.move.middle, go / depth, depth * std::clamp(2 * (1 - place), 0.0f, 1.0f));
         raise_push(push.move.end, go / depth, depth);
-        // That way may be long where the nearest way out is short.
+        // That path may be long even if the shortest path out is short.
         if (c > 0 || way_of_both_ == Vec3{}) continue;
         push.together =
             std::max(push.together, std::min(push_across(way, way_of_both_, kept), 2 * depth));
@@ -113,7 +113,7 @@ class Pusher {
     const Vec3 ahead = cross(at(left_upper_arm) - at(right_upper_arm), up);
     return normalized(carried(0, hands - up * dot(hands, up) + ahead * 0.2f));
   }
-  // Across the shoulders (`out`, unit, to its own side), to where it is in the input.
+  // Pushes along the shoulders (`out`, unit, to its own side), to its position in the input.
   void push_elbow(Vec3 out, int side, float place, Vec3 way, float reach, Vec3& push) const {
     if (!(push_across(way, out, reach) > 0)) return;
     const Vec3 was = before(arm_joints(side), place, 0);
@@ -128,7 +128,7 @@ class Pusher {
     return from_line(point, was.from, was.to);
   }
 
-  // What a way from a capsule in the input, world, is with the change.
+  // Applies the change to a vector from a capsule in the input, world.
   Vec3 carried(size_t capsule, Vec3 way) const {
     const Quat turn = change_.rotations[index(capsule == 0 ? chest : head)];
     return rotate(turn, rotate(body_.to_heading, way));
@@ -163,7 +163,7 @@ void ArmsClear::step(const HeadingBody& body, std::array<float, 2> amounts, cons
       push.end = lerp(push.end, both, holds.together);
       const float held = std::max(holds.by_body[side], holds.by_body[1 - side] * holds.together);
       push.end *= 1 - kStays * held;
-      // An elbow swivels by as much as it is bent; the rest is up to the whole arm.
+      // An elbow can swivel only as far as it is bent; the whole arm moves for the rest.
       const float bent = length(from_line(moved[arm.middle], moved[arm.root], moved[arm.end]));
       const float far = length(push.middle);
       if (far > 0) push.end += push.middle * (far / (far + bent) * (1 - holds.together));

@@ -1,5 +1,5 @@
 #pragma once
-// No forearm or hand goes through torso or head.
+// Keeps forearms and hands out of torso and head.
 
 #include <array>
 
@@ -9,15 +9,14 @@
 
 namespace panache {
 
-// Where a change puts a forearm or a hand deeper into torso or head than the input has it, elbow
-// and wrist are pushed out. Where they are further away, or as deep in the input, nothing changes,
-// to the bit.
+// If a change puts a forearm or hand deeper into torso or head than in the input, elbow and wrist
+// are pushed out. Otherwise the change stays identical.
 class ArmsClear {
  public:
   void reset() noexcept { *this = {}; }
-  // A wrist that is held stays, and its elbow gives way; hands that hold each other move together.
-  // `amounts`: how much of a style is in force, 0 to 1, for the left and the right arm; `joints`:
-  // changed_joints() of `body` and `change`, of which it keeps up the arms.
+  // A held wrist stays and its elbow moves; hands that hold each other move together. `amounts`:
+  // how active any style is for the left and the right arm, 0 to 1; `joints`: changed_joints() of
+  // `body` and `change`; updates the arms.
   void step(const HeadingBody& body, std::array<float, 2> amounts, const HandHolds& holds,
             const StepTime& time, HumanPositions& joints, BodyChange& change) noexcept;
 

@@ -9,9 +9,9 @@ namespace {
 
 using enum HumanJoint;
 
-// What a change may move the centre, and how much more it may come to at most; metres.
+// How far a change may freely move the centre, and the maximum beyond; metres.
 constexpr float kFree = 0.08f, kRoom = 0.05f;
-// Upper bodies whose centre is not this high over the hips cannot be righted by turning; metres.
+// An upper body whose centre is lower over the hips cannot be righted by turning; metres.
 constexpr float kLever = 0.05f;
 
 constexpr float kJoints = kHumanJoints;
@@ -38,7 +38,7 @@ void keep_balance(const HeadingBody& body, HumanPositions& joints, BodyChange& c
   const float far = length(moved), over = far - kFree;
   if (!(over > 0)) return;
   const Vec3 way = moved / far;
-  // What is left of `over`, t -> t room / (t + room), begins without a kink.
+  // The remaining part of `over`, t -> t room / (t + room), is smooth at 0.
   const float back = over * over / (over + kRoom);
 
   Vec3 upper;  // The part of the centre that turns, from mid-hip.

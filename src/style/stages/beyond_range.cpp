@@ -10,9 +10,9 @@
 namespace panache {
 namespace {
 
-// What way a hinge bends.
+// The direction in which a hinge bends.
 struct BendWay {
-  float off, along;  // Of the lower limb, across the upper one and along it.
+  float off, along;  // The lower limb's components across and along the upper one.
   float wrong;       // 0 to 1.
 };
 BendWay bend_way(Vec3 upper, Vec3 lower, const Hinge& hinge) {

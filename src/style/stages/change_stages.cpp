@@ -8,7 +8,7 @@
 namespace panache {
 namespace {
 
-// How each stage takes what it needs from the work of a step, and what it leaves there.
+// How each stage reads its inputs from the work of a step and stores its results there.
 
 template <class Stage>
 void carry_out(Stage& stage, StageWork& work) noexcept {

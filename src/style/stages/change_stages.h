@@ -1,5 +1,5 @@
 #pragma once
-// The stages of a step that carry out a change of any source.
+// The stages of a step that carry out a change from any source.
 
 #include <algorithm>
 #include <array>
@@ -26,13 +26,13 @@
 
 namespace panache {
 
-// The stages that remember nothing.
+// The stages without memory.
 struct Gestures : NoMemory {};  // add_gesture.h
 struct Balance : NoMemory {};   // fold.h and balance.h
 
-// All stages in the order of a step; memory, reset, state, and the names of those who time them
-// follow from it. A new stage has a step(StageWork&), or an overload of carry_out() in
-// change_stages.cpp that hands it what it needs.
+// All stages in the order of a step; memory, reset, state and names for timing follow from it. A
+// new stage needs a step(StageWork&), or an overload of carry_out() in change_stages.cpp that
+// passes its arguments.
 using ChangeRow = StageRow<Named<StepWatch, "watch the steps">,            //
                            Named<SeatWatch, "watch the seat">,             //
                            Named<OutputFilter, "filter">,                  //
@@ -62,10 +62,10 @@ class ChangeStages {
             const Observer& observer, const InputWindow& window, const StepTime& time,
             StageClock* clock) noexcept;
 
-  // How much something besides its feet holds the body, at the last step; see SeatWatch.
+  // How much something besides the feet holds the body, at the last step; see SeatWatch.
   float seated() const noexcept { return row_.get<SeatWatch>().amount(); }
-  // At the last step: what is to be done to the input, the probability that each foot is planted,
-  // and input seconds per output second; 1 in a flight, and where the feet stand.
+  // At the last step: the change of the input, the probability that each foot is planted, and input
+  // seconds per output second, which is 1 in a flight and while the feet stand.
   const BodyChange& change() const noexcept { return change_; }
   std::span<const float, kFeet> contacts() const noexcept {
     return row_.get<HeldFeet>().contacts();
@@ -89,7 +89,7 @@ class ChangeStages {
   BodyChange change_;
 };
 
-// The stages of a whole step by name: those of Stage, the row, and the writing of the pose.
+// The names of all stages of a step: those of Stage, the row, and the writing of the pose.
 inline constexpr auto kStageNames = [] {
   constexpr auto kRow = ChangeRow::kNames;
   std::array<const char*, static_cast<size_t>(Stage::first_of_row) + kRow.size() + 1> names = {

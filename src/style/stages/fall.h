@@ -6,13 +6,12 @@
 
 namespace panache {
 
-// While the body is in the air, what a style adds to its height stays what it was at take-off, so
-// that it rises and falls as its input does; on the ground the height goes back to the style's.
+// In the air, a style's change of the height keeps its value at take-off, so that the body rises
+// and falls like its input; on the ground the height returns to the style's.
 class FreeFall {
  public:
   void reset() noexcept { *this = {}; }
-  // `flight`: see FlightWatch::amount(). Adjusts the height of `change`; not at all where that
-  // stays as it is.
+  // `flight`: see FlightWatch::amount(). Adjusts the height of `change`.
   void step(float flight, const StepTime& time, BodyChange& change) noexcept;
 
   // Calls visit(member) for everything that tells one character from another.
@@ -23,7 +22,7 @@ class FreeFall {
 
  private:
   float wanted_ = 0;  // Height at the last step, before it was adjusted, metres,
-  float held_ = 0;    // and what was added to it.
+  float held_ = 0;    // and the adjustment.
 };
 
 }  // namespace panache

@@ -9,14 +9,14 @@ namespace panache {
 namespace {
 
 constexpr float kRateSeconds = 0.05f;  // Time constant of the tempo.
-// A change may move joints at this share of their own speed, to which a little is added so that who
-// stands still is not frozen; m/s. Beyond, it is smoothed so many times as long at most.
+// A change may move joints at this share of their own speed plus a little, so that a standing body
+// is not frozen; m/s. Beyond, it is smoothed at most kSlowest times as long.
 constexpr float kFreeShare = 0.2f, kStillSpeed = 0.1f, kSlowest = 11;
 constexpr float kSpeedSeconds = 0.1f;  // Over which speeds are averaged.
-// So it is where the gate closes by this much or more, in the mean over this time. Where it is
-// open, what a style does was captured or trained, and nothing is held back.
+// This applies while the gate is closed by at least this much, on average over this time. While it
+// is open, the motion is like the training data, and nothing is held back.
 constexpr float kUnfamiliarGate = 0.005f, kGateSeconds = 3;
-// What turning a joint moves: about half a limb away, at once but for the usual filter.
+// Lever of a turning joint, about half a limb, and the time constant of the usual filter.
 constexpr float kLever = 0.4f, kUsualSeconds = 0.04f;
 constexpr float kFastest = 100;  // m/s; also substituted for NaN.
 constexpr float kNear = 1e-7f, kNearRate = 1e-6f;

@@ -1,5 +1,5 @@
 #pragma once
-// The outputs of the networks without jitter.
+// Smooths the outputs of the networks.
 
 #include <array>
 
@@ -10,9 +10,8 @@
 namespace panache {
 
 // One-pole filters on the change and on the tempo, never on the input. Numbers that are not finite
-// count as 0. In motion that is unlike what was captured, where the change would move legs, torso
-// or an arm more than the input moves them, it is smoothed up to eleven times as long: calm motion
-// stays calm.
+// count as 0. On out-of-distribution motion, a change that would move legs, torso or an arm more
+// than the input does is smoothed up to eleven times as long: calm motion stays calm.
 class OutputFilter {
  public:
   explicit OutputFilter(float smoothing_seconds = 0) : smoothing_seconds_(smoothing_seconds) {}
@@ -36,7 +35,7 @@ class OutputFilter {
   }
 
  private:
-  // Of the filters of the regions at this step.
+  // The gains of the regions' filters at this step.
   std::array<float, kRegions> gains(const StyleDelta& delta, float gate, const HumanPositions& body,
                                     const StepTime& time) noexcept;
 
@@ -45,7 +44,7 @@ class OutputFilter {
   float log_rate_ = 0;
   HumanPositions body_{};  // At the last step.
   float gate_ = 1;         // Mean over a few seconds.
-  // Mean speeds of the joints of a region, m/s: the input's, and what the change would add.
+  // Mean speeds of each region's joints, m/s: in the input, and added by the change.
   std::array<float, kRegions> speed_{}, added_speed_{};
 };
 

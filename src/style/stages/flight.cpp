@@ -11,19 +11,19 @@ namespace {
 
 // The second derivative of the height is that of a parabola through this much before and after.
 constexpr double kHalfFit = 0.06;  // Seconds.
-// In captured jumps the centre falls at 8 to 11 m/s^2, as limbs weigh otherwise than ours; a
-// body that crouches or walks downstairs reaches 5 for a moment, but has a foot on the floor.
+// In captured jumps the centre falls at 8 to 11 m/s^2, as real limbs differ from our masses;
+// crouching or walking downstairs reaches 5 briefly, but with a foot on the floor.
 constexpr double kFalls = -6, kFallsOn = -4;       // m/s^2; to begin and to last.
 constexpr float kOffFloor = 0.05f, kNear = 0.03f;  // Metres; likewise.
-// The fit blurs both ends of a flight: found are about 0.04 s less than it lasts. Runs show 0.05 to
+// The fit blurs both ends of a flight: it is detected about 0.04 s too short. Runs show 0.05 to
 // 0.12 s, hops 0.15 s and more.
 constexpr double kTooShort = 0.12, kWhole = 0.18;  // Seconds.
-// A flight begins this much before it is found, and the impact of its landing is part of it.
+// A flight begins this long before its detection, and includes the impact of the landing.
 constexpr double kBefore = 0.06, kAfter = 0.14;
 constexpr double kEaseIn = 0.25, kEaseOut = 0.2;
 
-// Shares of the body's mass, by the joints that it is near (Winter, Biomechanics and Motor Control
-// of Human Movement: trunk .50, head .08, arm .05, leg .16).
+// Shares of the body's mass near each joint (Winter, Biomechanics and Motor Control of Human
+// Movement: trunk .50, head .08, arm .05, leg .16).
 constexpr std::array<float, kHumanJoints> kMass = {.15f, .15f,  .20f,  0,
                                                    .08f,  // hips, spine, chest, neck, head
                                                    0,    .02f,  .02f,  .01f,  // left arm
@@ -43,12 +43,12 @@ void FlightWatch::push(double time, const HumanPositions& world) noexcept {
   Sample& now = samples_[count_++];
   now = {time, 0, lowest_foot(world)};
   for (size_t j = 0; j < kHumanJoints; ++j) now.height += kMass[j] * world[j].y;
-  // Those that have as much after them as before.
+  // Samples with enough later samples for the fit.
   while (judged_ + 1 < count_ && samples_[judged_].time + kHalfFit <= time) judge(judged_++);
 }
 
-// Least squares: height = a + b x + c x^2 with x from the mean of the times. Nothing where there
-// are too few.
+// Least squares: height = a + b x + c x^2 with x from the mean of the times. Nothing if there are
+// too few samples.
 FlightWatch::Ballistics FlightWatch::ballistics(int sample) const noexcept {
   const double middle = samples_[sample].time;
   int first = std::max(sample - 1, 0), last = std::min(sample + 1, count_ - 1);
@@ -76,10 +76,10 @@ void FlightWatch::judge(int sample) noexcept {
   const bool flies =
       now.feet > (open_ ? kNear : kOffFloor) && body.acceleration < (open_ ? kFallsOn : kFalls);
   if (flies && !open_) {
-    // One that was too short to count makes room.
+    // A flight that was too short to count is overwritten.
     const Flight& last = flights_[newest_];
     if (last.end - last.start > kTooShort) newest_ = (newest_ + 1) % flights_.size();
-    // What rises comes down again to where it was after twice the time that it rises.
+    // A body returns to its height after twice the time of its rise.
     flights_[newest_] = {now.time, now.time, 2 * body.velocity / kGravity};
   }
   open_ = flies;
@@ -91,7 +91,8 @@ float FlightWatch::amount(double time) const noexcept {
   for (size_t f = 0; f < flights_.size(); ++f) {
     const Flight& flight = flights_[f];
     double lasts = flight.end - flight.start;
-    // One that goes on counts as soon as it will be long enough, eased in as if it were just that.
+    // A flight in progress counts as soon as it is expected to be long enough, eased in as if it
+    // were just that long.
     if (open_ && f == newest_) {
       lasts = std::max(lasts, std::min(flight.expected, lasts + kTooShort));
     }

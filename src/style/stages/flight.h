@@ -1,6 +1,6 @@
 #pragma once
-// When the body is in the air. It falls as its input does, whatever the style's
-// tempo: see Stylizer::rate().
+// Detects when the body is in the air. It falls at its input's tempo, not the style's: see
+// Stylizer::rate().
 
 #include <array>
 #include <cstddef>
@@ -9,19 +9,19 @@
 
 namespace panache {
 
-// Poses pushed this much before they are played show a flight early enough to ease into. Seconds.
+// Pushing poses this long before they are played shows a flight early enough to ease in. Seconds.
 inline constexpr double kFlightAhead = 0.6;
 
-// Finds jumps and hops in poses as they come: times at which no foot is near the floor and the body
-// falls freely. The flights of a run are too short to count, so that its tempo stays even.
+// Detects jumps and hops in a stream of poses: times with no foot near the floor and the body in
+// free fall. The flights of a run are too short to count, so that its tempo stays even.
 class FlightWatch {
  public:
   void reset() noexcept { *this = {}; }
   // `time`: of the input, seconds, never before the last one; `world`: canonical joints, Y up,
   // metres, floor at 0.
   void push(double time, const HumanPositions& world) noexcept;
-  // How much of a flight the moment `time` is part of, 0 (the style has its tempo) to 1 (the input
-  // has). It eases in before a flight, as far as poses pushed show it coming, and out after the
+  // How much the moment `time` belongs to a flight, 0 (the style's tempo) to 1 (the input's). It
+  // eases in before a flight, as far as it is visible in the pushed poses, and out after the
   // landing. Without lag a flight is detected about 0.15 s after take-off.
   float amount(double time) const noexcept;
 
@@ -36,28 +36,28 @@ class FlightWatch {
   struct Sample {
     double time = 0;
     float height = 0;  // Of the body's centre, metres.
-    float feet = 0;    // Of the lowest foot over where it stands, metres.
+    float feet = 0;    // Of the lowest foot above its standing height, metres.
   };
   struct Flight {
-    double start = 0, end = 0;  // Seconds; none where they are equal.
+    double start = 0, end = 0;  // Seconds; none if they are equal.
     double expected = 0;        // Its duration, predicted from the rise at the start.
   };
-  // How the body's centre moves up, m/s and m/s^2.
+  // Upward motion of the body's centre, m/s and m/s^2.
   struct Ballistics {
     double velocity = 0, acceleration = 0;
   };
   void judge(int sample) noexcept;
   Ballistics ballistics(int sample) const noexcept;
 
-  // Poses closer than this to the last are left out: the fit has enough of them.
+  // Poses closer than this to the last are skipped: the fit does not need them.
   static constexpr double kMinGap = 0.008;
   static constexpr int kSamples = 20;
 
   std::array<Sample, kSamples> samples_{};  // Oldest first.
-  int count_ = 0, judged_ = 0;              // How many there are, and were judged.
-  std::array<Flight, 12> flights_{};        // In a ring; those of the last seconds.
-  size_t newest_ = 0;                       // The newest of them,
-  bool open_ = false;                       // which lasts.
+  int count_ = 0, judged_ = 0;              // The numbers of samples and of evaluated ones.
+  std::array<Flight, 12> flights_{};        // A ring of the last seconds' flights.
+  size_t newest_ = 0;                       // The newest of them; `open_`: it is
+  bool open_ = false;                       // still in progress.
 };
 
 }  // namespace panache

@@ -10,11 +10,11 @@ namespace panache {
 namespace {
 
 constexpr float kLiftSeconds = 0.1f;  // Time constant.
-// A body sinks slowly, so that a hop stays one, and stops sinking at once. Time constants.
+// A body sinks slowly, so that a hop stays one, but stops sinking quickly. Time constants.
 constexpr float kSinkSeconds = 0.6f, kStopSeconds = 0.05f, kSmoothSeconds = 0.1f;
 
-// What a body rests on that does not stand, and how high the middle of these joints then is at
-// least, metres.
+// Joints that a lying or kneeling body rests on, and the minimum height of their middle then,
+// metres.
 struct Rest {
   HumanJoint joint;
   float height;

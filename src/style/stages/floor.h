@@ -1,22 +1,22 @@
 #pragma once
-// No toe, knee or seat below the floor, and no body above it.
+// Keeps toes, knees and seat from sinking into the floor, and the body from hovering.
 
 #include "rig/body_pose.h"
 #include "style/stages/step_time.h"
 
 namespace panache {
 
-// A style trained on one body may put another's feet through the floor, and the knees of a body
-// that kneels: lifts the body by as much as its lowest toe is deeper than both the floor and the
-// input's own lowest toe, or a knee or the hips deeper than they lie on the floor and than the
-// input's. It comes and goes slowly, so that the body does not jerk at each step; the leg IK
-// removes the remaining toe penetration. Legs that a style bends more than those of its own takes
-// would hover: lowers the body by as much as its lowest toe is higher than the input's.
+// A style trained on one body may push another's feet, or its knees when kneeling, through the
+// floor. Lifts the body by the depth of its lowest toe below both the floor and the input's lowest
+// toe, or of a knee or the hips below both their resting height and the input's. The lift changes
+// slowly, so that the body does not jerk at each step; the leg IK removes the remaining toe
+// penetration. If a style bends the legs more than in its own takes, the body would hover: lowers
+// it by the height of its lowest toe above the input's.
 class FloorClearance {
  public:
   void reset() noexcept { lift_ = sink_wanted_ = sink_ = 0; }
-  // `joints`: those of changed_joints(); `amount`: how much of a style is in force, and `carried`:
-  // how much the feet carry the body, 0 to 1.
+  // `joints`: changed_joints(); `amount`: how active any style is, `carried`: how much the feet
+  // carry the body, both 0 to 1.
   void step(const BodyPose& body, const HumanPositions& joints, float amount, float carried,
             const StepTime& time, BodyChange& change) noexcept;
 
@@ -27,7 +27,7 @@ class FloorClearance {
   }
 
  private:
-  float lift_ = 0, sink_wanted_ = 0, sink_ = 0;  // Metres; the last one follows the wanted one.
+  float lift_ = 0, sink_wanted_ = 0, sink_ = 0;  // Metres; `sink_` follows `sink_wanted_`.
 };
 
 }  // namespace panache

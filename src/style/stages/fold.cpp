@@ -12,12 +12,12 @@ namespace {
 
 using enum HumanJoint;
 
-// Radians from upright: an input that leans less takes all that a style leans, one that leans more
-// than the second nothing.
+// Radians from upright: an input that leans less than the first gets all of a style's lean, one
+// that leans more than the second nothing.
 constexpr float kUprightLean = 0.35f, kBentLean = 1.2f;
 constexpr float kLowHead = 0.25f, kHighHead = 0.5f;  // Metres; 1.5 where the body stands.
 
-constexpr float kRounding = 1e-3f;  // Radians: an unchanged body is left alone to the bit.
+constexpr float kRounding = 1e-3f;  // Radians: below it nothing changes at all.
 
 float lean(Vec3 torso) { return arc_tangent(std::hypot(torso.x, torso.z), torso.y); }
 

@@ -13,12 +13,12 @@ namespace panache {
 namespace {
 
 constexpr float kRestingFoot = 0.1f, kMovingFoot = 0.3f;  // m/s
-constexpr float kFastestFoot = 1;                         // m/s, as far as it counts.
+constexpr float kFastestFoot = 1;                         // m/s, limit for the filter.
 constexpr float kLowToe = 0.12f, kHighToe = 0.2f;         // Metres: a raised foot is the style's.
 constexpr float kSpeedSeconds = 0.06f, kRestSeconds = 0.1f,
                 kDropSeconds = 0.08f;  // Time constants.
 constexpr float kFreeTurn = 0.17f;  // Radians that a foot may be turned beyond its style's stance.
-constexpr float kReach = 0.985f;    // Of its length, what a leg is stretched to at most.
+constexpr float kReach = 0.985f;    // Maximum stretch, as a share of the leg's length.
 constexpr float kFirm = 0.05f;      // See bend_of(), metres.
 
 // How far `turn` rotates about the unit `axis`, radians, -pi to pi.
@@ -47,7 +47,7 @@ void FootStance::watch(const BodyPose& body, int f, const StepTime& time, Foot& 
   foot.speed += gain(kSpeedSeconds) * (std::min(speed, kFastestFoot) - foot.speed);
   const float wanted = smooth_step((kMovingFoot - foot.speed) / (kMovingFoot - kRestingFoot)) *
                        smooth_step((kHighToe - toe.y) / (kHighToe - kLowToe));
-  // One filter after the other, so that it begins and ends without a jerk.
+  // Two filters in series, so that it begins and ends without a jerk.
   approach(foot.wanted, wanted, gain(kRestSeconds), 1e-4f);
   approach(foot.rest, foot.wanted, gain(kRestSeconds), 1e-4f);
   foot.seen = 1;
@@ -84,8 +84,8 @@ void FootStance::step(const HeadingBody& body, HumanPositions& joints, const Sta
   }
   changed_legs(body, change, joints);
 
-  // How much higher each ankle goes, so that its toe is where the input's is; and how much lower
-  // the hips must be for that.
+  // The rise of each ankle that puts its toe at the input's height, and the drop of the hips that
+  // this needs.
   const float origin = mid_hip(body).y + change.translation.y;
   std::array<float, kFeet> rise;
   float drop = 0;

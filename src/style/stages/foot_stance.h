@@ -1,5 +1,5 @@
 #pragma once
-// A foot that rests in the input rests in the output.
+// Keeps feet at rest that rest in the input.
 
 #include <array>
 #include <cstdint>
@@ -10,15 +10,15 @@
 
 namespace panache {
 
-// Where a body stands, a style that was learnt from steps answers with the mean of its stepping
-// legs: feet hang in the air, on their toes, or turned out. While a foot of the input rests and the
-// feet do not step, its heel and toe stay at the input's heights, lifted and turned no further than
-// the style's own stance. The knee gives way, and the hips where the leg is too short.
+// On a standing body, a style learnt from steps outputs the mean of its stepping legs: feet in the
+// air, on their toes, or turned out. While a foot of the input rests and the feet do not step, its
+// heel and toe stay at the input's heights, lifted and turned no further than in the style's
+// stance. The knee bends for that, and the hips sink if the leg is too short.
 class FootStance {
  public:
   void reset() noexcept { *this = {}; }
-  // `joints`: those of changed_joints(), kept up to date. `amount`: how much of a style is in
-  // force, 0 to 1. `stepping`: StepWatch::amount().
+  // `joints`: changed_joints(); updated. `amount`: how active any style is, 0 to 1. `stepping`:
+  // StepWatch::amount().
   void step(const HeadingBody& body, HumanPositions& joints, const Stance& stance, float amount,
             float stepping, const StepTime& time, BodyChange& change) noexcept;
   // How much each foot was held at its height at the last step, 0 to 1.
@@ -33,10 +33,10 @@ class FootStance {
 
  private:
   struct Foot {
-    Vec3 ankle, toe;             // Of the input at the last step; world, metres.
-    float speed = 0;             // Of the faster of both, smoothed, m/s.
+    Vec3 ankle, toe;             // In the input at the last step; world, metres.
+    float speed = 0;             // Of the faster one, smoothed, m/s.
     float wanted = 0, rest = 0;  // Whether it rests, 0 to 1: eased once, and twice.
-    int32_t seen = 0;  // Whether a speed is known. No bool: states are saved without padding.
+    int32_t seen = 0;            // Whether a speed is known. Not a bool: states have no padding.
   };
   static void watch(const BodyPose& body, int f, const StepTime& time, Foot& foot) noexcept;
 

@@ -7,9 +7,9 @@
 namespace panache {
 namespace {
 
-constexpr float kOff = 1e-3f;  // A style that is weaker has no gestures.
+constexpr float kOff = 1e-3f;  // Weaker styles have no gestures.
 
-// How much of a style's gestures is given.
+// The amount of a style's gestures.
 float share_of(float strength) { return std::max(0.0f, movement_strength(strength)); }
 
 }  // namespace
@@ -36,7 +36,7 @@ void GesturePlayer::step(const Model& model, std::span<const float> strengths, f
   pose_ = scaled(gesture.moves_hips() ? share * (1 - ground.run) : share, gesture.at(time_));
 }
 
-// Each gesture of each style in force is as likely as the others.
+// All gestures of all active styles are equally likely.
 void GesturePlayer::draw(const Model& model, std::span<const float> strengths, float rate,
                          float seconds) noexcept {
   if (due_ < 0) due_ = 0.5f + random_.uniform();

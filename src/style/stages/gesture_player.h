@@ -1,5 +1,5 @@
 #pragma once
-// Which gesture is played, and what it adds now: by a trigger, or at random.
+// Plays gestures, triggered or at random.
 
 #include <cstdint>
 #include <span>
@@ -10,35 +10,35 @@
 
 namespace panache {
 
-// Plays one gesture at a time. It starts when a foot is down, and none starts while the body is in
-// the air. Between gestures at random, with a rate of r per second, are 0.5 / r to 1.5 / r seconds.
+// Plays one gesture at a time. It starts when a foot is down, never while the body is in the air.
+// Random gestures at r per second are 0.5 / r to 1.5 / r seconds apart.
 class GesturePlayer {
  public:
   explicit GesturePlayer(uint32_t seed) : random_(seed) {}
 
   void reset(uint32_t seed) noexcept { *this = GesturePlayer(seed); }
-  // The gesture that plays ends at once, as after a jump.
+  // Ends the playing gesture at once, as after a jump.
   void stop() noexcept { style_ = -1; }
 
-  // Asks for a gesture, which must be in the model. It waits for one that is playing and for a foot
-  // on the floor, for kPatience at most, and replaces one that waits.
+  // Requests a gesture, which must be in the model. It waits for a playing gesture and for a foot
+  // on the floor, at most kPatience, and replaces another waiting gesture.
   void trigger(int style, int gesture) noexcept;
 
-  // What the moment allows.
+  // Conditions for starting a gesture.
   struct Ground {
     bool holds_body = true;  // A foot is down, or something else holds the body.
     bool holds_feet = true;  // A foot is planted, and the body does not sit.
     float flight = 0;        // See FlightWatch::amount().
-    float run = 0;  // 0 of a walk to 1 of a run, in which dips of the hips fling the knees.
+    float run = 0;           // 0 (walk) to 1 (run, where dips of the hips fling the knees).
   };
-  // `strengths`: [styles], those in force; `rate`: gestures per second, 0 for none at random.
+  // `strengths`: [styles], eased; `rate`: random gestures per second, 0 for none.
   void step(const Model& model, std::span<const float> strengths, float rate, const Ground& ground,
             const StepTime& time) noexcept;
 
-  // Whether none plays and none waits.
+  // Whether no gesture plays or waits.
   bool rests() const noexcept { return style_ < 0 && next_style_ < 0; }
 
-  // What it adds at the last step, by the strength of its style; null for nothing.
+  // What it adds at the last step, scaled by the strength of its style; null for nothing.
   const GesturePose* now() const noexcept { return style_ >= 0 ? &pose_ : nullptr; }
 
   static constexpr float kPatience = 3;  // Seconds.
@@ -58,13 +58,13 @@ class GesturePlayer {
   void start(const Model& model, std::span<const float> strengths, const Ground& ground,
              float seconds) noexcept;
 
-  int32_t style_ = -1, gesture_ = 0;  // That plays; -1 for none,
+  int32_t style_ = -1, gesture_ = 0;  // Playing; -1 for none,
   float time_ = 0;                    // since so many seconds.
   GesturePose pose_;
-  int32_t next_style_ = -1, next_gesture_ = 0;  // That waits; -1 for none,
+  int32_t next_style_ = -1, next_gesture_ = 0;  // Waiting; -1 for none,
   float waited_ = 0;                            // since so many seconds.
   Random random_;
-  float due_ = -1;  // Mean intervals until the next at random; below 0: not drawn yet.
+  float due_ = -1;  // Mean intervals until the next random one; negative: not drawn yet.
 };
 
 }  // namespace panache

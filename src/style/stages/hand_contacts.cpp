@@ -13,8 +13,8 @@ namespace {
 
 using enum HumanJoint;
 
-// Of the canonical body, metres: a wrist at this distance from the head's joint touches head or
-// face, holds what it drinks or phones with, or has nothing to do with it.
+// Canonical body, metres: a wrist within the first distance from the head's joint touches head or
+// face, or holds a cup or phone; beyond the second there is no contact.
 constexpr float kAtHead = 0.27f, kOffHead = 0.48f;
 // From the axis of a thigh, or of the hips, to a wrist whose hand lies on them, or does not.
 constexpr float kOnThigh = 0.15f, kOffThigh = 0.22f, kOnHips = 0.17f, kOffHips = 0.23f;
@@ -22,21 +22,22 @@ constexpr float kHipsUp = 0.07f;  // The hips' axis is higher than the hip joint
 // m/s: a hand that rests on a thigh or passes it.
 constexpr float kRestingHand = 0.2f, kPassingHand = 0.5f;
 constexpr float kHandSpeedSeconds = 0.12f;
-// Beside a body that stands arms just hang. A hand that is on the hips has a bent arm, by the share
-// of the arm's length from shoulder to wrist; one that is on a thigh has that thigh raised, by the
-// cosine of its angle with the torso.
+// Arms of a standing body just hang next to it. A hand on the hips has a bent arm (distance from
+// shoulder to wrist as a share of the arm's length); a hand on a thigh has that thigh raised
+// (cosine of its angle with the torso).
 constexpr float kBent = 0.75f, kStraight = 0.85f, kRaised = 0.6f, kHanging = 0.8f;
-// Cosines of the angle between an arm and the torso where it does not hang, and hangs; and by how
-// much further apart hands count then.
+// Cosines of the angle between an arm and the torso, not hanging and hanging; and by how much
+// further apart hanging hands count.
 constexpr float kAway = 0.75f, kDown = 0.92f, kBesides = 0.4f;
-// Time constants: a contact comes fast and goes slowly, so that hands that clap stay together.
+// Time constants: a contact rises fast and falls slowly, so that clapping hands stay together.
 constexpr float kTakeSeconds = 0.08f, kHandRestSeconds = 0.15f, kGiveSeconds = 0.3f;
-// The middle between two hands may be so far from where the chest would carry it, softly.
+// The middle between two hands may be this far from its position relative to the chest, softly.
 constexpr float kStray = 0.06f, kMaxStray = 0.12f;
 // A wrist is turned by up to this against its forearm to keep to what the hand touches, radians.
 constexpr float kWristTurn = 0.6f;
-// A contact folds no arm further than the style does, or to this share of the input's, where that
-// is below this share of its length: an elbow has no side of a wrist that is at the shoulder.
+// A contact folds an arm at most to the smallest of its reach in the style, kKeptFold of its reach
+// in the input and kFolded of its length: with the wrist at the shoulder the elbow has no defined
+// side.
 constexpr float kKeptFold = 0.9f, kFolded = 0.4f;
 constexpr float kNothing = 1e-5f;  // Metres: no correction.
 
@@ -80,7 +81,7 @@ void HandContacts::watch(const BodyPose& body, const StepTime& time) noexcept {
   const Vec3 up = normalized(at(left_upper_arm) + at(right_upper_arm) - at(left_upper_leg) -
                              at(right_upper_leg));
   const float arm = (arm_length(joints, 0) + arm_length(joints, 1)) / 2;
-  // Hands beside a narrow body are near each other, too.
+  // Hands hanging next to a narrow body are near each other, too.
   const float hang = hangs(joints, 0, up) * hangs(joints, 1, up);
   const float apart = length(at(right_hand) - at(left_hand)) * (1 + kBesides * hang);
   ease(hands_, arm > 0 ? hands_nearness(apart / arm) : 0.0f, take, give);
@@ -143,7 +144,7 @@ void HandContacts::step(const HeadingBody& body, std::array<float, 2> amounts, c
     return rotate(body.to_heading, body.joints[index(joint)] - origin);
   };
   const auto turned = [&](HumanJoint joint) { return change.rotations[index(joint)]; };
-  // Where the wrist is if `joint` carries it as in the input.
+  // Position of the wrist if it follows `joint` as in the input.
   const auto carried = [&](HumanJoint joint, Vec3 wrist) {
     return joints[index(joint)] + rotate(turned(joint), wrist - before(joint));
   };
@@ -151,7 +152,7 @@ void HandContacts::step(const HeadingBody& body, std::array<float, 2> amounts, c
   struct Wrist {
     Vec3 now, input, wanted;
     float held = 0;
-    Quat carrier, turn;  // Of what holds it, and what the hand gets of it.
+    Quat carrier, turn;  // Rotation of the touched part, and the hand's share of it.
   };
   std::array<Wrist, 2> wrists;
   constexpr std::array<HumanJoint, kParts> kCarriers = {HumanJoint::head, HumanJoint::hips,
@@ -184,7 +185,7 @@ void HandContacts::step(const HeadingBody& body, std::array<float, 2> amounts, c
   }
   auto& [left, right] = wrists;
   if (hands_ > 0) {
-    // What holds both carries what they hold, otherwise the chest does.
+    // Both hands follow the part that they touch, otherwise the chest.
     const Quat turn = nlerp(turned(chest), left.carrier, left.held * right.held);
     const Vec3 between = rotate(turn, right.input - left.input);
     const Vec3 place = carried(chest, (left.input + right.input) * 0.5f);

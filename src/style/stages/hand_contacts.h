@@ -11,16 +11,16 @@
 
 namespace panache {
 
-// Where a wrist is near the other wrist, the head, the hips or a thigh in the input, the arm
-// reaches so that it is as far from there with the change as in the input. A contact eases in and
-// out with the distance in the input and over time. Hands on hips and thighs must also rest there,
-// by arms that do not just hang. The rest of the body keeps its style, as do the elbows' sides.
-// Without a contact this changes nothing, to the bit.
+// If a wrist is near the other wrist, the head, the hips or a thigh in the input, the arm keeps
+// that distance in the changed pose. A contact eases in and out with the distance in the input and
+// over time. Hands on hips and thighs must also rest there, and the arms must not just hang. The
+// rest of the body and the side of the elbows keep the style. Without contacts nothing changes at
+// all.
 class HandContacts {
  public:
   void reset() noexcept { *this = {}; }
-  // `joints`: changed_joints() of `body` and `change`, of which it keeps up the arms; `amounts`:
-  // how much of a style is in force, 0 to 1, for the left and the right arm.
+  // `joints`: changed_joints() of `body` and `change`; updates the arms. `amounts`: how active any
+  // style is for the left and the right arm, 0 to 1.
   void step(const HeadingBody& body, std::array<float, 2> amounts, const StepTime& time,
             HumanPositions& joints, BodyChange& change) noexcept;
 
@@ -42,10 +42,10 @@ class HandContacts {
 
   void watch(const BodyPose& body, const StepTime& time) noexcept;
 
-  float hands_ = 0;  // Of wrists that are near each other, 0 to 1, eased.
-  Holds holds_{};    // Of the others, likewise.
-  // Where each wrist is from hips, left and right thigh in the input, world, metres; at the last
-  // step, and how fast that changes, m/s.
+  float hands_ = 0;  // Contact of the wrists, 0 to 1, eased.
+  Holds holds_{};    // Other contacts, likewise.
+  // Each wrist relative to hips, left and right thigh in the input, world, metres, at the last
+  // step; and the speed of its change, m/s.
   std::array<std::array<Vec3, 3>, 2> places_{};
   std::array<std::array<float, 3>, 2> speeds_{};
   std::array<ArmSide, 2> elbows_{};

@@ -9,8 +9,8 @@ void HeldFeet::step(StageWork& work) noexcept {
   for (size_t f = 0; f < kFeet; ++f) {
     const float height = input.positions[index(kToes[f])].y;
     const float planted = planted_near_floor(work.asked.contacts[f], height);
-    // A foot is not held that turns its thigh further than a hip can; one that rests is planted,
-    // whatever the network makes of it.
+    // A foot is released if holding it turns the thigh further than a hip can; a resting foot is
+    // planted, whatever the network's output.
     const float held = planted * ((1 - thighs_.share(f)) * (1 - work.lifted));
     contacts_[f] = std::max(held, work.resting[f]);
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Planted feet stay where they are, as far as hips and knees allow.
+// Holds planted feet in place, as far as hips and knees allow.
 
 #include <array>
 
@@ -32,7 +32,7 @@ class HeldFeet {
  private:
   FootLock lock_;
   ThighWatch thighs_;
-  LegsApart legs_;  // Once the feet are held.
+  LegsApart legs_;  // Applied after the feet are held.
   std::array<float, kFeet> contacts_{};
 };
 

@@ -13,13 +13,13 @@ using enum HumanJoint;
 
 // Radii of the canonical body, metres.
 constexpr float kThigh = 0.064f, kShin = 0.044f;
-// Where thighs are only as far apart as the hips are wide, as a share of their length.
+// The upper share of the thighs, which are only as far apart as the hip joints.
 constexpr float kCrotch = 0.3f;
 constexpr int kPasses = 4;
 // A leg of the input that is this far on its own side counts as being there, metres.
 constexpr float kOwnSide = 0.02f;
 
-// Where on thigh and shin the other leg may push, from their upper to their lower joint.
+// Points on thigh and shin that the other leg may push, from the upper to the lower joint.
 constexpr std::array<std::array<float, 3>, 2> kPoints = {
     {{0.5f, 0.75f, 1}, {1.35f - 1, 1.7f - 1, 1}}};
 
@@ -28,7 +28,7 @@ struct Part {
   Vec3 from, to;
   float radius;
   Vec3 at(float place) const { return lerp(from, to, place); }
-  // The same as far as the other leg may meet it.
+  // The part that the other leg may meet.
   Part below_crotch() const { return radius == kThigh ? Part{at(kCrotch), to, radius} : *this; }
 };
 Part part_of(const HumanPositions& joints, int side, size_t part) {
@@ -42,17 +42,17 @@ Vec3 across_hips(const HumanPositions& joints) {
   return normalized(joints[index(left_upper_leg)] - joints[index(right_upper_leg)], {1, 0, 0});
 }
 
-// Legs that stand do not pass each other, as steps do: of the way from one to the other only what
-// is along the unit vector `out` counts.
+// Standing legs do not pass each other, unlike stepping ones: of the vector between them only the
+// component along the unit vector `out` counts.
 Vec3 passing(Vec3 way, Vec3 out, float stepping) {
   const Vec3 across = out * dot(way, out);
   return across + (way - across) * stepping;
 }
 
-// Whether parts of the left and the right leg come within reach of each other, as passing() sees
-// it. `left`: the way across the hips, unit.
+// Whether parts of the left and the right leg may touch, measured by passing(). `left`: across the
+// hips, unit.
 bool may_meet(const Part& one, const Part& other, Vec3 left, float stepping) {
-  // How much further along an axis all of one part is than the other.
+  // The gap between both parts along an axis.
   const auto beyond = [](const Part& a, const Part& b, Vec3 axis) {
     return std::min(dot(a.from, axis), dot(a.to, axis)) -
            std::max(dot(b.from, axis), dot(b.to, axis));
@@ -71,8 +71,8 @@ bool may_meet(const Part& one, const Part& other, Vec3 left, float stepping) {
 // How far each point is pushed, metres.
 using PartPushes = std::array<std::array<float, 3>, 2>;
 
-// Those of the leg of `side` by a part of the other leg. `out` and `own_side`: towards the leg's
-// own side with the change and in the input, unit.
+// Raises the pushes of the leg of `side` by a part of the other leg. `out` and `own_side`: towards
+// the leg's own side with the change and in the input, unit.
 void raise_pushes(const HeadingBody& body, const HumanPositions& joints, int side, size_t own,
                   size_t other, Vec3 out, Vec3 own_side, float stepping, PartPushes& pushes) {
   const Part part = part_of(joints, side, own), input = part_of(body.joints, side, own);
@@ -93,7 +93,7 @@ void raise_pushes(const HeadingBody& body, const HumanPositions& joints, int sid
   }
 }
 
-// The furthest pushes of knee and ankle that the points of both legs ask for, metres.
+// The largest pushes of knee and ankle over the points of both legs, metres.
 struct Pushes {
   float knee = 0, ankle = 0;
 };
@@ -124,7 +124,7 @@ Pushes pushes_of(const HeadingBody& body, const HumanPositions& joints, float st
 // How a leg moves so that its knee goes out by `push.knee` and its ankle by `push.ankle` at least.
 LimbMove move_of(const HumanPositions& joints, const LimbJoints& leg, Pushes push, Vec3 out,
                  float planted) {
-  // A knee swivels by as much as it is bent; the rest is up to the whole leg.
+  // A knee can swivel only as far as it is bent; the whole leg moves for the rest.
   const float bent = length(from_line(joints[leg.middle], joints[leg.root], joints[leg.end]));
   const float swivel = push.knee > 0 ? push.knee * bent / (bent + push.knee) : 0.0f;
   const float spread = std::max(push.ankle, 2 * (push.knee - swivel)) * (1 - planted);

@@ -1,5 +1,5 @@
 #pragma once
-// No leg goes through the other.
+// Keeps legs from going through each other.
 
 #include <array>
 
@@ -8,16 +8,15 @@
 
 namespace panache {
 
-// Where a change puts a thigh or a shin deeper into the other leg than the input has it, or through
-// it, knees and ankles move apart across the hips: bent legs swivel about the line from hip to
-// ankle, straight ones are spread. Each leg gives way by half. Legs that stand do not cross,
-// either. Where they are further apart, or as near in the input, nothing changes, to the bit.
+// If a change puts a thigh or shin deeper into the other leg than in the input, or through it,
+// knees and ankles move apart sideways: bent legs swivel about the line from hip to ankle, straight
+// ones spread. Each leg moves by half. Standing legs do not cross, either. Otherwise the change
+// stays identical.
 class LegsApart {
  public:
   void reset() noexcept { *this = {}; }
-  // `amount`: how much of a style is in force, `stepping`: how much the feet step, 0 to 1;
-  // `planted`: how much each foot is held where it is, 0 to 1; `joints`: changed_joints() of `body`
-  // and `change`, which it keeps up.
+  // `amount`: how active any style is, `stepping`: how much the feet step, `planted`: how much each
+  // foot is held in place, all 0 to 1; `joints`: changed_joints() of `body` and `change`; updated.
   void step(const HeadingBody& body, float amount, float stepping, std::array<float, 2> planted,
             const StepTime& time, HumanPositions& joints, BodyChange& change) noexcept;
 

@@ -1,5 +1,5 @@
 #pragma once
-// Pushes that move a limb out of the body, for the stages that keep limbs outside of it.
+// Pushes that move limbs out of the body.
 
 #include <algorithm>
 #include <array>
@@ -13,19 +13,18 @@
 
 namespace panache {
 
-// Metres: a limb may come this much nearer than it is in the input, so that arms that hang on the
-// torso and legs that brush each other keep their style.
+// Metres: a limb may come this much nearer than in the input, so that arms touching the torso and
+// legs brushing each other keep their style.
 inline constexpr float kFreeDepth = 0.002f;
 
-// How far something is pushed that is `depth` deep, metres: softly at first, and by all but 6 mm
-// from 12 mm on.
+// The push for a penetration of `depth`, metres: soft at first, `depth` - 6 mm from 12 mm on.
 inline float push_of(float depth) noexcept {
   constexpr float kSoft = 0.006f;
   if (!(depth > 0)) return 0;
   return depth < 2 * kSoft ? depth * depth / (4 * kSoft) : depth - kSoft;
 }
-// How far a point that is `way` from an axis is to be pushed along the unit vector `out`, towards
-// its own side, to be `reach` away. Past the axis it counts the less, the further it passes by.
+// How far to push a point at `way` from an axis along the unit vector `out`, towards its own side,
+// to be `reach` away. Past the axis the push is the smaller, the further the point passes by.
 inline float push_across(Vec3 way, Vec3 out, float reach) noexcept {
   const float across = dot(way, out);
   if (across > reach) return 0;
@@ -36,28 +35,28 @@ inline float push_across(Vec3 way, Vec3 out, float reach) noexcept {
   const float depth = wanted - (across < 0 ? across * wanted / reach : across);
   return push_of(depth) * smooth_step(wanted / 0.01f);
 }
-// How something that is `way` from an axis and nearer than `reach` is to be pushed to be that far:
-// outwards, but not further away from the side `own`, a unit vector, than it is.
+// The push that takes a point at `way` from an axis, nearer than `reach`, to that distance:
+// outwards, but not further away from its side `own`, a unit vector.
 inline Vec3 push_out(Vec3 way, Vec3 own, float reach) noexcept {
-  constexpr float kOwn = 0.05f;  // Metres: how much `own` counts where the axis is met.
+  constexpr float kOwn = 0.05f;  // Metres: weight of `own` close to the axis.
   const float far = length(way), room = reach - far;
   if (!(room > 0)) return {};
   const Vec3 ahead = way - own * std::min(0.0f, dot(way, own));
   const Vec3 to = normalized(ahead + own * (kOwn * std::max(0.0f, 1 - far / reach)), own);
   const float along = dot(way, to);
-  // Up to where it leaves the circle; from its far side by as much as the circle is wide there.
+  // To the exit of the circle; from the far side by the circle's width there.
   const float half = std::sqrt(std::max(0.0f, reach * reach - far * far));
   if (along < 0) return to * (half - along * half / reach);
   const float across = std::sqrt(std::max(0.0f, far * far - along * along));
   return to * push_of(std::sqrt(std::max(0.0f, reach * reach - across * across)) - along);
 }
-// Makes `push` as long as `length` in the direction `way`, where it is shorter.
+// Extends `push` to at least `length` in the direction `way`.
 inline void raise_push(Vec3& push, Vec3 way, float length) noexcept {
   const float lacks = length - dot(push, way);
   if (lacks > 0) push += way * lacks;
 }
 
-// The move of a limb as it comes and goes.
+// The move of a limb, eased in and out.
 class EasedMove {
  public:
   void step(const LimbMove& wanted, const StepTime& time) noexcept {
@@ -71,8 +70,8 @@ class EasedMove {
   bool rests() const noexcept { return move_ == LimbMove{}; }
 
  private:
-  // Goes towards `wanted` with a time constant, no faster than it can stop there, and without a
-  // sudden change of speed.
+  // Approaches `wanted` with a time constant, slowly enough to stop there, and without a sudden
+  // change of speed.
   static void follow(Vec3& at, Vec3& speed, Vec3 wanted, const StepTime& time) noexcept {
     constexpr float kEaseSeconds = 0.05f, kMostAcceleration = 20;  // m/s2.
     if (time.first) {
@@ -93,8 +92,8 @@ class EasedMove {
   LimbMove move_, speed_;  // Metres, m/s.
 };
 
-// Moves both limbs from where they are in `joints` towards where they are in `moved`, by `amounts`
-// of the way, eased; or back, where `moved` is null. Returns whether any of them moves.
+// Moves both limbs from their positions in `joints` towards those in `moved` by the shares
+// `amounts`, eased; back if `moved` is null. Returns whether any limb moves.
 inline bool move_eased(const std::array<LimbJoints, 2>& limbs, const HumanPositions* moved,
                        std::array<float, 2> amounts, const StepTime& time,
                        std::array<EasedMove, 2>& moves, HumanPositions& joints,

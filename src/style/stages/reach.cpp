@@ -10,8 +10,7 @@
 namespace panache {
 namespace {
 
-// Cosines of how far an arm turns from which on its elbow no longer follows the style, or fully
-// does.
+// Cosines of the arm's turn at which the elbow no longer follows the style, and still fully does.
 constexpr float kFarTurn = 0, kNearTurn = 0.85f;
 constexpr float kElbowSeconds = 0.1f;  // Time constant of the elbow's side,
 constexpr float kElbowRate = 5;        // and how fast it turns about its arm at most, rad/s.

@@ -16,8 +16,8 @@ constexpr float kMaxShortened = 0.8f, kMaxStretched = 1.5f;
 // A body that goes back and forth over this many seconds, as a boxer does, goes nowhere.
 constexpr float kTravelSeconds = 3;
 constexpr float kNoSpeed = 0.01f;  // m/s
-// How far a planted foot may be ahead of where the style wants it, in how many seconds the body
-// catches up with the rest, and the time constant of that speed, without which the body jerks.
+// How far a planted foot may be ahead of its position in the style, the time in which the body
+// catches up with the rest, and the time constant of that speed, which prevents jerks.
 constexpr float kBehind = 0.02f;  // Metres.
 constexpr float kBehindSeconds = 0.05f, kEaseSeconds = 0.1f;
 // A style turns the body aside by less than this.
@@ -31,8 +31,8 @@ void RootMotion::step(const StyleDelta& delta, float gate, Vec3 pull, const Obse
   const float dt = static_cast<float>(time.input);
   // On unfamiliar motion a style does not change the root motion: its mean is that of its walks.
   const float moving = gate * std::min(1.0f, window.ground_speed() / kStandingSpeed);
-  // Steps that lead nowhere give a style no say in the heading, and keep their length: stretched
-  // ahead and not back, they would carry the body away.
+  // Steps without travel keep their heading and length: stretched forward but not back, they would
+  // carry the body away.
   const float speed = window.forward_speed();
   const float follow = filter_gain(dt, kTravelSeconds);
   mean_forward_ += follow * (speed - mean_forward_);
@@ -43,12 +43,12 @@ void RootMotion::step(const StyleDelta& delta, float gate, Vec3 pull, const Obse
   const float turning = delta.turn_rate * moving * travel * travel * dt;
   const float room = std::max(0.0f, 1 - std::abs(turn_) / kMaxTurn);
   turn_ = turn_ * back + (turning * turn_ > 0 ? turning * room : turning);
-  // In the world: where a body that sways to one side looks about, it does not swing around.
+  // In world space, so that a sideways offset does not swing around when the body turns.
   const Quat heading = rotation_y(observer.now().root.facing + turn_);
   sway_ = sway_ * back + rotate(heading, Vec3{delta.velocity_left * moving * dt, 0, 0});
 
-  // Forward the style stretches or shortens the input's own way, by the share that its velocity is
-  // of the input's: what comes back in the input comes back in the output, and what stands stays.
+  // Forward the style stretches or shortens the input's way by the ratio of its velocity to the
+  // input's: a motion that returns in the input returns in the output, and a standing body stays.
   // Each term is exactly zero without a style.
   const float share = gate * travel * travel * delta.velocity_forward * speed /
                       (speed * speed + kSlowSpeed * kSlowSpeed);
@@ -58,8 +58,8 @@ void RootMotion::step(const StyleDelta& delta, float gate, Vec3 pull, const Obse
   const Vec3 turned = rotate(rotation_y(turn_), way);
   const float wanted = std::clamp(share, -kMaxShortened, most), far = length(turned);
   drift_ += turned * wanted;
-  // A style that shortens the way by more than the steps would drag the planted foot: the body
-  // catches up with it, by no more than the style shortens the way.
+  // A style that shortens the way more than the steps would drag the planted foot: the body catches
+  // up with it, by at most that reduction of the way.
   const float behind = far > 0 ? std::max(0.0f, dot(pull, turned) / far - kBehind) : 0.0f;
   catching_up_ += time.gain(kEaseSeconds) * (behind / kBehindSeconds - catching_up_);
   if (far > 0 && wanted < 0) {

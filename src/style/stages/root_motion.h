@@ -1,5 +1,5 @@
 #pragma once
-// Where the character goes.
+// The style's change of the root motion.
 
 #include "pose/observer.h"
 #include "pose/style_delta.h"
@@ -8,8 +8,8 @@
 
 namespace panache {
 
-// A style may sway and turn within a step, but not leave the input's course: what it adds sideways
-// and to the heading fades with this time constant.
+// A style may sway and turn within a step, but not leave the input's course: its sideways motion
+// and turn fade with this time constant.
 inline constexpr float kCourseSeconds = 1.5f;
 
 // The root motion that a style has added since the start.
@@ -18,7 +18,7 @@ struct RootOffset {
   float turn = 0;    // About +y, radians.
 };
 
-// Adds up what a style changes of the speed and of the heading.
+// Integrates a style's changes of speed and heading.
 class RootMotion {
  public:
   void reset() noexcept { *this = RootMotion(); }
@@ -35,11 +35,11 @@ class RootMotion {
   }
 
  private:
-  Vec3 drift_;             // Along the way; world, metres.
-  Vec3 sway_;              // To the side, likewise,
+  Vec3 drift_;             // Along the way, world, metres;
+  Vec3 sway_;              // to the side, likewise,
   float turn_ = 0;         // and to the heading, radians; both fade.
-  float catching_up_ = 0;  // With its planted feet, m/s.
-  // Of the input over the last seconds, m/s: forward, and in whatever direction.
+  float catching_up_ = 0;  // Towards the planted feet, m/s.
+  // The input's mean speed over the last seconds, m/s: forward, and in any direction.
   float mean_forward_ = 0, mean_speed_ = 0;
 };
 

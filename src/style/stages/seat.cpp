@@ -9,19 +9,19 @@
 namespace panache {
 namespace {
 
-// Of the canonical body, whose hips stand at 0.9 m: on a chair they are at 0.5, in a deep lunge at
-// 0.7. Metres.
+// Canonical body, metres, whose hips are at 0.9 standing, at 0.5 on a chair and at 0.7 in a deep
+// lunge.
 constexpr float kLowHips = 0.55f, kHighHips = 0.66f;
-// From the middle of the feet to that of the body, over the ground: more than a body can balance.
+// Horizontal distance of the body's middle from that of the feet: more than a body can balance.
 constexpr float kOverFeet = 0.14f, kBeyondFeet = 0.22f;
-// m/s: hips that move faster are on their way.
+// m/s: faster hips do not rest.
 constexpr float kRestingHips = 0.15f, kMovingHips = 0.35f;
 constexpr float kHipsSeconds = 0.15f, kSeatSeconds = 0.2f;  // Time constants.
 
 // 0 up to `from`, 1 from `to` on; either may be the larger.
 float share(float value, float from, float to) { return smooth_step((value - from) / (to - from)); }
 
-// How far the middle of the body is from that of the feet, over the ground.
+// Horizontal distance of the body's middle from that of the feet.
 float beyond_feet(const HumanPositions& world) {
   const Vec3 off = centre_over_feet(world);
   return std::hypot(off.x, off.z);
@@ -32,7 +32,7 @@ float beyond_feet(const HumanPositions& world) {
 void SeatWatch::step(const HumanPositions& world, const StepTime& time) noexcept {
   const Vec3 hips = world[index(HumanJoint::hips)];
   const float seconds = static_cast<float>(time.input);
-  // A first pose counts as one at rest, so that a clip that begins on a chair does so from there.
+  // A first pose counts as resting, so that a clip may begin on a chair.
   if (time.first) speed_ = 0;
   if (!time.first && seconds > 0) {
     const float speed = std::min(length(hips - hips_) / seconds, 2 * kMovingHips);

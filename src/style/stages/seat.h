@@ -1,7 +1,7 @@
 #pragma once
-// Whether something besides its feet holds the body up: a chair, a wall, its knees. A style then
-// leaves hips and legs as they are, because it does not know what they rest on, and acts on the
-// torso, the head and the arms.
+// Detects whether something besides the feet supports the body: a chair, a wall, its knees. A style
+// then leaves hips and legs unchanged, because it does not know their support, and affects only
+// torso, head and arms.
 
 #include "rig/humanoid.h"
 #include "style/stages/step_time.h"
@@ -13,7 +13,7 @@ class SeatWatch {
   void reset() noexcept { *this = {}; }
   // `world`: canonical joints of the input, metres, floor at 0.
   void step(const HumanPositions& world, const StepTime& time) noexcept;
-  // 0 where the feet hold the body, 1 where it sits, kneels or leans; eases in and out.
+  // 0 if the feet support the body, 1 if it sits, kneels or leans; eased.
   float amount() const noexcept { return amount_; }
 
   // Calls visit(member) for everything that tells one character from another.

@@ -13,7 +13,7 @@ constexpr float kNear = 1e-7f;
 
 float legs_of(const Shape& shape) { return shape.regions[static_cast<size_t>(Region::legs)]; }
 
-// A joint's own part of the change is what it turns beyond the joint that it hangs on.
+// A joint's part of the change is its turn relative to its parent.
 void weigh_regions(const Shape& shape, std::array<Quat, kHumanJoints>& rotations) {
   if (shape.regions == Shape{}.regions) return;
   const std::array<Quat, kHumanJoints> whole = rotations;

@@ -1,5 +1,5 @@
 #pragma once
-// The change as a change of the body, as much of it as the shape asks for.
+// Converts the change to one of the body, in the amounts of the shape.
 
 #include <array>
 
@@ -11,11 +11,11 @@
 
 namespace panache {
 
-// Neutral to the bit while the shape is Shape{}.
+// Has no effect at all while the shape is Shape{}.
 class Shaping {
  public:
   void reset() noexcept { *this = {}; }
-  // Writes what `delta` and `root` come to.
+  // Writes `delta` and `root`, shaped, as a change of the body.
   void step(const Shape& shape, const StyleDelta& delta, const RootOffset& root,
             const StepTime& time, BodyChange& out) noexcept;
 
@@ -32,7 +32,7 @@ class Shaping {
 
   std::array<Vec3, kHumanJoints> mean_rotations_{};  // As in StyleDelta.
   float mean_height_ = 0;                            // Metres.
-  RootOffset last_;                                  // As asked for at the last step.
+  RootOffset last_;                                  // As requested at the last step.
   RootOffset held_;                                  // The part of it that was held back.
 };
 

@@ -1,13 +1,13 @@
 #pragma once
-// What the stages changed at one instant, for reports.
+// What the stages did at one instant, for reports.
 
 namespace panache {
 
 struct StageFacts {
-  // 1 where something besides its feet holds the body up, and hips and legs are left as they are;
-  // see SeatWatch.
+  // 1 if something besides the feet supports the body, and hips and legs stay unchanged; see
+  // SeatWatch.
   float seated = 0;
-  float touching = 0;  // 1 where a hand keeps what it touches, see HandContacts.
+  float touching = 0;  // 1 if a hand keeps a contact, see HandContacts.
 };
 
 }  // namespace panache

@@ -1,5 +1,5 @@
 #pragma once
-// A list of stages that are carried out one after the other.
+// A list of stages that run one after the other.
 
 #include <algorithm>
 #include <array>
@@ -21,14 +21,14 @@ struct Named : Memory {
   static constexpr const char* kName = kText.text;
 };
 
-// The base of a stage that remembers nothing from one step to the next.
+// The base of a stage without memory from one step to the next.
 struct NoMemory {
   void reset() noexcept {}
   template <class Self, class Visit>
   static void visit_state(Self&, Visit&&) {}
 };
 
-// The memory of some stages, each of another type.
+// The memory of several stages, each of a different type.
 template <class... Stages>
 class StageRow : Stages... {
  public:

@@ -1,5 +1,5 @@
 #pragma once
-// What the stages of one step read and write.
+// The data that the stages of one step read and write.
 
 #include <algorithm>
 #include <array>
@@ -24,20 +24,20 @@ struct AskedChange {
   float log_rate = 0;                    // Logarithm of input seconds per output second.
   std::array<float, kFeet> contacts{};   // Probability that each foot is planted.
   float gate = 1;                        // How well the motion is known, 0 to 1.
-  Stance stance = {};                    // Of a foot that stands.
-  const GesturePose* gesture = nullptr;  // On top of it; null for none.
-  const Shape* shape = &kPlainShape;     // How it is given.
-  float amount = 1;  // How much of any style is in force, see EasedStrengths::amount().
+  Stance stance = {};                    // For a standing foot.
+  const GesturePose* gesture = nullptr;  // In addition; null for none.
+  const Shape* shape = &kPlainShape;     // The amounts of its parts.
+  float amount = 1;                      // How active any style is, see EasedStrengths::amount().
 };
 
-// How changes are carried out; as StylizerOptions has it.
+// How changes are carried out, see StylizerOptions.
 struct StageOptions {
   bool root = true, foot_lock = true, hold_hands = true;
-  bool tempo_everywhere = false;  // Otherwise only where the feet step.
+  bool tempo_everywhere = false;  // Otherwise only while the feet step.
 };
 
-// One step. The first part is given; the rest is what one stage of the row finds for those after
-// it. Shares go from 0 to 1.
+// One step. The first part is input; the rest is computed by one stage of the row for later ones.
+// Shares are 0 to 1.
 struct StageWork {
   const AskedChange& asked;
   const StageOptions& options;
@@ -45,7 +45,7 @@ struct StageWork {
   const Observer& observer;
   const InputWindow& window;
   const StepTime& time;
-  BodyChange& change;  // From the shape on, what is to be done to the input.
+  BodyChange& change;  // From the shape stage on, the change of the input.
   Vec3 pull;           // Of a planted foot at the last step, see FootLock::pull().
 
   const Observation& now = observer.now();
@@ -53,16 +53,16 @@ struct StageWork {
   float stepping = 0;            // Share, see StepWatch::amount().
   float seated = 0;              // Share, see SeatWatch::amount().
   float above_floor = 1;         // Share, see share_above_floor().
-  float log_rate = 0;            // As AskedChange has it: of the steps, and never in a flight.
+  float log_rate = 0;            // See AskedChange; 0 in a flight or without steps.
   StyleDelta delta = {};         // Filtered.
-  RootOffset root = {};          // What the style adds to the way.
-  Shape shape = {};              // As asked, less where the body may not take it.
-  float lifted = 0;              // How much a gesture has the feet off the floor, share.
-  HumanPositions joints = {};    // changed_joints() of body and change, from the balance on.
-  std::array<float, kFeet> resting{};  // How much feet are held at their height, shares.
-  HandHolds holds = {};                // What the hands keep hold of.
+  RootOffset root = {};          // The style's change of the way.
+  Shape shape = {};              // As requested, reduced where it does not suit the body.
+  float lifted = 0;              // How far a gesture lifts the feet off the floor, share.
+  HumanPositions joints = {};    // changed_joints() of body and change, from the balance stage on.
+  std::array<float, kFeet> resting{};  // How much feet keep their height, shares.
+  HandHolds holds = {};                // Contacts that the hands keep.
 
-  // How much of a style is in force for an arm. One that keeps none of it keeps its input, too.
+  // How active any style is for each arm. An arm without style keeps its input.
   std::array<float, 2> arms() const noexcept {
     const auto arm = [&](Region region) {
       return asked.amount * std::min(1.0f, asked.shape->regions[static_cast<size_t>(region)]);

@@ -8,10 +8,9 @@
 namespace panache {
 namespace {
 
-// m/s over the ground, of both feet together: a slow walk has 1.5, somebody who shifts the weight
-// less than 0.2.
+// m/s over the ground, of both feet together: a slow walk has 1.5, a shift of weight less than 0.2.
 constexpr float kStandingFeet = 0.25f, kSteppingFeet = 0.7f;
-constexpr float kFastestFeet = 2;     // A faster one would keep the tempo long after it stops.
+constexpr float kFastestFeet = 2;  // Limit: a faster foot would keep the tempo long after it stops.
 constexpr float kFeetSeconds = 0.3f;  // Time constant.
 constexpr std::array kSteppers = {HumanJoint::left_foot, HumanJoint::right_foot};
 

@@ -1,6 +1,6 @@
 #pragma once
-// Whether the feet step. A style's tempo is that of its steps; a body that stands and talks, waits
-// or works keeps the time of its input.
+// Detects whether the feet step. A style's tempo applies to its steps; a body that stands and
+// talks, waits or works keeps the input's tempo.
 
 #include <array>
 
@@ -15,7 +15,7 @@ class StepWatch {
   void reset() noexcept { *this = {}; }
   // `world`: canonical joints of the input, metres.
   void step(const HumanPositions& world, const StepTime& time) noexcept;
-  // 0 where the feet stand, 1 where they walk or run; eases in and out over half a second.
+  // 0 while the feet stand, 1 while they walk or run; eased over half a second.
   float amount() const noexcept;
 
   // Calls visit(member) for everything that tells one character from another.
@@ -26,7 +26,7 @@ class StepWatch {
 
  private:
   std::array<Vec3, kFeet> feet_{};  // At the last step.
-  float speed_ = 0;                 // Of both together over the ground, smoothed, m/s.
+  float speed_ = 0;                 // Sum of both over the ground, smoothed, m/s.
   bool seen_ = false;               // Whether a speed is known.
 };
 

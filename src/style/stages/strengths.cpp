@@ -41,7 +41,7 @@ void EasedStrengths::step(std::span<const float> strengths, const Shape& shape,
   const float all = bounded(shape.strength, Shape::kMax);
   float total = 0, posture = 0, movement = 0;
   for (size_t i = 0; i < now_.size(); ++i) {
-    if (strengths[i] == 0 && now_[i] == 0) continue;  // As most styles are.
+    if (strengths[i] == 0 && now_[i] == 0) continue;  // True for most styles.
     const float wanted = std::isfinite(strengths[i]) ? strengths[i] * all : 0.0f;
     approach(now_[i], std::clamp(wanted, -kMaxStrength, kMaxStrength), gain, kNear);
     total += std::abs(now_[i]);

@@ -1,5 +1,5 @@
 #pragma once
-// Strengths and shape as they are in force, eased.
+// Eases strengths and shape.
 
 #include <span>
 #include <vector>
@@ -9,27 +9,27 @@
 
 namespace panache {
 
-// How far a strength drives what a style changes. The posture grows evenly up to strength 2, so
-// that the slider pushes as far as the body allows. Movement, tempo and contacts grow evenly up to
-// 1, because twice the movement is another motion. Beyond, each unit counts kBeyondEven.
+// The effect of a strength. Posture grows linearly up to strength 2, so that the slider pushes as
+// far as the body allows. Movement, tempo and contacts grow linearly up to 1, because twice the
+// movement is another motion. Beyond, each unit counts kBeyondEven.
 inline constexpr float kPostureEven = 2, kMovementEven = 1, kBeyondEven = 0.3f;
 float posture_strength(float strength) noexcept;
 float movement_strength(float strength) noexcept;
 
 class EasedStrengths {
  public:
-  // Strengths are held within -kMaxStrength to kMaxStrength.
+  // Strengths are clamped to -kMaxStrength to kMaxStrength.
   static constexpr float kMaxStrength = 4;
 
   EasedStrengths(size_t styles, float ease_seconds) : ease_seconds_(ease_seconds), now_(styles) {}
 
-  // Goes towards what is asked for; numbers that are not finite count as 0. `strengths`: [styles].
+  // Eases towards `strengths` [styles] and `shape`; numbers that are not finite count as 0.
   void step(std::span<const float> strengths, const Shape& shape, const StepTime& time) noexcept;
 
   std::span<const float> now() const noexcept { return now_; }  // [styles]
-  // With dynamics that bring a change of posture_strength() back to movement_strength().
+  // Its dynamics also scale from posture_strength() to movement_strength().
   const Shape& shape() const noexcept { return in_force_; }
-  // How much any style is in force: 0 without one, 1 from a quarter strength on.
+  // How active any style is: 0 without one, 1 from a quarter strength on.
   float amount() const noexcept { return amount_; }
 
   // Calls visit(member) for everything that tells one character from another.

@@ -1,5 +1,5 @@
 #pragma once
-// The window that the networks see.
+// The input window of the networks.
 
 #include <array>
 #include <span>
@@ -12,7 +12,7 @@ namespace panache {
 
 class InputWindow {
  public:
-  // Numbers of a window in any layout, at most.
+  // The maximum size of a window, over all layouts.
   static constexpr size_t kMaxNumbers =
       size_t{kWindowPoses} * pose_feature_count(PoseLayout::rotations);
 
@@ -20,9 +20,8 @@ class InputWindow {
       : history_(layout), numbers_(size_t{kWindowPoses} * pose_feature_count(layout)) {}
 
   void reset() noexcept;
-  // Takes in a pose, and returns the window that ends at it, as PoseHistory::window() gives it: the
-  // first part of `room`, which has kMaxNumbers. A crowd's characters share such room: what no step
-  // remembers needs no memory of each.
+  // Adds a pose, and returns the window that ends at it, see PoseHistory::window(): the first part
+  // of `room`, which has kMaxNumbers. The characters of a crowd can share `room`.
   std::span<const float> step(const Observation& now, const StepTime& time,
                               std::span<float> room) noexcept;
 
@@ -31,8 +30,8 @@ class InputWindow {
   std::span<const float, kRootFeatures> root() const noexcept { return roots_[0]; }
   // Mean over the window, m/s.
   float ground_speed() const noexcept { return ground_speed_; }
-  float forward_speed() const noexcept;  // Below zero backwards.
-  // Asks the caches for the poses that the next window is made of.
+  float forward_speed() const noexcept;  // Negative backwards.
+  // Prefetches the poses of the next window.
   void fetch_poses(double seconds) const noexcept { history_.fetch_window(seconds); }
 
   // Calls visit(member) for everything that tells one character from another.
@@ -47,7 +46,7 @@ class InputWindow {
   float ground_speed_ = 0;
   std::array<std::array<float, kRootFeatures>, kWindowPoses> roots_{};  // Newest first.
   PoseHistory history_;
-  size_t numbers_;  // Of a window.
+  size_t numbers_;  // Size of a window.
 };
 
 }  // namespace panache
