@@ -1,4 +1,4 @@
-// Crowds through the C interface: as a game steps them.
+// Crowds stepped through the C interface, as in a game.
 
 #include <algorithm>
 #include <new>
@@ -13,11 +13,11 @@ namespace panache::bench {
 namespace {
 
 constexpr int kSizes[] = {1, 10, 100, 1000, 4000};
-constexpr int kStride = 37;  // Frames between one character and the next.
-// A small crowd is stepped as often as makes about this many steps together.
+constexpr int kStride = 37;  // Offset between characters, frames.
+// Small crowds are stepped repeatedly, for about this many character steps.
 constexpr int kStepsPerRound = 1000;
 
-// The model and skeleton that all characters share.
+// The model and skeleton shared by all characters.
 class Shared {
  public:
   static Result<Shared> create(std::string_view bytes, const Clip& walk) {
@@ -50,7 +50,7 @@ class Shared {
   panache_character* make_character() const {
     panache_character* character = nullptr;
     if (panache_character_create(model_, skeleton_, nullptr, &character) != PANACHE_OK) {
-      throw std::bad_alloc();  // There is nothing else that could be wrong.
+      throw std::bad_alloc();  // The only possible failure.
     }
     panache_character_set_strength(character, 0, 1);
     return character;
@@ -82,7 +82,7 @@ class Crowd {
   Crowd& operator=(const Crowd&) = delete;
 
   int size() const { return static_cast<int>(in_.size()); }
-  // One frame of all.
+  // Steps all characters by one frame.
   void step() {
     for (size_t i = 0; i < in_.size(); ++i) {
       const int frame =
@@ -117,8 +117,8 @@ Result<std::vector<CrowdTime>> time_crowds(std::string_view bytes, const Clip& w
     for (size_t c = 0; c < crowds.size(); ++c) {
       Crowd& crowd = *crowds[c];
       const int frames = std::max(1, kStepsPerRound / crowd.size());
-      crowd.step();  // Unseen: the caches are another crowd's.
-      // A frame of many takes longer than other programs wait for the core.
+      crowd.step();  // Untimed: the caches hold another crowd.
+      // One frame of a large crowd takes longer than the time slice of other programs.
       const int64_t begin = computed_ns();
       for (int f = 0; f < frames; ++f) crowd.step();
       times[c].push_back(static_cast<double>(computed_ns() - begin) / frames / crowd.size());

@@ -1,5 +1,5 @@
 #pragma once
-// Weights in int8 as the libraries of others take them.
+// int8 weights in the form that other libraries expect.
 
 #include <cstdint>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace panache::bench {
 
-// Weights rounded to int8, -127 to 127, and what one of them is worth in each column, as quantize()
-// does with layers that are not small.
+// Weights rounded to int8, -127 to 127, with one scale per column, as quantize() does for all but
+// small layers.
 struct Int8Layer {
   std::vector<int8_t> weights;  // [inputs][outputs]
   std::vector<float> scale;     // [outputs]

@@ -7,7 +7,7 @@
 #include "bench/measure.h"
 #include "net/dense.h"
 
-// The running sums live in arrays, which vectors of a length unknown to the compiler cannot.
+// Running sums are kept in arrays, because vectors of unknown length cannot be.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 
 // From here on this file is compiled once per instruction set.
@@ -24,7 +24,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::ScalableTag<float>;
 using Vector = hn::Vec<Floats>;
 
-// As many running sums as hide the latency of an addition.
+// Enough running sums to hide the latency of an addition.
 constexpr size_t kArithmeticSums = 12;
 
 template <bool kFused>
@@ -44,7 +44,7 @@ float arithmetic(size_t rounds) {
 
 float multiply_and_add(size_t rounds) { return arithmetic<false>(rounds); }
 float fused_multiply_add(size_t rounds) { return arithmetic<true>(rounds); }
-// Of one round of either of these.
+// Operations per round of either loop.
 size_t operations() { return 2 * kArithmeticSums * hn::Lanes(Floats()); }
 
 }  // namespace HWY_NAMESPACE
@@ -60,12 +60,12 @@ HWY_EXPORT(operations);
 
 namespace {
 
-// Keeps results that nobody wants from being left out.
+// Keeps compilers from removing unused results.
 volatile float unused;
 
 constexpr int kRepeats = 15;
 
-// Median of the seconds that `work` takes.
+// Median duration of `work`, seconds.
 template <class Work>
 double seconds_of(const Work& work) {
   std::vector<double> times;
@@ -98,7 +98,7 @@ Limits measure_limits() {
       operations / seconds_of([] { return HWY_DYNAMIC_DISPATCH(multiply_and_add)(kRounds); });
   limits.fused_gflops =
       operations / seconds_of([] { return HWY_DYNAMIC_DISPATCH(fused_multiply_add)(kRounds); });
-  // More than twice the largest third caches.
+  // More than twice the size of the largest L3 caches.
   const std::vector<float> numbers(size_t{64} << 20, 1.0f);
   limits.memory_gb_s = 1e-9 * sizeof(float) * static_cast<double>(numbers.size()) /
                        seconds_of([&] { return sum_in_any_order(numbers); });

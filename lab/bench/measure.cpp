@@ -16,7 +16,7 @@ namespace {
 constexpr double kBatchNs = 200e3;
 constexpr int kMaxBatch = 2000;
 constexpr int kUnseenCalls = 3;
-constexpr size_t kLine = 64;  // Bytes that a cache takes at once.
+constexpr size_t kLine = 64;  // Bytes per cache line.
 
 double time_ns(const std::function<void()>& run, int calls) {
   const int64_t begin = now_ns();
@@ -62,7 +62,7 @@ size_t second_cache_bytes() noexcept {
 
 void evict_caches() noexcept {
   static std::vector<char> buffer(4 * second_cache_bytes());
-  // Written, as other data may not stay where there are newer ones of its place.
+  // Writes, because modified lines need space of their own, which evicts other data.
   for (size_t i = 0; i < buffer.size(); i += kLine) {
     const_cast<volatile char&>(buffer[i]) = static_cast<char>(buffer[i] + 1);
   }
@@ -116,11 +116,11 @@ std::vector<Timing> race(std::span<const Contestant> contestants, int rounds,
   }
   for (int round = 0; round < rounds; ++round) {
     for (size_t turn = 0; turn < count; ++turn) {
-      // Another one begins every time, so that none always follows the same one.
+      // The first contestant changes every time, so that none always follows the same one.
       const size_t c = (turn + static_cast<size_t>(round)) % count;
       time_ns(contestants[c].run, kUnseenCalls);
       warm[c].push_back(time_ns(contestants[c].run, batch[c]));
-      // Cold calls say little more the more there are of them, and evicting takes long.
+      // Fewer cold calls: more add little precision, and evicting is slow.
       if (round % 4 != 0) continue;
       evict_caches();
       cold[c].push_back(std::max(0.0, time_ns(contestants[c].run, 1) - clock_cost_ns()));

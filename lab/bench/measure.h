@@ -1,5 +1,5 @@
 #pragma once
-// How time is taken: one clock, counts without allocation, contestants that take turns.
+// Timing: one clock, histograms that do not allocate, and contestants that take turns.
 
 #include <array>
 #include <chrono>
@@ -11,7 +11,7 @@
 
 namespace panache::bench {
 
-// Called with 0 to 1 now and then; may be empty.
+// Called regularly with 0 to 1; may be empty.
 using ProgressCall = std::function<void(double)>;
 
 // Nanoseconds of the monotonic clock.
@@ -19,34 +19,33 @@ inline int64_t now_ns() noexcept {
   using namespace std::chrono;
   return duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count();
 }
-// Nanoseconds that this thread has computed for: what other programs take of the core in between is
-// not in it. Costs ten times as much to look at.
+// CPU time of this thread, nanoseconds, without the time that other programs take on the core. Ten
+// times as expensive to read.
 int64_t computed_ns() noexcept;
-// What two calls of now_ns() show of each other where nothing is between them, nanoseconds: what
-// any time taken with them is too long by. Measured once.
+// The difference of two consecutive calls of now_ns(), nanoseconds, by which every measured time is
+// too long. Measured once.
 double clock_cost_ns();
 
-// Ties the process to the core that it runs on, the threads that it starts later too; returns
-// whether the system allowed that. Then asks for the highest priority, which only root gets: other
-// programs that want the core would else be measured with ours.
+// Pins the process, including threads started later, to its current core; returns whether the
+// system allowed it. Then requests the highest priority, which only root gets, so that other
+// programs that want the core are not measured too.
 bool pin_to_one_core() noexcept;
 
-// Pushes everything else out of the first and second cache of this core: walks over a buffer of
-// four times the second one.
+// Evicts everything from this core's L1 and L2 caches by walking over a buffer four times the size
+// of L2.
 void evict_caches() noexcept;
-// Of this core, as the system tells; a guess of 2 MB where it does not.
+// L2 size of this core as the system reports it; 2 MB if unknown.
 size_t second_cache_bytes() noexcept;
 
-// The value below which the share `at`, 0 to 1, of the values lie. At least one value.
+// The quantile `at`, 0 to 1, of at least one value.
 double quantile(std::vector<double> values, double at);
 
-// How often which time was seen, in buckets of less than one percent of the time. Adding allocates
-// nothing.
+// A histogram of times, with buckets narrower than one percent. Adding does not allocate.
 class Histogram {
  public:
   void add(int64_t ns) noexcept;
   int64_t count() const { return count_; }
-  // The time that the share `at`, 0 to 1, does not exceed, nanoseconds; 0 where nothing was added.
+  // The quantile `at`, 0 to 1, nanoseconds; 0 if empty.
   double quantile(double at) const noexcept;
   int64_t worst() const { return worst_; }  // Exact, nanoseconds.
 
@@ -67,14 +66,14 @@ struct Contestant {
 
 // Microseconds of one call.
 struct Timing {
-  double warm = 0;           // Median over the rounds, called again and again;
-  double low = 0, high = 0;  // what a tenth of the rounds stay below, and nine tenths.
+  double warm = 0;           // Median over the rounds, with repeated calls;
+  double low = 0, high = 0;  // the 10 % and 90 % quantiles of the rounds.
   double cold = 0;           // Median of single calls after evict_caches().
 };
 
-// Times all contestants in rounds, taking turns, so that whatever else the machine does meets each
-// of them alike. In a round each is called a few times unseen, and then so often that a fifth of a
-// millisecond goes by; the round's time is the mean of these calls. One Timing per contestant.
+// Times all contestants in rounds in which they take turns, so that other load on the machine
+// affects all alike. In a round, each is called a few times untimed and then repeatedly for a fifth
+// of a millisecond; the round's time is the mean of these calls. One Timing per contestant.
 std::vector<Timing> race(std::span<const Contestant> contestants, int rounds,
                          const ProgressCall& progress = {});
 

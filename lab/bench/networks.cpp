@@ -18,7 +18,7 @@ namespace {
 constexpr int kHiddenLayers = 3;
 constexpr struct { int hidden, outputs; } kSizes[] = {{128, 130}, {64, 1}, {32, 2}};
 
-// The networks as a model file has them: "0.trunk.2.weight", "0.head.bias".
+// The networks named as in a model file: "0.trunk.2.weight", "0.head.bias".
 TensorFile tensors_of(std::span<const Network> networks) {
   TensorFile file;
   for (size_t n = 0; n < networks.size(); ++n) {
@@ -33,7 +33,7 @@ TensorFile tensors_of(std::span<const Network> networks) {
   return file;
 }
 
-// As StyleNetworks evaluates a model: the trunks together, then an output layer on each.
+// As StyleNetworks evaluates a model: all trunks together, then an output layer on each.
 class OwnEvaluation : public Evaluation {
  public:
   OwnEvaluation(TrunkTrio trunks, const std::vector<DenseLayer>& heads)
@@ -79,7 +79,7 @@ std::vector<float> random_numbers(size_t count, uint64_t seed) {
 Layer random_layer(int inputs, int outputs, uint64_t seed) {
   Layer layer{inputs, outputs, random_numbers(static_cast<size_t>(inputs) * outputs, seed),
               std::vector<float>(static_cast<size_t>(outputs), 0.1f)};
-  const float deviation = 1.2f / std::sqrt(static_cast<float>(inputs));  // ELU takes some away.
+  const float deviation = 1.2f / std::sqrt(static_cast<float>(inputs));  // Makes up for ELU.
   for (float& weight : layer.weights) weight *= deviation;
   return layer;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// The networks of Smith et al. 2019 at the sizes of the paper's slides, with random weights, and
-// their evaluation: what our kernels and the libraries of others are compared on.
+// The networks of Smith et al. 2019 at the sizes of the paper's slides, with random weights, for
+// comparing our kernels with other libraries.
 
 #include <memory>
 #include <span>
@@ -16,14 +16,14 @@ struct Layer {
   std::vector<float> weights;  // [inputs][outputs]
   std::vector<float> bias;     // [outputs]
 };
-// Layers with ELU behind each but the last.
+// Layers with ELU after each but the last.
 struct Network {
   std::vector<Layer> layers;
 };
 
-// A layer whose outputs are of about the size of its inputs, drawn with `seed`.
+// A random layer from `seed` whose outputs have about the magnitude of its inputs.
 Layer random_layer(int inputs, int outputs, uint64_t seed);
-// Numbers close to the standard normal distribution.
+// Approximately standard normal numbers.
 std::vector<float> random_numbers(size_t count, uint64_t seed);
 
 // 794 inputs (six poses and the style vector), three hidden layers of 128, 64 and 32 units, outputs
@@ -32,22 +32,21 @@ inline constexpr int kSlidesInputs = 794, kSlidesOutputs = 133;
 std::vector<Network> slides_networks();
 size_t parameter_count(std::span<const Network> networks);
 
-// Networks that read the same input, made ready by somebody's library. Keeps what it needs of the
-// networks.
+// The networks in some library, evaluated on the same input. Copies what it needs of the networks.
 class Evaluation {
  public:
   virtual ~Evaluation() = default;
   // x[kSlidesInputs]; y[kSlidesOutputs]: the networks' outputs, one after the other.
   virtual void run(std::span<const float> x, std::span<float> y) = 0;
-  // The library's name and version, for people.
+  // The library's name and version, for display.
   virtual std::string library() const = 0;
 };
 
-// In the loops that define the result, for checking all others.
+// A reference implementation in plain loops, to check all others.
 void run_plainly(std::span<const Network> networks, std::span<const float> x, std::span<float> y);
 
-// Three networks in our own kernels, evaluated as StyleNetworks evaluates a model; with `half`
-// their weights are in int8 (net/quantize.h).
+// The networks in our own kernels, evaluated as StyleNetworks evaluates a model; with `int8`,
+// weights are quantized (net/quantize.h).
 Result<std::unique_ptr<Evaluation>> make_own_evaluation(std::span<const Network> networks,
                                                         bool int8);
 

@@ -10,7 +10,7 @@
 namespace panache::bench {
 namespace {
 
-// A protocol buffer in the making. Numbers of fields and types are those of onnx.proto.
+// Writes a protocol buffer. Field numbers and types are those of onnx.proto.
 class Message {
  public:
   void number(int field, uint64_t value) {
@@ -35,7 +35,7 @@ class Message {
 };
 
 constexpr uint64_t kFloat = 1, kInt8 = 3;
-// Old enough for any ONNX Runtime of the last years: Gemm 9 and Elu 6.
+// Supported by every recent ONNX Runtime: Gemm 9 and Elu 6.
 constexpr uint64_t kFormatVersion = 7, kOperatorVersion = 11;
 
 template <class T>
@@ -88,7 +88,7 @@ Message cast_to_float(const std::string& input, const std::string& output) {
   return out;
 }
 
-// y = x W + b. `x` and `y` are names of tensors, `id` marks those of the layer.
+// y = x W + b. `x` and `y` are tensor names, `id` identifies the layer's tensors.
 void add_layer(Message& graph, const Layer& layer, const std::string& id, const std::string& x,
                const std::string& y) {
   graph.message(5, tensor("weight" + id, {layer.inputs, layer.outputs}, layer.weights));
@@ -96,7 +96,7 @@ void add_layer(Message& graph, const Layer& layer, const std::string& id, const 
   graph.message(1, node("Gemm", {x, "weight" + id, "bias" + id}, {y}));
 }
 
-// The names of a tensor in bytes.
+// The tensor names of a quantized input.
 struct Quantized {
   std::string bytes, scale, zero;
 };
@@ -106,7 +106,7 @@ Quantized add_quantization(Message& graph, const std::string& x) {
   return out;
 }
 
-// The same in the operators that ONNX Runtime's own dynamic quantization writes, and that it fuses.
+// The same with the operators of ONNX Runtime's own dynamic quantization, which it fuses.
 void add_int8_layer(Message& graph, const Layer& layer, const std::string& id, const Quantized& x,
                     const std::string& y) {
   const Int8Layer int8 = quantized(layer);
@@ -126,7 +126,7 @@ std::string format_onnx(std::span<const Network> networks, bool int8) {
   Message graph;
   graph.text(2, "networks");
   graph.message(11, value_info("x", networks.front().layers.front().inputs));
-  Quantized input;  // Of all networks.
+  Quantized input;  // Shared by all networks.
   if (int8) input = add_quantization(graph, "x");
   for (size_t n = 0; n < networks.size(); ++n) {
     const std::vector<Layer>& layers = networks[n].layers;

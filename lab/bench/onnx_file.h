@@ -1,5 +1,5 @@
 #pragma once
-// Networks as the bytes of an ONNX model.
+// Writes networks as an ONNX model.
 
 #include <span>
 #include <string>

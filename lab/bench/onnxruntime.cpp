@@ -11,10 +11,10 @@
 namespace panache::bench {
 namespace {
 
-// The C interface is a table of functions whose order is promised for ever; each place below is one
-// of its first version. Everything that it makes is known by its address only.
+// The C interface is a table of functions with a stable order; the indices below are those of its
+// first version. All objects are opaque pointers.
 using Handle = void*;
-using Status = void*;  // Null where all went well.
+using Status = void*;  // Null on success.
 
 enum Place : size_t {
   kGetErrorMessage = 2,
@@ -100,7 +100,7 @@ class OnnxRuntime : public Evaluation {
   const std::string& problem() const { return problem_; }
 
  private:
-  // Calls the function at a place of the table, unless one before it has failed.
+  // Calls the function at an index of the table, unless an earlier call has failed.
   template <class... Arguments>
   void call(Place place, Arguments... arguments) {
     if (!problem_.empty()) return;

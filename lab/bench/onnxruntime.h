@@ -1,5 +1,5 @@
 #pragma once
-// ONNX Runtime, whose library comes without headers.
+// ONNX Runtime, loaded without its headers.
 
 #include <memory>
 #include <span>
@@ -9,8 +9,8 @@
 
 namespace panache::bench {
 
-// Opens the library at `path`, for good: one thread, all optimisations of the graph, outputs in
-// memory that is there. `int8`: see format_onnx(). Null, and a message, where that does not work.
+// Opens the library at `path`, never to be closed: one thread, all graph optimisations,
+// preallocated outputs. `int8`: see format_onnx(). Returns null and a message on failure.
 std::unique_ptr<Evaluation> open_onnxruntime(const std::string& path,
                                              std::span<const Network> networks, bool int8,
                                              std::string& problem);

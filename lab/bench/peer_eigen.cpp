@@ -1,4 +1,4 @@
-// The networks in Eigen, compiled for the very machine that it is compiled on.
+// The networks in Eigen, compiled for the build machine.
 
 #include <Eigen/Core>
 
@@ -34,7 +34,7 @@ class EigenEvaluation : public Evaluation {
           layer.out.noalias() += layer.weights * layers[l - 1].out;
         }
         if (l + 1 < layers.size()) {
-          // The greater part of ELU and the smaller: one of them is always zero.
+          // The positive and the negative part of ELU: one of them is always zero.
           layer.out = layer.out.array().max(0.0f) + (layer.out.array().min(0.0f).exp() - 1.0f);
         }
       }
@@ -50,7 +50,7 @@ class EigenEvaluation : public Evaluation {
 
  private:
   struct Ready {
-    Eigen::MatrixXf weights;  // [outputs][inputs], the outputs side by side in memory.
+    Eigen::MatrixXf weights;  // [outputs][inputs], column-major.
     Eigen::VectorXf bias, out;
   };
   std::vector<std::vector<Ready>> networks_;

@@ -1,7 +1,6 @@
-// The networks in libtorch: a frozen TorchScript module on one thread. Products of a matrix and a
-// vector, weights as they lie in our files: of linear and addmv, weights either way, and with and
-// without optimize_for_inference, this was the fastest by 10 percent, the slowest took four times
-// as long.
+// The networks in libtorch: a frozen TorchScript module on one thread, with matrix-vector products
+// on weights laid out as in our files. Of linear and addmv, either layout, with and without
+// optimize_for_inference, this was the fastest by 10 percent; the slowest took four times as long.
 
 #include <algorithm>
 #include <sstream>
@@ -15,7 +14,7 @@
 namespace panache::bench {
 namespace {
 
-constexpr int kUnseenRuns = 20;  // The interpreter looks at its first runs before it optimises.
+constexpr int kUnseenRuns = 20;  // Untimed: profiled by the interpreter before it optimises.
 
 class LibtorchEvaluation : public Evaluation {
  public:

@@ -1,5 +1,5 @@
-// The networks in oneDNN: inner products with ELU behind, weights in the library's own order; as
-// floats and in int8.
+// The networks in oneDNN: inner products followed by ELU, with weights in the library's own layout;
+// in float and int8.
 
 #include <algorithm>
 #include <cmath>
@@ -96,9 +96,9 @@ class OneDnnEvaluation : public Evaluation {
   std::vector<dnnl::memory> outputs_;
 };
 
-// Inner products of int8 weights with int8 inputs, which each call rounds to 127 steps of the
-// largest: a loop of ours, as the library has no such rounding. Scales are given at the call, as
-// they depend on the inputs; bias and ELU come behind them.
+// Inner products of int8 weights with int8 inputs. Each call quantizes its inputs to 127 steps of
+// the largest with our own loop, as the library has none. Scales are passed at the call because
+// they depend on the inputs; bias and ELU follow.
 class OneDnnInt8Evaluation : public Evaluation {
  public:
   explicit OneDnnInt8Evaluation(std::span<const Network> networks)
@@ -134,7 +134,7 @@ class OneDnnInt8Evaluation : public Evaluation {
     dnnl::inner_product_forward primitive;
     std::unordered_map<int, dnnl::memory> arguments;
     std::vector<float> scale;  // Of the weights. [outputs]
-    bool first, last;          // Of its network.
+    bool first, last;          // Layer of its network.
   };
   using Descriptor = dnnl::memory::desc;
   using Tag = dnnl::memory::format_tag;
@@ -148,7 +148,7 @@ class OneDnnInt8Evaluation : public Evaluation {
     return static_cast<float*>(memory.get_data_handle());
   }
 
-  // Returns what one of the bytes is worth.
+  // Returns the scale.
   static float round(std::span<const float> x, const dnnl::memory& out) {
     float largest = 0;
     for (const float v : x) largest = std::max(largest, std::abs(v));
@@ -200,7 +200,7 @@ class OneDnnInt8Evaluation : public Evaluation {
   std::vector<Step> steps_;
 };
 
-// Null, and a message, where the library does not have it.
+// Returns null and a message if the library lacks it.
 template <class T>
 Evaluation* make(const Network* networks, size_t count, std::string* problem) {
   try {

@@ -1,4 +1,4 @@
-// The networks in OpenBLAS. Other than products it has nothing for them: ELU is our own.
+// The networks in OpenBLAS, which offers only products: ELU is our own.
 
 #include <algorithm>
 

@@ -24,13 +24,13 @@ constexpr struct {
               {"onnxruntime", "ONNX Runtime", "onnxruntime"},
               {"onnxruntime_int8", "ONNX Runtime, int8", "onnxruntime", true},
               {"libtorch", "libtorch", "libtorch"}};
-// Outputs are of size 1, and sums of some hundred products in another order differ by a few units
-// of float.
+// Outputs have a magnitude of 1; sums of some hundred products in another order differ by a few
+// units of float precision.
 constexpr float kMaxDifference = 1e-4f;
-// Weights in steps of 1/127 of the largest in their column (below 3.5 deviations) and inputs in
-// 255 steps of their range (about 6.5 deviations) are each off by 0.8 percent of a deviation, 0.29
-// of the step. A layer adds both to the error of its outputs; over four layers that is 2 * 2 * 1.1
-// percent, of which five times is never seen.
+// Weights in steps of 1/127 of their column's largest (below 3.5 deviations) and inputs in 255
+// steps of their range (about 6.5 deviations) each have an error of 0.8 percent of a deviation,
+// 0.29 steps. A layer adds both to the error of its outputs; over four layers that is 2 * 2 * 1.1
+// percent. Five times as much never occurs.
 constexpr float kMaxInt8Difference = 0.23f;
 
 std::string folder_beside_program() {
@@ -46,7 +46,7 @@ bool machine_has(const std::string& flag) {
   return false;
 }
 
-// Opens the module at `path`, for good.
+// Opens the module at `path`, never to be closed.
 std::unique_ptr<Evaluation> open_module(const std::string& path, std::span<const Network> networks,
                                         bool int8, std::string& problem) {
   void* module = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
@@ -63,7 +63,7 @@ std::unique_ptr<Evaluation> open_module(const std::string& path, std::span<const
   return std::unique_ptr<Evaluation>(make(networks.data(), networks.size(), &problem));
 }
 
-// Says how far the evaluation is from our own loops, if that is too far.
+// Returns a message if the evaluation differs too much from our own loops.
 std::string check(Evaluation& evaluation, std::span<const Network> networks, bool int8) {
   const float max_difference = int8 ? kMaxInt8Difference : kMaxDifference;
   for (const uint64_t seed : {11, 12, 13}) {
@@ -80,7 +80,7 @@ std::string check(Evaluation& evaluation, std::span<const Network> networks, boo
   return "";
 }
 
-// Returns whether that changes it.
+// Returns whether the variable has changed.
 bool set_variable(const char* name, const std::string& value) {
   const char* const old = ::getenv(name);
   if (old && old == value) return false;
@@ -90,8 +90,8 @@ bool set_variable(const char* name, const std::string& value) {
 
 }  // namespace
 
-// One thread each. And OpenBLAS takes some newer machines for much older ones: where there is
-// AVX-512, its kernels for that are asked for.
+// One thread each. OpenBLAS takes some newer machines for much older ones; so this selects its
+// AVX-512 kernels if the machine has AVX-512.
 bool set_environment() {
   bool is_changed = false;
   for (const char* threads : {"OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"}) {

@@ -1,9 +1,8 @@
 #pragma once
-// The same networks in the libraries of others, each where it is installed.
-//
-// Each library is in a module of its own beside the program, in the folder `bench`, opened only by
-// `panache-lab bench`: so the program that is measured is the program that is used, their settings
-// are made before they start, and one may be compiled for this very machine without the others.
+// The same networks in other libraries, if these are installed.
+// Each library has its own module in the folder `bench` next to the program, which only
+// `panache-lab bench` opens. So the measured program is the one that is used, settings are made
+// before the libraries start, and a single module may be compiled for this machine.
 
 #include <memory>
 #include <span>
@@ -15,24 +14,24 @@
 namespace panache::bench {
 
 struct Peer {
-  std::string key;                         // As in forward_pass_us: "onnxruntime".
-  std::string name;                        // For people: "ONNX Runtime".
-  std::unique_ptr<Evaluation> evaluation;  // Null where it is missing; then
-  std::string missing;                     // why.
+  std::string key;                         // Key in forward_pass_us: "onnxruntime".
+  std::string name;                        // For display: "ONNX Runtime".
+  std::unique_ptr<Evaluation> evaluation;  // Null if it is missing; then
+  std::string missing;                     // the reason.
 };
 
-// Sets the environment that asks these libraries for a single thread and the kernels of this
-// machine. Returns whether that changes it: libraries loaded before have read the old one.
+// Sets environment variables that ask these libraries for one thread and this machine's kernels.
+// Returns whether they have changed: libraries already loaded have read the old ones.
 bool set_environment();
 
-// All that we know of, ready where they are there: found in `folder` (by default the folder `bench`
-// beside the program), and checked to give what our own loops give. Calls set_environment().
+// All known libraries, opened from `folder` (by default `bench` next to the program) and checked
+// against our own loops. Calls set_environment().
 std::vector<Peer> make_peers(std::span<const Network> networks, const std::string& folder = "");
 
-// What a module has instead: makes the evaluation, or returns null and says why.
+// The entry point of a module: makes the evaluation, or returns null and a message.
 extern "C" Evaluation* panache_bench_peer(const Network* networks, size_t count,
                                           std::string* problem);
-// The same in int8, where the library has that.
+// The same in int8, if the library supports it.
 extern "C" Evaluation* panache_bench_peer_int8(const Network* networks, size_t count,
                                                std::string* problem);
 

@@ -9,7 +9,7 @@
 namespace panache::bench {
 namespace {
 
-// Numbers of a blend in the making, 16 KB: with as many of one set they fit into a first cache.
+// Numbers of a partial blend, 16 KB: fits into an L1 cache together with as many of one set.
 constexpr size_t kBlendNumbers = 4096;
 constexpr size_t kMaxOutputs = 1024;
 
@@ -24,7 +24,7 @@ BlendedLayers random_layers(int inputs, int hidden, int outputs, int sets, uint6
   return layers;
 }
 
-// out = the sum of share[s] times set_numbers(s).
+// out = sum(share[s] * set_numbers(s)).
 template <class Numbers>
 void blend(std::span<const float> shares, const Numbers& set_numbers, std::span<float> out) {
   std::fill(out.begin(), out.end(), 0.0f);
@@ -71,7 +71,7 @@ std::array<float, 4> phase_shares(float phase) noexcept {
   const float along[4] = {-0.5f * t3 + t2 - 0.5f * t, 1.5f * t3 - 2.5f * t2 + 1,
                           -1.5f * t3 + 2 * t2 + 0.5f * t, 0.5f * t3 - 0.5f * t2};
   std::array<float, 4> shares{};
-  // Along the curve: the point before, the two around the phase, the one after.
+  // Along the curve: the point before, the two around the phase, the point after.
   for (int k = 0; k < 4; ++k) shares[static_cast<size_t>((at + k + 3) % 4)] = along[k];
   return shares;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Networks of other papers on motion, at their published sizes with random weights, in our kernels:
-// whose weights a network blends at every frame, it must read all of.
+// Networks of other motion papers at their published sizes, with random weights, in our kernels. A
+// network that blends weights at every frame has to read all of them.
 
 #include <array>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace panache::bench {
 
-// Several layers of one shape, of which each frame takes a blend.
+// Several layers of one shape, blended at each frame.
 struct BlendedLayer {
   std::vector<Layer> sets;
 
@@ -19,13 +19,13 @@ struct BlendedLayer {
   size_t outputs() const { return static_cast<size_t>(sets.front().outputs); }
 };
 
-// y = the layer whose weights and bias are the sum of share[s] times those of set s, on x; blended
-// a few rows at a time, so that the blend itself never leaves the first cache.
+// y = the layer with weights and bias sum(share[s] * set s), applied to x. Blends a few rows at a
+// time, so that the blend stays in the L1 cache.
 // y.size() = layer.outputs(), x.size() = layer.inputs(), shares.size() = layer.sets.size().
 void blended_dense(const BlendedLayer& layer, std::span<const float> shares,
                    std::span<const float> x, std::span<float> y) noexcept;
 
-// The shares of four control points on a closed Catmull-Rom spline at `phase`, 0 to 1.
+// The weights of four control points on a closed Catmull-Rom spline at `phase`, 0 to 1.
 std::array<float, 4> phase_shares(float phase) noexcept;
 
 // Three layers with ELU between.
@@ -41,20 +41,20 @@ class PhaseNetwork {
   // Blends the weights at every call ("cubic").
   void run(std::span<const float> x, float phase, std::span<float> y) noexcept;
   const BlendedLayers& layers() const { return layers_; }
-  size_t bytes() const { return bytes_of(layers_); }  // Of all weights, as below.
+  size_t bytes() const { return bytes_of(layers_); }  // Of all weights; likewise below.
 
  private:
   BlendedLayers layers_;
   std::array<std::vector<float>, 2> hidden_;
 };
 
-// The same with the blend for each of 50 phases made beforehand ("constant").
+// The same with blends for 50 phases, precomputed ("constant").
 class PhaseTable {
  public:
   static constexpr int kInputs = PhaseNetwork::kInputs, kOutputs = PhaseNetwork::kOutputs;
   static constexpr int kPhases = 50;
   explicit PhaseTable(const PhaseNetwork& network);
-  // Takes the weights of the last phase in the table that is not beyond `phase`.
+  // Uses the last phase in the table that is not above `phase`.
   void run(std::span<const float> x, float phase, std::span<float> y) noexcept;
   size_t bytes() const;
 
@@ -63,8 +63,8 @@ class PhaseTable {
   std::array<std::vector<float>, 2> hidden_;
 };
 
-// The mode-adaptive network of Zhang et al. 2018: 480 -> 512 -> 512 -> 363, eight experts whose
-// shares a gating network 19 -> 32 -> 32 -> 8 tells from the first inputs.
+// The mode-adaptive network of Zhang et al. 2018: 480 -> 512 -> 512 -> 363, with eight experts,
+// weighted by a gating network 19 -> 32 -> 32 -> 8 on the first inputs.
 class ModeNetwork {
  public:
   static constexpr int kInputs = 480, kHidden = 512, kOutputs = 363, kExperts = 8;
@@ -82,7 +82,7 @@ class ModeNetwork {
 };
 
 // The phase-functioned network of Mason et al. 2018: 234 -> 512 -> 512 -> 400, four sets, and per
-// style an adapter of rank 30 beside the second layer, scaled along its ranks by the phase:
+// style an adapter of rank 30 parallel to the second layer, scaled per rank by the phase:
 //   second hidden layer = ELU(W h + b + out (scale(phase) * (in h)) + bias).
 class StyleAdapterNetwork {
  public:

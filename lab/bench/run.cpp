@@ -17,9 +17,9 @@
 namespace panache::bench {
 namespace {
 
-// How the time goes by until the networks, the steps and the crowds are through.
+// Share of the time after the networks, the steps and the crowds.
 constexpr double kAfterLimits = 0.03, kAfterRace = 0.5, kAfterSteps = 0.85;
-// A walking cycle of a second at 60 frames a second.
+// A one-second gait cycle at 60 frames a second.
 constexpr float kPhaseStep = 1.0f / 60;
 
 ProgressCall part_of(const ProgressCall& progress, double from, double to) {
@@ -28,10 +28,10 @@ ProgressCall part_of(const ProgressCall& progress, double from, double to) {
   };
 }
 
-// What takes turns in the race, and all that it works on.
+// The contestants of the race, and their data.
 class Race {
  public:
-  // Appends what is there to `forward_passes` and `others`, still without times.
+  // Appends what is available to `forward_passes` and `others`, still without times.
   Result<void> prepare(Measurements& out);
   // Fills in the times.
   void run(Measurements& out, int rounds, const ProgressCall& progress);
@@ -41,7 +41,7 @@ class Race {
                         std::function<void()> run);
   void add_evaluation(Measurements& out, const std::string& key,
                       std::unique_ptr<Evaluation> evaluation);
-  // `network` is run with a phase that goes round, where it takes one.
+  // If `network` takes a phase, it is called with a cycling one.
   template <class Other>
   void add_other(Measurements& out, const std::string& key, const std::string& name,
                  const std::string& published, std::shared_ptr<Other> network);
@@ -49,7 +49,7 @@ class Race {
   std::vector<Contestant> contestants_;
   std::vector<std::unique_ptr<Evaluation>> evaluations_;
   std::vector<float> x_ = random_numbers(1024, 1), y_ = std::vector<float>(1024);
-  AlignedVector<float> as_many_;  // Numbers as the slides' networks have.
+  AlignedVector<float> as_many_;  // As many as the slides' networks have.
 };
 
 void Race::add_forward_pass(Measurements& out, const std::string& key, const std::string& name,
@@ -137,7 +137,7 @@ std::optional<double> Measurements::forward_us(const std::string& key) const {
 }
 
 Result<Measurements> measure_all(const Options& options, const ProgressCall& progress) {
-  // What may fail comes first.
+  // Steps that may fail come first.
   const Result<std::string> bytes = read_file(options.model);
   if (!bytes) return bytes.error();
   const Result<TensorFile> tensors = parse_safetensors(*bytes, options.model);

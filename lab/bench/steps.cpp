@@ -13,7 +13,7 @@ namespace panache::bench {
 namespace {
 
 constexpr int kParts = 10;
-constexpr int64_t kStageShare = 5;  // Of the steps, one in so many is taken apart.
+constexpr int64_t kStageShare = 5;  // One in so many steps is timed by stage.
 constexpr int kMaxColdSteps = 500;
 constexpr int64_t kUnseenSteps = 200;
 
@@ -23,7 +23,7 @@ std::vector<float> first_style(const Model& model) {
   return strengths;
 }
 
-// How often this thread was stopped for another since it began.
+// How often this thread has been preempted so far.
 int64_t interruptions() noexcept {
   rusage usage{};
   ::getrusage(RUSAGE_THREAD, &usage);
@@ -66,7 +66,7 @@ class Character {
   int frame_ = 0;
 };
 
-// How long each stage of a step takes.
+// Times each stage of a step.
 class StageTimes final : public StageClock {
  public:
   void begin() noexcept { begin_ = now_ns(); }
@@ -75,7 +75,7 @@ class StageTimes final : public StageClock {
     times_[static_cast<size_t>(stage)].add(now - begin_);
     begin_ = now_ns();
   }
-  // Without what the clock costs.
+  // Without the cost of the clock.
   double median(Stage stage) const {
     return std::max(0.0, times_[static_cast<size_t>(stage)].quantile(0.5) - clock_cost_ns());
   }

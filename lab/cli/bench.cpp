@@ -1,4 +1,4 @@
-// panache-lab bench: how fast it is here, and beside what.
+// panache-lab bench: speed on this machine, compared with other libraries and systems.
 
 #include <memory>
 #include <optional>
@@ -29,7 +29,7 @@ int run(const Options& options) {
   how.model = need(find_model(options.model, kFloatModel));
   how.walker_model = need(find_shipped(kWalkerModel));
   how.steps = options.quick ? kQuickSteps : options.steps;
-  // Before the process is tied to a core.
+  // Before the process is pinned to a core.
   std::optional<BuiltSystems> systems;
   if (!options.systems.empty()) {
     systems = need(build_systems(options.systems, options.styles, how.model));

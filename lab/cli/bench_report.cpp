@@ -8,11 +8,11 @@ namespace {
 using bench::Measurements;
 using bench::Timing;
 
-constexpr int kGameCrowd = 1000;  // The crowd whose number is the one that counts.
+constexpr int kGameCrowd = 1000;  // The crowd size that the headline number is for.
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
-// Columns of text: the first on the left, the others to the right. The first row is the heading.
+// Columns of text: the first left-aligned, the others right-aligned. The first row is the heading.
 std::string columns(const std::vector<std::vector<std::string>>& rows) {
   std::vector<size_t> widths(rows.front().size());
   for (const auto& row : rows) {
@@ -207,7 +207,7 @@ Json to_json(const Measurements& m, const std::vector<SystemTime>& systems) {
             {"p99_9", steps.quantile(0.999) / 1e3},
             {"worst", static_cast<double>(steps.worst()) / 1e3},
             {"networks", m.steps.networks / 1e3}}},
-          // The more of the two, as a crowd's model is its owner's choice; and each.
+          // The higher number, because the user chooses the crowd's model; and both.
           {"characters_at_60hz", or_null(std::max(at_60hz, at_60hz_int8))},
           {"characters_at_60hz_float32", or_null(at_60hz)},
           {"characters_at_60hz_half", or_null(at_60hz_int8)},

@@ -1,5 +1,5 @@
 #pragma once
-// The measured times, as JSON and as text.
+// The measured times as JSON and as text.
 
 #include <string>
 #include <vector>
@@ -10,12 +10,12 @@
 
 namespace panache::cli {
 
-// Times in microseconds; null where there is none.
+// Times in microseconds; null if missing.
 Json to_json(const bench::Measurements& measured, const std::vector<SystemTime>& systems);
-// Tables for a terminal, and what is missing and how one gets it.
+// Tables for a terminal, with what is missing and how to get it.
 std::string describe(const bench::Measurements& measured, const std::vector<SystemTime>& systems);
 
-// Characters whose steps fit into a sixtieth of a second.
+// The number of characters that can be stepped in 1/60 s.
 int characters_at_60hz(const bench::CrowdTime& crowd);
 
 }  // namespace panache::cli

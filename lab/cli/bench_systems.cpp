@@ -25,7 +25,7 @@ Result<BuiltSystems> build_systems(const std::string& manifest, const std::strin
   options.styles = styles;
   Result<Manifests> data = read_manifests(options);
   if (!data) return data.error();
-  // What moves while they are timed: a neutral take that they do not know, where there is one.
+  // The motion to time them on: a neutral take that is not trained on, if there is one.
   const auto neutral = std::find_if(data->rows.begin(), data->rows.end(),
                                     [](const ManifestRow& r) { return r.neutral && r.test; });
   const ManifestRow& row = neutral == data->rows.end() ? data->rows.front() : *neutral;

@@ -1,4 +1,4 @@
-// panache-lab eval: models beside real motion.
+// panache-lab eval: compares models with real motion.
 
 #include <algorithm>
 #include <filesystem>
@@ -37,15 +37,15 @@ struct Options {
   bool json = false;
 };
 
-// The takes of `tests` that may judge: those marked test, all of a manifest that marks none. Takes
-// that are trained on never judge, and neither do styles that nothing trained on shows.
+// The test takes of `tests`: those marked test, or all of a manifest that marks none. Excludes
+// takes that are trained on, and styles that no training take shows.
 std::vector<ManifestRow> read_tests(const std::vector<std::string>& tests,
                                     const Manifests& training) {
   std::set<std::string> learnt;
   for (const ManifestRow& row : training.rows) {
     if (!row.test) learnt.insert(std::filesystem::path(row.path).lexically_normal().string());
   }
-  // Performers keep their numbers; where manifests name none, their order tells.
+  // Keeps the numbers of performers; without names, the order of the manifests identifies them.
   std::map<std::string, int> persons;
   for (const ManifestRow& row : training.rows) {
     if (!row.person.empty()) persons.try_emplace(row.person, row.set);
@@ -70,9 +70,9 @@ std::vector<ManifestRow> read_tests(const std::vector<std::string>& tests,
   return rename_styles(training.styles, std::move(judged));
 }
 
-// The report tells systems apart by their names.
+// The report identifies systems by their names.
 void check_names(const Options& options, const EvaluateOptions& evaluation) {
-  std::map<std::string, std::string> names;  // And what has it.
+  std::map<std::string, std::string> names;  // And their owners.
   for (size_t m = 0; m < evaluation.models.size(); ++m) {
     const auto [name, is_new] = names.try_emplace(evaluation.models[m].name, options.models[m]);
     if (is_new) continue;

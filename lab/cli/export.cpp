@@ -1,4 +1,4 @@
-// panache-lab export: a model for other frameworks.
+// panache-lab export: converts a model for other frameworks.
 
 #include <memory>
 #include <string>

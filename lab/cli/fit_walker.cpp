@@ -1,4 +1,4 @@
-// panache-lab fit-walker: the model of panache walker, from neutral takes.
+// panache-lab fit-walker: fits the model of panache walker to neutral takes.
 
 #include <memory>
 #include <string>
@@ -17,7 +17,7 @@ namespace {
 struct Options {
   std::string output;
   std::vector<std::string> manifests;
-  std::string data, licence;  // What the fitted model says of them.
+  std::string data, licence;  // For the metadata of the model.
   bool force = false;
 };
 

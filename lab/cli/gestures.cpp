@@ -1,4 +1,4 @@
-// panache-lab gestures: finds the gestures of a model's styles in the takes that it is trained on.
+// panache-lab gestures: finds the gestures of a model's styles in their training takes.
 
 #include <algorithm>
 #include <memory>
@@ -24,7 +24,7 @@ bool is_listed(const std::vector<std::string>& list, const std::string& name) {
   return std::ranges::find(list, name) != list.end();
 }
 
-// The takes of a style and the neutral ones, without those that are held out.
+// The styled and neutral takes of a style, without those that are held out.
 std::vector<ManifestRow> rows_of(const Manifests& data, const std::string& style,
                                  const std::vector<std::string>& actions) {
   std::vector<ManifestRow> rows;

@@ -1,5 +1,5 @@
 #pragma once
-// The verbs of panache-lab. A further one is a source file with its add_ function, and a line here.
+// The verbs of panache-lab. To add one, add a source file with its add_ function and a line here.
 
 #include <CLI/CLI.hpp>
 
@@ -20,7 +20,7 @@
 
 namespace panache::cli {
 
-// add_train() and so on: each makes its subcommand; running that sets `exit_code`.
+// add_train() and so on: each creates its subcommand, which sets `exit_code` when run.
 #define PANACHE_DECLARE_VERB(name) void add_##name(CLI::App& app, int& exit_code);
 PANACHE_LAB_VERBS(PANACHE_DECLARE_VERB)
 #undef PANACHE_DECLARE_VERB

@@ -1,4 +1,4 @@
-// panache-lab learning: how well styles are learnt from one clip, with a neutral clip and without.
+// panache-lab learning: how well styles are learnt from one clip, with and without a neutral clip.
 
 #include <memory>
 #include <string>

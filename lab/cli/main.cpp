@@ -1,4 +1,4 @@
-// panache-lab: what makes, judges and draws the models and motions of panache.
+// panache-lab: trains, evaluates and draws the models and motions of panache.
 
 #include <string_view>
 
@@ -28,7 +28,7 @@ constexpr Program kLaboratory = {
 int main(int argc, char** argv) {
   using namespace panache::cli;
   if (argc == 3 && argv[1] == std::string_view(kPngDrawer)) return draw_png_as_child(argv[2]);
-  // libtorch loads OpenBLAS with the program, and that reads its environment before main.
+  // OpenBLAS, which libtorch loads at start-up, reads its environment before main.
   if (argc > 1 && argv[1] == std::string_view("bench") && panache::bench::set_environment()) {
     ::execv("/proc/self/exe", argv);
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Manifests on the command line: shared by train and eval.
+// Manifests on the command line, shared by train and eval.
 
 #include <string>
 #include <vector>
@@ -16,14 +16,14 @@ struct ManifestOptions {
   std::string styles;  // CSV of style names, or empty.
   std::vector<std::string> unlabelled;
 };
-// Returns the positional option of the manifests themselves.
+// Returns the positional option for the manifests.
 CLI::Option* add_manifest_options(CLI::App& verb, ManifestOptions& options);
 
 struct Manifests {
   std::vector<ManifestRow> rows;  // Styles renamed.
   std::vector<StyleName> styles;
   std::vector<ManifestRow> unlabelled;  // Motion without styles, for training.
-  std::vector<std::string> left_out;    // A sentence for each style that is not used.
+  std::vector<std::string> left_out;    // A message for each unused style.
 };
 Result<Manifests> read_manifests(const ManifestOptions& options);
 
@@ -31,11 +31,10 @@ Result<Manifests> read_manifests(const ManifestOptions& options);
 std::vector<ManifestRow> rows_to_train_on(const std::vector<ManifestRow>& rows,
                                           const std::vector<ManifestRow>& unlabelled);
 
-// Names all files of `rows` that do not exist, each in a message of its own, and fails where there
-// are any.
+// Fails with a message for each file of `rows` that does not exist.
 Result<void> check_files(const std::vector<ManifestRow>& rows);
 
-// Rejects an output that exists, unless `force`.
+// Rejects an existing output, unless `force`.
 Result<void> check_free(const std::string& output, bool force);
 
 }  // namespace panache::cli

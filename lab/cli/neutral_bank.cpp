@@ -1,4 +1,4 @@
-// panache-lab neutral-bank: what a style is learnt beside where there is no neutral clip.
+// panache-lab neutral-bank: makes the reference for learning a style without a neutral clip.
 
 #include <memory>
 #include <string>
@@ -18,7 +18,7 @@ namespace {
 struct Options {
   std::string output;
   std::vector<std::string> manifests;
-  std::string data, licence;  // What the bank says of them.
+  std::string data, licence;  // For the metadata of the bank.
   bool force = false;
 };
 

@@ -30,7 +30,7 @@ std::string OnnxGraph::constant(const std::string& name, const std::vector<int64
   tensor.set_name(name);
   tensor.set_data_type(onnx::TensorProto::FLOAT);
   for (const int64_t size : shape) tensor.add_dims(size);
-  // As bytes, which files hold little-endian, as this machine does.
+  // Files are little-endian, like this machine.
   tensor.set_raw_data(values.data(), values.size() * sizeof(float));
   return name;
 }

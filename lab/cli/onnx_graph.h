@@ -1,5 +1,5 @@
 #pragma once
-// A graph of ONNX operators, written one after another. Values are known by their names.
+// Builds a graph of ONNX operators. Values are identified by name.
 
 #include <cstdint>
 #include <string>
@@ -12,26 +12,26 @@ namespace panache::cli {
 
 class OnnxGraph {
  public:
-  // Lists in attributes of operators, "axes".
+  // List attributes of operators, "axes".
   using Attributes = std::vector<std::pair<std::string, std::vector<int64_t>>>;
 
   // Fills `graph`, which outlives this.
   explicit OnnxGraph(onnx::GraphProto& graph) : graph_(graph) {}
 
-  // Values of the whole model, float32 [batch, columns].
+  // Inputs and outputs of the model, float32 [batch, columns].
   std::string input(const std::string& name, size_t columns, const std::string& meaning);
   void output(const std::string& name, size_t columns, const std::string& meaning);
 
-  // Numbers that never change; their name.
+  // Adds constants; returns their name.
   std::string constant(const std::string& name, const std::vector<int64_t>& shape,
                        const std::vector<float>& values);
   std::string constant(const std::string& name, float value) { return constant(name, {}, {value}); }
   std::string integers(const std::string& name, const std::vector<int64_t>& values);
 
-  // What an operator makes of its inputs; `name` is its own.
+  // Adds an operator and returns the name of its output.
   std::string add(const std::string& type, const std::string& name,
                   const std::vector<std::string>& inputs, const Attributes& attributes = {});
-  // Along the second dimension of the inputs.
+  // Along the second dimension.
   std::string concat(const std::string& name, const std::vector<std::string>& inputs);
   // The sum of at least one value.
   std::string sum(const std::string& name, const std::vector<std::string>& terms);

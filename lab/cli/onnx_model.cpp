@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kSmith2019 = "smith2019";
 
-// The graph of one model. Names of values are those of its tensors, where they come from one.
+// The graph of one model. Values that are tensors of the model keep their names.
 class OnnxWriter {
  public:
   OnnxWriter(onnx::GraphProto& graph, const TensorFile& file, const Model& model)
@@ -65,7 +65,7 @@ class OnnxWriter {
     return graph_.add("Gemm", name, {x, constant(name + ".weight"), constant(name + ".bias")});
   }
 
-  // What the trunks see: the window, standardised, and style inputs of recipes that have any.
+  // Inputs of the trunks: the standardised window, and the recipe's style inputs if it has any.
   std::string write_input() {
     std::vector<float> mean, factor;
     for (int k = 0; k < kWindowPoses; ++k) {
@@ -83,14 +83,14 @@ class OnnxWriter {
           {input, graph_.constant("input.lowest", -clip), graph_.constant("input.highest", clip)});
     }
     if (model_.recipe().style_heads) return input;
-    // Neutral, which gets what the styles leave of 1, then the styles.
+    // Neutral, which gets 1 minus the sum of the styles, then the styles.
     std::string neutral =
         graph_.add("Sub", "input.remainder", {one_, graph_.row_sum("input.strength", strengths_)});
     neutral = graph_.add("Relu", "input.neutral", {neutral});
     return graph_.concat("input.all", {input, neutral, strengths_});
   }
 
-  // Strengths as they count: in full up to `even`, less beyond.
+  // Effective strengths: linear up to `even`, damped beyond.
   std::string driven(const std::string& what, float even) {
     const std::string name = "strengths." + what;
     const std::string core = graph_.add("Clip", name + ".core",
@@ -121,7 +121,8 @@ class OnnxWriter {
     }
   }
 
-  // Draws activations towards their mean as far as the window is unlike the training data.
+  // Draws activations to their mean, depending on the distance of the window from training data.
+  // data.
   std::string shrink(const std::string& hidden) {
     const std::string mean = constant("gate.mean");
     const std::string centred = graph_.add("Sub", "gate.centred", {hidden, mean});
@@ -143,8 +144,8 @@ class OnnxWriter {
     return graph_.add("Add", name + ".drawn", {mean, part});
   }
 
-  // What the heads of a network answer, as terms of a sum: one that is always in force, and those
-  // of the styles by their strengths.
+  // The outputs of a network's heads as terms of a sum: the one that is always active, and those of
+  // the styles, weighted by their strengths.
   std::vector<std::string> heads(const std::string& network, const std::string& hidden,
                                  int outputs) {
     const auto head = [&](size_t h) { return network + ".head." + std::to_string(h); };
@@ -187,7 +188,7 @@ class OnnxWriter {
     return terms;
   }
 
-  // A style in closed form on the activations of all hidden layers, with a gate of its own.
+  // A learnt style: closed form on the activations of all hidden layers, with its own gate.
   void add_learnt(size_t k, std::vector<std::string>& pose, std::vector<std::string>& timing,
                   std::vector<std::string>& contact) {
     const std::string name = "learnt." + std::to_string(k);
@@ -244,12 +245,12 @@ class OnnxWriter {
     if (heads) write_gate();
   }
 
-  // The mean of the styles' gates, by the size of their strengths.
+  // The mean gate of the styles, weighted by the absolute values of their strengths.
   void write_gate() {
     const std::string size = graph_.add("Abs", "gate.sizes", {strengths_});
     const std::string total = graph_.row_sum("gate.total", size);
     const std::string zero = graph_.constant("zero", 0);
-    if (gate_.empty()) {  // Always open: ones, as many as there are windows.
+    if (gate_.empty()) {  // Always open: ones, one per window.
       const std::string zeros = graph_.add("Mul", "gate.zeros", {total, zero});
       gate_ = graph_.add("Add", "gate.open", {zeros, one_});
     }
@@ -270,10 +271,10 @@ class OnnxWriter {
   const Model& model_;
   size_t styles_, learnt_ = 0;
   std::string one_, windows_, strengths_;
-  std::string posture_, movement_;  // Strengths as they count.
-  std::vector<std::string> pose_;   // Activations of the hidden layers of the pose network.
-  std::string activations_;         // All of these, where styles are learnt ones.
-  std::string gate_;                // Of the built-in styles; empty in models without.
+  std::string posture_, movement_;  // Effective strengths.
+  std::vector<std::string> pose_;   // Activations of the pose network's hidden layers.
+  std::string activations_;         // All of them, if there are learnt styles.
+  std::string gate_;                // Of the built-in styles; empty if the model has none.
   std::vector<std::string> learnt_gates_;
 };
 
@@ -296,7 +297,7 @@ Result<std::string> to_onnx(const TensorFile& file, const std::string& name) {
                  "; expected one with heads for styles, or " + kSmith2019};
   }
   onnx::ModelProto out;
-  out.set_ir_version(8);  // Of the same release of ONNX as opset 17.
+  out.set_ir_version(8);  // Released together with opset 17.
   out.set_producer_name("panache");
   out.add_opset_import()->set_version(kOnnxOpset);
   for (const auto& [key, value] : file.metadata) {

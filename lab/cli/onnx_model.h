@@ -1,5 +1,5 @@
 #pragma once
-// A model as an ONNX graph.
+// Exports a model as an ONNX graph.
 
 #include <string>
 
@@ -10,10 +10,9 @@ namespace panache::cli {
 
 inline constexpr int kOnnxOpset = 17;
 
-// The bytes of an ONNX file that computes what StyleNetworks does with the model of `file`, which
-// is one that Model::create() reads; docs/onnx.md lists inputs and outputs. Fails for models of
-// int8 weights, without styles, and of recipes whose style inputs it does not know. `name` stands
-// in front of the message.
+// The bytes of an ONNX file that computes the same as StyleNetworks for the model of `file`, which
+// Model::create() must accept; docs/onnx.md lists inputs and outputs. Fails for int8 models, models
+// without styles, and recipes with unknown style inputs. `name` is the prefix of messages.
 Result<std::string> to_onnx(const TensorFile& file, const std::string& name);
 
 }  // namespace panache::cli

@@ -11,7 +11,7 @@
 #include "child_process.h"
 
 #ifdef PANACHE_SANITIZED
-// What fontconfig keeps of the machine's fonts until the end of the program is no leak of ours.
+// The fonts that fontconfig caches until the program ends are not our leak.
 // NOLINTBEGIN(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp): the sanitizer's own name.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig\n"; }
@@ -22,11 +22,11 @@ namespace panache::cli {
 namespace {
 
 constexpr int kLongestDrawing = 50;  // Seconds.
-// Without these the libraries that read fonts leave the text out, or wait for ever.
+// Without these, the font libraries leave out text or hang.
 constexpr size_t kFontFiles = 8;
 constexpr size_t kFontMemory = size_t{128} << 20;
-constexpr double kPixels = 2;           // Of the PNG for one of the drawing, for sharp screens.
-constexpr double kLongestSide = 32000;  // Pixels. Cairo takes 32,767.
+constexpr double kPixels = 2;           // PNG pixels per unit of the drawing, for sharp screens.
+constexpr double kLongestSide = 32000;  // Pixels. Cairo's limit is 32,767.
 
 template <auto destroy>
 struct Destroy {
@@ -88,7 +88,7 @@ Result<std::string> svg_to_png(const std::string& svg, const std::string& path) 
 }
 
 int draw_png_as_child(const std::string& path) {
-  // Fonts are read while it draws.
+  // Fonts are loaded during drawing.
   return answer_as_child(
       path, [&] { return draw(read_input_as_child(), path); },
       [](const std::string& png) { return Result<std::string>(png); }, kLongestDrawing);

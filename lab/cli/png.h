@@ -1,5 +1,5 @@
 #pragma once
-// Drawings as pixels.
+// Renders drawings to pixels.
 
 #include <string>
 
@@ -7,14 +7,14 @@
 
 namespace panache::cli {
 
-// The PNG of an SVG drawing, two pixels for each of the drawing's, or fewer where a side would have
-// more than 32,000. `path` stands in front of the message of a failure. It is drawn in a process of
-// its own: where the libraries that draw find no memory, they end it, or wait for ever.
+// Renders an SVG drawing to PNG at two pixels per unit, or fewer if a side would exceed 32,000.
+// `path` is the prefix of messages. Runs in a separate process, because the drawing libraries abort
+// or hang when out of memory.
 Result<std::string> svg_to_png(const std::string& svg, const std::string& path);
 
-// The first argument that makes this program the process that draws what stands at its standard
-// input, and what it does then, with the path as the second; returns the exit code. Nobody else has
-// a use for it.
+// The first argument that turns this program into that process, and its main function: it draws
+// standard input, with the path as the second argument, and returns the exit code. For internal use
+// only.
 inline constexpr const char* kPngDrawer = "--draw-png-for-parent";
 int draw_png_as_child(const std::string& path);
 

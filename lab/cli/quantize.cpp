@@ -1,5 +1,5 @@
-// panache-lab quantize: a model of less than half the size, which is evaluated in less than half
-// the time; and styles for it.
+// panache-lab quantize: makes an int8 model with less than half the size and evaluation time; and
+// int8 styles for it.
 
 #include <memory>
 #include <string>
@@ -23,7 +23,7 @@ struct QuantizeVerb {
 // The file's bytes in int8.
 std::string quantize_file(const std::string& path, const std::string& bytes) {
   const TensorFile file = need(parse_safetensors(bytes, path));
-  // Faults of a model or a style file are reported as everywhere.
+  // Reports errors of a model or a style file in the usual way.
   if (is_style_file(file)) {
     need(read_style_info(file, path));
   } else {

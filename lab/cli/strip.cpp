@@ -1,4 +1,4 @@
-// panache-lab strip: motion files as a picture, one row of stick figures each.
+// panache-lab strip: draws motion files as rows of stick figures.
 
 #include <algorithm>
 #include <cmath>
@@ -21,10 +21,10 @@
 namespace panache::cli {
 namespace {
 
-// What fits a page beside others, unless one asks for more.
+// Defaults that fit a page.
 constexpr double kDefaultLength = 4;  // Seconds.
 constexpr double kLongestTime = 86400;
-constexpr int kMaxFigures = 1000;  // In a row.
+constexpr int kMaxFigures = 1000;  // Per row.
 
 struct StripVerb {
   std::vector<std::string> inputs, labels;
@@ -79,7 +79,7 @@ StripRow read_row(const std::string& path, const StripVerb& verb, const RigOptio
                    brief(verb.from) + " s on"},
                   kBadInput};
   }
-  // A calibration pose is no part of the motion.
+  // Skips a calibration pose, which is not part of the motion.
   const double begin = std::max(verb.from, rig.first_frame() * clip.frame_time);
   StripRow row;
   row.label = std::filesystem::path(path).stem().string();
@@ -88,7 +88,7 @@ StripRow read_row(const std::string& path, const StripVerb& verb, const RigOptio
   std::vector<Vec3> translations(clip.joints());
   for (int i = 0;; ++i) {
     const double seconds = begin + i * verb.every;
-    // Half a microsecond: what frame times in files are rounded to adds up to less.
+    // Half a microsecond: accumulated rounding of frame times in files is smaller.
     if (i > 0 && seconds > std::min(verb.to, end) + 5e-7) break;
     sample(clip, seconds / clip.frame_time, {rotations, translations});
     BodyPose body;

@@ -28,7 +28,7 @@ struct Options {
   bool force = false, json = false;
 };
 
-// What an interrupted training leaves, and how to go on.
+// The checkpoints that an interrupted training leaves, and how to resume.
 std::string describe_stop(const std::string& output) {
   const std::vector<std::string> saved = find_checkpoints(output);
   if (saved.empty()) return "stopped; nothing is kept yet, and the same command starts anew";
@@ -39,8 +39,8 @@ std::string describe_stop(const std::string& output) {
          "); delete " + (saved.size() == 1 ? "it" : "them") + " to start anew";
 }
 
-// While it lives, Ctrl-C ends the program with a message, wherever the training is: checkpoints
-// are written whole or not at all.
+// During its lifetime, Ctrl-C ends the program with a message at any point of the training:
+// checkpoints are written atomically.
 class StopWatch {
  public:
   explicit StopWatch(const std::string& output) {
@@ -65,7 +65,7 @@ class StopWatch {
   std::thread thread_;
 };
 
-// What each style was learnt from.
+// The training data of each style.
 std::string style_table(const std::vector<StyleCoverage>& styles) {
   if (styles.empty()) return "";
   size_t width = 6;
@@ -100,7 +100,7 @@ int run(const Options& options) {
                 kBadInput);
   }
   const Manifests data = need(read_manifests(options.data));
-  // Training takes minutes: what stands in the way of its result is said before.
+  // Checks first what would make a training of minutes useless.
   need(check_free(options.output, options.force));
   need(check_files(rows_to_train_on(data.rows, data.unlabelled)));
   std::vector<std::string> left_out;
@@ -117,7 +117,7 @@ int run(const Options& options) {
   }
   if (!options.remover_of.empty()) {
     train_options.remover_of = need(Model::load(options.remover_of));
-    // Nothing is predicted before its style is off.
+    // Predictions need input whose style is removed first.
     train_options.settings.predictor_steps = 0;
   }
   train_options.seed = options.seed;

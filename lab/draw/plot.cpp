@@ -18,12 +18,12 @@ constexpr const char* kSoft = "#666666";
 constexpr const char* kGrid = "#e6e6e6";
 constexpr const char* kAxis = "#999999";
 
-// Six digits, more than round numbers have, without the zeros behind them.
+// Six digits, more than round numbers have, without trailing zeros.
 std::string shortest(double value) {
   char text[32];
   const int length = std::snprintf(text, sizeof text, "%.6g", value);
   std::string out(text, length);
-  // Where the locale writes a comma.
+  // In locales with a decimal comma.
   std::replace(out.begin(), out.end(), ',', '.');
   return out;
 }
@@ -35,7 +35,7 @@ struct Range {
     low = std::min(low, v);
     high = std::max(high, v);
   }
-  // Not empty and not a single point, whatever it was.
+  // Makes any range non-empty.
   Range widened() const {
     if (low > high) return {0, 1};
     if (low < high) return *this;
@@ -44,9 +44,9 @@ struct Range {
   }
 };
 
-// One axis: where its numbers lie in pixels, and which of them are shown.
+// One axis: its scale in pixels, and the ticks to show.
 struct Axis {
-  Range range;  // Logarithms to base 10 where `log`.
+  Range range;  // Logarithms to base 10 if `log`.
   bool log = false;
   double from = 0, to = 0;  // Pixels.
   std::vector<double> ticks;
@@ -55,12 +55,12 @@ struct Axis {
   double inner(double v) const { return log ? std::log10(v) : v; }
   double pixel(double v) const {
     const double share = (inner(v) - range.low) / (range.high - range.low);
-    // A range that is too wide or too narrow for a double has no inside.
+    // Everything is at the start of a range that is too wide or too narrow for a double.
     return std::isfinite(share) ? from + share * (to - from) : from;
   }
 };
 
-// 1, 10, 100, ...; where these are few, 2 and 5 as well.
+// 1, 10, 100, ...; also 2 and 5 if there are few of these.
 std::vector<double> log_ticks(const Range& range) {
   std::vector<double> ticks;
   const double decades = range.high - range.low;
@@ -78,7 +78,7 @@ std::vector<double> log_ticks(const Range& range) {
   return ticks;
 }
 
-// Ends the range at the nearest of 1, 2 and 5 times a power of ten outside.
+// Extends the range to the nearest 1, 2 or 5 times a power of ten.
 Range round_decades(Range range) {
   const auto nearest = [](double log, bool up) {
     const double e = std::floor(log + 1e-9), rest = log - e;
@@ -119,8 +119,7 @@ void set_up(const std::vector<PlotSeries>& series, bool log_y, Axis& x, Axis& y)
   }
 }
 
-// The points of a curve that can be told apart: of those in one pixel column the first, the lowest,
-// the highest and the last.
+// The distinguishable points of a curve: in each pixel column the first, lowest, highest and last.
 std::vector<Point> thinned(const std::vector<Point>& points) {
   constexpr size_t kColumn = 4;
   std::vector<Point> out;
@@ -156,7 +155,7 @@ void draw_curve(Svg& svg, const PlotSeries& series, const std::string& colour, c
     if (run.size() > 1) svg.polyline(thinned(run), {colour, 2.2, 1, ""});
     run.clear();
   }
-  // Few points are worth seeing one by one.
+  // Markers are shown only if there are few points.
   constexpr size_t kFew = 24;
   for (size_t i = 0; count <= kFew && i < count; ++i) {
     if (x.holds(series.x[i]) && y.holds(series.y[i])) {
@@ -165,8 +164,7 @@ void draw_curve(Svg& svg, const PlotSeries& series, const std::string& colour, c
   }
 }
 
-// Names and colours in rows from `top` on; returns where the next thing may begin. Without `svg` it
-// only measures.
+// Draws names and colours in rows from `top` on; returns the end. Without `svg` it only measures.
 double draw_legend(Svg* svg, const std::vector<PlotSeries>& series, double left, double top) {
   constexpr double kSwatch = 22, kGap = 20, kRowHeight = 21;
   double x = left, y = top;
@@ -215,7 +213,7 @@ void draw_axes(Svg& svg, const Axis& x, const Axis& y, const std::string& x_labe
 
 std::string axis_number(double value) {
   const double size = std::abs(value);
-  // Below this a double has fewer digits than we show, and powers of ten end.
+  // Smaller doubles have fewer digits than shown, and no powers of ten.
   if (size < 1e-300) return "0";
   const struct {
     double from, unit;

@@ -12,8 +12,8 @@ namespace {
 // Pixels.
 constexpr double kMargin = 20, kRowGap = 22, kTitleHeight = 30, kTimeHeight = 24;
 constexpr double kRowLabelSize = 15, kTimeSize = 11;
-constexpr double kLabelWidth = 190, kLabelLine = 19;  // The widest line of a label; line to line.
-// Metres: how thick the parts of a figure are.
+constexpr double kLabelWidth = 190, kLabelLine = 19;  // Maximum width of a line; line height.
+// Thickness of the parts of a figure, metres.
 constexpr double kArm = 0.062, kLeg = 0.085, kTorso = 0.15, kNeck = 0.07, kHalo = 0.022;
 constexpr double kHeadRadius = 0.1, kHeadRise = 0.09;
 constexpr const char* kGround = "#d5d5d5";
@@ -21,12 +21,12 @@ constexpr const char* kFaint = "#8a8a8a";
 
 using enum HumanJoint;
 
-// A place as the camera sees it: metres to the right, up, and towards the viewer.
+// A point in camera space: metres to the right, up, and towards the viewer.
 struct Seen {
   double right = 0, up = 0, near = 0;
 };
 
-// An orthographic camera, turned to the motion's own direction.
+// An orthographic camera that is rotated with the direction of motion.
 class Camera {
  public:
   Camera(Vec3d ahead, const StripOptions& options) : ahead_(ahead) {
@@ -39,7 +39,7 @@ class Camera {
 
   Seen see(Vec3d place) const {
     const double forward = dot(place, ahead_);
-    // To the body's right, which is the side that faces the viewer.
+    // To the body's right, the side that faces the viewer.
     const double right = dot(place, cross(ahead_, {0, 1, 0}));
     const double near = forward * yaw_sin_ + right * yaw_cos_;
     return {forward * yaw_cos_ - right * yaw_sin_, place.y * pitch_cos_ - near * pitch_sin_,
@@ -55,14 +55,14 @@ bool all_finite(const HumanPositions& body) {
   return std::all_of(body.begin(), body.end(), [](Vec3 p) { return is_finite(p); });
 }
 
-// Where the body faces, horizontal and of unit length.
+// The body's heading, horizontal and of unit length.
 Vec3d facing(const HumanPositions& body) {
   const Vec3d left = (body[index(left_upper_leg)] - body[index(right_upper_leg)]).as<double>() +
                      (body[index(left_upper_arm)] - body[index(right_upper_arm)]).as<double>();
   return normalized(cross(Vec3d{left.x, 0, left.z}, Vec3d{0, 1, 0}), Vec3d{0, 0, 1});
 }
 
-// Where a row goes, horizontal and of unit length: see StripOptions.
+// The direction of a row, horizontal and of unit length: see StripOptions.
 Vec3d way_of(const StripRow& row) {
   constexpr double kGoes = 0.7;  // Metres.
   Vec3d faced;
@@ -82,8 +82,8 @@ Vec3d way_of(const StripRow& row) {
   return goes ? normalized(way) : faced;
 }
 
-// A label in lines that are not too wide: parted between words, or after what joins them in the
-// names of files, or anywhere where a word alone is too wide.
+// Breaks a label into lines between words, after joining characters in file names, or anywhere if a
+// single word is too wide.
 std::vector<std::string> label_lines(const std::string& label) {
   std::vector<std::string> lines;
   std::string line, word;
@@ -96,7 +96,7 @@ std::vector<std::string> label_lines(const std::string& label) {
     word.clear();
   };
   for (const char c : label) {
-    // Bytes of one letter stay together.
+    // Keeps the bytes of a UTF-8 character together.
     const bool inside = (static_cast<unsigned char>(c) & 0xc0) == 0x80;
     if (!inside && text_width(word + c, kRowLabelSize) > kLabelWidth) put();
     word += c;
@@ -107,7 +107,7 @@ std::vector<std::string> label_lines(const std::string& label) {
   return lines;
 }
 
-// One figure, already in the drawing's own metres: to the right and up from its row's origin.
+// One figure, in metres of the drawing: right and up from its row's origin.
 struct Figure {
   std::array<Seen, kHumanJoints> joints;
   Seen head;
@@ -115,7 +115,7 @@ struct Figure {
 };
 
 Figure make_figure(const HumanPositions& body, const Camera& camera, double hips_right) {
-  // Only the hips' distance from the viewer is taken away, and their way if figures stand apart.
+  // Subtracts only the hips' distance from the viewer, and their travel if figures stand apart.
   const Vec3d hips = body[index(HumanJoint::hips)].as<double>();
   const Seen ground = camera.see({hips.x, 0, hips.z});
   const auto place = [&](Vec3d p) {
@@ -132,7 +132,7 @@ Figure make_figure(const HumanPositions& body, const Camera& camera, double hips
   return figure;
 }
 
-// A part of a body: lines through joints, drawn together.
+// A body part: lines through joints, drawn together.
 struct Part {
   struct Line {
     std::vector<HumanJoint> through;
@@ -174,7 +174,7 @@ void draw_figure(Svg& svg, const Figure& figure, const std::string& colour, Poin
   std::stable_sort(parts.begin(), parts.end(),
                    [](const Part& a, const Part& b) { return a.near < b.near; });
   for (const Part& part : parts) {
-    // A white rim sets a part off from what lies behind it.
+    // A white outline separates a part from those behind it.
     for (const bool rim : {true, false}) {
       const std::string paint = rim ? "#ffffff" : tinted(colour, part.tint);
       const double extra = rim ? 2 * kHalo : 0;
@@ -189,14 +189,14 @@ void draw_figure(Svg& svg, const Figure& figure, const std::string& colour, Poin
   }
 }
 
-// What a row looks like before it is put on the page.
+// The layout of a row, before it is placed on the page.
 struct Layout {
   std::vector<std::vector<Figure>> rows;
-  double left = 0, right = 0;  // Of all figures, metres.
-  double top = 1, bottom = 0;  // Likewise, from the ground.
+  double left = 0, right = 0;  // Extent of all figures, metres.
+  double top = 1, bottom = 0;  // Likewise, relative to the ground.
 };
 
-// The widest that any figure reaches to one side of its hips.
+// The maximum reach of a figure to one side of its hips.
 double widest_reach(const std::vector<StripRow>& rows, const std::vector<Camera>& cameras) {
   double reach = 0.3;
   for (size_t r = 0; r < rows.size(); ++r) {
@@ -213,7 +213,7 @@ double widest_reach(const std::vector<StripRow>& rows, const std::vector<Camera>
 // cameras: [rows].
 Layout lay_out(const std::vector<StripRow>& rows, const std::vector<Camera>& cameras,
                const StripOptions& options) {
-  constexpr double kGapShare = 1.7;  // Neighbours rarely reach out to each other at once.
+  constexpr double kGapShare = 1.7;  // Neighbours rarely reach towards each other at once.
   const double apart = widest_reach(rows, cameras) * kGapShare;
   Layout layout;
   bool first = true;
@@ -261,7 +261,7 @@ void draw_times(Svg& svg, const std::vector<Figure>& figures, Point origin, doub
   }
 }
 
-// The ground; where figures travel, with a mark for every half metre of the way ahead.
+// The ground; if figures travel, with a mark every half metre ahead.
 void draw_ground(Svg& svg, const Layout& layout, Point origin, const StripOptions& options) {
   const double scale = options.pixels_per_metre;
   const double left = origin.x + layout.left * scale, right = origin.x + layout.right * scale;

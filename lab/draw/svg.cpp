@@ -10,7 +10,7 @@
 namespace panache {
 namespace {
 
-// "12.34" whatever the locale says; "12" rather than "12.00".
+// "12.34" in any locale; "12" rather than "12.00".
 std::string decimal(double value) {
   constexpr double kLargest = 1e9;
   if (!std::isfinite(value)) value = 0;
@@ -99,7 +99,7 @@ std::string Svg::str() const {
 }
 
 double text_width(std::string_view text, double size) {
-  // The mean character of a Helvetica is a little over half as wide as its size.
+  // The mean width of a Helvetica character is a little over half its size.
   const auto characters = std::count_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
   });
@@ -107,7 +107,7 @@ double text_width(std::string_view text, double size) {
 }
 
 std::string palette(size_t i) {
-  // Okabe and Ito's colours, the light ones darkened to be read on white.
+  // Okabe and Ito's palette, with light colours darkened for a white background.
   constexpr std::array<const char*, 7> kColours = {"#0072b2", "#d55e00", "#009e73", "#aa3377",
                                                    "#56a4d9", "#c99700", "#555555"};
   return kColours[i % kColours.size()];

@@ -1,5 +1,5 @@
 #pragma once
-// Drawings as SVG files: a few shapes, one after another, later ones on top.
+// SVG drawings: simple shapes, later ones on top.
 
 #include <string>
 #include <string_view>
@@ -12,27 +12,27 @@ struct Point {
   double x = 0, y = 0;
 };
 
-// A line's look. Ends and corners are round.
+// Line style, with round caps and joins.
 struct Stroke {
   std::string colour = "#000000";
   double width = 1;
   double opacity = 1;
-  std::string dashes;  // Lengths of dash and gap ("4 3"); empty for none.
+  std::string dashes;  // Lengths of dash and gap ("4 3"); empty: solid.
 };
 
 struct TextStyle {
   double size = 12;  // Pixels.
   std::string colour = "#333333";
-  enum class Anchor { start, middle, end } anchor = Anchor::start;  // Which part stands at x.
+  enum class Anchor { start, middle, end } anchor = Anchor::start;  // The part of the text at x.
   bool bold = false;
-  bool upwards = false;  // Turned to be read from below.
+  bool upwards = false;  // Rotated by 90 degrees to read upwards.
 };
 
-// Coordinates have two decimals; those that are not finite count as 0. Texts are UTF-8 of any
-// content: what XML cannot hold is replaced.
+// Coordinates have two decimals; non-finite ones count as 0. Texts are any UTF-8; characters that
+// XML does not allow are replaced.
 class Svg {
  public:
-  // A drawing of this size on a white ground.
+  // A drawing of this size with a white background.
   Svg(double width, double height);
 
   void line(Point from, Point to, const Stroke& stroke);
@@ -40,7 +40,7 @@ class Svg {
   void circle(Point centre, double radius, std::string_view fill);
   // `radius` rounds the corners.
   void rect(Point corner, double width, double height, std::string_view fill, double radius = 0);
-  // `at` is on the base line.
+  // `at` is on the baseline.
   void text(Point at, std::string_view text, const TextStyle& style);
 
   // The whole file.
@@ -51,13 +51,13 @@ class Svg {
   std::string shapes_;
 };
 
-// About how wide `text` is when drawn at `size`, pixels.
+// The approximate width of `text` at `size`, pixels.
 double text_width(std::string_view text, double size);
 
-// The colour of the i-th of several things: told apart by the colour-blind too, on white.
+// The i-th colour of a palette that is safe for colour-blind readers, on white.
 std::string palette(size_t i);
 
-// `colour` ("#rrggbb") on its way to white (amount 1) or black (amount -1); others are left alone.
+// Blends `colour` ("#rrggbb") towards white (amount 1) or black (amount -1); others stay unchanged.
 std::string tinted(const std::string& colour, double amount);
 
 }  // namespace panache

@@ -9,7 +9,7 @@
 namespace panache {
 namespace {
 
-constexpr size_t kInstantsPerPart = 512;  // Of the work that one thread takes at a time.
+constexpr size_t kInstantsPerPart = 512;  // Work of one thread at a time.
 
 std::vector<AlignedInstant> align(const std::vector<Take>& takes) {
   std::vector<int> styled, neutral;
@@ -52,7 +52,7 @@ PoseErrors AlignedTakes::system_errors(const System& system, double strength,
                                        const std::vector<Take>& seen, float speed) const {
   if (!system.instants(strength)) return {};
   return mean_errors([&]() -> Answer {
-    // Shared, as a std::function can be copied.
+    // Shared, because a std::function must be copyable.
     return [&, answers = std::shared_ptr(system.instants(strength))](const AlignedInstant& i) {
       return answers->change(positions_[i.styled].row.style, seen[i.neutral], i.at / speed,
                              positions_[i.neutral], i.at);
@@ -73,7 +73,7 @@ PoseErrors AlignedTakes::mean_errors(const std::function<Answer()>& make_answer)
       }
     }
   });
-  // In order, so that the sums are the same whichever thread was faster.
+  // In order, so that sums do not depend on thread timing.
   PoseErrors means;
   std::map<std::pair<std::string, std::string>, double> counts;
   for (size_t n = 0; n < errors.size(); ++n) {

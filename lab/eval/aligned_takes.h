@@ -1,5 +1,5 @@
 #pragma once
-// Real styled test takes laid over neutral ones in time, and how near a system comes to them.
+// Real styled test takes aligned with neutral ones in time, and the pose error of systems on them.
 
 #include <functional>
 #include <map>
@@ -15,16 +15,16 @@
 
 namespace panache {
 
-// A styled frame and the neutral instant that corresponds to it.
+// A styled frame and the corresponding neutral instant.
 struct AlignedInstant {
-  int styled = 0, frame = 0;  // Take, and frame of it.
+  int styled = 0, frame = 0;  // Take and its frame.
   int neutral = 0;            // Take,
-  float at = 0;               // and fractional frame of it.
+  float at = 0;               // and its fractional frame.
 };
 
-// What a system is shown in place of the neutral takes, while its answer is still put on the takes
-// themselves. takes[i] stands for take i, in the system's layout, and shows the instant of its
-// frame f at frame f / speed.
+// Replaces the neutral takes as a system's input, while the output is still applied to the takes
+// themselves. takes[i] replaces take i, in the system's layout; its frame f / speed shows the same
+// instant as the take's frame f.
 struct SeenTakes {
   std::vector<Take> takes;
   float speed = 1;
@@ -33,35 +33,35 @@ struct SeenTakes {
 // Mean errors per style and content.
 using PoseErrors = std::map<std::pair<std::string, std::string>, PoseError>;
 
-// The test takes of one evaluation, aligned once for any number of systems. Alignment is that of
-// training: pair_takes() lays windows of 1.5 s of each styled take, 0.5 s apart, over the neutral
-// takes of the same set and content by dynamic time warping; kTrimFrames frames at both ends of a
-// window are left out. Frames that lie in several windows count once for each.
+// The test takes of one evaluation, aligned once for any number of systems, as in training:
+// pair_takes() aligns windows of 1.5 s of each styled take, 0.5 s apart, with the neutral takes of
+// the same set and content by dynamic time warping; kTrimFrames frames at both ends of a window are
+// left out. Frames in several windows count once for each.
 class AlignedTakes {
  public:
-  // Neutral and styled takes that no model was trained on, with their numbers in layout positions.
-  // Styled takes whose content no neutral take has are left out.
+  // Neutral and styled takes that no model was trained on, with features in layout positions. Skips
+  // styled takes whose content has no neutral take.
   explicit AlignedTakes(std::vector<Take> takes);
 
-  // Of a system's answers at one strength of each take's own style; styles that it does not know
-  // are left out. Empty where it has no answers for single instants.
+  // Errors of a system's changes at one strength of each take's own style; skips unknown styles.
+  // Empty if the system has none for single instants.
   PoseErrors errors(const System& system, double strength = 1) const;
-  // The same where the windows are cut from `seen`, and nothing else is.
+  // The same, but with the input windows taken from `seen`.
   PoseErrors errors(const System& system, double strength, const SeenTakes& seen) const;
-  // Of the neutral takes themselves: no transfer.
+  // Errors of the neutral takes themselves, without a style.
   PoseErrors untouched_errors() const;
 
-  // All takes as they were given, with the numbers of this layout.
+  // All given takes, with features of this layout.
   const std::vector<Take>& takes(PoseLayout layout = PoseLayout::positions) const {
     return layout == PoseLayout::positions ? positions_ : rotations_;
   }
   const std::vector<AlignedInstant>& instants() const { return instants_; }
 
  private:
-  // The change that a system makes of an instant; nothing where it does not know the style.
+  // The change of a system for an instant; empty if it does not know the style.
   using Answer = std::function<std::optional<StyleDelta>(const AlignedInstant&)>;
-  // Asks over all cores. Instants are shared out in parts, and each part has an answer of its own,
-  // so that answers may keep buffers.
+  // Evaluates on all cores. Each thread processes parts of the instants with its own instance, so
+  // that instances may keep buffers.
   PoseErrors mean_errors(const std::function<Answer()>& make_answer) const;
   PoseErrors system_errors(const System& system, double strength, const std::vector<Take>& seen,
                            float speed) const;

@@ -6,9 +6,9 @@
 namespace panache {
 namespace {
 
-constexpr int kLearntHop = 15, kHop = 10;  // Frames between the first ones of two windows.
+constexpr int kLearntHop = 15, kHop = 10;  // Frames between the starts of two windows.
 constexpr int kBones = kHumanJoints - 1;
-// Directions of the bones, their deviations, speeds of the joints, height of the hips.
+// Bone directions, their deviations, joint speeds, height of the hips.
 constexpr int kStatistics = 3 * kBones + 3 * kBones + kHumanJoints + 2;
 constexpr float kStillSpeed = 0.05f;                   // m/s, added before the logarithm.
 constexpr float kHeightUnit = 0.2f, kBobUnit = 0.03f;  // Metres.
@@ -55,7 +55,7 @@ void write_statistics(const std::vector<HumanPositions>& body, int first, int wi
   out[kStatistics - 1] = std::sqrt(std::max(squared_height - height * height, 0.0f)) / kBobUnit;
 }
 
-// Of the windows of a take, or of all of one that is shorter. [windows][kStatistics]
+// Statistics of the windows of a take, or of a shorter take as a whole. [windows][kStatistics]
 torch::Tensor statistics(const std::vector<HumanPositions>& body, int window_frames, int hop) {
   const int windows = 1 + std::max(0, static_cast<int>(body.size()) - window_frames) / hop;
   torch::Tensor rows = torch::empty({windows, kStatistics});
@@ -66,7 +66,7 @@ torch::Tensor statistics(const std::vector<HumanPositions>& body, int window_fra
   return rows.to(torch::kFloat64);
 }
 
-// Of all windows of a take, left as right too. [windows][kStatistics]
+// Statistics of all windows of a take and of its mirror image. [windows][kStatistics]
 torch::Tensor both_sides(const Take& take, int window_frames) {
   return torch::cat({statistics(take.body, window_frames, kLearntHop),
                      statistics(mirrored_body(take), window_frames, kLearntHop)});

@@ -1,7 +1,7 @@
 #pragma once
-// A second judge of styles, of another family than the networks that guide and judge elsewhere:
-// linear discriminant analysis of a few statistics of a second of motion. What fools a network does
-// not fool it.
+// A second style classifier, of another family than the networks that guide and evaluate elsewhere:
+// linear discriminant analysis of simple statistics of one second of motion. Motion that fools a
+// network does not fool it.
 
 #include <string>
 #include <vector>
@@ -15,16 +15,16 @@ namespace panache {
 
 class Discriminant {
  public:
-  // Learns to tell the class labels[i] of takes[i] apart, each mirrored too; takes whose label is
-  // not among `classes` are left out. It looks at windows of so many frames of a take.
+  // Learns to predict labels[i] from takes[i] and their mirror images; skips takes whose label is
+  // not among `classes`. Windows have this many frames of a take.
   Discriminant(const std::vector<Take>& takes, const std::vector<std::string>& labels,
                const std::vector<std::string>& classes,
                int window_frames = static_cast<int>(kTakeRate));
 
-  // Logarithms of what speaks for each class, but for a constant. `shift` is added to the
-  // statistics of every window first; undefined, nothing is. [windows][classes]
+  // Log-likelihoods of the classes up to a constant. `shift`, if defined, is added to the
+  // statistics of every window. [windows][classes]
   torch::Tensor scores(const Take& take, const torch::Tensor& shift = {}) const;
-  // Of the windows of a take, left as right too. [statistics]
+  // Mean over the windows of a take and of its mirror image. [statistics]
   torch::Tensor mean_statistics(const Take& take) const;
 
  private:

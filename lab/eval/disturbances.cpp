@@ -12,10 +12,10 @@ namespace {
 
 constexpr float kRadians = std::numbers::pi_v<float> / 180;
 
-// Mean body of another data set less that of ours, as the rig brings both to the canonical body:
-// over all 491 frames of four walks of the CMU database (02_01, 05_01, 06_01 and 12_01, without
-// their T-pose), less all 4,780 frames of the neutral training walks of Bandai Namco Research
-// Motiondataset 2. Centimetres, body frame.
+// Mean body of another data set minus that of ours, both on the canonical body: over all 491 frames
+// of four walks of the CMU database (02_01, 05_01, 06_01 and 12_01, without their T-pose), minus
+// all 4,780 frames of the neutral training walks of Bandai Namco Research Motiondataset 2.
+// Centimetres, body frame.
 constexpr HumanPositions kOtherPosture_cm = {{
     {0.0f, -1.4f, 0.0f},    // hips
     {-0.6f, -1.6f, -1.7f},  // spine
@@ -40,7 +40,7 @@ constexpr HumanPositions kOtherPosture_cm = {{
     {3.4f, 1.9f, 2.4f},     // rightToes
 }};
 
-// Changes each take by `change(take, index)`, whose numbers are then written anew.
+// Applies `change(take, index)` to each take, then recomputes its features.
 template <typename Change>
 SeenTakes disturbed(const std::vector<Take>& takes, PoseLayout layout, const Change& change) {
   SeenTakes seen{takes, 1};
@@ -83,7 +83,7 @@ SeenTakes lifted(const std::vector<Take>& takes, PoseLayout layout) {
   });
 }
 
-// The body is thought to face `degrees` further to its left than it does.
+// Rotates the perceived heading of the body by `degrees` to its left.
 template <int degrees>
 SeenTakes turned(const std::vector<Take>& takes, PoseLayout layout) {
   return disturbed(takes, layout, [](Take& take, int) {
@@ -96,7 +96,7 @@ SeenTakes turned(const std::vector<Take>& takes, PoseLayout layout) {
 
 SeenTakes noisy(const std::vector<Take>& takes, PoseLayout layout) {
   return disturbed(takes, layout, [](Take& take, int index) {
-    constexpr float kNoise = 0.01f;  // Deviation along each axis, metres.
+    constexpr float kNoise = 0.01f;  // Standard deviation along each axis, metres.
     Random random(static_cast<uint64_t>(index));
     for (HumanPositions& body : take.body) {
       for (Vec3& joint : body) {
@@ -119,7 +119,7 @@ RootPose root_pose_at(const Take& take, float frame) {
   return interpolate(take.root[a], take.root[b], frame - static_cast<float>(a));
 }
 
-// A file that is thought to have half the frames a second that it has, or twice as many.
+// Halves or doubles the perceived frame rate of a file.
 template <int percent>
 SeenTakes faster(const std::vector<Take>& takes, PoseLayout layout) {
   constexpr float speed = percent * 0.01f;

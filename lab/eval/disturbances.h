@@ -1,6 +1,5 @@
 #pragma once
-// How much a system's answer suffers when only its input is disturbed: what other bodies, captures
-// and files do to it.
+// The robustness of systems to disturbed input, as from other bodies, captures and files.
 
 #include <string>
 #include <vector>
@@ -14,13 +13,12 @@ struct DisturbanceRow {
   double cm = 0;     // Mean pose error over styles and contents, see PoseError.
 };
 
-// The error of a system on `test` when the windows that it sees are disturbed and nothing else is;
-// "none" first. Its answer is put on the undisturbed body: changes as they are (recipe panache),
-// poses in place of it (smith2019). Nothing where the system has no answers for single instants, or
-// knows no style of the test.
+// The error of a system on `test` if only its input windows are disturbed; "none" first. Its output
+// is applied to the undisturbed body: changes are added (recipe panache), poses replace it
+// (smith2019). Empty if the system has no output for single instants or knows no style of the test.
 std::vector<DisturbanceRow> measure_disturbances(const AlignedTakes& test, const System& system);
 
-// The same takes as seen under one disturbance, numbers in `layout`. Exposed for tests.
+// The same takes under one disturbance, with features in `layout`. Exposed for tests.
 struct Disturbing {
   std::string name;
   SeenTakes (*see)(const std::vector<Take>& takes, PoseLayout layout);

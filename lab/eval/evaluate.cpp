@@ -88,7 +88,7 @@ Result<std::vector<PredictionRow>> evaluate_prediction(const std::shared_ptr<con
 
 using Systems = std::vector<std::unique_ptr<System>>;
 
-// What the outputs of other programs may be of.
+// The inputs and styles that recorded outputs may have.
 Result<Systems> read_recorded(const EvaluateOptions& options) {
   Systems systems;
   if (options.recorded.empty()) return systems;
@@ -144,7 +144,7 @@ Result<SystemReport> judge_in_every_way(const System& system, const TestSet& tes
   return report;
 }
 
-// What the judges of out-of-distribution motion say of real test takes, and of the clips
+// Results of the classifiers for out-of-distribution motion on real test takes, and on the clips
 // themselves.
 Result<void> judge_ood_references(const TestSet& test_set, const StyleJudges& judges,
                                   const EvaluateOptions& options, Report& report) {
@@ -154,7 +154,7 @@ Result<void> judge_ood_references(const TestSet& test_set, const StyleJudges& ju
     row.verdict = judges.judge_real(take);
   }
   report.ood_real = summarize_styles(real);
-  // They are no outputs of one clip in all styles.
+  // They are not outputs of one clip in all styles.
   report.ood_real.forced_mlp = report.ood_real.forced_lda = kNotMeasured;
   report.ood_real_unseen =
       summarize_styles(judge_unseen_actions(test_set.training.takes, options.seed + 5));
@@ -184,7 +184,7 @@ Result<void> judge_ood_references(const TestSet& test_set, const StyleJudges& ju
   return {};
 }
 
-// Contents to be left out need styled test takes: these are what is judged.
+// Contents to hold out need styled test takes, because these are evaluated.
 Result<void> check_unseen(const EvaluateOptions& options) {
   std::set<std::string> contents;
   for (const ManifestRow& row : rows_to_evaluate(options)) {
@@ -203,7 +203,7 @@ Result<void> check_unseen(const EvaluateOptions& options) {
   return {};
 }
 
-// The lines that stand beside all systems: real takes, and the neutral takes themselves.
+// The reference lines of all systems: real takes, and the neutral takes themselves.
 void judge_references(const TestSet& test_set, Report& report) {
   const StyleContentTable& real = test_set.evaluator.real();
   report.real = mean_metrics(real);
@@ -246,7 +246,7 @@ Result<NamedModel> train_system(const Recipe& recipe, const std::string& name,
                                 const TrainingData& data, const EvaluateOptions& options) {
   TrainOptions training(recipe);
   if (options.steps) training.settings.steps = *options.steps;
-  training.settings.predictor_steps = 0;  // Nothing that is judged here needs one.
+  training.settings.predictor_steps = 0;  // Not needed for this evaluation.
   training.seed = options.seed;
   Result<Trained> trained = train(data, options.styles, training);
   if (!trained) return trained.error();

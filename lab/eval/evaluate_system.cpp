@@ -45,7 +45,7 @@ Result<Run> run_jobs(const System& system, const std::vector<TestInput>& inputs,
   return run;
 }
 
-// Styles that are judged and that the system has.
+// The evaluated styles that the system has.
 std::vector<std::string> common_styles(const System& system, const TestSet& test_set) {
   const std::vector<std::string> known = system.styles();
   std::vector<std::string> common;
@@ -55,7 +55,7 @@ std::vector<std::string> common_styles(const System& system, const TestSet& test
   return common;
 }
 
-// Whether a real test take of the input's own set shows the style: every set has its own neutral.
+// Whether a real test take of the input's own set shows the style: each set has its own neutral.
 bool is_shown(const std::string& style, const TestInput& input, const TestSet& test_set) {
   return std::any_of(test_set.evaluator.test().begin(), test_set.evaluator.test().end(),
                      [&](const Take& take) {
@@ -83,7 +83,7 @@ std::vector<Job> jobs_at(const System& system, const std::vector<std::string>& s
   return jobs;
 }
 
-// Every style that a judge of another performer can tell, put on this performer's neutral motion.
+// Applies every style known to another performer's classifier to this performer's neutral motion.
 std::vector<Job> jobs_across(const System& system, const std::vector<std::string>& styles,
                              const TestSet& test_set) {
   std::vector<Job> jobs;
@@ -108,7 +108,7 @@ std::vector<Take> takes_of(const std::vector<StyledTake>& outputs) {
   return takes;
 }
 
-// Takes the neutral motion of the performers who show both styles. Empty if there are none, or if
+// Uses the neutral motion of the performers who show both styles. Empty if there are none, or if
 // the system cannot mix the two.
 Result<std::optional<MixReport>> evaluate_mix(const System& system, const TestSet& test_set,
                                               const std::string& first, const std::string& second) {
@@ -151,7 +151,7 @@ Result<std::optional<MixReport>> evaluate_mix(const System& system, const TestSe
   return std::optional(mix);
 }
 
-// CC: each styled test take asked for its own style again, frame by frame; how far it moves.
+// CC: requests each styled test take in its own style again, frame by frame; the mean displacement.
 Result<double> own_style_distance(const System& system, const TestSet& test_set) {
   std::vector<Job> jobs;
   for (size_t i = 0; i < test_set.styled.size(); ++i) {
@@ -169,7 +169,7 @@ Result<double> own_style_distance(const System& system, const TestSet& test_set)
   return sum / static_cast<double>(jobs.size()) * test_set.units_per_metre;
 }
 
-// What the strength does, over all styles; each has values at all strengths, or nothing is said.
+// The effect of the strength over all styles; omitted unless there are values at all strengths.
 double mean_correlation(const std::map<std::string, std::vector<double>>& by_style,
                         const std::vector<std::string>& styles, double until) {
   double sum = 0;
@@ -186,7 +186,7 @@ double mean_correlation(const std::map<std::string, std::vector<double>>& by_sty
   return sum;
 }
 
-// At every strength that the system can be asked for.
+// At every strength that the system supports.
 Result<void> judge_strengths(const System& system, const TestSet& test_set,
                              const std::vector<std::string>& styles, Progress& progress,
                              SystemReport& report) {

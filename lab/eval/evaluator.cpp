@@ -40,7 +40,7 @@ Evaluator Evaluator::create(const std::vector<Take>& training, std::vector<Take>
     styles.insert(take.row.style);
     contents.insert(take.row.content);
   }
-  // A class is what a training take has both names of.
+  // The classes are the names that some training take has for both style and content.
   std::vector<Take> known;
   for (const Take& take : training) {
     if (styles.contains(take.row.style) && contents.contains(take.row.content)) {

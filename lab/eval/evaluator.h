@@ -1,5 +1,5 @@
 #pragma once
-// Compares motion that a system put out with real held-out takes.
+// Compares the output of systems with real held-out takes.
 
 #include <map>
 #include <optional>
@@ -19,25 +19,25 @@ namespace panache {
 using StyleContent = std::pair<std::string, std::string>;
 using StyleContentTable = std::map<StyleContent, Metrics>;
 
-// Means of a table per content or style.
+// Means of a table per content or per style.
 MetricsTable by_content(const StyleContentTable& cells);
 MetricsTable by_style(const StyleContentTable& cells);
-// Below these shares of real held-out windows, what the classifiers say of other motion means
-// little by itself: the report says so, and that it is to be compared with real motion.
+// Accuracies on real held-out windows below which the classifiers are unreliable on other motion:
+// the report then says to compare with real motion.
 struct AccuracyFloor {
   double style = 0.95, content = 0.90;
 };
 
 class Evaluator {
  public:
-  // `training`: takes the classifiers learn from; `test`: real takes they do not; numbers in layout
-  // positions. Styles and contents to tell apart are those of `test`, "neutral" included.
+  // `training`: takes to train the classifiers on; `test`: real held-out takes; features in layout
+  // positions. The classes are the styles and contents of `test`, including "neutral".
   static Evaluator create(const std::vector<Take>& training, std::vector<Take> test, uint64_t seed);
 
-  // Real styled test takes, judged like outputs.
+  // Evaluates the real styled test takes like outputs.
   const StyleContentTable& real() const { return real_; }
-  // Judges outputs whose style and content have a real take in `test`; others are left out.
-  // `inputs`: the neutral takes that outputs refer to. `aligned`: the pose errors of the system.
+  // Evaluates outputs whose style and content have a real take in `test`; skips others. `inputs`:
+  // the neutral takes that outputs refer to. `aligned`: the pose errors of the system.
   StyleContentTable evaluate(const std::vector<StyledTake>& outputs,
                              const std::vector<Take>& inputs, const PoseErrors& aligned = {}) const;
 
@@ -47,19 +47,19 @@ class Evaluator {
   const std::vector<Take>& test() const { return test_; }
 
  private:
-  // One take, judged by itself.
+  // One take, evaluated by itself.
   struct TakeScores {
     size_t windows = 0;
-    std::vector<double> values;  // Of each measure's of_take().
+    std::vector<double> values;  // Results of each measure's of_take().
     torch::Tensor features;
   };
-  // Those of one style and content.
+  // Takes of one style and content.
   using Verdicts = std::vector<TakeScores>;
 
   Evaluator(Classifier styles, Classifier contents, std::vector<Take> test);
-  // `of` names the take, and what it was made from.
+  // `of`: the take and its input.
   TakeScores look(TakeEvidence of) const;
-  // What the measures say of them beside the real takes of the same style and content.
+  // The measures of takes, compared with the real takes of the same style and content.
   static Metrics summarise(const Verdicts& all_scores, const Verdicts& real,
                            const std::optional<PoseError>& aligned);
 

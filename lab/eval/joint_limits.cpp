@@ -14,29 +14,29 @@ using enum HumanJoint;
 
 constexpr float kMargin = 20;  // Degrees beyond every range.
 
-// Ranges of a swing from the joint's neutral direction, degrees.
+// Ranges of motion from the joint's neutral direction, degrees.
 struct Range {
   float front, back;  // Flexion, extension.
-  float out, in;      // Abduction, adduction; both sides alike for the torso.
+  float out, in;      // Abduction, adduction; equal for the torso.
 };
-constexpr Range kTorso = {80, 30, 35, 35};       // Chest on hips.
-constexpr Range kHead = {45, 45, 45, 45};        // Head on chest.
-constexpr Range kShoulder = {180, 60, 180, 75};  // Upper arm on chest, from hanging down.
-constexpr Range kHip = {120, 30, 45, 30};        // Upper leg on hips, from hanging down.
-// Bending of a hinge, and how far it goes the wrong way.
+constexpr Range kTorso = {80, 30, 35, 35};       // Chest relative to hips.
+constexpr Range kHead = {45, 45, 45, 45};        // Head relative to chest.
+constexpr Range kShoulder = {180, 60, 180, 75};  // Upper arm relative to chest, from hanging down.
+constexpr Range kHip = {120, 30, 45, 30};        // Upper leg relative to hips, from hanging down.
+// Flexion of a hinge, and hyperextension.
 constexpr float kElbow = 150, kElbowBack = 10;
 constexpr float kKnee = 135, kKneeBack = 10;
-// An arm within this of straight up is where flexion and abduction meet: any direction is in range.
+// Within this of straight up, flexion and abduction meet: any arm direction is in range.
 constexpr float kOverhead = 45;
-// A hinge bends the wrong way if it does so within this of the exactly wrong direction: the rest of
-// the circle is in reach of a twist of the upper limb.
+// A hinge is hyperextended if it bends within this of the opposite direction: other directions can
+// be reached by twisting the upper limb.
 constexpr float kWrongWay = 45;
 
 float degrees_between(Vec3 a, Vec3 b) {
   return std::atan2(length(cross(a, b)), dot(a, b)) * 180 / std::numbers::pi_v<float>;
 }
 
-// `v` seen in a frame.
+// `v` in the coordinates of a frame.
 Vec3 seen_in(const Frame& frame, Vec3 v) {
   return {dot(v, frame.x), dot(v, frame.y), dot(v, frame.z)};
 }
@@ -52,14 +52,14 @@ float swing_excess(Vec3 now, Vec3 rest, const Range& range) {
   return angle - 1 / std::hypot(ahead, out) - kMargin;
 }
 
-// How far a hinge between two limb directions bends beyond its range, degrees. `bends_to`: where
-// the lower limb goes when the hinge bends, seen with the upper limb hanging down.
+// How far a hinge between two limb directions bends beyond its range, degrees. `bends_to`:
+// direction in which the lower limb bends, with the upper limb hanging down.
 float hinge_excess(Vec3 upper, Vec3 lower, Vec3 bends_to, float most, float max_back) {
   const float angle = degrees_between(upper, lower);
   const Vec3 to = rotate(rotation_between(Vec3{0, -1, 0}, upper), bends_to);
   const Vec3 bend = lower - upper * dot(upper, lower);
   if (degrees_between(bend, -to) > kWrongWay) return angle - most - kMargin;
-  // It went there backwards, or right through the upper limb: the shorter of the two counts.
+  // Either hyperextension or flexion beyond the range: the smaller one counts.
   return std::min(angle - max_back, 360 - angle - most) - kMargin;
 }
 
@@ -84,9 +84,9 @@ class Inspection {
 
  private:
   Vec3 at(HumanJoint joint) const { return body_[index(joint)]; }
-  // Left and right of the torso are the same.
+  // The torso is symmetric.
   static Vec3 mirrored_out(Vec3 v) { return {std::abs(v.x), v.y, v.z}; }
-  // From one joint to another, seen in a frame with x outward on that side.
+  // From one joint to another, in a frame with x outward on that side.
   Vec3 limb(HumanJoint from, HumanJoint to, const Frame& frame, float side) const {
     const Vec3 v = seen_in(frame, normalized(at(to) - at(from)));
     return {v.x * side, v.y, v.z};
@@ -101,7 +101,7 @@ class Inspection {
       note(shoulder, swing_excess(upper, {0, -1, 0}, kShoulder));
       note(elbow, hinge_excess(upper, lower, {0, 0, 1}, kElbow, kElbowBack));
     } else {
-      // Which way an arm overhead is twisted cannot be told.
+      // The twist of a raised arm is not observable.
       note(elbow, degrees_between(upper, lower) - kElbow - kMargin);
     }
   }

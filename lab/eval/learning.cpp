@@ -17,12 +17,12 @@ namespace {
 constexpr const char* kModel = "the model";
 constexpr const char* kStyle = "learnt here";
 
-// Takes of a style and an action and its neutral ones: [styled, neutral].
+// The takes of a style and an action, and the neutral ones: [styled, neutral].
 struct Cell {
   std::vector<Take> styled, neutral;
 };
 
-// The two in step.
+// The two takes, synchronised.
 struct Test {
   std::vector<Take> takes;
   std::vector<Pairing> pairings;
@@ -81,7 +81,7 @@ double error_of(const StyleDelta& change, const Test& test, const SampleSet& set
   return sum / static_cast<double>(set.samples().size());
 }
 
-// The same motion, as a clip without rotations of its own would have it.
+// The same motion as from a clip without its own rotations.
 Take without_twist(Take take) {
   for (int f = 0; f < take.frames(); ++f) canonical_frames(take.body[f], 0, take.rotations[f]);
   return take;
@@ -126,7 +126,7 @@ Result<std::map<std::string, LearningErrors>> measure_learning(const TensorFile&
     const Take& styled = cell.styled.front();
     LearnPair pair{"neutral", styled.row.path, cell.neutral.front(), styled};
     const Result<std::shared_ptr<const Model>> with = learn(model, pair);
-    if (!with) continue;  // Not a pair of one action.
+    if (!with) continue;  // The pair is not of one action.
     const Stopwatch watch;
     NeutralTwin twin = bank.twin(styled);
     pair.neutral = std::move(twin.take);

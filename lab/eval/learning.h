@@ -1,6 +1,6 @@
 #pragma once
-// How well a style is learnt from one clip of it: with a neutral clip of the performer, and
-// without.
+// Measures how well a style is learnt from one clip, with and without a neutral clip of the
+// performer.
 
 #include <map>
 #include <string>
@@ -13,20 +13,20 @@
 
 namespace panache {
 
-// Means over styles of the mean distance of the joints from a real take, cm on the canonical body.
+// Means over styles of the mean joint distance to a real take, cm on the canonical body.
 struct LearningErrors {
   int styles = 0;
   double none = 0;                              // Of the neutral motion.
   double posture = 0;                           // With the mean posture of the pair.
   double pair = 0;                              // With the style learnt from the pair.
   double alone = 0;                             // With the style learnt from the styled clip alone.
-  double seconds = 0;                           // That learning alone took.
+  double seconds = 0;                           // Time of learning alone.
   double certainty = 0, people = 0, known = 0;  // See TwinFacts.
 };
 
-// By action, of the styled training takes that have a neutral one of their performer. Judged on the
-// performer's test takes of style and action. An action without test takes is judged on its
-// training takes, as "run, same take". `takes`: in layout positions.
+// Results by action, for styled training takes with a neutral take of their performer. Evaluated on
+// the performer's test takes of style and action; without any, on the training takes, as "run, same
+// take". `takes`: in layout positions.
 Result<std::map<std::string, LearningErrors>> measure_learning(const TensorFile& model,
                                                                const NeutralBank& bank,
                                                                const std::vector<Take>& takes);

@@ -117,7 +117,7 @@ const std::vector<Measure>& measures() {
           "Mean distance of the joints from the input's: how much was changed, not how "
           "well.",
           [](const TakeEvidence& of) {
-            // Nothing to measure where nobody knows which instant of the input a frame shows.
+            // Not defined if the source frames are unknown.
             if (!of.input || of.source_frames->empty()) return kNotMeasured;
             return 100 * mean_distance(*of.take, *of.input, *of.source_frames);
           },

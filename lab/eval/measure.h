@@ -1,5 +1,5 @@
 #pragma once
-// A measure: one number that says how good motion is. Each is an entry of the table in measure.cpp.
+// A measure: one number for the quality of motion, an entry of the table in measure.cpp.
 
 #include <optional>
 #include <string_view>
@@ -11,47 +11,47 @@
 
 namespace panache {
 
-// Which of two values is the better one.
+// Which values are better.
 enum class Better { higher, lower, nearest_one, neither };
 
-// What is known of one take: of a system's output, or of a real take.
+// The data of one take: a system's output, or a real take.
 struct TakeEvidence {
   const Take* take = nullptr;
-  const Take* input = nullptr;                        // What it was made from; null for real takes.
-  const std::vector<float>* source_frames = nullptr;  // See Output; null for real takes.
-  size_t windows = 0;                                 // That the classifiers saw.
-  double style_windows = 0, content_windows = 0;      // Recognised as what the take's row says.
+  const Take* input = nullptr;                        // Null for real takes.
+  const std::vector<float>* source_frames = nullptr;  // See StyledTake; null for real takes.
+  size_t windows = 0;                                 // Seen by the classifiers.
+  double style_windows = 0, content_windows = 0;      // Recognised as the row's style or content.
   double style_probability = 0;                       // Of the row's style, summed over windows.
 };
 
-// What is known of all takes of one style and content.
+// The data of all takes of one style and content.
 struct CellEvidence {
   size_t windows = 0;          // Of all takes together.
-  std::vector<double> values;  // Per take, what the measure's of_take() gave,
-  std::vector<double> real;    // and what it gives per real take of the same style and content.
+  std::vector<double> values;  // The measure's of_take() per take,
+  std::vector<double> real;    // and per real take of the same style and content.
   // Frechet distance of the content classifier's features from those of the real takes.
   double feature_distance = kNotMeasured;
   std::optional<PoseError> aligned;  // Mean over the time-aligned instants.
 };
 
 struct Measure {
-  const char* key;    // In report.json.
-  const char* label;  // For people,
+  const char* key;    // Key in report.json.
+  const char* label;  // For display,
   int digits;         // with so many decimals.
   Better better;
-  const char* meaning;                     // One or two messages.
-  double (*of_take)(const TakeEvidence&);  // Null where it is no number of single takes.
+  const char* meaning;                     // One or two sentences.
+  double (*of_take)(const TakeEvidence&);  // Null if it is not defined for single takes.
   double (*of_cell)(const CellEvidence&);
 };
 
-// All of them, in the order of the report.
+// All measures, in the order of the report.
 const std::vector<Measure>& measures();
-// The measure of that key, which exists.
+// The measure with this key, which must exist.
 const Measure& find_measure(std::string_view key);
 
-// What most measures make of their takes. NaN counts nowhere.
+// Common ways to combine values of takes. NaN is ignored.
 double mean_of_takes(const CellEvidence& cell);
-double mean_against_real(const CellEvidence& cell);  // That mean, divided by that of real takes.
+double mean_against_real(const CellEvidence& cell);  // The mean, divided by that of real takes.
 double mean_of_windows(const CellEvidence& cell);    // Values are sums over windows.
 
 }  // namespace panache

@@ -1,5 +1,5 @@
 #pragma once
-// One line of the report, for a system or for real motion: what each measure found.
+// One line of the report, for a system or for real motion: the value of each measure.
 
 #include <cstddef>
 #include <limits>
@@ -12,7 +12,7 @@ namespace panache {
 inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 // Means over takes of each style and content, then over styles and contents, by the measures' keys
-// (see eval/measure.h); NaN where a number was not measured.
+// (see eval/measure.h); NaN if not measured.
 class Metrics {
  public:
   size_t takes = 0, windows = 0;

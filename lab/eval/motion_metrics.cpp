@@ -15,7 +15,7 @@ constexpr double kSkatingRate = 20;              // Frames a second.
 constexpr float kLowToe = 0.05f, kSlide = 0.5f;  // m, m/s
 constexpr float kWeightHeight = 0.025f;          // m
 constexpr float kTravelSpeed = 0.5f;             // m/s
-constexpr float kPassMargin = 0.25f;             // Of the deviation of the feet's way.
+constexpr float kPassMargin = 0.25f;             // In deviations of the feet's distance.
 
 // Height and horizontal speed of a joint from frame f - 1 to f.
 struct Slide {
@@ -125,7 +125,7 @@ double cadence(const Take& take) {
   }
   if (way * kTakeRate / (frames - 1) < kTravelSpeed) return kNotMeasured;
 
-  std::vector<float> apart(frames);  // How far the left foot is in front of the right one.
+  std::vector<float> apart(frames);  // Distance of the left foot in front of the right one.
   for (int f = 0; f < frames; ++f) {
     apart[f] = take.body[f][index(kAnkles[0])].z - take.body[f][index(kAnkles[1])].z;
   }
@@ -135,7 +135,7 @@ double cadence(const Take& take) {
     a -= mean;
     variance += a * a / static_cast<float>(frames);
   }
-  // A pass counts once the feet are clearly apart on the other side; its time is where they met.
+  // A pass counts once the feet are clearly apart on the other side; its time is when they met.
   const float margin = kPassMargin * std::sqrt(variance);
   std::vector<double> passes;
   int side = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers of one motion that need no other: how jerky it is, how its feet slide, how fast it steps.
+// Metrics of single motions, such as jerk, foot sliding and step frequency, and of pairs.
 
 #include <vector>
 
@@ -23,27 +23,26 @@ double weighted_skating(const Take& take);
 // travel (below 0.5 m/s) or takes fewer than two steps.
 double cadence(const Take& take);
 
-// Mean distance of the joints of frame i of `take` from those of frame source_frames[i] of `from`,
-// both in the body frame, metres.
+// Mean distance of the joints between frame i of `take` and frame source_frames[i] of `from`, both
+// in the body frame, metres.
 double mean_distance(const Take& take, const Take& from, const std::vector<float>& source_frames);
 
-// Sum over the joints of the distance, mean over the frames that both have: frame by frame in the
-// body frame, as the measures CC and SC++ compare motions; metres.
+// Sum of the joint distances, averaged over the common frames: frame by frame in the body frame, as
+// in the measures CC and SC++; metres.
 double summed_distance(const Take& a, const Take& b);
 
-// Mean of it between each of `takes` and every take of `real` (given in two parts) that has the
-// same style and content and is not the same file. NaN where there is none.
+// Mean of it between each of `takes` and every take of `real` (given in two parts) with the same
+// style and content from another file. NaN if there is none.
 double distance_to_real(const std::vector<Take>& takes, const std::vector<Take>& real,
                         const std::vector<Take>& more_real);
 
 // Largest difference of a bone's length between frame i of `clip` and frame source_frames[i] of
-// `from`, in units of the file. What leads to the joint `hips` (-1: none) is no bone, but root
-// motion
-// .
+// `from`, in units of the file. The segment that leads to the joint `hips` (-1: none) is root
+// motion, not a bone.
 double bone_length_error(const Clip& clip, const Clip& from,
                          const std::vector<double>& source_frames, int hips = -1);
 
-// Of ranks; ties share theirs. NaN where one side is constant.
+// Rank correlation; ties share a rank. NaN if one side is constant.
 double rank_correlation(const std::vector<double>& a, const std::vector<double>& b);
 
 }  // namespace panache

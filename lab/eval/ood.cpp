@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr float kLimitTolerance_deg = 5;  // A joint this little beyond its limit is not counted.
+constexpr float kLimitTolerance_deg = 5;  // A smaller excess over a limit is not counted.
 constexpr float kFloorTolerance = 0.03f;  // Metres.
 constexpr float kJump = 0.06f;            // Metres.
 constexpr double kStill = 0.01;           // m/s: a coordinate that deviates less does not move.
@@ -47,7 +47,7 @@ Result<OodRow> style_input(const System& system, const TestInput& input,
   return row;
 }
 
-// Paths of the contents that no styled row has.
+// Paths of the contents without a styled row.
 std::vector<std::string> unstyled_files(const std::vector<ManifestRow>& rows) {
   std::set<std::string> styled;
   for (const ManifestRow& row : rows) {
@@ -78,7 +78,7 @@ std::vector<float> velocities(const Take& take, HumanJoint joint, float Vec3::*a
   return out;
 }
 
-// Pearson's correlation of what becomes of `from`; nothing where `from` does not move.
+// Pearson's correlation of `to` with `from`; empty if `from` does not move.
 std::optional<double> correlation(const std::vector<float>& from, const std::vector<float>& to) {
   const double from_mean = mean_of(from), to_mean = mean_of(to);
   double both = 0, from_squares = 0, to_squares = 0;
@@ -107,16 +107,16 @@ double velocity_correlation(const Take& from, const Take& to) {
   return count > 0 ? sum / count : kNotMeasured;
 }
 
-// How far a joint is from halfway between where it is a frame before and a frame later, doubled:
-// the length of a jump where it moves evenly but for that, in the body frame, metres.
+// Twice the distance of a joint from the midpoint of its previous and next positions: the length of
+// a jump in otherwise uniform motion, in the body frame, metres.
 float kink(const Take& take, int frame, int joint) {
   const auto at = [&](int f) { return take.body[f][joint]; };
   return length(at(frame + 1) + at(frame - 1) - at(frame) * 2.0f);
 }
 
-// Frames in which a joint of `to` jumps further than it does in `from` at that time.
+// Frames where a joint of `to` jumps further than in `from` at that time.
 int count_jumps(const Take& from, const Take& to) {
-  constexpr int kNear = 2;  // Frames: an impact may come that much earlier or later.
+  constexpr int kNear = 2;  // Frames: tolerance of the time of an impact.
   int count = 0;
   const int last = std::min(from.frames(), to.frames()) - 2;
   for (int f = 1; f <= last; ++f) {
@@ -136,7 +136,7 @@ int count_jumps(const Take& from, const Take& to) {
   return count;
 }
 
-// Mean angle between where the two bodies face.
+// Mean angle between the headings of the two bodies.
 double mean_turn_deg(const Take& from, const Take& to) {
   double sum = 0;
   for (int f = 0; f < to.frames(); ++f) {
@@ -150,7 +150,7 @@ float lowest_toe(const HumanPositions& body) {
   return std::min(body[index(kToes[0])].y, body[index(kToes[1])].y);
 }
 
-// Share of the frames of `to` that `fails` and those of `from` do not.
+// Share of the frames where `fails` is true for `to` but not for `from`.
 template <typename Fails>
 double share_of_frames(const Take& from, const Take& to, const Fails& fails) {
   int count = 0;

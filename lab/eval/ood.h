@@ -1,5 +1,5 @@
 #pragma once
-// Motion that no system was trained on: does it stay the motion it was?
+// Out-of-distribution motion: is its content preserved, and is the style recognised?
 
 #include <functional>
 #include <string>
@@ -14,23 +14,23 @@
 
 namespace panache {
 
-// What judges of the styles say of an output; NaN and empty where they do not know the style.
+// Style recognition of an output; NaN and empty if the style is unknown.
 struct OodVerdict {
-  // Share of the windows recognised as the style asked for: by an ensemble of networks that learnt
-  // from disturbed takes, and by linear discriminant analysis.
+  // Share of windows recognised as the requested style, by an ensemble of networks trained on
+  // disturbed takes, and by linear discriminant analysis.
   double style_robust = kNotMeasured, style_lda = kNotMeasured;
-  // What speaks for each style, mean over the windows, in the order of the judge's styles: choices
-  // among the outputs of one clip in all styles are made from it.
+  // Mean score of each style over the windows, in the order of the classifier's styles: used to
+  // choose among the outputs of one clip in all styles.
   std::vector<double> robust_scores, lda_scores;
-  int style = -1;  // The place of the style asked for in the scores.
+  int style = -1;  // Index of the requested style in the scores.
   SignatureMatch signature;
 };
 
-// Knows the styles from real takes. May be asked by several threads at once.
+// Style classifiers trained on real takes. Thread-safe.
 class OodJudge {
  public:
   virtual ~OodJudge() = default;
-  // `output`: with the style's own tempo, `log_rate` of which is the mean logarithm.
+  // `output`: in the style's own tempo; `log_rate`: mean logarithm of its rate.
   virtual OodVerdict judge(const Take& input, const Take& output, double log_rate,
                            const std::string& style) const = 0;
 };
@@ -38,45 +38,43 @@ class OodJudge {
 // One clip in one style at strength 1, frame by frame in the input's own time. Speeds, heights and
 // joints are those of the canonical body as read from the character's own skeleton.
 struct OodRow {
-  std::string clip;   // The file's name without folder and extension.
-  std::string style;  // As the model calls it.
-  // Mean jerk of the joints, world, against the input's; NaN where the input has none.
+  std::string clip;   // File name without folder and extension.
+  std::string style;  // Name in the model.
+  // Mean jerk of the joints in world space, relative to the input's; NaN if the input has none.
   double jerk_ratio = 0;
-  // Of hands and feet with the input's, body frame: mean over the coordinates that move in the
-  // input by more than 1 cm/s. NaN where none does.
+  // Velocity correlation of hands and feet with the input, body frame: mean over the coordinates
+  // that move by more than 1 cm/s in the input. NaN if there are none.
   double velocity_correlation = 0;
-  double distance_cm = 0;  // Mean distance of the joints from the input's, body frame.
-  // Share of frames with a joint 5 degrees beyond human limits (see beyond_limits()) that the input
-  // keeps at that frame.
+  double distance_cm = 0;  // Mean joint distance from the input, body frame.
+  // Share of frames with a joint 5 degrees beyond human limits (see beyond_limits()) that is within
+  // them in the input.
   double beyond_limits = 0;
-  double under_floor = 0;  // Share of frames with a toe 3 cm lower than floor and lowest input toe.
-  // Frames in which a joint jumps by more than 6 cm, and twice as far as in the input at that time.
+  double under_floor = 0;  // Share of frames with a toe 3 cm below floor and lowest input toe.
+  // Frames where a joint jumps by more than 6 cm, and twice as far as in the input then.
   int jumps = 0;
   double skating_ratio = 0, input_skating_ratio = 0;
-  double turned_deg = 0;  // Mean angle between where the two bodies face.
-  double drift_m = 0;     // How far the hips end from where the input's do, along the ground.
+  double turned_deg = 0;  // Mean angle between the headings of the two bodies.
+  double drift_m = 0;     // Horizontal distance of the hips from the input's at the end.
   double gate = 1;        // Mean of the stylizer's gate.
   ShotValues shot;
-  OodVerdict verdict;  // Of the same clip and style with the style's own tempo.
+  OodVerdict verdict;  // Of the same clip and style in the style's own tempo.
 };
 
-// What became of `input` in `output`, frame by frame; both have the same frames and numbers in
-// layout positions. Clip, style and gate are the caller's.
+// Compares `output` with `input` frame by frame; both have the same frames, and features in layout
+// positions. The caller sets clip, style and gate.
 OodRow compare_ood(const Take& input, const Take& output);
 
-// Asks for every clip of `files` (any motion file) in every style that the system has, at strength
-// 1 and the input's tempo, and compares what comes out with the input, both read at 30 frames a
-// second from the first frame that is motion. With a judge, asks for the style's own tempo as well,
-// and has that judged. Rows are in order of files, then styles; what the
-// system cannot be asked for is left out. Files that cannot be read or mapped fail it with their
-// message. `progress` gets the share done, from any thread.
+// Runs every clip of `files` (any motion file) in every style of the system, at strength 1 and the
+// input's tempo, and compares the output with the input, both read at 30 frames a second from the
+// first frame of motion. If there are style classifiers, also runs the style's own tempo and
+// classifies that. Rows are ordered by files, then styles; unsupported requests are skipped. Fails
+// if a file cannot be read or mapped. `progress` gets 0 to 1, from any thread.
 Result<std::vector<OodRow>> measure_ood(const std::vector<std::string>& files, const System& system,
                                         const OodJudge* judge = nullptr,
                                         const std::function<void(double)>& progress = {});
 
-// The motion files of a file, a folder (with its subfolders) or a manifest (.csv; those of contents
-// that it holds in no style but neutral; of these, where some are marked test, only they), in order
-// of the alphabet. Fails where there is none.
+// The motion files of a file, a folder (recursively) or a manifest (.csv: contents that occur only
+// as neutral, and only those marked test, if any are), sorted by name. Fails if there are none.
 Result<std::vector<std::string>> list_ood(const std::string& path);
 
 }  // namespace panache

@@ -17,20 +17,20 @@ namespace {
 constexpr int kWindowFrames = 60;
 constexpr size_t kHandSpeed = trait_index("speed"), kHandSharpness = trait_index("sharpness");
 
-// As the manifest names the performer, or else after the manifest.
+// The performer's name in the manifest, or else the manifest's.
 std::string name_of(const ManifestRow& row) {
   return row.person.empty() ? std::filesystem::path(row.manifest).stem().string() : row.person;
 }
 
-// What most windows are taken for; between as many of each, what speaks for it in the mean.
+// The class of most windows; ties are decided by the mean probability.
 int vote(const torch::Tensor& scores) {
   const torch::Tensor votes =
       torch::one_hot(scores.argmax(1), scores.size(1)).to(torch::kFloat64).sum(0);
-  const torch::Tensor mean = torch::softmax(scores, 1).mean(0);  // Less than a vote.
+  const torch::Tensor mean = torch::softmax(scores, 1).mean(0);  // At most one vote.
   return static_cast<int>((votes + 0.5 * mean).argmax().item<int64_t>());
 }
 
-// Distance from the nearest of `real`, and the hands beside their mean.
+// Distance from the nearest of `real`, and the hands relative to their mean.
 void compare(const Take& clip, const std::vector<Take>& real, ClipVerdict& verdict) {
   const Traits own = traits(clip);
   double speed = 0, sharpness = 0;

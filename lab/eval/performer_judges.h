@@ -1,6 +1,6 @@
 #pragma once
-// A judge for each performer: it tells that performer's styles and neutral motion apart, and knows
-// nobody else. One judge of all performers would tell persons as much as styles.
+// A classifier for each performer, which distinguishes that performer's styles and neutral motion
+// only. A common classifier for all would recognise persons as much as styles.
 
 #include <map>
 #include <string>
@@ -15,23 +15,23 @@ namespace panache {
 
 class PerformerJudges {
  public:
-  // A judge for each set of `training` that shows two labels at least, a style's or neutral's; sets
-  // are performers. `test`: real held-out takes of them, neutral and styled.
+  // Makes a classifier for each set (performer) of `training` with at least two labels, styles or
+  // neutral. `test`: their real held-out takes, neutral and styled.
   PerformerJudges(const std::vector<Take>& training, const std::vector<Take>& test);
 
-  // The real held-out takes themselves, each before its own performer's judge: as much as can be
-  // recognised. They are compared with the training takes of their style, performer and content.
+  // Classifies the real held-out takes with their own performer's classifier: an upper bound.
+  // Compared with the training takes of the same style, performer and content.
   const std::vector<ClipVerdict>& real() const { return real_; }
-  // Outputs made from a performer's motion (row.set), each before this performer's judge, where it
-  // knows the style. They are compared with the real held-out takes of their style, performer and
+  // Classifies outputs made from a performer's motion (row.set) with this performer's classifier,
+  // if it knows the style. Compared with the real held-out takes of the same style, performer and
   // content.
   std::vector<ClipVerdict> judge(const std::vector<Take>& outputs) const;
 
-  // Clips, real or put out, before the judges of all other performers who show their style in their
-  // content. The mean difference between the neutral takes of the two performers in this content is
-  // taken off before; nothing is where one of them has none. Compared with nothing.
+  // Classifies clips, real or generated, with all other performers who show the same style in the
+  // same content. Subtracts the mean difference between the two performers' neutral takes of this
+  // content first, if both have any. No distances are measured.
   std::vector<ClipVerdict> judge_across(const std::vector<Take>& clips) const;
-  // Whether judge_across() has anything to say of such a clip.
+  // Whether judge_across() applies to such a clip.
   bool is_judged_across(const ManifestRow& row) const;
 
  private:
@@ -39,7 +39,7 @@ class PerformerJudges {
     std::string performer;
     std::vector<std::string> labels;
     Discriminant discriminant;
-    std::map<std::string, torch::Tensor> neutral;  // Mean statistics of its takes of a content.
+    std::map<std::string, torch::Tensor> neutral;  // Mean statistics of neutral takes by content.
   };
   using Cell = std::tuple<int, std::string, std::string>;  // Set, style, content.
   using Cells = std::map<Cell, std::vector<Take>>;

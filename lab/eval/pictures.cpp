@@ -7,8 +7,8 @@ namespace panache {
 namespace {
 
 constexpr size_t kPictures = 8;
-constexpr double kSpacing = 0.25;  // Seconds from figure to figure,
-constexpr int kFigures = 16;       // and at most so many.
+constexpr double kSpacing = 0.25;  // Seconds between figures,
+constexpr int kFigures = 16;       // and their maximum number.
 
 StripRow strip_row(const std::string& label, const Take& take) {
   StripRow row{label, {}, ""};
@@ -24,7 +24,7 @@ StripRow strip_row(const std::string& label, const Take& take) {
 
 Result<void> add_pictures(const std::vector<const System*>& systems, const TestSet& test_set,
                           Report& report) {
-  // One content after the other, each in another style.
+  // One content after the other, each in a different style.
   size_t drawn = 0;
   std::string last;
   for (size_t i = 0; i < test_set.inputs.size() && drawn < kPictures; ++i) {

@@ -6,7 +6,7 @@
 namespace panache {
 namespace {
 
-constexpr int kEvery = 3;    // Frames between two instants that are judged.
+constexpr int kEvery = 3;    // Frames between evaluated instants.
 constexpr int kMargin = 15;  // Frames.
 
 HumanPositions between(const HumanPositions& a, const HumanPositions& b, float t) {

@@ -15,7 +15,7 @@
 namespace panache {
 namespace {
 
-// One clip before and after.
+// A clip before and after removal.
 struct Change {
   double neutral = kNotMeasured, before = kNotMeasured, content = kNotMeasured;
   double cm = kNotMeasured, cm_before = kNotMeasured, jerk = kNotMeasured, jumps = kNotMeasured;
@@ -69,7 +69,7 @@ Result<RemovalSummary> remove_own(const std::shared_ptr<const Model>& remover, b
     if (!*outputs[i]) return outputs[i]->error();
     Take input = test_set.styled[i].take, output = **outputs[i];
     input.row.style = output.row.style = "neutral";
-    // Performers without neutral takes have no judge of it.
+    // Performers without neutral takes have no classifier for it.
     const auto was = test_set.performers.judge({input}), is = test_set.performers.judge({output});
     if (was.empty() || is.empty()) continue;
     Change& clip = clips.emplace_back();

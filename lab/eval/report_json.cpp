@@ -1,4 +1,4 @@
-// The report for machines.
+// Writes the report as JSON.
 
 #include <algorithm>
 #include <cassert>
@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-// What nobody has measured, a size of 0, is null as well.
+// Missing sizes (0) are null, too.
 Json size(size_t value) { return value > 0 ? Json(value) : Json(nullptr); }
 
 Json metrics_json(const Metrics& metrics) {
@@ -24,7 +24,7 @@ Json metrics_json(const Metrics& metrics) {
   return out;
 }
 
-// How the measures are called and read.
+// Names and descriptions of the measures.
 Json measures_json() {
   constexpr const char* kBetter[] = {"higher", "lower", "nearest_one", "neither"};
   Json out = Json::array();
@@ -44,7 +44,7 @@ Json table_json(const MetricsTable& table) {
   return out;
 }
 
-// `real`: what the shares recognised are divided by, in the same groups; null of real takes.
+// `real`: divisor of the recognised shares, in the same groups; null for real takes.
 Json clips_json(const std::vector<ClipVerdict>& clips, const std::vector<ClipVerdict>* real) {
   const auto entry = [](const std::vector<ClipVerdict>& of,
                         const std::vector<ClipVerdict>* beside) {
@@ -67,7 +67,7 @@ Json clips_json(const std::vector<ClipVerdict>& clips, const std::vector<ClipVer
                  {"by_performer", &ClipVerdict::performer},
                  {"by_content", &ClipVerdict::content}};
   for (const auto& [key, name] : kGroups) {
-    const bool styles = name == &ClipVerdict::style;  // Of which neutral is one.
+    const bool styles = name == &ClipVerdict::style;  // Includes neutral.
     ClipGroups beside = clips_by(name, real_styled);
     out[key] = Json::object();
     for (const auto& [group, members] : clips_by(name, styles ? clips : styled_clips(clips))) {
@@ -93,7 +93,7 @@ Json mixes_json(const std::vector<MixReport>& mixes) {
   return out;
 }
 
-// Each unseen content once, from the first split that has it.
+// Each unseen content once, from the first split with it.
 Json unseen_json(const std::vector<UnseenReport>& splits) {
   Json out = Json::object();
   for (const UnseenReport& split : splits) {
@@ -107,7 +107,7 @@ Json unseen_json(const std::vector<UnseenReport>& splits) {
 Json unseen_splits_json(const std::vector<UnseenReport>& splits) {
   Json out = Json::object();
   for (const UnseenReport& split : splits) {
-    // The keys of our own come last: they win over a content of the same name.
+    // Our own keys come last, so that they override contents of the same name.
     Json entry = table_json(split.by_content);
     entry["mean"] = metrics_json(split.mean);
     entry["seen"] = table_json(split.seen_by_content);
@@ -137,7 +137,7 @@ Json style_summary_json(const StyleSummary& summary) {
           {"signature_amount", number(summary.signature_amount)}};
 }
 
-// A change of each trait; of a signature only those that it is certain of.
+// Changes of each trait; for a signature, only those that are significant.
 Json traits_json(const Traits& change, const Signature* signature = nullptr) {
   Json out = Json::object();
   for (size_t t = 0; t < kTraits.size(); ++t) {
@@ -147,7 +147,7 @@ Json traits_json(const Traits& change, const Signature* signature = nullptr) {
   return out;
 }
 
-// Mean change per style, of those that have any.
+// Mean change per style over the rows with one.
 Json signatures_json(const std::vector<OodRow>& rows) {
   std::map<std::string, SignatureMatch> styles;
   for (const OodRow& row : rows) {
@@ -176,7 +176,7 @@ Json ood_summary_json(const std::vector<OodRow>& rows) {
   const auto at = [&](double OodRow::*value, double share) {
     return number(quantile(values_of(rows, value), share));
   };
-  // Of shares of frames; and how many rows have any such frame.
+  // Means of shares of frames, and the number of rows with any such frame.
   const auto shares = [&](double OodRow::*value) {
     const auto any = [&](const OodRow& row) { return row.*value > 0; };
     return Json{{"mean", mean(value)},
@@ -212,7 +212,7 @@ Json ood_summary_json(const std::vector<OodRow>& rows) {
   return out;
 }
 
-// Means over the styles, clip by clip.
+// Means over the styles for each clip.
 Json ood_by_clip_json(const std::vector<OodRow>& rows) {
   constexpr std::pair<const char*, double OodRow::*> kNumbers[] = {
       {"jerk_ratio", &OodRow::jerk_ratio},
@@ -229,7 +229,7 @@ Json ood_by_clip_json(const std::vector<OodRow>& rows) {
   return out;
 }
 
-// Of each measure of shots, over the frames of all rows where it applies.
+// Each shot measure over the applicable frames of all rows.
 Json shots_json(const std::vector<OodRow>& rows) {
   Json out;
   for (size_t i = 0; i < kShotKeys.size(); ++i) {
@@ -296,7 +296,7 @@ Json prediction_json(const std::vector<PredictionRow>& rows) {
   return out;
 }
 
-// The spans of frames, [first, end), in which a foot is planted.
+// The intervals of frames, [first, end), in which a foot is planted.
 Json planted_json(const std::vector<FootContacts>& contacts, int foot) {
   Json out = Json::array();
   for (size_t f = 0; f < contacts.size(); ++f) {
@@ -468,7 +468,7 @@ nlohmann::ordered_json report_tree(const Report& report) {
 }
 
 std::string report_json(const Report& report) {
-  // Names come from files; bytes that are not UTF-8 are no reason to lose a report.
+  // Names come from files; invalid UTF-8 must not make the report fail.
   return report_tree(report).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

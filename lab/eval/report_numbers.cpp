@@ -6,14 +6,14 @@
 
 namespace panache {
 std::string number_text(double value, int digits) {
-  // A double has up to 309 digits before the point.
+  // A double has up to 309 digits before the decimal point.
   char text[400];
   if (!std::isfinite(value)) return kDash;
   const auto [end, error] =
       std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, digits);
   if (error != std::errc()) return kDash;
   const std::string_view written(text, end);
-  // What rounds to zero has no sign.
+  // Avoids "-0".
   const bool zero = written.find_first_not_of("-0.") == written.npos;
   return std::string(zero && written.starts_with('-') ? written.substr(1) : written);
 }

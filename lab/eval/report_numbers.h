@@ -1,5 +1,5 @@
 #pragma once
-// Numbers of a report as people read them.
+// Formats and averages the numbers of a report.
 
 #include <map>
 #include <string>
@@ -10,22 +10,21 @@
 
 namespace panache {
 
-inline constexpr const char* kDash = "\xe2\x80\x93";  // Stands where nothing was measured.
+inline constexpr const char* kDash = "\xe2\x80\x93";  // For missing values.
 
-// `value` with so many decimals, whatever the locale; a dash for what is not finite.
+// `value` with so many decimals in any locale; a dash if it is not finite.
 std::string number_text(double value, int digits);
 
 // "1,234,567"; a dash for 0.
 std::string count_text(size_t count);
 
-// The value below which the share `at`, 0 to 1, of the finite `values` lie, interpolated between
-// neighbours; NaN of none.
+// The quantile `at`, 0 to 1, of the finite `values`, interpolated linearly; NaN if there are none.
 double quantile(std::vector<double> values, double at);
 
-// The mean of those that are finite; NaN of none.
+// The mean of the finite values; NaN if there are none.
 double finite_mean(const std::vector<double>& values);
 
-// The mean of each number over the lines where it was measured; takes and windows add up.
+// The mean of each number over the lines that have it; takes and windows are summed.
 Metrics mean_metrics(const std::vector<const Metrics*>& lines);
 template <class Key>
 Metrics mean_metrics(const std::map<Key, Metrics>& table) {
@@ -34,7 +33,7 @@ Metrics mean_metrics(const std::map<Key, Metrics>& table) {
   return mean_metrics(lines);
 }
 
-// How many columns of a terminal `text`, UTF-8, takes.
+// The number of terminal columns of `text`, UTF-8.
 size_t column_count(std::string_view text);
 
 }  // namespace panache

@@ -7,8 +7,8 @@
 namespace panache {
 namespace {
 
-// Share of the outputs of one clip that are taken for the style that they were asked for, and how
-// many there are. scores: of OodVerdict.
+// Share of the outputs of one clip that are recognised as the requested style, and their number.
+// scores: as in OodVerdict.
 void choose(const std::vector<OodRow>& clip, std::vector<double> OodVerdict::*scores, double& right,
             double& outputs) {
   std::vector<const OodVerdict*> verdicts;
@@ -23,7 +23,7 @@ void choose(const std::vector<OodRow>& clip, std::vector<double> OodVerdict::*sc
     }
   }
   for (const OodVerdict* verdict : verdicts) {
-    // The choice is among the styles that were asked for.
+    // Chooses among the requested styles.
     const OodVerdict* best = verdicts.front();
     const auto speaks_for = [&](const OodVerdict* style) {
       return (verdict->*scores)[style->style] - liking[style->style];

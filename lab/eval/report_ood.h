@@ -1,5 +1,5 @@
 #pragma once
-// Many clips in many styles in a few numbers.
+// Summarises many clips in many styles.
 
 #include <string>
 #include <utility>
@@ -10,20 +10,19 @@
 
 namespace panache {
 
-// What the judges of the styles say of many outputs, see OodVerdict; NaN where there is nothing.
+// Style recognition of many outputs, see OodVerdict; NaN if there are none.
 struct StyleSummary {
   double style_robust = kNotMeasured, style_lda = kNotMeasured;  // Means over outputs.
-  // Share of the outputs that speak more for the style asked for than for any other, when one clip
-  // is put out in all styles and each judge's liking for a style, as the mean over those outputs
-  // shows it, is taken off.
+  // Share of outputs with the highest score for the requested style, among the outputs of one clip
+  // in all styles, after subtracting each classifier's bias (mean score) for a style over them.
   double forced_mlp = kNotMeasured, forced_lda = kNotMeasured;
-  // Of the changes that a style's real takes agree on: share with the right sign, share by half to
-  // double of the real change.
+  // Changes that a style's real takes agree on: share with the right sign, and share with half to
+  // twice the real amount.
   double signature_sign = kNotMeasured, signature_amount = kNotMeasured;
 };
 StyleSummary summarize_styles(const std::vector<OodRow>& rows);
 
-// The rows of each clip, in order of their first one.
+// The rows of each clip, in order of first occurrence.
 std::vector<std::pair<std::string, std::vector<OodRow>>> ood_by_clip(
     const std::vector<OodRow>& rows);
 

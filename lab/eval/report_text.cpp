@@ -1,4 +1,4 @@
-// The report for a terminal: numbers of report.json in tables.
+// The report for a terminal: tables of the numbers in report.json.
 
 #include <algorithm>
 #include <set>
@@ -13,11 +13,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// In place of the digits of how many there are of something: "1,234", and the same without the
-// comma. A dash stands for 0.
+// Special values of `digits`, for counts: "1,234", and the same without the comma. 0 is a dash.
 constexpr int kCount = -1, kPlainCount = -2;
 
-// A column of numbers, each of which stands at a place (a JSON pointer) of its row.
+// A column of numbers, each found by a JSON pointer in its row.
 struct Column {
   std::string label, place;
   int digits;
@@ -53,14 +52,14 @@ std::string table(const std::string& names, const std::vector<Group>& groups, co
   return out.str();
 }
 
-// Rows by their names, and one that sums them up or is null.
+// Rows with their names, and a summary row or null.
 struct Source {
   std::string label;
   Json rows, total;
   std::vector<Column> columns;
 };
 
-// The names that any of the sources has: first those of `order`, then the rest by the alphabet.
+// All names in the sources: first those of `order`, then the rest sorted by name.
 std::vector<std::string> names_of(const std::vector<Source>& sources,
                                   const std::vector<std::string>& order) {
   std::set<std::string> rest;
@@ -75,8 +74,8 @@ std::vector<std::string> names_of(const std::vector<Source>& sources,
   return names;
 }
 
-// Sources beside each other, a row for each name, and below them their totals as the row `total`,
-// where that is not empty.
+// Sources side by side, a row for each name, followed by their totals in the row `total`, unless
+// that is empty.
 std::string side_by_side(const std::string& names, const std::vector<Source>& sources,
                          const std::vector<std::string>& row_names, const std::string& total) {
   std::vector<Group> groups;
@@ -98,7 +97,7 @@ std::string side_by_side(const std::string& names, const std::vector<Source>& so
   return table(names, groups, rows);
 }
 
-// What each system has at `place`, but for systems where `needed` is empty.
+// The value of each system at `place`, skipping systems where `needed` is empty.
 Rows of_systems(const Json& report, const std::string& place, const std::string& needed) {
   Rows rows;
   for (const auto& [name, system] : report["systems"].items()) {
@@ -108,12 +107,12 @@ Rows of_systems(const Json& report, const std::string& place, const std::string&
   return rows;
 }
 
-// A title and what stands under it; nothing without a body.
+// A title and its body; empty without a body.
 std::string titled(const std::string& title, const std::string& body) {
   return body.empty() ? "" : title + "\n" + body + "\n";
 }
 
-// Broken into lines at spaces.
+// Breaks a text into lines at spaces.
 std::string wrapped(const std::string& text) {
   std::string out;
   for (size_t begin = 0, width = 0; begin < text.size();) {
@@ -155,7 +154,7 @@ std::string by_content(const Json& report) {
   return side_by_side("content", systems, names, "");
 }
 
-// One number of each system, strengths from left to right.
+// One number of each system, with strengths from left to right.
 std::string strengths(const Json& report, const std::string& measure) {
   const Rows rows = of_systems(report, "/strength", "/strength");
   Group group;
@@ -191,7 +190,7 @@ const Column kClips = {"clips", "/clips", kPlainCount},
              kCm = {"cm", "/cm", 1}, kHandSpeed = {"hands' speed", "/hand_speed", 2},
              kHandSharpness = {"hands' sharpness", "/hand_sharpness", 2};
 
-// Clips before the judges of performers, of each style (or `by_content`) and together.
+// Clips classified by performer, for each style (or `by_content`) and in total.
 Source clips(const std::string& label, const Json& from, const std::vector<Column>& columns,
              const std::string& by = "by_style") {
   return {label, from[by], from["all"], columns};
@@ -206,7 +205,7 @@ std::string own_clips(const Json& report) {
   return side_by_side("style", sources, names_of(sources, {}), "all styles");
 }
 
-// The same of motion of performers who are not those of the style, and of shared styles.
+// The same for motion of performers other than the style's, and for shared styles.
 std::string clips_across(const Json& report) {
   std::vector<Source> sources;
   const auto add = [&](const std::string& name, const Json& performers) {

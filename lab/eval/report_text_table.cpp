@@ -21,7 +21,7 @@ std::string to_right(const std::string& text, size_t width) {
   return std::string(width - column_count(shown), ' ') + shown;
 }
 
-// A label's first word, and what follows it.
+// A label's first word, and the rest.
 std::pair<std::string, std::string> broken(const std::string& label) {
   const size_t space = label.find(' ');
   if (space == label.npos) return {"", label};
@@ -128,7 +128,7 @@ std::string TextTable::str() const {
   for (const Row& row : rows_) name_width = std::max(name_width, column_count(row.name));
   size_t columns_width = 0;
   for (const Group& group : groups_) columns_width += group_width(group);
-  // Names may take what the columns leave.
+  // Names get the width that columns leave.
   const size_t left = kTextWidth - std::min(columns_width, kTextWidth);
   name_width = std::min(name_width, std::max(left, kMinNameWidth));
   std::string text;

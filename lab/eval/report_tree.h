@@ -1,5 +1,5 @@
 #pragma once
-// The report as JSON in memory: what report.json and the tables for a terminal are written from.
+// The report as a JSON tree, the source of report.json and the text tables.
 
 #include <nlohmann/json.hpp>
 

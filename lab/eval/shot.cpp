@@ -12,14 +12,14 @@ namespace {
 
 using enum HumanJoint;
 
-// Metres and seconds of the canonical body, whose hips stand at 0.9 m.
-constexpr int kNear = 5;  // Frames before and after in which what rests does not move.
+// In metres and seconds of the canonical body, whose hips are at 0.9 m.
+constexpr int kNear = 5;  // Frames before and after in which resting joints do not move.
 constexpr float kRest = 0.02f;
-constexpr float kFloor = 0.05f;      // A toe below this is on the floor.
-constexpr float kTravel = 0.5f;      // m/s: hips that are faster travel.
-constexpr float kSlowToe = 0.3f;     // m/s: a toe that is slower is planted.
-constexpr float kSeat = 0.6f;        // Hips that rest below this sit, crouch or kneel.
-constexpr float kBeyondFeet = 0.2f;  // Hips that rest so far from the feet are held elsewhere.
+constexpr float kFloor = 0.05f;      // A lower toe is on the floor.
+constexpr float kTravel = 0.5f;      // m/s: faster hips travel.
+constexpr float kSlowToe = 0.3f;     // m/s: a slower toe is planted.
+constexpr float kSeat = 0.6f;        // Hips that rest lower sit, crouch or kneel.
+constexpr float kBeyondFeet = 0.2f;  // Hips that rest further from the feet are held elsewhere.
 constexpr float kHandsMeet = 0.18f, kHandAtHead = 0.28f;
 constexpr float kThigh = 0.06f, kShin = 0.04f, kTorso = 0.11f, kForearm = 0.035f, kSkull = 0.09f;
 
@@ -35,7 +35,7 @@ bool rests(const std::vector<Body>& world, int f, HumanJoint joint) {
   return true;
 }
 
-// Horizontal speed in the last frame, m/s.
+// Horizontal speed since the previous frame, m/s.
 float speed_of(const std::vector<Body>& world, int f, HumanJoint joint) {
   const Vec3 way = world[f][index(joint)] - world[f - 1][index(joint)];
   return std::hypot(way.x, way.z) * static_cast<float>(kTakeRate);
@@ -60,7 +60,7 @@ float turn_deg(const Body& from, const Body& to, int side) {
                             std::numbers::pi);
 }
 
-// Between two segments, sampled; metres.
+// The distance of two segments, sampled; metres.
 float distance(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   constexpr int kSamples = 16;
   float least = length(from_line(a, c, d));
@@ -70,7 +70,7 @@ float distance(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   return least;
 }
 
-// How deep each pair of capsules is in each other, metres; below 0 where they are apart.
+// The penetration depth of each pair of capsules, metres; negative if they are apart.
 std::array<float, 6> depths_of(const Body& body) {
   const auto at = [&](HumanJoint joint) { return body[index(joint)]; };
   const auto thigh = [&](int side) {

@@ -11,11 +11,11 @@ namespace {
 
 constexpr ClassifierSettings kRobust = {
     .hidden = 96, .networks = 2, .steps = 2500, .disturbed = true};
-constexpr int kGroups = 4;       // Of actions that are left out in turn.
-constexpr int kJudgedTakes = 6;  // Of a style and action.
+constexpr int kGroups = 4;       // Of actions, left out in turn.
+constexpr int kJudgedTakes = 6;  // Per style and action.
 
-// No style where an action was captured in none but neutral: a classifier would learn that
-// kicks are neutral, and it is to recognise styles in such actions.
+// Unlabels takes of actions that were captured only as neutral: a classifier would learn that kicks
+// are neutral, and it has to recognise styles in such actions.
 std::vector<std::string> labels_of(const std::vector<Take>& takes) {
   std::set<std::pair<int, std::string>> styled;  // Set, content.
   for (const Take& take : takes) {
@@ -74,7 +74,7 @@ std::vector<OodRow> judge_unseen_actions(const std::vector<Take>& takes, uint64_
   const auto kind_of = [](const Take& take) {
     return take.row.content.substr(0, take.row.content.find('-'));
   };
-  std::map<std::string, int> group;  // Of a kind of action.
+  std::map<std::string, int> group;  // By first word of the action.
   for (const Take& take : takes) {
     if (!take.row.neutral) group[kind_of(take)] = 0;
   }
@@ -91,7 +91,7 @@ std::vector<OodRow> judge_unseen_actions(const std::vector<Take>& takes, uint64_
     std::vector<Take> others;
     std::copy_if(takes.begin(), takes.end(), std::back_inserter(others), std::not_fn(is_left_out));
     const StyleJudges judges(others, {}, seed);
-    std::map<std::string, int> count;  // Of a style and action.
+    std::map<std::string, int> count;  // By style and action.
     for (const Take& take : takes) {
       if (take.row.neutral || !is_left_out(take)) continue;
       const std::string folder = std::filesystem::path(take.row.path).parent_path().string();
@@ -116,7 +116,7 @@ OodVerdict StyleJudges::recognise(const Take& take, const std::string& wanted) c
   const torch::Tensor scores = lda_.scores(take);
   verdict.style_robust = share_of(probabilities, verdict.style);
   verdict.style_lda = share_of(scores, verdict.style);
-  // No window alone may decide.
+  // Limits the weight of a single window.
   constexpr double kLeastProbability = 1e-4;
   verdict.robust_scores = means_of((probabilities + kLeastProbability).log(), styles_.size());
   verdict.lda_scores = means_of(scores, styles_.size());

@@ -1,5 +1,5 @@
 #pragma once
-// What the judge compares: anything that gives motion a style.
+// The interface of everything that is evaluated: systems that give motion a style.
 
 #include <array>
 #include <memory>
@@ -16,85 +16,84 @@
 
 namespace panache {
 
-// Strengths that every system is asked for; 1 is the style as it was captured.
+// Strengths at which every system is run; 1 is the style as captured.
 inline constexpr std::array kStrengths = {0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0};
 
-// One thing to ask for: strengths of styles, and the style that the result is judged as.
+// A request: strengths of styles, and the style to evaluate the result as.
 struct StyleRequest {
   std::string style;
   std::vector<std::pair<std::string, float>> strengths;
-  bool timing = true;  // With the style's own tempo; off, frame by frame as the input.
+  bool timing = true;  // In the style's own tempo; false: frame by frame as the input.
 };
 
-// What a system made of a neutral take. `take.row` names the style asked for and the content.
+// The output for a neutral take. `take.row` names the requested style and the content.
 struct StyledTake {
   Take take;
   int input = 0;                     // Index of the neutral take.
-  std::vector<float> source_frames;  // Frame of the input per frame of the take; empty: unknown.
+  std::vector<float> source_frames;  // Input frame per frame of the take; empty: unknown.
 };
 
-// An output, and what else is known of it.
+// An output and its statistics.
 struct RunResult {
   StyledTake output;
   double bone_length_error = 0;  // Largest change of a bone's length, metres.
-  double gate = 1;               // Mean share of the style's dynamics that was let through.
+  double gate = 1;               // Mean share of the style's dynamics let through.
 };
 
-// How many outputs there are of a system that cannot be run, and how many were asked for.
+// The number of recorded outputs of a system, and how many of them were requested.
 struct RecordedCount {
   size_t listed = 0, evaluated = 0;
 };
 
-// What a system is, as far as it is known.
+// Facts about a system, if known.
 struct SystemFacts {
-  std::string recipe;                     // Empty where there is none.
-  size_t bytes = 0, parameters = 0;       // 0 where nobody knows.
-  std::optional<RecordedCount> recorded;  // Of systems whose outputs are files.
+  std::string recipe;                     // Or empty.
+  size_t bytes = 0, parameters = 0;       // 0 if unknown.
+  std::optional<RecordedCount> recorded;  // For systems whose outputs are files.
 };
 
-// A system's answers for single instants. Goes through them one after the other, and may keep
-// buffers.
+// A system's output for single instants, which are requested in order of time. May keep buffers.
 class InstantAnswers {
  public:
   virtual ~InstantAnswers() = default;
-  // The change that it makes of frame `at` of `neutral`, seen as frame `seen_at` of `seen` (numbers
-  // in the system's layout); nothing where it does not know the style.
+  // The change for frame `at` of `neutral`, seen as frame `seen_at` of `seen` (features in the
+  // system's layout); empty if the style is unknown.
   virtual std::optional<StyleDelta> change(const std::string& style, const Take& seen,
                                            float seen_at, const Take& neutral, float at) = 0;
 };
 
-// All of it may be asked by several threads at once.
+// Thread-safe.
 class System {
  public:
   explicit System(std::string name) : name_(std::move(name)) {}
   virtual ~System() = default;
 
-  const std::string& name() const { return name_; }  // In the report.
+  const std::string& name() const { return name_; }  // As in the report.
   virtual SystemFacts facts() const { return {}; }
 
-  // The styles that it can be asked for.
+  // The available styles.
   virtual std::vector<std::string> styles() const = 0;
-  // Whether it can be asked for this. By default: where it has all the styles.
+  // Whether the request is supported. Default: if it has all the styles.
   virtual bool can_run(const TestInput& input, const StyleRequest& request) const;
-  // What it makes of the whole take; `output.input` is the caller's. Fails with a message.
+  // Runs it on the whole take; the caller sets `output.input`. Fails with a message.
   virtual Result<RunResult> run(const TestInput& input, const StyleRequest& request) const = 0;
 
-  // Its answers at one strength, for pose error and disturbances; null where it has none for single
+  // Its output at one strength, for pose error and disturbances; null if it has none for single
   // instants.
   virtual std::unique_ptr<InstantAnswers> instants(double strength) const;
-  // Of the windows that they look at.
+  // Layout of the windows that these see.
   virtual PoseLayout layout() const { return PoseLayout::positions; }
 
-  // Processor time of one step of one character, microseconds; NaN where it takes no steps.
+  // CPU time of one step of one character, microseconds; NaN if it has no steps.
   virtual double step_us(const TestInput& input) const;
-  // The model that predicts its input; null where it predicts nothing.
+  // The model with its input predictor, or null.
   virtual std::shared_ptr<const Model> predicting_model() const { return nullptr; }
 
  private:
   std::string name_;
 };
 
-// The inputs themselves, as if they were the output for each style.
+// The inputs themselves as outputs for each style.
 std::vector<StyledTake> untouched(const std::vector<TestInput>& inputs,
                                   const std::vector<std::string>& styles);
 

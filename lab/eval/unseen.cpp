@@ -12,8 +12,8 @@ bool is_among(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// How well real takes of the contents are told apart by a classifier that never saw them: what the
-// training takes say about them at all.
+// Accuracy of a classifier without these contents in training on real takes of them: the best that
+// the training takes allow.
 MetricsTable evaluate_blind(const UnseenSplit& split, const TestSet& test_set, uint64_t seed) {
   std::vector<Take> known;
   std::vector<std::string> labels;
@@ -40,7 +40,7 @@ MetricsTable evaluate_blind(const UnseenSplit& split, const TestSet& test_set, u
   return by_content(cells);
 }
 
-// The same by judges of the performers.
+// The same by performers' classifiers.
 std::vector<ClipVerdict> judge_blind(const UnseenSplit& split, const TestSet& test_set) {
   std::vector<Take> known, unseen;
   for (const Take& take : test_set.training.takes) {
@@ -82,12 +82,12 @@ Result<UnseenSplit> read_split(const std::string& text) {
 Result<void> evaluate_unseen(const UnseenSplit& split, const EvaluateOptions& options,
                              const TestSet& test_set, const std::vector<NamedModel>& models,
                              std::vector<SystemReport>& reports) {
-  // Inputs are normalised by the takes of the pairs alone, so these contents leave no trace.
+  // The input normalisation comes from the takes of the pairs only, so it excludes these contents.
   TrainingData training_data = test_set.training;
   std::erase_if(training_data.pairings, [&](const Pairing& pairing) {
     return is_among(split.contents, test_set.training.takes[pairing.styled].row.content);
   });
-  // Styles that are shown in these contents alone are not learnt at all.
+  // Styles shown only in these contents are not learnt.
   EvaluateOptions learnt = options;
   std::erase_if(learnt.styles, [&](const StyleName& style) {
     return std::none_of(training_data.pairings.begin(), training_data.pairings.end(),
@@ -123,7 +123,7 @@ Result<void> evaluate_unseen(const UnseenSplit& split, const EvaluateOptions& op
   };
 
   std::map<const Recipe*, ContentsEvaluation>
-      evaluated;  // A recipe trained once serves all models of it.
+      evaluated;  // All models of a recipe share one training.
   for (size_t s = 0; s < models.size(); ++s) {
     const Recipe* recipe = &models[s].model->recipe();
     if (!evaluated.contains(recipe)) {

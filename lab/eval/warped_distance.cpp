@@ -23,9 +23,9 @@ std::vector<float> distances(const Take& take, const Take& real) {
   return distance;
 }
 
-// The least mean cost of a path through rows [first, first + rows). Dynamic time warping of which
-// every step moves on in both (Sakoe and Chiba's slope constraint of 1): by 1 and 1, 1 and 2, or 2
-// and 1 frames.
+// The minimal mean cost of a path through rows [first, first + rows). Dynamic time warping in which
+// every step advances both (Sakoe and Chiba's slope constraint of 1): by 1 and 1, 1 and 2, or 2 and
+// 1 frames.
 float best_path(const std::vector<float>& distance, int columns, int first, int rows) {
   constexpr float kFar = std::numeric_limits<float>::infinity();
   std::vector<float> cost(size_t(rows) * columns, kFar);

@@ -1,15 +1,15 @@
 #pragma once
-// How far a motion is from a real one, wherever in it the same is done and however fast.
+// The distance of a motion from a real one, independent of time and speed.
 
 #include "learn/take.h"
 
 namespace panache {
 
-inline constexpr int kWarpedFrames = 60;  // Of a window; the next one begins half a second later.
+inline constexpr int kWarpedFrames = 60;  // Of a window; windows start every half second.
 
-// Windows of `take` are laid on `real` where they fit best, start and end free, at half to double
-// its speed; a window is two seconds, or as long as the shorter of the two. The mean over windows,
-// their frames and the joints of the distance in the body frame, cm.
+// Aligns windows of `take` with the best match in `real`, with free start and end, at half to
+// double speed; a window has two seconds, or the length of the shorter motion. Returns the mean
+// joint distance in the body frame over windows and frames, cm.
 double warped_distance(const Take& take, const Take& real);
 
 }  // namespace panache

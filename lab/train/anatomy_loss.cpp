@@ -15,7 +15,7 @@ using torch::Tensor;
 constexpr double kUnit_deg = 10;
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-// The root has no slope at 0.
+// Keeps the square root differentiable at 0.
 Tensor root_of(const Tensor& square) { return (square + 1e-8).sqrt(); }
 // Dot products of rows. [rows][3] -> [rows]
 Tensor along(const Tensor& a, const Tensor& b) { return (a * b).sum(1); }
@@ -46,13 +46,13 @@ Tensor swing_beyond(const Tensor& now, double rest, const SwingRange& range) {
   return kDegrees * torch::atan2(across, rest * y) - most;
 }
 
-// How far hinges between two limbs bend beyond their range. `ahead`: 1 where the lower limb goes
-// ahead as it bends, -1 where it goes back, the upper one hanging down.
+// How far hinges between two limbs bend beyond their range. `ahead`: 1 if the lower limb bends
+// forward, -1 if backward, with the upper one hanging down.
 Tensor hinge_beyond(const Tensor& upper, const Tensor& lower, float ahead,
                     const HingeRange& range) {
   const Tensor down = torch::tensor({0.0f, -1.0f, 0.0f}).expand_as(upper);
   const Tensor bends_to = torch::tensor({0.0f, 0.0f, ahead}).expand_as(upper);
-  // Turned as the upper limb is from hanging down.
+  // Rotated as the upper limb is relative to hanging down.
   const Tensor about = cross_of(down, upper), once = cross_of(about, bends_to);
   const Tensor to = bends_to + once +
                     cross_of(about, once) / (1 + along(down, upper)).clamp_min(0.1).unsqueeze(1);
@@ -65,7 +65,7 @@ Tensor hinge_beyond(const Tensor& upper, const Tensor& lower, float ahead,
   return torch::maximum(angle - range.most, wrong - range.back);
 }
 
-// Degrees beyond their ranges, of all ten joints. [rows][21][3] -> [rows][10]
+// Excess over the ranges of all ten joints, degrees. [rows][21][3] -> [rows][10]
 Tensor beyond_ranges(const Tensor& bodies) {
   const auto at = [&](HumanJoint joint) { return bodies.select(1, index(joint)); };
   const auto way = [&](HumanJoint from, HumanJoint to) { return unit(at(to) - at(from)); };
@@ -88,7 +88,7 @@ Tensor beyond_ranges(const Tensor& bodies) {
     const Tensor lower = outward(on_chest.seen(way(elbow, hand)), side);
     const Tensor overhead = kOverheadSlope * (kOverhead - upper.select(1, 1));
     all.push_back(torch::minimum(swing_beyond(upper, -1, kShoulderRange), overhead));
-    // Which way an arm overhead is twisted cannot be told.
+    // The twist of a raised arm is not observable.
     all.push_back(torch::minimum(hinge_beyond(upper, lower, 1, kElbowRange), overhead));
   };
   const auto add_leg = [&](float side, HumanJoint hip, HumanJoint knee, HumanJoint foot) {

@@ -1,6 +1,6 @@
 #pragma once
-// Batches: which samples a network sees at a step, disturbed, mirrored and normalised. Everything
-// follows from the seed and the step, so that interrupted training goes on as if it had not been.
+// Batches: draws samples for a training step, then disturbs, mirrors and normalises them. The
+// result depends only on the seed and the step, so training can be resumed exactly.
 
 #include <vector>
 
@@ -11,11 +11,11 @@
 
 namespace panache {
 
-// How the pose network's targets are normalised: less the mean, divided by the scale. [outputs]
+// Normalisation of the pose network's targets: (target - mean) / scale. [outputs]
 struct OutputUnits {
   std::vector<float> mean, scale;
 };
-// The recipe's own scale, or what is measured on the targets of these samples.
+// The recipe's own scale, or one measured on the targets of these samples.
 OutputUnits output_units(const SampleSet& set, const std::vector<int>& samples);
 
 struct Batch {
@@ -23,17 +23,17 @@ struct Batch {
   torch::Tensor pose;                // [rows][outputs], normalised
   torch::Tensor log_rate;            // [rows][1]
   torch::Tensor contacts;            // [rows][2]
-  std::vector<int64_t> group_sizes;  // Rows of each style, where grouped.
+  std::vector<int64_t> group_sizes;  // Rows of each style, if grouped.
 };
 
 class BatchMaker {
  public:
-  // `choice`: the samples to draw from. `styles`: how many the model has.
+  // `choice`: the samples to draw from. `styles`: number of styles in the model.
   BatchMaker(const SampleSet& set, std::vector<int> choice, int styles,
              const BatchSettings& settings, OutputUnits units);
 
   Batch make(Random& random) const;
-  // The samples themselves, undisturbed, in order: for validation.
+  // The given samples in order, undisturbed, for validation.
   Batch plain(const std::vector<int>& samples) const;
 
   const std::vector<int>& choice() const { return choice_; }
@@ -54,10 +54,10 @@ class BatchMaker {
   OutputUnits units_;
   struct Cell {
     int style;
-    std::vector<int> samples;  // Of choice_, those with a next one.
-    float share;               // Of this cell and those before it.
+    std::vector<int> samples;  // Members of choice_ that have a next sample.
+    float share;               // Cumulative, including this cell.
   };
-  std::vector<Cell> cells_;  // One for each action in each style.
+  std::vector<Cell> cells_;  // One for each action and style.
 };
 
 }  // namespace panache

@@ -20,8 +20,8 @@ torch::Tensor as_tensor(const Fingerprint& training) {
                         static_cast<int64_t>(training.settings)});
 }
 
-// What of another training differs from this one, "" if nothing does. Other styles make other data
-// and settings may do so, so the first of these that differs is the cause.
+// How another training differs from this one, "" if it does not. Other styles change the data, and
+// may change the settings; so the first difference in this order is the cause.
 std::string difference(const torch::Tensor& saved, const torch::Tensor& now) {
   constexpr std::pair<int, const char*> kParts[] = {{2, "settings"}, {1, "styles"}, {0, "data"}};
   for (const auto& [place, name] : kParts) {
@@ -44,7 +44,7 @@ Result<void> save_checkpoint(const std::string& path, const Fingerprint& trainin
   }
   saved.push_back(table);
   saved.push_back(as_tensor(training));
-  // Not by libtorch: on a full disk it ends the program.
+  // Without libtorch, which aborts if the disk is full.
   std::ostringstream bytes;
   torch::save(saved, bytes);
   return write_file(file_of(path, network.shape().name), bytes.view(), true);

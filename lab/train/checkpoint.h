@@ -1,5 +1,5 @@
 #pragma once
-// Interrupted training goes on where it was.
+// Checkpoints: interrupted training resumes where it stopped.
 
 #include <string>
 #include <vector>
@@ -11,16 +11,16 @@
 
 namespace panache {
 
-// Saves a network beside `path` (".pose.checkpoint" and so on), whole or not at all.
+// Saves a network next to `path` (".pose.checkpoint" and so on), atomically.
 Result<void> save_checkpoint(const std::string& path, const Fingerprint& training,
                              const NetworkTrainer& network, const std::vector<LossPoint>& losses);
 
-// Restores a network and its losses where a checkpoint is there; fails where it is damaged, or of
+// Restores a network and its losses if there is a checkpoint; fails if it is damaged, or belongs to
 // other data, styles or settings.
 Result<void> load_checkpoint(const std::string& path, const Fingerprint& training,
                              NetworkTrainer& network, std::vector<LossPoint>& losses);
 
-// The checkpoints that are beside `path`.
+// The existing checkpoints of `path`.
 std::vector<std::string> find_checkpoints(const std::string& path);
 
 void remove_checkpoints(const std::string& path);

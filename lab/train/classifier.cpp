@@ -16,9 +16,9 @@ namespace {
 constexpr int kNumbers = pose_feature_count(PoseLayout::positions);
 constexpr int kLayers = 2;
 constexpr int kRows = 256;
-// Rounds through the windows, and how many steps that may be.
+// Epochs, and limits of the number of steps.
 constexpr int kRounds = 12, kMinSteps = 400, kMaxSteps = 2500;
-constexpr float kNoise = 0.1f;  // Added to each number in training, in its deviations.
+constexpr float kNoise = 0.1f;  // Added to each input in training, in standard deviations.
 constexpr Disturbance kDisturbance = {
     .scale = 0.06f, .floor = 0.015f, .heading = 0.1f, .posture = 0.3f};
 
@@ -86,7 +86,7 @@ void Classifier::learn(const std::vector<Take>& takes, const std::vector<int>& l
   }
   const int rounds = std::clamp(static_cast<int>(kRounds * count / kRows), kMinSteps, kMaxSteps);
   const int steps = settings_.steps > 0 ? settings_.steps : rounds;
-  // Classes are drawn by the square root of their share.
+  // Classes are sampled by the square root of their share.
   std::vector<float> share;
   share.reserve(windows.size());
   float total = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// Tells a second of motion's style, or its content: the judge of what a system puts out, and, in
-// training, the guide to what a style looks like on motion that nobody ever captured in it.
+// Recognises the style or the content of one second of motion. Evaluates the output of systems, and
+// guides training on motion that was never captured in a style.
 
 #include <span>
 #include <string>
@@ -21,40 +21,40 @@ inline constexpr int kClassifiedPoses = 15, kClassifiedSpacing = 2,
 inline constexpr int kClassifiedInputs =
     kClassifiedPoses * pose_feature_count(PoseLayout::positions);
 
-// What a classifier says of the windows of a take.
+// The predictions for the windows of a take.
 struct Classification {
   torch::Tensor probabilities;  // [windows][classes]
-  torch::Tensor features;       // [windows][features], of its last hidden layer.
+  torch::Tensor features;       // [windows][features], activations of the last hidden layer.
 };
 
 struct ClassifierSettings {
-  int hidden = 96;   // Units of each of its two layers.
+  int hidden = 96;   // Units of each of the two layers.
   int networks = 2;  // Their probabilities are averaged.
-  int steps = 0;     // 0: a dozen rounds through the windows.
-  // Half of the windows mirrored, all of them as other bodies and captures would show them: for
-  // motion of people that it does not learn from.
+  int steps = 0;     // 0: about twelve epochs.
+  // Mirrors half of the windows, and varies all of them as other bodies and captures would: for
+  // classifying people who are not in the training data.
   bool disturbed = false;
 };
 
 class Classifier {
  public:
-  // Learns to tell the class labels[i] of takes[i] (numbers in layout positions) apart; takes
-  // whose label is not among `classes` are left out. Follows from the seed.
+  // Learns to predict labels[i] from takes[i] (features in layout positions); skips takes whose
+  // label is not among `classes`. Deterministic for a seed.
   Classifier(const std::vector<Take>& takes, const std::vector<std::string>& labels,
              std::vector<std::string> classes, uint64_t seed,
              const ClassifierSettings& settings = {});
 
-  // A take shorter than a window is held at its last frame.
+  // A take shorter than a window is padded with its last frame.
   Classification classify(const Take& take) const;
 
-  // Cross-entropy of wanted[i] for window i, mean over windows and networks, with gradients for the
-  // windows alone. Each network drops units and sees noise, as when it learnt: it is harder to fool
-  // like that. windows[windows][poses * numbers], not normalised.
+  // Cross-entropy of wanted[i] for window i, averaged over windows and networks, with gradients for
+  // the windows only. Dropout and noise stay on as in training, which makes the networks harder to
+  // fool. windows[windows][poses * features], not normalised.
   torch::Tensor loss(const torch::Tensor& windows, const torch::Tensor& wanted, float smoothing,
                      Random& random) const;
 
   const std::vector<std::string>& classes() const { return classes_; }
-  // Index of a class; -1 where there is no such class.
+  // Index of a class, or -1.
   int find(const std::string& label) const;
 
  private:

@@ -15,11 +15,11 @@ namespace {
 
 using Content = std::pair<int, std::string>;  // Set, content.
 
-// The takes of a content by one performer, or in a manifest that names none.
+// The takes of a content by one performer, or of a manifest without performers.
 struct Takes {
   std::string manifest, person;
   size_t neutral = 0, styled = 0;
-  bool borrows = false;  // Other performers of the manifest have neutral takes, this one has none.
+  bool borrows = false;  // Only other performers of the manifest have neutral takes.
   std::set<std::string> styles;
 
   bool is_paired() const { return (neutral > 0 || borrows) && styled > 0; }
@@ -66,7 +66,7 @@ std::string place_of(const Takes& takes) {
 std::vector<std::string> list_unpaired(const std::vector<ManifestRow>& rows) {
   std::vector<std::string> lines;
   const std::map<Content, Takes> contents = contents_of(rows);
-  std::map<int, bool> learns;  // Whether anything is learnt from a set.
+  std::map<int, bool> learns;  // Whether a set teaches anything.
   for (const auto& [content, takes] : contents) learns[content.first] |= takes.is_paired();
   for (auto at = contents.begin(); at != contents.end(); ++at) {
     const auto& [content, takes] = *at;

@@ -49,7 +49,7 @@ std::map<std::string, std::string> model_metadata(const Recipe& recipe,
 
 namespace {
 
-// A model file without networks: what it is made of, and how its inputs are normalised.
+// A model file without networks: metadata and input normalisation.
 TensorFile model_header(const Recipe& recipe, const std::vector<StyleName>& styles,
                         const TrainOptions& options, const InputUnits& inputs, float input_clip) {
   TensorFile file;

@@ -1,5 +1,5 @@
 #pragma once
-// What was trained, as the file that the program reads, and the proof that both compute the same.
+// Exports trained networks to a model file, and checks that both compute the same.
 
 #include <map>
 #include <string>
@@ -14,7 +14,7 @@ namespace panache {
 // The three networks of the set's recipe: hidden layers of 128, 64 and 32 units, as in the slides.
 std::vector<NetworkShape> network_shapes(const SampleSet& set, int styles);
 
-// What every model file of these styles says about itself.
+// The metadata of every model file with these styles.
 std::map<std::string, std::string> model_metadata(const Recipe& recipe,
                                                   const std::vector<StyleName>& styles);
 
@@ -22,8 +22,8 @@ TensorFile export_model(const SampleSet& set, const OutputUnits& units,
                         const std::vector<StyleName>& styles,
                         const std::vector<NetworkTrainer>& networks, const TrainOptions& options);
 
-// Reads `model` back as a file and runs it beside the trained networks on up to 200 of `samples`:
-// the largest difference of any output, relative to that output's scale.
+// Reads `model` back from its bytes and compares it with the trained networks on up to 200 of
+// `samples`: the largest difference of any output, relative to that output's scale.
 Result<float> export_error(const TensorFile& model, const SampleSet& set, const BatchMaker& batches,
                            const std::vector<NetworkTrainer>& networks,
                            const std::vector<int>& samples);

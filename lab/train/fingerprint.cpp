@@ -7,7 +7,7 @@
 namespace panache {
 namespace {
 
-// FNV-1a over the bytes of numbers, lists of them, and text.
+// FNV-1a over the bytes of numbers, lists of numbers, and text.
 class Hash {
  public:
   template <class... T>

@@ -1,5 +1,5 @@
 #pragma once
-// Tells one training from another, so that an interrupted one goes on only where it was.
+// Identifies a training, so that a checkpoint resumes only the training that it belongs to.
 
 #include <cstdint>
 #include <vector>
@@ -10,14 +10,14 @@
 
 namespace panache {
 
-// Hashes of all that decides what a training makes.
+// Hashes of everything that determines the result.
 struct Fingerprint {
-  uint64_t data = 0;      // What the takes show, how they are paired, which of them train.
+  uint64_t data = 0;      // Content of the takes, their pairing, and the training split.
   uint64_t styles = 0;    // Names, in order.
-  uint64_t settings = 0;  // The recipe's, and the seed.
+  uint64_t settings = 0;  // The recipe's settings, and the seed.
 };
 
-// `set`: the samples of the takes; `choice`: those of them that are trained on.
+// `set`: the samples of the takes; `choice`: those that are trained on.
 Fingerprint fingerprint(const TrainingData& data, const SampleSet& set,
                         const std::vector<int>& choice, const std::vector<StyleName>& styles,
                         const TrainOptions& options);

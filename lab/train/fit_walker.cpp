@@ -28,20 +28,19 @@ Use use_of(const ManifestRow& row) {
   return Use::none;
 }
 
-// Which frames show a gait going on, and what may be believed of its coefficients.
+// Which frames show a steady gait, and the priors of its coefficients.
 struct GaitRules {
   float reference, slowest, fastest;  // m/s
   // Penalties of the terms 1, u, u^2, turn, turn^2, acceleration: the squared change per term
-  // counts as that many frames' squared error.
+  // weighs as much as the squared error of that many frames.
   std::array<double, kTerms> penalties;
   float least_stance;  // Of a foot at the reference speed, radians of the cycle.
 };
-// The walks lie so close together in speed that their curvature would be noise; the runs do not
-// turn at all.
+// The speeds of the walks are too similar to fit curvature; the runs do not turn at all.
 constexpr GaitRules kWalkRules = {1.1f, 0.6f, 1.5f, {1e-3, 1, 1e5, 30, 30, 100}, 3.8f};
 constexpr GaitRules kRunRules = {2.8f, 1.9f, 4.5f, {1e-3, 3, 30, 300, 300, 100}, 0};
 
-constexpr int kMargin = 3;              // Frames at the ends whose speed is least certain.
+constexpr int kMargin = 3;              // Frames at both ends, where speed is least certain.
 constexpr double kMaxSideways = 0.3;    // m/s
 constexpr float kMaxGaitTurn = 1.75f;   // rad/s
 constexpr float kMaxGaitChange = 1.5f;  // m/s^2
@@ -51,8 +50,7 @@ struct GaitTake {
   std::vector<GaitFrame> frames;
 };
 
-// Whether a frame tells how fast a gait goes: in a turn the hips are on a shorter way than the
-// feet.
+// Whether a frame shows the speed of a gait: in a turn, the hips take a shorter path than the feet.
 bool is_straight(const GaitFrame& frame) { return std::abs(frame.going.turn) < 0.25f; }
 
 bool is_usable(const GaitTake& take, int f, const GaitRules& rules) {
@@ -63,7 +61,7 @@ bool is_usable(const GaitTake& take, int f, const GaitRules& rules) {
          std::abs(frame.going.acceleration) < kMaxGaitChange && frame.cadence > 0.3;
 }
 
-// Where in the channels a driven joint's rotation is.
+// Index of a driven joint's rotation in the channels.
 std::span<float, 3> rotation_of(Channels& channels, HumanJoint joint) {
   const auto at = std::ranges::find(kDriven, joint) - kDriven.begin();
   return std::span<float, 3>(&channels[static_cast<size_t>(3 + 3 * at)], 3);
@@ -77,9 +75,9 @@ void set(std::span<float, 3> rotation, Quat q) {
 }
 Quat bend(float angle) { return axis_angle(Vec3{1, 0, 0}, angle); }
 
-// Where a skeleton has its ankles and toes decides how steep its feet are in standing. The walker
-// stands on the canonical body's: all feet of these takes are turned by what the planted ones are
-// off in the mean, and the hips are as much higher.
+// The positions of a skeleton's ankles and toes decide how steep its feet are when standing. The
+// walker stands on the canonical body's feet: all feet of these takes are rotated by the mean error
+// of the planted ones, and the hips are raised accordingly.
 void level_feet(std::vector<GaitTake>& takes) {
   double slope = 0, count = 0;
   for (const GaitTake& take : takes) {
@@ -108,8 +106,8 @@ void level_feet(std::vector<GaitTake>& takes) {
   }
 }
 
-// The spine of a skeleton does not say how the person stood either: makes the torso of these walks
-// straight and upright in the mean; runs keep their lean relative to that.
+// A skeleton's spine does not show the person's posture either: makes the mean torso of these walks
+// straight and upright; runs keep their lean relative to that.
 void straighten(std::vector<GaitTake>& walks, std::vector<GaitTake>& runs) {
   constexpr std::array kTorso = {HumanJoint::hips, HumanJoint::spine, HumanJoint::chest,
                                  HumanJoint::neck};
@@ -156,8 +154,8 @@ void add_frame(Ridge& fit, const Gait& gait, double phase, const Going& going,
   fit.add(row, outputs);
 }
 
-// `prior`: a gait whose coefficients are the best guess where the data say nothing; only its turn
-// and acceleration are taken over, the rest starts at zero.
+// `prior`: a gait whose turn and acceleration coefficients are used where the data show nothing;
+// the other coefficients start at zero.
 void fit_coefficients(const std::vector<GaitTake>& takes, const GaitRules& rules, const Gait* prior,
                       Gait& gait) {
   Ridge fit(kUnknowns, kChannels);
@@ -187,8 +185,8 @@ void fit_coefficients(const std::vector<GaitTake>& takes, const GaitRules& rules
   }
 }
 
-// log cadence = log a + exponent * log speed. Strides, not frames, are what was observed; one
-// frame in each is enough.
+// log cadence = log a + exponent * log speed. The observations are strides, not frames; one frame
+// in each is enough.
 void fit_cadence(const std::vector<GaitTake>& takes, const GaitRules& rules, Gait& gait) {
   Ridge fit(2, 1);
   for (const GaitTake& take : takes) {
@@ -199,16 +197,16 @@ void fit_cadence(const std::vector<GaitTake>& takes, const GaitRules& rules, Gai
       fit.add(std::array{1.0, log_speed}, std::array{std::log(frame.cadence)});
     }
   }
-  // Across people and machines cadence grows with about the root of the speed when walking; the
-  // penalty is a handful of strides' worth.
+  // Across people and machines, cadence grows with about the root of walking speed; the penalty
+  // weighs as much as a few strides.
   const std::vector<double> weights = fit.solve(std::array{1e-9, 1e-2});
   gait.exponent = static_cast<float>(weights[1]);
   gait.cadence = static_cast<float>(
       std::exp(weights[0] - weights[1] * std::log(static_cast<double>(rules.reference))));
 }
 
-// Who turns looks ahead: the body goes sideways in its own view. speed sideways = -lead * speed *
-// turn, where a turn shows it; `otherwise` where no take turns.
+// People look ahead when they turn, so the body moves sideways in its own view. speed sideways =
+// -lead * speed * turn, fitted to turns; `otherwise` if no take turns.
 void fit_gaze(const std::vector<GaitTake>& takes, const GaitRules& rules, float otherwise,
               Gait& gait) {
   Ridge fit(1, 1);
@@ -225,9 +223,9 @@ void fit_gaze(const std::vector<GaitTake>& takes, const GaitRules& rules, float 
   gait.gaze_lead = static_cast<float>(weights[0]);
 }
 
-// Whether a foot carries weight: its toe or, where it lands heel first, its ankle is low and slow
-// beside the body's speed. The contacts of the take are stricter, and hardly know the foot of a
-// fast runner. `ankle`: how high it is in the middle of the stance.
+// Whether a foot carries weight: its toe or, after a heel strike, its ankle is low, and slow
+// compared with the body. The contacts of the take are stricter, and nearly miss the feet of a fast
+// runner. `ankle`: its height at mid-stance.
 bool is_down(const Take& take, int f, int foot, float speed, float ankle) {
   constexpr float kMaxHeight = 0.05f, kMaxLift = 0.02f;  // Metres, of the toe and the ankle.
   const float slow = std::max(0.45f, 0.25f * speed);
@@ -240,7 +238,7 @@ bool is_down(const Take& take, int f, int foot, float speed, float ankle) {
   return rests(kToes[foot], kMaxHeight) || rests(kAnkles[foot], ankle + kMaxLift);
 }
 
-// The ankle's height in the planted frames of a take, the mean; 0 where there is none.
+// The ankle's mean height in the planted frames of a take; 0 if there are none.
 float standing_ankle(const Take& take, int foot) {
   float sum = 0, count = 0;
   for (int f = 0; f < take.frames(); ++f) {
@@ -251,11 +249,11 @@ float standing_ankle(const Take& take, int foot) {
   return count > 0 ? sum / count : 0;
 }
 
-// The phases at which feet land and lift, as lines over the speed.
+// The phases of touch-down and lift-off, linear in the speed.
 void fit_contacts(const std::vector<GaitTake>& takes, const GaitRules& rules, Gait& gait) {
   Ridge lands(2, 1), lifts(2, 1);
   const auto add = [&](Ridge& fit, const GaitTake& take, int f, int foot, double around) {
-    // The change happened half-way from the frame before.
+    // The change happened half a frame ago.
     const double phase = (take.frames[f].phase + take.frames[f - 1].phase) / 2 - foot * kTurn / 2;
     const double speed = static_cast<double>(take.frames[f].going.speed - rules.reference);
     fit.add(std::array{1.0, speed}, std::array{around + std::remainder(phase - around, kTurn)});
@@ -278,8 +276,8 @@ void fit_contacts(const std::vector<GaitTake>& takes, const GaitRules& rules, Ga
   const std::vector<double> on = lands.solve(penalties), off = lifts.solve(penalties);
   gait.lands = {static_cast<float>(on[0]), static_cast<float>(on[1])};
   gait.lifts = {static_cast<float>(off[0]), static_cast<float>(off[1])};
-  // A toe joint leaves the ground before the tip of the toes does. People who walk stand on each
-  // foot for about six tenths of the cycle, less as they go faster.
+  // A toe joint leaves the ground before the tip of the toes does. In walking, the stance takes
+  // about 60 % of the cycle, less at higher speed.
   if (rules.least_stance > 0 && gait.lifts[0] - gait.lands[0] < rules.least_stance) {
     gait.lifts = {gait.lands[0] + rules.least_stance, gait.lands[1] - 0.44f};
   }
@@ -294,7 +292,7 @@ struct FittedGait {
 FittedGait fit_gait(const std::vector<GaitTake>& takes, const GaitRules& rules, const Gait* prior) {
   FittedGait out;
   out.gait.reference = rules.reference;
-  // Speeds that a tenth of a percent of the frames goes beyond.
+  // The 0.1 % and 99.9 % quantiles of the speed.
   std::vector<float> speeds;
   for (const GaitTake& take : takes) {
     for (int f = 0; f < take.take->frames(); ++f) {
@@ -329,11 +327,11 @@ FittedGait fit_gait(const std::vector<GaitTake>& takes, const GaitRules& rules, 
   return out;
 }
 
-// In standing: bend of the knees, and how far the legs lean ahead over the feet. Radians.
+// Standing: knee flexion, and how far the legs lean forward over the feet. Radians.
 constexpr float kKnee = 0.33f, kAhead = 0.08f;
 
-// How the walker stands: its upper body as in the middle of a walk, on legs that carry it, feet
-// flat and under the hip joints.
+// The standing pose: the upper body as at medium walking speed, on legs that carry it, with feet
+// flat and below the hip joints.
 Channels make_stand(const Gait& walk) {
   constexpr int kPhases = 64;
   Channels stand{};
@@ -362,7 +360,7 @@ Channels make_stand(const Gait& walk) {
   const Vec3 toes = ankle + offset(HumanJoint::left_toes);
   stand[0] = 0;
   stand[1] = -toes.y;
-  stand[2] = -(ankle.z + toes.z) / 2;  // Over the middle of the feet.
+  stand[2] = -(ankle.z + toes.z) / 2;  // Above the middle of the feet.
   return stand;
 }
 

@@ -15,15 +15,15 @@ namespace {
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr int kMinFrames = 12;
 
-// The four cubic B-splines that are not zero at `x`, in knots; the first is number floor(x).
+// The four cubic B-splines that are not zero at `x`, in knots; the first has index floor(x).
 std::array<double, 4> splines(double x) {
   const double t = x - std::floor(x), r = 1 - t;
   return {r * r * r / 6, (3 * t * t * t - 6 * t * t + 4) / 6,
           (-3 * t * t * t + 3 * t * t + 3 * t + 1) / 6, t * t * t / 6};
 }
 
-// What of `values` does not repeat with the steps: a spline with a knot each cycle, after the
-// harmonics of the phase have taken up what does.
+// The part of `values` that does not repeat with the gait: a spline with one knot per cycle, fitted
+// together with harmonics of the phase that absorb the periodic part.
 std::vector<double> smooth(const std::vector<double>& values, const std::vector<double>& phase,
                            double cycle_frames) {
   constexpr int kRepeating = 6;  // Cosine and sine of three harmonics.
@@ -36,14 +36,14 @@ std::vector<double> smooth(const std::vector<double>& values, const std::vector<
     const std::array<double, 4> near = splines(x);
     for (int k = 0; k < 4; ++k) row[static_cast<size_t>(x) + k] = near[k];
     for (int k = 0; k < kRepeating; k += 2) {
-      const int times = k / 2 + 1;  // A cycle.
+      const int times = k / 2 + 1;  // Per cycle.
       row[knots + k] = std::cos(times * phase[f]);
       row[knots + k + 1] = std::sin(times * phase[f]);
     }
     return row;
   };
   for (int f = 0; f < frames; ++f) fit.add(row_of(f), std::array{values[f]});
-  // A bend of the spline costs a little, so that a take of one cycle has a straight path.
+  // A small bending penalty gives a take of a single cycle a straight path.
   for (int k = 1; k + 1 < knots; ++k) {
     std::vector<double> bend(static_cast<size_t>(knots) + kRepeating, 0.0);
     bend[k - 1] = bend[k + 1] = 1;
@@ -74,8 +74,8 @@ double slope_at(const std::vector<double>& values, int f) {
   return (values[b] - values[a]) / (b - a);
 }
 
-// The angle of the point that the ankles' distance and its rate of change draw, unwrapped. It goes
-// round once each cycle, but not evenly.
+// The unwrapped angle of the point (distance of the ankles, its rate of change). It goes round once
+// per cycle, but not evenly.
 std::vector<double> rough_phase(const Take& take) {
   const int frames = take.frames();
   std::vector<double> ahead(frames), rate(frames), phase(frames);
@@ -133,7 +133,7 @@ std::vector<GaitFrame> gait_frames(const Take& take) {
   const double cycles = (rough.back() - rough.front()) / kTurn;
   if (!(cycles > 0.8)) return {};
   const double cycle_frames = (frames - 1) / cycles;
-  // Once more with the harmonics of the evened phase.
+  // Once more, with harmonics of the evened phase.
   std::vector<double> phase = smooth(rough, rough, cycle_frames);
   phase = smooth(rough, phase, cycle_frames);
 

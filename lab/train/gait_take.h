@@ -1,5 +1,5 @@
 #pragma once
-// A take of someone walking or running, as a gait sees it: phase, path, and the body over the path.
+// Gait analysis of a walking or running take: phase, path, and the body relative to the path.
 
 #include <vector>
 
@@ -9,14 +9,14 @@
 namespace panache {
 
 struct GaitFrame {
-  double phase;    // Radians, growing; at a multiple of a turn the left ankle is furthest ahead.
-  double cadence;  // Cycles of two steps a second.
+  double phase;    // Radians, increasing; at multiples of 2 pi the left ankle is furthest ahead.
+  double cadence;  // Gait cycles (two steps) per second.
   Going going;
-  double sideways;  // Speed to the left of where the body looks, m/s.
+  double sideways;  // Speed to the body's left, m/s.
   Channels channels;
 };
 
-// One per frame of the take; empty where it shows no steps.
+// One per frame of the take; empty if it contains no steps.
 std::vector<GaitFrame> gait_frames(const Take& take);
 
 // A frame of a take as channels over a path at `origin` (world, y = 0) with heading `facing`.

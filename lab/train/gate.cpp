@@ -7,9 +7,9 @@
 namespace panache {
 namespace {
 
-// Directions in which the activations hardly vary are not trusted to tell what is unknown.
+// Directions with hardly any variance are unreliable for telling what is unknown.
 constexpr double kRidge = 0.02;  // Of the mean variance.
-// The rest are transitions and odd moments, and out-of-distribution motion begins among those.
+// The rest are transitions and odd moments, where out-of-distribution motion begins.
 constexpr double kQuantile = 0.99;
 
 }  // namespace
@@ -22,7 +22,7 @@ void fit_gate(const torch::Tensor& rows, TensorFile& file, double trusted) {
   const torch::Tensor covariance =
       torch::mm(centred.t(), centred) / static_cast<double>(activations.size(0) - 1);
   const auto [values, vectors] = torch::linalg_eigh(covariance);
-  // Features that do not vary at all, as those of a single pose, still make a gate.
+  // Activations without any variance, as of a single pose, still make a gate.
   const torch::Tensor ridge = values.clamp_min(0) + (values.mean() * kRidge).clamp_min(1e-6);
   const torch::Tensor whitening = vectors / ridge.sqrt().unsqueeze(0);
   const torch::Tensor distance = torch::mm(centred, whitening).square().sum(1).sqrt();

@@ -16,14 +16,14 @@ namespace {
 
 constexpr int kNumbers = pose_feature_count(PoseLayout::positions);
 constexpr float kLabelSmoothing = 0.1f;
-// What all bodies have of a style differs: a change within the style's own deviation, with this
-// added, is as likely as any other. In output units.
+// A style varies between bodies: changes within the style's own deviation plus this value are
+// equally likely. In output units.
 constexpr float kLeastDeviation = 0.15f;
-constexpr float kLeanUnit = 0.1f, kFreeLean = 0.3f;   // Metres; units that cost nothing.
+constexpr float kLeanUnit = 0.1f, kFreeLean = 0.3f;   // Metres; units without penalty.
 constexpr float kFloorUnit = 0.05f, kFloor = 0.045f;  // Metres; no toe of the input is lower.
-constexpr double kTolerated = 0.4;                    // Of a change that real takes agree on.
-constexpr float kStill = 0.02f;  // Metres: joints that cover less in a sequence do not count.
-// Of so many instants one is looked at for joints beyond their ranges: neighbours bend alike.
+constexpr double kTolerated = 0.4;                    // Share of a change that real takes agree on.
+constexpr float kStill = 0.02f;  // Metres: joints that move less in a sequence do not count.
+// One in so many instants is checked for joint limits, because neighbours bend alike.
 constexpr int64_t kAnatomyStride = 3;
 
 torch::Tensor joints(std::initializer_list<HumanJoint> list) {
@@ -44,7 +44,7 @@ const torch::Tensor& foot_joints() {
   return list;
 }
 
-// The body stays over its feet as the input's does, and above the floor. [rows][21][3]
+// Keeps the body over its feet as in the input, and above the floor. [rows][21][3]
 torch::Tensor balance_loss(const torch::Tensor& in, const torch::Tensor& out) {
   const auto lean = [](const torch::Tensor& positions) {
     return positions.mean(1) - positions.index_select(1, foot_joints()).mean(1);
@@ -69,7 +69,7 @@ torch::Tensor traits_of(const torch::Tensor& bodies) {
   };
   const auto bend = [&](HumanJoint upper, HumanJoint middle, HumanJoint end) {
     const torch::Tensor a = at(middle) - at(upper), b = at(end) - at(middle);
-    // The root has no slope at a straight limb.
+    // Keeps the square root differentiable at a straight limb.
     const torch::Tensor across = (torch::linalg_cross(a, b).square().sum(2) + 1e-8).sqrt();
     return kDegrees / 2 * torch::atan2(across, (a * b).sum(2));
   };
@@ -90,15 +90,15 @@ torch::Tensor traits_of(const torch::Tensor& bodies) {
                       1);
 }
 
-// How far a change of a trait may be from that of the real takes.
+// How far a change of a trait may differ from that of the real takes.
 double tolerance_of(const Signature& real, size_t trait) {
   const double least = kTraits[trait].least, share = kTolerated * std::abs(real.change[trait]);
   return real.certain[trait] ? std::max(least / 2, std::min(real.deviation[trait], share))
                              : std::max(least, real.deviation[trait]);
 }
 
-// How far changes are from what real takes show, beyond what is tolerated; no sequence alone
-// decides. All of one shape.
+// Difference of changes from those of real takes beyond the tolerance, with linear tails. All
+// arguments have one shape.
 torch::Tensor beyond_tolerance(const torch::Tensor& changes, const torch::Tensor& real,
                                const torch::Tensor& tolerance) {
   const torch::Tensor off = ((changes - real).abs() / tolerance - 1).relu();

@@ -1,7 +1,7 @@
 #pragma once
-// Training on motion that has no styled counterpart. A classifier that learnt the styles tells
-// whether what the pose network makes of it looks like the style; other losses keep it the motion
-// that it was: docs/method.md, "Generalising to other actions", says why each is there.
+// Training on motion that has no styled counterpart. Classifiers of the styles tell whether the
+// pose network's output looks like the style; other losses preserve the original motion.
+// docs/method.md, "Generalising to other actions", gives the reason for each.
 
 #include <vector>
 
@@ -17,47 +17,47 @@
 
 namespace panache {
 
-// The guides know the styles (classes in this order) and, last, neutral. They are of two families,
-// so that what they agree on is the style and not a weakness of one of them.
+// Classes are the styles in order and then neutral. The guides are of two families: what both agree
+// on is the style, not a weakness of one of them.
 struct Guides {
   Classifier networks;
   StatisticsGuide statistics;
 };
-// From the takes that the samples were made of.
+// Trains on the takes that the samples were made from.
 Guides train_guides(const std::vector<Take>& takes, const SampleSet& set,
                     const std::vector<int>& choice, const std::vector<std::string>& styles,
                     const GuidanceSettings& settings, uint64_t seed);
 
-// How hands, forearms and feet move in and out: 1 - correlation of their velocities, or 1 -
-// covariance / variance of the input's where they move less than it; those that move more count
+// Similarity of the movement of hands, forearms and feet: 1 - correlation of their velocities, or 1
+// - covariance / variance of the input where the output moves less; joints that move more weigh
 // more. Both [sequences][instants][21][3], metres.
 torch::Tensor velocity_loss(const torch::Tensor& in, const torch::Tensor& out);
 
-// The change of the first traits of kTraits, those that a second of motion shows, in their units.
+// Changes of the first traits of kTraits, those that one second of motion shows, in their units.
 // before, after: [sequences][instants][21][3] -> [sequences][kGuidedTraits]
 inline constexpr int64_t kGuidedTraits = 7;
 torch::Tensor trait_changes(const torch::Tensor& before, const torch::Tensor& after);
 
 class Guidance {
  public:
-  // Of recipes with layout positions that answer with a packed StyleDelta without a mean.
-  // `signatures`: of the styles in their order; null where a style has none.
+  // For recipes with layout positions that output a packed StyleDelta without a mean.
+  // `signatures`: one for each style, in order; null for a style without one.
   Guidance(const SampleSet& set, const std::vector<int>& choice, const OutputUnits& units,
            const UnlabelledMotion& motion, Guides guides,
            const std::vector<const Signature*>& signatures, const GuidanceSettings& settings,
            float input_clip);
 
-  // What to add to the pose network's loss, after this share of the training.
+  // The term to add to the pose network's loss after this share of the training.
   torch::Tensor loss(const NetworkTrainer& pose, double share, Random& random) const;
-  // The same for the timing network: the mean tempo of a sequence should be that of the style's
-  // real takes, where they agree on one.
+  // Likewise for the timing network: draws the mean tempo of a sequence to that of the style's real
+  // takes, if they agree on one.
   torch::Tensor tempo_loss(const NetworkTrainer& timing, double share, Random& random) const;
 
-  // Undisturbed windows of the motion as networks see them. [sequences * instants][inputs]
+  // Undisturbed windows of the motion as network inputs. [sequences * instants][inputs]
   torch::Tensor windows(int sequences, Random& random) const;
 
  private:
-  // Sequences in order of their styles, as the heads want them.
+  // Sequences sorted by style, as the heads require.
   struct Drawn {
     torch::Tensor windows;             // [sequences * instants][inputs], not normalised
     torch::Tensor styles;              // [sequences]
@@ -74,12 +74,11 @@ class Guidance {
   const InputUnits input_units_;
   torch::Tensor input_mean_, input_factor_;  // [inputs]
   torch::Tensor output_scale_;               // [outputs]
-  // Of the style's change in the pairs, actions weighted alike. [styles][outputs]
+  // The style's mean change in the pairs, actions weighted alike. [styles][outputs]
   torch::Tensor style_mean_, style_deviation_;
-  // What each style changes of the guided traits, and what it may be off; infinite where there is
-  // no signature.
+  // Each style's change of the guided traits, and the tolerance; infinite without a signature.
   torch::Tensor signature_, tolerance_;  // [styles][kGuidedTraits]
-  // The same of the logarithm of the tempo; also infinite where real takes do not agree on it.
+  // The same for the logarithm of the tempo; also infinite where real takes disagree.
   torch::Tensor tempo_, tempo_tolerance_;  // [styles]
 };
 

@@ -3,7 +3,7 @@
 namespace panache {
 namespace {
 
-constexpr double kLeastDeviation = 0.02;  // Of a number.
+constexpr double kLeastDeviation = 0.02;  // Of a statistic.
 constexpr double kShrinkage = 0.15;       // Of the covariance, towards a multiple of the identity.
 constexpr double kOutlier = 4;            // Deviations.
 

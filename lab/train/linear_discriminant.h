@@ -11,8 +11,8 @@
 
 namespace panache {
 
-// The rows that rows_of() makes of the takes of each class, labels[i] being that of takes[i]; takes
-// of no class are left out. [classes] of [rows][size], 64 bits
+// The rows that rows_of() makes of the takes of each class; labels[i] is the class of takes[i].
+// Skips takes of no class. [classes] of [rows][size], 64 bits
 std::vector<torch::Tensor> rows_of_classes(
     const std::vector<Take>& takes, const std::vector<std::string>& labels,
     const std::vector<std::string>& classes, int64_t size,
@@ -23,8 +23,8 @@ class LinearDiscriminant {
   // rows_of_class[class]: [rows][size], 64 bits; a class may have none.
   explicit LinearDiscriminant(const std::vector<torch::Tensor>& rows_of_class);
 
-  // Logarithms of what speaks for each class, but for a constant; with gradients for the rows,
-  // which are 64 bits too. [rows][size] -> [rows][classes]
+  // Log-likelihoods of the classes up to a constant, differentiable with respect to the rows, which
+  // are 64 bits too. [rows][size] -> [rows][classes]
   torch::Tensor scores(const torch::Tensor& rows) const;
 
  private:

@@ -19,24 +19,23 @@ constexpr size_t kBuffer = size_t{128} << 20;
 
 Result<void> prepare_matrix_products() {
   at::set_num_threads(1);
-  // OpenBLAS asks for this through a function of its own, which is there only where libtorch came
-  // with it.
+  // OpenBLAS has its own function for this, which exists only if libtorch uses OpenBLAS.
   using SetThreads = void (*)(int);
   void* found = ::dlsym(RTLD_DEFAULT, "openblas_set_num_threads");
   if (!found) return {};
   reinterpret_cast<SetThreads>(found)(1);
 
-  // Judges learn two at a time, each on as many threads as there are cores.
+  // Classifiers are trained two at a time, each with as many threads as there are cores.
   const int threads = 2 * static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  const size_t room = (static_cast<size_t>(threads) + 2) * kBuffer;  // Two for all that follows.
-  void* volatile probe = std::malloc(room);  // Compilers may leave out what nobody can see.
+  const size_t room = (static_cast<size_t>(threads) + 2) * kBuffer;  // Two for everything after.
+  void* volatile probe = std::malloc(room);  // Keeps compilers from removing it.
   const bool fits = probe != nullptr;
   std::free(probe);
   if (!fits) {
     return Error{"training and evaluation need " + std::to_string(room >> 20) +
                  " MB more memory for products of matrices than there is; allow them more"};
   }
-  // Products that take long enough for all threads to be at one at the same time.
+  // Products long enough to occupy all threads at the same time.
   const auto multiply = [](int) {
     const torch::NoGradGuard no_gradients;
     const torch::Tensor numbers = torch::zeros({512, 512});

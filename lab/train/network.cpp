@@ -9,7 +9,7 @@ namespace {
 
 // Adam's usual constants.
 constexpr float kBeta1 = 0.9f, kBeta2 = 0.999f;
-// Shape of the one-cycle schedule: warm-up share, first and last rate as shares of the highest.
+// The one-cycle schedule: warm-up share, first and last rate relative to the highest.
 constexpr double kWarmUp = 0.3, kFirst = 1.0 / 25, kLast = 1.0 / 25e4;
 
 double cosine(double from, double to, double share) {
@@ -52,7 +52,7 @@ NetworkTrainer::NetworkTrainer(const NetworkShape& shape, const OptimizerSetting
   square_ = torch::zeros(total);
   decay_ = torch::zeros(total);
 
-  // Uniform within 1/sqrt(inputs), as the frameworks of the slides' time start dense layers.
+  // Uniform within 1/sqrt(inputs), the default of frameworks in the slides' time.
   Random random(seed);
   int64_t at = 0;
   std::vector<torch::Tensor> views;

@@ -18,10 +18,10 @@
 namespace panache {
 namespace {
 
-constexpr int64_t kMoments = 60000;    // Looked at, and as many mirrored.
+constexpr int64_t kMoments = 60000;    // Searched, plus as many mirrored.
 constexpr int64_t kPrototypes = 3000;  // Tried; some have too few people.
-constexpr int64_t kAround = 400;       // Moments around a prototype that its people are found in.
-constexpr int kPhaseFrames = 8;        // That a person's moment is moved by to fit better.
+constexpr int64_t kAround = 400;       // Nearest moments whose people a prototype gets.
+constexpr int kPhaseFrames = 8;        // Range for shifting a person's moment to fit better.
 constexpr double kGaitWeight = 4;
 constexpr double kKnown = 0.75;  // Quantile of the distances of neutral motion.
 constexpr int kMinFrames = 30;
@@ -118,7 +118,7 @@ MadeBank make_neutral_bank(const std::vector<Take>& all, uint64_t seed) {
     }
     return drawn;
   }());
-  // Moments are drawn at random; that of a person fits best some frames earlier or later.
+  // Moments are drawn at random; that of a person may fit best a few frames earlier or later.
   const auto refine = [&](int64_t moment, const torch::Tensor& wanted) {
     const Place& place = places[moment % kMoments];
     const Take& take = (moment < kMoments ? takes : exchanged)[place.take];
@@ -168,7 +168,7 @@ MadeBank make_neutral_bank(const std::vector<Take>& all, uint64_t seed) {
   const torch::Tensor table = torch::stack(rows);
   const auto prototypes = table.size(0);
 
-  // How far moments are from prototypes of other people.
+  // Distances of moments from prototypes of other people.
   std::vector<float> distances;
   const int64_t step = count / 1000;
   for (int64_t i = 0; i < count; i += step) {

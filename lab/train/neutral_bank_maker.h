@@ -14,8 +14,8 @@ struct MadeBank {
   size_t prototypes = 0, people = 0;
 };
 
-// From takes in layout positions, whose files are called PERSON_TAKE. The manifests weigh alike,
-// people by the square root of what there is of them, and gaits more than the rest. At least
+// Takes are in layout positions, from files named PERSON_TAKE. Manifests weigh alike, people by the
+// square root of their amount of motion, and gaits more than other actions. Needs at least
 // NeutralBank::kMinPeople people.
 MadeBank make_neutral_bank(const std::vector<Take>& takes, uint64_t seed);
 

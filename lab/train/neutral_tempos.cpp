@@ -14,7 +14,7 @@ constexpr size_t kReferences = 12;  // Takes that each take is compared with, at
 
 using Group = std::vector<int>;  // Takes.
 
-// Mean logarithm of neutral seconds per second of `take`; 0 where the two do not match.
+// Mean logarithm of neutral seconds per second of `take`; 0 if the two do not match.
 double log_rate(const std::vector<Take>& takes, int take, int neutral) {
   double sum = 0;
   int count = 0;
@@ -24,7 +24,7 @@ double log_rate(const std::vector<Take>& takes, int take, int neutral) {
   return count > 0 ? sum / count : 0;
 }
 
-// By how much each take of a group is faster than all in the mean, as a logarithm.
+// How much faster each take is than the mean of its group, as a logarithm.
 std::map<int, float> tempos_of(const std::vector<Take>& takes, const Group& group) {
   const size_t stride = (group.size() + kReferences - 1) / kReferences;
   std::map<int, float> faster;
@@ -52,7 +52,7 @@ class NeutralTempos {
       if (!faster_.contains(wanted)) faster_[wanted] = tempos_of(takes, group_of(wanted));
     }
   }
-  // 0 for takes that are in no pairing.
+  // 0 for takes without a pairing.
   float faster(int styled, int neutral) const {
     const auto group = faster_.find(key(styled, neutral));
     if (group == faster_.end()) return 0;
@@ -61,7 +61,7 @@ class NeutralTempos {
   }
 
  private:
-  // Manifest, content, set; -1 stands for all other performers.
+  // Manifest, content, set; -1 means all other performers.
   using Key = std::tuple<std::string, std::string, int>;
   Key key(int styled, int neutral) const {
     const ManifestRow &row = takes_[styled].row, &other = takes_[neutral].row;

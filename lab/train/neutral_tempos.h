@@ -1,7 +1,7 @@
 #pragma once
-// Neutral takes of several tempos. A styled take is paired with the neutral take that it is most
-// like, so a performer who walks slowly and fast, but never as usual, would teach how much faster
-// every style is than the slow walk.
+// Neutral takes of several tempos. A styled take is paired with the most similar neutral take. A
+// performer who walks slowly and fast, but never at the usual tempo, would therefore teach every
+// style relative to the slow walk.
 
 #include <vector>
 
@@ -11,11 +11,11 @@
 
 namespace panache {
 
-// Brings the tempos of samples and pairings to the mean tempo (geometric) of the neutral takes that
-// the styled take may be paired with: those of its performer and action, or of all performers where
-// its own has none. How much faster one take is than another is measured by pairing the two both
-// ways. Root motion is left alone, because it counts by the input's time. `takes`: those that
-// pairings and set are made of.
+// Makes the tempos of samples and pairings relative to the geometric mean tempo of the neutral
+// takes that the styled take may be paired with: those of its performer and action, or of all
+// performers if its own has none. The relative tempo of two takes is measured by pairing them both
+// ways. Root motion stays as it is, because it counts by the input's time. `takes`: the ones that
+// pairings and set are made from.
 void level_neutral_tempos(const std::vector<Take>& takes, std::vector<Pairing>& pairings,
                           SampleSet& set);
 

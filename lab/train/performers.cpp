@@ -13,10 +13,10 @@
 namespace panache {
 namespace {
 
-constexpr size_t kFewestPerformers = 3;       // With neutral takes, to say how much persons differ.
-constexpr size_t kTempo = StyleDelta::kSize;  // After the pose's numbers: the logarithmic rate.
-// A median of few styles is off by more than their mean would be, and styles of one performer are
-// alike: the share of their variance that no number of styles removes.
+constexpr size_t kFewestPerformers = 3;       // With neutral takes, to measure how persons differ.
+constexpr size_t kTempo = StyleDelta::kSize;  // After the pose outputs: the log rate.
+// A median of few styles has a larger error than their mean, and styles of one performer are
+// correlated: the share of their variance that remains for any number of styles.
 constexpr float kMedian = 1.5f, kAlike = 0.25f;
 
 using Numbers = std::array<float, StyleDelta::kSize + 1>;
@@ -40,7 +40,7 @@ struct Mean {
 using Action = std::pair<int, std::string>;          // Set, content.
 using Shared = std::pair<std::string, std::string>;  // Manifest, content.
 
-// Mean squares of numbers.
+// Mean squares.
 struct Squares {
   Numbers sum{};
   size_t count = 0;
@@ -52,7 +52,7 @@ struct Squares {
   float mean(size_t n) const { return sum[n] / static_cast<float>(count); }
 };
 
-// How each performer with neutral takes of this content differs from the others, in one manifest.
+// How each performer with neutral takes of this content differs from the others of the manifest.
 Squares differences_of_persons(const std::vector<Take>& takes, const Shared& action) {
   std::map<int, std::vector<const Take*>> performers;
   for (const Take& take : takes) {
@@ -90,8 +90,7 @@ Squares differences_of_persons(const std::vector<Take>& takes, const Shared& act
   return squares;
 }
 
-// The middle of what the styles of a performer change, held back where styles differ more than
-// persons do.
+// The median change over the styles of a performer, shrunk where styles vary more than persons.
 Numbers shared_change(const std::map<int, Mean>& styles, const Squares& persons,
                       const Squares& own_styles) {
   const float doubt = kAlike + kMedian / static_cast<float>(styles.size());

@@ -1,7 +1,7 @@
 #pragma once
-// Performers without a neutral take. Their styles are paired with the neutral takes of others, so
-// the change from one to the other holds the style and what differs between the two persons. All
-// styles of a performer share the second part. See docs/method.md, "Performers".
+// Performers without a neutral take. Their styles are paired with other performers' neutral takes,
+// so each change contains both the style and the difference between two persons. The second part is
+// common to all styles of a performer. See docs/method.md, "Performers".
 
 #include <vector>
 
@@ -10,12 +10,11 @@
 
 namespace panache {
 
-// Takes off the targets of a set, whose recipe answers with packed StyleDeltas, what differs
-// between a performer without a neutral take of an action and the others: the median over the
-// performer's styles of what each changes, number by number, as far as persons differ more than
-// styles do there (Wiener's estimate), and no more than persons differ. Both are measured on the
-// performers who have neutral takes; nothing is taken off where these are fewer than three.
-// `takes`: those that the set was made of.
+// Subtracts from the targets (packed StyleDeltas) the difference between a performer without a
+// neutral take of an action and the others: per output, the median over the performer's styles,
+// shrunk by how much persons vary compared with styles (Wiener's estimate), and at most as large as
+// persons differ. Both variances are measured on performers with neutral takes; with fewer than
+// three of these, nothing is subtracted. `takes`: the ones that the set was made from.
 void take_off_performers(const std::vector<Take>& takes, SampleSet& set);
 
 }  // namespace panache

@@ -6,7 +6,7 @@
 namespace panache {
 namespace {
 
-constexpr int64_t kBody = 3 * kHumanJoints;  // The first numbers of a window: the pose of now.
+constexpr int64_t kBody = 3 * kHumanJoints;  // The first features of a window: the current pose.
 constexpr float kUnit = 0.1f;                // Metres.
 
 }  // namespace

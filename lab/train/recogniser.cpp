@@ -20,7 +20,7 @@ constexpr float kRate = 0.004f, kDecay = 0.3f, kNoise = 0.3f;
 constexpr float kNeutralShare = 0.35f;    // Of a batch.
 constexpr float kLeastDeviation = 0.02f;  // Of a statistic.
 
-// Rows of a class, by content, so that what one action has most of does not decide.
+// Rows of a class, by content, so that actions with many rows do not dominate.
 using Cells = std::vector<std::vector<std::vector<int64_t>>>;  // [classes][contents][rows]
 
 std::vector<int64_t> draw_rows(const Cells& cells, Random& random, std::vector<int64_t>& labels) {

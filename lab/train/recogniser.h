@@ -1,5 +1,5 @@
 #pragma once
-// What a remover recognises styles with: a linear layer on statistics of its trunk.
+// Style recognition of a remover: a linear layer on statistics of its trunk.
 
 #include <string>
 #include <vector>
@@ -11,7 +11,7 @@
 namespace panache {
 
 // Adds the tensors of Model::Recognition to a model file. The classes are the styles of the model
-// and neutral, as the rows of the takes name them. Fails where the file is no model.
+// and neutral, named as in the rows of the takes. Fails if the file is not a model.
 Result<void> add_recognition(const std::vector<Take>& takes, uint64_t seed, TensorFile& file);
 
 }  // namespace panache

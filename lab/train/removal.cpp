@@ -17,10 +17,10 @@
 namespace panache {
 namespace {
 
-constexpr double kPartSeconds = 6;                 // Of a clip that is restyled, at the most,
-constexpr double kLeastSeconds = 1.5;              // and at the least.
-constexpr const char* kRestyled = "restyled";      // The content of what the model made,
-constexpr const char* kUnlabelled = "unlabelled";  // and of what it was made from.
+constexpr double kPartSeconds = 6;                 // Maximum length of a restyled part,
+constexpr double kLeastSeconds = 1.5;              // and minimum.
+constexpr const char* kRestyled = "restyled";      // Content name of the model's output,
+constexpr const char* kUnlabelled = "unlabelled";  // and of its input.
 
 Clip part_of(const Clip& clip, int first, int frames) {
   Clip part;
@@ -30,7 +30,7 @@ Clip part_of(const Clip& clip, int first, int frames) {
   return part;
 }
 
-// A part of a clip, what the model made of it, and where each frame of that comes from.
+// A part of a clip, the model's output for it, and the source of each output frame.
 struct RestyledPart {
   Take neutral, styled;
   std::vector<float> neutral_frames;  // Per frame of the styled take.
@@ -90,7 +90,7 @@ Pairing pairing_of(const std::vector<float>& neutral_frames, int styled, int neu
   return pairing;
 }
 
-// A take paired with itself: nothing is to be changed.
+// A take paired with itself, for which no change is learnt.
 Pairing unchanged(const Take& take, int index) {
   std::vector<float> frames(take.frames());
   std::iota(frames.begin(), frames.end(), 0.0f);
@@ -139,7 +139,7 @@ std::optional<Pairing> reversed(const Pairing& pairing) {
   const int end = static_cast<int>(std::floor(frames.back()));
   size_t i = 0;
   for (int f = back.first; f <= end; ++f) {
-    // Where the path stands still at a frame, its first arrival counts.
+    // If the path stands still at a frame, the first instant counts.
     while (i + 2 < frames.size() && frames[i + 1] < static_cast<float>(f)) ++i;
     const float rise = frames[i + 1] - frames[i];
     const float share =

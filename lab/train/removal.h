@@ -1,7 +1,7 @@
 #pragma once
-// How a remover is trained: the pairs are reversed, from the styled take to the neutral one. Motion
-// without styles is restyled by the model whose remover it is, and the remover learns the way back:
-// other people and other actions than those of the styled takes.
+// Training of a remover: pairs are reversed, from the styled take to the neutral one. Motion
+// without styles is restyled by the remover's model, and the remover learns to undo that: this
+// covers more people and actions than the styled takes.
 
 #include <optional>
 #include <vector>
@@ -14,17 +14,17 @@
 
 namespace panache {
 
-// The pairing of the neutral take's whole frames with the frames of the styled take, each in the
-// other's place; absent where it has no frame but its first and last ones.
+// Swaps the two takes of a pairing, at the neutral take's whole frames; absent if it has no frame
+// besides its first and last.
 std::optional<Pairing> reversed(const Pairing& pairing);
 
-// The one of a sample's two takes that shows a style; of two neutral ones the first.
+// The sample's take that shows a style; if both are neutral, the first.
 int take_with_style(const std::vector<Take>& takes, const Sample& sample);
 
-// Restyles a part of each of the `unlabelled` rows that are not held out in a style of `model`,
-// adds both to the takes of `data`, and fills its `removal`: all pairings reversed, each for its
-// style and once more for kAnyStyle, which also learns to leave neutral takes alone. Fails where a
-// file cannot be read.
+// Restyles a part of each `unlabelled` row that is not held out with a style of `model`, adds both
+// to the takes of `data`, and fills its `removal`: all pairings reversed, each once for its style
+// and once for kAnyStyle, which also learns to leave neutral takes alone. Fails if a file cannot be
+// read.
 Result<void> prepare_removal(const Model& model, const std::vector<ManifestRow>& unlabelled,
                              uint64_t seed, TrainingData& data);
 

@@ -9,10 +9,10 @@ namespace panache {
 namespace {
 
 constexpr double kUnit = 0.2;      // m/s.
-constexpr double kStands = 0.3;    // m/s: a toe that is faster does not stand.
+constexpr double kStands = 0.3;    // m/s: a faster toe is not planted.
 constexpr double kLow = 0.05;      // Metres above the lowest toe of the sequence.
 constexpr double kNoSpeed = 0.02;  // m/s.
-// Metres that a style may move one standing foot from the other, and the unit beyond.
+// Free change of the distance between standing feet, metres, and the unit of the excess.
 constexpr double kStance = 0.06, kStanceUnit = 0.1;
 constexpr double kStep = kClassifiedSpacing / kTakeRate;  // Seconds between instants.
 
@@ -35,7 +35,7 @@ torch::Tensor velocities(const torch::Tensor& toes, const torch::Tensor& root) {
   return torch::stack({left, own.select(3, 1), forward}, 3);
 }
 
-// How much of a sequence's movement is forward or back, 0 to 1. [sequences][1][1]
+// Share of a sequence's movement that is forward or backward, 0 to 1. [sequences][1][1]
 torch::Tensor travel(const torch::Tensor& root) {
   const torch::Tensor forward = root.select(2, kVelocityForward);
   const torch::Tensor speed =
@@ -54,7 +54,7 @@ torch::Tensor standing_loss(const torch::Tensor& in, const torch::Tensor& out,
   const torch::Tensor low = height - height.amin({1, 2}, true) < kLow;
   const torch::Tensor stands = (1 - before.square().sum(3).sqrt() / kStands).relu() * low;
   const torch::Tensor moved = ((after - before).square().sum(3) + 1e-6).sqrt() / kUnit;
-  // Where both stand, they keep their stance: a body at rest does not get the legs of a walk.
+  // While both feet stand, they keep their stance: a body at rest does not get a walk's legs.
   const auto apart = [](const torch::Tensor& both) {
     const torch::Tensor between = halfway(both.select(2, 0) - both.select(2, 1));
     return torch::stack({between.select(2, 0), between.select(2, 2)}, 2);

@@ -9,14 +9,14 @@
 namespace panache {
 namespace {
 
-constexpr int kHop = 5;               // Frames between the first ones of two windows.
-constexpr float kStillSpeed = 0.05f;  // m/s, added before the logarithm.
+constexpr int kHop = 5;                                // Frames between the starts of two windows.
+constexpr float kStillSpeed = 0.05f;                   // m/s, added before the logarithm.
 constexpr float kHeightUnit = 0.2f, kBobUnit = 0.03f;  // Metres.
-constexpr double kTemperature = 4;  // What scores are divided by: they are far too sure.
-// Directions of the bones, their deviations, speeds of the joints, height of the hips.
+constexpr double kTemperature = 4;  // Divides the scores, which are overconfident.
+// Bone directions, their deviations, joint speeds, height of the hips.
 constexpr int kStatistics = 6 * (kHumanJoints - 1) + kHumanJoints + 2;
 
-// Windows of a take, left as right too. [windows][kClassifiedPoses][21][3]
+// Windows of a take and of its mirror image. [windows][kClassifiedPoses][21][3]
 torch::Tensor windows_of(const Take& take) {
   const int span = (kClassifiedPoses - 1) * kClassifiedSpacing;
   const int count = 1 + std::max(0, take.frames() - 1 - span) / kHop;
@@ -39,7 +39,7 @@ torch::Tensor deviation(const torch::Tensor& rows) {
   return (variance.clamp_min(0) + 1e-6).sqrt();
 }
 
-// Of all windows of a take. [windows][kStatistics]
+// Statistics of all windows of a take. [windows][kStatistics]
 torch::Tensor statistics_of(const Take& take) {
   return motion_statistics(windows_of(take)).to(torch::kFloat64);
 }

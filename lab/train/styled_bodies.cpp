@@ -7,7 +7,7 @@ namespace {
 
 constexpr int kBones = kHumanJoints - 1;
 
-// 1 where a bone is between the hips and a joint. [21][20]
+// 1 if a bone is on the path from the hips to a joint. [21][20]
 const torch::Tensor& bones_above() {
   static const torch::Tensor above = [] {
     torch::Tensor matrix = torch::zeros({kHumanJoints, kBones});
@@ -19,7 +19,7 @@ const torch::Tensor& bones_above() {
   return above;
 }
 
-// Vectors turned by rotation vectors (Rodrigues). [...][3]
+// Rotates vectors by rotation vectors (Rodrigues). [...][3]
 torch::Tensor rotated(const torch::Tensor& rotation, const torch::Tensor& vector) {
   const torch::Tensor square = rotation.square().sum(-1, true) + 1e-8;
   const torch::Tensor angle = square.sqrt();
@@ -31,7 +31,7 @@ torch::Tensor rotated(const torch::Tensor& rotation, const torch::Tensor& vector
 }  // namespace
 
 torch::Tensor styled_bodies(const torch::Tensor& bodies, const torch::Tensor& changes) {
-  // A change turns the bones that hang on a joint, and lifts the hips.
+  // A change rotates the bones below a joint, and lifts the hips.
   const int64_t rows = bodies.size(0);
   const torch::Tensor bones = bodies.slice(1, 1) - bodies.index_select(1, bone_parents());
   const torch::Tensor rotations = changes.slice(1, 0, kHipsHeight)

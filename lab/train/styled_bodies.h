@@ -1,5 +1,5 @@
 #pragma once
-// Bodies in styles, with gradients.
+// Differentiable restyling of bodies.
 
 #include <torch/types.h>
 
@@ -7,9 +7,9 @@
 
 namespace panache {
 
-inline constexpr int kHipsHeight = 3 * kHumanJoints;  // Its place in a packed StyleDelta.
+inline constexpr int kHipsHeight = 3 * kHumanJoints;  // Index in a packed StyleDelta.
 
-// What bodies become by changes, with gradients: the change_body() of training.
+// Applies changes to bodies, with gradients: the change_body() of training.
 // bodies[rows][21][3], changes[rows][StyleDelta::kSize] -> [rows][21][3]
 torch::Tensor styled_bodies(const torch::Tensor& bodies, const torch::Tensor& changes);
 

@@ -11,28 +11,28 @@ namespace panache {
 namespace {
 
 constexpr int kFeatures = PredictorNetwork::kFeatures;
-constexpr int kRoot = root_offset(PoseLayout::positions);  // Where the root features begin.
-constexpr int kAhead = 5;                                  // Poses that are rolled out.
+constexpr int kRoot = root_offset(PoseLayout::positions);  // Index of the root features.
+constexpr int kAhead = 5;                                  // Length of the roll-out, poses.
 constexpr int kPoses = kWindowPoses + kAhead;
 constexpr int kInputs = kWindowPoses * kFeatures;
 constexpr int kHidden = 48;
 constexpr int kBatch = 128;
 constexpr float kInputClip = 3;
-// Errors count as a share of those of holding the pose or of constant velocity, whichever is less,
-// so that slow actions weigh as much as fast ones; but these as no less than this.
+// Errors are relative to those of holding the pose or of constant velocity, whichever is smaller,
+// so that slow actions weigh as much as fast ones; this is the smallest divisor.
 constexpr float kMinError = 0.003f;  // Metres.
 
-// How the windows are disturbed: as the networks of the styles are, but for the jitter, which would
-// hide what is to be seen.
+// Disturbance of the windows: as for the style networks, but with less jitter, which would hide the
+// velocities.
 constexpr float kScale = 0.08f, kTempo = 0.2f, kPosture = 0.02f;
-constexpr float kMaxJitter = 0.001f;  // Metres; each window has its own share of it.
+constexpr float kMaxJitter = 0.001f;  // Metres; each window has a random share of it.
 
 struct Place {
   int take;
   int frame;
 };
 
-// The body and its ground at a fractional frame.
+// The body and its root pose at a fractional frame.
 struct Instant {
   HumanPositions body;
   RootPose root;
@@ -44,14 +44,14 @@ Instant instant_at(const Take& take, float frame) {
   return {body_at(take, frame), interpolate(take.root[a], take.root[b], t)};
 }
 
-// The joints above the hips, and those of the arms alone, can be borrowed from another motion: who
-// has seen few actions shall not believe that arms follow from legs.
+// The joints above the hips, or those of the arms alone, may come from another motion: a network
+// that has seen few actions must not infer the arms from the legs.
 struct Borrowed {
   int first, last;  // Joints.
-  int base;         // The joint that they are carried by.
+  int base;         // The parent that they are relative to.
 };
 constexpr Borrowed kUpperBody = {1, 12, 0}, kArms = {5, 12, 2};
-constexpr float kBorrows = 0.2f;    // Share of windows with each.
+constexpr float kBorrows = 0.2f;    // Share of windows, for each of the two.
 constexpr float kReversed = 0.15f;  // Share that is played backwards.
 
 struct Draw {
@@ -62,7 +62,7 @@ struct Draw {
   std::array<float, 3 * kHumanJoints> posture{};
 };
 
-// Writes kPoses poses, oldest first, the last of the window at `place`. out[kPoses][kFeatures]
+// Writes kPoses poses, oldest first; `place` is the window's last. out[kPoses][kFeatures]
 void write_poses(const std::vector<Take>& takes, const Place& place, const Draw& draw,
                  Random& random, float* out) {
   float spacing = static_cast<float>(kWindowSpacing * kTakeRate) * draw.tempo;
@@ -89,7 +89,7 @@ void write_poses(const std::vector<Take>& takes, const Place& place, const Draw&
       for (int axis = 0; axis < 3; ++axis) {
         float& number = out[3 * j + axis];
         number = position[axis] * draw.scale + draw.posture[3 * j + axis];
-        // Only what is seen trembles, not what is asked for.
+        // Jitter is added to the inputs only, not to the targets.
         if (p < kWindowPoses) number += draw.jitter * random.normal();
       }
     }
@@ -146,13 +146,13 @@ class PredictorTraining {
   void write(TensorFile& file) const {
     TensorFile own;
     network_.write(own);
-    // The network answers in its own units; the file's in metres and seconds.
+    // The network's outputs are in its own units, the file's in metres and seconds.
     const float* unit = unit_.data_ptr<float>();
     for (const char* key : {"predict.head.0.weight", "predict.head.0.bias"}) {
       std::vector<float>& values = own.tensors.at(key).values;
       for (size_t i = 0; i < values.size(); ++i) values[i] /= unit[i % kFeatures];
     }
-    // Half-size: the error is a thousandth of what is predicted anyway.
+    // As fp16: the error is a thousandth of the prediction anyway.
     for (auto& [key, tensor] : own.tensors) {
       tensor.half = key.ends_with(".weight");
       file.tensors[key] = std::move(tensor);
@@ -209,8 +209,8 @@ class PredictorTraining {
     scale_ = ((rows - mean_).square().mean(0) + floor.square()).sqrt();
   }
 
-  // Root mean square of a window's changes in the network's units, as PredictorNetwork::next() has
-  // it. changes[rows][kWindowPoses - 1][kFeatures] -> [rows][1]
+  // Root mean square of a window's changes in the network's units, as in PredictorNetwork::next().
+  // changes[rows][kWindowPoses - 1][kFeatures] -> [rows][1]
   torch::Tensor motion_of(const torch::Tensor& changes) const {
     return (changes * unit_)
         .square()
@@ -220,8 +220,8 @@ class PredictorTraining {
         .clamp_min(PredictorNetwork::kMinMotion);
   }
 
-  // Each number's own continuation: the shares of its last changes that leave the least error, as
-  // a share of the motion.
+  // Linear extrapolation per feature: weights of its last changes with the smallest error, relative
+  // to the motion.
   void fit_linear(const torch::Tensor& poses) {
     const torch::Tensor changes = poses.slice(1, 1) - poses.slice(1, 0, kPoses - 1);
     linear_ = torch::zeros({kWindowPoses - 1, kFeatures});
@@ -242,8 +242,8 @@ class PredictorTraining {
     }
   }
 
-  // The poses after a window, each predicted from those before it. window[rows][kWindowPoses]
-  // [kFeatures], oldest first -> [rows][kAhead][kFeatures]
+  // Predicts the poses after a window one by one, each from those before it.
+  // window[rows][kWindowPoses][kFeatures], oldest first -> [rows][kAhead][kFeatures]
   torch::Tensor roll_out(torch::Tensor window, Random* random) const {
     std::vector<torch::Tensor> out;
     for (int step = 0; step < kAhead; ++step) {
@@ -261,8 +261,8 @@ class PredictorTraining {
     return torch::stack(out, 1);
   }
 
-  // Where the joints of the poses ahead stand, seen from where the body is now: each pose's own
-  // positions, the way so far, and to the first order the turn so far.
+  // The joints of the poses ahead relative to the current body: each pose's own positions, plus the
+  // travel so far and, to first order, the turn so far.
   // ahead[rows][kAhead][kFeatures] -> [rows][kAhead][joints][3]
   static torch::Tensor joints_ahead(const torch::Tensor& ahead) {
     const torch::Tensor body = ahead.slice(2, 0, kRoot).reshape({-1, kAhead, kHumanJoints, 3});

@@ -27,13 +27,13 @@
 namespace panache {
 namespace {
 
-// Networks that share their batches, trained one step after the other on one thread.
+// Networks that share their batches, trained alternately on one thread.
 struct Job {
   std::vector<NetworkTrainer*> networks;
   uint64_t seed;
 
-  // Where to go on. Training may have been interrupted between the checkpoints of two networks: the
-  // one ahead waits for the other.
+  // The step to resume at. Training may have stopped between the checkpoints of two networks: the
+  // one that is ahead waits for the other.
   int64_t step() const {
     int64_t first = networks.front()->step();
     for (const NetworkTrainer* network : networks) first = std::min(first, network->step());
@@ -52,13 +52,13 @@ torch::Tensor loss_of(const std::string& network, const torch::Tensor& out, cons
   } else if (squared_tempo) {
     loss = (out - batch.log_rate).square().mean();
   } else {
-    // The network answers with the logarithm of the rate, but what must be right is the mean of the
-    // rate itself: a styled take of n frames covers the sum of its n rates, whatever their
-    // logarithms. This loss (Poisson's) has its minimum where exp(out) is that mean.
+    // The network predicts the logarithm of the rate, but the mean of the rate itself must be
+    // right: a styled take of n frames spans the sum of its n rates. This loss (Poisson) has its
+    // minimum where exp(out) is that mean.
     loss = (out.exp() - batch.log_rate.exp() * (out - batch.log_rate + 1)).mean();
   }
   if (smoothness > 0 && !batch.group_sizes.empty()) {
-    // Rows come in pairs of neighbouring frames: the change may not jump between them.
+    // Rows come in pairs of neighbouring frames, between which the change must be smooth.
     const torch::Tensor step = out.slice(0, 1, c10::nullopt, 2) - out.slice(0, 0, c10::nullopt, 2);
     loss = loss + smoothness * step.square().mean();
   }
@@ -67,8 +67,8 @@ torch::Tensor loss_of(const std::string& network, const torch::Tensor& out, cons
 
 class Training {
  public:
-  // `guidance` and `positions`: of the pose network, or null. `validation`: samples in order of
-  // their style; `groups`: how many of them each style has.
+  // `guidance` and `positions`: for the pose network, or null. `validation`: samples sorted by
+  // style; `groups`: their number for each style.
   Training(const BatchMaker& batches, const Guidance* guidance, const PositionLoss* positions,
            std::vector<int> validation, std::vector<int64_t> groups, const TrainOptions& options,
            const Fingerprint& training)
@@ -82,7 +82,7 @@ class Training {
         fingerprint_(training),
         progress_("training") {}
 
-  // Fails where a checkpoint cannot be saved; those of before are still there.
+  // Fails if a checkpoint cannot be saved; earlier checkpoints stay.
   Result<void> run(std::vector<Job> jobs, std::vector<LossPoint>& losses) {
     total_ = settings_.steps * static_cast<int64_t>(jobs.size());
     for (const Job& job : jobs) done_ += job.step();
@@ -104,13 +104,13 @@ class Training {
       const uint64_t start =
           options_.seed * 1000003 + job.seed * 7919 + static_cast<uint64_t>(step) * 2;
       Random random(start);
-      // Of its own, so that what the contact network draws does not depend on the timing network.
+      // Separate, so that the contact network's draws do not depend on the timing network.
       Random tempo_random(start + (uint64_t{1} << 32));
       const Batch batch = batches_.make(random);
       for (size_t n = 0; n < job.networks.size(); ++n) {
         NetworkTrainer& network = *job.networks[n];
         const torch::Tensor out = network.forward(batch.inputs, batch.group_sizes, &random);
-        if (network.step() > step) continue;  // Its units were drawn, so the others' are as ever.
+        if (network.step() > step) continue;  // Keeps the draws of the other networks the same.
         torch::Tensor loss = loss_of(network.shape().name, out, batch, settings_.squared_tempo,
                                      settings_.smoothness);
         sums[n] += loss.item<float>();
@@ -149,7 +149,7 @@ class Training {
     return unsaved_.has_value();
   }
 
-  // Whether a checkpoint brought this line of the table along.
+  // Whether this line of the table comes from a checkpoint.
   bool is_reported(const NetworkTrainer& network, int64_t step,
                    const std::vector<LossPoint>& losses) {
     const std::lock_guard lock(mutex_);
@@ -221,7 +221,7 @@ class Training {
   int64_t total_ = 1;
 };
 
-// Up to 4,000 validation samples in order of their style, and how many each style has.
+// Up to 4,000 validation samples sorted by style, and their number for each style.
 std::vector<int> pick_validation(const SampleSet& set, const std::vector<int>& samples, int styles,
                                  std::vector<int64_t>& groups) {
   const size_t stride = std::max<size_t>(1, samples.size() / 4000);
@@ -236,8 +236,8 @@ std::vector<int> pick_validation(const SampleSet& set, const std::vector<int>& s
   return picked;
 }
 
-// What the pose network makes of training windows as they are, both sides mirrored; with guidance,
-// every third row is of the motion that it guides.
+// The pose network's activations on undisturbed training windows, both sides mirrored; with
+// guidance, a third of the rows are of its unlabelled motion.
 torch::Tensor clean_features(const SampleSet& set, const std::vector<int>& choice, int styles,
                              BatchSettings batch, const OutputUnits& units,
                              const Guidance* guidance, const NetworkTrainer& pose, uint64_t seed) {
@@ -247,7 +247,7 @@ torch::Tensor clean_features(const SampleSet& set, const std::vector<int>& choic
   const BatchMaker batches(set, choice, styles, batch, units);
   Random random(seed);
   std::vector<torch::Tensor> rows;
-  rows.reserve(kBatches + 1);  // Those of guidance, too.
+  rows.reserve(kBatches + 1);  // With those of guidance.
   for (int b = 0; b < kBatches; ++b) {
     rows.push_back(pose.hidden(batches.make(random).inputs, nullptr));
   }
@@ -258,8 +258,7 @@ torch::Tensor clean_features(const SampleSet& set, const std::vector<int>& choic
   return torch::cat(rows);
 }
 
-// The neutral takes of pairs whose samples are trained on: what the unlabelled motion is mixed
-// with.
+// The neutral takes of pairs with training samples, which are mixed with unlabelled motion.
 std::vector<int> neutral_takes_of(const SampleSet& set, const std::vector<int>& choice) {
   std::set<int> takes;
   for (const int i : choice) takes.insert(set.samples()[i].take);
@@ -270,7 +269,7 @@ std::vector<int> neutral_takes_of(const SampleSet& set, const std::vector<int>& 
 
 Result<Trained> train(const std::vector<ManifestRow>& rows, const std::vector<StyleName>& styles,
                       const TrainOptions& options, const std::vector<ManifestRow>& unlabelled) {
-  // Before hours of motion are read.
+  // Early, before reading hours of motion.
   if (Result<void> good = check_styles(rows, styles); !good) return good.error();
   if (options.note) {
     for (const std::string& line : list_unpaired(rows)) options.note(line);
@@ -310,7 +309,7 @@ Result<Trained> train(TrainingData data, const std::vector<StyleName>& styles,
                 settings.neutral_samples);
   if (recipe.learns_styles) {
     level_neutral_tempos(data.takes, data.pairings, set);
-    // What is left of a style is the neutral motion of anyone.
+    // A style that was removed leaves neutral motion of any person.
     if (!removes) take_off_performers(data.takes, set);
   }
   const std::vector<bool> validates = validation_takes(data.takes);

@@ -12,10 +12,10 @@ namespace {
 
 constexpr int kNumbers = pose_feature_count(PoseLayout::positions);
 constexpr int kWindowNumbers = kWindowPoses * kNumbers;
-constexpr float kTempo = 0.1f;    // Deviation of the logarithm of how fast a sequence is played.
-constexpr float kLongTake = 400;  // Frames; a longer take is drawn as often as this one.
-// Share of the spliced sequences that take the whole upper body of another, and of those that take
-// arms, of both.
+constexpr float kTempo = 0.1f;    // Standard deviation of the logarithm of the playback speed.
+constexpr float kLongTake = 400;  // Frames; longer takes are drawn no more often.
+// Share of the spliced sequences that take the whole upper body, and of those that take arms, the
+// share that take both.
 constexpr float kUpperBody = 0.5f, kBothArms = 0.6f;
 
 using Sequence = std::array<float, kSequenceNumbers>;
@@ -33,7 +33,7 @@ void draw_sequence(const Take& take, Random& random, std::span<float, kSequenceN
   if (random.bits() & 1) mirror_poses(PoseLayout::positions, out);
 }
 
-// Puts the joints from one to the other on the body in their place, carried by another joint.
+// Replaces the body's joints from `first` to `last` with the other's, relative to a parent joint.
 void splice(const Sequence& from, HumanJoint carrier, HumanJoint first, HumanJoint last,
             std::span<float, kSequenceNumbers> to) {
   for (size_t at = 0; at < to.size(); at += kNumbers) {
@@ -48,7 +48,7 @@ void splice(const Sequence& from, HumanJoint carrier, HumanJoint first, HumanJoi
 }  // namespace
 
 void UnlabelledMotion::Choice::add(const Take& take) {
-  // Shorter ones hold no second of motion.
+  // Shorter takes do not fill one second.
   if (take.frames() <= static_cast<int>(1.5 * kTakeRate)) return;
   takes.push_back(&take);
   share.push_back((share.empty() ? 0 : share.back()) +

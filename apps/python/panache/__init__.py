@@ -1,5 +1,5 @@
-"""Panache gives the motion of a character a style: neutral motion in, the same motion in an old,
-angry or proud style out.
+"""Panache stylizes the motion of characters: neutral motion in, the same motion in an old, angry or
+proud style out.
 
     import panache
 
@@ -8,10 +8,9 @@ angry or proud style out.
     old = panache.stylize(model, walk, {'old': 1})
     panache.stylize_file('walk.bvh', 'old.bvh', {'old': 1})
 
-Rotations are unit quaternions x, y, z, w and translations three numbers, both of a joint relative
-to its parent, in the units and axes of the skeleton itself. Arrays are numpy's, float32 and
-contiguous; others are converted, which copies them. Whatever fails raises `PanacheError` with the
-library's own sentence.
+Rotations are unit quaternions (x, y, z, w) and translations are vectors, both of a joint relative
+to its parent, in the skeleton's own units and axes. Arrays are contiguous float32 numpy arrays;
+others are converted, which copies them. Errors raise `PanacheError` with the library's message.
 """
 
 from ._library import PanacheError, version

@@ -1,4 +1,4 @@
-"""Characters, live: one step a frame."""
+"""Live characters: one step per frame."""
 
 import ctypes
 import os
@@ -16,12 +16,12 @@ from .model import Model
 
 @dataclass
 class Report:
-    """What went on at the last step.
+    """The state after the last step.
 
-    gate:     1: motion like what the model knows; 0: unlike it, the style's mean is used.
+    gate:     1: motion like the training data; 0: unlike it, so only the style's mean is used.
     contacts: probability that the left and the right foot are planted.
-    rate:     seconds of input that the style would take per second, 0.5 to 2.
-    ahead:    seconds from the newest input to what is shown; below 0 it is late.
+    rate:     the style's tempo, as seconds of input per second, 0.5 to 2.
+    ahead:    seconds by which the output leads the newest input; negative if it lags.
     """
     gate: float
     contacts: Tuple[float, float]
@@ -30,7 +30,7 @@ class Report:
 
 
 class Character:
-    """One character in motion.
+    """One moving character.
 
         character.set_strength('old', 1)
         each frame:
@@ -39,21 +39,21 @@ class Character:
             character.step(1 / 60)
             use(character.rotations, character.translations)
 
-    These arrays are the character's own for good: float32, rotations [joints, 4] and translations
-    [joints, 3]. An array that is assigned to an input is copied into it; the outputs cannot be
-    assigned. A step allocates nothing in the library.
+    These arrays belong to the character and never move: float32, rotations [joints, 4] and
+    translations [joints, 3]. Assigning an array to an input copies it; outputs cannot be assigned.
+    In the library, a step does not allocate memory.
 
-    ease_seconds:      a change of strength takes about this long; 0 to 10.
-    smoothing_seconds: time constant of the filter on what a style adds; 0 to 10.
-    hold_feet:         planted feet are held in place.
-    style_root:        root motion is styled too.
-    max_lag, max_lead: seconds that a style's own tempo may take behind the input (to 4) or ahead of
-                       it (to 0.25); with both at 0 the tempo stays the input's.
-    max_speed:         m/s; faster hips have jumped, and the style starts afresh. Bodies on vehicles
-                       need more; 0 or infinity: nothing is a jump.
-    gesture_rate:      gestures of the active styles at random, per second; 0 to 10.
-    gesture_seed:      characters with different ones make them at different times.
-    skip_cycles:       whole cycles are skipped or repeated to stay within these limits.
+    ease_seconds:      approximate duration of a change of strength; 0 to 10.
+    smoothing_seconds: time constant of the filter on a style's changes; 0 to 10.
+    hold_feet:         keeps planted feet in place.
+    style_root:        stylizes root motion, too.
+    max_lag, max_lead: seconds that a style's own tempo may lag (up to 4) or lead (up to 0.25) the
+                       input; if both are 0, the output keeps the input's tempo.
+    max_speed:         m/s; faster hips count as a jump, which restarts the style. Characters on
+                       vehicles need more; 0 or infinity disables this.
+    gesture_rate:      random gestures of the active styles per second; 0 to 10.
+    gesture_seed:      different seeds make characters gesture at different times.
+    skip_cycles:       skips or repeats whole gait cycles to stay within max_lag and max_lead.
     """
 
     def __init__(self, model: Model, skeleton: Skeleton, *, ease_seconds: float = 0.15,
@@ -85,7 +85,7 @@ class Character:
 
     @property
     def input_rotations(self) -> np.ndarray:
-        """[joints, 4], what the next step reads."""
+        """[joints, 4], the input of the next step."""
         return self._input_rotations
 
     @input_rotations.setter
@@ -104,7 +104,7 @@ class Character:
 
     @property
     def rotations(self) -> np.ndarray:
-        """[joints, 4], what the last step gave."""
+        """[joints, 4], the output of the last step."""
         return self._rotations
 
     @property
@@ -113,9 +113,9 @@ class Character:
         return self._translations
 
     def step(self, seconds: float) -> None:
-        """Styles the pose in `input_rotations` and `input_translations` into `rotations` and
-        `translations`; `seconds` have gone by since the last step. Cannot fail: numbers that are
-        not finite are replaced by the last good pose."""
+        """Stylizes the pose in `input_rotations` and `input_translations` into `rotations` and
+        `translations`; `seconds`: the time since the last step. Cannot fail: non-finite numbers
+        are replaced by the last valid pose."""
         try:
             self._step(self._pointer, self._in, seconds, self._out)
         except ctypes.ArgumentError:
@@ -123,39 +123,39 @@ class Character:
 
     def stylize(self, rotations: np.ndarray, translations: np.ndarray,
                 seconds: float) -> Tuple[np.ndarray, np.ndarray]:
-        """The same for a pose in other arrays, [joints, 4] and [joints, 3]: copies them in, and
-        copies of the result out."""
+        """The same for a pose in other arrays, [joints, 4] and [joints, 3]: copies them, and
+        returns copies of the result."""
         self.input_rotations, self.input_translations = rotations, translations
         self.step(seconds)
         return self.rotations.copy(), self.translations.copy()
 
     def set_strength(self, style: str, strength: float) -> None:
-        """How strongly a style acts from now on: 0 not at all, 1 as captured; -4 to 4, eased."""
+        """Sets the strength of a style: 0 is off, 1 as captured; -4 to 4. The change is eased."""
         lib.character_set_strength(self._pointer, self.model.find_style(style),
                                    number(strength, style))
 
     def set_removed(self, style: Optional[str]) -> None:
-        """The style of the remover that is taken off the input from now on; None: none."""
+        """Sets the style that the remover removes from the input; None: no style."""
         if self.remover is None:
             raise PanacheError('set_removed: expected a character that was given a remover')
         removed = self.remover.find_style(style) if style is not None else -1
         lib.character_set_removed(self._pointer, removed)
 
     def trigger(self, style: str, gesture: int = 0) -> None:
-        """Plays one of `model.gestures[style]` on top of the style, as strongly as that acts: when no
-        other plays and a foot is on the floor, within 3 s or not at all."""
+        """Plays one of `model.gestures[style]` at the style's strength, once no other gesture
+        plays and a foot is on the floor; gives up waiting after 3 s."""
         place = self.model.find_style(style)
         if not lib.character_trigger(self._pointer, place, c.whole(gesture, 'gesture')):
             raise PanacheError(f'style {style!r} has no gesture {gesture}; it has '
                                f'{len(self.model.gestures[self.model.styles[place]])}')
 
     def set_shape(self, **amounts: float) -> None:
-        """How much is given of what the styles do, 0 to 2 each; what is not named is 1:
+        """Scales parts of the styles' effect, 0 to 2 each; parts not named are 1:
         `set_shape(posture=0.5, left_arm=0)`. See panache_shape."""
         check(lib.character_set_shape(self._pointer, c.shape_of(amounts)))
 
     def reset(self) -> None:
-        """Forgets the motion so far; strengths stay."""
+        """Resets the motion history; keeps strengths."""
         lib.character_reset(self._pointer)
 
     def report(self) -> Report:
@@ -164,22 +164,22 @@ class Character:
         return Report(report.gate, tuple(report.contacts), report.rate, report.ahead)
 
     def save(self) -> bytes:
-        """The character's memory, to return to this moment: for memory, not for files."""
+        """The character's state for `restore()`: to be kept in memory, not in files."""
         state = ctypes.create_string_buffer(lib.character_state_size(self._pointer))
         lib.character_save(self._pointer, state)
         return state.raw
 
     def restore(self, state: bytes) -> None:
-        """Goes on bit for bit from where a character of the same model, skeleton and options was
-        saved."""
+        """Restores the state of a character with the same model, skeleton and options; it
+        continues bit for bit."""
         check(lib.character_restore(self._pointer, state, len(state)))
 
 
 class Crowd:
-    """Many characters that are stepped together, which takes less time where they share a model:
-    each bit for bit as alone. None may come twice.
+    """Characters that are stepped together, which is faster if they share a model. Each gives the
+    same result as alone, bit for bit. No character may be listed twice.
 
-    threads: how many threads step them, 1 to 256; 0: as many as this process may use cores.
+    threads: number of threads, 1 to 256; 0: one per core that this process may use.
     """
 
     def __init__(self, characters: Sequence[Character], *, threads: int = 1):
@@ -201,7 +201,7 @@ class Crowd:
         return len(self._parts)
 
     def step(self, seconds: float) -> None:
-        """`Character.step()` of all."""
+        """`Character.step()` for all."""
         seconds = number(seconds, 'seconds')
         if len(self._parts) == 1:
             return _step_part(self._parts[0], seconds)

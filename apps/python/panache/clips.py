@@ -1,4 +1,4 @@
-"""Skeletons, clips, and what is done to whole clips."""
+"""Skeletons, clips, and operations on whole clips."""
 
 import ctypes
 from dataclasses import dataclass
@@ -21,18 +21,18 @@ _TIMINGS = ('off', 'steps', 'all')  # In the order of panache_stylize_options.st
 
 
 class Skeleton:
-    """A rig, and which of its joints are a humanoid's. Never changes; shared by any number of
-    characters and clips.
+    """A rig and its mapping to a humanoid. Immutable; any number of characters and clips may
+    share it.
 
-    names:         of the joints, parents before children.
-    parents:       [joints], the place of each joint's parent, smaller than its own; -1 for a root.
+    names:         joint names, parents before children.
+    parents:       [joints], the index of each joint's parent, smaller than its own; -1 for a root.
     rotations:     [joints, 4], at rest, relative to the parent.
     translations:  [joints, 3], likewise, in the units of the rig.
-    poses:         a few poses of its ordinary motion, (rotations [n, joints, 4], translations
-                   [n, joints, 3]); they tell axes, floor and sides better than the rest pose.
-    metres_per_unit, up_axis: told instead of found: 0.01, '+Z'.
-    human_joints:  {'leftHand': place, ...}: joints that are told instead of found, by the names of
-                   VRM 1.0; -1 says that the rig has none.
+    poses:         a few poses of typical motion, (rotations [n, joints, 4], translations
+                   [n, joints, 3]); they show axes, floor and sides better than the rest pose.
+    metres_per_unit, up_axis: override the detected values: 0.01, '+Z'.
+    human_joints:  {'leftHand': index, ...}: overrides detected joints, by VRM 1.0 names; -1 means
+                   that the rig has none.
     """
 
     def __init__(self, names: Sequence[str], parents: Sequence[int], rotations: np.ndarray,
@@ -84,11 +84,11 @@ class Skeleton:
         return f'<panache.Skeleton of {len(self)} joints>'
 
     def find(self, human_joint: str) -> int:
-        """The place of the joint that is this joint of the humanoid ('leftHand'), or -1."""
+        """The index of the joint mapped to this human joint ('leftHand'), or -1."""
         return lib.skeleton_find(self._handle.pointer, utf8(human_joint, 'human joint'))
 
     def mapping(self) -> Dict[str, Optional[str]]:
-        """The name of each human joint's joint, None where the rig has none."""
+        """The rig's joint name for each human joint, or None."""
         places = {human: self.find(human) for human in HUMAN_JOINTS}
         return {human: self.joint_names[j] if j >= 0 else None for human, j in places.items()}
 
@@ -114,10 +114,10 @@ class Clip:
 
     rotations:     float32 [frames, joints, 4], unit, x y z w, relative to the parent.
     translations:  float32 [frames, joints, 3], relative to the parent, in the rig's units.
-    frame_seconds: from one frame to the next.
+    frame_seconds: time between frames.
 
-    Arrays that are contiguous float32 are kept as they are, others converted. A clip cannot be
-    given other arrays afterwards; `dataclasses.replace(clip, translations=...)` makes another.
+    Contiguous float32 arrays are not copied, others are converted. Arrays cannot be reassigned;
+    `dataclasses.replace(clip, translations=...)` makes a new clip.
     """
     skeleton: Skeleton
     rotations: np.ndarray
@@ -139,8 +139,8 @@ class Clip:
         return len(self) * self.frame_seconds
 
     def styles(self, remover: Optional[Model] = None) -> Dict[str, float]:
-        """Which styles the clip shows: {name: share}, 'neutral' among them, the largest first;
-        together 1. `remover`: the model that tells them; None: the shipped one."""
+        """The styles recognised in the clip: {name: share}, including 'neutral', largest first; the
+        shares add up to 1. `remover`: the model that recognises them; None: the shipped one."""
         remover = remover or Model(_REMOVER)
         shares = (ctypes.c_float * (len(remover.styles) + 1))()
         check(lib.recognise_styles(remover._handle.pointer, self._struct(), shares, len(shares)))
@@ -156,12 +156,12 @@ class Clip:
 
 @dataclass(frozen=True, eq=False)
 class StyledClip(Clip):
-    """A clip that the library made. Its arrays are read-only views of the library's memory.
+    """A clip made by the library. Its arrays are read-only views of the library's memory.
 
-    source_frames: float64 [frames], the frame of the input that each shows, with fractions.
+    source_frames: float64 [frames], the fractional input frame that each frame shows.
     contacts:      uint8 [frames, 2], 1 where the left and the right foot are planted.
-    gates:         float32 [frames]; 1: motion like what the model knows, 0: unlike it.
-    is_loop:       whether its last pose is its first, travel aside, because the clip's was.
+    gates:         float32 [frames]; 1: motion like the training data, 0: unlike it.
+    is_loop:       whether first and last pose match except for travel, as in the input.
     """
     source_frames: np.ndarray
     contacts: np.ndarray
@@ -198,19 +198,19 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *,
     """A clip in a style, or a mix of styles.
 
     styles: {name: strength}; 0 is neutral, 1 the style as captured, -4 to 4. A list of
-            (seconds, strength) instead is followed in straight lines.
-    timing: where the clip gets the tempo of the style, and so other frames than the input: 'steps',
-            where the feet step; 'all' or 'off'. True is 'steps', False 'off'.
-    shape:  how much is given of what the styles do, 0 to 2 each: {'posture': 0.5, 'left_arm': 0},
-            see panache_shape.
-    max_speed: m/s; faster hips have jumped, see Character.
-    loop:   whether the last pose of the result is its first, travel aside: 'auto', where that is so
-            in the clip; 'on', an error where the two are too far apart; 'off'.
-    remove: the style that the clip shows, which is taken off first; 'any' for one without a name.
-    remover: the model that takes it off; None: the shipped one.
-    gesture_rate, gesture_seed: see Character. A clip with gestures at random is no loop.
+            (seconds, strength) is interpolated linearly.
+    timing: where to use the style's tempo, which changes the number of frames: 'steps', while the
+            feet step; 'all' or 'off'. True is 'steps', False 'off'.
+    shape:  scales parts of the styles' effect, 0 to 2 each: {'posture': 0.5, 'left_arm': 0}, see
+            panache_shape.
+    max_speed: m/s; faster hips count as a jump, see Character.
+    loop:   whether first and last pose of the result match except for travel: 'auto', as in the
+            clip; 'on', an error if those of the clip are too far apart; 'off'.
+    remove: the style of the clip, which is removed first; 'any' for an unknown one.
+    remover: the model that removes it; None: the shipped one.
+    gesture_rate, gesture_seed: see Character. A clip with random gestures does not loop.
 
-    With all strengths at 0 the result is the clip bit for bit (models of recipe panache).
+    If all strengths are 0, the result is bit-identical to the clip (models of recipe panache).
     """
     mapping(styles, 'styles')
     if loop not in _LOOPS:
@@ -244,10 +244,10 @@ def stylize(model: Model, clip: Clip, styles: Mapping[str, Strength], *,
 
 def retarget(clip: Clip, onto: Skeleton, *, hold_feet: bool = True,
              meet_hands: bool = True) -> StyledClip:
-    """A clip on another skeleton, in its rest pose, proportions, units and axes.
+    """Retargets a clip to another skeleton, with its rest pose, proportions, units and axes.
 
-    hold_feet:  feet are put on the floor, and planted where the motion plants them.
-    meet_hands: hands that met meet again, as far as arms reach.
+    hold_feet:  puts feet on the floor, and keeps them in place while they are planted.
+    meet_hands: makes hands meet if they do in the clip, within reach of the arms.
     """
     options = sized(c.structs.RetargetOptions, hold_feet=hold_feet, meet_hands=meet_hands)
     handle = Handle('styled_clip', lib.retarget_clip, clip._struct(), onto._handle.pointer,

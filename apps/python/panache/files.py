@@ -21,16 +21,16 @@ _MODES = ('replace', 'last', 'first')
 
 
 class MotionFile:
-    """A motion file as a whole: its joints, its motions, and all else that stays when it is written
-    again. Never changes.
+    """A motion file: its joints, its motions, and all other content, which is preserved when it is
+    written again. Immutable.
 
     joint_names, parents: of its joints, parents before children.
-    clip_names:           of its motions, '' where they have none (BVH).
-    moves:                of its motions: whether each moves a joint of the humanoid. Those that do
-                          not, such as animations of morph weights or props, are passed over where
-                          whole files are styled or retargeted.
+    clip_names:           of its motions, '' without a name (BVH).
+    moves:                whether each motion moves a joint of the humanoid. Others, such as
+                          animations of morph weights or props, are skipped when a whole file is
+                          stylized or retargeted.
 
-    fps: frames a second, for a file whose rate is wrong or missing; it is read and written so.
+    fps: overrides a wrong or missing frame rate, for reading and writing.
     """
 
     def __init__(self, path: Path, fps: Optional[float] = None):
@@ -63,9 +63,8 @@ class MotionFile:
 
     @property
     def notes(self) -> List[str]:
-        """What is odd about the file although it was read, a sentence each: a wrong count of
-        frames, keys before 0 s, motions that are passed over, steps too fast or slow for the
-        legs."""
+        """Warnings about a file that was read: a wrong number of frames, keyframes before 0 s,
+        skipped motions, steps too fast or slow for the legs."""
         text = take_bytes(lib.motion_file_get_notes, self._handle.pointer)
         return text.decode(errors='replace').splitlines()
 
@@ -87,8 +86,8 @@ class MotionFile:
     def skeleton(self, clip: int = 0, *, metres_per_unit: float = 0,
                  up_axis: Optional[str] = None,
                  human_joints: Optional[Mapping[str, int]] = None) -> Skeleton:
-        """The skeleton that a motion shows; with clip=-1 that of the character at rest, to
-        `retarget()` motion on. Options as those of `Skeleton`."""
+        """The skeleton for a motion; with clip=-1, that of the character in its rest pose, as a
+        target of `retarget()`. Options as for `Skeleton`."""
         options, kept = _options(metres_per_unit, up_axis, human_joints)
         handle = Handle('skeleton', lib.motion_file_create_skeleton, self._handle.pointer,
                         c.whole(clip, 'clip'), options)
@@ -99,7 +98,7 @@ class MotionFile:
             (_skeleton_of_file_again, (self.path, self._content, self._fps, clip, told)))
 
     def clip(self, which: Union[int, str] = 0, skeleton: Optional[Skeleton] = None) -> Clip:
-        """A motion, by its place or name. Its arrays are read-only views of the file as read."""
+        """A motion, by index or name. Its arrays are read-only views of the parsed file."""
         which = self._place(which)
         found = c.structs.Clip()
         check(lib.motion_file_get_clip(self._handle.pointer, which, found))
@@ -131,11 +130,11 @@ class MotionFile:
         return place
 
     def encode(self, edits: Sequence['Edit'], mode: str = 'first') -> bytes:
-        """The bytes of the file with other frames in it. What they leave as it was keeps the very
-        numbers of the file.
+        """The bytes of the file with new frames. Unchanged values keep the exact numbers of the
+        file.
 
-        mode: 'replace', 'last' or 'first': whether the edits take the place of the file's own
-              motions, or come after or before them. A BVH file holds one, which is replaced.
+        mode: 'replace', 'last' or 'first': whether the edits replace the file's own motions, or
+              are added after or before them. A BVH file has one motion, which is replaced.
         """
         if mode not in _MODES:
             raise PanacheError(f'there is no mode {mode!r}; expected one of {", ".join(_MODES)}')
@@ -159,8 +158,8 @@ class MotionFile:
 
     def write(self, path: Path, clip: Clip, which: int = 0, name: str = '', mode: str = 'first',
               force: bool = False) -> None:
-        """Writes the file with `clip` in it, whole or not at all: frames of the motion `which`, or
-        a new motion where that is -1. Over an existing file only with `force`."""
+        """Writes the file atomically with `clip` as new frames of the motion `which`, or as a new
+        motion if that is -1. Overwrites an existing file only with `force`."""
         self.write_all(path, [Edit(clip, which, name)], mode, force)
 
     def write_all(self, path: Path, edits: Sequence['Edit'], mode: str = 'first',
@@ -187,10 +186,10 @@ def _skeleton_of_file_again(path, content, fps, clip, told) -> Skeleton:
 
 @dataclass
 class Edit:
-    """New frames for the motion `which` of a file, or a new motion where that is -1.
+    """New frames for the motion `which` of a file, or a new motion if that is -1.
 
-    source_frames: [frames], which frame of the motion each comes from; those of a StyledClip are
-                   known, and None stands for frame by frame.
+    source_frames: [frames], the frame of the motion that each comes from; by default those of a
+                   StyledClip, otherwise frame by frame.
     """
     clip: Clip
     which: int = 0
@@ -203,8 +202,8 @@ class Edit:
 
 
 def read(path: Path, which: Union[int, str, None] = None, fps: Optional[float] = None) -> Clip:
-    """A motion of a file, by its place or name; the first that moves the humanoid where none is
-    asked for. `fps` as for `MotionFile`. What is odd about the file comes as warnings."""
+    """A motion of a file, by index or name; by default the first that moves the humanoid, with the
+    file's notes as warnings. `fps` as for `MotionFile`."""
     file = MotionFile(path, fps)
     if which is None:
         return file.clip(file._body_motions()[0])
@@ -225,9 +224,9 @@ def _amount(strength: Strength) -> str:
 def stylize_file(source: Path, output: Path, styles: Mapping[str, Strength],
                  model: Optional[Model] = None, *, mode: str = 'first', force: bool = False,
                  fps: Optional[float] = None, **options: Any) -> None:
-    """Restyles all motions of a file into another of the same format, as `panache stylize` does:
-    the same bytes. Options are those of `stylize()`, `fps` as for `MotionFile`; the model is the
-    shipped default. Motions that move no joint of the humanoid stay, with a warning."""
+    """Stylizes all motions of a file into another of the same format, with the same bytes as
+    `panache stylize`. Options as for `stylize()`, `fps` as for `MotionFile`; the default model is
+    the shipped one. Motions that move no joint of the humanoid stay, with a warning."""
     file = MotionFile(source, fps)
     motions = file._body_motions()
     file._check_output(output, force)
@@ -242,10 +241,10 @@ def stylize_file(source: Path, output: Path, styles: Mapping[str, Strength],
 
 def retarget_file(source: Path, character: Path, output: Path, *, mode: str = 'replace',
                   force: bool = False, fps: Optional[float] = None, **options: Any) -> None:
-    """Puts all motions of a file on the character of another, as `panache retarget` does: the
-    output is the character's file with the motions in it, in the place of its own unless `mode`
-    says otherwise. Options are those of `retarget()`; `fps` as for `MotionFile`, of the motions.
-    Those that move no joint of the humanoid are left out, with a warning."""
+    """Retargets all motions of a file to the character of another, as `panache retarget` does. The
+    output is the character's file with its motions replaced, or added according to `mode`. Options
+    as for `retarget()`; `fps`: of the motions, as for `MotionFile`. Motions that move no joint of
+    the humanoid are skipped, with a warning."""
     file, onto = MotionFile(source, fps), MotionFile(character)
     motions = file._body_motions()
     onto._check_output(output, force)
@@ -257,10 +256,10 @@ def retarget_file(source: Path, character: Path, output: Path, *, mode: str = 'r
 
 
 def info(path: Path, fps: Optional[float] = None) -> Dict[str, Any]:
-    """What a file is. Of a motion file: 'joints' (names), 'clips' (name, frames, seconds, moves),
-    'notes' (as MotionFile.notes), 'mapping' (the joint of each human joint; None where there is no
-    humanoid, with 'error' for the reason). `fps` as for `MotionFile`. Of a model: 'styles' and
-    'metadata'."""
+    """Describes a file. For a motion file: 'joints' (names), 'clips' (name, frames, seconds,
+    moves), 'notes' (as MotionFile.notes), 'mapping' (the joint of each human joint; None if there
+    is no humanoid, with the reason in 'error'). `fps` as for `MotionFile`. For a model: 'styles'
+    and 'metadata'."""
     if pathlib.Path(path).suffix == '.safetensors':
         model = Model(path)
         return {'styles': model.styles, 'metadata': model.metadata}

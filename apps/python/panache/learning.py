@@ -1,4 +1,4 @@
-"""New styles, and samples for training of your own."""
+"""Learns new styles, and makes samples for your own training."""
 
 import ctypes
 import os
@@ -20,19 +20,19 @@ ClipOrPath = Union[Clip, Path]
 
 @dataclass
 class Learnt:
-    """A model with a style that was learnt, and how well it went.
+    """A model with a newly learnt style, and its quality.
 
-    warnings: sentences about the clips.
-    held_back_cm, mean_posture_cm, untouched_cm: mean distance of the joints on the last quarters of
-              the styled clips, held back from a first try, on a body of 1.6 metres: of the style, of
-              its mean posture alone, and of the neutral motion; None where the clips are too short.
-    verdict:  by these distances: 'good'; 'fair' where the style removes little of the distance, or
-              its mean posture alone more; 'poor' where it is no better than the neutral motion; None
-              as they are.
-    people:   of a style that was learnt from one clip alone: how many people's mean takes the
-              neutral clip's place; None of pairs.
-    certainty: likewise the share of the difference in posture that counts as style, 0 to 1; the rest
-              is what people differ by, or unknown.
+    warnings: messages about the clips.
+    held_back_cm, mean_posture_cm, untouched_cm: mean joint distance on the last quarters of the
+              styled clips, held back from a trial, on a body of 1.6 metres: with the style,
+              with only its mean posture, and of the neutral motion; None if clips are too short.
+    verdict:  from these distances: 'good'; 'fair' if the style reduces the distance little, or less
+              than its mean posture does; 'poor' if it is no better than the neutral motion; None if
+              they are None.
+    people:   for a style learnt from one clip: the number of people whose mean motion replaces the
+              neutral clip; None for pairs.
+    certainty: likewise, the share of the difference in posture that counts as style, 0 to 1; the
+              rest is variation between people, or unknown.
     """
     model: Model
     warnings: List[str]
@@ -46,7 +46,7 @@ class Learnt:
 
 @dataclass
 class Samples:
-    """What the networks of recipe panache are trained on; read-only views, float32.
+    """Training data of the networks of recipe panache; read-only views, float32.
 
     windows:   [samples, 396]: 6 poses 0.05 s apart, newest first, of 66 features: 21 joint positions
                in the body frame (m), velocity to the left and ahead (m/s), turn rate (rad/s).
@@ -74,11 +74,10 @@ def _clip(source: ClipOrPath) -> Clip:
 
 def learn(model: Model, pairs: Union[Sequence[Tuple[ClipOrPath, ClipOrPath]], ClipOrPath],
           name: str, replace: bool = False) -> Learnt:
-    """Learns the style `name` from pairs of one action, (neutral, styled): 2 to 3
-    seconds of a walk, or the whole of a gesture, by skeletons whose joints have the same names and
-    parents. Clips, or paths of files. One clip in the style, instead of pairs, is compared with the
-    mean motion of other people. The model stays as it is; a style of this name is replaced only
-    with `replace`."""
+    """Learns the style `name` from pairs (neutral, styled) of the same action: 2 to 3 seconds of a
+    walk, or a whole gesture, on skeletons with the same joint names and parents. Each is a clip or
+    a path. A single styled clip instead of pairs is compared with the mean motion of other people.
+    Does not modify `model`; replaces an existing style of this name only with `replace`."""
     if isinstance(pairs, (Clip, str, os.PathLike)):
         alone, bank = _clip(pairs), NEUTRAL_BANK.read_bytes()
         handle = Handle('learnt', lib.learn_alone, model.content, len(model.content), bank,
@@ -105,9 +104,9 @@ def learn(model: Model, pairs: Union[Sequence[Tuple[ClipOrPath, ClipOrPath]], Cl
 
 
 def training_samples(*sources: Union[ClipOrPath, Tuple[ClipOrPath, ClipOrPath]]) -> Samples:
-    """The samples of clips or files, 30 a second, one source after another. A pair (neutral,
-    styled) gives the windows of the neutral clip for each instant of the styled one, and what the
-    style does there; a clip alone gives its windows, and changes of 0."""
+    """The samples of clips or files, 30 per second, in order of the sources. A pair (neutral,
+    styled) gives, for each instant of the styled clip, the window of the neutral clip and the
+    change by the style; a single clip gives its windows with changes of 0."""
     pairs = [source if isinstance(source, tuple) else (source, None) for source in sources]
     clips = [(_clip(a), None if b is None else _clip(b)) for a, b in pairs]
     array = (c.structs.Pair * max(len(clips), 1))(

@@ -22,8 +22,8 @@ def shipped_models() -> List[str]:
 
 
 class Model:
-    """A trained model: its styles and networks. Never changes; shared by any number of characters
-    and threads.
+    """A trained model: its styles and networks. Immutable; any number of characters and threads may
+    share it.
 
     `source` is the path of a .safetensors file, the name of a shipped model ('panache',
     'panache-int8', ...), the bytes of a file, or None for the shipped default.
@@ -51,8 +51,8 @@ class Model:
         """The names of the styles, in the model's order."""
         self.groups: List[str] = [
             lib.model_style_group(self._handle.pointer, i).decode() for i in range(count)]
-        """What each of the styles is listed under, 'moods'; '' for learnt ones, and in models
-        without groups."""
+        """The group of each style, such as 'moods'; '' for learnt ones, and in models without
+        groups."""
         self.gestures: Dict[str, List[str]] = {
             style: [lib.model_gesture_name(self._handle.pointer, i, k).decode()
                     for k in range(lib.model_gesture_count(self._handle.pointer, i))]
@@ -67,7 +67,7 @@ class Model:
         return f'<panache.Model of {len(self.styles)} styles>'
 
     def find_style(self, name: str) -> int:
-        """The place of a style. Raises PanacheError where the model has none of that name."""
+        """The index of a style. Raises PanacheError if there is no style of that name."""
         place = lib.model_find_style(self._handle.pointer, utf8(name, 'style'))
         if place < 0:
             raise PanacheError(f'unknown style {name!r}; the model has '
@@ -80,12 +80,12 @@ class Model:
 
     @property
     def metadata(self) -> Dict[str, str]:
-        """What the file says of itself: recipe, data, licence, ..."""
+        """The metadata of the file: recipe, data, licence, ..."""
         return self._header().get('__metadata__', {})
 
     def tensors(self) -> Dict[str, np.ndarray]:
-        """The tensors of the file by their names, weights as [inputs, outputs]: float32, float16,
-        or int8 with a `.scale` beside. Read-only views of `content`; no copies."""
+        """The tensors of the file by name, weights as [inputs, outputs]: float32, float16, or int8
+        with a matching `.scale`. Read-only views of `content`; no copies."""
         begin = 8 + int.from_bytes(self.content[:8], 'little')
         out = {}
         for name, entry in self._header().items():
@@ -96,7 +96,7 @@ class Model:
         return out
 
     def save(self, path: Union[str, os.PathLike], force: bool = False) -> None:
-        """Writes the model's file, whole or not at all; over an existing one only with `force`."""
+        """Writes the model's file atomically; overwrites an existing one only with `force`."""
         write(path, self.content, force)
 
     def extract(self, style: str) -> bytes:
@@ -104,12 +104,12 @@ class Model:
         return take_bytes(lib.styles_extract, self.content, len(self.content), utf8(style, 'style'))
 
     def add(self, style_file: bytes, replace: bool = False) -> 'Model':
-        """A model with the style of a style file too. All others stay bit for bit."""
+        """A copy of the model with the style of a style file. Other styles stay bit-identical."""
         return Model(take_bytes(lib.styles_add, self.content, len(self.content), style_file,
                                 len(style_file), replace))
 
     def remove(self, style: str) -> 'Model':
-        """A model without a style."""
+        """A copy of the model without a style."""
         return Model(take_bytes(lib.styles_remove, self.content, len(self.content),
                                 utf8(style, 'style')))
 

@@ -1,4 +1,4 @@
-// The sections: what each shows of the report; nothing where the report has nothing for it.
+// The sections of the page; each is empty if the report has no data for it.
 function evaluated() {
   const withFloor = (value, floor) => `${fixed(value, 3)} (usual: at least ${fixed(floor, 3)})`;
   const joined = (names) => names.join(', ') || DASH;
@@ -27,7 +27,7 @@ function overall() {
       ({ name, cells: allCells(system.seen, best.map((of) => of[s])), apart: s === 0 }))])];
 }
 
-// Whole clips before the judges of performers.
+// Whole clips, classified by performer.
 const COLUMNS = {
   clips: (of) => cell(of?.clips ? String(of.clips) : DASH),
   recognised: (of) => share(of?.recognised, 2),
@@ -45,8 +45,8 @@ function clipsTable(rowsAre, key, sources, caption) {
     [...names.map((name) => ({ name, cells: cells((of) => of[key][name]) })),
       { name: 'all styles', cells: cells((of) => of.all), apart: true }], caption) : null;
 }
-// Rows: what was asked for; columns: what it is taken for. A square is as dark as its share of the
-// row, and holds its number of clips.
+// Rows: the requested style; columns: the recognised style. A square's darkness is its share of the
+// row; its number is the count of clips.
 function confusion(name, counts) {
   const labels = report.performers.labels, side = 17, gap = 5;
   const margin = Math.max(...labels.map((text) => textWidth(text, 11))) + 2 * gap;
@@ -192,8 +192,8 @@ function foreign() {
   return [summary, styles, ...shots, ...with_.map(signatures), ...with_.flatMap(worst),
     details('Clip by clip, means over the styles', clipByClip(with_))];
 }
-// What a style changes: in real takes, and in a system's outputs. A bar of full length is the
-// largest of a column; a dash is a trait that real takes do not agree on.
+// The changes of a style, in real takes and in a system's outputs. The longest bar is the maximum
+// of a column; a dash is a trait on which real takes disagree.
 function signatures([name, system]) {
   const made = system.foreign.signatures;
   const styles = Object.keys(report.signatures).filter((style) => made[style]);
@@ -280,7 +280,7 @@ function contacts() {
         const at = y + f * (height + gap), frame = scale / row.fps;
         shapes.push(label(left - 8, at + height - 1, foot, 11, { fill: '#666666', anchor: 'end' }),
           rect(left, at, row.frames * frame, height, '#f1f1f1', 2),
-          // The left side is the lighter one, as in the strips.
+          // The left side is lighter, as in the stick figures.
           ...row[foot].map(([first, end]) => rect(left + first * frame, at, (end - first) * frame, height,
             tinted(colour(r), f === 0 ? 0.52 : 0), 2)));
       });

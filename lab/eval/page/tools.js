@@ -1,11 +1,11 @@
-// What the sections of the report are made of: numbers, tables and drawings.
+// Building blocks of the sections: numbers, tables and drawings.
 'use strict';
 const report = JSON.parse(document.getElementById('report').textContent);
 const systems = Object.entries(report.systems);
 const MEASURES = report.measures;
 const DASH = '\u2013';
 
-// Numbers as people read them. What was not measured is null, and a dash.
+// Formats numbers. Missing values are null, shown as a dash.
 const isNumber = (value) => typeof value === 'number';
 const fixed = (value, digits) => {
   if (!isNumber(value)) return DASH;
@@ -21,7 +21,7 @@ const duration = (seconds) => {
 };
 const plural = (n, what) => `${n} ${what}${n === 1 ? '' : 's'}`;
 
-// Elements. Children are nodes or texts; texts need no escaping.
+// Elements. Children are nodes or strings, which need no escaping.
 function make(name, attributes = {}, ...children) {
   const node = document.createElement(name);
   for (const [key, value] of Object.entries(attributes)) {
@@ -34,7 +34,7 @@ const paragraph = (text, cssClass) => make('p', { class: cssClass }, text);
 const details = (title, ...body) =>
   body.some(Boolean) ? make('details', {}, make('summary', {}, title), ...body.filter(Boolean)) : null;
 
-// Which of several values is the best, as printed: none where fewer than two were measured.
+// Marks the best of several values as printed; none if there are fewer than two.
 function bestOf(values, better, digits) {
   const shortfall = { higher: (v) => -v, lower: (v) => v, nearest_one: (v) => Math.abs(v - 1) }[better];
   const measured = values.filter(isNumber);
@@ -43,7 +43,7 @@ function bestOf(values, better, digits) {
   return values.map((value) => isNumber(value) && fixed(value, digits) === fixed(least, digits));
 }
 
-// A cell of a table: `share`, 0 to 1, is the length of the bar below the number.
+// A table cell: `share`, 0 to 1, is the length of the bar below the number.
 const cell = (text, { best = false, share } = {}) => ({ text, best, share });
 const number = (value, digits) => cell(fixed(value, digits));
 const share = (value, digits) => cell(fixed(value, digits), { share: value ?? undefined });

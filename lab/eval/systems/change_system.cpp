@@ -14,7 +14,7 @@
 namespace panache {
 namespace {
 
-// The answers of a source to strengths, with the amount that EasedStrengths::amount() has of them.
+// Changes of a source for the given strengths, scaled by EasedStrengths::amount().
 class WithAmount final : public ChangeSource {
  public:
   WithAmount(std::unique_ptr<ChangeSource> source, const ChangeSystem::Strengths& strengths)
@@ -35,7 +35,7 @@ class WithAmount final : public ChangeSource {
   float amount_;
 };
 
-// Instants further apart than this, in frames, are not one motion.
+// Instants further apart, in frames, are separate motions.
 constexpr float kMaxGap = 4;
 
 class SourceInstants : public InstantAnswers {
@@ -56,7 +56,7 @@ class SourceInstants : public InstantAnswers {
     last_at_ = seen_at;
     take_window(seen, seen_at, kNumbers, window_);
     const HumanPositions body = body_at(neutral, at);
-    // An output frame follows each other one: that is how the judge goes through them.
+    // Evaluation requests output frames consecutively.
     constexpr double kStep = 1 / kTakeRate;
     return source
         ->ask({window_,
@@ -83,7 +83,7 @@ ChangeSystem::Strengths ChangeSystem::strengths_of(const StyleRequest& request) 
   Strengths strengths;
   for (const auto& [style, strength] : request.strengths) {
     const auto found = std::find(styles_.begin(), styles_.end(), style);
-    assert(found != styles_.end());  // As can_run() tells.
+    assert(found != styles_.end());  // Guaranteed by can_run().
     if (strength != 0) strengths.emplace_back(found - styles_.begin(), strength);
   }
   return strengths;

@@ -1,5 +1,5 @@
 #pragma once
-// A system that answers instants with changes, which our stages carry out: root motion, filter,
+// A system that outputs a change for each instant. Our stages apply it: root motion, filter,
 // anatomy, balance, floor, flights and feet are the same for all systems.
 
 #include <memory>
@@ -17,16 +17,16 @@ class ChangeSystem : public System {
  public:
   std::vector<std::string> styles() const override { return styles_; }
   Result<RunResult> run(const TestInput& input, const StyleRequest& request) const override;
-  // Of the source alone: no filter, no root, no foot lock. Instants that follow each other are one
-  // motion to it.
+  // The source alone: no filter, root motion or foot lock. Consecutive instants are one motion.
   std::unique_ptr<InstantAnswers> instants(double strength) const override;
-  // One frame of the output; where a source looks at whole takes first, its share of that.
+  // CPU time of one output frame, including a share of the preparation of whole takes.
   double step_us(const TestInput& input) const override;
 
-  // Index and strength of each style in force.
+  // Index and strength of each active style.
   using Strengths = std::vector<std::pair<int, float>>;
-  // Answers for one character that moves as `take` (numbers in layout positions, which outlives
-  // it), whose first frame is `begin` seconds of a clip. Systems that work online look at neither.
+  // Makes the changes for a character that moves as `take` (features in layout positions; must
+  // outlive the source), whose first frame is at `begin` seconds of a clip. Online systems ignore
+  // both.
   virtual std::unique_ptr<ChangeSource> make_source(const Take& take, double begin,
                                                     const Strengths& strengths) const = 0;
 

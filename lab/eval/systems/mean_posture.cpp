@@ -61,7 +61,7 @@ SystemFacts MeanPosture::facts() const {
   return facts;
 }
 
-// As strengths act on a model's styles.
+// Strengths have the same effect as for a model's styles.
 std::unique_ptr<ChangeSource> MeanPosture::make_source(const Take&, double,
                                                        const Strengths& strengths) const {
   AskedChange asked;

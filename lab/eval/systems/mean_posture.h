@@ -1,6 +1,6 @@
 #pragma once
-// The simplest system that is one: each style's mean change over its training pairs, whatever the
-// motion. Mean posture, mean tempo, no foot ever planted.
+// The baseline: each style's mean change over its training pairs, whatever the motion. Mean posture
+// and tempo; feet are never planted.
 
 #include "eval/systems/change_system.h"
 #include "eval/systems/table.h"

@@ -1,6 +1,6 @@
 #pragma once
-// The systems of other papers, as we read them (docs/comparison-systems.md). They take minutes to
-// build and to judge, so they are judged only where they are asked for.
+// The systems of other papers as we implemented them (docs/comparison-systems.md). Building and
+// evaluating them takes minutes, so this happens only on request.
 
 #include <string>
 #include <vector>
@@ -10,10 +10,9 @@
 
 namespace panache {
 
-// In the order of the report.
+// All of them, in the order of the report.
 const std::vector<SystemEntry>& published_systems();
-// Those of these names, each once and in that order; "all" stands for all. Fails where there is
-// none of a name.
+// Those with these names, each once, in that order; "all" means all. Fails if a name is unknown.
 Result<std::vector<SystemEntry>> find_published(const std::vector<std::string>& names);
 
 }  // namespace panache

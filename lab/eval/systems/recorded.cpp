@@ -23,7 +23,7 @@ bool ends_in(const std::string& path, const std::string& end) {
                                  path[path.size() - end.size() - 1] == '/');
 }
 
-// The path that a cell of the column input names, among those of the judge.
+// The evaluated path that a cell of the column input refers to.
 Result<std::string> find_input(const std::string& cell, const std::vector<std::string>& inputs) {
   std::set<std::string> found;
   for (const std::string& path : inputs) {
@@ -52,8 +52,8 @@ Result<float> read_strength(const std::string& cell) {
   return static_cast<float>(value);
 }
 
-// Of an output that is one frame longer or shorter than it should be, as rounding of its rate makes
-// it: drops that frame, or holds the last one.
+// Corrects an output that is one frame too long or too short because its rate was rounded: drops
+// that frame, or repeats the last one.
 void set_frames(Take& take, int frames) {
   take.body.resize(frames, take.body.back());
   take.root.resize(frames, take.root.back());
@@ -189,7 +189,7 @@ std::string recorded_requests(const std::vector<ManifestRow>& tests) {
   int count = 0;
   for (const ManifestRow& input : tests) {
     if (!input.neutral) continue;
-    std::set<std::string> styles;  // That real takes of the input's own set show.
+    std::set<std::string> styles;  // Shown by real takes of the input's own set.
     for (const ManifestRow& row : tests) {
       if (!row.neutral && row.set == input.set) styles.insert(row.style);
     }

@@ -1,6 +1,5 @@
 #pragma once
-// Motion that another program made, read from files: so systems that are not ours can be judged by
-// their own outputs.
+// Motion files made by another program, so that other systems can be evaluated by their outputs.
 
 #include <atomic>
 #include <map>
@@ -10,9 +9,9 @@
 
 namespace panache {
 
-// What the judge can ask for.
+// The inputs and styles of an evaluation.
 struct RecordedScope {
-  std::vector<std::string> inputs;  // Paths of takes, as the judge reads them.
+  std::vector<std::string> inputs;  // Paths of takes, as evaluated.
   std::vector<std::string> styles;
 };
 
@@ -20,20 +19,20 @@ class Recorded : public System {
  public:
   // Reads `folder`/manifest.csv and all outputs that it lists. Columns: input (the end of exactly
   // one path of `scope`, in whole folder names), style, strength (one of kStrengths) and output (a
-  // motion file, relative to the folder; any skeleton that Rig maps). Fails with the manifest's
-  // line.
+  // motion file, relative to the folder, with any skeleton that Rig maps). Errors have the
+  // manifest's line.
   static Result<std::unique_ptr<Recorded>> load(const std::string& folder,
                                                 const RecordedScope& scope);
 
-  // The name of the system in a folder: the folder's own.
+  // The name of the system: that of the folder.
   static std::string name_of(const std::string& folder);
 
   SystemFacts facts() const override;
   std::vector<std::string> styles() const override { return styles_; }
   bool can_run(const TestInput& input, const StyleRequest& request) const override;
-  // An output as long as its input is taken to be in step with it. Of others nobody knows which
-  // instant of the input a frame shows: they fail where the request is without timing, and have no
-  // source frames otherwise. Bone lengths are compared with the output's own first frame.
+  // An output as long as its input is assumed to be synchronous. For others, the source frames are
+  // unknown: requests without timing fail, and other results have no source frames. Bone lengths
+  // are compared with the output's own first frame.
   Result<RunResult> run(const TestInput& input, const StyleRequest& request) const override;
 
  private:
@@ -55,8 +54,8 @@ class Recorded : public System {
   std::vector<std::string> styles_;
 };
 
-// The manifest of all outputs at strength 1 of these takes (test rows, neutral and styled), for
-// another program to fill the folder with: "input,style,strength,output" and a line each.
+// A manifest of all outputs at strength 1 for these takes (test rows, neutral and styled), for
+// another program to generate: "input,style,strength,output" and a line each.
 std::string recorded_requests(const std::vector<ManifestRow>& tests);
 
 }  // namespace panache

@@ -8,7 +8,7 @@
 namespace panache {
 namespace {
 
-// The input's frame (of its take) for each frame of the take of an output.
+// The frame of the input take for each frame of the output take.
 std::vector<float> take_sources(const TestInput& input, const std::vector<double>& source_frames,
                                 int frames) {
   std::vector<float> sources;

@@ -1,5 +1,5 @@
 #pragma once
-// What a system made of an input, as the judge wants it.
+// Converts the output of restyle() for evaluation.
 
 #include <string>
 

@@ -1,5 +1,5 @@
 #pragma once
-// The systems that models are compared with, each a file or folder of eval/systems.
+// The systems that models are compared with; each has its own file or folder in eval/systems.
 
 #include <memory>
 #include <span>
@@ -12,21 +12,21 @@
 
 namespace panache {
 
-// What a system may learn from.
+// The training data of a system.
 struct SystemData {
-  const std::vector<Take>& takes;        // Of the training split, neutral and styled.
-  const std::vector<Pairing>& pairings;  // Of them.
+  const std::vector<Take>& takes;        // The training split, neutral and styled.
+  const std::vector<Pairing>& pairings;  // Of these takes.
   const std::vector<StyleName>& styles;
   uint64_t seed = 1;
-  std::span<const Take> unlabelled = {};  // Motion without styles, where there is some.
+  std::span<const Take> unlabelled = {};  // Motion without styles, if available.
 };
 
 struct SystemEntry {
-  const char* name;  // In the report.
+  const char* name;  // As in the report.
   Result<std::unique_ptr<System>> (*make)(const std::string& name, const SystemData& data);
 };
 
-// Those that stand in every report, in its order.
+// The systems in every report, in its order.
 const std::vector<SystemEntry>& comparison_systems();
 
 }  // namespace panache

@@ -1,5 +1,5 @@
 #pragma once
-// Answers of systems that look at a whole take before they answer.
+// Changes of systems that process a whole take in advance.
 
 #include <vector>
 
@@ -10,8 +10,8 @@ namespace panache {
 
 class WholeTakeSource : public ChangeSource {
  public:
-  // `changes`: of each frame of `take`, whose first is `begin` seconds of the clip; none where
-  // nothing is changed. The feet are planted where the changed body plants them; the tempo stays.
+  // `changes`: for each frame of `take`, whose first is at `begin` seconds of the clip; empty if
+  // nothing changes. The foot contacts are those of the changed body; the tempo stays.
   WholeTakeSource(const Take& take, double begin, std::vector<StyleDelta> changes);
 
   AskedChange ask(const Seen& seen) override;

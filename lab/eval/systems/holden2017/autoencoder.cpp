@@ -4,8 +4,8 @@ namespace panache::holden2017 {
 namespace {
 
 constexpr double kRate = 1e-3;
-constexpr float kHidden = 0.1f;     // Share of the numbers that are hidden while it learns.
-constexpr double kSparsity = 0.01;  // Weight of the hidden units' size.
+constexpr float kHidden = 0.1f;     // Share of the values masked in training.
+constexpr double kSparsity = 0.01;  // Weight of the hidden units' magnitude.
 
 torch::Tensor hide(const torch::Tensor& rows, Random& random) {
   torch::Tensor mask = torch::empty_like(rows);

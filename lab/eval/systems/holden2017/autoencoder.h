@@ -1,6 +1,6 @@
 #pragma once
-// The loss network: a convolutional autoencoder of motion, whose hidden units tell what a motion is
-// like.
+// The loss network: a convolutional autoencoder of motion, whose hidden units represent content and
+// style.
 
 #include <torch/types.h>
 
@@ -17,8 +17,8 @@ struct AutoencoderSettings {
 
 class Autoencoder {
  public:
-  // Learns to reconstruct windows of normalised rows with a tenth of them hidden. Follows from the
-  // seed.
+  // Learns to reconstruct windows of normalised rows with a tenth of the values masked.
+  // Deterministic for a seed.
   Autoencoder(const Windows& windows, uint64_t seed, const AutoencoderSettings& settings = {});
 
   // rows[windows][kRows][frames], an even number of frames -> [windows][units][frames / 2]
@@ -29,8 +29,7 @@ class Autoencoder {
   Convolution encoder_, decoder_;
 };
 
-// Which hidden units are active together: [windows][units][units], the mean over time of their
-// products.
+// The Gram matrix of hidden units: [windows][units][units], the mean over time of their products.
 torch::Tensor gram(const torch::Tensor& hidden);
 
 }  // namespace panache::holden2017

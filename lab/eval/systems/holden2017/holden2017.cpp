@@ -16,7 +16,7 @@ using namespace holden2017;
 
 namespace {
 
-// The motion of each style of `data`, of the actions whose pairs are given; `rows`: of all takes.
+// The motion of each style of `data`, for actions with pairs; `rows`: of all takes.
 std::vector<StyleMotion> style_motions(const SystemData& data,
                                        const std::vector<torch::Tensor>& rows) {
   using Action = std::pair<int, std::string>;  // Set and content.
@@ -40,8 +40,8 @@ std::vector<StyleMotion> style_motions(const SystemData& data,
   return motions;
 }
 
-// What turns one body (body frame) into another; bones keep their lengths, as directions are all
-// that a change has.
+// The change from one body (body frame) to another; a change consists of rotations only, so bones
+// keep their lengths.
 StyleDelta change_to(const HumanPositions& before, const HumanPositions& after) {
   std::array<Quat, kHumanJoints> from, to;
   canonical_frames(before, 0, from);

@@ -1,6 +1,6 @@
 #pragma once
-// Holden et al. 2017, "Fast neural style transfer for motion data", as we read it:
-// docs/comparison-systems.md. Sees whole clips: no live system.
+// Holden et al. 2017, "Fast neural style transfer for motion data", as we implemented it:
+// docs/comparison-systems.md. Needs whole clips, so it is not live.
 
 #include "eval/systems/change_system.h"
 #include "eval/systems/holden2017/transfer.h"
@@ -11,13 +11,13 @@ namespace panache {
 struct HoldenSettings {
   holden2017::AutoencoderSettings autoencoder;
   holden2017::TransferSettings transfer;
-  int all_steps = 6000;  // Of the networks of all styles together, at most.
+  int all_steps = 6000;  // Maximum for the networks of all styles together.
 };
 
 class Holden2017 : public ChangeSystem {
  public:
-  // Trains the autoencoder on all neutral motion of `data` and a network for each style. Fails
-  // where no style has a pair.
+  // Trains the autoencoder on all neutral motion of `data`, and a network for each style. Fails if
+  // no style has a pair.
   static Result<std::unique_ptr<Holden2017>> create(const std::string& name, const SystemData& data,
                                                     const HoldenSettings& settings = {});
 

@@ -5,7 +5,7 @@
 namespace panache::holden2017 {
 namespace {
 
-// Rows that hardly move are not blown up: metres, m/s, radians/s and contacts alike.
+// Minimum scale of nearly constant rows: metres, m/s, radians/s and contacts alike.
 constexpr float kMinScale = 0.05f;
 
 torch::Tensor held_to(const torch::Tensor& rows, int64_t frames) {

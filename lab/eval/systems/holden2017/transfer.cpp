@@ -4,7 +4,7 @@ namespace panache::holden2017 {
 namespace {
 
 constexpr double kRate = 1e-3;
-constexpr int kStyleWindows = 64;  // Of which an action's Gram matrix is the mean.
+constexpr int kStyleWindows = 64;  // Windows that an action's mean Gram matrix is made from.
 
 // [windows][joints][3][frames], metres.
 torch::Tensor positions(const torch::Tensor& rows) {
@@ -19,7 +19,7 @@ torch::Tensor bone_lengths(const torch::Tensor& joints) {
   return (offset.square().sum(2) + 1e-8).sqrt();
 }
 
-// How fast ankles and toes move over the ground where the input has them planted: m^2/s^2.
+// Squared ground speed of ankles and toes that are planted in the input: m^2/s^2.
 torch::Tensor sliding(const torch::Tensor& rows, const torch::Tensor& planted) {
   const torch::Tensor joints = positions(rows);
   const int64_t frames = rows.size(2);
@@ -32,7 +32,7 @@ torch::Tensor sliding(const torch::Tensor& rows, const torch::Tensor& planted) {
       const torch::Tensor at = joints.select(1, index(joint));  // [windows][3][frames]
       const torch::Tensor now = at.narrow(2, 1, frames - 1);
       const torch::Tensor speed = (now - at.narrow(2, 0, frames - 1)) * kTakeRate;
-      // In the body frame, which moves and turns: about +y, z goes towards x.
+      // In the body frame, which moves and turns: about +y, from z to x.
       const torch::Tensor x =
           speed.select(1, 0) + root(kVelocityLeft) + root(kTurnRate) * now.select(1, 2);
       const torch::Tensor z =
@@ -51,11 +51,11 @@ Transfer::Transfer(const Autoencoder& loss_network, const RowUnits& units,
   Random random(seed);
   first_ = Convolution(kRows, settings.units, &random);
   second_ = Convolution(settings.units, settings.units, &random);
-  last_ = Convolution(settings.units, kRows, nullptr);  // At first, the input comes out.
+  last_ = Convolution(settings.units, kRows, nullptr);  // Zero: initially outputs the input.
 
-  // Neutral windows of all actions, and the Gram matrix that each should come to.
+  // Neutral windows of all actions, with the target Gram matrix of each.
   std::vector<torch::Tensor> neutral, grams;
-  double style_unit = 0;  // The loss of changing nothing.
+  double style_unit = 0;  // The loss of the unchanged input.
   std::vector<int> action_of;
   for (size_t a = 0; a < motion.actions.size(); ++a) {
     const StyleMotion::Action& action = motion.actions[a];

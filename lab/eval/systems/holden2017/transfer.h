@@ -10,14 +10,14 @@
 namespace panache::holden2017 {
 
 struct TransferSettings {
-  int units = 96;  // Of each of the two hidden layers.
+  int units = 96;  // Per hidden layer, of which there are two.
   int steps = 600;
   int batch = 8;
-  // Weights of the terms of the loss.
+  // Weights of the loss terms.
   double content = 1, style = 30, bones = 20, feet = 1, trajectory = 1, smoothness = 5;
 };
 
-// What a style looks like: neutral motion of some actions, and the style's own motion of the same.
+// Examples of a style: neutral motion of some actions, and styled motion of the same actions.
 struct StyleMotion {
   struct Action {
     std::vector<torch::Tensor> neutral, styled;  // Normalised rows, [kRows][frames].
@@ -30,7 +30,7 @@ class Transfer {
   Transfer(const Autoencoder& loss_network, const RowUnits& units, const StyleMotion& motion,
            uint64_t seed, const TransferSettings& settings = {});
 
-  // Normalised rows, [windows][kRows][frames]: what the style makes of them.
+  // Applies the style to normalised rows, [windows][kRows][frames].
   torch::Tensor operator()(const torch::Tensor& rows) const;
   size_t parameters() const;
 

@@ -1,6 +1,6 @@
 #pragma once
-// The database: windows of neutral motion registered with what a style makes of them, to be
-// searched by the window that a character shows.
+// The database: windows of neutral motion with the corresponding changes of a style, searched with
+// the current window of a character.
 
 #include <array>
 #include <memory>
@@ -12,14 +12,13 @@
 
 namespace panache::xia2015 {
 
-// Numbers that a window is compared by, and those of an output.
+// Dimensions of the search keys, and of the outputs.
 inline constexpr int kKeySize = 24, kOutputs = StyleDelta::kSize;
 
-// Windows as points: normalised, and projected on the directions in which neutral windows vary
-// most.
+// Search keys of windows: normalised, and projected on the principal components of neutral windows.
 class WindowKey {
  public:
-  // Learnt from the windows of `set`, of which there is at least one.
+  // Learnt from the windows of `set`, which must not be empty.
   explicit WindowKey(const SampleSet& set);
   // `window`: in layout positions, as PoseHistory::window() gives it. out[kKeySize]
   void project(std::span<const float> window, std::span<float> out) const;
@@ -27,27 +26,27 @@ class WindowKey {
  private:
   void normalise(std::span<const float> window, std::span<float> out) const;
 
-  std::vector<float> mean_, scale_;  // Of a pose's numbers.
+  std::vector<float> mean_, scale_;  // Of a pose's features.
   std::vector<float> axes_;          // [kKeySize][inputs]
 };
 
-// One style's examples.
+// The examples of one style.
 class Database {
  public:
   struct Example {
     std::array<float, kKeySize> key;
-    std::array<float, kOutputs> output;  // The change, in units that weigh the same.
-    int before;                          // The example one frame earlier; itself at a beginning.
+    std::array<float, kOutputs> output;  // The change, scaled to equal weights.
+    int before;                          // The example one frame earlier; itself at the start.
     float rate;                          // Input seconds per output second.
     std::array<float, kFeet> contacts;   // 0 or 1.
   };
   struct Neighbour {
     const Example* example;
-    float distance;  // Squared, of the keys.
+    float distance;  // Squared distance of the keys.
   };
 
-  // The samples of `style` (its index in `set`). A styled frame that several windows were laid over
-  // counts once, as the window has it in whose middle it is.
+  // The samples of `style` (its index in `set`). A styled frame in several aligned windows counts
+  // once, from the window whose centre is closest.
   Database(const SampleSet& set, const WindowKey& key, int style);
   ~Database();
   Database(Database&&) noexcept;
@@ -55,7 +54,7 @@ class Database {
   bool empty() const { return examples_.empty(); }
   size_t bytes() const;
   const Example& before(const Example& example) const { return examples_[example.before]; }
-  // The nearest ones, nearest first: `count` of them, or as many as there are.
+  // The nearest `count` examples, or all if there are fewer; nearest first.
   void find(std::span<const float, kKeySize> key, size_t count, std::vector<Neighbour>& out) const;
   const std::vector<Example>& examples() const { return examples_; }
 

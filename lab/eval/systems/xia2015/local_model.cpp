@@ -15,9 +15,9 @@ using Eigen::RowVectorXf;
 using Eigen::VectorXf;
 
 constexpr int kClusterRounds = 5;
-constexpr float kNobody = 1e-4f;  // A component with less of the neighbours' weight has none.
+constexpr float kNobody = 1e-4f;  // A component with less weight is empty.
 
-// The neighbours as matrices, one a row.
+// The neighbours as matrices, one per row.
 struct Examples {
   VectorXf weights;  // Sum 1.
   MatrixXf keys, recent, outputs;
@@ -27,7 +27,7 @@ Examples gather(const Database& database, const std::vector<Database::Neighbour>
   const Index count = static_cast<Index>(neighbours.size());
   Examples out{VectorXf(count), MatrixXf(count, kKeySize), MatrixXf(count, kOutputs),
                MatrixXf(count, kOutputs)};
-  // A Gaussian of the distance, half as wide as the farthest neighbour is away.
+  // A Gaussian of the distance; its deviation is half the distance of the farthest neighbour.
   const float width = std::max(neighbours.back().distance / 4, 1e-6f);
   for (Index k = 0; k < count; ++k) {
     const Database::Example& example = *neighbours[static_cast<size_t>(k)].example;
@@ -41,10 +41,10 @@ Examples gather(const Database& database, const std::vector<Database::Neighbour>
   return out;
 }
 
-// How far each neighbour belongs to each component: [neighbours][components], rows add up to 1. By
-// expectation maximisation of a mixture of Gaussians, all as wide, on what the style made of them;
-// it begins with the nearest neighbour and those farthest from the ones before. Nobody belongs to
-// one component alone, so that the answer does not jump from frame to frame.
+// Soft assignment of neighbours to components: [neighbours][components], rows add up to 1.
+// Expectation maximisation of a Gaussian mixture with a common width, on the outputs; starts with
+// the nearest neighbour and those farthest from the previous ones. Every neighbour belongs to all
+// components to a degree, so that the output does not jump between frames.
 MatrixXf cluster(const Examples& examples, int components) {
   const Index count = examples.outputs.rows();
   if (count < 2 * components) components = 1;
@@ -77,18 +77,18 @@ MatrixXf cluster(const Examples& examples, int components) {
   return members;
 }
 
-// Products of what the linear maps look at, for all components at once.
+// Dot products of the maps' inputs, for all components at once.
 struct Products {
-  MatrixXf own;   // [neighbours][neighbours]
-  VectorXf with;  // Of each neighbour with the query.
-  float query;    // Of the query with itself.
+  MatrixXf own;   // Neighbours with neighbours: [neighbours][neighbours]
+  VectorXf with;  // Neighbours with the query.
+  float query;    // The query with itself.
 };
 Products products_of(const MatrixXf& rows, const RowVectorXf& query) {
   return {rows * rows.transpose(), rows * query.transpose(), query.squaredNorm()};
 }
 
-// The same of what is left of rows and query without the rows' weighted mean, and divided by their
-// mean square.
+// The same after subtracting the rows' weighted mean from rows and query, divided by their mean
+// square.
 Products standardised(const Products& from, const VectorXf& weights, float share) {
   const VectorXf with_mean = from.own * weights;
   const float mean = weights.dot(with_mean), query_mean = weights.dot(from.with);
@@ -97,7 +97,7 @@ Products standardised(const Products& from, const VectorXf& weights, float share
   out.own.rowwise() -= with_mean.transpose();
   out.own.array() += mean;
   out.with.array() += mean - query_mean;
-  // Differences of sums in single precision are nothing but noise below this share of the sums.
+  // Below this share of the sums, single-precision differences are only noise.
   const float noise = 1e-4f * weights.dot(from.own.diagonal()) + 1e-6f;
   const float factor = share / std::max(weights.dot(out.own.diagonal()), noise);
   out.own *= factor;
@@ -106,10 +106,10 @@ Products standardised(const Products& from, const VectorXf& weights, float share
   return out;
 }
 
-// One autoregressive model: the output is linear in key and recent output. Least squares with a
-// penalty, in its dual form, as there are fewer neighbours than numbers; with R the roots of the
-// weights on a diagonal, y = mean(y) + dY^T R (R dU dU^T R + penalty)^-1 R dU du.
-// `recent`: null where there is none.
+// One autoregressive model: the output is linear in the key and the recent output. Ridge regression
+// in dual form, because there are fewer neighbours than dimensions; with R the diagonal matrix of
+// square roots of the weights, y = mean(y) + dY^T R (R dU dU^T R + penalty)^-1 R dU du.
+// `recent`: may be null.
 RowVectorXf regress(const Examples& examples, const VectorXf& weights, const Products& key,
                     const Products* recent, const LocalSettings& settings) {
   Products inputs = standardised(key, weights, recent ? 1 - settings.recent : 1.0f);
@@ -119,8 +119,8 @@ RowVectorXf regress(const Examples& examples, const VectorXf& weights, const Pro
     inputs.with += more.with;
     inputs.query += more.query;
   }
-  // Beyond its neighbours a linear map knows nothing.
-  // Nothing of what hardly moves: rounding may leave less than zero.
+  // Scales back a query beyond the neighbours, where a linear map is unreliable. Nearly constant
+  // inputs may have a negative product by rounding.
   const float reach = std::max(inputs.own.diagonal().maxCoeff(), 0.0f);
   if (inputs.query > reach) inputs.with *= std::sqrt(reach / inputs.query);
   const VectorXf roots = weights.cwiseSqrt();
@@ -128,12 +128,12 @@ RowVectorXf regress(const Examples& examples, const VectorXf& weights, const Pro
   gram.diagonal().array() += settings.penalty;
   const VectorXf shares =
       roots.cwiseProduct(gram.llt().solve(roots.cwiseProduct(inputs.with).eval()));
-  // Those of dY: what they add up to is taken off the mean.
+  // Coefficients of dY; their sum is subtracted from that of the mean.
   return (shares + (1 - shares.sum()) * weights).transpose() * examples.outputs;
 }
 
-// How much of the say each component has: by the weight of its members, and by how well the recent
-// output goes with theirs.
+// The weight of each component: the weight of its members, times the likelihood of the recent
+// output.
 VectorXf say_of(const Examples& examples, const std::vector<VectorXf>& weights,
                 const RowVectorXf* recent) {
   const Index components = static_cast<Index>(weights.size());
@@ -184,9 +184,9 @@ LocalAnswer answer_locally(const Database& database,
   }
   LocalAnswer answer;
   Eigen::Map<RowVectorXf>(answer.output.data(), kOutputs) = output;
-  // The tempo, too, is regressed on the neighbours, by their weights alone: slopes of an alignment
-  // are too noisy for more. The mean is that of the rate, not of its logarithm, because rates add
-  // up to the time that a take covers.
+  // The rate is a weighted mean over the neighbours: slopes of an alignment are too noisy for more.
+  // It is the mean of the rate, not of its logarithm, because rates add up to the duration of a
+  // take.
   answer.rate = 0;
   for (size_t k = 0; k < neighbours.size(); ++k) {
     const float weight = examples.weights[static_cast<Index>(k)];

@@ -11,11 +11,11 @@
 namespace panache::xia2015 {
 
 struct LocalSettings {
-  size_t neighbours = 80;  // A fifth of the examples at most.
+  size_t neighbours = 80;  // At most a fifth of the examples.
   int components = 2;
-  // Penalty on the linear maps, as a share of the neighbours' mean square deviation.
+  // Penalty on the linear maps, relative to the neighbours' mean square deviation.
   float penalty = 0.2f;
-  // Weight of the recent output against the window in what the maps look at.
+  // Weight of the recent output relative to the window in the input of the maps.
   float recent = 0.8f;
 };
 
@@ -27,8 +27,7 @@ struct LocalAnswer {
   std::array<float, kFeet> contacts{};
 };
 
-// `neighbours`: of `key` in `database`, not empty. `recent`: the output one frame ago; null where
-// there is none.
+// `neighbours`: of `key` in `database`, not empty. `recent`: the output one frame ago, or null.
 LocalAnswer answer_locally(const Database& database,
                            const std::vector<Database::Neighbour>& neighbours,
                            std::span<const float, kKeySize> key, const Output* recent,

@@ -14,7 +14,7 @@ namespace {
 
 using namespace xia2015;
 
-// What a style has answered lately.
+// The recent outputs of a style.
 class Recent {
  public:
   void clear() { answers_.clear(); }
@@ -23,8 +23,8 @@ class Recent {
     answers_.push_back({time_, output});
     while (answers_.size() > 2 && answers_[1].time <= time_ - kLag) answers_.pop_front();
   }
-  // One frame of the database before the next answer, which comes after `seconds`; straight between
-  // two answers. Nothing at the beginning.
+  // The output one database frame before the next one, which follows after `seconds`; linear
+  // between two outputs. Null at the beginning.
   std::optional<Output> before_next(float seconds) const {
     if (answers_.empty()) return std::nullopt;
     const float at = time_ + seconds - kLag;
@@ -48,8 +48,8 @@ class Recent {
   float time_ = 0;
 };
 
-// The styles in force, each with a database and a recent output of its own; mixed in the parameters
-// of their linear maps, which for maps of the same input is mixing what they give.
+// The active styles, each with its own database and recent output. Mixing their outputs is the same
+// as mixing the parameters of their linear maps, because the maps have the same input.
 class LocalSource : public ChangeSource {
  public:
   struct Style {

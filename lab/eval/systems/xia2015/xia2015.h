@@ -1,6 +1,6 @@
 #pragma once
-// Xia et al. 2015, "Realtime style transfer for unlabeled heterogeneous human motion", as we read
-// it: docs/comparison-systems.md.
+// Xia et al. 2015, "Realtime style transfer for unlabeled heterogeneous human motion", as we
+// implemented it: docs/comparison-systems.md.
 
 #include "eval/systems/change_system.h"
 #include "eval/systems/table.h"
@@ -10,7 +10,7 @@ namespace panache {
 
 class Xia2015 : public ChangeSystem {
  public:
-  // Registers the pairs of `data`. Styles without a pair are left out; fails where none has one.
+  // Registers the pairs of `data`. Skips styles without a pair; fails if none has one.
   static Result<std::unique_ptr<Xia2015>> create(const std::string& name, const SystemData& data,
                                                  const xia2015::LocalSettings& settings = {});
 

@@ -7,7 +7,7 @@
 namespace panache::yumer2016 {
 namespace {
 
-// Of the two vectors of one rotation the one nearer to `last`.
+// Of a rotation's two rotation vectors, the one closer to `last`.
 Vec3 unwrapped(Vec3 rotation, Vec3 last) {
   const float angle = length(rotation);
   if (angle < 1) return rotation;

@@ -1,5 +1,5 @@
 #pragma once
-// Motion as joint signals: what the spectra are of.
+// Motion as joint signals, the input of spectral analysis.
 
 #include <array>
 #include <span>
@@ -10,16 +10,16 @@
 
 namespace panache::yumer2016 {
 
-// Joint angles as rotation vectors (radians, relative to the parent, of the canonical skeleton, in
-// order of the joints), height of the hips (metres) and speed ahead (m/s).
+// Joint angles as rotation vectors (radians, relative to the parent, in the order of the canonical
+// skeleton's joints), height of the hips (metres) and forward speed (m/s).
 inline constexpr int kHipsHeight = 3 * kHumanJoints, kSpeed = kHipsHeight + 1,
                      kSignals = kSpeed + 1;
 using Signals = std::array<float, kSignals>;
 
-// Of each frame of a take (numbers in layout positions). Angles do not jump by a full turn.
+// The signals of each frame of a take (features in layout positions), with unwrapped angles.
 std::vector<Signals> joint_signals(const Take& take);
 
-// What turns a body with the signals `before` into one with `after`; the speed as it is.
+// The change from a body with signals `before` to one with `after`; the speed stays.
 StyleDelta change_of(const Signals& before, const Signals& after);
 
 }  // namespace panache::yumer2016

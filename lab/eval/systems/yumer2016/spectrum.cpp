@@ -9,10 +9,10 @@
 namespace panache::yumer2016 {
 namespace {
 
-// A joint that moves less than this in a reference tells nothing of how much more of it to make.
-// Radians (metres, m/s), root mean square.
+// A joint that moves less in a reference gives no usable energy ratio. Radians (metres, m/s), root
+// mean square.
 constexpr float kStill = 0.02f;
-// At most so much more, or less, energy than the reference has counts.
+// Limit of the energy ratio to the reference.
 constexpr float kMaxScale = 2;
 
 using Window = std::array<float, kWindow>;
@@ -36,7 +36,7 @@ Eigen::FFT<float>& plan() {
   return fft;
 }
 
-// Signals that belong together: the three angles of a joint, or one number.
+// Signals that belong together: the three angles of a joint, or a single signal.
 struct Group {
   int first, count;
 };
@@ -53,7 +53,8 @@ float energy(const Bins& bins, Group of) {
   }
   return sum;
 }
-// Of a sine with the root mean square kStill: its two sides have (amplitude / 2 * sum of Hann)^2.
+// The energy of a sine with root mean square kStill: its two sides have (amplitude / 2 * sum of
+// Hann)^2.
 constexpr float kStillSide = kStill * kWindow / 4;
 constexpr float kStillEnergy = 2 * kStillSide * kStillSide;
 
@@ -78,7 +79,7 @@ Reference reference_of(const std::vector<std::vector<Signals>>& motions) {
   Reference out;
   float count = 0;
   for (const std::vector<Signals>& motion : motions) {
-    // Windows that are all motion, or the one that has all there is.
+    // Windows within the motion, or a single one that covers it.
     const int last = std::max(0, static_cast<int>(motion.size()) - kWindow);
     for (int first = 0; first <= last; first += kHop) {
       const Spectrum window = spectrum_of(motion, first);
@@ -104,7 +105,7 @@ float distance(const Spectrum& window, const Reference& neutral) {
       const float apart = window.mean[s] - neutral.mean[s];
       sum += apart * apart;
     }
-    // Energies as the amplitude of one sine.
+    // Energies, converted to the amplitude of one sine.
     const float amplitude =
         std::sqrt(energy(window.bins, of)) - std::sqrt(energy(neutral.magnitude, of));
     sum += amplitude * amplitude / (kWindow * kWindow / 16.0f);
@@ -132,7 +133,7 @@ Spectrum transfer(const Spectrum& input, const std::vector<Style>& styles) {
         }
       }
     }
-    // A magnitude does not fall below zero, or the phase would turn.
+    // Negative magnitudes would invert the phase.
     for (int s = of.first; s < of.first + of.count; ++s) {
       for (int b = 0; b < kBins; ++b) {
         const std::complex<float> before = input.bins[s][b];
@@ -153,7 +154,7 @@ std::vector<Signals> overlap_add(const std::vector<Spectrum>& spectra, int frame
     for (int s = 0; s < kSignals; ++s) {
       plan().inv(values.data(), spectra[w].bins[s].data(), kWindow);
       for (int i = begin; i < end; ++i) {
-        // Windowed once more, so that what the style has made of a window has no edges.
+        // A second Hann window avoids edges in the changed windows.
         out[first + i][s] += hann()[i] * (values[i] + hann()[i] * spectra[w].mean[s]);
       }
     }

@@ -9,40 +9,40 @@
 
 namespace panache::yumer2016 {
 
-// Frames of a window (2.1 s), and between two of them.
+// Frames per window (2.1 s), and between the starts of two windows.
 inline constexpr int kWindow = 64, kHop = 16, kBins = kWindow / 2 + 1;
 
-// Of one window: the mean of each signal under a Hann window, and the spectrum of the rest.
+// One window: the mean of each signal under a Hann window, and the spectrum of the remainder.
 struct Spectrum {
   Signals mean{};
   std::array<std::array<std::complex<float>, kBins>, kSignals> bins{};
 };
-// Of the frames from `first` on; beyond its ends a motion stands still.
+// Analyses the frames from `first` on; beyond its ends, a motion stands still.
 Spectrum spectrum_of(const std::vector<Signals>& motion, int first);
 
-// What is known of a style's or the neutral way of an action: means and magnitudes over windows.
+// Reference data of an action, in a style or neutral: means and magnitudes over windows.
 struct Reference {
   Signals mean{};
   std::array<std::array<float, kBins>, kSignals> magnitude{};
 };
-// Over all windows of these motions, which are some.
+// Over all windows of these motions, at least one.
 Reference reference_of(const std::vector<std::vector<Signals>>& motions);
 
-// How unlike the window's posture and energies are to those of the reference.
+// The distance of the window's posture and energies from those of the reference.
 float distance(const Spectrum& window, const Reference& neutral);
 
-// A style on an action: what it changes, at a strength.
+// The change of a style for an action, at a strength.
 struct Style {
   const Reference *neutral, *styled;
   float strength;
 };
 
-// Magnitudes and means of `input` with the styles' differences on them, scaled to the input's
-// energy; phases as they are.
+// Adds the style's differences to the magnitudes and means of `input`, scaled to the input's
+// energy; keeps phases.
 Spectrum transfer(const Spectrum& input, const std::vector<Style>& styles);
 
-// Puts windows together again: spectra[i] is of the window that begins at frame first_window() + i
-// * kHop, as many as window_count().
+// Overlap-adds windows: spectra[i] belongs to the window that begins at frame first_window() + i *
+// kHop; there are window_count() of them.
 std::vector<Signals> overlap_add(const std::vector<Spectrum>& spectra, int frames);
 constexpr int first_window() { return kHop - kWindow; }
 constexpr int window_count(int frames) { return (frames - first_window() + kHop - 1) / kHop; }

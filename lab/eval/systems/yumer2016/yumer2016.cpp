@@ -16,7 +16,7 @@ using namespace yumer2016;
 Result<std::unique_ptr<Yumer2016>> Yumer2016::create(const std::string& name,
                                                      const SystemData& data) {
   Progress progress("measuring the spectra of " + name);
-  // Set, action, style ("" for neutral): its takes. Actions whose pairs are left out are not seen.
+  // Set, action, style ("" for neutral): its takes. Excludes actions without pairs.
   using Cell = std::tuple<int, std::string, std::string>;
   std::map<Cell, std::set<int>> cells;
   for (const Pairing& pairing : data.pairings) {

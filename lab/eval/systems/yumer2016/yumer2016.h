@@ -1,6 +1,6 @@
 #pragma once
 // Yumer and Mitra 2016, "Spectral style transfer for human motion between independent actions", as
-// we read it: docs/comparison-systems.md.
+// we implemented it: docs/comparison-systems.md.
 
 #include "eval/systems/change_system.h"
 #include "eval/systems/table.h"
@@ -10,8 +10,8 @@ namespace panache {
 
 class Yumer2016 : public ChangeSystem {
  public:
-  // References: the training takes of each action in the style and neutral, in the sets of `data`
-  // whose pairs are given. Fails where no style has any.
+  // References: the training takes of each action, styled and neutral, in the sets of `data` with
+  // pairs. Fails if no style has any.
   static Result<std::unique_ptr<Yumer2016>> create(const std::string& name, const SystemData& data);
 
   SystemFacts facts() const override;  // Bytes: of the references.
@@ -19,7 +19,7 @@ class Yumer2016 : public ChangeSystem {
                                             const Strengths& strengths) const override;
 
  private:
-  // An action in one style and neutral.
+  // An action, in one style and neutral.
   struct Action {
     yumer2016::Reference neutral, styled;
   };
