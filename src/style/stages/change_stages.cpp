@@ -28,7 +28,7 @@ void carry_out(SeatWatch& seat, StageWork& work) noexcept {
 void carry_out(OutputFilter& filter, StageWork& work) noexcept {
   const AskedChange& asked = work.asked;
   filter.step(asked.delta, asked.log_rate, asked.gate, work.now.body_frame, work.time);
-  work.delta = filter.delta();
+  work.delta = &filter.delta();
   const float tempo = work.options.tempo_everywhere ? 1 : work.stepping;
   work.log_rate =
       bounded_log_rate(asked.shape->timing * tempo * filter.log_rate()) * (1 - work.flight);
@@ -36,7 +36,7 @@ void carry_out(OutputFilter& filter, StageWork& work) noexcept {
 
 void carry_out(RootMotion& root, StageWork& work) noexcept {
   if (work.options.root) {
-    root.step(work.delta, work.asked.gate, work.pull, work.observer, work.window, work.time);
+    root.step(*work.delta, work.asked.gate, work.pull, work.observer, work.window, work.time);
   }
   work.root = root.offset();
 }
@@ -46,7 +46,7 @@ void carry_out(Shaping& shaping, StageWork& work) noexcept {
   work.shape = *work.asked.shape;
   for (float& region : work.shape.regions) region *= work.above_floor;
   work.shape.regions[static_cast<size_t>(Region::legs)] *= 1 - work.seated;
-  shaping.step(work.shape, work.delta, work.root, work.time, work.change);
+  shaping.step(work.shape, *work.delta, work.root, work.time, work.change);
 }
 
 void carry_out(Gestures&, StageWork& work) noexcept {

@@ -49,16 +49,16 @@ struct StageWork {
   Vec3 pull;           // Of a planted foot at the last step, see FootLock::pull().
 
   const Observation& now = observer.now();
-  HeadingBody body = now.world;  // The input, heading frame, metres.
-  float stepping = 0;            // Share, see StepWatch::amount().
-  float seated = 0;              // Share, see SeatWatch::amount().
-  float above_floor = 1;         // Share, see share_above_floor().
-  float log_rate = 0;            // See AskedChange; 0 in a flight or without steps.
-  StyleDelta delta = {};         // Filtered.
-  RootOffset root = {};          // The style's change of the way.
-  Shape shape = {};              // As requested, reduced where it does not suit the body.
-  float lifted = 0;              // How far a gesture lifts the feet off the floor, share.
-  HumanPositions joints = {};    // changed_joints() of body and change, from the balance stage on.
+  HeadingBody body = now.world;       // The input, heading frame, metres.
+  float stepping = 0;                 // Share, see StepWatch::amount().
+  float seated = 0;                   // Share, see SeatWatch::amount().
+  float above_floor = 1;              // Share, see share_above_floor().
+  float log_rate = 0;                 // See AskedChange; 0 in a flight or without steps.
+  const StyleDelta* delta = nullptr;  // Filtered; set by the filter.
+  RootOffset root = {};               // The style's change of the way.
+  Shape shape = {};                   // As requested, reduced where it does not suit the body.
+  float lifted = 0;                   // How far a gesture lifts the feet off the floor, share.
+  HumanPositions joints = {};  // changed_joints() of body and change, from the balance stage on.
   std::array<float, kFeet> resting{};  // How much feet keep their height, shares.
   HandHolds holds = {};                // Contacts that the hands keep.
 
