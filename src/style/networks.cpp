@@ -1,3 +1,5 @@
+#include "style/networks.h"
+
 #include <algorithm>
 #include <cassert>
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # include_order.sh ROOT: fails where a file of src or lab includes a folder that stands below its
-# own in the table of docs/design.md, or where files include each other in a circle; and where either,
-# planted into a copy, is not found.
+# own in the table of docs/design.md, where files include each other in a circle, or where a source
+# of src does not include the header of its name first; and where one of these, planted into a copy, is
+# not found.
 set -euo pipefail
 root=$1
 
@@ -26,6 +27,12 @@ faults() {
     }'
   # tsort fails where there is a circle, and names the files of it.
   includes "$1" | tsort 2>&1 >/dev/null | sed 's/^tsort: //; s/^-: input contains a/in a/' || true
+  # By this the build shows that the header includes what it needs.
+  (cd "$1/src" && find . -name '*.h' -printf '%P\n') | while read -r header; do
+    source=$1/src/${header%h}cpp
+    [[ ! -f $source || $(grep -m1 '^#include' "$source") == "#include \"$header\"" ]] ||
+      echo "${header%h}cpp does not include $header first"
+  done
 }
 
 found=$(faults "$root")
@@ -36,11 +43,12 @@ fi
 
 copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
-# plant FILE INCLUDED WHAT: the same modules with one more include must be found at fault.
+# plant FILE INCLUDED WHAT [WHERE]: the same modules with one more include must be found at fault.
+# It goes to WHERE as sed says it, by default after the last line.
 plant() {
   rm -rf "$copy/src" "$copy/lab"
   cp -r "$root/src" "$root/lab" "$copy"
-  echo "#include \"$2\"" >>"$copy/$1"
+  sed -i "${4:-\$a} #include \"$2\"" "$copy/$1"
   if [[ $(faults "$copy") != *"$3"* ]]; then
     echo "$1 with an include of $2 was not found at fault"
     exit 1
@@ -49,3 +57,4 @@ plant() {
 plant src/rig/rig.h style/model.h 'rig/rig.h includes style/model.h, which stands below it'
 plant src/learn/take.h train/trainer.h 'learn/take.h includes train/trainer.h, which stands below it'
 plant src/base/vec.h base/quat.h 'in a loop'
+plant src/rig/mapping.cpp rig/rig.h 'rig/mapping.cpp does not include rig/mapping.h first' 1i

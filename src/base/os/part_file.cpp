@@ -1,3 +1,5 @@
+#include "base/os/part_file.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -7,7 +9,6 @@
 #include <vector>
 
 #include "base/os/os.h"
-#include "base/os/part_file.h"
 
 namespace panache {
 namespace {
