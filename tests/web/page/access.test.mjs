@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { frames, isFirefox, phone, pictures, start, unfold, workFolder } from './browser.mjs';
+import { phone, pictures, start, unfold, workFolder } from './browser.mjs';
 
 const { at, panache, remove } = workFolder();
 
@@ -16,13 +16,8 @@ after(async () => {
   remove();
 });
 
-/** Role and name of all that is told of the page: by Chromium itself, in Firefox by playwright. */
+/** Role and name of everything in Chromium's accessibility tree. */
 async function told(tab) {
-  if (isFirefox) {
-    const snapshot = await tab.locator('body').ariaSnapshot();
-    return [...snapshot.matchAll(/^ *- (\w+)(?: "(.*?[^\\])")?/gm)]
-      .map(([, role, name]) => ({ role, name }));
-  }
   const session = await tab.context().newCDPSession(tab);
   const { nodes } = await session.send('Accessibility.getFullAXTree');
   return nodes.filter((node) => !node.ignored)
@@ -40,8 +35,7 @@ test('every control has a name', async () => {
 });
 
 test('text stands out from what is behind it, by light and by dark', async () => {
-  // Over WebDriver BiDi playwright cannot ask Firefox for a dark page.
-  for (const colorScheme of isFirefox ? ['light'] : ['light', 'dark']) {
+  for (const colorScheme of ['light', 'dark']) {
     const tab = await site.open('old=1', { colorScheme });
     // WCAG 2: 4.5 to 1.
     const weak = await tab.evaluate(() => {
@@ -115,8 +109,7 @@ test('a phone shows all of it, large enough for a finger', async () => {
     .filter(([, height]) => height < 36));
   assert.deepEqual(small, []);
   await tab.locator('#style-proud').scrollIntoViewIfNeeded();
-  if (isFirefox) await tab.locator('#style-proud').click();
-  else await tab.locator('#style-proud').tap();
+  await tab.locator('#style-proud').tap();
   assert.notEqual(await tab.locator('#style-proud').inputValue(), '0');
   // The character stays in sight while one is at the sliders.
   assert.ok((await tab.locator('#view').boundingBox()).y >= 0);
@@ -170,26 +163,6 @@ test('small screens: nothing overlaps or is scrolled sideways, and the view keep
     await tab.waitForFunction(() => window.page.source.kind === 'clip');
     await tab.locator('#show-keys').click();
     await check(`${width}x${height}-keys`);
-    await tab.close();
-  }
-});
-
-test('pictures for a person to look at', async () => {
-  panache('convert', 'walk.bvh', '-o', 'walk.glb');
-  const looks = [['default', ''], ['old', 'old=1&view=side'], ['very-old', 'old=2'],
-    ['mix', 'proud=0.8&gorilla=0.6&view=over'], ['dark', 'angry=1', { colorScheme: 'dark' }],
-    ['bvh', 'limping=1&view=side', {}, 'walk.bvh'], ['glb', 'joyful=1', {}, 'walk.glb'],
-    ['dark-default', '', { colorScheme: 'dark' }], ['phone', '', phone], ['phone-old', 'old=1', phone],
-    ['phone-very-old', 'old=2&view=side', phone],
-    ['mix-of-four', 'old=0.5&drunk=0.7&cat=0.3&limping=1']];
-  for (const [name, hash, options, file] of looks) {
-    const tab = await site.open(hash, { ...options, steady: true });
-    if (file) {
-      await tab.setInputFiles('#file', at(file));
-      await tab.waitForFunction(() => window.page.source.kind === 'clip');
-    }
-    await frames(tab, 25);
-    await tab.screenshot({ path: join(pictures, `${name}.png`) });
     await tab.close();
   }
 });

@@ -80,9 +80,9 @@ export const isFirefox = process.env.PANACHE_BROWSER === 'firefox';
 /** Screenshots for a person to look at. */
 export const pictures = join(root, 'build', 'web-pictures', isFirefox ? 'firefox' : 'chromium');
 
-/** Firefox over WebDriver BiDi has no small screens for fingers. */
+/** A small screen for fingers, which Firefox over WebDriver BiDi does not have. */
 export const phone = { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2,
-  ...(isFirefox ? {} : { isMobile: true, hasTouch: true }) };
+  isMobile: true, hasTouch: true };
 
 // Firefox has WebGL only in a window.
 const launch = () => (isFirefox ? playwright._bidiFirefox.launch({
