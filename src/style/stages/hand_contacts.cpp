@@ -14,7 +14,9 @@ namespace {
 using enum HumanJoint;
 
 // Canonical body, metres: a wrist within the first distance from the head's joint touches head or
-// face, or holds a cup or phone; beyond the second there is no contact.
+// face, or holds a cup or phone; beyond the second there is no contact. The range is wide: with
+// 0.25 and 0.33 m, for hands that rest, styles move the arms more in runs and waves, but joints
+// jump three times as often and hands at the head go astray by 9 instead of 3 cm (90 %).
 constexpr float kAtHead = 0.27f, kOffHead = 0.48f;
 // From the axis of a thigh, or of the hips, to a wrist whose hand lies on them, or does not.
 constexpr float kOnThigh = 0.15f, kOffThigh = 0.22f, kOnHips = 0.17f, kOffHips = 0.23f;
